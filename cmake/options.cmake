@@ -1,0 +1,29 @@
+# Language level and floating-point rules, the same for every target. Products are never fused into
+# sums behind our back: bit-identical results across builds of one compiler depend on it.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release)
+endif()
+
+option(VITREL_NATIVE "Use every instruction of this machine's processor" OFF)
+set(VITREL_SANITIZE "" CACHE STRING "Sanitizers, for example address,undefined")
+
+add_library(vitrel_options INTERFACE)
+add_library(vitrel::options ALIAS vitrel_options)
+set_target_properties(vitrel_options PROPERTIES EXPORT_NAME options)
+target_compile_features(vitrel_options INTERFACE cxx_std_20)
+
+function(vitrel_private_options target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -ffp-contract=off)
+  if(VITREL_NATIVE)
+    target_compile_options(${target} PRIVATE -march=native)
+  endif()
+  if(VITREL_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=${VITREL_SANITIZE} -fno-omit-frame-pointer)
+    target_link_options(${target} PRIVATE -fsanitize=${VITREL_SANITIZE})
+  endif()
+endfunction()

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <concepts>
+
+#include "core/geometry/pose.h"
+
+namespace vitrel {
+
+/// What every hard particle offers: a convex, centrally symmetric shape in `dimension` dimensions.
+///
+///   circumradius, inradius  radii of the smallest enclosing and the largest enclosed circle (sphere)
+///   volume                  area in two dimensions
+///   swing                   largest speed of the support function per unit of angular speed,
+///                           max |∂h/∂θ| (0 for a round body)
+///
+/// `Disk` and `Ellipse` satisfy it; `Sphere` and `Ellipsoid` are meant to.
+template <class B>
+concept Body = requires(const B body) {
+  { B::dimension } -> std::convertible_to<int>;
+  { body.circumradius() } -> std::convertible_to<double>;
+  { body.inradius() } -> std::convertible_to<double>;
+  { body.volume() } -> std::convertible_to<double>;
+  { body.swing() } -> std::convertible_to<double>;
+};
+
+/// A body in free flight: its pose at time 0 and its constant velocities.
+template <Body B>
+struct Flight {
+  B body;
+  Pose<B::dimension> pose;
+  Motion<B::dimension> motion;
+};
+
+}  // namespace vitrel

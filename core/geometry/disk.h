@@ -1,0 +1,22 @@
+#pragma once
+
+#include <numbers>
+
+#include "core/geometry/body.h"
+
+namespace vitrel {
+
+/// A hard disk. It has no orientation that a smooth (frictionless) collision could see.
+struct Disk {
+  static constexpr int dimension = 2;
+  double radius = 1;
+
+  double circumradius() const { return radius; }
+  double inradius() const { return radius; }
+  double volume() const { return std::numbers::pi * radius * radius; }
+  double swing() const { return 0; }
+};
+
+static_assert(Body<Disk>);
+
+}  // namespace vitrel

@@ -1,0 +1,55 @@
+#include "core/geometry/ellipse.h"
+
+#include <cmath>
+
+namespace vitrel {
+
+double perimeter(const Ellipse& ellipse) {
+  const double ratio = ellipse.b / ellipse.a;
+  return 4 * ellipse.a * std::comp_ellint_2(std::sqrt((1 - ratio) * (1 + ratio)));
+}
+
+Mat2 shape_matrix(const Ellipse& ellipse, double angle) {
+  const double c = std::cos(angle);
+  const double s = std::sin(angle);
+  const double aa = ellipse.a * ellipse.a;
+  const double bb = ellipse.b * ellipse.b;
+  Mat2 sigma;
+  sigma(0, 0) = aa * c * c + bb * s * s;
+  sigma(1, 1) = aa * s * s + bb * c * c;
+  sigma(0, 1) = sigma(1, 0) = (aa - bb) * c * s;
+  return sigma;
+}
+
+// In the co-rotating frame p = Rᵀ(x − r) the function is E = p_x²/a² + p_y²/b² − 1, and p moves with
+// ṗ = −w − ω J p, where w = Rᵀ v and J p = (−p_y, p_x). All derivatives follow from those of p.
+EllipseFunction ellipse_function(const Flight<Ellipse>& flight, double time, const Vec2& point) {
+  const Pose2 pose = advanced(flight.pose, flight.motion, time);
+  const double c = std::cos(pose.angle);
+  const double s = std::sin(pose.angle);
+  Mat2 rotation;
+  rotation << c, -s, s, c;
+  const double omega = flight.motion.angular_velocity;
+  const Vec2 p = rotation.transpose() * (point - pose.position);
+  const Vec2 w = rotation.transpose() * flight.motion.velocity;
+  const Vec2 p_t = -w - omega * perpendicular(p);
+  // ẇ = −ω J w, so p̈ = ω J w − ω J ṗ.
+  const Vec2 p_tt = omega * perpendicular(w) - omega * perpendicular(p_t);
+
+  const Vec2 q(1 / (flight.body.a * flight.body.a), 1 / (flight.body.b * flight.body.b));
+  const Vec2 qp = q.cwiseProduct(p);
+  const Mat2 quadric = rotation * q.asDiagonal() * rotation.transpose();
+
+  EllipseFunction e;
+  e.value = p.dot(qp) - 1;
+  e.gradient << 2 * qp.dot(p_t), 2 * rotation * qp;
+  e.hessian(0, 0) = 2 * (q.cwiseProduct(p_t).dot(p_t) + qp.dot(p_tt));
+  e.hessian.bottomRightCorner<2, 2>() = 2 * quadric;
+  // ∂/∂t of ∇ₓE = 2 R Q p: Ṙ = ω R J.
+  const Vec2 mixed = 2 * rotation * (omega * perpendicular(qp) + q.cwiseProduct(p_t));
+  e.hessian.block<2, 1>(1, 0) = mixed;
+  e.hessian.block<1, 2>(0, 1) = mixed.transpose();
+  return e;
+}
+
+}  // namespace vitrel

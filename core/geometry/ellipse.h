@@ -1,0 +1,42 @@
+#pragma once
+
+#include <numbers>
+
+#include "core/geometry/body.h"
+
+namespace vitrel {
+
+/// A hard ellipse with semi-axes a ≥ b > 0; the angle of its pose points along a.
+struct Ellipse {
+  static constexpr int dimension = 2;
+  double a = 1;
+  double b = 1;
+
+  double circumradius() const { return a; }
+  double inradius() const { return b; }
+  double volume() const { return std::numbers::pi * a * b; }
+  double swing() const { return a - b; }
+  double aspect_ratio() const { return a / b; }
+  bool is_round() const { return a == b; }
+  /// Moment of inertia of the homogeneous ellipse over its mass, (a² + b²)/4.
+  double inertia_per_mass() const { return 0.25 * (a * a + b * b); }
+};
+
+static_assert(Body<Ellipse>);
+
+/// Perimeter, by the complete elliptic integral of the second kind: 4 a E(√(1 − b²/a²)).
+double perimeter(const Ellipse& ellipse);
+
+/// Shape matrix Σ = R(θ) diag(a², b²) R(θ)ᵀ; the ellipse is the set of x with xᵀ Σ⁻¹ x ≤ 1.
+Mat2 shape_matrix(const Ellipse& ellipse, double angle);
+
+/// The ellipse function E(t, x) = (x − r(t))ᵀ Σ(t)⁻¹ (x − r(t)) − 1 of an ellipse in free flight:
+/// negative inside, 0 on the boundary, with exact first and second derivatives in (t, x, y).
+struct EllipseFunction {
+  double value;
+  Vec3 gradient;            ///< ∂/∂(t, x, y)
+  Eigen::Matrix3d hessian;  ///< second derivatives in the order (t, x, y)
+};
+EllipseFunction ellipse_function(const Flight<Ellipse>& flight, double time, const Vec2& point);
+
+}  // namespace vitrel

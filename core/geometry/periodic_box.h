@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cassert>
+#include <cmath>
+
+#include "core/geometry/vector.h"
+
+namespace vitrel {
+
+/// A rectangular periodic box centred at the origin: coordinates run over [−L/2, L/2).
+///
+/// A pair of particles is (i, j, shift): particle j is seen at r_j + shift ∘ L. In a box shorter than
+/// two particle lengths one pair meets through several images, and a particle meets its own images;
+/// `for_each_image` therefore is the rule and the nearest image only a fast path.
+template <int Dim>
+class PeriodicBox {
+ public:
+  PeriodicBox() : lengths_(Vec<Dim>::Ones()) {}
+  /// `lengths` must be finite and positive.
+  explicit PeriodicBox(const Vec<Dim>& lengths) : lengths_(lengths) {
+    assert(lengths.allFinite() && lengths.minCoeff() > 0);
+  }
+
+  const Vec<Dim>& lengths() const { return lengths_; }
+  /// Area in two dimensions.
+  double volume() const { return lengths_.prod(); }
+
+  Vec<Dim> translation(const Shift<Dim>& shift) const {
+    return shift.template cast<double>().cwiseProduct(lengths_);
+  }
+
+  /// Brings `position` into the box and adds the whole boxes taken off to `image`, so that
+  /// position + image ∘ L (the unwrapped position) stays the same.
+  void wrap(Vec<Dim>& position, Shift<Dim>& image) const {
+    for (int k = 0; k < Dim; ++k) {
+      const double boxes = std::floor(position[k] / lengths_[k] + 0.5);
+      position[k] -= boxes * lengths_[k];
+      image[k] += static_cast<std::int32_t>(boxes);
+      // Rounding can leave a coordinate just below −L/2 at exactly +L/2.
+      if (position[k] >= 0.5 * lengths_[k]) {
+        position[k] -= lengths_[k];
+        ++image[k];
+      }
+    }
+  }
+
+  /// The shift that makes |d + shift ∘ L| smallest, for any separation d.
+  Shift<Dim> nearest_shift(const Vec<Dim>& d) const {
+    Shift<Dim> shift;
+    for (int k = 0; k < Dim; ++k)
+      shift[k] = -static_cast<std::int32_t>(std::lround(d[k] / lengths_[k]));
+    return shift;
+  }
+
+  /// Whether only the nearest image of a particle can lie within `reach`.
+  bool nearest_image_suffices(double reach) const { return lengths_.minCoeff() > 2 * reach; }
+
+  /// Calls visit(shift, d + shift ∘ L) for every image with |d + shift ∘ L| ≤ reach, in ascending
+  /// order of the shift (last direction fastest).
+  template <class Visit>
+  void for_each_image(const Vec<Dim>& d, double reach, Visit&& visit) const {
+    Shift<Dim> low, high;
+    for (int k = 0; k < Dim; ++k) {
+      low[k] = static_cast<std::int32_t>(std::ceil((-reach - d[k]) / lengths_[k]));
+      high[k] = static_cast<std::int32_t>(std::floor((reach - d[k]) / lengths_[k]));
+      if (low[k] > high[k]) return;
+    }
+    Shift<Dim> shift = low;
+    while (true) {
+      const Vec<Dim> separation = d + translation(shift);
+      if (separation.squaredNorm() <= reach * reach) visit(shift, separation);
+      int k = Dim - 1;
+      while (k >= 0 && shift[k] == high[k]) shift[k] = low[k], --k;
+      if (k < 0) return;
+      ++shift[k];
+    }
+  }
+
+ private:
+  Vec<Dim> lengths_;
+};
+
+}  // namespace vitrel

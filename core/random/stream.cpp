@@ -1,0 +1,49 @@
+#include "core/random/stream.h"
+
+#include <Random123/philox.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace vitrel {
+
+Stream::Stream(std::uint64_t seed, Purpose purpose, std::uint64_t step, std::uint64_t particle)
+    : key_{seed, static_cast<std::uint64_t>(purpose)}, counter_{0, step, particle, 0} {}
+
+void Stream::refill() {
+  const r123::Philox4x64::ctr_type counter{{counter_[0], counter_[1], counter_[2], counter_[3]}};
+  const r123::Philox4x64::key_type key{{key_[0], key_[1]}};
+  const auto words = r123::Philox4x64{}(counter, key);
+  for (int k = 0; k < 4; ++k) words_[k] = words[k];
+  ++counter_[0];
+  used_ = 0;
+}
+
+std::uint64_t Stream::bits() {
+  if (used_ == 4) refill();
+  return words_[used_++];
+}
+
+double Stream::uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
+
+std::uint64_t Stream::below(std::uint64_t n) {
+  // Reject the incomplete last run of n values, so that every value is equally likely.
+  const std::uint64_t excess = (UINT64_MAX % n + 1) % n;
+  std::uint64_t word = bits();
+  while (word > UINT64_MAX - excess) word = bits();
+  return word % n;
+}
+
+double Stream::normal() {
+  if (has_spare_) {
+    has_spare_ = false;
+    return spare_normal_;
+  }
+  const double radius = std::sqrt(-2 * std::log(1 - uniform()));
+  const double phase = 2 * std::numbers::pi * uniform();
+  spare_normal_ = radius * std::sin(phase);
+  has_spare_ = true;
+  return radius * std::cos(phase);
+}
+
+}  // namespace vitrel

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace vitrel {
+
+/// What a random number is for: streams of different purposes never meet.
+enum class Purpose : std::uint64_t {
+  shapes = 1,
+  placement = 2,
+  velocities = 3,
+  brownian_step = 4,
+  trial_moves = 5,
+  tests = 100,
+};
+
+/// A stream of random numbers keyed by (seed, purpose, step, particle): Philox 4×64-10 (Salmon et al.,
+/// 2011) with the key as (seed, purpose) and the counter as (draw, step, particle). Equal keys give
+/// equal numbers whatever else has been drawn, by whom, or on how many threads.
+class Stream {
+ public:
+  Stream(std::uint64_t seed, Purpose purpose, std::uint64_t step = 0, std::uint64_t particle = 0);
+
+  std::uint64_t bits();
+  /// Uniform on [0, 1), a multiple of 2⁻⁵³.
+  double uniform();
+  double uniform(double low, double high) { return low + (high - low) * uniform(); }
+  /// Uniform on 0 … n − 1, n ≥ 1, without modulo bias.
+  std::uint64_t below(std::uint64_t n);
+  /// Standard normal, by Box and Muller.
+  double normal();
+
+ private:
+  void refill();
+
+  std::array<std::uint64_t, 2> key_;
+  std::array<std::uint64_t, 4> counter_;
+  std::array<std::uint64_t, 4> words_{};
+  int used_ = 4;
+  double spare_normal_ = 0;
+  bool has_spare_ = false;
+};
+
+}  // namespace vitrel

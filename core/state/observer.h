@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/state/configuration.h"
+
+namespace vitrel {
+
+/// What a run has done so far, at the moment of a frame.
+struct Tally {
+  std::uint64_t collisions = 0;
+  double virial = 0;  ///< Σ J n·d over all collisions, d from centre to centre
+};
+
+/// A synchronised, read-only view of the system at one sample time.
+template <int Dim>
+struct Frame {
+  std::int64_t index;  ///< 0, 1, 2 … in the order of the schedule
+  const Configuration<Dim>& configuration;
+  Tally tally;
+};
+
+/// Receives every sample of a run: file writers and on-the-fly correlators are observers.
+template <int Dim>
+class Observer {
+ public:
+  virtual ~Observer() = default;
+  virtual void observe(const Frame<Dim>& frame) = 0;
+};
+
+}  // namespace vitrel

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <limits>
+
+/// Every tolerance of the program: its reason, and what breaks if it changes.
+namespace vitrel::tolerance {
+
+/// The gap at which two bodies are said to touch. Stored coordinates carry rounding errors of one unit
+/// in the last place of the largest coordinate, so a contact is declared a little before the surfaces
+/// meet: then the exact check of the stored doubles finds no overlap. Smaller: rounding may push a pair
+/// into an overlap of 1e-16. Larger: collisions come early by gap / approach speed.
+/// `extent` is the largest coordinate or length involved (half the box, or the bodies themselves).
+inline constexpr double contact_gap(double extent) {
+  return 32 * std::numeric_limits<double>::epsilon() * extent;
+}
+
+/// Packing fractions and species fractions given by a user are met to this relative accuracy.
+inline constexpr double given_fraction = 1e-12;
+
+}  // namespace vitrel::tolerance

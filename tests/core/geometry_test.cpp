@@ -1,0 +1,113 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "core/geometry/ellipse.h"
+#include "core/geometry/periodic_box.h"
+#include "core/random/stream.h"
+
+namespace vitrel {
+namespace {
+
+Flight<Ellipse> random_flight(Stream& draw) {
+  const double b = draw.uniform(0.2, 1);
+  return {{b * draw.uniform(1, 4), b},
+          {{draw.uniform(-1, 1), draw.uniform(-1, 1)}, draw.uniform(-4, 4)},
+          {{draw.normal(), draw.normal()}, draw.normal()}};
+}
+
+TEST(Ellipse, PerimeterOfACircleAndOfALine) {
+  EXPECT_DOUBLE_EQ(perimeter({2, 2}), 4 * std::numbers::pi);
+  EXPECT_NEAR(perimeter({1, 1e-9}), 4, 1e-7);
+  // 4 a E(√3/2) for κ = 2, with E(m = 3/4) = 1.2110560275684595.
+  EXPECT_NEAR(perimeter({2, 1}), 8 * 1.2110560275684595, 1e-14);
+}
+
+TEST(EllipseFunction, IsZeroOnTheBoundaryAndMinusOneAtTheCentre) {
+  const Flight<Ellipse> flight{{3, 1}, {{0.5, -0.2}, 0.7}, {{1, 2}, -0.3}};
+  const Pose2 pose = advanced(flight.pose, flight.motion, 0.4);
+  EXPECT_NEAR(ellipse_function(flight, 0.4, pose.position).value, -1, 1e-15);
+  const Vec2 tip = pose.position + 3 * Vec2(std::cos(pose.angle), std::sin(pose.angle));
+  EXPECT_NEAR(ellipse_function(flight, 0.4, tip).value, 0, 1e-14);
+}
+
+// Central differences of the value give the gradient, those of the gradient the Hessian.
+TEST(EllipseFunction, DerivativesEqualDifferences) {
+  Stream draw(7, Purpose::tests);
+  for (int trial = 0; trial < 200; ++trial) {
+    const Flight<Ellipse> flight = random_flight(draw);
+    const Vec3 at(draw.uniform(-1, 1), draw.uniform(-2, 2), draw.uniform(-2, 2));
+    const auto e = [&](const Vec3& y) { return ellipse_function(flight, y[0], y.tail<2>()); };
+    const EllipseFunction exact = e(at);
+    const double h = 1e-5;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 step = h * Vec3::Unit(k);
+      const double scale = 1 + exact.hessian.norm() + exact.gradient.norm();
+      EXPECT_NEAR((e(at + step).value - e(at - step).value) / (2 * h), exact.gradient[k],
+                  1e-6 * scale);
+      const Vec3 column = (e(at + step).gradient - e(at - step).gradient) / (2 * h);
+      EXPECT_LT((column - exact.hessian.col(k)).norm(), 1e-6 * scale);
+    }
+  }
+}
+
+TEST(PeriodicBox, WrappingKeepsTheUnwrappedPosition) {
+  const PeriodicBox<2> box(Vec2(3, 7));
+  Stream draw(1, Purpose::tests);
+  for (int trial = 0; trial < 1000; ++trial) {
+    const Vec2 far(draw.uniform(-50, 50), draw.uniform(-50, 50));
+    Vec2 position = far;
+    Shift<2> image = Shift<2>::Zero();
+    box.wrap(position, image);
+    for (int k = 0; k < 2; ++k) {
+      EXPECT_GE(position[k], -0.5 * box.lengths()[k]);
+      EXPECT_LT(position[k], 0.5 * box.lengths()[k]);
+    }
+    EXPECT_LT((position + box.translation(image) - far).norm(), 1e-13);
+  }
+}
+
+TEST(PeriodicBox, JustBelowTheLowerFaceStaysInside) {
+  const PeriodicBox<2> box(Vec2(2, 2));
+  Vec2 position(std::nextafter(-1.0, -2.0), 0);
+  Shift<2> image = Shift<2>::Zero();
+  box.wrap(position, image);
+  EXPECT_LT(position.x(), 1.0);
+  EXPECT_GE(position.x(), -1.0);
+}
+
+// Every image within reach, and no other, against a plain scan of all shifts.
+TEST(PeriodicBox, ImagesWithinReachEqualAScan) {
+  Stream draw(2, Purpose::tests);
+  for (int trial = 0; trial < 300; ++trial) {
+    const PeriodicBox<2> box(Vec2(draw.uniform(0.5, 3), draw.uniform(0.5, 3)));
+    const Vec2 d(draw.uniform(-4, 4), draw.uniform(-4, 4));
+    const double reach = draw.uniform(0, 4);
+    std::vector<Shift<2>> found;
+    box.for_each_image(d, reach, [&](const Shift<2>& shift, const Vec2& separation) {
+      EXPECT_LT((d + box.translation(shift) - separation).norm(), 1e-14);
+      found.push_back(shift);
+    });
+    std::vector<Shift<2>> expected;
+    for (int x = -20; x <= 20; ++x)
+      for (int y = -20; y <= 20; ++y)
+        if ((d + box.translation({x, y})).norm() <= reach) expected.push_back({x, y});
+    EXPECT_EQ(found, expected);
+  }
+}
+
+TEST(PeriodicBox, NearestShiftIsTheNearestOfAllImages) {
+  Stream draw(3, Purpose::tests);
+  const PeriodicBox<2> box(Vec2(2, 5));
+  for (int trial = 0; trial < 300; ++trial) {
+    const Vec2 d(draw.uniform(-9, 9), draw.uniform(-9, 9));
+    const double nearest = (d + box.translation(box.nearest_shift(d))).norm();
+    for (int x = -6; x <= 6; ++x)
+      for (int y = -3; y <= 3; ++y)
+        EXPECT_LE(nearest, (d + box.translation({x, y})).norm() + 1e-14);
+  }
+}
+
+}  // namespace
+}  // namespace vitrel
