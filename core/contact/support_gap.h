@@ -1,0 +1,74 @@
+#pragma once
+
+#include "core/geometry/ellipse.h"
+
+/// The support gap of two ellipses. For a unit vector n, g(n) = n·d − h₁(n) − h₂(n) with the
+/// support functions h(n) = √(b² + (a² − b²)(u·n)²), u along the major axis and d from centre 1 to
+/// centre 2. If g(n) > 0, n separates the ellipses, whatever n is; max g is their distance,
+/// attained at the normal of the closest points.
+///
+/// In two dimensions, along the angle φ of n, g'' = −(g + ρ₁ + ρ₂) with ρ = a²b²/h³ the radius of
+/// curvature where n is the normal: on the arc where g > 0, g is strictly concave, and Newton's
+/// method on φ converges quadratically to the one maximum. A start on that arc comes from the
+/// function of Perram and Wertheim (1985), F(λ) = λ(1−λ) dᵀC⁻¹d with C = (1−λ)Σ₁ + λΣ₂: wherever
+/// F(λ) > 1, the direction C⁻¹d separates (Cauchy–Schwarz), and max F > 1 exactly for disjoint
+/// ellipses.
+namespace vitrel {
+
+/// Unit vector at `angle`.
+Vec2 direction(double angle);
+
+/// Support function of an ellipse with unit major axis u along the unit vector n.
+double support(const Ellipse& ellipse, const Vec2& u, const Vec2& n);
+
+struct SupportGap {
+  double gap;   ///< the distance if positive; otherwise only its sign counts (overlap or touching)
+  Vec2 normal;  ///< unit vector from 1 to 2, the contact normal at touching
+};
+
+/// The largest support gap, to rounding, for ellipses with unit major axes u1 and u2.
+SupportGap support_gap(const Ellipse& one, const Vec2& u1, const Ellipse& two, const Vec2& u2,
+                       const Vec2& d);
+/// The same for angles of the major axes.
+SupportGap support_gap(const Ellipse& one, double angle1, const Ellipse& two, double angle2,
+                       const Vec2& d);
+
+/// True exactly if an axis with g ≥ margin exists (margin ≥ 0; to rounding): the surfaces are at
+/// least `margin` apart. Decides as soon as any axis proves it, circles first.
+bool separated(const Ellipse& one, const Vec2& u1, const Ellipse& two, const Vec2& u2,
+               const Vec2& d, double margin);
+
+/// The point of the first ellipse's surface with outward unit normal n, relative to its centre.
+Vec2 surface_point(const Ellipse& ellipse, const Vec2& u, const Vec2& n);
+
+namespace detail {
+
+/// g and its first two derivatives along the angle of n, with the two h' that free flight needs.
+struct GapAlongAxis {
+  double gap;
+  double slope;           ///< dg/dφ
+  double curvature;       ///< −d²g/dφ² = g + ρ₁ + ρ₂
+  double slope1, slope2;  ///< dh₁/dφ, dh₂/dφ
+  /// What one Newton step in φ would add to g, to second order (only meaningful if curvature > 0).
+  double gain() const { return 0.5 * slope * slope / curvature; }
+};
+
+GapAlongAxis gap_along(const Ellipse& one, const Vec2& u1, const Ellipse& two, const Vec2& u2,
+                       const Vec2& d, const Vec2& n);
+
+/// A separating axis by the ascent of F(λ), or n = 0 if there is none (overlap).
+Vec2 find_separating_axis(const Ellipse& one, const Vec2& u1, const Ellipse& two, const Vec2& u2,
+                          const Vec2& d);
+
+/// One damped Newton step of n towards the maximum of g; `here` is gap_along at n on entry and at
+/// the new n on return. False (and nothing changed) if no step improves g.
+bool climb(const Ellipse& one, const Vec2& u1, const Ellipse& two, const Vec2& u2, const Vec2& d,
+           Vec2& n, GapAlongAxis& here);
+
+/// Newton's method on dg/dφ = 0 from an axis that is optimal as far as g can tell. Since g is flat
+/// at its maximum, such an axis is good to √ε only; the slope makes it good to ε.
+void settle(const Ellipse& one, const Vec2& u1, const Ellipse& two, const Vec2& u2, const Vec2& d,
+            Vec2& n, GapAlongAxis& here);
+
+}  // namespace detail
+}  // namespace vitrel
