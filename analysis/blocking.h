@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+namespace vitrel {
+
+/// A mean and its standard error. The error is widened by Student's factor for the few blocks (or
+/// particles) it rests on, so that mean ± error covers the truth in 68.3 % of the cases; it is NaN
+/// where no error can be given.
+struct Estimate {
+  double mean;
+  double error;
+  std::size_t blocks;  ///< independent pieces behind the error; 0 if there is no error
+};
+
+/// Mean and standard error of a stationary, correlated, evenly sampled series by blocking.
+///
+/// 1. Neighbouring values are averaged in pairs, again and again: blocks of B = 1, 2, 4 … values.
+///    e_B² = variance of the block means / number of blocks. It grows with B until the blocks are
+///    longer than the correlations, and then stays on a plateau.
+/// 2. The plateau is said to begin at the smallest B with B³ ≥ 2 n max(1, e_B/e_1)⁴: there the bias
+/// of
+///    e_B² from correlations between blocks equals its statistical scatter (n: length of the
+///    series). Blocks shorter than `shortest_block` are passed over: for a caller who knows how
+///    long the correlations are at least, and need not trust chance.
+/// 3. At least `fewest_blocks` blocks must be left there, else the error is NaN: the series is too
+/// short
+///    to tell. Hence no error is ever given for fewer than 32 values.
+/// 4. The error is e_B times Student's factor for (blocks − 1) degrees of freedom.
+///
+/// A constant series has error 0. An empty one has mean NaN. Cost O(n).
+/// Sources: Flyvbjerg & Petersen, J. Chem. Phys. 91, 461 (1989) for 1; Lee, Conduit, Nemec, López
+/// Ríos & Drummond, Phys. Rev. E 83, 066706 (2011) for 2.
+Estimate block_average(std::span<const double> series, double shortest_block = 1);
+
+/// The fewest blocks on which an error may rest.
+inline constexpr std::size_t fewest_blocks = 8;
+
+/// Mean and standard error of independent values, from their number, sum and sum of squares; the
+/// error is NaN for fewer than two values.
+Estimate independent_average(std::size_t count, double sum, double sum_of_squares);
+
+/// Half-width of the central 68.27 % interval of Student's distribution, in units of the standard
+/// error: 1 + 1/(2ν) + 1/(4ν²) + 1/(16ν³) − …, the Cornish–Fisher expansion at one standard
+/// deviation (Abramowitz & Stegun 26.7.5). Relative error below 1e-3 for ν ≥ 3 degrees of freedom.
+double student_factor(std::size_t degrees_of_freedom);
+
+}  // namespace vitrel

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "analysis/trajectory.h"
+
+/// Mean squared displacement ⟨|r(t) − r(0)|²⟩ (MSD, units of length squared, a b = 1) and mean
+/// squared rotation ⟨(θ(t) − θ(0))²⟩ (MSR, radians squared), from unwrapped positions and angles.
+namespace vitrel {
+
+struct DisplacementOptions {
+  double longest_lag = 0.5;  ///< longest time difference, as a fraction of the run; in (0, 1]
+  std::size_t every_lag_up_to =
+      100;  ///< in sample intervals; longer lags are spaced logarithmically,
+  std::size_t lags_per_decade = 50;             ///< that many to a decade
+  std::size_t most_origins = 4096;              ///< time origins per lag; evenly thinned beyond
+  std::size_t memory = std::size_t{512} << 20;  ///< bytes for particle tracks
+};
+
+/// A mean square against the time difference.
+struct MeanSquare {
+  std::vector<double> value;
+  std::vector<double> error;  ///< standard error; NaN where none can be given
+  std::vector<std::size_t>
+      blocks;  ///< blocks of time origins behind the error; 0: spread of particles
+};
+
+struct DisplacementGroup {
+  std::string name;  ///< "all", or the name of a species
+  std::size_t particles = 0;
+  std::size_t rotors =
+      0;  ///< particles that are not round; the rotation of round ones is not modelled
+  MeanSquare translation;
+  MeanSquare rotation;  ///< empty without rotors
+};
+
+struct Displacements {
+  std::vector<double> lag;           ///< time differences t > 0
+  std::vector<std::size_t> origins;  ///< time origins averaged over, for every lag
+  /// "all" first, then every species that has particles, if there is more than one.
+  std::vector<DisplacementGroup> groups;
+};
+
+/// Steps.
+/// 1. Evenly sampled run: every lag of 1 … `every_lag_up_to` sample intervals, then logarithmically
+///    spaced ones up to `longest_lag`; all frames are origins, evenly thinned to `most_origins` per
+///    lag. Any other run (logarithmic samples): the first frame is the only origin, every later one
+///    a lag.
+/// 2. At every origin the square is averaged over the particles; the mean over origins is the
+/// value.
+/// 3. The error is that of this series of origins by blocking, with blocks of four lags or more; it
+/// sees
+///    correlations in time and between particles. Where the lag is too long for eight such blocks,
+///    or with a single origin, it is that of the particles' own means over the origins, taken as
+///    independent of each other: good far from the glass, too small by √χ_4 where motion is
+///    cooperative. Both include Student's factor.
+///
+/// The file is read once, or several times for a few particles each if the tracks exceed `memory`;
+/// the result does not depend on it. Cost about (lags) × (origins) × N. Throws UserError for fewer
+/// than two frames.
+Displacements displacements(Trajectory& trajectory, const DisplacementOptions& options = {});
+
+/// A long-time diffusion coefficient, D = d⟨|r|²⟩/(2 d dt) (d = 2; for rotation d = 1).
+struct Diffusion {
+  double value;
+  double error;
+};
+/// Read off between a third of the longest lag T and T, as (m(T) − m(T/3))/(2 d · 2T/3); NaN unless
+/// it is honest: the slope between T/9 and T/3 must agree within 10 % or two standard errors, and
+/// the particles must have moved by one unit (length or radian) in the mean square. The error adds
+/// those of both ends in squares, which is an upper bound because they are positively correlated.
+Diffusion long_time_diffusion(const std::vector<double>& lag, const MeanSquare& square,
+                              int dimension);
+
+}  // namespace vitrel

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/state/configuration.h"
+
+/// Saved runs, as the analysis sees them: a list of sample times and one configuration at each.
+namespace vitrel {
+
+/// A sequence of configurations of the same particles, read one at a time: no method of the
+/// analysis needs more than one of them in memory at once.
+class Trajectory {
+ public:
+  virtual ~Trajectory() = default;
+  /// Strictly increasing sample times.
+  virtual const std::vector<double>& times() const = 0;
+  /// Frame k; the reference is valid until the next call.
+  virtual const Configuration2& read(std::size_t k) = 0;
+  std::size_t frames() const { return times().size(); }
+};
+
+/// A trajectory held in memory.
+class MemoryTrajectory : public Trajectory {
+ public:
+  /// `frames` in order of time; each carries its own time.
+  explicit MemoryTrajectory(std::vector<Configuration2> frames) : frames_(std::move(frames)) {
+    for (const Configuration2& frame : frames_) times_.push_back(frame.time);
+  }
+  const std::vector<double>& times() const override { return times_; }
+  const Configuration2& read(std::size_t k) override { return frames_.at(k); }
+
+ private:
+  std::vector<Configuration2> frames_;
+  std::vector<double> times_;
+};
+
+/// Whether all intervals between the times are equal, to a millionth: time differences then depend
+/// on the difference of the indices only, and every frame can serve as an origin of time.
+bool evenly_spaced(std::span<const double> times);
+
+}  // namespace vitrel
