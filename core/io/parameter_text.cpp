@@ -1,0 +1,359 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/io/parameters.h"
+
+namespace vitrel {
+namespace {
+
+std::string array_text(const std::vector<double>& values) {
+  std::vector<std::string> items;
+  for (const double value : values) items.push_back(to_toml(value));
+  return fmt::format("[{}]", fmt::join(items, ", "));
+}
+
+std::string choices_text(std::span<const char* const> names) {
+  return fmt::format("\"{}\"", fmt::join(names, "\" | \""));
+}
+
+// Turns fields into "key, TOML text of the value"; what becomes of them is up to the derived class.
+class ValueVisitor : public FieldVisitor {
+ public:
+  using FieldVisitor::field;
+  void field(const Field& field, bool& value) override { put(field, value ? "true" : "false", ""); }
+  void field(const Field& field, double& value) override { put(field, to_toml(value), ""); }
+  void field(const Field& field, std::string& value) override {
+    put(field, to_toml(std::string_view(value)), "");
+  }
+  void field(const Field& field, std::vector<double>& value) override {
+    put(field, array_text(value), "");
+  }
+  void integer(const Field& field, std::int64_t& value, std::int64_t, std::int64_t) override {
+    put(field, fmt::format("{}", value), "");
+  }
+  void choice(const Field& field, std::size_t& index, std::span<const char* const> names) override {
+    put(field, to_toml(std::string_view(names[index])), choices_text(names));
+  }
+
+ protected:
+  /// `choices`: the words a choice may be, else empty.
+  virtual void put(const Field& field, const std::string& value, const std::string& choices) = 0;
+};
+
+// The applicable fields of an inline table as "key = value, …".
+class InlineWriter final : public ValueVisitor {
+ public:
+  std::string text() const { return fmt::format("{{ {} }}", fmt::join(items_, ", ")); }
+
+  void table(const Field& field, TableStyle, const Inside& inside) override {
+    InlineWriter inner;
+    inside(inner);
+    put(field, inner.text(), "");
+  }
+  void list(const Field& field, const List& list) override {
+    std::vector<std::string> tables;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      InlineWriter inner;
+      list.describe(i, inner);
+      tables.push_back(inner.text());
+    }
+    put(field, fmt::format("[{}]", fmt::join(tables, ", ")), "");
+  }
+  void number_or_table(const Field& field, double& number, bool& is_table,
+                       const Inside& inside) override {
+    if (is_table)
+      table(field, TableStyle::inline_table, inside);
+    else
+      put(field, to_toml(number), "");
+  }
+  void optional(const Field&, bool& present, const Inside& inside) override {
+    if (present) inside(*this);
+  }
+  void when(bool condition, const std::string&, const Inside& inside) override {
+    if (condition) inside(*this);
+  }
+  void grid(const Field& field, ParameterGrid& grid) override {
+    std::vector<std::string> rows;
+    for (const auto& [key, values] : grid)
+      rows.push_back(fmt::format("{} = [{}]", toml_key(key), fmt::join(values, ", ")));
+    put(field, fmt::format("{{ {} }}", fmt::join(rows, ", ")), "");
+  }
+
+ private:
+  void put(const Field& field, const std::string& value, const std::string&) override {
+    items_.push_back(fmt::format("{} = {}", toml_key(field.key), value));
+  }
+
+  std::vector<std::string> items_;
+};
+
+std::string inline_text(const FieldVisitor::Inside& inside) {
+  InlineWriter writer;
+  inside(writer);
+  return writer.text();
+}
+
+// Lines of comment, at most `width` wide, each behind `lead`.
+std::string wrapped(const std::string& text, const std::string& lead, std::size_t width = 98) {
+  std::string result, line = lead;
+  std::size_t start = 0;
+  while (start < text.size()) {
+    const std::size_t end = std::min(text.find(' ', start), text.size());
+    const std::string word = text.substr(start, end - start);
+    if (line.size() > lead.size() && line.size() + 1 + word.size() > width) {
+      result += line + "\n";
+      line = lead;
+    }
+    line += (line.size() > lead.size() ? " " : "") + word;
+    start = end + 1;
+  }
+  return result + line + "\n";
+}
+
+// "Sentence. Unit: time. One of …", the explanation of a field.
+std::string explanation(const Field& field, const std::string& choices) {
+  std::string text = field.sentence;
+  if (!choices.empty()) text += " One of " + choices + ".";
+  if (!field.unit.empty()) text += " Unit: " + field.unit + ".";
+  return text;
+}
+
+// The fields of a document, with comments (template) or without (effective parameters).
+class DocumentWriter final : public ValueVisitor {
+ public:
+  DocumentWriter(bool comments, std::string path) : comments_(comments), path_(std::move(path)) {}
+
+  const std::string& text() const { return text_; }
+
+  void table(const Field& field, TableStyle style, const Inside& inside) override {
+    if (style == TableStyle::section) {
+      section(field, inside);
+      return;
+    }
+    comment(field, "");
+    comment_inline_fields(inside);
+    line(field, inline_text(inside));
+  }
+
+  void list(const Field& field, const List& list) override {
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      DocumentWriter entry(comments_, joined(field.key));
+      list.describe(i, entry);
+      blank_line();
+      if (i == 0) comment(field, "");
+      text_ += fmt::format("[[{}]]\n{}", joined(field.key), entry.text());
+    }
+  }
+
+  void number_or_table(const Field& field, double& number, bool& is_table,
+                       const Inside& inside) override {
+    comment(field, "");
+    comment_inline_fields(inside);
+    line(field, is_table ? inline_text(inside) : to_toml(number));
+  }
+
+  void optional(const Field&, bool& present, const Inside& inside) override {
+    if (present || comments_) commented_out(!present, inside);
+  }
+
+  void when(bool condition, const std::string& label, const Inside& inside) override {
+    if (!condition && !comments_) return;
+    if (!condition) text_ += wrapped("Only with " + label + ":", indent());
+    commented_out(!condition, inside);
+  }
+
+  void grid(const Field& field, ParameterGrid& grid) override {
+    if (grid.empty() && !comments_) return;
+    blank_line();
+    comment(field, "");
+    text_ += fmt::format("[{}]\n", joined(field.key));
+    for (const auto& [key, values] : grid)
+      text_ += fmt::format("{} = [{}]\n", toml_key(key), fmt::join(values, ", "));
+  }
+
+ private:
+  std::string joined(const std::string& key) const {
+    return path_.empty() ? key : path_ + "." + key;
+  }
+  std::string indent() const { return "# "; }
+
+  void blank_line() {
+    if (!text_.empty()) text_ += "\n";
+  }
+
+  void section(const Field& field, const Inside& inside) {
+    DocumentWriter section(comments_, joined(field.key));
+    inside(section);
+    if (section.text().empty()) return;
+    blank_line();
+    comment(field, "");
+    // A section that holds only sections of its own needs no heading.
+    if (section.text().front() != '[') text_ += fmt::format("[{}]\n", joined(field.key));
+    text_ += section.text();
+  }
+
+  void comment(const Field& field, const std::string& choices) {
+    if (comments_) text_ += wrapped(explanation(field, choices), "# ");
+  }
+
+  void comment_inline_fields(const Inside& inside);
+
+  void line(const Field& field, const std::string& value) {
+    text_ += fmt::format("{}{} = {}\n", out_ ? "# " : "", toml_key(field.key), value);
+  }
+
+  void commented_out(bool out, const Inside& inside) {
+    const bool outer = out_;
+    out_ = out_ || out;
+    inside(*this);
+    out_ = outer;
+  }
+
+  void put(const Field& field, const std::string& value, const std::string& choices) override {
+    comment(field, choices);
+    line(field, value);
+  }
+
+  bool comments_;
+  bool out_ = false;  ///< lines are written behind a #
+  std::string path_;
+  std::string text_;
+};
+
+// Comment lines for the fields of an inline table, which has no room for comments of its own.
+class InlineComments final : public ValueVisitor {
+ public:
+  const std::string& text() const { return text_; }
+
+  void table(const Field& field, TableStyle, const Inside& inside) override {
+    put(field, "", "");
+    inside(*this);
+  }
+  void list(const Field& field, const List& list) override {
+    put(field, "", "");
+    list.describe_blank(*this);
+  }
+  void number_or_table(const Field& field, double&, bool&, const Inside&) override {
+    put(field, "", "");
+  }
+  void optional(const Field&, bool&, const Inside& inside) override { inside(*this); }
+  void when(bool, const std::string& label, const Inside& inside) override {
+    const std::string outer = label_;
+    label_ = fmt::format(" (with {})", label);
+    inside(*this);
+    label_ = outer;
+  }
+  void grid(const Field& field, ParameterGrid&) override { put(field, "", ""); }
+
+ private:
+  void put(const Field& field, const std::string&, const std::string& choices) override {
+    text_ +=
+        wrapped(fmt::format("{}{}: {}", field.key, label_, explanation(field, choices)), "#   ");
+  }
+
+  std::string label_;
+  std::string text_;
+};
+
+void DocumentWriter::comment_inline_fields(const Inside& inside) {
+  if (!comments_) return;
+  InlineComments inner;
+  inside(inner);
+  text_ += inner.text();
+}
+
+// One Markdown table per section; inline tables become rows key.field.
+class TableWriter final : public ValueVisitor {
+ public:
+  explicit TableWriter(std::string path) : path_(std::move(path)) {}
+
+  std::string text() const {
+    std::string result;
+    if (!rows_.empty())
+      result = "| key | default | unit | meaning |\n|---|---|---|---|\n" + rows_ + "\n";
+    return result + sections_;
+  }
+
+  void table(const Field& field, TableStyle style, const Inside& inside) override {
+    if (style == TableStyle::section)
+      section(field, "[{}]", inside);
+    else
+      row_with_fields(field, inline_text(inside), inside);
+  }
+  void list(const Field& field, const List& list) override {
+    section(field, "[[{}]]", list.describe_blank);
+  }
+  void number_or_table(const Field& field, double& number, bool& is_table,
+                       const Inside& inside) override {
+    row_with_fields(field, is_table ? inline_text(inside) : to_toml(number), inside);
+  }
+  void optional(const Field&, bool& present, const Inside& inside) override {
+    const bool outer = absent_;
+    absent_ = !present;
+    inside(*this);
+    absent_ = outer;
+  }
+  void when(bool, const std::string& label, const Inside& inside) override {
+    const std::string outer = label_;
+    label_ = fmt::format("With `{}`: ", label);
+    inside(*this);
+    label_ = outer;
+  }
+  void grid(const Field& field, ParameterGrid&) override {
+    section(field, "[{}]", [](FieldVisitor&) {});
+  }
+
+ private:
+  void section(const Field& field, const char* brackets, const Inside& inside) {
+    const std::string path = path_.empty() ? field.key : path_ + "." + field.key;
+    TableWriter inner(path);
+    inside(inner);
+    sections_ += fmt::format("## `{}`\n\n{}\n\n{}", fmt::format(fmt::runtime(brackets), path),
+                             explanation(field, ""), inner.text());
+  }
+
+  void row_with_fields(const Field& field, const std::string& value, const Inside& inside) {
+    put(field, value, "");
+    const std::string outer = prefix_;
+    const bool outer_absent = absent_;
+    prefix_ += field.key + ".";
+    absent_ = false;
+    inside(*this);
+    prefix_ = outer;
+    absent_ = outer_absent;
+  }
+
+  void put(const Field& field, const std::string& value, const std::string& choices) override {
+    std::string meaning = label_ + field.sentence;
+    if (!choices.empty()) meaning += fmt::format(" One of `{}`.", choices);
+    std::string escaped;
+    for (const char c : meaning) escaped += c == '|' ? std::string("\\|") : std::string(1, c);
+    rows_ += fmt::format("| `{}{}` | {} | {} | {} |\n", prefix_, field.key,
+                         absent_ ? "none" : "`" + value + "`", field.unit, escaped);
+  }
+
+  std::string path_, prefix_, label_, rows_, sections_;
+  bool absent_ = false;
+};
+
+}  // namespace
+
+std::string write_parameters(const FieldVisitor::Inside& describe) {
+  DocumentWriter writer(false, "");
+  describe(writer);
+  return writer.text();
+}
+
+std::string parameter_template(const FieldVisitor::Inside& describe) {
+  DocumentWriter writer(true, "");
+  describe(writer);
+  return writer.text();
+}
+
+std::string parameter_tables(const FieldVisitor::Inside& describe) {
+  TableWriter writer("");
+  describe(writer);
+  return writer.text();
+}
+
+}  // namespace vitrel

@@ -1,0 +1,147 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "core/error.h"
+#include "core/io/toml.h"
+
+/// Parameters are plain structs. One function per struct, describe(struct, visitor), names its
+/// fields; from it come the reading of TOML, the effective parameters as TOML text, the commented
+/// template and the reference page:
+///
+///   void describe(Dynamics& p, FieldVisitor& visit) {
+///     visit.field({"duration", "time", "Length of the sampled part of the run."}, p.duration);
+///   }
+namespace vitrel {
+
+struct Field {
+  std::string key;
+  std::string unit;      ///< "" for pure numbers, words and flags
+  std::string sentence;  ///< what the field means
+};
+
+/// Dotted keys and the values each of them takes, as TOML text ("0.5", "\"brownian\"").
+using ParameterGrid = std::vector<std::pair<std::string, std::vector<std::string>>>;
+
+class FieldVisitor {
+ public:
+  using Inside = std::function<void(FieldVisitor&)>;
+  /// `section`: written as [key]; `inline_table`: written as key = { … }.
+  enum class TableStyle { section, inline_table };
+  struct List {
+    std::function<std::size_t()> size;
+    std::function<void(std::size_t)> resize;
+    std::function<void(std::size_t, FieldVisitor&)> describe;
+    Inside describe_blank;  ///< describes a default entry
+  };
+
+  virtual ~FieldVisitor() = default;
+
+  virtual void field(const Field&, bool&) = 0;
+  virtual void field(const Field&, double&) = 0;
+  virtual void field(const Field&, std::string&) = 0;
+  virtual void field(const Field&, std::vector<double>&) = 0;
+  /// An integer from `low` to `high`.
+  virtual void integer(const Field&, std::int64_t& value, std::int64_t low, std::int64_t high) = 0;
+  /// One of `names`, by its index.
+  virtual void choice(const Field&, std::size_t& index, std::span<const char* const> names) = 0;
+  virtual void table(const Field&, TableStyle, const Inside& inside) = 0;
+  virtual void list(const Field&, const List& list) = 0;
+  /// A number, or a table of fields instead; `is_table` tells which.
+  virtual void number_or_table(const Field&, double& number, bool& is_table,
+                               const Inside& inside) = 0;
+  /// A field that may be left out; `present` tells whether it is there. `inside` names the one
+  /// field.
+  virtual void optional(const Field&, bool& present, const Inside& inside) = 0;
+  /// Fields that exist only under `condition`, which `label` puts in words ("method = \"insert\"").
+  virtual void when(bool condition, const std::string& label, const Inside& inside) = 0;
+  virtual void grid(const Field&, ParameterGrid&) = 0;
+
+  template <class Int>
+  requires(std::is_integral_v<Int> && !std::is_same_v<Int, bool>) void field(const Field& field,
+                                                                             Int& value) {
+    constexpr auto largest = std::numeric_limits<std::int64_t>::max();
+    std::int64_t wide = static_cast<std::int64_t>(value);
+    integer(field, wide, std::is_signed_v<Int> ? std::numeric_limits<Int>::min() : 0,
+            std::in_range<std::int64_t>(std::numeric_limits<Int>::max())
+                ? static_cast<std::int64_t>(std::numeric_limits<Int>::max())
+                : largest);
+    value = static_cast<Int>(wide);
+  }
+
+  template <class Enum>
+  requires std::is_enum_v<Enum>
+  void field(const Field& field, Enum& value, std::span<const char* const> names) {
+    std::size_t index = static_cast<std::size_t>(value);
+    choice(field, index, names);
+    value = static_cast<Enum>(index);
+  }
+
+  /// A value that may be left out; `example` stands in the template.
+  template <class T, class Describe>
+  void optional(const Field& field, std::optional<T>& value, T example, Describe&& describe) {
+    bool present = value.has_value();
+    T inner = value.value_or(std::move(example));
+    optional(field, present, [&](FieldVisitor& visit) { describe(visit, inner); });
+    value = present ? std::optional<T>(std::move(inner)) : std::nullopt;
+  }
+  template <class T>
+  void optional(const Field& field, std::optional<T>& value, T example) {
+    optional(field, value, std::move(example),
+             [&](FieldVisitor& visit, T& inner) { visit.field(field, inner); });
+  }
+
+  template <class T>
+  void list(const Field& field, std::vector<T>& values, void (*describe)(T&, FieldVisitor&)) {
+    List entries;
+    entries.size = [&] { return values.size(); };
+    entries.resize = [&](std::size_t n) { values.assign(n, T()); };
+    entries.describe = [&](std::size_t i, FieldVisitor& visit) { describe(values[i], visit); };
+    entries.describe_blank = [&](FieldVisitor& visit) {
+      T blank;
+      describe(blank, visit);
+    };
+    list(field, entries);
+  }
+};
+
+/// An impossible value, as `validate` finds it: the dotted key, and "is …, but must be …".
+struct BadValue : UserError {
+  BadValue(std::string dotted_key, std::string complaint)
+      : UserError("key '" + dotted_key + "' " + complaint), key(std::move(dotted_key)) {}
+  std::string key;
+};
+
+/// Reads the fields of `describe` from a document; fields it does not mention keep their value. An
+/// unknown key or a value of the wrong type throws UserError with file:line:column, what is wrong
+/// and what would be right; so does a BadValue thrown by `validate`, which runs last.
+void read_parameters(const TomlNode& root, const FieldVisitor::Inside& describe,
+                     const std::function<void()>& validate);
+
+/// The fields as TOML text, equal values giving equal text, doubles to the last bit.
+std::string write_parameters(const FieldVisitor::Inside& describe);
+
+/// The same with every field explained; fields that may be left out are commented out.
+std::string parameter_template(const FieldVisitor::Inside& describe);
+
+/// The reference page's tables, as Markdown.
+std::string parameter_tables(const FieldVisitor::Inside& describe);
+
+/// The first dotted key in which two parameter texts (as written by write_parameters) differ, with
+/// both values; keys for which `harmless` holds are passed over.
+struct ParameterDifference {
+  std::string key, first, second;  ///< a missing value is "nothing"
+};
+std::optional<ParameterDifference> first_difference(
+    const std::string& first, const std::string& second,
+    const std::function<bool(const std::string& key)>& harmless);
+
+}  // namespace vitrel

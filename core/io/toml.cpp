@@ -1,0 +1,254 @@
+#include "core/io/toml.h"
+
+#include <fmt/format.h>
+
+#include <toml++/toml.h>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <sstream>
+
+#include "core/error.h"
+
+// The only file that includes toml++, which is slow to compile.
+namespace vitrel {
+namespace {
+
+std::string place(const toml::source_position& at, const std::string& name) {
+  return fmt::format("{}:{}:{}", name, at.line, at.column);
+}
+
+TomlNode convert(const toml::node& node, const std::string& name);
+
+TomlNode::Table convert_table(const toml::table& table, const std::string& name) {
+  std::vector<std::pair<toml::source_position, TomlEntry>> entries;
+  for (const auto& [key, child] : table) {
+    const toml::source_position at = key.source().begin;
+    entries.push_back({at, {std::string(key.str()), place(at, name), convert(child, name)}});
+  }
+  // toml++ sorts by name; people expect the order of the file.
+  std::stable_sort(entries.begin(), entries.end(),
+                   [](const auto& x, const auto& y) { return x.first < y.first; });
+  TomlNode::Table result;
+  for (auto& entry : entries) result.push_back(std::move(entry.second));
+  return result;
+}
+
+TomlNode convert(const toml::node& node, const std::string& name) {
+  TomlNode result;
+  result.where = place(node.source().begin, name);
+  if (const auto* table = node.as_table()) {
+    result.value = convert_table(*table, name);
+  } else if (const auto* array = node.as_array()) {
+    TomlNode::Array items;
+    for (const auto& item : *array) items.push_back(convert(item, name));
+    result.value = std::move(items);
+  } else if (const auto* flag = node.as_boolean()) {
+    result.value = flag->get();
+  } else if (const auto* integer = node.as_integer()) {
+    result.value = integer->get();
+  } else if (const auto* real = node.as_floating_point()) {
+    result.value = real->get();
+  } else if (const auto* text = node.as_string()) {
+    result.value = text->get();
+  } else {
+    throw UserError(result.where +
+                    ": dates and times have no meaning here; use a number or a string");
+  }
+  return result;
+}
+
+std::vector<std::string> split(std::string_view path) {
+  std::vector<std::string> parts(1);
+  for (const char c : path) {
+    if (c == '.')
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  return parts;
+}
+
+std::optional<std::size_t> as_index(const std::string& part) {
+  std::size_t index = 0;
+  const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), index);
+  if (part.empty() || error != std::errc() || end != part.data() + part.size()) return std::nullopt;
+  return index;
+}
+
+bool is_bare_word(std::string_view text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || std::string_view("_-+./").find(c) < 5;
+  });
+}
+
+void mark(TomlNode& node, const std::string& where) {
+  node.where = where;
+  if (auto* table = node.get<TomlNode::Table>())
+    for (TomlEntry& entry : *table) entry.where = where, mark(entry.node, where);
+  if (auto* array = node.get<TomlNode::Array>())
+    for (TomlNode& item : *array) mark(item, where);
+}
+
+TomlNode override_value(const std::string& text, const std::string& option) {
+  TomlNode value;
+  try {
+    TomlNode document = parse_toml("x = " + text, option);
+    if (document.get<TomlNode::Table>()->size() != 1)
+      throw UserError("more than one key");
+    value = std::move(document.get<TomlNode::Table>()->front().node);
+  } catch (const UserError&) {
+    if (!is_bare_word(text))
+      throw UserError(
+          fmt::format("{}: '{}' is not a TOML value; write a number, true, false, a word, "
+                      "\"text\", [1, 2] or {{ key = 1 }}",
+                      option, text));
+    value.value = text;
+  }
+  mark(value, option);
+  return value;
+}
+
+// The entry `part` of `parent`, made if it is missing; `made` is what a new entry starts as.
+TomlNode& descend(TomlNode& parent, const std::string& part, const std::string& walked,
+                  const TomlNode& made, const std::string& option) {
+  if (auto* array = parent.get<TomlNode::Array>()) {
+    const std::optional<std::size_t> index = as_index(part);
+    if (!index || *index > array->size())
+      throw UserError(
+          fmt::format("{}: '{}' is an array with {} entries in the file; the next part of "
+                      "the key must be a number from 0 to {}, not '{}'",
+                      option, walked, array->size(), array->size(), part));
+    if (*index == array->size()) array->push_back(made);
+    return (*array)[*index];
+  }
+  auto* table = parent.get<TomlNode::Table>();
+  if (!table)
+    throw UserError(fmt::format("{}: '{}' is the value {}, so it has no key '{}'", option, walked,
+                                to_toml(parent), part));
+  for (TomlEntry& entry : *table)
+    if (entry.key == part) return entry.node;
+  table->push_back({part, option, made});
+  return table->back().node;
+}
+
+}  // namespace
+
+const TomlEntry* TomlNode::find(std::string_view key) const {
+  if (const Table* table = get<Table>())
+    for (const TomlEntry& entry : *table)
+      if (entry.key == key) return &entry;
+  return nullptr;
+}
+
+TomlNode parse_toml(std::string_view text, const std::string& name) {
+  try {
+    TomlNode root;
+    root.value = convert_table(toml::parse(text), name);
+    root.where = name;
+    return root;
+  } catch (const toml::parse_error& error) {
+    throw UserError(fmt::format("{}: not valid TOML: {}", place(error.source().begin, name),
+                                error.description()));
+  }
+}
+
+TomlNode read_toml_file(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  // A folder opens like a file and fails on the first read.
+  if (!file || !(text << file.rdbuf()))
+    throw FileError(path.string() +
+                    ": cannot be read, or is empty; a parameter file is expected "
+                    "(vitrel params run prints one)");
+  return parse_toml(text.str(), path.string());
+}
+
+void apply_override(TomlNode& root, std::string_view assignment, const std::string& option) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string_view::npos || equals == 0)
+    throw UserError(option + ": key=value is expected, for example --set dynamics.duration=10");
+  const std::vector<std::string> parts = split(assignment.substr(0, equals));
+  TomlNode* node = &root;
+  std::string walked;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    if (parts[k].empty())
+      throw UserError(
+          fmt::format("{}: the key '{}' has an empty part", option, assignment.substr(0, equals)));
+    TomlNode made;
+    made.where = option;
+    if (k + 1 < parts.size() && as_index(parts[k + 1])) made.value = TomlNode::Array();
+    node = &descend(*node, parts[k], walked, made, option);
+    walked += (walked.empty() ? "" : ".") + parts[k];
+  }
+  *node = override_value(std::string(assignment.substr(equals + 1)), option);
+}
+
+std::string locate(const TomlNode& root, std::string_view path) {
+  const TomlNode* node = &root;
+  for (const std::string& part : split(path)) {
+    if (const auto* array = node->get<TomlNode::Array>()) {
+      const std::optional<std::size_t> index = as_index(part);
+      if (!index || *index >= array->size()) break;
+      node = &(*array)[*index];
+    } else if (const TomlEntry* entry = node->find(part)) {
+      node = &entry->node;
+    } else {
+      break;
+    }
+  }
+  return node->where;
+}
+
+std::string to_toml(double value) {
+  if (std::isnan(value)) return "nan";
+  if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
+  // fmt writes the shortest text that reads back as the same double; TOML wants a point or
+  // exponent.
+  std::string text = fmt::format("{}", value);
+  if (text.find_first_of(".e") == std::string::npos) text += ".0";
+  return text;
+}
+
+std::string to_toml(std::string_view text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\')
+      quoted += fmt::format("\\{}", c);
+    else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+      quoted += fmt::format("\\u{:04X}", static_cast<unsigned>(c));
+    else
+      quoted += c;
+  }
+  return quoted + '"';
+}
+
+std::string toml_key(std::string_view key) {
+  const bool bare = !key.empty() && std::all_of(key.begin(), key.end(), [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-';
+  });
+  return bare ? std::string(key) : to_toml(key);
+}
+
+std::string to_toml(const TomlNode& node) {
+  if (const auto* flag = node.get<bool>()) return *flag ? "true" : "false";
+  if (const auto* integer = node.get<std::int64_t>()) return fmt::format("{}", *integer);
+  if (const auto* real = node.get<double>()) return to_toml(*real);
+  if (const auto* text = node.get<std::string>()) return to_toml(std::string_view(*text));
+  std::string joined;
+  const auto append = [&](const std::string& item) {
+    joined += (joined.empty() ? "" : ", ") + item;
+  };
+  if (const auto* array = node.get<TomlNode::Array>()) {
+    for (const TomlNode& item : *array) append(to_toml(item));
+    return "[" + joined + "]";
+  }
+  for (const TomlEntry& entry : *node.get<TomlNode::Table>())
+    append(toml_key(entry.key) + " = " + to_toml(entry.node));
+  return joined.empty() ? "{}" : "{ " + joined + " }";
+}
+
+}  // namespace vitrel

@@ -1,0 +1,99 @@
+#include "core/state/species.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "core/error.h"
+
+namespace vitrel {
+namespace {
+
+double draw_once(const Distribution& d, Stream& stream) {
+  switch (d.kind) {
+    case Distribution::Kind::constant:
+      return d.mean;
+    case Distribution::Kind::gaussian:
+      return d.mean + d.standard_deviation * stream.normal();
+    case Distribution::Kind::lognormal: {
+      // ln x has variance s² = ln(1 + (σ/⟨x⟩)²) and mean ln⟨x⟩ − s²/2.
+      const double ratio = d.standard_deviation / d.mean;
+      const double variance = std::log1p(ratio * ratio);
+      return d.mean * std::exp(std::sqrt(variance) * stream.normal() - 0.5 * variance);
+    }
+    case Distribution::Kind::uniform:
+      return stream.uniform(d.low, d.high);
+  }
+  return d.mean;
+}
+
+Ellipse draw_shape(const Species& species, Stream& stream) {
+  if (species.semi_axes) return {(*species.semi_axes)[0], (*species.semi_axes)[1]};
+  const double ratio = species.aspect_ratio ? species.aspect_ratio->draw(stream) : 1;
+  const double size = species.size ? species.size->draw(stream) : 1;
+  return {size * std::sqrt(ratio), size / std::sqrt(ratio)};
+}
+
+// Fisher and Yates.
+void shuffle(std::vector<std::int32_t>& values, Stream stream) {
+  for (std::size_t i = values.size(); i > 1; --i) std::swap(values[i - 1], values[stream.below(i)]);
+}
+
+}  // namespace
+
+double Distribution::draw(Stream& stream) const {
+  constexpr int most_draws = 10'000;
+  for (int k = 0; k < most_draws; ++k)
+    if (const double value = draw_once(*this, stream); value >= minimum) return value;
+  throw UserError("a distribution lies below its minimum " + std::to_string(minimum) +
+                  " practically always; lower the minimum or raise the mean");
+}
+
+std::vector<std::size_t> species_counts(const std::vector<Species>& species,
+                                        std::size_t particles) {
+  std::vector<std::size_t> counts;
+  std::vector<double> remainders;
+  for (const Species& kind : species) {
+    const double share = kind.fraction * static_cast<double>(particles);
+    // A share that is whole but for rounding is whole.
+    const double whole = std::floor(share * (1 + 1e-12));
+    counts.push_back(static_cast<std::size_t>(whole));
+    remainders.push_back(share - whole);
+  }
+  std::vector<std::size_t> order(species.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t i, std::size_t j) { return remainders[i] > remainders[j]; });
+  std::size_t given = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
+  for (std::size_t k = 0; given < particles; ++k, ++given) ++counts[order[k % order.size()]];
+  return counts;
+}
+
+Configuration2 draw_particles(const std::vector<Species>& species, std::size_t particles,
+                              double packing_fraction, double box_aspect, std::uint64_t seed) {
+  Configuration2 system;
+  system.resize(particles);
+  system.species.clear();
+  system.species_names.clear();
+  const std::vector<std::size_t> counts = species_counts(species, particles);
+  for (std::size_t k = 0; k < species.size(); ++k) {
+    system.species_names.push_back(species[k].name);
+    system.species.insert(system.species.end(), counts[k], static_cast<std::int32_t>(k));
+  }
+  shuffle(system.species, Stream(seed, Purpose::shapes));
+  double area = 0;
+  for (std::size_t i = 0; i < particles; ++i) {
+    const Species& kind = species[static_cast<std::size_t>(system.species[i])];
+    Stream stream(seed, Purpose::shapes, 1, i);
+    const Ellipse shape = draw_shape(kind, stream);
+    system.shape[i] = shape;
+    system.mass[i] = kind.mass.value_or(shape.a * shape.b);
+    area += shape.volume();
+  }
+  const double width = std::sqrt(area / packing_fraction / box_aspect);
+  system.box = PeriodicBox<2>(Vec2(width, box_aspect * width));
+  return system;
+}
+
+}  // namespace vitrel

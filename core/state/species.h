@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/random/stream.h"
+#include "core/state/configuration.h"
+
+/// What particles a system is made of, and how their shapes are drawn.
+namespace vitrel {
+
+/// One number, or a distribution of numbers.
+struct Distribution {
+  enum class Kind { constant, gaussian, lognormal, uniform };
+
+  Kind kind = Kind::constant;
+  double mean = 1;                ///< constant: the value; gaussian, lognormal: ⟨x⟩
+  double standard_deviation = 0;  ///< gaussian, lognormal: of x itself, not of ln x
+  double low = 0, high = 0;       ///< uniform
+  double minimum = 0;             ///< smaller draws are drawn again
+
+  double draw(Stream& stream) const;
+};
+
+/// One species. Its shape is given by the aspect ratio κ = a/b ≥ 1 and the size √(a b), so a = size
+/// √κ and b = size/√κ; or by the semi-axes themselves.
+struct Species {
+  std::string name = "A";
+  double fraction = 1;                             ///< share of all particles
+  std::optional<Distribution> aspect_ratio;        ///< 1 if neither it nor semi_axes is given
+  std::optional<Distribution> size;                ///< 1 if neither it nor semi_axes is given
+  std::optional<std::array<double, 2>> semi_axes;  ///< a ≥ b; excludes the two above
+  std::optional<double> mass;  ///< of every particle; a b (uniform density) if not given
+};
+
+/// How many of `particles` belong to each species: the shares rounded down, and the particles left
+/// over given to the largest remainders (the earlier species on a tie). The counts add up to
+/// `particles`.
+std::vector<std::size_t> species_counts(const std::vector<Species>& species, std::size_t particles);
+
+/// N particles at rest at the origin, mixed in a random order, in the box of that packing fraction
+/// with L_y/L_x = `box_aspect`. The order comes from the stream (seed, shapes, 0, 0) and the shape
+/// of particle i from (seed, shapes, 1, i). Shapes are not rescaled: the unit of length is that of
+/// the sizes given. At least one species; the fractions add up to 1.
+Configuration2 draw_particles(const std::vector<Species>& species, std::size_t particles,
+                              double packing_fraction, double box_aspect, std::uint64_t seed);
+
+}  // namespace vitrel

@@ -1,0 +1,308 @@
+#include "core/io/parameters.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+namespace vitrel {
+namespace {
+
+using testing::HasSubstr;
+
+enum class Kind { gas, crystal };
+constexpr const char* kind_names[] = {"gas", "crystal"};
+
+// A struct with every kind of field.
+struct Part {
+  std::string name = "A";
+  std::optional<double> mass;
+};
+struct Everything {
+  std::int64_t particles = 100;
+  std::uint64_t seed = 1;
+  int dimension = 2;
+  double density = 0.5;
+  bool velocities = true;
+  Kind kind = Kind::gas;
+  std::int64_t atoms_per_cell = 4;
+  std::vector<double> axes = {2, 1};
+  double spread = 1;
+  bool spread_is_table = false;
+  double low = 0, high = 1;
+  double interval = 0.1;
+  std::vector<Part> parts = std::vector<Part>(1);
+  ParameterGrid grid;
+};
+
+void describe_part(Part& part, FieldVisitor& visit) {
+  visit.field({"name", "", "Name."}, part.name);
+  visit.optional({"mass", "mass", "Mass."}, part.mass, 1.5);
+}
+
+void describe(Everything& p, FieldVisitor& visit) {
+  visit.table({"system", "", "The system."}, FieldVisitor::TableStyle::section,
+              [&](FieldVisitor& in) {
+                in.field({"particles", "", "Number of particles."}, p.particles);
+                in.field({"seed", "", "Seed."}, p.seed);
+                in.field({"dimension", "", "Dimension."}, p.dimension);
+                in.field({"density", "1/area", "Density."}, p.density);
+                in.field({"velocities", "", "Write velocities."}, p.velocities);
+                in.field({"kind", "", "Kind."}, p.kind, kind_names);
+                in.when(p.kind == Kind::crystal, "kind = \"crystal\"", [&](FieldVisitor& crystal) {
+                  crystal.field({"atoms_per_cell", "", "Atoms."}, p.atoms_per_cell);
+                });
+                in.field({"axes", "length", "Axes."}, p.axes);
+                in.number_or_table({"spread", "", "Spread."}, p.spread, p.spread_is_table,
+                                   [&](FieldVisitor& t) {
+                                     t.field({"low", "", "Low."}, p.low);
+                                     t.field({"high", "", "High."}, p.high);
+                                   });
+                in.table({"samples", "", "Samples."}, FieldVisitor::TableStyle::inline_table,
+                         [&](FieldVisitor& t) {
+                           t.field({"interval", "time", "Interval."}, p.interval);
+                         });
+              });
+  visit.list({"part", "", "Parts."}, p.parts, describe_part);
+  visit.grid({"grid", "", "Grid."}, p.grid);
+}
+
+void validate(const Everything& p) {
+  if (!(p.density > 0))
+    throw BadValue("system.density", "is " + to_toml(p.density) + ", but must be positive");
+  for (std::size_t i = 0; i < p.parts.size(); ++i)
+    if (p.parts[i].mass && !(*p.parts[i].mass > 0))
+      throw BadValue("part." + std::to_string(i) + ".mass", "must be positive");
+}
+
+FieldVisitor::Inside fields(Everything& p) {
+  return [&p](FieldVisitor& visit) { describe(p, visit); };
+}
+
+Everything read(const TomlNode& root) {
+  Everything p;
+  read_parameters(root, fields(p), [&] { validate(p); });
+  return p;
+}
+Everything read(const std::string& text) {
+  return read(parse_toml(text, "file.toml"));
+}
+
+std::string refusal(const std::string& text) {
+  try {
+    read(text);
+  } catch (const UserError& error) {
+    return error.what();
+  }
+  return "nothing was refused";
+}
+
+std::string override_refusal(const std::string& assignment) {
+  try {
+    TomlNode root = parse_toml("[system]\nseed = 1\n[[part]]\nname = \"A\"\n", "file.toml");
+    apply_override(root, assignment, "--set " + assignment);
+    read(root);
+  } catch (const UserError& error) {
+    return error.what();
+  }
+  return "nothing was refused";
+}
+
+TEST(Parameters, EveryKindOfFieldIsRead) {
+  const Everything p = read(R"(
+[system]
+particles = 7
+seed = 9000000000000000000
+dimension = 3
+density = 2            # an integer is a number
+velocities = false
+kind = "crystal"
+atoms_per_cell = 2
+axes = [3, 0.5]
+spread = { low = -1, high = 2.5 }
+samples = { interval = 4.0 }
+[[part]]
+name = "B"
+mass = 3
+[[part]]
+[grid]
+"system.density" = [0.1, 0.2]
+system.kind = ["gas"]
+)");
+  EXPECT_EQ(p.particles, 7);
+  EXPECT_EQ(p.seed, 9000000000000000000u);
+  EXPECT_EQ(p.dimension, 3);
+  EXPECT_EQ(p.density, 2);
+  EXPECT_FALSE(p.velocities);
+  EXPECT_EQ(p.kind, Kind::crystal);
+  EXPECT_EQ(p.atoms_per_cell, 2);
+  EXPECT_EQ(p.axes, (std::vector<double>{3, 0.5}));
+  EXPECT_TRUE(p.spread_is_table);
+  EXPECT_EQ(p.low, -1);
+  EXPECT_EQ(p.high, 2.5);
+  EXPECT_EQ(p.interval, 4);
+  ASSERT_EQ(p.parts.size(), 2u);
+  EXPECT_EQ(p.parts[0].name, "B");
+  EXPECT_EQ(p.parts[0].mass, 3);
+  EXPECT_FALSE(p.parts[1].mass);
+  const ParameterGrid grid = {{"system.density", {"0.1", "0.2"}}, {"system.kind", {"\"gas\""}}};
+  EXPECT_EQ(p.grid, grid);
+}
+
+TEST(Parameters, FieldsLeftOutKeepTheirDefault) {
+  const Everything p = read("");
+  EXPECT_EQ(p.particles, 100);
+  EXPECT_EQ(p.parts.size(), 1u);
+}
+
+TEST(Parameters, SyntaxErrorNamesThePlace) {
+  EXPECT_THAT(refusal("[system]\nseed = = 1\n"), HasSubstr("file.toml:2:8: not valid TOML"));
+}
+
+TEST(Parameters, UnknownKeyNamesThePlaceAndTheLikelyOne) {
+  const std::string message = refusal("[system]\nseed = 1\n  particels = 3\n");
+  EXPECT_THAT(message, HasSubstr("file.toml:3:3: key 'system.particels' is unknown; did you mean "
+                                 "'particles'? known keys: particles, seed, dimension"));
+  EXPECT_THAT(refusal("[sistem]\n"),
+              HasSubstr("file.toml:1:2: key 'sistem' is unknown; did you mean "
+                        "'system'? known keys: system, part, grid"));
+  EXPECT_THAT(refusal("[[part]]\n[[part]]\nweight = 1\n"),
+              HasSubstr("file.toml:3:1: key 'part.1.weight' is unknown; known keys: name, mass"));
+}
+
+TEST(Parameters, KeyOfAnotherAlternativeSaysWhereItBelongs) {
+  EXPECT_THAT(refusal("[system]\natoms_per_cell = 2\n"),
+              HasSubstr("file.toml:2:1: key 'system.atoms_per_cell' has a meaning only with kind = "
+                        "\"crystal\""));
+}
+
+TEST(Parameters, WrongTypeNamesThePlaceOfTheValueAndShowsARightOne) {
+  EXPECT_THAT(refusal("[system]\nparticles = \"many\"\n"),
+              HasSubstr("file.toml:2:13: key 'system.particles' must be an integer, not the string "
+                        "\"many\"; for example particles = 100"));
+  EXPECT_THAT(refusal("[system]\nparticles = 1.5\n"), HasSubstr("not the number 1.5"));
+  EXPECT_THAT(refusal("[system]\ndensity = true\n"), HasSubstr("must be a number, not true"));
+  EXPECT_THAT(refusal("[system]\nvelocities = 1\n"),
+              HasSubstr("must be true or false, not the number 1"));
+  EXPECT_THAT(refusal("[system]\nkind = 1\n"),
+              HasSubstr("one of the strings \"gas\", \"crystal\""));
+  EXPECT_THAT(refusal("[system]\nkind = \"gass\"\n"), HasSubstr("did you mean 'gas'?"));
+  EXPECT_THAT(refusal("[system]\naxes = 1\n"), HasSubstr("an array of numbers, not the number 1"));
+  EXPECT_THAT(refusal("[system]\naxes = [1, \"x\"]\n"), HasSubstr("file.toml:2:12: "));
+  EXPECT_THAT(refusal("[system]\nspread = \"wide\"\n"), HasSubstr("must be a number"));
+  EXPECT_THAT(refusal("[system]\nsamples = 1\n"), HasSubstr("must be a table, not the number 1"));
+  EXPECT_THAT(refusal("system = 1\n"), HasSubstr("file.toml:1:10: key 'system' must be a table"));
+  EXPECT_THAT(refusal("[part]\nname = \"B\"\n"), HasSubstr("write [[part]]"));
+  EXPECT_THAT(refusal("[grid]\nx = 1\n"), HasSubstr("arrays of values to run through"));
+  EXPECT_THAT(refusal("[system]\nseed = -1\n"),
+              HasSubstr("file.toml:2:8: key 'system.seed' is -1"));
+  EXPECT_THAT(refusal("[system]\ndimension = 3000000000\n"), HasSubstr("must lie between"));
+  EXPECT_THAT(refusal("[system]\nseed = 2024-01-01\n"),
+              HasSubstr("dates and times have no meaning"));
+}
+
+TEST(Parameters, ImpossibleValueNamesItsPlace) {
+  EXPECT_THAT(refusal("[system]\n\ndensity = -1\n"),
+              HasSubstr("file.toml:3:11: key 'system.density' is -1.0, but must be positive"));
+  EXPECT_THAT(refusal("[[part]]\n[[part]]\nmass = 0\n"),
+              HasSubstr("file.toml:3:8: key 'part.1.mass'"));
+}
+
+TEST(Parameters, OverridesReplaceAndExtend) {
+  TomlNode root = parse_toml("[system]\nseed = 1\n[[part]]\nname = \"A\"\n", "file.toml");
+  for (const char* assignment :
+       {"system.seed=5", "system.kind=crystal", "system.density=0.25", "part.0.mass=2",
+        "part.1.name=\"C 1\"", "system.samples.interval=3", "system.axes=[4, 2]",
+        "system.spread={ low = 0, high = 3 }"})
+    apply_override(root, assignment, std::string("--set ") + assignment);
+  const Everything p = read(root);
+  EXPECT_EQ(p.seed, 5u);
+  EXPECT_EQ(p.kind, Kind::crystal);
+  EXPECT_EQ(p.density, 0.25);
+  ASSERT_EQ(p.parts.size(), 2u);
+  EXPECT_EQ(p.parts[0].mass, 2);
+  EXPECT_EQ(p.parts[1].name, "C 1");
+  EXPECT_EQ(p.interval, 3);
+  EXPECT_EQ(p.axes, (std::vector<double>{4, 2}));
+  EXPECT_EQ(p.high, 3);
+}
+
+TEST(Parameters, ErrorsOfOverridesNameTheOption) {
+  EXPECT_THAT(
+      override_refusal("system.seeds=1"),
+      HasSubstr("--set system.seeds=1: key 'system.seeds' is unknown; did you mean 'seed'?"));
+  EXPECT_THAT(override_refusal("system.density=-2"),
+              HasSubstr("--set system.density=-2: key 'system.density' is -2.0"));
+  EXPECT_THAT(override_refusal("system.density"), HasSubstr("key=value is expected"));
+  EXPECT_THAT(override_refusal("system.density=[1,"), HasSubstr("is not a TOML value"));
+  EXPECT_THAT(override_refusal("part.5.name=B"), HasSubstr("'part' is an array with 1 entries"));
+  EXPECT_THAT(override_refusal("system.seed.x=1"), HasSubstr("'system.seed' is the value 1"));
+  EXPECT_THAT(override_refusal("system..seed=1"), HasSubstr("has an empty part"));
+  EXPECT_THAT(override_refusal("system.seed=1\nb=2"), HasSubstr("is not a TOML value"));
+}
+
+TEST(Parameters, WrittenTextReadsBackToTheSameTextBitByBit) {
+  Everything p;
+  p.density = 0.1 + 0.2;  // 17 digits are needed
+  p.low = 5e-324;
+  p.high = 1e300;
+  p.spread_is_table = true;
+  p.kind = Kind::crystal;
+  p.parts = {{"quote \" and \\ and \n", 1.0 / 3}, {"B", std::nullopt}};
+  p.grid = {{"system.density", {"0.5", "0.25"}}};
+  const std::string text = write_parameters(fields(p));
+  Everything again = read(text);
+  EXPECT_EQ(again.density, p.density);
+  EXPECT_EQ(again.low, p.low);
+  EXPECT_EQ(again.high, p.high);
+  EXPECT_EQ(again.parts[0].name, p.parts[0].name);
+  EXPECT_EQ(again.parts[0].mass, p.parts[0].mass);
+  EXPECT_EQ(write_parameters(fields(again)), text);
+}
+
+TEST(Parameters, TheTemplateReadsBackToTheDefaults) {
+  Everything defaults;
+  const std::string text = parameter_template(fields(defaults));
+  Everything read_back = read(text);
+  EXPECT_EQ(write_parameters(fields(read_back)), write_parameters(fields(defaults)));
+  EXPECT_THAT(text, HasSubstr("# Number of particles.\nparticles = 100\n"));
+  EXPECT_THAT(text, HasSubstr("# mass = 1.5\n"));
+  EXPECT_THAT(text, HasSubstr("# Only with kind = \"crystal\":\n"));
+  EXPECT_THAT(text, HasSubstr("#   interval: Interval. Unit: time.\n"));
+}
+
+TEST(Parameters, TheReferenceTablesHaveEveryField) {
+  Everything defaults;
+  const std::string text = parameter_tables(fields(defaults));
+  for (const char* row :
+       {"## `[system]`", "| `particles` | `100` |  | Number of particles. |",
+        "With `kind = \"crystal\"`: Atoms.", "| `samples.interval` | `0.1` | time |",
+        "## `[[part]]`", "| `mass` | none | mass |", "## `[grid]`"})
+    EXPECT_THAT(text, HasSubstr(row));
+}
+
+TEST(Parameters, TheFirstDifferenceIsNamedUnlessHarmless) {
+  const std::string first = "[a]\nx = 1\ny = 2\n";
+  const std::string second = "[a]\nx = 3\ny = 4\nz = 5\n";
+  const auto none = [](const std::string&) { return false; };
+  EXPECT_FALSE(first_difference(first, first, none));
+  const auto found =
+      first_difference(first, second, [](const std::string& key) { return key == "a.x"; });
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->key, "a.y");
+  EXPECT_EQ(found->first, "2");
+  EXPECT_EQ(found->second, "4");
+  const auto added = first_difference("", "[a]\nz = 5\n", none);
+  ASSERT_TRUE(added);
+  EXPECT_EQ(added->first, "nothing");
+  EXPECT_EQ(added->second, "5");
+}
+
+TEST(Parameters, AMissingFileAndAFolderAreFileErrors) {
+  EXPECT_THROW(read_toml_file("no_such_file.toml"), FileError);
+  EXPECT_THROW(read_toml_file("."), FileError);
+}
+
+}  // namespace
+}  // namespace vitrel
