@@ -1,0 +1,127 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "core/geometry/periodic_box.h"
+
+namespace vitrel {
+
+/// Points in the cells of a periodic box, to find those near a place.
+///
+/// A query walks the cells that its reach covers in unwrapped cell coordinates; a cell beyond the
+/// box is the image of one inside, and how many boxes lie between is the shift. So every image (j,
+/// shift) within reach is met exactly once, in boxes of any size, down to a single cell. Insert,
+/// move and remove cost O(1).
+class CellGrid {
+ public:
+  /// For about `particles` points and queries of about `reach`.
+  CellGrid(const PeriodicBox<2>& box, double reach, std::size_t particles) : box_(box) {
+    const auto most = static_cast<std::int64_t>(std::ceil(std::sqrt(4.0 * particles))) + 1;
+    for (int k = 0; k < 2; ++k) {
+      const auto wanted = static_cast<std::int64_t>(box.lengths()[k] / (0.5 * reach));
+      count_[k] = std::clamp<std::int64_t>(wanted, 1, most);
+      width_[k] = box.lengths()[k] / static_cast<double>(count_[k]);
+    }
+    first_.assign(static_cast<std::size_t>(count_[0] * count_[1]), none);
+    points_.reserve(particles);
+  }
+
+  /// Adds point i at a position wrapped into the box. Points are numbered 0, 1, 2 …
+  void insert(std::size_t i, const Vec2& position) {
+    if (points_.size() <= i) points_.resize(i + 1);
+    points_[i].position = position;
+    enter(static_cast<Index>(i), cell_of(position));
+  }
+
+  void remove(std::size_t i) { leave(static_cast<Index>(i)); }
+
+  void move(std::size_t i, const Vec2& position) {
+    const Index cell = cell_of(position);
+    points_[i].position = position;
+    if (cell == points_[i].cell) return;
+    leave(static_cast<Index>(i));
+    enter(static_cast<Index>(i), cell);
+  }
+
+  /// Calls visit(j, shift, separation) for every image r_j + shift ∘ L within `reach` of
+  /// `position`, which may lie outside the box; separation = r_j + shift ∘ L − position. A point at
+  /// `position` itself is among them.
+  template <class Visit>
+  void for_each_near(const Vec2& position, double reach, Visit&& visit) const {
+    const Range x = covered(position, reach, 0);
+    const Range y = covered(position, reach, 1);
+    for (std::int64_t cx = x.low; cx <= x.high; ++cx)
+      for (std::int64_t cy = y.low; cy <= y.high; ++cy) {
+        const Shift<2> shift(static_cast<std::int32_t>(floor_div(cx, count_[0])),
+                             static_cast<std::int32_t>(floor_div(cy, count_[1])));
+        const std::int64_t cell =
+            (cx - shift.x() * count_[0]) * count_[1] + (cy - shift.y() * count_[1]);
+        const Vec2 offset = box_.translation(shift) - position;
+        for (Index j = first_[static_cast<std::size_t>(cell)]; j != none; j = points_[j].next) {
+          const Vec2 separation = points_[j].position + offset;
+          if (separation.squaredNorm() <= reach * reach)
+            visit(static_cast<std::size_t>(j), shift, separation);
+        }
+      }
+  }
+
+ private:
+  using Index = std::uint32_t;
+  static constexpr Index none = UINT32_MAX;
+
+  struct Point {
+    Vec2 position = Vec2::Zero();
+    Index cell = none;
+    Index next = none, previous = none;
+  };
+  struct Range {
+    std::int64_t low, high;
+  };
+
+  static std::int64_t floor_div(std::int64_t number, std::int64_t divisor) {
+    return number >= 0 ? number / divisor : -((-number + divisor - 1) / divisor);
+  }
+
+  // Cells that [position − reach, position + reach] covers, with room for rounding at the edges.
+  Range covered(const Vec2& position, double reach, int k) const {
+    const double centre = position[k] + 0.5 * box_.lengths()[k];
+    const double half = reach + 1e-12 * (reach + box_.lengths()[k]);
+    return {static_cast<std::int64_t>(std::floor((centre - half) / width_[k])),
+            static_cast<std::int64_t>(std::floor((centre + half) / width_[k]))};
+  }
+
+  Index cell_of(const Vec2& position) const {
+    std::int64_t at[2];
+    for (int k = 0; k < 2; ++k)
+      at[k] = std::clamp<std::int64_t>(
+          static_cast<std::int64_t>((position[k] + 0.5 * box_.lengths()[k]) / width_[k]), 0,
+          count_[k] - 1);
+    return static_cast<Index>(at[0] * count_[1] + at[1]);
+  }
+
+  void enter(Index i, Index cell) {
+    Point& point = points_[i];
+    point.cell = cell;
+    point.previous = none;
+    point.next = first_[cell];
+    if (point.next != none) points_[point.next].previous = i;
+    first_[cell] = i;
+  }
+
+  void leave(Index i) {
+    const Point& point = points_[i];
+    (point.previous == none ? first_[point.cell] : points_[point.previous].next) = point.next;
+    if (point.next != none) points_[point.next].previous = point.previous;
+  }
+
+  PeriodicBox<2> box_;
+  std::int64_t count_[2];
+  double width_[2];
+  std::vector<Index> first_;  // of every cell, x-major
+  std::vector<Point> points_;
+};
+
+}  // namespace vitrel

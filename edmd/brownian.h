@@ -1,0 +1,35 @@
+#pragma once
+
+#include "core/random/stream.h"
+#include "core/state/configuration.h"
+
+namespace vitrel {
+
+/// Which kinetic energy counts as the temperature kT = 1 once the net momentum has been removed.
+///   total:    Σ m v²/2 = N kT; the mean squared displacement of free particles then has no 1/N
+///   term relative: Σ m v²/2 = (N − 1) kT; Newtonian equipartition then is exact
+/// The rotational energy is N_rot kT/2 in both, N_rot the number of particles that are not round.
+enum class Temperature { total, relative };
+
+/// Draws all velocities anew: v ~ N(0, kT/m) per component and ω ~ N(0, kT/I), from the streams
+/// (seed, purpose, step, particle); then removes the net momentum and rescales translation and
+/// rotation to exactly the energies of `temperature`. Round particles get ω = 0: a smooth collision
+/// never sees their rotation, and it is not modelled. A single particle keeps its momentum.
+///
+/// This is both the initial draw and the Brownian step (thesis, section 1 of the sources): repeated
+/// every τ_B, a free particle diffuses with D₀ = kT τ_B/(2m) and D_r0 = kT τ_B/(2I).
+void draw_velocities(Configuration2& configuration, std::uint64_t seed, Purpose purpose,
+                     std::uint64_t step, Temperature temperature);
+
+/// How the velocities of a run begin.
+enum class InitialVelocities {
+  maxwell,      ///< drawn as above
+  translation,  ///< drawn, then all energy put into translation
+  rotation,     ///< drawn, then all energy put into rotation
+  keep,         ///< those of the configuration
+};
+/// Throws UserError where a split is impossible (rotation without any particle that can rotate).
+void set_initial_velocities(Configuration2& configuration, std::uint64_t seed,
+                            InitialVelocities kind, Temperature temperature);
+
+}  // namespace vitrel

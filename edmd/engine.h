@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "core/state/configuration.h"
+
+namespace vitrel {
+
+/// What to do with a pair found overlapping: a hard run never produces one, so `stop` throws
+/// InvariantError; `correct` applies the thesis's correction move (collision_rule.h) and counts it.
+enum class OnOverlap { stop, correct };
+
+struct EngineOptions {
+  double restitution = 1;
+  OnOverlap on_overlap = OnOverlap::stop;
+};
+
+/// Counts and sums over everything since the start of a run.
+struct RunCounters {
+  std::uint64_t events = 0;  ///< everything taken from the calendar
+  std::uint64_t collisions = 0;
+  std::uint64_t predictions = 0;  ///< calls of first_contact
+  std::uint64_t steps = 0;        ///< steps along separating axes, over all predictions
+  std::uint64_t renewals = 0;     ///< neighbour lists renewed because a particle left its own
+  std::uint64_t correction_moves = 0;
+  double virial = 0;      ///< Σ J n·d over collisions, d from centre to centre
+  double dissipated = 0;  ///< energy lost in inelastic collisions
+};
+
+/// Event-driven dynamics of N hard bodies in a periodic box: the run-time face of Simulation<Body>.
+///
+/// Events run in blocks of a fixed count. `load` begins a block: everything the engine knows is
+/// derived anew from the configuration, so that a run continued from a configuration written at a
+/// block's end equals the uninterrupted one bit by bit. Virtual calls are per block, sample or
+/// Brownian step, never per event.
+class Engine {
+ public:
+  virtual ~Engine() = default;
+
+  /// Begins a block from this configuration.
+  virtual void load(const Configuration2& configuration) = 0;
+
+  enum class Stop { time, block_end };
+  /// Processes events up to simulated time `until`, or to the end of the block if that comes first.
+  virtual Stop advance(double until, RunCounters& counters) = 0;
+
+  /// Writes all particles as of now into `configuration` (positions wrapped), which otherwise must
+  /// be the one loaded. The engine's own state does not change.
+  virtual void write(Configuration2& configuration) const = 0;
+
+  /// Replaces all velocities, at the present time.
+  virtual void set_velocities(const Configuration2& configuration, RunCounters& counters) = 0;
+
+  /// Which model runs and why it is exact for this scene, in one sentence.
+  virtual std::string description() const = 0;
+};
+
+/// The simplest model that is exact for the scene: disks without orientation if every particle is
+/// round, ellipses otherwise (a round pair among them meets in closed form).
+std::unique_ptr<Engine> make_engine(const Configuration2& configuration,
+                                    const EngineOptions& options);
+
+}  // namespace vitrel

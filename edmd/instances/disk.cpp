@@ -1,0 +1,18 @@
+#include "edmd/instances/instances.h"
+#include "edmd/simulation.h"
+
+namespace vitrel {
+
+template <>
+Disk body_from<Disk>(const Ellipse& shape) {
+  return {shape.a};
+}
+
+template class Simulation<Disk>;
+
+std::unique_ptr<Engine> make_disk_engine(const EngineOptions& options) {
+  return std::make_unique<Simulation<Disk>>(
+      options, "disks without orientation, since every particle is round");
+}
+
+}  // namespace vitrel

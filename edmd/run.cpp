@@ -1,0 +1,147 @@
+#include "edmd/run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+
+namespace vitrel {
+
+namespace {
+
+double total_energy(const Configuration2& configuration) {
+  const Mechanics sums = mechanics(configuration);
+  return sums.translational_energy + sums.rotational_energy;
+}
+
+class Runner {
+ public:
+  Runner(RunState& state, const DynamicsOptions& options, const RunPlan& plan, const Budget& budget)
+      : state_(state),
+        options_(options),
+        plan_(plan),
+        budget_(budget),
+        engine_(make_engine(state.configuration, options.engine)) {}
+
+  StageReport run() {
+    try {
+      return run_blocks();
+    } catch (const InvariantError&) {
+      engine_->write(state_.configuration);
+      throw;
+    }
+  }
+
+ private:
+  StageReport run_blocks() {
+    while (true) {
+      const double block_start = state_.configuration.time;
+      engine_->load(state_.configuration);
+      const bool finished = run_block();
+      engine_->write(state_.configuration);
+      note_conservation();
+      if (!finished && !(state_.configuration.time > block_start))
+        throw InvariantError("time stands still at " + std::to_string(block_start) +
+                             ": a block of events passed in no time (inelastic collapse?)");
+      if (plan_.at_block_end) plan_.at_block_end(state_);
+      budget_.tell({progress(), state_.configuration.time, "time"});
+      if (finished) return {StageEnd::reached, "the end of the run was reached"};
+      if (budget_.stop_requested()) return {StageEnd::stopped, "stopped at the end of a block"};
+    }
+  }
+
+  // One block; true if the end of the run was reached.
+  bool run_block() {
+    while (true) {
+      const double stop = next_stop();
+      if (engine_->advance(stop, state_.counters) == Engine::Stop::block_end) return false;
+      if (stop == next_sample_time()) sample(stop);
+      if (stop == next_step_time()) redraw_velocities();
+      if (stop >= plan_.end_time && next_sample_time() > plan_.end_time) return true;
+    }
+  }
+
+  double next_sample_time() const {
+    return state_.next_sample < plan_.sample_times.size() ? plan_.sample_times[state_.next_sample]
+                                                          : std::numeric_limits<double>::infinity();
+  }
+  double next_step_time() const {
+    return options_.brownian
+               ? state_.start_time +
+                     options_.brownian_step * static_cast<double>(state_.brownian_steps + 1)
+               : std::numeric_limits<double>::infinity();
+  }
+  double next_stop() const {
+    return std::min({plan_.end_time, next_sample_time(), next_step_time()});
+  }
+
+  void sample(double time) {
+    engine_->write(state_.configuration);
+    state_.configuration.time = time;
+    const Tally tally{state_.counters.collisions, state_.counters.virial};
+    if (plan_.observer)
+      plan_.observer->observe(
+          {static_cast<std::int64_t>(state_.next_sample), state_.configuration, tally});
+    ++state_.next_sample;
+  }
+
+  void redraw_velocities() {
+    engine_->write(state_.configuration);
+    note_conservation();
+    ++state_.brownian_steps;
+    draw_velocities(state_.configuration, options_.seed, Purpose::brownian_step,
+                    state_.brownian_steps, options_.temperature);
+    engine_->set_velocities(state_.configuration, state_.counters);
+    state_.flight_energy = total_energy(state_.configuration) + state_.counters.dissipated;
+  }
+
+  void note_conservation() {
+    const double energy = total_energy(state_.configuration) + state_.counters.dissipated;
+    const double drift = std::abs(energy - state_.flight_energy) / state_.flight_energy;
+    state_.energy_drift = std::max(state_.energy_drift, drift);
+    state_.largest_momentum =
+        std::max(state_.largest_momentum, mechanics(state_.configuration).momentum.norm());
+  }
+
+  double progress() const {
+    const double whole = plan_.end_time - state_.start_time;
+    return whole > 0 ? (state_.configuration.time - state_.start_time) / whole : 1;
+  }
+
+  RunState& state_;
+  const DynamicsOptions& options_;
+  const RunPlan& plan_;
+  const Budget& budget_;
+  std::unique_ptr<Engine> engine_;
+};
+
+}  // namespace
+
+RunState begin_run(const Configuration2& configuration, double start_time) {
+  RunState state;
+  state.configuration = configuration;
+  state.configuration.time = start_time;
+  state.start_time = start_time;
+  state.flight_energy = total_energy(configuration);
+  state.largest_momentum = mechanics(configuration).momentum.norm();
+  return state;
+}
+
+StageReport run(RunState& state, const DynamicsOptions& options, const RunPlan& plan,
+                const Budget& budget) {
+  return Runner(state, options, plan, budget).run();
+}
+
+double kinetic_temperature(const Configuration2& configuration) {
+  const double n = static_cast<double>(configuration.size());
+  const double freedoms = 2 * n - 2 + static_cast<double>(rotor_count(configuration));
+  return 2 * total_energy(configuration) / freedoms;
+}
+
+double compressibility(const Configuration2& configuration, double virial, double time) {
+  const double n = static_cast<double>(configuration.size());
+  return 1 + virial / (2 * n * kinetic_temperature(configuration) * time);
+}
+
+}  // namespace vitrel

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "core/state/observer.h"
+#include "core/state/stage.h"
+#include "edmd/brownian.h"
+#include "edmd/engine.h"
+
+namespace vitrel {
+
+/// Newtonian dynamics, or Brownian: the same with all velocities redrawn every `brownian_step`.
+struct DynamicsOptions {
+  EngineOptions engine;
+  bool brownian = false;
+  double brownian_step = 0.1;  ///< τ_B
+  Temperature temperature = Temperature::total;
+  std::uint64_t seed = 1;
+};
+
+/// Everything a run needs to go on, and nothing else: a plain value, written to checkpoints. Only
+/// states handed out at block ends continue bit by bit.
+struct RunState {
+  Configuration2 configuration;  ///< synchronised; its time runs from −equilibration
+  RunCounters counters;
+  std::uint64_t brownian_steps = 0;
+  std::uint64_t next_sample = 0;
+  double start_time = 0;        ///< of the whole run
+  double flight_energy = 0;     ///< energy + dissipated energy after the last draw of velocities
+  double energy_drift = 0;      ///< largest |change of energy + dissipated|/energy between draws
+  double largest_momentum = 0;  ///< largest |Σ m v| between draws
+};
+
+/// The state at the start of a run from a configuration with its velocities set.
+RunState begin_run(const Configuration2& configuration, double start_time);
+
+/// What is to happen: samples at ascending times (in simulated time), the end, and who is told. The
+/// observer sees every sample; `at_block_end` gets a state from which the run continues bit by bit.
+struct RunPlan {
+  std::vector<double> sample_times;
+  double end_time = 0;
+  Observer<2>* observer = nullptr;
+  std::function<void(const RunState&)> at_block_end;
+};
+
+/// Runs to the end, or to the end of the block in which the budget asked to stop. A sample that
+/// coincides with a Brownian step is taken before the velocities are redrawn. Throws InvariantError
+/// on an overlap, and if time stands still (inelastic collapse); `state` then holds the moment of
+/// the failure.
+StageReport run(RunState& state, const DynamicsOptions& options, const RunPlan& plan,
+                const Budget& budget);
+
+/// Compressibility factor Z = βP/ρ = 1 + Σ J n·d/(2 N kT t) over the sampled part of a run, with kT
+/// from the conserved or redrawn energy: kT = 2E/(degrees of freedom), 2N − 2 + N_rot of them.
+double compressibility(const Configuration2& configuration, double virial, double time);
+double kinetic_temperature(const Configuration2& configuration);
+
+}  // namespace vitrel

@@ -1,0 +1,68 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <tuple>
+#include <vector>
+
+#include "core/neighbors/cell_grid.h"
+#include "core/random/stream.h"
+
+namespace vitrel {
+namespace {
+
+using Found = std::tuple<std::size_t, int, int>;
+
+std::vector<Found> near(const CellGrid& grid, const Vec2& position, double reach) {
+  std::vector<Found> found;
+  grid.for_each_near(position, reach, [&](std::size_t j, const Shift<2>& shift, const Vec2&) {
+    found.push_back({j, shift.x(), shift.y()});
+  });
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+// Boxes from a fraction of the reach to many cells, against all images of all points; points are
+// moved and removed on the way.
+TEST(CellGrid, FindsEveryImageOnceInBoxesOfAnySize) {
+  Stream draw(6, Purpose::tests);
+  for (double side : {0.4, 1.1, 2.5, 6.0, 40.0}) {
+    const PeriodicBox<2> box(Vec2(side, 1.7 * side));
+    const double reach = 1;
+    const std::size_t n = 60;
+    CellGrid grid(box, reach, n);
+    std::vector<Vec2> points(n);
+    const auto place = [&] {
+      return Vec2(draw.uniform(-0.5, 0.5) * side, draw.uniform(-0.5, 0.5) * 1.7 * side);
+    };
+    for (std::size_t i = 0; i < n; ++i) grid.insert(i, points[i] = place());
+    for (std::size_t i = 0; i < n; i += 2) grid.move(i, points[i] = place());
+    grid.remove(7);
+    for (int query = 0; query < 200; ++query) {
+      const Vec2 at = 1.5 * place();
+      const double within = draw.uniform(0.1, 1.5) * reach;
+      std::vector<Found> expected;
+      for (std::size_t j = 0; j < n; ++j)
+        box.for_each_image(points[j] - at, within, [&](const Shift<2>& shift, const Vec2&) {
+          if (j != 7) expected.push_back({j, shift.x(), shift.y()});
+        });
+      std::sort(expected.begin(), expected.end());
+      ASSERT_EQ(near(grid, at, within), expected);
+    }
+  }
+}
+
+TEST(CellGrid, SeparationsBelongToTheImages) {
+  const PeriodicBox<2> box(Vec2(3, 3));
+  CellGrid grid(box, 1, 1);
+  grid.insert(0, Vec2(1.4, 0));
+  int visits = 0;
+  grid.for_each_near(Vec2(-1.4, 0), 1, [&](std::size_t, const Shift<2>& shift, const Vec2& d) {
+    ++visits;
+    EXPECT_EQ(shift, Shift<2>(-1, 0));
+    EXPECT_LT((d - Vec2(-0.2, 0)).norm(), 1e-15);
+  });
+  EXPECT_EQ(visits, 1);
+}
+
+}  // namespace
+}  // namespace vitrel

@@ -1,0 +1,206 @@
+#include "edmd/run.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "core/contact/support_gap.h"
+#include "core/error.h"
+#include "edmd/sampling.h"
+#include "tests/support/scenes.h"
+
+namespace vitrel {
+namespace {
+
+Configuration2 thesis_scene() {
+  Configuration2 c =
+      square_lattice(10, 0.5, std::numbers::pi / 4, [](std::size_t) { return of_aspect_ratio(2); });
+  set_initial_velocities(c, 1, InitialVelocities::maxwell, Temperature::total);
+  return c;
+}
+
+Configuration2 mixture_scene() {
+  Configuration2 c = square_lattice(8, 0.4, std::numbers::pi / 4, [](std::size_t i) {
+    const double size = i % 2 ? 1.4 : 1;
+    return i % 4 < 2 ? Ellipse{size * std::sqrt(3.0), size / std::sqrt(3.0)} : Ellipse{size, size};
+  });
+  set_initial_velocities(c, 2, InitialVelocities::maxwell, Temperature::total);
+  return c;
+}
+
+double smallest_gap(const Configuration2& c) {
+  double smallest = 1e300;
+  for (std::size_t i = 0; i < c.size(); ++i)
+    for (std::size_t j = i; j < c.size(); ++j)
+      c.box.for_each_image(
+          c.position[j] - c.position[i], c.shape[i].a + c.shape[j].a + 1,
+          [&](const Shift<2>& shift, const Vec2& d) {
+            if (i == j && shift.isZero()) return;
+            smallest = std::min(smallest,
+                                support_gap(c.shape[i], c.angle[i], c.shape[j], c.angle[j], d).gap);
+          });
+  return smallest;
+}
+
+RunPlan plan_until(double end, Observer<2>* observer = nullptr) {
+  return {linear_times(0.5, end), end, observer, {}};
+}
+
+void expect_hard_and_conserving(const Configuration2& start, double end) {
+  RunState state = begin_run(start, 0);
+  Recorder recorder;
+  const StageReport report = run(state, {}, plan_until(end, &recorder), {});
+  EXPECT_EQ(report.end, StageEnd::reached);
+  EXPECT_EQ(state.configuration.time, end);
+  EXPECT_GT(state.counters.collisions, 10 * start.size());
+  EXPECT_EQ(state.counters.correction_moves, 0u);
+  EXPECT_LE(state.energy_drift, 1e-12);
+  EXPECT_LE(state.largest_momentum, 1e-11);
+  EXPECT_EQ(recorder.frames.size(), static_cast<std::size_t>(end / 0.5) + 1);
+  for (const Configuration2& frame : recorder.frames) EXPECT_GT(smallest_gap(frame), 0);
+}
+
+TEST(Run, ThesisSceneStaysHardAndConserves) {
+  expect_hard_and_conserving(thesis_scene(), 10);
+}
+
+TEST(Run, MixtureOfSizesAndShapesStaysHardAndConserves) {
+  expect_hard_and_conserving(mixture_scene(), 20);
+}
+
+TEST(Run, DisksStayHardAndConserve) {
+  Configuration2 c = square_lattice(10, 0.6, 0, [](std::size_t) { return Ellipse{1, 1}; });
+  set_initial_velocities(c, 3, InitialVelocities::maxwell, Temperature::total);
+  expect_hard_and_conserving(c, 10);
+}
+
+// Two long particles in a box little longer than one of them: pairs meet through several images and
+// every particle meets its own.
+TEST(Run, BoxOfOneParticleLengthStaysHard) {
+  Configuration2 c;
+  c.resize(2);
+  c.shape = {Ellipse{3, 0.2}, Ellipse{3, 0.2}};
+  c.box = PeriodicBox<2>(Vec2(6.05, 2.5));
+  c.position = {Vec2(0, -0.6), Vec2(1, 0.6)};
+  set_initial_velocities(c, 4, InitialVelocities::maxwell, Temperature::total);
+  expect_hard_and_conserving(c, 40);
+}
+
+TEST(Run, ALoneParticleMeetsItsOwnImages) {
+  Configuration2 c;
+  c.resize(1);
+  c.shape = {Ellipse{2, 0.5}};
+  c.box = PeriodicBox<2>(Vec2(5, 2));
+  c.velocity = {Vec2(0.1, 0.2)};
+  c.angular_velocity = {1.0};
+  RunState state = begin_run(c, 0);
+  run(state, {}, plan_until(50), {});
+  // Swings to and fro between the two angles at which it touches its image above.
+  EXPECT_GT(state.counters.collisions, 5u);
+  EXPECT_EQ(std::abs(state.configuration.angular_velocity[0]), 1);
+  EXPECT_LT(std::abs(state.configuration.angle[0]), 1);
+  EXPECT_EQ(state.configuration.velocity[0], Vec2(0.1, 0.2));
+  EXPECT_GT(smallest_gap(state.configuration), 0);
+}
+
+struct Interruption {
+  RunState state;
+  std::size_t frames;
+};
+
+// The state handed out at every block end continues to the same bits.
+void expect_continues_exactly(const DynamicsOptions& options) {
+  const double end = 60;
+  RunState state = begin_run(thesis_scene(), -2);
+  Recorder whole;
+  std::vector<Interruption> interruptions;
+  RunPlan plan = plan_until(end, &whole);
+  plan.at_block_end = [&](const RunState& s) { interruptions.push_back({s, whole.frames.size()}); };
+  run(state, options, plan, {});
+  ASSERT_GT(interruptions.size(), 3u);
+  for (const Interruption& at : interruptions) {
+    RunState resumed = at.state;
+    Recorder rest;
+    if (at.state.configuration.time < end) run(resumed, options, plan_until(end, &rest), {});
+    ASSERT_EQ(at.frames + rest.frames.size(), whole.frames.size());
+    EXPECT_EQ(resumed.configuration.position, state.configuration.position);
+    EXPECT_EQ(resumed.configuration.angle, state.configuration.angle);
+    EXPECT_EQ(resumed.counters.collisions, state.counters.collisions);
+    EXPECT_EQ(resumed.counters.predictions, state.counters.predictions);
+    EXPECT_EQ(resumed.counters.virial, state.counters.virial);
+    EXPECT_EQ(resumed.energy_drift, state.energy_drift);
+    for (std::size_t k = 0; k < rest.frames.size(); ++k)
+      EXPECT_EQ(rest.frames[k].position, whole.frames[at.frames + k].position);
+  }
+}
+
+TEST(Run, NewtonianContinuesBitByBit) {
+  expect_continues_exactly({});
+}
+
+TEST(Run, BrownianContinuesBitByBit) {
+  DynamicsOptions options;
+  options.brownian = true;
+  options.brownian_step = 0.1;
+  expect_continues_exactly(options);
+}
+
+TEST(Run, BudgetStopsAtABlockEndAndTheRunGoesOn) {
+  RunState state = begin_run(thesis_scene(), 0);
+  Budget budget;
+  budget.should_stop = [] { return true; };
+  const StageReport report = run(state, {}, plan_until(50), budget);
+  EXPECT_EQ(report.end, StageEnd::stopped);
+  EXPECT_LT(state.configuration.time, 50);
+  EXPECT_EQ(run(state, {}, plan_until(50), {}).end, StageEnd::reached);
+}
+
+Configuration2 scene_with_an_overlap() {
+  Configuration2 c = thesis_scene();
+  c.position[1] = c.position[0] + Vec2(0.9, 0.3);
+  return c;
+}
+
+TEST(Run, AnOverlapStopsAHardRun) {
+  RunState state = begin_run(scene_with_an_overlap(), 0);
+  EXPECT_THROW(run(state, {}, plan_until(1), {}), InvariantError);
+}
+
+TEST(Run, CorrectionMovesAreCountedAndResolveTheOverlap) {
+  RunState state = begin_run(scene_with_an_overlap(), 0);
+  DynamicsOptions options;
+  options.engine.on_overlap = OnOverlap::correct;
+  run(state, options, plan_until(20), {});
+  EXPECT_GE(state.counters.correction_moves, 1u);
+  EXPECT_LE(state.energy_drift, 1e-12);
+  EXPECT_GT(smallest_gap(state.configuration), 0);
+}
+
+TEST(Run, InelasticCollisionsDissipateWhatTheyCount) {
+  RunState state = begin_run(thesis_scene(), 0);
+  DynamicsOptions options;
+  options.engine.restitution = 0.9;
+  run(state, options, plan_until(5), {});
+  EXPECT_GT(state.counters.dissipated, 1);
+  EXPECT_LE(state.energy_drift, 1e-12);
+}
+
+TEST(Sampling, LinearTimesIncludeBothEnds) {
+  const std::vector<double> times = linear_times(0.1, 100);
+  ASSERT_EQ(times.size(), 1001u);
+  EXPECT_EQ(times.front(), 0);
+  EXPECT_NEAR(times.back(), 100, 1e-12);
+}
+
+TEST(Sampling, LogarithmicTimesStepByEqualFactors) {
+  const std::vector<double> times = logarithmic_times(0.01, 10, 100);
+  ASSERT_EQ(times.size(), 42u);
+  EXPECT_EQ(times[0], 0);
+  for (std::size_t k = 2; k < times.size(); ++k)
+    EXPECT_NEAR(times[k] / times[k - 1], std::pow(10, 0.1), 1e-12);
+  EXPECT_NEAR(times.back(), 100, 1e-12);
+}
+
+}  // namespace
+}  // namespace vitrel

@@ -1,0 +1,131 @@
+// The equation of state from event-driven runs: collision rate and collisional virial.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "edmd/run.h"
+#include "edmd/sampling.h"
+#include "tests/support/scenes.h"
+#include "tests/support/statistics.h"
+
+namespace vitrel {
+namespace {
+
+struct Rates {
+  Estimate collision_rate;   // per particle and time
+  Estimate compressibility;  // by the virial
+  double freedoms;
+  double temperature;
+};
+
+/// Runs `blocks` windows of `window` time units after `relaxation`; the windows are long against
+/// the collision time, so that their averages are independent.
+Rates measure(Configuration2 configuration, double relaxation, double window, int blocks) {
+  draw_velocities(configuration, 7, Purpose::velocities, 0, Temperature::relative);
+  RunState state = begin_run(configuration, -relaxation);
+  Recorder recorder;
+  RunPlan plan{linear_times(window, window * blocks), window * blocks, &recorder, {}};
+  run(state, {}, plan, {});
+  const double n = static_cast<double>(configuration.size());
+  std::vector<double> rates, factors;
+  for (int k = 0; k < blocks; ++k) {
+    const Tally& before = recorder.tallies[k];
+    const Tally& after = recorder.tallies[k + 1];
+    rates.push_back(2.0 * static_cast<double>(after.collisions - before.collisions) / n / window);
+    factors.push_back(compressibility(recorder.frames[k], after.virial - before.virial, window));
+  }
+  const double freedoms = 2 * n - 2 + static_cast<double>(rotor_count(configuration));
+  return {estimate(rates), estimate(factors), freedoms, kinetic_temperature(configuration)};
+}
+
+/// Mean |u| of one normalised velocity component at fixed energy over the canonical one: on the
+/// energy sphere of f degrees of freedom, √(f/2) Γ(f/2)/Γ((f + 1)/2).
+double microcanonical_speed(double f) {
+  return std::sqrt(0.5 * f) * std::exp(std::lgamma(0.5 * f) - std::lgamma(0.5 * f + 0.5));
+}
+
+// Γ = 4 (Z − 1)/σ √(kT/(π m)) per particle is exact at every density; Z of the infinite system:
+// Kolafa & Rottner, Mol. Phys. 104, 3435 (2006).
+double compressibility_from_rate(const Rates& rates, double rate) {
+  const double diameter = 2;
+  return 1 + rate * diameter / 4 * std::sqrt(std::numbers::pi / rates.temperature) /
+                 microcanonical_speed(rates.freedoms);
+}
+
+struct DiskCase {
+  int side;
+  double packing_fraction, compressibility;
+};
+
+class HardDisks : public testing::TestWithParam<DiskCase> {};
+
+// 3 standard errors, as the table's own error is far smaller: false alarm 0.3 % per case, seed
+// fixed.
+TEST_P(HardDisks, CompressibilityFromCollisionRateAndVirial) {
+  const DiskCase at = GetParam();
+  const Configuration2 start = square_lattice(at.side, at.packing_fraction, 0, [](std::size_t) {
+    return Ellipse{1, 1};
+  });
+  const Rates rates = measure(start, 40, 4, 30);
+  const double z = compressibility_from_rate(rates, rates.collision_rate.mean);
+  const double error = (z - 1) * rates.collision_rate.error / rates.collision_rate.mean;
+  RecordProperty("Z", std::to_string(z) + " +- " + std::to_string(error));
+  EXPECT_LT(error, 4e-3 * z);
+  EXPECT_NEAR(z, at.compressibility, 3 * error);
+  EXPECT_NEAR(rates.compressibility.mean, at.compressibility, 3 * rates.compressibility.error);
+}
+
+INSTANTIATE_TEST_SUITE_P(KolafaRottner, HardDisks,
+                         testing::Values(DiskCase{32, 0.3, 2.063261}, DiskCase{32, 0.5, 4.106364},
+                                         DiskCase{32, 0.65, 8.408044}, DiskCase{48, 0.3, 2.063261},
+                                         DiskCase{48, 0.5, 4.106364},
+                                         DiskCase{48, 0.65, 8.408044}));
+
+// Z(0.5) = 4.492(3) of κ = 2 by NVT Monte Carlo (oracle; another 0.1 % allowed).
+TEST(HardEllipses, CompressibilityFromTheVirial) {
+  const Configuration2 start =
+      square_lattice(20, 0.5, std::numbers::pi / 4, [](std::size_t) { return of_aspect_ratio(2); });
+  const Rates rates = measure(start, 60, 10, 30);
+  RecordProperty("Z", std::to_string(rates.compressibility.mean) + " +- " +
+                          std::to_string(rates.compressibility.error));
+  EXPECT_LT(rates.compressibility.error, 0.015);
+  EXPECT_NEAR(rates.compressibility.mean, 4.492,
+              3 * std::hypot(rates.compressibility.error, 0.003) + 0.001 * 4.492);
+}
+
+struct DiluteCase {
+  double aspect_ratio, rate_over_density;
+};
+
+class DiluteEllipses : public testing::TestWithParam<DiluteCase> {};
+
+// The collision rate per particle and density tends to ν₀ as ρ → 0 (oracle: two quadratures). The
+// rate at two densities, extrapolated linearly: 2 Γ(ρ)/ρ − Γ(2ρ)/(2ρ).
+TEST_P(DiluteEllipses, CollisionRateTendsToTheKineticOne) {
+  const DiluteCase at = GetParam();
+  const auto rate_over_density = [&](double packing_fraction) {
+    const Configuration2 start = square_lattice(
+        16, packing_fraction, 0.3, [&](std::size_t) { return of_aspect_ratio(at.aspect_ratio); });
+    const Rates rates = measure(start, 100, 1000, 40);
+    const double density = packing_fraction / std::numbers::pi;
+    const double scale =
+        density * microcanonical_speed(rates.freedoms) * std::sqrt(rates.temperature);
+    return Estimate{rates.collision_rate.mean / scale, rates.collision_rate.error / scale};
+  };
+  const Estimate thin = rate_over_density(0.005);
+  const Estimate twice = rate_over_density(0.01);
+  const double limit = 2 * thin.mean - twice.mean;
+  const double error = std::hypot(2 * thin.error, twice.error);
+  RecordProperty("nu0", std::to_string(limit) + " +- " + std::to_string(error));
+  EXPECT_LT(error, 0.01 * at.rate_over_density);
+  EXPECT_NEAR(limit, at.rate_over_density, 3 * error);
+}
+
+INSTANTIATE_TEST_SUITE_P(KineticTheory, DiluteEllipses,
+                         testing::Values(DiluteCase{2, 9.09600672}, DiluteCase{6, 16.93629264}));
+
+}  // namespace
+}  // namespace vitrel
