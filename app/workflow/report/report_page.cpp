@@ -109,8 +109,18 @@ std::vector<const ReportRun*> ordered(const std::vector<ReportRun>& runs) {
   return order;
 }
 
+/// With two decimals if that is exact, else four: 0.50, 0.7125.
 std::string density(const ReportRun& run) {
-  return fmt::format("{:.4g}", run.packing_fraction);
+  const double phi = run.packing_fraction;
+  const bool two_suffice = std::abs(phi * 100 - std::round(phi * 100)) < 1e-6;
+  return fmt::format("{:.{}f}", phi, two_suffice ? 2 : 4);
+}
+
+/// 1234567 with thin spaces between groups of three digits.
+std::string grouped(std::uint64_t number) {
+  std::string digits = std::to_string(number);
+  for (std::size_t at = digits.size(); at > 3;) digits.insert(at -= 3, "\u202f");
+  return digits;
 }
 
 /// "φ = 0.5", with the name of the run where another one has the same density.
