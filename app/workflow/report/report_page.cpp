@@ -187,13 +187,12 @@ std::string mean_cell(const ReportRun& run, const std::vector<double>& series) {
 }
 
 std::string table_row(const ReportRun& run) {
-  return "<tr><th scope=\"row\">" + density(run) + "</th>" + cell(escaped(run.name)) +
-         cell(grouped(run.particles)) + cell(fmt::format("{:.6g}", run.duration)) +
-         cell(grouped(run.collisions)) +
+  return "<tr><th scope=\"row\">" + density(run) + "</th>" +
          cell(with_error(run.compressibility.mean, run.compressibility.error)) +
          diffusion_cell(run, false) + diffusion_cell(run, true) +
          mean_cell(run, run.energy.translational) + mean_cell(run, run.energy.rotational) +
-         "</tr>\n";
+         cell(grouped(run.collisions)) + cell(fmt::format("{:.6g}", run.duration)) +
+         cell(grouped(run.particles)) + cell(escaped(run.name)) + "</tr>\n";
 }
 
 std::string provenance_list(const ReportData& data) {

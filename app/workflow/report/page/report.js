@@ -30,6 +30,14 @@ function shortNumber(value, digits = 3) {
   return String(Number(value.toPrecision(digits)));
 }
 
+/** The error with two digits, the value with as many decimals. */
+function withError(value, error) {
+  if (!(error > 0)) return shortNumber(value, 4);
+  const decimals = Math.max(0, 1 - Math.floor(Math.log10(error)));
+  if (decimals > 7) return `${shortNumber(value, 4)} ± ${shortNumber(error, 2)}`;
+  return `${value.toFixed(decimals)} ± ${error.toFixed(decimals)}`;
+}
+
 const powerOfTen = (value) => Math.abs(Math.log10(value) - Math.round(Math.log10(value))) < 1e-9;
 
 // uPlot's own labels print "0" for values under 1e-3.
@@ -230,7 +238,7 @@ function readOut(chart) {
   if (value === null || value === undefined) return chart.readout.textContent = '';
   const error = chart.data.errors[k]?.[i];
   chart.readout.textContent = `${chart.curves[k].label}:  t = ${shortNumber(chart.data.times[i], 4)},  ` +
-    `${chart.symbol} = ${shortNumber(value, 4)}` + (error > 0 ? ` ± ${shortNumber(error, 2)}` : '');
+    `${chart.symbol} = ${withError(value, error)} ${chart.yUnit}`;
 }
 
 /**
@@ -397,6 +405,8 @@ function prepareCanvas(canvas, width, height) {
   return canvas.getContext('2d');
 }
 
+const outlineColour = () => darkMode.matches ? 'rgb(255 255 255 / 40%)' : 'rgb(20 25 30 / 55%)';
+
 function drawEllipse(ctx, x, y, angle, a, b) {
   ctx.beginPath();
   ctx.ellipse(x, y, a, b, -angle, 0, 2 * Math.PI);
@@ -415,7 +425,7 @@ function drawState(run) {
   const width = canvas.clientWidth - 2, height = Math.round(width * boxY / boxX);
   const ctx = prepareCanvas(canvas, width, height);
   const scale = width * devicePixelRatio / boxX;
-  ctx.strokeStyle = darkMode.matches ? 'rgb(0 0 0 / 55%)' : 'rgb(20 25 30 / 55%)';
+  ctx.strokeStyle = outlineColour();
   const { particles } = state;
   for (let i = 0; i < particles.length; i += 5) {
     const [x, y, angle, a, b] = particles.slice(i, i + 5);
@@ -436,7 +446,7 @@ function drawOrientationKey() {
   const canvas = byId('orientation-key');
   const ctx = prepareCanvas(canvas, 260, 44);
   ctx.scale(devicePixelRatio, devicePixelRatio);
-  ctx.strokeStyle = 'rgb(20 25 30 / 55%)';
+  ctx.strokeStyle = outlineColour();
   const text = cssColour('--quiet');
   for (let k = 0; k <= 8; ++k) {
     const x = 18 + 28 * k;
