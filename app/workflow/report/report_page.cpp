@@ -190,7 +190,8 @@ std::string table_row(const ReportRun& run) {
   return "<tr><th scope=\"row\">" + density(run) + "</th>" +
          cell(with_error(run.compressibility.mean, run.compressibility.error)) +
          diffusion_cell(run, false) + diffusion_cell(run, true) +
-         mean_cell(run, run.energy.translational) + mean_cell(run, run.energy.rotational) +
+         mean_cell(run, run.energy.translational) +
+         (run.rotors > 0 ? mean_cell(run, run.energy.rotational) : cell("–")) +
          cell(grouped(run.collisions)) + cell(fmt::format("{:.6g}", run.duration)) +
          cell(grouped(run.particles)) + cell(escaped(run.name)) + "</tr>\n";
 }

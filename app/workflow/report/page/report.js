@@ -341,6 +341,7 @@ function motionChart(id, key, description) {
 
 function densityLegend(charts) {
   const host = byId('density-legend');
+  host.hidden = runs.length < 2;
   const off = new Set();
   const fill = () => host.replaceChildren(...runs.map((run, k) => {
     const button = element('button', { type: 'button', 'aria-pressed': String(!off.has(k)) });
@@ -362,10 +363,9 @@ function densityLegend(charts) {
 
 function energyCurves(run) {
   const { time, translational, rotational, total } = run.energy;
-  const curves = [{ label: 'translational', time, value: translational }];
-  if (run.rotors) curves.push({ label: 'rotational', time, value: rotational });
-  curves.push({ label: 'total', time, value: total });
-  return curves;
+  if (!run.rotors) return [{ label: 'translational (total)', time, value: translational }];
+  return [{ label: 'translational', time, value: translational }, { label: 'rotational', time, value: rotational },
+          { label: 'total', time, value: total }];
 }
 
 function energyLegend(curves, colours) {
@@ -390,7 +390,7 @@ function energyChart(run) {
     return null;
   }
   const curves = energyCurves(run);
-  const colours = (k) => energyColours()[curves.length === 2 && k === 1 ? 2 : k];
+  const colours = (k) => energyColours()[k];
   const highest = Math.max(...curves.flatMap((curve) => curve.value), 1);
   const thinned = run.energy.stride > 1 ? `, one sample in ${run.energy.stride}` : '';
   return new Chart(host, { heading: 'Energy per particle' + thinned, symbol: 'E/N', yUnit: 'kT', xUnit: timeUnit,
@@ -420,6 +420,7 @@ function drawState(run) {
   const canvas = byId('state');
   const { state } = run;
   canvas.hidden = !state;
+  byId('orientation-key').parentElement.hidden = !run.rotors;
   if (!state) return byId('state-note').textContent = 'The run holds no frame.';
   const [boxX, boxY] = state.window;
   const width = canvas.clientWidth - 2, height = Math.round(width * boxY / boxX);
@@ -461,6 +462,7 @@ function drawOrientationKey() {
 }
 
 function runPicker(choose) {
+  byId('run-picker').hidden = runs.length < 2;
   runs.forEach((run, k) => {
     const label = element('label');
     const input = element('input', { type: 'radio', name: 'run', value: k });
