@@ -69,11 +69,11 @@ TEST_P(HardDisks, CompressibilityFromCollisionRateAndVirial) {
   const Configuration2 start = square_lattice(at.side, at.packing_fraction, 0, [](std::size_t) {
     return Ellipse{1, 1};
   });
-  const Rates rates = measure(start, 40, 4, 30);
+  const Rates rates = measure(start, 40, 10, 40);
   const double z = compressibility_from_rate(rates, rates.collision_rate.mean);
   const double error = (z - 1) * rates.collision_rate.error / rates.collision_rate.mean;
   RecordProperty("Z", std::to_string(z) + " +- " + std::to_string(error));
-  EXPECT_LT(error, 4e-3 * z);
+  EXPECT_LT(error, 2e-3 * z);
   EXPECT_NEAR(z, at.compressibility, 3 * error);
   EXPECT_NEAR(rates.compressibility.mean, at.compressibility, 3 * rates.compressibility.error);
 }
