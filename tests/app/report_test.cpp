@@ -36,6 +36,7 @@ Configuration2 state(std::size_t n) {
 ReportRun run(double packing_fraction) {
   ReportRun run;
   run.name = "run <1>";
+  run.dynamics = "Brownian, step 0.1";
   run.packing_fraction = packing_fraction;
   run.particles = 11;
   run.rotors = 10;
@@ -127,6 +128,7 @@ TEST(ReportPage, CarriesTheCurvesAndThePicture) {
   ASSERT_EQ(runs.size(), 2u);
   const nlohmann::json& first = runs[0];
   EXPECT_EQ(first["label"], "φ = 0.50");
+  EXPECT_EQ(first["dynamics"], "Brownian, step 0.1");
   // 500 lags over 2.7 decades at 30 a decade: the first ones all, then thinned.
   const nlohmann::json& msd = first["msd"];
   EXPECT_EQ(msd["time"][0], 0.025);

@@ -135,6 +135,7 @@ json run_data(const ReportRun& run, const std::vector<ReportRun>& runs) {
   const DisplacementGroup* all = all_particles(run);
   const std::vector<double>& lag = run.displacements.lag;
   return {{"label", label(run, runs)},
+          {"dynamics", run.dynamics},
           {"particles", run.particles},
           {"rotors", run.rotors},
           {"msd", all ? curve(lag, all->translation) : json(nullptr)},

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,7 +22,7 @@ struct ReportRun {
   double duration = 0;
   std::uint64_t collisions = 0;
   Estimate compressibility{};
-  Displacements displacements;  ///< the group "all" is shown
+  Displacements displacements;  ///< the first group, all particles, is shown
   EnergySeries energy;
   Configuration2 final_state;
 };

@@ -438,7 +438,8 @@ function drawState(run) {
     }
   }
   canvas.setAttribute('aria-label', `Final state at ${run.label}: ${particles.length / 5} particles in a periodic box`);
-  byId('state-note').textContent = `t = ${shortNumber(state.time, 5)}; ` + (state.periodic
+  const dynamics = run.dynamics ? run.dynamics + '; ' : '';
+  byId('state-note').textContent = `${dynamics}t = ${shortNumber(state.time, 5)}; ` + (state.periodic
     ? `N = ${run.particles} in a periodic box of ${shortNumber(boxX, 4)} × ${shortNumber(boxY, 4)}.`
     : `the central ${shortNumber(boxX, 4)} × ${shortNumber(boxY, 4)} of the box, ${particles.length / 5} of N = ${run.particles} particles.`);
 }

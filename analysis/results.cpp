@@ -1,0 +1,153 @@
+#include "analysis/results.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include "core/error.h"
+#include "core/io/h5.h"
+#include "core/io/pending_file.h"
+
+namespace vitrel {
+
+namespace {
+
+constexpr const char* error_suffix = "_error";
+
+std::string csv_header(const Table& table) {
+  std::string line;
+  for (const Column& column : table.columns) {
+    if (!line.empty()) line += ',';
+    line += fmt::format("{} [{}]", column.name, column.unit);
+    if (!column.error.empty())
+      line += fmt::format(",{}{} [{}]", column.name, error_suffix, column.unit);
+  }
+  return line;
+}
+
+std::string csv_row(const Table& table, std::size_t row) {
+  std::string line;
+  for (const Column& column : table.columns) {
+    if (!line.empty()) line += ',';
+    line += fmt::format("{:.17g}", column.value.at(row));
+    if (!column.error.empty()) line += fmt::format(",{:.17g}", column.error.at(row));
+  }
+  return line;
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  return fmt::format("{}", fmt::join(names, ","));
+}
+
+std::vector<std::string> split(const std::string& names) {
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0; begin < names.size();) {
+    const std::size_t end = std::min(names.find(',', begin), names.size());
+    parts.push_back(names.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return parts;
+}
+
+void write_numbers(h5::Group& group, const std::string& name, const std::string& unit,
+                   const std::vector<double>& values) {
+  group.create_array<double>(name, {values.size()}, values).set_attribute("unit", unit);
+}
+
+// HDF5 lists members alphabetically; their own order is kept as a text attribute, names joined by
+// commas.
+void write_table(h5::Group& root, const Table& table) {
+  h5::Group group = root.create_group(table.name);
+  std::vector<std::string> names;
+  for (const Column& column : table.columns) {
+    names.push_back(column.name);
+    write_numbers(group, column.name, column.unit, column.value);
+    if (!column.error.empty())
+      write_numbers(group, column.name + error_suffix, column.unit, column.error);
+  }
+  group.set_attribute("description", table.description);
+  group.set_attribute("columns", joined(names));
+}
+
+Table read_table(const h5::Group& root, const std::string& name) {
+  const h5::Group group = root.group(name);
+  Table table{name, group.text_attribute("description"), {}};
+  for (const std::string& column : split(group.text_attribute("columns"))) {
+    const h5::Dataset values = group.dataset(column);
+    table.columns.push_back({column, values.text_attribute("unit"), values.read<double>(), {}});
+    if (group.has_dataset(column + error_suffix))
+      table.columns.back().error = group.dataset(column + error_suffix).read<double>();
+  }
+  return table;
+}
+
+void write_provenance(h5::Group& root, const Results& results) {
+  h5::Group group = root.create_group("provenance");
+  std::vector<std::string> names;
+  for (const auto& [name, text] : results.provenance) {
+    names.push_back(name);
+    group.create_text(name, text);
+  }
+  group.set_attribute("entries", joined(names));
+}
+
+}  // namespace
+
+const Column* Table::find(const std::string& column) const {
+  const auto found = std::find_if(columns.begin(), columns.end(), [&](const Column& candidate) {
+    return candidate.name == column;
+  });
+  return found == columns.end() ? nullptr : &*found;
+}
+
+const Table* Results::find(const std::string& table) const {
+  const auto found = std::find_if(tables.begin(), tables.end(),
+                                  [&](const Table& candidate) { return candidate.name == table; });
+  return found == tables.end() ? nullptr : &*found;
+}
+
+void write_csv(const std::filesystem::path& path, const Table& table) {
+  PendingFile pending(path);
+  std::ofstream out(pending.partial(), std::ios::binary);
+  out << csv_header(table) << '\n';
+  for (std::size_t row = 0; row < table.rows(); ++row) out << csv_row(table, row) << '\n';
+  out.close();
+  if (!out)
+    throw FileError(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(errno)));
+  pending.commit();
+}
+
+void write_results(const std::filesystem::path& path, const Results& results) {
+  PendingFile pending(path);
+  h5::File file = h5::File::create(pending.partial());
+  h5::Group root = file.root();
+  std::vector<std::string> names;
+  for (const Table& table : results.tables) {
+    names.push_back(table.name);
+    write_table(root, table);
+  }
+  root.set_attribute("tables", joined(names));
+  write_provenance(root, results);
+  file.close();
+  pending.commit();
+}
+
+Results read_results(const std::filesystem::path& path) {
+  const h5::File file = h5::File::open(path, h5::Access::read);
+  const h5::Group root = file.root();
+  if (!root.has_attribute("tables"))
+    throw FileError(fmt::format(
+        "{}: holds no results; a file written by `vitrel analyze` is needed", path.string()));
+  Results results;
+  for (const std::string& name : split(root.text_attribute("tables")))
+    results.tables.push_back(read_table(root, name));
+  const h5::Group provenance = root.group("provenance");
+  for (const std::string& name : split(provenance.text_attribute("entries")))
+    results.provenance.emplace_back(name, provenance.dataset(name).read_text());
+  return results;
+}
+
+}  // namespace vitrel

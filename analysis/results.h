@@ -1,0 +1,53 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// Tables of results, and the two forms they are written in.
+namespace vitrel {
+
+/// One quantity, one value per row of its table.
+struct Column {
+  std::string name;  ///< letters, digits and underscores
+  std::string unit;  ///< "1" for pure numbers
+  std::vector<double> value;
+  std::vector<double> error;  ///< standard errors, NaN where unknown; empty: the column has none
+};
+
+struct Table {
+  std::string name;         ///< letters, digits and underscores
+  std::string description;  ///< one sentence: what the rows are, and every convention
+  std::vector<Column> columns;
+
+  std::size_t rows() const { return columns.empty() ? 0 : columns.front().value.size(); }
+  /// The column of that name; null if there is none.
+  const Column* find(const std::string& column) const;
+};
+
+struct Results {
+  std::vector<Table> tables;
+  /// Where they come from: name (letters, digits and underscores) and text, in this order.
+  std::vector<std::pair<std::string, std::string>> provenance;
+
+  /// The table of that name; null if there is none.
+  const Table* find(const std::string& table) const;
+};
+
+/// CSV: one line per row with 17 significant digits (`nan` for an unknown number), after one header
+/// line of `name [unit]`; the column after one with errors is `name_error [unit]`. Written to a
+/// temporary file beside `path` and renamed, so that readers never see half a table. Throws
+/// FileError.
+void write_csv(const std::filesystem::path& path, const Table& table);
+
+/// HDF5: a group per table with attribute `description`; in it an f64 dataset per column, with the
+/// attribute `unit`, and `<name>_error` beside it; the texts of the provenance in a group of
+/// that name. The order is kept in the attributes `tables`, `columns` and `entries`. Atomic like
+/// write_csv. Throws FileError.
+void write_results(const std::filesystem::path& path, const Results& results);
+
+/// Reads what write_results wrote. Throws FileError.
+Results read_results(const std::filesystem::path& path);
+
+}  // namespace vitrel

@@ -1,0 +1,104 @@
+#include "analysis/results.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#include "core/error.h"
+
+namespace vitrel {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+class ResultsTest : public testing::Test {
+ protected:
+  ResultsTest() { std::filesystem::create_directories(folder_); }
+  ~ResultsTest() override { std::filesystem::remove_all(folder_); }
+
+  std::filesystem::path folder_ =
+      std::filesystem::path(testing::TempDir()) /
+      ("vitrel_results_" +
+       std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+};
+
+Table displacement_table() {
+  return {"msd",
+          "Mean squared displacement; rows are time differences.",
+          {{"time", "sqrt(m ab/kT)", {0.1, 1.0 / 3}, {}},
+           {"all", "ab", {2, 1e-300}, {0.25, none}},
+           {"A", "ab", {4, 8}, {}}}};
+}
+
+std::string text_of(const std::filesystem::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+TEST_F(ResultsTest, CsvHasNamesUnitsAndErrorsInTheHeaderAndAllDigits) {
+  write_csv(folder_ / "msd.csv", displacement_table());
+  EXPECT_EQ(text_of(folder_ / "msd.csv"),
+            "time [sqrt(m ab/kT)],all [ab],all_error [ab],A [ab]\n"
+            "0.10000000000000001,2,0.25,4\n"
+            "0.33333333333333331,1e-300,nan,8\n");
+}
+
+TEST_F(ResultsTest, Hdf5RoundTripKeepsEverythingBitByBit) {
+  Results written;
+  written.tables = {displacement_table(), {"energy", "Per particle.", {{"time", "1", {}, {}}}}};
+  written.provenance = {{"version", "0.1.0"}, {"parameters", "[system]\nseed = 7\n"}, {"a", ""}};
+  write_results(folder_ / "results.h5", written);
+  const Results read = read_results(folder_ / "results.h5");
+
+  EXPECT_EQ(read.provenance, written.provenance);
+  ASSERT_EQ(read.tables.size(), 2u);
+  ASSERT_NE(read.find("energy"), nullptr);
+  EXPECT_EQ(read.find("energy")->rows(), 0u);
+  const Table& table = read.tables[0];
+  EXPECT_EQ(table.name, "msd");
+  EXPECT_EQ(table.description, written.tables[0].description);
+  ASSERT_EQ(table.columns.size(), 3u);
+  EXPECT_EQ(table.columns[0].name, "time");
+  EXPECT_EQ(table.columns[0].unit, "sqrt(m ab/kT)");
+  EXPECT_EQ(table.columns[0].value, written.tables[0].columns[0].value);
+  ASSERT_NE(table.find("all"), nullptr);
+  EXPECT_EQ(table.find("all")->error[0], 0.25);
+  EXPECT_TRUE(std::isnan(table.find("all")->error[1]));
+  EXPECT_TRUE(table.find("A")->error.empty());
+  EXPECT_EQ(table.find("B"), nullptr);
+}
+
+TEST_F(ResultsTest, WritingReplacesTheOldFileAndLeavesNoOther) {
+  for (int time = 0; time < 2; ++time) {
+    write_csv(folder_ / "table.csv", displacement_table());
+    write_results(folder_ / "results.h5", {{displacement_table()}, {}});
+  }
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_)) files += entry.exists();
+  EXPECT_EQ(files, 2u);
+}
+
+TEST_F(ResultsTest, FailuresNameTheFile) {
+  const std::filesystem::path nowhere = folder_ / "missing" / "table";
+  for (const bool csv : {true, false}) {
+    try {
+      if (csv)
+        write_csv(nowhere, displacement_table());
+      else
+        write_results(nowhere, {{displacement_table()}, {}});
+      ADD_FAILURE() << "a file in a missing folder was written";
+    } catch (const FileError& error) {
+      EXPECT_NE(std::string(error.what()).find(nowhere.string()), std::string::npos)
+          << error.what();
+    }
+  }
+  std::ofstream(folder_ / "text.h5") << "not an HDF5 file";
+  EXPECT_THROW(read_results(folder_ / "text.h5"), FileError);
+}
+
+}  // namespace
+}  // namespace vitrel
