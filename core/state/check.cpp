@@ -26,25 +26,26 @@ struct Particle {
   EllipseAxes<Real> axes;
 };
 
-/// Farther away, shift ∘ L would no longer be exact in 64 bits (53 of them belong to L).
-constexpr double most_boxes_away = 1000;
+/// Limit of positions and semi-axes in box lengths. Shifts then stay below 2¹¹, so that shift ∘ L
+/// is exact in 64 bits, 53 of which belong to L.
+constexpr double most_boxes = 300;
 
 void validate(const Configuration2& configuration) {
   const auto& lengths = configuration.box.lengths();
   if (!(lengths.allFinite() && lengths.minCoeff() > 0))
     throw InvariantError("exact check: the box lengths must be finite and positive");
+  const std::string within = std::to_string(static_cast<int>(most_boxes)) + " box lengths";
   for (std::size_t i = 0; i < configuration.size(); ++i) {
     const Ellipse& shape = configuration.shape[i];
-    const Vec2 boxes = configuration.position[i].cwiseQuotient(lengths);
+    const Vec2& position = configuration.position[i];
     const std::string who = "exact check: particle " + std::to_string(i);
-    if (!(boxes.cwiseAbs().maxCoeff() <= most_boxes_away) || !boxes.allFinite())
-      throw InvariantError(who + ": its position must be finite and within " +
-                           std::to_string(static_cast<int>(most_boxes_away)) +
-                           " boxes of the origin");
+    if (!position.allFinite() || (position.cwiseAbs().array() > most_boxes * lengths.array()).any())
+      throw InvariantError(who + ": its position must be finite and within " + within +
+                           " of the origin");
     if (!std::isfinite(configuration.angle[i]))
       throw InvariantError(who + ": its angle must be finite");
-    if (!(shape.b > 0 && shape.a >= shape.b && std::isfinite(shape.a)))
-      throw InvariantError(who + ": its semi-axes must be finite with a ≥ b > 0");
+    if (!(shape.b > 0 && shape.a >= shape.b && shape.a <= most_boxes * lengths.minCoeff()))
+      throw InvariantError(who + ": its semi-axes must obey b > 0 and b ≤ a ≤ " + within);
   }
 }
 

@@ -46,8 +46,8 @@ struct ExactCheck {
   bool clean() const { return overlaps.empty(); }
 };
 
-/// Throws InvariantError if a number is not finite, a semi-axis is not positive, b > a, or a
-/// particle lies more than 1000 boxes away from the origin (positions are stored wrapped).
+/// Throws InvariantError if a number is not finite, if not 0 < b ≤ a, or if a position or semi-axis
+/// exceeds 300 box lengths (positions are stored wrapped).
 ExactCheck exact_check(const Configuration2& configuration, std::size_t brute_force_limit = 10'000);
 
 }  // namespace vitrel
