@@ -1,0 +1,170 @@
+#include "core/io/checkpoint.h"
+
+#include <cstring>
+#include <vector>
+
+#include "core/error.h"
+#include "core/io/h5.h"
+#include "core/io/pending_file.h"
+
+namespace vitrel {
+namespace fs = std::filesystem;
+namespace {
+
+/// Raised whenever the layout changes; a checkpoint serves to continue a run, not to keep data.
+constexpr std::int32_t layout = 1;
+
+fs::path previous_of(const fs::path& path) {
+  fs::path previous = path;
+  return previous += ".previous";
+}
+
+std::vector<std::uint8_t> bytes(const std::string& text) {
+  return {text.begin(), text.end()};
+}
+
+void write_text(h5::Group& group, const std::string& name, const std::string& text) {
+  group.create_array<std::uint8_t>(name, {text.size()}, bytes(text));
+}
+
+std::string read_text(const h5::Group& group, const std::string& name) {
+  const auto stored = group.dataset(name).read<std::uint8_t>();
+  return {stored.begin(), stored.end()};
+}
+
+/// Names as one text, each ended by a zero byte.
+template <class Names>
+std::string joined(const Names& names) {
+  std::string text;
+  for (const std::string& name : names) text += name + '\0';
+  return text;
+}
+
+std::vector<std::string> split(const std::string& text) {
+  std::vector<std::string> names;
+  for (std::size_t begin = 0; begin < text.size(); begin += names.back().size() + 1)
+    names.emplace_back(text.c_str() + begin);
+  return names;
+}
+
+template <class T>
+void write_map(h5::Group& root, const std::string& name, const std::map<std::string, T>& map) {
+  std::vector<std::string> names;
+  std::vector<T> values;
+  for (const auto& [key, value] : map) names.push_back(key), values.push_back(value);
+  h5::Group group = root.create_group(name);
+  write_text(group, "names", joined(names));
+  group.create_array<T>("values", {values.size()}, values);
+}
+
+template <class T>
+std::map<std::string, T> read_map(const h5::Group& root, const std::string& name) {
+  const h5::Group group = root.group(name);
+  const std::vector<std::string> names = split(read_text(group, "names"));
+  const std::vector<T> values = group.dataset("values").read<T>();
+  std::map<std::string, T> map;
+  for (std::size_t k = 0; k < names.size(); ++k) map[names[k]] = values.at(k);
+  return map;
+}
+
+/// An array of small structures of numbers, as a table with one row per particle.
+template <class T, class Item>
+void write_rows(h5::Group& group, const std::string& name, const std::vector<Item>& items) {
+  constexpr std::size_t columns = sizeof(Item) / sizeof(T);
+  std::vector<T> values(items.size() * columns);
+  if (!items.empty()) std::memcpy(values.data(), items.data(), items.size() * sizeof(Item));
+  group.create_array<T>(name, {items.size(), columns}, values);
+}
+
+template <class T, class Item>
+void read_rows(const h5::Group& group, const std::string& name, std::vector<Item>& items) {
+  const std::vector<T> values = group.dataset(name).read<T>();
+  items.resize(values.size() * sizeof(T) / sizeof(Item));
+  if (!items.empty())
+    std::memcpy(static_cast<void*>(items.data()), values.data(), items.size() * sizeof(Item));
+}
+
+void write_configuration(h5::Group group, const Configuration2& configuration) {
+  const Vec2& lengths = configuration.box.lengths();
+  group.create_array<double>("box", {2}, {lengths.data(), 2});
+  group.create_array<double>("time", {}, {&configuration.time, 1});
+  write_rows<double>(group, "position", configuration.position);
+  write_rows<std::int32_t>(group, "image", configuration.image);
+  write_rows<double>(group, "angle", configuration.angle);
+  write_rows<double>(group, "velocity", configuration.velocity);
+  write_rows<double>(group, "angular_velocity", configuration.angular_velocity);
+  write_rows<double>(group, "semiaxes", configuration.shape);
+  write_rows<double>(group, "mass", configuration.mass);
+  write_rows<std::int32_t>(group, "species", configuration.species);
+  write_text(group, "species_names", joined(configuration.species_names));
+}
+
+Configuration2 read_configuration(const h5::Group& group) {
+  Configuration2 configuration;
+  const std::vector<double> lengths = group.dataset("box").read<double>();
+  configuration.box = PeriodicBox<2>(Vec2(lengths.at(0), lengths.at(1)));
+  configuration.time = group.dataset("time").read<double>().at(0);
+  read_rows<double>(group, "position", configuration.position);
+  read_rows<std::int32_t>(group, "image", configuration.image);
+  read_rows<double>(group, "angle", configuration.angle);
+  read_rows<double>(group, "velocity", configuration.velocity);
+  read_rows<double>(group, "angular_velocity", configuration.angular_velocity);
+  read_rows<double>(group, "semiaxes", configuration.shape);
+  read_rows<double>(group, "mass", configuration.mass);
+  read_rows<std::int32_t>(group, "species", configuration.species);
+  configuration.species_names = split(read_text(group, "species_names"));
+  return configuration;
+}
+
+Checkpoint read_checkpoint(const fs::path& path) {
+  const h5::File file = h5::File::open(path, h5::Access::read);
+  const h5::Group root = file.root();
+  if (!root.has_attribute("checkpoint_layout"))
+    throw FileError(path.string() + ": is not a checkpoint of vitrel");
+  if (root.number_attribute<std::int32_t>("checkpoint_layout") != layout)
+    throw FileError(path.string() +
+                    ": was written by another version of vitrel: finish the run with "
+                    "that version, or start it again");
+  return {read_configuration(root.group("configuration")), read_map<double>(root, "reals"),
+          read_map<std::uint64_t>(root, "counters"), read_text(root, "parameters")};
+}
+
+}  // namespace
+
+void save_checkpoint(const fs::path& path, const Checkpoint& checkpoint) {
+  PendingFile pending(path);
+  h5::File file = h5::File::create(pending.partial());
+  {
+    h5::Group root = file.root();
+    root.set_attribute("checkpoint_layout", layout);
+    write_configuration(root.create_group("configuration"), checkpoint.configuration);
+    write_map(root, "reals", checkpoint.reals);
+    write_map(root, "counters", checkpoint.counters);
+    write_text(root, "parameters", checkpoint.parameters);
+  }
+  file.close();
+  pending.commit(previous_of(path));
+}
+
+LoadedCheckpoint load_checkpoint(const fs::path& path) {
+  std::string reason;
+  try {
+    return {read_checkpoint(path), ""};
+  } catch (const FileError& error) {
+    reason = error.what();
+  }
+  const fs::path previous = previous_of(path);
+  if (!fs::exists(previous))
+    throw FileError(reason + " (and there is no earlier checkpoint " + previous.string() + ")");
+  try {
+    return {read_checkpoint(previous), reason + "; taking the one before it, " + previous.string()};
+  } catch (const FileError& error) {
+    throw FileError(reason + "; the one before it is unreadable too: " + error.what());
+  }
+}
+
+bool checkpoint_exists(const fs::path& path) {
+  return fs::exists(path) || fs::exists(previous_of(path));
+}
+
+}  // namespace vitrel

@@ -1,0 +1,629 @@
+#include "core/io/h5.h"
+
+#include <fcntl.h>
+#include <hdf5.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <functional>
+#include <numeric>
+#include <string_view>
+#include <system_error>
+
+#include "core/error.h"
+
+namespace vitrel::h5 {
+namespace {
+
+static_assert(std::is_same_v<Id, hid_t>);
+
+constexpr hsize_t entries_per_chunk = 128;
+
+/// HDF5 keeps one error handler per thread.
+void silence_hdf5() {
+  thread_local const herr_t silenced = H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  static_cast<void>(silenced);
+}
+
+template <class T>
+Id native_type();
+template <>
+Id native_type<double>() {
+  return H5T_NATIVE_DOUBLE;
+}
+template <>
+Id native_type<std::int32_t>() {
+  return H5T_NATIVE_INT32;
+}
+template <>
+Id native_type<std::int64_t>() {
+  return H5T_NATIVE_INT64;
+}
+template <>
+Id native_type<std::uint64_t>() {
+  return H5T_NATIVE_UINT64;
+}
+template <>
+Id native_type<std::uint8_t>() {
+  return H5T_NATIVE_UINT8;
+}
+
+template <class T>
+Id stored_type();
+template <>
+Id stored_type<double>() {
+  return H5T_IEEE_F64LE;
+}
+template <>
+Id stored_type<std::int32_t>() {
+  return H5T_STD_I32LE;
+}
+template <>
+Id stored_type<std::int64_t>() {
+  return H5T_STD_I64LE;
+}
+template <>
+Id stored_type<std::uint64_t>() {
+  return H5T_STD_U64LE;
+}
+template <>
+Id stored_type<std::uint8_t>() {
+  return H5T_STD_U8LE;
+}
+
+std::uint64_t elements(const Shape& shape) {
+  return std::accumulate(shape.begin(), shape.end(), std::uint64_t{1}, std::multiplies<>());
+}
+
+/// What HDF5 noted where the error arose, the innermost entry of its error stack.
+std::string innermost_note() {
+  std::string note;
+  const auto keep_first = [](unsigned depth, const H5E_error2_t* error, void* out) -> herr_t {
+    if (depth == 0 && error->desc) *static_cast<std::string*>(out) = error->desc;
+    return 0;
+  };
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_first, &note);
+  return note;
+}
+
+std::string between(const std::string& text, const std::string& before, const std::string& after) {
+  const auto start = text.find(before);
+  if (start == std::string::npos) return {};
+  const auto begin = start + before.size();
+  return text.substr(begin, text.find(after, begin) - begin);
+}
+
+/// Turns HDF5's note into words for a person, with what to do about it.
+std::string explained(const std::string& note) {
+  const std::string system_error = between(note, "error message = '", "'");
+  if (note.find("unable to lock file") != std::string::npos)
+    return "another program has it open for writing (" + system_error +
+           "); if none has, the file system may lack locks: set HDF5_USE_FILE_LOCKING=FALSE";
+  if (!system_error.empty()) return system_error;
+  if (note.find("truncated file") != std::string::npos)
+    return "the file is truncated: its end is missing, restore it from a copy";
+  if (note.find("file signature not found") != std::string::npos)
+    return "it is not an HDF5 file, or its beginning is damaged";
+  return note.empty() ? "unknown reason" : note;
+}
+
+[[noreturn]] void throw_file_error(const std::string& path, std::string_view action,
+                                   std::string_view object, const std::string& reason) {
+  std::string message = path + ": cannot " + std::string(action);
+  if (!object.empty()) message += ' ' + std::string(object);
+  throw FileError(message + ": " + reason);
+}
+
+std::string errno_text() {
+  return std::generic_category().message(errno);
+}
+
+}  // namespace
+
+/// The file identifier, shared by all objects of the file.
+class OpenFile {
+ public:
+  OpenFile(std::string path, Id id, bool writable)
+      : path_(std::move(path)), id_(id), writable_(writable) {}
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+  ~OpenFile() {
+    silence_hdf5();
+    if (id_ < 0) return;
+    // Closing a file that cannot be flushed would leave it half open inside HDF5, up to the exit.
+    if (writable_ && H5Fflush(id_, H5F_SCOPE_GLOBAL) < 0) cut_off();
+    H5Fclose(id_);
+  }
+
+  Id id() const { return id_; }
+  const std::string& path() const { return path_; }
+
+  /// Runs an HDF5 call; a negative result becomes a FileError.
+  template <class Call>
+  auto run(std::string_view action, std::string_view object, Call&& call) {
+    silence_hdf5();
+    if (failed_) throw_file_error(path_, action, object, "an earlier write to this file failed");
+    const auto result = call();
+    if (result < 0) fail(action, object, explained(innermost_note()));
+    return result;
+  }
+
+  [[noreturn]] void fail(std::string_view action, std::string_view object,
+                         const std::string& reason) {
+    if (writable_) cut_off();
+    throw_file_error(path_, action, object, reason);
+  }
+
+  int descriptor() const {
+    void* descriptor = nullptr;
+    if (H5Fget_vfd_handle(id_, H5P_DEFAULT, &descriptor) < 0 || !descriptor) return -1;
+    return *static_cast<int*>(descriptor);
+  }
+
+  void close() {
+    run("close", "", [&] { return H5Fclose(std::exchange(id_, -1)); });
+  }
+
+ private:
+  /// Lets HDF5's descriptor lead to memory instead of the disk: after a failed write its later
+  /// attempts to save what it still holds can neither fail nor touch the file.
+  void cut_off() {
+    if (std::exchange(failed_, true)) return;
+    const int file = descriptor();
+    const int memory = memfd_create("discarded", MFD_CLOEXEC);
+    if (file >= 0 && memory >= 0) dup2(memory, file);
+    if (memory >= 0) ::close(memory);
+  }
+
+  std::string path_;
+  Id id_;
+  bool writable_;
+  bool failed_ = false;
+};
+
+Object::Handle::~Handle() {
+  if (id_ < 0) return;
+  silence_hdf5();
+  H5Idec_ref(id_);
+}
+
+Object::Handle& Object::Handle::operator=(Handle&& other) noexcept {
+  std::swap(id_, other.id_);
+  return *this;
+}
+
+Object::Object(std::shared_ptr<OpenFile> file, Handle handle, std::string name)
+    : file_(std::move(file)), handle_(std::move(handle)), name_(std::move(name)) {}
+
+bool Object::has_attribute(const std::string& name) const {
+  return file_->run("look for attribute", name,
+                    [&] { return H5Aexists(handle_.id(), name.c_str()); }) > 0;
+}
+
+void Object::write_attribute(const std::string& name, Id type, Id space, const void* data) {
+  if (has_attribute(name))
+    file_->run("replace attribute", name, [&] { return H5Adelete(handle_.id(), name.c_str()); });
+  const Handle attribute(file_->run("create attribute", name, [&] {
+    return H5Acreate2(handle_.id(), name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT);
+  }));
+  file_->run("write attribute", name, [&] { return H5Awrite(attribute.id(), type, data); });
+}
+
+void Object::set_attribute(const std::string& name, std::span<const std::string> texts,
+                           std::size_t width) {
+  std::string padded;
+  for (const std::string& text : texts)
+    padded += (text + std::string(width, '\0')).substr(0, width);
+  const Handle type(H5Tcopy(H5T_C_S1));
+  H5Tset_size(type.id(), width);
+  H5Tset_strpad(type.id(), H5T_STR_NULLPAD);
+  H5Tset_cset(type.id(), H5T_CSET_UTF8);
+  const hsize_t count = texts.size();
+  const Handle space(count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &count, nullptr));
+  write_attribute(name, type.id(), space.id(), padded.data());
+}
+
+void Object::set_attribute(const std::string& name, const std::string& text) {
+  set_attribute(name, std::span<const std::string>(&text, 1),
+                std::max<std::size_t>(1, text.size()));
+}
+
+template <class T>
+void Object::set_attribute(const std::string& name, std::span<const T> values) {
+  const hsize_t count = values.size();
+  const Handle space(count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &count, nullptr));
+  if (has_attribute(name))
+    file_->run("replace attribute", name, [&] { return H5Adelete(handle_.id(), name.c_str()); });
+  const Handle attribute(file_->run("create attribute", name, [&] {
+    return H5Acreate2(handle_.id(), name.c_str(), stored_type<T>(), space.id(), H5P_DEFAULT,
+                      H5P_DEFAULT);
+  }));
+  file_->run("write attribute", name,
+             [&] { return H5Awrite(attribute.id(), native_type<T>(), values.data()); });
+}
+
+namespace {
+
+/// Reads one string of either kind HDF5 has; `read` fills memory of the type it is given.
+template <class Read>
+std::string read_string(Id stored, Read&& read) {
+  if (H5Tget_class(stored) != H5T_STRING) return {};
+  if (H5Tis_variable_str(stored) > 0) {
+    char* text = nullptr;
+    read(stored, &text);
+    const std::string copy = text ? text : "";
+    H5free_memory(text);
+    return copy;
+  }
+  std::string text(H5Tget_size(stored), '\0');
+  read(stored, text.data());
+  return text.substr(0, text.find('\0'));
+}
+
+}  // namespace
+
+std::string Object::text_attribute(const std::string& name) const {
+  const Handle attribute(file_->run(
+      "open attribute", name, [&] { return H5Aopen(handle_.id(), name.c_str(), H5P_DEFAULT); }));
+  const Handle type(H5Aget_type(attribute.id()));
+  return read_string(type.id(), [&](Id memory, void* out) {
+    file_->run("read attribute", name, [&] { return H5Aread(attribute.id(), memory, out); });
+  });
+}
+
+template <class T>
+T Object::number_attribute(const std::string& name) const {
+  const Handle attribute(file_->run(
+      "open attribute", name, [&] { return H5Aopen(handle_.id(), name.c_str(), H5P_DEFAULT); }));
+  const Handle space(H5Aget_space(attribute.id()));
+  std::vector<T> values(std::max<hssize_t>(1, H5Sget_simple_extent_npoints(space.id())));
+  file_->run("read attribute", name,
+             [&] { return H5Aread(attribute.id(), native_type<T>(), values.data()); });
+  return values.front();
+}
+
+Shape Dataset::shape() const {
+  const Handle space(file_->run("inspect", name_, [&] { return H5Dget_space(handle_.id()); }));
+  Shape shape(std::max(0, H5Sget_simple_extent_ndims(space.id())));
+  H5Sget_simple_extent_dims(space.id(), reinterpret_cast<hsize_t*>(shape.data()), nullptr);
+  return shape;
+}
+
+template <class T>
+std::vector<T> Dataset::read() const {
+  std::vector<T> values(elements(shape()));
+  file_->run("read", name_, [&] {
+    return H5Dread(handle_.id(), native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+  });
+  return values;
+}
+
+template <class T>
+void Dataset::write(std::span<const T> values) {
+  if (values.size() != elements(shape())) file_->fail("write", name_, "wrong number of values");
+  file_->run("write", name_, [&] {
+    return H5Dwrite(handle_.id(), native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+  });
+}
+
+std::string Dataset::read_text() const {
+  const Handle type(file_->run("inspect", name_, [&] { return H5Dget_type(handle_.id()); }));
+  if (elements(shape()) != 1)
+    throw_file_error(file_->path(), "read", name_, "it is not one string");
+  return read_string(type.id(), [&](Id memory, void* out) {
+    file_->run("read", name_,
+               [&] { return H5Dread(handle_.id(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, out); });
+  });
+}
+
+void Dataset::resize(std::uint64_t frames) {
+  Shape extent = shape();
+  extent.at(0) = frames;
+  file_->run("resize", name_, [&] {
+    return H5Dset_extent(handle_.id(), reinterpret_cast<const hsize_t*>(extent.data()));
+  });
+}
+
+Object::Handle Dataset::frame_selection(std::uint64_t frame, std::uint64_t count) const {
+  Shape block = shape();
+  if (block.empty() || frame >= block[0])
+    throw_file_error(file_->path(), "access frame " + std::to_string(frame) + " of", name_,
+                     "it has " + std::to_string(block.empty() ? 0 : block[0]) + " frames");
+  block[0] = 1;
+  if (elements(block) != count)
+    throw_file_error(
+        file_->path(), "access frame " + std::to_string(frame) + " of", name_,
+        "a frame has " + std::to_string(elements(block)) + " values, not " + std::to_string(count));
+  Shape start(block.size(), 0);
+  start[0] = frame;
+  Handle space(file_->run("inspect", name_, [&] { return H5Dget_space(handle_.id()); }));
+  H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, reinterpret_cast<const hsize_t*>(start.data()),
+                      nullptr, reinterpret_cast<const hsize_t*>(block.data()), nullptr);
+  return space;
+}
+
+template <class T>
+void Dataset::write_frame(std::uint64_t frame, std::span<const T> values) {
+  const Handle target = frame_selection(frame, values.size());
+  const hsize_t count = values.size();
+  const Handle source(H5Screate_simple(1, &count, nullptr));
+  file_->run("write", name_, [&] {
+    return H5Dwrite(handle_.id(), native_type<T>(), source.id(), target.id(), H5P_DEFAULT,
+                    values.data());
+  });
+}
+
+template <class T>
+void Dataset::read_frame(std::uint64_t frame, std::span<T> values) const {
+  const Handle source = frame_selection(frame, values.size());
+  const hsize_t count = values.size();
+  const Handle target(H5Screate_simple(1, &count, nullptr));
+  file_->run("read", name_, [&] {
+    return H5Dread(handle_.id(), native_type<T>(), target.id(), source.id(), H5P_DEFAULT,
+                   values.data());
+  });
+}
+
+std::vector<std::string> Dataset::enumeration() const {
+  const Handle type(file_->run("inspect", name_, [&] { return H5Dget_type(handle_.id()); }));
+  if (H5Tget_class(type.id()) != H5T_ENUM) return {};
+  std::vector<std::string> names;
+  for (int member = 0; member < H5Tget_nmembers(type.id()); ++member) {
+    std::int64_t value = 0;  // holds a member of any integer size before the conversion
+    H5Tget_member_value(type.id(), member, &value);
+    const Handle base(H5Tget_super(type.id()));
+    H5Tconvert(base.id(), H5T_NATIVE_INT64, 1, &value, nullptr, H5P_DEFAULT);
+    if (value < 0 || value > 1'000'000)
+      throw_file_error(file_->path(), "read", name_, "its enumerated values do not count from 0");
+    if (names.size() <= static_cast<std::size_t>(value)) names.resize(value + 1);
+    char* name = H5Tget_member_name(type.id(), member);
+    names[value] = name;
+    H5free_memory(name);
+  }
+  return names;
+}
+
+std::string Group::path_of(const std::string& name) const {
+  return name_.empty() ? name : name_ + '/' + name;
+}
+
+bool Group::has(const std::string& path) const {
+  for (auto slash = path.find('/');; slash = path.find('/', slash + 1)) {
+    const std::string part = path.substr(0, slash);
+    if (file_->run("look for", path_of(part),
+                   [&] { return H5Lexists(handle_.id(), part.c_str(), H5P_DEFAULT); }) == 0)
+      return false;
+    if (slash == std::string::npos) return true;
+  }
+}
+
+namespace {
+
+bool is_of_type(Id location, const std::string& path, H5I_type_t type) {
+  const Id id = H5Oopen(location, path.c_str(), H5P_DEFAULT);
+  if (id < 0) return false;
+  const bool same = H5Iget_type(id) == type;
+  H5Idec_ref(id);
+  return same;
+}
+
+}  // namespace
+
+bool Group::has_group(const std::string& path) const {
+  return has(path) && is_of_type(handle_.id(), path, H5I_GROUP);
+}
+
+bool Group::has_dataset(const std::string& path) const {
+  return has(path) && is_of_type(handle_.id(), path, H5I_DATASET);
+}
+
+std::vector<std::string> Group::members() const {
+  std::vector<std::string> names;
+  const auto add = [](Id, const char* name, const H5L_info_t*, void* out) -> herr_t {
+    static_cast<std::vector<std::string>*>(out)->emplace_back(name);
+    return 0;
+  };
+  file_->run("list", name_, [&] {
+    return H5Literate(handle_.id(), H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &names);
+  });
+  return names;
+}
+
+Group Group::group(const std::string& path) const {
+  return {file_,
+          Handle(file_->run("open group", path_of(path),
+                            [&] { return H5Gopen2(handle_.id(), path.c_str(), H5P_DEFAULT); })),
+          path_of(path)};
+}
+
+Dataset Group::dataset(const std::string& path) const {
+  return {file_,
+          Handle(file_->run("open dataset", path_of(path),
+                            [&] { return H5Dopen2(handle_.id(), path.c_str(), H5P_DEFAULT); })),
+          path_of(path)};
+}
+
+Group Group::create_group(const std::string& name) {
+  return {file_,
+          Handle(file_->run("create group", path_of(name),
+                            [&] {
+                              return H5Gcreate2(handle_.id(), name.c_str(), H5P_DEFAULT,
+                                                H5P_DEFAULT, H5P_DEFAULT);
+                            })),
+          path_of(name)};
+}
+
+Dataset Group::create(const std::string& name, Id type, Id space, Id properties) {
+  return {file_,
+          Handle(file_->run("create dataset", path_of(name),
+                            [&] {
+                              return H5Dcreate2(handle_.id(), name.c_str(), type, space,
+                                                H5P_DEFAULT, properties, H5P_DEFAULT);
+                            })),
+          path_of(name)};
+}
+
+namespace {
+
+Id create_space(const Shape& shape) {
+  if (shape.empty()) return H5Screate(H5S_SCALAR);
+  return H5Screate_simple(static_cast<int>(shape.size()),
+                          reinterpret_cast<const hsize_t*>(shape.data()), nullptr);
+}
+
+}  // namespace
+
+template <class T>
+Dataset Group::create_array(const std::string& name, const Shape& shape,
+                            std::span<const T> values) {
+  const Handle space(create_space(shape));
+  Dataset dataset = create(name, stored_type<T>(), space.id(), H5P_DEFAULT);
+  dataset.write(values);
+  return dataset;
+}
+
+Dataset Group::create_text(const std::string& name, const std::string& text) {
+  const Handle type(H5Tcopy(H5T_C_S1));
+  H5Tset_size(type.id(), std::max<std::size_t>(1, text.size()));
+  H5Tset_strpad(type.id(), H5T_STR_NULLPAD);
+  H5Tset_cset(type.id(), H5T_CSET_UTF8);
+  const Handle space(H5Screate(H5S_SCALAR));
+  Dataset dataset = create(name, type.id(), space.id(), H5P_DEFAULT);
+  file_->run("write", dataset.name_, [&] {
+    return H5Dwrite(dataset.handle_.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str());
+  });
+  return dataset;
+}
+
+Dataset Group::create_enumeration(const std::string& name, std::span<const std::string> names,
+                                  std::span<const std::int32_t> values) {
+  const Handle type(H5Tenum_create(H5T_NATIVE_INT32));
+  for (std::int32_t value = 0; value < static_cast<std::int32_t>(names.size()); ++value)
+    file_->run("name a value of", path_of(name),
+               [&] { return H5Tenum_insert(type.id(), names[value].c_str(), &value); });
+  const Handle space(create_space({values.size()}));
+  Dataset dataset = create(name, type.id(), space.id(), H5P_DEFAULT);
+  file_->run("write", dataset.name_, [&] {
+    return H5Dwrite(dataset.handle_.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+  });
+  return dataset;
+}
+
+template <class T>
+Dataset Group::create_series(const std::string& name, const Shape& frame_shape, bool packed) {
+  Shape extent{0};
+  extent.insert(extent.end(), frame_shape.begin(), frame_shape.end());
+  Shape limit = extent, chunk = extent;
+  limit[0] = H5S_UNLIMITED;
+  chunk[0] = packed ? 1 : entries_per_chunk;
+
+  const int rank = static_cast<int>(extent.size());
+  const Handle space(H5Screate_simple(rank, reinterpret_cast<const hsize_t*>(extent.data()),
+                                      reinterpret_cast<const hsize_t*>(limit.data())));
+  const Handle properties(H5Pcreate(H5P_DATASET_CREATE));
+  H5Pset_chunk(properties.id(), rank, reinterpret_cast<const hsize_t*>(chunk.data()));
+  if (packed) {
+    H5Pset_shuffle(properties.id());
+    H5Pset_deflate(properties.id(), 4);
+  }
+  H5Pset_fletcher32(properties.id());
+  return create(name, stored_type<T>(), space.id(), properties.id());
+}
+
+void Group::link(const std::string& name, const std::string& target) {
+  file_->run("link", path_of(name), [&] {
+    return H5Lcreate_hard(handle_.id(), ('/' + target).c_str(), handle_.id(), name.c_str(),
+                          H5P_DEFAULT, H5P_DEFAULT);
+  });
+}
+
+namespace {
+
+/// Format version 1.8: every reader in use understands it.
+Id file_access() {
+  const Id access = H5Pcreate(H5P_FILE_ACCESS);
+  H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);
+  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+  return access;
+}
+
+}  // namespace
+
+File File::create(const std::filesystem::path& path) {
+  silence_hdf5();
+  const Id access = file_access();
+  const Id id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
+  if (id < 0) throw_file_error(path.string(), "create the file", "", explained(innermost_note()));
+  H5Pclose(access);
+  return File(std::make_shared<OpenFile>(path.string(), id, true));
+}
+
+File File::open(const std::filesystem::path& path, Access mode) {
+  silence_hdf5();
+  const bool writable = mode == Access::write;
+  const Id access = file_access();
+  const Id id = H5Fopen(path.c_str(), writable ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access);
+  if (id < 0) throw_file_error(path.string(), "open the file", "", explained(innermost_note()));
+  H5Pclose(access);
+  return File(std::make_shared<OpenFile>(path.string(), id, writable));
+}
+
+const std::string& File::path() const {
+  return file_->path();
+}
+
+Group File::root() const {
+  return {file_,
+          Group::Handle(file_->run("open", "the root group",
+                                   [&] { return H5Gopen2(file_->id(), "/", H5P_DEFAULT); })),
+          ""};
+}
+
+void File::reserve(std::uint64_t bytes) {
+  const int descriptor = file_->run("access", "", [&] { return file_->descriptor(); });
+  struct stat status;
+  if (descriptor < 0 || fstat(descriptor, &status) != 0) return;
+  const int keep_size = FALLOC_FL_KEEP_SIZE;
+  const off_t extra = static_cast<off_t>(bytes);
+  if (fallocate(descriptor, keep_size, status.st_size, extra) != 0) {
+    // File systems that cannot reserve space report a full disk at the write itself.
+    if (errno == ENOSPC || errno == EDQUOT)
+      throw_file_error(path(), "write", "", errno_text() + "; free some space and continue");
+    return;
+  }
+  // The space is there; give it back, the write itself will take what it needs of it.
+  static_cast<void>(fallocate(descriptor, keep_size | FALLOC_FL_PUNCH_HOLE, status.st_size, extra));
+  static_cast<void>(ftruncate(descriptor, status.st_size));
+}
+
+void File::flush() {
+  file_->run("write", "", [&] { return H5Fflush(file_->id(), H5F_SCOPE_GLOBAL); });
+}
+
+void File::close() {
+  flush();
+  if (fsync(file_->descriptor()) != 0 && errno != EINVAL) file_->fail("write", "", errno_text());
+  file_->close();
+}
+
+#define VITREL_H5_INSTANTIATE(T)                                                                 \
+  template void Object::set_attribute<T>(const std::string&, std::span<const T>);                \
+  template T Object::number_attribute<T>(const std::string&) const;                              \
+  template std::vector<T> Dataset::read<T>() const;                                              \
+  template void Dataset::write<T>(std::span<const T>);                                           \
+  template void Dataset::write_frame<T>(std::uint64_t, std::span<const T>);                      \
+  template void Dataset::read_frame<T>(std::uint64_t, std::span<T>) const;                       \
+  template Dataset Group::create_array<T>(const std::string&, const Shape&, std::span<const T>); \
+  template Dataset Group::create_series<T>(const std::string&, const Shape&, bool);
+
+VITREL_H5_INSTANTIATE(double)
+VITREL_H5_INSTANTIATE(std::int32_t)
+VITREL_H5_INSTANTIATE(std::int64_t)
+VITREL_H5_INSTANTIATE(std::uint64_t)
+VITREL_H5_INSTANTIATE(std::uint8_t)
+#undef VITREL_H5_INSTANTIATE
+
+}  // namespace vitrel::h5

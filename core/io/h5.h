@@ -1,0 +1,166 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// A thin, owning layer over the HDF5 C library: files, groups, datasets and attributes that close
+/// themselves. HDF5's own messages are silenced; every failure becomes one FileError that names the
+/// file, the operation and the reason the operating system gave.
+///
+/// A file being written survives a full disk: the first failed write cuts the file off from the
+/// disk (whatever HDF5 still holds goes nowhere), so that closing it never fails, hangs or crashes,
+/// and what was flushed before stays as it was. Later operations on that file throw again.
+///
+/// T is one of double, int32_t, int64_t, uint64_t, uint8_t; numbers are stored little-endian.
+namespace vitrel::h5 {
+
+using Id = std::int64_t;
+using Shape = std::vector<std::uint64_t>;
+
+class OpenFile;
+
+/// An HDF5 object that belongs to an open file; the file stays open as long as one of them lives.
+class Object {
+ public:
+  /// Where the object is inside the file, for messages: "particles/all/box".
+  const std::string& name() const { return name_; }
+
+  bool has_attribute(const std::string& name) const;
+  void set_attribute(const std::string& name, const std::string& text);
+  /// Strings of `width` bytes each, padded with zeros.
+  void set_attribute(const std::string& name, std::span<const std::string> texts,
+                     std::size_t width);
+  template <class T>
+  void set_attribute(const std::string& name, std::span<const T> values);
+  template <class T>
+  void set_attribute(const std::string& name, T value) {
+    set_attribute(name, std::span<const T>(&value, 1));
+  }
+  std::string text_attribute(const std::string& name) const;
+  template <class T>
+  T number_attribute(const std::string& name) const;
+
+ protected:
+  class Handle {
+   public:
+    explicit Handle(Id id = -1) : id_(id) {}
+    ~Handle();
+    Handle(Handle&& other) noexcept : id_(other.id_) { other.id_ = -1; }
+    Handle& operator=(Handle&& other) noexcept;
+    Id id() const { return id_; }
+
+   private:
+    Id id_;
+  };
+
+  Object(std::shared_ptr<OpenFile> file, Handle handle, std::string name);
+
+  std::shared_ptr<OpenFile> file_;  // before handle_: the object closes first
+  Handle handle_;
+  std::string name_;
+
+ private:
+  void write_attribute(const std::string& name, Id type, Id space, const void* data);
+};
+
+/// An array of numbers or strings. A series is an array that grows along its first direction, one
+/// entry ("frame") at a time.
+class Dataset : public Object {
+ public:
+  /// Empty for a scalar.
+  Shape shape() const;
+
+  /// The whole array, last direction fastest; numbers are converted to T.
+  template <class T>
+  std::vector<T> read() const;
+  /// Replaces the whole array, whose number of elements must be that of `values`.
+  template <class T>
+  void write(std::span<const T> values);
+  std::string read_text() const;
+
+  /// Cuts or extends a series to `frames` frames; new ones are zero until written.
+  void resize(std::uint64_t frames);
+  template <class T>
+  void write_frame(std::uint64_t frame, std::span<const T> values);
+  /// `values` must have the size of one frame.
+  template <class T>
+  void read_frame(std::uint64_t frame, std::span<T> values) const;
+
+  /// The names of an enumerated type indexed by value 0, 1, 2 …; empty if the array holds plain
+  /// numbers. Values without a name get an empty one.
+  std::vector<std::string> enumeration() const;
+
+ private:
+  friend class Group;
+  Dataset(std::shared_ptr<OpenFile> file, Handle handle, std::string name)
+      : Object(std::move(file), std::move(handle), std::move(name)) {}
+  Handle frame_selection(std::uint64_t frame, std::uint64_t count) const;
+};
+
+class Group : public Object {
+ public:
+  /// `path` may lead through several groups, separated by "/".
+  bool has(const std::string& path) const;
+  bool has_group(const std::string& path) const;
+  bool has_dataset(const std::string& path) const;
+  /// Names of all members in alphabetical order.
+  std::vector<std::string> members() const;
+
+  Group group(const std::string& path) const;
+  Dataset dataset(const std::string& path) const;
+
+  Group create_group(const std::string& name);
+  /// A fixed array; `shape` empty: a scalar.
+  template <class T>
+  Dataset create_array(const std::string& name, const Shape& shape, std::span<const T> values);
+  Dataset create_text(const std::string& name, const std::string& text);
+  /// An array of names out of `names`, stored as the index into it.
+  Dataset create_enumeration(const std::string& name, std::span<const std::string> names,
+                             std::span<const std::int32_t> values);
+  /// A series with no frame yet. `packed`: shuffle, deflate and checksum, one frame per chunk, each
+  /// written once. Otherwise a checksum only, many frames per chunk: such a chunk keeps its size
+  /// and its place in the file, so that adding a frame never moves the earlier ones.
+  template <class T>
+  Dataset create_series(const std::string& name, const Shape& frame_shape, bool packed);
+  /// A second name for a member of the file; `target` is its path from the root.
+  void link(const std::string& name, const std::string& target);
+
+ private:
+  friend class File;
+  Group(std::shared_ptr<OpenFile> file, Handle handle, std::string name)
+      : Object(std::move(file), std::move(handle), std::move(name)) {}
+  std::string path_of(const std::string& name) const;
+  Dataset create(const std::string& name, Id type, Id space, Id properties);
+};
+
+enum class Access { read, write };
+
+class File {
+ public:
+  /// An empty file; one of the same name is replaced.
+  static File create(const std::filesystem::path& path);
+  /// A file that exists. FileError if it is missing, cut short, no HDF5 file, or in use.
+  static File open(const std::filesystem::path& path, Access access);
+
+  /// As it was given, for messages.
+  const std::string& path() const;
+  Group root() const;
+  /// Makes sure that `bytes` more bytes fit on the disk, before anything is written; FileError if
+  /// not.
+  void reserve(std::uint64_t bytes);
+  /// Hands everything written so far to the operating system and checks that it took it.
+  void flush();
+  /// Flushes, waits for the disk, and closes. Without it the destructor closes silently.
+  void close();
+
+ private:
+  explicit File(std::shared_ptr<OpenFile> file) : file_(std::move(file)) {}
+  std::shared_ptr<OpenFile> file_;
+};
+
+}  // namespace vitrel::h5

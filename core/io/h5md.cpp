@@ -1,0 +1,501 @@
+#include "core/io/h5md.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "core/error.h"
+#include "core/io/pending_file.h"
+
+namespace vitrel {
+namespace fs = std::filesystem;
+namespace {
+
+const std::string all = "particles/all";
+/// The z edge of the box of a two-dimensional system, which means nothing but must not be 0.
+constexpr double height = 1;
+
+std::string series_path(const std::string& element) {
+  return all + '/' + element + "/value";
+}
+
+/// A series `element`/{step, time, value} that shares the position's step and time.
+template <class T>
+void create_element(h5::Group& parent, const std::string& element, const h5::Shape& frame_shape,
+                    bool packed) {
+  h5::Group group = parent.create_group(element);
+  group.create_series<T>("value", frame_shape, packed);
+  group.link("step", all + "/position/step");
+  group.link("time", all + "/position/time");
+}
+
+void create_position(h5::Group& particles, std::uint64_t n) {
+  h5::Group position = particles.create_group("position");
+  position.create_series<std::int64_t>("step", {}, false);
+  position.create_series<double>("time", {}, false);
+  position.create_series<double>("value", {n, 3}, true);
+}
+
+void create_box(h5::Group& particles) {
+  h5::Group box = particles.create_group("box");
+  box.set_attribute("dimension", std::int32_t{3});
+  const std::array<std::string, 3> boundary{"periodic", "periodic", "none"};
+  box.set_attribute("boundary", boundary, 8);
+  create_element<double>(box, "edges", {3, 3}, false);
+}
+
+void create_fixed_arrays(h5::Group& particles, const Configuration2& configuration) {
+  const std::uint64_t n = configuration.size();
+  std::vector<std::int64_t> id(n);
+  std::iota(id.begin(), id.end(), 0);
+  std::vector<double> semiaxes;
+  for (const Ellipse& shape : configuration.shape)
+    semiaxes.insert(semiaxes.end(), {shape.a, shape.b, 0.0});
+  particles.create_enumeration("species", configuration.species_names, configuration.species);
+  particles.create_array<std::int64_t>("id", {n}, id);
+  particles.create_array<double>("mass", {n}, configuration.mass);
+  particles.create_array<double>("semiaxes", {n, 3}, semiaxes);
+}
+
+void create_h5md_group(h5::Group& root, const Provenance& provenance) {
+  h5::Group h5md = root.create_group("h5md");
+  const std::array<std::int32_t, 2> version{1, 1};
+  h5md.set_attribute<std::int32_t>("version", version);
+  h5md.create_group("author").set_attribute("name", provenance.author);
+  h5::Group creator = h5md.create_group("creator");
+  creator.set_attribute("name", std::string("vitrel"));
+  creator.set_attribute("version", provenance.version);
+}
+
+/// Everything but the frames.
+h5::File create_layout(const fs::path& path, const Configuration2& configuration,
+                       const Provenance& provenance, const TrajectoryOptions& options) {
+  const std::uint64_t n = configuration.size();
+  h5::File file = h5::File::create(path);
+  h5::Group root = file.root();
+  create_h5md_group(root, provenance);
+  h5::Group particles = root.create_group("particles").create_group("all");
+  create_position(particles, n);
+  create_box(particles);
+  create_element<std::int32_t>(particles, "image", {n, 3}, true);
+  create_element<double>(particles, "orientation", {n, 4}, true);
+  create_element<double>(particles, "angle", {n}, true);
+  if (options.velocities) {
+    create_element<double>(particles, "velocity", {n, 3}, true);
+    create_element<double>(particles, "angular_velocity", {n, 3}, true);
+  }
+  create_fixed_arrays(particles, configuration);
+  h5::Group observables = root.create_group("observables");
+  for (const std::string& name : options.observables)
+    create_element<double>(observables, name, {}, false);
+  h5::Group parameters = root.create_group("parameters");
+  write_provenance(parameters, provenance);
+  return file;
+}
+
+void refuse_existing(const fs::path& path, bool overwrite) {
+  if (!overwrite && fs::exists(path))
+    throw UserError(path.string() + ": the file exists already: choose another name or remove it");
+}
+
+h5::Dataset required(const h5::File& file, const std::string& name) {
+  const h5::Group root = file.root();
+  if (!root.has_dataset(name))
+    throw FileError(file.path() + ": the dataset " + name +
+                    " is missing: only a trajectory that vitrel wrote can be continued");
+  return root.dataset(name);
+}
+
+std::optional<h5::Dataset> optional_dataset(const h5::File& file, const std::string& name) {
+  const h5::Group root = file.root();
+  if (!root.has_dataset(name)) return std::nullopt;
+  return root.dataset(name);
+}
+
+/// Positions inside the box stay as they are, bit by bit.
+void wrap_if_outside(const PeriodicBox<2>& box, Vec2& position, Shift<2>& image) {
+  const Vec2 half = 0.5 * box.lengths();
+  const bool inside =
+      (position.array() >= -half.array()).all() && (position.array() < half.array()).all();
+  if (!inside) box.wrap(position, image);
+}
+
+}  // namespace
+
+TrajectoryWriter TrajectoryWriter::create(const fs::path& path, const Configuration2& configuration,
+                                          const Provenance& provenance,
+                                          const TrajectoryOptions& options) {
+  refuse_existing(path, options.overwrite);
+  PendingFile pending(path);
+  create_layout(pending.partial(), configuration, provenance, options).close();
+  pending.commit();
+  return append_to(path, 0);
+}
+
+TrajectoryWriter TrajectoryWriter::append_to(const fs::path& path, std::uint64_t frames_to_keep) {
+  TrajectoryWriter writer(h5::File::open(path, h5::Access::write));
+  if (writer.frames_ < frames_to_keep)
+    throw FileError(path.string() + ": has only " + std::to_string(writer.frames_) +
+                    " frames where " + std::to_string(frames_to_keep) +
+                    " were expected: it is not the file that the checkpoint belongs to");
+  writer.step_.resize(frames_to_keep);
+  writer.file_.flush();  // the frames stop counting before their content goes
+  writer.resize(frames_to_keep);
+  writer.file_.flush();
+  writer.frames_ = frames_to_keep;
+  return writer;
+}
+
+TrajectoryWriter::TrajectoryWriter(h5::File file)
+    : file_(std::move(file)),
+      step_(required(file_, all + "/position/step")),
+      time_(required(file_, all + "/position/time")),
+      edges_(required(file_, all + "/box/edges/value")),
+      position_(required(file_, series_path("position"))),
+      image_(required(file_, series_path("image"))),
+      orientation_(required(file_, series_path("orientation"))),
+      angle_(required(file_, series_path("angle"))),
+      velocity_(optional_dataset(file_, series_path("velocity"))),
+      angular_velocity_(optional_dataset(file_, series_path("angular_velocity"))) {
+  particles_ = position_.shape().at(1);
+  frames_ = step_.shape().at(0);
+  if (!file_.root().has_group("observables")) return;
+  for (const std::string& name : file_.root().group("observables").members())
+    observables_.emplace(name, required(file_, "observables/" + name + "/value"));
+}
+
+std::vector<std::string> TrajectoryWriter::observable_names() const {
+  std::vector<std::string> names;
+  for (const auto& [name, dataset] : observables_) names.push_back(name);
+  return names;
+}
+
+void TrajectoryWriter::check(const Configuration2& configuration,
+                             const Observables& observables) const {
+  if (configuration.size() != particles_)
+    throw UserError(file_.path() + ": holds " + std::to_string(particles_) +
+                    " particles, but the configuration to be added has " +
+                    std::to_string(configuration.size()));
+  const bool same =
+      std::equal(observables.begin(), observables.end(), observables_.begin(), observables_.end(),
+                 [](const auto& x, const auto& y) { return x.first == y.first; });
+  if (same) return;
+  std::string names;
+  for (const std::string& name : observable_names()) names += ' ' + name;
+  throw UserError(file_.path() + ": every frame needs exactly these observables:" + names);
+}
+
+/// An upper bound: numbers without compression, and what HDF5 needs to find them.
+std::uint64_t TrajectoryWriter::frame_bytes() const {
+  constexpr std::uint64_t per_dataset = 16 * 1024;
+  const std::uint64_t per_particle = 8 * (3 + 4 + 1) + 4 * 3 + (velocity_ ? 8 * (3 + 3) : 0);
+  return particles_ * per_particle + per_dataset * (9 + observables_.size());
+}
+
+void TrajectoryWriter::resize(std::uint64_t frames) {
+  for (h5::Dataset* dataset : {&time_, &edges_, &position_, &image_, &orientation_, &angle_})
+    dataset->resize(frames);
+  if (velocity_) velocity_->resize(frames);
+  if (angular_velocity_) angular_velocity_->resize(frames);
+  for (auto& [name, dataset] : observables_) dataset.resize(frames);
+}
+
+void TrajectoryWriter::write(const Configuration2& configuration, std::int64_t step,
+                             const Observables& observables) {
+  check(configuration, observables);
+  file_.reserve(frame_bytes());
+  resize(frames_ + 1);
+  write_particles(configuration);
+  time_.write_frame<double>(frames_, {&configuration.time, 1});
+  const Vec2& lengths = configuration.box.lengths();
+  const std::array<double, 9> edges{lengths.x(), 0, 0, 0, lengths.y(), 0, 0, 0, height};
+  edges_.write_frame<double>(frames_, edges);
+  for (const auto& [name, value] : observables)
+    observables_.at(name).write_frame<double>(frames_, {&value, 1});
+  file_.flush();
+
+  step_.resize(frames_ + 1);
+  step_.write_frame<std::int64_t>(frames_, {&step, 1});
+  file_.flush();
+  ++frames_;
+}
+
+void TrajectoryWriter::write_particles(const Configuration2& configuration) {
+  std::vector<double> positions, orientations, velocities, angular_velocities;
+  std::vector<std::int32_t> images;
+  for (std::size_t i = 0; i < particles_; ++i) {
+    Vec2 position = configuration.position[i];
+    Shift<2> image = configuration.image[i];
+    wrap_if_outside(configuration.box, position, image);
+    positions.insert(positions.end(), {position.x(), position.y(), 0.0});
+    images.insert(images.end(), {image.x(), image.y(), 0});
+    const double half = 0.5 * configuration.angle[i];
+    orientations.insert(orientations.end(), {std::cos(half), 0.0, 0.0, std::sin(half)});
+    const Vec2& velocity = configuration.velocity[i];
+    velocities.insert(velocities.end(), {velocity.x(), velocity.y(), 0.0});
+    angular_velocities.insert(angular_velocities.end(),
+                              {0.0, 0.0, configuration.angular_velocity[i]});
+  }
+  position_.write_frame<double>(frames_, positions);
+  image_.write_frame<std::int32_t>(frames_, images);
+  orientation_.write_frame<double>(frames_, orientations);
+  angle_.write_frame<double>(frames_, configuration.angle);
+  if (velocity_) velocity_->write_frame<double>(frames_, velocities);
+  if (angular_velocity_) angular_velocity_->write_frame<double>(frames_, angular_velocities);
+}
+
+void TrajectoryWriter::record_wall_seconds(double seconds) {
+  h5::Group parameters = file_.root().group("parameters");
+  parameters.set_attribute("wall_seconds", seconds);
+  file_.flush();
+}
+
+TrajectoryReader::TrajectoryReader(const fs::path& path)
+    : path_(path), file_(h5::File::open(path, h5::Access::read)), root_(file_.root()) {
+  if (!root_.has_group("particles")) fail("there is no group particles: it is not an H5MD file");
+  const std::vector<std::string> groups = root_.group("particles").members();
+  if (groups.empty()) fail("the group particles is empty: it should hold one group of particles");
+  const bool has_all = std::find(groups.begin(), groups.end(), "all") != groups.end();
+  group_ = "particles/" + (has_all ? "all" : groups.front());
+  if (provenance().dimension != 2)
+    fail("is three-dimensional: only two-dimensional systems can be read");
+  read_shapes();
+  read_masses_and_species();
+  read_axes();
+}
+
+void TrajectoryReader::fail(const std::string& what) const {
+  throw FileError(path_.string() + ": " + what);
+}
+
+h5::Dataset TrajectoryReader::dataset(const std::string& name, const std::string& meaning) const {
+  if (!root_.has_dataset(name))
+    fail("the dataset " + name + " is missing: it should hold " + meaning);
+  return root_.dataset(name);
+}
+
+/// Frames are counted by `step`, the last thing written of a frame; a single number is the
+/// increment.
+void TrajectoryReader::read_axes() {
+  const h5::Dataset position =
+      dataset(group_ + "/position/value", "the positions, one frame after another");
+  const h5::Dataset step = dataset(group_ + "/position/step", "the step of every frame");
+  const h5::Dataset time = dataset(group_ + "/position/time", "the time of every frame");
+  const h5::Shape shape = position.shape();
+  if (shape.size() != 3 || shape[1] != particles())
+    fail("the dataset " + position.name() + " should have the shape frames × " +
+         std::to_string(particles()) + " particles × directions");
+  const auto axis = [&](const h5::Dataset& values) {
+    std::vector<double> numbers = values.read<double>();
+    if (!values.shape().empty()) return numbers;
+    const double increment = numbers.at(0);
+    const double offset =
+        values.has_attribute("offset") ? values.number_attribute<double>("offset") : 0;
+    numbers.resize(shape[0]);
+    for (std::size_t k = 0; k < numbers.size(); ++k) numbers[k] = offset + increment * k;
+    return numbers;
+  };
+  for (const double number : axis(step)) steps_.push_back(std::llround(number));
+  times_ = axis(time);
+  if (times_.size() < steps_.size() || shape[0] < steps_.size())
+    fail("the datasets time and value of " + group_ + "/position have fewer frames than step");
+  times_.resize(steps_.size());
+}
+
+void TrajectoryReader::read_shapes() {
+  const h5::Dataset semiaxes =
+      dataset(group_ + "/semiaxes", "the semi-axes a ≥ b of every particle");
+  const h5::Shape shape = semiaxes.shape();
+  if (shape.size() != 2 || shape[1] < 2 || shape[1] > 3)
+    fail("the dataset " + semiaxes.name() + " should have the shape particles × 3");
+  const std::vector<double> values = semiaxes.read<double>();
+  fixed_.resize(shape[0]);
+  for (std::size_t i = 0; i < shape[0]; ++i) {
+    const double a = values[shape[1] * i], b = values[shape[1] * i + 1];
+    if (!(std::isfinite(a) && a >= b && b > 0))
+      fail("the semi-axes of particle " + std::to_string(i) + " should be a ≥ b > 0");
+    fixed_.shape[i] = {a, b};
+  }
+}
+
+void TrajectoryReader::read_masses_and_species() {
+  fixed_.species_names = {"A"};
+  if (root_.has_dataset(group_ + "/mass"))
+    fixed_.mass = root_.dataset(group_ + "/mass").read<double>();
+  if (root_.has_dataset(group_ + "/species")) {
+    const h5::Dataset species = root_.dataset(group_ + "/species");
+    fixed_.species = species.read<std::int32_t>();
+    fixed_.species_names = species.enumeration();
+  }
+  if (fixed_.mass.size() != particles() || fixed_.species.size() != particles())
+    fail("the datasets mass and species should have one number per particle, " +
+         std::to_string(particles()));
+  const auto [low, high] = std::minmax_element(fixed_.species.begin(), fixed_.species.end());
+  if (particles() == 0) return;
+  if (*low < 0) fail("the dataset " + group_ + "/species should count from 0");
+  for (std::size_t k = fixed_.species_names.size(); k <= static_cast<std::size_t>(*high); ++k)
+    fixed_.species_names.push_back(std::to_string(k));
+}
+
+Configuration2 TrajectoryReader::read(std::uint64_t frame) const {
+  Configuration2 configuration;
+  read(frame, configuration);
+  return configuration;
+}
+
+void TrajectoryReader::read(std::uint64_t frame, Configuration2& configuration) const {
+  if (frame >= frames())
+    fail("there is no frame " + std::to_string(frame) + ": it has " + std::to_string(frames()) +
+         ", counted from 0");
+  configuration = fixed_;
+  configuration.time = times_[frame];
+  read_box(frame, configuration);
+  read_positions(frame, configuration);
+  read_angles(frame, configuration);
+  read_velocities(frame, configuration);
+}
+
+/// Numbers per particle in a frame of a series.
+std::size_t TrajectoryReader::columns(const h5::Dataset& values) const {
+  const h5::Shape shape = values.shape();
+  return shape.size() == 3 ? shape[2] : 1;
+}
+
+/// A frame of an element with at least `per_particle` numbers per particle; others are cut off.
+std::vector<double> TrajectoryReader::frame_values(const std::string& element,
+                                                   const std::string& meaning, std::uint64_t frame,
+                                                   std::size_t per_particle) const {
+  const h5::Dataset values = dataset(group_ + '/' + element + "/value", meaning);
+  const std::size_t stored = columns(values);
+  std::vector<double> numbers(particles() * stored);
+  values.read_frame<double>(frame, numbers);
+  if (stored < per_particle)
+    fail("the dataset " + values.name() + " should have " + std::to_string(per_particle) +
+         " numbers per particle");
+  std::vector<double> kept;
+  kept.reserve(particles() * per_particle);
+  for (std::size_t i = 0; i < particles(); ++i)
+    kept.insert(kept.end(), &numbers[i * stored], &numbers[i * stored] + per_particle);
+  if (!std::all_of(kept.begin(), kept.end(), [](double x) { return std::isfinite(x); }))
+    fail("the dataset " + values.name() + " has numbers that are not finite in frame " +
+         std::to_string(frame));
+  return kept;
+}
+
+void TrajectoryReader::read_box(std::uint64_t frame, Configuration2& configuration) const {
+  const std::string path = group_ + "/box/edges";
+  const bool fixed = root_.has_dataset(path);
+  const h5::Dataset edges = dataset(fixed ? path : path + "/value", "the box lengths");
+  h5::Shape shape = edges.shape();
+  if (!fixed && !shape.empty()) shape.erase(shape.begin());
+  const std::size_t d = shape.empty() ? 0 : shape[0];
+  if (d < 2 || d > 3 || shape.size() > 2)
+    fail("the dataset " + edges.name() + " should hold 2 or 3 lengths, or as many cell vectors");
+  std::vector<double> values(shape.size() == 2 ? d * d : d);
+  if (fixed)
+    values = edges.read<double>();
+  else
+    edges.read_frame<double>(frame, values);
+
+  const bool vectors = shape.size() == 2;
+  const Vec2 lengths(values[0], values[vectors ? d + 1 : 1]);
+  const bool slanted = vectors && (values[1] != 0 || values[d] != 0);
+  if (slanted || !lengths.allFinite() || lengths.minCoeff() <= 0)
+    fail("the box of frame " + std::to_string(frame) +
+         " should be a rectangle with sides along x and y");
+  configuration.box = PeriodicBox<2>(lengths);
+}
+
+void TrajectoryReader::read_positions(std::uint64_t frame, Configuration2& configuration) const {
+  const std::string meaning = "the coordinates";
+  const std::size_t d = columns(dataset(group_ + "/position/value", meaning)) > 2 ? 3 : 2;
+  const std::vector<double> positions = frame_values("position", meaning, frame, d);
+  std::vector<double> images(particles() * 2);
+  if (has("image")) images = frame_values("image", "the box crossings", frame, 2);
+  for (std::size_t i = 0; i < particles(); ++i) {
+    if (d == 3 && positions[3 * i + 2] != 0)
+      fail("particle " + std::to_string(i) +
+           " has z ≠ 0: only two-dimensional systems can be read");
+    configuration.position[i] = {positions[d * i], positions[d * i + 1]};
+    configuration.image[i] = {static_cast<std::int32_t>(images[2 * i]),
+                              static_cast<std::int32_t>(images[2 * i + 1])};
+    wrap_if_outside(configuration.box, configuration.position[i], configuration.image[i]);
+  }
+}
+
+void TrajectoryReader::read_angles(std::uint64_t frame, Configuration2& configuration) const {
+  if (has("angle") || !has("orientation")) {
+    configuration.angle = frame_values("angle", "the angle of every particle in radians", frame, 1);
+    return;
+  }
+  const std::vector<double> quaternions = frame_values("orientation", "quaternions", frame, 4);
+  for (std::size_t i = 0; i < particles(); ++i) {
+    const double* q = &quaternions[4 * i];
+    if (q[1] != 0 || q[2] != 0)
+      fail("particle " + std::to_string(i) +
+           " is turned out of the plane: only two-dimensional systems can be read");
+    configuration.angle[i] = 2 * std::atan2(q[3], q[0]);
+  }
+}
+
+void TrajectoryReader::read_velocities(std::uint64_t frame, Configuration2& configuration) const {
+  if (has("velocity")) {
+    const std::vector<double> v = frame_values("velocity", "the velocities", frame, 2);
+    for (std::size_t i = 0; i < particles(); ++i)
+      configuration.velocity[i] = {v[2 * i], v[2 * i + 1]};
+  }
+  if (!has("angular_velocity")) return;
+  const std::vector<double> w =
+      frame_values("angular_velocity", "the angular velocities", frame, 3);
+  for (std::size_t i = 0; i < particles(); ++i) configuration.angular_velocity[i] = w[3 * i + 2];
+}
+
+bool TrajectoryReader::has(const std::string& element) const {
+  return root_.has_dataset(group_ + '/' + element + "/value");
+}
+
+void TrajectoryReader::require(const std::string& element, const std::string& purpose) const {
+  if (!has(element))
+    fail("the dataset " + group_ + '/' + element + "/value is missing: it is needed for " +
+         purpose);
+}
+
+std::vector<std::string> TrajectoryReader::observable_names() const {
+  return root_.has_group("observables") ? root_.group("observables").members()
+                                        : std::vector<std::string>();
+}
+
+std::vector<double> TrajectoryReader::observable(const std::string& name) const {
+  const h5::Dataset values = dataset("observables/" + name + "/value", "one number per frame");
+  std::vector<double> numbers = values.read<double>();
+  if (values.shape().size() != 1 || numbers.size() < frames())
+    fail("the dataset " + values.name() + " should have one number per frame, " +
+         std::to_string(frames()));
+  numbers.resize(frames());
+  return numbers;
+}
+
+Provenance TrajectoryReader::provenance() const {
+  return root_.has_group("parameters") ? read_provenance(root_.group("parameters")) : Provenance();
+}
+
+void write_state(const fs::path& path, const Configuration2& configuration,
+                 const Provenance& provenance, bool overwrite) {
+  refuse_existing(path, overwrite);
+  PendingFile pending(path);
+  TrajectoryWriter writer(
+      create_layout(pending.partial(), configuration, provenance, {.velocities = true}));
+  writer.write(configuration, 0);
+  writer.close();
+  pending.commit();
+}
+
+Configuration2 read_state(const fs::path& path) {
+  const TrajectoryReader reader(path);
+  if (reader.frames() == 0)
+    throw FileError(path.string() + ": has no frames: a state is the last frame of a trajectory");
+  return reader.read(reader.frames() - 1);
+}
+
+}  // namespace vitrel

@@ -1,0 +1,170 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/io/h5.h"
+#include "core/io/provenance.h"
+#include "core/state/configuration.h"
+#include "core/state/observer.h"
+
+/// Trajectories in H5MD 1.1 (de Buyl, Colberg & Höfling, Comput. Phys. Commun. 185, 1546, 2014).
+/// The file is always three-dimensional, because readers of two-dimensional files are rare:
+/// ellipses lie in the plane z = 0, their third semi-axis is stored as 0, and the box is 1 high and
+/// not periodic in z.
+///
+///   particles/all/position, image      wrapped, box centred at the origin; unwrapped = position +
+///   image · edges particles/all/orientation          quaternion w, x, y, z; in two dimensions (cos
+///   θ/2, 0, 0, sin θ/2) particles/all/angle                θ, unwrapped, radians
+///   particles/all/velocity, angular_velocity   if asked for
+///   particles/all/box/edges            rows are the cell vectors
+///   particles/all/species, id, mass, semiaxes  the same in all frames
+///   observables/<name>                 one number per frame
+///   parameters                         provenance
+///
+/// Every {step, time} is one dataset under many names. All numbers are stored as they are in
+/// memory, so a wrapped configuration read back is the same bit by bit.
+namespace vitrel {
+
+using Observables = std::map<std::string, double>;
+
+struct TrajectoryOptions {
+  bool velocities = false;                    ///< store velocity and angular velocity
+  std::vector<std::string> observables = {};  ///< names of the numbers that come with every frame
+  bool overwrite = false;                     ///< replace an existing file instead of refusing
+};
+
+/// Writes a trajectory frame by frame. A frame counts once its entry in `step` is on file, which is
+/// written after everything else of the frame: a process killed at any moment leaves the frames
+/// that were complete.
+///
+/// Throws FileError if the file cannot be written; a full disk is noticed before the frame is
+/// begun.
+class TrajectoryWriter {
+ public:
+  /// A new file without frames; it appears under its name only when it is readable. `configuration`
+  /// gives what all frames share: number, shapes, masses and species of the particles.
+  /// UserError if the file exists and may not be overwritten.
+  static TrajectoryWriter create(const std::filesystem::path& path,
+                                 const Configuration2& configuration, const Provenance& provenance,
+                                 const TrajectoryOptions& options = {});
+  /// Continues a file after its first `frames_to_keep` frames; later ones are dropped. FileError if
+  /// it has fewer.
+  static TrajectoryWriter append_to(const std::filesystem::path& path,
+                                    std::uint64_t frames_to_keep);
+
+  /// Adds a frame at time configuration.time. `observables` must have exactly the names of the
+  /// file.
+  void write(const Configuration2& configuration, std::int64_t step,
+             const Observables& observables = {});
+  /// The time spent on this file by all processes so far, for its provenance.
+  void record_wall_seconds(double seconds);
+  /// Waits until the disk has everything; the destructor closes too, but cannot report a failure.
+  void close() { file_.close(); }
+
+  std::uint64_t frames() const { return frames_; }
+  std::vector<std::string> observable_names() const;
+
+ private:
+  explicit TrajectoryWriter(h5::File file);
+  friend void write_state(const std::filesystem::path& path, const Configuration2& configuration,
+                          const Provenance& provenance, bool overwrite);
+
+  void check(const Configuration2& configuration, const Observables& observables) const;
+  std::uint64_t frame_bytes() const;
+  void resize(std::uint64_t frames);
+  void write_particles(const Configuration2& configuration);
+
+  h5::File file_;
+  std::size_t particles_ = 0;
+  std::uint64_t frames_ = 0;
+  h5::Dataset step_, time_, edges_, position_, image_, orientation_, angle_;
+  std::optional<h5::Dataset> velocity_, angular_velocity_;
+  std::map<std::string, h5::Dataset> observables_;
+};
+
+/// Writes every frame it is shown, with the observables that `measure` gives for it.
+class TrajectoryObserver : public Observer<2> {
+ public:
+  using Measure = std::function<Observables(const Frame<2>&)>;
+  explicit TrajectoryObserver(TrajectoryWriter& writer, Measure measure = {})
+      : writer_(writer), measure_(std::move(measure)) {}
+  void observe(const Frame<2>& frame) override {
+    writer_.write(frame.configuration, frame.index, measure_ ? measure_(frame) : Observables{});
+  }
+
+ private:
+  TrajectoryWriter& writer_;
+  Measure measure_;
+};
+
+/// Reads trajectories one frame at a time: vitrel's own, and those of other programs as far as they
+/// have what is asked for. Two-dimensional files and fixed boxes are understood; positions are
+/// wrapped into a box centred at the origin. What a file of another program may lack, and what then
+/// is read: image: 0; velocity, angular_velocity: 0; mass: 1; species: one, "A"; angle: taken from
+/// the orientation, then not unwrapped. `require` turns such a lack into an error where it matters.
+///
+/// FileError names the file, the dataset, and what would be right.
+class TrajectoryReader {
+ public:
+  explicit TrajectoryReader(const std::filesystem::path& path);
+
+  std::uint64_t frames() const { return times_.size(); }
+  std::size_t particles() const { return fixed_.size(); }
+  /// One entry per frame.
+  const std::vector<double>& times() const { return times_; }
+  const std::vector<std::int64_t>& steps() const { return steps_; }
+  const std::vector<std::string>& species_names() const { return fixed_.species_names; }
+
+  Configuration2 read(std::uint64_t frame) const;
+  /// The same into an existing configuration, whose memory is used again.
+  void read(std::uint64_t frame, Configuration2& configuration) const;
+
+  /// Whether the file has the element "velocity", "image", … of the particles.
+  bool has(const std::string& element) const;
+  /// Throws FileError if it has not; `purpose` completes "needed for …".
+  void require(const std::string& element, const std::string& purpose) const;
+
+  std::vector<std::string> observable_names() const;
+  /// One value per frame.
+  std::vector<double> observable(const std::string& name) const;
+
+  /// Empty fields where the file has none.
+  Provenance provenance() const;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  h5::Dataset dataset(const std::string& name, const std::string& meaning) const;
+  [[noreturn]] void fail(const std::string& what) const;
+  void read_axes();
+  void read_shapes();
+  void read_masses_and_species();
+  std::size_t columns(const h5::Dataset& values) const;
+  std::vector<double> frame_values(const std::string& element, const std::string& meaning,
+                                   std::uint64_t frame, std::size_t per_particle) const;
+  void read_box(std::uint64_t frame, Configuration2& configuration) const;
+  void read_positions(std::uint64_t frame, Configuration2& configuration) const;
+  void read_angles(std::uint64_t frame, Configuration2& configuration) const;
+  void read_velocities(std::uint64_t frame, Configuration2& configuration) const;
+
+  std::filesystem::path path_;
+  h5::File file_;
+  h5::Group root_;
+  std::string group_;  ///< of the particles: "particles/all" in vitrel's files
+  std::vector<double> times_;
+  std::vector<std::int64_t> steps_;
+  Configuration2 fixed_;  ///< what all frames share
+};
+
+/// One frame with velocities, complete under its name or not there at all.
+void write_state(const std::filesystem::path& path, const Configuration2& configuration,
+                 const Provenance& provenance, bool overwrite = false);
+/// The last frame of a trajectory. FileError if there is none.
+Configuration2 read_state(const std::filesystem::path& path);
+
+}  // namespace vitrel
