@@ -1,0 +1,68 @@
+#!/usr/bin/python3
+"""scripts/check_layers finds forbidden includes: one tree with and without each of them."""
+
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+SCRIPT = pathlib.Path(__file__).parents[2] / "scripts" / "check_layers"
+
+GOOD = {
+    "core/geometry/disk.h": '#include "core/tolerances.h"\n#include <vector>\n',
+    "core/contact/gap.h": '#include "core/geometry/disk.h"\n',
+    "core/state/state.h": '#include "core/contact/gap.h"\n#include "core/random/stream.h"\n',
+    "core/neighbors/cells.h": '#include "core/state/state.h"\n',
+    "core/io/file.cpp": '#include "core/state/state.h"\n#include "vitrel_commit.h"\n',
+    "edmd/engine.cpp": '#include "edmd/engine.h"\n#include "core/neighbors/cells.h"\n',
+    "app/main.cpp": '#include "mc/insert.h"\n#include "edmd/engine.h"\n',
+    "tests/app/main_test.cpp": '#include "app/main.h"\n',
+}
+
+FORBIDDEN = [
+    ("core/geometry/disk.h", '#include "core/contact/gap.h"'),
+    ("core/contact/gap.h", '#include "core/state/state.h"'),
+    ("core/state/state.h", '#include "core/neighbors/cells.h"'),
+    ("core/state/state.h", '#include "core/io/file.h"'),
+    ("core/neighbors/cells.h", '#include "core/io/file.h"'),
+    ("core/io/file.h", '#include "core/neighbors/cells.h"'),
+    ("core/random/stream.h", '#include "core/error.h"'),
+    ("core/tolerances.h", '#include "core/geometry/disk.h"'),
+    ("core/io/file.h", '#include "mc/insert.h"'),
+    ("mc/insert.h", '#include "edmd/engine.h"'),
+    ("edmd/engine.h", '#include "analysis/energy.h"'),
+    ("analysis/energy.h", '#include "mc/insert.h"'),
+    ("edmd/engine.h", '#include "app/main.h"'),
+    ("edmd/engine.h", '  #  include <mc/insert.h>'),
+    ("edmd/engine.h", '#include "tests/support/scenes.h"'),
+    ("app/main.h", '#include "tests/support/scenes.h"'),
+    ("edmd/engine.h", '#include "engine_details.h"'),
+    ("core/stray.h", ""),
+]
+
+
+def check(files):
+    with tempfile.TemporaryDirectory() as root:
+        for path, text in files.items():
+            file = pathlib.Path(root, path)
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_text(text, encoding="utf-8")
+        return subprocess.run([SCRIPT, root], capture_output=True, text=True, check=False)
+
+
+class CheckLayers(unittest.TestCase):
+    def test_accepts_includes_that_go_down(self):
+        run = check(GOOD)
+        self.assertEqual((run.returncode, run.stdout, run.stderr), (0, "", ""))
+
+    def test_names_every_forbidden_include(self):
+        for path, line in FORBIDDEN:
+            with self.subTest(path=path, line=line):
+                run = check({**GOOD, path: f"// comment\n{line}\n"})
+                self.assertEqual(run.returncode, 1)
+                self.assertTrue(run.stdout.startswith(f"{path}:2:" if line else f"{path}:"), run.stdout)
+                self.assertEqual(run.stdout.count("\n"), 1, run.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
