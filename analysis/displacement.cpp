@@ -240,8 +240,10 @@ Diffusion long_time_diffusion(const std::vector<double>& lag, const MeanSquare& 
   const double longest = lag.back();
   const Diffusion late = slope(lag, square, longest / 3, longest, dimension);
   const Diffusion early = slope(lag, square, longest / 9, longest / 3, dimension);
-  const double tolerance = std::max(0.1 * late.value, 2 * std::hypot(late.error, early.error));
-  return std::abs(late.value - early.value) <= tolerance ? late : Diffusion{none, none};
+  const double change = std::abs(late.value - early.value);
+  const double chance = 3 * std::hypot(late.error, early.error);
+  if (!(change <= std::max(0.1 * late.value, chance))) return {none, none};
+  return {late.value, std::max(late.error, change)};
 }
 
 }  // namespace vitrel

@@ -68,9 +68,10 @@ struct Diffusion {
   double error;
 };
 /// Read off between a third of the longest lag T and T, as (m(T) − m(T/3))/(2 d · 2T/3); NaN unless
-/// it is honest: the slope between T/9 and T/3 must agree within 10 % or two standard errors, and
-/// the particles must have moved by one unit (length or radian) in the mean square. The error adds
-/// those of both ends in squares, which is an upper bound because they are positively correlated.
+/// it is honest: the slope between T/9 and T/3 must agree within 10 % or three standard errors, and
+/// the particles must have moved by one unit (length or radian) in the mean square. The error is
+/// the larger of the change from the earlier slope to this one, and of those of both ends added in
+/// squares, an upper bound because they are positively correlated.
 Diffusion long_time_diffusion(const std::vector<double>& lag, const MeanSquare& square,
                               int dimension);
 

@@ -220,12 +220,12 @@ TEST(Displacement, OneFrameIsTheUsersMistake) {
   EXPECT_THROW(displacements(trajectory), UserError);
 }
 
-/// A square m(t) with relative errors of 1 %.
-MeanSquare square(const std::vector<double>& lag, double (*m)(double)) {
+/// A mean square m(t) with small relative errors.
+MeanSquare square(const std::vector<double>& lag, double (*m)(double), double error = 0.01) {
   MeanSquare result;
   for (const double t : lag) {
     result.value.push_back(m(t));
-    result.error.push_back(0.01 * m(t));
+    result.error.push_back(error * m(t));
   }
   return result;
 }
@@ -244,6 +244,17 @@ TEST(LongTimeDiffusion, IsGivenOnlyWhereMotionIsDiffusive) {
   EXPECT_NEAR(d.value, 0.5, 0.01);
   // Errors 0.01·2·88 and 0.01·2·28, over 4·60.
   EXPECT_NEAR(d.error, 0.01 * 2 * std::hypot(88, 28) / 240, 1e-4);
+  // m' = 2 − 1/√t: the slopes are 2 − 2 (√a − √b)/(a − b), 5 % apart, and that is the error.
+  const Diffusion slow =
+      long_time_diffusion(lag,
+                          square(
+                              lag, [](double t) { return 2 * t - 2 * std::sqrt(t); }, 1e-6),
+                          1);
+  const auto steepness = [](double from, double to) {
+    return 1 - (std::sqrt(to) - std::sqrt(from)) / (to - from);
+  };
+  EXPECT_NEAR(slow.value, steepness(30, 90), 1e-3);
+  EXPECT_NEAR(slow.error, steepness(30, 90) - steepness(10, 30), 1e-3);
   const auto ballistic = square(lag, [](double t) { return t * t; });
   EXPECT_TRUE(std::isnan(long_time_diffusion(lag, ballistic, 2).value));
   const auto caged = square(lag, [](double t) { return 0.01 * t; });
