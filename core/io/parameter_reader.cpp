@@ -79,13 +79,19 @@ class Reader final : public FieldVisitor {
     value = *read;
   }
 
-  void field(const Field& field, std::vector<double>& value) override {
+  void numbers(const Field& field, std::span<double> values) override {
     const TomlNode* node = find(field);
     if (!node) return;
     const auto* items = node->get<TomlNode::Array>();
-    if (!items) wrong_type(*node, field, "an array of numbers", "[1.0, 2.0]");
-    value.clear();
-    for (const TomlNode& item : *items) value.push_back(number(item, field, "[1.0, 2.0]"));
+    const std::string wanted = fmt::format("an array of {} numbers", values.size());
+    const std::string example = to_toml(values);
+    if (!items) wrong_type(*node, field, wanted, example);
+    if (items->size() != values.size())
+      throw UserError(fmt::format("{}: key '{}' must be {}, not of {}; for example {} = {}",
+                                  node->where, join(path_, field.key), wanted, items->size(),
+                                  field.key, example));
+    for (std::size_t k = 0; k < values.size(); ++k)
+      values[k] = number((*items)[k], field, to_toml(values[k]));
   }
 
   void integer(const Field& field, std::int64_t& value, std::int64_t low,

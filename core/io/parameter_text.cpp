@@ -6,12 +6,6 @@
 namespace vitrel {
 namespace {
 
-std::string array_text(const std::vector<double>& values) {
-  std::vector<std::string> items;
-  for (const double value : values) items.push_back(to_toml(value));
-  return fmt::format("[{}]", fmt::join(items, ", "));
-}
-
 std::string choices_text(std::span<const char* const> names) {
   return fmt::format("\"{}\"", fmt::join(names, "\" | \""));
 }
@@ -25,8 +19,8 @@ class ValueVisitor : public FieldVisitor {
   void field(const Field& field, std::string& value) override {
     put(field, to_toml(std::string_view(value)), "");
   }
-  void field(const Field& field, std::vector<double>& value) override {
-    put(field, array_text(value), "");
+  void numbers(const Field& field, std::span<double> values) override {
+    put(field, to_toml(values), "");
   }
   void integer(const Field& field, std::int64_t& value, std::int64_t, std::int64_t) override {
     put(field, fmt::format("{}", value), "");
@@ -137,7 +131,8 @@ class DocumentWriter final : public ValueVisitor {
 
   void list(const Field& field, const List& list) override {
     for (std::size_t i = 0; i < list.size(); ++i) {
-      DocumentWriter entry(comments_, joined(field.key));
+      // One explanation is enough.
+      DocumentWriter entry(comments_ && i == 0, joined(field.key));
       list.describe(i, entry);
       blank_line();
       if (i == 0) comment(field, "");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -48,7 +49,8 @@ class FieldVisitor {
   virtual void field(const Field&, bool&) = 0;
   virtual void field(const Field&, double&) = 0;
   virtual void field(const Field&, std::string&) = 0;
-  virtual void field(const Field&, std::vector<double>&) = 0;
+  /// As many numbers as `values` has room for.
+  virtual void numbers(const Field&, std::span<double> values) = 0;
   /// An integer from `low` to `high`.
   virtual void integer(const Field&, std::int64_t& value, std::int64_t low, std::int64_t high) = 0;
   /// One of `names`, by its index.
@@ -75,6 +77,11 @@ class FieldVisitor {
                 ? static_cast<std::int64_t>(std::numeric_limits<Int>::max())
                 : largest);
     value = static_cast<Int>(wide);
+  }
+
+  template <std::size_t N>
+  void field(const Field& field, std::array<double, N>& values) {
+    numbers(field, values);
   }
 
   template <class Enum>

@@ -97,8 +97,7 @@ TomlNode override_value(const std::string& text, const std::string& option) {
   TomlNode value;
   try {
     TomlNode document = parse_toml("x = " + text, option);
-    if (document.get<TomlNode::Table>()->size() != 1)
-      throw UserError("more than one key");
+    if (document.get<TomlNode::Table>()->size() != 1) throw UserError("more than one key");
     value = std::move(document.get<TomlNode::Table>()->front().node);
   } catch (const UserError&) {
     if (!is_bare_word(text))
@@ -211,6 +210,12 @@ std::string to_toml(double value) {
   std::string text = fmt::format("{}", value);
   if (text.find_first_of(".e") == std::string::npos) text += ".0";
   return text;
+}
+
+std::string to_toml(std::span<const double> values) {
+  std::string joined;
+  for (const double value : values) joined += (joined.empty() ? "" : ", ") + to_toml(value);
+  return "[" + joined + "]";
 }
 
 std::string to_toml(std::string_view text) {

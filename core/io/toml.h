@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -58,6 +59,7 @@ std::string locate(const TomlNode& root, std::string_view path);
 /// One-line TOML text of a value; parse_toml reads the same value back, bit by bit.
 std::string to_toml(const TomlNode& node);
 std::string to_toml(double value);
+std::string to_toml(std::span<const double> values);
 std::string to_toml(std::string_view text);
 /// The key as it may stand in a document: quoted unless it is a bare key.
 std::string toml_key(std::string_view key);

@@ -45,7 +45,8 @@ void shuffle(std::vector<std::int32_t>& values, Stream stream) {
 double Distribution::draw(Stream& stream) const {
   constexpr int most_draws = 10'000;
   for (int k = 0; k < most_draws; ++k)
-    if (const double value = draw_once(*this, stream); value >= minimum) return value;
+    if (const double value = draw_once(*this, stream); kind == Kind::constant || value >= minimum)
+      return value;
   throw UserError("a distribution lies below its minimum " + std::to_string(minimum) +
                   " practically always; lower the minimum or raise the mean");
 }

@@ -20,7 +20,7 @@ struct Distribution {
   double mean = 1;                ///< constant: the value; gaussian, lognormal: ⟨x⟩
   double standard_deviation = 0;  ///< gaussian, lognormal: of x itself, not of ln x
   double low = 0, high = 0;       ///< uniform
-  double minimum = 0;             ///< smaller draws are drawn again
+  double minimum = 0;             ///< smaller draws are drawn again; of no effect on a constant
 
   double draw(Stream& stream) const;
 };

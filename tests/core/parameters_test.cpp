@@ -27,7 +27,7 @@ struct Everything {
   bool velocities = true;
   Kind kind = Kind::gas;
   std::int64_t atoms_per_cell = 4;
-  std::vector<double> axes = {2, 1};
+  std::array<double, 2> axes = {2, 1};
   double spread = 1;
   bool spread_is_table = false;
   double low = 0, high = 1;
@@ -137,7 +137,7 @@ system.kind = ["gas"]
   EXPECT_FALSE(p.velocities);
   EXPECT_EQ(p.kind, Kind::crystal);
   EXPECT_EQ(p.atoms_per_cell, 2);
-  EXPECT_EQ(p.axes, (std::vector<double>{3, 0.5}));
+  EXPECT_EQ(p.axes, (std::array<double, 2>{3, 0.5}));
   EXPECT_TRUE(p.spread_is_table);
   EXPECT_EQ(p.low, -1);
   EXPECT_EQ(p.high, 2.5);
@@ -188,8 +188,11 @@ TEST(Parameters, WrongTypeNamesThePlaceOfTheValueAndShowsARightOne) {
   EXPECT_THAT(refusal("[system]\nkind = 1\n"),
               HasSubstr("one of the strings \"gas\", \"crystal\""));
   EXPECT_THAT(refusal("[system]\nkind = \"gass\"\n"), HasSubstr("did you mean 'gas'?"));
-  EXPECT_THAT(refusal("[system]\naxes = 1\n"), HasSubstr("an array of numbers, not the number 1"));
+  EXPECT_THAT(refusal("[system]\naxes = 1\n"),
+              HasSubstr("an array of 2 numbers, not the number 1"));
   EXPECT_THAT(refusal("[system]\naxes = [1, \"x\"]\n"), HasSubstr("file.toml:2:12: "));
+  EXPECT_THAT(refusal("[system]\naxes = [1, 2, 3]\n"),
+              HasSubstr("must be an array of 2 numbers, not of 3; for example axes = [2.0, 1.0]"));
   EXPECT_THAT(refusal("[system]\nspread = \"wide\"\n"), HasSubstr("must be a number"));
   EXPECT_THAT(refusal("[system]\nsamples = 1\n"), HasSubstr("must be a table, not the number 1"));
   EXPECT_THAT(refusal("system = 1\n"), HasSubstr("file.toml:1:10: key 'system' must be a table"));
@@ -224,7 +227,7 @@ TEST(Parameters, OverridesReplaceAndExtend) {
   EXPECT_EQ(p.parts[0].mass, 2);
   EXPECT_EQ(p.parts[1].name, "C 1");
   EXPECT_EQ(p.interval, 3);
-  EXPECT_EQ(p.axes, (std::vector<double>{4, 2}));
+  EXPECT_EQ(p.axes, (std::array<double, 2>{4, 2}));
   EXPECT_EQ(p.high, 3);
 }
 

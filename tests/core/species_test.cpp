@@ -99,8 +99,7 @@ TEST(Distribution, DrawsBelowTheMinimumAreDrawnAgain) {
   Stream stream(5, Purpose::tests);
   const Distribution half{Distribution::Kind::gaussian, 1, 0.5, 0, 0, 1};
   for (int k = 0; k < 1000; ++k) EXPECT_GE(half.draw(stream), 1);
-  Distribution impossible = number(1);
-  impossible.minimum = 2;
+  const Distribution impossible{Distribution::Kind::uniform, 0, 0, 0, 1, 2};
   EXPECT_THROW(impossible.draw(stream), UserError);
 }
 

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// The commands of the program: each turns its part of the command line into a call of the workflow
+/// and says what came out. They return the exit code, or throw one of the errors of core/error.h.
+namespace vitrel {
+
+enum ExitCode {
+  success = 0,
+  defect = 1,  ///< an error nobody foresaw
+  user_error = 2,
+  file_error = 3,
+  broken_invariant = 4,
+  stopped = 5,  ///< on request or for want of time; the same command continues
+};
+
+/// What the command line says; every command uses its part.
+struct Arguments {
+  std::string command_line;            ///< the whole, for the provenance
+  std::filesystem::path input;         ///< parameter file, state, run or sweep
+  std::filesystem::path output;        ///< empty: the command's default, where it has one
+  std::filesystem::path parameters;    ///< analyze, report: instead of those in the run
+  std::filesystem::path from;          ///< run: state to start from
+  std::vector<std::string> overrides;  ///< --set
+  std::optional<std::uint64_t> seed;
+  double wall_time = 0;  ///< seconds; 0: no limit
+  int parallel = 1;
+  bool quiet = false, json = false;
+  bool dry_run = false, status = false, last_only = false, reference = false;
+  std::string template_command;  ///< params: whose template
+};
+
+int prepare_command(const Arguments& arguments);
+int run_command(const Arguments& arguments);
+int check_command(const Arguments& arguments);
+int analyze_command(const Arguments& arguments);
+int sweep_command(const Arguments& arguments);
+int report_command(const Arguments& arguments);
+int params_command(const Arguments& arguments);
+
+}  // namespace vitrel

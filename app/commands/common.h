@@ -1,0 +1,42 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "app/commands/commands.h"
+#include "app/workflow/parameters.h"
+#include "app/workflow/progress.h"
+#include "core/state/stage.h"
+
+namespace vitrel {
+
+/// What a command at work has: a budget that ends with a stop signal or the wall time, and a
+/// display.
+class Session {
+ public:
+  explicit Session(const Arguments& arguments);
+
+  const Budget& budget() const { return budget_; }
+  /// Announces a step: a line, and the label of the progress that follows.
+  const std::function<void(const std::string&)>& say() const { return say_; }
+  double seconds() const;
+
+ private:
+  ProgressDisplay display_;
+  double wall_time_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  Budget budget_;
+  std::function<void(const std::string&)> say_;
+};
+
+ParameterSource parameter_source(const Arguments& arguments);
+
+/// To standard output: as JSON if asked for, else as lines "key  value" unless quiet.
+void print_summary(const Arguments& arguments, const nlohmann::ordered_json& summary);
+
+/// One line on standard error, unless quiet.
+void remark(const Arguments& arguments, const std::string& line);
+
+}  // namespace vitrel

@@ -1,0 +1,17 @@
+#include <fmt/format.h>
+
+#include "app/commands/commands.h"
+#include "app/workflow/parameters.h"
+#include "core/error.h"
+
+namespace vitrel {
+
+int params_command(const Arguments& arguments) {
+  if (!arguments.reference && arguments.template_command.empty())
+    throw UserError("name a command, for example: vitrel params run > params.toml");
+  fmt::print("{}",
+             arguments.reference ? parameter_page() : command_template(arguments.template_command));
+  return success;
+}
+
+}  // namespace vitrel

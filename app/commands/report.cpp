@@ -1,0 +1,33 @@
+#include <nlohmann/json.hpp>
+
+#include "app/commands/common.h"
+#include "app/workflow/analyze.h"
+#include "app/workflow/sweep.h"
+#include "app/workflow/text_file.h"
+
+namespace vitrel {
+
+int report_command(const Arguments& arguments) {
+  namespace fs = std::filesystem;
+  const bool is_sweep = fs::is_directory(arguments.input);
+  fs::path output = arguments.output;
+  if (output.empty())
+    output = is_sweep ? arguments.input / "report.html"
+                      : fs::path(arguments.input).replace_extension("html");
+  AnalysisChoice choice;
+  if (!arguments.parameters.empty()) choice.parameters = arguments.parameters;
+  choice.overrides = arguments.overrides;
+  std::vector<RunAnalysis> analyses;
+  if (is_sweep) {
+    for (const fs::path& folder : finished_jobs(arguments.input))
+      analyses.push_back(analyze_run(folder / "run.h5", choice));
+  } else {
+    analyses.push_back(analyze_run(arguments.input, choice));
+  }
+  const std::size_t runs = analyses.size();
+  write_text(output, report_page(report_data(std::move(analyses), "vitrel")));
+  print_summary(arguments, {{"output", output.string()}, {"runs", runs}});
+  return success;
+}
+
+}  // namespace vitrel

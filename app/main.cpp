@@ -1,0 +1,193 @@
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <functional>
+#include <iostream>
+
+#include "app/commands/commands.h"
+#include "core/error.h"
+#include "core/io/provenance.h"
+
+namespace vitrel {
+namespace {
+
+// The command that the command line chose, if any.
+using Chosen = std::function<int(const Arguments&)>;
+
+class CommandLine {
+ public:
+  CommandLine()
+      : app_("Simulation of hard anisotropic particles, from the liquid to the glass.", "vitrel") {
+    app_.require_subcommand(1);
+    app_.set_version_flag("--version", program_version());
+    app_.failure_message([](const CLI::App*, const CLI::Error& error) {
+      return "vitrel: " + std::string(error.what()) +
+             "; vitrel --help and vitrel <command> --help list what there is\n";
+    });
+    add_prepare();
+    add_run();
+    add_check();
+    add_analyze();
+    add_sweep();
+    add_report();
+    add_params();
+  }
+
+  /// The exit code if there is nothing left to do (help, or a mistake), else nothing.
+  std::optional<int> parse(int count, char** words) {
+    for (int k = 0; k < count; ++k)
+      arguments_.command_line += (k > 0 ? " " : "") + std::string(words[k]);
+    try {
+      app_.parse(count, words);
+    } catch (const CLI::ParseError& error) {
+      return app_.exit(error) == 0 ? success : user_error;
+    }
+    return std::nullopt;
+  }
+
+  int run() const { return chosen_(arguments_); }
+  std::string command() const { return app_.get_subcommands().front()->get_name(); }
+
+ private:
+  CLI::App& add(const std::string& name, const std::string& sentence, Chosen command) {
+    CLI::App& sub = *app_.add_subcommand(name, sentence);
+    sub.callback([this, command] { chosen_ = command; });
+    sub.footer(
+        "Exit codes: 0 done, 2 mistake in parameters or command line, 3 a file cannot be read or "
+        "written, 4 overlap, 5 stopped (the same command continues).");
+    return sub;
+  }
+
+  void add_quiet_and_json(CLI::App& sub) {
+    sub.add_flag("-q,--quiet", arguments_.quiet, "No progress and no summary");
+    sub.add_flag("--json", arguments_.json, "Summary as JSON on standard output");
+  }
+  void add_overrides(CLI::App& sub) {
+    sub.add_option("--set", arguments_.overrides,
+                   "key=value, instead of the value in the file: --set dynamics.duration=10")
+        ->take_all()
+        ->allow_extra_args(false);
+  }
+  void add_wall_time(CLI::App& sub) {
+    sub.add_option("--wall-time", arguments_.wall_time,
+                   "Stop cleanly after this many seconds (exit code 5)")
+        ->check(CLI::NonNegativeNumber);
+  }
+  void add_parameter_file(CLI::App& sub) {
+    sub.add_option("params", arguments_.input, "Parameter file (TOML); vitrel params prints one")
+        ->required();
+    add_overrides(sub);
+    sub.add_option("--seed", arguments_.seed,
+                   "Seed of all random numbers, the same as --set system.seed=");
+  }
+  void add_output(CLI::App& sub, const std::string& what, bool required) {
+    CLI::Option* option = sub.add_option("-o,--output", arguments_.output, what);
+    if (required) option->required();
+  }
+  void add_analysis_parameters(CLI::App& sub) {
+    sub.add_option("--params", arguments_.parameters,
+                   "Parameter file with [analysis], instead of that in the run");
+    add_overrides(sub);
+  }
+
+  void add_prepare() {
+    CLI::App& sub = add("prepare", "Make a first state.", prepare_command);
+    add_parameter_file(sub);
+    add_output(sub, "State file to write", true);
+    add_wall_time(sub);
+    add_quiet_and_json(sub);
+  }
+  void add_run() {
+    CLI::App& sub =
+        add("run", "Start or continue an event-driven run; without --from, prepare first.",
+            run_command);
+    add_parameter_file(sub);
+    add_output(sub, "Trajectory to write; its checkpoint lies beside it", true);
+    sub.add_option("--from", arguments_.from, "State or run whose last frame to start from");
+    sub.add_flag("--dry-run", arguments_.dry_run, "Print what would be done");
+    add_wall_time(sub);
+    add_quiet_and_json(sub);
+  }
+  void add_check() {
+    CLI::App& sub = add("check", "Exact check of a state or of all frames of a run for overlaps.",
+                        check_command);
+    sub.add_option("file", arguments_.input, "State or run")->required();
+    sub.add_flag("--last", arguments_.last_only, "The last frame only");
+    add_quiet_and_json(sub);
+  }
+  void add_analyze() {
+    CLI::App& sub =
+        add("analyze", "Displacements, energies and pressure of a run, or of all runs of a sweep.",
+            analyze_command);
+    sub.add_option("run", arguments_.input, "Run, or folder of a sweep")->required();
+    add_output(sub,
+               "Results to write (HDF5, and CSV tables beside it); default <run>_results.h5 or "
+               "<sweep>/results.h5",
+               false);
+    add_analysis_parameters(sub);
+    add_quiet_and_json(sub);
+  }
+  void add_sweep() {
+    CLI::App& sub =
+        add("sweep", "Work off all combinations of [sweep.grid]: prepare, run, analyze.",
+            sweep_command);
+    add_parameter_file(sub);
+    add_output(sub, "Folder of the sweep", true);
+    sub.add_option("-j,--jobs", arguments_.parallel, "Jobs at a time")->check(CLI::PositiveNumber);
+    sub.add_flag("--status", arguments_.status, "Only print how far every job is");
+    add_wall_time(sub);
+    add_quiet_and_json(sub);
+  }
+  void add_report() {
+    CLI::App& sub = add("report", "One HTML page about a run or a sweep.", report_command);
+    sub.add_option("run", arguments_.input, "Run, or folder of a sweep")->required();
+    add_output(sub, "Page to write; default <run>.html or <sweep>/report.html", false);
+    add_analysis_parameters(sub);
+    add_quiet_and_json(sub);
+  }
+  void add_params() {
+    CLI::App& sub =
+        add("params", "Print a commented template of a command's parameters.", params_command);
+    sub.add_option("command", arguments_.template_command, "prepare, run, analyze or sweep");
+    sub.add_flag("--reference", arguments_.reference,
+                 "All parameters as Markdown (docs/parameters.md)");
+  }
+
+  CLI::App app_;
+  Arguments arguments_;
+  Chosen chosen_;
+};
+
+int complain(const std::string& command, const char* message, ExitCode code) {
+  std::cerr << "vitrel " << command << ": " << message << '\n';
+  return code;
+}
+
+int run_command_line(const CommandLine& line) {
+  const std::string command = line.command();
+  try {
+    return line.run();
+  } catch (const UserError& error) {
+    return complain(command, error.what(), user_error);
+  } catch (const FileError& error) {
+    return complain(command, error.what(), file_error);
+  } catch (const InvariantError& error) {
+    return complain(command, error.what(), broken_invariant);
+  } catch (const std::filesystem::filesystem_error& error) {
+    return complain(command, error.what(), file_error);
+  } catch (const std::bad_alloc&) {
+    return complain(command,
+                    "out of memory; fewer particles or a smaller analysis.memory need less",
+                    user_error);
+  } catch (const std::exception& error) {
+    return complain(command, error.what(), defect);
+  }
+}
+
+}  // namespace
+}  // namespace vitrel
+
+int main(int count, char** words) {
+  vitrel::CommandLine line;
+  if (const std::optional<int> code = line.parse(count, words)) return *code;
+  return vitrel::run_command_line(line);
+}

@@ -1,0 +1,243 @@
+#include "app/workflow/analyze.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "app/workflow/stored_run.h"
+#include "core/error.h"
+
+namespace vitrel {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+DisplacementOptions analysis_options(const RunAnalysis& run, const AnalysisChoice& choice) {
+  if (choice.parameters)
+    return load_parameters({*choice.parameters, choice.overrides, std::nullopt}).analysis;
+  return parse_parameters(run.provenance.parameters, run.file.string(), choice.overrides).analysis;
+}
+
+void measure(RunAnalysis& run, StoredTrajectory& trajectory, const DisplacementOptions& options) {
+  const TrajectoryReader& reader = trajectory.reader();
+  run.final_state = trajectory.read(trajectory.frames() - 1);
+  run.particles = run.final_state.size();
+  run.rotors = rotor_count(run.final_state);
+  run.packing_fraction = packing_fraction(run.final_state);
+  run.frames = trajectory.frames();
+  run.duration = trajectory.times().back() - trajectory.times().front();
+  run.displacements = displacements(trajectory, options);
+  run.energy = stored_energies(trajectory);
+  run.compressibility = stored_compressibility(reader, run.energy, run.rotors);
+  const DisplacementGroup& all = run.displacements.groups.front();
+  run.diffusion = long_time_diffusion(run.displacements.lag, all.translation, 2);
+  run.rotational_diffusion = run.rotors > 0
+                                 ? long_time_diffusion(run.displacements.lag, all.rotation, 1)
+                                 : Diffusion{unknown, unknown};
+}
+
+std::string identifier(const std::string& name) {
+  std::string result = name;
+  for (char& c : result)
+    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+  return result;
+}
+
+Table displacement_table(const Displacements& displacements, const DisplacementGroup& group) {
+  Table table;
+  table.name = "displacements_" + identifier(group.name);
+  table.description = fmt::format(
+      "Mean squared displacement and rotation of {} particles ({}) against the time difference; "
+      "lengths in units where a b = 1 for the reference species, time in sqrt(m a b/kT).",
+      group.particles, group.name);
+  std::vector<double> origins(displacements.origins.begin(), displacements.origins.end());
+  table.columns = {{"time", "time", displacements.lag, {}},
+                   {"msd", "length^2", group.translation.value, group.translation.error}};
+  if (group.rotors > 0)
+    table.columns.push_back({"msr", "rad^2", group.rotation.value, group.rotation.error});
+  table.columns.push_back({"origins", "1", std::move(origins), {}});
+  return table;
+}
+
+Table energy_table(const EnergySeries& energy) {
+  return {"energies",
+          "Energies per particle at the sample times, in kT; translational + rotational = total.",
+          {{"time", "time", energy.time, {}},
+           {"translational", "kT", energy.translational, {}},
+           {"rotational", "kT", energy.rotational, {}},
+           {"total", "kT", energy.total, {}}}};
+}
+
+Table compressibility_table(const CompressibilitySeries& series) {
+  return {"compressibility",
+          "Compressibility factor Z = P/(rho kT) from the virial of the collisions between two "
+          "samples.",
+          {{"time", "time", series.time, {}}, {"z", "1", series.value, {}}}};
+}
+
+Column single(const char* name, const char* unit, double value, double error) {
+  return {name, unit, {value}, {error}};
+}
+
+std::vector<Column> summary_columns(const RunAnalysis& run) {
+  const Estimate translational = time_average(run.energy.time, run.energy.translational);
+  const Estimate rotational = time_average(run.energy.time, run.energy.rotational);
+  const Estimate& z = run.compressibility.mean;
+  return {{"packing_fraction", "1", {run.packing_fraction}, {}},
+          {"particles", "1", {static_cast<double>(run.particles)}, {}},
+          {"duration", "time", {run.duration}, {}},
+          single("compressibility", "1", z.mean, z.error),
+          single("translational_energy", "kT", translational.mean, translational.error),
+          single("rotational_energy", "kT", rotational.mean, rotational.error),
+          single("diffusion", "length^2/time", run.diffusion.value, run.diffusion.error),
+          single("rotational_diffusion", "rad^2/time", run.rotational_diffusion.value,
+                 run.rotational_diffusion.error)};
+}
+
+std::vector<std::pair<std::string, std::string>> provenance_rows(const Provenance& provenance) {
+  return {{"version", provenance.version},
+          {"commit", provenance.commit},
+          {"command_line", provenance.command_line},
+          {"host", provenance.host},
+          {"seed", std::to_string(provenance.seed)},
+          {"parent", provenance.parent},
+          {"started", provenance.started},
+          {"wall_seconds", fmt::format("{:.1f}", provenance.wall_seconds)}};
+}
+
+std::string dynamics_text(const std::optional<Parameters>& parameters) {
+  if (!parameters) return "";
+  const DynamicsParameters& p = parameters->dynamics;
+  return p.kind == DynamicsParameters::Kind::brownian
+             ? fmt::format("Brownian, step {:g}", p.brownian_step)
+             : "Newtonian";
+}
+
+// "ellipses, κ = 2" for equal particles, else "species A, B".
+std::string particles_text(const Configuration2& state) {
+  if (state.species_names.size() > 1) {
+    std::string names;
+    for (const std::string& name : state.species_names) names += (names.empty() ? "" : ", ") + name;
+    return "particles of species " + names;
+  }
+  const double ratio = state.shape.front().aspect_ratio();
+  for (const Ellipse& shape : state.shape)
+    if (std::abs(shape.aspect_ratio() - ratio) > 1e-9 * ratio) return "ellipses of several shapes";
+  return ratio == 1 ? "disks" : fmt::format("ellipses, κ = {:.4g}", ratio);
+}
+
+ReportRun report_run(RunAnalysis run) {
+  ReportRun result;
+  result.name = run.file.filename() == "run.h5" && run.file.has_parent_path()
+                    ? run.file.parent_path().filename().string()
+                    : run.file.stem().string();
+  result.dynamics = dynamics_text(run.parameters);
+  result.packing_fraction = run.packing_fraction;
+  result.particles = run.particles;
+  result.rotors = run.rotors;
+  result.duration = run.duration;
+  result.collisions = run.collisions;
+  result.compressibility = run.compressibility.mean;
+  result.displacements = std::move(run.displacements);
+  result.energy = std::move(run.energy);
+  result.final_state = std::move(run.final_state);
+  return result;
+}
+
+}  // namespace
+
+RunAnalysis analyze_run(const std::filesystem::path& file, const AnalysisChoice& choice) {
+  RunAnalysis run;
+  run.file = file;
+  StoredTrajectory trajectory(file);
+  const TrajectoryReader& reader = trajectory.reader();
+  if (trajectory.frames() < 2)
+    throw UserError(
+        fmt::format("{}: has {} frame(s), but an analysis needs two or more; continue the "
+                    "run, or sample more often ([output] samples)",
+                    file.string(), trajectory.frames()));
+  run.provenance = reader.provenance();
+  if (!run.provenance.parameters.empty())
+    run.parameters = parse_parameters(run.provenance.parameters, file.string());
+  measure(run, trajectory, analysis_options(run, choice));
+  const std::vector<std::string> names = reader.observable_names();
+  if (std::find(names.begin(), names.end(), "collisions") != names.end()) {
+    const std::vector<double> collisions = reader.observable("collisions");
+    run.collisions = static_cast<std::uint64_t>(collisions.back() - collisions.front());
+  }
+  return run;
+}
+
+Results results_of(const RunAnalysis& run) {
+  Results results;
+  results.tables.push_back({"summary", "Averages over the run.", summary_columns(run)});
+  for (const DisplacementGroup& group : run.displacements.groups)
+    results.tables.push_back(displacement_table(run.displacements, group));
+  results.tables.push_back(energy_table(run.energy));
+  if (!run.compressibility.value.empty())
+    results.tables.push_back(compressibility_table(run.compressibility));
+  results.provenance = provenance_rows(run.provenance);
+  results.provenance.emplace_back("source", run.file.string());
+  return results;
+}
+
+Results results_of_sweep(const std::vector<RunAnalysis>& runs) {
+  Results results;
+  Table table{"runs", "Averages over every run of the sweep, one run per row.", {}};
+  for (const RunAnalysis& run : runs) {
+    std::vector<Column> row = summary_columns(run);
+    if (table.columns.empty()) {
+      table.columns = std::move(row);
+    } else {
+      for (std::size_t k = 0; k < row.size(); ++k) {
+        table.columns[k].value.push_back(row[k].value.front());
+        if (!row[k].error.empty()) table.columns[k].error.push_back(row[k].error.front());
+      }
+    }
+    results.provenance.emplace_back(fmt::format("row_{}", results.provenance.size()),
+                                    run.file.string());
+  }
+  results.tables.push_back(std::move(table));
+  return results;
+}
+
+void write_all(const std::filesystem::path& file, const Results& results) {
+  write_results(file, results);
+  for (const Table& table : results.tables)
+    write_csv(file.parent_path() / fmt::format("{}_{}.csv", file.stem().string(), table.name),
+              table);
+}
+
+Json analysis_summary(const RunAnalysis& run) {
+  const Estimate& z = run.compressibility.mean;
+  return {{"file", run.file.string()},
+          {"particles", run.particles},
+          {"packing_fraction", run.packing_fraction},
+          {"frames", run.frames},
+          {"duration", run.duration},
+          {"collisions", run.collisions},
+          {"compressibility", z.mean},
+          {"compressibility_error", z.error},
+          {"diffusion", run.diffusion.value},
+          {"diffusion_error", run.diffusion.error},
+          {"rotational_diffusion", run.rotational_diffusion.value},
+          {"rotational_diffusion_error", run.rotational_diffusion.error}};
+}
+
+ReportData report_data(std::vector<RunAnalysis> runs, const std::string& title) {
+  ReportData data;
+  data.title = title;
+  const RunAnalysis& first = runs.front();
+  data.subtitle = fmt::format("{} {}{}{}", first.particles, particles_text(first.final_state),
+                              first.parameters ? ", " : "", dynamics_text(first.parameters));
+  data.parameters = first.provenance.parameters;
+  data.provenance = provenance_rows(first.provenance);
+  for (RunAnalysis& run : runs) data.runs.push_back(report_run(std::move(run)));
+  return data;
+}
+
+}  // namespace vitrel

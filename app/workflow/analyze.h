@@ -1,0 +1,56 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/displacement.h"
+#include "analysis/energy.h"
+#include "analysis/results.h"
+#include "app/workflow/parameters.h"
+#include "app/workflow/report/report_page.h"
+#include "core/io/provenance.h"
+
+/// The analysis of saved runs: of one file, or of all finished jobs of a sweep.
+namespace vitrel {
+
+struct RunAnalysis {
+  std::filesystem::path file;
+  Provenance provenance;
+  std::optional<Parameters> parameters;  ///< those in the file; none in files of other programs
+  double packing_fraction = 0;
+  std::size_t particles = 0, rotors = 0, frames = 0;
+  double duration = 0;
+  std::uint64_t collisions = 0;
+  Displacements displacements;
+  EnergySeries energy;
+  CompressibilitySeries compressibility;
+  Diffusion diffusion{}, rotational_diffusion{};  ///< of all particles; NaN where not reached
+  Configuration2 final_state;
+};
+
+/// What the command line says; without a file of its own the parameters stored in the run are used.
+struct AnalysisChoice {
+  std::optional<std::filesystem::path> parameters;
+  std::vector<std::string> overrides;
+};
+
+/// Throws FileError or UserError, naming the file.
+RunAnalysis analyze_run(const std::filesystem::path& file, const AnalysisChoice& choice);
+
+/// Tables of displacements (one per group), energies, compressibility, and a summary of one row.
+Results results_of(const RunAnalysis& analysis);
+/// One row per run: packing fraction, compressibility, diffusion coefficients.
+Results results_of_sweep(const std::vector<RunAnalysis>& analyses);
+
+/// Writes the HDF5 file and beside it one CSV file per table, <name>_<table>.csv.
+void write_all(const std::filesystem::path& file, const Results& results);
+
+nlohmann::ordered_json analysis_summary(const RunAnalysis& analysis);
+
+/// The report's view of these runs.
+ReportData report_data(std::vector<RunAnalysis> analyses, const std::string& title);
+
+}  // namespace vitrel

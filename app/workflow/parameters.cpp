@@ -1,0 +1,566 @@
+#include "app/workflow/parameters.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "edmd/sampling.h"
+
+namespace vitrel {
+namespace {
+
+/// Packing fractions that differ by less are the same; those of states carry rounding errors.
+constexpr double packing_fraction_slack = 1e-9;
+/// Random insertion is quick up to here.
+constexpr double easy_insertion = 0.3;
+
+using Style = FieldVisitor::TableStyle;
+
+constexpr const char* distribution_names[] = {"gaussian", "lognormal", "uniform"};
+constexpr const char* method_names[] = {"lattice", "insert", "swell", "sample"};
+constexpr const char* arrangement_names[] = {"square", "triangular"};
+constexpr const char* orientation_names[] = {"random", "aligned"};
+constexpr const char* kind_names[] = {"newtonian", "brownian"};
+constexpr const char* on_overlap_names[] = {"stop", "correct"};
+constexpr const char* temperature_names[] = {"total", "relative"};
+constexpr const char* velocity_names[] = {"maxwell", "translation", "rotation", "keep"};
+constexpr const char* spacing_names[] = {"linear", "logarithmic"};
+
+void describe_system(SystemParameters& p, FieldVisitor& visit) {
+  visit.field({"dimension", "", "Space dimensions; only 2 so far."}, p.dimension);
+  visit.field({"particles", "", "Number of particles."}, p.particles);
+  visit.field({"packing_fraction", "",
+               "Share of the box covered by particles, the sum of π a b over the area."},
+              p.packing_fraction);
+  visit.field({"seed", "", "All random numbers follow from it."}, p.seed);
+  visit.field({"box_aspect", "", "Height over width of the periodic box, L_y/L_x."}, p.box_aspect);
+}
+
+void describe_distribution(const Field& field, Distribution& d, FieldVisitor& visit) {
+  bool is_table = d.kind != Distribution::Kind::constant;
+  std::size_t kind = is_table ? static_cast<std::size_t>(d.kind) - 1 : 0;
+  visit.number_or_table(field, d.mean, is_table, [&](FieldVisitor& in) {
+    in.choice({"distribution", "",
+               "Instead of a number, a table with the distribution the numbers are drawn from."},
+              kind, distribution_names);
+    in.when(kind != 2, "distribution = \"gaussian\" or \"lognormal\"", [&](FieldVisitor& bell) {
+      bell.field({"mean", "", "Mean."}, d.mean);
+      bell.field({"standard_deviation", "", "Standard deviation of the numbers themselves."},
+                 d.standard_deviation);
+    });
+    in.when(kind == 2, "distribution = \"uniform\"", [&](FieldVisitor& flat) {
+      flat.field({"low", "", "Lower bound."}, d.low);
+      flat.field({"high", "", "Upper bound."}, d.high);
+    });
+    in.field({"minimum", "", "Smaller draws are drawn again."}, d.minimum);
+  });
+  d.kind = static_cast<Distribution::Kind>(is_table ? kind + 1 : 0);
+}
+
+void describe_optional_distribution(const Field& field, std::optional<Distribution>& value,
+                                    double example, double minimum, FieldVisitor& visit) {
+  const Distribution default_value{
+      Distribution::Kind::constant, example, 0.1, minimum, example, minimum};
+  visit.optional(field, value, default_value, [&](FieldVisitor& in, Distribution& inner) {
+    describe_distribution(field, inner, in);
+  });
+}
+
+void describe_species(Species& p, FieldVisitor& visit) {
+  visit.field({"name", "", "Name in files and tables."}, p.name);
+  visit.field({"fraction", "",
+               "Share of all particles; the shares add up to 1. Counts are rounded by the largest "
+               "remainder."},
+              p.fraction);
+  describe_optional_distribution(
+      {"aspect_ratio", "", "κ = a/b ≥ 1, major over minor semi-axis: a number or a distribution."},
+      p.aspect_ratio, 2, 1, visit);
+  describe_optional_distribution({"size", "length",
+                                  "√(a b), 1 for the reference species that sets the unit of "
+                                  "length: a number or a distribution; 1 if left out."},
+                                 p.size, 1, 0.1, visit);
+  visit.optional(
+      {"semi_axes", "length", "Semi-axes [a, b] with a ≥ b, instead of aspect_ratio and size."},
+      p.semi_axes, std::array<double, 2>{2, 0.5});
+  visit.optional(
+      {"mass", "mass",
+       "Mass of every particle of this species; a b if left out, the same density for all."},
+      p.mass, 1.0);
+}
+
+void describe_stage(PrepareStage& p, FieldVisitor& visit) {
+  using Method = PrepareStage::Method;
+  visit.field({"method", "",
+               "What the stage does. lattice: regular positions; insert: random places without "
+               "overlap, as a start at low density; swell: Monte Carlo while the particles grow to "
+               "the wanted packing fraction; sample: Monte Carlo at constant packing fraction."},
+              p.method, method_names);
+  visit.when(p.method == Method::lattice, "method = \"lattice\"", [&](FieldVisitor& in) {
+    in.field({"arrangement", "", "The triangular lattice is stretched along x like the particles."},
+             p.lattice.arrangement, arrangement_names);
+    in.field(
+        {"angle", "radians", "From the x axis to the major axes; 0 on the triangular lattice."},
+        p.lattice.angle);
+  });
+  const bool places_or_swells = p.method == Method::insert || p.method == Method::swell;
+  visit.when(places_or_swells, "method = \"insert\" or \"swell\"", [&](FieldVisitor& in) {
+    in.optional(
+        {"packing_fraction", "",
+         "At the end of the stage. If left out: that of the system, but to insert at most 0.3."},
+        p.packing_fraction, 0.3);
+  });
+  visit.when(p.method == Method::insert, "method = \"insert\"", [&](FieldVisitor& in) {
+    in.field({"attempts", "", "Random places tried for one particle before the stage gives up."},
+             p.attempts);
+    in.field({"orientations", "", "Each particle at random, or all along x."}, p.orientations,
+             orientation_names);
+  });
+  visit.when(p.method == Method::swell, "method = \"swell\"", [&](FieldVisitor& in) {
+    in.field({"most_sweeps", "", "Sweeps after which the stage gives up."}, p.most_sweeps);
+  });
+  visit.when(p.method == Method::sample, "method = \"sample\"", [&](FieldVisitor& in) {
+    in.field({"sweeps", "", "Sweeps; one is as many trial moves as there are particles."},
+             p.sweeps);
+  });
+}
+
+void describe_dynamics(DynamicsParameters& p, FieldVisitor& visit) {
+  visit.field({"kind", "",
+               "Free flight and collisions (newtonian), or the same with all velocities redrawn "
+               "every brownian_step (brownian)."},
+              p.kind, kind_names);
+  visit.field({"brownian_step", "time",
+               "Time τ_B between redrawings; a free particle then diffuses with D = kT τ_B/(2 m). "
+               "Brownian dynamics only."},
+              p.brownian_step);
+  visit.field(
+      {"equilibration", "time", "Length of the run before sampling starts; time 0 is its end."},
+      p.equilibration);
+  visit.field({"duration", "time", "Length of the sampled part of the run."}, p.duration);
+  visit.field({"restitution", "", "Coefficient of restitution, 1 for elastic collisions."},
+              p.restitution);
+  visit.field({"on_overlap", "",
+               "What to do if two particles are found overlapping: stop with exit code 4, or the "
+               "thesis's correction move, counted."},
+              p.on_overlap, on_overlap_names);
+  visit.field({"temperature", "",
+               "Which energy means kT = 1 when velocities are drawn: a translational energy of N "
+               "kT (total) or of (N − 1) kT (relative, the degrees of freedom left once the net "
+               "momentum is removed)."},
+              p.temperature, temperature_names);
+  visit.field({"initial_velocities", "",
+               "Equilibrium at kT = 1 (maxwell), the same energy all in translation or all in "
+               "rotation, or those of the state started from (keep)."},
+              p.initial_velocities, velocity_names);
+}
+
+void describe_samples(OutputParameters& p, FieldVisitor& visit) {
+  using Spacing = OutputParameters::Spacing;
+  visit.field({"spacing", "", "How the sample times follow each other."}, p.spacing, spacing_names);
+  visit.when(p.spacing == Spacing::linear, "spacing = \"linear\"", [&](FieldVisitor& in) {
+    in.field({"interval", "time", "Time between samples."}, p.interval);
+  });
+  visit.when(p.spacing == Spacing::logarithmic, "spacing = \"logarithmic\"", [&](FieldVisitor& in) {
+    in.field({"first", "time", "First sample after the one at time 0."}, p.first);
+    in.field({"per_decade", "", "Samples per factor of ten in time."}, p.per_decade);
+  });
+}
+
+void describe_output(OutputParameters& p, FieldVisitor& visit) {
+  visit.table({"samples", "", "When the state is written to the trajectory."}, Style::inline_table,
+              [&](FieldVisitor& in) { describe_samples(p, in); });
+  visit.field({"velocities", "",
+               "Whether the velocities of all particles are written, too. Energies and the "
+               "pressure are measured without."},
+              p.velocities);
+  visit.field({"checkpoint_interval", "seconds of wall time",
+               "Time between checkpoints, from which a run that was killed continues."},
+              p.checkpoint_interval);
+}
+
+void describe_analysis(DisplacementOptions& p, FieldVisitor& visit) {
+  visit.field({"longest_lag", "", "Longest time difference, as a fraction of the run."},
+              p.longest_lag);
+  visit.field(
+      {"every_lag_up_to", "sample intervals",
+       "Up to here every time difference is evaluated, beyond they are spaced logarithmically."},
+      p.every_lag_up_to);
+  visit.field(
+      {"lags_per_decade", "", "Time differences per factor of ten in the logarithmic part."},
+      p.lags_per_decade);
+  visit.field({"most_origins", "", "Time origins per time difference; evenly thinned beyond."},
+              p.most_origins);
+  visit.field({"memory", "bytes", "Memory for particle tracks."}, p.memory);
+}
+
+FieldVisitor::Inside section_of(auto& part, auto describe) {
+  return [&part, describe](FieldVisitor& visit) { describe(part, visit); };
+}
+
+std::string show(double value) {
+  return to_toml(value);
+}
+
+// Collects the rules of one table; every rule says what is wrong and what would be right.
+class Rules {
+ public:
+  explicit Rules(std::string path) : path_(std::move(path)) {}
+
+  void require(bool holds, const std::string& key, const std::string& complaint) const {
+    if (!holds) throw BadValue(path_ + "." + key, complaint);
+  }
+  void positive(double value, const std::string& key) const {
+    require(value > 0 && std::isfinite(value), key,
+            fmt::format("is {}, but must be positive", show(value)));
+  }
+  void not_negative(double value, const std::string& key) const {
+    require(value >= 0 && std::isfinite(value), key,
+            fmt::format("is {}, but must be 0 or more", show(value)));
+  }
+  void at_least(std::int64_t value, std::int64_t least, const std::string& key) const {
+    require(value >= least, key, fmt::format("is {}, but must be at least {}", value, least));
+  }
+  void packing_fraction(double value, const std::string& key) const {
+    // Ellipses of one kind pack no denser than disks: π/√12.
+    const double densest = std::numbers::pi / std::sqrt(12.0);
+    require(value > 0 && value < densest, key,
+            fmt::format("is {}, but a packing fraction lies between 0 and π/√12 = 0.9069",
+                        show(value)));
+  }
+
+ private:
+  std::string path_;
+};
+
+void validate_system(const SystemParameters& p) {
+  const Rules rules("system");
+  rules.require(
+      p.dimension == 2, "dimension",
+      fmt::format("is {}, but only two-dimensional systems are implemented; write 2", p.dimension));
+  rules.require(p.particles >= 1 && p.particles <= 100'000'000, "particles",
+                fmt::format("is {}, but must lie between 1 and 100000000", p.particles));
+  rules.packing_fraction(p.packing_fraction, "packing_fraction");
+  rules.require(p.box_aspect >= 0.001 && p.box_aspect <= 1000, "box_aspect",
+                fmt::format("is {}, but must lie between 0.001 and 1000", show(p.box_aspect)));
+}
+
+void validate_distribution(const Distribution& d, double least, const std::string& path) {
+  using Kind = Distribution::Kind;
+  const std::string bound = fmt::format("must be at least {}", show(least));
+  if (d.kind == Kind::constant) {
+    if (!(d.mean >= least) || !std::isfinite(d.mean))
+      throw BadValue(path, fmt::format("is {}, but {}", show(d.mean), bound));
+    return;
+  }
+  const Rules rules(path);
+  rules.require(d.minimum >= least && std::isfinite(d.minimum), "minimum",
+                fmt::format("is {}, but {}", show(d.minimum), bound));
+  if (d.kind == Kind::uniform) {
+    rules.require(d.high > d.low && std::isfinite(d.high) && std::isfinite(d.low), "high",
+                  fmt::format("is {}, but must be above low = {}", show(d.high), show(d.low)));
+    rules.require(
+        d.high > d.minimum, "high",
+        fmt::format("is {}, but must be above minimum = {}", show(d.high), show(d.minimum)));
+    return;
+  }
+  rules.positive(d.standard_deviation, "standard_deviation");
+  rules.require(
+      d.mean >= d.minimum && std::isfinite(d.mean), "mean",
+      fmt::format("is {}, but must be at least minimum = {}", show(d.mean), show(d.minimum)));
+}
+
+void validate_shape(const Species& p, const std::string& path) {
+  const Rules rules(path);
+  if (p.semi_axes) {
+    rules.require(!p.aspect_ratio && !p.size, "semi_axes",
+                  "excludes aspect_ratio and size; give one or the other");
+    const auto [a, b] = *p.semi_axes;
+    rules.require(b > 0 && a >= b && std::isfinite(a), "semi_axes",
+                  fmt::format("is [{}, {}], but must be [a, b] with a ≥ b > 0", show(a), show(b)));
+    return;
+  }
+  rules.require(p.aspect_ratio.has_value(), "aspect_ratio",
+                "is missing; give aspect_ratio (1 for disks) or semi_axes");
+  validate_distribution(*p.aspect_ratio, 1, path + ".aspect_ratio");
+  // Sizes are relative to 1: a thousandth is as small as a particle may sensibly be.
+  if (p.size) validate_distribution(*p.size, 0.001, path + ".size");
+}
+
+void validate_species(const std::vector<Species>& species) {
+  if (species.empty())
+    throw BadValue("species", "is empty, but there must be at least one [[species]]");
+  double sum = 0;
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < species.size(); ++i) {
+    const std::string path = fmt::format("species.{}", i);
+    const Rules rules(path);
+    const Species& p = species[i];
+    rules.require(!p.name.empty(), "name", "is empty, but a species needs a name");
+    rules.require(
+        names.insert(p.name).second, "name",
+        fmt::format("is \"{}\" like that of an earlier species; every species needs its own",
+                    p.name));
+    rules.require(p.fraction > 0 && p.fraction <= 1, "fraction",
+                  fmt::format("is {}, but must lie above 0 and not above 1", show(p.fraction)));
+    validate_shape(p, path);
+    if (p.mass) rules.positive(*p.mass, "mass");
+    sum += p.fraction;
+  }
+  if (std::abs(sum - 1) > 1e-9)
+    throw BadValue(
+        "species",
+        fmt::format("has fractions that add up to {}, but they must add up to 1", show(sum)));
+}
+
+void validate_stages(const std::vector<PrepareStage>& stages, const SystemParameters& system) {
+  using Method = PrepareStage::Method;
+  if (stages.empty())
+    throw BadValue("prepare.stage", "is empty, but there must be at least one [[prepare.stage]]");
+  double reached = 0;
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    const Rules rules(fmt::format("prepare.stage.{}", i));
+    const PrepareStage& p = stages[i];
+    const bool places = p.method == Method::lattice || p.method == Method::insert;
+    rules.require(
+        places == (i == 0), "method",
+        i == 0
+            ? "of the first stage must be \"lattice\" or \"insert\", which place the particles"
+            : "of a later stage must be \"swell\" or \"sample\": the particles have their places");
+    const LatticeOptions& lattice = p.lattice;
+    rules.require(std::isfinite(lattice.angle), "angle", "must be a finite number");
+    rules.require(
+        lattice.arrangement == Arrangement::square || lattice.angle == 0, "angle",
+        fmt::format("is {}, but must be 0 on the triangular lattice", show(lattice.angle)));
+    rules.require(p.attempts >= 1, "attempts", "is 0, but must be at least 1");
+    rules.require(p.most_sweeps >= 1, "most_sweeps", "is 0, but must be at least 1");
+    rules.require(p.sweeps >= 1, "sweeps", "is 0, but must be at least 1");
+    if (p.packing_fraction) rules.packing_fraction(*p.packing_fraction, "packing_fraction");
+    const double end = end_of_stage(p, system, reached);
+    rules.require(end >= reached * (1 - packing_fraction_slack), "packing_fraction",
+                  fmt::format("is {}, but the stage before ends at {}, and swelling never shrinks",
+                              show(end), show(reached)));
+    reached = end;
+  }
+  if (std::abs(reached - system.packing_fraction) > packing_fraction_slack)
+    throw BadValue(
+        fmt::format("prepare.stage.{}", stages.size() - 1),
+        fmt::format("ends at the packing fraction {}, but system.packing_fraction is {}; let the "
+                    "last stage that is not \"sample\" end there (insert: packing_fraction = {}, "
+                    "or a swell stage)",
+                    show(reached), show(system.packing_fraction), show(system.packing_fraction)));
+}
+
+void validate_dynamics(const DynamicsParameters& p) {
+  const Rules rules("dynamics");
+  rules.positive(p.brownian_step, "brownian_step");
+  rules.not_negative(p.equilibration, "equilibration");
+  rules.positive(p.duration, "duration");
+  rules.require(
+      p.restitution > 0 && p.restitution <= 1, "restitution",
+      fmt::format("is {}, but must lie above 0 and not above 1 (elastic)", show(p.restitution)));
+}
+
+void validate_output(const Parameters& parameters) {
+  const OutputParameters& p = parameters.output;
+  const Rules samples("output.samples");
+  const double duration = parameters.dynamics.duration;
+  const auto within = [&](double value, const char* key) {
+    samples.positive(value, key);
+    samples.require(value <= duration, key,
+                    fmt::format("is {}, but must not exceed dynamics.duration = {}", show(value),
+                                show(duration)));
+  };
+  if (p.spacing == OutputParameters::Spacing::linear) {
+    within(p.interval, "interval");
+    samples.require(duration / p.interval <= 1e8, "interval",
+                    fmt::format("is {}, which makes {:.3g} samples; at most 1e8 are possible",
+                                show(p.interval), duration / p.interval));
+  } else {
+    within(p.first, "first");
+    samples.at_least(p.per_decade, 1, "per_decade");
+  }
+  Rules("output").not_negative(p.checkpoint_interval, "checkpoint_interval");
+}
+
+void validate_analysis(const DisplacementOptions& p) {
+  const Rules rules("analysis");
+  rules.require(p.longest_lag > 0 && p.longest_lag <= 1, "longest_lag",
+                fmt::format("is {}, but must lie above 0 and not above 1", show(p.longest_lag)));
+  rules.at_least(static_cast<std::int64_t>(p.every_lag_up_to), 1, "every_lag_up_to");
+  rules.at_least(static_cast<std::int64_t>(p.lags_per_decade), 1, "lags_per_decade");
+  rules.at_least(static_cast<std::int64_t>(p.most_origins), 1, "most_origins");
+  rules.at_least(static_cast<std::int64_t>(p.memory), 1 << 20, "memory");
+}
+
+Parameters read(const TomlNode& root) {
+  Parameters parameters;
+  read_parameters(root, fields(parameters), [&] { validate(parameters); });
+  return parameters;
+}
+
+void apply(TomlNode& root, const std::vector<std::string>& overrides) {
+  for (const std::string& assignment : overrides)
+    apply_override(root, assignment, "--set " + assignment);
+}
+
+Species default_species() {
+  Species species;
+  species.aspect_ratio = Distribution{Distribution::Kind::constant, 2, 0.1, 1, 2, 1};
+  return species;
+}
+
+std::vector<PrepareStage> default_stages() {
+  std::vector<PrepareStage> stages(2);
+  stages[1].method = PrepareStage::Method::swell;
+  return stages;
+}
+
+}  // namespace
+
+Parameters::Parameters() : species{default_species()}, stages(default_stages()) {}
+
+double end_of_stage(const PrepareStage& stage, const SystemParameters& system, double before) {
+  switch (stage.method) {
+    case PrepareStage::Method::lattice:
+      return system.packing_fraction;
+    case PrepareStage::Method::insert:
+      return stage.packing_fraction.value_or(std::min(easy_insertion, system.packing_fraction));
+    case PrepareStage::Method::swell:
+      return stage.packing_fraction.value_or(system.packing_fraction);
+    case PrepareStage::Method::sample:
+      return before;
+  }
+  return before;
+}
+
+FieldVisitor::Inside fields(Parameters& p, const Sections& sections) {
+  return [&p, sections](FieldVisitor& visit) {
+    if (sections.system) {
+      visit.table({"system", "",
+                   "The system. Units: kT = 1; a b = 1 and mass 1 for particles of size 1; time in "
+                   "√(m a b/kT)."},
+                  Style::section, section_of(p.system, describe_system));
+      visit.list({"species", "", "A species of particles; any number of them."}, p.species,
+                 describe_species);
+    }
+    if (sections.prepare)
+      visit.table(
+          {"prepare", "", "How the first state is made: stages, one after the other."},
+          Style::section, [&](FieldVisitor& in) {
+            in.list({"stage", "", "The first stage places the particles, later ones move them."},
+                    p.stages, describe_stage);
+          });
+    if (sections.run) {
+      visit.table({"dynamics", "", "The event-driven run."}, Style::section,
+                  section_of(p.dynamics, describe_dynamics));
+      visit.table({"output", "", "What a run writes."}, Style::section,
+                  section_of(p.output, describe_output));
+    }
+    if (sections.analysis)
+      visit.table({"analysis", "", "How mean squared displacements are evaluated."}, Style::section,
+                  section_of(p.analysis, describe_analysis));
+    if (sections.sweep)
+      visit.table({"sweep", "", "Many runs from one file."}, Style::section, [&](FieldVisitor& in) {
+        in.grid({"grid", "",
+                 "Keys of this file in quotes, and the values each of them runs through; every "
+                 "combination is one job."},
+                p.sweep);
+      });
+  };
+}
+
+void validate(const Parameters& parameters) {
+  validate_system(parameters.system);
+  validate_species(parameters.species);
+  validate_stages(parameters.stages, parameters.system);
+  validate_dynamics(parameters.dynamics);
+  validate_output(parameters);
+  validate_analysis(parameters.analysis);
+}
+
+Parameters load_parameters(const ParameterSource& source) {
+  TomlNode root = read_toml_file(source.file);
+  apply(root, source.overrides);
+  if (source.seed)
+    apply_override(root, fmt::format("system.seed={}", *source.seed),
+                   fmt::format("--seed {}", *source.seed));
+  return read(root);
+}
+
+Parameters parse_parameters(const std::string& text, const std::string& name,
+                            const std::vector<std::string>& overrides) {
+  TomlNode root = parse_toml(text, name);
+  apply(root, overrides);
+  return read(root);
+}
+
+std::string effective_parameters(const Parameters& parameters) {
+  Parameters copy = parameters;
+  Sections all_but_sweep;
+  all_but_sweep.sweep = false;
+  return write_parameters(fields(copy, all_but_sweep));
+}
+
+std::string command_template(const std::string& command) {
+  static const std::map<std::string, Sections> sections = {
+      {"prepare", {true, true, false, false, false}},
+      {"run", {true, true, true, false, false}},
+      {"analyze", {false, false, false, true, false}},
+      {"sweep", {true, true, true, true, true}},
+  };
+  const auto found = sections.find(command);
+  if (found == sections.end())
+    throw UserError(fmt::format(
+        "'{}' has no parameter file; commands that have one: prepare, run, analyze, sweep",
+        command));
+  Parameters parameters;
+  if (found->second.sweep)
+    parameters.sweep = {{"system.packing_fraction", {"0.4", "0.5", "0.6"}},
+                        {"system.seed", {"1", "2"}}};
+  return fmt::format("# Parameters of `vitrel {}`, all at their defaults.\n\n", command) +
+         parameter_template(fields(parameters, found->second));
+}
+
+std::string parameter_page() {
+  Parameters parameters;
+  return "# Parameters\n\n"
+         "<!-- Made by `vitrel params --reference`; a test compares. -->\n\n"
+         "Parameter files are TOML. Every key may be left out; any key can be set on the command "
+         "line, "
+         "too: `--set dynamics.duration=10`, `--set species.0.aspect_ratio=3`. An unknown key, a "
+         "wrong "
+         "type or an impossible value is refused with file, line and column.\n\n" +
+         parameter_tables(fields(parameters));
+}
+
+std::optional<ParameterDifference> forbidden_change(const std::string& before,
+                                                    const std::string& after) {
+  return first_difference(before, after, [](const std::string& key) {
+    return key.starts_with("analysis.") || key == "output.checkpoint_interval";
+  });
+}
+
+DynamicsOptions dynamics_options(const Parameters& parameters) {
+  const DynamicsParameters& p = parameters.dynamics;
+  DynamicsOptions options;
+  options.engine.restitution = p.restitution;
+  options.engine.on_overlap = p.on_overlap;
+  options.brownian = p.kind == DynamicsParameters::Kind::brownian;
+  options.brownian_step = p.brownian_step;
+  options.temperature = p.temperature;
+  options.seed = parameters.system.seed;
+  return options;
+}
+
+std::vector<double> sample_times(const Parameters& parameters) {
+  const OutputParameters& p = parameters.output;
+  const double duration = parameters.dynamics.duration;
+  return p.spacing == OutputParameters::Spacing::linear
+             ? linear_times(p.interval, duration)
+             : logarithmic_times(p.first, p.per_decade, duration);
+}
+
+}  // namespace vitrel

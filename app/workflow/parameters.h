@@ -1,0 +1,123 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/displacement.h"
+#include "core/io/parameters.h"
+#include "core/state/species.h"
+#include "edmd/run.h"
+#include "mc/insertion.h"
+#include "mc/lattice.h"
+#include "mc/swelling.h"
+
+/// The parameter file: what it holds, how it is read, and the texts that describe it. All commands
+/// read the same file; each uses the sections it needs.
+namespace vitrel {
+
+struct SystemParameters {
+  int dimension = 2;
+  std::int64_t particles = 1000;
+  double packing_fraction = 0.5;
+  std::uint64_t seed = 1;
+  double box_aspect = 1;
+};
+
+/// One stage of the preparation; every method uses its own fields only.
+struct PrepareStage {
+  enum class Method { lattice, insert, swell, sample };
+  enum class Orientations { random, aligned };
+
+  Method method = Method::insert;
+  LatticeOptions lattice;
+  std::uint64_t attempts = InsertionOptions().attempts;
+  Orientations orientations = Orientations::random;
+  std::optional<double> packing_fraction;  ///< of insert and swell; see end_of_stage
+  std::uint64_t most_sweeps = SwellingOptions().sweeps;
+  std::uint64_t sweeps = 1000;
+};
+
+/// The packing fraction at which a stage ends, for one that begins at `before`.
+double end_of_stage(const PrepareStage& stage, const SystemParameters& system, double before);
+
+struct DynamicsParameters {
+  enum class Kind { newtonian, brownian };
+
+  Kind kind = Kind::newtonian;
+  double brownian_step = 0.1;
+  double equilibration = 10;
+  double duration = 100;
+  double restitution = 1;
+  OnOverlap on_overlap = OnOverlap::stop;
+  Temperature temperature = Temperature::total;
+  InitialVelocities initial_velocities = InitialVelocities::maxwell;
+};
+
+struct OutputParameters {
+  enum class Spacing { linear, logarithmic };
+
+  Spacing spacing = Spacing::linear;
+  double interval = 0.1;
+  double first = 0.01;
+  int per_decade = 20;
+  bool velocities = true;
+  double checkpoint_interval = 30;
+};
+
+struct Parameters {
+  SystemParameters system;
+  std::vector<Species> species;
+  std::vector<PrepareStage> stages;
+  DynamicsParameters dynamics;
+  OutputParameters output;
+  DisplacementOptions analysis;
+  ParameterGrid sweep;
+
+  Parameters();
+};
+
+/// Parts of the file, for the templates of single commands.
+struct Sections {
+  bool system = true, prepare = true, run = true, analysis = true, sweep = true;
+};
+
+/// Names all fields of the given sections.
+FieldVisitor::Inside fields(Parameters& parameters, const Sections& sections = {});
+
+/// Throws BadValue for the first impossible value.
+void validate(const Parameters& parameters);
+
+/// A file and what the command line puts over it.
+struct ParameterSource {
+  std::filesystem::path file;
+  std::vector<std::string> overrides;  ///< each "key=value"
+  std::optional<std::uint64_t> seed;
+};
+/// Reads, overrides and validates. Throws UserError or FileError.
+Parameters load_parameters(const ParameterSource& source);
+/// Parses parameters stored in a file; `name` stands for it in messages.
+Parameters parse_parameters(const std::string& text, const std::string& name,
+                            const std::vector<std::string>& overrides = {});
+
+/// All values in force as TOML text, without [sweep]; equal parameters give equal text.
+std::string effective_parameters(const Parameters& parameters);
+
+/// The commented template of one command's parameters; UserError if the command takes none.
+std::string command_template(const std::string& command);
+/// The page docs/parameters.md.
+std::string parameter_page();
+
+/// The first key that differs and may not, when a run is continued with changed parameters. Changes
+/// of [analysis] and of the checkpoint interval do not touch the run.
+std::optional<ParameterDifference> forbidden_change(const std::string& before,
+                                                    const std::string& after);
+
+/// The same parameters in the form the engine takes them.
+DynamicsOptions dynamics_options(const Parameters& parameters);
+/// Sample times, from 0 to the duration.
+std::vector<double> sample_times(const Parameters& parameters);
+
+}  // namespace vitrel

@@ -1,0 +1,139 @@
+#include "app/workflow/prepare.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <complex>
+
+#include "core/error.h"
+#include "core/state/check.h"
+#include "mc/sampler.h"
+
+namespace vitrel {
+namespace {
+
+using Method = PrepareStage::Method;
+
+/// Sweeps between two adaptations of the step sizes.
+constexpr std::uint64_t sweeps_per_tuning = 20;
+
+class Preparer {
+ public:
+  Preparer(const Parameters& parameters, const Budget& budget)
+      : parameters_(parameters), budget_(budget) {
+    const SystemParameters& system = parameters.system;
+    result.configuration =
+        draw_particles(parameters.species, static_cast<std::size_t>(system.particles),
+                       system.packing_fraction, system.box_aspect, system.seed);
+  }
+
+  /// What the stage does, in a few words.
+  std::string description(const PrepareStage& stage) const {
+    const double goal = end_of_stage(stage, parameters_.system, reached_);
+    switch (stage.method) {
+      case Method::lattice:
+        return fmt::format("lattice at packing fraction {:.4g}", goal);
+      case Method::insert:
+        return fmt::format("insert at packing fraction {:.4g}", goal);
+      case Method::swell:
+        return fmt::format("swell to packing fraction {:.4g}", goal);
+      case Method::sample:
+        return fmt::format("sample for {} sweeps", stage.sweeps);
+    }
+    return "";
+  }
+
+  /// False if the budget asked to stop.
+  bool run(const PrepareStage& stage) {
+    const StageReport report = run_stage(stage);
+    StageReport& total = result.report;
+    total.translations_tried += report.translations_tried;
+    total.translations_accepted += report.translations_accepted;
+    total.rotations_tried += report.rotations_tried;
+    total.rotations_accepted += report.rotations_accepted;
+    total.end = report.end;
+    total.reason = report.reason;
+    if (report.end == StageEnd::stuck)
+      throw UserError(fmt::format("preparation, {}: {}", description(stage), report.reason));
+    reached_ = end_of_stage(stage, parameters_.system, reached_);
+    return report.end != StageEnd::stopped;
+  }
+
+  Preparation result;
+
+ private:
+  StageReport run_stage(const PrepareStage& stage) {
+    Configuration2& configuration = result.configuration;
+    const std::uint64_t seed = parameters_.system.seed;
+    const double goal = end_of_stage(stage, parameters_.system, reached_);
+    switch (stage.method) {
+      case Method::lattice:
+        place_on_lattice(configuration, stage.lattice);
+        return {};
+      case Method::insert: {
+        const bool aligned = stage.orientations == PrepareStage::Orientations::aligned;
+        return insert_particles(configuration, {goal, stage.attempts, aligned}, seed, budget_);
+      }
+      case Method::swell:
+        return swell(configuration, {goal, stage.most_sweeps}, seed, next_sweep_, budget_);
+      case Method::sample:
+        return sample(stage);
+    }
+    return {};
+  }
+
+  // Step sizes adapt all the way: what follows the preparation is what is measured, not this.
+  StageReport sample(const PrepareStage& stage) {
+    Sampler sampler(result.configuration, parameters_.system.seed, next_sweep_);
+    StageEnd end = StageEnd::reached;
+    for (std::uint64_t k = 0; k < stage.sweeps; ++k) {
+      if (budget_.stop_requested()) {
+        end = StageEnd::stopped;
+        break;
+      }
+      sampler.sweep();
+      if ((k + 1) % sweeps_per_tuning == 0) sampler.tune();
+      const double done = static_cast<double>(k + 1);
+      budget_.tell({done / static_cast<double>(stage.sweeps), done, "sweep"});
+    }
+    next_sweep_ = sampler.next_sweep();
+    StageReport report = sampler.counts();
+    report.end = end;
+    return report;
+  }
+
+  const Parameters& parameters_;
+  const Budget& budget_;
+  double reached_ = 0;
+  std::uint64_t next_sweep_ = 0;
+};
+
+}  // namespace
+
+Preparation prepare(const Parameters& parameters, const Budget& budget,
+                    const std::function<void(const std::string&)>& say) {
+  const auto start = std::chrono::steady_clock::now();
+  Preparer preparer(parameters, budget);
+  for (const PrepareStage& stage : parameters.stages) {
+    say(preparer.description(stage));
+    if (!preparer.run(stage)) break;
+  }
+  Preparation result = std::move(preparer.result);
+  result.wall_seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (result.report.end == StageEnd::reached && !exact_check(result.configuration).clean())
+    throw InvariantError(
+        "the prepared state has overlapping particles; this is a defect of the program");
+  return result;
+}
+
+double nematic_order(const Configuration2& configuration) {
+  std::complex<double> sum = 0;
+  for (std::size_t i = 0; i < configuration.size(); ++i)
+    if (!configuration.shape[i].is_round()) sum += std::polar(1.0, 2 * configuration.angle[i]);
+  const std::size_t rotors = rotor_count(configuration);
+  return rotors > 0 ? std::abs(sum) / static_cast<double>(rotors) : 0;
+}
+
+}  // namespace vitrel

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "app/workflow/parameters.h"
+#include "core/state/configuration.h"
+#include "core/state/stage.h"
+
+/// From parameters to a first state: particles are drawn, then the stages of [prepare] run in a
+/// row.
+namespace vitrel {
+
+struct Preparation {
+  Configuration2 configuration;  ///< at rest, without overlaps
+  StageReport report;            ///< counts of all stages together; `stopped` if the budget said so
+  double wall_seconds = 0;
+};
+
+/// `say` gets a line at the start of every stage. Throws UserError if a stage cannot reach its goal
+/// (too dense a lattice or insertion, too few sweeps), and InvariantError if the exact check finds
+/// an overlap at the end. A stopped preparation cannot be continued: the same seed makes it anew.
+Preparation prepare(const Parameters& parameters, const Budget& budget,
+                    const std::function<void(const std::string&)>& say);
+
+/// Nematic order |⟨exp 2iθ⟩| of the particles that are not round: 1 if all are parallel; of order
+/// 1/√N if there is no order. 0 if all are round.
+double nematic_order(const Configuration2& configuration);
+
+}  // namespace vitrel

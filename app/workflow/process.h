@@ -1,0 +1,30 @@
+#pragma once
+
+#include <sys/types.h>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace vitrel {
+
+/// A child process that does not outlive this one: if this process dies, however, the child is
+/// killed. Must be started from the thread that lives as long as the child is wanted.
+class ChildProcess {
+ public:
+  /// Standard output replaces the file `output`, standard error is added to `log`. Throws FileError
+  /// if the files cannot be opened or no process can be made.
+  ChildProcess(const std::vector<std::string>& command, const std::filesystem::path& output,
+               const std::filesystem::path& log);
+
+  /// The exit code once the process has ended (128 + number after a signal), else nothing.
+  std::optional<int> poll();
+  /// Asks the process to stop cleanly (SIGTERM).
+  void ask_to_stop();
+
+ private:
+  pid_t pid_;
+  std::optional<int> exit_code_;
+};
+
+}  // namespace vitrel

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+#include "core/state/stage.h"
+
+namespace vitrel {
+
+/// Shows how far a piece of work has come, with rate and time left, on standard error: one line
+/// that is rewritten on a terminal, now and then a plain line elsewhere.
+class ProgressDisplay {
+ public:
+  enum class Mode { silent, lines, terminal };
+  /// `lines` or `terminal` by what standard error is.
+  static Mode mode(bool quiet);
+
+  explicit ProgressDisplay(Mode mode) : mode_(mode) {}
+  ~ProgressDisplay() { clear(); }
+
+  /// What the following progress is about ("swell").
+  void begin(const std::string& label);
+  void show(const Progress& progress);
+  /// A line of its own, unless silent.
+  void say(const std::string& line);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void clear();
+
+  Mode mode_;
+  std::string label_;
+  std::optional<Progress> first_;
+  Clock::time_point started_{}, shown_{};
+  bool line_is_open_ = false;
+};
+
+/// "dd:hh:mm:ss" without leading zero parts: "0:07", "3:05:00".
+std::string duration_text(double seconds);
+
+}  // namespace vitrel

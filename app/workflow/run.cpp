@@ -1,0 +1,287 @@
+#include "app/workflow/run.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "app/workflow/prepare.h"
+#include "app/workflow/run_checkpoint.h"
+#include "app/workflow/stored_run.h"
+#include "core/error.h"
+#include "core/io/h5md.h"
+#include "core/state/check.h"
+
+namespace vitrel {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+fs::path checkpoint_path(const fs::path& output) {
+  return output.string() + ".checkpoint";
+}
+fs::path failed_state_path(const fs::path& output) {
+  return output.string() + ".failed.h5";
+}
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+void require_fit(const Configuration2& state, const Parameters& parameters, const fs::path& file) {
+  const auto wanted = static_cast<std::size_t>(parameters.system.particles);
+  if (state.size() != wanted)
+    throw UserError(
+        fmt::format("{}: holds {} particles, but system.particles is {}; make them equal",
+                    file.string(), state.size(), wanted));
+  const double fraction = packing_fraction(state);
+  if (std::abs(fraction - parameters.system.packing_fraction) > 1e-9)
+    throw UserError(
+        fmt::format("{}: has the packing fraction {}, but system.packing_fraction is {}; "
+                    "make them equal",
+                    file.string(), fraction, parameters.system.packing_fraction));
+}
+
+// One request at work.
+class Runner {
+ public:
+  Runner(const RunRequest& request, const Budget& budget,
+         const std::function<void(const std::string&)>& say)
+      : request_(request),
+        budget_(budget),
+        say_(say),
+        checkpoint_(checkpoint_path(request.output)) {
+    stored_.parameters = effective_parameters(request.parameters);
+  }
+
+  RunOutcome run() {
+    const bool continues = checkpoint_exists(checkpoint_);
+    if (continues) {
+      load();
+    } else {
+      refuse_foreign_output();
+      if (!begin()) return {};
+    }
+    const bool was_complete = stored_.complete;
+    if (was_complete)
+      say_(request_.output.string() + ": the run is complete already");
+    else
+      advance(continues);
+    check_last_state();
+    return {stored_.complete, was_complete, std::move(stored_.state), stored_.wall_seconds};
+  }
+
+ private:
+  bool stops_on_overlap() const {
+    return request_.parameters.dynamics.on_overlap == OnOverlap::stop;
+  }
+
+  void refuse_foreign_output() const {
+    if (fs::exists(request_.output))
+      throw UserError(
+          request_.output.string() +
+          ": exists, but has no checkpoint beside it, so it cannot be continued; choose "
+          "another output, or delete it");
+  }
+
+  void load() {
+    const LoadedCheckpoint loaded = load_checkpoint(checkpoint_);
+    if (!loaded.warning.empty()) say_(loaded.warning);
+    const std::string now = stored_.parameters;
+    stored_ = from_checkpoint(loaded.checkpoint, checkpoint_);
+    if (const auto change = forbidden_change(stored_.parameters, now))
+      throw UserError(
+          fmt::format("{}: the run was begun with {} = {}, but now it is {}; continue it "
+                      "with its own parameters, or choose another output",
+                      request_.output.string(), change->key, change->first, change->second));
+  }
+
+  // False if the preparation was stopped.
+  bool begin() {
+    Configuration2 configuration;
+    if (request_.from) {
+      configuration = read_state(*request_.from);
+      require_fit(configuration, request_.parameters, *request_.from);
+    } else {
+      Preparation preparation = prepare(request_.parameters, budget_, say_);
+      if (preparation.report.end == StageEnd::stopped) return false;
+      configuration = std::move(preparation.configuration);
+    }
+    if (stops_on_overlap()) refuse_overlaps(configuration);
+    set_velocities(configuration);
+    stored_.state = begin_run(configuration, -request_.parameters.dynamics.equilibration);
+    // Before the trajectory: one without a checkpoint is never this run's.
+    save();
+    return true;
+  }
+
+  void refuse_overlaps(const Configuration2& configuration) const {
+    const ExactCheck check = exact_check(configuration);
+    if (check.clean()) return;
+    const PairImage& pair = check.overlaps.front();
+    throw InvariantError(
+        fmt::format("the state to start from has {} overlapping pair(s), the first of particles {} "
+                    "and {}; start "
+                    "from a state without, or set dynamics.on_overlap = \"correct\"",
+                    check.overlaps.size(), pair.i, pair.j));
+  }
+
+  void set_velocities(Configuration2& configuration) const {
+    const DynamicsParameters& dynamics = request_.parameters.dynamics;
+    set_initial_velocities(configuration, request_.parameters.system.seed,
+                           dynamics.initial_velocities, dynamics.temperature);
+    const Mechanics sums = mechanics(configuration);
+    if (!(sums.translational_energy + sums.rotational_energy > 0))
+      throw UserError(
+          "dynamics.initial_velocities = \"keep\", but the state to start from is at rest; "
+          "use \"maxwell\", or start (--from) from a run with velocities");
+  }
+
+  void save() {
+    save_checkpoint(checkpoint_, to_checkpoint(stored_));
+    saved_ = Clock::now();
+  }
+
+  TrajectoryWriter open_trajectory() const {
+    const RunState& state = stored_.state;
+    if (state.next_sample > 0)
+      return TrajectoryWriter::append_to(request_.output, state.next_sample);
+    const std::string parent = request_.from ? request_.from->string() : "";
+    const Provenance provenance = current_provenance(request_.command_line, stored_.parameters,
+                                                     request_.parameters.system.seed, parent);
+    return TrajectoryWriter::create(request_.output, state.configuration, provenance,
+                                    {request_.parameters.output.velocities, run_observables, true});
+  }
+
+  void advance(bool continues) {
+    RunState& state = stored_.state;
+    if (continues) say_(fmt::format("continuing at time {:.6g}", state.configuration.time));
+    say_(make_engine(state.configuration, dynamics_options(request_.parameters).engine)
+             ->description());
+    TrajectoryWriter writer = open_trajectory();
+    TrajectoryObserver observer(writer, measure_run);
+    const double wall_before = stored_.wall_seconds;
+    const Clock::time_point start = Clock::now();
+    RunPlan plan{sample_times(request_.parameters), request_.parameters.dynamics.duration,
+                 &observer, [&](const RunState&) {
+                   stored_.wall_seconds = wall_before + seconds_since(start);
+                   if (seconds_since(saved_) >= request_.parameters.output.checkpoint_interval)
+                     save();
+                 }};
+    const StageReport report = run_or_keep_failed_state(plan);
+    stored_.wall_seconds = wall_before + seconds_since(start);
+    stored_.complete = report.end == StageEnd::reached;
+    writer.record_wall_seconds(stored_.wall_seconds);
+    writer.close();
+    save();
+  }
+
+  StageReport run_or_keep_failed_state(const RunPlan& plan) {
+    try {
+      return vitrel::run(stored_.state, dynamics_options(request_.parameters), plan, budget_);
+    } catch (const InvariantError& error) {
+      keep_failed_state();
+      throw InvariantError(fmt::format("{}; the state is in {}", error.what(),
+                                       failed_state_path(request_.output).string()));
+    }
+  }
+
+  void keep_failed_state() const {
+    write_state(failed_state_path(request_.output), stored_.state.configuration,
+                current_provenance(request_.command_line, stored_.parameters,
+                                   request_.parameters.system.seed, request_.output.string()),
+                true);
+  }
+
+  void check_last_state() const {
+    if (!stops_on_overlap()) return;
+    const ExactCheck check = exact_check(stored_.state.configuration);
+    if (check.clean()) return;
+    keep_failed_state();
+    throw InvariantError(fmt::format(
+        "the last state has {} overlapping pair(s), which the run did not notice: a defect of the "
+        "program; the state is in {}",
+        check.overlaps.size(), failed_state_path(request_.output).string()));
+  }
+
+  const RunRequest& request_;
+  const Budget& budget_;
+  const std::function<void(const std::string&)>& say_;
+  fs::path checkpoint_;
+  StoredRun stored_;
+  Clock::time_point saved_ = Clock::now();
+};
+
+std::string start_text(const RunRequest& request) {
+  const fs::path checkpoint = checkpoint_path(request.output);
+  if (checkpoint_exists(checkpoint)) {
+    const StoredRun stored = from_checkpoint(load_checkpoint(checkpoint).checkpoint, checkpoint);
+    return stored.complete ? "nothing: the run is complete"
+                           : fmt::format("the checkpoint at time {:.6g}, {} frames",
+                                         stored.state.configuration.time, stored.state.next_sample);
+  }
+  if (request.from) return "the state in " + request.from->string();
+  std::string stages =
+      fmt::format("a preparation in {} stage(s)", request.parameters.stages.size());
+  return stages;
+}
+
+}  // namespace
+
+std::string run_plan(const RunRequest& request) {
+  const Parameters& p = request.parameters;
+  const std::size_t frames = sample_times(p).size();
+  // Position, image, orientation, angle, and the velocities if asked for, before compression.
+  const double bytes_per_particle = 24 + 12 + 32 + 8 + (p.output.velocities ? 32 : 0);
+  const double size =
+      bytes_per_particle * static_cast<double>(p.system.particles) * static_cast<double>(frames);
+  std::string text = fmt::format("starts from  {}\n", start_text(request));
+  text += fmt::format("system       {} particles, packing fraction {}, seed {}\n",
+                      p.system.particles, p.system.packing_fraction, p.system.seed);
+  for (const Species& species : p.species)
+    text += fmt::format("species      {}, fraction {:.4g}\n", species.name, species.fraction);
+  text += p.dynamics.kind == DynamicsParameters::Kind::brownian
+              ? fmt::format("dynamics     brownian, step {}\n", p.dynamics.brownian_step)
+              : std::string("dynamics     newtonian\n");
+  text += fmt::format("time         {} to equilibrate, then {}\n", p.dynamics.equilibration,
+                      p.dynamics.duration);
+  text += fmt::format("writes       {}, {} frames, at most {:.3g} MB; checkpoint every {} s\n",
+                      request.output.string(), frames, size / 1e6, p.output.checkpoint_interval);
+  return text;
+}
+
+RunOutcome run(const RunRequest& request, const Budget& budget,
+               const std::function<void(const std::string&)>& say) {
+  return Runner(request, budget, say).run();
+}
+
+nlohmann::ordered_json run_summary(const RunRequest& request, const RunOutcome& outcome) {
+  const RunState& state = outcome.state;
+  const RunCounters& counters = state.counters;
+  StoredTrajectory trajectory(request.output);
+  const CompressibilitySeries z = stored_compressibility(
+      trajectory.reader(), stored_energies(trajectory), rotor_count(state.configuration));
+  const double simulated = state.configuration.time - state.start_time;
+  const auto collisions = static_cast<double>(counters.collisions);
+  return {{"output", request.output.string()},
+          {"complete", outcome.complete},
+          {"particles", state.configuration.size()},
+          {"packing_fraction", packing_fraction(state.configuration)},
+          {"simulated_time", simulated},
+          {"frames", trajectory.frames()},
+          {"collisions", counters.collisions},
+          {"events", counters.events},
+          {"predictions_per_collision", static_cast<double>(counters.predictions) / collisions},
+          {"correction_moves", counters.correction_moves},
+          {"energy_drift", state.energy_drift},
+          {"largest_momentum", state.largest_momentum},
+          {"compressibility", z.mean.mean},
+          {"compressibility_error", z.mean.error},
+          {"overlaps", exact_check(state.configuration).overlaps.size()},
+          {"wall_seconds", outcome.wall_seconds},
+          {"collisions_per_second", collisions / outcome.wall_seconds}};
+}
+
+}  // namespace vitrel

@@ -1,0 +1,56 @@
+#include "app/workflow/stored_run.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace vitrel {
+namespace {
+
+bool has_observable(const TrajectoryReader& reader, const std::string& name) {
+  const std::vector<std::string> names = reader.observable_names();
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::vector<double> per_particle(std::vector<double> totals, std::size_t particles) {
+  for (double& value : totals) value /= static_cast<double>(particles);
+  return totals;
+}
+
+}  // namespace
+
+const std::vector<std::string> run_observables = {"collisions", "rotational_energy",
+                                                  "translational_energy", "virial"};
+
+Observables measure_run(const Frame<2>& frame) {
+  const Mechanics sums = mechanics(frame.configuration);
+  return {{"collisions", static_cast<double>(frame.tally.collisions)},
+          {"rotational_energy", sums.rotational_energy},
+          {"translational_energy", sums.translational_energy},
+          {"virial", frame.tally.virial}};
+}
+
+EnergySeries stored_energies(StoredTrajectory& trajectory) {
+  const TrajectoryReader& reader = trajectory.reader();
+  if (!has_observable(reader, "translational_energy") ||
+      !has_observable(reader, "rotational_energy")) {
+    reader.require("velocity", "energies");
+    return energies(trajectory);
+  }
+  EnergySeries series;
+  series.time = reader.times();
+  series.translational =
+      per_particle(reader.observable("translational_energy"), reader.particles());
+  series.rotational = per_particle(reader.observable("rotational_energy"), reader.particles());
+  for (std::size_t k = 0; k < series.time.size(); ++k)
+    series.total.push_back(series.translational[k] + series.rotational[k]);
+  return series;
+}
+
+CompressibilitySeries stored_compressibility(const TrajectoryReader& reader,
+                                             const EnergySeries& energy, std::size_t rotors) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  if (!has_observable(reader, "virial")) return {{}, {}, {unknown, unknown, 0}};
+  return compressibility(energy, reader.observable("virial"), reader.particles(), rotors);
+}
+
+}  // namespace vitrel

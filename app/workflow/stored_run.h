@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "analysis/energy.h"
+#include "analysis/trajectory.h"
+#include "core/io/h5md.h"
+#include "core/state/observer.h"
+
+/// A run on file: what the program writes with every frame, and how the analysis sees it.
+namespace vitrel {
+
+/// The observables that `run` stores with every frame: totals over all particles, and totals since
+/// the start of the run.
+extern const std::vector<std::string> run_observables;
+Observables measure_run(const Frame<2>& frame);
+
+/// A trajectory file as the analysis takes it.
+class StoredTrajectory final : public Trajectory {
+ public:
+  explicit StoredTrajectory(const std::filesystem::path& path) : reader_(path) {}
+  const std::vector<double>& times() const override { return reader_.times(); }
+  const Configuration2& read(std::size_t k) override {
+    reader_.read(k, frame_);
+    return frame_;
+  }
+  const TrajectoryReader& reader() const { return reader_; }
+
+ private:
+  TrajectoryReader reader_;
+  Configuration2 frame_;
+};
+
+/// From the observables if the file has them, else from the velocities; FileError if it has
+/// neither.
+EnergySeries stored_energies(StoredTrajectory& trajectory);
+
+/// Without values if the file has no virial.
+CompressibilitySeries stored_compressibility(const TrajectoryReader& reader,
+                                             const EnergySeries& energy, std::size_t rotors);
+
+}  // namespace vitrel

@@ -1,0 +1,416 @@
+#include "app/workflow/sweep.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <deque>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <thread>
+
+#include "app/workflow/process.h"
+#include "app/workflow/stop.h"
+#include "app/workflow/text_file.h"
+#include "core/error.h"
+
+namespace vitrel {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr int stopped_exit_code = 5;
+
+std::string last_part(const std::string& key) {
+  return key.substr(key.rfind('.') + 1);
+}
+
+// Letters, digits and a few marks; anything else becomes "_", so that every shell takes the name.
+std::string file_name_part(std::string text) {
+  std::erase(text, '"');
+  for (char& c : text)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '.' && c != '-' && c != '+') c = '_';
+  return text;
+}
+
+std::string job_id(const std::vector<std::pair<std::string, std::string>>& values) {
+  std::map<std::string, int> uses;
+  for (const auto& [key, value] : values) ++uses[last_part(key)];
+  std::string id;
+  for (const auto& [key, value] : values) {
+    const std::string name = uses[last_part(key)] == 1 ? last_part(key) : key;
+    id += fmt::format("{}{}-{}", id.empty() ? "" : "_", name, file_name_part(value));
+  }
+  return id.empty() ? "job" : id;
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error)
+    throw FileError(
+        fmt::format("{}: the folder cannot be made: {}", folder.string(), error.message()));
+}
+
+// Holds the sweep's folder for this process; the kernel lets go when the process ends, however it
+// does.
+class FolderLock {
+ public:
+  explicit FolderLock(const fs::path& folder) {
+    const fs::path path = folder / "lock";
+    descriptor_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (descriptor_ < 0)
+      throw FileError(
+          fmt::format("{}: cannot be written: {}", path.string(), std::strerror(errno)));
+    if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+      close(descriptor_);
+      throw UserError(folder.string() +
+                      ": another process works on this sweep; wait for it or stop it "
+                      "(vitrel sweep --status shows how far it is)");
+    }
+  }
+  ~FolderLock() { close(descriptor_); }
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int descriptor_;
+};
+
+Json values_json(const SweepJob& job) {
+  Json values = Json::object();
+  for (const auto& [key, value] : job.values) {
+    const TomlNode node = parse_toml("x = " + value, key);
+    const TomlNode& parsed = node.find("x")->node;
+    if (const auto* real = parsed.get<double>())
+      values[key] = *real;
+    else if (const auto* integer = parsed.get<std::int64_t>())
+      values[key] = *integer;
+    else if (const auto* flag = parsed.get<bool>())
+      values[key] = *flag;
+    else if (const auto* text = parsed.get<std::string>())
+      values[key] = *text;
+    else
+      values[key] = value;
+  }
+  return values;
+}
+
+void write_job_folder(const SweepJob& job, const fs::path& folder) {
+  make_folder(folder);
+  const fs::path file = folder / "parameters.toml";
+  const std::string text = effective_parameters(job.parameters);
+  if (fs::exists(file)) {
+    if (const auto change = forbidden_change(read_text(file), text))
+      throw UserError(
+          fmt::format("{}: this job was begun with {} = {}, but now it is {}; use another "
+                      "folder for the sweep, or delete the job's",
+                      folder.string(), change->key, change->first, change->second));
+  }
+  write_text(file, text);
+  write_text(folder / "params.json",
+             Json{{"id", job.id}, {"values", values_json(job)}}.dump(2) + "\n");
+}
+
+// Works off the steps of one job, a process at a time.
+class JobWorker {
+ public:
+  JobWorker(const SweepJob& job, const fs::path& folder, const fs::path& program)
+      : job_(job), folder_(folder), program_(program) {
+    start_next();
+  }
+
+  enum class State { running, done, failed, stopped };
+  State state() const { return state_; }
+  int exit_code() const { return exit_code_; }
+  const SweepJob& job() const { return job_; }
+
+  void ask_to_stop() {
+    if (child_) child_->ask_to_stop();
+  }
+
+  /// Looks after the current step.
+  void poll() {
+    if (state_ != State::running) return;
+    const std::optional<int> code = child_->poll();
+    if (!code) return;
+    exit_code_ = *code;
+    if (*code == stopped_exit_code) {
+      state_ = State::stopped;
+    } else if (*code != 0) {
+      state_ = State::failed;
+    } else {
+      const Step& step = steps_[next_++];
+      fs::rename(unfinished(step), folder_ / (std::string(step.name) + ".json"));
+      start_next();
+    }
+  }
+
+ private:
+  struct Step {
+    const char* name;
+    const char* product;
+    bool skip_if_there;  ///< the product appears only when complete
+  };
+  static constexpr std::array<Step, 3> steps_ = {
+      {{"prepare", "state.h5", true}, {"run", "run.h5", false}, {"analyze", "results.h5", false}}};
+
+  fs::path unfinished(const Step& step) const {
+    return folder_ / (std::string(step.name) + ".json.partial");
+  }
+
+  bool is_complete(const Step& step) const {
+    return step.skip_if_there && fs::exists(folder_ / step.product) &&
+           fs::exists(folder_ / (std::string(step.name) + ".json"));
+  }
+
+  void start_next() {
+    while (next_ < steps_.size() && is_complete(steps_[next_])) ++next_;
+    if (next_ == steps_.size()) {
+      finish();
+      return;
+    }
+    const Step& step = steps_[next_];
+    child_ = std::make_unique<ChildProcess>(command(step), unfinished(step), folder_ / "log.txt");
+  }
+
+  std::vector<std::string> command(const Step& step) const {
+    const auto file = [&](const char* name) { return (folder_ / name).string(); };
+    std::vector<std::string> words = {program_.string(), step.name};
+    if (step.name == std::string_view("analyze"))
+      words.insert(words.end(), {file("run.h5"), "--params", file("parameters.toml")});
+    else
+      words.push_back(file("parameters.toml"));
+    if (step.name == std::string_view("run"))
+      words.insert(words.end(), {"--from", file("state.h5")});
+    words.insert(words.end(), {"-o", file(step.product), "--json"});
+    return words;
+  }
+
+  void finish() {
+    Json done = {{"id", job_.id}, {"values", values_json(job_)}};
+    for (const Step& step : steps_)
+      done[step.name] =
+          Json::parse(read_text(folder_ / (std::string(step.name) + ".json")), nullptr, false);
+    write_text(folder_ / "done.json", done.dump(2) + "\n");
+    state_ = State::done;
+  }
+
+  const SweepJob& job_;
+  fs::path folder_, program_;
+  std::size_t next_ = 0;
+  std::unique_ptr<ChildProcess> child_;
+  State state_ = State::running;
+  int exit_code_ = 0;
+};
+
+std::string last_line(const fs::path& file) {
+  std::string text = read_text(file);
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  return text.substr(text.rfind('\n') + 1);
+}
+
+// Keeps `parallel` jobs going until all are done or the user wants to stop.
+class Sweep {
+ public:
+  Sweep(const SweepRequest& request, const std::function<void(const std::string&)>& say)
+      : request_(request), say_(say), jobs_(sweep_jobs(request.source)) {}
+
+  SweepOutcome run() {
+    make_folder(request_.folder);
+    const FolderLock lock(request_.folder);
+    for (const SweepJob& job : jobs_) write_job_folder(job, request_.folder / job.id);
+    for (const SweepJob& job : jobs_) {
+      if (job_stage(request_.folder / job.id) == JobStage::done)
+        ++outcome_.done;
+      else
+        waiting_.push_back(&job);
+    }
+    if (outcome_.done > 0)
+      say_(fmt::format("{} of {} jobs are done already", outcome_.done, jobs_.size()));
+    while (!active_.empty() || (!waiting_.empty() && !stopping_)) {
+      pass_on_stop();
+      fill();
+      for (auto& worker : active_) worker->poll();
+      collect();
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    outcome_.stopped = stopping_ && outcome_.done + outcome_.failed < jobs_.size();
+    return outcome_;
+  }
+
+ private:
+  bool time_is_up() const {
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
+    return request_.wall_time > 0 && elapsed.count() > request_.wall_time;
+  }
+
+  void pass_on_stop() {
+    if (stopping_ || !(stop_signalled() || time_is_up())) return;
+    stopping_ = true;
+    say_("stopping: every job stops at the next point from which it can be continued");
+    for (auto& worker : active_) worker->ask_to_stop();
+  }
+
+  void fill() {
+    while (!stopping_ && !waiting_.empty() &&
+           active_.size() < static_cast<std::size_t>(request_.parallel)) {
+      const SweepJob& job = *waiting_.front();
+      waiting_.pop_front();
+      say_(fmt::format("{}: started", job.id));
+      active_.push_back(
+          std::make_unique<JobWorker>(job, request_.folder / job.id, request_.program));
+    }
+  }
+
+  void collect() {
+    for (const auto& worker : active_) {
+      const std::string& id = worker->job().id;
+      if (worker->state() == JobWorker::State::done) {
+        ++outcome_.done;
+        say_(fmt::format("{}: done ({} of {})", id, outcome_.done, jobs_.size()));
+      } else if (worker->state() == JobWorker::State::failed) {
+        if (outcome_.failed++ == 0) outcome_.first_failure = worker->exit_code();
+        say_(fmt::format("{}: failed with exit code {}: {}", id, worker->exit_code(),
+                         last_line(request_.folder / id / "log.txt")));
+      }
+    }
+    std::erase_if(active_,
+                  [](const auto& worker) { return worker->state() != JobWorker::State::running; });
+  }
+
+  const SweepRequest& request_;
+  const std::function<void(const std::string&)>& say_;
+  std::vector<SweepJob> jobs_;
+  std::deque<const SweepJob*> waiting_;
+  std::vector<std::unique_ptr<JobWorker>> active_;
+  SweepOutcome outcome_;
+  bool stopping_ = false;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+std::string number_cell(const Json& parent, const char* key, const char* format) {
+  if (!parent.is_object() || !parent.contains(key) || !parent[key].is_number()) return "-";
+  return fmt::format(fmt::runtime(format), parent[key].get<double>());
+}
+
+std::vector<std::string> result_cells(const fs::path& folder) {
+  const JobStage stage = job_stage(folder);
+  std::vector<std::string> cells = {name_of(stage)};
+  Json run, analysis;
+  if (stage == JobStage::done) {
+    const Json done = Json::parse(read_text(folder / "done.json"));
+    run = done["run"];
+    analysis = done["analyze"];
+  }
+  cells.push_back(number_cell(run, "packing_fraction", "{:.4f}"));
+  cells.push_back(number_cell(run, "collisions", "{:.0f}"));
+  cells.push_back(number_cell(run, "compressibility", "{:.3f}"));
+  cells.push_back(number_cell(run, "compressibility_error", "{:.3f}"));
+  cells.push_back(number_cell(analysis, "diffusion", "{:.3g}"));
+  cells.push_back(number_cell(analysis, "rotational_diffusion", "{:.3g}"));
+  cells.push_back(number_cell(run, "overlaps", "{:.0f}"));
+  cells.push_back(number_cell(run, "wall_seconds", "{:.1f}"));
+  return cells;
+}
+
+}  // namespace
+
+std::vector<SweepJob> sweep_jobs(const ParameterSource& source) {
+  const ParameterGrid grid = load_parameters(source).sweep;
+  std::vector<std::vector<std::pair<std::string, std::string>>> combinations(1);
+  for (const auto& [key, values] : grid) {
+    std::vector<std::vector<std::pair<std::string, std::string>>> longer;
+    for (const auto& combination : combinations)
+      for (const std::string& value : values) {
+        longer.push_back(combination);
+        longer.back().emplace_back(key, value);
+      }
+    combinations = std::move(longer);
+  }
+  std::vector<SweepJob> jobs;
+  std::set<std::string> ids;
+  for (auto& combination : combinations) {
+    ParameterSource job_source = source;
+    for (const auto& [key, value] : combination) job_source.overrides.push_back(key + "=" + value);
+    SweepJob job{job_id(combination), std::move(combination), load_parameters(job_source)};
+    if (!ids.insert(job.id).second)
+      throw UserError(
+          fmt::format("{}: two jobs of [sweep.grid] have the same values ({}); every value "
+                      "may appear once",
+                      source.file.string(), job.id));
+    jobs.push_back(std::move(job));
+  }
+  return jobs;
+}
+
+const char* name_of(JobStage stage) {
+  constexpr const char* names[] = {"waiting", "prepared", "started", "done"};
+  return names[static_cast<std::size_t>(stage)];
+}
+
+JobStage job_stage(const fs::path& folder) {
+  if (fs::exists(folder / "done.json")) return JobStage::done;
+  if (fs::exists(folder / "run.h5")) return JobStage::started;
+  if (fs::exists(folder / "state.h5")) return JobStage::prepared;
+  return JobStage::waiting;
+}
+
+SweepOutcome run_sweep(const SweepRequest& request,
+                       const std::function<void(const std::string&)>& say) {
+  return Sweep(request, say).run();
+}
+
+std::string sweep_table(const std::vector<SweepJob>& jobs, const fs::path& folder) {
+  std::vector<std::vector<std::string>> rows = {
+      {"job", "stage", "phi", "collisions", "Z", "+-", "D", "D_rot", "overlaps", "seconds"}};
+  for (const SweepJob& job : jobs) {
+    std::vector<std::string> row = {job.id};
+    for (std::string& cell : result_cells(folder / job.id)) row.push_back(std::move(cell));
+    rows.push_back(std::move(row));
+  }
+  std::vector<std::size_t> widths(rows[0].size(), 0);
+  for (const auto& row : rows)
+    for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], row[k].size());
+  std::string text;
+  for (const auto& row : rows) {
+    for (std::size_t k = 0; k < row.size(); ++k)
+      text += k < 2 ? fmt::format("{:<{}}  ", row[k], widths[k])
+                    : fmt::format("{:>{}}  ", row[k], widths[k]);
+    text.erase(text.find_last_not_of(' ') + 1);
+    text += '\n';
+  }
+  return text;
+}
+
+Json sweep_summary(const std::vector<SweepJob>& jobs, const fs::path& folder) {
+  Json rows = Json::array();
+  for (const SweepJob& job : jobs) {
+    const JobStage stage = job_stage(folder / job.id);
+    Json row = stage == JobStage::done ? Json::parse(read_text(folder / job.id / "done.json"))
+                                       : Json{{"id", job.id}, {"values", values_json(job)}};
+    row["stage"] = name_of(stage);
+    rows.push_back(std::move(row));
+  }
+  return {{"jobs", std::move(rows)}};
+}
+
+std::vector<fs::path> finished_jobs(const fs::path& folder) {
+  std::vector<fs::path> jobs;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.is_directory() && fs::exists(entry.path() / "done.json"))
+      jobs.push_back(entry.path());
+  std::sort(jobs.begin(), jobs.end());
+  if (jobs.empty())
+    throw UserError(folder.string() +
+                    ": no finished job of a sweep is in this folder; vitrel sweep makes them");
+  return jobs;
+}
+
+}  // namespace vitrel
