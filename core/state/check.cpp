@@ -102,12 +102,13 @@ Point turned(const Point& n, Real tangent) {
 
 /// The local maximum of g above n: Newton's method along the angle, halving every step that would
 /// lead down. On the arc where g > 0 it is strictly concave, so that there is one maximum on it.
-Real climb(const Particle& one, const Particle& two, const Point& d, Point n) {
+/// Ends early with any value that is `enough`.
+Real climb(const Particle& one, const Particle& two, const Point& d, Point n, Real enough) {
   constexpr Real longest_step = 0.1L;
   constexpr Real shortest_step = 1e-10L;  // g is flat there: an error of 1e-20 in relative terms
   constexpr int most_steps = 200;
   Separation here = separation_along(one, two, d, n);
-  for (int step = 0; step < most_steps; ++step) {
+  for (int step = 0; step < most_steps && here.gap < enough; ++step) {
     Real turn = std::copysign(longest_step, here.slope);
     if (here.curvature < 0)
       turn = std::clamp(-here.slope / here.curvature, -longest_step, longest_step);
@@ -146,24 +147,39 @@ Point separating_direction(const Particle& one, const Particle& two, const Point
   return normalized({first.x + t * second.x, first.y + t * second.y});
 }
 
+constexpr int samples_per_ellipse = 64;
+
+/// (cos, sin) of equally spaced eccentric angles.
+const std::array<Point, samples_per_ellipse>& eccentric_angles() {
+  static const auto angles = [] {
+    std::array<Point, samples_per_ellipse> table;
+    for (int k = 0; k < samples_per_ellipse; ++k) {
+      const Real angle = 2 * std::numbers::pi_v<Real> * k / samples_per_ellipse;
+      table[k] = {std::cos(angle), std::sin(angle)};
+    }
+    return table;
+  }();
+  return angles;
+}
+
 /// The highest of many normals of both ellipses, at equal steps of their eccentric angle so that
-/// sharp tips get their share, then the maximum next to it.
-Real overlap_gap(const Particle& one, const Particle& two, const Point& d) {
-  constexpr int steps = 64;
+/// sharp tips get their share, then the maximum next to it. Ends early with any value that is
+/// `enough`.
+Real overlap_gap(const Particle& one, const Particle& two, const Point& d, Real enough) {
   Point best{1, 0};
   Real highest = -std::numeric_limits<Real>::infinity();
   for (const EllipseAxes<Real>& e : {one.axes, two.axes}) {
-    for (int k = 0; k < steps; ++k) {
-      const Real eccentric = 2 * std::numbers::pi_v<Real> * k / steps;
-      const Real along = e.b * std::cos(eccentric);
-      const Real across = e.a * std::sin(eccentric);
+    for (const Point& eccentric : eccentric_angles()) {
+      const Real along = e.b * eccentric.x;
+      const Real across = e.a * eccentric.y;
       const Point n =
           normalized({along * e.cosine - across * e.sine, along * e.sine + across * e.cosine});
       const Real gap = separation_along(one, two, d, n).gap;
+      if (gap >= enough) return gap;
       if (gap > highest) highest = gap, best = n;
     }
   }
-  return climb(one, two, d, best);
+  return climb(one, two, d, best, enough);
 }
 
 /// Walks over pairs of particles and keeps the findings.
@@ -186,8 +202,8 @@ class Examination {
     const Particle& two = particles_[j];
     const Point d{two.centre.x - one.centre.x, two.centre.y - one.centre.y};
     const Real reach = one.axes.a + two.axes.a + std::max<Real>(0, smallest_gap_);
+    if (beyond(reach, d.x, lengths_.x) || beyond(reach, d.y, lengths_.y)) return;
     const auto [low_x, high_x] = shifts_within(reach, d.x, lengths_.x);
-    if (low_x > high_x) return;
     const auto [low_y, high_y] = shifts_within(reach, d.y, lengths_.y);
     for (int x = low_x; x <= high_x; ++x)
       for (int y = low_y; y <= high_y; ++y)
@@ -206,6 +222,12 @@ class Examination {
   }
 
  private:
+  /// Quick and sufficient for |d| ≤ L: then d itself and one image are the nearest.
+  static bool beyond(Real reach, Real d, Real length) {
+    const Real away = std::abs(d);
+    return away > reach && length - away > reach;
+  }
+
   static std::pair<int, int> shifts_within(Real reach, Real d, Real length) {
     return {static_cast<int>(std::ceil((-reach - d) / length)),
             static_cast<int>(std::floor((reach - d) / length))};
@@ -221,10 +243,10 @@ class Examination {
     if (distance < contact_circle) ++pairs_examined_;
     if (distance >= contact_circle || contact.disjoint_or_touching()) {
       const Point n = separating_direction(one, two, d, contact);
-      smallest_gap_ = std::min(smallest_gap_, climb(one, two, d, n));
+      smallest_gap_ = std::min(smallest_gap_, climb(one, two, d, n, smallest_gap_));
     } else {
       overlaps_.push_back({i, j, {x, y}});
-      smallest_gap_ = std::min(smallest_gap_, overlap_gap(one, two, d));
+      smallest_gap_ = std::min(smallest_gap_, overlap_gap(one, two, d, smallest_gap_));
     }
   }
 
