@@ -6,10 +6,12 @@ include(CMakePackageConfigHelpers)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/vitrel)
 foreach(library core mc edmd analysis)
   install(TARGETS vitrel_${library} EXPORT vitrel_targets
-          FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vitrel)
+          ARCHIVE COMPONENT development
+          FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vitrel COMPONENT development)
 endforeach()
 install(TARGETS vitrel_options EXPORT vitrel_targets)
-install(EXPORT vitrel_targets NAMESPACE vitrel:: DESTINATION ${package_folder})
+install(EXPORT vitrel_targets NAMESPACE vitrel:: DESTINATION ${package_folder}
+        COMPONENT development)
 
 configure_package_config_file(cmake/vitrel-config.cmake.in vitrel-config.cmake
                               INSTALL_DESTINATION ${package_folder}
@@ -17,4 +19,4 @@ configure_package_config_file(cmake/vitrel-config.cmake.in vitrel-config.cmake
 write_basic_package_version_file(vitrel-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/vitrel-config.cmake
               ${PROJECT_BINARY_DIR}/vitrel-config-version.cmake
-        DESTINATION ${package_folder})
+        DESTINATION ${package_folder} COMPONENT development)

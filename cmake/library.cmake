@@ -1,5 +1,6 @@
 # vitrel_library(<name> SOURCES … HEADERS … LINK … [PRIVATE_LINK …]): one static library per folder of
-# the architecture, installed with its public headers; includes read "core/…", from the project's root.
+# the architecture with its headers, each of which must compile alone. Includes read "core/…", from the
+# project's root.
 function(vitrel_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;HEADERS;LINK;PRIVATE_LINK" ${ARGN})
   set(target vitrel_${name})
@@ -9,5 +10,4 @@ function(vitrel_library name)
   target_link_libraries(${target} PUBLIC vitrel::options ${ARG_LINK} PRIVATE ${ARG_PRIVATE_LINK})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} VERIFY_INTERFACE_HEADER_SETS ON)
   vitrel_private_options(${target})
-  set_property(GLOBAL APPEND PROPERTY VITREL_LIBRARIES ${target})
 endfunction()
