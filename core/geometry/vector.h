@@ -18,9 +18,13 @@ template <int Dim>
 using Shift = Eigen::Matrix<std::int32_t, Dim, 1>;
 
 /// The z component of the three-dimensional cross product: u × v = u_x v_y − u_y v_x.
-inline double cross(const Vec2& u, const Vec2& v) { return u.x() * v.y() - u.y() * v.x(); }
+inline double cross(const Vec2& u, const Vec2& v) {
+  return u.x() * v.y() - u.y() * v.x();
+}
 
 /// u turned by +90°.
-inline Vec2 perpendicular(const Vec2& u) { return {-u.y(), u.x()}; }
+inline Vec2 perpendicular(const Vec2& u) {
+  return {-u.y(), u.x()};
+}
 
 }  // namespace vitrel

@@ -24,7 +24,9 @@ std::uint64_t Stream::bits() {
   return words_[used_++];
 }
 
-double Stream::uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
+double Stream::uniform() {
+  return static_cast<double>(bits() >> 11) * 0x1p-53;
+}
 
 std::uint64_t Stream::below(std::uint64_t n) {
   // Reject the incomplete last run of n values, so that every value is equally likely.

@@ -22,15 +22,15 @@ struct Configuration<2> {
   PeriodicBox<2> box;
   double time = 0;
 
-  std::vector<Vec2> position;          ///< wrapped into the box
-  std::vector<Shift<2>> image;         ///< unwrapped position = position + image ∘ L
-  std::vector<double> angle;           ///< unwrapped, radians
+  std::vector<Vec2> position;   ///< wrapped into the box
+  std::vector<Shift<2>> image;  ///< unwrapped position = position + image ∘ L
+  std::vector<double> angle;    ///< unwrapped, radians
   std::vector<Vec2> velocity;
   std::vector<double> angular_velocity;
 
-  std::vector<Ellipse> shape;          ///< semi-axes a ≥ b of every particle
+  std::vector<Ellipse> shape;  ///< semi-axes a ≥ b of every particle
   std::vector<double> mass;
-  std::vector<std::int32_t> species;   ///< index into species_names
+  std::vector<std::int32_t> species;  ///< index into species_names
   std::vector<std::string> species_names;
 
   std::size_t size() const { return position.size(); }

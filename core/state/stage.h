@@ -8,9 +8,9 @@ namespace vitrel {
 
 /// How far a piece of work has come; handed to the front end now and then.
 struct Progress {
-  double fraction = 0;    ///< 0 … 1
-  double value = 0;       ///< the quantity that moves (simulated time, packing fraction, …)
-  const char* quantity;   ///< its name
+  double fraction = 0;   ///< 0 … 1
+  double value = 0;      ///< the quantity that moves (simulated time, packing fraction, …)
+  const char* quantity;  ///< its name
 };
 
 /// What a stage may use, and whom it tells. Stages ask `should_stop` only at points from which they can
