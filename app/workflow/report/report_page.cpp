@@ -200,7 +200,8 @@ std::string table_row(const ReportRun& run) {
 std::string provenance_list(const ReportData& data) {
   std::string list;
   for (const auto& [name, text] : data.provenance)
-    list += "<div><dt>" + escaped(name) + "</dt><dd>" + escaped(text) + "</dd></div>\n";
+    if (!text.empty())
+      list += "<div><dt>" + escaped(name) + "</dt><dd>" + escaped(text) + "</dd></div>\n";
   return list;
 }
 

@@ -32,7 +32,7 @@ struct ReportData {
   std::string subtitle;         ///< one line below it: what was simulated
   std::vector<ReportRun> runs;  ///< shown in the order of their packing fraction
   std::string parameters;       ///< TOML text
-  std::vector<std::pair<std::string, std::string>> provenance;  ///< name, text
+  std::vector<std::pair<std::string, std::string>> provenance;  ///< name, text; shown if not empty
 };
 
 /// The page as HTML: MSD and MSR of all runs (log–log), a table of densities (collisions, Z,
