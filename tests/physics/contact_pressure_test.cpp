@@ -78,7 +78,7 @@ TEST(Compressibility, MonteCarloEventDrivenAndTableAgree) {
 // Disks at φ = 0.3: Z = 2.063261 (Kolafa & Rottner, 2006).
 TEST(Compressibility, MonteCarloOfDisks) {
   Configuration2 c = fluid(400, 1, 0.3);
-  const Estimate mc = monte_carlo(c, 30, 100);
+  const Estimate mc = monte_carlo(c, 30, 250);
   EXPECT_LT(mc.error, 0.01);
   EXPECT_NEAR(mc.mean, 2.063261, 3 * mc.error);
 }

@@ -19,6 +19,7 @@ template <class ShapeOf>
 Configuration2 square_lattice(int side, double packing_fraction, double angle, ShapeOf shape_of) {
   Configuration2 c;
   c.resize(static_cast<std::size_t>(side) * side);
+  c.species_names = {"A"};
   double area = 0;
   for (std::size_t i = 0; i < c.size(); ++i) {
     c.shape[i] = shape_of(i);
