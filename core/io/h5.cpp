@@ -1,19 +1,15 @@
 #include "core/io/h5.h"
 
-#include <fcntl.h>
 #include <hdf5.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <functional>
 #include <numeric>
+#include <optional>
 #include <string_view>
-#include <system_error>
 
 #include "core/error.h"
+#include "core/io/h5_driver.h"
 
 namespace vitrel::h5 {
 namespace {
@@ -89,20 +85,8 @@ std::string innermost_note() {
   return note;
 }
 
-std::string between(const std::string& text, const std::string& before, const std::string& after) {
-  const auto start = text.find(before);
-  if (start == std::string::npos) return {};
-  const auto begin = start + before.size();
-  return text.substr(begin, text.find(after, begin) - begin);
-}
-
 /// Turns HDF5's note into words for a person, with what to do about it.
 std::string explained(const std::string& note) {
-  const std::string system_error = between(note, "error message = '", "'");
-  if (note.find("unable to lock file") != std::string::npos)
-    return "another program has it open for writing (" + system_error +
-           "); if none has, the file system may lack locks: set HDF5_USE_FILE_LOCKING=FALSE";
-  if (!system_error.empty()) return system_error;
   if (note.find("truncated file") != std::string::npos)
     return "the file is truncated: its end is missing, restore it from a copy";
   if (note.find("file signature not found") != std::string::npos)
@@ -117,25 +101,35 @@ std::string explained(const std::string& note) {
   throw FileError(message + ": " + reason);
 }
 
-std::string errno_text() {
-  return std::generic_category().message(errno);
-}
-
 }  // namespace
 
 /// The file identifier, shared by all objects of the file.
 class OpenFile {
  public:
-  OpenFile(std::string path, Id id, bool writable)
-      : path_(std::move(path)), id_(id), writable_(writable) {}
+  OpenFile(const std::filesystem::path& path, TransactionalFile::Mode mode)
+      : path_(path.string()), content_(std::in_place, path, mode) {
+    const bool create = mode == TransactionalFile::Mode::create;
+    silence_hdf5();
+    const Id access = access_through(*content_);
+    // Format version 1.8: every reader in use understands it.
+    H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);
+    H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+    const unsigned flags = content_->writable() ? H5F_ACC_RDWR : H5F_ACC_RDONLY;
+    id_ = create ? H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access)
+                 : H5Fopen(path.c_str(), flags, access);
+    const std::string reason = id_ < 0 ? explained(innermost_note()) : "";
+    H5Pclose(access);
+    if (id_ < 0) throw_file_error(path_, create ? "create the file" : "open the file", "", reason);
+  }
   OpenFile(const OpenFile&) = delete;
   OpenFile& operator=(const OpenFile&) = delete;
   ~OpenFile() {
     silence_hdf5();
-    if (id_ < 0) return;
-    // Closing a file that cannot be flushed would leave it half open inside HDF5, up to the exit.
-    if (writable_ && H5Fflush(id_, H5F_SCOPE_GLOBAL) < 0) cut_off();
-    H5Fclose(id_);
+    try {
+      if (id_ >= 0 && content_->writable()) flush();
+    } catch (const FileError&) {  // what was flushed before is safe
+    }
+    if (id_ >= 0) H5Fclose(id_);
   }
 
   Id id() const { return id_; }
@@ -145,7 +139,8 @@ class OpenFile {
   template <class Call>
   auto run(std::string_view action, std::string_view object, Call&& call) {
     silence_hdf5();
-    if (failed_) throw_file_error(path_, action, object, "an earlier write to this file failed");
+    if (!content_) throw_file_error(path_, action, object, "it is closed");
+    if (!content_->failure().empty()) throw_file_error(path_, action, object, content_->failure());
     const auto result = call();
     if (result < 0) fail(action, object, explained(innermost_note()));
     return result;
@@ -153,35 +148,33 @@ class OpenFile {
 
   [[noreturn]] void fail(std::string_view action, std::string_view object,
                          const std::string& reason) {
-    if (writable_) cut_off();
-    throw_file_error(path_, action, object, reason);
+    if (content_ && content_->writable()) content_->give_up(reason);
+    const bool known = content_ && !content_->failure().empty();
+    throw_file_error(path_, action, object, known ? content_->failure() : reason);
   }
 
-  int descriptor() const {
-    void* descriptor = nullptr;
-    if (H5Fget_vfd_handle(id_, H5P_DEFAULT, &descriptor) < 0 || !descriptor) return -1;
-    return *static_cast<int*>(descriptor);
+  void flush() {
+    run("write", "", [&] { return H5Fflush(id_, H5F_SCOPE_GLOBAL); });
+    content_->commit();
+  }
+
+  void synchronize() {
+    flush();
+    content_->synchronize();
   }
 
   void close() {
+    flush();
     run("close", "", [&] { return H5Fclose(std::exchange(id_, -1)); });
+    content_->commit();
+    content_->synchronize();
+    content_.reset();
   }
 
  private:
-  /// Lets HDF5's descriptor lead to memory instead of the disk: after a failed write its later
-  /// attempts to save what it still holds can neither fail nor touch the file.
-  void cut_off() {
-    if (std::exchange(failed_, true)) return;
-    const int file = descriptor();
-    const int memory = memfd_create("discarded", MFD_CLOEXEC);
-    if (file >= 0 && memory >= 0) dup2(memory, file);
-    if (memory >= 0) ::close(memory);
-  }
-
   std::string path_;
-  Id id_;
-  bool writable_;
-  bool failed_ = false;
+  std::optional<TransactionalFile> content_;  // none once closed
+  Id id_ = -1;
 };
 
 Object::Handle::~Handle() {
@@ -540,35 +533,14 @@ void Group::link(const std::string& name, const std::string& target) {
   });
 }
 
-namespace {
-
-/// Format version 1.8: every reader in use understands it.
-Id file_access() {
-  const Id access = H5Pcreate(H5P_FILE_ACCESS);
-  H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);
-  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
-  return access;
-}
-
-}  // namespace
-
 File File::create(const std::filesystem::path& path) {
-  silence_hdf5();
-  const Id access = file_access();
-  const Id id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
-  if (id < 0) throw_file_error(path.string(), "create the file", "", explained(innermost_note()));
-  H5Pclose(access);
-  return File(std::make_shared<OpenFile>(path.string(), id, true));
+  return File(std::make_shared<OpenFile>(path, TransactionalFile::Mode::create));
 }
 
-File File::open(const std::filesystem::path& path, Access mode) {
-  silence_hdf5();
-  const bool writable = mode == Access::write;
-  const Id access = file_access();
-  const Id id = H5Fopen(path.c_str(), writable ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access);
-  if (id < 0) throw_file_error(path.string(), "open the file", "", explained(innermost_note()));
-  H5Pclose(access);
-  return File(std::make_shared<OpenFile>(path.string(), id, writable));
+File File::open(const std::filesystem::path& path, Access access) {
+  return File(std::make_shared<OpenFile>(path, access == Access::write
+                                                   ? TransactionalFile::Mode::write
+                                                   : TransactionalFile::Mode::read));
 }
 
 const std::string& File::path() const {
@@ -582,30 +554,15 @@ Group File::root() const {
           ""};
 }
 
-void File::reserve(std::uint64_t bytes) {
-  const int descriptor = file_->run("access", "", [&] { return file_->descriptor(); });
-  struct stat status;
-  if (descriptor < 0 || fstat(descriptor, &status) != 0) return;
-  const int keep_size = FALLOC_FL_KEEP_SIZE;
-  const off_t extra = static_cast<off_t>(bytes);
-  if (fallocate(descriptor, keep_size, status.st_size, extra) != 0) {
-    // File systems that cannot reserve space report a full disk at the write itself.
-    if (errno == ENOSPC || errno == EDQUOT)
-      throw_file_error(path(), "write", "", errno_text() + "; free some space and continue");
-    return;
-  }
-  // The space is there; give it back, the write itself will take what it needs of it.
-  static_cast<void>(fallocate(descriptor, keep_size | FALLOC_FL_PUNCH_HOLE, status.st_size, extra));
-  static_cast<void>(ftruncate(descriptor, status.st_size));
+void File::flush() {
+  file_->flush();
 }
 
-void File::flush() {
-  file_->run("write", "", [&] { return H5Fflush(file_->id(), H5F_SCOPE_GLOBAL); });
+void File::synchronize() {
+  file_->synchronize();
 }
 
 void File::close() {
-  flush();
-  if (fsync(file_->descriptor()) != 0 && errno != EINVAL) file_->fail("write", "", errno_text());
   file_->close();
 }
 

@@ -12,9 +12,9 @@
 /// themselves. HDF5's own messages are silenced; every failure becomes one FileError that names the
 /// file, the operation and the reason the operating system gave.
 ///
-/// A file being written survives a full disk: the first failed write cuts the file off from the
-/// disk (whatever HDF5 still holds goes nowhere), so that closing it never fails, hangs or crashes,
-/// and what was flushed before stays as it was. Later operations on that file throw again.
+/// What is written reaches the file by `flush`, whole or not at all (see TransactionalFile): a
+/// killed process or a full disk leaves the file as it was at the last flush. After a failure
+/// nothing more is written, and later operations on that file throw again.
 ///
 /// T is one of double, int32_t, int64_t, uint64_t, uint8_t; numbers are stored little-endian.
 namespace vitrel::h5 {
@@ -144,18 +144,17 @@ class File {
  public:
   /// An empty file; one of the same name is replaced.
   static File create(const std::filesystem::path& path);
-  /// A file that exists. FileError if it is missing, cut short, no HDF5 file, or in use.
+  /// A file that exists. FileError if it is missing, truncated, no HDF5 file, or in use.
   static File open(const std::filesystem::path& path, Access access);
 
   /// As it was given, for messages.
   const std::string& path() const;
   Group root() const;
-  /// Makes sure that `bytes` more bytes fit on the disk, before anything is written; FileError if
-  /// not.
-  void reserve(std::uint64_t bytes);
-  /// Hands everything written so far to the operating system and checks that it took it.
+  /// Saves everything written so far, against a kill of the process but not a loss of power.
   void flush();
-  /// Flushes, waits for the disk, and closes. Without it the destructor closes silently.
+  /// Flushes and waits for the disk.
+  void synchronize();
+  /// The same, and closes. Without it the destructor saves and closes, but cannot report a failure.
   void close();
 
  private:

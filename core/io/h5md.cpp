@@ -139,8 +139,6 @@ TrajectoryWriter TrajectoryWriter::append_to(const fs::path& path, std::uint64_t
     throw FileError(path.string() + ": has only " + std::to_string(writer.frames_) +
                     " frames where " + std::to_string(frames_to_keep) +
                     " were expected: it is not the file that the checkpoint belongs to");
-  writer.step_.resize(frames_to_keep);
-  writer.file_.flush();  // the frames stop counting before their content goes
   writer.resize(frames_to_keep);
   writer.file_.flush();
   writer.frames_ = frames_to_keep;
@@ -186,15 +184,9 @@ void TrajectoryWriter::check(const Configuration2& configuration,
   throw UserError(file_.path() + ": every frame needs exactly these observables:" + names);
 }
 
-/// An upper bound: numbers without compression, and what HDF5 needs to find them.
-std::uint64_t TrajectoryWriter::frame_bytes() const {
-  constexpr std::uint64_t per_dataset = 16 * 1024;
-  const std::uint64_t per_particle = 8 * (3 + 4 + 1) + 4 * 3 + (velocity_ ? 8 * (3 + 3) : 0);
-  return particles_ * per_particle + per_dataset * (9 + observables_.size());
-}
-
 void TrajectoryWriter::resize(std::uint64_t frames) {
-  for (h5::Dataset* dataset : {&time_, &edges_, &position_, &image_, &orientation_, &angle_})
+  for (h5::Dataset* dataset :
+       {&step_, &time_, &edges_, &position_, &image_, &orientation_, &angle_})
     dataset->resize(frames);
   if (velocity_) velocity_->resize(frames);
   if (angular_velocity_) angular_velocity_->resize(frames);
@@ -204,19 +196,15 @@ void TrajectoryWriter::resize(std::uint64_t frames) {
 void TrajectoryWriter::write(const Configuration2& configuration, std::int64_t step,
                              const Observables& observables) {
   check(configuration, observables);
-  file_.reserve(frame_bytes());
   resize(frames_ + 1);
   write_particles(configuration);
+  step_.write_frame<std::int64_t>(frames_, {&step, 1});
   time_.write_frame<double>(frames_, {&configuration.time, 1});
   const Vec2& lengths = configuration.box.lengths();
   const std::array<double, 9> edges{lengths.x(), 0, 0, 0, lengths.y(), 0, 0, 0, height};
   edges_.write_frame<double>(frames_, edges);
   for (const auto& [name, value] : observables)
     observables_.at(name).write_frame<double>(frames_, {&value, 1});
-  file_.flush();
-
-  step_.resize(frames_ + 1);
-  step_.write_frame<std::int64_t>(frames_, {&step, 1});
   file_.flush();
   ++frames_;
 }

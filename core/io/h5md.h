@@ -39,12 +39,9 @@ struct TrajectoryOptions {
   bool overwrite = false;                     ///< replace an existing file instead of refusing
 };
 
-/// Writes a trajectory frame by frame. A frame counts once its entry in `step` is on file, which is
-/// written after everything else of the frame: a process killed at any moment leaves the frames
-/// that were complete.
-///
-/// Throws FileError if the file cannot be written; a full disk is noticed before the frame is
-/// begun.
+/// Writes a trajectory frame by frame. A frame is in the file whole or not at all: a process killed
+/// at any moment, or a full disk, leaves the frames before it. Throws FileError if the file cannot
+/// be written.
 class TrajectoryWriter {
  public:
   /// A new file without frames; it appears under its name only when it is readable. `configuration`
@@ -64,7 +61,9 @@ class TrajectoryWriter {
              const Observables& observables = {});
   /// The time spent on this file by all processes so far, for its provenance.
   void record_wall_seconds(double seconds);
-  /// Waits until the disk has everything; the destructor closes too, but cannot report a failure.
+  /// Waits until the disk has all frames: a checkpoint that counts them may then be saved.
+  void synchronize() { file_.synchronize(); }
+  /// The same, and closes; the destructor closes too, but cannot report a failure.
   void close() { file_.close(); }
 
   std::uint64_t frames() const { return frames_; }
@@ -76,7 +75,6 @@ class TrajectoryWriter {
                           const Provenance& provenance, bool overwrite);
 
   void check(const Configuration2& configuration, const Observables& observables) const;
-  std::uint64_t frame_bytes() const;
   void resize(std::uint64_t frames);
   void write_particles(const Configuration2& configuration);
 

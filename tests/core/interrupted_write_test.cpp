@@ -1,0 +1,246 @@
+#include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cmath>
+#include <filesystem>
+
+#include "core/error.h"
+#include "core/io/checkpoint.h"
+#include "core/io/h5md.h"
+#include "core/io/transactional_file.h"
+
+/// Every system call that changes a file is counted; at a chosen one the process ends at once, as if
+/// killed, or the disk is full from then on.
+namespace {
+
+enum class Fault { none, kill, full_disk };
+Fault fault = Fault::none;
+long calls_before_fault = 0;
+
+bool fault_strikes() {
+  return fault != Fault::none && calls_before_fault-- <= 0;
+}
+
+}  // namespace
+
+extern "C" ssize_t pwrite(int descriptor, const void* data, size_t size, off_t offset) {
+  if (fault_strikes()) {
+    if (fault == Fault::kill) {
+      syscall(SYS_pwrite64, descriptor, data, size / 2, offset);  // a torn write
+      _exit(9);
+    }
+    errno = ENOSPC;
+    return -1;
+  }
+  return syscall(SYS_pwrite64, descriptor, data, size, offset);
+}
+
+extern "C" int ftruncate(int descriptor, off_t size) noexcept {
+  if (fault == Fault::kill && fault_strikes()) _exit(9);
+  return static_cast<int>(syscall(SYS_ftruncate, descriptor, size));
+}
+
+namespace vitrel {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Interrupted : public testing::Test {
+ protected:
+  Interrupted() {
+    std::string pattern = (fs::temp_directory_path() / "vitrel_interrupted_XXXXXX").string();
+    folder_ = mkdtemp(pattern.data());
+    void* shared =
+        mmap(nullptr, sizeof(long), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    completed_ = static_cast<long*>(shared);
+  }
+  ~Interrupted() override {
+    munmap(completed_, sizeof(long));
+    fs::remove_all(folder_);
+  }
+  fs::path file(const std::string& name) const { return folder_ / name; }
+
+  /// Runs `work` in a process of its own in which `kind` strikes at the given call. True if the
+  /// process ended by the fault; a process that was not killed must end in order and in silence.
+  template <class Work>
+  bool struck(Fault kind, long call, Work&& work) {
+    *completed_ = 0;
+    const pid_t child = fork();
+    if (child == 0) {
+      if (!freopen(file("messages").c_str(), "w", stderr)) _exit(1);
+      fault = kind;
+      calls_before_fault = call;
+      try {
+        work();
+      } catch (const FileError& error) {
+        std::exit(
+            std::string(error.what()).find("No space left on device") == std::string::npos ? 2 : 9);
+      }
+      std::exit(0);  // with the exit handlers of HDF5
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    EXPECT_TRUE(WIFEXITED(status)) << "crashed, call " << call;
+    EXPECT_TRUE(WEXITSTATUS(status) == 0 || WEXITSTATUS(status) == 9) << "call " << call;
+    EXPECT_EQ(fs::file_size(file("messages")), 0u) << "call " << call;
+    return WEXITSTATUS(status) == 9;
+  }
+
+  fs::path folder_;
+  long* completed_;  ///< counted by the child, read by the parent
+};
+
+Configuration2 frame(std::uint64_t k) {
+  Configuration2 configuration;
+  configuration.resize(3);
+  configuration.species_names = {"A"};
+  configuration.box = PeriodicBox<2>(Vec2(10, 8));
+  configuration.time = std::sqrt(k);
+  for (std::size_t i = 0; i < 3; ++i) {
+    configuration.position[i] = {std::sin(k + i), std::cos(k - 2.0 * i)};
+    configuration.angle[i] = std::sqrt(k + 7.0 * i);
+  }
+  return configuration;
+}
+
+void expect_frame(const TrajectoryReader& reader, std::uint64_t k) {
+  const Configuration2 read = reader.read(k), right = frame(k);
+  EXPECT_EQ(read.time, right.time);
+  EXPECT_EQ(read.position, right.position);
+  EXPECT_EQ(read.angle, right.angle);
+  EXPECT_EQ(reader.steps()[k], static_cast<std::int64_t>(k));
+}
+
+/// The frames that matter: the first, and those around the interruption.
+void expect_frames(const fs::path& path, std::uint64_t frames, std::uint64_t from) {
+  const TrajectoryReader reader(path);
+  ASSERT_EQ(reader.frames(), frames);
+  expect_frame(reader, 0);
+  for (std::uint64_t k = from; k < frames; ++k) expect_frame(reader, k);
+}
+
+constexpr std::uint64_t first = 62,
+                        frames = 5;  // HDF5's index nodes hold 64 entries and split here
+
+class InterruptedTrajectory : public Interrupted {
+ protected:
+  InterruptedTrajectory() {
+    auto writer = TrajectoryWriter::create(file("start.h5"), frame(0), Provenance());
+    for (std::uint64_t k = 0; k < first + 2; ++k) writer.write(frame(k), k);
+  }
+  /// Drops two frames, then adds some.
+  void continue_run() {
+    auto writer = TrajectoryWriter::append_to(file("run.h5"), first);
+    for (std::uint64_t k = first; k < first + frames; ++k) {
+      writer.write(frame(k), k);
+      ++*completed_;
+    }
+    writer.close();
+  }
+  void start_again() {
+    fs::copy_file(file("start.h5"), file("run.h5"), fs::copy_options::overwrite_existing);
+  }
+};
+
+// Killed at each single write: no frame that was complete is lost, no other frame appears, and the file
+// can be read at once and continued.
+TEST_F(InterruptedTrajectory, KilledAtEveryWrite) {
+  long call = 0;
+  for (;; ++call) {
+    start_again();
+    if (!struck(Fault::kill, call, [&] { continue_run(); })) break;
+    const std::uint64_t found = TrajectoryReader(file("run.h5")).frames();
+    if (*completed_ == 0 && found == first + 2) continue;  // before the two frames were dropped
+    EXPECT_GE(found, first + *completed_) << "call " << call;
+    EXPECT_LE(found, first + *completed_ + 1) << "call " << call;
+    expect_frames(file("run.h5"), found, first - 1);  // as the reader sees it, with the journal
+    TrajectoryWriter::append_to(file("run.h5"), found);
+    expect_frames(file("run.h5"), found, first - 1);  // repaired
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(call, 50);
+  continue_run();
+  expect_frames(file("run.h5"), first + frames, 0);
+}
+
+TEST_F(InterruptedTrajectory, DiskFullAtEveryWrite) {
+  long call = 0;
+  for (;; ++call) {
+    start_again();
+    if (!struck(Fault::full_disk, call, [&] { continue_run(); })) break;
+    const std::uint64_t found = TrajectoryReader(file("run.h5")).frames();
+    if (*completed_ == 0 && found == first + 2) continue;
+    EXPECT_GE(found, first + *completed_) << "call " << call;
+    EXPECT_LE(found, first + *completed_ + 1) << "call " << call;
+    expect_frames(file("run.h5"), found, first - 1);
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(call, 50);
+}
+
+TEST_F(Interrupted, ANewFileIsThereWholeOrNotAtAll) {
+  for (const Fault kind : {Fault::kill, Fault::full_disk}) {
+    long call = 0;
+    for (;; ++call) {
+      fs::remove(file("state.h5"));
+      if (!struck(kind, call, [&] { write_state(file("state.h5"), frame(5), Provenance()); }))
+        break;
+      EXPECT_FALSE(fs::exists(file("state.h5")));
+    }
+    EXPECT_GT(call, 3);
+    EXPECT_EQ(read_state(file("state.h5")).position, frame(5).position);
+  }
+}
+
+TEST_F(Interrupted, ACheckpointIsTheOldOneOrTheNewOne) {
+  for (const Fault kind : {Fault::kill, Fault::full_disk}) {
+    const auto at = [](std::uint64_t k) { return Checkpoint{frame(k), {}, {{"k", k}}, ""}; };
+    save_checkpoint(file("c"), at(1));
+    save_checkpoint(file("c"), at(2));
+    long call = 0;
+    while (struck(kind, call, [&] { save_checkpoint(file("c"), at(3)); })) {
+      ++call;
+      EXPECT_EQ(load_checkpoint(file("c")).checkpoint.counters.at("k"), 2u);
+      EXPECT_EQ(load_checkpoint(file("c.previous")).checkpoint.counters.at("k"), 1u);
+    }
+    EXPECT_GT(call, 3);
+    EXPECT_EQ(load_checkpoint(file("c")).checkpoint.counters.at("k"), 3u);
+  }
+}
+
+std::span<const std::byte> bytes(const std::string& text) {
+  return std::as_bytes(std::span(text));
+}
+
+std::string content(TransactionalFile& file) {
+  std::string text(file.size(), '?');
+  EXPECT_TRUE(file.read(0, std::as_writable_bytes(std::span(text))));
+  return text;
+}
+
+TEST_F(Interrupted, NothingShowsBeforeTheCommit) {
+  using Mode = TransactionalFile::Mode;
+  {
+    TransactionalFile file(this->file("f"), Mode::create);
+    file.write(0, bytes(std::string(10'000, 'a')));
+    file.commit();
+    file.write(5'000, bytes(std::string(20'000, 'b')));
+    EXPECT_EQ(content(file), std::string(5'000, 'a') + std::string(20'000, 'b'));
+  }
+  TransactionalFile file(this->file("f"), Mode::write);
+  EXPECT_EQ(content(file), std::string(10'000, 'a'));
+  file.resize(3);
+  file.write(1, bytes("bc"));
+  file.commit();
+  EXPECT_EQ(content(file), "abc");
+  file.resize(8'000);
+  file.commit();
+  EXPECT_EQ(content(file), "abc" + std::string(7'997, '\0'));
+}
+
+}  // namespace
+}  // namespace vitrel

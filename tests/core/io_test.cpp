@@ -1,0 +1,521 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/mount.h>
+#include <unistd.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <functional>
+#include <limits>
+
+#include "core/error.h"
+#include "core/io/checkpoint.h"
+#include "core/io/h5md.h"
+#include "core/random/stream.h"
+
+namespace vitrel {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+/// A folder of its own for every test, removed at the end.
+class Files : public testing::Test {
+ protected:
+  Files() {
+    std::string pattern = (fs::temp_directory_path() / "vitrel_io_XXXXXX").string();
+    folder_ = mkdtemp(pattern.data());
+  }
+  ~Files() override { fs::remove_all(folder_); }
+  fs::path file(const std::string& name) const { return folder_ / name; }
+
+  fs::path folder_;
+};
+
+class TrajectoryFile : public Files {};
+class CheckpointFile : public Files {};
+
+/// Two species, wrapped positions, arbitrary doubles in everything that is stored.
+Configuration2 random_configuration(std::size_t n, std::uint64_t step) {
+  Stream draw(11, Purpose::tests, step);
+  Configuration2 configuration;
+  configuration.box = PeriodicBox<2>(Vec2(draw.uniform(3, 9), draw.uniform(3, 9)));
+  configuration.time = 0.1 * static_cast<double>(step);
+  configuration.resize(n);
+  configuration.species_names = {"large", "small"};
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec2& lengths = configuration.box.lengths();
+    configuration.position[i] =
+        lengths.cwiseProduct(Vec2(draw.uniform(-0.5, 0.5), draw.uniform(-0.5, 0.5)));
+    configuration.image[i] = {static_cast<int>(draw.below(9)) - 4,
+                              static_cast<int>(draw.below(9)) - 4};
+    configuration.angle[i] = draw.uniform(-40, 40);
+    configuration.velocity[i] = {draw.normal(), draw.normal()};
+    configuration.angular_velocity[i] = draw.normal();
+    const double size = i % 2 ? 1 / 1.4 : 1;
+    configuration.shape[i] = {size * std::sqrt(3.0), size / std::sqrt(3.0)};
+    configuration.mass[i] = size * size;
+    configuration.species[i] = i % 2;
+  }
+  // The doubles next to the faces, where wrapping would round.
+  configuration.position[0] = -0.5 * configuration.box.lengths();
+  configuration.position[1].x() = std::nextafter(0.5 * configuration.box.lengths().x(), 0.0);
+  return configuration;
+}
+
+template <class T>
+bool same_bits(const std::vector<T>& x, const std::vector<T>& y) {
+  return x.size() == y.size() && std::memcmp(x.data(), y.data(), x.size() * sizeof(T)) == 0;
+}
+
+void expect_same_bits(const Configuration2& x, const Configuration2& y) {
+  EXPECT_EQ(x.box.lengths(), y.box.lengths());
+  EXPECT_EQ(std::bit_cast<std::uint64_t>(x.time), std::bit_cast<std::uint64_t>(y.time));
+  EXPECT_TRUE(same_bits(x.position, y.position));
+  EXPECT_TRUE(same_bits(x.image, y.image));
+  EXPECT_TRUE(same_bits(x.angle, y.angle));
+  EXPECT_TRUE(same_bits(x.velocity, y.velocity));
+  EXPECT_TRUE(same_bits(x.angular_velocity, y.angular_velocity));
+  EXPECT_TRUE(same_bits(x.shape, y.shape));
+  EXPECT_TRUE(same_bits(x.mass, y.mass));
+  EXPECT_EQ(x.species, y.species);
+  EXPECT_EQ(x.species_names, y.species_names);
+}
+
+Provenance some_provenance() {
+  return current_provenance("vitrel run glass.toml", "[system]\nparticles = 12 # κ\n", 77,
+                            "state.h5");
+}
+
+const TrajectoryOptions with_everything{
+    .velocities = true, .observables = {"collisions", "energy"}, .overwrite = false};
+
+Observables observables_at(std::uint64_t step) {
+  return {{"collisions", 10.0 * static_cast<double>(step)}, {"energy", std::sqrt(step + 2.0)}};
+}
+
+void write_frames(TrajectoryWriter& writer, std::uint64_t first, std::uint64_t end,
+                  std::size_t particles = 12) {
+  for (std::uint64_t step = first; step < end; ++step)
+    writer.write(random_configuration(particles, step), static_cast<std::int64_t>(step),
+                 observables_at(step));
+}
+
+/// Frames 0 … frames − 1 of `path` are those that write_frames writes; the file may hold more.
+void expect_frames(const fs::path& path, std::uint64_t frames, std::size_t particles = 12) {
+  const TrajectoryReader reader(path);
+  ASSERT_GE(reader.frames(), frames);
+  for (std::uint64_t k = 0; k < frames; ++k) {
+    EXPECT_EQ(reader.steps()[k], static_cast<std::int64_t>(k));
+    expect_same_bits(reader.read(k), random_configuration(particles, k));
+    EXPECT_EQ(reader.observable("collisions")[k], observables_at(k).at("collisions"));
+    EXPECT_EQ(reader.observable("energy")[k], observables_at(k).at("energy"));
+  }
+}
+
+void write_run(const fs::path& path, std::uint64_t frames, std::size_t particles = 12) {
+  auto writer = TrajectoryWriter::create(path, random_configuration(particles, 0),
+                                         some_provenance(), with_everything);
+  write_frames(writer, 0, frames, particles);
+  writer.close();
+}
+
+/// The message of the FileError that `action` throws.
+template <class Action>
+std::string file_error(Action&& action) {
+  try {
+    action();
+  } catch (const FileError& error) {
+    return error.what();
+  }
+  return "(no FileError)";
+}
+
+TEST_F(TrajectoryFile, FramesComeBackBitByBit) {
+  write_run(file("run.h5"), 5);
+  const TrajectoryReader reader(file("run.h5"));
+  EXPECT_EQ(reader.frames(), 5u);
+  EXPECT_EQ(reader.particles(), 12u);
+  EXPECT_EQ(reader.times()[3], 0.1 * 3);
+  EXPECT_EQ(reader.observable_names(), (std::vector<std::string>{"collisions", "energy"}));
+  expect_frames(file("run.h5"), 5);
+}
+
+TEST_F(TrajectoryFile, ProvenanceComesBack) {
+  Provenance written = some_provenance();
+  TrajectoryWriter::create(file("run.h5"), random_configuration(4, 0), written)
+      .record_wall_seconds(3.5);
+  const Provenance read = TrajectoryReader(file("run.h5")).provenance();
+  EXPECT_EQ(read.version, program_version());
+  EXPECT_EQ(read.commit, program_commit());
+  EXPECT_EQ(read.command_line, "vitrel run glass.toml");
+  EXPECT_EQ(read.parameters, "[system]\nparticles = 12 # κ\n");
+  EXPECT_EQ(read.seed, 77u);
+  EXPECT_EQ(read.parent, "state.h5");
+  EXPECT_EQ(read.host, written.host);
+  EXPECT_EQ(read.started, written.started);
+  EXPECT_EQ(read.wall_seconds, 3.5);
+  EXPECT_FALSE(read.version.empty());
+}
+
+TEST_F(TrajectoryFile, ParametersLongerThanAnAttributeCanHold) {
+  Provenance provenance = some_provenance();
+  provenance.parameters = std::string(200'000, '#');
+  TrajectoryWriter::create(file("run.h5"), random_configuration(4, 0), provenance);
+  EXPECT_EQ(TrajectoryReader(file("run.h5")).provenance().parameters, provenance.parameters);
+}
+
+TEST_F(TrajectoryFile, PositionsOutsideTheBoxAreWrapped) {
+  Configuration2 outside = random_configuration(4, 0);
+  const Vec2 far = outside.unwrapped(2) + Vec2(100, -50);
+  outside.position[2] = far;
+  outside.image[2] = {0, 0};
+  write_state(file("state.h5"), outside, some_provenance());
+  const Configuration2 read = read_state(file("state.h5"));
+  EXPECT_LE((read.position[2].cwiseQuotient(read.box.lengths())).cwiseAbs().maxCoeff(), 0.5);
+  EXPECT_LT((read.unwrapped(2) - far).norm(), 1e-12);
+}
+
+TEST_F(TrajectoryFile, StateIsTheLastFrame) {
+  write_run(file("run.h5"), 3);
+  expect_same_bits(read_state(file("run.h5")), random_configuration(12, 2));
+  write_state(file("state.h5"), random_configuration(7, 4), some_provenance());
+  expect_same_bits(read_state(file("state.h5")), random_configuration(7, 4));
+  TrajectoryWriter::create(file("empty.h5"), random_configuration(7, 4), some_provenance());
+  EXPECT_THAT(file_error([&] { read_state(file("empty.h5")); }), HasSubstr("no frames"));
+}
+
+TEST_F(TrajectoryFile, WithoutVelocitiesTheyAreZeroAndMissed) {
+  {
+    auto writer =
+        TrajectoryWriter::create(file("run.h5"), random_configuration(6, 0), some_provenance());
+    writer.write(random_configuration(6, 0), 0);
+  }
+  const TrajectoryReader reader(file("run.h5"));
+  EXPECT_FALSE(reader.has("velocity"));
+  EXPECT_TRUE(reader.has("image"));
+  EXPECT_EQ(reader.read(0).velocity[3], Vec2(0, 0));
+  const std::string message = file_error([&] { reader.require("velocity", "the kinetic energy"); });
+  EXPECT_THAT(message, HasSubstr("run.h5: the dataset particles/all/velocity/value is missing"));
+  EXPECT_THAT(message, HasSubstr("kinetic energy"));
+}
+
+TEST_F(TrajectoryFile, AnExistingFileIsNotOverwrittenUnlessTold) {
+  write_run(file("run.h5"), 3);
+  EXPECT_THROW(write_run(file("run.h5"), 1), UserError);
+  EXPECT_THROW(write_state(file("run.h5"), random_configuration(4, 0), some_provenance()),
+               UserError);
+  expect_frames(file("run.h5"), 3);
+  write_state(file("run.h5"), random_configuration(4, 0), some_provenance(), true);
+  EXPECT_EQ(TrajectoryReader(file("run.h5")).frames(), 1u);
+}
+
+TEST_F(TrajectoryFile, FramesMustFitTheFile) {
+  auto writer = TrajectoryWriter::create(file("run.h5"), random_configuration(6, 0),
+                                         some_provenance(), with_everything);
+  EXPECT_THROW(writer.write(random_configuration(7, 0), 0, observables_at(0)), UserError);
+  EXPECT_THROW(writer.write(random_configuration(6, 0), 0, {{"energy", 1}}), UserError);
+  EXPECT_THROW(writer.write(random_configuration(6, 0), 0), UserError);
+  writer.write(random_configuration(6, 0), 0, observables_at(0));
+  EXPECT_EQ(writer.frames(), 1u);
+}
+
+std::string contents(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// 300 frames: several chunks of the time axis, and index nodes that split.
+TEST_F(TrajectoryFile, ContinuingEqualsNeverHavingStopped) {
+  write_run(file("run.h5"), 300);
+  for (const std::uint64_t keep : {0, 1, 127, 128, 129, 300}) {
+    {
+      auto writer = TrajectoryWriter::append_to(file("run.h5"), keep);
+      EXPECT_EQ(writer.frames(), keep);
+      write_frames(writer, keep, 300);
+    }
+    EXPECT_EQ(TrajectoryReader(file("run.h5")).frames(), 300u);
+    expect_frames(file("run.h5"), 300);
+  }
+}
+
+TEST_F(TrajectoryFile, CuttingBackDropsFrames) {
+  write_run(file("run.h5"), 200);
+  TrajectoryWriter::append_to(file("run.h5"), 140);
+  EXPECT_EQ(TrajectoryReader(file("run.h5")).frames(), 140u);
+  expect_frames(file("run.h5"), 140);
+  EXPECT_THAT(file_error([&] { TrajectoryWriter::append_to(file("run.h5"), 141); }),
+              HasSubstr("only 140 frames where 141"));
+}
+
+// A copy of the file in the middle of a run is what a killed process leaves behind.
+TEST_F(TrajectoryFile, ACopyTakenDuringTheRunIsCompleteAndCanBeContinued) {
+  auto writer = TrajectoryWriter::create(file("run.h5"), random_configuration(12, 0),
+                                         some_provenance(), with_everything);
+  for (std::uint64_t k = 0; k <= 70; ++k) {
+    if (k % 10 == 0) {
+      fs::copy_file(file("run.h5"), file("copy.h5"), fs::copy_options::overwrite_existing);
+      EXPECT_EQ(TrajectoryReader(file("copy.h5")).frames(), k);
+      auto continued = TrajectoryWriter::append_to(file("copy.h5"), k);
+      write_frames(continued, k, k + 3);
+      continued.close();
+      expect_frames(file("copy.h5"), k + 3);
+    }
+    write_frames(writer, k, k + 1);
+  }
+}
+
+TEST_F(TrajectoryFile, TruncatedFilesGiveOneMessageAndNoCrash) {
+  write_run(file("run.h5"), 4);
+  const std::string whole = contents(file("run.h5"));
+  for (double part : {0.0, 0.001, 0.01, 0.1, 0.5, 0.9, 0.999}) {
+    std::ofstream(file("cut.h5"), std::ios::binary | std::ios::trunc)
+        .write(whole.data(), static_cast<std::streamsize>(part * whole.size()));
+    const std::string message = file_error([&] { TrajectoryReader(file("cut.h5")).read(3); });
+    EXPECT_THAT(message, HasSubstr(file("cut.h5").string() + ": cannot open the file"));
+    EXPECT_THAT(message, testing::AnyOf(HasSubstr("truncated"), HasSubstr("not an HDF5 file")));
+    EXPECT_THAT(file_error([&] { TrajectoryWriter::append_to(file("cut.h5"), 1); }),
+                HasSubstr(file("cut.h5").string()));
+  }
+}
+
+// Zeros over a piece in the middle: an error or the right numbers, never a crash or wrong numbers.
+TEST_F(TrajectoryFile, DamagedFilesNeverGiveWrongNumbers) {
+  write_run(file("run.h5"), 4);
+  const std::string whole = contents(file("run.h5"));
+  const Configuration2 right = random_configuration(12, 3);
+  int failures = 0;
+  for (std::size_t begin = 0; begin + 512 <= whole.size(); begin += 512) {
+    std::string damaged = whole;
+    std::fill_n(damaged.begin() + begin, 512, '\0');
+    std::ofstream(file("damaged.h5"), std::ios::binary | std::ios::trunc) << damaged;
+    try {
+      const TrajectoryReader reader(file("damaged.h5"));
+      if (reader.frames() != 4) continue;  // the axis itself; its length is checked by append_to
+      EXPECT_TRUE(same_bits(reader.read(3).position, right.position)) << begin;
+    } catch (const FileError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("damaged.h5"));
+      ++failures;
+    }
+  }
+  EXPECT_GT(failures, 10);
+}
+
+TEST_F(TrajectoryFile, MissingAndForeignFiles) {
+  EXPECT_THAT(file_error([&] { TrajectoryReader(file("absent.h5")); }),
+              HasSubstr("absent.h5: cannot open the file: No such file"));
+  std::ofstream(file("text.h5")) << "not HDF5, but long enough to look at\n";
+  EXPECT_THAT(file_error([&] { TrajectoryReader(file("text.h5")); }),
+              HasSubstr("not an HDF5 file"));
+  h5::File::create(file("empty.h5")).close();
+  EXPECT_THAT(file_error([&] { TrajectoryReader(file("empty.h5")); }),
+              HasSubstr("not an H5MD file"));
+}
+
+// A regular file in place of a folder stops even root.
+TEST_F(TrajectoryFile, UnwritableFolderIsNamed) {
+  std::ofstream(file("plain")) << "x";
+  const fs::path path = file("plain") / "run.h5";
+  EXPECT_THAT(file_error([&] { write_run(path, 1); }), HasSubstr(path.string()));
+  EXPECT_THAT(file_error([&] { write_run(file("absent") / "run.h5", 1); }),
+              HasSubstr("No such file or directory"));
+}
+
+TEST_F(TrajectoryFile, AFileBeingWrittenCannotBeOpenedTwice) {
+  const auto writer =
+      TrajectoryWriter::create(file("run.h5"), random_configuration(4, 0), some_provenance());
+  for (const auto& open :
+       std::vector<std::function<void()>>{[&] { TrajectoryWriter::append_to(file("run.h5"), 0); },
+                                          [&] { TrajectoryReader reader(file("run.h5")); }})
+    EXPECT_THAT(file_error(open),
+                HasSubstr("run.h5: cannot open the file: another program has it open"));
+}
+
+/// The least that H5MD and this program ask for, as another program may write it: two-dimensional,
+/// a fixed box given by its lengths with the origin in a corner, single step and time increments.
+void write_foreign_file(const fs::path& path, bool with_semiaxes) {
+  h5::File file = h5::File::create(path);
+  h5::Group particles = file.root().create_group("particles").create_group("water");
+  h5::Group box = particles.create_group("box");
+  box.create_array<double>("edges", {2}, std::array{4.0, 2.0});
+  h5::Group position = particles.create_group("position");
+  position.create_array<double>("value", {2, 2, 2},
+                                std::array{1.0, 0.5, 3.5, 1.5, 1.5, 0.5, 3.75, 1.0});
+  position.create_array<std::int64_t>("step", {}, std::array<std::int64_t, 1>{10});
+  position.create_array<double>("time", {}, std::array{0.5}).set_attribute("offset", 2.0);
+  particles.create_group("angle").create_array<double>("value", {2, 2},
+                                                       std::array{0.0, 1.0, 2.0, 3.0});
+  if (with_semiaxes)
+    particles.create_array<double>("semiaxes", {2, 2}, std::array{2.0, 1.0, 1.0, 1.0});
+  file.close();
+}
+
+TEST_F(TrajectoryFile, ReadsWhatOtherProgramsWrite) {
+  write_foreign_file(file("foreign.h5"), true);
+  const TrajectoryReader reader(file("foreign.h5"));
+  EXPECT_EQ(reader.times(), (std::vector{2.0, 2.5}));
+  EXPECT_EQ(reader.steps(), (std::vector<std::int64_t>{0, 10}));
+  const Configuration2 frame = reader.read(1);
+  EXPECT_EQ(frame.box.lengths(), Vec2(4, 2));
+  EXPECT_EQ(frame.position[0], Vec2(1.5, 0.5));
+  EXPECT_EQ(frame.position[1], Vec2(-0.25, -1));
+  EXPECT_EQ(frame.unwrapped(1), Vec2(3.75, 1));
+  EXPECT_EQ(frame.angle, (std::vector{2.0, 3.0}));
+  EXPECT_EQ(frame.shape[0].a, 2);
+  EXPECT_EQ(frame.mass[1], 1);
+  EXPECT_FALSE(reader.has("image"));
+}
+
+TEST_F(TrajectoryFile, AMissingDatasetIsNamed) {
+  write_foreign_file(file("foreign.h5"), false);
+  const std::string message = file_error([&] { TrajectoryReader(file("foreign.h5")); });
+  EXPECT_THAT(message, HasSubstr("foreign.h5: the dataset particles/water/semiaxes is missing"));
+  EXPECT_THAT(message, HasSubstr("a ≥ b"));
+}
+
+/// A real file system of the given size; needs the right to mount.
+class SmallDisk : public Files {
+ protected:
+  void SetUp() override {
+    fs::create_directory(disk_ = file("disk"));
+    if (mount("tmpfs", disk_.c_str(), "tmpfs", 0, "size=1m") != 0)
+      GTEST_SKIP() << "mounting a small tmpfs is not permitted here";
+    mounted_ = true;
+  }
+  void TearDown() override {
+    if (mounted_) umount2(disk_.c_str(), MNT_DETACH);
+  }
+  /// Leaves `bytes` free, in whole pages.
+  void fill(std::uint64_t bytes) {
+    const std::uint64_t free = fs::space(disk_).available;
+    std::ofstream(disk_ / "filler") << std::string(free > bytes ? free - bytes : 0, 'x');
+  }
+
+  fs::path disk_;
+  bool mounted_ = false;
+};
+
+TEST_F(SmallDisk, WhenFullTheFramesBeforeAreKeptAndTheRunGoesOnLater) {
+  const fs::path path = disk_ / "run.h5";
+  fill(600'000);
+  std::uint64_t frames = 0;
+  {
+    auto writer = TrajectoryWriter::create(path, random_configuration(500, 0), some_provenance(),
+                                           with_everything);
+    const std::string message = file_error([&] {
+      for (; frames < 1000; ++frames) write_frames(writer, frames, frames + 1, 500);
+    });
+    EXPECT_THAT(message, HasSubstr(path.string() + ": cannot write: No space left on device"));
+    EXPECT_EQ(writer.frames(), frames);
+  }
+  EXPECT_GT(frames, 5u);
+  EXPECT_EQ(TrajectoryReader(path).frames(), frames);
+  expect_frames(path, frames, 500);
+
+  fs::remove(disk_ / "filler");
+  auto writer = TrajectoryWriter::append_to(path, frames);
+  write_frames(writer, frames, frames + 2, 500);
+  writer.close();
+  expect_frames(path, frames + 2, 500);
+}
+
+TEST_F(SmallDisk, CreatingWithoutSpaceLeavesNothing) {
+  for (const std::uint64_t free : {0, 4096, 16384, 65536, 131072}) {
+    fill(free);
+    const std::string message = file_error(
+        [&] { write_state(disk_ / "state.h5", random_configuration(1500, 0), some_provenance()); });
+    EXPECT_THAT(message, HasSubstr("No space left on device")) << free;
+    EXPECT_FALSE(fs::exists(disk_ / "state.h5"));
+    EXPECT_FALSE(fs::exists(disk_ / "state.h5.partial"));
+    fs::remove(disk_ / "filler");
+  }
+  write_state(disk_ / "state.h5", random_configuration(1500, 0), some_provenance());
+  expect_same_bits(read_state(disk_ / "state.h5"), random_configuration(1500, 0));
+}
+
+Checkpoint some_checkpoint(std::uint64_t step) {
+  Checkpoint checkpoint;
+  checkpoint.configuration = random_configuration(9, step);
+  checkpoint.configuration.velocity[0] = {-0.0, std::numeric_limits<double>::denorm_min()};
+  checkpoint.reals = {{"virial", 1.0 / 3}, {"Δ", -0.0}, {"next sample", HUGE_VAL}};
+  checkpoint.counters = {{"collisions", step}, {"most", std::numeric_limits<std::uint64_t>::max()}};
+  checkpoint.parameters = "[dynamics]\nduration = 10\n";
+  return checkpoint;
+}
+
+void expect_same(const Checkpoint& x, const Checkpoint& y) {
+  expect_same_bits(x.configuration, y.configuration);
+  EXPECT_EQ(x.counters, y.counters);
+  EXPECT_EQ(x.parameters, y.parameters);
+  ASSERT_EQ(x.reals.size(), y.reals.size());
+  for (const auto& [name, value] : x.reals)
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(value), std::bit_cast<std::uint64_t>(y.reals.at(name)));
+}
+
+TEST_F(CheckpointFile, ComesBackBitByBit) {
+  EXPECT_FALSE(checkpoint_exists(file("run.checkpoint")));
+  save_checkpoint(file("run.checkpoint"), some_checkpoint(1));
+  EXPECT_TRUE(checkpoint_exists(file("run.checkpoint")));
+  const LoadedCheckpoint loaded = load_checkpoint(file("run.checkpoint"));
+  EXPECT_EQ(loaded.warning, "");
+  expect_same(loaded.checkpoint, some_checkpoint(1));
+  save_checkpoint(file("bare"), {});
+  expect_same(load_checkpoint(file("bare")).checkpoint, {});
+}
+
+TEST_F(CheckpointFile, TheOneBeforeIsKeptAndTakenIfTheNewestIsCutShort) {
+  const fs::path path = file("run.checkpoint");
+  for (std::uint64_t step : {1, 2, 3}) save_checkpoint(path, some_checkpoint(step));
+  expect_same(load_checkpoint(path).checkpoint, some_checkpoint(3));
+  EXPECT_FALSE(fs::exists(file("run.checkpoint.partial")));
+  for (const auto size : {fs::file_size(path) - 1, fs::file_size(path) / 2, std::uintmax_t{0}}) {
+    fs::resize_file(path, size);
+    const LoadedCheckpoint loaded = load_checkpoint(path);
+    expect_same(loaded.checkpoint, some_checkpoint(2));
+    EXPECT_THAT(loaded.warning, HasSubstr(path.string() + ": cannot open"));
+    EXPECT_THAT(loaded.warning, HasSubstr("run.checkpoint.previous"));
+  }
+  // Killed between the two renames.
+  fs::remove(path);
+  expect_same(load_checkpoint(path).checkpoint, some_checkpoint(2));
+  EXPECT_TRUE(checkpoint_exists(path));
+  fs::resize_file(file("run.checkpoint.previous"), 100);
+  EXPECT_THAT(file_error([&] { load_checkpoint(path); }), HasSubstr("unreadable too"));
+  fs::remove(file("run.checkpoint.previous"));
+  EXPECT_THAT(file_error([&] { load_checkpoint(path); }), HasSubstr("no earlier checkpoint"));
+}
+
+TEST_F(CheckpointFile, ATrajectoryIsNone) {
+  write_run(file("run.h5"), 1);
+  EXPECT_THAT(file_error([&] { load_checkpoint(file("run.h5")); }), HasSubstr("not a checkpoint"));
+}
+
+TEST_F(CheckpointFile, UnwritableFolderIsNamed) {
+  std::ofstream(file("plain")) << "x";
+  EXPECT_THAT(file_error([&] { save_checkpoint(file("plain") / "c", some_checkpoint(1)); }),
+              HasSubstr((file("plain") / "c").string()));
+}
+
+TEST_F(SmallDisk, AFailedCheckpointLeavesBothFilesIntact) {
+  const fs::path path = disk_ / "run.checkpoint";
+  save_checkpoint(path, some_checkpoint(1));
+  save_checkpoint(path, some_checkpoint(2));
+  const std::string newest = contents(path), before = contents(disk_ / "run.checkpoint.previous");
+  for (const std::uint64_t free : {0, 4096, 8192}) {
+    fill(free);
+    const std::string message = file_error([&] { save_checkpoint(path, some_checkpoint(3)); });
+    EXPECT_THAT(message, HasSubstr("No space left on device")) << free;
+    EXPECT_EQ(contents(path), newest);
+    EXPECT_EQ(contents(disk_ / "run.checkpoint.previous"), before);
+    EXPECT_FALSE(fs::exists(disk_ / "run.checkpoint.partial"));
+    fs::remove(disk_ / "filler");
+  }
+  save_checkpoint(path, some_checkpoint(3));
+  expect_same(load_checkpoint(path).checkpoint, some_checkpoint(3));
+}
+
+}  // namespace
+}  // namespace vitrel
