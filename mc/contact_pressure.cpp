@@ -1,44 +1,57 @@
 #include "mc/contact_pressure.h"
 
-#include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "core/contact/perram_wertheim.h"
 #include "mc/disjoint.h"
 
 namespace vitrel {
 
-void ContactPressure::add(const Configuration2& configuration) {
-  const CellGrid cells = make_cells(configuration);
-  const double largest = largest_circumradius(configuration);
-  particles_ += static_cast<double>(configuration.size());
-  for (std::size_t i = 0; i < configuration.size(); ++i) {
-    const double reach = configuration.shape[i].circumradius() + largest;
-    for_each_candidate(configuration, cells, i, configuration.position[i], largest,
-                       reach * widest_ / (1 - widest_),
-                       [&](std::size_t j, const Shift<2>&, const Vec2& d) {
-                         if (j < i) return;
-                         const PerramWertheim touch =
-                             perram_wertheim(configuration.shape[i], configuration.angle[i],
-                                             configuration.shape[j], configuration.angle[j], d);
-                         const double epsilon = 1 - 1 / std::sqrt(touch.value);
-                         const int bin = static_cast<int>(epsilon / widest_ * bins);
-                         // Own images are met twice, as (i, i, ±shift).
-                         if (bin >= 0 && bin < bins) pairs_[bin] += i == j ? 0.5 : 1;
-                       });
-  }
+namespace {
+
+constexpr double widest_window = 0.75;
+constexpr double pairs_per_particle = 1.5;
+
+// F − 1 of all pairs with F − 1 < window.
+std::vector<double> contact_excesses(const Configuration2& configuration, double window) {
+  std::vector<double> excesses;
+  for_each_pair(
+      configuration, std::sqrt(1 + window), [&](std::size_t i, std::size_t j, const Vec2& d) {
+        const Ellipse& one = configuration.shape[i];
+        const Ellipse& two = configuration.shape[j];
+        const double circles = one.circumradius() + two.circumradius();
+        if (d.squaredNorm() >= circles * circles * (1 + window)) return;
+        const double f =
+            perram_wertheim(one, configuration.angle[i], two, configuration.angle[j], d).value;
+        if (f < 1 + window) excesses.push_back(f - 1);
+      });
+  return excesses;
 }
 
-double ContactPressure::compressibility() const {
-  Eigen::Matrix<double, bins, 3> powers;
-  Eigen::Matrix<double, bins, 1> density;
-  for (int k = 0; k < bins; ++k) {
-    const double x = (k + 0.5) / bins;
-    powers.row(k) << 1, x, x * x;
-    density[k] = pairs_[k] * bins / widest_ / particles_;
-  }
-  const Eigen::Vector3d parabola = powers.colPivHouseholderQr().solve(density);
-  return 1 + 0.5 * parabola[0];
+// The window with the wanted number of pairs.
+double choose_window(const Configuration2& configuration) {
+  std::vector<double> excesses = contact_excesses(configuration, widest_window);
+  const auto wanted =
+      static_cast<std::size_t>(pairs_per_particle * static_cast<double>(configuration.size()));
+  if (excesses.size() <= wanted) return widest_window;
+  std::nth_element(excesses.begin(), excesses.begin() + static_cast<std::ptrdiff_t>(wanted),
+                   excesses.end());
+  return excesses[wanted];
+}
+
+double intercept_weight(double y) {
+  return 16 + y * (-120 + y * (240 - 140 * y));
+}
+
+}  // namespace
+
+void ContactPressure::add(const Configuration2& configuration) {
+  if (window_ == 0) window_ = choose_window(configuration);
+  for (double excess : contact_excesses(configuration, window_))
+    pairs_ += intercept_weight(excess / window_) / window_;
+  particles_ += static_cast<double>(configuration.size());
 }
 
 }  // namespace vitrel

@@ -1,38 +1,39 @@
 #pragma once
 
-#include <array>
-#include <vector>
-
 #include "core/state/configuration.h"
 
 namespace vitrel {
 
-/// Pressure of a hard system at constant volume by extrapolation of the contact function (after
-/// Eppenga & Frenkel, 1984).
+/// Pressure of a hard system at constant volume, from the contact function (after Eppenga &
+/// Frenkel, 1984).
 ///
-/// Shrinking box and positions by 1 − ε leaves no overlap with probability 1 − n_c ε + …, where n_c
-/// is the mean number of pairs that touch per unit of ε at ε → 0. From βP = ∂ ln Q/∂V,
-///     Z = βP/ρ = 1 + n_c/(2N)    (two dimensions).
-/// A pair with max F = μ² (perram_wertheim.h) touches at ε = 1 − 1/μ. The density of these ε over
-/// all pairs is collected in bins up to `widest` and extrapolated to 0 by a parabola.
+/// Every pair has a contact function F = μ² (perram_wertheim.h): it touches when all distances
+/// shrink by 1/μ, that is, the area by 1/F. So a shrink of the area by 1/(1 + x) leaves no overlap
+/// with probability 1 − n x + …, n the mean number of pairs per unit of F at F → 1. With Q the
+/// configuration integral, βP = ∂ ln Q/∂V, so
+///     Z = βP/ρ = 1 + n/N.
+/// In the dilute limit pairs are uniform in F, and n/N = B₂ρ.
+///
+/// The density of pairs over y = (F − 1)/w on 0 … 1 is extrapolated to 0 by its least-squares
+/// cubic. By orthogonality of the Legendre polynomials that is a plain sum over pairs,
+///     n ≈ Σ K(y)/w,   K = Σ_k (2k+1)(−1)^k P_k(2y − 1) = 16 − 120 y + 240 y² − 140 y³,
+/// so that no bins are needed and averages over configurations are unbiased up to the cubic itself,
+/// whose error falls with w⁴. The window w holds 1.5 pairs per particle in the first configuration,
+/// but is at most 0.75. At κ = 2, φ = 0.5 that is w = 0.55: a narrower one gives the same Z within
+/// 0.2 %, twice the width is 0.4 % too low.
 class ContactPressure {
  public:
-  /// `widest`: largest ε looked at; 0.05 keeps the error of the parabola below 1e-3 in Z.
-  explicit ContactPressure(double widest = 0.05) : widest_(widest) {}
-
   /// Adds one configuration; many of them, decorrelated, make one block.
   void add(const Configuration2& configuration);
   /// Z from all configurations added so far; at least one.
-  double compressibility() const;
-  /// Forgets all configurations, to begin another block.
-  void clear() { *this = ContactPressure(widest_); }
+  double compressibility() const { return 1 + pairs_ / particles_; }
+  /// Forgets all configurations but keeps the window, to begin another block.
+  void clear() { pairs_ = particles_ = 0; }
 
  private:
-  static constexpr int bins = 12;
-
-  double widest_;
-  std::array<double, bins> pairs_{};
-  double particles_ = 0;  // summed over configurations
+  double window_ = 0;
+  double pairs_ = 0;      // Σ K(y)/w over pairs, summed over configurations
+  double particles_ = 0;  // N, summed over configurations
 };
 
 }  // namespace vitrel

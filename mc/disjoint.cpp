@@ -20,43 +20,43 @@ CellGrid make_cells(const Configuration2& configuration) {
   return cells;
 }
 
+bool clear_of_own_images(const PeriodicBox<2>& box, const Ellipse& shape, const Vec2& axis,
+                         double margin) {
+  bool clear = true;
+  box.for_each_image(Vec2::Zero(), 2 * shape.circumradius() + margin,
+                     [&](const Shift<2>& shift, const Vec2& d) {
+                       if (shift.isZero() || !clear) return;
+                       clear = separated(shape, axis, shape, axis, d, margin);
+                     });
+  return clear;
+}
+
 std::optional<std::pair<std::size_t, std::size_t>> find_overlap(
     const Configuration2& configuration) {
-  const CellGrid cells = make_cells(configuration);
-  const double largest = largest_circumradius(configuration);
   const double margin = hard_margin(configuration);
   std::optional<std::pair<std::size_t, std::size_t>> found;
-  for (std::size_t i = 0; i < configuration.size() && !found; ++i)
-    for_each_candidate(configuration, cells, i, configuration.position[i], largest, margin,
-                       [&](std::size_t j, const Shift<2>&, const Vec2& d) {
-                         if (found || j < i) return;
-                         if (!separated(configuration.shape[i], configuration.pose(i),
-                                        configuration.shape[j], configuration.pose(j), d, margin))
-                           found = {i, j};
-                       });
+  for_each_pair(configuration, 1 + margin / largest_circumradius(configuration),
+                [&](std::size_t i, std::size_t j, const Vec2& d) {
+                  if (found) return;
+                  if (!separated(configuration.shape[i], configuration.pose(i),
+                                 configuration.shape[j], configuration.pose(j), d, margin))
+                    found = {i, j};
+                });
   return found;
 }
 
 double shrink_to_contact(const Configuration2& configuration, double lowest) {
-  const CellGrid cells = make_cells(configuration);
-  const double largest = largest_circumradius(configuration);
   double factor = lowest;
-  for (std::size_t i = 0; i < configuration.size(); ++i) {
-    const double reach = configuration.shape[i].circumradius() + largest;
-    for_each_candidate(configuration, cells, i, configuration.position[i], largest,
-                       reach * (1 / lowest - 1),
-                       [&](std::size_t j, const Shift<2>&, const Vec2& d) {
-                         const double circles = configuration.shape[i].circumradius() +
-                                                configuration.shape[j].circumradius();
-                         // Circumcircles touch at a smaller factor than any found so far: no need
-                         // to look closer.
-                         if (j < i || circles * circles < factor * factor * d.squaredNorm()) return;
-                         const PerramWertheim touch =
-                             perram_wertheim(configuration.shape[i], configuration.angle[i],
-                                             configuration.shape[j], configuration.angle[j], d);
-                         factor = std::max(factor, 1 / std::sqrt(touch.value));
-                       });
-  }
+  for_each_pair(configuration, 1 / lowest, [&](std::size_t i, std::size_t j, const Vec2& d) {
+    const Ellipse& one = configuration.shape[i];
+    const Ellipse& two = configuration.shape[j];
+    // Circumcircles touch at a smaller factor than any found so far: no need to look closer.
+    const double circles = one.circumradius() + two.circumradius();
+    if (circles * circles < factor * factor * d.squaredNorm()) return;
+    const double f =
+        perram_wertheim(one, configuration.angle[i], two, configuration.angle[j], d).value;
+    factor = std::max(factor, 1 / std::sqrt(f));
+  });
   return factor;
 }
 

@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/geometry/ellipse.h"
 #include "core/neighbors/cell_grid.h"
 #include "core/state/configuration.h"
 
@@ -16,17 +17,25 @@ double hard_margin(const Configuration2& configuration);
 /// Cells filled with the positions of a configuration, which must be wrapped.
 CellGrid make_cells(const Configuration2& configuration);
 
-/// Calls visit(j, shift, d) for every image that can lie closer than `gap` to particle i at
-/// `position` by its circumcircle; not for the particle itself, but for its own images.
+/// Whether a particle keeps the margin to its own images, which lie at whole box lengths.
+bool clear_of_own_images(const PeriodicBox<2>& box, const Ellipse& shape, const Vec2& axis,
+                         double margin);
+
+/// Calls visit(i, j, d) for every pair (i ≤ j, d from i to the image of j) whose circumcircles meet
+/// when all are enlarged by `scale`, and perhaps for some more; each pair once, also (i, i,
+/// ±shift).
 template <class Visit>
-void for_each_candidate(const Configuration2& configuration, const CellGrid& cells, std::size_t i,
-                        const Vec2& position, double largest_circumradius, double gap,
-                        Visit&& visit) {
-  const double reach = configuration.shape[i].circumradius() + largest_circumradius + gap;
-  cells.for_each_near(position, reach, [&](std::size_t j, const Shift<2>& shift, const Vec2& d) {
-    if (j == i && shift.isZero()) return;
-    visit(j, shift, d);
-  });
+void for_each_pair(const Configuration2& configuration, double scale, Visit&& visit) {
+  const CellGrid cells = make_cells(configuration);
+  const double largest = largest_circumradius(configuration);
+  for (std::size_t i = 0; i < configuration.size(); ++i) {
+    const double reach = scale * (configuration.shape[i].circumradius() + largest);
+    cells.for_each_near(
+        configuration.position[i], reach, [&](std::size_t j, const Shift<2>& shift, const Vec2& d) {
+          const bool after_zero = shift.x() > 0 || (shift.x() == 0 && shift.y() > 0);
+          if (j > i || (j == i && after_zero)) visit(i, j, d);
+        });
+  }
 }
 
 /// The first pair closer than the margin, if any.

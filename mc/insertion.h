@@ -15,7 +15,8 @@ struct InsertionOptions {
   bool aligned = false;              ///< all angles 0 instead of random ones
 };
 
-/// `stuck` with a reason if a particle found no place; the configuration then is not to be used.
+/// `stuck` with a reason if a particle found no place, `stopped` if the budget said so; the
+/// configuration then is not to be used, and the same call makes it anew.
 /// The jamming limit is near φ = 0.547 for disks and 0.583 for ellipses.
 StageReport insert_particles(Configuration2& configuration, const InsertionOptions& options,
                              std::uint64_t seed, const Budget& budget);

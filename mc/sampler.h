@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "core/neighbors/cell_grid.h"
 #include "core/random/stream.h"
@@ -25,8 +26,13 @@ class Sampler {
 
   void sweep();
 
-  /// Adapts both step sizes towards an acceptance of 0.3 to 0.4, by the trials since the last call.
+  /// Adapts both step sizes towards an acceptance of 0.35, by the trials since the last adaptation;
+  /// waits for more if they are too few to tell.
   void tune();
+
+  /// Gives particle i another shape where it is, if it then keeps twice the hard margin to all
+  /// others (twice, so that scaling all lengths afterwards cannot cost it the margin by rounding).
+  bool reshape(std::size_t i, const Ellipse& shape);
 
   double translation_step() const { return translation_; }
   double rotation_step() const { return rotation_; }
@@ -40,7 +46,8 @@ class Sampler {
  private:
   void translate(std::size_t i, Stream& draw);
   void rotate(std::size_t i, Stream& draw);
-  bool fits(std::size_t i, const Vec2& position, const Vec2& axis) const;
+  bool clear_of_others(std::size_t i, const Ellipse& shape, const Vec2& position, const Vec2& axis,
+                       double margin) const;
 
   Configuration2& configuration_;
   CellGrid cells_;

@@ -7,18 +7,29 @@
 
 namespace vitrel {
 
-/// Swelling to a wanted packing fraction: sweeps of Monte Carlo, and after each all particles swell
-/// together until the first pair touches. What counts is the ratio of particle to box size; since
-/// the reference species has a b = 1, the particles keep their size and the box and all positions
-/// shrink, which is the same state in other units.
+/// Swelling to a wanted packing fraction, by Monte Carlo.
+///
+/// Steps of one round, to enlarge all particles by a factor g:
+///   1. A sweep of trial moves, their step sizes adapted to the density.
+///   2. Every particle that is not yet enlarged is enlarged alone, by g, if there is room for it
+///   now.
+///   3. Repeat until all are enlarged. Then all lengths are divided by g: since the reference
+///   species
+///      has a b = 1, the particles have their old size again, and the box is smaller.
+/// If some find no room in `patience` sweeps, all go back to their old size, the box shrinks as far
+/// as the closest pair allows (shrink_to_contact), and the next round is less greedy; after a fast
+/// round the next is greedier. Since no particle waits for the closest pair of the whole system,
+/// the sweeps needed hardly depend on N. The wanted packing fraction is met to rounding.
 struct SwellingOptions {
   double packing_fraction = 0.7;   ///< to be reached, exactly
   std::uint64_t sweeps = 1000000;  ///< at most
 };
 
-/// `reached` at the wanted packing fraction, `stuck` if the sweeps were used up (the state is hard,
-/// at the packing fraction reached), `stopped` by the budget. Sweeps are numbered from
-/// `first_sweep`, which returns as the next one.
+/// `reached` at the wanted packing fraction; `stuck` if the sweeps were used up, or if the
+/// particles are jammed: the packing fraction rises by less than 1e-4 of itself in 5000 sweeps;
+/// `stopped` by the budget. In any case the state is hard and can be swollen further by another
+/// call. Sweeps are numbered from `first_sweep`, which returns as the next one. A configuration
+/// that is denser than wanted already is expanded.
 StageReport swell(Configuration2& configuration, const SwellingOptions& options, std::uint64_t seed,
                   std::uint64_t& first_sweep, const Budget& budget);
 

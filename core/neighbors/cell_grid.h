@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "core/geometry/periodic_box.h"
@@ -48,9 +49,10 @@ class CellGrid {
 
   /// Calls visit(j, shift, separation) for every image r_j + shift ∘ L within `reach` of
   /// `position`, which may lie outside the box; separation = r_j + shift ∘ L − position. A point at
-  /// `position` itself is among them.
+  /// `position` itself is among them. A visit that returns false ends the query; the result tells
+  /// whether all were visited.
   template <class Visit>
-  void for_each_near(const Vec2& position, double reach, Visit&& visit) const {
+  bool for_each_near(const Vec2& position, double reach, Visit&& visit) const {
     const Range x = covered(position, reach, 0);
     const Range y = covered(position, reach, 1);
     for (std::int64_t cx = x.low; cx <= x.high; ++cx)
@@ -62,10 +64,11 @@ class CellGrid {
         const Vec2 offset = box_.translation(shift) - position;
         for (Index j = first_[static_cast<std::size_t>(cell)]; j != none; j = points_[j].next) {
           const Vec2 separation = points_[j].position + offset;
-          if (separation.squaredNorm() <= reach * reach)
-            visit(static_cast<std::size_t>(j), shift, separation);
+          if (separation.squaredNorm() > reach * reach) continue;
+          if (!goes_on(visit, static_cast<std::size_t>(j), shift, separation)) return false;
         }
       }
+    return true;
   }
 
  private:
@@ -80,6 +83,18 @@ class CellGrid {
   struct Range {
     std::int64_t low, high;
   };
+
+  template <class Visit>
+  static bool goes_on(Visit& visit, std::size_t j, const Shift<2>& shift, const Vec2& separation) {
+    if constexpr (std::is_same_v<std::invoke_result_t<Visit&, std::size_t, const Shift<2>&,
+                                                      const Vec2&>,
+                                 bool>) {
+      return visit(j, shift, separation);
+    } else {
+      visit(j, shift, separation);
+      return true;
+    }
+  }
 
   static std::int64_t floor_div(std::int64_t number, std::int64_t divisor) {
     return number >= 0 ? number / divisor : -((-number + divisor - 1) / divisor);

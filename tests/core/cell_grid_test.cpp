@@ -64,5 +64,35 @@ TEST(CellGrid, SeparationsBelongToTheImages) {
   EXPECT_EQ(visits, 1);
 }
 
+// Rounding must lose no point on the faces of cells and box: a lattice whose sites lie on them, and
+// reaches of whole numbers of spacings and a little more.
+TEST(CellGrid, PointsOnCellFacesAreNotLost) {
+  const PeriodicBox<2> box(Vec2(8, 8));
+  CellGrid grid(box, 2, 64);
+  std::vector<Vec2> points;
+  for (int x = -4; x < 4; ++x)
+    for (int y = -4; y < 4; ++y) points.push_back(Vec2(x, y));
+  for (std::size_t i = 0; i < points.size(); ++i) grid.insert(i, points[i]);
+  // Sites of the square lattice within 1, 2 and 3 spacings.
+  const std::size_t sites[] = {5, 13, 29};
+  for (const Vec2& point : points)
+    for (int spacings = 1; spacings <= 3; ++spacings)
+      EXPECT_EQ(near(grid, point, spacings * (1 + 1e-15)).size(), sites[spacings - 1]);
+}
+
+TEST(CellGrid, AVisitThatReturnsFalseEndsTheQuery) {
+  const PeriodicBox<2> box(Vec2(5, 5));
+  CellGrid grid(box, 1, 10);
+  for (std::size_t i = 0; i < 10; ++i) grid.insert(i, Vec2(0.1 * static_cast<double>(i), 0));
+  int visits = 0;
+  const auto stop_at_third = [&](std::size_t, const Shift<2>&, const Vec2&) {
+    return ++visits < 3;
+  };
+  EXPECT_FALSE(grid.for_each_near(Vec2::Zero(), 2, stop_at_third));
+  EXPECT_EQ(visits, 3);
+  const auto never_stop = [](std::size_t, const Shift<2>&, const Vec2&) { return true; };
+  EXPECT_TRUE(grid.for_each_near(Vec2::Zero(), 2, never_stop));
+}
+
 }  // namespace
 }  // namespace vitrel
