@@ -1,0 +1,141 @@
+// Runs that are killed, stopped or run out of disk, and continued by the same command.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/mount.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "core/random/stream.h"
+#include "tests/app/program.h"
+
+namespace vitrel {
+namespace {
+
+using std::chrono::milliseconds;
+using testing::IsEmpty;
+using testing_program::differing_datasets;
+using testing_program::Folder;
+using testing_program::Outcome;
+using testing_program::run;
+using testing_program::run_and_signal;
+
+// A checkpoint at the end of every block, and many frames between two of them.
+const std::string system_text =
+    "[system]\nparticles = 30\n[dynamics]\nequilibration = 5\nduration = 300\n"
+    "[output]\nsamples = { spacing = \"linear\", interval = 0.5 }\ncheckpoint_interval = 0\n";
+
+std::vector<std::string> run_arguments(const std::string& output, const std::string& kind) {
+  return {"run", "p.toml", "-o", output, "-q", "--set", "dynamics.kind=" + kind};
+}
+
+/// Runs to the end without interruption and returns how long that took.
+milliseconds run_uninterrupted(const Folder& folder, const std::string& kind) {
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(run(folder.path(), run_arguments("whole.h5", kind)).code, 0);
+  return std::chrono::duration_cast<milliseconds>(std::chrono::steady_clock::now() - start);
+}
+
+class Interruption : public testing::TestWithParam<const char*> {};
+
+// Ten kills at moments spread over the run, so that preparation, checkpoints and frames all get their
+// share; then the same command once more.
+TEST_P(Interruption, KilledAtTenRandomMomentsTheDatasetsAreTheSame) {
+  const Folder folder(std::string("kill_") + GetParam());
+  folder.write("p.toml", system_text);
+  const milliseconds whole = run_uninterrupted(folder, GetParam());
+  Stream moments(11, Purpose::tests);
+  int killed = 0;
+  for (int k = 0; k < 10; ++k) {
+    const milliseconds delay(
+        static_cast<int>(moments.uniform(0, 0.2) * static_cast<double>(whole.count())));
+    const Outcome outcome =
+        run_and_signal(folder.path(), run_arguments("killed.h5", GetParam()), delay, SIGKILL);
+    killed += outcome.code == 128 + SIGKILL;
+    EXPECT_TRUE(outcome.code == 128 + SIGKILL || outcome.code == 0) << outcome.errors;
+  }
+  EXPECT_GE(killed, 5) << "the run is too short for this test";
+  const Outcome last = run(folder.path(), run_arguments("killed.h5", GetParam()));
+  ASSERT_EQ(last.code, 0) << last.errors;
+  EXPECT_THAT(differing_datasets(folder / "whole.h5", folder / "killed.h5"), IsEmpty());
+}
+
+TEST_P(Interruption, StoppedBySignalItExitsWithFiveAndContinues) {
+  const Folder folder(std::string("stop_") + GetParam());
+  folder.write("p.toml", system_text);
+  const milliseconds whole = run_uninterrupted(folder, GetParam());
+  int stopped = 0;
+  for (const int signal : {SIGTERM, SIGINT, SIGUSR1}) {
+    const Outcome outcome =
+        run_and_signal(folder.path(), run_arguments("stopped.h5", GetParam()), whole / 4, signal);
+    stopped += outcome.code == 5;
+    EXPECT_TRUE(outcome.code == 5 || outcome.code == 0) << outcome.code << outcome.errors;
+  }
+  EXPECT_GE(stopped, 1) << "the run is too short for this test";
+  ASSERT_EQ(run(folder.path(), run_arguments("stopped.h5", GetParam())).code, 0);
+  EXPECT_THAT(differing_datasets(folder / "whole.h5", folder / "stopped.h5"), IsEmpty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Dynamics, Interruption, testing::Values("newtonian", "brownian"),
+                         [](const auto& kind) { return std::string(kind.param); });
+
+TEST(DifferingDatasets, SeesASingleChangedSeed) {
+  const Folder folder("different");
+  folder.write("p.toml", system_text);
+  for (const std::string seed : {"1", "2"})
+    ASSERT_EQ(run(folder.path(), {"run", "p.toml", "-o", seed + ".h5", "-q", "--set",
+                                  "dynamics.duration=1", "--seed", seed})
+                  .code,
+              0);
+  EXPECT_THAT(differing_datasets(folder / "1.h5", folder / "2.h5"),
+              testing::Contains("/particles/all/position/value"));
+}
+
+// The children of a killed sweep die with it, and the same command finishes the sweep.
+TEST(Sweep, KilledAndContinuedItIsTheSame) {
+  const Folder folder("kill_sweep");
+  folder.write("p.toml", system_text + "[sweep.grid]\n\"system.seed\" = [1, 2, 3]\n");
+  const auto sweep = [](const std::string& output) {
+    return std::vector<std::string>{"sweep", "p.toml", "-o", output, "-j", "2", "-q"};
+  };
+  const auto start = std::chrono::steady_clock::now();
+  ASSERT_EQ(run(folder.path(), sweep("whole")).code, 0);
+  const auto whole =
+      std::chrono::duration_cast<milliseconds>(std::chrono::steady_clock::now() - start);
+  for (const double moment : {0.15, 0.3, 0.45})
+    run_and_signal(folder.path(), sweep("killed"),
+                   milliseconds(static_cast<int>(moment * whole.count())), SIGKILL);
+  const Outcome last = run(folder.path(), sweep("killed"));
+  ASSERT_EQ(last.code, 0) << last.errors;
+  for (const std::string job : {"seed-1", "seed-2", "seed-3"}) {
+    const std::string file = "/" + job + "/run.h5";
+    EXPECT_THAT(differing_datasets(folder / ("whole" + file), folder / ("killed" + file)),
+                IsEmpty());
+  }
+}
+
+// A real full disk: a tmpfs too small for the run. The frames written stay readable, and with room made
+// the same command continues to the same datasets. Mounting needs rights that not every machine gives.
+TEST(FullDisk, ExitsWithThreeLosesNothingAndContinues) {
+  const Folder folder("full_disk");
+  folder.write("p.toml", system_text);
+  std::filesystem::create_directory(folder / "disk");
+  if (mount("tmpfs", (folder / "disk").c_str(), "tmpfs", 0, "size=400k") != 0)
+    GTEST_SKIP() << "mounting a tmpfs needs root";
+  run_uninterrupted(folder, "newtonian");
+  const Outcome full = run(folder.path(), run_arguments("disk/run.h5", "newtonian"));
+  EXPECT_EQ(full.code, 3);
+  EXPECT_THAT(full.errors, testing::HasSubstr("disk/run.h5"));
+  const Outcome checked = run(folder.path(), {"check", "disk/run.h5", "--json", "-q"});
+  EXPECT_EQ(checked.code, 0) << checked.errors;
+  EXPECT_GT(nlohmann::json::parse(checked.output, nullptr, false).value("frames", 0), 10);
+  EXPECT_EQ(mount("tmpfs", (folder / "disk").c_str(), "tmpfs", MS_REMOUNT, "size=100m"), 0);
+  const Outcome continued = run(folder.path(), run_arguments("disk/run.h5", "newtonian"));
+  EXPECT_EQ(continued.code, 0) << continued.errors;
+  EXPECT_THAT(differing_datasets(folder / "whole.h5", folder / "disk/run.h5"), IsEmpty());
+  umount((folder / "disk").c_str());
+}
+
+}  // namespace
+}  // namespace vitrel

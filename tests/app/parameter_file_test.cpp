@@ -1,0 +1,221 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "app/workflow/parameters.h"
+#include "app/workflow/sweep.h"
+#include "app/workflow/text_file.h"
+#include "core/error.h"
+
+namespace vitrel {
+namespace {
+
+using testing::HasSubstr;
+
+const std::filesystem::path source_folder = VITREL_SOURCE_FOLDER;
+
+std::string refusal(const std::string& text) {
+  try {
+    parse_parameters(text, "file.toml");
+  } catch (const UserError& error) {
+    return error.what();
+  }
+  return "nothing was refused";
+}
+
+struct BadFile {
+  const char* text;
+  const char* message;
+};
+
+// Every rule of `validate`, with the place of the value that breaks it.
+const BadFile bad_files[] = {
+    {"[system]\ndimension = 3", "file.toml:2:13: key 'system.dimension' is 3, but only two-dim"},
+    {"[system]\nparticles = 0", "file.toml:2:13: key 'system.particles' is 0, but must lie"},
+    {"[system]\npacking_fraction = 0.95",
+     "file.toml:2:20: key 'system.packing_fraction' is 0.95, but"},
+    {"[system]\npacking_fraction = 0.0", "lies between 0 and π/√12 = 0.9069"},
+    {"[system]\nbox_aspect = -1", "file.toml:2:14: key 'system.box_aspect'"},
+    {"species = []", "file.toml:1:11: key 'species' is empty"},
+    {"[[species]]\nfraction = 0.5\naspect_ratio = 1",
+     "file.toml:1:1: key 'species' has fractions that add up to 0.5"},
+    {"[[species]]\nfraction = 1.5", "file.toml:2:12: key 'species.0.fraction' is 1.5"},
+    {"[[species]]\nname = \"B\"", "file.toml:1:1: key 'species.0.aspect_ratio' is missing"},
+    {"[[species]]\nname = \"\"", "file.toml:2:8: key 'species.0.name' is empty"},
+    {"[[species]]\nfraction = 0.5\naspect_ratio = 1\n[[species]]\nfraction = 0.5\naspect_ratio = 1",
+     "key 'species.1.name' is \"A\" like that of an earlier species"},
+    {"[[species]]\naspect_ratio = 0.5",
+     "file.toml:2:16: key 'species.0.aspect_ratio' is 0.5, but must "
+     "be at least 1.0"},
+    {"[[species]]\naspect_ratio = 2\nsize = 0", "file.toml:3:8: key 'species.0.size' is 0.0"},
+    {"[[species]]\naspect_ratio = 2\nmass = 0", "file.toml:3:8: key 'species.0.mass' is 0.0"},
+    {"[[species]]\naspect_ratio = 2\nsemi_axes = [2, 1]",
+     "file.toml:3:13: key 'species.0.semi_axes' "
+     "excludes aspect_ratio and size"},
+    {"[[species]]\nsemi_axes = [1, 2]", "file.toml:2:13: key 'species.0.semi_axes' is [1.0, 2.0]"},
+    {"[[species]]\naspect_ratio = { distribution = \"uniform\", low = 3, high = 2 }",
+     "file.toml:2:60: key 'species.0.aspect_ratio.high' is 2.0, but must be above low = 3.0"},
+    {"[[species]]\naspect_ratio = { distribution = \"gaussian\", mean = 2, standard_deviation = 0 "
+     "}",
+     "key 'species.0.aspect_ratio.standard_deviation' is 0.0, but must be positive"},
+    {"[[species]]\naspect_ratio = { distribution = \"gaussian\", mean = 2, low = 1 }",
+     "file.toml:2:55: key 'species.0.aspect_ratio.low' has a meaning only with distribution = "
+     "\"uniform\""},
+    {"[[species]]\naspect_ratio = { distribution = \"gaussian\", mean = 2, minimum = 0.5 }",
+     "key 'species.0.aspect_ratio.minimum' is 0.5, but must be at least 1.0"},
+    {"[[species]]\naspect_ratio = { distribution = \"lognormal\", mean = 2, minimum = 3 }",
+     "key 'species.0.aspect_ratio.mean' is 2.0, but must be at least minimum = 3.0"},
+    {"[prepare]\nstage = []", "key 'prepare.stage' is empty"},
+    {"[[prepare.stage]]\nmethod = \"swell\"",
+     "file.toml:2:10: key 'prepare.stage.0.method' of the first"},
+    {"[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"lattice\"",
+     "file.toml:3:10: key "
+     "'prepare.stage.1.method' of a later"},
+    {"[[prepare.stage]]\nmethod = \"lattice\"\narrangement = \"triangular\"\nangle = 1",
+     "file.toml:4:9: key 'prepare.stage.0.angle' is 1.0, but must be 0"},
+    {"[[prepare.stage]]\nmethod = \"insert\"\nattempts = 0", "file.toml:3:12: key"},
+    {"[[prepare.stage]]\nmethod = \"insert\"\npacking_fraction = 1.2", "file.toml:3:20: key"},
+    {"[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"swell\"\nmost_sweeps = 0",
+     "file.toml:4:15: key"},
+    {"[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"sample\"\nsweeps = 0",
+     "file.toml:4:10: key"},
+    {"[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"swell\"\npacking_fraction = 0.2",
+     "file.toml:4:20: key 'prepare.stage.1.packing_fraction' is 0.2, but the stage before ends at "
+     "0.3"},
+    {"[[prepare.stage]]\nmethod = \"insert\"",
+     "file.toml:1:1: key 'prepare.stage.0' ends at the packing "
+     "fraction 0.3, but system.packing_fraction is 0.5"},
+    {"[[prepare.stage]]\nmethod = \"lattice\"\nattempts = 3",
+     "has a meaning only with method = \"insert\""},
+    {"[dynamics]\nbrownian_step = 0", "file.toml:2:17: key 'dynamics.brownian_step' is 0.0"},
+    {"[dynamics]\nequilibration = -1", "file.toml:2:17: key 'dynamics.equilibration' is -1.0"},
+    {"[dynamics]\nduration = inf", "file.toml:2:12: key 'dynamics.duration' is inf"},
+    {"[dynamics]\nrestitution = 1.1", "file.toml:2:15: key 'dynamics.restitution' is 1.1"},
+    {"[dynamics]\nkind = \"brownan\"",
+     "file.toml:2:8: key 'dynamics.kind' is \"brownan\", but must be one of "
+     "\"newtonian\", \"brownian\"; did you mean 'brownian'?"},
+    {"[output]\nsamples = { interval = 0 }",
+     "file.toml:2:24: key 'output.samples.interval' is 0.0"},
+    {"[output]\nsamples = { interval = 200 }", "must not exceed dynamics.duration = 100.0"},
+    {"[output]\nsamples = { interval = 1e-9 }", "at most 1e8 are possible"},
+    {"[output]\nsamples = { spacing = \"logarithmic\", per_decade = 0 }",
+     "file.toml:2:51: key 'output.samples.per_decade' is 0"},
+    {"[output]\nsamples = { spacing = \"logarithmic\", interval = 1 }",
+     "has a meaning only with spacing = \"linear\""},
+    {"[output]\ncheckpoint_interval = -1", "file.toml:2:23: key 'output.checkpoint_interval'"},
+    {"[analysis]\nlongest_lag = 2", "file.toml:2:15: key 'analysis.longest_lag' is 2.0"},
+    {"[analysis]\nmost_origins = 0", "file.toml:2:16: key 'analysis.most_origins' is 0"},
+};
+
+TEST(ParameterFile, EveryImpossibleValueIsRefusedWithItsPlace) {
+  for (const BadFile& bad : bad_files)
+    EXPECT_THAT(refusal(bad.text), HasSubstr(bad.message)) << bad.text;
+}
+
+TEST(ParameterFile, TheDefaultsAreValidAndTheTemplatesAreTheDefaults) {
+  const std::string defaults = effective_parameters(Parameters());
+  for (const char* command : {"prepare", "run", "analyze", "sweep"}) {
+    const std::string text = command_template(command);
+    EXPECT_EQ(effective_parameters(parse_parameters(text, "template")), defaults) << command;
+  }
+  EXPECT_THAT(command_template("prepare"), testing::Not(HasSubstr("[dynamics]")));
+  EXPECT_THAT(command_template("analyze"), testing::Not(HasSubstr("[system]")));
+  EXPECT_THAT(command_template("sweep"), HasSubstr("[sweep.grid]"));
+  EXPECT_THROW(command_template("check"), UserError);
+}
+
+TEST(ParameterFile, EffectiveParametersReadBackBitByBit) {
+  Parameters parameters = parse_parameters(R"(
+[system]
+packing_fraction = 0.7123456789012345
+[[species]]
+name = "A"
+fraction = 0.3333333333333333
+semi_axes = [2, 0.1]
+[[species]]
+name = "B"
+fraction = 0.6666666666666667
+aspect_ratio = { distribution = "lognormal", mean = 2.5, standard_deviation = 0.3 }
+size = { distribution = "uniform", low = 0.7, high = 1.3 }
+mass = 3.3
+[[prepare.stage]]
+[[prepare.stage]]
+method = "swell"
+[[prepare.stage]]
+method = "sample"
+sweeps = 12
+[output]
+samples = { spacing = "logarithmic", first = 0.3, per_decade = 7 }
+)",
+                                           "file.toml");
+  const std::string text = effective_parameters(parameters);
+  EXPECT_EQ(effective_parameters(parse_parameters(text, "again")), text);
+  EXPECT_THAT(text, HasSubstr("packing_fraction = 0.7123456789012345"));
+  EXPECT_THAT(text, HasSubstr("per_decade = 7"));
+}
+
+TEST(ParameterFile, OverridesReachSpeciesAndStages) {
+  const Parameters parameters = parse_parameters(
+      "[[species]]\naspect_ratio = 2\n[[prepare.stage]]\nmethod = \"insert\"\n", "file.toml",
+      {"dynamics.duration=10", "species.0.aspect_ratio=3", "prepare.stage.1.method=swell",
+       "output.samples.spacing=logarithmic"});
+  EXPECT_EQ(parameters.dynamics.duration, 10);
+  EXPECT_EQ(parameters.species[0].aspect_ratio->mean, 3);
+  ASSERT_EQ(parameters.stages.size(), 2u);
+  EXPECT_EQ(parameters.stages[1].method, PrepareStage::Method::swell);
+  EXPECT_EQ(parameters.output.spacing, OutputParameters::Spacing::logarithmic);
+}
+
+TEST(ParameterFile, OnlyHarmlessChangesAreAllowedWhenContinuing) {
+  Parameters before, after;
+  after.output.checkpoint_interval = 1;
+  after.analysis.longest_lag = 0.25;
+  EXPECT_FALSE(forbidden_change(effective_parameters(before), effective_parameters(after)));
+  after.dynamics.brownian_step = 0.2;
+  const auto change = forbidden_change(effective_parameters(before), effective_parameters(after));
+  ASSERT_TRUE(change);
+  EXPECT_EQ(change->key, "dynamics.brownian_step");
+  EXPECT_EQ(change->first, "0.1");
+  EXPECT_EQ(change->second, "0.2");
+}
+
+TEST(ParameterFile, TheFilesOfTheProjectAreValid) {
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(source_folder / "params")) {
+    if (entry.path().extension() != ".toml") continue;
+    ++files;
+    EXPECT_NO_THROW(load_parameters({entry.path(), {}, {}})) << entry.path();
+    EXPECT_NO_THROW(sweep_jobs({entry.path(), {}, {}})) << entry.path();
+  }
+  EXPECT_GE(files, 5);
+}
+
+TEST(ParameterFile, TheReferencePageIsUpToDate) {
+  EXPECT_EQ(read_text(source_folder / "docs/parameters.md"), parameter_page())
+      << "make it anew: vitrel params --reference > docs/parameters.md";
+}
+
+TEST(SweepJobs, EveryCombinationIsAJobOfItsOwn) {
+  const std::filesystem::path file = testing::TempDir() + "vitrel_sweep_jobs.toml";
+  std::ofstream(file)
+      << "[sweep.grid]\n\"system.packing_fraction\" = [0.4, 0.5]\nsystem.seed = [1, 2, 3]\n"
+      << "\"dynamics.kind\" = [\"brownian\"]\n";
+  const std::vector<SweepJob> jobs = sweep_jobs({file, {"system.particles=7"}, {}});
+  ASSERT_EQ(jobs.size(), 6u);
+  EXPECT_EQ(jobs[1].id, "packing_fraction-0.4_seed-2_kind-brownian");
+  EXPECT_EQ(jobs[1].parameters.system.packing_fraction, 0.4);
+  EXPECT_EQ(jobs[1].parameters.system.seed, 2u);
+  EXPECT_EQ(jobs[1].parameters.system.particles, 7);
+  EXPECT_EQ(jobs[5].parameters.system.packing_fraction, 0.5);
+  EXPECT_EQ(jobs[5].parameters.dynamics.kind, DynamicsParameters::Kind::brownian);
+  std::ofstream(file) << "[sweep.grid]\n\"system.seed\" = [1, 1]\n";
+  EXPECT_THROW(sweep_jobs({file, {}, {}}), UserError);
+  std::ofstream(file) << "[sweep.grid]\n\"system.sed\" = [1, 2]\n";
+  EXPECT_THROW(sweep_jobs({file, {}, {}}), UserError);
+  std::filesystem::remove(file);
+}
+
+}  // namespace
+}  // namespace vitrel

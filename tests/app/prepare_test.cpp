@@ -1,0 +1,87 @@
+#include "app/workflow/prepare.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "core/error.h"
+#include "core/state/check.h"
+
+namespace vitrel {
+namespace {
+
+const auto say_nothing = [](const std::string&) {};
+
+Parameters small(double packing_fraction) {
+  Parameters parameters;
+  parameters.system.particles = 49;
+  parameters.system.packing_fraction = packing_fraction;
+  return parameters;
+}
+
+PrepareStage stage(PrepareStage::Method method) {
+  PrepareStage result;
+  result.method = method;
+  return result;
+}
+
+TEST(Prepare, StagesInARowReachThePackingFractionWithoutOverlap) {
+  Parameters parameters = small(0.6);
+  parameters.stages.push_back(stage(PrepareStage::Method::sample));
+  parameters.stages.back().sweeps = 50;
+  std::vector<std::string> announced;
+  const Preparation result =
+      prepare(parameters, {}, [&](const std::string& line) { announced.push_back(line); });
+  EXPECT_EQ(result.report.end, StageEnd::reached);
+  EXPECT_NEAR(packing_fraction(result.configuration), 0.6, 1e-12);
+  EXPECT_TRUE(exact_check(result.configuration).clean());
+  EXPECT_EQ(announced.size(), 3u);
+  // The last stage alone makes 50 sweeps of 49 trials.
+  EXPECT_GE(result.report.translations_tried + result.report.rotations_tried, 50u * 49u);
+}
+
+TEST(Prepare, TheSeedDecidesEveryBit) {
+  const auto positions = [](std::uint64_t seed) {
+    Parameters parameters = small(0.5);
+    parameters.system.seed = seed;
+    return prepare(parameters, {}, say_nothing).configuration.position;
+  };
+  EXPECT_EQ(positions(3), positions(3));
+  EXPECT_NE(positions(3), positions(4));
+}
+
+TEST(Prepare, ALatticeHasAllParticlesAtItsAngle) {
+  Parameters parameters = small(0.5);
+  parameters.stages = {stage(PrepareStage::Method::lattice)};
+  parameters.stages[0].lattice.angle = std::numbers::pi / 4;
+  const Preparation result = prepare(parameters, {}, say_nothing);
+  EXPECT_NEAR(nematic_order(result.configuration), 1, 1e-14);
+  for (const double angle : result.configuration.angle) EXPECT_EQ(angle, std::numbers::pi / 4);
+}
+
+TEST(Prepare, AnUnreachableGoalIsTheUsersToChange) {
+  Parameters parameters = small(0.88);
+  parameters.stages[1].most_sweeps = 20;
+  EXPECT_THROW(prepare(parameters, {}, say_nothing), UserError);
+}
+
+TEST(Prepare, TheBudgetStopsIt) {
+  Parameters parameters = small(0.7);
+  Budget budget;
+  budget.should_stop = [] { return true; };
+  EXPECT_EQ(prepare(parameters, budget, say_nothing).report.end, StageEnd::stopped);
+}
+
+TEST(NematicOrder, IsZeroForCrossedPairsAndForDisks) {
+  Configuration2 state;
+  state.resize(2);
+  EXPECT_EQ(nematic_order(state), 0);
+  state.shape = {{2, 1}, {2, 1}};
+  state.angle = {0.3, 0.3 + std::numbers::pi / 2};
+  EXPECT_NEAR(nematic_order(state), 0, 1e-15);
+  state.angle = {0.3, 0.3 + std::numbers::pi};
+  EXPECT_NEAR(nematic_order(state), 1, 1e-15);
+}
+
+}  // namespace
+}  // namespace vitrel

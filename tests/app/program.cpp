@@ -1,0 +1,129 @@
+#include "tests/app/program.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <thread>
+
+#include "core/io/h5.h"
+
+namespace vitrel::testing_program {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string content(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+void redirect(const fs::path& file, int descriptor) {
+  const int opened = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+  dup2(opened, descriptor);
+}
+
+pid_t start(const fs::path& folder, const std::vector<std::string>& arguments,
+            const fs::path& output, const fs::path& errors) {
+  std::vector<char*> words = {const_cast<char*>(VITREL_PROGRAM)};
+  for (const std::string& argument : arguments)
+    words.push_back(const_cast<char*>(argument.c_str()));
+  words.push_back(nullptr);
+  const pid_t pid = fork();
+  if (pid == 0) {
+    redirect(output, STDOUT_FILENO);
+    redirect(errors, STDERR_FILENO);
+    if (chdir(folder.c_str()) == 0) execv(words[0], words.data());
+    _exit(127);
+  }
+  return pid;
+}
+
+int exit_code(int status) {
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+using Bytes = std::vector<double>;
+
+void collect(const h5::Group& group, const std::string& path,
+             std::map<std::string, Bytes>& datasets) {
+  for (const std::string& name : group.members()) {
+    const std::string full = path + "/" + name;
+    if (full == "/parameters") continue;
+    if (group.has_group(name))
+      collect(group.group(name), full, datasets);
+    else
+      datasets[full] = group.dataset(name).read<double>();
+  }
+}
+
+std::map<std::string, Bytes> all_datasets(const fs::path& file) {
+  std::map<std::string, Bytes> datasets;
+  collect(h5::File::open(file, h5::Access::read).root(), "", datasets);
+  return datasets;
+}
+
+bool same_bits(const Bytes& x, const Bytes& y) {
+  return x.size() == y.size() && std::memcmp(x.data(), y.data(), x.size() * sizeof(double)) == 0;
+}
+
+}  // namespace
+
+Outcome run_and_signal(const fs::path& folder, const std::vector<std::string>& arguments,
+                       std::chrono::milliseconds delay, int signal) {
+  const fs::path output = folder / "standard_output", errors = folder / "standard_error";
+  const pid_t pid = start(folder, arguments, output, errors);
+  const auto end = std::chrono::steady_clock::now() + delay;
+  int status = 0;
+  bool ended = false;
+  while (!(ended = waitpid(pid, &status, WNOHANG) == pid) && std::chrono::steady_clock::now() < end)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  if (!ended) {
+    kill(pid, signal);
+    waitpid(pid, &status, 0);
+  }
+  return {exit_code(status), content(output), content(errors)};
+}
+
+Outcome run(const fs::path& folder, const std::vector<std::string>& arguments) {
+  const fs::path output = folder / "standard_output", errors = folder / "standard_error";
+  int status = 0;
+  waitpid(start(folder, arguments, output, errors), &status, 0);
+  return {exit_code(status), content(output), content(errors)};
+}
+
+Folder::Folder(const std::string& name)
+    : path_(fs::path(::testing::TempDir()) / ("vitrel_" + name + "_" + std::to_string(getpid()))) {
+  fs::remove_all(path_);
+  fs::create_directories(path_);
+}
+
+Folder::~Folder() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+void Folder::write(const std::string& name, const std::string& text) const {
+  std::ofstream(path_ / name) << text;
+}
+
+std::vector<std::string> differing_datasets(const fs::path& first, const fs::path& second) {
+  const auto left = all_datasets(first), right = all_datasets(second);
+  std::vector<std::string> different;
+  for (const auto& [name, values] : left) {
+    const auto other = right.find(name);
+    if (other == right.end() || !same_bits(values, other->second)) different.push_back(name);
+  }
+  for (const auto& [name, values] : right)
+    if (!left.contains(name)) different.push_back(name);
+  return different;
+}
+
+}  // namespace vitrel::testing_program

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+/// Runs the built program `vitrel` as a user would, for the end-to-end tests.
+namespace vitrel::testing_program {
+
+struct Outcome {
+  int code = 0;  ///< exit code; 128 + number if a signal ended the program
+  std::string output;
+  std::string errors;
+};
+
+/// Runs the program in `folder` to its end.
+Outcome run(const std::filesystem::path& folder, const std::vector<std::string>& arguments);
+
+/// The same, but sends `signal` after `delay` unless the program has ended before.
+Outcome run_and_signal(const std::filesystem::path& folder,
+                       const std::vector<std::string>& arguments, std::chrono::milliseconds delay,
+                       int signal);
+
+/// An empty folder of this name below the test's temporary folder, removed with everything in it at the
+/// end of the scope.
+class Folder {
+ public:
+  explicit Folder(const std::string& name);
+  ~Folder();
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+  void write(const std::string& name, const std::string& text) const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// The names of all datasets of an HDF5 file outside /parameters whose shapes or bits differ from those of
+/// another file, or which only one of them has.
+std::vector<std::string> differing_datasets(const std::filesystem::path& first,
+                                            const std::filesystem::path& second);
+
+}  // namespace vitrel::testing_program

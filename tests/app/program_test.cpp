@@ -1,0 +1,278 @@
+// The program from outside: what it prints, writes and returns.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "core/io/h5md.h"
+#include "tests/app/program.h"
+
+namespace vitrel {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing_program::Folder;
+using testing_program::Outcome;
+using testing_program::run;
+using Json = nlohmann::json;
+
+const std::string small_system =
+    "[system]\nparticles = 30\n[dynamics]\nequilibration = 1\nduration = 10\n"
+    "[output]\nsamples = { spacing = \"linear\", interval = 0.5 }\n";
+
+/// One message on standard error, that exit code, and nothing on standard output.
+void expect_refusal(const Outcome& outcome, int code, const std::string& part) {
+  EXPECT_EQ(outcome.code, code);
+  EXPECT_THAT(outcome.errors, HasSubstr(part));
+  EXPECT_EQ(outcome.output, "");
+  const auto last_line = outcome.errors.rfind("vitrel");
+  EXPECT_EQ(outcome.errors.find('\n', last_line), outcome.errors.size() - 1) << outcome.errors;
+}
+
+void expect_keys(const Json& summary, const std::vector<std::string>& keys) {
+  for (const std::string& key : keys) EXPECT_TRUE(summary.contains(key)) << key;
+}
+
+TEST(Program, PrepareRunCheckAnalyzeAndReport) {
+  const Folder folder("whole_way");
+  folder.write("p.toml", small_system);
+  const Outcome prepared =
+      run(folder.path(), {"prepare", "p.toml", "-o", "state.h5", "--json", "-q"});
+  ASSERT_EQ(prepared.code, 0) << prepared.errors;
+  const Json preparation = Json::parse(prepared.output);
+  expect_keys(preparation,
+              {"packing_fraction", "wall_seconds", "trial_moves", "trial_moves_per_second",
+               "acceptance_translation", "acceptance_rotation", "nematic_order", "overlaps"});
+  EXPECT_NEAR(preparation["packing_fraction"], 0.5, 1e-12);
+  EXPECT_EQ(preparation["overlaps"], 0);
+
+  const Outcome ran =
+      run(folder.path(), {"run", "p.toml", "-o", "run.h5", "--from", "state.h5", "--json", "-q"});
+  ASSERT_EQ(ran.code, 0) << ran.errors;
+  const Json summary = Json::parse(ran.output);
+  expect_keys(summary,
+              {"collisions", "simulated_time", "wall_seconds", "collisions_per_second",
+               "predictions_per_collision", "correction_moves", "energy_drift", "packing_fraction",
+               "compressibility", "compressibility_error", "overlaps"});
+  EXPECT_EQ(summary["simulated_time"], 11);
+  EXPECT_EQ(summary["frames"], 21);
+  EXPECT_EQ(summary["correction_moves"], 0);
+  EXPECT_LE(summary["energy_drift"], 1e-12);
+  EXPECT_GT(summary["collisions"], 100);
+
+  const Outcome checked = run(folder.path(), {"check", "run.h5", "--json", "-q"});
+  ASSERT_EQ(checked.code, 0) << checked.errors;
+  const Json check = Json::parse(checked.output);
+  EXPECT_EQ(check["frames"], 21);
+  EXPECT_EQ(check["overlaps"], 0);
+  EXPECT_GT(check["smallest_gap"], 0);
+
+  EXPECT_EQ(run(folder.path(), {"analyze", "run.h5", "-o", "results.h5", "-q"}).code, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder / "results.h5"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "results_displacements_all.csv"));
+  EXPECT_EQ(run(folder.path(), {"report", "run.h5", "-o", "page.html", "-q"}).code, 0);
+  EXPECT_GT(std::filesystem::file_size(folder / "page.html"), 10'000u);
+}
+
+TEST(Program, ACompleteRunIsLeftAlone) {
+  const Folder folder("complete");
+  folder.write("p.toml", small_system);
+  ASSERT_EQ(run(folder.path(), {"run", "p.toml", "-o", "run.h5", "-q"}).code, 0);
+  const auto written = std::filesystem::last_write_time(folder / "run.h5");
+  const Outcome again = run(folder.path(), {"run", "p.toml", "-o", "run.h5"});
+  EXPECT_EQ(again.code, 0);
+  EXPECT_THAT(again.errors, HasSubstr("complete already"));
+  EXPECT_EQ(std::filesystem::last_write_time(folder / "run.h5"), written);
+}
+
+TEST(Program, ARunIsNotContinuedWithOtherParameters) {
+  const Folder folder("other_parameters");
+  folder.write("p.toml", small_system);
+  ASSERT_EQ(run(folder.path(), {"run", "p.toml", "-o", "run.h5", "-q"}).code, 0);
+  expect_refusal(run(folder.path(), {"run", "p.toml", "-o", "run.h5", "-q", "--seed", "2"}), 2,
+                 "begun with system.seed = 1, but now it is 2");
+  expect_refusal(run(folder.path(), {"prepare", "p.toml", "-o", "run.h5", "-q"}), 2,
+                 "exists already");
+  std::filesystem::remove(folder / "run.h5.checkpoint");
+  std::filesystem::remove(folder / "run.h5.checkpoint.previous");
+  expect_refusal(run(folder.path(), {"run", "p.toml", "-o", "run.h5", "-q"}), 2,
+                 "has no checkpoint");
+}
+
+TEST(Program, AStateMustFitTheParameters) {
+  const Folder folder("fit");
+  folder.write("p.toml", small_system);
+  ASSERT_EQ(run(folder.path(), {"prepare", "p.toml", "-o", "state.h5", "-q"}).code, 0);
+  const auto run_with = [&](const std::string& setting) {
+    return run(folder.path(),
+               {"run", "p.toml", "-o", "run.h5", "--from", "state.h5", "-q", "--set", setting});
+  };
+  expect_refusal(run_with("system.particles=31"), 2,
+                 "holds 30 particles, but system.particles is 31");
+  expect_refusal(run_with("system.packing_fraction=0.4"), 2, "has the packing fraction 0.5");
+  expect_refusal(run_with("dynamics.initial_velocities=keep"), 2, "is at rest");
+}
+
+TEST(Program, ADryRunWritesNothing) {
+  const Folder folder("dry_run");
+  folder.write("p.toml", small_system);
+  const Outcome outcome = run(folder.path(), {"run", "p.toml", "-o", "run.h5", "--dry-run"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_THAT(outcome.output, AllOf(HasSubstr("30 particles"), HasSubstr("21 frames")));
+  EXPECT_FALSE(std::filesystem::exists(folder / "run.h5"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "run.h5.checkpoint"));
+}
+
+TEST(Program, EveryKindOfBadParameterFileExitsWithTwo) {
+  const Folder folder("bad_files");
+  const auto refuse = [&](const std::string& text, const std::string& part) {
+    folder.write("p.toml", text);
+    expect_refusal(run(folder.path(), {"run", "p.toml", "-o", "run.h5"}), 2, part);
+  };
+  refuse("[system\n", "vitrel run: p.toml:1:8: not valid TOML");
+  refuse("[system]\nparticels = 3\n",
+         "p.toml:2:1: key 'system.particels' is unknown; did you mean "
+         "'particles'?");
+  refuse("[system]\nparticles = \"a\"\n", "p.toml:2:13: key 'system.particles' must be an integer");
+  refuse("[system]\nparticles = -3\n", "p.toml:2:13: key 'system.particles' is -3, but must lie");
+  EXPECT_FALSE(std::filesystem::exists(folder / "run.h5"));
+  folder.write("p.toml", small_system);
+  expect_refusal(
+      run(folder.path(), {"run", "p.toml", "-o", "run.h5", "--set", "dynamics.durtion=1"}), 2,
+      "--set dynamics.durtion=1: key 'dynamics.durtion' is unknown");
+}
+
+TEST(Program, MistakesOnTheCommandLineExitWithTwo) {
+  const Folder folder("command_line");
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{},
+                                             {"frobnicate"},
+                                             {"run"},
+                                             {"check", "--frames"},
+                                             {"params"},
+                                             {"params", "check"},
+                                             {"sweep", "p.toml", "-o", "s", "-j", "0"}})
+    expect_refusal(run(folder.path(), arguments), 2, "vitrel");
+  for (const char* command : {"prepare", "run", "check", "analyze", "sweep", "report", "params"}) {
+    const Outcome help = run(folder.path(), {command, "--help"});
+    EXPECT_EQ(help.code, 0);
+    EXPECT_THAT(help.output, HasSubstr("Exit codes"));
+  }
+}
+
+TEST(Program, FilesThatCannotBeReadOrWrittenExitWithThree) {
+  const Folder folder("files");
+  folder.write("p.toml", small_system);
+  expect_refusal(run(folder.path(), {"run", "absent.toml", "-o", "run.h5"}), 3, "absent.toml: ");
+  // No process, whatever its rights, can make a file in a folder that is a file.
+  for (const char* output : {"p.toml/run.h5", "absent/run.h5"}) {
+    expect_refusal(run(folder.path(), {"run", "p.toml", "-o", output, "-q"}), 3, output);
+    expect_refusal(run(folder.path(), {"prepare", "p.toml", "-o", output, "-q"}), 3, output);
+  }
+  expect_refusal(run(folder.path(), {"sweep", "p.toml", "-o", "p.toml/sweep", "-q"}), 3,
+                 "p.toml/sweep");
+  expect_refusal(run(folder.path(), {"check", "p.toml", "-q"}), 3, "p.toml: ");
+  expect_refusal(run(folder.path(), {"check", "absent.h5", "-q"}), 3, "absent.h5: ");
+}
+
+TEST(Program, ATruncatedFileExitsWithThree) {
+  const Folder folder("truncated");
+  folder.write("p.toml", small_system);
+  ASSERT_EQ(run(folder.path(), {"run", "p.toml", "-o", "run.h5", "-q"}).code, 0);
+  std::filesystem::resize_file(folder / "run.h5",
+                               std::filesystem::file_size(folder / "run.h5") / 2);
+  expect_refusal(run(folder.path(), {"check", "run.h5", "-q"}), 3, "run.h5");
+  expect_refusal(run(folder.path(), {"analyze", "run.h5", "-q"}), 3, "run.h5");
+  expect_refusal(run(folder.path(), {"report", "run.h5", "-q"}), 3, "run.h5");
+  for (const char* checkpoint : {"run.h5.checkpoint", "run.h5.checkpoint.previous"})
+    if (std::filesystem::exists(folder / checkpoint))
+      std::filesystem::resize_file(folder / checkpoint, 100);
+  expect_refusal(run(folder.path(), {"run", "p.toml", "-o", "run.h5", "-q"}), 3,
+                 "run.h5.checkpoint");
+}
+
+// Two particles on top of each other: both ways to look must see it.
+TEST(Program, AnOverlapExitsWithFourUnlessItIsToBeCorrected) {
+  const Folder folder("overlap");
+  folder.write("p.toml", small_system);
+  ASSERT_EQ(run(folder.path(), {"prepare", "p.toml", "-o", "state.h5", "-q"}).code, 0);
+  Configuration2 state = read_state(folder / "state.h5");
+  state.position[7] = state.position[3] + Vec2(0.1, 0.05);
+  state.box.wrap(state.position[7], state.image[7]);
+  write_state(folder / "overlap.h5", state, Provenance{});
+
+  const Outcome checked = run(folder.path(), {"check", "overlap.h5", "-q"});
+  EXPECT_EQ(checked.code, 4);
+  EXPECT_THAT(checked.errors, HasSubstr("particles 3 and 7"));
+  expect_refusal(run(folder.path(), {"run", "p.toml", "-o", "a.h5", "--from", "overlap.h5", "-q"}),
+                 4, "overlapping pair(s)");
+  const Outcome corrected =
+      run(folder.path(), {"run", "p.toml", "-o", "b.h5", "--from", "overlap.h5", "-q", "--json",
+                          "--set", "dynamics.on_overlap=correct"});
+  ASSERT_EQ(corrected.code, 0) << corrected.errors;
+  EXPECT_GT(Json::parse(corrected.output)["correction_moves"], 0);
+}
+
+TEST(Program, TheWallTimeBudgetStopsCleanly) {
+  const Folder folder("wall_time");
+  folder.write("p.toml", small_system);
+  const std::vector<std::string> arguments = {"run",   "p.toml",
+                                              "-o",    "run.h5",
+                                              "--set", "dynamics.duration=1e5",
+                                              "--set", "output.samples.interval=1e4"};
+  std::vector<std::string> limited = arguments;
+  limited.insert(limited.end(), {"--wall-time", "0.5"});
+  const Outcome stopped = run(folder.path(), limited);
+  EXPECT_EQ(stopped.code, 5) << stopped.errors;
+  EXPECT_THAT(stopped.errors, HasSubstr("the same command continues"));
+  const Outcome continued = run(folder.path(), limited);
+  EXPECT_EQ(continued.code, 5);
+  EXPECT_THAT(continued.errors, HasSubstr("continuing at time"));
+}
+
+TEST(Program, ASweepWorksOffItsJobsAndContinues) {
+  const Folder folder("sweep");
+  folder.write("p.toml", small_system + "[sweep.grid]\n\"system.packing_fraction\" = [0.3, 0.4]\n");
+  const std::vector<std::string> sweep = {"sweep", "p.toml", "-o", "sweep", "-j", "2", "-q"};
+  std::vector<std::string> status = {"sweep", "p.toml", "-o", "sweep", "--status", "--json"};
+  EXPECT_EQ(Json::parse(run(folder.path(), status).output)["jobs"][0]["stage"], "waiting");
+  ASSERT_EQ(run(folder.path(), sweep).code, 0);
+  const Json jobs = Json::parse(run(folder.path(), status).output)["jobs"];
+  ASSERT_EQ(jobs.size(), 2u);
+  for (const Json& job : jobs) {
+    EXPECT_EQ(job["stage"], "done");
+    EXPECT_EQ(job["run"]["overlaps"], 0);
+    EXPECT_NEAR(job["run"]["packing_fraction"], job["values"]["system.packing_fraction"], 1e-12);
+  }
+  const auto file = folder / "sweep/packing_fraction-0.3/run.h5";
+  const auto written = std::filesystem::last_write_time(file);
+  EXPECT_EQ(run(folder.path(), sweep).code, 0);
+  EXPECT_EQ(std::filesystem::last_write_time(file), written);
+  EXPECT_EQ(run(folder.path(), {"analyze", "sweep", "-q"}).code, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder / "sweep/results_runs.csv"));
+  EXPECT_EQ(run(folder.path(), {"report", "sweep", "-q"}).code, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder / "sweep/report.html"));
+  std::vector<std::string> other = sweep;
+  other.insert(other.end(), {"--set", "dynamics.duration=11"});
+  expect_refusal(run(folder.path(), other), 2,
+                 "was begun with dynamics.duration = 10.0, but now it is 11.0");
+}
+
+TEST(Program, AFailedJobDoesNotStopTheOthers) {
+  const Folder folder("failed_job");
+  // No square lattice of ellipses of aspect ratio 6 along x is as dense as 0.85.
+  folder.write("p.toml", small_system +
+                             "[[species]]\naspect_ratio = 6\n[[prepare.stage]]\n"
+                             "method = \"lattice\"\narrangement = \"square\"\n"
+                             "[sweep.grid]\n\"system.packing_fraction\" = [0.85, 0.1]\n");
+  const Outcome outcome = run(folder.path(), {"sweep", "p.toml", "-o", "sweep"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.errors, AllOf(HasSubstr("packing_fraction-0.85: failed with exit code 2"),
+                                    HasSubstr("packing_fraction-0.1: done")));
+}
+
+}  // namespace
+}  // namespace vitrel
