@@ -86,9 +86,9 @@ class CellGrid {
 
   template <class Visit>
   static bool goes_on(Visit& visit, std::size_t j, const Shift<2>& shift, const Vec2& separation) {
-    if constexpr (std::is_same_v<std::invoke_result_t<Visit&, std::size_t, const Shift<2>&,
-                                                      const Vec2&>,
-                                 bool>) {
+    if constexpr (std::is_same_v<
+                      std::invoke_result_t<Visit&, std::size_t, const Shift<2>&, const Vec2&>,
+                      bool>) {
       return visit(j, shift, separation);
     } else {
       visit(j, shift, separation);
