@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 
 #include "core/contact/perram_wertheim.h"
 #include "core/error.h"
+#include "core/random/stream.h"
 #include "mc/disjoint.h"
 
 namespace vitrel {
@@ -15,10 +17,13 @@ namespace {
 
 struct Sites {
   std::size_t columns, rows;
+
+  std::size_t count() const { return columns * rows; }
 };
 
-// Columns and rows with room for n sites, few of them empty, and cells as close as possible to the
-// proportion `cell_aspect` (height over width) in a box of the given proportion.
+// Columns and rows of cells of the proportion `cell_aspect` (height over width), with room for n
+// sites, few of them empty, and filling a box close to the given proportion: one per cent of empty
+// sites is worth as much as sides that are wrong by a factor of 1.56.
 Sites choose_sites(std::size_t n, double box_aspect, double cell_aspect, bool even_rows) {
   Sites best{1, n};
   double best_cost = std::numeric_limits<double>::infinity();
@@ -28,7 +33,8 @@ Sites choose_sites(std::size_t n, double box_aspect, double cell_aspect, bool ev
     const double proportion =
         box_aspect * static_cast<double>(columns) / (static_cast<double>(rows) * cell_aspect);
     const double empty = sites / static_cast<double>(n) - 1;
-    const double cost = std::abs(std::log(proportion)) + 40 * empty;
+    const double distortion = std::log(proportion);
+    const double cost = distortion * distortion + 20 * empty;
     if (cost < best_cost) {
       best_cost = cost;
       best = {columns, rows};
@@ -37,62 +43,55 @@ Sites choose_sites(std::size_t n, double box_aspect, double cell_aspect, bool ev
   return best;
 }
 
-void put(Configuration2& configuration, std::size_t i, const Vec2& position, double angle) {
-  configuration.position[i] = position;
-  configuration.image[i] = Shift<2>::Zero();
-  configuration.box.wrap(configuration.position[i], configuration.image[i]);
-  configuration.image[i] = Shift<2>::Zero();
-  configuration.angle[i] = angle;
+// Gives the box the sides of columns × rows cells of that proportion, at the same area.
+void fit_box(Configuration2& configuration, const Sites& sites, double cell_aspect) {
+  const double area = configuration.box.volume();
+  const double aspect =
+      static_cast<double>(sites.rows) * cell_aspect / static_cast<double>(sites.columns);
+  const double width = std::sqrt(area / aspect);
+  configuration.box = PeriodicBox<2>(Vec2(width, area / width));
 }
 
-void place_square(Configuration2& configuration, double angle) {
-  const Vec2 lengths = configuration.box.lengths();
-  const Sites sites = choose_sites(configuration.size(), lengths.y() / lengths.x(), 1.0, false);
-  const Vec2 cell(lengths.x() / static_cast<double>(sites.columns),
-                  lengths.y() / static_cast<double>(sites.rows));
+// Site of particle i; every other row is moved by `stagger` of a cell to either side.
+Vec2 site_position(const Configuration2& configuration, const Sites& sites, std::size_t i,
+                   double stagger) {
+  const std::size_t site = i * sites.count() / configuration.size();
+  const std::size_t row = site / sites.columns;
+  const double column = static_cast<double>(site % sites.columns) + 0.5;
+  const Vec2 share((column + (row % 2 ? stagger : -stagger)) / static_cast<double>(sites.columns),
+                   (static_cast<double>(row) + 0.5) / static_cast<double>(sites.rows));
+  return (share - Vec2(0.5, 0.5)).cwiseProduct(configuration.box.lengths());
+}
+
+Sites place(Configuration2& configuration, double cell_aspect, bool staggered) {
+  const Vec2 given = configuration.box.lengths();
+  const Sites sites =
+      choose_sites(configuration.size(), given.y() / given.x(), cell_aspect, staggered);
+  fit_box(configuration, sites, cell_aspect);
   for (std::size_t i = 0; i < configuration.size(); ++i) {
-    const Vec2 site(static_cast<double>(i % sites.columns) + 0.5,
-                    static_cast<double>(i / sites.columns) + 0.5);
-    put(configuration, i, site.cwiseProduct(cell) - 0.5 * lengths, angle);
+    configuration.position[i] = site_position(configuration, sites, i, staggered ? 0.25 : 0);
+    configuration.image[i] = Shift<2>::Zero();
   }
+  return sites;
 }
 
-void place_triangular(Configuration2& configuration) {
+double stretched_cell_aspect(const Configuration2& configuration) {
   double a = 0, b = 0;
   for (const Ellipse& shape : configuration.shape) {
     a = std::max(a, shape.a);
     b = std::max(b, shape.b);
   }
-  const double cell_aspect = 0.5 * std::numbers::sqrt3 * b / a;
-  const Vec2 given = configuration.box.lengths();
-  const Sites sites = choose_sites(configuration.size(), given.y() / given.x(), cell_aspect, true);
-  const double columns = static_cast<double>(sites.columns);
-  const double rows = static_cast<double>(sites.rows);
-  // Same area, sides in the proportion of the lattice.
-  const double aspect = rows * cell_aspect / columns;
-  const double width = std::sqrt(configuration.box.volume() / aspect);
-  configuration.box = PeriodicBox<2>(Vec2(width, configuration.box.volume() / width));
-  const Vec2 lengths = configuration.box.lengths();
-  for (std::size_t i = 0; i < configuration.size(); ++i) {
-    const std::size_t row = i / sites.columns;
-    const Vec2 site(static_cast<double>(i % sites.columns) + (row % 2 ? 0.75 : 0.25),
-                    static_cast<double>(row) + 0.5);
-    put(configuration, i,
-        site.cwiseQuotient(Vec2(columns, rows)).cwiseProduct(lengths) - 0.5 * lengths, 0);
-  }
+  return 0.5 * std::numbers::sqrt3 * b / a;
 }
 
-}  // namespace
+void set_angles(Configuration2& configuration, const LatticeOptions& options, std::uint64_t seed) {
+  for (std::size_t i = 0; i < configuration.size(); ++i)
+    configuration.angle[i] =
+        options.random_angles ? Stream(seed, Purpose::placement, 0, i).uniform(0, std::numbers::pi)
+                              : options.angle;
+}
 
-void place_on_lattice(Configuration2& configuration, const LatticeOptions& options) {
-  if (options.arrangement == Arrangement::square) {
-    place_square(configuration, options.angle);
-  } else {
-    if (options.angle != 0)
-      throw UserError("a triangular lattice is stretched along x: angle must be 0, not " +
-                      std::to_string(options.angle));
-    place_triangular(configuration);
-  }
+void refuse_overlaps(const Configuration2& configuration) {
   const auto overlap = find_overlap(configuration);
   if (!overlap) return;
   const double now = packing_fraction(configuration);
@@ -101,6 +100,23 @@ void place_on_lattice(Configuration2& configuration, const LatticeOptions& optio
                   " and " + std::to_string(overlap->second) + " overlap at a packing fraction of " +
                   std::to_string(now) + "; it reaches " + std::to_string(now / (shrink * shrink)) +
                   ", beyond that insert and swell");
+}
+
+}  // namespace
+
+StageReport place_on_lattice(Configuration2& configuration, const LatticeOptions& options,
+                             std::uint64_t seed) {
+  const bool triangular = options.arrangement == Arrangement::triangular;
+  if (triangular && (options.angle != 0 || options.random_angles))
+    throw UserError("a triangular lattice is stretched along x: angle must be 0, not " +
+                    (options.random_angles ? "random" : std::to_string(options.angle)));
+  const Sites sites = triangular ? place(configuration, stretched_cell_aspect(configuration), true)
+                                 : place(configuration, 1, false);
+  set_angles(configuration, options, seed);
+  refuse_overlaps(configuration);
+  return {StageEnd::reached,
+          std::to_string(sites.columns) + " columns × " + std::to_string(sites.rows) + " rows, " +
+              std::to_string(sites.count() - configuration.size()) + " sites empty"};
 }
 
 double densest_square_lattice(const Ellipse& shape, double angle) {

@@ -55,6 +55,33 @@ TEST(SquareLattice, SaysHowDenseItCanBe) {
   }
 }
 
+// 101 is a prime: a chain of 101 would be exact, but 8 × 13 sites with 3 of them empty make a box
+// that is fit for use; 150 = 10 × 15 wastes nothing. Cells stay square, the area is kept.
+TEST(SquareLattice, ChoosesAFitBoxForAnyNumber) {
+  Configuration2 prime = equal_particles(101, 2, 0.35);
+  const double area = prime.box.volume();
+  EXPECT_NE(place_on_lattice(prime, {}).reason.find("3 sites empty"), std::string::npos);
+  EXPECT_NEAR(prime.box.volume(), area, 1e-12 * area);
+  EXPECT_TRUE(exact_check(prime).clean());
+  Configuration2 c = equal_particles(150, 2, 0.35);
+  EXPECT_NE(place_on_lattice(c, {}).reason.find(" 0 sites empty"), std::string::npos);
+  const Vec2 lengths = c.box.lengths();
+  EXPECT_NEAR(lengths.maxCoeff() / lengths.minCoeff(), 1.5, 1e-12);
+}
+
+// Circles of radius a fit the cells while φ ≤ π/(4κ), whatever the angles.
+TEST(SquareLattice, RandomAnglesWhileTheyAreDisjoint) {
+  Configuration2 c = equal_particles(400, 2, 0.99 * pi / 8);
+  place_on_lattice(c, {Arrangement::square, 0, true}, 5);
+  EXPECT_TRUE(exact_check(c).clean());
+  // Mean of cos 2θ of 400 uniform angles: standard error 1/√800; 4 of them, false alarm 6e-5.
+  double order = 0;
+  for (double angle : c.angle) order += std::cos(2 * angle) / 400;
+  EXPECT_LT(std::abs(order), 4 / std::sqrt(800.0));
+  Configuration2 dense = equal_particles(400, 2, 0.6);
+  EXPECT_THROW(place_on_lattice(dense, {Arrangement::square, 0, true}, 5), UserError);
+}
+
 class TriangularLattice : public testing::TestWithParam<double> {};
 
 // Just below π/√12 at any aspect ratio, and never beyond.

@@ -41,6 +41,41 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Goal{{of_aspect_ratio(2)}, 0.80}, Goal{{of_aspect_ratio(6)}, 0.75},
                     Goal{{Ellipse{1, 1}, Ellipse{1.4, 1.4}, of_aspect_ratio(3)}, 0.75}));
 
+// 0.9069 is the densest packing of disks and ellipses alike: nothing gets beyond it, and a random
+// start of so few sweeps stays well below.
+TEST(SwellingLimits, KnowsWhenTheParticlesAreJammed) {
+  Configuration2 c = inserted(60, {of_aspect_ratio(1.5)});
+  std::uint64_t sweep = 0;
+  const StageReport report = swell(c, {0.95, 1000000}, 1, sweep, {});
+  EXPECT_EQ(report.end, StageEnd::stuck);
+  EXPECT_NE(report.reason.find("jammed"), std::string::npos) << report.reason;
+  EXPECT_LT(packing_fraction(c), 0.9069);
+  EXPECT_GT(packing_fraction(c), 0.80);
+  EXPECT_TRUE(exact_check(c).clean());
+}
+
+// In a box barely longer than a particle, where it meets its own images.
+TEST(SwellingLimits, MindsImagesInATinyBox) {
+  Configuration2 c = inserted(3, {of_aspect_ratio(4)});
+  std::uint64_t sweep = 0;
+  const StageReport report = swell(c, {0.5, 1000000}, 1, sweep, {});
+  EXPECT_EQ(report.end, StageEnd::reached) << report.reason;
+  EXPECT_TRUE(exact_check(c).clean());
+}
+
+// A stop leaves a hard state of unchanged particles, from which another call goes on.
+TEST(SwellingLimits, GoesOnAfterAStop) {
+  Configuration2 c = inserted(100, {of_aspect_ratio(3)});
+  std::uint64_t sweep = 0;
+  int questions = 0;
+  const Budget budget{[&] { return ++questions > 25; }, {}};
+  EXPECT_EQ(swell(c, {0.7, 1000000}, 1, sweep, budget).end, StageEnd::stopped);
+  EXPECT_TRUE(exact_check(c).clean());
+  EXPECT_EQ(c.shape[0].a, of_aspect_ratio(3).a);
+  EXPECT_EQ(swell(c, {0.7, 1000000}, 1, sweep, {}).end, StageEnd::reached);
+  EXPECT_TRUE(exact_check(c).clean());
+}
+
 TEST(SwellingLimits, SaysHowFarItGot) {
   Configuration2 c = inserted(100, {of_aspect_ratio(2)});
   std::uint64_t sweep = 0;
