@@ -133,15 +133,4 @@ StageReport run(RunState& state, const DynamicsOptions& options, const RunPlan& 
   return Runner(state, options, plan, budget).run();
 }
 
-double kinetic_temperature(const Configuration2& configuration) {
-  const double n = static_cast<double>(configuration.size());
-  const double freedoms = 2 * n - 2 + static_cast<double>(rotor_count(configuration));
-  return 2 * total_energy(configuration) / freedoms;
-}
-
-double compressibility(const Configuration2& configuration, double virial, double time) {
-  const double n = static_cast<double>(configuration.size());
-  return 1 + virial / (2 * n * kinetic_temperature(configuration) * time);
-}
-
 }  // namespace vitrel

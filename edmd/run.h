@@ -52,9 +52,4 @@ struct RunPlan {
 StageReport run(RunState& state, const DynamicsOptions& options, const RunPlan& plan,
                 const Budget& budget);
 
-/// Compressibility factor Z = βP/ρ = 1 + Σ J n·d/(2 N kT t) over the sampled part of a run, with kT
-/// from the conserved or redrawn energy: kT = 2E/(degrees of freedom), 2N − 2 + N_rot of them.
-double compressibility(const Configuration2& configuration, double virial, double time);
-double kinetic_temperature(const Configuration2& configuration);
-
 }  // namespace vitrel

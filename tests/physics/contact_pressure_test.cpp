@@ -54,7 +54,7 @@ Estimate event_driven(Configuration2 c, int blocks, double window) {
   run(state, {}, plan, {});
   std::vector<double> values;
   for (int k = 0; k < blocks; ++k)
-    values.push_back(compressibility(
+    values.push_back(virial_compressibility(
         recorder.frames[k], recorder.tallies[k + 1].virial - recorder.tallies[k].virial, window));
   return estimate(values);
 }

@@ -35,7 +35,8 @@ Rates measure(Configuration2 configuration, double relaxation, double window, in
     const Tally& before = recorder.tallies[k];
     const Tally& after = recorder.tallies[k + 1];
     rates.push_back(2.0 * static_cast<double>(after.collisions - before.collisions) / n / window);
-    factors.push_back(compressibility(recorder.frames[k], after.virial - before.virial, window));
+    factors.push_back(
+        virial_compressibility(recorder.frames[k], after.virial - before.virial, window));
   }
   const double freedoms = 2 * n - 2 + static_cast<double>(rotor_count(configuration));
   return {estimate(rates), estimate(factors), freedoms, kinetic_temperature(configuration)};

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <span>
 
+#include "core/state/configuration.h"
+
 /// Plain statistics for tests, independent of the analysis library that some of them judge.
 namespace vitrel {
 
@@ -19,6 +21,21 @@ inline Estimate estimate(std::span<const double> values) {
   const double mean = sum / n;
   for (double value : values) square += (value - mean) * (value - mean);
   return {mean, std::sqrt(square / (n - 1) / n)};
+}
+
+/// kT = 2E/f at zero net momentum, f = 2N − 2 + N_rot degrees of freedom.
+inline double kinetic_temperature(const Configuration2& configuration) {
+  const Mechanics sums = mechanics(configuration);
+  const double freedoms = 2 * static_cast<double>(configuration.size()) - 2 +
+                          static_cast<double>(rotor_count(configuration));
+  return 2 * (sums.translational_energy + sums.rotational_energy) / freedoms;
+}
+
+/// Z = βP/ρ = 1 + Σ J n·d/(2 N kT t) from the virial of the collisions in a time t.
+inline double virial_compressibility(const Configuration2& configuration, double virial,
+                                     double time) {
+  const double n = static_cast<double>(configuration.size());
+  return 1 + virial / (2 * n * kinetic_temperature(configuration) * time);
 }
 
 }  // namespace vitrel
