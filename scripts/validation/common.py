@@ -1,0 +1,46 @@
+"""What the validations share."""
+
+import json
+import pathlib
+import subprocess
+import tempfile
+
+HERE = pathlib.Path(__file__).resolve().parent
+PARAMS = HERE.parents[1] / "params"
+
+
+class Failure(Exception):
+    """What was measured contradicts what is claimed, or could not be measured."""
+
+
+def expect(condition, message):
+    if not condition:
+        raise Failure(message)
+
+
+def output_of(command, **options):
+    """Standard output of a command that must succeed."""
+    done = subprocess.run(command, capture_output=True, text=True, check=False, **options)
+    words = " ".join(map(str, command))
+    expect(done.returncode == 0, f"{words}: exit code {done.returncode}\n{done.stdout}{done.stderr}")
+    return done.stdout
+
+
+def summary_of(build, command, *arguments):
+    """The JSON summary of a command of the program."""
+    return json.loads(output_of([build / "app/vitrel", command, *arguments, "--json"]))
+
+
+def run_and_check(build, parameters, *overrides, frames=()):
+    """The summaries of a run and of its exact check: of all frames, or with ("--last",) of the last."""
+    settings = [word for override in overrides for word in ("--set", override)]
+    with tempfile.TemporaryDirectory() as folder:
+        file = pathlib.Path(folder, "run.h5")
+        run = summary_of(build, "run", parameters, "-o", file, *settings)
+        return run, summary_of(build, "check", file, *frames)
+
+
+def table(head, rows):
+    """A Markdown table."""
+    lines = [head, ["---"] * len(head), *rows]
+    return "\n".join("| " + " | ".join(map(str, line)) + " |" for line in lines)
