@@ -2,9 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "app/workflow/stop.h"
+#include "core/error.h"
 
 namespace vitrel {
 
@@ -41,7 +45,8 @@ void print_summary(const Arguments& arguments, const nlohmann::ordered_json& sum
                                      : value.dump());
     }
   }
-  std::fflush(stdout);
+  if (std::fflush(stdout) != 0)
+    throw FileError(fmt::format("standard output: cannot be written: {}", std::strerror(errno)));
 }
 
 void remark(const Arguments& arguments, const std::string& line) {

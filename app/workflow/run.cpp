@@ -158,8 +158,8 @@ class Runner {
   void advance(bool continues) {
     RunState& state = stored_.state;
     if (continues) say_(fmt::format("continuing at time {:.6g}", state.configuration.time));
-    say_(make_engine(state.configuration, dynamics_options(request_.parameters).engine)
-             ->description());
+    const EngineOptions engine = dynamics_options(request_.parameters).engine;
+    say_("run of " + make_engine(state.configuration, engine)->description());
     TrajectoryWriter writer = open_trajectory();
     TrajectoryObserver observer(writer, measure_run);
     const double wall_before = stored_.wall_seconds;
