@@ -21,7 +21,7 @@ namespace vitrel {
 class Sampler {
  public:
   /// The configuration must be hard, with wrapped positions, and outlive the sampler; nobody else
-  /// may move particles meanwhile.
+  /// may move particles meanwhile, nor change shapes but to smaller ones.
   Sampler(Configuration2& configuration, std::uint64_t seed, std::uint64_t first_sweep = 0);
 
   void sweep();

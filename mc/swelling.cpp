@@ -14,7 +14,7 @@ namespace vitrel {
 
 namespace {
 
-/// Sweeps in which all particles must find room, and sweeps that count as fast.
+/// Sweeps in which all particles should find room, and sweeps that count as fast.
 constexpr std::uint64_t patience = 40, fast = 12;
 /// Limits of the growth g − 1 in one round.
 constexpr double smallest_growth = 1e-9, largest_growth = 0.02;
@@ -87,44 +87,59 @@ class Swelling {
     return report_;
   }
 
-  // One round with the present growth; adapts the growth of the next.
+  // One round, from the present growth; adapts the growth of the next.
   void round(const Budget& budget) {
     const Configuration2 before = configuration_;
     const double needed =
         std::sqrt(options_.packing_fraction / packing_fraction(configuration_)) - 1;
-    const double growth = std::min(growth_, needed);
+    double growth = std::min(growth_, needed);
     const std::uint64_t began = sweep_;
-    const bool all = enlarge_all(1 + growth, budget);
+    const bool all = enlarge_all(growth, budget);
     configuration_.shape = shapes_;
-    if (all) {
-      growth == needed ? finish() : scale_box(configuration_, 1 / (1 + growth));
-      if (sweep_ - began <= fast) growth_ = std::min(largest_growth, 1.5 * growth_);
-    } else {
+    if (!all)
       shrink_to_closest_pair();
-      growth_ = std::max(smallest_growth, 0.5 * growth_);
-    }
+    else if (growth == needed)
+      finish();
+    else
+      scale_box(configuration_, 1 / (1 + growth));
+    growth_ = sweep_ - began <= fast ? std::min(largest_growth, 1.5 * growth_)
+                                     : std::max(smallest_growth, growth);
     // Rounding alone could cost a pair its margin; then the round does not count.
     if (find_overlap(configuration_)) configuration_ = before;
   }
 
-  // Sweeps, and between them enlarges one particle after another; false if some found no room.
-  bool enlarge_all(double factor, const Budget& budget) {
+  // Sweeps, and between them enlarges one particle after another. The growth is halved for all as
+  // often as some find no room; false if that does not help.
+  bool enlarge_all(double& growth, const Budget& budget) {
     Sampler sampler(configuration_, seed_, sweep_);
     sampler.set_steps(translation_, rotation_);
     std::vector<std::size_t> waiting(configuration_.size());
     std::iota(waiting.begin(), waiting.end(), 0);
-    for (std::uint64_t k = 0; k < patience && !waiting.empty() && !used_up(); ++k) {
-      if (budget.stop_requested()) break;
-      sampler.sweep();
-      sampler.tune();
-      sweep_ = sampler.next_sweep();
-      std::erase_if(
-          waiting, [&](std::size_t i) { return sampler.reshape(i, enlarged(shapes_[i], factor)); });
+    while (enlarge_waiting(sampler, waiting, growth, budget) && growth > smallest_growth) {
+      growth *= 0.5;
+      for (std::size_t i = 0; i < shapes_.size(); ++i)
+        if (configuration_.shape[i].a != shapes_[i].a)
+          configuration_.shape[i] = enlarged(shapes_[i], 1 + growth);
     }
     translation_ = sampler.translation_step();
     rotation_ = sampler.rotation_step();
     add_counts(report_, sampler.counts());
     return waiting.empty();
+  }
+
+  // True if patience ended with particles still waiting.
+  bool enlarge_waiting(Sampler& sampler, std::vector<std::size_t>& waiting, double growth,
+                       const Budget& budget) {
+    for (std::uint64_t k = 0; k < patience && !waiting.empty(); ++k) {
+      if (used_up() || budget.stop_requested()) return false;
+      sampler.sweep();
+      sampler.tune();
+      sweep_ = sampler.next_sweep();
+      std::erase_if(waiting, [&](std::size_t i) {
+        return sampler.reshape(i, enlarged(shapes_[i], 1 + growth));
+      });
+    }
+    return !waiting.empty();
   }
 
   void shrink_to_closest_pair() {

@@ -11,15 +11,13 @@ namespace vitrel {
 ///
 /// Steps of one round, to enlarge all particles by a factor g:
 ///   1. A sweep of trial moves, their step sizes adapted to the density.
-///   2. Every particle that is not yet enlarged is enlarged alone, by g, if there is room for it
-///   now.
-///   3. Repeat until all are enlarged. Then all lengths are divided by g: since the reference
-///   species
-///      has a b = 1, the particles have their old size again, and the box is smaller.
-/// If some find no room in `patience` sweeps, all go back to their old size, the box shrinks as far
-/// as the closest pair allows (shrink_to_contact), and the next round is less greedy; after a fast
-/// round the next is greedier. Since no particle waits for the closest pair of the whole system,
-/// the sweeps needed hardly depend on N. The wanted packing fraction is met to rounding.
+///   2. Every particle that is not yet enlarged is enlarged alone, by g, if there is room for it.
+///   3. Repeat until all are enlarged; if some find no room in 40 sweeps, g − 1 is halved for all.
+///   4. All lengths are divided by g: since the reference species has a b = 1, the particles have
+///      their old size again, and the box is smaller. A fast round makes the next one greedier.
+/// No particle waits for the closest pair of the whole system, so the sweeps needed grow slowly with
+/// N. A round that ends without success (jammed, or stopped) shrinks the box as far as the closest
+/// pair allows (shrink_to_contact). The wanted packing fraction is met to rounding.
 struct SwellingOptions {
   double packing_fraction = 0.7;   ///< to be reached, exactly
   std::uint64_t sweeps = 1000000;  ///< at most
