@@ -213,7 +213,7 @@ Displacements displacements(Trajectory& trajectory, const DisplacementOptions& o
     const std::size_t end = std::min(begin + batch, first.size());
     const std::vector<Track> tracks = read_tracks(trajectory, begin, end);
     for (std::size_t i = begin; i < end; ++i) {
-      std::vector<Group*> members{&groups[0]};
+      std::vector<Group*> members{&groups.front()};
       if (groups.size() > 1) members.push_back(&groups[1 + first.species[i]]);
       add_track(tracks[i - begin], !first.shape[i].is_round(), lags, members);
     }

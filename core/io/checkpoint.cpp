@@ -72,7 +72,8 @@ template <class T, class Item>
 void write_rows(h5::Group& group, const std::string& name, const std::vector<Item>& items) {
   constexpr std::size_t columns = sizeof(Item) / sizeof(T);
   std::vector<T> values(items.size() * columns);
-  if (!items.empty()) std::memcpy(values.data(), items.data(), items.size() * sizeof(Item));
+  if (!items.empty())
+    std::memcpy(values.data(), static_cast<const void*>(items.data()), items.size() * sizeof(Item));
   group.create_array<T>(name, {items.size(), columns}, values);
 }
 

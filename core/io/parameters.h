@@ -122,7 +122,7 @@ class FieldVisitor {
 
 /// An impossible value, as `validate` finds it: the dotted key, and "is …, but must be …".
 struct BadValue : UserError {
-  BadValue(std::string dotted_key, std::string complaint)
+  BadValue(std::string dotted_key, const std::string& complaint)
       : UserError("key '" + dotted_key + "' " + complaint), key(std::move(dotted_key)) {}
   std::string key;
 };
