@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <ostream>
+#include <vector>
+
 #include "core/state/check.h"
 #include "mc/insertion.h"
 #include "tests/support/scenes.h"
@@ -21,6 +24,11 @@ struct Goal {
   std::vector<Ellipse> shapes;
   double packing_fraction;
 };
+void PrintTo(const Goal& goal, std::ostream* out) {
+  *out << "aspect ratios ";
+  for (const Ellipse& shape : goal.shapes) *out << shape.a / shape.b << ' ';
+  *out << "to " << goal.packing_fraction;
+}
 
 class Swelling : public testing::TestWithParam<Goal> {};
 

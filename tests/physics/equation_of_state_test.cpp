@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <ostream>
 #include <vector>
 
 #include "edmd/run.h"
@@ -60,6 +61,9 @@ struct DiskCase {
   int side;
   double packing_fraction, compressibility;
 };
+void PrintTo(const DiskCase& at, std::ostream* out) {
+  *out << at.side * at.side << " disks at " << at.packing_fraction;
+}
 
 class HardDisks : public testing::TestWithParam<DiskCase> {};
 
@@ -100,6 +104,9 @@ TEST(HardEllipses, CompressibilityFromTheVirial) {
 struct DiluteCase {
   double aspect_ratio, rate_over_density;
 };
+void PrintTo(const DiluteCase& at, std::ostream* out) {
+  *out << "aspect ratio " << at.aspect_ratio;
+}
 
 class DiluteEllipses : public testing::TestWithParam<DiluteCase> {};
 

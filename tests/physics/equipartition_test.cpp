@@ -51,7 +51,11 @@ TEST_P(WrongSplit, RelaxesToEquipartition) {
 
 INSTANTIATE_TEST_SUITE_P(Thesis47, WrongSplit,
                          testing::Values(InitialVelocities::translation,
-                                         InitialVelocities::rotation));
+                                         InitialVelocities::rotation),
+                         [](const auto& at) {
+                           return at.param == InitialVelocities::rotation ? "rotation"
+                                                                          : "translation";
+                         });
 
 /// Kolmogorov–Smirnov distance of a sample to the standard normal distribution, times √n.
 double kolmogorov_smirnov(std::vector<double> sample) {
