@@ -167,13 +167,17 @@ class Runner {
     RunPlan plan{sample_times(request_.parameters), request_.parameters.dynamics.duration,
                  &observer, [&](const RunState&) {
                    stored_.wall_seconds = wall_before + seconds_since(start);
-                   if (seconds_since(saved_) >= request_.parameters.output.checkpoint_interval)
-                     save();
+                   if (seconds_since(saved_) < request_.parameters.output.checkpoint_interval)
+                     return;
+                   // The disk has the frames before a checkpoint counts them.
+                   writer.synchronize();
+                   save();
                  }};
     const StageReport report = run_or_keep_failed_state(plan);
     stored_.wall_seconds = wall_before + seconds_since(start);
     stored_.complete = report.end == StageEnd::reached;
     writer.record_wall_seconds(stored_.wall_seconds);
+    writer.synchronize();
     writer.close();
     save();
   }
