@@ -28,7 +28,7 @@ class Validate(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         validate.PAGE = pathlib.Path(folder.name, "validation.md")
-        validate.circumstances = lambda build, seconds: "Measured."
+        validate.circumstances = lambda seconds: "Measured."
 
     def run_validation(self, title, measure):
         module = types.ModuleType("validation.sample")
