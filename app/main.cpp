@@ -48,7 +48,7 @@ class CommandLine {
   std::string command() const { return app_.get_subcommands().front()->get_name(); }
 
  private:
-  CLI::App& add(const std::string& name, const std::string& sentence, Chosen command) {
+  CLI::App& add(const std::string& name, const std::string& sentence, const Chosen& command) {
     CLI::App& sub = *app_.add_subcommand(name, sentence);
     sub.callback([this, command] { chosen_ = command; });
     sub.footer(

@@ -45,6 +45,10 @@ void print_summary(const Arguments& arguments, const nlohmann::ordered_json& sum
                                      : value.dump());
     }
   }
+  flush_output();
+}
+
+void flush_output() {
   if (std::fflush(stdout) != 0)
     throw FileError(fmt::format("standard output: cannot be written: {}", std::strerror(errno)));
 }

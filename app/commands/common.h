@@ -36,6 +36,9 @@ ParameterSource parameter_source(const Arguments& arguments);
 /// To standard output: as JSON if asked for, else as lines "key  value" unless quiet.
 void print_summary(const Arguments& arguments, const nlohmann::ordered_json& summary);
 
+/// Ends what was printed to standard output; throws FileError if it could not be written.
+void flush_output();
+
 /// One line on standard error, unless quiet.
 void remark(const Arguments& arguments, const std::string& line);
 

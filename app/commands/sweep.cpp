@@ -15,7 +15,7 @@ void print_table(const Arguments& arguments) {
     fmt::print("{}\n", sweep_summary(jobs, arguments.output).dump(2));
   else
     fmt::print("{}", sweep_table(jobs, arguments.output));
-  std::fflush(stdout);
+  flush_output();
 }
 
 }  // namespace

@@ -41,16 +41,16 @@ struct AnalysisChoice {
 RunAnalysis analyze_run(const std::filesystem::path& file, const AnalysisChoice& choice);
 
 /// Tables of displacements (one per group), energies, compressibility, and a summary of one row.
-Results results_of(const RunAnalysis& analysis);
+Results results_of(const RunAnalysis& run);
 /// One row per run: packing fraction, compressibility, diffusion coefficients.
-Results results_of_sweep(const std::vector<RunAnalysis>& analyses);
+Results results_of_sweep(const std::vector<RunAnalysis>& runs);
 
 /// Writes the HDF5 file and beside it one CSV file per table, <name>_<table>.csv.
 void write_all(const std::filesystem::path& file, const Results& results);
 
-nlohmann::ordered_json analysis_summary(const RunAnalysis& analysis);
+nlohmann::ordered_json analysis_summary(const RunAnalysis& run);
 
 /// The report's view of these runs.
-ReportData report_data(std::vector<RunAnalysis> analyses, const std::string& title);
+ReportData report_data(std::vector<RunAnalysis> runs, const std::string& title);
 
 }  // namespace vitrel
