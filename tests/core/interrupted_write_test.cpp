@@ -27,6 +27,7 @@ bool fault_strikes() {
 
 }  // namespace
 
+// NOLINTNEXTLINE(readability-inconsistent-declaration-parameter-name): the C library's are reserved
 extern "C" ssize_t pwrite(int descriptor, const void* data, size_t size, off_t offset) {
   if (fault_strikes()) {
     if (fault == Fault::kill) {
@@ -39,6 +40,7 @@ extern "C" ssize_t pwrite(int descriptor, const void* data, size_t size, off_t o
   return syscall(SYS_pwrite64, descriptor, data, size, offset);
 }
 
+// NOLINTNEXTLINE(readability-inconsistent-declaration-parameter-name)
 extern "C" int ftruncate(int descriptor, off_t size) noexcept {
   if (fault == Fault::kill && fault_strikes()) _exit(9);
   return static_cast<int>(syscall(SYS_ftruncate, descriptor, size));

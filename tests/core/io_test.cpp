@@ -17,6 +17,7 @@
 #include "core/random/stream.h"
 
 /// HDF5 1.10 loses a few hundred bytes when it meets damaged metadata.
+// NOLINTNEXTLINE(bugprone-reserved-identifier,readability-identifier-naming): the sanitizer's name
 extern "C" const char* __lsan_default_suppressions() {
   return "leak:libhdf5";
 }
