@@ -168,7 +168,7 @@ class Swelling {
 StageReport swell(Configuration2& configuration, const SwellingOptions& options, std::uint64_t seed,
                   std::uint64_t& first_sweep, const Budget& budget) {
   Swelling swelling(configuration, options, seed, first_sweep);
-  const StageReport report = swelling.run(budget);
+  StageReport report = swelling.run(budget);
   first_sweep = swelling.next_sweep();
   return report;
 }

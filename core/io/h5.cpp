@@ -247,7 +247,7 @@ std::string read_string(Id stored, Read&& read) {
   if (H5Tis_variable_str(stored) > 0) {
     char* text = nullptr;
     read(stored, &text);
-    const std::string copy = text ? text : "";
+    std::string copy = text ? text : "";
     H5free_memory(text);
     return copy;
   }

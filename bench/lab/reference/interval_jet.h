@@ -15,6 +15,7 @@ struct Interval {
   Real low = 0, high = 0;
 
   Interval() = default;
+  // NOLINTNEXTLINE(google-explicit-constructor): a number is an interval
   Interval(Real value) : low(value), high(value) {}
   Interval(Real from, Real to) : low(from), high(to) {}
 
@@ -49,6 +50,7 @@ struct Jet {
   Interval value, first, second;
 
   Jet() = default;
+  // NOLINTNEXTLINE(google-explicit-constructor): a number is a constant function
   Jet(Real constant) : value(constant) {}
   Jet(const Interval& f, const Interval& f1, const Interval& f2)
       : value(f), first(f1), second(f2) {}
