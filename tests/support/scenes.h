@@ -30,7 +30,8 @@ Configuration2 square_lattice(int side, double packing_fraction, double angle, S
   const double length = std::sqrt(area / packing_fraction);
   c.box = PeriodicBox<2>(Vec2(length, length));
   for (std::size_t i = 0; i < c.size(); ++i) {
-    const Vec2 cell(static_cast<double>(i % side) + 0.5, static_cast<double>(i / side) + 0.5);
+    const std::size_t column = i % side, row = i / side;
+    const Vec2 cell(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
     c.position[i] = cell * length / side - Vec2(0.5 * length, 0.5 * length);
   }
   return c;
