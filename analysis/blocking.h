@@ -20,13 +20,11 @@ struct Estimate {
 ///    e_B² = variance of the block means / number of blocks. It grows with B until the blocks are
 ///    longer than the correlations, and then stays on a plateau.
 /// 2. The plateau is said to begin at the smallest B with B³ ≥ 2 n max(1, e_B/e_1)⁴: there the bias
-/// of
-///    e_B² from correlations between blocks equals its statistical scatter (n: length of the
+///    of e_B² from correlations between blocks equals its statistical scatter (n: length of the
 ///    series). Blocks shorter than `shortest_block` are passed over: for a caller who knows how
 ///    long the correlations are at least, and need not trust chance.
 /// 3. At least `fewest_blocks` blocks must be left there, else the error is NaN: the series is too
-/// short
-///    to tell. Hence no error is ever given for fewer than 32 values.
+///    short to tell. Hence no error is ever given for fewer than 32 values.
 /// 4. The error is e_B times Student's factor for (blocks − 1) degrees of freedom.
 ///
 /// A constant series has error 0. An empty one has mean NaN. Cost O(n).

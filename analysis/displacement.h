@@ -51,8 +51,7 @@ struct Displacements {
 /// 2. At every origin the square is averaged over the particles; the mean over origins is the
 /// value.
 /// 3. The error is that of this series of origins by blocking, with blocks of four lags or more; it
-/// sees
-///    correlations in time and between particles. Where the lag is too long for eight such blocks,
+///    sees correlations in time and between particles. Where the lag is too long for eight such blocks,
 ///    or with a single origin, it is that of the particles' own means over the origins, taken as
 ///    independent of each other: good far from the glass, too small by √χ_4 where motion is
 ///    cooperative. Both include Student's factor.

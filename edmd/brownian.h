@@ -6,8 +6,9 @@
 namespace vitrel {
 
 /// Which kinetic energy counts as the temperature kT = 1 once the net momentum has been removed.
-///   total:    Σ m v²/2 = N kT; the mean squared displacement of free particles then has no 1/N
-///   term relative: Σ m v²/2 = (N − 1) kT; Newtonian equipartition then is exact
+///   total:    Σ m v²/2 = N kT; the mean squared displacement of free particles then has no
+///             term in 1/N
+///   relative: Σ m v²/2 = (N − 1) kT; Newtonian equipartition then is exact
 /// The rotational energy is N_rot kT/2 in both, N_rot the number of particles that are not round.
 enum class Temperature { total, relative };
 

@@ -33,8 +33,7 @@ struct RunOutcome {
 
 /// `say` gets a line about every step. Throws
 /// - UserError if the output exists but is no run that can be continued, belongs to other
-/// parameters, or
-///   the state to start from does not fit them;
+///   parameters, or the state to start from does not fit them;
 /// - FileError; the run continues from its last checkpoint once the cause is removed;
 /// - InvariantError on an overlap or a standstill; the state is then in <output>.failed.h5.
 RunOutcome run(const RunRequest& request, const Budget& budget,

@@ -14,9 +14,11 @@
 ///
 ///   sweep/<id>/params.json      the job's values of the grid, and its id
 ///             /parameters.toml  all its parameters
-///             /state.h5 run.h5 results.h5   made by prepare, run, analyze, each in a process of
-///             its own /prepare.json run.json analyze.json log.txt   what these said /done.json
-///             written last
+///             /state.h5 run.h5 results.h5
+///                               made by prepare, run, analyze, each in a process of its own
+///             /prepare.json run.json analyze.json log.txt
+///                               what these said
+///             /done.json        written last
 ///
 /// Every step may be repeated: what is complete is left alone, a run that was cut off is continued.
 /// So the same command continues a sweep that was stopped or killed.

@@ -18,14 +18,16 @@
 /// ellipses lie in the plane z = 0, their third semi-axis is stored as 0, and the box is 1 high and
 /// not periodic in z.
 ///
-///   particles/all/position, image      wrapped, box centred at the origin; unwrapped = position +
-///   image · edges particles/all/orientation          quaternion w, x, y, z; in two dimensions (cos
-///   θ/2, 0, 0, sin θ/2) particles/all/angle                θ, unwrapped, radians
-///   particles/all/velocity, angular_velocity   if asked for
-///   particles/all/box/edges            rows are the cell vectors
-///   particles/all/species, id, mass, semiaxes  the same in all frames
-///   observables/<name>                 one number per frame
-///   parameters                         provenance
+///   particles/all/
+///     position, image             wrapped, box centred at the origin;
+///                                 unwrapped = position + image · edges
+///     orientation                 quaternion w, x, y, z; in 2-D (cos θ/2, 0, 0, sin θ/2)
+///     angle                       θ, unwrapped, radians
+///     velocity, angular_velocity  if asked for
+///     box/edges                   rows are the cell vectors
+///     species, id, mass, semiaxes the same in all frames
+///   observables/<name>            one number per frame
+///   parameters                    provenance
 ///
 /// Every {step, time} is one dataset under many names. All numbers are stored as they are in
 /// memory, so a wrapped configuration read back is the same bit by bit.
