@@ -202,7 +202,7 @@ void Simulation<B>::predict(Index i, std::optional<Index> without_entry, RunCoun
     if (touch.outcome == Outcome::none) continue;
     Event event{Kind::collision, j, particles_[j].version, neighbor.shift};
     double wait = touch.time;
-    if (touch.outcome == Outcome::unresolved) event.kind = Kind::look_again;
+    if (touch.outcome == Outcome::not_converged) event.kind = Kind::look_again;
     if (touch.outcome == Outcome::overlap)
       wait = overlap_event(i, j, other.pose.position - mine.pose.position, event);
     if (now_ + wait >= best_time) continue;

@@ -75,7 +75,7 @@ class Search {
       place(time);
       here_ = detail::gap_along(one_.body, u1_, two_.body, u2_, d_, n_);
     }
-    return {Outcome::unresolved, time, n_, Vec2::Zero(), max_steps};
+    return {Outcome::not_converged, time, n_, Vec2::Zero(), max_steps};
   }
 
  private:

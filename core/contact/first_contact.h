@@ -27,10 +27,10 @@
 namespace vitrel {
 
 enum class Outcome {
-  contact,     ///< first touch at `time`, with `normal` and `point`
-  none,        ///< no contact before the horizon
-  unresolved,  ///< no contact up to `time`; ask again from there (only after very many steps)
-  overlap,     ///< the bodies overlap at the start
+  contact,        ///< first touch at `time`, with `normal` and `point`
+  none,           ///< no contact before the horizon
+  not_converged,  ///< no contact up to `time`; ask again from there (only after very many steps)
+  overlap,        ///< the bodies overlap at the start
 };
 
 /// Times count from the start of the flights, 0; the point is in their coordinates.

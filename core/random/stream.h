@@ -12,6 +12,7 @@ enum class Purpose : std::uint64_t {
   velocities = 3,
   brownian_step = 4,
   trial_moves = 5,
+  benchmark_cases = 90,
   tests = 100,
 };
 

@@ -126,7 +126,7 @@ TEST(FirstContact, NeverLateNeverMissedAgainstAScan) {
     const Prediction touch = predict(one, two, horizon);
     ASSERT_EQ(overlapping, touch.outcome == Outcome::overlap);
     if (overlapping) continue;
-    ASSERT_NE(touch.outcome, Outcome::unresolved);
+    ASSERT_NE(touch.outcome, Outcome::not_converged);
     double until = horizon;
     if (touch.outcome == Outcome::contact) {
       ++contacts;

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "bench/lab/collision_case.h"
+#include "bench/lab/reference/first_contact.h"
+#include "core/contact/first_contact.h"
+
+namespace vitrel::lab {
+
+/// By how much an answer may be off and still count as correct.
+struct JudgingTolerance {
+  double time = 1e-8;  ///< as a fraction of the horizon
+  double gap = 1e-8;   ///< in units of the smaller semi-minor axis
+};
+
+enum class Verdict {
+  correct,
+  early,          ///< contact reported before the true one, by more than the tolerance
+  late,           ///< contact reported after the true one, by more than the tolerance
+  missed,         ///< contact (or overlap at the start) exists, none reported
+  false_contact,  ///< contact reported where there is none and the true gap exceeds the tolerance
+  not_converged,
+};
+
+struct Judgement {
+  Verdict verdict = Verdict::correct;
+  /// The surfaces cross so slowly that a gap of the size of rounding is a long time: then an early
+  /// answer is judged by the true gap at the reported time. A pair is degenerate if the speed of
+  /// its surfaces at the true contact is below 0.02 (a₁ + a₂)/horizon, or if there is no contact.
+  bool degenerate = false;
+  double time_error = 0;  ///< reported − true time; NaN unless both report a contact
+  double gap_error = 0;   ///< true gap at the reported time, in units of length; NaN likewise
+};
+
+Judgement judge(const CollisionCase& asked, const TrueContact& truth, const Prediction& answer,
+                const JudgingTolerance& tolerance);
+
+}  // namespace vitrel::lab
