@@ -1,0 +1,95 @@
+#include "bench/lab/twins/method_engine.h"
+
+#include <limits>
+
+#include "core/contact/pair.h"
+#include "edmd/simulation.h"
+
+namespace vitrel::lab {
+namespace {
+
+/// An ellipse whose collisions are predicted by whatever method the engine at work was given.
+struct JudgedEllipse : Ellipse {
+  static thread_local const Method* method;
+};
+thread_local const Method* JudgedEllipse::method = nullptr;
+
+// Found by Simulation<JudgedEllipse> in place of the default predictor.
+Prediction first_contact(const Flight<JudgedEllipse>& one, const Flight<JudgedEllipse>& two,
+                         double horizon, double /*contact_gap*/) {
+  const auto plain = [](const Flight<JudgedEllipse>& flight) {
+    return of_constant_size({flight.body, flight.pose, flight.motion});
+  };
+  return JudgedEllipse::method->predict({plain(one), plain(two), horizon});
+}
+
+class MethodEngine final : public Engine {
+ public:
+  MethodEngine(const Method& method, const EngineOptions& options)
+      : simulation_(options, "ellipses, collisions by " + method.name) {
+    JudgedEllipse::method = &method;
+  }
+
+  void load(const Configuration2& configuration) override { simulation_.load(configuration); }
+  Stop advance(double until, RunCounters& counters) override {
+    return simulation_.advance(until, counters);
+  }
+  void write(Configuration2& configuration) const override { simulation_.write(configuration); }
+  void set_velocities(const Configuration2& configuration, RunCounters& counters) override {
+    simulation_.set_velocities(configuration, counters);
+  }
+  std::string description() const override { return simulation_.description(); }
+
+ private:
+  Simulation<JudgedEllipse> simulation_;
+};
+
+bool circumcircles_meet(const CollisionCase& asked) {
+  const auto circle = [](const Flight<GrowingEllipse>& flight) {
+    return Flight<Disk>{{flight.body.circumradius()}, flight.pose, flight.motion};
+  };
+  return vitrel::first_contact(circle(asked.one), circle(asked.two), asked.horizon, 0).outcome !=
+         Outcome::none;
+}
+
+}  // namespace
+}  // namespace vitrel::lab
+
+namespace vitrel {
+
+template <>
+lab::JudgedEllipse body_from<lab::JudgedEllipse>(const Ellipse& shape) {
+  return {shape};
+}
+
+}  // namespace vitrel
+
+namespace vitrel::lab {
+
+std::unique_ptr<Engine> make_method_engine(const Method& method, const EngineOptions& options) {
+  return std::make_unique<MethodEngine>(method, options);
+}
+
+std::vector<CollisionCase> recorded_cases(const Configuration2& start, std::size_t count) {
+  std::vector<CollisionCase> cases;
+  const Method recording{"recording", 0, [&](const CollisionCase& asked) {
+                           if (cases.size() < count && circumcircles_meet(asked))
+                             cases.push_back(asked);
+                           return vitrel::first_contact(
+                               Flight<Ellipse>{asked.one.body.shape, asked.one.pose, asked.one.motion},
+                               Flight<Ellipse>{asked.two.body.shape, asked.two.pose, asked.two.motion},
+                               asked.horizon, asked.contact_gap());
+                         }};
+  MethodEngine engine(recording, {});
+  Configuration2 now = start;
+  RunCounters counters;
+  engine.load(now);
+  while (cases.size() < count) {
+    engine.advance(std::numeric_limits<double>::max(), counters);
+    engine.write(now);
+    engine.load(now);
+  }
+  return cases;
+}
+
+}  // namespace vitrel::lab
