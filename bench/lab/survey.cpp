@@ -1,0 +1,201 @@
+#include "bench/lab/survey.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <span>
+#include <thread>
+
+#include "bench/lab/timed_batches.h"
+
+namespace vitrel::lab {
+namespace {
+
+constexpr std::size_t first_block = 64, largest_block = 4096;
+
+/// work(k) for k = 0 … count − 1 on all processors: the reference takes far longer than the methods.
+void in_parallel(std::size_t count, const std::function<void(std::size_t)>& work) {
+  std::atomic<std::size_t> next{0};
+  const auto worker = [&] {
+    for (std::size_t k = next++; k < count; k = next++) work(k);
+  };
+  std::vector<std::jthread> others;
+  const std::size_t threads = std::min<std::size_t>(std::thread::hardware_concurrency(), count);
+  for (std::size_t k = 1; k < threads; ++k) others.emplace_back(worker);
+  worker();
+}
+
+/// Some consecutive cases of a class with their true answers.
+struct Block {
+  std::uint64_t first = 0;
+  std::vector<CollisionCase> cases;
+  std::vector<TrueContact> truths;
+};
+
+Block make_block(const SurveyRequest& request, const CaseClass& of, std::uint64_t first,
+                 std::size_t count) {
+  Block block{first, std::vector<CollisionCase>(count), std::vector<TrueContact>(count)};
+  in_parallel(count, [&](std::size_t k) {
+    const CollisionCase& asked = block.cases[k] = make_case(of, request.seed, first + k);
+    block.truths[k] = true_first_contact(asked.one, asked.two, asked.horizon);
+  });
+  return block;
+}
+
+double median(std::vector<double>& values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+void count(SurveyRow& row, Verdict verdict) {
+  ++row.pairs;
+  switch (verdict) {
+    case Verdict::correct:
+      ++row.correct;
+      break;
+    case Verdict::early:
+      ++row.early;
+      break;
+    case Verdict::late:
+      ++row.late;
+      break;
+    case Verdict::missed:
+      ++row.missed;
+      break;
+    case Verdict::false_contact:
+      ++row.false_contacts;
+      break;
+    case Verdict::not_converged:
+      ++row.not_converged;
+      break;
+  }
+}
+
+/// One method at work on one class.
+class Examination {
+ public:
+  Examination(const Method& method, const CaseClass& of, double seconds, JudgingTolerance tolerance)
+      : method_(&method), of_(&of), tolerance_(tolerance), timer_(seconds) {
+    row_.method = method.name;
+    row_.tolerance = method.tolerance;
+    row_.case_class = of.name;
+    row_.aspect_ratio = of.aspect_ratio;
+    row_.largest_error = row_.largest_gap_error = std::numeric_limits<double>::quiet_NaN();
+  }
+
+  bool is_over() const { return over_; }
+
+  void take(const Block& block, const Budget& budget, std::optional<FailingCase>& failure) {
+    std::size_t done = 0;
+    while (done < block.cases.size() && !budget.stop_requested()) {
+      const std::size_t batch = timer_.next(block.cases.size() - done);
+      over_ = batch == 0;
+      if (over_) return;
+      answer(std::span(block.cases).subspan(done, batch));
+      judge_answers(block, done, failure);
+      done += batch;
+    }
+  }
+
+  SurveyRow result() {
+    row_.ns_per_call = timer_.ns_per_call();
+    row_.median_error = median(errors_);
+    return row_;
+  }
+
+  std::uint64_t pairs() const { return row_.pairs; }
+
+ private:
+  void answer(std::span<const CollisionCase> cases) {
+    answers_.resize(cases.size());
+    timer_.run(cases.size(), [&] {
+      for (std::size_t k = 0; k < cases.size(); ++k) answers_[k] = method_->predict(cases[k]);
+    });
+  }
+
+  void judge_answers(const Block& block, std::size_t first, std::optional<FailingCase>& failure) {
+    judgements_.resize(answers_.size());
+    in_parallel(answers_.size(), [&](std::size_t k) {
+      judgements_[k] =
+          judge(block.cases[first + k], block.truths[first + k], answers_[k], tolerance_);
+    });
+    for (std::size_t k = 0; k < answers_.size(); ++k) {
+      record(judgements_[k], block.cases[first + k]);
+      if (is_better_failure(judgements_[k], failure))
+        failure = FailingCase{
+            method_->name,           *of_,        block.first + first + k, block.cases[first + k],
+            block.truths[first + k], answers_[k], judgements_[k]};
+    }
+  }
+
+  static bool is_better_failure(const Judgement& judgement,
+                                const std::optional<FailingCase>& known) {
+    if (judgement.verdict == Verdict::correct) return false;
+    return !known || (known->judgement.verdict == Verdict::not_converged &&
+                      judgement.verdict != Verdict::not_converged);
+  }
+
+  void record(const Judgement& judgement, const CollisionCase& asked) {
+    count(row_, judgement.verdict);
+    row_.degenerate += judgement.degenerate;
+    const double error = std::abs(judgement.time_error) / asked.horizon;
+    if (!judgement.degenerate && !std::isnan(error)) {
+      row_.largest_error = std::fmax(row_.largest_error, error);
+      errors_.push_back(error);
+    }
+    row_.largest_gap_error =
+        std::fmax(row_.largest_gap_error, std::abs(judgement.gap_error) / asked.gap_unit());
+  }
+
+  const Method* method_;
+  const CaseClass* of_;
+  JudgingTolerance tolerance_;
+  TimedBatches timer_;
+  SurveyRow row_;
+  std::vector<double> errors_;
+  std::vector<Prediction> answers_;
+  std::vector<Judgement> judgements_;
+  bool over_ = false;
+};
+
+void examine_class(const SurveyRequest& request, std::size_t class_index, const Budget& budget,
+                   std::vector<std::optional<FailingCase>>& failures, Survey& result) {
+  const CaseClass& of = request.classes[class_index];
+  const auto classes = static_cast<double>(request.classes.size());
+  std::vector<Examination> examinations;
+  for (const Entrant& entrant : request.entrants)
+    examinations.emplace_back(entrant.method, of, entrant.seconds / classes, request.tolerance);
+  std::size_t size = first_block;
+  for (std::uint64_t done = 0; done < request.pairs && !budget.stop_requested();) {
+    if (std::ranges::all_of(examinations, &Examination::is_over)) break;
+    const Block block = make_block(request, of, done, std::min(size, request.pairs - done));
+    for (std::size_t k = 0; k < examinations.size(); ++k)
+      if (!examinations[k].is_over()) examinations[k].take(block, budget, failures[k]);
+    done += block.cases.size();
+    size = std::min(2 * size, largest_block);
+    const double part = static_cast<double>(done) / static_cast<double>(request.pairs);
+    const double progress = static_cast<double>(class_index) + part;
+    budget.tell({progress / classes, progress * static_cast<double>(request.pairs), "pairs"});
+  }
+  for (Examination& examination : examinations)
+    if (examination.pairs() > 0) result.rows.push_back(examination.result());
+}
+
+}  // namespace
+
+Survey survey(const SurveyRequest& request, const Budget& budget) {
+  Survey result;
+  std::vector<std::optional<FailingCase>> failures(request.entrants.size());
+  for (std::size_t k = 0; k < request.classes.size() && !budget.stop_requested(); ++k)
+    examine_class(request, k, budget, failures, result);
+  for (const auto& failure : failures)
+    if (failure) result.failures.push_back(*failure);
+  result.stopped = budget.stop_requested();
+  return result;
+}
+
+}  // namespace vitrel::lab

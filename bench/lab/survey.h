@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "bench/lab/judge.h"
+#include "bench/lab/methods/method.h"
+#include "bench/lab/stability_suite.h"
+#include "core/state/stage.h"
+
+namespace vitrel::lab {
+
+/// A method and how long it may predict, all classes together; what it answers in that time is what
+/// its rows are about. Without a limit it answers every pair.
+struct Entrant {
+  Method method;
+  double seconds = std::numeric_limits<double>::infinity();
+};
+
+struct SurveyRequest {
+  std::vector<Entrant> entrants;
+  std::vector<CaseClass> classes;
+  std::uint64_t pairs = 1000;  ///< of each class
+  std::uint64_t seed = 1;
+  JudgingTolerance tolerance;
+};
+
+/// One method on one class. Errors are NaN if there is no pair to take them from.
+struct SurveyRow {
+  std::string method;
+  double tolerance = 0;    ///< the method's own
+  std::string case_class;  ///< its name
+  double aspect_ratio = 0;
+  std::uint64_t pairs = 0;  ///< the sum of the following six
+  std::uint64_t correct = 0, early = 0, late = 0, missed = 0, false_contacts = 0, not_converged = 0;
+  std::uint64_t degenerate = 0;
+  double ns_per_call = 0;
+  /// |reported − true time| as a fraction of the horizon, of the pairs that are not degenerate and
+  /// for which both report a contact.
+  double largest_error = 0, median_error = 0;
+  /// |true gap at the reported time| in units of the smaller semi-minor axis, of all pairs with a
+  /// contact.
+  double largest_gap_error = 0;
+
+  std::uint64_t wrong() const { return pairs - correct; }
+};
+
+/// A pair that a method failed on, for a picture.
+struct FailingCase {
+  std::string method;
+  CaseClass case_class;
+  std::uint64_t index = 0;
+  CollisionCase asked;
+  TrueContact truth;
+  Prediction answer;
+  Judgement judgement;
+};
+
+struct Survey {
+  std::vector<SurveyRow> rows;        ///< class by class, methods in the order of the request
+  std::vector<FailingCase> failures;  ///< at most one per method: its first
+  bool stopped = false;               ///< before all pairs were done
+};
+
+/// Asks every method about the same pairs, judges the answers by the guaranteed reference and times
+/// the methods, the reference's time apart. A method's first failure is the first wrong answer; one
+/// that did not converge only if there is no other.
+Survey survey(const SurveyRequest& request, const Budget& budget);
+
+}  // namespace vitrel::lab

@@ -1,0 +1,139 @@
+#include "bench/lab/overlap/overlap_survey.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "bench/lab/overlap/polygon.h"
+#include "core/contact/perram_wertheim.h"
+
+namespace vitrel::lab {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+OverlapCase pair_of(const Ellipse& ellipse, double angle1, double angle2, double distance) {
+  return {ellipse, ellipse, {{0, 0}, angle1}, {{distance, 0}, angle2}};
+}
+
+/// The distance at which the polygons of two ellipses on the x axis come apart.
+double polygon_distance(const RegularPolygon& shape, const Ellipse& ellipse, double angle1,
+                        double angle2) {
+  double low = 0, high = 3 * ellipse.a;
+  for (int k = 0; k < 60; ++k) {
+    const double middle = 0.5 * (low + high);
+    (disjoint(shape, pair_of(ellipse, angle1, angle2, middle)) ? high : low) = middle;
+  }
+  return high;
+}
+
+// A regular n-gon with the area of the unit circle has the circumradius √(s/sin s), s = 2π/n.
+TEST(RegularPolygon, CornersAndSidesMeetWhereTheyShould) {
+  for (const int n : {8, 64}) {
+    const double step = 2 * pi / n, radius = std::sqrt(step / std::sin(step));
+    const RegularPolygon shape(n);
+    EXPECT_NEAR(polygon_distance(shape, {1, 1}, 0, 0), 2 * radius, 1e-14);
+    EXPECT_NEAR(polygon_distance(shape, {1, 1}, step / 2, step / 2),
+                2 * radius * std::cos(step / 2), 1e-14);
+    EXPECT_NEAR(polygon_distance(shape, {3, 0.5}, 0, pi), 6 * radius, 1e-13);
+  }
+}
+
+/// The area of the polygon image is that of the ellipse, whatever n.
+TEST(RegularPolygon, HasTheAreaOfTheUnitCircle) {
+  for (const int n : {8, 16, 256}) {
+    const RegularPolygon shape(n);
+    const std::vector<Vec2>& half = shape.half();
+    double area = 0;
+    for (std::size_t k = 0; k < half.size(); ++k)
+      area += cross(half[k], k + 1 < half.size() ? half[k + 1] : Vec2(-half[0]));
+    EXPECT_NEAR(area, pi, 1e-14);
+  }
+}
+
+// The corners stand out by π²/3n², the sides lie inside by π²/6n² of the size: four times less for
+// twice the vertices.
+TEST(RegularPolygon, ErrorFallsAsTheSquareOfTheVertices) {
+  std::map<int, double> worst;
+  const Ellipse ellipse{2, 1};
+  for (const int n : {16, 32, 64, 128})
+    for (int k = 0; k < 200; ++k) {
+      const double angle1 = 0.031 * k, angle2 = 1.7 * k;
+      const double polygons = polygon_distance(RegularPolygon(n), ellipse, angle1, angle2);
+      const double ellipses = contact_distance(ellipse, angle1, ellipse, angle2, {1, 0});
+      worst[n] = std::max(worst[n], std::abs(polygons - ellipses));
+    }
+  for (const int n : {16, 32, 64}) EXPECT_NEAR(worst[n] / worst[2 * n], 4, 0.8) << n;
+}
+
+TEST(OverlapCases, ArePureFunctionsOfTheirArgumentsAndOfTheirClass) {
+  for (const OverlapClass& of : overlap_classes()) {
+    int disjoint = 0;
+    for (std::uint64_t k = 0; k < 500; ++k) {
+      const OverlapCase asked = make_overlap_case(of, 3, k);
+      EXPECT_EQ(asked.pose2.position, make_overlap_case(of, 3, k).pose2.position);
+      EXPECT_NE(asked.pose2.position, make_overlap_case(of, 4, k).pose2.position);
+      const OverlapTruth truth = true_overlap(asked);
+      disjoint += truth.disjoint;
+      EXPECT_EQ(truth.disjoint, truth.gap > 0);
+      const double gap = std::abs(truth.gap) / asked.gap_unit();
+      // The gap is set to first order, along the line of centres: second order is a few per cent.
+      if (of.kind == OverlapClass::Kind::near_contact) {
+        EXPECT_LE(gap, 0.2);
+      }
+      if (of.kind == OverlapClass::Kind::grazing) {
+        EXPECT_LE(gap, 1.1e-3);
+        EXPECT_GE(gap, 0.9e-12);
+      }
+    }
+    EXPECT_GT(disjoint, 50) << of.name;
+    EXPECT_LT(disjoint, 450) << of.name;
+  }
+}
+
+TEST(OverlapSurvey, ExactCriteriaAreNeverWrongAndTheOthersWhereExpected) {
+  OverlapSurveyRequest request{overlap_criteria(), overlap_classes(), 20000, 0.5, 7};
+  const OverlapSurvey survey = survey_overlap(request, {});
+  EXPECT_FALSE(survey.stopped);
+  ASSERT_EQ(survey.rows.size(), request.criteria.size() * request.classes.size());
+  for (const OverlapRow& row : survey.rows) {
+    SCOPED_TRACE(row.method + " " + row.case_class);
+    EXPECT_GT(row.ns_per_call, 1);
+    const bool exact = row.method == "support_gap" || row.method == "perram_wertheim" ||
+                       row.method == "vieillard_baron";
+    if (exact) {
+      EXPECT_EQ(row.pairs, 20000u);
+      EXPECT_EQ(row.wrong(), 0u);
+      EXPECT_EQ(row.largest_wrong_gap, 0);
+    }
+    // Ψ > 0 alone takes crossed and contained pairs for disjoint, and never the other way round.
+    if (row.method == "vieillard_baron_incomplete") {
+      EXPECT_EQ(row.wrong_overlap, 0u);
+      if (row.case_class == "random") {
+        EXPECT_GT(static_cast<double>(row.wrong_disjoint), 0.01 * static_cast<double>(row.pairs));
+      }
+    }
+    // Polygons of equal area err to both sides.
+    if (row.vertices == 8 && row.case_class == "grazing") {
+      EXPECT_GT(row.wrong_overlap, 0u);
+      EXPECT_GT(row.wrong_disjoint, 0u);
+    }
+  }
+}
+
+TEST(OverlapSurvey, StopsOnRequestAndKeepsWhatIsDone) {
+  OverlapSurveyRequest request{{overlap_criteria().front()}, overlap_classes(), 100, 1, 7};
+  Budget budget;
+  double fraction = 0;
+  budget.report = [&](const Progress& progress) { fraction = progress.fraction; };
+  budget.should_stop = [&] { return fraction > 0.3; };
+  const OverlapSurvey survey = survey_overlap(request, budget);
+  EXPECT_TRUE(survey.stopped);
+  EXPECT_EQ(survey.rows.size(), 2u);
+}
+
+}  // namespace
+}  // namespace vitrel::lab
