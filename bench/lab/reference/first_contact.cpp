@@ -1,117 +1,347 @@
 #include "bench/lab/reference/first_contact.h"
 
-#include <vector>
+#include <optional>
 
 #include "bench/lab/reference/interval_jet.h"
+#include "bench/lab/reference/true_gap.h"
 
 namespace vitrel::lab {
 
 namespace {
 
-struct Invariants {
-  Jet g1, g2, psi;
-};
+/// R(x, y) = xxx x³ + xxy x²y + xyy xy² + yyy y³ as a function of time.
+template <class Real>
+struct Cubic {
+  Jet<Real> xxx, xxy, xyy, yyy;
 
-// Ψ = G1²G2² + 18 G1G2 − 4q G1³ − 4 G2³/q − 27 with q = (a₂b₂)²/(a₁b₁)², G1 = 1 + tr(Σ₁A₂) − dᵀA₂d and
-// G2 the same with 1 and 2 exchanged; traces by the relative angle, dᵀA d in the frame of the ellipse.
-class PsiOverTime {
- public:
-  PsiOverTime(const Flight<Ellipse>& one, const Flight<Ellipse>& two) : one_(one), two_(two) {
-    const Real areas = Real(two.body.a) * two.body.b / (Real(one.body.a) * one.body.b);
-    q_ = areas * areas;
+  /// Its values at fixed x and y = 1.
+  Jet<Real> at(const Real& x) const {
+    const Interval<Real> x1(x), x2 = square(x1), x3 = x2 * x1;
+    return x3 * xxx + x2 * xxy + x1 * xyy + yyy;
   }
 
-  Invariants over(const Interval& time) const {
-    const Real turn = Real(two_.pose.angle) - one_.pose.angle;
-    const Real turning = Real(two_.motion.angular_velocity) - one_.motion.angular_velocity;
-    const Jet c = cosine(turn, turning, time);
-    const Jet cc = c * c;
-    Invariants at;
-    at.g1 = Jet(1) + trace(one_.body, two_.body, cc) - distance_in(two_, time);
-    at.g2 = Jet(1) + trace(two_.body, one_.body, cc) - distance_in(one_, time);
-    const Jet product = at.g1 * at.g2;
-    at.psi = product * product + Jet(18) * product - Jet(4 * q_) * at.g1 * at.g1 * at.g1 -
-             Jet(4 / q_) * at.g2 * at.g2 * at.g2 - Jet(27);
-    return at;
+  Jet<Real> discriminant() const {
+    const Jet<Real> ends = xxx * yyy, inner = xxy * xyy;
+    const Jet<Real> rest = xxx * (square(xyy) * xyy) + yyy * (square(xxy) * xxy);
+    return square(inner) + Interval<Real>(18) * (ends * inner) - Interval<Real>(4) * rest -
+           Interval<Real>(27) * square(ends);
+  }
+};
+
+/// What one ellipse contributes, all constant in time.
+template <class Real>
+struct Constants {
+  explicit Constants(const Flight<GrowingEllipse>& flight)
+      : angle(Real(flight.pose.angle)),
+        omega(Real(flight.motion.angular_velocity)),
+        size(Real(flight.body.size)),
+        rate(Real(flight.body.growth_rate)),
+        aa(square(Interval<Real>(flight.body.shape.a))),
+        bb(square(Interval<Real>(flight.body.shape.b))),
+        det(aa * bb) {}
+
+  Interval<Real> angle, omega, size, rate, aa, bb, det;
+};
+
+template <class Real>
+struct Directions {
+  Direction<Real> one, two, between;
+};
+
+template <class Real>
+class Pair {
+ public:
+  Pair(const Flight<GrowingEllipse>& one, const Flight<GrowingEllipse>& two)
+      : one_(one),
+        two_(two),
+        x_(difference(two.pose.position.x(), one.pose.position.x())),
+        y_(difference(two.pose.position.y(), one.pose.position.y())),
+        vx_(difference(two.motion.velocity.x(), one.motion.velocity.x())),
+        vy_(difference(two.motion.velocity.y(), one.motion.velocity.y())),
+        turning_(two_.omega - one_.omega),
+        aligned_(one_.aa * two_.bb + one_.bb * two_.aa),
+        askew_(difference(one.body.shape.a, one.body.shape.b) *
+               (Interval<Real>(one.body.shape.a) + Interval<Real>(one.body.shape.b)) *
+               difference(two.body.shape.a, two.body.shape.b) *
+               (Interval<Real>(two.body.shape.a) + Interval<Real>(two.body.shape.b))) {}
+
+  Directions<Real> directions(const Real& time) const {
+    const auto at = [&](const Constants<Real>& of) {
+      return direction(of.angle + of.omega * Interval<Real>(time));
+    };
+    return from(at(one_), at(two_));
+  }
+
+  /// The cubic over the times middle ± half, from the directions at the middle.
+  Cubic<Real> over(const Real& middle, const Real& half, const Directions<Real>& at_middle) const {
+    const Interval<Real> time =
+        half > 0 ? Interval<Real>::widened(middle - half, middle + half) : Interval<Real>(middle);
+    const auto spread = [&](const Direction<Real>& at, const Interval<Real>& omega) {
+      return half > 0 ? turned(at, most(omega) * half) : at;
+    };
+    const Jet<Real> dx = linear(x_, vx_, time), dy = linear(y_, vy_, time);
+    const Jet<Real> e1 = adjugate_form(one_, spread(at_middle.one, one_.omega), dx, dy);
+    const Jet<Real> e2 = adjugate_form(two_, spread(at_middle.two, two_.omega), dx, dy);
+    const Jet<Real> s = sine(spread(at_middle.between, turning_), turning_);
+    Jet<Real> trace = askew_ * square(s);
+    trace.value = trace.value + aligned_;
+    const Jet<Real> s1 = square(linear(one_.size, one_.rate, time));
+    const Jet<Real> s2 = square(linear(two_.size, two_.rate, time));
+    return {one_.det * s2, one_.det * s1 + s2 * trace - e1, two_.det * s2 + s1 * trace - e2,
+            two_.det * s1};
+  }
+
+  Cubic<Real> at(const Real& time) const { return over(time, Real(0), directions(time)); }
+
+  /// |d|² − (R₁ + R₂)² with the circumradii R = p + 2 q t + r t².
+  struct CircleQuadratic {
+    Interval<Real> p, q, r;
+  };
+  CircleQuadratic circles(const GrowingEllipse& one, const GrowingEllipse& two) const {
+    const Interval<Real> a1(one.shape.a), a2(two.shape.a);
+    const Interval<Real> reach = a1 * one_.size + a2 * two_.size;
+    const Interval<Real> growth = a1 * one_.rate + a2 * two_.rate;
+    return {square(x_) + square(y_) - square(reach), x_ * vx_ + y_ * vy_ - reach * growth,
+            square(vx_) + square(vy_) - square(growth)};
   }
 
  private:
-  // tr(Σ_i A_j) = same cos² + crossed sin², with the angle between the axes.
-  static Jet trace(const Ellipse& i, const Ellipse& j, const Jet& cos_squared) {
-    const auto ratio = [](Real x, Real y) { return x * x / (y * y); };
-    const Real same = ratio(i.a, j.a) + ratio(i.b, j.b);
-    const Real crossed = ratio(i.a, j.b) + ratio(i.b, j.a);
-    return Jet(crossed) + Jet(same - crossed) * cos_squared;
+  static Interval<Real> difference(double x, double y) {
+    return Interval<Real>(Real(x)) - Interval<Real>(Real(y));
+  }
+  static Real most(const Interval<Real>& x) { return std::max(Real(-x.low), Real(x.high)); }
+
+  static Directions<Real> from(const Direction<Real>& u1, const Direction<Real>& u2) {
+    return {u1,
+            u2,
+            {u1.cosine * u2.cosine + u1.sine * u2.sine, u1.cosine * u2.sine - u1.sine * u2.cosine}};
   }
 
-  // dᵀ A d in the frame of one of the ellipses.
-  Jet distance_in(const Flight<Ellipse>& frame, const Interval& time) const {
-    const Vec2& r1 = one_.pose.position;
-    const Vec2& r2 = two_.pose.position;
-    const Vec2& v1 = one_.motion.velocity;
-    const Vec2& v2 = two_.motion.velocity;
-    const Jet dx = linear(Real(r2.x()) - r1.x(), Real(v2.x()) - v1.x(), time);
-    const Jet dy = linear(Real(r2.y()) - r1.y(), Real(v2.y()) - v1.y(), time);
-    const Jet c = cosine(frame.pose.angle, frame.motion.angular_velocity, time);
-    const Jet s = sine(frame.pose.angle, frame.motion.angular_velocity, time);
-    const Jet along = c * dx + s * dy;
-    const Jet across = c * dy - s * dx;
-    const Real a = frame.body.a, b = frame.body.b;
-    return Jet(1 / (a * a)) * along * along + Jet(1 / (b * b)) * across * across;
+  // dᵀ adj(Σ) d in the frame of the ellipse.
+  static Jet<Real> adjugate_form(const Constants<Real>& of, const Direction<Real>& u,
+                                 const Jet<Real>& dx, const Jet<Real>& dy) {
+    const Jet<Real> c = cosine(u, of.omega), s = sine(u, of.omega);
+    const Jet<Real> along = c * dx + s * dy, across = c * dy - s * dx;
+    return of.bb * square(along) + of.aa * square(across);
   }
 
-  const Flight<Ellipse>& one_;
-  const Flight<Ellipse>& two_;
-  Real q_;
+  Constants<Real> one_, two_;
+  Interval<Real> x_, y_, vx_, vy_, turning_;
+  // W = aligned + askew sin² of the relative angle.
+  Interval<Real> aligned_, askew_;
 };
 
-Interval enclosure(const Jet& middle, const Interval& second, const Interval& offset) {
-  return middle.value + middle.first * offset + Interval(0.5L) * second * offset * offset;
+// The root x > 0 of ∂R/∂x = 3 xxx x² + 2 xxy x + xyy, y = 1, where R is least. xxx is taken where
+// it is largest over the piece: a smaller one, 0 for a body that grows from a point, would choose
+// an x far out, which no later time of the piece could use.
+template <class Real>
+Real least_at(const Cubic<Real>& middle, const Cubic<Real>& piece) {
+  using std::sqrt;
+  const Real a = piece.xxx.value.high, b = middle.xxy.value.middle(), c = middle.xyy.value.middle();
+  const Real square_root = sqrt(std::max(Real(b * b - 3 * a * c), Real(0)));
+  return b < 0 ? Real((square_root - b) / (3 * a)) : Real(-c / (b + square_root));
 }
 
-// The sign change of Ψ on [low, high], where it falls: to the last bit.
-Real bisect(const PsiOverTime& psi, Real low, Real high) {
-  while (true) {
-    const Real middle = 0.5L * (low + high);
-    if (middle <= low || middle >= high) return low;
-    (psi.over(Interval(middle)).psi.value.middle() > 0 ? low : high) = middle;
+template <class Real>
+Interval<Real> taylor(const Jet<Real>& middle, const Jet<Real>& piece, const Real& half) {
+  const Interval<Real> offset(-half, half);
+  const Interval<Real> half_square(0,
+                                   Interval<Real>::widened(half * half / 2, half * half / 2).high);
+  return middle.value + middle.first * offset + piece.second * half_square;
+}
+
+/// A search from the left that stops where Real can decide no more.
+template <class Real>
+class Search {
+ public:
+  enum class Result { passed, contact, overlap, stuck };
+
+  Search(const Flight<GrowingEllipse>& one, const Flight<GrowingEllipse>& two)
+      : pair_(one, two), circles_(pair_.circles(one.body, two.body)) {}
+
+  /// passed: disjoint at time 0; stuck: undecided.
+  Result start() const {
+    const Cubic<Real> now = pair_.at(Real(0));
+    if (circles_.p.low > 0 || negative_somewhere(now, now)) return Result::passed;
+    const Interval<Real> phi = now.discriminant().value;
+    if (phi.high < 0) return Result::overlap;
+    if (phi.low > 0 && (now.xxy.value.high < 0 || now.xyy.value.high < 0)) return Result::passed;
+    const bool no_axis = now.xxy.value.low >= 0 && now.xyy.value.low >= 0;
+    return no_axis ? Result::overlap : Result::stuck;
   }
+
+  /// The times outside which the circumcircles are disjoint, within [0, horizon].
+  Interval<Real> window(double horizon) const {
+    const auto& [p, q, r] = circles_;
+    const Interval<Real> none{Real(horizon), Real(horizon)};
+    const Interval<Real> discriminant = square(q) - p * r;
+    Interval<Real> part(0, Real(horizon));
+    if (p.low <= 0) {
+      // Overlapping circles; if they separate for good, after the one positive root.
+      if (r.low > 0 && p.high < 0) part.high = std::min(part.high, last_root(q, r, discriminant));
+      return part;
+    }
+    if (discriminant.high < 0) return none;
+    // The roots are p/(−q ± √(q² − pr)); the first positive one has the larger denominator.
+    const Interval<Real> denominator = root(discriminant) - q;
+    if (denominator.high <= 0) return none;
+    part.low = std::min(part.high, (Interval<Real>(p.low) / Interval<Real>(denominator.high)).low);
+    if (r.low > 0) part.high = std::min(part.high, last_root(q, r, discriminant));
+    return part.high > part.low ? part : none;
+  }
+
+  /// Searches from..to; on return `from` is the time up to which there is no contact.
+  Result pass(Real& from, const Real& to, const Real& shortest, int& pieces) {
+    Real width = (to - from) / 2;
+    while (from < to) {
+      const Real end = width < to - from ? Real(from + width) : to;
+      const Real middle = (from + end) / 2;
+      if (end - from <= shortest || middle <= from || middle >= end) return Result::stuck;
+      ++pieces;
+      const Real half = std::max(Real(end - middle), Real(middle - from));
+      const Directions<Real> directions = pair_.directions(middle);
+      const Cubic<Real> at_middle = pair_.over(middle, Real(0), directions);
+      const Cubic<Real> piece = pair_.over(middle, half, directions);
+      if (negative_throughout(at_middle, piece, half)) {
+        from = end;
+        width = 2 * (end - middle) * 2;
+      } else {
+        if (crosses(at_middle, piece, half, end)) {
+          contact_ = {from, end};
+          return Result::contact;
+        }
+        width = middle - from;
+      }
+    }
+    return Result::passed;
+  }
+
+  /// The root of Φ in `found`, where Φ' < 0, by interval Newton steps until they gain no more.
+  Interval<Real> refined(Interval<Real> found) const {
+    while (true) {
+      const Real middle = found.middle();
+      const Real half = std::max(Real(found.high - middle), Real(middle - found.low));
+      const Directions<Real> directions = pair_.directions(middle);
+      const Jet<Real> at = pair_.over(middle, Real(0), directions).discriminant();
+      const Jet<Real> over = pair_.over(middle, half, directions).discriminant();
+      const Interval<Real> slope = at.first + over.second * Interval<Real>(-half, half);
+      if (slope.high >= 0) return found;
+      const Interval<Real> next = Interval<Real>(middle) - at.value / slope;
+      const Interval<Real> both(std::max(found.low, next.low), std::min(found.high, next.high));
+      if (both.width() > found.width() / 2) return both;
+      found = both;
+    }
+  }
+
+  const Interval<Real>& contact() const { return contact_; }
+
+ private:
+  static Real last_root(const Interval<Real>& q, const Interval<Real>& r,
+                        const Interval<Real>& discriminant) {
+    return ((root(discriminant) - q) / r).high;
+  }
+
+  static bool usable(const Real& x) { return x > 0 && x < 1 / std::numeric_limits<float>::min(); }
+
+  static bool negative_somewhere(const Cubic<Real>& at_middle, const Cubic<Real>& piece) {
+    const Real x = least_at(at_middle, piece);
+    return usable(x) && piece.at(x).value.high < 0;
+  }
+
+  static bool negative_throughout(const Cubic<Real>& at_middle, const Cubic<Real>& piece,
+                                  const Real& half) {
+    const Real x = least_at(at_middle, piece);
+    if (!usable(x)) return false;
+    const Jet<Real> at = at_middle.at(x);
+    if (at.value.high >= 0) return false;
+    const Jet<Real> over = piece.at(x);
+    return over.value.high < 0 || taylor(at, over, half).high < 0;
+  }
+
+  bool crosses(const Cubic<Real>& at_middle, const Cubic<Real>& piece, const Real& half,
+               const Real& end) const {
+    if (pair_.at(end).discriminant().value.high >= 0) return false;
+    const Jet<Real> at = at_middle.discriminant(), over = piece.discriminant();
+    return (at.first + over.second * Interval<Real>(-half, half)).high < 0;
+  }
+
+  Pair<Real> pair_;
+  typename Pair<Real>::CircleQuadratic circles_;
+  Interval<Real> contact_;
+};
+
+template <class Real>
+TrueContact described(TrueContact::Outcome outcome, const Interval<Real>& when, int pieces,
+                      const Flight<GrowingEllipse>& one, const Flight<GrowingEllipse>& two) {
+  TrueContact found;
+  found.outcome = outcome;
+  found.pieces = pieces;
+  found.time = static_cast<long double>(when.middle());
+  found.uncertainty = static_cast<long double>(when.width() / 2);
+  const ClosestSurfaces there = closest_surfaces(one, two, found.time);
+  found.normal = there.normal;
+  found.approach_speed = static_cast<double>(there.approach_speed);
+  return found;
 }
 
 }  // namespace
 
+template <class Real>
+TrueContact true_first_contact(const Flight<GrowingEllipse>& one, const Flight<GrowingEllipse>& two,
+                               double horizon) {
+  // Double decides down to pieces of this fraction of the search; a contact has usually been
+  // isolated long before, and near a graze shorter pieces are beyond it.
+  constexpr double shortest = 1e-6;
+  using Outcome = TrueContact::Outcome;
+  using Coarse = Search<double>;
+  using Fine = Search<Real>;
+
+  Coarse coarse(one, two);
+  std::optional<Fine> fine;
+  auto start = coarse.start();
+  if (start == Coarse::Result::stuck) {
+    fine.emplace(one, two);
+    const auto again = fine->start();
+    if (again == Fine::Result::stuck)
+      return described<Real>(Outcome::undecided, Real(0), 0, one, two);
+    start = again == Fine::Result::passed ? Coarse::Result::passed : Coarse::Result::overlap;
+  }
+  TrueContact result;
+  if (start == Coarse::Result::overlap) {
+    result.outcome = Outcome::overlap_at_start;
+    return result;
+  }
+
+  const Interval<double> window = coarse.window(horizon);
+  double from = window.low;
+  const auto found = coarse.pass(from, window.high, shortest * window.width(), result.pieces);
+  if (found == Coarse::Result::passed) return result;
+  if (!fine) fine.emplace(one, two);
+  if (found == Coarse::Result::contact) {
+    const Interval<double> roughly = coarse.refined(coarse.contact());
+    return described(Outcome::contact,
+                     fine->refined(Interval<Real>(Real(roughly.low), Real(roughly.high))),
+                     result.pieces, one, two);
+  }
+  Real reached = from;
+  const auto finely = fine->pass(reached, Real(window.high), Real(0), result.pieces);
+  if (finely == Fine::Result::passed) return result;
+  if (finely == Fine::Result::contact)
+    return described(Outcome::contact, fine->refined(fine->contact()), result.pieces, one, two);
+  return described<Real>(Outcome::undecided, reached, result.pieces, one, two);
+}
+
+template TrueContact true_first_contact<long double>(const Flight<GrowingEllipse>&,
+                                                     const Flight<GrowingEllipse>&, double);
+template TrueContact true_first_contact<Float128>(const Flight<GrowingEllipse>&,
+                                                  const Flight<GrowingEllipse>&, double);
+
 TrueContact true_first_contact(const Flight<Ellipse>& one, const Flight<Ellipse>& two,
                                double horizon) {
-  const PsiOverTime psi(one, two);
-  const Invariants start = psi.over(Interval(0));
-  const bool disjoint =
-      start.psi.value.low > 0 && (start.g1.value.high < 0 || start.g2.value.high < 0);
-  if (!disjoint) return {TrueContact::Outcome::overlap_at_start, 0, 0};
-
-  TrueContact result;
-  // Pieces still to look at, the leftmost on top.
-  std::vector<Interval> pieces{Interval(0, horizon)};
-  while (!pieces.empty()) {
-    const Interval piece = pieces.back();
-    pieces.pop_back();
-    ++result.pieces;
-    const Real middle = piece.middle();
-    const Jet over = psi.over(piece).psi;
-    const Jet at_middle = psi.over(Interval(middle)).psi;
-    const Interval offset(piece.low - middle, piece.high - middle);
-    if (over.value.low > 0 || enclosure(at_middle, over.second, offset).low > 0) continue;
-    const Interval slope = at_middle.first + over.second * offset;
-    if (slope.high < 0) {
-      if (psi.over(Interval(piece.high)).psi.value.low > 0) continue;
-      if (psi.over(Interval(piece.high)).psi.value.high < 0)
-        return {TrueContact::Outcome::contact, bisect(psi, piece.low, piece.high), result.pieces};
-    }
-    if (middle <= piece.low || middle >= piece.high)
-      return {TrueContact::Outcome::undecided, piece.low, result.pieces};
-    pieces.push_back({middle, piece.high});
-    pieces.push_back({piece.low, middle});
-  }
-  return result;
+  const auto constant = [](const Flight<Ellipse>& flight) -> Flight<GrowingEllipse> {
+    return {{flight.body, 1, 0}, flight.pose, flight.motion};
+  };
+  return true_first_contact<long double>(constant(one), constant(two), horizon);
 }
 
 }  // namespace vitrel::lab
