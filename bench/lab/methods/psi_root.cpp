@@ -1,0 +1,22 @@
+#include "bench/lab/methods/psi_root.h"
+
+#include <cmath>
+
+#include "bench/lab/methods/first_root.h"
+#include "bench/lab/methods/opening.h"
+
+namespace vitrel::lab {
+
+Prediction psi_root(const CollisionCase& asked, double tolerance) {
+  const Opening opening = open_search(asked);
+  if (opening.answer) return *opening.answer;
+  const auto signed_psi = [&](double time) {
+    const VieillardBaron<double> contact = vieillard_baron_at(asked, time);
+    return contact.disjoint_or_touching() ? contact.psi : -std::abs(contact.psi);
+  };
+  const RootSearch search = first_root(signed_psi, opening.bracket, tolerance);
+  if (!search.time) return {Outcome::none, 0, Vec2::Zero(), Vec2::Zero(), search.evaluations};
+  return contact_at(asked, *search.time, search.evaluations);
+}
+
+}  // namespace vitrel::lab

@@ -1,0 +1,56 @@
+#include "bench/lab/methods/quadratic_penalty.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bench/lab/methods/newton.h"
+#include "bench/lab/methods/scaled_problem.h"
+
+namespace vitrel::lab {
+namespace {
+
+constexpr int most_steps = 200;  // of Newton for one parameter
+
+struct Penalised {
+  const ScaledProblem& problem;
+  double mu;
+
+  double value(const Vec3& y) const {
+    const double e1 = problem.value1(y);
+    const double e2 = problem.value2(y);
+    return y[0] + (e1 * e1 + e2 * e2) / (2 * mu);
+  }
+
+  SecondOrder operator()(const Vec3& y) const {
+    SecondOrder f{y[0], Vec3::UnitX(), Eigen::Matrix3d::Zero()};
+    for (const EllipseFunction& e : {problem.full1(y), problem.full2(y)}) {
+      f.value += e.value * e.value / (2 * mu);
+      f.gradient += e.value / mu * e.gradient;
+      f.hessian += (e.gradient * e.gradient.transpose() + e.value * e.hessian) / mu;
+    }
+    return f;
+  }
+};
+
+}  // namespace
+
+Prediction quadratic_penalty(const CollisionCase& asked, double tolerance) {
+  const Opening opening = open_search(asked);
+  if (opening.answer) return *opening.answer;
+  const ScaledProblem problem(asked, opening.bracket);
+
+  Vec3 y = Vec3::Zero();
+  int steps = 0;
+  double mu = 1;
+  for (;;) {
+    steps += minimise(Penalised{problem, mu}, y, 1e-3 * mu, most_steps);
+    if (!(mu > tolerance)) break;
+    mu = std::max(0.1 * mu, tolerance);
+  }
+  if (!y.allFinite()) return {Outcome::not_converged, 0, Vec2::Zero(), Vec2::Zero(), steps};
+  const double off = std::max(std::abs(problem.value1(y)), std::abs(problem.value2(y)));
+  if (!(off <= std::sqrt(tolerance))) return {Outcome::none, 0, Vec2::Zero(), Vec2::Zero(), steps};
+  return problem.contact(y, steps);
+}
+
+}  // namespace vitrel::lab
