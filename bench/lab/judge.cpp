@@ -1,0 +1,74 @@
+#include "bench/lab/judge.h"
+
+#include <cmath>
+#include <limits>
+
+#include "bench/lab/reference/true_gap.h"
+
+namespace vitrel::lab {
+
+namespace {
+
+bool answers_contact(const Prediction& answer) {
+  return answer.outcome == Outcome::contact || answer.outcome == Outcome::overlap;
+}
+
+// An overlap found at the start is a contact at time 0.
+double time_of(const Prediction& answer) {
+  return answer.outcome == Outcome::overlap ? 0 : answer.time;
+}
+
+bool is_degenerate(const CollisionCase& asked, const TrueContact& truth) {
+  if (truth.outcome != TrueContact::Outcome::contact) return true;
+  const double reach = asked.one.body.shape.a + asked.two.body.shape.a;
+  return truth.approach_speed < 0.02 * reach / asked.horizon;
+}
+
+// A contact answered where a true one exists; `off` is the time error.
+Verdict timing(double off, double allowed, bool degenerate, bool at_rounding) {
+  if (std::abs(off) <= allowed) return Verdict::correct;
+  if (off > 0) return Verdict::late;
+  return degenerate && at_rounding ? Verdict::correct : Verdict::early;
+}
+
+}  // namespace
+
+Judgement judge(const CollisionCase& asked, const TrueContact& truth, const Prediction& answer,
+                const JudgingTolerance& tolerance) {
+  using Truth = TrueContact::Outcome;
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const double allowed = tolerance.time * asked.horizon;
+  Judgement judgement{Verdict::correct, is_degenerate(asked, truth), none, none};
+
+  const bool contact = answers_contact(answer);
+  const double time = time_of(answer);
+  if (answer.outcome == Outcome::not_converged || (contact && !std::isfinite(time))) {
+    judgement.verdict = Verdict::not_converged;
+    return judgement;
+  }
+  if (truth.outcome == Truth::overlap_at_start) {
+    judgement.verdict = contact && time <= allowed ? Verdict::correct : Verdict::missed;
+    return judgement;
+  }
+  if (!contact) {
+    judgement.verdict = truth.outcome == Truth::contact ? Verdict::missed : Verdict::correct;
+    return judgement;
+  }
+
+  const auto off = static_cast<double>(time - truth.time);
+  const bool near_in_time = truth.outcome == Truth::contact && std::abs(off) <= allowed;
+  const auto gap = static_cast<double>(true_gap(asked.one, asked.two, time));
+  const bool at_rounding = gap <= tolerance.gap * asked.gap_unit();
+  if (truth.outcome == Truth::contact) {
+    judgement.time_error = off;
+    judgement.gap_error = gap;
+  }
+  if (!at_rounding && !near_in_time &&
+      (truth.outcome != Truth::contact || answer.outcome == Outcome::overlap))
+    judgement.verdict = Verdict::false_contact;
+  else if (truth.outcome == Truth::contact)
+    judgement.verdict = timing(off, allowed, judgement.degenerate, at_rounding);
+  return judgement;
+}
+
+}  // namespace vitrel::lab
