@@ -190,8 +190,9 @@ class Search {
     return part.high > part.low ? part : none;
   }
 
-  /// Searches from..to; on return `from` is the time up to which there is no contact.
-  Result pass(Real& from, const Real& to, const Real& shortest, int& pieces) {
+  /// Searches from..to; on return `from` is the time up to which there is no contact. Stuck at a
+  /// piece as short as `shortest`; content (passed) with one piece as long as `enough`.
+  Result pass(Real& from, const Real& to, const Real& shortest, const Real& enough, int& pieces) {
     Real width = (to - from) / 2;
     while (from < to) {
       const Real end = width < to - from ? Real(from + width) : to;
@@ -202,14 +203,18 @@ class Search {
       const Directions<Real> directions = pair_.directions(middle);
       const Cubic<Real> at_middle = pair_.over(middle, Real(0), directions);
       const Cubic<Real> piece = pair_.over(middle, half, directions);
-      if (negative_throughout(at_middle, piece, half)) {
+      Start start = Start::apart;
+      if (negative_throughout(at_middle, piece, half) ||
+          (start = at_start(piece, from, end - from)) == Start::leaving) {
+        width = 4 * half;
         from = end;
-        width = 2 * (end - middle) * 2;
+        if (2 * half >= enough) return Result::passed;
+      } else if (crosses(at_middle, piece, half, end)) {
+        contact_ = {from, end};
+        return Result::contact;
+      } else if (start == Start::unclear && shortest > 0) {
+        return Result::stuck;
       } else {
-        if (crosses(at_middle, piece, half, end)) {
-          contact_ = {from, end};
-          return Result::contact;
-        }
         width = middle - from;
       }
     }
@@ -258,6 +263,24 @@ class Search {
     return over.value.high < 0 || taylor(at, over, half).high < 0;
   }
 
+  // How a piece that could not be passed from its middle begins. `leaving`: R, with x as it is best
+  // at the start, falls, and stays negative all over the piece. `unclear`: it falls from where Real
+  // cannot tell it from 0, so that no shorter piece will be passed either.
+  enum class Start { apart, unclear, leaving };
+  Start at_start(const Cubic<Real>& piece, const Real& from, const Real& width) const {
+    const Cubic<Real> start = pair_.at(from);
+    const Real x = least_at(start, start);
+    if (!usable(x)) return Start::apart;
+    const Jet<Real> at = start.at(x);
+    if (at.first.high >= 0) return Start::apart;
+    if (at.value.high >= 0) return Start::unclear;
+    // A parabola that bends upwards is highest at its ends.
+    const Interval<Real> s(width), half(Real(1) / 2);
+    const Interval<Real> bend(std::max(piece.at(x).second.high, Real(0)));
+    const Interval<Real> end = at.value + at.first * s + half * bend * square(s);
+    return end.high < 0 ? Start::leaving : Start::apart;
+  }
+
   bool crosses(const Cubic<Real>& at_middle, const Cubic<Real>& piece, const Real& half,
                const Real& end) const {
     if (pair_.at(end).discriminant().value.high >= 0) return false;
@@ -269,6 +292,13 @@ class Search {
   typename Pair<Real>::CircleQuadratic circles_;
   Interval<Real> contact_;
 };
+
+// The nearest double that is not above a time (which is in the horizon).
+template <class Real>
+double below(const Real& time) {
+  const auto nearest = static_cast<double>(time);
+  return Real(nearest) <= time ? nearest : std::nextafter(nearest, 0);
+}
 
 template <class Real>
 TrueContact described(TrueContact::Outcome outcome, const Interval<Real>& when, int pieces,
@@ -313,22 +343,28 @@ TrueContact true_first_contact(const Flight<GrowingEllipse>& one, const Flight<G
   }
 
   const Interval<double> window = coarse.window(horizon);
+  const double enough = 100 * shortest * window.width();
+  constexpr double unlimited = std::numeric_limits<double>::infinity();
   double from = window.low;
-  const auto found = coarse.pass(from, window.high, shortest * window.width(), result.pieces);
-  if (found == Coarse::Result::passed) return result;
-  if (!fine) fine.emplace(one, two);
-  if (found == Coarse::Result::contact) {
-    const Interval<double> roughly = coarse.refined(coarse.contact());
-    return described(Outcome::contact,
-                     fine->refined(Interval<Real>(Real(roughly.low), Real(roughly.high))),
-                     result.pieces, one, two);
+  while (true) {
+    const auto roughly =
+        coarse.pass(from, window.high, shortest * window.width(), unlimited, result.pieces);
+    if (roughly == Coarse::Result::passed && from >= window.high) return result;
+    if (!fine) fine.emplace(one, two);
+    if (roughly == Coarse::Result::contact) {
+      const Interval<double> contact = coarse.refined(coarse.contact());
+      return described(Outcome::contact, fine->refined({Real(contact.low), Real(contact.high)}),
+                       result.pieces, one, two);
+    }
+    Real reached = from;
+    const auto finely =
+        fine->pass(reached, Real(window.high), Real(0), Real(enough), result.pieces);
+    if (finely == Fine::Result::contact)
+      return described(Outcome::contact, fine->refined(fine->contact()), result.pieces, one, two);
+    if (finely == Fine::Result::stuck)
+      return described<Real>(Outcome::undecided, reached, result.pieces, one, two);
+    from = below(reached);
   }
-  Real reached = from;
-  const auto finely = fine->pass(reached, Real(window.high), Real(0), result.pieces);
-  if (finely == Fine::Result::passed) return result;
-  if (finely == Fine::Result::contact)
-    return described(Outcome::contact, fine->refined(fine->contact()), result.pieces, one, two);
-  return described<Real>(Outcome::undecided, reached, result.pieces, one, two);
 }
 
 template TrueContact true_first_contact<long double>(const Flight<GrowingEllipse>&,
