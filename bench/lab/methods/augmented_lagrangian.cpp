@@ -11,7 +11,7 @@ namespace {
 
 constexpr double violated = 1e-6;
 constexpr double farthest = 1e6;  // of the point from the start, in scaled units
-constexpr int most_evaluations = 5000;
+constexpr int most_evaluations = 1000;
 
 double time_of(unsigned, const double* y, double* gradient, void*) {
   if (gradient) {
@@ -87,8 +87,7 @@ Prediction augmented_lagrangian(const CollisionCase& asked, double tolerance) {
   const auto [y, evaluations] = solver.run(problem, tolerance);
   if (!y.allFinite()) return {Outcome::not_converged};
   // Without a contact within reach the multipliers grow until the optimiser gives up.
-  if (!(problem.violation(y) <= violated))
-    return {Outcome::none, 0, Vec2::Zero(), Vec2::Zero(), evaluations};
+  if (!(problem.violation(y) <= violated)) return without_contact(Outcome::none, evaluations);
   return problem.contact(y, evaluations);
 }
 

@@ -66,7 +66,7 @@ Prediction log_barrier(const CollisionCase& asked, double tolerance) {
     if (!(mu > tolerance)) break;
     mu = std::max(0.1 * mu, tolerance);
   }
-  if (!y.allFinite()) return {Outcome::not_converged, 0, Vec2::Zero(), Vec2::Zero(), steps};
+  if (!y.allFinite()) return without_contact(Outcome::not_converged, steps);
   return problem.contact(y, steps);
 }
 

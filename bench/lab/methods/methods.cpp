@@ -39,7 +39,10 @@ std::vector<Entry> entries() {
       {"log_barrier", log_barrier, 1e-10, {1e-2, 1e-4, 1e-6, 1e-8, 1e-10}},
       {"augmented_lagrangian", augmented_lagrangian, 1e-10, {1e-2, 1e-4, 1e-6, 1e-8, 1e-10}},
       {"psi_root", psi_root, 1.0 / 100, scan_steps},
-      {"perram_wertheim_root", perram_wertheim_root, 1.0 / 20, scan_steps},
+      {"perram_wertheim_root",
+       perram_wertheim_root,
+       1.0 / 20,
+       {1.0 / 4, 1.0 / 10, 1.0 / 20, 1.0 / 50, 1.0 / 100, 1.0 / 300}},
       {"unit_circle", unit_circle, 1.0 / 100, scan_steps},
   };
 }

@@ -73,11 +73,10 @@ Prediction nelder_mead(const CollisionCase& asked, double tolerance) {
     settled = simplex.run(f, y, edge, tolerance, iterations);
     edge = std::clamp((y - before).norm(), 10 * tolerance, first_edge);
   }
-  if (!y.allFinite() || !settled)
-    return {Outcome::not_converged, 0, Vec2::Zero(), Vec2::Zero(), iterations};
+  if (!y.allFinite() || !settled) return without_contact(Outcome::not_converged, iterations);
   y[0] = std::clamp(y[0], 0.0, 1.0);
   if (!(problem.violation(y) <= std::sqrt(tolerance)))
-    return {Outcome::none, 0, Vec2::Zero(), Vec2::Zero(), iterations};
+    return without_contact(Outcome::none, iterations);
   return problem.contact(y, iterations);
 }
 

@@ -48,6 +48,16 @@ bool overlaps_at_start(const CollisionCase& asked) {
   return !vieillard_baron_at(asked, 0).disjoint_or_touching();
 }
 
+Prediction without_contact(Outcome outcome, int steps) {
+  return {outcome, 0, Vec2::Zero(), Vec2::Zero(), steps};
+}
+
+Prediction contact_along(const Vec2& outward, double time, const Vec2& point, int steps) {
+  const Vec2 normal = outward.stableNormalized();
+  if (!normal.allFinite() || normal.isZero()) return without_contact(Outcome::not_converged, steps);
+  return {Outcome::contact, time, normal, point, steps};
+}
+
 Prediction contact_at(const CollisionCase& asked, double time, int steps) {
   const PerramWertheim touch = perram_wertheim_at(asked, time);
   const Vec2 centre = asked.one.pose.position + asked.one.motion.velocity * time;

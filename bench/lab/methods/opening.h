@@ -20,6 +20,10 @@ VieillardBaron<double> vieillard_baron_at(const CollisionCase& asked, double tim
 PerramWertheim perram_wertheim_at(const CollisionCase& asked, double time);
 bool overlaps_at_start(const CollisionCase& asked);
 
+/// An answer that is no contact, with the number of steps or evaluations it took.
+Prediction without_contact(Outcome outcome, int steps);
+/// The contact with the normal along `outward`; not_converged if that is no direction.
+Prediction contact_along(const Vec2& outward, double time, const Vec2& point, int steps);
 /// The contact at a time known to be one, with the normal and point of Perram and Wertheim.
 Prediction contact_at(const CollisionCase& asked, double time, int steps);
 

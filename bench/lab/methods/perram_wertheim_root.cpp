@@ -132,7 +132,7 @@ Prediction perram_wertheim_root(const CollisionCase& asked, double tolerance) {
   if (opening.answer) return *opening.answer;
   Search search(asked);
   const auto time = search.run(opening.bracket, tolerance);
-  if (!time) return {Outcome::none, 0, Vec2::Zero(), Vec2::Zero(), search.evaluations()};
+  if (!time) return without_contact(Outcome::none, search.evaluations());
   return contact_at(asked, *time, search.evaluations());
 }
 

@@ -15,7 +15,7 @@ Prediction psi_root(const CollisionCase& asked, double tolerance) {
     return contact.disjoint_or_touching() ? contact.psi : -std::abs(contact.psi);
   };
   const RootSearch search = first_root(signed_psi, opening.bracket, tolerance);
-  if (!search.time) return {Outcome::none, 0, Vec2::Zero(), Vec2::Zero(), search.evaluations};
+  if (!search.time) return without_contact(Outcome::none, search.evaluations);
   return contact_at(asked, *search.time, search.evaluations);
 }
 

@@ -47,9 +47,9 @@ Prediction quadratic_penalty(const CollisionCase& asked, double tolerance) {
     if (!(mu > tolerance)) break;
     mu = std::max(0.1 * mu, tolerance);
   }
-  if (!y.allFinite()) return {Outcome::not_converged, 0, Vec2::Zero(), Vec2::Zero(), steps};
+  if (!y.allFinite()) return without_contact(Outcome::not_converged, steps);
   const double off = std::max(std::abs(problem.value1(y)), std::abs(problem.value2(y)));
-  if (!(off <= std::sqrt(tolerance))) return {Outcome::none, 0, Vec2::Zero(), Vec2::Zero(), steps};
+  if (!(off <= std::sqrt(tolerance))) return without_contact(Outcome::none, steps);
   return problem.contact(y, steps);
 }
 

@@ -52,7 +52,7 @@ class ScaledProblem {
   Prediction contact(const Vec3& y, int steps) const {
     Vec3 gradient;
     one_.value(time(y), point(y), gradient);
-    return {Outcome::contact, time(y), gradient.tail<2>().normalized(), point(y), steps};
+    return contact_along(gradient.tail<2>(), time(y), point(y), steps);
   }
 
  private:

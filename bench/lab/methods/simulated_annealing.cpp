@@ -65,8 +65,7 @@ Prediction simulated_annealing(const CollisionCase& asked, double tolerance) {
       cooling.iters_fixed_T * std::log(cooling.t_initial / tolerance) / std::log(cooling.mu_t));
   Vec3 y(state.y[0], state.y[1], state.y[2]);
   y[0] = std::clamp(y[0], 0.0, 1.0);
-  if (!(problem.violation(y) <= violated))
-    return {Outcome::none, 0, Vec2::Zero(), Vec2::Zero(), trials};
+  if (!(problem.violation(y) <= violated)) return without_contact(Outcome::none, trials);
   return problem.contact(y, trials);
 }
 

@@ -119,14 +119,13 @@ Prediction slsqp(const CollisionCase& asked, double tolerance) {
   Vec3 gradient;
   const bool holds =
       one.value(time, point, gradient) <= violated && two.value(time, point) <= violated;
-  if (!converged && !holds)
-    return {Outcome::not_converged, time, Vec2::Zero(), Vec2::Zero(), evaluations};
+  if (!converged && !holds) return without_contact(Outcome::not_converged, evaluations);
   const bool at_an_end =
       time < bracket->earliest + at_the_end || time > bracket->latest - at_the_end;
-  if (at_an_end && !holds) return {Outcome::none, 0, Vec2::Zero(), Vec2::Zero(), evaluations};
+  if (at_an_end && !holds) return without_contact(Outcome::none, evaluations);
   if (time < at_the_end && overlaps_at_start(asked))
-    return {Outcome::overlap, 0, Vec2::Zero(), Vec2::Zero(), evaluations};
-  return {Outcome::contact, time, gradient.tail<2>().normalized(), point, evaluations};
+    return without_contact(Outcome::overlap, evaluations);
+  return contact_along(gradient.tail<2>(), time, point, evaluations);
 }
 
 }  // namespace vitrel::lab

@@ -22,8 +22,7 @@ Mat2 rotation(double angle) {
 
 double least_eigenvalue(const Mat2& s, const Vec2& g) {
   const double length = g.norm();
-  if (!(length > 0)) return 0;  // unused: any boundary point is an extreme of its kind
-  const Vec2 e = g / length;
+  const Vec2 e = g.normalized();  // 0 for g = 0
   Eigen::Matrix4d matrix;
   matrix << s, -length * Mat2::Identity(), -length * e * e.transpose(), s;
   thread_local Eigen::EigenSolver<Eigen::Matrix4d> solver;
@@ -79,16 +78,14 @@ Prediction unit_circle(const CollisionCase& asked, double tolerance) {
     return closest_to_origin(t.c, t.m).distance - 1;
   };
   const RootSearch search = first_root(excess, opening.bracket, tolerance);
-  if (!search.time) return {Outcome::none, 0, Vec2::Zero(), Vec2::Zero(), search.evaluations};
+  if (!search.time) return without_contact(Outcome::none, search.evaluations);
 
   const double time = *search.time;
   const Transformed t = transformed(asked, time);
   const Vec2 closest = closest_to_origin(t.c, t.m).point.normalized();
-  if (!closest.allFinite())
-    return {Outcome::not_converged, time, Vec2::Zero(), Vec2::Zero(), search.evaluations};
   const Vec2 centre = asked.one.pose.position + asked.one.motion.velocity * time;
-  return {Outcome::contact, time, (t.to_circle.transpose() * closest).normalized(),
-          centre + t.to_circle.inverse() * closest, search.evaluations};
+  return contact_along(t.to_circle.transpose() * closest, time,
+                       centre + t.to_circle.inverse() * closest, search.evaluations);
 }
 
 }  // namespace vitrel::lab
