@@ -12,6 +12,18 @@ struct JudgingTolerance {
   double gap = 1e-8;   ///< in units of the smaller semi-minor axis
 };
 
+/// What is said about an answer.
+///
+/// - Overlap at the start: right if the answer is overlap, or a contact at time 0 within the time
+///   tolerance (a method need not tell the two apart); any other is missed.
+/// - A contact at τ: none is missed; a contact is right within the time tolerance of τ, else late,
+///   or early, or, if the pair is degenerate and the true gap at the reported time is within the gap
+///   tolerance, right though early. Overlap counts as a contact at time 0, but as false if the
+///   surfaces are then apart by more than the tolerance.
+/// - No contact, or undecided (the surfaces touch to within the rounding of the reference): none is
+///   right; a contact is right if the true gap at the reported time is within the tolerance, else
+///   false.
+/// - A time that is no number is not converged.
 enum class Verdict {
   correct,
   early,          ///< contact reported before the true one, by more than the tolerance
