@@ -10,8 +10,8 @@ namespace vitrel::lab {
 /// NLopt's implementation (AUGLAG, after Birgin and Martínez) with a preconditioned truncated Newton
 /// method inside (of NLopt's methods it stays closest to the optimum; L-BFGS gives up earlier), in
 /// the variables of ScaledProblem with 0 ≤ τ ≤ 1, from where the circumcircles touch. `tolerance` (usual
-/// 1e-10): the relative change of the variables at which both loops end, or after 1000 evaluations. A result that violates a
-/// constraint by more than 1e-6 means no contact. Local.
+/// 1e-10): the relative change of the variables at which both loops end; 1000 evaluations end them too.
+/// A result that violates a constraint by more than 1e-6 means no contact. Local.
 Prediction augmented_lagrangian(const CollisionCase& asked, double tolerance);
 
 }  // namespace vitrel::lab

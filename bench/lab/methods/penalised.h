@@ -11,7 +11,7 @@ namespace vitrel::lab {
 /// ScaledProblem:
 ///     f(y) = τ + w (max(0, E₁)² + max(0, E₂)²) + 100 · (distance of τ from [0, 1]).
 /// At its minimum Eᵢ = λᵢ/2w with the multipliers λᵢ of the constraints, and the time is early by
-/// (λ₁² + λ₂²)/4w in units of the bracket. The exact penalty, without the squares, would not be early;
+/// (λ₁² + λ₂²)/2w in units of the bracket. The exact penalty, without the squares, would not be early;
 /// but simplices collapse on its kink, a thousand times farther from the contact. Outside the bracket
 /// the ellipses are taken at its nearer end. Instead of NaN or infinity, 1e300.
 class PenalisedTime {
