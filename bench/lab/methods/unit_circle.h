@@ -21,9 +21,8 @@ struct ClosestPoint {
 ///     (S − μ)² z = g gᵀ z,
 /// which u = (S − μ) z/|g| turns into a linear one of twice the size, with ĝ = g/|g|:
 ///     ⎛   S      −|g| I ⎞ ⎛z⎞     ⎛z⎞
-///     ⎝ −|g| ĝĝᵀ    S    ⎠ ⎝u⎠ = μ ⎝u⎠   (signs such that S z − |g| u = μ z, S u − |g| ĝĝᵀ z = μ u).
-/// The least μ belongs to the minimum (gander1989), and it has the least real
-/// part of all four: for complex μ with a smaller real part, |Σ gᵢ²/(λᵢ − μ)²| < 1 in the eigenbasis of
+///     ⎝ −|g| ĝĝᵀ    S    ⎠ ⎝u⎠ = μ ⎝u⎠
+/// The least μ belongs to the minimum (gander1989), and it has the least real part of all: for complex μ with a smaller real part, |Σ gᵢ²/(λᵢ − μ)²| < 1 in the eigenbasis of
 /// S. Rounding that makes a complex pair of a double root therefore does no harm. In that basis wᵢ =
 /// −gᵢ/(λᵢ − μ); should a denominator vanish (the origin on an axis of the ellipse), |w| = 1 gives that
 /// component. Sources: section 3.2.2 of the thesis, gander1989.
@@ -32,7 +31,7 @@ ClosestPoint closest_to_origin(const Vec2& c, const Mat2& m);
 /// The root of the distance minus 1 (figure 3.11 of the thesis): scan of the bracket in steps of
 /// `tolerance` times its length (usual 1/100), then algorithm 748 to double precision. The distance
 /// comes from eigenvalues, good to about 1e-15 of the square of the largest of |c|, |M|. A contact
-/// shorter than a step can be missed. The normal is T ᵀ times the closest point.
+/// shorter than a step can be missed. The normal is Tᵀ times the closest point.
 Prediction unit_circle(const CollisionCase& asked, double tolerance);
 
 }  // namespace vitrel::lab
