@@ -3,21 +3,26 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "core/contact/pair_in_flight.h"
 #include "core/contact/support_gap.h"
 
 namespace vitrel {
 
 namespace {
 
+constexpr double forever = 1e100;
 constexpr int max_steps = 1000;
 /// A gap up to this multiple of the contact gap counts as touching.
 constexpr double touching = 1.25;
+/// A leap ends where the gap is the contact gap to within this fraction.
+constexpr double leap_accuracy = 0.25;
 
-// First root of c + slope s − ½ M s² = 0 for c ≥ 0, M ≥ 0; infinity if there is none.
+// First root of c + slope s − ½ M s² = 0 for c ≥ 0 and any M; infinity if there is none.
 double first_root(double c, double slope, double acceleration) {
-  const double root = std::sqrt(slope * slope + 2 * acceleration * c);
+  const double discriminant = slope * slope + 2 * acceleration * c;
+  if (!(discriminant >= 0)) return std::numeric_limits<double>::infinity();
+  const double root = std::sqrt(discriminant);
   if (slope < 0) return 2 * c / (root - slope);
   return acceleration > 0 ? (slope + root) / acceleration : std::numeric_limits<double>::infinity();
 }
@@ -26,170 +31,259 @@ struct Interval {
   double begin, end;
   bool empty() const { return !(begin <= end); }
 };
+constexpr Interval never{1, 0};
 
-// The part of [0, horizon] in which the centres are closer than `reach`.
-Interval time_within(const Vec2& d, const Vec2& v, double reach, double horizon) {
-  const double distance = d.norm();
-  const double c = (distance - reach) * (distance + reach);
-  const double slope = d.dot(v);
-  const double speed_squared = v.squaredNorm();
-  if (c > 0 && slope >= 0) return {1, 0};
-  if (speed_squared == 0) return c > 0 ? Interval{1, 0} : Interval{0, horizon};
-  const double discriminant = slope * slope - speed_squared * c;
-  if (discriminant < 0) return {1, 0};
-  const double root = std::sqrt(discriminant);
-  const double begin = c > 0 ? c / (root - slope) : 0;
+// A part of [0, horizon] outside which |d + v t| > reach + growth t: from the first moment at which
+// this is not so to the last (or to the horizon, if the circles grow faster than they move).
+Interval time_within(const Vec2& d, const Vec2& v, double reach, double growth, double horizon) {
+  const double c = d.squaredNorm() - reach * reach;
+  const double b = d.dot(v) - reach * growth;
+  const double a = v.squaredNorm() - growth * growth;  // a t² + 2 b t + c ≤ 0 while within
+  const double discriminant = b * b - a * c;
+  const bool outside = c > 0;
+  if (outside && discriminant < 0) return never;
+  const double root = std::sqrt(std::max(discriminant, 0.0));
+  if (outside && !(root - b > 0)) return never;
+  const double begin = outside ? c / (root - b) : 0;
+  if (!(a > 0)) return {begin, horizon};
   // The far root, in the form without cancellation.
-  const double end = slope <= 0 ? (root - slope) / speed_squared : -c / (root + slope);
+  const double end = b <= 0 ? (root - b) / a : -c / (root + b);
   return {begin, std::min(end, horizon)};
 }
 
-// The search for one pair; positions are relative to those at time 0.
+// The search for one pair.
 class Search {
  public:
-  Search(const Flight<Ellipse>& one, const Flight<Ellipse>& two, double contact_gap)
-      : one_(one),
-        two_(two),
-        d0_(two.pose.position - one.pose.position),
-        v_(two.motion.velocity - one.motion.velocity),
-        contact_gap_(contact_gap) {}
+  template <class B>
+  Search(const Flight<B>& one, const Flight<B>& two, double contact_gap)
+      : flight_(one, two), contact_gap_(contact_gap) {}
 
+  /// All but the contact point.
   Prediction run(double horizon) {
-    const double reach = one_.body.a + two_.body.a + touching * contact_gap_;
-    const Interval near = time_within(d0_, v_, reach, horizon);
+    const Interval near =
+        time_within(flight_.d0(), flight_.v(), flight_.reach() + touching * contact_gap_,
+                    flight_.reach_growth(), std::min(horizon, forever));
     if (near.empty()) return {};
-
-    double time = near.begin;
-    place(time);
-    n_ = detail::find_separating_axis(one_.body, u1_, two_.body, u2_, d_);
-    if (n_.isZero()) return {Outcome::overlap, time, Vec2::Zero(), Vec2::Zero(), 1};
-    here_ = detail::gap_along(one_.body, u1_, two_.body, u2_, d_, n_);
+    flight_.start_at(near.begin);
+    look_along(detail::likely_axis(flight_.now()));
+    if (!has_separating_axis()) return outcome(Outcome::overlap, 1);
 
     for (int step = 1; step <= max_steps; ++step) {
-      sharpen_axis();
-      const double slope = gap_rate();
-      if (here_.gap <= touching * contact_gap_ && slope < 0) return contact(time, step);
-      const double advance = safe_advance(slope, near.end - time);
-      if (!(time + advance < near.end)) return {Outcome::none, 0, n_, Vec2::Zero(), step};
-      time += advance;
-      place(time);
-      here_ = detail::gap_along(one_.body, u1_, two_.body, u2_, d_, n_);
+      if (here_.gap <= 4 * contact_gap_) perfect_axis();
+      const double rate = flight_.gap_rate(n_, here_);
+      const double room = here_.gap - contact_gap_;
+      const double time_left = near.end - flight_.time();
+      if (here_.gap <= touching * contact_gap_ && rate < 0) return contact(step);
+      if (time_left <= 0) return outcome(Outcome::none, step);
+      if (room + rate * time_left > 0) {
+        if (stays_open(room, rate, time_left)) return outcome(Outcome::none, step);
+      } else if (crosses(room, rate) && leap(rate, near.end)) {
+        return contact(step);
+      }
+      advance(safe_duration(rate, time_left));
     }
-    return {Outcome::not_converged, time, n_, Vec2::Zero(), max_steps};
+    return outcome(Outcome::not_converged, max_steps);
+  }
+
+  /// From centre 1 to its surface point with normal n.
+  Vec2 arm1() const {
+    const EllipsePair& pair = flight_.now();
+    const Vec2 u(pair.ux[0], pair.uy[0]);
+    const double along = u.dot(n_);
+    const double h = std::sqrt(pair.bb[0] + pair.stretch[0] * along * along);
+    return pair.size[0] / h * (pair.bb[0] * n_ + pair.stretch[0] * along * u);
   }
 
  private:
-  void place(double time) {
-    d_ = d0_ + v_ * time;
-    u1_ = direction(one_.pose.angle + one_.motion.angular_velocity * time);
-    u2_ = direction(two_.pose.angle + two_.motion.angular_velocity * time);
+  void look_along(const Vec2& n) {
+    n_ = n;
+    here_ = gap_along(flight_.now(), n);
   }
 
-  // Any separating axis bounds, a better one bounds further; but a contact may be declared only
-  // with the best one. The axis is improved while that promises a tenth of the gap, near touching
-  // until the possible gain is far below the contact gap.
-  void sharpen_axis() {
-    const auto worth_it = [&] {
-      if (!(here_.curvature > 0)) return true;
-      if (here_.gap > 4 * contact_gap_) return here_.gain() > 0.1 * here_.gap;
-      return here_.gain() > 1e-3 * contact_gap_;
-    };
-    for (int step = 0; step < 30 && worth_it(); ++step)
-      if (!detail::climb(one_.body, u1_, two_.body, u2_, d_, n_, here_)) break;
-    if (here_.curvature > 0 && here_.gap > 0) return;
-    // The old axis has turned so far that Newton cannot climb from it: begin again.
-    const Vec2 fresh = detail::find_separating_axis(one_.body, u1_, two_.body, u2_, d_);
-    if (fresh.isZero()) return;
-    n_ = fresh;
-    here_ = detail::gap_along(one_.body, u1_, two_.body, u2_, d_, n_);
-    for (int step = 0; step < 30 && worth_it(); ++step)
-      if (!detail::climb(one_.body, u1_, two_.body, u2_, d_, n_, here_)) break;
+  // Whether the present axis separates, or one Newton step from it, or, sought from nothing, any.
+  bool has_separating_axis() {
+    if (here_.gap > 0) return true;
+    look_along(detail::turned(n_, std::clamp(here_.slope / here_.curvature, -1.0, 1.0)));
+    if (here_.gap > 0) return true;
+    const Vec2 fresh = detail::find_separating_axis(flight_.now());
+    if (fresh.isZero()) return false;
+    look_along(fresh);
+    return true;
   }
 
-  // dg/dt for the fixed axis: n·v − ḣ₁ − ḣ₂, and turning the body by dθ is turning n by −dθ.
-  double gap_rate() const {
-    return n_.dot(v_) + one_.motion.angular_velocity * here_.slope1 +
-           two_.motion.angular_velocity * here_.slope2;
+  // A contact may be declared only with the best axis: near touching it is improved until the
+  // possible gain is far below the contact gap.
+  void perfect_axis() {
+    for (int step = 0; step < 30 && !is_best_axis(); ++step)
+      if (!detail::climb(flight_.now(), n_, here_)) break;
+  }
+  bool is_best_axis() const { return here_.gain() <= 1e-3 * contact_gap_; }
+
+  double nonnegative_bound(double duration) const {
+    return std::max(flight_.acceleration_bound(here_, duration), 0.0);
   }
 
-  double acceleration_bound(double duration) const {
-    return support_acceleration_bound(one_.body, u1_, one_.motion.angular_velocity, n_, duration) +
-           support_acceleration_bound(two_.body, u2_, two_.motion.angular_velocity, n_, duration);
+  // Whether the bounding parabola stays positive so long: being concave, it is lowest at an end.
+  bool stays_open(double room, double rate, double duration) const {
+    return room > 0 && room + duration * (rate - 0.5 * nonnegative_bound(duration) * duration) > 0;
   }
 
-  // A time step in which the gap cannot fall below the contact gap.
-  double safe_advance(double slope, double time_left) const {
-    const double room = std::max(here_.gap - contact_gap_, 0.0);
-    const double global = acceleration_bound(std::numeric_limits<double>::infinity());
-    double advance = first_root(room, slope, global);
-    // The bound over a shorter time is lower and may carry further, up to that time.
-    const double trial = std::min(8 * advance, time_left);
-    if (trial > advance) {
-      const double local = first_root(room, slope, acceleration_bound(trial));
-      advance = std::max(advance, std::min(local, trial));
+  // Whether the gap closes at a rate that provably keeps its sign on the way.
+  bool crosses(double room, double rate) const {
+    if (!(rate < 0 && room > 0)) return false;
+    return 2 * flight_.acceleration_bound(here_, -room / rate) * room < rate * rate;
+  }
+
+  // How the gap along the best axis, which turns, closes: to second order.
+  struct Approach {
+    double rate;          // < 0
+    double acceleration;  // −d²/dt²
+    double turning_rate;  // of the best axis
+    double turn;          // to it from the present axis
+  };
+  Approach approach(double rate) const {
+    const double inverse = 1 / here_.curvature;
+    const double mixed = flight_.slope_rate(n_, here_);
+    return {rate + here_.slope * mixed * inverse,
+            flight_.acceleration(here_) - mixed * mixed * inverse, mixed * inverse,
+            here_.slope * inverse};
+  }
+
+  // Newton's method, of third order in time, for g = contact gap and dg/dφ = 0 in t and φ; then the
+  // proof, by the parabola looking back from there, that the gap was open all the way. If it does
+  // not converge before `end`, or the proof fails, nothing changes and the answer is false.
+  bool leap(double rate, double end) {
+    const double start = flight_.time();
+    const Vec2 start_axis = n_;
+    for (int step = 0; step < 8; ++step) {
+      const Approach a = approach(rate);
+      const double closing = -1 / a.rate;
+      const double newton = (here_.gap + 0.5 * here_.slope * a.turn - contact_gap_) * closing;
+      const double bend = 0.5 * a.acceleration * newton * closing;
+      const double duration = newton * (1 - bend + 2 * bend * bend);
+      const double turn = a.turn + a.turning_rate * duration;
+      if (!(flight_.time() + duration < end && std::abs(turn) < 1)) break;
+      flight_.go_to(flight_.time() + duration);
+      look_along(detail::turned(n_, turn));
+      rate = flight_.gap_rate(n_, here_);
+      if (!(rate < 0 && here_.curvature > 0)) break;
+      const double error = std::abs(here_.gap - contact_gap_);
+      if (error <= leap_accuracy * contact_gap_ && is_best_axis()) {
+        if (was_open_since(start, rate)) return true;
+        break;
+      }
     }
-    if (here_.gap <= touching * contact_gap_ && global > 0)
-      advance = std::max(advance, std::sqrt(0.25 * contact_gap_ / global));
-    return advance;
+    if (flight_.time() == start) return false;
+    flight_.go_to(start);
+    look_along(start_axis);
+    return false;
   }
 
-  Prediction contact(double time, int steps) {
-    detail::settle(one_.body, u1_, two_.body, u2_, d_, n_, here_);
-    const Vec2 centre = one_.pose.position + one_.motion.velocity * time;
-    return {Outcome::contact, time, n_, centre + surface_point(one_.body, u1_, n_), steps};
+  bool was_open_since(double start, double rate) const {
+    const double duration = flight_.time() - start;
+    return duration >= 0 &&
+           here_.gap - duration * (rate + 0.5 * nonnegative_bound(duration) * duration) > 0;
   }
 
-  const Flight<Ellipse>& one_;
-  const Flight<Ellipse>& two_;
-  const Vec2 d0_, v_;
-  const double contact_gap_;
-  Vec2 d_, u1_, u2_, n_;
-  detail::GapAlongAxis here_;
+  // A time in which the gap cannot fall below the contact gap.
+  double safe_duration(double rate, double time_left) const {
+    const double room = std::max(here_.gap - contact_gap_, 0.0);
+    const double largest = flight_.largest_acceleration();
+    // A guess, for a bound that need not hold longer.
+    const double likely = std::max(flight_.acceleration(here_), largest / 16);
+    double hoped = std::min(first_root(room, rate, likely), time_left);
+    const double growth = flight_.largest_growth();
+    if (growth > 0) hoped = std::min(hoped, 4 * here_.gap / growth);
+    const double bound = flight_.acceleration_bound(here_, hoped);
+    const double safe = std::min(hoped, first_root(room, rate, bound));
+    if (here_.gap > touching * contact_gap_ || largest == 0) return safe;
+    // Sliding at the contact gap: time must pass, and the gap falls by an eighth of it at most.
+    return std::max(safe, std::min(1.0, std::sqrt(0.25 * contact_gap_ / largest)));
+  }
+
+  // Goes on with the axis turned to where it will be best, as far as that can be foreseen.
+  void advance(double duration) {
+    const double turn = (here_.slope + flight_.slope_rate(n_, here_) * duration) / here_.curvature;
+    flight_.go_to(flight_.time() + duration);
+    look_along(detail::turned(n_, std::clamp(turn, -1.0, 1.0)));
+    has_separating_axis();
+  }
+
+  Prediction outcome(Outcome what, int steps) const {
+    return {what, flight_.time(), n_, Vec2::Zero(), steps};
+  }
+  Prediction contact(int steps) {
+    detail::settle(flight_.now(), n_, here_);
+    return outcome(Outcome::contact, steps);
+  }
+
+  PairInFlight flight_;
+  double contact_gap_;
+  Vec2 n_;             // the axis
+  GapAlongAxis here_;  // along it, now
 };
 
-Prediction circles(const Vec2& r1, const Vec2& v1, double radius1, const Vec2& r2, const Vec2& v2,
-                   double radius2, double horizon, double contact_gap) {
-  const Vec2 d = r2 - r1;
-  const Vec2 v = v2 - v1;
-  const double touch = radius1 + radius2;
-  if (d.squaredNorm() < touch * touch) return {Outcome::overlap, 0, d.normalized(), r1, 1};
-  if (d.dot(v) >= 0) return {};
-  const Interval near = time_within(d, v, touch + contact_gap, horizon);
-  if (near.empty()) return {};
-  const Vec2 normal = (d + v * near.begin).normalized();
-  return {Outcome::contact, near.begin, normal, r1 + v1 * near.begin + radius1 * normal, 1};
+template <class B>
+Prediction search(const Flight<B>& one, const Flight<B>& two, double horizon, double contact_gap) {
+  Search pair(one, two, contact_gap);
+  Prediction found = pair.run(horizon);
+  if (found.outcome == Outcome::contact)
+    found.point = one.pose.position + one.motion.velocity * found.time + pair.arm1();
+  return found;
+}
+
+struct Circle {
+  double radius, growth;
+};
+
+template <class B>
+Prediction circles(const Flight<B>& one, const Circle& circle1, const Flight<B>& two,
+                   const Circle& circle2, double horizon, double contact_gap) {
+  const Vec2 d = two.pose.position - one.pose.position;
+  const Vec2 v = two.motion.velocity - one.motion.velocity;
+  const double touch = circle1.radius + circle2.radius;
+  if (d.squaredNorm() < touch * touch)
+    return {Outcome::overlap, 0, d.normalized(), one.pose.position, 1};
+  const double reach = touch + contact_gap;
+  const double growth = circle1.growth + circle2.growth;
+  const double distance = d.norm();
+  const double c = (distance - reach) * (distance + reach);
+  const double b = d.dot(v) - reach * growth;
+  const double a = v.squaredNorm() - growth * growth;  // a t² + 2 b t + c ≤ 0 while within reach
+  const double discriminant = b * b - a * c;
+  if (b >= 0 && a >= 0) return {};
+  if (c > 0 && discriminant < 0) return {};
+  const double root = std::sqrt(std::max(discriminant, 0.0));
+  const double time = b < 0 ? std::max(c / (root - b), 0.0) : (b + root) / -a;
+  if (!(time <= horizon)) return {};
+  const Vec2 normal = (d + v * time).normalized();
+  const double radius1 = circle1.radius + circle1.growth * time;
+  return {Outcome::contact, time, normal,
+          one.pose.position + one.motion.velocity * time + radius1 * normal, 1};
 }
 
 }  // namespace
 
-double support_acceleration_bound(const Ellipse& ellipse, const Vec2& u, double omega,
-                                  const Vec2& n, double duration) {
-  const double stretch = (ellipse.a - ellipse.b) * (ellipse.a + ellipse.b);
-  if (omega == 0 || stretch == 0) return 0;
-  const double turn = std::abs(omega) * duration;
-  double smallest = 0;  // of |u·n| over the step
-  if (turn < 0.5 * std::numbers::pi) {
-    const double cosine = std::abs(u.dot(n));
-    const double sine = std::abs(cross(u, n));
-    smallest = std::max(0.0, cosine * std::cos(turn) - sine * std::sin(turn));
-  }
-  const double h = std::sqrt(ellipse.b * ellipse.b + stretch * smallest * smallest);
-  const double ab = ellipse.a * ellipse.b;
-  return omega * omega * std::max(0.0, ab * ab / (h * h * h) - h);
-}
-
 Prediction first_contact(const Flight<Ellipse>& one, const Flight<Ellipse>& two, double horizon,
                          double contact_gap) {
   if (one.body.is_round() && two.body.is_round())
-    return circles(one.pose.position, one.motion.velocity, one.body.a, two.pose.position,
-                   two.motion.velocity, two.body.a, horizon, contact_gap);
-  return Search(one, two, contact_gap).run(horizon);
+    return circles(one, {one.body.a, 0}, two, {two.body.a, 0}, horizon, contact_gap);
+  return search(one, two, horizon, contact_gap);
+}
+
+Prediction first_contact(const Flight<GrowingEllipse>& one, const Flight<GrowingEllipse>& two,
+                         double horizon, double contact_gap) {
+  const auto circle = [](const GrowingEllipse& body) {
+    return Circle{body.circumradius(), body.growth_rate * body.shape.a};
+  };
+  if (one.body.shape.is_round() && two.body.shape.is_round())
+    return circles(one, circle(one.body), two, circle(two.body), horizon, contact_gap);
+  return search(one, two, horizon, contact_gap);
 }
 
 Prediction first_contact(const Flight<Disk>& one, const Flight<Disk>& two, double horizon,
                          double contact_gap) {
-  return circles(one.pose.position, one.motion.velocity, one.body.radius, two.pose.position,
-                 two.motion.velocity, two.body.radius, horizon, contact_gap);
+  return circles(one, {one.body.radius, 0}, two, {two.body.radius, 0}, horizon, contact_gap);
 }
 
 }  // namespace vitrel

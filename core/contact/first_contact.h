@@ -3,27 +3,32 @@
 #include "core/geometry/body.h"
 #include "core/geometry/disk.h"
 #include "core/geometry/ellipse.h"
+#include "core/geometry/growing_ellipse.h"
 
-/// When do two bodies in free flight first touch?
+/// When do two bodies in free flight, perhaps growing, first touch?
 ///
 /// Ellipses: advance along a separating axis. At time t an axis n with g(n, t) > 0 is found
 /// (support gap); for this fixed n the future obeys
-///     g(n, t + s) ≥ g + ġ s − ½ M s²,   M ≥ max ḧ₁ + max ḧ₂ over the step,
+///     g(n, t + s) ≥ g + ġ s − ½ M s²,   M ≥ −g̈ over the step (pair_in_flight.h),
 /// and the first root of the parabola is a time up to which contact is impossible. The sequence of
-/// these times approaches the first contact from below: it cannot skip a contact, needs no bracket,
-/// and converges quadratically at a crossing, since the bound touches the true gap to first order.
+/// these times approaches the first contact from below: it cannot skip a contact and needs no
+/// bracket.
 ///
-/// Bound: along free flight with n fixed, ḧ = ω² h'' and h'' = a²b²/h³ − h falls with h. Over a
-/// step in which the body turns by at most Δ, |u·n| = cos ψ stays ≥ cos(ψ + Δ), so h is at least
-/// √(b² + (a² − b²) cos²(ψ + Δ)) (b once ψ + Δ ≥ π/2), and M follows from that smallest h. For Δ ≥
-/// π/2 this is the global bound ω² (a² − b²)/b, which is attained.
+/// Steps, from the time at which the circumcircles meet:
+///   1. If the parabola is positive up to the end, there is no contact.
+///   2. If 2 M g < ġ² up to the time −g/ġ, the gap closes at a rate that keeps its sign: Newton's
+///      method leaps to the contact, in time and in the angle of n together. The same parabola from
+///      there, looking back, proves that the gap was open all the way; without that proof the leap
+///      is taken back.
+///   3. Else step on to the root of the parabola, n turned to where it will be best.
 ///
-/// Contact is declared at a gap of `contact_gap`, a little before the surfaces meet (tolerances.h),
-/// and only while approaching. A pair that slides with its gap at that level is let through by at
-/// most contact_gap/8: the step then is never shorter than √(contact_gap/4M), so time always
-/// passes.
+/// Contact is declared at a gap within 0.75 … 1.25 of `contact_gap`, a little before the surfaces
+/// meet (tolerances.h), and only while approaching: with u the speed of the surfaces, earlier than
+/// the true contact by 1.25 contact_gap/u to first order. A pair that slides with its gap at that
+/// level is let through by at most contact_gap/8: the step then is never shorter than
+/// √(contact_gap/4M), so time always passes.
 ///
-/// Disks: closed form, the same gap.
+/// Disks and round ellipses: closed form, the same gap.
 namespace vitrel {
 
 enum class Outcome {
@@ -44,12 +49,9 @@ struct Prediction {
 
 Prediction first_contact(const Flight<Ellipse>& one, const Flight<Ellipse>& two, double horizon,
                          double contact_gap);
+Prediction first_contact(const Flight<GrowingEllipse>& one, const Flight<GrowingEllipse>& two,
+                         double horizon, double contact_gap);
 Prediction first_contact(const Flight<Disk>& one, const Flight<Disk>& two, double horizon,
                          double contact_gap);
-
-/// An upper bound of ḧ(n, s) for 0 ≤ s ≤ duration along the flight of an ellipse whose unit major
-/// axis is u at s = 0 and which turns at `omega`, for the fixed unit vector n.
-double support_acceleration_bound(const Ellipse& ellipse, const Vec2& u, double omega,
-                                  const Vec2& n, double duration);
 
 }  // namespace vitrel

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/geometry/ellipse.h"
+#include "core/contact/ellipse_pair.h"
 
 /// The support gap of two ellipses. For a unit vector n, g(n) = n·d − h₁(n) − h₂(n) with the
 /// support functions h(n) = √(b² + (a² − b²)(u·n)²), u along the major axis and d from centre 1 to
@@ -43,32 +43,27 @@ Vec2 surface_point(const Ellipse& ellipse, const Vec2& u, const Vec2& n);
 
 namespace detail {
 
-/// g and its first two derivatives along the angle of n, with the two h' that free flight needs.
-struct GapAlongAxis {
-  double gap;
-  double slope;           ///< dg/dφ
-  double curvature;       ///< −d²g/dφ² = g + ρ₁ + ρ₂
-  double slope1, slope2;  ///< dh₁/dφ, dh₂/dφ
-  /// What one Newton step in φ would add to g, to second order (only meaningful if curvature > 0).
-  double gain() const { return 0.5 * slope * slope / curvature; }
-};
+/// The unit vector n turned by `angle`, to third order.
+inline Vec2 turned(const Vec2& n, double angle) {
+  const double q = 0.5 * angle;
+  const double scale = 1 / (1 + q * q);
+  return (1 - q * q) * scale * n + angle * scale * perpendicular(n);
+}
 
-GapAlongAxis gap_along(const Ellipse& one, const Vec2& u1, const Ellipse& two, const Vec2& u2,
-                       const Vec2& d, const Vec2& n);
+/// C(λ)⁻¹d at λ : 1 − λ as the radii along d: the best axis for circles, and a good one while the
+/// bodies are not close. It need not separate.
+Vec2 likely_axis(const EllipsePair& pair);
 
-/// A separating axis by the ascent of F(λ), or n = 0 if there is none (overlap).
-Vec2 find_separating_axis(const Ellipse& one, const Vec2& u1, const Ellipse& two, const Vec2& u2,
-                          const Vec2& d);
+/// A separating axis by the ascent of F(λ) from there, or n = 0 if there is none (overlap).
+Vec2 find_separating_axis(const EllipsePair& pair);
 
 /// One damped Newton step of n towards the maximum of g; `here` is gap_along at n on entry and at
 /// the new n on return. False (and nothing changed) if no step improves g.
-bool climb(const Ellipse& one, const Vec2& u1, const Ellipse& two, const Vec2& u2, const Vec2& d,
-           Vec2& n, GapAlongAxis& here);
+bool climb(const EllipsePair& pair, Vec2& n, GapAlongAxis& here);
 
 /// Newton's method on dg/dφ = 0 from an axis that is optimal as far as g can tell. Since g is flat
 /// at its maximum, such an axis is good to √ε only; the slope makes it good to ε.
-void settle(const Ellipse& one, const Vec2& u1, const Ellipse& two, const Vec2& u2, const Vec2& d,
-            Vec2& n, GapAlongAxis& here);
+void settle(const EllipsePair& pair, Vec2& n, GapAlongAxis here);
 
 }  // namespace detail
 }  // namespace vitrel

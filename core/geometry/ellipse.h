@@ -18,6 +18,8 @@ struct Ellipse {
   double swing() const { return a - b; }
   double aspect_ratio() const { return a / b; }
   bool is_round() const { return a == b; }
+  /// a² − b², without cancellation.
+  double stretch() const { return (a - b) * (a + b); }
   /// Moment of inertia of the homogeneous ellipse over its mass, (a² + b²)/4.
   double inertia_per_mass() const { return 0.25 * (a * a + b * b); }
 };
