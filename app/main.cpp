@@ -29,6 +29,7 @@ class CommandLine {
     add_analyze();
     add_sweep();
     add_report();
+    add_bench();
     add_params();
   }
 
@@ -49,7 +50,11 @@ class CommandLine {
 
  private:
   CLI::App& add(const std::string& name, const std::string& sentence, const Chosen& command) {
-    CLI::App& sub = *app_.add_subcommand(name, sentence);
+    return add(app_, name, sentence, command);
+  }
+  CLI::App& add(CLI::App& parent, const std::string& name, const std::string& sentence,
+                const Chosen& command) {
+    CLI::App& sub = *parent.add_subcommand(name, sentence);
     sub.callback([this, command] { chosen_ = command; });
     sub.footer(
         "Exit codes: 0 done, 2 mistake in parameters or command line, 3 a file cannot be read or "
@@ -142,6 +147,33 @@ class CommandLine {
     sub.add_option("run", arguments_.input, "Run, or folder of a sweep")->required();
     add_output(sub, "Page to write; default <run>.html or <sweep>/report.html", false);
     add_analysis_parameters(sub);
+    add_quiet_and_json(sub);
+  }
+  void add_bench() {
+    CLI::App& bench = *app_.add_subcommand(
+        "bench", "Measure the numerical methods against a guaranteed reference.");
+    bench.require_subcommand(1);
+    CLI::App& time = add(bench, "collision-time",
+                         "Speed, accuracy and failures of every way to predict a collision.",
+                         bench_collision_time_command);
+    add_benchmark(time, "Pairs of each class (2000); slow methods answer what their time allows",
+                  "Seconds that a method other than the default may predict (4)");
+    time.add_option("--tolerance", arguments_.tolerance,
+                    "How far off still counts as correct (1e-8): of the horizon for times, of the "
+                    "semi-minor axis for gaps")
+        ->check(CLI::PositiveNumber);
+    CLI::App& overlap = add(bench, "overlap", "Speed and accuracy of every criterion of overlap.",
+                            bench_overlap_command);
+    add_benchmark(overlap, "Pairs of each class (20000)", "Seconds that a criterion may take (1)");
+  }
+  void add_benchmark(CLI::App& sub, const std::string& pairs, const std::string& seconds) {
+    add_output(sub, "Folder for the page, its pictures and the rows as JSON", false);
+    sub.add_option("--pairs", arguments_.pairs, pairs)->check(CLI::PositiveNumber);
+    sub.add_option("--seconds", arguments_.seconds, seconds)->check(CLI::PositiveNumber);
+    sub.add_option("--method", arguments_.methods, "Only these methods, by name");
+    sub.add_option("--class", arguments_.classes, "Only these classes of pairs, by name");
+    sub.add_option("--seed", arguments_.seed, "Seed of the pairs (1)");
+    add_wall_time(sub);
     add_quiet_and_json(sub);
   }
   void add_params() {

@@ -33,6 +33,11 @@ struct Arguments {
   bool quiet = false, json = false;
   bool dry_run = false, status = false, last_only = false, reference = false;
   std::string template_command;  ///< params: whose template
+  // bench; what is not given is the benchmark's default
+  std::vector<std::string> methods, classes;  ///< by name; empty: all
+  std::optional<std::uint64_t> pairs;         ///< of each class
+  std::optional<double> seconds;              ///< that a slow method may take
+  std::optional<double> tolerance;            ///< of the judge
 };
 
 int prepare_command(const Arguments& arguments);
@@ -42,5 +47,7 @@ int analyze_command(const Arguments& arguments);
 int sweep_command(const Arguments& arguments);
 int report_command(const Arguments& arguments);
 int params_command(const Arguments& arguments);
+int bench_collision_time_command(const Arguments& arguments);
+int bench_overlap_command(const Arguments& arguments);
 
 }  // namespace vitrel

@@ -75,6 +75,13 @@ void count(SurveyRow& row, Verdict verdict) {
   }
 }
 
+/// How much a failure tells: a contact overlooked where the surfaces cross at speed says most.
+int gravity(const Judgement& failure) {
+  if (failure.verdict == Verdict::not_converged) return 0;
+  if (failure.degenerate) return 1;
+  return failure.verdict == Verdict::late || failure.verdict == Verdict::missed ? 3 : 2;
+}
+
 /// One method at work on one class.
 class Examination {
  public:
@@ -134,9 +141,8 @@ class Examination {
 
   static bool is_better_failure(const Judgement& judgement,
                                 const std::optional<FailingCase>& known) {
-    if (judgement.verdict == Verdict::correct) return false;
-    return !known || (known->judgement.verdict == Verdict::not_converged &&
-                      judgement.verdict != Verdict::not_converged);
+    return judgement.verdict != Verdict::correct &&
+           (!known || gravity(judgement) > gravity(known->judgement));
   }
 
   void record(const Judgement& judgement, const CollisionCase& asked) {
@@ -166,6 +172,8 @@ void examine_class(const SurveyRequest& request, std::size_t class_index, const 
                    std::vector<std::optional<FailingCase>>& failures, Survey& result) {
   const CaseClass& of = request.classes[class_index];
   const auto classes = static_cast<double>(request.classes.size());
+  std::vector<bool> failed_before;
+  for (const auto& failure : failures) failed_before.push_back(failure.has_value());
   std::vector<Examination> examinations;
   for (const Entrant& entrant : request.entrants)
     examinations.emplace_back(entrant.method, of, entrant.seconds / classes, request.tolerance);
@@ -181,8 +189,11 @@ void examine_class(const SurveyRequest& request, std::size_t class_index, const 
     const double progress = static_cast<double>(class_index) + part;
     budget.tell({progress / classes, progress * static_cast<double>(request.pairs), "pairs"});
   }
-  for (Examination& examination : examinations)
-    if (examination.pairs() > 0) result.rows.push_back(examination.result());
+  for (std::size_t k = 0; k < examinations.size(); ++k) {
+    if (examinations[k].pairs() == 0) continue;
+    result.rows.push_back(examinations[k].result());
+    if (!result.rows.back().applies() && !failed_before[k]) failures[k].reset();
+  }
 }
 
 }  // namespace

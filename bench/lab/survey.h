@@ -45,6 +45,8 @@ struct SurveyRow {
   double largest_gap_error = 0;
 
   std::uint64_t wrong() const { return pairs - correct; }
+  /// Not one answer: the method is not made for such pairs.
+  bool applies() const { return not_converged < pairs; }
 };
 
 /// A pair that a method failed on, for a picture.
@@ -60,13 +62,14 @@ struct FailingCase {
 
 struct Survey {
   std::vector<SurveyRow> rows;        ///< class by class, methods in the order of the request
-  std::vector<FailingCase> failures;  ///< at most one per method: its first
+  std::vector<FailingCase> failures;  ///< at most one per method
   bool stopped = false;               ///< before all pairs were done
 };
 
 /// Asks every method about the same pairs, judges the answers by the guaranteed reference and times
-/// the methods, the reference's time apart. A method's first failure is the first wrong answer; one
-/// that did not converge only if there is no other.
+/// the methods, the reference's time apart. Of a method's failures the first of the gravest kind is
+/// kept: late or missed, then early or false, these if the pair is degenerate, and last no answer,
+/// unless the method does not apply.
 Survey survey(const SurveyRequest& request, const Budget& budget);
 
 }  // namespace vitrel::lab

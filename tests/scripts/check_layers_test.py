@@ -16,6 +16,9 @@ GOOD = {
     "core/io/file.cpp": '#include "core/state/state.h"\n#include "vitrel_commit.h"\n',
     "edmd/engine.cpp": '#include "edmd/engine.h"\n#include "core/neighbors/cells.h"\n',
     "app/main.cpp": '#include "mc/insert.h"\n#include "edmd/engine.h"\n',
+    "app/commands/bench.cpp": '#include "app/main.h"\n#include "app/workflow/bench/page.h"\n',
+    "app/workflow/bench/page.h": '#include "bench/lab/methods/slsqp.h"\n#include "app/text.h"\n',
+    "bench/lab/methods/slsqp.h": '#include "edmd/engine.h"\n#include "bench/lab/reference/truth.h"\n',
     "bench/lab/reference/truth.h": '#include "core/geometry/disk.h"\n',
     "tests/app/main_test.cpp": '#include "app/main.h"\n#include "bench/lab/reference/truth.h"\n',
 }
@@ -39,7 +42,11 @@ FORBIDDEN = [
     ("app/main.h", '#include "tests/support/scenes.h"'),
     ("edmd/engine.h", '#include "engine_details.h"'),
     ("edmd/engine.h", '#include "bench/lab/reference/truth.h"'),
+    ("app/main.h", '#include "bench/lab/survey.h"'),
+    ("app/main.h", '#include "app/workflow/bench/page.h"'),
+    ("bench/lab/survey.h", '#include "app/main.h"'),
     ("bench/lab/reference/truth.h", '#include "core/contact/gap.h"'),
+    ("bench/lab/reference/truth.h", '#include "bench/lab/survey.h"'),
     ("core/stray.h", ""),
 ]
 

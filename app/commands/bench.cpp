@@ -1,0 +1,126 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/commands/common.h"
+#include "app/workflow/bench/bench_page.h"
+#include "app/workflow/bench/overlap.h"
+#include "app/workflow/bench/picture.h"
+#include "app/workflow/bench/scene.h"
+#include "app/workflow/text_file.h"
+#include "core/io/provenance.h"
+
+namespace vitrel {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+/// Fields in the order of the page and of the JSON file.
+PageProvenance provenance(const Arguments& arguments, std::uint64_t seed, std::uint64_t pairs,
+                          double seconds, double wall_seconds) {
+  const Provenance now = current_provenance(arguments.command_line, "", seed);
+  return {{"command", now.command_line},
+          {"pairs", fmt::format("{} of each class, seed {}", pairs, seed)},
+          {"time limit", fmt::format("{:g} s for a method that is not the default", seconds)},
+          {"version", now.version},
+          {"commit", now.commit},
+          {"host", now.host},
+          {"finished", now.started},
+          {"wall time", fmt::format("{:.0f} s", wall_seconds)}};
+}
+
+Json as_json(const PageProvenance& provenance) {
+  Json result = Json::object();
+  for (const auto& [name, text] : provenance) result[name] = text;
+  return result;
+}
+
+void print_rows(const Arguments& arguments, const Json& rows, const std::string& table) {
+  if (arguments.json)
+    fmt::print("{}\n", Json{{"rows", rows}}.dump(2));
+  else if (!arguments.quiet)
+    fmt::print("{}", table);
+  flush_output();
+}
+
+int stopped_early(const Arguments& arguments) {
+  remark(arguments, "stopped; the table has the pairs done so far, and no files were written");
+  return stopped;
+}
+
+void write_collision_time(const fs::path& folder, const CollisionTimeBench& bench,
+                          const std::vector<lab::OverlapRow>& overlap,
+                          const PageProvenance& provenance) {
+  fs::create_directories(folder);
+  const Json data = {{"rows", collision_time_json(bench.survey.rows)},
+                     {"tolerances", collision_time_json(bench.tolerances)},
+                     {"tolerances_judged_by", charted_tolerance},
+                     {"overlap", overlap_json(overlap)},
+                     {"provenance", as_json(provenance)}};
+  write_text(folder / "collision-time.json", data.dump(2) + "\n");
+  write_text(folder / "collision-time.svg",
+             chart_svg(speed_chart(bench.tolerances, ChartedError::median)));
+  write_text(folder / "collision-time-largest.svg",
+             chart_svg(speed_chart(bench.tolerances, ChartedError::largest)));
+  write_text(folder / "scene_gap.svg", chart_svg(scene_gap_chart()));
+  write_text(folder / "scene_psi.svg", chart_svg(scene_psi_chart()));
+  for (const lab::FailingCase& failure : bench.survey.failures)
+    write_text(folder / ("failure_" + failure.method + ".svg"), failure_svg(failure));
+  write_text(folder / "overlap.svg", chart_svg(overlap_chart(overlap)));
+  write_text(folder / "collision-time.html", collision_time_page(bench, overlap, provenance));
+}
+
+}  // namespace
+
+int bench_collision_time_command(const Arguments& arguments) {
+  CollisionTimeRequest request;
+  request.pairs = arguments.pairs.value_or(request.pairs);
+  request.seconds = arguments.seconds.value_or(request.seconds);
+  request.seed = arguments.seed.value_or(request.seed);
+  if (arguments.tolerance) request.tolerance = {*arguments.tolerance, *arguments.tolerance};
+  request.methods = arguments.methods;
+  request.classes = arguments.classes;
+  request.with_chart = !arguments.output.empty();
+  Session session(arguments);
+  const CollisionTimeBench bench = bench_collision_time(request, session.budget(), session.say());
+  print_rows(arguments, collision_time_json(bench.survey.rows),
+             collision_time_text(bench.survey.rows));
+  if (bench.stopped) return stopped_early(arguments);
+  if (arguments.output.empty()) return success;
+  session.say()("overlap criteria");
+  OverlapRequest criteria;
+  criteria.seed = request.seed;
+  const lab::OverlapSurvey overlap = bench_overlap(criteria, session.budget());
+  if (overlap.stopped) return stopped_early(arguments);
+  write_collision_time(
+      arguments.output, bench, overlap.rows,
+      provenance(arguments, request.seed, request.pairs, request.seconds, session.seconds()));
+  return success;
+}
+
+int bench_overlap_command(const Arguments& arguments) {
+  OverlapRequest request;
+  request.pairs = arguments.pairs.value_or(request.pairs);
+  request.seconds = arguments.seconds.value_or(request.seconds);
+  request.seed = arguments.seed.value_or(request.seed);
+  request.methods = arguments.methods;
+  request.classes = arguments.classes;
+  Session session(arguments);
+  session.say()("overlap criteria");
+  const lab::OverlapSurvey survey = bench_overlap(request, session.budget());
+  print_rows(arguments, overlap_json(survey.rows), overlap_text(survey.rows));
+  if (survey.stopped) return stopped_early(arguments);
+  if (arguments.output.empty()) return success;
+  const PageProvenance how =
+      provenance(arguments, request.seed, request.pairs, request.seconds, session.seconds());
+  fs::create_directories(arguments.output);
+  write_text(
+      arguments.output / "overlap.json",
+      Json{{"rows", overlap_json(survey.rows)}, {"provenance", as_json(how)}}.dump(2) + "\n");
+  write_text(arguments.output / "overlap.svg", chart_svg(overlap_chart(survey.rows)));
+  write_text(arguments.output / "overlap.html", overlap_page(survey.rows, how));
+  return success;
+}
+
+}  // namespace vitrel

@@ -1,0 +1,158 @@
+#include "app/workflow/bench/collision_time.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "app/workflow/bench/choice.h"
+#include "app/workflow/bench/figures.h"
+
+namespace vitrel {
+namespace {
+
+using lab::CaseClass;
+using lab::Entrant;
+using lab::Method;
+using lab::SurveyRequest;
+using lab::SurveyRow;
+
+/// The default method answers all pairs, the others what their time allows.
+std::vector<Entrant> entrants(const CollisionTimeRequest& request) {
+  const std::vector<Method> all = lab::collision_time_methods();
+  const std::string default_method = all.front().name;
+  std::vector<Entrant> result;
+  for (const Method& method : chosen(all, request.methods, "method")) {
+    Entrant entrant{method};
+    if (method.name != default_method) entrant.seconds = request.seconds;
+    result.push_back(entrant);
+  }
+  return result;
+}
+
+/// Every method at every tolerance; those of one method share its time.
+std::vector<Entrant> entrants_by_tolerance(const CollisionTimeRequest& request) {
+  const std::vector<Method> methods =
+      chosen(lab::collision_time_methods_by_tolerance(), request.methods, "method");
+  std::map<std::string, int> tolerances;
+  for (const Method& method : methods) ++tolerances[method.name];
+  std::vector<Entrant> result;
+  for (const Method& method : methods)
+    result.push_back({method, request.seconds / tolerances[method.name]});
+  return result;
+}
+
+std::vector<CaseClass> generic_class() {
+  std::vector<CaseClass> classes = chosen(lab::stability_suite(), {"generic"}, "class");
+  classes.resize(1);
+  return classes;
+}
+
+std::string row_text(const SurveyRow& row) {
+  return fmt::format(
+      "  {:<22} {:>4g} {:>8} {:>8} {:>6} {:>6} {:>6} {:>6} {:>9} {:>10}  {:>9}  {:>8} {:>8} "
+      "{:>8}\n",
+      row.case_class, row.aspect_ratio, row.pairs, count_text(row.correct), count_text(row.early),
+      count_text(row.late), count_text(row.missed), count_text(row.false_contacts),
+      count_text(row.not_converged), count_text(row.degenerate), time_text(row.ns_per_call),
+      error_text(row.largest_error), error_text(row.median_error),
+      error_text(row.largest_gap_error));
+}
+
+std::string method_heading(const SurveyRow& row) {
+  return fmt::format(
+      "{} (tolerance {:.2g})\n  {:<22} {:>4} {:>8} {:>8} {:>6} {:>6} {:>6} {:>6} {:>9} {:>10}  "
+      "{:>9}  {:>8} {:>8} {:>8}\n",
+      row.method, row.tolerance, "class", "κ", "pairs", "correct", "early", "late", "missed",
+      "false", "no answer", "degenerate", "per call", "largest", "median", "gap");
+}
+
+double charted(const SurveyRow& row, ChartedError error) {
+  return error == ChartedError::median ? row.median_error : row.largest_error;
+}
+
+}  // namespace
+
+CollisionTimeBench bench_collision_time(const CollisionTimeRequest& request, const Budget& budget,
+                                        const Say& say) {
+  SurveyRequest asked{entrants(request), chosen(lab::stability_suite(), request.classes, "class"),
+                      request.pairs, request.seed, request.tolerance};
+  CollisionTimeBench bench;
+  say(fmt::format("stability of {} methods on {} classes", asked.entrants.size(),
+                  asked.classes.size()));
+  bench.survey = lab::survey(asked, budget);
+  if (request.with_chart && !bench.survey.stopped) {
+    asked.entrants = entrants_by_tolerance(request);
+    asked.classes = generic_class();
+    asked.tolerance = {charted_tolerance, charted_tolerance};
+    say(fmt::format("accuracy of {} methods and tolerances", asked.entrants.size()));
+    bench.tolerances = lab::survey(asked, budget).rows;
+  }
+  bench.stopped = budget.stop_requested();
+  return bench;
+}
+
+nlohmann::ordered_json collision_time_json(const std::vector<SurveyRow>& rows) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const SurveyRow& row : rows)
+    list.push_back({{"method", row.method},
+                    {"tolerance", row.tolerance},
+                    {"class", row.case_class},
+                    {"aspect_ratio", row.aspect_ratio},
+                    {"pairs", row.pairs},
+                    {"correct", row.correct},
+                    {"early", row.early},
+                    {"late", row.late},
+                    {"missed", row.missed},
+                    {"false", row.false_contacts},
+                    {"not_converged", row.not_converged},
+                    {"degenerate", row.degenerate},
+                    {"ns_per_call", row.ns_per_call},
+                    {"largest_error", row.largest_error},
+                    {"median_error", row.median_error},
+                    {"largest_gap_error", row.largest_gap_error}});
+  return list;
+}
+
+std::string collision_time_text(const std::vector<SurveyRow>& rows) {
+  std::vector<std::string> methods;
+  for (const SurveyRow& row : rows)
+    if (!std::ranges::count(methods, row.method)) methods.push_back(row.method);
+  std::string text;
+  for (const std::string& method : methods) {
+    const auto first = std::ranges::find(rows, method, &SurveyRow::method);
+    if (!text.empty()) text += '\n';
+    text += method_heading(*first);
+    for (const SurveyRow& row : rows)
+      if (row.method == method) text += row_text(row);
+  }
+  return text;
+}
+
+Chart speed_chart(const std::vector<SurveyRow>& rows, ChartedError error) {
+  Chart chart;
+  const std::string which = error == ChartedError::median ? "median" : "largest";
+  const std::string aspect_ratio =
+      rows.empty() ? "" : fmt::format(" (random pairs, κ = {:g})", rows.front().aspect_ratio);
+  chart.title = "Time per prediction against its " + which + " error" + aspect_ratio;
+  chart.x = {"time per call", true, ChartAxis::Quantity::nanoseconds};
+  chart.y = {which + " error of the time, as a fraction of the horizon", true, {}};
+  chart.floor = 1e-17;
+  chart.notes = {"one point per tolerance", "hollow: some answers missing,",
+                 "false, or off by more than 1 %"};
+  for (const SurveyRow& row : rows) {
+    if (!row.applies()) continue;
+    if (chart.series.empty() || chart.series.back().name != row.method)
+      chart.series.push_back({row.method, {}, true});
+    chart.series.back().points.push_back(
+        {row.ns_per_call, charted(row, error), row.wrong() > 0,
+         fmt::format("{}, tolerance {:.2g}: {} per call, {} error {}, {} of {} missing, false or "
+                     "off by more than 1 %",
+                     row.method, row.tolerance, time_text(row.ns_per_call), which,
+                     error_text(charted(row, error)), row.wrong(), row.pairs)});
+  }
+  return chart;
+}
+
+}  // namespace vitrel

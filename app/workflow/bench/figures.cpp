@@ -1,0 +1,33 @@
+#include "app/workflow/bench/figures.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+namespace vitrel {
+
+std::string count_text(std::uint64_t count) {
+  return count == 0 ? "·" : std::to_string(count);
+}
+
+std::string time_text(double nanoseconds) {
+  static constexpr std::array<const char*, 4> units = {"ns", "µs", "ms", "s"};
+  double value = nanoseconds;
+  std::size_t unit = 0;
+  while (value >= 999.5 && unit + 1 < units.size()) value /= 1000, ++unit;
+  return fmt::format("{:.{}f} {}", value, value < 9.995 ? 2 : value < 99.95 ? 1 : 0, units[unit]);
+}
+
+std::string error_text(double error) {
+  if (std::isnan(error)) return "–";
+  return error == 0 ? "0" : fmt::format("{:.1e}", error);
+}
+
+std::string share_text(std::uint64_t part, std::uint64_t whole) {
+  if (part == 0) return "·";
+  const double percent = 100 * static_cast<double>(part) / static_cast<double>(whole);
+  return fmt::format("{:.{}g} %", percent, percent >= 99.5 ? 3 : percent >= 1 ? 2 : 1);
+}
+
+}  // namespace vitrel

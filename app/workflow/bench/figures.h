@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+/// Numbers as the tables of the benchmarks show them.
+namespace vitrel {
+
+/// "·" for 0, else the number.
+std::string count_text(std::uint64_t count);
+/// "213 ns", "12.3 µs", "1.23 ms".
+std::string time_text(double nanoseconds);
+/// "3.1e-14"; "–" if it is not a number.
+std::string error_text(double error);
+/// "·", "0.02 %", "13 %": a share that is not 0 is never shown as 0.
+std::string share_text(std::uint64_t part, std::uint64_t whole);
+
+}  // namespace vitrel

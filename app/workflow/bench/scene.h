@@ -1,0 +1,18 @@
+#pragma once
+
+#include "app/workflow/bench/chart.h"
+
+/// The scene of the thesis's appendix B.1: two ellipses with a = 1, b = 0.5, one at rest at the
+/// origin, the other coming from (1, 1) at (−1, 0), turning at π. They touch first at
+/// t = 0.0847, overlap, and touch again from inside the overlap at t = 1, a trap for root finders
+/// and optimisers.
+namespace vitrel {
+
+/// d(t), thesis fig. 3.11: the distance of the second ellipse from the first after the map that
+/// makes the first one the unit circle; negative if they overlap.
+Chart scene_gap_chart();
+
+/// Ψ(t), thesis fig. 3.15: the contact function of Vieillard-Baron.
+Chart scene_psi_chart();
+
+}  // namespace vitrel

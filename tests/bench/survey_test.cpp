@@ -1,0 +1,170 @@
+#include "bench/lab/survey.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "bench/lab/timed_batches.h"
+
+namespace vitrel::lab {
+namespace {
+
+const CaseClass& generic() {
+  static const std::vector<CaseClass> suite = stability_suite();
+  return *std::ranges::find(suite, "generic", &CaseClass::name);
+}
+
+/// Answers with the true time plus `delay`.
+Method delayed(const std::string& name, double delay) {
+  return {name, 0, [delay](const CollisionCase& asked) {
+            const TrueContact truth = true_first_contact(asked.one, asked.two, asked.horizon);
+            Prediction answer;
+            if (truth.outcome == TrueContact::Outcome::none) return answer;
+            answer.outcome = Outcome::contact;
+            answer.time = static_cast<double>(truth.time) + delay * asked.horizon;
+            return answer;
+          }};
+}
+
+Method that_always_says(const std::string& name, Outcome outcome) {
+  return {name, 0, [outcome](const CollisionCase&) {
+            Prediction answer;
+            answer.outcome = outcome;
+            return answer;
+          }};
+}
+
+const SurveyRow& row_of(const Survey& result, const std::string& method) {
+  return *std::ranges::find(result.rows, method, &SurveyRow::method);
+}
+
+void spin(double seconds) {
+  const auto start = std::chrono::steady_clock::now();
+  while (std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < seconds)
+    ;
+}
+
+TEST(TimedBatches, GrowAsFarAsTheBudgetGoes) {
+  TimedBatches timer(0.05);
+  std::size_t asked = 0;
+  while (const std::size_t batch = timer.next(1000000 - asked)) {
+    timer.run(batch, [&] { spin(2e-3 * static_cast<double>(batch)); });
+    asked += batch;
+  }
+  // Each question takes 2 ms, so 25 of them fit; an interrupted run may take longer.
+  EXPECT_LE(asked, 25u);
+  EXPECT_GE(asked, 5u);
+  EXPECT_GE(timer.ns_per_call(), 2e6);
+}
+
+TEST(TimedBatches, AskOneQuestionWhateverItCosts) {
+  TimedBatches timer(1e-9);
+  EXPECT_EQ(timer.next(10), 1u);
+  timer.run(1, [] { spin(1e-4); });
+  EXPECT_EQ(timer.next(9), 0u);
+}
+
+TEST(TimedBatches, CountTheBestOfThreeRuns) {
+  TimedBatches timer;
+  timer.run(1, [] {});
+  int run = 0;
+  timer.run(100, [&] { spin(++run == 2 ? 1e-5 : 1e-2); });
+  EXPECT_EQ(run, 3);
+  EXPECT_LT(timer.ns_per_call(), 1e7 / 101);
+}
+
+TEST(Survey, CountsEveryAnswerOnceAndMeasuresItsError) {
+  constexpr std::uint64_t pairs = 150;
+  const double delay = 1e-4;
+  const SurveyRequest request{{{delayed("exact", 0)},
+                               {delayed("late", delay)},
+                               {that_always_says("blind", Outcome::none)},
+                               {that_always_says("lost", Outcome::not_converged)}},
+                              {generic()},
+                              pairs,
+                              5,
+                              {}};
+  const Survey result = survey(request, {});
+  EXPECT_FALSE(result.stopped);
+  ASSERT_EQ(result.rows.size(), 4u);
+  for (const SurveyRow& row : result.rows) {
+    EXPECT_EQ(row.pairs, pairs);
+    EXPECT_EQ(row.case_class, "generic");
+    EXPECT_EQ(
+        row.correct + row.early + row.late + row.missed + row.false_contacts + row.not_converged,
+        pairs);
+  }
+  const SurveyRow& exact = row_of(result, "exact");
+  EXPECT_EQ(exact.correct, pairs);
+  EXPECT_LT(exact.largest_error, 1e-15);
+  const SurveyRow& late = row_of(result, "late");
+  EXPECT_GT(late.late, pairs / 10);
+  EXPECT_EQ(late.correct + late.late, pairs);
+  EXPECT_NEAR(late.median_error, delay, 1e-12);
+  EXPECT_NEAR(late.largest_error, delay, 1e-12);
+  const SurveyRow& blind = row_of(result, "blind");
+  EXPECT_EQ(blind.missed, late.late);
+  EXPECT_TRUE(std::isnan(blind.largest_error));
+  EXPECT_EQ(row_of(result, "lost").not_converged, pairs);
+}
+
+TEST(Survey, KeepsTheFirstFailureOfEachMethodThatAppliesAtAll) {
+  Method lost_at_times = delayed("lost at times", 0);
+  lost_at_times.predict = [exact = lost_at_times.predict](const CollisionCase& asked) {
+    Prediction answer = exact(asked);
+    if (answer.outcome == Outcome::contact) answer.outcome = Outcome::not_converged;
+    return answer;
+  };
+  const SurveyRequest request{{{delayed("exact", 0)},
+                               {delayed("late", 1e-3)},
+                               {lost_at_times},
+                               {that_always_says("lost", Outcome::not_converged)}},
+                              {generic()},
+                              100,
+                              5,
+                              {}};
+  const std::vector<FailingCase> failures = survey(request, {}).failures;
+  ASSERT_EQ(failures.size(), 2u);
+  const FailingCase& late = failures[0];
+  EXPECT_EQ(late.method, "late");
+  EXPECT_EQ(late.judgement.verdict, Verdict::late);
+  // It can be made anew from class, seed and index, and none before it has a contact.
+  for (std::uint64_t k = 0; k <= late.index; ++k) {
+    const CollisionCase asked = make_case(generic(), request.seed, k);
+    const TrueContact truth = true_first_contact(asked.one, asked.two, asked.horizon);
+    EXPECT_EQ(truth.outcome == TrueContact::Outcome::contact, k == late.index) << k;
+  }
+  EXPECT_EQ(failures[1].method, "lost at times");
+  EXPECT_EQ(failures[1].index, late.index);
+}
+
+TEST(Survey, ASlowMethodAnswersWhatItsTimeAllows) {
+  Method slow = that_always_says("slow", Outcome::none);
+  slow.predict = [](const CollisionCase&) {
+    spin(5e-3);
+    return Prediction{};
+  };
+  const SurveyRequest request{
+      {{that_always_says("fast", Outcome::none)}, {slow, 0.1}}, {generic()}, 500, 5, {}};
+  const Survey result = survey(request, {});
+  EXPECT_EQ(row_of(result, "fast").pairs, 500u);
+  EXPECT_LE(row_of(result, "slow").pairs, 20u);
+  EXPECT_GE(row_of(result, "slow").pairs, 1u);
+  EXPECT_GE(row_of(result, "slow").ns_per_call, 5e6);
+}
+
+TEST(Survey, StopsOnRequestAndKeepsWhatIsDone) {
+  const std::vector<CaseClass> classes(4, generic());
+  Budget budget;
+  double fraction = 0;
+  budget.report = [&](const Progress& progress) { fraction = progress.fraction; };
+  budget.should_stop = [&] { return fraction >= 0.5; };
+  const Survey result = survey({{{delayed("exact", 0)}}, classes, 40, 5, {}}, budget);
+  EXPECT_TRUE(result.stopped);
+  EXPECT_EQ(result.rows.size(), 2u);
+}
+
+}  // namespace
+}  // namespace vitrel::lab
