@@ -76,7 +76,7 @@ Accuracy accuracy(const std::string& name) {
   if (name == "simulated_annealing") return {0.02, 0.2};
   if (name == "nelder_mead") return {1e-9, 1e-5};
   if (name == "log_barrier" || name == "quadratic_penalty") return {1e-8, 1e-8};
-  if (name == "augmented_lagrangian" || name == "slsqp") return {1e-9, 1e-8};
+  if (name == "augmented_lagrangian" || name.starts_with("slsqp")) return {1e-9, 1e-8};
   if (name == "separating_axis") return {1e-13, 2e-12};
   return {1e-15, 2e-12};  // roots in double precision
 }

@@ -33,6 +33,7 @@ std::vector<Entry> entries() {
       {"separating_axis", separating_axis, rounding, {1e-4, 1e-6, 1e-8, 1e-10, 1e-12, rounding}},
       {"circles", circles, 0, {0}},
       {"slsqp", slsqp, 1e-10, {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12}},
+      {"slsqp_checked", slsqp_checked, 1e-10, {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12}},
       {"nelder_mead", nelder_mead, 1e-10, {1e-2, 1e-4, 1e-6, 1e-8, 1e-10}},
       {"simulated_annealing", simulated_annealing, 1e-4, {1e-1, 1e-2, 1e-4, 1e-6, 1e-8}},
       {"quadratic_penalty", quadratic_penalty, 1e-10, {1e-2, 1e-4, 1e-6, 1e-8, 1e-10}},

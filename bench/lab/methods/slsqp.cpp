@@ -94,9 +94,10 @@ Box reach(const CollisionCase& asked, const Bracket& bracket) {
   return box;
 }
 
-}  // namespace
+// Where the constraints of the result are checked.
+enum class Check { ends_of_bracket, everywhere };
 
-Prediction slsqp(const CollisionCase& asked, double tolerance) {
+Prediction optimised(const CollisionCase& asked, double tolerance, Check check) {
   if (!is_sound(asked)) return {Outcome::not_converged};
   const auto bracket = bracket_contact(asked);
   if (!bracket) return {};
@@ -120,12 +121,22 @@ Prediction slsqp(const CollisionCase& asked, double tolerance) {
   const bool holds =
       one.value(time, point, gradient) <= violated && two.value(time, point) <= violated;
   if (!converged && !holds) return without_contact(Outcome::not_converged, evaluations);
-  const bool at_an_end =
-      time < bracket->earliest + at_the_end || time > bracket->latest - at_the_end;
-  if (at_an_end && !holds) return without_contact(Outcome::none, evaluations);
+  const bool is_checked = check == Check::everywhere || time < bracket->earliest + at_the_end ||
+                          time > bracket->latest - at_the_end;
+  if (is_checked && !holds) return without_contact(Outcome::none, evaluations);
   if (time < at_the_end && overlaps_at_start(asked))
     return without_contact(Outcome::overlap, evaluations);
   return contact_along(gradient.tail<2>(), time, point, evaluations);
+}
+
+}  // namespace
+
+Prediction slsqp(const CollisionCase& asked, double tolerance) {
+  return optimised(asked, tolerance, Check::ends_of_bracket);
+}
+
+Prediction slsqp_checked(const CollisionCase& asked, double tolerance) {
+  return optimised(asked, tolerance, Check::everywhere);
 }
 
 }  // namespace vitrel::lab

@@ -17,4 +17,8 @@ namespace vitrel::lab {
 /// point counts if the constraints hold there. It is local: nothing makes its contact the first one.
 Prediction slsqp(const CollisionCase& asked, double tolerance);
 
+/// The same, but a result that violates a constraint is no contact wherever it lies: what SLSQP
+/// itself fails at, without what a missing check adds.
+Prediction slsqp_checked(const CollisionCase& asked, double tolerance);
+
 }  // namespace vitrel::lab

@@ -1,0 +1,89 @@
+#include "bench/lab/whole_run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include "bench/lab/twins/method_engine.h"
+#include "core/state/check.h"
+#include "core/state/configuration.h"
+#include "edmd/brownian.h"
+#include "mc/lattice.h"
+
+namespace vitrel::lab {
+namespace {
+
+constexpr double sample_interval = 0.1;
+/// Between two samples some 25 collisions happen; a run that needs so many events stands still.
+constexpr std::uint64_t most_events_per_sample = 100'000;
+
+Configuration2 thesis_scene(std::uint64_t seed) {
+  Configuration2 c;
+  c.resize(100);
+  c.species_names = {"A"};
+  std::fill(c.shape.begin(), c.shape.end(), Ellipse{std::sqrt(2.0), std::sqrt(0.5)});
+  const double length = std::sqrt(100 * std::numbers::pi / 0.5);
+  c.box = PeriodicBox<2>(Vec2(length, length));
+  place_on_lattice(c, {Arrangement::square, 0.25 * std::numbers::pi, false});
+  set_initial_velocities(c, seed, InitialVelocities::maxwell, Temperature::total);
+  return c;
+}
+
+double energy(const Configuration2& c) {
+  const Mechanics sums = mechanics(c);
+  return sums.translational_energy + sums.rotational_energy;
+}
+
+// Runs the engine to `until`; false if it stands still.
+bool advance(Engine& engine, Configuration2& now, double until, RunCounters& counters) {
+  const std::uint64_t events = counters.events;
+  while (engine.advance(until, counters) == Engine::Stop::block_end) {
+    engine.write(now);
+    if (counters.events - events > most_events_per_sample) return false;
+    engine.load(now);
+  }
+  engine.write(now);
+  return true;
+}
+
+}  // namespace
+
+WholeRun thesis_scene_with(const Method& method, double duration, std::uint64_t seed,
+                           const Budget& budget) {
+  using Clock = std::chrono::steady_clock;
+  Configuration2 now = thesis_scene(seed);
+  const double first_energy = energy(now);
+  const auto engine = make_method_engine(method, {1, OnOverlap::correct});
+  RunCounters counters;
+  WholeRun result{method.name, method.tolerance};
+  Clock::duration running{};
+  engine->load(now);
+  for (int sample = 1; sample * sample_interval <= duration && !budget.stop_requested(); ++sample) {
+    const auto start = Clock::now();
+    result.stood_still = !advance(*engine, now, sample * sample_interval, counters);
+    running += Clock::now() - start;
+    result.energy_drift = std::max(result.energy_drift, std::abs(energy(now) / first_energy - 1));
+    result.deepest_overlap =
+        std::max(result.deepest_overlap, -exact_check(now).smallest_gap / now.shape[0].b);
+    if (result.stood_still) break;
+    result.simulated_time = now.time;
+  }
+  result.collisions = counters.collisions;
+  result.correction_moves = counters.correction_moves;
+  result.collisions_per_second =
+      static_cast<double>(counters.collisions) / std::chrono::duration<double>(running).count();
+  return result;
+}
+
+std::vector<Method> methods_for_whole_runs() {
+  std::vector<Method> methods = collision_time_methods_by_tolerance();
+  std::erase_if(methods, [](const Method& method) {
+    return method.name != "separating_axis" && method.name != "psi_root" &&
+           method.name != "slsqp" && method.name != "slsqp_checked" &&
+           method.name != "perram_wertheim_root";
+  });
+  return methods;
+}
+
+}  // namespace vitrel::lab
