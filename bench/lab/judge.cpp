@@ -37,7 +37,8 @@ Judgement judge(const CollisionCase& asked, const TrueContact& truth, const Pred
                 const JudgingTolerance& tolerance) {
   using Truth = TrueContact::Outcome;
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  const double allowed = tolerance.time * asked.horizon;
+  // The truth itself is no better known than that.
+  const double allowed = tolerance.time * asked.horizon + static_cast<double>(truth.uncertainty);
   Judgement judgement{Verdict::correct, is_degenerate(asked, truth), none, none};
 
   const bool contact = answers_contact(answer);
