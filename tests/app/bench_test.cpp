@@ -215,6 +215,8 @@ TEST(Figures, AreShortAndNeverHideAFailure) {
   EXPECT_EQ(time_text(999.7), "1.00 µs");
   EXPECT_EQ(time_text(2.5e9), "2.50 s");
   EXPECT_EQ(count_text(0), "·");
+  EXPECT_EQ(ratio_text(41.567), "41.6");
+  EXPECT_EQ(ratio_text(1412), "1412");
   EXPECT_EQ(share_text(0, 100), "·");
   EXPECT_EQ(share_text(1, 800000), "0.0001 %");
   EXPECT_EQ(share_text(2, 100), "2 %");

@@ -123,7 +123,7 @@ std::string speed_cells(const std::vector<SurveyRow>& rows, const std::string& m
   const SurveyRow* reference = generic_row(rows, first, aspect_ratio);
   if (!row || !reference || !row->applies()) return cell("–") + cell("–");
   return cell(time_text(row->ns_per_call)) +
-         cell(fmt::format("{:.3g}", row->ns_per_call / reference->ns_per_call));
+         cell(ratio_text(row->ns_per_call / reference->ns_per_call));
 }
 
 std::string glance(const std::vector<SurveyRow>& rows) {

@@ -24,6 +24,10 @@ std::string error_text(double error) {
   return error == 0 ? "0" : fmt::format("{:.1e}", error);
 }
 
+std::string ratio_text(double ratio) {
+  return ratio < 999.5 ? fmt::format("{:.3g}", ratio) : fmt::format("{:.0f}", ratio);
+}
+
 std::string share_text(std::uint64_t part, std::uint64_t whole) {
   if (part == 0) return "·";
   const double percent = 100 * static_cast<double>(part) / static_cast<double>(whole);

@@ -12,6 +12,8 @@ std::string count_text(std::uint64_t count);
 std::string time_text(double nanoseconds);
 /// "3.1e-14"; "–" if it is not a number.
 std::string error_text(double error);
+/// Three digits, more for large ones: "0.0255", "41.6", "1412".
+std::string ratio_text(double ratio);
 /// "·", "0.02 %", "13 %": a share that is not 0 is never shown as 0.
 std::string share_text(std::uint64_t part, std::uint64_t whole);
 
