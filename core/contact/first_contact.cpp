@@ -80,7 +80,10 @@ class Search {
       } else if (crosses(room, rate) && leap(rate, near.end)) {
         return contact(step);
       }
-      advance(safe_duration(rate, time_left));
+      const double duration = safe_duration(rate, time_left);
+      // Closing so fast that no double lies between now and the contact.
+      if (rate < 0 && flight_.time() + duration == flight_.time()) return contact(step);
+      advance(duration);
     }
     return outcome(Outcome::not_converged, max_steps);
   }
@@ -105,10 +108,9 @@ class Search {
     if (here_.gap > 0) return true;
     look_along(detail::turned(n_, std::clamp(here_.slope / here_.curvature, -1.0, 1.0)));
     if (here_.gap > 0) return true;
-    const Vec2 fresh = detail::find_separating_axis(flight_.now());
-    if (fresh.isZero()) return false;
-    look_along(fresh);
-    return true;
+    const auto [fresh, separates] = detail::find_separating_axis(flight_.now());
+    if (separates) look_along(fresh);
+    return separates;
   }
 
   // A contact may be declared only with the best axis: near touching it is improved until the

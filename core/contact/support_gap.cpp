@@ -64,11 +64,11 @@ class PerramWertheimRatio {
   }
 
  private:
-  // Of points nothing is left but d.
+  // Of points nothing is left but d; of a common centre, nothing.
   Vec2 unit_sum(double weight1, double weight2) const {
-    const Vec2 w(weight1 * wx_[0] + weight2 * wx_[1], weight1 * wy_[0] + weight2 * wy_[1]);
-    const double length = w.norm();
-    return length > 0 ? Vec2(w / length) : d_.normalized();
+    Vec2 w(weight1 * wx_[0] + weight2 * wx_[1], weight1 * wy_[0] + weight2 * wy_[1]);
+    if (w.isZero(0)) w = d_.isZero(0) ? Vec2(1, 0) : d_;
+    return w / w.norm();
   }
 
   Vec2 d_;
@@ -97,20 +97,20 @@ Vec2 likely_axis(const EllipsePair& pair) {
   return PerramWertheimRatio(pair).circle_like_axis();
 }
 
-Vec2 find_separating_axis(const EllipsePair& pair) {
+SoughtAxis find_separating_axis(const EllipsePair& pair) {
   const PerramWertheimRatio f(pair);
   double lambda = f.circle_like();
   double low = 0, high = 1;
   for (int step = 0; step < max_lambda_steps; ++step) {
     const auto here = f.at(lambda);
-    if (here.above_one) return f.axis(lambda);
+    if (here.above_one) return {f.axis(lambda), true};
     (here.slope > 0 ? low : high) = lambda;
     double next = lambda + here.newton_step;
     if (!(next > low && next < high)) next = 0.5 * (low + high);
     if (std::abs(next - lambda) <= 1e-15 * lambda) break;
     lambda = next;
   }
-  return Vec2::Zero();
+  return {f.axis(lambda), false};
 }
 
 bool climb(const EllipsePair& pair, Vec2& n, GapAlongAxis& here) {
@@ -146,12 +146,8 @@ void settle(const EllipsePair& pair, Vec2& n, GapAlongAxis here) {
 SupportGap support_gap(const Ellipse& one, const Vec2& u1, const Ellipse& two, const Vec2& u2,
                        const Vec2& d) {
   const EllipsePair pair(one, u1, two, u2, d);
-  Vec2 n = detail::find_separating_axis(pair);
-  if (n.isZero()) {
-    // Overlapping: any axis shows the sign; the line of centres is as good as another.
-    n = d.isZero() ? Vec2(1, 0) : Vec2(d.normalized());
-    return {std::min(0.0, gap_along(pair, n).gap), n};
-  }
+  auto [n, separates] = detail::find_separating_axis(pair);
+  if (!separates) return {std::min(0.0, gap_along(pair, n).gap), n};
   GapAlongAxis here = gap_along(pair, n);
   for (int step = 0; step < max_newton_steps; ++step)
     if (!detail::climb(pair, n, here)) break;
@@ -173,8 +169,8 @@ bool separated(const Ellipse& one, const Vec2& u1, const Ellipse& two, const Vec
   if (distance_squared < inner * inner) return false;
 
   const EllipsePair pair(one, u1, two, u2, d);
-  Vec2 n = detail::find_separating_axis(pair);
-  if (n.isZero()) return false;
+  auto [n, separates] = detail::find_separating_axis(pair);
+  if (!separates) return false;
   GapAlongAxis here = gap_along(pair, n);
   for (int step = 0; here.gap < margin && step < max_newton_steps; ++step)
     if (!detail::climb(pair, n, here)) break;

@@ -22,8 +22,10 @@ Vec2 direction(double angle);
 double support(const Ellipse& ellipse, const Vec2& u, const Vec2& n);
 
 struct SupportGap {
-  double gap;   ///< the distance if positive; otherwise only its sign counts (overlap or touching)
-  Vec2 normal;  ///< unit vector from 1 to 2, the contact normal at touching
+  double gap;  ///< the distance if positive; otherwise only its sign counts (overlap or touching)
+  /// Unit vector from 1 to 2: the normal of the closest points; of an overlapping pair, of the
+  /// ellipses scaled about their centres to touch.
+  Vec2 normal;
 };
 
 /// The largest support gap, to rounding, for ellipses with unit major axes u1 and u2.
@@ -54,8 +56,13 @@ inline Vec2 turned(const Vec2& n, double angle) {
 /// bodies are not close. It need not separate.
 Vec2 likely_axis(const EllipsePair& pair);
 
-/// A separating axis by the ascent of F(λ) from there, or n = 0 if there is none (overlap).
-Vec2 find_separating_axis(const EllipsePair& pair);
+/// C(λ)⁻¹d on the ascent of F(λ) from there: the first that separates, or, of an overlapping pair,
+/// that of the largest F: the common normal of the ellipses scaled to touch.
+struct SoughtAxis {
+  Vec2 n;
+  bool separates;
+};
+SoughtAxis find_separating_axis(const EllipsePair& pair);
 
 /// One damped Newton step of n towards the maximum of g; `here` is gap_along at n on entry and at
 /// the new n on return. False (and nothing changed) if no step improves g.

@@ -8,7 +8,7 @@ namespace vitrel::lab {
 /// Augmented Lagrangian, equation (3.28) of the thesis for E₁ ≤ 0 and E₂ ≤ 0: the Lagrangian of the
 /// problem plus a quadratic penalty, minimised again and again while the multipliers are updated.
 /// NLopt's implementation (AUGLAG, after Birgin and Martínez) with a preconditioned truncated Newton
-/// method inside (of NLopt's methods it stays closest to the optimum; L-BFGS gives up earlier), in
+/// method inside (of NLopt's methods it stays closest to the optimum), in
 /// the variables of ScaledProblem with 0 ≤ τ ≤ 1, from where the circumcircles touch. `tolerance` (usual
 /// 1e-10): the relative change of the variables at which both loops end; 1000 evaluations end them too.
 /// A result that violates a constraint by more than 1e-6 means no contact. Local.

@@ -14,13 +14,28 @@ struct JudgedEllipse : Ellipse {
 };
 thread_local const Method* JudgedEllipse::method = nullptr;
 
-// Found by Simulation<JudgedEllipse> in place of the default predictor.
+bool approach(const CollisionCase& asked, const Prediction& contact) {
+  const auto surface_velocity = [&](const Flight<GrowingEllipse>& flight) -> Vec2 {
+    const Vec2 centre = advanced(flight.pose, flight.motion, contact.time).position;
+    return flight.motion.velocity +
+           flight.motion.angular_velocity * perpendicular(contact.point - centre);
+  };
+  return (surface_velocity(asked.one) - surface_velocity(asked.two)).dot(contact.normal) > 0;
+}
+
+// Found by Simulation<JudgedEllipse> in place of the default predictor. A method that is not exact
+// finds the pair that has just collided touching still: a contact at which the surfaces recede is
+// none. Nor is an answer that did not come.
 Prediction first_contact(const Flight<JudgedEllipse>& one, const Flight<JudgedEllipse>& two,
                          double horizon, double /*contact_gap*/) {
   const auto plain = [](const Flight<JudgedEllipse>& flight) {
     return of_constant_size({flight.body, flight.pose, flight.motion});
   };
-  return JudgedEllipse::method->predict({plain(one), plain(two), horizon});
+  const CollisionCase asked{plain(one), plain(two), horizon};
+  const Prediction answer = JudgedEllipse::method->predict(asked);
+  const bool believed = answer.outcome == Outcome::overlap ||
+                        (answer.outcome == Outcome::contact && approach(asked, answer));
+  return believed ? answer : Prediction{};
 }
 
 class MethodEngine final : public Engine {
