@@ -19,7 +19,8 @@ double time_of(const Prediction& answer) {
 }
 
 bool is_degenerate(const CollisionCase& asked, const TrueContact& truth) {
-  if (truth.outcome != TrueContact::Outcome::contact) return true;
+  if (truth.outcome == TrueContact::Outcome::undecided) return true;
+  if (truth.outcome != TrueContact::Outcome::contact) return false;
   const double reach = asked.one.body.shape.a + asked.two.body.shape.a;
   return truth.approach_speed < 0.02 * reach / asked.horizon;
 }

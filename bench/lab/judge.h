@@ -37,7 +37,8 @@ struct Judgement {
   Verdict verdict = Verdict::correct;
   /// The surfaces cross so slowly that a gap of the size of rounding is a long time: then an early
   /// answer is judged by the true gap at the reported time. A pair is degenerate if the speed of
-  /// its surfaces at the true contact is below 0.02 (a₁ + a₂)/horizon, or if there is no contact.
+  /// its surfaces at the true contact is below 0.02 (a₁ + a₂)/horizon, or if it is undecided
+  /// whether they touch.
   bool degenerate = false;
   double time_error = 0;  ///< reported − true time; NaN unless both report a contact
   double gap_error = 0;   ///< true gap at the reported time, in units of length; NaN likewise
