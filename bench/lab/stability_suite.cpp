@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
 #include "bench/lab/reference/true_gap.h"
 #include "core/contact/vieillard_baron.h"
@@ -309,51 +308,6 @@ CollisionCase growth(Stream& draw, double kappa) {
 }
 
 using Maker = CollisionCase (*)(Stream&, double kappa);
-struct Entry {
-  CaseClass about;
-  Maker make;
-};
-
-const std::vector<Entry>& entries() {
-  static const std::vector<Entry> all = [] {
-    std::vector<Entry> list;
-    const auto add = [&](const char* name, const char* meaning, Maker make,
-                         std::initializer_list<double> aspect_ratios_of) {
-      for (const double kappa : aspect_ratios_of) list.push_back({{name, meaning, kappa}, make});
-    };
-    add("generic", "random close pairs with thermal velocities", generic, {2, 6});
-    add("grazing",
-        "the gap has a least value between ±1e-12 and ±1e-3 semi-minor axes within the horizon",
-        grazing, {2, 6});
-    add("fast_rotation",
-        "angular velocities of 10 to 60, so that the gap has many minima within the horizon",
-        fast_rotation, {2, 6});
-    add("aspect_ratios", "aspect ratios log-uniform from 1 to 100, drawn for each body",
-        aspect_ratios, {100});
-    add("sizes", "size ratios log-uniform from 1 to 1000, aspect ratios from 1 to 100", sizes,
-        {100});
-    add("crossed_at_start", "crossed at the start, with four intersections: Ψ > 0 all the same",
-        crossed_at_start, {2, 6});
-    add("touching_leaving",
-        "apart at the start by 1/4 to 5/4 of the gap of a declared contact, and leaving",
-        touching_leaving, {2, 6});
-    add("touching_approaching",
-        "apart at the start by 1/4 to 5/4 of the gap of a declared contact, and approaching",
-        touching_approaching, {2, 6});
-    add("slow", "relative velocities and angular velocities of 1e-8, gaps to match", slow, {2, 6});
-    add("nearly_circular", "aspect ratios 1 + 1e-12", nearly_circular, {1});
-    add("round", "circles that are given as ellipses", round, {1});
-    add("parallel_sides",
-        "flat sides, parallel to within 1e-6 or exactly, meet before or just after the horizon",
-        parallel_sides, {2, 6});
-    add("tip", "the tip of one body meets the other before or just after the horizon", tip, {2, 6});
-    add("large_coordinates", "close pairs at a million semi-major axes from the origin",
-        large_coordinates, {2, 6});
-    add("growth", "bodies grow or shrink while they turn, some from a point", growth, {2, 6});
-    return list;
-  }();
-  return all;
-}
 
 /// FNV-1a, so that a class keeps its cases whatever classes stand beside it.
 std::uint64_t key_of(const CaseClass& of) {
@@ -365,21 +319,53 @@ std::uint64_t key_of(const CaseClass& of) {
   return key;
 }
 
+CaseClass drawn_by(Maker make, const char* name, const char* meaning, double kappa) {
+  CaseClass of{name, meaning, kappa, {}};
+  of.make = [make, kappa, key = key_of(of)](std::uint64_t seed, std::uint64_t index) {
+    Stream draw(seed, Purpose::benchmark_cases, key, index);
+    return make(draw, kappa);
+  };
+  return of;
+}
+
 }  // namespace
 
 std::vector<CaseClass> stability_suite() {
-  std::vector<CaseClass> classes;
-  for (const Entry& entry : entries()) classes.push_back(entry.about);
-  return classes;
-}
-
-CollisionCase make_case(const CaseClass& of, std::uint64_t seed, std::uint64_t index) {
-  for (const Entry& entry : entries()) {
-    if (entry.about.name != of.name) continue;
-    Stream draw(seed, Purpose::benchmark_cases, key_of(of), index);
-    return entry.make(draw, of.aspect_ratio);
-  }
-  throw std::invalid_argument("make_case: the stability suite has no class '" + of.name + "'");
+  std::vector<CaseClass> list;
+  const auto add = [&](const char* name, const char* meaning, Maker make,
+                       std::initializer_list<double> aspect_ratios_of) {
+    for (const double kappa : aspect_ratios_of)
+      list.push_back(drawn_by(make, name, meaning, kappa));
+  };
+  add("generic", "random close pairs with thermal velocities", generic, {2, 6});
+  add("grazing",
+      "the gap has a least value between ±1e-12 and ±1e-3 semi-minor axes within the horizon",
+      grazing, {2, 6});
+  add("fast_rotation",
+      "angular velocities of 10 to 60, so that the gap has many minima within the horizon",
+      fast_rotation, {2, 6});
+  add("aspect_ratios", "aspect ratios log-uniform from 1 to 100, drawn for each body",
+      aspect_ratios, {100});
+  add("sizes", "size ratios log-uniform from 1 to 1000, aspect ratios from 1 to 100", sizes, {100});
+  add("crossed_at_start", "crossed at the start, with four intersections: Ψ > 0 all the same",
+      crossed_at_start, {2, 6});
+  add("touching_leaving",
+      "apart at the start by 1/4 to 5/4 of the gap of a declared contact, and leaving",
+      touching_leaving, {2, 6});
+  add("touching_approaching",
+      "apart at the start by 1/4 to 5/4 of the gap of a declared contact, and approaching",
+      touching_approaching, {2, 6});
+  add("slow", "relative velocities and angular velocities of 1e-8, gaps to match", slow, {2, 6});
+  add("nearly_circular", "aspect ratios 1 + 1e-12", nearly_circular, {1});
+  add("round", "circles that are given as ellipses", round, {1});
+  add("parallel_sides",
+      "flat sides, parallel to within 1e-6 or exactly, meet before or just after the horizon",
+      parallel_sides, {2, 6});
+  add("tip", "the tip of one body meets the other before or just after the horizon", tip, {2, 6});
+  add("large_coordinates", "close pairs at a million semi-major axes from the origin",
+      large_coordinates, {2, 6});
+  add("growth", "bodies grow or shrink while they turn, some from a point", growth, {2, 6});
+  return list;
 }
 
 }  // namespace vitrel::lab

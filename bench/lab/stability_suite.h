@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -8,19 +9,22 @@
 
 namespace vitrel::lab {
 
-/// A class of cases that some method fails on, generated from a seed.
+/// A class of cases, generated from a seed.
 struct CaseClass {
   std::string name;     ///< "grazing"
   std::string meaning;  ///< what all its cases have in common, in one sentence
   /// The larger aspect ratio of the pairs; classes that draw it draw from 1 to this.
   double aspect_ratio = 2;
+  /// Case number `index`; a pure function of its arguments that any thread may call.
+  std::function<CollisionCase(std::uint64_t seed, std::uint64_t index)> make;
 };
 
-/// All classes of the stability suite; those that make sense at any aspect ratio once for 2 and
-/// once for 6.
+/// All classes of the stability suite, each of which some method fails on; those that make sense at
+/// any aspect ratio once for 2 and once for 6.
 std::vector<CaseClass> stability_suite();
 
-/// Case number `index` of a class; a pure function of its arguments.
-CollisionCase make_case(const CaseClass& of, std::uint64_t seed, std::uint64_t index);
+inline CollisionCase make_case(const CaseClass& of, std::uint64_t seed, std::uint64_t index) {
+  return of.make(seed, index);
+}
 
 }  // namespace vitrel::lab

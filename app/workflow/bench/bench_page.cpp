@@ -224,7 +224,7 @@ std::string stability(const std::vector<SurveyRow>& rows) {
       stability_matrix(rows);
   for (const std::string& method : method_names(rows)) text += method_details(rows, method);
   std::string classes;
-  for (const CaseClass& of : lab::stability_suite())
+  for (const CaseClass& of : collision_time_classes())
     if (std::ranges::count(rows, of.name, &SurveyRow::case_class))
       classes += row_heading(class_name(of.name, of.aspect_ratio)) + "<td class=\"words\">" +
                  escaped(of.meaning) + "</td></tr>\n";
