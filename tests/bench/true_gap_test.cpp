@@ -41,6 +41,21 @@ TEST(TrueGap, TipAgainstSide) {
   EXPECT_NEAR(static_cast<double>(true_gap(one, two, 2)), 3.75, 1e-14);
 }
 
+// To first order in a − b, h = b + (a − b) cos²(φ − θ); then dg/dφ = 0 turns the normal from the line
+// of centres by Σ (a − b) sin 2(φ − θ)/|d|.
+TEST(TrueGap, NormalOfNearlyRoundBodies) {
+  constexpr double excess = 1e-12, distance = 3, phi = std::numbers::pi / 2;
+  for (int k = 0; k < 100; ++k) {
+    const double first = 0.1 * k, second = 0.3 * k + 1;
+    const Body one = at_rest({1 + excess, 1}, {0, 0}, first);
+    const Body two = at_rest({1 + excess, 1}, {0, distance}, second);
+    const double turn =
+        excess * (std::sin(2 * (phi - first)) + std::sin(2 * (phi - second))) / distance;
+    // The normal's x is −turn; a − b is off by the rounding of 1 + 1e-12.
+    EXPECT_NEAR(closest_surfaces(one, two, 0).normal.x(), -turn, 3e-16);
+  }
+}
+
 // The support gap on a scan of all directions, then on ever finer scans around the best.
 long double scanned_gap(const Body& one, const Body& two) {
   const auto gap = [&](long double angle) {

@@ -102,7 +102,7 @@ class GapOverDirections {
       left.push_back({at(piece.middle.angle - quarter), quarter});
       left.push_back({at(piece.middle.angle + quarter), quarter});
     }
-    return best;
+    return settled(best);
   }
 
  private:
@@ -139,6 +139,14 @@ class GapOverDirections {
       if (settled || next <= low || next >= high) return here;
       here = at(next);
     }
+  }
+
+  // Points near the maximum have its gap to within rounding; only the slope tells them apart.
+  Point settled(const Point& best) const {
+    constexpr Real flat = 1e-8L;
+    const Real curvature = best.gap + best.one.curvature + best.two.curvature;
+    const bool is_near = curvature > 0 && std::abs(best.slope) < flat * curvature;
+    return is_near ? at(best.angle + best.slope / curvature) : best;
   }
 
   Shape one_, two_;

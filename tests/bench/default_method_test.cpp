@@ -1,0 +1,232 @@
+// The default method on every class of the stability suite: nothing late, missed, false or without
+// an answer, times and gaps within derived bounds, normals and points where the truth has them.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "bench/lab/judge.h"
+#include "bench/lab/methods/method.h"
+#include "bench/lab/stability_suite.h"
+
+namespace vitrel::lab {
+namespace {
+
+constexpr std::uint64_t seed = 1;
+constexpr std::uint64_t pairs = 10'000;
+/// As a fraction of the horizon. A degenerate crossing is slower than 0.02 (a₁ + a₂)/horizon, any
+/// other closes the 1.5 · 32 ε (a₁ + a₂) of the widest gap at a contact in 5.3e-13 of the horizon.
+constexpr double time_tolerance = 1e-12;
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+/// A quantity over the bound that it must keep: the worst of all pairs, and which it was.
+class Worst {
+ public:
+  void take(double value, double bound, std::uint64_t index) {
+    const double ratio = std::abs(value) / bound;
+    if (ratio <= ratio_ || std::isnan(ratio_)) return;  // what is no number stays
+    ratio_ = ratio;
+    index_ = index;
+  }
+  friend void expect_kept(const Worst& worst, const char* what) {
+    EXPECT_LE(worst.ratio_, 1) << what << ": pair " << worst.index_;
+  }
+
+ private:
+  double ratio_ = 0;
+  std::uint64_t index_ = 0;
+};
+
+/// One body at the contact, seen along the contact's normal.
+struct Surface {
+  double size;
+  double height;  ///< h, of the body as large as it then is
+  double slope;   ///< dh/dφ, φ the angle of the normal
+  double radius;  ///< of curvature, ρ
+};
+Surface surface(const Flight<GrowingEllipse>& of, double time, const Vec2& normal) {
+  const double angle = of.pose.angle + of.motion.angular_velocity * time;
+  const double size = of.body.size_at(time);
+  const double a = size * of.body.shape.a, b = size * of.body.shape.b;
+  const double along = normal.dot(Vec2(std::cos(angle), std::sin(angle)));
+  const double across = normal.dot(Vec2(-std::sin(angle), std::cos(angle)));
+  const double h = std::hypot(a * along, b * across);
+  return {size, h, -(a - b) * (a + b) * along * across / h, a * a * b * b / (h * h * h)};
+}
+
+double reach(const CollisionCase& asked) {
+  const auto largest = [&](const GrowingEllipse& body) {
+    return body.shape.a * std::max(body.size, body.size_at(asked.horizon));
+  };
+  return largest(asked.one.body) + largest(asked.two.body);
+}
+
+/// The rounding of an angle that has grown to θ + ω t.
+double rounding_of_angle(const Flight<GrowingEllipse>& flight, double time) {
+  return epsilon * (std::abs(flight.pose.angle) + std::abs(flight.motion.angular_velocity) * time);
+}
+
+/// By what a length n·(…) of the size of the bodies may be off: five standard deviations of the sum
+/// of some thirty roundings, each of a length up to the reach and uniform within ε/2 of it, are
+/// 5 √30/√12 ε ≈ 8 ε.
+double rounding(const CollisionCase& asked) {
+  return 8 * epsilon * reach(asked);
+}
+
+/// The rounding of a gap: that of the lengths, and that of the angles, of which h feels at most
+/// a − b.
+double gap_rounding(const CollisionCase& asked, double time) {
+  double sum = rounding(asked);
+  for (const auto* flight : {&asked.one, &asked.two})
+    sum += rounding_of_angle(*flight, time) * flight->body.shape.swing() *
+           std::max(1.0, flight->body.size_at(time));
+  return sum;
+}
+
+/// By how much the gap of a declared contact may leave 0.75 … 1.25 contact gaps: by rounding (with
+/// contact gaps of 32 ε (a₁ + a₂) a quarter of one, if angles are small); downwards by an eighth of
+/// it if the pair has slid there; upwards by what it closes from one double to the next.
+struct GapRange {
+  double low, high;
+};
+GapRange gap_range(const CollisionCase& asked, double time, double approach_speed) {
+  const double off = gap_rounding(asked, time);
+  const double next = std::nextafter(time, std::numeric_limits<double>::infinity()) - time;
+  return {0.625 * asked.contact_gap() - off,
+          1.25 * asked.contact_gap() + off + std::max(approach_speed, 0.0) * next};
+}
+
+/// The largest difference of a predicted normal from the true one. At the true contact, φ the angle
+/// of n and K = ρ₁ + ρ₂,
+///     dg/dφ = n'·d − h₁' − h₂' = 0,   d²g/dφ² = −K:
+/// what dg/dφ is off by turns the normal by that over K. It is off by rounding (that of an angle
+/// changes h' by h'' = ρ − h), and by d²g/dφdt times the time by which the contact is early. Four ε
+/// are the rounding of the normals themselves.
+double normal_bound(const CollisionCase& asked, const TrueContact& truth, double early) {
+  const auto time = static_cast<double>(truth.time);
+  double off = rounding(asked), radii = 0;
+  double rate = cross(truth.normal, asked.two.motion.velocity - asked.one.motion.velocity);
+  for (const auto* flight : {&asked.one, &asked.two}) {
+    const Surface s = surface(*flight, time, truth.normal);
+    off += rounding_of_angle(*flight, time) * std::abs(s.radius - s.height);
+    rate += flight->motion.angular_velocity * (s.radius - s.height) -
+            flight->body.growth_rate / s.size * s.slope;
+    radii += s.radius;
+  }
+  return (off + std::abs(rate) * early) / radii + 4 * epsilon;
+}
+
+double angle_between(const Vec2& n, const Vec2& m) {
+  return std::atan2(cross(n, m), n.dot(m));
+}
+
+/// Distance of a point close to the surface of a body from it, < 0 inside: E/|∇E| with E = (x/a)² +
+/// (y/b)² − 1, in 80-bit arithmetic.
+double height_above(const Flight<GrowingEllipse>& of, double time, const Vec2& point) {
+  using Real = long double;
+  const Real angle = of.pose.angle + Real(of.motion.angular_velocity) * time;
+  const Real size = of.body.size + Real(of.body.growth_rate) * time;
+  const Real a = size * of.body.shape.a, b = size * of.body.shape.b;
+  const auto from_centre = [&](int k) {
+    return point[k] - (of.pose.position[k] + Real(of.motion.velocity[k]) * time);
+  };
+  const Real x = (std::cos(angle) * from_centre(0) + std::sin(angle) * from_centre(1)) / a;
+  const Real y = (std::cos(angle) * from_centre(1) - std::sin(angle) * from_centre(0)) / b;
+  return static_cast<double>((x * x + y * y - 1) / (2 * std::hypot(x / a, y / b)));
+}
+
+/// Coordinates are rounded where the body is.
+double rounding_of_position(const Flight<GrowingEllipse>& of, double time) {
+  return epsilon * (of.pose.position.norm() + of.motion.velocity.norm() * time);
+}
+
+/// What all pairs of a class add up to.
+struct Tally {
+  std::map<Verdict, int> verdicts;
+  std::uint64_t first_wrong = pairs;
+  int contacts = 0;
+  int crossings = 0;  ///< contacts that are not degenerate
+  Worst time, high_gap, low_gap, normal, point_on_one, point_on_two;
+};
+
+void take_contact(const CollisionCase& asked, const TrueContact& truth, const Prediction& answer,
+                  const Judgement& judgement, std::uint64_t index, Tally& tally) {
+  const double time = answer.time, gap = judgement.gap_error;
+  const GapRange range = gap_range(asked, time, truth.approach_speed);
+  const double middle = asked.contact_gap();
+  ++tally.contacts;
+  tally.high_gap.take(std::max(gap - middle, 0.0), range.high - middle, index);
+  // A pair may start closer than where a contact would have been declared.
+  if (time > 0) tally.low_gap.take(std::max(middle - gap, 0.0), middle - range.low, index);
+  if (judgement.degenerate) return;
+  ++tally.crossings;
+  tally.time.take(judgement.time_error, time_tolerance * asked.horizon, index);
+  tally.normal.take(angle_between(truth.normal, answer.normal),
+                    normal_bound(asked, truth, std::abs(judgement.time_error)), index);
+  const double place = gap_rounding(asked, time) + rounding_of_position(asked.one, time);
+  tally.point_on_one.take(height_above(asked.one, time, answer.point), place, index);
+  tally.point_on_two.take(height_above(asked.two, time, answer.point) - gap, place, index);
+}
+
+Tally tally_of(const CaseClass& of, const Method& method) {
+  Tally tally;
+  for (std::uint64_t index = 0; index < pairs; ++index) {
+    const CollisionCase asked = make_case(of, seed, index);
+    const TrueContact truth = true_first_contact(asked.one, asked.two, asked.horizon);
+    const Prediction answer = method.predict(asked);
+    const double gap = gap_range(asked, answer.time, truth.approach_speed).high;
+    const Judgement judgement =
+        judge(asked, truth, answer, {time_tolerance, gap / asked.gap_unit()});
+    ++tally.verdicts[judgement.verdict];
+    if (judgement.verdict != Verdict::correct)
+      tally.first_wrong = std::min(tally.first_wrong, index);
+    if (answer.outcome == Outcome::contact && truth.outcome == TrueContact::Outcome::contact)
+      take_contact(asked, truth, answer, judgement, index, tally);
+  }
+  return tally;
+}
+
+/// A class with a name for ctest.
+struct Named {
+  CaseClass of;
+  friend void PrintTo(const Named& named, std::ostream* out) {
+    *out << named.of.name << ", aspect ratio " << named.of.aspect_ratio;
+  }
+};
+std::vector<Named> all_classes() {
+  std::vector<Named> all;
+  for (const CaseClass& of : stability_suite()) all.push_back({of});
+  return all;
+}
+
+class DefaultMethod : public testing::TestWithParam<Named> {};
+
+TEST_P(DefaultMethod, IsNeverWrong) {
+  const CaseClass& of = GetParam().of;
+  Tally tally = tally_of(of, collision_time_methods().front());
+  EXPECT_EQ(tally.verdicts[Verdict::late], 0);
+  EXPECT_EQ(tally.verdicts[Verdict::missed], 0);
+  EXPECT_EQ(tally.verdicts[Verdict::early], 0);
+  EXPECT_EQ(tally.verdicts[Verdict::false_contact], 0);
+  EXPECT_EQ(tally.verdicts[Verdict::not_converged], 0);
+  EXPECT_EQ(tally.verdicts[Verdict::correct], pairs) << "first wrong pair: " << tally.first_wrong;
+
+  expect_kept(tally.time, "time");
+  expect_kept(tally.high_gap, "gap too large");
+  expect_kept(tally.low_gap, "gap too small");
+  expect_kept(tally.normal, "normal");
+  expect_kept(tally.point_on_one, "point on the first body");
+  expect_kept(tally.point_on_two, "point on the second body");
+
+  // All of a class that is about something else than crossings would prove little.
+  const bool overlaps = of.name == "crossed_at_start";
+  EXPECT_GE(tally.contacts, overlaps ? 0 : pairs / 10);
+  EXPECT_GE(tally.crossings, overlaps || of.name == "slow" ? 0 : pairs / 100);
+}
+
+INSTANTIATE_TEST_SUITE_P(Classes, DefaultMethod, testing::ValuesIn(all_classes()));
+
+}  // namespace
+}  // namespace vitrel::lab
