@@ -13,6 +13,10 @@ namespace {
 // The command that the command line chose, if any.
 using Chosen = std::function<int(const Arguments&)>;
 
+const std::string exit_codes =
+    "Exit codes: 0 done, 2 mistake in parameters or command line, 3 a file cannot be read or "
+    "written, ";
+
 class CommandLine {
  public:
   CommandLine()
@@ -56,9 +60,7 @@ class CommandLine {
                 const Chosen& command) {
     CLI::App& sub = *parent.add_subcommand(name, sentence);
     sub.callback([this, command] { chosen_ = command; });
-    sub.footer(
-        "Exit codes: 0 done, 2 mistake in parameters or command line, 3 a file cannot be read or "
-        "written, 4 overlap, 5 stopped (the same command continues).");
+    sub.footer(exit_codes + "4 overlap, 5 stopped (the same command continues).");
     return sub;
   }
 
@@ -156,25 +158,42 @@ class CommandLine {
     CLI::App& time = add(bench, "collision-time",
                          "Speed, accuracy and failures of every way to predict a collision.",
                          bench_collision_time_command);
-    add_benchmark(time, "Pairs of each class (2000); slow methods answer what their time allows",
-                  "Seconds that a method other than the default may predict (4)");
+    add_benchmark(time);
+    add_pairs(time, "Pairs of each class (2000); slow methods answer what their time allows",
+              "Seconds that a method other than the default may predict (4)");
     time.add_option("--tolerance", arguments_.tolerance,
                     "How far off still counts as correct (1e-8): of the horizon for times, of the "
                     "semi-minor axis for gaps")
         ->check(CLI::PositiveNumber);
+    time.add_option("--gap-tolerance", arguments_.gap_tolerance,
+                    "The same for gaps, if they have another one")
+        ->check(CLI::PositiveNumber);
+    add_duration(time, "Simulated time of the whole runs on the page (20)");
     CLI::App& overlap = add(bench, "overlap", "Speed and accuracy of every criterion of overlap.",
                             bench_overlap_command);
-    add_benchmark(overlap, "Pairs of each class (20000)", "Seconds that a criterion may take (1)");
+    add_benchmark(overlap);
+    add_pairs(overlap, "Pairs of each class (20000)", "Seconds that a criterion may take (1)");
+    CLI::App& run = add(bench, "whole-run",
+                        "The scene of the thesis, run with every method that can carry a run.",
+                        bench_whole_run_command);
+    add_benchmark(run);
+    add_duration(run, "Simulated time of each run (100)");
   }
-  void add_benchmark(CLI::App& sub, const std::string& pairs, const std::string& seconds) {
+  void add_benchmark(CLI::App& sub) {
+    sub.footer(exit_codes + "5 stopped (rows of what was done, no files).");
     add_output(sub, "Folder for the page, its pictures and the rows as JSON", false);
-    sub.add_option("--pairs", arguments_.pairs, pairs)->check(CLI::PositiveNumber);
-    sub.add_option("--seconds", arguments_.seconds, seconds)->check(CLI::PositiveNumber);
     sub.add_option("--method", arguments_.methods, "Only these methods, by name");
-    sub.add_option("--class", arguments_.classes, "Only these classes of pairs, by name");
-    sub.add_option("--seed", arguments_.seed, "Seed of the pairs (1)");
+    sub.add_option("--seed", arguments_.seed, "Seed of all random numbers (1)");
     add_wall_time(sub);
     add_quiet_and_json(sub);
+  }
+  void add_pairs(CLI::App& sub, const std::string& pairs, const std::string& seconds) {
+    sub.add_option("--pairs", arguments_.pairs, pairs)->check(CLI::PositiveNumber);
+    sub.add_option("--seconds", arguments_.seconds, seconds)->check(CLI::PositiveNumber);
+    sub.add_option("--class", arguments_.classes, "Only these classes of pairs, by name");
+  }
+  void add_duration(CLI::App& sub, const std::string& what) {
+    sub.add_option("--duration", arguments_.duration, what)->check(CLI::PositiveNumber);
   }
   void add_params() {
     CLI::App& sub =

@@ -7,6 +7,7 @@
 #include "app/workflow/bench/overlap.h"
 #include "app/workflow/bench/picture.h"
 #include "app/workflow/bench/scene.h"
+#include "app/workflow/bench/whole_run.h"
 #include "app/workflow/text_file.h"
 #include "core/io/provenance.h"
 
@@ -16,18 +17,22 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// Fields in the order of the page and of the JSON file.
-PageProvenance provenance(const Arguments& arguments, std::uint64_t seed, std::uint64_t pairs,
-                          double seconds, double wall_seconds) {
-  const Provenance now = current_provenance(arguments.command_line, "", seed);
-  return {{"command", now.command_line},
-          {"pairs", fmt::format("{} of each class, seed {}", pairs, seed)},
-          {"time limit", fmt::format("{:g} s for a method that is not the default", seconds)},
-          {"version", now.version},
-          {"commit", now.commit},
-          {"host", now.host},
-          {"finished", now.started},
-          {"wall time", fmt::format("{:.0f} s", wall_seconds)}};
+/// Fields in the order of the page and of the JSON file; `what` are those of the benchmark itself.
+PageProvenance provenance(const Arguments& arguments, const PageProvenance& what,
+                          const Session& session) {
+  const Provenance now = current_provenance(arguments.command_line, "", 0);
+  PageProvenance fields = {{"command", now.command_line}};
+  fields.insert(fields.end(), what.begin(), what.end());
+  fields.insert(fields.end(), {{"version", now.version},
+                               {"commit", now.commit},
+                               {"host", now.host},
+                               {"finished", now.started},
+                               {"wall time", fmt::format("{:.0f} s", session.seconds())}});
+  return fields;
+}
+
+std::string pairs_text(std::uint64_t pairs, std::uint64_t seed) {
+  return fmt::format("{} of each class, seed {}", pairs, seed);
 }
 
 Json as_json(const PageProvenance& provenance) {
@@ -49,14 +54,33 @@ int stopped_early(const Arguments& arguments) {
   return stopped;
 }
 
+std::string failure_file(const lab::FailingCase& failure) {
+  return "failure_" + failure.method + ".svg";
+}
+
+Json failures_json(const std::vector<lab::FailingCase>& failures) {
+  Json list = Json::array();
+  for (const lab::FailingCase& failure : failures)
+    list.push_back({{"method", failure.method},
+                    {"class", failure.case_class.name},
+                    {"aspect_ratio", failure.case_class.aspect_ratio},
+                    {"index", failure.index},
+                    {"caption", failure_caption(failure)},
+                    {"picture", failure_file(failure)}});
+  return list;
+}
+
 void write_collision_time(const fs::path& folder, const CollisionTimeBench& bench,
                           const std::vector<lab::OverlapRow>& overlap,
+                          const std::vector<lab::WholeRun>& runs,
                           const PageProvenance& provenance) {
   fs::create_directories(folder);
   const Json data = {{"rows", collision_time_json(bench.survey.rows)},
                      {"tolerances", collision_time_json(bench.tolerances)},
                      {"tolerances_judged_by", charted_tolerance},
+                     {"failures", failures_json(bench.survey.failures)},
                      {"overlap", overlap_json(overlap)},
+                     {"whole_runs", whole_run_json(runs)},
                      {"provenance", as_json(provenance)}};
   write_text(folder / "collision-time.json", data.dump(2) + "\n");
   write_text(folder / "collision-time.svg",
@@ -66,9 +90,10 @@ void write_collision_time(const fs::path& folder, const CollisionTimeBench& benc
   write_text(folder / "scene_gap.svg", chart_svg(scene_gap_chart()));
   write_text(folder / "scene_psi.svg", chart_svg(scene_psi_chart()));
   for (const lab::FailingCase& failure : bench.survey.failures)
-    write_text(folder / ("failure_" + failure.method + ".svg"), failure_svg(failure));
+    write_text(folder / failure_file(failure), failure_svg(failure));
   write_text(folder / "overlap.svg", chart_svg(overlap_chart(overlap)));
-  write_text(folder / "collision-time.html", collision_time_page(bench, overlap, provenance));
+  write_text(folder / "whole-run.svg", chart_svg(whole_run_chart(runs)));
+  write_text(folder / "collision-time.html", collision_time_page(bench, overlap, runs, provenance));
 }
 
 }  // namespace
@@ -79,6 +104,7 @@ int bench_collision_time_command(const Arguments& arguments) {
   request.seconds = arguments.seconds.value_or(request.seconds);
   request.seed = arguments.seed.value_or(request.seed);
   if (arguments.tolerance) request.tolerance = {*arguments.tolerance, *arguments.tolerance};
+  if (arguments.gap_tolerance) request.tolerance.gap = *arguments.gap_tolerance;
   request.methods = arguments.methods;
   request.classes = arguments.classes;
   request.with_chart = !arguments.output.empty();
@@ -93,9 +119,19 @@ int bench_collision_time_command(const Arguments& arguments) {
   criteria.seed = request.seed;
   const lab::OverlapSurvey overlap = bench_overlap(criteria, session.budget());
   if (overlap.stopped) return stopped_early(arguments);
-  write_collision_time(
-      arguments.output, bench, overlap.rows,
-      provenance(arguments, request.seed, request.pairs, request.seconds, session.seconds()));
+  session.say()("whole runs");
+  WholeRunRequest scene;
+  scene.duration = arguments.duration.value_or(20);
+  scene.seed = request.seed;
+  const WholeRunBench runs = bench_whole_run(scene, session.budget());
+  if (runs.stopped) return stopped_early(arguments);
+  const PageProvenance how = provenance(
+      arguments,
+      {{"pairs", pairs_text(request.pairs, request.seed)},
+       {"time limit", fmt::format("{:g} s for a method that is not the default", request.seconds)},
+       {"whole runs", fmt::format("{:g} units of time", scene.duration)}},
+      session);
+  write_collision_time(arguments.output, bench, overlap.rows, runs.rows, how);
   return success;
 }
 
@@ -113,13 +149,40 @@ int bench_overlap_command(const Arguments& arguments) {
   if (survey.stopped) return stopped_early(arguments);
   if (arguments.output.empty()) return success;
   const PageProvenance how =
-      provenance(arguments, request.seed, request.pairs, request.seconds, session.seconds());
+      provenance(arguments,
+                 {{"pairs", pairs_text(request.pairs, request.seed)},
+                  {"time limit", fmt::format("{:g} s for a criterion", request.seconds)}},
+                 session);
   fs::create_directories(arguments.output);
   write_text(
       arguments.output / "overlap.json",
       Json{{"rows", overlap_json(survey.rows)}, {"provenance", as_json(how)}}.dump(2) + "\n");
   write_text(arguments.output / "overlap.svg", chart_svg(overlap_chart(survey.rows)));
   write_text(arguments.output / "overlap.html", overlap_page(survey.rows, how));
+  return success;
+}
+
+int bench_whole_run_command(const Arguments& arguments) {
+  WholeRunRequest request;
+  request.duration = arguments.duration.value_or(request.duration);
+  request.seed = arguments.seed.value_or(request.seed);
+  request.methods = arguments.methods;
+  Session session(arguments);
+  session.say()("whole runs");
+  const WholeRunBench bench = bench_whole_run(request, session.budget());
+  print_rows(arguments, whole_run_json(bench.rows), whole_run_text(bench.rows));
+  if (bench.stopped) return stopped_early(arguments);
+  if (arguments.output.empty()) return success;
+  const PageProvenance how = provenance(
+      arguments,
+      {{"scene", fmt::format("{:g} units of time, seed {}", request.duration, request.seed)}},
+      session);
+  fs::create_directories(arguments.output);
+  write_text(
+      arguments.output / "whole-run.json",
+      Json{{"rows", whole_run_json(bench.rows)}, {"provenance", as_json(how)}}.dump(2) + "\n");
+  write_text(arguments.output / "whole-run.svg", chart_svg(whole_run_chart(bench.rows)));
+  write_text(arguments.output / "whole-run.html", whole_run_page(bench.rows, how));
   return success;
 }
 

@@ -16,7 +16,7 @@ enum ExitCode {
   user_error = 2,
   file_error = 3,
   broken_invariant = 4,
-  stopped = 5,  ///< on request or for want of time; the same command continues
+  stopped = 5,  ///< on request or for want of time; the same command continues (but for bench)
 };
 
 /// What the command line says; every command uses its part.
@@ -38,6 +38,8 @@ struct Arguments {
   std::optional<std::uint64_t> pairs;         ///< of each class
   std::optional<double> seconds;              ///< that a slow method may take
   std::optional<double> tolerance;            ///< of the judge
+  std::optional<double> gap_tolerance;        ///< of the judge, if gaps have another one
+  std::optional<double> duration;             ///< of whole runs
 };
 
 int prepare_command(const Arguments& arguments);
@@ -49,5 +51,6 @@ int report_command(const Arguments& arguments);
 int params_command(const Arguments& arguments);
 int bench_collision_time_command(const Arguments& arguments);
 int bench_overlap_command(const Arguments& arguments);
+int bench_whole_run_command(const Arguments& arguments);
 
 }  // namespace vitrel

@@ -61,10 +61,8 @@ Judgement judge(const CollisionCase& asked, const TrueContact& truth, const Pred
   const bool near_in_time = truth.outcome == Truth::contact && std::abs(off) <= allowed;
   const auto gap = static_cast<double>(true_gap(asked.one, asked.two, time));
   const bool at_rounding = gap <= tolerance.gap * asked.gap_unit();
-  if (truth.outcome == Truth::contact) {
-    judgement.time_error = off;
-    judgement.gap_error = gap;
-  }
+  judgement.gap_error = gap;
+  if (truth.outcome == Truth::contact) judgement.time_error = off;
   if (!at_rounding && !near_in_time &&
       (truth.outcome != Truth::contact || answer.outcome == Outcome::overlap))
     judgement.verdict = Verdict::false_contact;

@@ -41,7 +41,9 @@ struct Judgement {
   /// whether they touch.
   bool degenerate = false;
   double time_error = 0;  ///< reported − true time; NaN unless both report a contact
-  double gap_error = 0;   ///< true gap at the reported time, in units of length; NaN likewise
+  /// True gap at the reported time, in units of length; NaN if no contact is reported, or if the pair
+  /// overlaps at the start.
+  double gap_error = 0;
 };
 
 Judgement judge(const CollisionCase& asked, const TrueContact& truth, const Prediction& answer,

@@ -91,7 +91,8 @@ class Examination {
     row_.tolerance = method.tolerance;
     row_.case_class = of.name;
     row_.aspect_ratio = of.aspect_ratio;
-    row_.largest_error = row_.largest_gap_error = std::numeric_limits<double>::quiet_NaN();
+    row_.largest_error = row_.largest_gap_error = row_.largest_moot_gap =
+        std::numeric_limits<double>::quiet_NaN();
   }
 
   bool is_over() const { return over_; }
@@ -131,7 +132,7 @@ class Examination {
           judge(block.cases[first + k], block.truths[first + k], answers_[k], tolerance_);
     });
     for (std::size_t k = 0; k < answers_.size(); ++k) {
-      record(judgements_[k], block.cases[first + k]);
+      record(judgements_[k], block.cases[first + k], block.truths[first + k]);
       if (is_better_failure(judgements_[k], failure))
         failure = FailingCase{
             method_->name,           *of_,        block.first + first + k, block.cases[first + k],
@@ -145,16 +146,20 @@ class Examination {
            (!known || gravity(judgement) > gravity(known->judgement));
   }
 
-  void record(const Judgement& judgement, const CollisionCase& asked) {
+  void record(const Judgement& judgement, const CollisionCase& asked, const TrueContact& truth) {
+    const bool contact = truth.outcome == TrueContact::Outcome::contact;
+    const double gap = std::abs(judgement.gap_error);
     count(row_, judgement.verdict);
     row_.degenerate += judgement.degenerate;
+    row_.contacts += contact;
     const double error = std::abs(judgement.time_error) / asked.horizon;
     if (!judgement.degenerate && !std::isnan(error)) {
       row_.largest_error = std::fmax(row_.largest_error, error);
       errors_.push_back(error);
     }
-    row_.largest_gap_error =
-        std::fmax(row_.largest_gap_error, std::abs(judgement.gap_error) / asked.gap_unit());
+    if (contact) row_.largest_gap_error = std::fmax(row_.largest_gap_error, gap / asked.gap_unit());
+    if (judgement.degenerate || !contact)
+      row_.largest_moot_gap = std::fmax(row_.largest_moot_gap, gap / asked.contact_gap());
   }
 
   const Method* method_;

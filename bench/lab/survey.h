@@ -36,6 +36,7 @@ struct SurveyRow {
   std::uint64_t pairs = 0;  ///< the sum of the following six
   std::uint64_t correct = 0, early = 0, late = 0, missed = 0, false_contacts = 0, not_converged = 0;
   std::uint64_t degenerate = 0;
+  std::uint64_t contacts = 0;  ///< pairs that truly touch within the horizon
   double ns_per_call = 0;
   /// |reported − true time| as a fraction of the horizon, of the pairs that are not degenerate and
   /// for which both report a contact.
@@ -43,6 +44,10 @@ struct SurveyRow {
   /// |true gap at the reported time| in units of the smaller semi-minor axis, of all pairs with a
   /// contact.
   double largest_gap_error = 0;
+  /// |true gap at the reported time| in units of the contact gap (collision_case.h), of all pairs
+  /// with a reported contact whose true time is ill-defined (degenerate) or does not exist: how
+  /// far these answers are from being right.
+  double largest_moot_gap = 0;
 
   std::uint64_t wrong() const { return pairs - correct; }
   /// Not one answer: the method is not made for such pairs.

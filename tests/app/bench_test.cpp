@@ -76,7 +76,7 @@ TEST(BenchCollisionTime, PrintsRowsWithTheKeysOfTheManual) {
     for (const char* const key :
          {"method", "class", "aspect_ratio", "pairs", "correct", "early", "late", "missed", "false",
           "not_converged", "ns_per_call", "largest_error", "tolerance", "degenerate",
-          "median_error", "largest_gap_error"})
+          "median_error", "largest_gap_error", "largest_moot_gap", "contacts"})
       EXPECT_TRUE(row.contains(key)) << key;
     EXPECT_EQ(row["class"], "generic");
     EXPECT_GT(row["ns_per_call"], 1.0);
@@ -90,21 +90,49 @@ TEST(BenchCollisionTime, PrintsRowsWithTheKeysOfTheManual) {
   EXPECT_LT(rows[0]["largest_error"], 1e-12);
 }
 
+TEST(BenchCollisionTime, JudgesTimesAndGapsByTheirTolerances) {
+  const Folder folder("bench_tolerance");
+  const auto row = [&](const std::vector<std::string>& tolerances) {
+    std::vector<std::string> words = {
+        "bench", "collision-time", "--pairs",         "60",     "--class",
+        "slow",  "--method",       "separating_axis", "--json", "-q"};
+    words.insert(words.end(), tolerances.begin(), tolerances.end());
+    return Json::parse(run(folder.path(), words).output)["rows"][0];
+  };
+  // All contacts of this class are degenerate: declared at a gap of about one contact gap, early.
+  const Json lenient = row({"--tolerance", "1e-12", "--gap-tolerance", "1e-8"});
+  EXPECT_EQ(lenient["correct"], 60);
+  EXPECT_GT(lenient["contacts"], 10);
+  EXPECT_EQ(lenient["contacts"], lenient["degenerate"]);
+  EXPECT_GT(lenient["largest_moot_gap"], 0.7);
+  EXPECT_LT(lenient["largest_moot_gap"], 1.4);
+  const Json strict = row({"--tolerance", "1e-15"});
+  EXPECT_EQ(strict["early"], strict["contacts"]);
+}
+
 TEST(BenchCollisionTime, WritesPageChartsAndData) {
   const Folder folder("bench_page");
   const Outcome outcome =
-      run(folder.path(), {"bench", "collision-time", "--pairs", "40", "--seconds", "0.2", "--class",
-                          "generic", "-o", "out"});
+      run(folder.path(), {"bench", "collision-time", "--pairs", "40", "--seconds", "0.2",
+                          "--duration", "0.1", "--class", "generic", "recorded", "-o", "out"});
   ASSERT_EQ(outcome.code, 0) << outcome.errors;
-  EXPECT_THAT(outcome.output, AllOf(HasSubstr("separating_axis (tolerance"), HasSubstr("generic")));
+  EXPECT_THAT(outcome.output, AllOf(HasSubstr("separating_axis (tolerance"), HasSubstr("generic"),
+                                    HasSubstr("recorded")));
   const std::filesystem::path out = folder / "out";
   const Json data = Json::parse(content(out / "collision-time.json"));
   EXPECT_GT(data["rows"].size(), 10u);
   EXPECT_GT(data["tolerances"].size(), 10u);
   EXPECT_GT(data["overlap"].size(), 10u);
+  EXPECT_GT(data["whole_runs"].size(), 10u);
   EXPECT_THAT(data["provenance"]["command"], HasSubstr("bench collision-time --pairs 40"));
+  ASSERT_FALSE(data["failures"].empty());
+  for (const Json& failure : data["failures"]) {
+    EXPECT_NE(failure["method"], "separating_axis");
+    EXPECT_THAT(failure["caption"], testing::Not(testing::IsEmpty()));
+    EXPECT_TRUE(std::filesystem::exists(out / failure["picture"].get<std::string>()));
+  }
   for (const char* const name : {"collision-time.svg", "collision-time-largest.svg",
-                                 "scene_gap.svg", "scene_psi.svg", "overlap.svg"})
+                                 "scene_gap.svg", "scene_psi.svg", "overlap.svg", "whole-run.svg"})
     expect_well_formed(content(out / name));
   for (const auto& entry : std::filesystem::directory_iterator(out))
     if (entry.path().extension() == ".svg") expect_well_formed(content(entry.path()));
@@ -137,6 +165,47 @@ TEST(BenchOverlap, PrintsAndWrites) {
   EXPECT_THAT(content(folder / "out/overlap.html"), HasSubstr("polygon_"));
 }
 
+TEST(BenchWholeRun, PrintsAndWrites) {
+  const Folder folder("bench_whole_run");
+  const Outcome outcome =
+      run(folder.path(), {"bench", "whole-run", "--duration", "1", "--method", "separating_axis",
+                          "psi_root", "--json", "-q", "-o", "out"});
+  ASSERT_EQ(outcome.code, 0) << outcome.errors;
+  const Json rows = Json::parse(outcome.output)["rows"];
+  ASSERT_EQ(rows.size(), 12u);  // two methods, six tolerances
+  for (const Json& row : rows) {
+    for (const char* const key :
+         {"method", "tolerance", "simulated_time", "collisions", "correction_moves",
+          "collisions_per_second", "energy_drift", "deepest_overlap", "stood_still"})
+      EXPECT_TRUE(row.contains(key)) << key;
+    EXPECT_NEAR(row["simulated_time"], 1, 1e-9);
+    EXPECT_GT(row["collisions"], 100);
+    EXPECT_LT(row["energy_drift"], 1e-13);
+    EXPECT_FALSE(row["stood_still"]);
+    if (row["method"] == "separating_axis") {
+      EXPECT_EQ(row["correction_moves"], 0);
+      EXPECT_EQ(row["deepest_overlap"], 0);
+    }
+  }
+  EXPECT_EQ(Json::parse(content(folder / "out/whole-run.json"))["rows"], rows);
+  const std::string chart = content(folder / "out/whole-run.svg");
+  expect_well_formed(chart);
+  EXPECT_THAT(chart, HasSubstr(">none<"));  // no correction move
+  const std::string page = content(folder / "out/whole-run.html");
+  EXPECT_THAT(page, AllOf(HasSubstr("default-src 'none'"), HasSubstr("psi_root")));
+  EXPECT_EQ(count(page, "<script"), 0u);
+}
+
+TEST(BenchWholeRun, PrintsATableOfWholeLinesInAHundredColumns) {
+  const Folder folder("bench_whole_run_text");
+  const Outcome outcome = run(folder.path(), {"bench", "whole-run", "--duration", "0.5", "--method",
+                                              "perram_wertheim_root"});
+  ASSERT_EQ(outcome.code, 0) << outcome.errors;
+  EXPECT_THAT(outcome.output, AllOf(HasSubstr("perram_wertheim_root\n"), HasSubstr("corrections")));
+  std::istringstream lines(outcome.output);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 104u) << line;
+}
+
 TEST(Bench, RefusesUnknownNamesAndSaysWhichThereAre) {
   const Folder folder("bench_names");
   const Outcome method = run(folder.path(), {"bench", "collision-time", "--method", "magic"});
@@ -148,6 +217,10 @@ TEST(Bench, RefusesUnknownNamesAndSaysWhichThereAre) {
   const Outcome criterion = run(folder.path(), {"bench", "overlap", "--method", "magic"});
   EXPECT_EQ(criterion.code, 2);
   EXPECT_THAT(criterion.errors, HasSubstr("vieillard_baron"));
+  const Outcome runs = run(folder.path(), {"bench", "whole-run", "--method", "nelder_mead"});
+  EXPECT_EQ(runs.code, 2);
+  EXPECT_THAT(runs.errors, HasSubstr("psi_root"));
+  EXPECT_EQ(run(folder.path(), {"bench", "whole-run", "--duration", "0"}).code, 2);
   EXPECT_EQ(run(folder.path(), {"bench"}).code, 2);
   EXPECT_EQ(run(folder.path(), {"bench", "collision-time", "--pairs", "0"}).code, 2);
   folder.write("file", "");
@@ -182,6 +255,12 @@ TEST(Chart, LogarithmicAxesCoverWholeDecadesAndZeroSitsOnTheFloor) {
                          HasSubstr("a &lt; b &amp; &quot;c&quot;")));
   // The point with error 0 lies on the horizontal axis.
   EXPECT_THAT(svg, HasSubstr(",444.00 \" fill=\"none\""));
+}
+
+TEST(Chart, TheFloorMayHaveANameOfItsOwn) {
+  Chart chart = chart_of({{150, 1e-12, false, ""}, {900, 0, false, ""}});
+  chart.floor_label = "none";
+  EXPECT_THAT(chart_svg(chart), AllOf(HasSubstr(">none<"), Not(HasSubstr("≤"))));
 }
 
 TEST(Chart, WithoutZerosTheFloorIsNotDrawn) {

@@ -104,6 +104,7 @@ TEST(Survey, CountsEveryAnswerOnceAndMeasuresItsError) {
   EXPECT_EQ(late.correct + late.late, pairs);
   EXPECT_NEAR(late.median_error, delay, 1e-12);
   EXPECT_NEAR(late.largest_error, delay, 1e-12);
+  EXPECT_EQ(late.contacts, late.late);
   const SurveyRow& blind = row_of(result, "blind");
   EXPECT_EQ(blind.missed, late.late);
   EXPECT_TRUE(std::isnan(blind.largest_error));

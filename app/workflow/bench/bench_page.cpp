@@ -11,6 +11,7 @@
 #include "app/workflow/bench/picture.h"
 #include "app/workflow/bench/scene.h"
 #include "app/workflow/bench/svg.h"
+#include "app/workflow/bench/whole_run.h"
 #include "app/workflow/report/assets.h"
 
 namespace vitrel {
@@ -20,6 +21,7 @@ using lab::CaseClass;
 using lab::FailingCase;
 using lab::OverlapRow;
 using lab::SurveyRow;
+using lab::WholeRun;
 
 const char* const style = R"(
 section svg { max-width: 100%; height: auto; display: block; }
@@ -285,6 +287,43 @@ std::string overlap_section(const std::vector<OverlapRow>& rows) {
          figure(chart_svg(overlap_chart(rows))) + table("matrix", headings, text);
 }
 
+std::string corrections_cell(const WholeRun& run) {
+  const std::string text = count_text(run.correction_moves);
+  return run.correction_moves == 0 ? cell(text) : "<td class=\"many\">" + text + "</td>";
+}
+
+std::string whole_run_section(const std::vector<WholeRun>& runs) {
+  std::string rows;
+  for (const WholeRun& run : runs) {
+    const double moves = corrections_per_thousand(run);
+    rows += row_heading(run.method) + cell(fmt::format("{:.2g}", run.tolerance)) +
+            cell(fmt::format("{:.4g}{}", run.simulated_time,
+                             run.stood_still ? ", then stood still" : "")) +
+            cell(count_text(run.collisions)) + corrections_cell(run) +
+            cell(std::isnan(moves) ? "–"
+                 : moves == 0      ? "·"
+                                   : ratio_text(moves)) +
+            cell(fmt::format("{:.0f}", run.collisions_per_second)) +
+            cell(error_text(run.energy_drift)) +
+            cell(run.deepest_overlap == 0 ? "·" : error_text(run.deepest_overlap)) + "</tr>\n";
+  }
+  return paragraph(
+             "The scene of the thesis (100 ellipses with κ = 2 at φ = 0.5, from a square lattice), "
+             "with every method that can carry a run, at each of its tolerances. A collision that "
+             "is overlooked becomes an overlap, for which the thesis has its correction move.") +
+         figure(chart_svg(whole_run_chart(runs))) +
+         table("",
+               {"method", "tolerance", "time", "collisions", "correction moves",
+                "per 1000 collisions", "collisions per second", "energy drift", "deepest overlap"},
+               rows) +
+         "<p class=\"note\">The roots of Ψ and of Perram and Wertheim’s function do not know which "
+         "side they touch from: of a pair that has just collided, contact within rounding now and "
+         "then counts as an overlap, at any tolerance. SLSQP reports contacts that are none, too: "
+         "its collisions are not those of the scene, and at a coarse tolerance they go on without "
+         "end at one time. The energy says nothing about that: wrong collisions and correction "
+         "moves conserve it as well. Overlaps are in semi-minor axes, at the samples.</p>\n";
+}
+
 std::string provenance_section(const PageProvenance& provenance) {
   std::string list;
   for (const auto& [name, text] : provenance)
@@ -310,6 +349,7 @@ std::string page(const std::string& title, const std::string& subtitle,
 
 std::string collision_time_page(const CollisionTimeBench& bench,
                                 const std::vector<OverlapRow>& overlap,
+                                const std::vector<WholeRun>& runs,
                                 const PageProvenance& provenance) {
   const std::vector<SurveyRow>& rows = bench.survey.rows;
   std::string content = section(
@@ -334,6 +374,7 @@ std::string collision_time_page(const CollisionTimeBench& bench,
                 "more from inside the overlap at t = 1: a trap for methods that look for any "
                 "root.") +
           figure(chart_svg(scene_gap_chart())) + figure(chart_svg(scene_psi_chart())));
+  content += section("runs", "Whole runs", whole_run_section(runs));
   content += section("overlap", "Overlap tests", overlap_section(overlap));
   return page("Collision time: speed, accuracy, stability",
               "Every method, asked about the same pairs, judged by a guaranteed reference in "
@@ -346,6 +387,13 @@ std::string overlap_page(const std::vector<OverlapRow>& rows, const PageProvenan
       "Overlap tests: speed and accuracy",
       "Every criterion, asked about the same pairs of ellipses",
       section("overlap", "Overlap tests", overlap_section(rows)) + provenance_section(provenance));
+}
+
+std::string whole_run_page(const std::vector<WholeRun>& runs, const PageProvenance& provenance) {
+  return page(
+      "Whole runs: speed and correction moves",
+      "The scene of the thesis, with different methods to predict its collisions",
+      section("runs", "Whole runs", whole_run_section(runs)) + provenance_section(provenance));
 }
 
 }  // namespace vitrel

@@ -24,8 +24,13 @@ struct Tick {
 /// Values of one axis, mapped to pixels.
 class Scale {
  public:
-  Scale(const ChartAxis& axis, double floor, std::vector<double> values, double from, double to)
-      : axis_(axis), floor_(axis.logarithmic ? floor : 0), from_(from), to_(to) {
+  Scale(const ChartAxis& axis, std::vector<double> values, double from, double to, double floor = 0,
+        const std::string& floor_label = "")
+      : axis_(axis),
+        floor_(axis.logarithmic ? floor : 0),
+        floor_label_(floor_label),
+        from_(from),
+        to_(to) {
     std::erase_if(values, [&](double v) { return !std::isfinite(v) || !is_shown(v); });
     low_ = high_ = axis.logarithmic ? 1 : 0;
     if (!values.empty()) {
@@ -76,7 +81,7 @@ class Scale {
     for (int k = first_; k <= last_; ++k) {
       const bool is_floor = floor_ > 0 && k == first_ && low_ <= floor_ * 1.000001;
       const bool named = is_floor || (k - first_) % every == 0;
-      ticks.push_back({std::pow(10.0, k), named ? (is_floor ? "≤ " : "") + label(k) : ""});
+      ticks.push_back({std::pow(10.0, k), !named ? "" : is_floor ? floor_text() : label(k)});
     }
     return ticks;
   }
@@ -92,6 +97,9 @@ class Scale {
     }
     return ticks;
   }
+  std::string floor_text() const {
+    return floor_label_.empty() ? "≤ " + label(first_) : floor_label_;
+  }
   std::string label(int exponent) const {
     if (axis_.quantity == ChartAxis::Quantity::number) return power_of_ten(exponent);
     static constexpr std::array<std::string_view, 4> units = {"ns", "µs", "ms", "s"};
@@ -102,7 +110,9 @@ class Scale {
   bool is_horizontal() const { return to_ > from_; }
 
   ChartAxis axis_;
-  double floor_, from_, to_;
+  double floor_;
+  std::string floor_label_;
+  double from_, to_;
   double low_ = 0, high_ = 1, step_ = 1;
   int first_ = 0, last_ = 1;
 };
@@ -168,8 +178,8 @@ class Drawing {
   explicit Drawing(const Chart& chart)
       : chart_(chart),
         right_(width - (chart.series.size() > 1 ? legend_width : 24)),
-        x_(chart.x, 0, all(chart, &ChartPoint::x), left, right_),
-        y_(chart.y, chart.floor, all(chart, &ChartPoint::y), bottom, top) {}
+        x_(chart.x, all(chart, &ChartPoint::x), left, right_),
+        y_(chart.y, all(chart, &ChartPoint::y), bottom, top, chart.floor, chart.floor_label) {}
 
   std::string svg() {
     text_ = svg_opening(width, height, chart_.title);

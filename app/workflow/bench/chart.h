@@ -40,6 +40,7 @@ struct Chart {
   std::vector<std::string> notes;  ///< lines below the legend
   /// On a logarithmic vertical axis: where 0 and whatever is smaller is drawn, labelled "≤".
   double floor = 0;
+  std::string floor_label;  ///< there instead of "≤ 10⁻¹²"
   bool zero_line = false;
 };
 

@@ -51,23 +51,23 @@ std::vector<CaseClass> generic_class() {
   return classes;
 }
 
+// 98 columns.
+std::string line(const auto&... cells) {
+  return fmt::format("  {:<20} {:>3} {:>7} {:>5} {:>5} {:>6} {:>5} {:>6} {:>6} {:>8} {:>7} {:>7}\n",
+                     cells...);
+}
+
 std::string row_text(const SurveyRow& row) {
-  return fmt::format(
-      "  {:<22} {:>4g} {:>8} {:>8} {:>6} {:>6} {:>6} {:>6} {:>9} {:>10}  {:>9}  {:>8} {:>8} "
-      "{:>8}\n",
-      row.case_class, row.aspect_ratio, row.pairs, count_text(row.correct), count_text(row.early),
-      count_text(row.late), count_text(row.missed), count_text(row.false_contacts),
-      count_text(row.not_converged), count_text(row.degenerate), time_text(row.ns_per_call),
-      error_text(row.largest_error), error_text(row.median_error),
-      error_text(row.largest_gap_error));
+  return line(row.case_class, row.aspect_ratio, row.pairs, count_text(row.early),
+              count_text(row.late), count_text(row.missed), count_text(row.false_contacts),
+              count_text(row.not_converged), count_text(row.degenerate), time_text(row.ns_per_call),
+              error_text(row.largest_error), error_text(row.largest_gap_error));
 }
 
 std::string method_heading(const SurveyRow& row) {
-  return fmt::format(
-      "{} (tolerance {:.2g})\n  {:<22} {:>4} {:>8} {:>8} {:>6} {:>6} {:>6} {:>6} {:>9} {:>10}  "
-      "{:>9}  {:>8} {:>8} {:>8}\n",
-      row.method, row.tolerance, "class", "κ", "pairs", "correct", "early", "late", "missed",
-      "false", "no answer", "degenerate", "per call", "largest", "median", "gap");
+  return fmt::format("{} (tolerance {:.2g})\n", row.method, row.tolerance) +
+         line("class", "κ", "pairs", "early", "late", "missed", "false", "no ans", "degen.",
+              "per call", "error", "gap");
 }
 
 double charted(const SurveyRow& row, ChartedError error) {
@@ -109,6 +109,7 @@ nlohmann::ordered_json collision_time_json(const std::vector<SurveyRow>& rows) {
                     {"class", row.case_class},
                     {"aspect_ratio", row.aspect_ratio},
                     {"pairs", row.pairs},
+                    {"contacts", row.contacts},
                     {"correct", row.correct},
                     {"early", row.early},
                     {"late", row.late},
@@ -119,7 +120,8 @@ nlohmann::ordered_json collision_time_json(const std::vector<SurveyRow>& rows) {
                     {"ns_per_call", row.ns_per_call},
                     {"largest_error", row.largest_error},
                     {"median_error", row.median_error},
-                    {"largest_gap_error", row.largest_gap_error}});
+                    {"largest_gap_error", row.largest_gap_error},
+                    {"largest_moot_gap", row.largest_moot_gap}});
   return list;
 }
 

@@ -42,7 +42,8 @@ CollisionTimeBench bench_collision_time(const CollisionTimeRequest& request, con
 
 nlohmann::ordered_json collision_time_json(const std::vector<lab::SurveyRow>& rows);
 
-/// The rows as lines, grouped by method; "·" stands for 0.
+/// The rows as lines, grouped by method, with the counts of wrong and of degenerate answers and the
+/// largest errors of time and gap; "·" stands for 0.
 std::string collision_time_text(const std::vector<lab::SurveyRow>& rows);
 
 /// Time per call against the median or the largest error, a point per method and tolerance.
