@@ -54,6 +54,14 @@ int stopped_early(const Arguments& arguments) {
   return stopped;
 }
 
+Json classes_json() {
+  Json list = Json::array();
+  for (const lab::CaseClass& of : collision_time_classes())
+    list.push_back(
+        {{"class", of.name}, {"aspect_ratio", of.aspect_ratio}, {"meaning", of.meaning}});
+  return list;
+}
+
 std::string failure_file(const lab::FailingCase& failure) {
   return "failure_" + failure.method + ".svg";
 }
@@ -76,8 +84,10 @@ void write_collision_time(const fs::path& folder, const CollisionTimeBench& benc
                           const PageProvenance& provenance) {
   fs::create_directories(folder);
   const Json data = {{"rows", collision_time_json(bench.survey.rows)},
+                     {"classes", classes_json()},
                      {"tolerances", collision_time_json(bench.tolerances)},
                      {"tolerances_judged_by", charted_tolerance},
+                     {"scene", scene_json(scene_answers())},
                      {"failures", failures_json(bench.survey.failures)},
                      {"overlap", overlap_json(overlap)},
                      {"whole_runs", whole_run_json(runs)},

@@ -2,6 +2,8 @@
 
 import json
 import pathlib
+import platform
+import re
 import subprocess
 import tempfile
 
@@ -38,6 +40,11 @@ def run_and_check(build, parameters, *overrides, frames=()):
         file = pathlib.Path(folder, "run.h5")
         run = summary_of(build, "run", parameters, "-o", file, *settings)
         return run, summary_of(build, "check", file, *frames)
+
+
+def processor():
+    found = re.search(r"^model name\s*: (.+)$", pathlib.Path("/proc/cpuinfo").read_text(), re.MULTILINE)
+    return found[1] if found else platform.machine()
 
 
 def table(head, rows):

@@ -124,6 +124,8 @@ TEST(BenchCollisionTime, WritesPageChartsAndData) {
   EXPECT_GT(data["tolerances"].size(), 10u);
   EXPECT_GT(data["overlap"].size(), 10u);
   EXPECT_GT(data["whole_runs"].size(), 10u);
+  ASSERT_EQ(data["scene"][1]["method"], "separating_axis");
+  EXPECT_NEAR(data["scene"][1]["time"], 0.08472238582199765, 1e-13);
   EXPECT_THAT(data["provenance"]["command"], HasSubstr("bench collision-time --pairs 40"));
   ASSERT_FALSE(data["failures"].empty());
   for (const Json& failure : data["failures"]) {

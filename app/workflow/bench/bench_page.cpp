@@ -324,6 +324,22 @@ std::string whole_run_section(const std::vector<WholeRun>& runs) {
          "moves conserve it as well. Overlaps are in semi-minor axes, at the samples.</p>\n";
 }
 
+std::string scene_section() {
+  const std::vector<SceneAnswer> answers = scene_answers();
+  const double truth = answers.front().time.value();
+  std::string rows;
+  for (const SceneAnswer& answer : answers)
+    rows += row_heading(answer.method) +
+            cell(answer.time ? fmt::format("{:.15f}", *answer.time) : "no contact") +
+            cell(answer.time ? error_text(*answer.time - truth) : "–") + "</tr>\n";
+  return paragraph(
+             "Two ellipses with a = 1, b = 0.5: one rests at the origin, the other comes from "
+             "(1, 1) with velocity (−1, 0) and turns at π. They touch, overlap, and touch once "
+             "more from inside the overlap at t = 1: a trap for methods that look for any root.") +
+         figure(chart_svg(scene_gap_chart())) + figure(chart_svg(scene_psi_chart())) +
+         table("", {"method", "time of the first contact", "off by"}, rows);
+}
+
 std::string provenance_section(const PageProvenance& provenance) {
   std::string list;
   for (const auto& [name, text] : provenance)
@@ -367,13 +383,7 @@ std::string collision_time_page(const CollisionTimeBench& bench,
   content += section("stability", "Where methods fail", stability(rows));
   if (!bench.survey.failures.empty())
     content += section("failures", "One failing pair each", failures(bench.survey.failures));
-  content += section(
-      "scene", "The scene of the thesis",
-      paragraph("Two ellipses with a = 1, b = 0.5: one rests at the origin, the other comes from "
-                "(1, 1) with velocity (−1, 0) and turns at π. They touch, overlap, and touch once "
-                "more from inside the overlap at t = 1: a trap for methods that look for any "
-                "root.") +
-          figure(chart_svg(scene_gap_chart())) + figure(chart_svg(scene_psi_chart())));
+  content += section("scene", "The scene of the thesis", scene_section());
   content += section("runs", "Whole runs", whole_run_section(runs));
   content += section("overlap", "Overlap tests", overlap_section(overlap));
   return page("Collision time: speed, accuracy, stability",

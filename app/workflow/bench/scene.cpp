@@ -1,11 +1,15 @@
 #include "app/workflow/bench/scene.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "core/contact/first_contact.h"
+#include "bench/lab/methods/method.h"
+#include "bench/lab/reference/first_contact.h"
+
 #include "core/contact/vieillard_baron.h"
-#include "core/tolerances.h"
 
 namespace vitrel {
 namespace {
@@ -49,9 +53,7 @@ double psi(double time) {
 }
 
 double first_touch() {
-  return first_contact(resting, coming, duration,
-                       tolerance::contact_gap(resting.body.a + coming.body.a))
-      .time;
+  return static_cast<double>(lab::true_first_contact(resting, coming, duration).time);
 }
 
 Chart scene_chart(const std::string& title, const std::string& name, double (*function)(double)) {
@@ -67,7 +69,8 @@ Chart scene_chart(const std::string& title, const std::string& name, double (*fu
   }
   chart.series = {curve};
   const double first = first_touch();
-  chart.marks = {{first, 0, "first contact, t = 0.0847"}, {1, 0, "touching again, t = 1"}};
+  chart.marks = {{first, 0, fmt::format("first contact, t = {:.4f}", first)},
+                 {1, 0, "touching again, t = 1"}};
   return chart;
 }
 
@@ -80,6 +83,28 @@ Chart scene_gap_chart() {
 Chart scene_psi_chart() {
   return scene_chart("Two ellipses that touch, overlap and touch again: contact function", "Ψ(t)",
                      psi);
+}
+
+std::vector<SceneAnswer> scene_answers() {
+  const lab::CollisionCase asked{lab::of_constant_size(resting), lab::of_constant_size(coming),
+                                 duration};
+  std::vector<SceneAnswer> answers = {{"reference", 0, first_touch()}};
+  for (const lab::Method& method : lab::collision_time_methods()) {
+    const Prediction found = method.predict(asked);
+    if (found.outcome == Outcome::not_converged) continue;
+    answers.push_back({method.name, method.tolerance, {}});
+    if (found.outcome == Outcome::contact) answers.back().time = found.time;
+  }
+  return answers;
+}
+
+nlohmann::ordered_json scene_json(const std::vector<SceneAnswer>& answers) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const SceneAnswer& answer : answers) {
+    list.push_back({{"method", answer.method}, {"tolerance", answer.tolerance}, {"time", nullptr}});
+    if (answer.time) list.back()["time"] = *answer.time;
+  }
+  return list;
 }
 
 }  // namespace vitrel

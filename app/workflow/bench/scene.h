@@ -1,5 +1,10 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "app/workflow/bench/chart.h"
 
 /// The scene of the thesis's appendix B.1: two ellipses with a = 1, b = 0.5, one at rest at the
@@ -14,5 +19,17 @@ Chart scene_gap_chart();
 
 /// Ψ(t), thesis fig. 3.15: the contact function of Vieillard-Baron.
 Chart scene_psi_chart();
+
+/// When a method says that the two touch first.
+struct SceneAnswer {
+  std::string method;
+  double tolerance = 0;
+  std::optional<double> time;  ///< nothing if it finds no contact
+};
+
+/// The guaranteed reference, with the name "reference", and every method at its usual tolerance but
+/// for those that are not made for such a pair.
+std::vector<SceneAnswer> scene_answers();
+nlohmann::ordered_json scene_json(const std::vector<SceneAnswer>& answers);
 
 }  // namespace vitrel
