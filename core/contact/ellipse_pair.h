@@ -98,6 +98,7 @@ struct GapAlongAxis {
   double curvature = 0;  ///< −d²g/dφ² = g + σ₁ρ₁ + σ₂ρ₂
   Lanes along, across;   ///< u·n and u·dn/dφ
   Lanes height;          ///< h
+  Lanes inverse_square;  ///< 1/h²
   Lanes turning;         ///< h'
   Lanes radius;          ///< ρ = h + h'', the radius of curvature where n is the normal
 
@@ -111,9 +112,10 @@ inline GapAlongAxis gap_along(const EllipsePair& pair, const Vec2& n) {
   g.across = n.x() * pair.uy - n.y() * pair.ux;
   const Lanes hh = pair.bb + pair.stretch * g.along.square();
   g.height = hh.sqrt();
-  const Lanes inverse = 1 / g.height;
+  g.inverse_square = 1 / hh;  // beside the root, not after it
+  const Lanes inverse = g.height * g.inverse_square;
   g.turning = pair.stretch * g.along * g.across * inverse;
-  g.radius = pair.aabb * inverse / hh;
+  g.radius = pair.aabb * g.inverse_square * inverse;
   g.gap = n.dot(pair.d) - (pair.size * g.height).sum();
   g.slope = cross(n, pair.d) - (pair.size * g.turning).sum();
   g.curvature = g.gap + (pair.size * g.radius).sum();

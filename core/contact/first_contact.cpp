@@ -136,21 +136,6 @@ class Search {
     return 2 * flight_.acceleration_bound(here_, -room / rate) * room < rate * rate;
   }
 
-  // How the gap along the best axis, which turns, closes: to second order.
-  struct Approach {
-    double rate;          // < 0
-    double acceleration;  // −d²/dt²
-    double turning_rate;  // of the best axis
-    double turn;          // to it from the present axis
-  };
-  Approach approach(double rate) const {
-    const double inverse = 1 / here_.curvature;
-    const double mixed = flight_.slope_rate(n_, here_);
-    return {rate + here_.slope * mixed * inverse,
-            flight_.acceleration(here_) - mixed * mixed * inverse, mixed * inverse,
-            here_.slope * inverse};
-  }
-
   // Newton's method, of third order in time, for g = contact gap and dg/dφ = 0 in t and φ; then the
   // proof, by the parabola looking back from there, that the gap was open all the way. If it does
   // not converge before `end`, or the proof fails, nothing changes and the answer is false.
@@ -158,12 +143,17 @@ class Search {
     const double start = flight_.time();
     const Vec2 start_axis = n_;
     for (int step = 0; step < 8; ++step) {
-      const Approach a = approach(rate);
-      const double closing = -1 / a.rate;
-      const double newton = (here_.gap + 0.5 * here_.slope * a.turn - contact_gap_) * closing;
-      const double bend = 0.5 * a.acceleration * newton * closing;
+      // With c the curvature, −d²g/dφ², and m = d²g/dφdt, the gap along the best axis, which
+      // turns at m/c, is g + g'²/2c, its rate ġ + g'm/c and its acceleration g̈ + m²/c.
+      const double c = here_.curvature, inverse = 1 / c;
+      const double mixed = flight_.slope_rate(n_, here_);
+      const double closing = -1 / (rate * c + here_.slope * mixed);
+      const double newton =
+          ((here_.gap - contact_gap_) * c + 0.5 * here_.slope * here_.slope) * closing;
+      const double bend =
+          0.5 * (flight_.acceleration(here_) * c - mixed * mixed) * newton * closing;
       const double duration = newton * (1 - bend + 2 * bend * bend);
-      const double turn = a.turn + a.turning_rate * duration;
+      const double turn = (here_.slope + mixed * duration) * inverse;
       if (!(flight_.time() + duration < end && std::abs(turn) < 1)) break;
       flight_.go_to(flight_.time() + duration);
       look_along(detail::turned(n_, turn));

@@ -94,11 +94,11 @@ class PairInFlight {
     const Lanes turn = omega_.abs() * duration;
     const Lanes least_along =
         (g.along.abs() * (1 - 0.5 * turn.square()) - g.across.abs() * turn).max(0);
-    const Lanes hh = g.height.square();
     const Lanes least_hh = pair_.bb + pair_.stretch * least_along.square();
-    const Lanes rise = hh / least_hh;
-    const Lanes rotation = (omega_.square() * (g.radius * rise.square() - g.height * least_hh / hh))
-                               .min(largest_rotation_);
+    const Lanes q = least_hh * g.inverse_square;
+    const Lanes rise = 1 / q;
+    const Lanes rotation =
+        (omega_.square() * (g.radius * rise.square() - g.height * q)).min(largest_rotation_);
     return (pair_.size * rotation + growth_.abs() * duration * rotation.abs() - cross_term(g))
         .sum();
   }

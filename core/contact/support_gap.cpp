@@ -38,8 +38,10 @@ class PerramWertheimRatio {
 
   // C⁻¹d as a unit vector.
   Vec2 axis(double lambda) const { return unit_sum(1 - lambda, lambda); }
+  // The same for λ as in circle_like, √x : √y replaced by (3x + y) : (x + 3y).
   Vec2 circle_like_axis() const {
-    return unit_sum(std::sqrt(det_[1] * p_[0]), std::sqrt(det_[0] * p_[1]));
+    const double x = det_[1] * p_[0], y = det_[0] * p_[1];
+    return unit_sum(3 * x + y, x + 3 * y);
   }
 
   // Whether F > 1; the sign of dF/dλ; and the Newton step of dF/dλ = 0.
@@ -68,7 +70,8 @@ class PerramWertheimRatio {
   Vec2 unit_sum(double weight1, double weight2) const {
     Vec2 w(weight1 * wx_[0] + weight2 * wx_[1], weight1 * wy_[0] + weight2 * wy_[1]);
     if (w.isZero(0)) w = d_.isZero(0) ? Vec2(1, 0) : d_;
-    return w / w.norm();
+    const double square = w.squaredNorm();
+    return std::sqrt(square) * (1 / square) * w;
   }
 
   Vec2 d_;
