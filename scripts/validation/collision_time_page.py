@@ -36,6 +36,7 @@ NAMES = {
     "reference": "reference",
 }
 FAILURES = {"late": "late", "missed": "missed", "early": "early", "false": "false", "not_converged": "no answer"}
+SPACE = "\N{NO-BREAK SPACE}"
 
 
 def time_text(nanoseconds):
@@ -44,7 +45,7 @@ def time_text(nanoseconds):
             break
         nanoseconds /= 1000
     digits = 2 if nanoseconds < 9.995 else 1 if nanoseconds < 99.95 else 0
-    return f"{nanoseconds:.{digits}f} {unit}"
+    return f"{nanoseconds:.{digits}f}{SPACE}{unit}"
 
 
 def share_text(part, whole):
@@ -52,7 +53,12 @@ def share_text(part, whole):
     if part == 0:
         return "·"
     percent = 100 * part / whole
-    return f"{percent:.{3 if percent >= 99.5 else 2 if percent >= 1 else 1}g} %"
+    return f"{percent:.{3 if percent >= 99.5 else 2 if percent >= 1 else 1}g}{SPACE}%"
+
+
+def plain(value):
+    """Three digits, without an exponent."""
+    return f"{float(f'{value:.3g}'):g}"
 
 
 def count_text(count):
@@ -93,7 +99,7 @@ class Rows:
 
 
 def class_name(of):
-    return f"{of[0]}, κ = {of[1]:g}"
+    return f"{of[0]}, κ{SPACE}={SPACE}{of[1]:g}"
 
 
 def ratio(rows, of):
@@ -165,7 +171,7 @@ def failing(rows, method):
     sums = totals(rows, method)
     shares = [f"{share_text(sums[f], sums['pairs'])} {word}" for f, word in FAILURES.items() if sums[f]]
     worst = max(rows.of(method), key=lambda row: wrong(row) / row["pairs"])
-    return (f"Of {sums['pairs']} pairs {', '.join(shares)}. Worst class: "
+    return (f"Wrong answers among {sums['pairs']} pairs: {', '.join(shares)}. Worst class: "
             f"{class_name((worst['class'], worst['aspect_ratio']))}, {share_text(wrong(worst), worst['pairs'])} wrong.")
 
 
@@ -177,7 +183,7 @@ def failures(data, rows):
         of = class_name((failure["class"], failure["aspect_ratio"]))
         parts.append(f"### {name[0].upper() + name[1:]}\n\n{failing(rows, failure['method'])}\n\n"
                      f"![A pair that {name} answers wrongly]({FIGURES}/{failure['picture']})\n\n"
-                     f"This pair ({of}, number {failure['index']}): {name} {failure['caption']}.")
+                     f"Here ({of}, pair {failure['index']}) it {failure['caption']}.")
     return "\n\n".join(parts)
 
 
@@ -191,7 +197,7 @@ def overlap(data):
         largest = max(row["largest_wrong_gap"] for row in of_method.values())
         lines.append([f"`{method}`", *shares, error_text(largest) if largest else "·",
                       time_text(of_method["near_contact", 2]["ns_per_call"])])
-    return table(["criterion", *map(class_name, kinds), "largest wrong gap", "per call"], lines)
+    return table(["criterion", *map(class_name, kinds), "largest wrong gap", "per call, near_contact, κ = 2"], lines)
 
 
 def scene(data):
@@ -207,9 +213,10 @@ def runs(data):
     for run in data["whole_runs"]:
         collisions, moves = run["collisions"], run["correction_moves"]
         still = ", then stood still" if run["stood_still"] else ""
-        lines.append([NAMES[run["method"]], f"{run['tolerance']:.2g}", f"{run['simulated_time']:.4g}{still}", collisions,
-                      count_text(moves), f"{1000 * moves / collisions:.3g}" if collisions and moves else "·",
-                      f"{run['collisions_per_second']:.3g}", error_text(run["energy_drift"]),
+        lines.append([NAMES[run["method"]], f"{run['tolerance']:.2g}", f"{run['simulated_time']:.4g}{still}",
+                      collisions, count_text(moves),
+                      plain(1000 * moves / collisions) if collisions and moves else "·",
+                      plain(run["collisions_per_second"]), error_text(run["energy_drift"]),
                       error_text(run["deepest_overlap"]) if run["deepest_overlap"] else "·"])
     return table(["method", "tolerance", "time", "collisions", "correction moves", "per 1000 collisions",
                   "collisions per second", "energy drift", "deepest overlap (b)"], lines)
@@ -217,8 +224,8 @@ def runs(data):
 
 def measured(data):
     how = data["provenance"]
-    return (f"Measured on {how['finished'][:10]}, commit {how['commit'][:7]}{'-modified' * ('modified' in how['commit'])}, "
-            f"{processor()}, with\n\n"
+    commit = how["commit"][:7] + "-modified" * ("modified" in how["commit"])
+    return (f"Measured on {how['finished'][:10]}, commit {commit}, {processor()}, with\n\n"
             f"    vitrel bench collision-time --pairs {PAIRS} --seconds {SECONDS} --duration {DURATION} -o FOLDER\n\n"
             f"in {how['wall time']}.")
 
