@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/contact/ellipse_pair.h"
 
@@ -80,27 +81,31 @@ class PairInFlight {
     return (pair_.size * omega_.square() * (g.radius - g.height) - cross_term(g)).sum();
   }
 
-  /// M with g(t ± s) ≥ g ± ġ s − ½ M s² for 0 ≤ s ≤ duration, as long as sizes stay ≥ 0.
+  /// M with g(t + s) ≥ g + ġ s − ½ M s² for all s from 0 to `duration`, which may be negative (then
+  /// looking back), as long as sizes stay ≥ 0.
   ///
-  /// A body turns by at most Δ = |ω| s; from cos Δ ≥ 1 − Δ²/2 and sin Δ ≤ Δ,
-  ///     |u·n| ≥ max(0, |cos ψ| (1 − Δ²/2) − |sin ψ| Δ),   ψ its present angle to n,
+  /// A body turns by Δ = ω s, and |u·n| changes from p = |u·n| by the slope r = −ω (u·dn/dφ) sgn(u·n)
+  /// at first; from cos Δ ≥ 1 − Δ²/2 and 0 ≤ sin |Δ| ≤ |Δ| where that is positive,
+  ///     |u·n| ≥ max(0, p (1 − Δ²/2) + min(0, r s)),
   /// which bounds h² = b² + (a² − b²)(u·n)² below. With q that bound over h² now, ρ = a²b²/h³ rises
   /// to q^(−3/2) ρ ≤ ρ/q² at most and h falls to q^(1/2) h ≥ q h at least, so that
   ///     h'' ≤ K = min(ρ/q² − q h, (a² − b²)/b),
   /// the latter its largest value at all. Growing by the factor σ + γ s of either sign of s,
   ///     (σ + γ s)(h − ω h' s + ½ ω² K s²)
-  /// has the coefficient ½ σ ω² K − γ ω h' of s² and ½ γ ω² K of s³; K may be negative, and so may γ s.
+  /// has the coefficient ½ σ ω² K − γ ω h' of s² and ½ γ ω² K of s³; K may be negative, and so may
+  /// γ s.
   double acceleration_bound(const GapAlongAxis& g, double duration) const {
-    const Lanes turn = omega_.abs() * duration;
+    const Lanes present = g.along.abs();
+    const Lanes slope = -omega_ * g.across * sign(g.along);
     const Lanes least_along =
-        (g.along.abs() * (1 - 0.5 * turn.square()) - g.across.abs() * turn).max(0);
-    const Lanes least_hh = pair_.bb + pair_.stretch * least_along.square();
-    const Lanes q = least_hh * g.inverse_square;
+        (present - present * (0.5 * (omega_ * duration).square()) + (slope * duration).min(0))
+            .max(0);
+    const Lanes q = (pair_.bb + pair_.stretch * least_along.square()) * g.inverse_square;
     const Lanes rise = 1 / q;
     const Lanes rotation =
         (omega_.square() * (g.radius * rise.square() - g.height * q)).min(largest_rotation_);
-    return (pair_.size * rotation + growth_.abs() * duration * rotation.abs() - cross_term(g))
-        .sum();
+    const Lanes growing = growth_.abs() * std::abs(duration) * rotation.abs();
+    return (pair_.size * rotation + growing - cross_term(g)).sum();
   }
 
   /// The largest that acceleration_bound can be for any axis and a duration of at most 1.
@@ -123,6 +128,8 @@ class PairInFlight {
     pair_.d = d0_ + v_ * time;
     pair_.size = size0_ + growth_ * time;
   }
+
+  static Lanes sign(const Lanes& x) { return {std::copysign(1.0, x[0]), std::copysign(1.0, x[1])}; }
 
   Lanes cross_term(const GapAlongAxis& g) const { return 2 * growth_ * omega_ * g.turning; }
 

@@ -113,13 +113,17 @@ TEST(PairInFlight, AccelerationBoundHoldsAndIsTight) {
     if (smallest < 0) continue;
     const GapAlongAxis here = gap(now);
     const double rate = pair.gap_rate(n, here);
-    const double bound = pair.acceleration_bound(here, duration);
-    ASSERT_LE(bound, duration <= 1 ? pair.largest_acceleration() * (1 + 1e-12) : forever);
-    for (int k = -200; k <= 200; ++k) {
-      const double s = duration * k / 200;
-      const double fall = here.gap + rate * s - gap(now + s).gap;  // ≤ ½ M s²
-      ASSERT_LE(fall, 0.5 * bound * s * s + 1e-13) << trial;
-      if (s != 0 && fall > 1e-6) tightest = std::max(tightest, fall / (0.5 * bound * s * s));
+    for (const double until : {duration, -duration}) {
+      const double bound = pair.acceleration_bound(here, until);
+      pair.start_at(now);
+      ASSERT_LE(bound, pair.largest_acceleration() * (1 + 1e-12));
+      for (int k = 1; k <= 200; ++k) {
+        const double s = until * k / 200;
+        const double fall = here.gap + rate * s - gap(now + s).gap;  // ≤ ½ M s²
+        ASSERT_LE(fall, 0.5 * bound * s * s + 1e-13) << trial;
+        if (fall > 1e-6) tightest = std::max(tightest, fall / (0.5 * bound * s * s));
+      }
+      pair.start_at(now);
     }
   }
   EXPECT_GT(tightest, 0.9);
