@@ -133,19 +133,6 @@ bool climb(const EllipsePair& pair, Vec2& n, GapAlongAxis& here) {
   return false;
 }
 
-void settle(const EllipsePair& pair, Vec2& n, GapAlongAxis here) {
-  constexpr int most_steps = 4;
-  constexpr double unseen = 1e-15;
-  constexpr double quadratic = 3e-8;  // such a step leaves less than rounding
-  for (int step = 0; step < most_steps && here.curvature > 0; ++step) {
-    const double turn = here.slope / here.curvature;
-    if (std::abs(turn) < unseen) return;
-    n = turned(n, turn);
-    if (std::abs(turn) < quadratic) return;
-    here = gap_along(pair, n);
-  }
-}
-
 }  // namespace detail
 
 SupportGap support_gap(const Ellipse& one, const Vec2& u1, const Ellipse& two, const Vec2& u2,

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "core/contact/ellipse_pair.h"
 
 /// The support gap of two ellipses. For a unit vector n, g(n) = n·d − h₁(n) − h₂(n) with the
@@ -70,7 +72,19 @@ bool climb(const EllipsePair& pair, Vec2& n, GapAlongAxis& here);
 
 /// Newton's method on dg/dφ = 0 from an axis that is optimal as far as g can tell. Since g is flat
 /// at its maximum, such an axis is good to √ε only; the slope makes it good to ε.
-void settle(const EllipsePair& pair, Vec2& n, GapAlongAxis here);
+inline void settle(const EllipsePair& pair, Vec2& n, const GapAlongAxis& here) {
+  constexpr int most_steps = 4;
+  constexpr double quadratic = 3e-8;  // such a step leaves less than rounding
+  if (!(here.curvature > 0)) return;
+  double turn = here.slope / here.curvature;
+  n = turned(n, turn);
+  for (int step = 1; step < most_steps && !(std::abs(turn) < quadratic); ++step) {
+    const GapAlongAxis now = gap_along(pair, n);
+    if (!(now.curvature > 0)) return;
+    turn = now.slope / now.curvature;
+    n = turned(n, turn);
+  }
+}
 
 }  // namespace detail
 }  // namespace vitrel
