@@ -16,9 +16,7 @@ struct CollisionCase {
   /// Gaps are judged in units of the smaller semi-minor axis (at size 1).
   double gap_unit() const { return std::min(one.body.shape.b, two.body.shape.b); }
   /// The gap at which the default predictor declares contact.
-  double contact_gap() const {
-    return tolerance::contact_gap(one.body.shape.a + two.body.shape.a);
-  }
+  double contact_gap() const { return tolerance::contact_gap(one.body.shape.a + two.body.shape.a); }
 };
 
 /// A flight whose ellipse keeps its size.
