@@ -87,14 +87,12 @@ std::unique_ptr<Engine> make_method_engine(const Method& method, const EngineOpt
 
 std::vector<CollisionCase> recorded_cases(const Configuration2& start, std::size_t count) {
   std::vector<CollisionCase> cases;
-  const Method recording{
-      "recording", 0, [&](const CollisionCase& asked) {
-        if (cases.size() < count && circumcircles_meet(asked)) cases.push_back(asked);
-        return vitrel::first_contact(
-            Flight<Ellipse>{asked.one.body.shape, asked.one.pose, asked.one.motion},
-            Flight<Ellipse>{asked.two.body.shape, asked.two.pose, asked.two.motion}, asked.horizon,
-            asked.contact_gap());
-      }};
+  const Method recording{"recording", 0, [&](const CollisionCase& asked) {
+                           if (cases.size() < count && circumcircles_meet(asked))
+                             cases.push_back(asked);
+                           return vitrel::first_contact(asked.one, asked.two, asked.horizon,
+                                                        asked.contact_gap());
+                         }};
   MethodEngine engine(recording, {});
   Configuration2 now = start;
   RunCounters counters;
