@@ -20,6 +20,7 @@ GOOD = {
     "app/workflow/bench/page.h": '#include "bench/lab/methods/slsqp.h"\n#include "app/text.h"\n',
     "bench/lab/methods/slsqp.h": '#include "edmd/engine.h"\n#include "bench/lab/reference/truth.h"\n',
     "bench/lab/reference/truth.h": '#include "core/geometry/disk.h"\n',
+    "bench/question.cpp": '#include "bench/lab/methods/slsqp.h"\n#include "edmd/engine.h"\n',
     "tests/app/main_test.cpp": '#include "app/main.h"\n#include "bench/lab/reference/truth.h"\n',
 }
 
@@ -47,6 +48,7 @@ FORBIDDEN = [
     ("bench/lab/survey.h", '#include "app/main.h"'),
     ("bench/lab/reference/truth.h", '#include "core/contact/gap.h"'),
     ("bench/lab/reference/truth.h", '#include "bench/lab/survey.h"'),
+    ("bench/question.cpp", '#include "app/main.h"'),
     ("core/stray.h", ""),
 ]
 

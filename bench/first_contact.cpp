@@ -1,0 +1,131 @@
+// What does one prediction of the default cost, and where?
+//
+// Time of first_contact (core/contact) on the pairs of one class, the best of some repeats. Where
+// the instructions go is counted by scripts/count_instructions, which runs this program.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <limits>
+#include <stdexcept>
+#include <type_traits>
+#include <vector>
+
+#include "bench/lab/recorded_class.h"
+#include "bench/lab/stability_suite.h"
+#include "core/contact/first_contact.h"
+
+namespace vitrel::lab {
+namespace {
+
+struct Request {
+  std::string name = "generic";
+  double aspect_ratio = 2;
+  std::uint64_t pairs = 4000;
+  int repeats = 15;
+};
+
+CaseClass class_of(const Request& request) {
+  std::vector<CaseClass> all = stability_suite();
+  for (CaseClass& of : recorded_classes()) all.push_back(std::move(of));
+  std::string known;
+  for (const CaseClass& of : all) {
+    if (of.name == request.name && of.aspect_ratio == request.aspect_ratio) return of;
+    known += fmt::format("\n  {} {}", of.name, of.aspect_ratio);
+  }
+  throw std::invalid_argument(fmt::format("no class '{}' with aspect ratio {}; there are:{}",
+                                          request.name, request.aspect_ratio, known));
+}
+
+template <class B>
+struct Question {
+  Flight<B> one, two;
+  double horizon, contact_gap;
+};
+
+// As the engine asks: bodies of constant size are plain ellipses.
+template <class B>
+Flight<B> as(const Flight<GrowingEllipse>& flight) {
+  if constexpr (std::is_same_v<B, Ellipse>)
+    return {flight.body.at(0), flight.pose, flight.motion};
+  else
+    return flight;
+}
+
+template <class B>
+std::vector<Question<B>> questions_about(const std::vector<CollisionCase>& cases) {
+  std::vector<Question<B>> questions;
+  for (const CollisionCase& of : cases)
+    questions.push_back({as<B>(of.one), as<B>(of.two), of.horizon, of.contact_gap()});
+  return questions;
+}
+
+// A function of its own, so that callgrind can count it alone.
+template <class B>
+[[gnu::noinline]] void answer_all(const std::vector<Question<B>>& questions,
+                                  std::vector<Prediction>& answers) {
+  for (std::size_t k = 0; k < questions.size(); ++k) {
+    const Question<B>& asked = questions[k];
+    answers[k] = first_contact(asked.one, asked.two, asked.horizon, asked.contact_gap);
+  }
+}
+
+template <class B>
+void measure(const Request& request, const std::vector<CollisionCase>& cases) {
+  const auto questions = questions_about<B>(cases);
+  std::vector<Prediction> answers(questions.size());
+  double best = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < request.repeats; ++k) {
+    const auto start = std::chrono::steady_clock::now();
+    answer_all(questions, answers);
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+    best = std::min(best, spent.count());
+  }
+  double steps = 0, contacts = 0;
+  for (const Prediction& answer : answers) {
+    steps += answer.steps;
+    contacts += answer.outcome == Outcome::contact;
+  }
+  const auto count = static_cast<double>(answers.size());
+  fmt::print("{} {}: {:.1f} ns per prediction, {:.2f} steps, {:.1f} % contacts\n", request.name,
+             request.aspect_ratio, 1e9 * best / count, steps / count, 100 * contacts / count);
+}
+
+void run(const Request& request) {
+  const CaseClass of = class_of(request);
+  constexpr std::uint64_t seed = 1;
+  std::vector<CollisionCase> cases;
+  bool grows = false;
+  for (std::uint64_t index = 0; index < request.pairs; ++index) {
+    cases.push_back(make_case(of, seed, index));
+    grows = grows || cases.back().grows();
+  }
+  if (grows)
+    measure<GrowingEllipse>(request, cases);
+  else
+    measure<Ellipse>(request, cases);
+}
+
+}  // namespace
+}  // namespace vitrel::lab
+
+int main(int argc, char** argv) {
+  vitrel::lab::Request request;
+  CLI::App app("What does one prediction of the default cost?");
+  app.add_option("class", request.name, "class of pairs")->capture_default_str();
+  app.add_option("aspect_ratio", request.aspect_ratio, "of the class")->capture_default_str();
+  app.add_option("--pairs", request.pairs, "how many")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--repeats", request.repeats, "of which the fastest counts")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  try {
+    vitrel::lab::run(request);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "bench_first_contact: {}\n", error.what());
+    return 1;
+  }
+}
