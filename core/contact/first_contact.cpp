@@ -184,8 +184,7 @@ class Search {
     // A guess, for a bound that need not hold longer.
     const double likely = std::max(flight_.acceleration(here_), largest / 16);
     double hoped = std::min(first_root(room, rate, likely), time_left);
-    const double growth = flight_.largest_growth();
-    if (growth > 0) hoped = std::min(hoped, 4 * here_.gap / growth);
+    hoped = std::min(hoped, flight_.doubling_time(here_.gap));
     const double bound = flight_.acceleration_bound(here_, hoped);
     const double safe = std::min(hoped, first_root(room, rate, bound));
     if (here_.gap > touching * contact_gap_ || largest == 0) return safe;

@@ -37,10 +37,14 @@ class PairInFlight {
 
   const Vec2& d0() const { return d0_; }
   const Vec2& v() const { return v_; }
-  /// Sum of the circumradii at time 0, its rate of growth, and that of the growing ones alone.
+  /// Sum of the circumradii at time 0, and its rate of growth.
   double reach() const { return (a_ * size0_).sum(); }
   double reach_growth() const { return (a_ * growth_).sum(); }
-  double largest_growth() const { return (a_ * growth_.max(0)).sum(); }
+  /// The time in which the bodies that grow do so by the gap and the present circumradii together:
+  /// a scale of time for them, infinite if none grows.
+  double doubling_time(double gap) const {
+    return ((a_ * pair_.size).sum() + gap) / (a_ * growth_.max(0)).sum();
+  }
 
   double time() const { return time_; }
   const EllipsePair& now() const { return pair_; }

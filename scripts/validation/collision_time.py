@@ -5,7 +5,7 @@ import json
 from validation.common import expect, output_of, table
 
 TITLE = "Collision time: the default method on every class"
-PAIRS = 800_000  # of each class
+PAIRS = 800_000  # of each class, at all its aspect ratios together
 LEAST_PAIRS = 10_000_000  # of all together, where PAIRS is what it should be
 TIME_TOLERANCE = 1e-12  # of the horizon
 
@@ -16,11 +16,19 @@ LARGEST_GAP = 1.25 + 4 / 32
 FAILURES = ["early", "late", "missed", "false", "not_converged"]
 
 
-def rows(build):
+def survey(build, pairs, classes=()):
     # Early answers of degenerate pairs are judged below, more strictly than by --gap-tolerance.
-    command = [build / "app/vitrel", "bench", "collision-time", "--method", "separating_axis", "--pairs", str(PAIRS),
+    command = [build / "app/vitrel", "bench", "collision-time", "--method", "separating_axis", "--pairs", str(pairs),
                "--tolerance", str(TIME_TOLERANCE), "--gap-tolerance", "1e-8", "--json", "-q"]
-    return json.loads(output_of(command))["rows"]
+    return json.loads(output_of(command + [word for name in classes for word in ("--class", name)]))["rows"]
+
+
+def rows(build):
+    """Half of the pairs at each aspect ratio; classes that have only one get them all."""
+    halves = survey(build, PAIRS // 2)
+    names = [one["class"] for one in halves]
+    once = [name for name in names if names.count(name) == 1]
+    return [one for one in halves if one["class"] not in once] + survey(build, PAIRS, once)
 
 
 def number(value, form):
@@ -30,7 +38,7 @@ def number(value, form):
 def row(measured):
     """Checks a class; returns its line."""
     name = f"{measured['class']}, κ = {measured['aspect_ratio']:g}"
-    expect(measured["pairs"] == PAIRS, f"{name}: {measured['pairs']} pairs, not {PAIRS}")
+    expect(measured["pairs"] >= PAIRS // 2, f"{name}: {measured['pairs']} pairs only")
     for failure in FAILURES:
         expect(measured[failure] == 0, f"{name}: {measured[failure]} {failure.replace('_', ' ')}")
     error, gap = measured["largest_error"], measured["largest_moot_gap"]

@@ -226,6 +226,18 @@ TEST_P(DefaultMethod, IsNeverWrong) {
   EXPECT_GE(tally.crossings, overlaps || of.name == "slow" ? 0 : pairs / 100);
 }
 
+// Two bodies that have grown from points and all but graze each other. When growth limited a step by
+// the gap alone, a thousand steps were not enough for this one.
+TEST(DefaultMethodSteps, AreFewToAGrazeOfGrowingBodies) {
+  for (const CaseClass& of : stability_suite()) {
+    if (of.name != "growth" || of.aspect_ratio != 6) continue;
+    const CollisionCase asked = make_case(of, 1, 588'500);
+    const Prediction answer = collision_time_methods().front().predict(asked);
+    EXPECT_NE(answer.outcome, Outcome::not_converged);
+    EXPECT_LT(answer.steps, 100);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Classes, DefaultMethod, testing::ValuesIn(all_classes()));
 
 }  // namespace
