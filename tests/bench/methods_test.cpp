@@ -341,7 +341,7 @@ TEST(ClosestToOrigin, TellsOverlapLikePerramAndWertheim) {
 TEST(CollisionTimeMethods, RegistryNamesEachOnceAndSeriesContainThem) {
   const auto methods = collision_time_methods();
   ASSERT_EQ(methods.front().name, "separating_axis");
-  EXPECT_EQ(methods.size(), 11u);
+  EXPECT_EQ(methods.size(), 12u);
   const auto series = collision_time_methods_by_tolerance();
   for (const Method& method : methods) {
     const auto same = [&](const Method& other) {

@@ -1,8 +1,11 @@
 #include "bench/lab/methods/separating_axis.h"
 
+#include "bench/lab/methods/opening.h"
+
 namespace vitrel::lab {
 
 Prediction separating_axis(const CollisionCase& asked, double tolerance) {
+  if (!is_sound(asked)) return {Outcome::not_converged};
   const double contact_gap = tolerance * (asked.one.body.shape.a + asked.two.body.shape.a);
   return first_contact(asked.one, asked.two, asked.horizon, contact_gap);
 }
