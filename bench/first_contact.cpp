@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "bench/lab/recorded_class.h"
-#include "bench/lab/stability_suite.h"
 #include "core/contact/first_contact.h"
 
 namespace vitrel::lab {
@@ -27,10 +26,8 @@ struct Request {
 };
 
 CaseClass class_of(const Request& request) {
-  std::vector<CaseClass> all = stability_suite();
-  for (CaseClass& of : recorded_classes()) all.push_back(std::move(of));
   std::string known;
-  for (const CaseClass& of : all) {
+  for (const CaseClass& of : all_classes()) {
     if (of.name == request.name && of.aspect_ratio == request.aspect_ratio) return of;
     known += fmt::format("\n  {} {}", of.name, of.aspect_ratio);
   }

@@ -9,6 +9,7 @@
 #include "app/workflow/bench/scene.h"
 #include "app/workflow/bench/whole_run.h"
 #include "app/workflow/text_file.h"
+#include "bench/lab/recorded_class.h"
 #include "core/io/provenance.h"
 
 namespace vitrel {
@@ -56,7 +57,7 @@ int stopped_early(const Arguments& arguments) {
 
 Json classes_json() {
   Json list = Json::array();
-  for (const lab::CaseClass& of : collision_time_classes())
+  for (const lab::CaseClass& of : lab::all_classes())
     list.push_back(
         {{"class", of.name}, {"aspect_ratio", of.aspect_ratio}, {"meaning", of.meaning}});
   return list;
@@ -104,6 +105,17 @@ void write_collision_time(const fs::path& folder, const CollisionTimeBench& benc
   write_text(folder / "overlap.svg", chart_svg(overlap_chart(overlap)));
   write_text(folder / "whole-run.svg", chart_svg(whole_run_chart(runs)));
   write_text(folder / "collision-time.html", collision_time_page(bench, overlap, runs, provenance));
+}
+
+/// The data, the chart and the page of one benchmark.
+void write_files(const fs::path& folder, const std::string& name, const Json& rows,
+                 const PageProvenance& provenance, const std::string& chart,
+                 const std::string& page) {
+  fs::create_directories(folder);
+  const Json data = {{"rows", rows}, {"provenance", as_json(provenance)}};
+  write_text(folder / (name + ".json"), data.dump(2) + "\n");
+  write_text(folder / (name + ".svg"), chart);
+  write_text(folder / (name + ".html"), page);
 }
 
 }  // namespace
@@ -163,12 +175,8 @@ int bench_overlap_command(const Arguments& arguments) {
                  {{"pairs", pairs_text(request.pairs, request.seed)},
                   {"time limit", fmt::format("{:g} s for a criterion", request.seconds)}},
                  session);
-  fs::create_directories(arguments.output);
-  write_text(
-      arguments.output / "overlap.json",
-      Json{{"rows", overlap_json(survey.rows)}, {"provenance", as_json(how)}}.dump(2) + "\n");
-  write_text(arguments.output / "overlap.svg", chart_svg(overlap_chart(survey.rows)));
-  write_text(arguments.output / "overlap.html", overlap_page(survey.rows, how));
+  write_files(arguments.output, "overlap", overlap_json(survey.rows), how,
+              chart_svg(overlap_chart(survey.rows)), overlap_page(survey.rows, how));
   return success;
 }
 
@@ -187,12 +195,8 @@ int bench_whole_run_command(const Arguments& arguments) {
       arguments,
       {{"scene", fmt::format("{:g} units of time, seed {}", request.duration, request.seed)}},
       session);
-  fs::create_directories(arguments.output);
-  write_text(
-      arguments.output / "whole-run.json",
-      Json{{"rows", whole_run_json(bench.rows)}, {"provenance", as_json(how)}}.dump(2) + "\n");
-  write_text(arguments.output / "whole-run.svg", chart_svg(whole_run_chart(bench.rows)));
-  write_text(arguments.output / "whole-run.html", whole_run_page(bench.rows, how));
+  write_files(arguments.output, "whole-run", whole_run_json(bench.rows), how,
+              chart_svg(whole_run_chart(bench.rows)), whole_run_page(bench.rows, how));
   return success;
 }
 

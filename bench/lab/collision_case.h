@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/geometry/growing_ellipse.h"
 #include "core/tolerances.h"
@@ -18,6 +19,11 @@ struct CollisionCase {
   /// The gap at which the default predictor declares contact.
   double contact_gap() const { return tolerance::contact_gap(one.body.shape.a + two.body.shape.a); }
 };
+
+/// The ellipse of a given aspect ratio with a b = 1.
+inline Ellipse of_unit_area(double aspect_ratio) {
+  return {std::sqrt(aspect_ratio), 1 / std::sqrt(aspect_ratio)};
+}
 
 /// A flight whose ellipse keeps its size.
 inline Flight<GrowingEllipse> of_constant_size(const Flight<Ellipse>& flight) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <mutex>
@@ -31,7 +32,7 @@ Configuration2 prepared(double aspect_ratio, std::uint64_t seed) {
   Configuration2 c;
   c.resize(particles);
   c.species_names = {"A"};
-  std::ranges::fill(c.shape, Ellipse{std::sqrt(aspect_ratio), 1 / std::sqrt(aspect_ratio)});
+  std::ranges::fill(c.shape, of_unit_area(aspect_ratio));
   const double length = std::sqrt(particles * std::numbers::pi / packing_fraction);
   c.box = PeriodicBox<2>(Vec2(length, length));
   expect_reached(insert_particles(c, {}, seed, {}));
@@ -94,6 +95,12 @@ std::vector<CaseClass> recorded_classes() {
                     }});
   }
   return list;
+}
+
+std::vector<CaseClass> all_classes() {
+  std::vector<CaseClass> classes = stability_suite();
+  std::ranges::move(recorded_classes(), std::back_inserter(classes));
+  return classes;
 }
 
 }  // namespace vitrel::lab

@@ -15,4 +15,7 @@ namespace vitrel::lab {
 /// the first case is wanted and kept, with its questions so far, until another seed is asked for.
 std::vector<CaseClass> recorded_classes();
 
+/// The stability suite and these.
+std::vector<CaseClass> all_classes();
+
 }  // namespace vitrel::lab

@@ -27,11 +27,6 @@ double log_uniform(Stream& draw, double low, double high) {
   return low * std::pow(high / low, draw.uniform());
 }
 
-/// The ellipse of a given aspect ratio with a·b = 1.
-Ellipse of_unit_area(double aspect_ratio) {
-  return {std::sqrt(aspect_ratio), 1 / std::sqrt(aspect_ratio)};
-}
-
 // kT = 1 and mass 1.
 Vec2 thermal_velocity(Stream& draw) {
   const double x = draw.normal();

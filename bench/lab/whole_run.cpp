@@ -1,6 +1,7 @@
 #include "bench/lab/whole_run.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <numbers>
@@ -78,11 +79,10 @@ WholeRun thesis_scene_with(const Method& method, double duration, std::uint64_t 
 
 std::vector<Method> methods_for_whole_runs() {
   std::vector<Method> methods = collision_time_methods_by_tolerance();
-  std::erase_if(methods, [](const Method& method) {
-    return method.name != "separating_axis" && method.name != "psi_root" &&
-           method.name != "slsqp" && method.name != "slsqp_checked" &&
-           method.name != "perram_wertheim_root";
-  });
+  constexpr std::array able{"separating_axis", "slsqp", "slsqp_checked", "psi_root",
+                            "perram_wertheim_root"};
+  std::erase_if(methods,
+                [&](const Method& method) { return !std::ranges::count(able, method.name); });
   return methods;
 }
 

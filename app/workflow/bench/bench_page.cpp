@@ -13,6 +13,8 @@
 #include "app/workflow/bench/svg.h"
 #include "app/workflow/bench/whole_run.h"
 #include "app/workflow/report/assets.h"
+#include "app/workflow/report/html.h"
+#include "bench/lab/recorded_class.h"
 
 namespace vitrel {
 namespace {
@@ -226,7 +228,7 @@ std::string stability(const std::vector<SurveyRow>& rows) {
       stability_matrix(rows);
   for (const std::string& method : method_names(rows)) text += method_details(rows, method);
   std::string classes;
-  for (const CaseClass& of : collision_time_classes())
+  for (const CaseClass& of : lab::all_classes())
     if (std::ranges::count(rows, of.name, &SurveyRow::case_class))
       classes += row_heading(class_name(of.name, of.aspect_ratio)) + "<td class=\"words\">" +
                  escaped(of.meaning) + "</td></tr>\n";
@@ -341,10 +343,8 @@ std::string scene_section() {
 }
 
 std::string provenance_section(const PageProvenance& provenance) {
-  std::string list;
-  for (const auto& [name, text] : provenance)
-    list += "<div><dt>" + escaped(name) + "</dt><dd>" + escaped(text) + "</dd></div>\n";
-  return section("provenance", "How it was measured", "<dl>\n" + list + "</dl>\n");
+  return section("provenance", "How it was measured",
+                 "<dl>\n" + provenance_entries(provenance) + "</dl>\n");
 }
 
 std::string page(const std::string& title, const std::string& subtitle,

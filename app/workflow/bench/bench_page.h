@@ -1,18 +1,15 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "app/workflow/bench/collision_time.h"
+#include "app/workflow/report/html.h"
 #include "bench/lab/overlap/overlap_survey.h"
 #include "bench/lab/whole_run.h"
 
 /// The pages of the benchmarks: each one HTML file that needs nothing beside it and runs no script.
 namespace vitrel {
-
-/// How it was measured: name, text.
-using PageProvenance = std::vector<std::pair<std::string, std::string>>;
 
 /// Methods at a glance, charts of time against error, the stability table (share of wrong answers
 /// per class and method, then all counts), a failing pair of each method, the scene of the thesis,

@@ -76,15 +76,9 @@ double charted(const SurveyRow& row, ChartedError error) {
 
 }  // namespace
 
-std::vector<CaseClass> collision_time_classes() {
-  std::vector<CaseClass> classes = lab::stability_suite();
-  std::ranges::move(lab::recorded_classes(), std::back_inserter(classes));
-  return classes;
-}
-
 CollisionTimeBench bench_collision_time(const CollisionTimeRequest& request, const Budget& budget,
                                         const Say& say) {
-  SurveyRequest asked{entrants(request), chosen(collision_time_classes(), request.classes, "class"),
+  SurveyRequest asked{entrants(request), chosen(lab::all_classes(), request.classes, "class"),
                       request.pairs, request.seed, request.tolerance};
   CollisionTimeBench bench;
   say(fmt::format("stability of {} methods on {} classes", asked.entrants.size(),

@@ -21,9 +21,6 @@ struct CollisionTimeRequest {
   bool with_chart = false;           ///< measure every method at all its tolerances, too
 };
 
-/// The stability suite, and the questions of a real run beside it.
-std::vector<lab::CaseClass> collision_time_classes();
-
 /// In the chart a coarse answer counts as correct if it is off by no more than this.
 inline constexpr double charted_tolerance = 1e-2;
 

@@ -4,6 +4,8 @@
 
 #include <array>
 
+#include "app/workflow/report/html.h"
+
 namespace vitrel {
 namespace {
 
@@ -40,23 +42,6 @@ const char* const dark_scheme =
     ".vitrel-stroke-grid{stroke:#30373f}.vitrel-stroke-ground{stroke:#181c20}}</style>";
 
 }  // namespace
-
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '>')
-      result += "&gt;";
-    else if (c == '"')
-      result += "&quot;";
-    else
-      result += c;
-  }
-  return result;
-}
 
 std::string svg_opening(int width, int height, std::string_view description) {
   return fmt::format(

@@ -5,9 +5,6 @@
 
 namespace vitrel {
 
-/// Text that stands for itself in HTML and XML.
-std::string escaped(std::string_view text);
-
 /// The start of a picture that is a file of its own as well as a part of a page: size in pixels, a
 /// description for those who cannot see it, and classes for strokes and fills that follow the
 /// reader's light or dark scheme. Programs that know no style sheets see the light one.

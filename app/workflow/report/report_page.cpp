@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/workflow/report/assets.h"
+#include "app/workflow/report/html.h"
 
 namespace vitrel {
 
@@ -144,23 +145,6 @@ json run_data(const ReportRun& run, const std::vector<ReportRun>& runs) {
           {"state", picture(run.final_state)}};
 }
 
-std::string escaped(const std::string& text) {
-  std::string html;
-  for (const char c : text) {
-    if (c == '&')
-      html += "&amp;";
-    else if (c == '<')
-      html += "&lt;";
-    else if (c == '>')
-      html += "&gt;";
-    else if (c == '"')
-      html += "&quot;";
-    else
-      html += c;
-  }
-  return html;
-}
-
 /// JSON inside a script element: no "<" may be left that could end it.
 std::string script_safe(const json& data) {
   std::string text = data.dump(-1, ' ', false, json::error_handler_t::replace);
@@ -195,14 +179,6 @@ std::string table_row(const ReportRun& run) {
          (run.rotors > 0 ? mean_cell(run, run.energy.rotational) : cell("–")) +
          cell(grouped(run.collisions)) + cell(fmt::format("{:.6g}", run.duration)) +
          cell(grouped(run.particles)) + cell(escaped(run.name)) + "</tr>\n";
-}
-
-std::string provenance_list(const ReportData& data) {
-  std::string list;
-  for (const auto& [name, text] : data.provenance)
-    if (!text.empty())
-      list += "<div><dt>" + escaped(name) + "</dt><dd>" + escaped(text) + "</dd></div>\n";
-  return list;
 }
 
 /// Replaces every {{name}} of the template by its text, in one pass, so that no text is looked
@@ -250,7 +226,7 @@ std::string report_page(const ReportData& data) {
                                           {"style", text("page/report.css")},
                                           {"table_rows", rows},
                                           {"parameters", escaped(data.parameters)},
-                                          {"provenance", provenance_list(data)},
+                                          {"provenance", provenance_entries(data.provenance)},
                                           {"data", script_safe({{"runs", std::move(runs)}})},
                                           {"uplot_licence", text("vendor/uplot/LICENSE")},
                                           {"uplot", text("vendor/uplot/uPlot.iife.min.js")},

@@ -2,11 +2,11 @@
 
 #include <cstdint>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "analysis/displacement.h"
 #include "analysis/energy.h"
+#include "app/workflow/report/html.h"
 #include "core/state/configuration.h"
 
 /// The report: one HTML page that needs nothing beside it, neither files nor a network.
@@ -32,7 +32,7 @@ struct ReportData {
   std::string subtitle;         ///< one line below it: what was simulated
   std::vector<ReportRun> runs;  ///< shown in the order of their packing fraction
   std::string parameters;       ///< TOML text
-  std::vector<std::pair<std::string, std::string>> provenance;  ///< name, text; shown if not empty
+  PageProvenance provenance;    ///< shown if not empty
 };
 
 /// The page as HTML: MSD and MSR of all runs (log–log), a table of densities (collisions, Z,

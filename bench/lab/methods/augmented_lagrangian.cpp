@@ -4,6 +4,7 @@
 #include <nlopt.hpp>
 #include <vector>
 
+#include "bench/lab/methods/least_time.h"
 #include "bench/lab/methods/scaled_problem.h"
 
 namespace vitrel::lab {
@@ -12,14 +13,6 @@ namespace {
 constexpr double violated = 1e-6;
 constexpr double farthest = 1e6;  // of the point from the start, in scaled units
 constexpr int most_evaluations = 1000;
-
-double time_of(unsigned, const double* y, double* gradient, void*) {
-  if (gradient) {
-    gradient[0] = 1;
-    gradient[1] = gradient[2] = 0;
-  }
-  return y[0];
-}
 
 template <bool first>
 double constraint(unsigned, const double* y, double* gradient, void* data) {
@@ -36,7 +29,7 @@ double constraint(unsigned, const double* y, double* gradient, void* data) {
 class Solver {
  public:
   Solver() : optimiser_(nlopt::LD_AUGLAG, 3) {
-    optimiser_.set_min_objective(time_of, nullptr);
+    optimiser_.set_min_objective(least_time, nullptr);
     optimiser_.add_inequality_constraint(constraint<true>, &problem_, 1e-10);
     optimiser_.add_inequality_constraint(constraint<false>, &problem_, 1e-10);
     optimiser_.set_lower_bounds({0, -farthest, -farthest});

@@ -11,7 +11,6 @@ namespace vitrel::lab {
 namespace {
 
 constexpr int sampled_times = 32;
-constexpr int most_steps = 200;  // of Newton for one parameter
 
 struct Barrier {
   const ScaledProblem& problem;
@@ -59,13 +58,8 @@ Prediction log_barrier(const CollisionCase& asked, double tolerance) {
   if (!inside) return {};
 
   Vec3 y = *inside;
-  int steps = 0;
-  double mu = 0.1;
-  for (;;) {
-    steps += minimise(Barrier{problem, mu}, y, 1e-2 * mu, most_steps);
-    if (!(mu > tolerance)) break;
-    mu = std::max(0.1 * mu, tolerance);
-  }
+  const auto barrier = [&](double mu) { return Barrier{problem, mu}; };
+  const int steps = minimise_for_decreasing(barrier, 0.1, tolerance, 1e-2, y);
   if (!y.allFinite()) return without_contact(Outcome::not_converged, steps);
   return problem.contact(y, steps);
 }

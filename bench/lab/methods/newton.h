@@ -57,4 +57,17 @@ int minimise(const Objective& f, Vec3& y, double shortest, int most_steps) {
   return most_steps;
 }
 
+/// Minimises objective(μ) for μ = largest, largest/10, … down to `smallest`, each from where the last
+/// one ended, to steps of `accuracy` μ. Returns the steps of all.
+template <class MakeObjective>
+int minimise_for_decreasing(const MakeObjective& objective, double largest, double smallest,
+                            double accuracy, Vec3& y) {
+  constexpr int most_steps = 200;  // for one parameter
+  int steps = 0;
+  for (double mu = largest;; mu = std::max(0.1 * mu, smallest)) {
+    steps += minimise(objective(mu), y, accuracy * mu, most_steps);
+    if (!(mu > smallest)) return steps;
+  }
+}
+
 }  // namespace vitrel::lab

@@ -9,8 +9,6 @@
 namespace vitrel::lab {
 namespace {
 
-constexpr int most_steps = 200;  // of Newton for one parameter
-
 struct Penalised {
   const ScaledProblem& problem;
   double mu;
@@ -40,13 +38,8 @@ Prediction quadratic_penalty(const CollisionCase& asked, double tolerance) {
   const ScaledProblem problem(asked, opening.bracket);
 
   Vec3 y = Vec3::Zero();
-  int steps = 0;
-  double mu = 1;
-  for (;;) {
-    steps += minimise(Penalised{problem, mu}, y, 1e-3 * mu, most_steps);
-    if (!(mu > tolerance)) break;
-    mu = std::max(0.1 * mu, tolerance);
-  }
+  const auto penalised = [&](double mu) { return Penalised{problem, mu}; };
+  const int steps = minimise_for_decreasing(penalised, 1, tolerance, 1e-3, y);
   if (!y.allFinite()) return without_contact(Outcome::not_converged, steps);
   const double off = std::max(std::abs(problem.value1(y)), std::abs(problem.value2(y)));
   if (!(off <= std::sqrt(tolerance))) return without_contact(Outcome::none, steps);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bench/lab/methods/ellipse_constraint.h"
+#include "bench/lab/methods/least_time.h"
 #include "bench/lab/methods/opening.h"
 
 namespace vitrel::lab {
@@ -13,14 +14,6 @@ constexpr double constraint_tolerance = 1e-10;
 constexpr double violated = 1e-8;    // of a constraint at the result
 constexpr double at_the_end = 1e-8;  // of the bracket, in units of time
 constexpr int most_evaluations = 2000;
-
-double time_of(unsigned, const double* x, double* gradient, void*) {
-  if (gradient) {
-    gradient[0] = 1;
-    gradient[1] = gradient[2] = 0;
-  }
-  return x[0];
-}
 
 double constraint(unsigned, const double* x, double* gradient, void* data) {
   const EllipseConstraint& e = **static_cast<const EllipseConstraint**>(data);
@@ -35,7 +28,7 @@ double constraint(unsigned, const double* x, double* gradient, void* data) {
 class Solver {
  public:
   Solver() : optimiser_(nlopt::LD_SLSQP, 3) {
-    optimiser_.set_min_objective(time_of, nullptr);
+    optimiser_.set_min_objective(least_time, nullptr);
     optimiser_.add_inequality_constraint(constraint, &one_, constraint_tolerance);
     optimiser_.add_inequality_constraint(constraint, &two_, constraint_tolerance);
     optimiser_.set_xtol_abs(1e-16);

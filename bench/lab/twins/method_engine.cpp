@@ -2,7 +2,9 @@
 
 #include <limits>
 
+#include "bench/lab/methods/bracket.h"
 #include "core/contact/pair.h"
+#include "edmd/collision_rule.h"
 #include "edmd/simulation.h"
 
 namespace vitrel::lab {
@@ -14,13 +16,13 @@ struct JudgedEllipse : Ellipse {
 };
 thread_local const Method* JudgedEllipse::method = nullptr;
 
-bool approach(const CollisionCase& asked, const Prediction& contact) {
-  const auto surface_velocity = [&](const Flight<GrowingEllipse>& flight) -> Vec2 {
+bool surfaces_approach(const CollisionCase& asked, const Prediction& contact) {
+  const auto arm = [&](const Flight<GrowingEllipse>& flight) {
     const Vec2 centre = advanced(flight.pose, flight.motion, contact.time).position;
-    return flight.motion.velocity +
-           flight.motion.angular_velocity * perpendicular(contact.point - centre);
+    return cross(contact.point - centre, contact.normal);
   };
-  return (surface_velocity(asked.one) - surface_velocity(asked.two)).dot(contact.normal) > 0;
+  return approach_speed(asked.one.motion, asked.two.motion,
+                        {contact.normal, arm(asked.one), arm(asked.two)}) > 0;
 }
 
 // Found by Simulation<JudgedEllipse> in place of the default predictor. A method that is not exact
@@ -34,7 +36,7 @@ Prediction first_contact(const Flight<JudgedEllipse>& one, const Flight<JudgedEl
   const CollisionCase asked{plain(one), plain(two), horizon};
   const Prediction answer = JudgedEllipse::method->predict(asked);
   const bool believed = answer.outcome == Outcome::overlap ||
-                        (answer.outcome == Outcome::contact && approach(asked, answer));
+                        (answer.outcome == Outcome::contact && surfaces_approach(asked, answer));
   return believed ? answer : Prediction{};
 }
 
@@ -59,14 +61,6 @@ class MethodEngine final : public Engine {
   Simulation<JudgedEllipse> simulation_;
 };
 
-bool circumcircles_meet(const CollisionCase& asked) {
-  const auto circle = [](const Flight<GrowingEllipse>& flight) {
-    return Flight<Disk>{{flight.body.circumradius()}, flight.pose, flight.motion};
-  };
-  return vitrel::first_contact(circle(asked.one), circle(asked.two), asked.horizon, 0).outcome !=
-         Outcome::none;
-}
-
 }  // namespace
 }  // namespace vitrel::lab
 
@@ -88,7 +82,7 @@ std::unique_ptr<Engine> make_method_engine(const Method& method, const EngineOpt
 std::vector<CollisionCase> recorded_cases(const Configuration2& start, std::size_t count) {
   std::vector<CollisionCase> cases;
   const Method recording{"recording", 0, [&](const CollisionCase& asked) {
-                           if (cases.size() < count && circumcircles_meet(asked))
+                           if (cases.size() < count && bracket_contact(asked))
                              cases.push_back(asked);
                            return vitrel::first_contact(asked.one, asked.two, asked.horizon,
                                                         asked.contact_gap());

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -11,9 +11,9 @@ namespace vitrel::lab {
 
 /// The engine of the program itself, its events and lists unchanged, with another method to predict
 /// collisions. No answer, and a contact at which the surfaces recede (the pair that has just
-/// collided), count as no contact; the default is never interfered with by that. A pair that the method finds, or that has come to be, overlapping is treated as
-/// `options.on_overlap` says. `method` must outlive the engine; one such engine at a time per
-/// thread.
+/// collided), count as no contact; the default gives neither. A pair that the method finds, or that
+/// has come to be, overlapping is treated as `options.on_overlap` says. `method` must outlive the
+/// engine; one such engine at a time per thread.
 std::unique_ptr<Engine> make_method_engine(const Method& method, const EngineOptions& options);
 
 /// Every question that the engine asks its predictor on the way from `start`, velocities included,

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace vitrel {
+
+/// Name and text of everything that says how a page came about.
+using PageProvenance = std::vector<std::pair<std::string, std::string>>;
+
+/// Text that stands for itself in HTML and XML.
+std::string escaped(std::string_view text);
+
+/// The entries of a description list; what has no text is left out.
+std::string provenance_entries(const PageProvenance& provenance);
+
+}  // namespace vitrel
