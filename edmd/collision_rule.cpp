@@ -4,7 +4,7 @@ namespace vitrel {
 
 double approach_speed(const Motion2& one, const Motion2& two, const ContactGeometry& contact) {
   return (one.velocity - two.velocity).dot(contact.normal) + one.angular_velocity * contact.arm1 -
-         two.angular_velocity * contact.arm2;
+         two.angular_velocity * contact.arm2 + contact.growth;
 }
 
 double collide(Motion2& one, const Inertia& inertia1, Motion2& two, const Inertia& inertia2,
@@ -24,9 +24,11 @@ double collide(Motion2& one, const Inertia& inertia1, Motion2& two, const Inerti
 double collide_with_own_image(Motion2& motion, const Inertia& inertia,
                               const ContactGeometry& contact, double restitution) {
   const double arm = contact.arm1 - contact.arm2;
-  const double speed = motion.angular_velocity * arm;
-  motion.angular_velocity *= -restitution;
-  return (1 + restitution) * speed / (inertia.inverse_moment * arm * arm);
+  const double speed = motion.angular_velocity * arm + contact.growth;
+  const double spin = inertia.inverse_moment * arm;
+  const double impulse = (1 + restitution) * speed / (spin * arm);
+  motion.angular_velocity -= impulse * spin;
+  return impulse;
 }
 
 void separate(Motion2& one, const Inertia& inertia1, Motion2& two, const Inertia& inertia2,

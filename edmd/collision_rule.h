@@ -4,12 +4,13 @@
 
 /// What an impact does to two bodies: smooth (frictionless) surfaces, coefficient of restitution e.
 ///
-///     k_i = arm_i = (x − r_i) × n,   u_n = (v₁ − v₂)·n + ω₁ k₁ − ω₂ k₂   (> 0: approaching)
+///     k_i = arm_i = (x − r_i) × n,   u_n = (v₁ − v₂)·n + ω₁ k₁ − ω₂ k₂ + s   (> 0: approaching)
 ///     J = (1 + e) u_n/(1/m₁ + 1/m₂ + k₁²/I₁ + k₂²/I₂)
 ///     v₁ −= J n/m₁, v₂ += J n/m₂, ω₁ −= J k₁/I₁, ω₂ += J k₂/I₂
 ///
-/// n is the unit contact normal from 1 to 2 and x the contact point. Momentum and angular momentum
-/// are conserved exactly; the energy changes by −J u_n (1 − e)/2.
+/// n is the unit contact normal from 1 to 2, x the contact point, and s the speed at which growth
+/// moves the surfaces towards each other. Momentum and angular momentum are conserved exactly; the
+/// energy changes by J (s − u_n (1 − e)/2).
 namespace vitrel {
 
 /// The inertia of a body; an inverse moment of inertia 0 means that rotation is not modelled.
@@ -21,6 +22,7 @@ struct Inertia {
 struct ContactGeometry {
   Vec2 normal;
   double arm1, arm2;
+  double growth = 0;  ///< s = γ₁ h₁(n) + γ₂ h₂(n)
 };
 
 /// Approach speed u_n of the surfaces.
@@ -31,7 +33,7 @@ double collide(Motion2& one, const Inertia& inertia1, Motion2& two, const Inerti
                const ContactGeometry& contact, double restitution);
 
 /// The impact of a body with its own periodic image: both sides act on the same body, its velocity
-/// stays, u_n = ω (k₁ − k₂), and ω becomes −e ω. Returns the impulse J.
+/// stays and u_n = ω (k₁ − k₂) + s; without growth ω becomes −e ω. Returns the impulse J.
 double collide_with_own_image(Motion2& motion, const Inertia& inertia,
                               const ContactGeometry& contact, double restitution);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -15,14 +16,20 @@ enum class OnOverlap { stop, correct };
 struct EngineOptions {
   double restitution = 1;
   OnOverlap on_overlap = OnOverlap::stop;
+  /// From `load` on all semi-axes are those loaded times 1 + growth_rate · time. Masses are constant,
+  /// moments of inertia those of the axes at the time, angular velocities constant in flight.
+  double growth_rate = 0;
+  /// For predictions that are made all at once; results do not depend on it.
+  int threads = 1;
 };
 
 /// Counts and sums over everything since the start of a run.
 struct RunCounters {
   std::uint64_t events = 0;  ///< everything taken from the calendar
   std::uint64_t collisions = 0;
-  std::uint64_t predictions = 0;  ///< calls of first_contact
-  std::uint64_t steps = 0;        ///< steps along separating axes, over all predictions
+  std::uint64_t predictions = 0;  ///< pairs asked about
+  std::uint64_t searches = 0;     ///< of these, pairs that the first look did not settle
+  std::uint64_t steps = 0;        ///< steps along separating axes, over all searches
   std::uint64_t renewals = 0;     ///< neighbour lists renewed because a particle left its own
   std::uint64_t correction_moves = 0;
   double virial = 0;      ///< Σ J n·d over collisions, d from centre to centre
@@ -37,28 +44,34 @@ struct RunCounters {
 /// Brownian step, never per event.
 class Engine {
  public:
+  static constexpr double never = std::numeric_limits<double>::infinity();
+
   virtual ~Engine() = default;
 
-  /// Begins a block from this configuration.
-  virtual void load(const Configuration2& configuration) = 0;
+  /// Begins a block from this configuration. Predictions do not look past `horizon`: no later than
+  /// at that simulated time comes another `load`, or `set_velocities`.
+  virtual void load(const Configuration2& configuration, double horizon = never) = 0;
 
   enum class Stop { time, block_end };
-  /// Processes events up to simulated time `until`, or to the end of the block if that comes first.
+  /// Processes events up to simulated time `until`, no later than the horizon, or to the end of the
+  /// block if that comes first.
   virtual Stop advance(double until, RunCounters& counters) = 0;
 
-  /// Writes all particles as of now into `configuration` (positions wrapped), which otherwise must
-  /// be the one loaded. The engine's own state does not change.
+  /// Writes all particles as of now into `configuration` (positions wrapped; shapes, if they grow),
+  /// which otherwise must be the one loaded. The engine's own state does not change.
   virtual void write(Configuration2& configuration) const = 0;
 
-  /// Replaces all velocities, at the present time.
-  virtual void set_velocities(const Configuration2& configuration, RunCounters& counters) = 0;
+  /// Replaces all velocities, at the present time; `horizon` as for `load`.
+  virtual void set_velocities(const Configuration2& configuration, double horizon,
+                              RunCounters& counters) = 0;
 
   /// Which model runs and why it is exact for this scene, in one sentence.
   virtual std::string description() const = 0;
 };
 
-/// The simplest model that is exact for the scene: disks without orientation if every particle is
-/// round, ellipses otherwise (a round pair among them meets in closed form).
+/// The simplest model that is exact for the scene: growing ellipses if there is growth; disks
+/// without orientation if every particle is round; ellipses otherwise (a round pair among them meets
+/// in closed form).
 std::unique_ptr<Engine> make_engine(const Configuration2& configuration,
                                     const EngineOptions& options);
 

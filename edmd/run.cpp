@@ -37,7 +37,7 @@ class Runner {
   StageReport run_blocks() {
     while (true) {
       const double block_start = state_.configuration.time;
-      engine_->load(state_.configuration);
+      engine_->load(state_.configuration, horizon());
       const bool finished = run_block();
       engine_->write(state_.configuration);
       note_conservation();
@@ -72,6 +72,8 @@ class Runner {
                      options_.brownian_step * static_cast<double>(state_.brownian_steps + 1)
                : std::numeric_limits<double>::infinity();
   }
+  // Nothing is predicted beyond it.
+  double horizon() const { return std::min(plan_.end_time, next_step_time()); }
   double next_stop() const {
     return std::min({plan_.end_time, next_sample_time(), next_step_time()});
   }
@@ -92,7 +94,7 @@ class Runner {
     ++state_.brownian_steps;
     draw_velocities(state_.configuration, options_.seed, Purpose::brownian_step,
                     state_.brownian_steps, options_.temperature);
-    engine_->set_velocities(state_.configuration, state_.counters);
+    engine_->set_velocities(state_.configuration, horizon(), state_.counters);
     state_.flight_energy = total_energy(state_.configuration) + state_.counters.dissipated;
   }
 

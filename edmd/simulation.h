@@ -1,21 +1,33 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
-#include <memory>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
+#include "core/contact/first_look.h"
 #include "core/error.h"
 #include "core/neighbors/neighborhood.h"
+#include "core/neighbors/spatial_order.h"
 #include "core/tolerances.h"
 #include "edmd/calendar.h"
 #include "edmd/collision_rule.h"
 #include "edmd/engine.h"
 
 namespace vitrel {
+
+/// The shape at size 1 for the semi-axes in a configuration, and the body that it is at a size.
+template <class Shape>
+Shape shape_from(const Ellipse& semi_axes) {
+  return semi_axes;
+}
+template <Body B>
+B body_from(const typename FirstLook<B>::Shape& shape, const CommonSize& common);
 
 /// The event loop, written once for every body.
 ///
@@ -26,21 +38,28 @@ namespace vitrel {
 /// already known for i or for j. An entry whose partner has meanwhile changed its motion is stale;
 /// when it comes to the top the particle is predicted anew.
 ///
-/// Times are relative to the start of the block, and every particle has its own clock.
+/// A prediction takes a first look at all neighbours (first_look.h) and searches only those that
+/// could come first, the most urgent first.
+///
+/// Times are relative to the start of the block, and every particle has its own clock. Particles are
+/// numbered so that neighbours are near in memory.
 template <Body B>
 class Simulation final : public Engine {
  public:
   Simulation(const EngineOptions& options, std::string description)
       : options_(options), description_(std::move(description)) {}
 
-  void load(const Configuration2& configuration) override;
+  void load(const Configuration2& configuration, double horizon) override;
   Stop advance(double until, RunCounters& counters) override;
   void write(Configuration2& configuration) const override;
-  void set_velocities(const Configuration2& configuration, RunCounters& counters) override;
+  void set_velocities(const Configuration2& configuration, double horizon,
+                      RunCounters& counters) override;
   std::string description() const override { return description_; }
 
  private:
   using Index = std::uint32_t;
+  using Shape = typename FirstLook<B>::Shape;
+  static constexpr bool grows = std::is_same_v<B, GrowingEllipse>;
 
   /// Mean neighbours per particle. Fewer mean fewer predictions but more renewals of lists; the cost of
   /// a collision is flat around this number.
@@ -48,113 +67,199 @@ class Simulation final : public Engine {
   static constexpr std::uint64_t events_per_particle_and_block = 32;
   static constexpr std::uint64_t least_events_per_block = 4096;
 
-  struct Particle {
-    Pose2 pose;  // at `time`
-    Motion2 motion;
-    double time = 0;
+  /// What predictions read of a particle: one cache line.
+  struct alignas(64) Particle {
+    Vec2 position;
+    Vec2 velocity;
+    double angle, angular_velocity;
+    double time;  // its clock: position and angle are those at this time
+    double next;  // the time of its entry in the calendar
+
+    Pose2 pose_at(double t) const {
+      const double since = t - time;
+      return {position + velocity * since, angle + angular_velocity * since};
+    }
+    Motion2 motion() const { return {velocity, angular_velocity}; }
+    void set_motion(const Motion2& motion) {
+      velocity = motion.velocity;
+      angular_velocity = motion.angular_velocity;
+    }
+  };
+  /// What all particles of one shape and mass share.
+  struct Kind {
+    Outline<Shape> outline;
     Inertia inertia;
-    Shift<2> image;
-    Index version = 0;  // counts the changes of its motion
   };
 
-  enum class Kind : std::uint8_t { collision, correction, exit, look_again };
   struct Event {
-    Kind kind = Kind::look_again;
+    enum class What : std::uint8_t { collision, correction, exit, look_again };
+    What what = What::look_again;
     Index partner = 0;
     Index partner_version = 0;
     Shift<2> shift = Shift<2>::Zero();
+    Vec2 normal = Vec2::Zero();  // of a collision
+  };
+  /// An event and its time.
+  struct Entry {
+    double time;
+    Event event;
+  };
+  /// A first look under way: what is in its lanes.
+  struct Glance {
+    FirstLook<B> look;
+    Neighbor<B>* neighbor[many] = {};
+    double horizon[many] = {};  // times beyond which a contact is of no interest
+    int count = 0;
+  };
+  /// Which neighbours a prediction asks about, and whether the partners' entries count.
+  struct Scope {
+    bool only_later_ones = false;        // those of a larger number: every pair once
+    std::optional<Index> without_entry;  // of the neighbour whose entry is about to change
   };
 
-  Pose2 pose_now(const Particle& particle) const {
-    return advanced(particle.pose, particle.motion, now_ - particle.time);
+  const Kind& kind(Index i) const { return kinds_[kind_of_[i]]; }
+  CommonSize size_now() const {
+    if constexpr (grows) return {1 + options_.growth_rate * now_, options_.growth_rate};
+    return {};
+  }
+  Inertia inertia_now(Index i) const {
+    const double size = size_now().size;
+    const Inertia& loaded = kind(i).inertia;
+    return {loaded.inverse_mass, loaded.inverse_moment / (size * size)};
   }
   void bring_to_now(Particle& particle) const {
-    particle.pose = pose_now(particle);
+    const Pose2 pose = particle.pose_at(now_);
+    particle.position = pose.position;
+    particle.angle = pose.angle;
     particle.time = now_;
   }
-  Flight<B> flight_now(Index i) const {
-    return {bodies_[i], pose_now(particles_[i]), particles_[i].motion};
-  }
 
-  void predict_all(RunCounters& counters);
+  void load_particles(const Configuration2& configuration);
+  void load_kinds(const Configuration2& configuration);
+  void predict_all(double horizon, RunCounters& counters);
   void predict(Index i, std::optional<Index> without_entry, RunCounters& counters);
+  Entry next_entry(Index i, const Scope& scope, RunCounters& counters);
+  std::size_t gather(Index i, const Pose2& mine, const Scope& scope, double latest,
+                     std::size_t next, Glance& glance);
+  void search_most_urgent_first(Index i, const Pose2& mine, Glance& glance, Entry& best,
+                                RunCounters& counters) const;
+  void search(Index i, const Pose2& mine, const Neighbor<B>& neighbor, double horizon,
+              Entry& best, RunCounters& counters) const;
   void process(Index i, RunCounters& counters);
   void leave_neighborhood(Index i);
   void meet(Index i, const Event& event, RunCounters& counters);
-  void impact(Index i, Index j, const Vec2& d, const SupportGap& gap, RunCounters& counters);
+  void impact(Index i, Index j, const Vec2& d, const Vec2& normal, RunCounters& counters);
   double overlap_event(Index i, Index j, const Vec2& d, Event& event) const;
   [[noreturn]] void report_overlap(Index i, Index j) const;
+  [[noreturn]] void report_wedge(Index i) const;
 
   EngineOptions options_;
   std::string description_;
   PeriodicBox<2> box_;
-  std::vector<B> bodies_;
+  std::vector<Index> outer_;  // the configuration's numbers of the particles
+  std::vector<Shape> shapes_;  // at size 1, as loaded
+  std::vector<Kind> kinds_;
+  std::vector<std::uint32_t> kind_of_;
   std::vector<Particle> particles_;
+  std::vector<Shift<2>> image_;
+  std::vector<Index> version_;  // counts the changes of a particle's motion
   std::optional<Neighborhoods<B>> neighborhoods_;
   Calendar calendar_;
   std::vector<Event> events_;
   double contact_gap_ = 0;
-  double base_ = 0;  // simulated time at the start of the block
-  double now_ = 0;   // since then
+  double base_ = 0;           // simulated time at the start of the block
+  double now_ = 0;            // since then
+  double horizon_ = never;    // since then
   std::uint64_t events_left_ = 0;
   bool predicted_ = false;
 };
 
-/// The body of type B for the semi-axes in a configuration.
-template <Body B>
-B body_from(const Ellipse& shape);
-
 // ---------------------------------------------------------------------------------------------------
 
 template <Body B>
-void Simulation<B>::load(const Configuration2& configuration) {
-  const std::size_t n = configuration.size();
+void Simulation<B>::load(const Configuration2& configuration, double horizon) {
   box_ = configuration.box;
   base_ = configuration.time;
   now_ = 0;
-  bodies_.resize(n);
-  particles_.assign(n, {});
-  events_.assign(n, {});
-  std::vector<Pose2> poses(n);
+  horizon_ = horizon - base_;
+  load_particles(configuration);
+  load_kinds(configuration);
   double extent = 0.5 * box_.lengths().maxCoeff();
-  for (std::size_t i = 0; i < n; ++i) {
-    bodies_[i] = body_from<B>(configuration.shape[i]);
-    Particle& particle = particles_[i];
-    particle.image = configuration.image[i];
-    particle.pose = configuration.pose(i);
-    box_.wrap(particle.pose.position, particle.image);
-    particle.motion = {configuration.velocity[i], configuration.angular_velocity[i]};
-    particle.inertia.inverse_mass = 1 / configuration.mass[i];
-    if (!configuration.shape[i].is_round())
-      particle.inertia.inverse_moment = 1 / configuration.inertia(i);
-    poses[i] = particle.pose;
+  std::vector<Pose2> poses;
+  for (Index i = 0; i < particles_.size(); ++i) {
+    poses.push_back(particles_[i].pose_at(0));
     // An angle is rounded too, and moves the surface by up to `swing` times its rounding.
-    extent = std::max(extent, bodies_[i].swing() * std::abs(particle.pose.angle));
+    extent = std::max(extent, shapes_[i].swing() * std::abs(particles_[i].angle));
   }
   contact_gap_ = tolerance::contact_gap(extent);
-  neighborhoods_.emplace(box_, bodies_, poses, wanted_neighbors);
-  events_left_ = std::max(events_per_particle_and_block * n, least_events_per_block);
+  neighborhoods_.emplace(box_, shapes_, poses, wanted_neighbors);
+  events_.assign(particles_.size(), {});
+  events_left_ =
+      std::max(events_per_particle_and_block * particles_.size(), least_events_per_block);
   predicted_ = false;
 }
 
 template <Body B>
-void Simulation<B>::predict_all(RunCounters& counters) {
+void Simulation<B>::load_particles(const Configuration2& configuration) {
+  outer_ = spatial_order(box_, configuration.position);
+  particles_.clear();
+  image_.clear();
+  version_.assign(outer_.size(), 0);
+  for (const Index k : outer_) {
+    Vec2 position = configuration.position[k];
+    Shift<2> image = configuration.image[k];
+    box_.wrap(position, image);
+    particles_.push_back({position, configuration.velocity[k], configuration.angle[k],
+                          configuration.angular_velocity[k], 0, never});
+    image_.push_back(image);
+  }
+}
+
+template <Body B>
+void Simulation<B>::load_kinds(const Configuration2& configuration) {
+  std::map<std::tuple<double, double, double>, std::uint32_t> known;
+  shapes_.clear();
+  kinds_.clear();
+  kind_of_.clear();
+  for (const Index k : outer_) {
+    const Ellipse& semi_axes = configuration.shape[k];
+    const double mass = configuration.mass[k];
+    const Shape shape = shape_from<Shape>(semi_axes);
+    const auto [place, is_new] = known.try_emplace({semi_axes.a, semi_axes.b, mass}, kinds_.size());
+    if (is_new)
+      kinds_.push_back({Outline<Shape>(shape),
+                        {1 / mass, semi_axes.is_round() ? 0 : 1 / configuration.inertia(k)}});
+    shapes_.push_back(shape);
+    kind_of_.push_back(place->second);
+  }
+}
+
+// All at once, every pair by one of its particles: no prediction needs another's result.
+template <Body B>
+void Simulation<B>::predict_all(double horizon, RunCounters& counters) {
+  horizon_ = horizon;
   calendar_ = Calendar(particles_.size());
-  for (Index i = 0; i < particles_.size(); ++i) predict(i, std::nullopt, counters);
+  for (Index i = 0; i < particles_.size(); ++i) {
+    const Entry entry = next_entry(i, {.only_later_ones = true, .without_entry = {}}, counters);
+    events_[i] = entry.event;
+    particles_[i].next = entry.time;
+    calendar_.set(i, entry.time);
+  }
   predicted_ = true;
 }
 
 template <Body B>
 Engine::Stop Simulation<B>::advance(double until, RunCounters& counters) {
-  if (!predicted_) predict_all(counters);
+  if (!predicted_) predict_all(horizon_, counters);
   const double end = until - base_;
   while (events_left_ > 0) {
     const auto i = static_cast<Index>(calendar_.earliest());
-    if (calendar_.time(i) > end) {
+    const double time = particles_[i].next;
+    if (time > end) {
       now_ = std::max(now_, end);
       return Stop::time;
     }
-    now_ = calendar_.time(i);
+    now_ = time;
     --events_left_;
     ++counters.events;
     process(i, counters);
@@ -165,52 +270,122 @@ Engine::Stop Simulation<B>::advance(double until, RunCounters& counters) {
 template <Body B>
 void Simulation<B>::write(Configuration2& configuration) const {
   configuration.time = base_ + now_;
-  for (std::size_t i = 0; i < particles_.size(); ++i) {
-    const Pose2 pose = pose_now(particles_[i]);
-    configuration.position[i] = pose.position;
-    configuration.image[i] = particles_[i].image;
-    box_.wrap(configuration.position[i], configuration.image[i]);
-    configuration.angle[i] = pose.angle;
-    configuration.velocity[i] = particles_[i].motion.velocity;
-    configuration.angular_velocity[i] = particles_[i].motion.angular_velocity;
+  const double size = size_now().size;
+  for (Index i = 0; i < particles_.size(); ++i) {
+    const Index k = outer_[i];
+    const Particle& particle = particles_[i];
+    const Pose2 pose = particle.pose_at(now_);
+    configuration.position[k] = pose.position;
+    configuration.image[k] = image_[i];
+    box_.wrap(configuration.position[k], configuration.image[k]);
+    configuration.angle[k] = pose.angle;
+    configuration.velocity[k] = particle.velocity;
+    configuration.angular_velocity[k] = particle.angular_velocity;
+    if constexpr (grows) configuration.shape[k] = scaled(shapes_[i], size);
   }
 }
 
 template <Body B>
-void Simulation<B>::set_velocities(const Configuration2& configuration, RunCounters& counters) {
-  for (std::size_t i = 0; i < particles_.size(); ++i) {
+void Simulation<B>::set_velocities(const Configuration2& configuration, double horizon,
+                                   RunCounters& counters) {
+  for (Index i = 0; i < particles_.size(); ++i) {
     bring_to_now(particles_[i]);
-    particles_[i].motion = {configuration.velocity[i], configuration.angular_velocity[i]};
+    particles_[i].velocity = configuration.velocity[outer_[i]];
+    particles_[i].angular_velocity = configuration.angular_velocity[outer_[i]];
   }
-  predict_all(counters);
+  predict_all(horizon - base_, counters);
 }
 
 template <Body B>
 void Simulation<B>::predict(Index i, std::optional<Index> without_entry, RunCounters& counters) {
-  const Flight<B> mine = flight_now(i);
-  Event best{Kind::exit, i, 0, Shift<2>::Zero()};
-  double best_time = now_ + neighborhoods_->exit_time(i, mine.pose, mine.motion);
-  for (const auto& neighbor : neighborhoods_->of(i)) {
-    const Index j = neighbor.other;
-    Flight<B> other = flight_now(j);
-    other.pose.position += box_.translation(neighbor.shift);
-    const bool entry_counts = j != i && without_entry != j;
-    const double horizon = entry_counts ? std::min(best_time, calendar_.time(j)) : best_time;
-    const Prediction touch = first_contact(mine, other, horizon - now_, contact_gap_);
-    ++counters.predictions;
-    counters.steps += static_cast<std::uint64_t>(touch.steps);
-    if (touch.outcome == Outcome::none) continue;
-    Event event{Kind::collision, j, particles_[j].version, neighbor.shift};
-    double wait = touch.time;
-    if (touch.outcome == Outcome::not_converged) event.kind = Kind::look_again;
-    if (touch.outcome == Outcome::overlap)
-      wait = overlap_event(i, j, other.pose.position - mine.pose.position, event);
-    if (now_ + wait >= best_time) continue;
-    best_time = now_ + wait;
-    best = event;
+  const Entry entry =
+      next_entry(i, {.only_later_ones = false, .without_entry = without_entry}, counters);
+  events_[i] = entry.event;
+  particles_[i].next = entry.time;
+  calendar_.set(i, entry.time);
+}
+
+template <Body B>
+typename Simulation<B>::Entry Simulation<B>::next_entry(Index i, const Scope& scope,
+                                                        RunCounters& counters) {
+  const Particle& particle = particles_[i];
+  const Pose2 mine = particle.pose_at(now_);
+  const CommonSize size = size_now();
+  Entry best{now_ + neighborhoods_->exit_time(i, mine, particle.motion(), size), {}};
+  best.event.what = Event::What::exit;
+  if (best.time > horizon_) best.time = never;
+
+  Glance glance{FirstLook<B>(kind(i).outline, mine, particle.motion(), size, contact_gap_)};
+  const std::span<Neighbor<B>> neighbors = neighborhoods_->of(i);
+  for (std::size_t next = 0; next < neighbors.size();) {
+    next = gather(i, mine, scope, std::min(best.time, horizon_), next, glance);
+    glance.look.look();
+    counters.predictions += static_cast<std::uint64_t>(glance.count);
+    for (int k = 0; k < glance.count; ++k) glance.neighbor[k]->memory = glance.look.memory(k);
+    search_most_urgent_first(i, mine, glance, best, counters);
   }
-  events_[i] = best;
-  calendar_.set(i, best_time);
+  return best;
+}
+
+// Fills the glance from neighbour number `next` on; returns the number after the last.
+template <Body B>
+std::size_t Simulation<B>::gather(Index i, const Pose2& mine, const Scope& scope, double latest,
+                                  std::size_t next, Glance& glance) {
+  constexpr double forever = 1e100;
+  const std::span<Neighbor<B>> neighbors = neighborhoods_->of(i);
+  int k = 0;
+  for (; next < neighbors.size() && k < many; ++next) {
+    Neighbor<B>& neighbor = neighbors[next];
+    const Index j = neighbor.other;
+    if (scope.only_later_ones && j < i) continue;
+    const Particle& partner = particles_[j];
+    const bool entry_counts = !scope.only_later_ones && j != i && j != scope.without_entry;
+    glance.horizon[k] = entry_counts ? std::min(latest, partner.next) : latest;
+    Pose2 pose = partner.pose_at(now_);
+    pose.position += box_.translation(neighbor.shift) - mine.position;
+    glance.look.set(k, pose, partner.motion(), kind(j).outline, neighbor.memory,
+                    std::min(glance.horizon[k] - now_, forever));
+    glance.neighbor[k++] = &neighbor;
+  }
+  glance.count = k;
+  return next;
+}
+
+template <Body B>
+void Simulation<B>::search_most_urgent_first(Index i, const Pose2& mine, Glance& glance,
+                                             Entry& best, RunCounters& counters) const {
+  for (int searched = 0; searched < glance.count; ++searched) {
+    int first = 0;
+    for (int k = 1; k < glance.count; ++k)
+      if (glance.look.open_until(k) < glance.look.open_until(first)) first = k;
+    if (!(now_ + glance.look.open_until(first) < best.time)) return;
+    const double horizon = std::min(glance.horizon[first], best.time);
+    search(i, mine, *glance.neighbor[first], horizon, best, counters);
+    glance.look.close(first);
+  }
+}
+
+// Makes the first contact with this neighbour the best entry, if it comes before the horizon.
+template <Body B>
+void Simulation<B>::search(Index i, const Pose2& mine, const Neighbor<B>& neighbor, double horizon,
+                           Entry& best, RunCounters& counters) const {
+  const Index j = neighbor.other;
+  const auto flight = [&](Index k, const Pose2& pose) {
+    return Flight<B>{body_from<B>(shapes_[k], size_now()), pose, particles_[k].motion()};
+  };
+  Pose2 theirs = particles_[j].pose_at(now_);
+  theirs.position += box_.translation(neighbor.shift);
+  const Prediction touch = first_contact(flight(i, mine), flight(j, theirs), horizon - now_,
+                                         contact_gap_, neighbor.memory);
+  ++counters.searches;
+  counters.steps += static_cast<std::uint64_t>(touch.steps);
+  if (touch.outcome == Outcome::none) return;
+  Event event{Event::What::collision, j, version_[j], neighbor.shift, touch.normal};
+  double wait = touch.time;
+  if (touch.outcome == Outcome::not_converged) event.what = Event::What::look_again;
+  if (touch.outcome == Outcome::overlap)
+    wait = overlap_event(i, j, theirs.position - mine.position, event);
+  if (now_ + wait < best.time) best = {now_ + wait, event};
 }
 
 // A pair that overlaps: stop, or plan the correction move; once its centres recede it is only
@@ -218,28 +393,28 @@ void Simulation<B>::predict(Index i, std::optional<Index> without_entry, RunCoun
 template <Body B>
 double Simulation<B>::overlap_event(Index i, Index j, const Vec2& d, Event& event) const {
   if (options_.on_overlap == OnOverlap::stop) report_overlap(i, j);
-  const Vec2 relative = particles_[j].motion.velocity - particles_[i].motion.velocity;
+  const Vec2 relative = particles_[j].velocity - particles_[i].velocity;
   const bool receding = d.dot(relative) > 0;
-  event.kind = receding ? Kind::look_again : Kind::correction;
+  event.what = receding ? Event::What::look_again : Event::What::correction;
   constexpr double watch = 0.05;  // of the time in which they move by their own width
-  return receding ? watch * (bodies_[i].inradius() + bodies_[j].inradius()) / relative.norm() : 0;
+  return receding ? watch * (shapes_[i].inradius() + shapes_[j].inradius()) / relative.norm() : 0;
 }
 
 template <Body B>
 void Simulation<B>::process(Index i, RunCounters& counters) {
   const Event event = events_[i];
-  switch (event.kind) {
-    case Kind::exit:
+  switch (event.what) {
+    case Event::What::exit:
       leave_neighborhood(i);
       ++counters.renewals;
       predict(i, std::nullopt, counters);
       return;
-    case Kind::look_again:
+    case Event::What::look_again:
       predict(i, std::nullopt, counters);
       return;
-    case Kind::collision:
-    case Kind::correction:
-      if (particles_[event.partner].version == event.partner_version)
+    case Event::What::collision:
+    case Event::What::correction:
+      if (version_[event.partner] == event.partner_version)
         meet(i, event, counters);
       else
         predict(i, std::nullopt, counters);
@@ -251,8 +426,8 @@ template <Body B>
 void Simulation<B>::leave_neighborhood(Index i) {
   Particle& particle = particles_[i];
   bring_to_now(particle);
-  box_.wrap(particle.pose.position, particle.image);
-  neighborhoods_->renew(i, particle.pose);
+  box_.wrap(particle.position, image_[i]);
+  neighborhoods_->renew(i, particle.pose_at(now_), size_now().size);
 }
 
 template <Body B>
@@ -262,33 +437,40 @@ void Simulation<B>::meet(Index i, const Event& event, RunCounters& counters) {
   Particle& two = particles_[j];
   bring_to_now(one);
   bring_to_now(two);
-  const Vec2 d = two.pose.position + box_.translation(event.shift) - one.pose.position;
-  if (event.kind == Kind::correction) {
-    separate(one.motion, one.inertia, two.motion, two.inertia, d);
+  const Vec2 d = two.position + box_.translation(event.shift) - one.position;
+  if (event.what == Event::What::correction) {
+    Motion2 motion1 = one.motion(), motion2 = two.motion();
+    separate(motion1, kind(i).inertia, motion2, kind(j).inertia, d);
+    one.set_motion(motion1);
+    two.set_motion(motion2);
     ++counters.correction_moves;
   } else {
-    impact(i, j, d, support_gap(bodies_[i], one.pose, bodies_[j], two.pose, d), counters);
+    impact(i, j, d, event.normal, counters);
   }
-  ++one.version;
-  if (i != j) ++two.version;
+  ++version_[i];
+  if (i != j) ++version_[j];
   predict(i, j, counters);
   if (i != j) predict(j, std::nullopt, counters);
 }
 
 template <Body B>
-void Simulation<B>::impact(Index i, Index j, const Vec2& d, const SupportGap& gap,
-                           RunCounters& counters) {
-  Particle& one = particles_[i];
-  Particle& two = particles_[j];
-  const Vec2& n = gap.normal;
-  const Vec2 arm1 = surface_point(bodies_[i], one.pose, n);
-  const Vec2 arm2 = surface_point(bodies_[j], two.pose, -n);
-  const ContactGeometry contact{n, cross(arm1, n), cross(arm2, n)};
-  const double speed = approach_speed(one.motion, two.motion, contact);
+void Simulation<B>::impact(Index i, Index j, const Vec2& d, const Vec2& n, RunCounters& counters) {
+  const CommonSize size = size_now();
+  const auto arm = [&](Index k, const Vec2& outward) {
+    return surface_point(scaled(shapes_[k], size.size), particles_[k].pose_at(now_), outward);
+  };
+  const Vec2 arm1 = arm(i, n), arm2 = arm(j, -n);
+  const double growth = size.growth_rate / size.size * (arm1 - arm2).dot(n);
+  const ContactGeometry contact{n, cross(arm1, n), cross(arm2, n), growth};
+  Motion2 motion1 = particles_[i].motion(), motion2 = particles_[j].motion();
+  const double speed = approach_speed(motion1, motion2, contact);
   const double impulse =
-      i == j ? collide_with_own_image(one.motion, one.inertia, contact, options_.restitution)
-             : collide(one.motion, one.inertia, two.motion, two.inertia, contact,
+      i == j ? collide_with_own_image(motion1, inertia_now(i), contact, options_.restitution)
+             : collide(motion1, inertia_now(i), motion2, inertia_now(j), contact,
                        options_.restitution);
+  if (!std::isfinite(impulse)) report_wedge(i);
+  particles_[i].set_motion(motion1);
+  if (i != j) particles_[j].set_motion(motion2);
   ++counters.collisions;
   counters.virial += impulse * n.dot(d);
   counters.dissipated += 0.5 * impulse * speed * (1 - options_.restitution);
@@ -296,9 +478,16 @@ void Simulation<B>::impact(Index i, Index j, const Vec2& d, const SupportGap& ga
 
 template <Body B>
 void Simulation<B>::report_overlap(Index i, Index j) const {
-  throw InvariantError("particles " + std::to_string(i) + " and " + std::to_string(j) +
-                       " overlap at time " + std::to_string(base_ + now_) +
+  throw InvariantError("particles " + std::to_string(outer_[i]) + " and " +
+                       std::to_string(outer_[j]) + " overlap at time " +
+                       std::to_string(base_ + now_) +
                        ": a hard run must start from, and keeps, a state without overlaps");
+}
+
+template <Body B>
+void Simulation<B>::report_wedge(Index i) const {
+  throw InvariantError("particle " + std::to_string(outer_[i]) + " grew into its own image at time " +
+                       std::to_string(base_ + now_) + ": the box is too short for it");
 }
 
 }  // namespace vitrel

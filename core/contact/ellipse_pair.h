@@ -1,73 +1,9 @@
 #pragma once
 
-#include <Eigen/Core>
-
+#include "core/contact/lanes.h"
 #include "core/geometry/growing_ellipse.h"
 
 namespace vitrel {
-
-/// A number for each of the two bodies of a pair; arithmetic on both is one instruction.
-using Lanes = Eigen::Array2d;
-
-namespace detail {
-
-// The series of sine and cosine for |x| ≤ π/2, to 2e-17, in parts that need not wait for each other
-// (Estrin's scheme). xx = x².
-inline Lanes sine_series(const Lanes& x, const Lanes& xx) {
-  const Lanes x4 = xx * xx;
-  const Lanes part1 = 1. / 120 * xx - 1. / 6;
-  const Lanes part2 = 1. / 362880 * xx - 1. / 5040;
-  const Lanes part3 = 1. / 6227020800 * xx - 1. / 39916800;
-  const Lanes part4 = 1. / 355687428096000 * xx - 1. / 1307674368000;
-  const Lanes part5 = 1. / 51090942171709440000. * xx - 1. / 121645100408832000;
-  const Lanes x8 = x4 * x4;
-  return x + x * xx * ((part1 + x4 * part2) + x8 * ((part3 + x4 * part4) + x8 * part5));
-}
-
-inline Lanes cosine_series(const Lanes& xx) {
-  const Lanes x4 = xx * xx;
-  const Lanes part1 = 1. / 24 - 1. / 720 * xx;
-  const Lanes part2 = 1. / 40320 - 1. / 3628800 * xx;
-  const Lanes part3 = 1. / 479001600 - 1. / 87178291200 * xx;
-  const Lanes part4 = 1. / 20922789888000 - 1. / 6402373705728000 * xx;
-  const Lanes x8 = x4 * x4;
-  const Lanes part5 = x8 * (1. / 2432902008176640000);
-  return (1 - 0.5 * xx) + x4 * ((part1 + x4 * part2) + x8 * ((part3 + x4 * part4) + part5));
-}
-
-/// The same as directions, by the library: for angles of which a multiple of π is no longer taken
-/// off exactly.
-void far_directions(const Lanes& angle, Lanes& x, Lanes& y);
-constexpr double far_angle = 1e6;
-
-}  // namespace detail
-
-/// Unit vectors (x, y) at two angles: cosine and sine to within 4 units in the last place of 1.
-inline void directions(const Lanes& angle, Lanes& x, Lanes& y) {
-  if (!(angle.abs().maxCoeff() < detail::far_angle)) return detail::far_directions(angle, x, y);
-  // Adding and subtracting this rounds to a whole number. π is taken off in three parts; a multiple
-  // of the first is exact.
-  constexpr double rounder = 0x1.8p52;
-  constexpr double pi_high = 0x1.921fb544p1;
-  constexpr double pi_middle = 0x1.0b4611a6p-33;
-  constexpr double pi_low = 0x1.3198a2e037073p-68;
-  const Lanes k = (angle * 0.31830988618379067154 + rounder) - rounder;
-  const Lanes rest = ((angle - k * pi_high) - k * pi_middle) - k * pi_low;
-  const Lanes half = (0.5 * k + rounder) - rounder;
-  const Lanes sign = 1 - 2 * (k - 2 * half).abs();
-  const Lanes square = rest * rest;
-  x = sign * detail::cosine_series(square);
-  y = sign * detail::sine_series(rest, square);
-}
-
-constexpr double largest_small_angle = 1.5;
-
-/// The same for |angle| ≤ largest_small_angle.
-inline void small_directions(const Lanes& angle, Lanes& x, Lanes& y) {
-  const Lanes square = angle * angle;
-  x = detail::cosine_series(square);
-  y = detail::sine_series(angle, square);
-}
 
 /// Two ellipses at one instant, in the form that the support gap computes with. Lane 0 is body 1.
 struct EllipsePair {
@@ -90,35 +26,82 @@ struct EllipsePair {
         d(centre_to_centre) {}
 };
 
-/// The support gap g = n·d − σ₁h₁ − σ₂h₂ at a unit vector n, σ the sizes, with what its change
-/// needs. φ is the angle of n; h, h' = dh/dφ and ρ are those at size 1.
-struct GapAlongAxis {
+/// The support function h of an ellipse with major axis u at the angle φ of a unit vector n, and
+/// what its change needs. T holds several numbers: of two bodies, or of one kind of body in several
+/// pairs.
+template <class T>
+struct SupportAlong {
+  T along, across;   ///< u·n and u·dn/dφ
+  T height;          ///< h
+  T inverse_square;  ///< 1/h²
+  T turning;         ///< h' = dh/dφ
+  T radius;          ///< ρ = h + h'', the radius of curvature where n is the normal
+};
+
+template <class T>
+SupportAlong<T> support_along(const T& bb, const T& stretch, const T& aabb, const T& ux,
+                              const T& uy, const T& nx, const T& ny) {
+  SupportAlong<T> s;
+  s.along = nx * ux + ny * uy;
+  s.across = nx * uy - ny * ux;
+  const T hh = bb + stretch * (s.along * s.along);
+  s.height = sqrt(hh);
+  s.inverse_square = 1. / hh;  // beside the root, not after it
+  const T inverse = s.height * s.inverse_square;
+  s.turning = stretch * s.along * s.across * inverse;
+  s.radius = aabb * s.inverse_square * inverse;
+  return s;
+}
+
+/// A bound K ω² of d²h/dt² while a body turns at angular velocity ω for `duration`, which may be
+/// negative (then looking back); `s` is at n now and `largest` = ω² (a² − b²)/b.
+///
+/// The body turns by Δ = ω t, and |u·n| changes from p = |u·n| by the slope r = −ω (u·dn/dφ) sgn(u·n)
+/// at first; from cos Δ ≥ 1 − Δ²/2 and 0 ≤ sin |Δ| ≤ |Δ| where that is positive,
+///     |u·n| ≥ max(0, p (1 − Δ²/2) + min(0, r t)),
+/// which bounds h² = b² + (a² − b²)(u·n)² below. With q that bound over h² now, ρ = a²b²/h³ rises
+/// to q^(−3/2) ρ ≤ ρ/q² at most and h falls to q^(1/2) h ≥ q h at least, so that
+///     h'' ≤ K = min(ρ/q² − q h, (a² − b²)/b),
+/// the latter its largest value at all. K may be negative.
+template <class T>
+T bend_bound(const SupportAlong<T>& s, const T& bb, const T& stretch, const T& omega,
+             const T& largest, const T& duration) {
+  const T present = abs(s.along);
+  const T slope = -omega * s.across * detail::signs(s.along);
+  const T turned = omega * duration;
+  const T falling = detail::positive_part(-slope * duration);
+  const T least_along =
+      detail::positive_part((present - present * (0.5 * turned * turned)) - falling);
+  const T q = (bb + stretch * (least_along * least_along)) * s.inverse_square;
+  const T rise = 1. / q;
+  return detail::lesser(omega * omega * (s.radius * (rise * rise) - s.height * q), largest);
+}
+
+/// The support gap g = n·d − σ₁h₁ − σ₂h₂ at a unit vector n, σ the sizes. φ is the angle of n; h, h'
+/// and ρ are those at size 1.
+struct GapAlongAxis : SupportAlong<Lanes> {
   double gap = 0;
   double slope = 0;      ///< dg/dφ
   double curvature = 0;  ///< −d²g/dφ² = g + σ₁ρ₁ + σ₂ρ₂
-  Lanes along, across;   ///< u·n and u·dn/dφ
-  Lanes height;          ///< h
-  Lanes inverse_square;  ///< 1/h²
-  Lanes turning;         ///< h'
-  Lanes radius;          ///< ρ = h + h'', the radius of curvature where n is the normal
 
   /// What one Newton step in φ would add to g, to second order (only meaningful if curvature > 0).
   double gain() const { return 0.5 * slope * slope / curvature; }
 };
 
-inline GapAlongAxis gap_along(const EllipsePair& pair, const Vec2& n) {
+/// `sized`: whether the sizes may differ from 1.
+template <bool sized = true>
+GapAlongAxis gap_along(const EllipsePair& pair, const Vec2& n) {
+  const auto total = [&](const Lanes& of) {
+    if constexpr (sized) return (pair.size * of).sum();
+    return of.sum();
+  };
   GapAlongAxis g;
-  g.along = n.x() * pair.ux + n.y() * pair.uy;
-  g.across = n.x() * pair.uy - n.y() * pair.ux;
-  const Lanes hh = pair.bb + pair.stretch * g.along.square();
-  g.height = hh.sqrt();
-  g.inverse_square = 1 / hh;  // beside the root, not after it
-  const Lanes inverse = g.height * g.inverse_square;
-  g.turning = pair.stretch * g.along * g.across * inverse;
-  g.radius = pair.aabb * g.inverse_square * inverse;
-  g.gap = n.dot(pair.d) - (pair.size * g.height).sum();
-  g.slope = cross(n, pair.d) - (pair.size * g.turning).sum();
-  g.curvature = g.gap + (pair.size * g.radius).sum();
+  static_cast<SupportAlong<Lanes>&>(g) =
+      support_along<Lanes>(pair.bb, pair.stretch, pair.aabb, pair.ux, pair.uy,
+                           Lanes::Constant(n.x()), Lanes::Constant(n.y()));
+  g.gap = n.dot(pair.d) - total(g.height);
+  g.slope = cross(n, pair.d) - total(g.turning);
+  g.curvature = g.gap + total(g.radius);
   return g;
 }
 

@@ -52,20 +52,20 @@ Interval time_within(const Vec2& d, const Vec2& v, double reach, double growth, 
 }
 
 // The search for one pair.
+template <class B>
 class Search {
  public:
-  template <class B>
   Search(const Flight<B>& one, const Flight<B>& two, double contact_gap)
       : flight_(one, two), contact_gap_(contact_gap) {}
 
   /// All but the contact point. Flattened, since calls weigh in so short a search.
-  [[gnu::flatten]] Prediction run(double horizon) {
+  [[gnu::flatten]] Prediction run(double horizon, const Vec2* likely_axis) {
     const Interval near =
         time_within(flight_.d0(), flight_.v(), flight_.reach() + touching * contact_gap_,
                     flight_.reach_growth(), std::min(horizon, forever));
     if (near.empty()) return {};
     flight_.start_at(near.begin);
-    look_along(detail::likely_axis(flight_.now()));
+    look_along(likely_axis ? *likely_axis : detail::likely_axis(flight_.now()));
     if (!has_separating_axis()) return outcome(Outcome::overlap, 1);
 
     for (int step = 1; step <= max_steps; ++step) {
@@ -76,8 +76,8 @@ class Search {
       if (here_.gap <= touching * contact_gap_ && rate < 0) return contact(step);
       if (time_left <= 0) return outcome(Outcome::none, step);
       if (room + rate * time_left > 0) {
-        if (stays_open(room, rate, time_left)) return outcome(Outcome::none, step);
-      } else if (crosses(room, rate) && leap(rate, near.end)) {
+        if (is_open(here_, room, rate, time_left)) return outcome(Outcome::none, step);
+      } else if (room > 0 && crosses(rate) && leap(rate, near.end)) {
         return contact(step);
       }
       const double duration = safe_duration(rate, time_left);
@@ -100,7 +100,7 @@ class Search {
  private:
   void look_along(const Vec2& n) {
     n_ = n;
-    here_ = gap_along(flight_.now(), n);
+    here_ = gap_along<PairInFlight<B>::grows>(flight_.now(), n);
   }
 
   // Whether the present axis separates, or one Newton step from it, or, sought from nothing, any.
@@ -121,39 +121,48 @@ class Search {
   }
   bool is_best_axis() const { return here_.gain() <= 1e-3 * contact_gap_; }
 
-  double nonnegative_bound(double duration) const {
-    return std::max(flight_.acceleration_bound(here_, duration), 0.0);
+  // Whether the parabola that bounds the gap `g`, with `room` of it, stays positive for a duration
+  // ahead or, negative, back: being concave, it is lowest at an end.
+  bool is_open(const GapAlongAxis& g, double room, double rate, double duration) const {
+    const double bound = std::max(flight_.acceleration_bound(g, duration), 0.0);
+    return room > 0 && room + duration * (rate - 0.5 * bound * duration) > 0;
   }
 
-  // Whether the bounding parabola stays positive so long: being concave, it is lowest at an end.
-  bool stays_open(double room, double rate, double duration) const {
-    return room > 0 && room + duration * (rate - 0.5 * nonnegative_bound(duration) * duration) > 0;
+  // How the gap along the best axis closes. With c the curvature, −d²g/dφ², and m = d²g/dφdt, that
+  // axis turns at m/c, and its gap is g + g'²/2c, its rate ġ + g'm/c, its acceleration g̈ + m²/c.
+  // All but m multiplied by c.
+  struct Approach {
+    double mixed, room, rate, acceleration;  // room to the contact gap; −g̈
+  };
+  Approach approach(double rate) const {
+    const double c = here_.curvature;
+    const double mixed = flight_.slope_rate(n_, here_);
+    return {mixed, (here_.gap - contact_gap_) * c + 0.5 * here_.slope * here_.slope,
+            rate * c + here_.slope * mixed, flight_.acceleration(here_) * c - mixed * mixed};
   }
 
-  // Whether the gap closes at a rate that provably keeps its sign on the way.
-  bool crosses(double room, double rate) const {
-    if (!(rate < 0 && room > 0)) return false;
-    return 2 * flight_.acceleration_bound(here_, -room / rate) * room < rate * rate;
+  // Whether the gap, to second order, closes at a rate that is not lost on the way.
+  bool crosses(double rate) const {
+    constexpr double kept = 0.5;  // of the square of the rate
+    const Approach a = approach(rate);
+    const double lost = -2 * a.acceleration * a.room;
+    return a.rate < 0 && lost < (1 - kept) * (a.rate * a.rate);
   }
 
   // Newton's method, of third order in time, for g = contact gap and dg/dφ = 0 in t and φ; then the
-  // proof, by the parabola looking back from there, that the gap was open all the way. If it does
-  // not converge before `end`, or the proof fails, nothing changes and the answer is false.
+  // proof that the gap was open all the way. If it does not converge before `end`, or the proof
+  // fails, nothing changes and the answer is false.
   bool leap(double rate, double end) {
-    const double start = flight_.time();
+    const double start = flight_.time(), start_rate = rate;
     const Vec2 start_axis = n_;
+    const GapAlongAxis start_gap = here_;
     for (int step = 0; step < 8; ++step) {
-      // With c the curvature, −d²g/dφ², and m = d²g/dφdt, the gap along the best axis, which
-      // turns at m/c, is g + g'²/2c, its rate ġ + g'm/c and its acceleration g̈ + m²/c.
-      const double c = here_.curvature, inverse = 1 / c;
-      const double mixed = flight_.slope_rate(n_, here_);
-      const double closing = -1 / (rate * c + here_.slope * mixed);
-      const double newton =
-          ((here_.gap - contact_gap_) * c + 0.5 * here_.slope * here_.slope) * closing;
-      const double bend =
-          0.5 * (flight_.acceleration(here_) * c - mixed * mixed) * newton * closing;
+      const Approach a = approach(rate);
+      const double closing = -1 / a.rate, inverse = 1 / here_.curvature;
+      const double newton = a.room * closing;
+      const double bend = 0.5 * a.acceleration * newton * closing;
       const double duration = newton * (1 - bend + 2 * bend * bend);
-      const double turn = (here_.slope + mixed * duration) * inverse;
+      const double turn = (here_.slope + a.mixed * duration) * inverse;
       if (!(flight_.time() + duration < end && std::abs(turn) < 1)) break;
       flight_.go_to(flight_.time() + duration);
       look_along(detail::turned(n_, turn));
@@ -161,20 +170,25 @@ class Search {
       if (!(rate < 0 && here_.curvature > 0)) break;
       const double error = std::abs(here_.gap - contact_gap_);
       if (error <= leap_accuracy * contact_gap_ && is_best_axis()) {
-        if (was_open_since(start, rate)) return true;
+        if (was_open(flight_.time() - start, rate, start_gap, start_rate)) return true;
         break;
       }
     }
     if (flight_.time() == start) return false;
     flight_.go_to(start);
-    look_along(start_axis);
+    n_ = start_axis;
+    here_ = start_gap;
     return false;
   }
 
-  bool was_open_since(double start, double rate) const {
-    const double duration = flight_.time() - start;
-    return duration >= 0 &&
-           here_.gap - duration * (rate + 0.5 * nonnegative_bound(-duration) * duration) > 0;
+  // Whether the gap was open for `duration` before now, at the beginning of which it was `then`: by
+  // the parabola looking back from here, or by this for the later half and, for the earlier, the
+  // parabola looking forward from there.
+  bool was_open(double duration, double rate, const GapAlongAxis& then, double then_rate) const {
+    const double half = 0.5 * duration;
+    return duration >= 0 && (is_open(here_, here_.gap, rate, -duration) ||
+                             (is_open(here_, here_.gap, rate, -half) &&
+                              is_open(then, then.gap - contact_gap_, then_rate, half)));
   }
 
   // A time in which the gap cannot fall below the contact gap.
@@ -208,16 +222,17 @@ class Search {
     return outcome(Outcome::contact, steps);
   }
 
-  PairInFlight flight_;
+  PairInFlight<B> flight_;
   double contact_gap_;
   Vec2 n_;             // the axis
   GapAlongAxis here_;  // along it, now
 };
 
 template <class B>
-Prediction search(const Flight<B>& one, const Flight<B>& two, double horizon, double contact_gap) {
-  Search pair(one, two, contact_gap);
-  Prediction found = pair.run(horizon);
+Prediction search(const Flight<B>& one, const Flight<B>& two, double horizon, double contact_gap,
+                  const Vec2* likely_axis) {
+  Search<B> pair(one, two, contact_gap);
+  Prediction found = pair.run(horizon, likely_axis);
   if (found.outcome == Outcome::contact)
     found.point = one.pose.position + one.motion.velocity * found.time + pair.arm1();
   return found;
@@ -253,23 +268,48 @@ Prediction circles(const Flight<B>& one, const Circle& circle1, const Flight<B>&
           one.pose.position + one.motion.velocity * time + radius1 * normal, 1};
 }
 
+bool are_round(const Flight<Ellipse>& one, const Flight<Ellipse>& two) {
+  return one.body.is_round() && two.body.is_round();
+}
+bool are_round(const Flight<GrowingEllipse>& one, const Flight<GrowingEllipse>& two) {
+  return one.body.shape.is_round() && two.body.shape.is_round();
+}
+
+Circle circle(const Ellipse& body) {
+  return {body.a, 0};
+}
+Circle circle(const GrowingEllipse& body) {
+  return {body.circumradius(), body.growth_rate * body.shape.a};
+}
+
+template <class B>
+Prediction meet(const Flight<B>& one, const Flight<B>& two, double horizon, double contact_gap,
+                const Vec2* likely_axis) {
+  if (are_round(one, two))
+    return circles(one, circle(one.body), two, circle(two.body), horizon, contact_gap);
+  return search(one, two, horizon, contact_gap, likely_axis);
+}
+
 }  // namespace
 
 Prediction first_contact(const Flight<Ellipse>& one, const Flight<Ellipse>& two, double horizon,
                          double contact_gap) {
-  if (one.body.is_round() && two.body.is_round())
-    return circles(one, {one.body.a, 0}, two, {two.body.a, 0}, horizon, contact_gap);
-  return search(one, two, horizon, contact_gap);
+  return meet(one, two, horizon, contact_gap, nullptr);
 }
 
 Prediction first_contact(const Flight<GrowingEllipse>& one, const Flight<GrowingEllipse>& two,
                          double horizon, double contact_gap) {
-  const auto circle = [](const GrowingEllipse& body) {
-    return Circle{body.circumradius(), body.growth_rate * body.shape.a};
-  };
-  if (one.body.shape.is_round() && two.body.shape.is_round())
-    return circles(one, circle(one.body), two, circle(two.body), horizon, contact_gap);
-  return search(one, two, horizon, contact_gap);
+  return meet(one, two, horizon, contact_gap, nullptr);
+}
+
+Prediction first_contact(const Flight<Ellipse>& one, const Flight<Ellipse>& two, double horizon,
+                         double contact_gap, const Vec2& likely_axis) {
+  return meet(one, two, horizon, contact_gap, &likely_axis);
+}
+
+Prediction first_contact(const Flight<GrowingEllipse>& one, const Flight<GrowingEllipse>& two,
+                         double horizon, double contact_gap, const Vec2& likely_axis) {
+  return meet(one, two, horizon, contact_gap, &likely_axis);
 }
 
 Prediction first_contact(const Flight<Disk>& one, const Flight<Disk>& two, double horizon,

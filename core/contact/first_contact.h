@@ -51,6 +51,11 @@ Prediction first_contact(const Flight<Ellipse>& one, const Flight<Ellipse>& two,
                          double contact_gap);
 Prediction first_contact(const Flight<GrowingEllipse>& one, const Flight<GrowingEllipse>& two,
                          double horizon, double contact_gap);
+/// The same, beginning with an axis that is likely to separate them at the start.
+Prediction first_contact(const Flight<Ellipse>& one, const Flight<Ellipse>& two, double horizon,
+                         double contact_gap, const Vec2& likely_axis);
+Prediction first_contact(const Flight<GrowingEllipse>& one, const Flight<GrowingEllipse>& two,
+                         double horizon, double contact_gap, const Vec2& likely_axis);
 Prediction first_contact(const Flight<Disk>& one, const Flight<Disk>& two, double horizon,
                          double contact_gap);
 

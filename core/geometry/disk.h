@@ -19,4 +19,9 @@ struct Disk {
 
 static_assert(Body<Disk>);
 
+/// The same shape, of another size.
+inline Disk scaled(const Disk& disk, double size) {
+  return {size * disk.radius};
+}
+
 }  // namespace vitrel

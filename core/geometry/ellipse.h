@@ -26,6 +26,11 @@ struct Ellipse {
 
 static_assert(Body<Ellipse>);
 
+/// The same shape, of another size.
+inline Ellipse scaled(const Ellipse& ellipse, double size) {
+  return {size * ellipse.a, size * ellipse.b};
+}
+
 /// Perimeter, by the complete elliptic integral of the second kind: 4 a E(√(1 − b²/a²)).
 double perimeter(const Ellipse& ellipse);
 

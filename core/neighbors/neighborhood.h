@@ -3,81 +3,118 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <span>
 #include <vector>
 
+#include "core/contact/first_look.h"
 #include "core/contact/pair.h"
 #include "core/geometry/periodic_box.h"
 #include "core/neighbors/cell_grid.h"
+#include "core/neighbors/list_pool.h"
 
 namespace vitrel {
+
+/// Another particle's image (j, shift), seen at r_j + shift ∘ L.
+struct NeighborImage {
+  std::uint32_t other;
+  Shift<2> shift;
+};
+
+/// An image as a neighbour, with what the looks at this pair remember.
+template <Body B>
+struct Neighbor : NeighborImage {
+  [[no_unique_address]] typename FirstLook<B>::Memory memory;
+};
 
 /// Neighbour lists shaped like the particles (after Donev, Torquato & Stillinger, 2005).
 ///
 /// Every particle carries a fixed neighbourhood: its own shape at a reference pose, widened all
 /// around by `margin`. While it stays inside, only particles whose neighbourhoods meet its own can
-/// touch it; when it leaves, its reference pose and list alone are renewed. A body moved by Δr and
-/// turned by Δθ is inside its neighbourhood if |Δr| + swing |Δθ| ≤ margin, since its support
-/// function has changed by no more than that in any direction. Two neighbourhoods are disjoint if
-/// the bodies at their reference poses are 2 margin apart. Cells only find candidates.
+/// touch it; when it leaves, its reference pose and list alone are renewed. A body moved by Δr,
+/// turned by Δθ and grown by Δσ is inside its neighbourhood if
+///     |Δr| + σ swing |Δθ| + max(Δσ, 0) circumradius ≤ margin,
+/// since its support function has grown by no more than that in any direction. Two neighbourhoods
+/// are disjoint if the bodies at their reference poses are 2 margin apart. Cells only find
+/// candidates.
 ///
 /// The margin is the one that gives a wanted mean number of neighbours in the configuration at
-/// hand. Neighbours are images (j, shift), seen at r_j + shift ∘ L; a particle's own images are
-/// among them, each unordered pair (i, i, ±shift) once.
+/// hand. A particle's own images are among its neighbours, each unordered pair (i, i, ±shift) once.
 template <Body B>
 class Neighborhoods {
  public:
-  struct Neighbor {
-    std::uint32_t other;
-    Shift<2> shift;
-  };
+  using Shape = typename FirstLook<B>::Shape;
 
-  /// `bodies` must outlive this object; `poses` are wrapped into the box.
-  Neighborhoods(const PeriodicBox<2>& box, std::span<const B> bodies, std::span<const Pose2> poses,
-                double wanted_neighbors)
+  /// `shapes` (at size 1) must outlive this object; all have size 1; `poses` are wrapped into the
+  /// box.
+  Neighborhoods(const PeriodicBox<2>& box, std::span<const Shape> shapes,
+                std::span<const Pose2> poses, double wanted_neighbors)
       : box_(box),
-        bodies_(bodies),
-        reference_(poses.begin(), poses.end()),
-        lists_(bodies.size()),
+        shapes_(shapes),
+        reference_(poses.size()),
         largest_(largest_circumradius()),
-        cells_(box, 2 * largest_, bodies.size()) {
-    for (std::size_t i = 0; i < bodies_.size(); ++i) cells_.insert(i, reference_[i].position);
+        cells_(box, 2 * largest_, shapes.size()) {
+    for (std::size_t i = 0; i < shapes_.size(); ++i) {
+      reference_[i] = {poses[i], 1};
+      cells_.insert(i, poses[i].position);
+    }
     const std::vector<Pair> pairs = pairs_closer_than(widest_gap(wanted_neighbors));
     margin_ = 0.5 * choose_gap(pairs, wanted_neighbors);
+    std::vector<std::uint32_t> counts(shapes_.size());
+    const auto near = [&](const Pair& pair) { return pair.gap < 2 * margin_; };
     for (const Pair& pair : pairs)
-      if (pair.gap < 2 * margin_) link(pair.i, pair.j, pair.shift);
+      if (near(pair)) ++counts[pair.i], ++counts[pair.image.other];
+    lists_.reserve(counts);
+    for (const Pair& pair : pairs)
+      if (near(pair)) link(pair.i, pair.image.other, pair.image.shift, pair.axis);
   }
 
-  std::span<const Neighbor> of(std::size_t i) const { return lists_[i]; }
+  std::span<Neighbor<B>> of(std::size_t i) { return lists_[i]; }
   double margin() const { return margin_; }
 
-  /// New reference pose (wrapped into the box) and new list for particle i.
-  void renew(std::size_t i, const Pose2& pose) {
+  /// New reference pose (wrapped into the box), size and list for particle i.
+  void renew(std::size_t i, const Pose2& pose, double size) {
     unlink(i);
-    reference_[i] = pose;
+    reference_[i] = {pose, size};
     cells_.move(i, pose.position);
-    visit_pairs_of(i, 2 * margin_, [&](std::size_t j, const Shift<2>& shift, const Vec2& d) {
-      if (!separated(bodies_[i], reference_[i], bodies_[j], reference_[j], d, 2 * margin_))
-        link(i, j, shift);
-    });
+    visit_near(i, 2 * margin_,
+               [&](std::size_t j, const Shift<2>& shift, const SupportGap& gap) {
+                 link(i, j, shift, gap.normal);
+               });
   }
 
-  /// The earliest time at which particle i, now at `pose`, can leave its neighbourhood: the smaller
-  /// of the roots of |Δr + v s| ± swing (Δθ + ω s) = margin.
-  double exit_time(std::size_t i, const Pose2& pose, const Motion2& motion) const {
-    const Vec2 moved = pose.position - reference_[i].position;
-    const double swing = bodies_[i].swing();
-    const double turned = swing * (pose.angle - reference_[i].angle);
+  /// A time until which particle i, now at `pose` and of the common size, stays inside its
+  /// neighbourhood: without growth, exactly that of leaving it.
+  double exit_time(std::size_t i, const Pose2& pose, const Motion2& motion,
+                   const CommonSize& common) const {
+    // While growing by this fraction at most, the swing is bounded by that of the larger size.
+    constexpr double growth_at_once = 0.1;
+    const Reference& reference = reference_[i];
+    const double growing = std::max(common.growth_rate, 0.0);
+    const double most = common.size + (growing > 0 ? growth_at_once : 0);
+    const double radius = shapes_[i].circumradius();
+    const double swing = most * shapes_[i].swing();
+    const Vec2 moved = pose.position - reference.pose.position;
+    const double turned = swing * (pose.angle - reference.pose.angle);
     const double turning = swing * motion.angular_velocity;
-    return std::min(crossing(moved, motion.velocity, margin_ - turned, -turning),
-                    crossing(moved, motion.velocity, margin_ + turned, turning));
+    const double room = margin_ - radius * std::max(common.size - reference.size, 0.0);
+    const double narrowing = radius * growing;
+    const double exit =
+        std::min(crossing(moved, motion.velocity, room - turned, -turning - narrowing),
+                 crossing(moved, motion.velocity, room + turned, turning - narrowing));
+    return growing > 0 ? std::min(exit, growth_at_once / growing) : exit;
   }
 
  private:
+  struct Reference {
+    Pose2 pose;
+    double size;
+  };
   struct Pair {
     double gap;
-    std::uint32_t i, j;
-    Shift<2> shift;
+    Vec2 axis;
+    std::uint32_t i;
+    NeighborImage image;
   };
 
   // First s ≥ 0 with |r + v s| = room + growth s, for |r| ≤ room; 0 if outside already.
@@ -97,81 +134,79 @@ class Neighborhoods {
 
   double largest_circumradius() const {
     double largest = 0;
-    for (const B& body : bodies_) largest = std::max(largest, body.circumradius());
+    for (const Shape& shape : shapes_) largest = std::max(largest, shape.circumradius());
     return largest;
   }
 
   // A gap within which, at the mean density, there are surely more neighbours than wanted.
   double widest_gap(double wanted) const {
-    const double density = static_cast<double>(bodies_.size()) / box_.volume();
+    const double density = static_cast<double>(shapes_.size()) / box_.volume();
     const double reach = std::sqrt(2 * wanted / (std::numbers::pi * density));
     double smallest = largest_;
-    for (const B& body : bodies_) smallest = std::min(smallest, body.inradius());
+    for (const Shape& shape : shapes_) smallest = std::min(smallest, shape.inradius());
     return std::clamp(reach - 2 * smallest, smallest, 4 * largest_);
   }
 
-  static double choose_gap(std::vector<Pair> pairs, double wanted, std::size_t particles,
-                           double widest) {
-    const auto rank = static_cast<std::size_t>(0.5 * wanted * static_cast<double>(particles));
-    if (rank >= pairs.size()) return widest;
+  double choose_gap(std::vector<Pair> pairs, double wanted) const {
+    const auto rank = static_cast<std::size_t>(0.5 * wanted * static_cast<double>(shapes_.size()));
+    if (rank >= pairs.size()) return widest_gap(wanted);
     const auto nth = pairs.begin() + static_cast<std::ptrdiff_t>(rank);
     std::nth_element(pairs.begin(), nth, pairs.end(),
                      [](const Pair& one, const Pair& two) { return one.gap < two.gap; });
-    return nth->gap;
-  }
-
-  double choose_gap(const std::vector<Pair>& pairs, double wanted) const {
-    const double widest = widest_gap(wanted);
     // In a jammed packing gaps vanish; a neighbourhood must still leave room to move.
     const double narrowest = 1e-4 * largest_;
-    return std::max(choose_gap(pairs, wanted, bodies_.size(), widest), narrowest);
+    return std::max(nth->gap, narrowest);
   }
 
-  // Candidates (j, shift, d) of particle i by circumcircles, own images once per unordered pair.
+  // visit(j, shift, gap) for the images closer to particle i than `limit`, at their reference
+  // poses; own images once per unordered pair.
   template <class Visit>
-  void visit_pairs_of(std::size_t i, double gap, Visit&& visit) const {
-    const double reach = bodies_[i].circumradius() + largest_ + gap;
-    cells_.for_each_near(reference_[i].position, reach,
-                         [&](std::size_t j, const Shift<2>& shift, const Vec2& d) {
-                           if (j == i && !comes_after_zero(shift)) return;
-                           visit(j, shift, d);
-                         });
+  void visit_near(std::size_t i, double limit, Visit&& visit) const {
+    const Reference& mine = reference_[i];
+    const Shape one = scaled(shapes_[i], mine.size);
+    // The other references are older, of a size between 1 and this.
+    const double reach = one.circumradius() + largest_ * std::max(mine.size, 1.0) + limit;
+    cells_.for_each_near(
+        mine.pose.position, reach, [&](std::size_t j, const Shift<2>& shift, const Vec2& d) {
+          if (j == i && !comes_after_zero(shift)) return;
+          const Reference& other = reference_[j];
+          const SupportGap gap = gap_along_good_axis(one, mine.pose, scaled(shapes_[j], other.size),
+                                                  other.pose, d, limit);
+          if (gap.gap < limit) visit(j, shift, gap);
+        });
   }
 
   static bool comes_after_zero(const Shift<2>& shift) {
     return shift.x() > 0 || (shift.x() == 0 && shift.y() > 0);
   }
 
-  std::vector<Pair> pairs_closer_than(double gap) const {
+  std::vector<Pair> pairs_closer_than(double limit) const {
     std::vector<Pair> pairs;
-    for (std::size_t i = 0; i < bodies_.size(); ++i)
-      visit_pairs_of(i, gap, [&](std::size_t j, const Shift<2>& shift, const Vec2& d) {
-        if (j < i || separated(bodies_[i], reference_[i], bodies_[j], reference_[j], d, gap))
-          return;
-        const double here =
-            support_gap(bodies_[i], reference_[i], bodies_[j], reference_[j], d).gap;
-        pairs.push_back(
-            {here, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j), shift});
+    for (std::size_t i = 0; i < shapes_.size(); ++i)
+      visit_near(i, limit, [&](std::size_t j, const Shift<2>& shift, const SupportGap& gap) {
+        if (j < i) return;
+        pairs.push_back({gap.gap, gap.normal, static_cast<std::uint32_t>(i),
+                         {static_cast<std::uint32_t>(j), shift}});
       });
     return pairs;
   }
 
-  void link(std::size_t i, std::size_t j, const Shift<2>& shift) {
-    lists_[i].push_back({static_cast<std::uint32_t>(j), shift});
-    if (i != j) lists_[j].push_back({static_cast<std::uint32_t>(i), -shift});
+  void link(std::size_t i, std::size_t j, const Shift<2>& shift, const Vec2& axis) {
+    lists_.add(i, {{static_cast<std::uint32_t>(j), shift}, {axis}});
+    if (i != j) lists_.add(j, {{static_cast<std::uint32_t>(i), -shift}, {-axis}});
   }
 
   void unlink(std::size_t i) {
-    for (const Neighbor& neighbor : lists_[i])
+    for (const Neighbor<B>& neighbor : lists_[i])
       if (neighbor.other != i)
-        std::erase_if(lists_[neighbor.other], [i](const Neighbor& n) { return n.other == i; });
-    lists_[i].clear();
+        lists_.remove_if(neighbor.other, [i](const Neighbor<B>& n) { return n.other == i; });
+    lists_.clear(i);
   }
 
   PeriodicBox<2> box_;
-  std::span<const B> bodies_;
-  std::vector<Pose2> reference_;
-  std::vector<std::vector<Neighbor>> lists_;
+  std::span<const Shape> shapes_;
+  std::vector<Reference> reference_;
+  ListPool<Neighbor<B>> lists_;
   double largest_;
   CellGrid cells_;
   double margin_ = 0;

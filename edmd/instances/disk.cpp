@@ -4,8 +4,13 @@
 namespace vitrel {
 
 template <>
-Disk body_from<Disk>(const Ellipse& shape) {
-  return {shape.a};
+Disk shape_from<Disk>(const Ellipse& semi_axes) {
+  return {semi_axes.a};
+}
+
+template <>
+Disk body_from<Disk>(const Disk& shape, const CommonSize&) {
+  return shape;
 }
 
 template class Simulation<Disk>;

@@ -4,7 +4,7 @@
 namespace vitrel {
 
 template <>
-Ellipse body_from<Ellipse>(const Ellipse& shape) {
+Ellipse body_from<Ellipse>(const Ellipse& shape, const CommonSize&) {
   return shape;
 }
 

@@ -10,5 +10,6 @@ namespace vitrel {
 
 std::unique_ptr<Engine> make_disk_engine(const EngineOptions& options);
 std::unique_ptr<Engine> make_ellipse_engine(const EngineOptions& options);
+std::unique_ptr<Engine> make_growing_engine(const EngineOptions& options);
 
 }  // namespace vitrel

@@ -154,13 +154,13 @@ TEST(EllipsePair, DirectionsAreCosineAndSine) {
     const double size = std::pow(10, draw.uniform(-3, 7));
     const Lanes angle(draw.uniform(-size, size), draw.uniform(-1.5, 1.5));
     Lanes x, y;
-    directions(angle, x, y);
+    directions<Lanes>(angle, x, y);
     for (const int lane : {0, 1}) {
       ASSERT_NEAR(x[lane], std::cos(angle[lane]), close) << angle[lane];
       ASSERT_NEAR(y[lane], std::sin(angle[lane]), close) << angle[lane];
     }
     Lanes small_x, small_y;
-    small_directions(Lanes(angle[1], angle[1]), small_x, small_y);
+    small_directions<Lanes>({angle[1], angle[1]}, small_x, small_y);
     ASSERT_NEAR(small_x[0], std::cos(angle[1]), close);
     ASSERT_NEAR(small_y[0], std::sin(angle[1]), close);
   }

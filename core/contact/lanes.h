@@ -1,0 +1,118 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <experimental/simd>
+
+/// Arithmetic on a few numbers at once, and the formulas that are written once for either kind.
+namespace vitrel {
+
+/// A number for each of the two bodies of a pair.
+using Lanes = Eigen::Array2d;
+
+/// A number for each of several pairs.
+constexpr int many = 4;
+using Many = std::experimental::fixed_size_simd<double, many>;
+
+namespace detail {
+
+/// ±1, the sign bit of each lane.
+inline Lanes signs(const Lanes& x) {
+  return {std::copysign(1.0, x[0]), std::copysign(1.0, x[1])};
+}
+inline Many signs(const Many& x) {
+  return copysign(Many(1), x);
+}
+
+inline Lanes lesser(const Lanes& x, const Lanes& y) {
+  return x.min(y);
+}
+inline Many lesser(const Many& x, const Many& y) {
+  return min(x, y);
+}
+
+inline Lanes positive_part(const Lanes& x) {
+  return x.max(0);
+}
+inline Many positive_part(const Many& x) {
+  return max(x, Many(0));
+}
+
+inline bool all_below(const Lanes& x, double limit) {
+  return x.maxCoeff() < limit;
+}
+inline bool all_below(const Many& x, double limit) {
+  return all_of(x < limit);
+}
+
+// The series of sine and cosine for |x| ≤ π/2, to 2e-17, in parts that need not wait for each other
+// (Estrin's scheme). xx = x².
+template <class T>
+T sine_series(const T& x, const T& xx) {
+  const T x4 = xx * xx;
+  const T part1 = 1. / 120 * xx - 1. / 6;
+  const T part2 = 1. / 362880 * xx - 1. / 5040;
+  const T part3 = 1. / 6227020800 * xx - 1. / 39916800;
+  const T part4 = 1. / 355687428096000 * xx - 1. / 1307674368000;
+  const T part5 = 1. / 51090942171709440000. * xx - 1. / 121645100408832000;
+  const T x8 = x4 * x4;
+  return x + x * xx * ((part1 + x4 * part2) + x8 * ((part3 + x4 * part4) + x8 * part5));
+}
+
+template <class T>
+T cosine_series(const T& xx) {
+  const T x4 = xx * xx;
+  const T part1 = 1. / 24 - 1. / 720 * xx;
+  const T part2 = 1. / 40320 - 1. / 3628800 * xx;
+  const T part3 = 1. / 479001600 - 1. / 87178291200 * xx;
+  const T part4 = 1. / 20922789888000 - 1. / 6402373705728000 * xx;
+  const T x8 = x4 * x4;
+  const T part5 = x8 * (1. / 2432902008176640000);
+  return (1 - 0.5 * xx) + x4 * ((part1 + x4 * part2) + x8 * ((part3 + x4 * part4) + part5));
+}
+
+/// The same as directions, by the library: for angles of which a multiple of π is no longer taken
+/// off exactly.
+constexpr double far_angle = 1e6;
+template <class T>
+[[gnu::noinline]] void far_directions(const T& angle, T& x, T& y) {
+  for (int k = 0; k < static_cast<int>(angle.size()); ++k) {
+    x[k] = std::cos(static_cast<double>(angle[k]));
+    y[k] = std::sin(static_cast<double>(angle[k]));
+  }
+}
+
+}  // namespace detail
+
+/// Unit vectors (x, y) at the angles: cosine and sine to within 4 units in the last place of 1.
+template <class T>
+void directions(const T& angle, T& x, T& y) {
+  if (!detail::all_below(abs(angle), detail::far_angle))
+    return detail::far_directions(angle, x, y);
+  // Adding and subtracting this rounds to a whole number. π is taken off in three parts; a multiple
+  // of the first is exact.
+  constexpr double rounder = 0x1.8p52;
+  constexpr double pi_high = 0x1.921fb544p1;
+  constexpr double pi_middle = 0x1.0b4611a6p-33;
+  constexpr double pi_low = 0x1.3198a2e037073p-68;
+  const T k = (angle * 0.31830988618379067154 + rounder) - rounder;
+  const T rest = ((angle - k * pi_high) - k * pi_middle) - k * pi_low;
+  const T half = (0.5 * k + rounder) - rounder;
+  const T odd = k - 2 * half;
+  const T sign = 1 - 2 * abs(odd);
+  const T square = rest * rest;
+  x = sign * detail::cosine_series<T>(square);
+  y = sign * detail::sine_series<T>(rest, square);
+}
+
+constexpr double largest_small_angle = 1.5;
+
+/// The same for |angle| ≤ largest_small_angle.
+template <class T>
+void small_directions(const T& angle, T& x, T& y) {
+  const T square = angle * angle;
+  x = detail::cosine_series<T>(square);
+  y = detail::sine_series<T>(angle, square);
+}
+
+}  // namespace vitrel
