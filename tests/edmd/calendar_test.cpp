@@ -1,51 +1,197 @@
+#include "edmd/calendar.h"
+
 #include <gtest/gtest.h>
 
-#include <set>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <vector>
 
+#include "bench/lab/twins/heap_calendar.h"
+#include "bench/lab/twins/sorted_calendar.h"
+#include "bench/lab/twins/tournament_calendar.h"
 #include "core/random/stream.h"
-#include "edmd/calendar.h"
 
 namespace vitrel {
 namespace {
 
-// The slow twin: a sorted set of (time, particle).
-class SortedCalendar {
+constexpr double never = std::numeric_limits<double>::infinity();
+
+/// A calendar and its slow twin, through the same changes.
+template <class C>
+class Twins {
  public:
-  explicit SortedCalendar(std::size_t n) : time_(n, std::numeric_limits<double>::infinity()) {
-    for (std::size_t i = 0; i < n; ++i) order_.insert({time_[i], i});
-  }
+  explicit Twins(std::size_t n) : fast_(n), slow_(n) {}
+
   void set(std::size_t i, double time) {
-    order_.erase({time_[i], i});
-    time_[i] = time;
-    order_.insert({time, i});
+    fast_.set(i, time);
+    slow_.set(i, time);
   }
-  std::size_t earliest() const { return order_.begin()->second; }
+  std::size_t earliest() {
+    const std::size_t i = slow_.earliest();
+    EXPECT_EQ(fast_.earliest(), i);
+    EXPECT_EQ(fast_.time(i), slow_.time(i));
+    return i;
+  }
+  double time(std::size_t i) const { return slow_.time(i); }
+  bool all_times_agree() const {
+    for (std::size_t i = 0; i < slow_.size(); ++i)
+      if (fast_.time(i) != slow_.time(i)) return false;
+    return fast_.size() == slow_.size();
+  }
 
  private:
-  std::vector<double> time_;
-  std::set<std::pair<double, std::size_t>> order_;
+  C fast_;
+  lab::SortedCalendar slow_;
 };
 
-TEST(Calendar, EqualsASortedSetThroughRandomChanges) {
-  for (std::size_t n : {1, 2, 5, 17, 300}) {
-    Calendar calendar(n);
-    SortedCalendar sorted(n);
-    Stream draw(n, Purpose::tests);
-    for (int change = 0; change < 20'000; ++change) {
-      const std::size_t i = draw.below(n);
-      // Few distinct times, so that ties are common.
-      const double time = static_cast<double>(draw.below(50));
-      calendar.set(i, time);
-      sorted.set(i, time);
-      ASSERT_EQ(calendar.earliest(), sorted.earliest());
-      ASSERT_EQ(calendar.time(i), time);
-    }
+template <class C>
+class CalendarTest : public testing::Test {
+ protected:
+  const std::vector<std::size_t> sizes = {1, 2, 3, 5, 8, 9, 17, 64, 65, 1000};
+};
+
+using Calendars = testing::Types<Calendar, lab::HeapCalendar, lab::TournamentCalendar>;
+TYPED_TEST_SUITE(CalendarTest, Calendars, );
+
+// Waiting times as a run draws them.
+double exponential(Stream& draw) {
+  return -std::log1p(-draw.uniform());
+}
+
+TYPED_TEST(CalendarTest, NothingIsPlannedAtTheStart) {
+  for (const std::size_t n : this->sizes) {
+    TypeParam calendar(n);
+    ASSERT_EQ(calendar.size(), n);
+    EXPECT_EQ(calendar.earliest(), 0U);
+    for (std::size_t i = 0; i < n; ++i) EXPECT_EQ(calendar.time(i), never);
   }
 }
 
-TEST(Calendar, StartsWithNothingPlanned) {
-  const Calendar calendar(3);
-  EXPECT_EQ(calendar.time(calendar.earliest()), std::numeric_limits<double>::infinity());
+TYPED_TEST(CalendarTest, EqualTimesAreInOrderOfParticles) {
+  for (const std::size_t n : this->sizes) {
+    TypeParam calendar(n);
+    for (std::size_t i = n; i-- > 0;) calendar.set(i, 1);
+    for (std::size_t i = 0; i < n; ++i) {
+      ASSERT_EQ(calendar.earliest(), i);
+      calendar.set(i, 2);
+    }
+    ASSERT_EQ(calendar.earliest(), 0U);
+  }
+}
+
+TYPED_TEST(CalendarTest, OrderOfTimesSetInAnyOrder) {
+  Stream draw(3, Purpose::tests);
+  for (const std::size_t n : this->sizes) {
+    std::vector<double> times(n);
+    for (double& time : times) time = std::exp(draw.uniform(-28, 14));  // 1e-12 … 1e6
+    TypeParam calendar(n);
+    for (std::size_t i = 0; i < n; ++i) calendar.set(i, times[i]);
+    std::sort(times.begin(), times.end());
+    for (const double time : times) {
+      const std::size_t i = calendar.earliest();
+      ASSERT_EQ(calendar.time(i), time);
+      calendar.set(i, never);
+    }
+    EXPECT_EQ(calendar.earliest(), 0U);
+  }
+}
+
+// Few distinct times, so that ties are common, and not in order of time: the present does not exist.
+TYPED_TEST(CalendarTest, EqualsASortedSetThroughUnorderedChanges) {
+  for (const std::size_t n : this->sizes) {
+    Twins<TypeParam> twins(n);
+    Stream draw(n, Purpose::tests, 1);
+    for (int change = 0; change < 20'000; ++change) {
+      const std::uint64_t time = draw.below(50);
+      twins.set(draw.below(n), time < 40 ? static_cast<double>(time) : never);
+      if (draw.below(3) == 0) twins.earliest();
+    }
+    EXPECT_TRUE(twins.all_times_agree());
+    ASSERT_FALSE(this->HasFailure());
+  }
+}
+
+// As the event loop does it: the earliest is always changed, often to the same time or a little later,
+// often never; some others become sooner or later.
+TYPED_TEST(CalendarTest, EqualsASortedSetThroughARun) {
+  for (const std::size_t n : this->sizes) {
+    Twins<TypeParam> twins(n);
+    Stream draw(n, Purpose::tests, 2);
+    for (std::size_t i = 0; i < n; ++i) twins.set(i, exponential(draw));
+    double now = 0;
+    for (int event = 0; event < 30'000; ++event) {
+      const std::size_t i = twins.earliest();
+      const double next = twins.time(i);
+      ASSERT_GE(next, now);
+      if (next < never) now = next;
+      const std::uint64_t kind = draw.below(8);
+      const double wait = kind == 0 ? 0 : kind == 1 ? 1e-9 : exponential(draw);
+      twins.set(i, kind == 2 ? never : now + wait);
+      for (std::uint64_t more = draw.below(4); more > 0; --more)
+        twins.set(draw.below(n), draw.below(10) == 0 ? never : now + exponential(draw));
+    }
+    EXPECT_TRUE(twins.all_times_agree());
+    ASSERT_FALSE(this->HasFailure());
+  }
+}
+
+// The rate of events jumps by many orders of magnitude, up and down.
+TYPED_TEST(CalendarTest, EqualsASortedSetWhenTheScaleOfTimeChanges) {
+  for (const std::size_t n : {2, 17, 300}) {
+    Twins<TypeParam> twins(n);
+    Stream draw(n, Purpose::tests, 3);
+    double now = 0;
+    for (const double scale : {1.0, 1e-12, 1e6, 1e-6, 1e3, 0.0, 1e-3}) {
+      for (std::size_t event = 0; event < 100 * n; ++event) {
+        const std::size_t i = twins.earliest();
+        if (twins.time(i) < never) now = twins.time(i);
+        twins.set(i, now + scale * exponential(draw));
+        twins.set(draw.below(n), now + scale * exponential(draw));
+      }
+      ASSERT_FALSE(this->HasFailure());
+    }
+    EXPECT_TRUE(twins.all_times_agree());
+  }
+}
+
+TYPED_TEST(CalendarTest, EqualsASortedSetOverAMillionEventsOfManyParticles) {
+  const std::size_t n = 20'000;
+  Twins<TypeParam> twins(n);
+  Stream draw(n, Purpose::tests, 4);
+  for (std::size_t i = 0; i < n; ++i) twins.set(i, exponential(draw));
+  for (int event = 0; event < 500'000; ++event) {
+    const std::size_t i = twins.earliest();
+    const double now = twins.time(i);
+    twins.set(i, now + exponential(draw));
+    twins.set((i + draw.below(100)) % n, now + exponential(draw));
+  }
+  EXPECT_TRUE(twins.all_times_agree());
+}
+
+// Whatever was planned in between, the order is that of the times alone.
+TYPED_TEST(CalendarTest, OrderDoesNotDependOnHistory) {
+  const std::size_t n = 200;
+  Stream draw(5, Purpose::tests);
+  TypeParam fresh(n), used(n);
+  for (int change = 0; change < 10'000; ++change) {
+    used.set(draw.below(n), draw.uniform());
+    if (change % 7 == 0) used.set(used.earliest(), 1 + draw.uniform());
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto time = static_cast<double>(draw.below(20));
+    fresh.set(i, time);
+    used.set(n - 1 - i, 100);
+    used.set(i, time);
+  }
+  for (std::size_t i = 0; i < n; ++i) used.set(i, fresh.time(i));
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t i = fresh.earliest();
+    ASSERT_EQ(used.earliest(), i);
+    fresh.set(i, never);
+    used.set(i, never);
+  }
 }
 
 }  // namespace
