@@ -1,0 +1,196 @@
+#include "edmd/growth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "core/tolerances.h"
+#include "edmd/brownian.h"
+
+namespace vitrel {
+
+namespace {
+
+/// Growth of all lengths in one block, at most, so that the unit of length changes little; and that
+/// growth times Z, so that kT does (it rises by twice as much) and Z, too.
+constexpr double largest_growth = 0.01, largest_compression = 0.05;
+
+/// The time average of a temperature that rises exponentially from 1 to `end`.
+double mean_of_rise(double end) {
+  const double rise = end - 1;
+  return rise == 0 ? 1 : rise / std::log1p(rise);
+}
+
+/// sqrt(target/energy), or 1 where there is no energy to scale.
+double scale_to(double target, double energy) {
+  return energy > 0 ? std::sqrt(target / energy) : 1;
+}
+
+class Growth {
+ public:
+  Growth(Configuration2& configuration, const GrowthReport& before, const GrowthOptions& options)
+      : configuration_(configuration),
+        options_(options),
+        shapes_(configuration.shape),
+        start_time_(configuration.time),
+        start_fraction_(vitrel::packing_fraction(configuration)),
+        translations_(static_cast<double>(configuration.size()) - 1),
+        rotations_(0.5 * static_cast<double>(rotor_count(configuration))),
+        report_(before) {
+    check();
+    EngineOptions engine;
+    engine.growth_rate = options.growth_rate;
+    engine_ = make_engine(configuration, engine);
+  }
+
+  void begin() {
+    draw_velocities(configuration_, options_.seed, Purpose::velocities, 0, Temperature::relative);
+    // Alone, a particle would keep its momentum.
+    if (configuration_.size() == 1) configuration_.velocity[0] = Vec2::Zero();
+  }
+
+  GrowthReport run(const Budget& budget) {
+    while (true) {
+      if (at_packing_fraction()) return ended(StageEnd::reached, "the packing fraction");
+      if (at_pressure()) return ended(StageEnd::reached, "the reduced pressure");
+      if (jammed()) return ended(StageEnd::stuck, "the particles are jammed");
+      if (budget.stop_requested()) return ended(StageEnd::stopped, "growth was stopped");
+      block();
+      budget.tell({progress(), packing_fraction(), "packing fraction"});
+    }
+  }
+
+ private:
+  double packing_fraction() const { return vitrel::packing_fraction(configuration_); }
+  double rate() const { return options_.growth_rate; }
+
+  void check() const {
+    if (!options_.packing_fraction && !options_.reduced_pressure)
+      throw UserError("growth has no goal: give a packing fraction or a reduced pressure");
+    if (rate() == 0 || !std::isfinite(rate()))
+      throw UserError("growth at the rate " + std::to_string(rate()) +
+                      " leads nowhere: the rate must be finite and not 0");
+    if (translations_ + rotations_ == 0)
+      throw UserError("growth needs particles that can move; a lone disk cannot");
+    const bool shrinks = rate() < 0;
+    const bool away =
+        options_.packing_fraction
+            ? !at_packing_fraction() && shrinks != (*options_.packing_fraction < start_fraction_)
+            : shrinks;
+    if (away)
+      throw UserError("growth at the rate " + std::to_string(rate()) +
+                      " leads away from its goal, from a packing fraction of " +
+                      std::to_string(start_fraction_));
+  }
+
+  void block() {
+    configuration_.time = 0;
+    const double virial = report_.counters.virial;
+    const double to_goal = time_to_goal();
+    const double most = std::min(largest_growth, largest_compression / report_.reduced_pressure);
+    const double end = std::min(to_goal, most / std::abs(rate()));
+    engine_->load(configuration_, end);
+    const bool at_end = engine_->advance(end, report_.counters) == Engine::Stop::time;
+    engine_->write(configuration_);
+    const double time = configuration_.time;
+    stands_still_ = !(time > 0);
+    // The last block may be cut so short that it holds hardly any collisions.
+    const bool short_block = at_end && end == to_goal && report_.reduced_pressure > 0;
+    if (!stands_still_ && !short_block) note_pressure(report_.counters.virial - virial, time);
+    report_.time += time;
+    divide_lengths(1 + rate() * time);
+    rescale_velocities();
+    configuration_.time = start_time_;
+  }
+
+  double time_to_goal() const {
+    if (!options_.packing_fraction) return std::numeric_limits<double>::infinity();
+    return (std::sqrt(*options_.packing_fraction / packing_fraction()) - 1) / rate();
+  }
+
+  void note_pressure(double virial, double time) {
+    const Mechanics sums = mechanics(configuration_);
+    const double temperature =
+        (sums.translational_energy + sums.rotational_energy) / (translations_ + rotations_);
+    const double n = static_cast<double>(configuration_.size());
+    report_.reduced_pressure = 1 + virial / (2 * n * mean_of_rise(temperature) * time);
+  }
+
+  void divide_lengths(double size) {
+    configuration_.shape = shapes_;
+    configuration_.box = PeriodicBox<2>(configuration_.box.lengths() / size);
+    for (std::size_t i = 0; i < configuration_.size(); ++i) {
+      configuration_.position[i] /= size;
+      configuration_.box.wrap(configuration_.position[i], configuration_.image[i]);
+    }
+  }
+
+  void rescale_velocities() {
+    const Mechanics sums = mechanics(configuration_);
+    const double translation = scale_to(translations_, sums.translational_energy);
+    const double rotation = scale_to(rotations_, sums.rotational_energy);
+    for (Vec2& v : configuration_.velocity) v *= translation;
+    for (double& omega : configuration_.angular_velocity) omega *= rotation;
+  }
+
+  bool at_packing_fraction() const {
+    return options_.packing_fraction && std::abs(packing_fraction() / *options_.packing_fraction -
+                                                 1) <= tolerance::given_fraction;
+  }
+  bool at_pressure() const {
+    return options_.reduced_pressure && rate() > 0 &&
+           report_.reduced_pressure >= *options_.reduced_pressure;
+  }
+  bool jammed() const {
+    return stands_still_ || report_.reduced_pressure > greatest_reduced_pressure;
+  }
+
+  // By the logarithms, in which growth is about even.
+  double progress() const {
+    double done = 0;
+    if (options_.packing_fraction)
+      done = std::log(packing_fraction() / start_fraction_) /
+             std::log(*options_.packing_fraction / start_fraction_);
+    if (options_.reduced_pressure)
+      done = std::max(done, std::log(std::max(1.0, report_.reduced_pressure)) /
+                                std::log(*options_.reduced_pressure));
+    return std::clamp(done, 0.0, 1.0);
+  }
+
+  GrowthReport ended(StageEnd end, const std::string& how) {
+    report_.end = end;
+    report_.packing_fraction = packing_fraction();
+    report_.reason = how + (end == StageEnd::reached ? " was reached," : ",") +
+                     " at a packing fraction of " + std::to_string(report_.packing_fraction) +
+                     " and a reduced pressure of " + std::to_string(report_.reduced_pressure);
+    return report_;
+  }
+
+  Configuration2& configuration_;
+  const GrowthOptions& options_;
+  const std::vector<Ellipse> shapes_;
+  const double start_time_, start_fraction_;
+  const double translations_, rotations_;  // energies at kT = 1: N − 1 and N_rot/2
+  std::unique_ptr<Engine> engine_;
+  bool stands_still_ = false;
+  GrowthReport report_;
+};
+
+}  // namespace
+
+GrowthReport grow(Configuration2& configuration, const GrowthOptions& options,
+                  const Budget& budget) {
+  Growth growth(configuration, {}, options);
+  growth.begin();
+  return growth.run(budget);
+}
+
+GrowthReport resume_growth(Configuration2& configuration, const GrowthReport& before,
+                           const GrowthOptions& options, const Budget& budget) {
+  return Growth(configuration, before, options).run(budget);
+}
+
+}  // namespace vitrel

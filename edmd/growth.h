@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/state/configuration.h"
+#include "core/state/stage.h"
+#include "edmd/engine.h"
+
+/// Growth of hard particles in motion, to a wanted packing fraction or until they jam: Newtonian
+/// dynamics in which all semi-axes of all particles grow alike,
+///
+///     a_i(t) = (1 + γ t) a_i,   b_i(t) = (1 + γ t) b_i,   φ(t) = (1 + γ t)² φ(0).
+///
+/// Conventions: masses stay, the moment of inertia is m (a² + b²)/4 of the axes of the moment, and
+/// ω is constant in flight. In an impact the surfaces' own speed s = γ (h₁ + h₂) along the normal
+/// (h the support functions) adds to the approach speed, so that every impulse J does the work J s
+/// and the particles heat up.
+///
+/// Velocities are drawn at the start (brownian.h). Steps of one block, which ends after a fixed count
+/// of events, or earlier: when all has grown by 1 %, or kT has risen by some 10 %:
+///   1. The engine runs with growth rate γ.
+///   2. Reduced pressure Z = βP/ρ = 1 + Σ J n·d/(2 N ⟨kT⟩ t), d from centre to centre. kT = 2E/f,
+///      f = 2(N − 1) + N_rot, rises exponentially at constant Z; ⟨kT⟩ is the mean of such a rise.
+///   3. All lengths are divided by 1 + γ t: growing is the same as shrinking the box, and the
+///      particles have the sizes of their species again.
+///   4. Velocities are rescaled to kT = 1: to N − 1 for the translational and N_rot/2 for the
+///      rotational energy, each by its own factor, as when velocities are drawn. One factor for
+///      both would let them drift apart where they hardly couple: impacts of nearly round particles
+///      heat translation only.
+/// So γ is always relative to the present size and in units of √(m a b/kT) of the reference
+/// species.
+///
+/// Near jamming all gaps shrink together and Z ≈ C/(1 − φ/φ_J), in a true jam with C the number of
+/// degrees of freedom per particle, less the share of rattlers (disks 2, ellipses 3). Collisions per
+/// time rise like Z, and from Z to e Z it takes about 1/γ (disks) to 2/γ (ellipses) collisions per
+/// particle whatever Z is: the rate needs no lowering near jamming. It decides how long the liquid
+/// can order before it falls out of equilibrium, and thereby φ_J.
+///
+/// Growth always ends, since φ < 1. Validity: |γ| well below 1 (beyond, the surfaces are faster than
+/// the particles, and Z means nothing), Z up to `greatest_reduced_pressure`.
+/// Sources: lubachevsky1990, donev2005.
+namespace vitrel {
+
+/// Beyond, gaps come near to the rounding of the coordinates, and particles count as jammed.
+inline constexpr double greatest_reduced_pressure = 1e9;
+
+struct GrowthOptions {
+  double growth_rate = 1e-3;               ///< γ, relative, per unit of time; negative to shrink
+  std::optional<double> packing_fraction;  ///< ends there, exactly (tolerance::given_fraction)
+  std::optional<double> reduced_pressure;  ///< ends with the first block of such a pressure
+  std::uint64_t seed = 1;                  ///< of the velocities drawn at the start
+};
+
+/// The end of a growth, with counts since its start.
+struct GrowthReport : StageReport {
+  double packing_fraction = 0;
+  double reduced_pressure = 0;  ///< of the last block that ran to its end; 0 if there was none
+  double time = 0;              ///< all blocks, each in its own unit of time
+  RunCounters counters;
+};
+
+/// Grows from the start: `reached` at the wanted packing fraction or pressure, whichever comes first; `stuck` if the
+/// particles are jammed before; `stopped` by the budget, at a block end. In any case the state is
+/// hard, with shapes as given and a smaller (γ < 0: larger) box, net momentum 0 and kT = 1; its time
+/// is as given. Throws UserError if there is no goal, if γ leads away from it, or if nothing can
+/// move (a lone disk); InvariantError on an overlap, or if a particle grows into its own image and
+/// cannot turn away.
+GrowthReport grow(Configuration2& configuration, const GrowthOptions& options,
+                  const Budget& budget);
+
+/// Goes on after `stopped`, from what that call left and returned, bit by bit as if it had not been
+/// stopped.
+GrowthReport resume_growth(Configuration2& configuration, const GrowthReport& before,
+                           const GrowthOptions& options, const Budget& budget);
+
+}  // namespace vitrel
