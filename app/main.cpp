@@ -173,6 +173,19 @@ class CommandLine {
                             bench_overlap_command);
     add_benchmark(overlap);
     add_pairs(overlap, "Pairs of each class (20000)", "Seconds that a criterion may take (1)");
+    CLI::App& thesis =
+        add(bench, "thesis", "The figures of the thesis, chapter 4, beside a program like its own.",
+            bench_thesis_command);
+    add_measured(thesis, "Folder for the charts and the data as JSON");
+    thesis
+        .add_option("--seconds", arguments_.seconds,
+                    "Seconds after which a run of the thesis's program is cut short (1)")
+        ->check(CLI::PositiveNumber);
+    thesis.add_option("--largest", arguments_.largest, "Largest number of particles (400)")
+        ->check(CLI::PositiveNumber);
+    thesis.add_option("--runs", arguments_.runs, "Runs that are averaged in figure 4.7 (32)")
+        ->check(CLI::PositiveNumber);
+    add_duration(thesis, "Simulated time of each run (100)");
     CLI::App& run = add(bench, "whole-run",
                         "The scene of the thesis, run with every method that can carry a run.",
                         bench_whole_run_command);
@@ -180,9 +193,12 @@ class CommandLine {
     add_duration(run, "Simulated time of each run (100)");
   }
   void add_benchmark(CLI::App& sub) {
-    sub.footer(exit_codes + "5 stopped (rows of what was done, no files).");
-    add_output(sub, "Folder for the page, its pictures and the rows as JSON", false);
+    add_measured(sub, "Folder for the page, its pictures and the rows as JSON");
     sub.add_option("--method", arguments_.methods, "Only these methods, by name");
+  }
+  void add_measured(CLI::App& sub, const std::string& folder) {
+    sub.footer(exit_codes + "5 stopped (rows of what was done, no files).");
+    add_output(sub, folder, false);
     sub.add_option("--seed", arguments_.seed, "Seed of all random numbers (1)");
     add_wall_time(sub);
     add_quiet_and_json(sub);

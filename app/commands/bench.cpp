@@ -7,6 +7,7 @@
 #include "app/workflow/bench/overlap.h"
 #include "app/workflow/bench/picture.h"
 #include "app/workflow/bench/scene.h"
+#include "app/workflow/bench/thesis.h"
 #include "app/workflow/bench/whole_run.h"
 #include "app/workflow/text_file.h"
 #include "bench/lab/recorded_class.h"
@@ -177,6 +178,32 @@ int bench_overlap_command(const Arguments& arguments) {
                  session);
   write_files(arguments.output, "overlap", overlap_json(survey.rows), how,
               chart_svg(overlap_chart(survey.rows)), overlap_page(survey.rows, how));
+  return success;
+}
+
+int bench_thesis_command(const Arguments& arguments) {
+  ThesisRequest request;
+  request.seconds = arguments.seconds.value_or(request.seconds);
+  request.duration = arguments.duration.value_or(request.duration);
+  request.relaxations = arguments.runs.value_or(request.relaxations);
+  request.largest = arguments.largest.value_or(request.largest);
+  request.seed = arguments.seed.value_or(request.seed);
+  Session session(arguments);
+  const ThesisBench bench = bench_thesis(request, session.budget(), session.say());
+  print_rows(arguments, thesis_rows_json(bench.by_size), thesis_text(bench));
+  if (bench.stopped) return stopped_early(arguments);
+  if (arguments.output.empty()) return success;
+  Json data = thesis_json(bench);
+  data["provenance"] = as_json(provenance(
+      arguments,
+      {{"runs", fmt::format("{:g} units of time, up to {} particles, seed {}", request.duration,
+                            request.largest, request.seed)},
+       {"time limit", fmt::format("{:g} s for a run of the thesis's program", request.seconds)}},
+      session));
+  fs::create_directories(arguments.output);
+  write_text(arguments.output / "thesis.json", data.dump(2) + "\n");
+  for (const ThesisFigure& figure : thesis_figures(bench))
+    write_text(arguments.output / figure.file, chart_svg(figure.chart));
   return success;
 }
 

@@ -40,6 +40,8 @@ struct Arguments {
   std::optional<double> tolerance;            ///< of the judge
   std::optional<double> gap_tolerance;        ///< of the judge, if gaps have another one
   std::optional<double> duration;             ///< of whole runs
+  std::optional<int> largest;                 ///< number of particles
+  std::optional<int> runs;                    ///< that are averaged
 };
 
 int prepare_command(const Arguments& arguments);
@@ -51,6 +53,7 @@ int report_command(const Arguments& arguments);
 int params_command(const Arguments& arguments);
 int bench_collision_time_command(const Arguments& arguments);
 int bench_overlap_command(const Arguments& arguments);
+int bench_thesis_command(const Arguments& arguments);
 int bench_whole_run_command(const Arguments& arguments);
 
 }  // namespace vitrel

@@ -3,8 +3,8 @@
 #include <limits>
 
 #include "bench/lab/methods/bracket.h"
+#include "bench/lab/twins/believed.h"
 #include "core/contact/pair.h"
-#include "edmd/collision_rule.h"
 #include "edmd/simulation.h"
 
 namespace vitrel::lab {
@@ -16,28 +16,16 @@ struct JudgedEllipse : Ellipse {
 };
 thread_local const Method* JudgedEllipse::method = nullptr;
 
-bool surfaces_approach(const CollisionCase& asked, const Prediction& contact) {
-  const auto arm = [&](const Flight<GrowingEllipse>& flight) {
-    const Vec2 centre = advanced(flight.pose, flight.motion, contact.time).position;
-    return cross(contact.point - centre, contact.normal);
-  };
-  return approach_speed(asked.one.motion, asked.two.motion,
-                        {contact.normal, arm(asked.one), arm(asked.two)}) > 0;
-}
-
-// Found by Simulation<JudgedEllipse> in place of the default predictor. A method that is not exact
-// finds the pair that has just collided touching still: a contact at which the surfaces recede is
-// none. Nor is an answer that did not come.
+// Found by Simulation<JudgedEllipse> in place of the default predictor. An answer that did not come
+// is no contact.
 Prediction first_contact(const Flight<JudgedEllipse>& one, const Flight<JudgedEllipse>& two,
-                         double horizon, double /*contact_gap*/) {
+                         double horizon, double /*contact_gap*/,
+                         const FirstLook<JudgedEllipse>::Memory& /*memory*/) {
   const auto plain = [](const Flight<JudgedEllipse>& flight) {
     return of_constant_size({flight.body, flight.pose, flight.motion});
   };
-  const CollisionCase asked{plain(one), plain(two), horizon};
-  const Prediction answer = JudgedEllipse::method->predict(asked);
-  const bool believed = answer.outcome == Outcome::overlap ||
-                        (answer.outcome == Outcome::contact && surfaces_approach(asked, answer));
-  return believed ? answer : Prediction{};
+  const Prediction answer = believed(*JudgedEllipse::method, {plain(one), plain(two), horizon});
+  return answer.outcome == Outcome::not_converged ? Prediction{} : answer;
 }
 
 class MethodEngine final : public Engine {
@@ -47,13 +35,16 @@ class MethodEngine final : public Engine {
     JudgedEllipse::method = &method;
   }
 
-  void load(const Configuration2& configuration) override { simulation_.load(configuration); }
+  void load(const Configuration2& configuration, double horizon) override {
+    simulation_.load(configuration, horizon);
+  }
   Stop advance(double until, RunCounters& counters) override {
     return simulation_.advance(until, counters);
   }
   void write(Configuration2& configuration) const override { simulation_.write(configuration); }
-  void set_velocities(const Configuration2& configuration, RunCounters& counters) override {
-    simulation_.set_velocities(configuration, counters);
+  void set_velocities(const Configuration2& configuration, double horizon,
+                      RunCounters& counters) override {
+    simulation_.set_velocities(configuration, horizon, counters);
   }
   std::string description() const override { return simulation_.description(); }
 
@@ -67,7 +58,7 @@ class MethodEngine final : public Engine {
 namespace vitrel {
 
 template <>
-lab::JudgedEllipse body_from<lab::JudgedEllipse>(const Ellipse& shape) {
+lab::JudgedEllipse body_from<lab::JudgedEllipse>(const Ellipse& shape, const CommonSize&) {
   return {shape};
 }
 
@@ -90,11 +81,11 @@ std::vector<CollisionCase> recorded_cases(const Configuration2& start, std::size
   MethodEngine engine(recording, {});
   Configuration2 now = start;
   RunCounters counters;
-  engine.load(now);
+  engine.load(now, Engine::never);
   while (cases.size() < count) {
     engine.advance(std::numeric_limits<double>::max(), counters);
     engine.write(now);
-    engine.load(now);
+    engine.load(now, Engine::never);
   }
   return cases;
 }

@@ -1,0 +1,26 @@
+#include "bench/lab/twins/believed.h"
+
+#include "edmd/collision_rule.h"
+
+namespace vitrel::lab {
+namespace {
+
+bool surfaces_approach(const CollisionCase& asked, const Prediction& contact) {
+  const auto arm = [&](const Flight<GrowingEllipse>& flight) {
+    const Vec2 centre = advanced(flight.pose, flight.motion, contact.time).position;
+    return cross(contact.point - centre, contact.normal);
+  };
+  return approach_speed(asked.one.motion, asked.two.motion,
+                        {contact.normal, arm(asked.one), arm(asked.two)}) > 0;
+}
+
+}  // namespace
+
+Prediction believed(const Method& method, const CollisionCase& asked) {
+  const Prediction answer = method.predict(asked);
+  if (answer.outcome == Outcome::contact && !surfaces_approach(asked, answer))
+    return {Outcome::not_converged};
+  return answer;
+}
+
+}  // namespace vitrel::lab

@@ -1,0 +1,87 @@
+// vitrel bench thesis from outside, and the exponent that it fits.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "app/workflow/bench/thesis.h"
+#include "tests/app/program.h"
+
+namespace vitrel {
+namespace {
+
+using testing::HasSubstr;
+using testing_program::Folder;
+using testing_program::Outcome;
+using testing_program::run;
+using Json = nlohmann::json;
+
+std::string content(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+TEST(BenchThesis, PrintsAndWrites) {
+  const Folder folder("bench_thesis");
+  const Outcome outcome =
+      run(folder.path(), {"bench", "thesis", "--duration", "0.5", "--seconds", "0.1", "--largest",
+                          "16", "--runs", "2", "--json", "-q", "-o", "out"});
+  ASSERT_EQ(outcome.code, 0) << outcome.errors;
+  const Json rows = Json::parse(outcome.output)["rows"];
+  ASSERT_EQ(rows.size(), 24u);  // N = 9 and 16; ellipses and circles; three programs; two dynamics
+  for (const Json& row : rows) {
+    for (const char* const key : {"predictions", "energy_drift", "deepest_overlap", "stood_still"})
+      EXPECT_TRUE(row.contains(key)) << key;
+    EXPECT_GT(row["collisions"], 0);
+    EXPECT_GT(row["seconds"], 0);
+    if (row["program"] != "vitrel") continue;
+    EXPECT_NEAR(row["simulated_time"], 0.5, 1e-9);
+    EXPECT_EQ(row["correction_moves"], 0);
+    EXPECT_EQ(row["samples"], 5);
+    EXPECT_EQ(row["samples_with_overlap"], 0);
+    EXPECT_LT(row["energy_drift"], 1e-13);
+  }
+  const Json data = Json::parse(content(folder / "out/thesis.json"));
+  EXPECT_EQ(data["rows"], rows);
+  EXPECT_EQ(data["exponents"].size(), 6u);
+  EXPECT_EQ(data["by_aspect_ratio"].size(), 18u);
+  EXPECT_EQ(data["energies"].size(), 6u);
+  EXPECT_EQ(data["relaxations"].size(), 6u);
+  EXPECT_TRUE(data["provenance"].contains("commit"));
+  int charts = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "out")) {
+    if (entry.path().extension() != ".svg") continue;
+    ++charts;
+    EXPECT_THAT(content(entry.path()), testing::Not(HasSubstr("nan"))) << entry.path();
+  }
+  EXPECT_EQ(charts, 9);
+}
+
+TEST(BenchThesis, RefusesNonsense) {
+  const Folder folder("bench_thesis_nonsense");
+  EXPECT_EQ(run(folder.path(), {"bench", "thesis", "--seconds", "0"}).code, 2);
+  EXPECT_EQ(run(folder.path(), {"bench", "thesis", "--largest", "-1"}).code, 2);
+  EXPECT_EQ(run(folder.path(), {"bench", "thesis", "--runs", "0"}).code, 2);
+}
+
+ThesisRow row_with(int particles, double seconds_per_time) {
+  ThesisRow row{lab::Program::thesis, {particles, 2}, 0, {}};
+  row.run.simulated_time = 4;
+  row.run.seconds = 4 * seconds_per_time;
+  return row;
+}
+
+TEST(GrowthExponent, IsThatOfAPowerLaw) {
+  std::vector<ThesisRow> rows;
+  for (const int particles : {9, 25, 100})
+    rows.push_back(row_with(particles, 3e-3 * particles * particles));
+  EXPECT_NEAR(growth_exponent(rows, lab::Program::thesis, 2), 2, 1e-12);
+  EXPECT_TRUE(std::isnan(growth_exponent(rows, lab::Program::ours, 2)));
+}
+
+}  // namespace
+}  // namespace vitrel
