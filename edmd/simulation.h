@@ -97,7 +97,7 @@ class Simulation final : public Engine {
     Index partner = 0;
     Index partner_version = 0;
     Shift<2> shift = Shift<2>::Zero();
-    Vec2 normal = Vec2::Zero();  // of a collision
+    Vec2 normal = Vec2::Zero();  // of a collision, unless the look is exact
   };
   /// An event and its time.
   struct Entry {
@@ -107,8 +107,8 @@ class Simulation final : public Engine {
   /// A first look under way: what is in its lanes.
   struct Glance {
     FirstLook<B> look;
-    Neighbor<B>* neighbor[many] = {};
-    double horizon[many] = {};  // times beyond which a contact is of no interest
+    Neighbor<B>* neighbor[FirstLook<B>::lanes] = {};
+    double horizon[FirstLook<B>::lanes] = {};  // times beyond which a contact is of no interest
     int count = 0;
   };
   /// Which neighbours a prediction asks about, and whether the partners' entries count.
@@ -150,6 +150,9 @@ class Simulation final : public Engine {
   void meet(Index i, const Event& event, RunCounters& counters);
   void impact(Index i, Index j, const Vec2& d, const Vec2& normal, RunCounters& counters);
   double overlap_event(Index i, Index j, const Vec2& d, Event& event) const;
+  Event collision(const NeighborImage& with, const Vec2& normal) const {
+    return {Event::What::collision, with.other, version_[with.other], with.shift, normal};
+  }
   [[noreturn]] void report_overlap(Index i, Index j) const;
   [[noreturn]] void report_wedge(Index i) const;
 
@@ -319,7 +322,7 @@ typename Simulation<B>::Entry Simulation<B>::next_entry(Index i, const Scope& sc
   const std::span<Neighbor<B>> neighbors = neighborhoods_->of(i);
   for (std::size_t next = 0; next < neighbors.size();) {
     next = gather(i, mine, scope, std::min(best.time, horizon_), next, glance);
-    glance.look.look();
+    glance.look.look(glance.count);
     counters.predictions += static_cast<std::uint64_t>(glance.count);
     for (int k = 0; k < glance.count; ++k) glance.neighbor[k]->memory = glance.look.memory(k);
     search_most_urgent_first(i, mine, glance, best, counters);
@@ -334,7 +337,7 @@ std::size_t Simulation<B>::gather(Index i, const Pose2& mine, const Scope& scope
   constexpr double forever = 1e100;
   const std::span<Neighbor<B>> neighbors = neighborhoods_->of(i);
   int k = 0;
-  for (; next < neighbors.size() && k < many; ++next) {
+  for (; next < neighbors.size() && k < FirstLook<B>::lanes; ++next) {
     Neighbor<B>& neighbor = neighbors[next];
     const Index j = neighbor.other;
     if (scope.only_later_ones && j < i) continue;
@@ -354,14 +357,16 @@ std::size_t Simulation<B>::gather(Index i, const Pose2& mine, const Scope& scope
 template <Body B>
 void Simulation<B>::search_most_urgent_first(Index i, const Pose2& mine, Glance& glance,
                                              Entry& best, RunCounters& counters) const {
-  for (int searched = 0; searched < glance.count; ++searched) {
-    int first = 0;
-    for (int k = 1; k < glance.count; ++k)
-      if (glance.look.open_until(k) < glance.look.open_until(first)) first = k;
-    if (!(now_ + glance.look.open_until(first) < best.time)) return;
-    const double horizon = std::min(glance.horizon[first], best.time);
-    search(i, mine, *glance.neighbor[first], horizon, best, counters);
-    glance.look.close(first);
+  for (int done = 0; done < glance.count; ++done) {
+    const int k = glance.look.most_urgent();
+    const double time = now_ + glance.look.open_until(k);
+    if (!(time < best.time)) return;
+    const Neighbor<B>& neighbor = *glance.neighbor[k];
+    if (FirstLook<B>::is_exact && time > now_)
+      best = {time, collision(neighbor, Vec2::Zero())};
+    else
+      search(i, mine, neighbor, std::min(glance.horizon[k], best.time), best, counters);
+    glance.look.close(k);
   }
 }
 
@@ -380,7 +385,7 @@ void Simulation<B>::search(Index i, const Pose2& mine, const Neighbor<B>& neighb
   ++counters.searches;
   counters.steps += static_cast<std::uint64_t>(touch.steps);
   if (touch.outcome == Outcome::none) return;
-  Event event{Event::What::collision, j, version_[j], neighbor.shift, touch.normal};
+  Event event = collision(neighbor, touch.normal);
   double wait = touch.time;
   if (touch.outcome == Outcome::not_converged) event.what = Event::What::look_again;
   if (touch.outcome == Outcome::overlap)
@@ -445,7 +450,9 @@ void Simulation<B>::meet(Index i, const Event& event, RunCounters& counters) {
     two.set_motion(motion2);
     ++counters.correction_moves;
   } else {
-    impact(i, j, d, event.normal, counters);
+    const Vec2 normal = FirstLook<B>::is_exact ? d.normalized() : event.normal;
+    impact(i, j, d, normal, counters);
+    neighborhoods_->remember(i, {j, event.shift}, normal);
   }
   ++version_[i];
   if (i != j) ++version_[j];

@@ -39,7 +39,7 @@ struct SupportAlong {
 };
 
 template <class T>
-SupportAlong<T> support_along(const T& bb, const T& stretch, const T& aabb, const T& ux,
+VITREL_INLINE SupportAlong<T> support_along(const T& bb, const T& stretch, const T& aabb, const T& ux,
                               const T& uy, const T& nx, const T& ny) {
   SupportAlong<T> s;
   s.along = nx * ux + ny * uy;
@@ -64,7 +64,7 @@ SupportAlong<T> support_along(const T& bb, const T& stretch, const T& aabb, cons
 ///     h'' ≤ K = min(ρ/q² − q h, (a² − b²)/b),
 /// the latter its largest value at all. K may be negative.
 template <class T>
-T bend_bound(const SupportAlong<T>& s, const T& bb, const T& stretch, const T& omega,
+VITREL_INLINE T bend_bound(const SupportAlong<T>& s, const T& bb, const T& stretch, const T& omega,
              const T& largest, const T& duration) {
   const T present = abs(s.along);
   const T slope = -omega * s.across * detail::signs(s.along);
@@ -90,7 +90,7 @@ struct GapAlongAxis : SupportAlong<Lanes> {
 
 /// `sized`: whether the sizes may differ from 1.
 template <bool sized = true>
-GapAlongAxis gap_along(const EllipsePair& pair, const Vec2& n) {
+VITREL_INLINE GapAlongAxis gap_along(const EllipsePair& pair, const Vec2& n) {
   const auto total = [&](const Lanes& of) {
     if constexpr (sized) return (pair.size * of).sum();
     return of.sum();

@@ -46,27 +46,58 @@ struct CommonSize {
 
 namespace detail {
 
+template <int lanes>
+using Simd = std::experimental::fixed_size_simd<double, lanes>;
+
 /// One number of each of several pairs, filled one by one.
-struct ManyInMemory {
-  alignas(many * sizeof(double)) double lane[many] = {};
+template <int lanes>
+struct NumbersOf {
+  alignas(std::experimental::memory_alignment_v<Simd<lanes>>) double lane[lanes] = {};
   double& operator[](int k) { return lane[k]; }
   double operator[](int k) const { return lane[k]; }
-  Many all() const { return Many(lane, std::experimental::vector_aligned); }
-  void store(const Many& x) { x.copy_to(lane, std::experimental::vector_aligned); }
+  Simd<lanes> all() const { return {lane, std::experimental::vector_aligned}; }
+  void store(const Simd<lanes>& x) { x.copy_to(lane, std::experimental::vector_aligned); }
 };
 
 constexpr double no_contact = std::numeric_limits<double>::infinity();
 
+/// What all looks have: a time for every lane.
+template <int lanes>
+class Urgencies {
+ public:
+  double open_until(int k) const { return open_until_[k]; }
+  /// The lane that is open for the shortest time.
+  int most_urgent() const {
+    const auto times = open_until_.all();
+    return find_first_set(times == hmin(times));
+  }
+  /// Nothing more is to be known of this lane.
+  void close(int k) { open_until_[k] = no_contact; }
+
+ protected:
+  void close_from(int k) {
+    for (; k < lanes; ++k) close(k);
+  }
+
+  NumbersOf<lanes> open_until_;
+};
+
 }  // namespace detail
 
-/// A look of a body at up to `many` partners. The body of a `GrowingEllipse` is `Shape` times the common
-/// size.
+/// A look of a body at up to `lanes` partners. The body of a `GrowingEllipse` is `Shape` times the
+/// common size.
 template <class B>
-class FirstLook {
+class FirstLook : public detail::Urgencies<many> {
   static constexpr bool grows = std::is_same_v<B, GrowingEllipse>;
+  /// A gap that stays above this fraction of the contact gap stays open. It lets a pair that has
+  /// just collided, and leaves, be settled too.
+  static constexpr double open_gap = 0.5;
 
  public:
   using Shape = Ellipse;
+  static constexpr int lanes = many;
+  /// Whether open_until is the time of contact if it is not 0.
+  static constexpr bool is_exact = false;
   /// What is remembered of a pair from one look to the next.
   struct Memory {
     Vec2 axis;
@@ -74,7 +105,7 @@ class FirstLook {
 
   FirstLook(const Outline<Shape>& outline, const Pose2& pose, const Motion2& motion,
             const CommonSize& common, double contact_gap)
-      : outline_(outline), motion_(motion), common_(common), contact_gap_(contact_gap) {
+      : outline_(outline), motion_(motion), common_(common), floor_(open_gap * contact_gap) {
     Lanes x, y;
     directions<Lanes>({pose.angle, pose.angle}, x, y);
     ux_ = x[0];
@@ -83,8 +114,8 @@ class FirstLook {
 
   /// Puts a partner into a lane: its pose, relative to this body's centre, and motion now, and how
   /// far to look ahead.
-  void set(int k, const Pose2& pose, const Motion2& motion, const Outline<Shape>& outline,
-           const Memory& memory, double horizon) {
+  VITREL_INLINE void set(int k, const Pose2& pose, const Motion2& motion,
+                         const Outline<Shape>& outline, const Memory& memory, double horizon) {
     dx_[k] = pose.position.x();
     dy_[k] = pose.position.y();
     vx_[k] = motion.velocity.x() - motion_.velocity.x();
@@ -99,51 +130,45 @@ class FirstLook {
     ny_[k] = memory.axis.y();
     horizon_[k] = horizon;
   }
+  Memory memory(int k) const { return {{nx_[k], ny_[k]}}; }
 
-  /// Finds, for every lane, a time before which the gap cannot fall below the contact gap: infinite
-  /// if it cannot up to the horizon, 0 if the axis separates nothing.
-  void look() {
-    const Many nx = nx_.all(), ny = ny_.all(), dx = dx_.all(), dy = dy_.all(), vx = vx_.all(),
-               vy = vy_.all(), omega2 = omega_.all(), horizon = horizon_.all();
-    const Many omega1 = motion_.angular_velocity;
+  /// Finds, for each of the first `count` lanes, a time before which there can be no contact:
+  /// infinite if there is none up to the horizon, 0 if the axis separates nothing. Turns the axes.
+  [[gnu::flatten]] void look(int count) {
+    const Many nx = nx_.all(), ny = ny_.all(), dx = dx_.all(), dy = dy_.all();
+    const Many bb = bb_.all(), stretch = stretch_.all(), omega2 = omega_.all();
+    const Many omega1 = motion_.angular_velocity, horizon = horizon_.all();
     Many ux, uy;
     directions<Many>(angle_.all(), ux, uy);
-    const SupportAlong<Many> one = support_along<Many>(outline_.bb, outline_.stretch,
-                                                       outline_.aabb, ux_, uy_, nx, ny);
-    const SupportAlong<Many> two =
-        support_along<Many>(bb_.all(), stretch_.all(), aabb_.all(), ux, uy, nx, ny);
+    const auto one = support_along<Many>(outline_.bb, outline_.stretch, outline_.aabb, ux_, uy_, nx, ny);
+    const auto two = support_along<Many>(bb, stretch, aabb_.all(), ux, uy, nx, ny);
     const Many heights = one.height + two.height;
-    const Many gap = nx * dx + ny * dy - sized(heights);
     const Many spin = omega1 * one.turning + omega2 * two.turning;
-    Many rate = nx * vx + ny * vy + sized(spin);
+    const Many gap = nx * dx + ny * dy - sized(heights);
+    Many rate = nx * vx_.all() + ny * vy_.all() + sized(spin);
     Many bend = bend_bound<Many>(one, outline_.bb, outline_.stretch, omega1,
                                  omega1 * omega1 * outline_.bend, horizon) +
-                bend_bound<Many>(two, bb_.all(), stretch_.all(), omega2,
-                                 omega2 * omega2 * bend_.all(), horizon);
+                bend_bound<Many>(two, bb, stretch, omega2, omega2 * omega2 * bend_.all(), horizon);
     if constexpr (grows) {
       const double growth = common_.growth_rate;
       rate -= growth * heights;
       bend = common_.size * bend + std::abs(growth) * horizon * abs(bend) - 2 * growth * spin;
     }
-    open_until_.store(first_root(gap - contact_gap_, rate, bend, horizon));
+    open_until_.store(first_root(gap - floor_, rate, bend, horizon));
+    close_from(count);
     turn_axes(nx, ny, gap, nx * dy - ny * dx - sized(one.turning + two.turning),
               sized(one.radius + two.radius));
   }
 
-  double open_until(int k) const { return open_until_[k]; }
-  /// Nothing more is to be known of this lane.
-  void close(int k) { open_until_[k] = detail::no_contact; }
-  Memory memory(int k) const { return {{nx_[k], ny_[k]}}; }
-
  private:
-  Many sized(const Many& x) const {
+  VITREL_INLINE Many sized(const Many& x) const {
     if constexpr (grows) return common_.size * x;
     return x;
   }
 
   // The first root of room + rate s − ½ M s², or infinity if it lies beyond the horizon.
-  static Many first_root(const Many& room, const Many& rate, const Many& bend,
-                         const Many& horizon) {
+  VITREL_INLINE static Many first_root(const Many& room, const Many& rate, const Many& bend,
+                                       const Many& horizon) {
     constexpr double nearly_straight = 1e-300;
     const Many acceleration = max(bend, Many(nearly_straight));
     const Many root = sqrt(rate * rate + 2. * acceleration * max(room, Many(0)));
@@ -155,11 +180,10 @@ class FirstLook {
     return time;
   }
 
-  void turn_axes(const Many& nx, const Many& ny, const Many& gap, const Many& slope,
-                 const Many& radii) {
-    const Many curvature = gap + radii;
-    Many turn = slope / curvature;
-    turn = min(max(turn, Many(-0.5)), Many(0.5));
+  // By Newton's method, as far as the axis can be trusted.
+  VITREL_INLINE void turn_axes(const Many& nx, const Many& ny, const Many& gap, const Many& slope,
+                               const Many& radii) {
+    const Many turn = min(max(slope / (gap + radii), Many(-0.5)), Many(0.5));
     const Many q = 0.5 * turn;
     const Many scale = 1. / (1. + q * q);
     const Many cosine = (1. - q * q) * scale, sine = turn * scale;
@@ -167,57 +191,63 @@ class FirstLook {
     ny_.store(cosine * ny + sine * nx);
   }
 
+  using Numbers = detail::NumbersOf<many>;
+
   Outline<Shape> outline_;
   Motion2 motion_;
   CommonSize common_;
-  double contact_gap_;
+  double floor_;
   double ux_, uy_;
-  detail::ManyInMemory dx_, dy_, vx_, vy_, angle_, omega_, bb_, stretch_, aabb_, bend_, nx_, ny_,
-      horizon_, open_until_;
+  Numbers dx_, dy_, vx_, vy_, angle_, omega_, bb_, stretch_, aabb_, bend_, nx_, ny_, horizon_;
 };
 
 template <>
-class FirstLook<Disk> {
+class FirstLook<Disk> : public detail::Urgencies<8> {
  public:
   using Shape = Disk;
+  static constexpr int lanes = 8;
+  static constexpr bool is_exact = true;
   struct Memory {
     Memory() = default;
     explicit(false) Memory(const Vec2& /*axis*/) {}
   };
 
-  FirstLook(const Outline<Disk>& outline, const Pose2& pose, const Motion2& motion,
+  FirstLook(const Outline<Disk>& outline, const Pose2& /*pose*/, const Motion2& motion,
             const CommonSize&, double contact_gap)
       : reach_(outline.radius + contact_gap), velocity_(motion.velocity) {}
 
-  void set(int k, const Pose2& pose, const Motion2& motion, const Outline<Disk>& outline,
-           const Memory&, double /*horizon*/) {
+  VITREL_INLINE void set(int k, const Pose2& pose, const Motion2& motion,
+                         const Outline<Disk>& outline, const Memory&, double horizon) {
     dx_[k] = pose.position.x();
     dy_[k] = pose.position.y();
     vx_[k] = motion.velocity.x() - velocity_.x();
     vy_[k] = motion.velocity.y() - velocity_.y();
     radius_[k] = outline.radius;
+    horizon_[k] = horizon;
   }
-
-  /// Times of contact in all lanes, infinite without; 0 for overlaps that close.
-  void look() {
-    const Many dx = dx_.all(), dy = dy_.all(), vx = vx_.all(), vy = vy_.all();
-    const Many reach = radius_.all() + reach_;
-    const Many b = dx * vx + dy * vy;
-    const Many c = dx * dx + dy * dy - reach * reach;
-    const Many discriminant = b * b - (vx * vx + vy * vy) * c;
-    Many time = c / (sqrt(max(discriminant, Many(0))) - b);
-    where(!(b < 0) || !(discriminant >= 0), time) = Many(detail::no_contact);
-    open_until_.store(max(time, Many(0)));
-  }
-  double open_until(int k) const { return open_until_[k]; }
-  /// Nothing more is to be known of this lane.
-  void close(int k) { open_until_[k] = detail::no_contact; }
   Memory memory(int) const { return {}; }
 
+  /// Finds the times of contact: infinite without, 0 for approaching pairs that touch or overlap.
+  [[gnu::flatten]] void look(int count) {
+    using Simd = detail::Simd<lanes>;
+    const Simd dx = dx_.all(), dy = dy_.all(), vx = vx_.all(), vy = vy_.all();
+    const Simd reach = radius_.all() + reach_;
+    const Simd b = dx * vx + dy * vy;
+    const Simd c = dx * dx + dy * dy - reach * reach;
+    const Simd discriminant = b * b - (vx * vx + vy * vy) * c;
+    Simd time = max(c / (sqrt(max(discriminant, Simd(0))) - b), Simd(0));
+    where(!(b < 0) || !(discriminant >= 0) || !(time < horizon_.all()), time) =
+        Simd(detail::no_contact);
+    open_until_.store(time);
+    close_from(count);
+  }
+
  private:
+  using Numbers = detail::NumbersOf<lanes>;
+
   double reach_;
   Vec2 velocity_;
-  detail::ManyInMemory dx_, dy_, vx_, vy_, radius_, open_until_;
+  Numbers dx_, dy_, vx_, vy_, radius_, horizon_;
 };
 
 /// first_contact, beginning with what a look remembered.

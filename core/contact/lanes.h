@@ -7,6 +7,9 @@
 /// Arithmetic on a few numbers at once, and the formulas that are written once for either kind.
 namespace vitrel {
 
+/// For short functions of several lanes, whose arguments would travel through memory.
+#define VITREL_INLINE [[gnu::always_inline]] inline
+
 /// A number for each of the two bodies of a pair.
 using Lanes = Eigen::Array2d;
 
@@ -17,38 +20,38 @@ using Many = std::experimental::fixed_size_simd<double, many>;
 namespace detail {
 
 /// ±1, the sign bit of each lane.
-inline Lanes signs(const Lanes& x) {
+VITREL_INLINE Lanes signs(const Lanes& x) {
   return {std::copysign(1.0, x[0]), std::copysign(1.0, x[1])};
 }
-inline Many signs(const Many& x) {
+VITREL_INLINE Many signs(const Many& x) {
   return copysign(Many(1), x);
 }
 
-inline Lanes lesser(const Lanes& x, const Lanes& y) {
+VITREL_INLINE Lanes lesser(const Lanes& x, const Lanes& y) {
   return x.min(y);
 }
-inline Many lesser(const Many& x, const Many& y) {
+VITREL_INLINE Many lesser(const Many& x, const Many& y) {
   return min(x, y);
 }
 
-inline Lanes positive_part(const Lanes& x) {
+VITREL_INLINE Lanes positive_part(const Lanes& x) {
   return x.max(0);
 }
-inline Many positive_part(const Many& x) {
+VITREL_INLINE Many positive_part(const Many& x) {
   return max(x, Many(0));
 }
 
-inline bool all_below(const Lanes& x, double limit) {
+VITREL_INLINE bool all_below(const Lanes& x, double limit) {
   return x.maxCoeff() < limit;
 }
-inline bool all_below(const Many& x, double limit) {
+VITREL_INLINE bool all_below(const Many& x, double limit) {
   return all_of(x < limit);
 }
 
 // The series of sine and cosine for |x| ≤ π/2, to 2e-17, in parts that need not wait for each other
 // (Estrin's scheme). xx = x².
 template <class T>
-T sine_series(const T& x, const T& xx) {
+VITREL_INLINE T sine_series(const T& x, const T& xx) {
   const T x4 = xx * xx;
   const T part1 = 1. / 120 * xx - 1. / 6;
   const T part2 = 1. / 362880 * xx - 1. / 5040;
@@ -60,7 +63,7 @@ T sine_series(const T& x, const T& xx) {
 }
 
 template <class T>
-T cosine_series(const T& xx) {
+VITREL_INLINE T cosine_series(const T& xx) {
   const T x4 = xx * xx;
   const T part1 = 1. / 24 - 1. / 720 * xx;
   const T part2 = 1. / 40320 - 1. / 3628800 * xx;
@@ -86,7 +89,7 @@ template <class T>
 
 /// Unit vectors (x, y) at the angles: cosine and sine to within 4 units in the last place of 1.
 template <class T>
-void directions(const T& angle, T& x, T& y) {
+VITREL_INLINE void directions(const T& angle, T& x, T& y) {
   if (!detail::all_below(abs(angle), detail::far_angle))
     return detail::far_directions(angle, x, y);
   // Adding and subtracting this rounds to a whole number. π is taken off in three parts; a multiple
@@ -109,7 +112,7 @@ constexpr double largest_small_angle = 1.5;
 
 /// The same for |angle| ≤ largest_small_angle.
 template <class T>
-void small_directions(const T& angle, T& x, T& y) {
+VITREL_INLINE void small_directions(const T& angle, T& x, T& y) {
   const T square = angle * angle;
   x = detail::cosine_series<T>(square);
   y = detail::sine_series<T>(angle, square);

@@ -154,7 +154,7 @@ SupportGap support_gap(const Ellipse& one, double angle1, const Ellipse& two, do
 
 SupportGap gap_along_good_axis(const Ellipse& one, double angle1, const Ellipse& two,
                                double angle2, const Vec2& d, double enough) {
-  constexpr int most_turns = 3;
+  constexpr int most_turns = 1;
   Lanes ux, uy;
   directions<Lanes>({angle1, angle2}, ux, uy);
   const EllipsePair pair(one, {ux[0], uy[0]}, two, {ux[1], uy[1]}, d);

@@ -57,8 +57,7 @@ class CellGrid {
     const Range y = covered(position, reach, 1);
     for (std::int64_t cx = x.low; cx <= x.high; ++cx)
       for (std::int64_t cy = y.low; cy <= y.high; ++cy) {
-        const Shift<2> shift(static_cast<std::int32_t>(floor_div(cx, count_[0])),
-                             static_cast<std::int32_t>(floor_div(cy, count_[1])));
+        const Shift<2> shift(boxes_off(cx, 0), boxes_off(cy, 1));
         const std::int64_t cell =
             (cx - shift.x() * count_[0]) * count_[1] + (cy - shift.y() * count_[1]);
         const Vec2 offset = box_.translation(shift) - position;
@@ -96,8 +95,12 @@ class CellGrid {
     }
   }
 
-  static std::int64_t floor_div(std::int64_t number, std::int64_t divisor) {
-    return number >= 0 ? number / divisor : -((-number + divisor - 1) / divisor);
+  // How many boxes a cell lies beyond the first.
+  std::int32_t boxes_off(std::int64_t cell, int k) const {
+    std::int32_t boxes = 0;
+    for (; cell < 0; cell += count_[k]) --boxes;
+    for (; cell >= count_[k]; cell -= count_[k]) ++boxes;
+    return boxes;
   }
 
   // Cells that [position − reach, position + reach] covers, with room for rounding at the edges.

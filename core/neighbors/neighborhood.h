@@ -53,7 +53,7 @@ class Neighborhoods {
         shapes_(shapes),
         reference_(poses.size()),
         largest_(largest_circumradius()),
-        cells_(box, 2 * largest_, shapes.size()) {
+        cells_(box, cell_reach(), shapes.size()) {
     for (std::size_t i = 0; i < shapes_.size(); ++i) {
       reference_[i] = {poses[i], 1};
       cells_.insert(i, poses[i].position);
@@ -71,6 +71,14 @@ class Neighborhoods {
 
   std::span<Neighbor<B>> of(std::size_t i) { return lists_[i]; }
   double margin() const { return margin_; }
+
+  /// The axis of a pair is known: `normal` points from i to the other.
+  void remember(std::size_t i, const NeighborImage& with, const Vec2& normal) {
+    for (Neighbor<B>& neighbor : lists_[i])
+      if (neighbor.other == with.other && neighbor.shift == with.shift) neighbor.memory = {normal};
+    for (Neighbor<B>& neighbor : lists_[with.other])
+      if (neighbor.other == i && neighbor.shift == -with.shift) neighbor.memory = {-normal};
+  }
 
   /// New reference pose (wrapped into the box), size and list for particle i.
   void renew(std::size_t i, const Pose2& pose, double size) {
@@ -99,9 +107,9 @@ class Neighborhoods {
     const double turning = swing * motion.angular_velocity;
     const double room = margin_ - radius * std::max(common.size - reference.size, 0.0);
     const double narrowing = radius * growing;
-    const double exit =
-        std::min(crossing(moved, motion.velocity, room - turned, -turning - narrowing),
-                 crossing(moved, motion.velocity, room + turned, turning - narrowing));
+    double exit = crossing(moved, motion.velocity, room - turned, -turning - narrowing);
+    if (swing != 0)
+      exit = std::min(exit, crossing(moved, motion.velocity, room + turned, turning - narrowing));
     return growing > 0 ? std::min(exit, growth_at_once / growing) : exit;
   }
 
@@ -136,6 +144,12 @@ class Neighborhoods {
     double largest = 0;
     for (const Shape& shape : shapes_) largest = std::max(largest, shape.circumradius());
     return largest;
+  }
+
+  // The reach that gives cells of half a particle, or with one particle each if these are larger.
+  double cell_reach() const {
+    const double spacing = std::sqrt(box_.volume() / static_cast<double>(shapes_.size()));
+    return 2 * std::max(largest_, spacing);
   }
 
   // A gap within which, at the mean density, there are surely more neighbours than wanted.
