@@ -14,12 +14,20 @@ double ratio(std::uint64_t part, std::uint64_t whole) {
   return static_cast<double>(part) / static_cast<double>(whole);
 }
 
+nlohmann::ordered_json growth_summary(const GrowthReport& growth) {
+  return {{"packing_fraction", growth.packing_fraction},
+          {"reduced_pressure", growth.reduced_pressure},
+          {"time", growth.time},
+          {"collisions", growth.counters.collisions},
+          {"predictions", growth.counters.predictions}};
+}
+
 nlohmann::ordered_json summary(const Preparation& preparation,
                                const std::filesystem::path& output) {
   const StageReport& counts = preparation.report;
   const std::uint64_t moves = counts.translations_tried + counts.rotations_tried;
   const ExactCheck check = exact_check(preparation.configuration);
-  return {
+  nlohmann::ordered_json result = {
       {"output", output.string()},
       {"particles", preparation.configuration.size()},
       {"packing_fraction", packing_fraction(preparation.configuration)},
@@ -31,6 +39,12 @@ nlohmann::ordered_json summary(const Preparation& preparation,
       {"acceptance_rotation", ratio(counts.rotations_accepted, counts.rotations_tried)},
       {"wall_seconds", preparation.wall_seconds},
       {"trial_moves_per_second", static_cast<double>(moves) / preparation.wall_seconds}};
+  if (!preparation.growth.empty()) {
+    result["reduced_pressure"] = preparation.growth.back().reduced_pressure;
+    for (const GrowthReport& growth : preparation.growth)
+      result["growth"].push_back(growth_summary(growth));
+  }
+  return result;
 }
 
 }  // namespace

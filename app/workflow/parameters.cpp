@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -20,7 +21,7 @@ constexpr double easy_insertion = 0.3;
 using Style = FieldVisitor::TableStyle;
 
 constexpr const char* distribution_names[] = {"gaussian", "lognormal", "uniform"};
-constexpr const char* method_names[] = {"lattice", "insert", "swell", "sample"};
+constexpr const char* method_names[] = {"lattice", "insert", "swell", "grow", "sample"};
 constexpr const char* arrangement_names[] = {"square", "triangular"};
 constexpr const char* orientation_names[] = {"random", "aligned"};
 constexpr const char* kind_names[] = {"newtonian", "brownian"};
@@ -33,7 +34,8 @@ void describe_system(SystemParameters& p, FieldVisitor& visit) {
   visit.field({"dimension", "", "Space dimensions; only 2 so far."}, p.dimension);
   visit.field({"particles", "", "Number of particles."}, p.particles);
   visit.field({"packing_fraction", "",
-               "Share of the box covered by particles, the sum of π a b over the area."},
+               "Share of the box covered by particles, the sum of π a b over the area: that of a "
+               "lattice, and at the end of the preparation unless a reduced pressure ends it."},
               p.packing_fraction);
   visit.field({"seed", "", "All random numbers follow from it."}, p.seed);
   visit.field({"box_aspect", "", "Height over width of the periodic box, L_y/L_x."}, p.box_aspect);
@@ -96,7 +98,9 @@ void describe_stage(PrepareStage& p, FieldVisitor& visit) {
   visit.field({"method", "",
                "What the stage does. lattice: regular positions; insert: random places without "
                "overlap, as a start at low density; swell: Monte Carlo while the particles grow to "
-               "the wanted packing fraction; sample: Monte Carlo at constant packing fraction."},
+               "the wanted packing fraction; grow: event-driven dynamics while they grow to a "
+               "packing fraction or until they jam; sample: Monte Carlo at constant packing "
+               "fraction."},
               p.method, method_names);
   visit.when(p.method == Method::lattice, "method = \"lattice\"", [&](FieldVisitor& in) {
     in.field({"arrangement", "", "The triangular lattice is stretched along x like the particles."},
@@ -105,12 +109,13 @@ void describe_stage(PrepareStage& p, FieldVisitor& visit) {
         {"angle", "radians", "From the x axis to the major axes; 0 on the triangular lattice."},
         p.lattice.angle);
   });
-  const bool places_or_swells = p.method == Method::insert || p.method == Method::swell;
-  visit.when(places_or_swells, "method = \"insert\" or \"swell\"", [&](FieldVisitor& in) {
-    in.optional(
-        {"packing_fraction", "",
-         "At the end of the stage. If left out: that of the system, but to insert at most 0.3."},
-        p.packing_fraction, 0.3);
+  const bool has_density =
+      p.method == Method::insert || p.method == Method::swell || p.method == Method::grow;
+  visit.when(has_density, "method = \"insert\", \"swell\" or \"grow\"", [&](FieldVisitor& in) {
+    in.optional({"packing_fraction", "",
+                 "At the end of the stage. If left out: that of the system, but to insert at most "
+                 "0.3, and none to grow to a reduced pressure."},
+                p.packing_fraction, 0.3);
   });
   visit.when(p.method == Method::insert, "method = \"insert\"", [&](FieldVisitor& in) {
     in.field({"attempts", "", "Random places tried for one particle before the stage gives up."},
@@ -120,6 +125,16 @@ void describe_stage(PrepareStage& p, FieldVisitor& visit) {
   });
   visit.when(p.method == Method::swell, "method = \"swell\"", [&](FieldVisitor& in) {
     in.field({"most_sweeps", "", "Sweeps after which the stage gives up."}, p.most_sweeps);
+  });
+  visit.when(p.method == Method::grow, "method = \"grow\"", [&](FieldVisitor& in) {
+    in.optional({"reduced_pressure", "",
+                 "βP/ρ at the end of the stage, however dense that is: 1e6 or more for a jammed "
+                 "state. With a packing fraction, too, whichever comes first."},
+                p.reduced_pressure, 1e6);
+    in.field({"growth_rate", "1/time",
+              "Growth of all lengths, relative to the present ones. Slow growth lets the liquid "
+              "order, and so jams at higher packing fractions."},
+             p.growth_rate);
   });
   visit.when(p.method == Method::sample, "method = \"sample\"", [&](FieldVisitor& in) {
     in.field({"sweeps", "", "Sweeps; one is as many trial moves as there are particles."},
@@ -326,9 +341,10 @@ void validate_stages(const std::vector<PrepareStage>& stages, const SystemParame
     const bool places = p.method == Method::lattice || p.method == Method::insert;
     rules.require(
         places == (i == 0), "method",
-        i == 0
-            ? "of the first stage must be \"lattice\" or \"insert\", which place the particles"
-            : "of a later stage must be \"swell\" or \"sample\": the particles have their places");
+        i == 0 ? "of the first stage must be \"lattice\" or \"insert\", which place the particles"
+               : "of a later stage must be \"swell\", \"grow\" or \"sample\": the particles have "
+                 "their "
+                 "places");
     const LatticeOptions& lattice = p.lattice;
     rules.require(std::isfinite(lattice.angle), "angle", "must be a finite number");
     rules.require(
@@ -337,19 +353,30 @@ void validate_stages(const std::vector<PrepareStage>& stages, const SystemParame
     rules.require(p.attempts >= 1, "attempts", "is 0, but must be at least 1");
     rules.require(p.most_sweeps >= 1, "most_sweeps", "is 0, but must be at least 1");
     rules.require(p.sweeps >= 1, "sweeps", "is 0, but must be at least 1");
+    rules.require(p.growth_rate > 0 && p.growth_rate <= 0.1, "growth_rate",
+                  fmt::format("is {}, but must lie above 0 and not above 0.1, where the surfaces "
+                              "grow at a tenth of the thermal speed",
+                              show(p.growth_rate)));
+    if (p.reduced_pressure)
+      rules.require(*p.reduced_pressure > 1 && *p.reduced_pressure <= greatest_reduced_pressure,
+                    "reduced_pressure",
+                    fmt::format("is {}, but must lie above 1 (an ideal gas) and not above {}",
+                                show(*p.reduced_pressure), show(greatest_reduced_pressure)));
     if (p.packing_fraction) rules.packing_fraction(*p.packing_fraction, "packing_fraction");
     const double end = end_of_stage(p, system, reached);
-    rules.require(end >= reached * (1 - packing_fraction_slack), "packing_fraction",
-                  fmt::format("is {}, but the stage before ends at {}, and swelling never shrinks",
-                              show(end), show(reached)));
+    const double goal = p.packing_fraction.value_or(end);
+    rules.require(goal >= reached * (1 - packing_fraction_slack), "packing_fraction",
+                  fmt::format("is {}, but the stage before ends at {}, and no stage shrinks",
+                              show(goal), show(reached)));
     reached = end;
   }
-  if (std::abs(reached - system.packing_fraction) > packing_fraction_slack)
+  if (!ends_at_pressure(stages) &&
+      std::abs(reached - system.packing_fraction) > packing_fraction_slack)
     throw BadValue(
         fmt::format("prepare.stage.{}", stages.size() - 1),
         fmt::format("ends at the packing fraction {}, but system.packing_fraction is {}; let the "
                     "last stage that is not \"sample\" end there (insert: packing_fraction = {}, "
-                    "or a swell stage)",
+                    "or a stage that swells or grows)",
                     show(reached), show(system.packing_fraction), show(system.packing_fraction)));
 }
 
@@ -430,10 +457,20 @@ double end_of_stage(const PrepareStage& stage, const SystemParameters& system, d
       return stage.packing_fraction.value_or(std::min(easy_insertion, system.packing_fraction));
     case PrepareStage::Method::swell:
       return stage.packing_fraction.value_or(system.packing_fraction);
+    case PrepareStage::Method::grow:
+      if (stage.reduced_pressure) return before;
+      return stage.packing_fraction.value_or(system.packing_fraction);
     case PrepareStage::Method::sample:
       return before;
   }
   return before;
+}
+
+bool ends_at_pressure(const std::vector<PrepareStage>& stages) {
+  const auto last = std::find_if(stages.rbegin(), stages.rend(), [](const PrepareStage& stage) {
+    return stage.method != PrepareStage::Method::sample;
+  });
+  return last != stages.rend() && last->reduced_pressure.has_value();
 }
 
 FieldVisitor::Inside fields(Parameters& p, const Sections& sections) {

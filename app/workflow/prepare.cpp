@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <complex>
 
 #include "core/error.h"
 #include "core/state/check.h"
+#include "edmd/growth.h"
 #include "mc/sampler.h"
 
 namespace vitrel {
@@ -38,6 +40,10 @@ class Preparer {
         return fmt::format("insert at packing fraction {:.4g}", goal);
       case Method::swell:
         return fmt::format("swell to packing fraction {:.4g}", goal);
+      case Method::grow:
+        return stage.reduced_pressure
+                   ? fmt::format("grow to reduced pressure {:.4g}", *stage.reduced_pressure)
+                   : fmt::format("grow to packing fraction {:.4g}", goal);
       case Method::sample:
         return fmt::format("sample for {} sweeps", stage.sweeps);
     }
@@ -77,10 +83,26 @@ class Preparer {
       }
       case Method::swell:
         return swell(configuration, {goal, stage.most_sweeps}, seed, next_sweep_, budget_);
+      case Method::grow:
+        return grow_stage(stage, goal);
       case Method::sample:
         return sample(stage);
     }
     return {};
+  }
+
+  StageReport grow_stage(const PrepareStage& stage, double goal) {
+    Configuration2& configuration = result.configuration;
+    GrowthOptions options;
+    options.growth_rate = stage.growth_rate;
+    options.packing_fraction = stage.packing_fraction;
+    options.reduced_pressure = stage.reduced_pressure;
+    if (!stage.reduced_pressure) options.packing_fraction = goal;
+    options.seed = parameters_.system.seed;
+    result.growth.push_back(grow(configuration, options, budget_));
+    std::fill(configuration.velocity.begin(), configuration.velocity.end(), Vec2::Zero());
+    std::fill(configuration.angular_velocity.begin(), configuration.angular_velocity.end(), 0.0);
+    return result.growth.back();
   }
 
   // Step sizes adapt all the way: what follows the preparation is what is measured, not this.

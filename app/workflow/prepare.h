@@ -1,8 +1,8 @@
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "app/workflow/parameters.h"
 #include "core/state/configuration.h"
@@ -15,6 +15,7 @@ namespace vitrel {
 struct Preparation {
   Configuration2 configuration;  ///< at rest, without overlaps
   StageReport report;            ///< counts of all stages together; `stopped` if the budget said so
+  std::vector<GrowthReport> growth;  ///< one for every stage that grows
   double wall_seconds = 0;
 };
 

@@ -89,6 +89,25 @@ const BadFile bad_files[] = {
      "fraction 0.3, but system.packing_fraction is 0.5"},
     {"[[prepare.stage]]\nmethod = \"lattice\"\nattempts = 3",
      "has a meaning only with method = \"insert\""},
+    {"[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"grow\"\ngrowth_rate = 0",
+     "file.toml:4:15: key 'prepare.stage.1.growth_rate' is 0.0, but must lie above 0"},
+    {"[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"grow\"\ngrowth_rate = 0.2",
+     "growth_rate' is 0.2, but must lie above 0 and not above 0.1"},
+    {"[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"grow\"\nreduced_pressure = 1",
+     "file.toml:4:20: key 'prepare.stage.1.reduced_pressure' is 1.0, but must lie above 1"},
+    {"[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"grow\"\nreduced_pressure = 1e10",
+     "reduced_pressure' is 10000000000.0, but must lie above 1"},
+    {"[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"grow\"\npacking_fraction = 0.2",
+     "file.toml:4:20: key 'prepare.stage.1.packing_fraction' is 0.2, but the stage before ends at "
+     "0.3"},
+    {"[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"grow\"\npacking_fraction = 0.2\n"
+     "reduced_pressure = 1e6",
+     "file.toml:4:20: key 'prepare.stage.1.packing_fraction' is 0.2, but the stage before ends at "
+     "0.3"},
+    {"[[prepare.stage]]\nmethod = \"grow\"", "key 'prepare.stage.0.method' of the first"},
+    {"[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"swell\"\nreduced_pressure = 1e6",
+     "file.toml:4:1: key 'prepare.stage.1.reduced_pressure' has a meaning only with method = "
+     "\"grow\""},
     {"[dynamics]\nbrownian_step = 0", "file.toml:2:17: key 'dynamics.brownian_step' is 0.0"},
     {"[dynamics]\nequilibration = -1", "file.toml:2:17: key 'dynamics.equilibration' is -1.0"},
     {"[dynamics]\nduration = inf", "file.toml:2:12: key 'dynamics.duration' is inf"},

@@ -59,6 +59,51 @@ TEST(Prepare, ALatticeHasAllParticlesAtItsAngle) {
   for (const double angle : result.configuration.angle) EXPECT_EQ(angle, std::numbers::pi / 4);
 }
 
+PrepareStage growth(std::optional<double> packing_fraction, std::optional<double> pressure) {
+  PrepareStage result = stage(PrepareStage::Method::grow);
+  result.packing_fraction = packing_fraction;
+  result.reduced_pressure = pressure;
+  result.growth_rate = 0.02;
+  return result;
+}
+
+TEST(Prepare, GrowsToThePackingFractionOfTheSystem) {
+  Parameters parameters = small(0.7);
+  parameters.stages[1] = growth({}, {});
+  validate(parameters);
+  const Preparation result = prepare(parameters, {}, say_nothing);
+  EXPECT_NEAR(packing_fraction(result.configuration), 0.7, 1e-12);
+  ASSERT_EQ(result.growth.size(), 1u);
+  EXPECT_GT(result.growth[0].counters.collisions, 0u);
+  EXPECT_EQ(mechanics(result.configuration).translational_energy, 0);
+  EXPECT_EQ(mechanics(result.configuration).rotational_energy, 0);
+}
+
+// Beyond the packing fraction of the system, which such a preparation does not end at.
+TEST(Prepare, GrowsToAPressureStageByStage) {
+  Parameters parameters = small(0.5);
+  parameters.stages[1] = growth({}, 1e2);
+  parameters.stages.push_back(growth({}, 1e3));
+  validate(parameters);
+  std::vector<std::string> announced;
+  const Preparation result =
+      prepare(parameters, {}, [&](const std::string& line) { announced.push_back(line); });
+  EXPECT_EQ(announced.back(), "grow to reduced pressure 1000");
+  ASSERT_EQ(result.growth.size(), 2u);
+  EXPECT_GE(result.growth[0].reduced_pressure, 1e2);
+  EXPECT_GE(result.growth[1].reduced_pressure, 1e3);
+  EXPECT_GT(result.growth[1].packing_fraction, result.growth[0].packing_fraction);
+  EXPECT_EQ(result.growth[1].packing_fraction, packing_fraction(result.configuration));
+  EXPECT_GT(packing_fraction(result.configuration), 0.75);
+}
+
+TEST(Prepare, GrowthBeyondJammingIsTheUsersToChange) {
+  Parameters parameters = small(0.9);
+  parameters.stages[1] = growth(0.9, {});
+  parameters.stages[1].growth_rate = 0.1;
+  EXPECT_THROW(prepare(parameters, {}, say_nothing), UserError);
+}
+
 TEST(Prepare, AnUnreachableGoalIsTheUsersToChange) {
   Parameters parameters = small(0.88);
   parameters.stages[1].most_sweeps = 20;

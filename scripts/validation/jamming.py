@@ -1,0 +1,145 @@
+"""Jammed packings of ellipses, grown in motion, and their packing fraction against the aspect ratio."""
+
+import pathlib
+import tempfile
+
+from validation.common import HERE, expect, summary_of, table
+
+TITLE = "Jammed packings: packing fraction against aspect ratio"
+FIGURE = HERE.parents[1] / "docs" / "figures" / "jamming.svg"
+
+PARTICLES = 500
+GROWTH_RATE = 1e-3
+# The constant C is measured at the first pressure, φ_J at the last.
+PRESSURES = (1e4, 1e6)
+MIXTURE = (1, 1.1, 1.2, 1.3, 1.4, 1.5, 2, 3, 4, 6)
+ONE_SIZE = (1.4, 4)
+SIZE_RATIO = 1.4
+
+# Aspect ratio, φ_J and source. Disks: two sizes, the usual value; the ellipses by their own protocols.
+LITERATURE = (
+    (1, 0.84, "disks of two sizes"),
+    (1.40, 0.8974, "Donev et al. 2007"),
+    (1.43, 0.895, "Delaney et al. 2005"),
+    (1.45, 0.8917, "Rocks & Hoy 2023"),
+)
+# Protocols differ by about as much as these sources do.
+TOLERANCE = 0.01
+
+
+def parameters(aspect_ratio, sizes):
+    species = "\n".join(
+        f'[[species]]\nname = "{name}"\nfraction = {1 / len(sizes)}\naspect_ratio = {aspect_ratio}\nsize = {size}'
+        for name, size in zip("AB", sizes))
+    growth = "\n".join(
+        f'[[prepare.stage]]\nmethod = "grow"\nreduced_pressure = {pressure}\ngrowth_rate = {GROWTH_RATE}'
+        for pressure in PRESSURES)
+    return f"""[system]
+particles = {PARTICLES}
+seed = 1
+
+{species}
+
+[[prepare.stage]]
+method = "insert"
+packing_fraction = 0.3
+
+{growth}
+"""
+
+
+class Packing:
+    """One packing, grown and checked; its φ_J from Z = C/(1 − φ/φ_J) at both pressures."""
+
+    def __init__(self, build, aspect_ratio, sizes):
+        self.aspect_ratio = aspect_ratio
+        with tempfile.TemporaryDirectory() as folder:
+            file, state = pathlib.Path(folder, "jamming.toml"), pathlib.Path(folder, "state.h5")
+            file.write_text(parameters(aspect_ratio, sizes), encoding="utf-8")
+            self.summary = summary_of(build, "prepare", file, "-o", state)
+            check = summary_of(build, "check", state)
+        self.gap = check["smallest_gap"]
+        name = f"κ = {aspect_ratio}, {len(sizes)} size(s)"
+        expect(check["overlaps"] == 0, f"{name}: {check['overlaps']} overlaps")
+        (z1, phi1), (z2, phi2) = ((g["reduced_pressure"], g["packing_fraction"]) for g in self.summary["growth"])
+        expect(z2 >= PRESSURES[-1], f"{name}: reduced pressure {z2}")
+        # φ = φ_J (1 − C/Z) at both.
+        self.constant = (phi2 - phi1) / (phi2 / z1 - phi1 / z2)
+        self.jamming = phi2 / (1 - self.constant / z2)
+        self.pressure = z2
+        freedoms = 2 if aspect_ratio == 1 else 3
+        expect(0.75 * freedoms <= self.constant <= 1.1 * freedoms,
+               f"{name}: C = {self.constant}, for {freedoms} degrees of freedom")
+
+    def row(self):
+        collisions = sum(g["collisions"] for g in self.summary["growth"])
+        return [self.aspect_ratio, f"{self.jamming:.5f}", f"{self.constant:.2f}", f"{self.pressure:.2e}",
+                f"{self.summary['nematic_order']:.2f}", f"{collisions:.2e}", f"{self.gap:.1e}",
+                f"{self.summary['wall_seconds']:.0f} s"]
+
+
+def draw(mixture, one_size):
+    import matplotlib  # only here: a test imports all validations
+
+    matplotlib.use("svg")
+    from matplotlib import pyplot
+
+    matplotlib.rcParams.update({"svg.hashsalt": "vitrel", "svg.fonttype": "none", "font.size": 11})
+    figure, axes = pyplot.subplots(figsize=(6.4, 4.2))
+    axes.plot([p.aspect_ratio for p in mixture], [p.jamming for p in mixture], "o-", label="two sizes, 1 : 1.4")
+    axes.plot([p.aspect_ratio for p in one_size], [p.jamming for p in one_size], "s", label="one size")
+    axes.plot([x for x, _, _ in LITERATURE], [y for _, y, _ in LITERATURE], "kx", label="literature")
+    axes.set(xlabel="aspect ratio κ", ylabel="packing fraction φ_J", xscale="log")
+    ticks = (1, 1.5, 2, 3, 4, 6)
+    axes.set_xticks(ticks, [f"{x:g}" for x in ticks])
+    axes.set_xticks([], minor=True)
+    axes.grid(alpha=0.3)
+    axes.legend(frameon=False)
+    figure.tight_layout()
+    FIGURE.parent.mkdir(parents=True, exist_ok=True)
+    figure.savefig(FIGURE, metadata={"Date": None})
+    pyplot.close(figure)
+
+
+def beside_literature(mixture, one_size):
+    """Rows (κ, literature, ours); ours interpolated between the neighbouring aspect ratios."""
+    rows = []
+    for x, reference, source in LITERATURE:
+        left = max((p for p in mixture if p.aspect_ratio <= x), key=lambda p: p.aspect_ratio)
+        right = min((p for p in mixture if p.aspect_ratio >= x), key=lambda p: p.aspect_ratio)
+        share = 0 if left is right else (x - left.aspect_ratio) / (right.aspect_ratio - left.aspect_ratio)
+        ours = left.jamming + share * (right.jamming - left.jamming)
+        expect(abs(ours - reference) <= TOLERANCE, f"κ = {x}: φ_J = {ours}, but {reference} ({source})")
+        same = [f"{p.jamming:.4f}" for p in one_size if p.aspect_ratio == x]
+        rows.append([f"{x:g}", f"{reference:g}", source, f"{ours:.4f}", *(same or ["–"])])
+    return rows
+
+
+def measure(build):
+    mixture = [Packing(build, aspect_ratio, (1, SIZE_RATIO)) for aspect_ratio in MIXTURE]
+    one_size = [Packing(build, aspect_ratio, (1,)) for aspect_ratio in ONE_SIZE]
+    rows = beside_literature(mixture, one_size)
+    draw(mixture, one_size)
+    head = ["κ", "φ_J", "C", "Z at the end", "nematic order", "collisions", "smallest gap", "time"]
+    return f"""{PARTICLES} particles, inserted at random at φ = 0.3, grow in motion (Lubachevsky and Stillinger) at the rate
+{GROWTH_RATE:g} until their reduced pressure Z = βP/ρ is {PRESSURES[-1]:.0e}. Masses stay, the moment of inertia follows the axes,
+ω is constant in flight. Disks and nearly round particles of one size crystallise, so the curve is of mixtures: two
+sizes, 1 : {SIZE_RATIO}, in equal numbers. φ_J and C follow from Z = C/(1 − φ/φ_J) at Z = {PRESSURES[0]:.0e} and at the end; in a
+true jam C is the number of degrees of freedom, 2 for disks and 3 for ellipses, less the share of rattlers.
+
+Wanted: Z ≥ {PRESSURES[-1]:.0e} everywhere; no overlap by the exact check (tolerance zero); C between 75 % and 110 % of the
+degrees of freedom; φ_J of the mixtures within {TOLERANCE} of the literature, whose protocols and particles differ among
+each other.
+
+Two sizes:
+
+{table(head, [packing.row() for packing in mixture])}
+
+One size:
+
+{table(head, [packing.row() for packing in one_size])}
+
+{table(["κ", "φ_J, literature", "source", "two sizes, interpolated", "one size"], rows)}
+
+![Packing fraction of jammed packings against the aspect ratio](figures/jamming.svg)
+"""
