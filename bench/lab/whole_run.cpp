@@ -4,13 +4,12 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <numbers>
 
+#include "bench/lab/thesis_run.h"
 #include "bench/lab/twins/method_engine.h"
 #include "core/state/check.h"
 #include "core/state/configuration.h"
 #include "edmd/brownian.h"
-#include "mc/lattice.h"
 
 namespace vitrel::lab {
 namespace {
@@ -18,18 +17,6 @@ namespace {
 constexpr double sample_interval = 0.1;
 /// Between two samples some 25 collisions happen; a run that needs so many events stands still.
 constexpr std::uint64_t most_events_per_sample = 100'000;
-
-Configuration2 thesis_scene(std::uint64_t seed) {
-  Configuration2 c;
-  c.resize(100);
-  c.species_names = {"A"};
-  std::fill(c.shape.begin(), c.shape.end(), Ellipse{std::sqrt(2.0), std::sqrt(0.5)});
-  const double length = std::sqrt(100 * std::numbers::pi / 0.5);
-  c.box = PeriodicBox<2>(Vec2(length, length));
-  place_on_lattice(c, {Arrangement::square, 0.25 * std::numbers::pi, false});
-  set_initial_velocities(c, seed, InitialVelocities::maxwell, Temperature::total);
-  return c;
-}
 
 double energy(const Configuration2& c) {
   const Mechanics sums = mechanics(c);
@@ -53,7 +40,8 @@ bool advance(Engine& engine, Configuration2& now, double until, RunCounters& cou
 WholeRun thesis_scene_with(const Method& method, double duration, std::uint64_t seed,
                            const Budget& budget) {
   using Clock = std::chrono::steady_clock;
-  Configuration2 now = thesis_scene(seed);
+  Configuration2 now = on_lattice({});
+  set_initial_velocities(now, seed, InitialVelocities::maxwell, Temperature::total);
   const double first_energy = energy(now);
   const auto engine = make_method_engine(method, {1, OnOverlap::correct});
   RunCounters counters;

@@ -15,7 +15,7 @@ namespace vitrel {
 
 struct ThesisRequest {
   double seconds = 1;     ///< that one run of the thesis's program may work; it then is cut short
-  double duration = 100;  ///< simulated time of the runs of figures 4.1 to 4.4 and 4.6
+  double duration = 100;  ///< simulated time of runs; longer for fewer than 400 particles
   int largest = 400;      ///< number of particles
   int relaxations = 32;   ///< runs that are averaged in figure 4.7
   std::uint64_t seed = 1;
