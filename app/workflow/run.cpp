@@ -243,8 +243,10 @@ std::string run_plan(const RunRequest& request) {
   const double size =
       bytes_per_particle * static_cast<double>(p.system.particles) * static_cast<double>(frames);
   std::string text = fmt::format("starts from  {}\n", start_text(request));
+  const std::string fraction =
+      ends_at_pressure(p.stages) ? "as prepared" : fmt::format("{}", p.system.packing_fraction);
   text += fmt::format("system       {} particles, packing fraction {}, seed {}\n",
-                      p.system.particles, p.system.packing_fraction, p.system.seed);
+                      p.system.particles, fraction, p.system.seed);
   for (const Species& species : p.species)
     text += fmt::format("species      {}, fraction {:.4g}\n", species.name, species.fraction);
   text += p.dynamics.kind == DynamicsParameters::Kind::brownian

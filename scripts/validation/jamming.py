@@ -127,6 +127,8 @@ def measure(build):
 sizes, 1 : {SIZE_RATIO}, in equal numbers. φ_J and C follow from Z = C/(1 − φ/φ_J) at Z = {PRESSURES[0]:.0e} and at the end; in a
 true jam C is the number of degrees of freedom, 2 for disks and 3 for ellipses, less the share of rattlers.
 
+One seed each. Long particles align while they grow (nematic order), which raises φ_J again towards κ = 6.
+
 Wanted: Z ≥ {PRESSURES[-1]:.0e} everywhere; no overlap by the exact check (tolerance zero); C between 75 % and 110 % of the
 degrees of freedom; φ_J of the mixtures within {TOLERANCE} of the literature, whose protocols and particles differ among
 each other.
