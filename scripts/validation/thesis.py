@@ -8,7 +8,7 @@ import tempfile
 from validation.common import HERE, expect, output_of, table
 
 TITLE = "The figures of the thesis"
-SECONDS = 3  # of work, after which a run of the thesis's program is cut short
+SECONDS = 2  # of work, after which a run of the thesis's program is cut short
 DURATION = 100  # of the runs in simulated time, unless cut short
 LARGEST = 400
 RUNS = 32  # averaged in figure 4.7
@@ -22,7 +22,8 @@ ELLIPSES, CIRCLES = 2, 1
 # events times N optimisations of ellipses; where only dismissals in closed form are left, N events times N² pairs.
 EXPONENTS = {(OURS, ELLIPSES): (0.85, 1.15), (OURS, CIRCLES): (0.85, 1.15),
              (THESIS, ELLIPSES): (1.7, 2.5), (THESIS, CIRCLES): (2.4, 3.2)}
-ENERGY_DRIFT = 1e-12
+ENERGY_DRIFT = 1e-12  # of figure 4.6, relative
+ROUNDING = 4 * 2.0**-52  # of a pair's energy: what an impact may change it by, if all err alike
 STANDARD_ERRORS = 4  # false alarm: 6e-5 for each row
 
 
@@ -55,8 +56,9 @@ def check_ours(data):
         name = f"N = {row['particles']}, κ = {row['aspect_ratio']:g}, {row['dynamics']}"
         expect(row["correction_moves"] == 0, f"{name}: {row['correction_moves']} correction moves")
         expect(row["samples_with_overlap"] == 0, f"{name}: {row['samples_with_overlap']} samples with overlaps")
-        expect(row["dynamics"] == "Brownian" or row["energy_drift"] <= ENERGY_DRIFT,
-               f"{name}: relative energy drift {row['energy_drift']}")
+        expect(row["dynamics"] == "Brownian"
+               or row["energy_drift"] <= ROUNDING * (1 + row["collisions"] / row["particles"]),
+               f"{name}: relative energy drift {row['energy_drift']} in {row['collisions']} collisions")
         expect(row["simulated_time"] >= 0.999 * DURATION, f"{name}: {row['simulated_time']} units of time only")
         samples += row["samples"]
     expect(data["energy_drift"] <= ENERGY_DRIFT, f"figure 4.6: relative energy drift {data['energy_drift']}")
@@ -119,7 +121,7 @@ def relaxation(data):
         start = "translation" if of["share_in_translation"] == 1 else "rotation"
         if newtonian:
             expect(abs(last - expected) <= STANDARD_ERRORS * error,
-                   f"figure 4.7, φ = {of['packing_fraction']:g}, {start}: kinetic energy {last}, not {expected} ± {error}")
+                   f"figure 4.7, φ = {of['packing_fraction']:g}, {start}: energy {last}, not {expected} ± {error}")
         rows.append([f"{of['packing_fraction']:g}", of["dynamics"], start, f"{of['times'][-1]:g}", f"{last:.4f}",
                      *([f"{expected:.4f}", f"{error:.4f}"] if newtonian else ["–", "–"])])
     return table(head, rows)
@@ -155,29 +157,30 @@ def measure(build):
         check_brownian_relaxation(data)
         relaxed = relaxation(data)
         copy_pictures(folder)
-    return f"""Chapter 4 of the thesis again: κ = 2 and circles of the same area, φ = 0.5, kT = m = a b = 1, from equilibrium
-unless said otherwise, τ_B = 0.1 where the dynamics are Brownian. `vitrel bench thesis` runs three programs:
+    return f"""Chapter 4 of the thesis again: κ = 2 and circles of the same area, φ = 0.5, kT = m = a b = 1, from
+equilibrium unless said otherwise, τ_B = 0.1 where the dynamics are Brownian. `vitrel bench thesis` runs three programs:
 
 - **all pairs** works as the thesis's does: no calendar, no lists, no cells; after every event every pair is asked
-  anew for its next collision, ellipses by SLSQP, circles in closed form; a pair found overlapping gets a correction move;
-- **all pairs, improved** keeps a table of the pairs' next events, asks only pairs whose motion has changed, and takes no
-  answer of SLSQP that violates a constraint;
+  anew for its next collision, ellipses by SLSQP, circles in closed form; a pair found overlapping gets a correction
+  move;
+- **all pairs, improved** keeps a table of the pairs' next events, asks only pairs whose motion has changed, and takes
+  no answer of SLSQP that violates a constraint;
 - **vitrel** is this program's engine.
 
 The first two are cut short after {SECONDS} s of work for each run, at a whole sample (0.1 units of time).
 
 Wanted, and found, of vitrel: no correction move; the exact check (tolerance zero) clean at all {samples} samples; a
-relative energy drift of at most {ENERGY_DRIFT:g} in Newtonian runs; equipartition within {STANDARD_ERRORS} standard errors after a
-wrong split of the energy. The cost grows as N to the power {powers(OURS, ELLIPSES)} (ellipses and circles); that of all pairs
-to the power {powers(THESIS, ELLIPSES)} (ellipses) and {powers(THESIS, CIRCLES)} (circles).
+drift of the energy in Newtonian runs of at most 4 units in the last place for every impact of a pair, and of at most
+{ENERGY_DRIFT:g} of the whole in that of figure 4.6; equipartition within {STANDARD_ERRORS} standard errors after a wrong
+split of the energy. Its cost grows as N to the power {powers(OURS, ELLIPSES)} (ellipses and
+circles); that of all pairs to the power {powers(THESIS, ELLIPSES)} (ellipses) and {powers(THESIS, CIRCLES)} (circles).
 
 ### Time against the number of particles (figures 4.1 and 4.2)
 
-Seconds of work for one unit of simulated time, mean of a Newtonian and a Brownian run as in the thesis. The thesis fits
-parabolas to both shapes, up to N = 100. For ellipses the twin grows alike: after each of N events it optimises about
-N pairs whose circumcircles overlap. For circles nothing is left but to look at all N²/2 pairs. That the thesis's circles
-are quadratic too speaks for the table of "improved", its words about the same collision "determined over and over
-again" against it.
+Seconds of work for one unit of simulated time, mean of a Newtonian and a Brownian run as in the thesis. The thesis
+fits parabolas to both shapes, up to N = 100. For ellipses the twin grows alike: after each of N events it optimises
+about N pairs whose circumcircles overlap. For circles nothing is left but to look at all N²/2 pairs, and the cost
+comes closer to N³: either the thesis's circles were not asked all again, or the small N hide it.
 
 {durations(data)}
 
@@ -189,9 +192,9 @@ again" against it.
 
 ### Collisions and correction moves (figures 4.3 and 4.4)
 
-Ellipses, all particle numbers together. An optimiser that only looks at the ends of its bracket for violated constraints
-reports collisions that do not happen; one that is local overlooks some, which a program that asks every pair again after
-every event mostly makes good, and a program that does not has to correct.
+Ellipses, all particle numbers together. An optimiser whose answer is checked only at the ends of its bracket reports
+collisions that do not happen. One that is local overlooks some: a program that asks every pair again after every event
+mostly makes that good; one that does not has to correct.
 
 {corrections(data)}
 
@@ -209,10 +212,10 @@ One Newtonian run; its relative energy drift: {data["energy_drift"]:.1e}.
 
 {picture("energies", "Kinetic, rotational and total energy of one run")}
 
-Mean of {RUNS} runs of 100 particles from a square lattice whose energy, 3/2 kT per particle, is all in translation or all in
-rotation. At zero momentum and fixed energy E the kinetic energy of translation is in equilibrium E times a Beta(N − 1, N/2)
-variable, which gives its mean and the standard error. In the Brownian runs the wrong split is drawn anew every τ_B: the
-kinetic energy just before that shows how far the system comes in between.
+Mean of {RUNS} runs of 100 particles from a square lattice whose energy, 3/2 kT per particle, is all in translation or
+all in rotation. At zero momentum and fixed energy E the kinetic energy of translation is in equilibrium E times a
+Beta(N − 1, N/2) variable, which gives its mean and the standard error. In the Brownian runs the wrong split is drawn
+anew every τ_B: the kinetic energy just before that shows how far the system comes in between.
 
 {relaxed}
 

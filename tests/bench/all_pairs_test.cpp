@@ -141,6 +141,13 @@ TEST(TwinOfPairs, RefusesABoxWithTwoImagesOfAPair) {
   EXPECT_THROW(engine->load(ellipses(2)), UserError);
 }
 
+TEST(TwinOfPairs, RefusesGrowth) {
+  EngineOptions growing;
+  growing.growth_rate = 0.1;
+  const auto engine = make_all_pairs_engine({growing});
+  EXPECT_THROW(engine->load(ellipses(4)), UserError);
+}
+
 TEST(TwinOfPairs, StopsAtAnOverlap) {
   Configuration2 now = ellipses(4);
   now.position[1] = now.position[0] + Vec2(0.3, 0);
