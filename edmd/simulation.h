@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/contact/first_look.h"
+#include "core/contact/pair.h"
 #include "core/error.h"
 #include "core/neighbors/neighborhood.h"
 #include "core/neighbors/spatial_order.h"
@@ -358,12 +359,11 @@ template <Body B>
 void Simulation<B>::search_most_urgent_first(Index i, const Pose2& mine, Glance& glance,
                                              Entry& best, RunCounters& counters) const {
   for (int done = 0; done < glance.count; ++done) {
-    const int k = glance.look.most_urgent();
-    const double time = now_ + glance.look.open_until(k);
-    if (!(time < best.time)) return;
+    const auto [wait, k] = glance.look.most_urgent();
+    if (!(now_ + wait < best.time)) return;
     const Neighbor<B>& neighbor = *glance.neighbor[k];
-    if (FirstLook<B>::is_exact && time > now_)
-      best = {time, collision(neighbor, Vec2::Zero())};
+    if (FirstLook<B>::is_exact && wait > 0)
+      best = {now_ + wait, collision(neighbor, Vec2::Zero())};
     else
       search(i, mine, neighbor, std::min(glance.horizon[k], best.time), best, counters);
     glance.look.close(k);

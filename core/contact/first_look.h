@@ -3,9 +3,8 @@
 #include <limits>
 #include <type_traits>
 
-#include "core/contact/ellipse_pair.h"
 #include "core/contact/first_contact.h"
-#include "core/geometry/disk.h"
+#include "core/contact/several.h"
 
 /// One body and several partners at one instant: until when is contact surely impossible?
 ///
@@ -17,27 +16,6 @@
 /// form.
 namespace vitrel {
 
-/// What a look needs to know of a shape (at size 1).
-template <class Shape>
-struct Outline;
-
-template <>
-struct Outline<Disk> {
-  double radius = 1;
-  explicit Outline(const Disk& disk) : radius(disk.radius) {}
-};
-
-template <>
-struct Outline<Ellipse> {
-  double bb, stretch, aabb;  ///< b², a² − b², a² b²
-  double bend;               ///< (a² − b²)/b, the largest h''
-  explicit Outline(const Ellipse& ellipse)
-      : bb(ellipse.b * ellipse.b),
-        stretch(ellipse.stretch()),
-        aabb(ellipse.a * ellipse.a * bb),
-        bend(stretch / ellipse.b) {}
-};
-
 /// The size of all bodies alike, and its rate of growth.
 struct CommonSize {
   double size = 1;
@@ -46,40 +24,32 @@ struct CommonSize {
 
 namespace detail {
 
-template <int lanes>
-using Simd = std::experimental::fixed_size_simd<double, lanes>;
-
-/// One number of each of several pairs, filled one by one.
-template <int lanes>
-struct NumbersOf {
-  alignas(std::experimental::memory_alignment_v<Simd<lanes>>) double lane[lanes] = {};
-  double& operator[](int k) { return lane[k]; }
-  double operator[](int k) const { return lane[k]; }
-  Simd<lanes> all() const { return {lane, std::experimental::vector_aligned}; }
-  void store(const Simd<lanes>& x) { x.copy_to(lane, std::experimental::vector_aligned); }
-};
-
 constexpr double no_contact = std::numeric_limits<double>::infinity();
 
-/// What all looks have: a time for every lane.
+/// A time for every lane, and which comes first.
 template <int lanes>
 class Urgencies {
  public:
-  double open_until(int k) const { return open_until_[k]; }
-  /// The lane that is open for the shortest time.
-  int most_urgent() const {
-    const auto times = open_until_.all();
-    return find_first_set(times == hmin(times));
+  struct Urgent {
+    double time;
+    int lane;
+  };
+  Urgent most_urgent() const {
+    const double time = hmin(open_until_);
+    return {time, find_first_set(open_until_ == time)};
   }
   /// Nothing more is to be known of this lane.
-  void close(int k) { open_until_[k] = no_contact; }
+  void close(int lane) { where(lane_numbers<lanes> == lane, open_until_) = Simd<lanes>(no_contact); }
 
  protected:
-  void close_from(int k) {
-    for (; k < lanes; ++k) close(k);
+  /// The times of the first `count` lanes.
+  VITREL_INLINE void open(const Simd<lanes>& until, int count) {
+    open_until_ = until;
+    where(lane_numbers<lanes> >= count, open_until_) = Simd<lanes>(no_contact);
   }
 
-  NumbersOf<lanes> open_until_;
+ private:
+  Simd<lanes> open_until_;
 };
 
 }  // namespace detail
@@ -101,6 +71,8 @@ class FirstLook : public detail::Urgencies<many> {
   /// What is remembered of a pair from one look to the next.
   struct Memory {
     Vec2 axis;
+    /// Of the same pair, seen from the other body.
+    friend Memory reversed(const Memory& memory) { return {-memory.axis}; }
   };
 
   FirstLook(const Outline<Shape>& outline, const Pose2& pose, const Motion2& motion,
@@ -154,10 +126,12 @@ class FirstLook : public detail::Urgencies<many> {
       rate -= growth * heights;
       bend = common_.size * bend + std::abs(growth) * horizon * abs(bend) - 2 * growth * spin;
     }
-    open_until_.store(first_root(gap - floor_, rate, bend, horizon));
-    close_from(count);
-    turn_axes(nx, ny, gap, nx * dy - ny * dx - sized(one.turning + two.turning),
-              sized(one.radius + two.radius));
+    open(first_root(gap - floor_, rate, bend, horizon), count);
+    Many turned_nx = nx, turned_ny = ny;
+    detail::turn(turned_nx, turned_ny, nx * dy - ny * dx - sized(one.turning + two.turning),
+                 gap + sized(one.radius + two.radius));
+    nx_.store(turned_nx);
+    ny_.store(turned_ny);
   }
 
  private:
@@ -180,17 +154,6 @@ class FirstLook : public detail::Urgencies<many> {
     return time;
   }
 
-  // By Newton's method, as far as the axis can be trusted.
-  VITREL_INLINE void turn_axes(const Many& nx, const Many& ny, const Many& gap, const Many& slope,
-                               const Many& radii) {
-    const Many turn = min(max(slope / (gap + radii), Many(-0.5)), Many(0.5));
-    const Many q = 0.5 * turn;
-    const Many scale = 1. / (1. + q * q);
-    const Many cosine = (1. - q * q) * scale, sine = turn * scale;
-    nx_.store(cosine * nx - sine * ny);
-    ny_.store(cosine * ny + sine * nx);
-  }
-
   using Numbers = detail::NumbersOf<many>;
 
   Outline<Shape> outline_;
@@ -210,6 +173,7 @@ class FirstLook<Disk> : public detail::Urgencies<8> {
   struct Memory {
     Memory() = default;
     explicit(false) Memory(const Vec2& /*axis*/) {}
+    friend Memory reversed(const Memory& memory) { return memory; }
   };
 
   FirstLook(const Outline<Disk>& outline, const Pose2& /*pose*/, const Motion2& motion,
@@ -238,8 +202,7 @@ class FirstLook<Disk> : public detail::Urgencies<8> {
     Simd time = max(c / (sqrt(max(discriminant, Simd(0))) - b), Simd(0));
     where(!(b < 0) || !(discriminant >= 0) || !(time < horizon_.all()), time) =
         Simd(detail::no_contact);
-    open_until_.store(time);
-    close_from(count);
+    open(time, count);
   }
 
  private:

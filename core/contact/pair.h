@@ -20,19 +20,6 @@ inline bool separated(const Disk& one, const Pose2&, const Disk& two, const Pose
   return d.squaredNorm() >= reach * reach;
 }
 
-/// The gap along a good axis, a lower bound of the largest, and that axis: one that shows a gap of
-/// `enough`, or else the best to a few steps of Newton's method.
-inline SupportGap gap_along_good_axis(const Ellipse& one, const Pose2& pose1, const Ellipse& two,
-                                      const Pose2& pose2, const Vec2& d, double enough) {
-  return gap_along_good_axis(one, pose1.angle, two, pose2.angle, d, enough);
-}
-
-inline SupportGap gap_along_good_axis(const Disk& one, const Pose2&, const Disk& two, const Pose2&,
-                                      const Vec2& d, double /*enough*/) {
-  const double distance = d.norm();
-  return {distance - one.radius - two.radius, d / distance};
-}
-
 inline SupportGap support_gap(const Ellipse& one, const Pose2& pose1, const Ellipse& two,
                               const Pose2& pose2, const Vec2& d) {
   return support_gap(one, pose1.angle, two, pose2.angle, d);

@@ -152,22 +152,6 @@ SupportGap support_gap(const Ellipse& one, double angle1, const Ellipse& two, do
   return support_gap(one, direction(angle1), two, direction(angle2), d);
 }
 
-SupportGap gap_along_good_axis(const Ellipse& one, double angle1, const Ellipse& two,
-                               double angle2, const Vec2& d, double enough) {
-  constexpr int most_turns = 1;
-  Lanes ux, uy;
-  directions<Lanes>({angle1, angle2}, ux, uy);
-  const EllipsePair pair(one, {ux[0], uy[0]}, two, {ux[1], uy[1]}, d);
-  Vec2 n = detail::likely_axis(pair);
-  GapAlongAxis here = gap_along<false>(pair, n);
-  for (int k = 0; k < most_turns && here.gap < enough; ++k) {
-    const double turn = here.slope / here.curvature;
-    n = detail::turned(n, here.curvature > 0 ? std::clamp(turn, -1.0, 1.0) : 1);
-    here = gap_along<false>(pair, n);
-  }
-  return {here.gap, n};
-}
-
 bool separated(const Ellipse& one, const Vec2& u1, const Ellipse& two, const Vec2& u2,
                const Vec2& d, double margin) {
   const double distance_squared = d.squaredNorm();

@@ -37,11 +37,6 @@ SupportGap support_gap(const Ellipse& one, const Vec2& u1, const Ellipse& two, c
 SupportGap support_gap(const Ellipse& one, double angle1, const Ellipse& two, double angle2,
                        const Vec2& d);
 
-/// The gap along a good axis, a lower bound of the largest, and that axis as `normal`: one that shows
-/// a gap of `enough`, or else the best to a few steps of Newton's method.
-SupportGap gap_along_good_axis(const Ellipse& one, double angle1, const Ellipse& two,
-                               double angle2, const Vec2& d, double enough);
-
 /// True exactly if an axis with g ≥ margin exists (margin ≥ 0; to rounding): the surfaces are at
 /// least `margin` apart. Decides as soon as any axis proves it, circles first.
 bool separated(const Ellipse& one, const Vec2& u1, const Ellipse& two, const Vec2& u2,

@@ -41,7 +41,11 @@ class ListPool {
     entries_[room.begin + room.count++] = entry;
   }
 
-  void clear(std::size_t list) { rooms_[list].count = 0; }
+  /// `entries` must lie elsewhere.
+  void assign(std::size_t list, std::span<const T> entries) {
+    rooms_[list].count = 0;
+    for (const T& entry : entries) add(list, entry);
+  }
 
   /// Removes the entries for which `unwanted` holds; the others keep their order.
   template <class Predicate>

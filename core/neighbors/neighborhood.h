@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/contact/first_look.h"
-#include "core/contact/pair.h"
+#include "core/contact/gap_look.h"
 #include "core/geometry/periodic_box.h"
 #include "core/neighbors/cell_grid.h"
 #include "core/neighbors/list_pool.h"
@@ -66,7 +66,7 @@ class Neighborhoods {
       if (near(pair)) ++counts[pair.i], ++counts[pair.image.other];
     lists_.reserve(counts);
     for (const Pair& pair : pairs)
-      if (near(pair)) link(pair.i, pair.image.other, pair.image.shift, pair.axis);
+      if (near(pair)) link(pair.i, {pair.image, {pair.axis}});
   }
 
   std::span<Neighbor<B>> of(std::size_t i) { return lists_[i]; }
@@ -74,21 +74,35 @@ class Neighborhoods {
 
   /// The axis of a pair is known: `normal` points from i to the other.
   void remember(std::size_t i, const NeighborImage& with, const Vec2& normal) {
-    for (Neighbor<B>& neighbor : lists_[i])
-      if (neighbor.other == with.other && neighbor.shift == with.shift) neighbor.memory = {normal};
-    for (Neighbor<B>& neighbor : lists_[with.other])
-      if (neighbor.other == i && neighbor.shift == -with.shift) neighbor.memory = {-normal};
+    const auto note = [&](std::size_t k, const NeighborImage& image, const Vec2& axis) {
+      for (Neighbor<B>& neighbor : lists_[k])
+        if (neighbor.other == image.other && neighbor.shift == image.shift)
+          neighbor.memory = {axis};
+    };
+    note(i, with, normal);
+    note(with.other, {static_cast<std::uint32_t>(i), -with.shift}, -normal);
   }
 
   /// New reference pose (wrapped into the box), size and list for particle i.
   void renew(std::size_t i, const Pose2& pose, double size) {
-    unlink(i);
     reference_[i] = {pose, size};
     cells_.move(i, pose.position);
+    near_.clear();
     visit_near(i, 2 * margin_,
-               [&](std::size_t j, const Shift<2>& shift, const SupportGap& gap) {
-                 link(i, j, shift, gap.normal);
-               });
+               [&](const Pair& pair) { near_.push_back({pair.image, {pair.axis}}); });
+    // Most neighbours stay: only those that come or go learn of it.
+    const std::span<Neighbor<B>> before = lists_[i];
+    come_.clear();
+    for (const Neighbor<B>& neighbor : before)
+      if (neighbor.other != i && !find(near_, neighbor)) forget(i, neighbor);
+    for (Neighbor<B>& neighbor : near_)
+      if (const Neighbor<B>* known = find(before, neighbor))
+        neighbor.memory = known->memory;
+      else if (neighbor.other != i)
+        come_.push_back(neighbor);
+    lists_.assign(i, near_);
+    for (const Neighbor<B>& neighbor : come_)
+      lists_.add(neighbor.other, seen_from_there(i, neighbor));
   }
 
   /// A time until which particle i, now at `pose` and of the common size, stays inside its
@@ -172,22 +186,33 @@ class Neighborhoods {
     return std::max(nth->gap, narrowest);
   }
 
-  // visit(j, shift, gap) for the images closer to particle i than `limit`, at their reference
-  // poses; own images once per unordered pair.
+  // visit(pair) for the images closer to particle i than `limit`, at their reference poses; own
+  // images once per unordered pair.
   template <class Visit>
   void visit_near(std::size_t i, double limit, Visit&& visit) const {
     const Reference& mine = reference_[i];
     const Shape one = scaled(shapes_[i], mine.size);
+    GapLook<Shape> look(one, mine.pose.angle);
+    NeighborImage image[GapLook<Shape>::lanes];
+    int count = 0;
+    const auto judge = [&] {
+      look.look();
+      for (int k = 0; k < count; ++k)
+        if (look.gap(k) < limit)
+          visit(Pair{look.gap(k), look.axis(k), static_cast<std::uint32_t>(i), image[k]});
+      count = 0;
+    };
     // The other references are older, of a size between 1 and this.
     const double reach = one.circumradius() + largest_ * std::max(mine.size, 1.0) + limit;
     cells_.for_each_near(
         mine.pose.position, reach, [&](std::size_t j, const Shift<2>& shift, const Vec2& d) {
           if (j == i && !comes_after_zero(shift)) return;
           const Reference& other = reference_[j];
-          const SupportGap gap = gap_along_good_axis(one, mine.pose, scaled(shapes_[j], other.size),
-                                                  other.pose, d, limit);
-          if (gap.gap < limit) visit(j, shift, gap);
+          look.set(count, scaled(shapes_[j], other.size), other.pose.angle, d);
+          image[count++] = {static_cast<std::uint32_t>(j), shift};
+          if (count == GapLook<Shape>::lanes) judge();
         });
+    if (count > 0) judge();
   }
 
   static bool comes_after_zero(const Shift<2>& shift) {
@@ -197,30 +222,40 @@ class Neighborhoods {
   std::vector<Pair> pairs_closer_than(double limit) const {
     std::vector<Pair> pairs;
     for (std::size_t i = 0; i < shapes_.size(); ++i)
-      visit_near(i, limit, [&](std::size_t j, const Shift<2>& shift, const SupportGap& gap) {
-        if (j < i) return;
-        pairs.push_back({gap.gap, gap.normal, static_cast<std::uint32_t>(i),
-                         {static_cast<std::uint32_t>(j), shift}});
+      visit_near(i, limit, [&](const Pair& pair) {
+        if (pair.image.other >= i) pairs.push_back(pair);
       });
     return pairs;
   }
 
-  void link(std::size_t i, std::size_t j, const Shift<2>& shift, const Vec2& axis) {
-    lists_.add(i, {{static_cast<std::uint32_t>(j), shift}, {axis}});
-    if (i != j) lists_.add(j, {{static_cast<std::uint32_t>(i), -shift}, {-axis}});
+  // Particle i as the neighbour of its neighbour.
+  static Neighbor<B> seen_from_there(std::size_t i, const Neighbor<B>& neighbor) {
+    return {{static_cast<std::uint32_t>(i), -neighbor.shift}, reversed(neighbor.memory)};
   }
 
-  void unlink(std::size_t i) {
-    for (const Neighbor<B>& neighbor : lists_[i])
-      if (neighbor.other != i)
-        lists_.remove_if(neighbor.other, [i](const Neighbor<B>& n) { return n.other == i; });
-    lists_.clear(i);
+  static const Neighbor<B>* find(std::span<const Neighbor<B>> list, const NeighborImage& image) {
+    const auto found = std::ranges::find_if(list, [&](const Neighbor<B>& n) {
+      return n.other == image.other && n.shift == image.shift;
+    });
+    return found == list.end() ? nullptr : &*found;
+  }
+
+  void link(std::size_t i, const Neighbor<B>& neighbor) {
+    lists_.add(i, neighbor);
+    if (i != neighbor.other) lists_.add(neighbor.other, seen_from_there(i, neighbor));
+  }
+
+  void forget(std::size_t i, const NeighborImage& image) {
+    lists_.remove_if(image.other, [&](const Neighbor<B>& n) {
+      return n.other == i && n.shift == -image.shift;
+    });
   }
 
   PeriodicBox<2> box_;
   std::span<const Shape> shapes_;
   std::vector<Reference> reference_;
   ListPool<Neighbor<B>> lists_;
+  std::vector<Neighbor<B>> near_, come_;  // of a renewal
   double largest_;
   CellGrid cells_;
   double margin_ = 0;

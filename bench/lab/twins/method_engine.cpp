@@ -16,6 +16,39 @@ struct JudgedEllipse : Ellipse {
 };
 thread_local const Method* JudgedEllipse::method = nullptr;
 
+}  // namespace
+}  // namespace vitrel::lab
+
+namespace vitrel {
+
+/// Settles nothing: every pair is the method's to judge.
+template <>
+class FirstLook<lab::JudgedEllipse> : public detail::Urgencies<many> {
+ public:
+  using Shape = Ellipse;
+  static constexpr int lanes = many;
+  static constexpr bool is_exact = false;
+  struct Memory {
+    explicit(false) Memory(const Vec2& /*axis*/ = {}) {}
+    friend Memory reversed(const Memory& memory) { return memory; }
+  };
+
+  FirstLook(const Outline<Ellipse>&, const Pose2&, const Motion2&, const CommonSize&, double) {}
+  void set(int, const Pose2&, const Motion2&, const Outline<Ellipse>&, const Memory&, double) {}
+  Memory memory(int) const { return {}; }
+  void look(int count) { open(0, count); }
+};
+
+template <>
+lab::JudgedEllipse body_from<lab::JudgedEllipse>(const Ellipse& shape, const CommonSize&) {
+  return {shape};
+}
+
+}  // namespace vitrel
+
+namespace vitrel::lab {
+namespace {
+
 // Found by Simulation<JudgedEllipse> in place of the default predictor. An answer that did not come
 // is no contact.
 Prediction first_contact(const Flight<JudgedEllipse>& one, const Flight<JudgedEllipse>& two,
@@ -53,18 +86,6 @@ class MethodEngine final : public Engine {
 };
 
 }  // namespace
-}  // namespace vitrel::lab
-
-namespace vitrel {
-
-template <>
-lab::JudgedEllipse body_from<lab::JudgedEllipse>(const Ellipse& shape, const CommonSize&) {
-  return {shape};
-}
-
-}  // namespace vitrel
-
-namespace vitrel::lab {
 
 std::unique_ptr<Engine> make_method_engine(const Method& method, const EngineOptions& options) {
   return std::make_unique<MethodEngine>(method, options);
