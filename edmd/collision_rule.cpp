@@ -25,10 +25,9 @@ double collide_with_own_image(Motion2& motion, const Inertia& inertia,
                               const ContactGeometry& contact, double restitution) {
   const double arm = contact.arm1 - contact.arm2;
   const double speed = motion.angular_velocity * arm + contact.growth;
-  const double spin = inertia.inverse_moment * arm;
-  const double impulse = (1 + restitution) * speed / (spin * arm);
-  motion.angular_velocity -= impulse * spin;
-  return impulse;
+  motion.angular_velocity =
+      -restitution * motion.angular_velocity - (1 + restitution) * contact.growth / arm;
+  return (1 + restitution) * speed / (inertia.inverse_moment * arm * arm);
 }
 
 void separate(Motion2& one, const Inertia& inertia1, Motion2& two, const Inertia& inertia2,

@@ -112,11 +112,9 @@ class Simulation final : public Engine {
     double horizon[FirstLook<B>::lanes] = {};  // times beyond which a contact is of no interest
     int count = 0;
   };
-  /// Which neighbours a prediction asks about, and whether the partners' entries count.
-  struct Scope {
-    bool only_later_ones = false;        // those of a larger number: every pair once
-    std::optional<Index> without_entry;  // of the neighbour whose entry is about to change
-  };
+  /// Which neighbours a prediction asks about: all of them, as far as their own entries do not come
+  /// first; or, when all entries are made anew, every pair once and from whatever thread.
+  enum class Scope { neighborhood, later_numbers };
 
   const Kind& kind(Index i) const { return kinds_[kind_of_[i]]; }
   CommonSize size_now() const {
@@ -138,10 +136,11 @@ class Simulation final : public Engine {
   void load_particles(const Configuration2& configuration);
   void load_kinds(const Configuration2& configuration);
   void predict_all(double horizon, RunCounters& counters);
-  void predict(Index i, std::optional<Index> without_entry, RunCounters& counters);
-  Entry next_entry(Index i, const Scope& scope, RunCounters& counters);
-  std::size_t gather(Index i, const Pose2& mine, const Scope& scope, double latest,
-                     std::size_t next, Glance& glance);
+  void predict(Index i, RunCounters& counters);
+  template <Scope scope>
+  Entry next_entry(Index i, RunCounters& counters);
+  template <Scope scope>
+  std::size_t gather(Index i, const Pose2& mine, double latest, std::size_t next, Glance& glance);
   void search_most_urgent_first(Index i, const Pose2& mine, Glance& glance, Entry& best,
                                 RunCounters& counters) const;
   void search(Index i, const Pose2& mine, const Neighbor<B>& neighbor, double horizon,
@@ -244,7 +243,7 @@ void Simulation<B>::predict_all(double horizon, RunCounters& counters) {
   horizon_ = horizon;
   calendar_ = Calendar(particles_.size());
   for (Index i = 0; i < particles_.size(); ++i) {
-    const Entry entry = next_entry(i, {.only_later_ones = true, .without_entry = {}}, counters);
+    const Entry entry = next_entry<Scope::later_numbers>(i, counters);
     events_[i] = entry.event;
     particles_[i].next = entry.time;
     calendar_.set(i, entry.time);
@@ -266,6 +265,7 @@ Engine::Stop Simulation<B>::advance(double until, RunCounters& counters) {
     now_ = time;
     --events_left_;
     ++counters.events;
+    particles_[i].next = never;
     process(i, counters);
   }
   return Stop::block_end;
@@ -301,17 +301,16 @@ void Simulation<B>::set_velocities(const Configuration2& configuration, double h
 }
 
 template <Body B>
-void Simulation<B>::predict(Index i, std::optional<Index> without_entry, RunCounters& counters) {
-  const Entry entry =
-      next_entry(i, {.only_later_ones = false, .without_entry = without_entry}, counters);
+void Simulation<B>::predict(Index i, RunCounters& counters) {
+  const Entry entry = next_entry<Scope::neighborhood>(i, counters);
   events_[i] = entry.event;
   particles_[i].next = entry.time;
   calendar_.set(i, entry.time);
 }
 
 template <Body B>
-typename Simulation<B>::Entry Simulation<B>::next_entry(Index i, const Scope& scope,
-                                                        RunCounters& counters) {
+template <typename Simulation<B>::Scope scope>
+typename Simulation<B>::Entry Simulation<B>::next_entry(Index i, RunCounters& counters) {
   const Particle& particle = particles_[i];
   const Pose2 mine = particle.pose_at(now_);
   const CommonSize size = size_now();
@@ -322,7 +321,7 @@ typename Simulation<B>::Entry Simulation<B>::next_entry(Index i, const Scope& sc
   Glance glance{FirstLook<B>(kind(i).outline, mine, particle.motion(), size, contact_gap_)};
   const std::span<Neighbor<B>> neighbors = neighborhoods_->of(i);
   for (std::size_t next = 0; next < neighbors.size();) {
-    next = gather(i, mine, scope, std::min(best.time, horizon_), next, glance);
+    next = gather<scope>(i, mine, std::min(best.time, horizon_), next, glance);
     glance.look.look(glance.count);
     counters.predictions += static_cast<std::uint64_t>(glance.count);
     for (int k = 0; k < glance.count; ++k) glance.neighbor[k]->memory = glance.look.memory(k);
@@ -333,18 +332,19 @@ typename Simulation<B>::Entry Simulation<B>::next_entry(Index i, const Scope& sc
 
 // Fills the glance from neighbour number `next` on; returns the number after the last.
 template <Body B>
-std::size_t Simulation<B>::gather(Index i, const Pose2& mine, const Scope& scope, double latest,
-                                  std::size_t next, Glance& glance) {
+template <typename Simulation<B>::Scope scope>
+std::size_t Simulation<B>::gather(Index i, const Pose2& mine, double latest, std::size_t next,
+                                  Glance& glance) {
   constexpr double forever = 1e100;
   const std::span<Neighbor<B>> neighbors = neighborhoods_->of(i);
   int k = 0;
   for (; next < neighbors.size() && k < FirstLook<B>::lanes; ++next) {
     Neighbor<B>& neighbor = neighbors[next];
     const Index j = neighbor.other;
-    if (scope.only_later_ones && j < i) continue;
+    if (scope == Scope::later_numbers && j < i) continue;
     const Particle& partner = particles_[j];
-    const bool entry_counts = !scope.only_later_ones && j != i && j != scope.without_entry;
-    glance.horizon[k] = entry_counts ? std::min(latest, partner.next) : latest;
+    glance.horizon[k] =
+        scope == Scope::neighborhood ? std::min(latest, partner.next) : latest;
     Pose2 pose = partner.pose_at(now_);
     pose.position += box_.translation(neighbor.shift) - mine.position;
     glance.look.set(k, pose, partner.motion(), kind(j).outline, neighbor.memory,
@@ -412,17 +412,17 @@ void Simulation<B>::process(Index i, RunCounters& counters) {
     case Event::What::exit:
       leave_neighborhood(i);
       ++counters.renewals;
-      predict(i, std::nullopt, counters);
+      predict(i, counters);
       return;
     case Event::What::look_again:
-      predict(i, std::nullopt, counters);
+      predict(i, counters);
       return;
     case Event::What::collision:
     case Event::What::correction:
       if (version_[event.partner] == event.partner_version)
         meet(i, event, counters);
       else
-        predict(i, std::nullopt, counters);
+        predict(i, counters);
       return;
   }
 }
@@ -456,8 +456,9 @@ void Simulation<B>::meet(Index i, const Event& event, RunCounters& counters) {
   }
   ++version_[i];
   if (i != j) ++version_[j];
-  predict(i, j, counters);
-  if (i != j) predict(j, std::nullopt, counters);
+  one.next = two.next = never;  // neither entry holds any longer
+  predict(i, counters);
+  if (i != j) predict(j, counters);
 }
 
 template <Body B>
