@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "edmd/parallel.h"
 
 namespace vitrel {
 
@@ -34,14 +35,16 @@ double translational_target(const Configuration2& configuration, Temperature tem
 }  // namespace
 
 void draw_velocities(Configuration2& configuration, std::uint64_t seed, Purpose purpose,
-                     std::uint64_t step, Temperature temperature) {
-  for (std::size_t i = 0; i < configuration.size(); ++i) {
-    Stream draw(seed, purpose, step, i);
-    const double thermal = 1 / std::sqrt(configuration.mass[i]);
-    configuration.velocity[i] = {thermal * draw.normal(), thermal * draw.normal()};
-    const double spin = draw.normal() / std::sqrt(configuration.inertia(i));
-    configuration.angular_velocity[i] = configuration.shape[i].is_round() ? 0 : spin;
-  }
+                     std::uint64_t step, Temperature temperature, int threads) {
+  in_parallel(configuration.size(), threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      Stream draw(seed, purpose, step, i);
+      const double thermal = 1 / std::sqrt(configuration.mass[i]);
+      configuration.velocity[i] = {thermal * draw.normal(), thermal * draw.normal()};
+      const double spin = draw.normal() / std::sqrt(configuration.inertia(i));
+      configuration.angular_velocity[i] = configuration.shape[i].is_round() ? 0 : spin;
+    }
+  });
   if (configuration.size() > 1) remove_momentum(configuration);
   const Mechanics drawn = mechanics(configuration);
   scale_translation(configuration, std::sqrt(translational_target(configuration, temperature) /

@@ -17,10 +17,10 @@ enum class Temperature { total, relative };
 /// rotation to exactly the energies of `temperature`. Round particles get ω = 0: a smooth collision
 /// never sees their rotation, and it is not modelled. A single particle keeps its momentum.
 ///
-/// This is both the initial draw and the Brownian step (thesis, section 1 of the sources): repeated
+/// The same on any number of threads. This is both the initial draw and the Brownian step (thesis, section 1 of the sources): repeated
 /// every τ_B, a free particle diffuses with D₀ = kT τ_B/(2m) and D_r0 = kT τ_B/(2I).
 void draw_velocities(Configuration2& configuration, std::uint64_t seed, Purpose purpose,
-                     std::uint64_t step, Temperature temperature);
+                     std::uint64_t step, Temperature temperature, int threads = 1);
 
 /// How the velocities of a run begin.
 enum class InitialVelocities {

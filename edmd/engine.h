@@ -34,6 +34,13 @@ struct RunCounters {
   std::uint64_t correction_moves = 0;
   double virial = 0;      ///< Σ J n·d over collisions, d from centre to centre
   double dissipated = 0;  ///< energy lost in inelastic collisions
+
+  /// Adds the counts that predictions make.
+  void add_predictions(const RunCounters& other) {
+    predictions += other.predictions;
+    searches += other.searches;
+    steps += other.steps;
+  }
 };
 
 /// Event-driven dynamics of N hard bodies in a periodic box: the run-time face of Simulation<Body>.

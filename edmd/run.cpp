@@ -93,7 +93,7 @@ class Runner {
     note_conservation();
     ++state_.brownian_steps;
     draw_velocities(state_.configuration, options_.seed, Purpose::brownian_step,
-                    state_.brownian_steps, options_.temperature);
+                    state_.brownian_steps, options_.temperature, options_.engine.threads);
     engine_->set_velocities(state_.configuration, horizon(), state_.counters);
     state_.flight_energy = total_energy(state_.configuration) + state_.counters.dissipated;
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <mutex>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -19,6 +20,7 @@
 #include "edmd/calendar.h"
 #include "edmd/collision_rule.h"
 #include "edmd/engine.h"
+#include "edmd/parallel.h"
 
 namespace vitrel {
 
@@ -241,13 +243,19 @@ void Simulation<B>::load_kinds(const Configuration2& configuration) {
 template <Body B>
 void Simulation<B>::predict_all(double horizon, RunCounters& counters) {
   horizon_ = horizon;
+  std::mutex adding;
+  in_parallel(particles_.size(), options_.threads, [&](std::size_t begin, std::size_t end) {
+    RunCounters mine;
+    for (auto i = static_cast<Index>(begin); i < end; ++i) {
+      const Entry entry = next_entry<Scope::later_numbers>(i, mine);
+      events_[i] = entry.event;
+      particles_[i].next = entry.time;
+    }
+    const std::lock_guard lock(adding);
+    counters.add_predictions(mine);
+  });
   calendar_ = Calendar(particles_.size());
-  for (Index i = 0; i < particles_.size(); ++i) {
-    const Entry entry = next_entry<Scope::later_numbers>(i, counters);
-    events_[i] = entry.event;
-    particles_[i].next = entry.time;
-    calendar_.set(i, entry.time);
-  }
+  for (Index i = 0; i < particles_.size(); ++i) calendar_.set(i, particles_[i].next);
   predicted_ = true;
 }
 

@@ -21,6 +21,7 @@ void each_number(Run& run, Real&& real, Counter&& counter) {
   counter("events", state.counters.events);
   counter("collisions", state.counters.collisions);
   counter("predictions", state.counters.predictions);
+  counter("searches", state.counters.searches);
   counter("steps", state.counters.steps);
   counter("renewals", state.counters.renewals);
   counter("correction_moves", state.counters.correction_moves);

@@ -1,0 +1,23 @@
+#include "edmd/parallel.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+namespace vitrel {
+
+void in_parallel(std::size_t count, int threads,
+                 const std::function<void(std::size_t begin, std::size_t end)>& work) {
+  if (threads <= 1) return work(0, count);
+  // Several parts per thread, so that none waits long for another.
+  const std::size_t part = count / (4 * static_cast<std::size_t>(threads)) + 1;
+  tbb::task_arena arena(threads);
+  arena.execute([&] {
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, count, part),
+        [&](const tbb::blocked_range<std::size_t>& range) { work(range.begin(), range.end()); },
+        tbb::simple_partitioner());
+  });
+}
+
+}  // namespace vitrel
