@@ -171,8 +171,8 @@ The first two are cut short after {SECONDS} s of work for each run, at a whole s
 
 Wanted, and found, of vitrel: no correction move; the exact check (tolerance zero) clean at all {samples} samples; a
 drift of the energy in Newtonian runs of at most 4 units in the last place for every impact of a pair, and of at most
-{ENERGY_DRIFT:g} of the whole in that of figure 4.6; equipartition within {STANDARD_ERRORS} standard errors after a wrong
-split of the energy. Its cost grows as N to the power {powers(OURS, ELLIPSES)} (ellipses and
+{ENERGY_DRIFT:g} of the whole in that of figure 4.6; equipartition within {STANDARD_ERRORS} standard errors after a
+wrong split of the energy. Its cost grows as N to the power {powers(OURS, ELLIPSES)} (ellipses and
 circles); that of all pairs to the power {powers(THESIS, ELLIPSES)} (ellipses) and {powers(THESIS, CIRCLES)} (circles).
 
 ### Time against the number of particles (figures 4.1 and 4.2)

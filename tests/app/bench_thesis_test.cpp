@@ -59,6 +59,9 @@ TEST(BenchThesis, PrintsAndWrites) {
     EXPECT_THAT(content(entry.path()), testing::Not(HasSubstr("nan"))) << entry.path();
   }
   EXPECT_EQ(charts, 9);
+  // The lines in the legend have the colours of the curves: they once had a number there.
+  const std::string energies = content(folder / "out/energies.svg");
+  EXPECT_THAT(energies, testing::ContainsRegex("<line [^>]*stroke=\"#1f78c8\""));
 }
 
 TEST(BenchThesis, RefusesNonsense) {

@@ -257,7 +257,7 @@ class Drawing {
       text_ += fmt::format(
           "<line x1=\"{0:.1f}\" y1=\"{1:.1f}\" x2=\"{2:.1f}\" y2=\"{1:.1f}\" stroke=\"{3}\" "
           "stroke-width=\"1.6\"/>\n",
-          x - 8, y, x + 16, y, series_colour(k));
+          x - 8, y, x + 16, series_colour(k));
       if (chart_.series[k].markers) text_ += marker(k, x + 4, y, false) + "\n";
       text_ += svg_text(x + 24, y + 4.5, chart_.series[k].name);
     }

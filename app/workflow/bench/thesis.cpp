@@ -332,14 +332,14 @@ Chart energies_chart(const std::vector<EnergySample>& samples) {
   }
   if (samples.empty()) return chart;
   const double end = samples.back().time;
-  chart.series.push_back(level("equipartition: 1, 1/2", 0, end, 1));
-  chart.series.push_back(level("", 0, end, 0.5));
+  chart.series.push_back(level("equipartition, 1", 0, end, 1));
+  chart.series.push_back(level("equipartition, 1/2", 0, end, 0.5));
   return chart;
 }
 
 std::string relaxation_name(const lab::RelaxationScene& scene) {
   return fmt::format("φ = {:g}, {}{}", scene.packing_fraction, dynamics_name(scene.brownian_step),
-                     scene.share == 0 ? ", from rotation" : "");
+                     scene.share == 0 ? ", spinning" : "");
 }
 
 Chart relaxation_chart(const std::vector<lab::Relaxation>& relaxations) {
@@ -355,7 +355,7 @@ Chart relaxation_chart(const std::vector<lab::Relaxation>& relaxations) {
     chart.series.push_back(series);
   }
   chart.series.push_back(level("equipartition", 0.01, 1e4, 1));
-  chart.notes = {"all energy begins in translation,", "or in rotation;",
+  chart.notes = {"all energy begins in translation,", "or (spinning) in rotation;",
                  "Brownian: drawn so anew every", "τ_B = 0.1, shown just before"};
   return chart;
 }
