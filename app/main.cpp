@@ -111,6 +111,9 @@ class CommandLine {
     add_output(sub, "Trajectory to write; its checkpoint lies beside it", true);
     sub.add_option("--from", arguments_.from, "State or run whose last frame to start from");
     sub.add_flag("--dry-run", arguments_.dry_run, "Print what would be done");
+    sub.add_option("--threads", arguments_.threads,
+                   "Threads for the Brownian steps (1); the results do not depend on it")
+        ->check(CLI::PositiveNumber);
     add_wall_time(sub);
     add_quiet_and_json(sub);
   }

@@ -30,6 +30,7 @@ struct Arguments {
   std::optional<std::uint64_t> seed;
   double wall_time = 0;  ///< seconds; 0: no limit
   int parallel = 1;
+  int threads = 1;
   bool quiet = false, json = false;
   bool dry_run = false, status = false, last_only = false, reference = false;
   std::string template_command;  ///< params: whose template

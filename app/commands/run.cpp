@@ -10,7 +10,7 @@ namespace vitrel {
 
 int run_command(const Arguments& arguments) {
   RunRequest request{load_parameters(parameter_source(arguments)), arguments.output, std::nullopt,
-                     arguments.command_line};
+                     arguments.command_line, arguments.threads};
   if (!arguments.from.empty()) request.from = arguments.from;
   if (arguments.dry_run) {
     fmt::print("{}", run_plan(request));

@@ -159,8 +159,7 @@ class Runner {
   void advance(bool continues) {
     RunState& state = stored_.state;
     if (continues) say_(fmt::format("continuing at time {:.6g}", state.configuration.time));
-    const EngineOptions engine = dynamics_options(request_.parameters).engine;
-    say_("run of " + make_engine(state.configuration, engine)->description());
+    say_("run of " + make_engine(state.configuration, dynamics().engine)->description());
     TrajectoryWriter writer = open_trajectory();
     TrajectoryObserver observer(writer, measure_run);
     const double wall_before = stored_.wall_seconds;
@@ -183,9 +182,15 @@ class Runner {
     save();
   }
 
+  DynamicsOptions dynamics() const {
+    DynamicsOptions options = dynamics_options(request_.parameters);
+    options.engine.threads = request_.threads;
+    return options;
+  }
+
   StageReport run_or_keep_failed_state(const RunPlan& plan) {
     try {
-      return vitrel::run(stored_.state, dynamics_options(request_.parameters), plan, budget_);
+      return vitrel::run(stored_.state, dynamics(), plan, budget_);
     } catch (const InvariantError& error) {
       keep_failed_state();
       throw InvariantError(fmt::format("{}; the state is in {}", error.what(),
@@ -281,6 +286,7 @@ nlohmann::ordered_json run_summary(const RunRequest& request, const RunOutcome& 
           {"collisions", counters.collisions},
           {"events", counters.events},
           {"predictions_per_collision", static_cast<double>(counters.predictions) / collisions},
+          {"searches_per_collision", static_cast<double>(counters.searches) / collisions},
           {"correction_moves", counters.correction_moves},
           {"energy_drift", state.energy_drift},
           {"largest_momentum", state.largest_momentum},

@@ -19,6 +19,7 @@ struct RunRequest {
   std::filesystem::path output;
   std::optional<std::filesystem::path> from;  ///< state to start from; none: prepare
   std::string command_line;                   ///< for the provenance
+  int threads = 1;                            ///< the results do not depend on it
 };
 
 /// What the request would do, in lines for a person. Nothing is written.
