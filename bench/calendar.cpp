@@ -156,7 +156,7 @@ void measure(std::size_t n, bool shuffled, int repeats) {
   Loop<NoCalendar> nothing(scene);
   std::tuple<Loop<Calendar>, Loop<HeapCalendar>, Loop<TournamentCalendar>, Loop<SortedCalendar>>
       loops{scene, scene, scene, scene};
-  // Long enough for several renewals of the calendar's window.
+  // Longer than a window of the calendar (some 9 N), so that every run has its share of renewals.
   const std::uint64_t events = std::max<std::uint64_t>(200'000, 10 * n);
   const auto each = [&](auto&& act) {
     std::apply([&](auto&... loop) { (act(loop), ...); }, loops);
