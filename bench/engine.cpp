@@ -1,0 +1,379 @@
+// How fast is the engine, how does its cost grow with the number of particles, and what does each of
+// its devices gain?
+//
+// Prints JSON. scripts/validate engine builds and runs this, compares with what is wanted, and
+// writes the page, engine.md.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "bench/lab/engine_speed.h"
+#include "bench/lab/methods/method.h"
+#include "bench/lab/twins/all_pairs.h"
+#include "bench/lab/twins/engine_twins.h"
+#include "core/neighbors/neighborhood.h"
+#include "edmd/brownian.h"
+#include "edmd/instances/instances.h"
+#include "edmd/run.h"
+
+namespace vitrel::lab {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// How much is measured, and for how long.
+struct Effort {
+  int repeats = 5;
+  double stretch = 1;  // seconds of a repeat, at least
+  int disks = 4096, ellipses = 1024;
+  int tile = 1000;  // particles
+  std::vector<std::pair<int, int>> tilings = {{1, 1}, {5, 2}, {10, 10}, {40, 25}};
+  std::vector<int> chart_sizes = {10, 30, 100, 300, 1000, 3000, 10000};
+  int largest_twin = 3000;  // its tables take 88 bytes for each pair
+  double twin_seconds = 8;
+};
+const Effort quick{2, 0.01, 100, 64, 36, {{1, 1}, {2, 2}}, {10, 30}, 30, 0.02};
+
+void say(const std::string& what) {
+  fmt::print(stderr, "{}\n", what);
+}
+
+/// Work that was done several times, here and there in alternation with other work.
+class Repeats {
+ public:
+  void add(const Work& work) { works_.push_back(work); }
+
+  /// The best time, the median, and counts per collision over all.
+  Json json() const {
+    std::vector<double> times;
+    Work sum;
+    for (const Work& work : works_) {
+      times.push_back(work.ns_per_collision());
+      sum.simulated_time += work.simulated_time;
+      sum.counters.events += work.counters.events;
+      sum.counters.collisions += work.counters.collisions;
+      sum.counters.renewals += work.counters.renewals;
+      sum.counters.virial += work.counters.virial;
+      sum.counters.add_predictions(work.counters);
+    }
+    std::ranges::sort(times);
+    const RunCounters& of = sum.counters;
+    const auto per_collision = [&](std::uint64_t count) {
+      return static_cast<double>(count) / static_cast<double>(of.collisions);
+    };
+    return {{"ns_per_collision", times.front()},
+            {"median_ns_per_collision", times[times.size() / 2]},
+            {"collisions", of.collisions},
+            {"collision_rate", static_cast<double>(of.collisions) / sum.simulated_time},
+            {"virial_rate", of.virial / sum.simulated_time},
+            {"events", per_collision(of.events)},
+            {"predictions", per_collision(of.predictions)},
+            {"searches", per_collision(of.searches)},
+            {"steps", per_collision(of.steps)},
+            {"renewals", per_collision(of.renewals)}};
+  }
+
+ private:
+  std::vector<Work> works_;
+};
+
+Json scene_json(const FluidScene& scene) {
+  return {{"particles", scene.particles},
+          {"aspect_ratio", scene.aspect_ratio},
+          {"packing_fraction", scene.packing_fraction}};
+}
+
+/// A liquid that has also moved by event-driven dynamics.
+Configuration2 relaxed(const FluidScene& scene, double seconds) {
+  const Configuration2 start = fluid(scene);
+  TimedRun run(make_engine(start, {}), start);
+  run.blocks(seconds);
+  return run.now();
+}
+
+// ---- collisions per second --------------------------------------------------------------------------
+
+Json measure_speed(const Effort& effort) {
+  Json rows = Json::array();
+  const auto measure = [&](const FluidScene& scene) {
+    say(fmt::format("speed: kappa = {}, phi = {}", scene.aspect_ratio, scene.packing_fraction));
+    const Configuration2 start = relaxed(scene, effort.stretch);
+    TimedRun run(make_engine(start, {}), start);
+    Repeats repeats;
+    for (int k = 0; k < effort.repeats; ++k) repeats.add(run.blocks(effort.stretch));
+    Json row = scene_json(scene);
+    row.update(repeats.json());
+    row["reduced_pressure"] =
+        1 + row["virial_rate"].get<double>() / (2.0 * scene.particles);  // kT = 1
+    rows.push_back(row);
+  };
+  for (const double phi : {0.5, 0.7}) measure({effort.disks, 1, phi});
+  for (const double kappa : {2., 6.})
+    for (const double phi : {0.5, 0.7}) measure({effort.ellipses, kappa, phi});
+  return rows;
+}
+
+// ---- cost against the number of particles -----------------------------------------------------------
+
+Json measure_sizes(const Effort& effort) {
+  Json rows = Json::array();
+  for (const double kappa : {1., 2.}) {
+    const FluidScene scene{effort.tile, kappa, 0.5};
+    const Configuration2 tile = relaxed(scene, effort.stretch);
+    for (const auto& [columns, vertical] : effort.tilings) {
+      const Configuration2 start = tiled(tile, columns, vertical);
+      say(fmt::format("size: kappa = {}, N = {}", kappa, start.size()));
+      const std::size_t before = allocated_bytes();
+      const bool peak_is_known = forget_peak();
+      const std::size_t peak_before = peak_bytes();
+      auto engine = make_engine(start, {});
+      RunCounters counters;
+      engine->load(start);
+      engine->advance(start.time, counters);  // predicts
+      const std::size_t allocated = allocated_bytes() - before;
+      const std::size_t peak = peak_bytes() - peak_before;
+      TimedRun run(std::move(engine), start);
+      run.blocks(effort.stretch);
+      Repeats repeats;
+      const int times = start.size() < 1'000'000 ? effort.repeats : 2;
+      for (int k = 0; k < times; ++k) repeats.add(run.blocks(effort.stretch));
+      FluidScene whole = scene;
+      whole.particles = static_cast<int>(start.size());
+      Json row = scene_json(whole);
+      row.update(repeats.json());
+      const auto n = static_cast<double>(start.size());
+      row["bytes_per_particle"] = static_cast<double>(allocated) / n;
+      if (peak_is_known) row["peak_bytes_per_particle"] = static_cast<double>(peak) / n;
+      rows.push_back(row);
+    }
+  }
+  return rows;
+}
+
+// ---- beside the program of the thesis ---------------------------------------------------------------
+
+Json measure_all_pairs(const Effort& effort) {
+  const std::vector<Method> methods = collision_time_methods();
+  const Method& slsqp = *std::ranges::find(methods, "slsqp", &Method::name);
+  EngineOptions correcting;
+  correcting.on_overlap = OnOverlap::correct;
+  Json rows = Json::array();
+  for (const int n : effort.chart_sizes) {
+    say(fmt::format("all pairs: N = {}", n));
+    const FluidScene scene{n, 2, 0.5};
+    const Configuration2 start = relaxed(scene, 0.1 * effort.stretch);
+    const auto add = [&](const char* program, const Work& work) {
+      Repeats once;
+      once.add(work);
+      Json row = {{"program", program}};
+      row.update(scene_json(scene));
+      row.update(once.json());
+      row["seconds_per_time"] = work.seconds / work.simulated_time;
+      rows.push_back(row);
+    };
+    add("vitrel", TimedRun(make_engine(start, {}), start).blocks(effort.stretch));
+    if (n > effort.largest_twin) continue;
+    constexpr double first_collisions = 4;
+    const auto twin = [&](const char* program, const AllPairsOptions& options) {
+      TimedRun run(make_all_pairs_engine(options), start);
+      add(program, run.parts(effort.twin_seconds, first_collisions));
+    };
+    twin("all_pairs", {{}, Asking::every_pair, nullptr});
+    twin("all_pairs_slsqp", {correcting, Asking::every_pair, &slsqp});
+  }
+  return rows;
+}
+
+// ---- Brownian dynamics ------------------------------------------------------------------------------
+
+double wall_seconds_of(const std::function<void()>& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+Json measure_brownian(const Effort& effort) {
+  const FluidScene scene{effort.tile, 6, 0.72};
+  say("Brownian dynamics");
+  const Configuration2 start = relaxed(scene, effort.stretch);
+  Json rows = Json::array();
+  for (const double step : {0.01, 0.1})
+    for (const int threads : {1, 2}) {
+      DynamicsOptions options;
+      options.engine.threads = threads;
+      options.brownian = true;
+      options.brownian_step = step;
+      RunState state = begin_run(start, 0);
+      RunPlan plan;
+      const auto run_for = [&](double duration) {
+        plan.end_time += duration;
+        return wall_seconds_of([&] { run(state, options, plan, {}); });
+      };
+      const double trial = 20 * step;
+      const double duration =
+          std::max(trial, step * std::round(effort.stretch * trial / run_for(trial) / step));
+      double best = 0;
+      const RunCounters before = state.counters;
+      for (int k = 0; k < effort.repeats; ++k) best = std::max(best, duration / run_for(duration));
+      const auto steps = static_cast<double>(effort.repeats) * duration / step;
+      Json row = scene_json(scene);
+      row["brownian_step"] = step;
+      row["threads"] = threads;
+      row["time_per_second"] = best;
+      row["collisions_per_step"] =
+          static_cast<double>(state.counters.collisions - before.collisions) / steps;
+      row["predictions_per_step"] =
+          static_cast<double>(state.counters.predictions - before.predictions) / steps;
+      rows.push_back(row);
+    }
+  return rows;
+}
+
+// ---- what each device gains -------------------------------------------------------------------------
+
+using MakeEngine = std::function<std::unique_ptr<Engine>()>;
+
+/// The engine as it is for the scene, and with another one, in alternation.
+Json compare(const Effort& effort, const std::string& name, const FluidScene& scene,
+             const MakeEngine& ours, const MakeEngine& other) {
+  say("device: " + name);
+  const Configuration2 start = relaxed(scene, 0.3 * effort.stretch);
+  TimedRun with(ours(), start), without(other(), start);
+  Repeats of_with, of_without;
+  for (int k = 0; k < effort.repeats; ++k) {
+    of_with.add(with.blocks(0.5 * effort.stretch));
+    of_without.add(without.blocks(0.5 * effort.stretch));
+  }
+  Json row = {{"device", name}};
+  row.update(scene_json(scene));
+  row["with"] = of_with.json();
+  row["without"] = of_without.json();
+  return row;
+}
+
+/// How many neighbours there are at the margin that the engine chooses, and how many there would be
+/// in lists shaped like the circumcircle.
+Json neighbor_counts(const Configuration2& c) {
+  constexpr double wanted = 7;
+  std::vector<Pose2> poses;
+  for (std::size_t i = 0; i < c.size(); ++i) poses.push_back(c.pose(i));
+  Neighborhoods<Ellipse> lists(c.box, c.shape, poses, wanted);
+  CellGrid cells(c.box, 4 * c.shape[0].a, c.size());
+  for (std::size_t i = 0; i < c.size(); ++i) cells.insert(i, c.position[i]);
+  const double reach = 2 * (c.shape[0].a + lists.margin());
+  std::size_t shaped = 0, round = 0;
+  for (std::size_t i = 0; i < c.size(); ++i) {
+    shaped += lists.of(i).size();
+    cells.for_each_near(c.position[i], reach,
+                        [&](std::size_t, const Shift<2>&, const Vec2&) { ++round; });
+    --round;  // itself
+  }
+  const auto n = static_cast<double>(c.size());
+  return {{"margin", lists.margin()},
+          {"shaped", static_cast<double>(shaped) / n},
+          {"round", static_cast<double>(round) / n}};
+}
+
+/// Contacts refined only when they are about to happen, with several ideas of what that means: in
+/// parts of the mean time between two collisions of a particle.
+Json lazy_refinement(const Effort& effort, const FluidScene& scene) {
+  say("device: lazy refinement");
+  const Configuration2 start = relaxed(scene, 0.3 * effort.stretch);
+  TimedRun eager(make_ellipse_engine({}), start);
+  Repeats of_eager;
+  for (int k = 0; k < effort.repeats; ++k) of_eager.add(eager.blocks(0.5 * effort.stretch));
+  Json row = scene_json(scene);
+  row["eager"] = of_eager.json();
+  row["lazy"] = Json::array();
+  const double free_time = 0.5 * scene.particles / row["eager"]["collision_rate"].get<double>();
+  for (const double patience : {0.03, 0.1, 0.3, 1.}) {
+    TimedRun lazy(make_engine_with_lazy_searches(patience * free_time), start);
+    Repeats of_lazy;
+    searches_put_off();
+    for (int k = 0; k < effort.repeats; ++k) of_lazy.add(lazy.blocks(0.3 * effort.stretch));
+    Json with = of_lazy.json();
+    const double put_off =
+        static_cast<double>(searches_put_off()) / with["collisions"].get<double>();
+    with["searches"] = with["searches"].get<double>() - put_off;
+    with["patience"] = patience;
+    row["lazy"].push_back(with);
+  }
+  return row;
+}
+
+Json measure_devices(const Effort& effort) {
+  const auto disks = [] { return make_disk_engine({}); };
+  const auto ellipses = [] { return make_ellipse_engine({}); };
+  const auto growing = [] { return make_growing_engine({}); };
+  Json rows = Json::array();
+  rows.push_back(compare(effort, "disks", {effort.disks, 1, 0.5}, disks, ellipses));
+  for (const double kappa : {2., 6.}) {
+    const FluidScene scene{effort.ellipses, kappa, 0.7};
+    rows.push_back(compare(effort, "constant_size", scene, ellipses, growing));
+    rows.push_back(compare(effort, "look", scene, ellipses, make_engine_without_look));
+    rows.push_back(compare(effort, "horizon", scene, ellipses, make_engine_without_horizon));
+    rows.push_back(compare(effort, "shaped_lists", scene, ellipses, make_engine_with_round_lists));
+    rows.back()["neighbors"] = neighbor_counts(relaxed(scene, 0));
+  }
+  return rows;
+}
+
+Json measure_lazy_refinement(const Effort& effort) {
+  Json rows = Json::array();
+  for (const double kappa : {2., 6.})
+    rows.push_back(lazy_refinement(effort, {effort.ellipses, kappa, 0.7}));
+  return rows;
+}
+
+// -----------------------------------------------------------------------------------------------------
+
+using Measure = Json (*)(const Effort&);
+const std::vector<std::pair<std::string, Measure>> parts = {
+    {"speed", measure_speed},         {"sizes", measure_sizes},
+    {"all_pairs", measure_all_pairs}, {"brownian", measure_brownian},
+    {"devices", measure_devices},     {"lazy", measure_lazy_refinement}};
+
+Json measure(const Effort& effort, const std::vector<std::string>& wanted) {
+  Json result = {{"compiler", "g++ " __VERSION__}, {"flags", VITREL_FLAGS}};
+  result["ns_per_psi"] = ns_per_psi(0.5 * effort.stretch);
+  for (const auto& [name, measure_part] : parts)
+    if (wanted.empty() || std::ranges::count(wanted, name) > 0) result[name] = measure_part(effort);
+  result["ns_per_psi_at_the_end"] = ns_per_psi(0.5 * effort.stretch);
+  return result;
+}
+
+std::vector<std::string> part_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, measure_part] : parts) names.push_back(name);
+  return names;
+}
+
+}  // namespace
+}  // namespace vitrel::lab
+
+int main(int argc, char** argv) {
+  CLI::App app("How fast is the engine?");
+  std::vector<std::string> wanted;
+  bool is_quick = false;
+  double stretch = 0;
+  app.add_option("part", wanted, "what to measure; all parts if none is named")
+      ->check(CLI::IsMember(vitrel::lab::part_names()));
+  app.add_flag("--quick", is_quick, "few particles, short runs: to see that it works");
+  app.add_option("--stretch", stretch, "seconds of one repeat")->check(CLI::PositiveNumber);
+  CLI11_PARSE(app, argc, argv);
+  try {
+    vitrel::lab::Effort effort = is_quick ? vitrel::lab::quick : vitrel::lab::Effort{};
+    if (stretch > 0) effort.stretch = stretch;
+    fmt::print("{}\n", vitrel::lab::measure(effort, wanted).dump(2));
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "bench_engine: {}\n", error.what());
+    return 1;
+  }
+}

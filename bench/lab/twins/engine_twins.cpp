@@ -1,0 +1,204 @@
+#include "bench/lab/twins/engine_twins.h"
+
+#include <utility>
+
+#include "edmd/simulation.h"
+
+namespace vitrel::lab {
+namespace {
+
+// Ellipses, each of which the engine treats in another way.
+struct SearchedEllipse : Ellipse {};
+struct FarSightedEllipse : Ellipse {};
+struct LazyEllipse : Ellipse {
+  static thread_local double patience;
+  static thread_local double wait;  // until which the last look rules out a contact of the pair
+  static thread_local std::uint64_t put_off;
+};
+thread_local double LazyEllipse::patience = 0;
+thread_local double LazyEllipse::wait = 0;
+thread_local std::uint64_t LazyEllipse::put_off = 0;
+
+struct RoundListedEllipse : Ellipse {
+  RoundListedEllipse() = default;
+  explicit(false) RoundListedEllipse(const Ellipse& ellipse) : Ellipse(ellipse) {}
+  double swing() const { return 0; }  // of its neighbourhood
+};
+
+}  // namespace
+}  // namespace vitrel::lab
+
+namespace vitrel {
+
+/// Settles nothing.
+template <>
+class FirstLook<lab::SearchedEllipse> : public detail::Urgencies<many> {
+ public:
+  using Shape = Ellipse;
+  static constexpr int lanes = many;
+  static constexpr bool is_exact = false;
+  struct Memory {
+    explicit(false) Memory(const Vec2& /*axis*/ = {}) {}
+    friend Memory reversed(const Memory& memory) { return memory; }
+  };
+
+  FirstLook(const Outline<Ellipse>&, const Pose2&, const Motion2&, const CommonSize&, double) {}
+  void set(int, const Pose2&, const Motion2&, const Outline<Ellipse>&, const Memory&, double) {}
+  Memory memory(int) const { return {}; }
+  void look(int count) { open(0, count); }
+};
+
+template <>
+class FirstLook<lab::FarSightedEllipse> : public FirstLook<Ellipse> {
+ public:
+  using FirstLook<Ellipse>::FirstLook;
+};
+
+template <>
+class FirstLook<lab::LazyEllipse> : public FirstLook<Ellipse> {
+ public:
+  using FirstLook<Ellipse>::FirstLook;
+  Urgent most_urgent() const {
+    const Urgent urgent = FirstLook<Ellipse>::most_urgent();
+    lab::LazyEllipse::wait = urgent.time;
+    return urgent;
+  }
+};
+
+template <>
+class FirstLook<lab::RoundListedEllipse> : public FirstLook<Ellipse> {
+ public:
+  using Shape = lab::RoundListedEllipse;
+  using FirstLook<Ellipse>::FirstLook;
+};
+
+template <>
+struct Outline<lab::RoundListedEllipse> : Outline<Ellipse> {
+  using Outline<Ellipse>::Outline;
+};
+
+/// The axis is that of the ellipses, the gap that of their circumcircles.
+template <>
+class GapLook<lab::RoundListedEllipse> : public GapLook<Ellipse> {
+ public:
+  GapLook(const Ellipse& shape, double angle) : GapLook<Ellipse>(shape, angle), radius_(shape.a) {}
+  void set(int k, const Ellipse& shape, double angle, const Vec2& d) {
+    GapLook<Ellipse>::set(k, shape, angle, d);
+    round_gap_[k] = d.norm() - radius_ - shape.a;
+  }
+  double gap(int k) const { return round_gap_[k]; }
+
+ private:
+  double radius_;
+  double round_gap_[lanes] = {};
+};
+
+// The margin of lists shaped like the particles.
+template <>
+double Neighborhoods<lab::RoundListedEllipse>::choose_gap(std::vector<Pair>, double wanted) const {
+  const std::vector<Ellipse> shapes(shapes_.begin(), shapes_.end());
+  std::vector<Pose2> poses;
+  for (const Reference& reference : reference_) poses.push_back(reference.pose);
+  return 2 * Neighborhoods<Ellipse>(box_, shapes, poses, wanted).margin();
+}
+
+template <>
+lab::SearchedEllipse body_from<lab::SearchedEllipse>(const Ellipse& shape, const CommonSize&) {
+  return {shape};
+}
+template <>
+lab::FarSightedEllipse body_from<lab::FarSightedEllipse>(const Ellipse& shape, const CommonSize&) {
+  return {shape};
+}
+template <>
+lab::LazyEllipse body_from<lab::LazyEllipse>(const Ellipse& shape, const CommonSize&) {
+  return {shape};
+}
+template <>
+lab::RoundListedEllipse body_from<lab::RoundListedEllipse>(const lab::RoundListedEllipse& shape,
+                                                           const CommonSize&) {
+  return shape;
+}
+
+// As for every body, but the partner's entry is no limit.
+template <>
+template <>
+std::size_t
+Simulation<lab::FarSightedEllipse>::gather<Simulation<lab::FarSightedEllipse>::Scope::neighborhood>(
+    Index i, const Pose2& mine, double latest, std::size_t next, Glance& glance) {
+  constexpr double forever = 1e100;
+  const auto neighbors = neighborhoods_->of(i);
+  int k = 0;
+  for (; next < neighbors.size() && k < FirstLook<Ellipse>::lanes; ++next, ++k) {
+    auto& neighbor = neighbors[next];
+    const Particle& partner = particles_[neighbor.other];
+    glance.horizon[k] = latest;
+    Pose2 pose = partner.pose_at(now_);
+    pose.position += box_.translation(neighbor.shift) - mine.position;
+    glance.look.set(k, pose, partner.motion(), kind(neighbor.other).outline, neighbor.memory,
+                    std::min(latest - now_, forever));
+    glance.neighbor[k] = &neighbor;
+  }
+  glance.count = k;
+  return next;
+}
+
+}  // namespace vitrel
+
+namespace vitrel::lab {
+namespace {
+
+template <class B>
+Flight<Ellipse> plain(const Flight<B>& flight) {
+  return {flight.body, flight.pose, flight.motion};
+}
+
+// The event loop finds these in place of the predictor for ellipses.
+Prediction first_contact(const Flight<SearchedEllipse>& one, const Flight<SearchedEllipse>& two,
+                         double horizon, double contact_gap,
+                         const FirstLook<SearchedEllipse>::Memory& /*memory*/) {
+  return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap);
+}
+
+Prediction first_contact(const Flight<FarSightedEllipse>& one, const Flight<FarSightedEllipse>& two,
+                         double horizon, double contact_gap,
+                         const FirstLook<Ellipse>::Memory& memory) {
+  return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, memory.axis);
+}
+
+Prediction first_contact(const Flight<RoundListedEllipse>& one,
+                         const Flight<RoundListedEllipse>& two, double horizon, double contact_gap,
+                         const FirstLook<Ellipse>::Memory& memory) {
+  return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, memory.axis);
+}
+
+Prediction first_contact(const Flight<LazyEllipse>& one, const Flight<LazyEllipse>& two,
+                         double horizon, double contact_gap,
+                         const FirstLook<Ellipse>::Memory& memory) {
+  if (LazyEllipse::wait > LazyEllipse::patience) {
+    ++LazyEllipse::put_off;
+    return {Outcome::not_converged, LazyEllipse::wait};
+  }
+  return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, memory.axis);
+}
+
+}  // namespace
+
+std::unique_ptr<Engine> make_engine_without_look() {
+  return std::make_unique<Simulation<SearchedEllipse>>(EngineOptions{}, "without the first look");
+}
+std::unique_ptr<Engine> make_engine_without_horizon() {
+  return std::make_unique<Simulation<FarSightedEllipse>>(EngineOptions{}, "without the horizon");
+}
+std::unique_ptr<Engine> make_engine_with_round_lists() {
+  return std::make_unique<Simulation<RoundListedEllipse>>(EngineOptions{}, "with round lists");
+}
+std::unique_ptr<Engine> make_engine_with_lazy_searches(double patience) {
+  LazyEllipse::patience = patience;
+  return std::make_unique<Simulation<LazyEllipse>>(EngineOptions{}, "with lazy searches");
+}
+std::uint64_t searches_put_off() {
+  return std::exchange(LazyEllipse::put_off, 0);
+}
+
+}  // namespace vitrel::lab
