@@ -97,9 +97,8 @@ class Simulation final : public Engine {
   struct Event {
     enum class What : std::uint8_t { collision, correction, exit, look_again };
     What what = What::look_again;
-    Index partner = 0;
     Index partner_version = 0;
-    Shift<2> shift = Shift<2>::Zero();
+    NeighborImage partner;
     Vec2 normal = Vec2::Zero();  // of a collision, unless the look is exact
   };
   /// An event and its time.
@@ -153,7 +152,7 @@ class Simulation final : public Engine {
   void impact(Index i, Index j, const Vec2& d, const Vec2& normal, RunCounters& counters);
   double overlap_event(Index i, Index j, const Vec2& d, Event& event) const;
   Event collision(const NeighborImage& with, const Vec2& normal) const {
-    return {Event::What::collision, with.other, version_[with.other], with.shift, normal};
+    return {Event::What::collision, version_[with.other], with, normal};
   }
   [[noreturn]] void report_overlap(Index i, Index j) const;
   [[noreturn]] void report_wedge(Index i) const;
@@ -354,7 +353,7 @@ std::size_t Simulation<B>::gather(Index i, const Pose2& mine, double latest, std
     glance.horizon[k] =
         scope == Scope::neighborhood ? std::min(latest, partner.next) : latest;
     Pose2 pose = partner.pose_at(now_);
-    pose.position += box_.translation(neighbor.shift) - mine.position;
+    pose.position += box_.translation(neighbor.shift()) - mine.position;
     glance.look.set(k, pose, partner.motion(), kind(j).outline, neighbor.memory,
                     std::min(glance.horizon[k] - now_, forever));
     glance.neighbor[k++] = &neighbor;
@@ -387,7 +386,7 @@ void Simulation<B>::search(Index i, const Pose2& mine, const Neighbor<B>& neighb
     return Flight<B>{body_from<B>(shapes_[k], size_now()), pose, particles_[k].motion()};
   };
   Pose2 theirs = particles_[j].pose_at(now_);
-  theirs.position += box_.translation(neighbor.shift);
+  theirs.position += box_.translation(neighbor.shift());
   const Prediction touch = first_contact(flight(i, mine), flight(j, theirs), horizon - now_,
                                          contact_gap_, neighbor.memory);
   ++counters.searches;
@@ -427,7 +426,7 @@ void Simulation<B>::process(Index i, RunCounters& counters) {
       return;
     case Event::What::collision:
     case Event::What::correction:
-      if (version_[event.partner] == event.partner_version)
+      if (version_[event.partner.other] == event.partner_version)
         meet(i, event, counters);
       else
         predict(i, counters);
@@ -445,12 +444,12 @@ void Simulation<B>::leave_neighborhood(Index i) {
 
 template <Body B>
 void Simulation<B>::meet(Index i, const Event& event, RunCounters& counters) {
-  const Index j = event.partner;
+  const Index j = event.partner.other;
   Particle& one = particles_[i];
   Particle& two = particles_[j];
   bring_to_now(one);
   bring_to_now(two);
-  const Vec2 d = two.position + box_.translation(event.shift) - one.position;
+  const Vec2 d = two.position + box_.translation(event.partner.shift()) - one.position;
   if (event.what == Event::What::correction) {
     Motion2 motion1 = one.motion(), motion2 = two.motion();
     separate(motion1, kind(i).inertia, motion2, kind(j).inertia, d);
@@ -460,7 +459,7 @@ void Simulation<B>::meet(Index i, const Event& event, RunCounters& counters) {
   } else {
     const Vec2 normal = FirstLook<B>::is_exact ? d.normalized() : event.normal;
     impact(i, j, d, normal, counters);
-    neighborhoods_->remember(i, {j, event.shift}, normal);
+    neighborhoods_->remember(i, event.partner, normal);
   }
   ++version_[i];
   if (i != j) ++version_[j];

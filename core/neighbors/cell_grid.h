@@ -55,11 +55,12 @@ class CellGrid {
   bool for_each_near(const Vec2& position, double reach, Visit&& visit) const {
     const Range x = covered(position, reach, 0);
     const Range y = covered(position, reach, 1);
-    for (std::int64_t cx = x.low; cx <= x.high; ++cx)
+    for (std::int64_t cx = x.low; cx <= x.high; ++cx) {
+      const std::int32_t boxes_x = boxes_off(cx, 0);
+      const std::int64_t column = (cx - boxes_x * count_[0]) * count_[1];
       for (std::int64_t cy = y.low; cy <= y.high; ++cy) {
-        const Shift<2> shift(boxes_off(cx, 0), boxes_off(cy, 1));
-        const std::int64_t cell =
-            (cx - shift.x() * count_[0]) * count_[1] + (cy - shift.y() * count_[1]);
+        const Shift<2> shift(boxes_x, boxes_off(cy, 1));
+        const std::int64_t cell = column + cy - shift.y() * count_[1];
         const Vec2 offset = box_.translation(shift) - position;
         for (Index j = first_[static_cast<std::size_t>(cell)]; j != none; j = points_[j].next) {
           const Vec2 separation = points_[j].position + offset;
@@ -67,6 +68,7 @@ class CellGrid {
           if (!goes_on(visit, static_cast<std::size_t>(j), shift, separation)) return false;
         }
       }
+    }
     return true;
   }
 

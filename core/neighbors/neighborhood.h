@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -17,8 +18,21 @@ namespace vitrel {
 
 /// Another particle's image (j, shift), seen at r_j + shift ∘ L.
 struct NeighborImage {
-  std::uint32_t other;
-  Shift<2> shift;
+  std::uint32_t other = 0;
+  std::int16_t boxes_x = 0, boxes_y = 0;  // the shift, in short: lists are read all the time
+
+  NeighborImage() = default;
+  NeighborImage(std::size_t j, const Shift<2>& shift)
+      : other(static_cast<std::uint32_t>(j)),
+        boxes_x(static_cast<std::int16_t>(shift.x())),
+        boxes_y(static_cast<std::int16_t>(shift.y())) {}
+
+  Shift<2> shift() const { return {boxes_x, boxes_y}; }
+  /// The image of particle i that the other sees.
+  NeighborImage seen_from_there(std::size_t i) const { return {i, -shift()}; }
+  bool operator==(const NeighborImage& image) const {
+    return std::bit_cast<std::uint64_t>(*this) == std::bit_cast<std::uint64_t>(image);
+  }
 };
 
 /// An image as a neighbour, with what the looks at this pair remember.
@@ -76,11 +90,10 @@ class Neighborhoods {
   void remember(std::size_t i, const NeighborImage& with, const Vec2& normal) {
     const auto note = [&](std::size_t k, const NeighborImage& image, const Vec2& axis) {
       for (Neighbor<B>& neighbor : lists_[k])
-        if (neighbor.other == image.other && neighbor.shift == image.shift)
-          neighbor.memory = {axis};
+        if (neighbor == image) neighbor.memory = {axis};
     };
     note(i, with, normal);
-    note(with.other, {static_cast<std::uint32_t>(i), -with.shift}, -normal);
+    note(with.other, with.seen_from_there(i), -normal);
   }
 
   /// New reference pose (wrapped into the box), size and list for particle i.
@@ -209,7 +222,7 @@ class Neighborhoods {
           if (j == i && !comes_after_zero(shift)) return;
           const Reference& other = reference_[j];
           look.set(count, scaled(shapes_[j], other.size), other.pose.angle, d);
-          image[count++] = {static_cast<std::uint32_t>(j), shift};
+          image[count++] = {j, shift};
           if (count == GapLook<Shape>::lanes) judge();
         });
     if (count > 0) judge();
@@ -230,14 +243,13 @@ class Neighborhoods {
 
   // Particle i as the neighbour of its neighbour.
   static Neighbor<B> seen_from_there(std::size_t i, const Neighbor<B>& neighbor) {
-    return {{static_cast<std::uint32_t>(i), -neighbor.shift}, reversed(neighbor.memory)};
+    return {neighbor.NeighborImage::seen_from_there(i), reversed(neighbor.memory)};
   }
 
   static const Neighbor<B>* find(std::span<const Neighbor<B>> list, const NeighborImage& image) {
-    const auto found = std::ranges::find_if(list, [&](const Neighbor<B>& n) {
-      return n.other == image.other && n.shift == image.shift;
-    });
-    return found == list.end() ? nullptr : &*found;
+    for (const Neighbor<B>& neighbor : list)
+      if (neighbor == image) return &neighbor;
+    return nullptr;
   }
 
   void link(std::size_t i, const Neighbor<B>& neighbor) {
@@ -246,9 +258,8 @@ class Neighborhoods {
   }
 
   void forget(std::size_t i, const NeighborImage& image) {
-    lists_.remove_if(image.other, [&](const Neighbor<B>& n) {
-      return n.other == i && n.shift == -image.shift;
-    });
+    const NeighborImage mine = image.seen_from_there(i);
+    lists_.remove_if(image.other, [&](const Neighbor<B>& neighbor) { return neighbor == mine; });
   }
 
   PeriodicBox<2> box_;
