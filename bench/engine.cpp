@@ -18,6 +18,7 @@
 #include "bench/lab/methods/method.h"
 #include "bench/lab/twins/all_pairs.h"
 #include "bench/lab/twins/engine_twins.h"
+#include "core/io/provenance.h"
 #include "core/neighbors/neighborhood.h"
 #include "edmd/brownian.h"
 #include "edmd/instances/instances.h"
@@ -293,7 +294,7 @@ Json lazy_refinement(const Effort& effort, const FluidScene& scene) {
   row["eager"] = of_eager.json();
   row["lazy"] = Json::array();
   const double free_time = 0.5 * scene.particles / row["eager"]["collision_rate"].get<double>();
-  for (const double patience : {0.03, 0.1, 0.3, 1.}) {
+  for (const double patience : {0.1, 0.3, 0.6, 1., 2.}) {
     TimedRun lazy(make_engine_with_lazy_searches(patience * free_time), start);
     Repeats of_lazy;
     searches_put_off();
@@ -341,7 +342,8 @@ const std::vector<std::pair<std::string, Measure>> parts = {
     {"devices", measure_devices},     {"lazy", measure_lazy_refinement}};
 
 Json measure(const Effort& effort, const std::vector<std::string>& wanted) {
-  Json result = {{"compiler", "g++ " __VERSION__}, {"flags", VITREL_FLAGS}};
+  Json result = {
+      {"commit", program_commit()}, {"compiler", "g++ " __VERSION__}, {"flags", VITREL_FLAGS}};
   result["ns_per_psi"] = ns_per_psi(0.5 * effort.stretch);
   for (const auto& [name, measure_part] : parts)
     if (wanted.empty() || std::ranges::count(wanted, name) > 0) result[name] = measure_part(effort);

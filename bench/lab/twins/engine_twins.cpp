@@ -134,7 +134,7 @@ Simulation<lab::FarSightedEllipse>::gather<Simulation<lab::FarSightedEllipse>::S
     const Particle& partner = particles_[neighbor.other];
     glance.horizon[k] = latest;
     Pose2 pose = partner.pose_at(now_);
-    pose.position += box_.translation(neighbor.shift) - mine.position;
+    pose.position += box_.translation(neighbor.shift()) - mine.position;
     glance.look.set(k, pose, partner.motion(), kind(neighbor.other).outline, neighbor.memory,
                     std::min(latest - now_, forever));
     glance.neighbor[k] = &neighbor;
