@@ -1,0 +1,357 @@
+// The first look: disks in closed form, pairs that have just collided, axes, lanes. That it is
+// never late whatever the axis is judged in tests/bench/first_look_truth_test.cpp.
+
+#include "core/contact/first_look.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "core/contact/support_gap.h"
+#include "core/random/stream.h"
+#include "core/tolerances.h"
+
+namespace vitrel {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+Vec2 random_direction(Stream& draw) {
+  return direction(draw.uniform(0, 2 * pi));
+}
+
+/// The times of the first `count` lanes, asked for as a run does: the most urgent first.
+template <class Look>
+std::vector<double> times_of(Look look, int count) {
+  std::vector<double> times(count, infinity);
+  double last = 0;
+  for (int done = 0; done < count; ++done) {
+    const auto [time, lane] = look.most_urgent();
+    if (time == infinity) break;
+    EXPECT_LT(lane, count);
+    EXPECT_GE(time, last);
+    times[lane] = last = time;
+    look.close(lane);
+  }
+  EXPECT_EQ(look.most_urgent().time, infinity) << "all are closed";
+  return times;
+}
+
+// ---- Disks ----
+
+struct DiskPair {
+  Disk one, two;
+  Vec2 d;
+  Motion2 motion1, motion2;
+};
+
+DiskPair random_disks(Stream& draw) {
+  DiskPair pair;
+  pair.one.radius = draw.uniform(0.5, 1.5);
+  pair.two.radius = draw.uniform(0.1, 3);
+  const double reach = pair.one.radius + pair.two.radius;
+  pair.d = reach * (1 + std::pow(10, draw.uniform(-6, 1))) * random_direction(draw);
+  pair.motion1 = {{draw.normal(), draw.normal()}, 0};
+  pair.motion2 = {{draw.normal(), draw.normal()}, 0};
+  return pair;
+}
+
+/// The first time at which the centres are the reach apart, from |d + v t|² = reach²; infinite
+/// without. `height`: of the discriminant over b², small for a graze, which rounding may turn into a
+/// miss.
+struct Meeting {
+  long double time, height;
+};
+Meeting meeting(const DiskPair& pair, double contact_gap) {
+  using Real = long double;
+  const Real dx = pair.d.x(), dy = pair.d.y();
+  const Real vx = Real(pair.motion2.velocity.x()) - pair.motion1.velocity.x();
+  const Real vy = Real(pair.motion2.velocity.y()) - pair.motion1.velocity.y();
+  const Real reach = Real(pair.one.radius) + pair.two.radius + contact_gap;
+  const Real a = vx * vx + vy * vy, b = dx * vx + dy * vy, c = dx * dx + dy * dy - reach * reach;
+  const Real discriminant = b * b - a * c;
+  if (b >= 0 || discriminant < 0) return {infinity, std::abs(discriminant) / (b * b)};
+  return {(-b - std::sqrt(discriminant)) / a, discriminant / (b * b)};
+}
+
+// Of the sum in c = d² − reach² rounding leaves 3 ε d², of the products in the discriminant as much;
+// near a graze, at a height η of the discriminant, that makes the relative error ~ 8 ε (d²/c + 1/η).
+TEST(FirstLookAtDisks, TellsTheTimeOfContact) {
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  constexpr int lanes = FirstLook<Disk>::lanes;
+  Stream draw(31, Purpose::tests);
+  int met = 0, grazing = 0;
+  for (int trial = 0; trial < 3'000; ++trial) {
+    DiskPair of[lanes];
+    const DiskPair first = random_disks(draw);
+    const double contact_gap = tolerance::contact_gap(20);
+    FirstLook<Disk> look(Outline<Disk>(first.one), {Vec2::Zero(), 0}, first.motion1, {},
+                         contact_gap);
+    double horizon[lanes];
+    for (int k = 0; k < lanes; ++k) {
+      of[k] = random_disks(draw);
+      of[k].one = first.one;
+      of[k].motion1 = first.motion1;
+      const double apart = of[k].one.radius + of[k].two.radius;
+      of[k].d *= std::max(1.0, 1.000001 * apart / of[k].d.norm());
+      horizon[k] = k % 2 ? 1e100 : draw.uniform(0, 5);
+      look.set(k, {of[k].d, 3.0 * k}, of[k].motion2, Outline<Disk>(of[k].two), {}, horizon[k]);
+    }
+    look.look(lanes);
+    const std::vector<double> times = times_of(look, lanes);
+    for (int k = 0; k < lanes; ++k) {
+      const Meeting truth = meeting(of[k], contact_gap);
+      if (truth.height < 1e-9) {
+        ++grazing;
+        continue;
+      }
+      if (truth.time >= horizon[k]) {
+        EXPECT_EQ(times[k], infinity);
+        continue;
+      }
+      ++met;
+      const double reach = of[k].one.radius + of[k].two.radius;
+      const double c = of[k].d.squaredNorm() - reach * reach;
+      const double relative =
+          8 * epsilon * (of[k].d.squaredNorm() / c + 1 / static_cast<double>(truth.height));
+      EXPECT_NEAR(times[k], static_cast<double>(truth.time),
+                  relative * static_cast<double>(truth.time));
+    }
+  }
+  EXPECT_GT(met, 3'000);
+  EXPECT_LT(grazing, 5);
+}
+
+TEST(FirstLookAtDisks, APairThatTouchesMeetsAtOnceIfItApproachesAndNeverIfItLeaves) {
+  const double contact_gap = tolerance::contact_gap(10);
+  for (const double gap : {1.2 * contact_gap, 0.8 * contact_gap, 0.0, -1e-9, -0.5}) {
+    FirstLook<Disk> look(Outline<Disk>({1}), {Vec2::Zero(), 0}, {Vec2::Zero(), 0}, {}, contact_gap);
+    const Vec2 d(2 + gap, 0);
+    look.set(0, {d, 0}, {Vec2(-0.1, 0.2), 0}, Outline<Disk>({1}), {}, infinity);
+    look.set(1, {d, 0}, {Vec2(0.1, 0.2), 0}, Outline<Disk>({1}), {}, infinity);
+    look.set(2, {d, 0}, {Vec2(0, 0), 0}, Outline<Disk>({1}), {}, infinity);
+    look.look(3);
+    const std::vector<double> times = times_of(look, 3);
+    EXPECT_GE(times[0], 0);
+    EXPECT_LE(times[0], gap > contact_gap ? 10 * 0.2 * contact_gap + 1e-15 : 0);
+    EXPECT_EQ(times[1], infinity);
+    EXPECT_EQ(times[2], infinity);
+  }
+}
+
+// ---- Lanes ----
+
+template <class B>
+class LookLanes : public testing::Test {};
+using Bodies = testing::Types<Disk, Ellipse, GrowingEllipse>;
+TYPED_TEST_SUITE(LookLanes, Bodies);
+
+template <class B>
+typename FirstLook<B>::Shape round_shape(double radius) {
+  if constexpr (std::is_same_v<B, Disk>)
+    return {radius};
+  else
+    return {radius, radius};
+}
+
+// Whatever an earlier look has left in a lane, or nothing at all, does not count: bodies that touch
+// at once stand in all of them.
+TYPED_TEST(LookLanes, BeyondTheCountNeverWin) {
+  constexpr int lanes = FirstLook<TypeParam>::lanes;
+  const auto shape = round_shape<TypeParam>(1);
+  const Outline<typename FirstLook<TypeParam>::Shape> outline(shape);
+  for (const bool filled : {true, false})
+    for (int count = 0; count <= lanes; ++count) {
+      FirstLook<TypeParam> look(outline, {Vec2::Zero(), 0}, {Vec2::Zero(), 0}, {}, 1e-12);
+      for (int k = 0; k < (filled ? lanes : count); ++k)
+        look.set(k, {Vec2(k < count ? 3 + k : 2.001, 0), 0}, {Vec2(-1, 0), 0}, outline,
+                 {Vec2(1, 0)}, 100);
+      look.look(count);
+      const std::vector<double> times = times_of(look, count);
+      for (int k = 0; k < count; ++k) EXPECT_NEAR(times[k], 1 + k, 1e-9);
+    }
+}
+
+// ---- Ellipses ----
+
+struct EllipsePairAt {
+  Ellipse one, two;
+  Pose2 pose1;
+  Motion2 motion1;
+  Pose2 pose2;
+  Motion2 motion2;
+};
+
+/// Disjoint, the surfaces `gap` apart along the normal `n`.
+EllipsePairAt random_pair(Stream& draw, double largest_aspect_ratio, double gap, Vec2& n) {
+  const auto shape = [&] {
+    const double b = draw.uniform(0.5, 1.5);
+    return Ellipse{b * std::pow(largest_aspect_ratio, draw.uniform()), b};
+  };
+  const auto motion = [&] { return Motion2{{draw.normal(), draw.normal()}, 2 * draw.normal()}; };
+  EllipsePairAt pair{shape(), shape(), {}, motion(), {}, motion()};
+  pair.pose1 = {Vec2::Zero(), draw.uniform(-10, 10)};
+  pair.pose2.angle = draw.uniform(-10, 10);
+  n = random_direction(draw);
+  pair.pose2.position = surface_point(pair.one, direction(pair.pose1.angle), n) + gap * n -
+                        surface_point(pair.two, direction(pair.pose2.angle), -n);
+  return pair;
+}
+
+template <class B>
+FirstLook<B> looked(const EllipsePairAt& pair, const CommonSize& common, double contact_gap,
+                    const Vec2& axis, double horizon) {
+  FirstLook<B> look(Outline<Ellipse>(pair.one), pair.pose1, pair.motion1, common, contact_gap);
+  look.set(0, pair.pose2, pair.motion2, Outline<Ellipse>(pair.two), {axis}, horizon);
+  look.look(1);
+  return look;
+}
+
+/// Speed at which the gap along n changes, and the most by which its rate can fall in a unit of time
+/// (without growth): ġ = n·v + Σ ω h', h' = (a² − b²)(u·n)(u·dn/dφ)/h; |h''| ≤ (a² − b²)/b.
+double gap_rate(const EllipsePairAt& pair, const Vec2& n) {
+  const auto turning = [&](const Ellipse& shape, double angle) {
+    const Vec2 u = direction(angle);
+    return shape.stretch() * u.dot(n) * u.dot(perpendicular(n)) / support(shape, u, n);
+  };
+  return n.dot(pair.motion2.velocity - pair.motion1.velocity) +
+         pair.motion1.angular_velocity * turning(pair.one, pair.pose1.angle) +
+         pair.motion2.angular_velocity * turning(pair.two, pair.pose2.angle);
+}
+double largest_fall(const EllipsePairAt& pair) {
+  const auto of = [](const Ellipse& shape, const Motion2& motion) {
+    return motion.angular_velocity * motion.angular_velocity * shape.stretch() / shape.b;
+  };
+  return of(pair.one, pair.motion1) + of(pair.two, pair.motion2);
+}
+
+// A pair that leaves with the rate ġ > 0 from a gap above the floor keeps above it for at least
+// 2 ġ/M: that is what a look must tell of a pair that has just collided, whose gap then is 0.75 to
+// 1.25 contact gaps. (So also after 99 % of the speed are lost.)
+TEST(FirstLookAtEllipses, SettlesAPairThatHasJustCollided) {
+  Stream draw(32, Purpose::tests);
+  int settled = 0;
+  for (int trial = 0; trial < 20'000; ++trial) {
+    const double contact_gap = tolerance::contact_gap(20);
+    Vec2 n;
+    EllipsePairAt pair = random_pair(draw, 10, draw.uniform(0.75, 1.25) * contact_gap, n);
+    const double rate = gap_rate(pair, n);
+    if (std::abs(rate) < 1e-3) continue;
+    if (rate < 0) {  // time turned round
+      for (Motion2* motion : {&pair.motion1, &pair.motion2})
+        *motion = {-motion->velocity, -motion->angular_velocity};
+    }
+    const double apart_until = 2 * std::abs(rate) / largest_fall(pair);
+    for (const double horizon : {0.5 * apart_until, 10 * apart_until}) {
+      const double still = looked<Ellipse>(pair, {}, contact_gap, n, horizon).most_urgent().time;
+      const double grows =
+          looked<GrowingEllipse>(pair, {1, 0}, contact_gap, n, horizon).most_urgent().time;
+      if (horizon < apart_until) {
+        EXPECT_EQ(still, infinity);
+        EXPECT_EQ(grows, infinity);
+      } else {
+        EXPECT_GE(still, (1 - 1e-9) * apart_until);
+        EXPECT_GE(grows, (1 - 1e-9) * apart_until);
+      }
+    }
+    ++settled;
+  }
+  EXPECT_GT(settled, 19'000);
+}
+
+// With the best axis the time is no earlier than that of the plainest bound: the rate of the gap and
+// the largest fall of it.
+TEST(FirstLookAtEllipses, LooksAtLeastAsFarAsThePlainBound) {
+  Stream draw(33, Purpose::tests);
+  for (int trial = 0; trial < 20'000; ++trial) {
+    const double contact_gap = tolerance::contact_gap(20);
+    const double gap = std::pow(10, draw.uniform(-9, 0));
+    Vec2 n;
+    const EllipsePairAt pair = random_pair(draw, 10, gap, n);
+    const double rate = gap_rate(pair, n), fall = largest_fall(pair);
+    const double room = gap - contact_gap;
+    const double bound = (rate + std::sqrt(rate * rate + 2 * fall * room)) / fall;
+    const double horizon = 1e3;
+    EXPECT_GE(looked<Ellipse>(pair, {}, contact_gap, n, horizon).most_urgent().time,
+              (1 - 1e-6) * bound);
+  }
+}
+
+// A step of Newton's method takes an axis that is off by δ to within C δ², C ~ 3 κ at most: from 1e-4
+// far closer than a hundredth of that.
+TEST(FirstLookAtEllipses, TurnsAxesToTheBest) {
+  Stream draw(34, Purpose::tests);
+  for (int trial = 0; trial < 5'000; ++trial) {
+    Vec2 n;
+    const EllipsePairAt pair = random_pair(draw, 3, draw.uniform(0.01, 1), n);
+    const double off = 1e-4;
+    const Vec2 axis = detail::turned(n, trial % 2 ? off : -off);
+    for (const Vec2& turned :
+         {looked<Ellipse>(pair, {}, 1e-12, axis, 1).memory(0).axis,
+          looked<GrowingEllipse>(pair, {1, 0.1}, 1e-12, axis, 1).memory(0).axis})
+      EXPECT_LT(std::abs(cross(n, turned)), 0.01 * off);
+  }
+}
+
+// An axis that is longer than 1 by δ makes the gap wrong by about δ (b₁²/h₁ + b₂²/h₂), which the floor
+// of half a contact gap, 16 ε of the extent of the box, has to cover like all other rounding. Between
+// two loads, which find all axes anew, a pair is looked at some hundred times; every turn may make the
+// axis longer by half a unit in the last place.
+TEST(FirstLookAtEllipses, AxesStayUnitVectors) {
+  Stream draw(35, Purpose::tests);
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  const Outline<Ellipse> outline(Ellipse{2, 0.7});
+  std::array<Vec2, many> axes;
+  for (Vec2& axis : axes) axis = random_direction(draw);
+  const auto largest_error = [&] {
+    double largest = 0;
+    for (const Vec2& axis : axes) largest = std::max(largest, std::abs(axis.norm() - 1));
+    return largest;
+  };
+  for (int turn = 1; turn <= 100'000; ++turn) {
+    FirstLook<Ellipse> look(outline, {Vec2::Zero(), draw.uniform(-3, 3)}, {{0.1, 0}, 1}, {}, 1e-12);
+    for (int k = 0; k < many; ++k)
+      look.set(k, {2.9 * random_direction(draw), draw.uniform(-3, 3)}, {{0.3, 0.2}, -1}, outline,
+               {axes[k]}, 1);
+    look.look(many);
+    for (int k = 0; k < many; ++k) axes[k] = look.memory(k).axis;
+    if (turn == 100) EXPECT_LT(largest_error(), 16 * epsilon);
+  }
+  EXPECT_LT(largest_error(), 100'000 * 0.5 * epsilon);
+}
+
+// Full turns of a body are no change: angles beyond those of which π is taken off by parts, in one
+// lane or as the first body's, against the remainder in extended precision.
+TEST(FirstLookAtEllipses, AnglesMayBeLarge) {
+  Stream draw(36, Purpose::tests);
+  const auto remainder = [](double angle) {
+    return static_cast<double>(
+        std::remainder(static_cast<long double>(angle), 2 * std::numbers::pi_v<long double>));
+  };
+  for (int trial = 0; trial < 3'000; ++trial) {
+    Vec2 n;
+    EllipsePairAt pair = random_pair(draw, 5, 1, n);
+    pair.pose1.angle = draw.uniform(-1, 1) * std::pow(10, draw.uniform(3, 9));
+    pair.pose2.angle = draw.uniform(-1, 1) * std::pow(10, draw.uniform(3, 9));
+    EllipsePairAt same = pair;
+    same.pose1.angle = remainder(pair.pose1.angle);
+    same.pose2.angle = remainder(pair.pose2.angle);
+    pair.pose2.position = same.pose2.position = (pair.one.a + pair.two.a) * n;
+    const double horizon = 3;
+    const double time = looked<Ellipse>(pair, {}, 1e-12, n, horizon).most_urgent().time;
+    const double wanted = looked<Ellipse>(same, {}, 1e-12, n, horizon).most_urgent().time;
+    if (wanted == infinity)
+      EXPECT_EQ(time, infinity);
+    else
+      EXPECT_NEAR(time, wanted, 1e-6 * wanted);
+  }
+}
+
+}  // namespace
+}  // namespace vitrel
