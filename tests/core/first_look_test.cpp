@@ -321,7 +321,9 @@ TEST(FirstLookAtEllipses, AxesStayUnitVectors) {
                {axes[k]}, 1);
     look.look(many);
     for (int k = 0; k < many; ++k) axes[k] = look.memory(k).axis;
-    if (turn == 100) EXPECT_LT(largest_error(), 16 * epsilon);
+    if (turn == 100) {
+      EXPECT_LT(largest_error(), 16 * epsilon);
+    }
   }
   EXPECT_LT(largest_error(), 100'000 * 0.5 * epsilon);
 }

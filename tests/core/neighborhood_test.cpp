@@ -1,0 +1,455 @@
+// Neighbour lists against all pairs, exits against the support function, and what lists are kept in.
+
+#include "core/neighbors/neighborhood.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <set>
+#include <tuple>
+#include <vector>
+
+#include "core/contact/support_gap.h"
+#include "core/neighbors/list_pool.h"
+#include "core/neighbors/spatial_order.h"
+#include "core/random/stream.h"
+
+namespace vitrel {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+double distance(const Disk& one, double, const Disk& two, double, const Vec2& d) {
+  return d.norm() - one.radius - two.radius;
+}
+double distance(const Ellipse& one, double angle1, const Ellipse& two, double angle2,
+                const Vec2& d) {
+  return support_gap(one, angle1, two, angle2, d).gap;
+}
+
+Disk random_shape(Stream& draw, Disk) {
+  return {draw.uniform(0.7, 1.4)};
+}
+Ellipse random_shape(Stream& draw, Ellipse) {
+  const double b = draw.uniform(0.3, 1);
+  return {b * draw.uniform(1, 5), b};
+}
+
+/// Particles at any places, overlapping or not: the lists do not ask.
+template <class B>
+struct Crowd {
+  using Shape = typename FirstLook<B>::Shape;
+
+  PeriodicBox<2> box;
+  std::vector<Shape> shapes;
+  std::vector<Pose2> poses;   // at the last renewal
+  std::vector<double> sizes;  // as well
+  Neighborhoods<B> lists;
+
+  Crowd(Stream& draw, const Vec2& lengths, std::size_t particles, double wanted)
+      : box(lengths),
+        shapes(drawn_shapes(draw, particles)),
+        poses(drawn_poses(draw, lengths, particles)),
+        sizes(particles, 1),
+        lists(box, shapes, poses, wanted) {}
+  Crowd(const Crowd&) = delete;
+
+  static std::vector<Shape> drawn_shapes(Stream& draw, std::size_t particles) {
+    std::vector<Shape> drawn;
+    for (std::size_t i = 0; i < particles; ++i) drawn.push_back(random_shape(draw, Shape{}));
+    return drawn;
+  }
+  static Pose2 drawn_pose(Stream& draw, const Vec2& lengths) {
+    const Vec2 place(draw.uniform(-0.5, 0.5), draw.uniform(-0.5, 0.5));
+    return {place.cwiseProduct(lengths), draw.uniform(-9, 9)};
+  }
+  static std::vector<Pose2> drawn_poses(Stream& draw, const Vec2& lengths, std::size_t particles) {
+    std::vector<Pose2> drawn;
+    for (std::size_t i = 0; i < particles; ++i) drawn.push_back(drawn_pose(draw, lengths));
+    return drawn;
+  }
+
+  void renew(std::size_t i, const Pose2& pose, double size) {
+    poses[i] = pose;
+    sizes[i] = size;
+    lists.renew(i, pose, size);
+  }
+};
+
+using Image = std::tuple<std::size_t, std::size_t, int, int>;  // i sees j at this shift
+
+template <class B>
+std::multiset<Image> listed(Crowd<B>& crowd) {
+  std::multiset<Image> images;
+  for (std::size_t i = 0; i < crowd.shapes.size(); ++i)
+    for (const Neighbor<B>& neighbor : crowd.lists.of(i))
+      images.insert({i, neighbor.other, neighbor.shift.x(), neighbor.shift.y()});
+  return images;
+}
+
+/// What there is closer than `gap`, from either side.
+template <class B>
+std::multiset<Image> images_closer_than(const Crowd<B>& crowd, double gap) {
+  std::multiset<Image> images;
+  for (std::size_t i = 0; i < crowd.shapes.size(); ++i)
+    for (std::size_t j = 0; j < crowd.shapes.size(); ++j) {
+      const auto one = scaled(crowd.shapes[i], crowd.sizes[i]);
+      const auto two = scaled(crowd.shapes[j], crowd.sizes[j]);
+      crowd.box.for_each_image(
+          crowd.poses[j].position - crowd.poses[i].position,
+          one.circumradius() + two.circumradius() + gap, [&](const Shift<2>& shift, const Vec2& d) {
+            if (i == j && shift.isZero()) return;
+            if (distance(one, crowd.poses[i].angle, two, crowd.poses[j].angle, d) < gap)
+              images.insert({i, j, shift.x(), shift.y()});
+          });
+    }
+  return images;
+}
+
+Image seen_from_there(const Image& image) {
+  const auto [i, j, x, y] = image;
+  return {j, i, -x, -y};
+}
+
+// Complete: all images whose neighbourhoods meet are listed, by a brute force that shares no code with
+// the cells. No more than need be: none twice, own images once of ±shift, and few that are farther away
+// than half as far again. Symmetric.
+template <class B>
+void expect_lists_right(Crowd<B>& crowd) {
+  const double reach = 2 * crowd.lists.margin();
+  const std::multiset<Image> lists = listed(crowd);
+  for (const Image& image : lists) {
+    const auto [i, j, x, y] = image;
+    ASSERT_EQ(lists.count(image), 1u);
+    ASSERT_EQ(lists.count(seen_from_there(image)), i == j ? 0u : 1u);
+  }
+  for (const Image& image : images_closer_than(crowd, reach * (1 - 1e-12))) {
+    const bool own = std::get<0>(image) == std::get<1>(image);
+    ASSERT_TRUE(lists.count(image) == 1 || (own && lists.count(seen_from_there(image)) == 1))
+        << std::get<0>(image) << " lacks " << std::get<1>(image);
+  }
+  const std::multiset<Image> near = images_closer_than(crowd, 1.5 * reach);
+  const auto far = std::ranges::count_if(lists, [&](const Image& i) { return !near.contains(i); });
+  ASSERT_LE(static_cast<double>(far), 0.01 * static_cast<double>(lists.size()));
+}
+
+struct Scene {
+  const char* name;
+  Vec2 lengths;
+  std::size_t particles;
+};
+
+const Scene scenes[] = {
+    {"many cells", {30, 40}, 150},
+    {"few cells", {9, 7}, 12},
+    {"a box shorter than two particles", {2.5, 3.5}, 4},
+    {"a box shorter than one", {1.1, 0.9}, 2},
+    {"alone with its images", {3, 1.5}, 1},
+    {"a dilute gas", {100, 60}, 20},
+};
+
+template <class B>
+class NeighborLists : public testing::Test {};
+using Bodies = testing::Types<Disk, Ellipse, GrowingEllipse>;
+TYPED_TEST_SUITE(NeighborLists, Bodies);
+
+TYPED_TEST(NeighborLists, HoldAllWhoseNeighborhoodsMeet) {
+  Stream draw(61, Purpose::tests);
+  for (const Scene& scene : scenes) {
+    SCOPED_TRACE(scene.name);
+    for (const double wanted : {3.0, 7.0, 12.0}) {
+      Crowd<TypeParam> crowd(draw, scene.lengths, scene.particles, wanted);
+      expect_lists_right(crowd);
+    }
+  }
+}
+
+// Over the faces of the box or anywhere, and with growth at the size of the moment: the older a
+// neighbourhood, the smaller. (Shrinking, the larger.)
+TYPED_TEST(NeighborLists, StayRightThroughThousandsOfRenewals) {
+  Stream draw(62, Purpose::tests);
+  for (const Scene& scene : scenes)
+    for (const double last_size : {1.0, 1.5, 0.6}) {
+      if (last_size != 1 && !std::is_same_v<TypeParam, GrowingEllipse>) continue;
+      SCOPED_TRACE(scene.name);
+      Crowd<TypeParam> crowd(draw, scene.lengths, scene.particles, 7);
+      constexpr int renewals = 1'500;
+      for (int n = 1; n <= renewals; ++n) {
+        const std::size_t i = draw.below(scene.particles);
+        Pose2 pose = Crowd<TypeParam>::drawn_pose(draw, scene.lengths);
+        if (n % 4) {
+          const double step = crowd.lists.margin();
+          pose.position =
+              crowd.poses[i].position + Vec2(draw.uniform(-step, step), draw.uniform(-step, step));
+          pose.angle = crowd.poses[i].angle + draw.uniform(-0.3, 0.3);
+        }
+        Shift<2> image = Shift<2>::Zero();
+        crowd.box.wrap(pose.position, image);
+        crowd.renew(i, pose, std::pow(last_size, static_cast<double>(n) / renewals));
+        if (n % 100 == 0) expect_lists_right(crowd);
+        if (this->HasFatalFailure()) return;
+      }
+    }
+}
+
+// About as many as wanted where there are enough particles for a mean.
+TYPED_TEST(NeighborLists, AreAsLongAsWanted) {
+  Stream draw(63, Purpose::tests);
+  for (const double wanted : {4.0, 7.0, 10.0}) {
+    Crowd<TypeParam> crowd(draw, Vec2(50, 50), 400, wanted);
+    EXPECT_NEAR(static_cast<double>(listed(crowd).size()), 400 * wanted, 0.05 * 400 * wanted);
+  }
+}
+
+// What is noted of a pair stays with it, seen from either side, until one of the two leaves; a new axis
+// of a renewal separates the two if they are apart.
+template <class B>
+class Memories : public testing::Test {};
+using Ellipses = testing::Types<Ellipse, GrowingEllipse>;
+TYPED_TEST_SUITE(Memories, Ellipses);
+
+TYPED_TEST(Memories, OfAPairStayWithIt) {
+  Stream draw(64, Purpose::tests);
+  Crowd<TypeParam> crowd(draw, Vec2(12, 9), 20, 7);
+  const auto axis_of = [&](std::size_t i, const NeighborImage& image) {
+    for (const Neighbor<TypeParam>& neighbor : crowd.lists.of(i))
+      if (neighbor.other == image.other && neighbor.shift == image.shift)
+        return neighbor.memory.axis;
+    ADD_FAILURE() << "no such neighbour";
+    return Vec2(0, 0);
+  };
+  int noted = 0;
+  for (std::size_t i = 0; i < 20; ++i) {
+    if (crowd.lists.of(i).empty()) continue;
+    const NeighborImage with = crowd.lists.of(i)[0];
+    if (with.other == i) continue;
+    const NeighborImage back{static_cast<std::uint32_t>(i), -with.shift};
+    const Vec2 normal = direction(draw.uniform(0, 2 * pi));
+    crowd.lists.remember(i, with, normal);
+    EXPECT_EQ(axis_of(i, with), normal);
+    EXPECT_EQ(axis_of(with.other, back), -normal);
+    crowd.renew(i, crowd.poses[i], 1);
+    EXPECT_EQ(axis_of(i, with), normal);
+    EXPECT_EQ(axis_of(with.other, back), -normal);
+    ++noted;
+  }
+  EXPECT_GT(noted, 15);
+}
+
+TYPED_TEST(Memories, BeginWithAnAxisThatSeparates) {
+  Stream draw(65, Purpose::tests);
+  Crowd<TypeParam> crowd(draw, Vec2(25, 25), 100, 7);
+  int apart = 0, separated_by_it = 0;
+  for (std::size_t i = 0; i < 100; ++i)
+    for (const Neighbor<TypeParam>& neighbor : crowd.lists.of(i)) {
+      const std::size_t j = neighbor.other;
+      const Vec2 d =
+          crowd.poses[j].position + crowd.box.translation(neighbor.shift) - crowd.poses[i].position;
+      const Vec2 n = neighbor.memory.axis;
+      EXPECT_NEAR(n.norm(), 1, 1e-14);
+      const double reach = support(crowd.shapes[i], direction(crowd.poses[i].angle), n) +
+                           support(crowd.shapes[j], direction(crowd.poses[j].angle), n);
+      const double best =
+          distance(crowd.shapes[i], crowd.poses[i].angle, crowd.shapes[j], crowd.poses[j].angle, d);
+      apart += best > 0;
+      separated_by_it += best > 0 && n.dot(d) > reach;
+    }
+  EXPECT_GT(apart, 100);
+  EXPECT_GT(separated_by_it, 0.95 * apart);
+}
+
+// ---- Exits ----
+
+template <class B>
+class Exits : public testing::Test {};
+TYPED_TEST_SUITE(Exits, Bodies);
+
+double height(const Disk& disk, double, const Vec2&) {
+  return disk.radius;
+}
+double height(const Ellipse& ellipse, double angle, const Vec2& n) {
+  return support(ellipse, direction(angle), n);
+}
+
+/// Particle 0 inside its neighbourhood, perhaps long after its last renewal.
+struct Inside {
+  Pose2 pose;
+  Motion2 motion;
+  CommonSize common;
+};
+
+template <class B>
+Inside random_inside(Stream& draw, const Crowd<B>& crowd, double growth) {
+  Inside inside;
+  const double room = crowd.lists.margin() * draw.uniform();
+  const double share = draw.uniform();
+  const double swing = std::max(crowd.sizes[0] * crowd.shapes[0].swing(), 1e-3);
+  inside.pose = {
+      crowd.poses[0].position + share * room * direction(draw.uniform(0, 2 * pi)),
+      crowd.poses[0].angle + (1 - share) * room / swing * (draw.uniform() < 0.5 ? 1 : -1)};
+  inside.motion = {{draw.normal(), draw.normal()}, draw.uniform() < 0.3 ? 0 : 3 * draw.normal()};
+  inside.common = {crowd.sizes[0], growth};
+  return inside;
+}
+
+// Sampled in time and in all directions, the body does not reach beyond its own shape at the last
+// renewal, widened by the margin.
+TYPED_TEST(Exits, UntilThenTheBodyIsInsideItsNeighborhood) {
+  Stream draw(66, Purpose::tests);
+  for (int trial = 0; trial < 400; ++trial) {
+    Crowd<TypeParam> crowd(draw, Vec2(9, 7), 6, 5);
+    const bool grows = std::is_same_v<TypeParam, GrowingEllipse> && trial % 3;
+    const double growth = grows ? (trial % 3 == 1 ? 0.3 : -0.3) * draw.uniform() : 0;
+    if (grows) crowd.renew(0, crowd.poses[0], 1 + growth * draw.uniform());
+    Inside inside = random_inside(draw, crowd, growth);
+    // Since the last renewal it has grown further, as far as there is room.
+    if (grows) inside.common.size *= 1 + 0.01 * growth;
+    const double exit = crowd.lists.exit_time(0, inside.pose, inside.motion, inside.common);
+    ASSERT_GE(exit, 0);
+    ASSERT_LT(exit, 1e9);
+    for (int k = 0; k <= 40 && exit > 0; ++k) {
+      const double time = exit * k / 40;
+      const Pose2 pose = advanced(inside.pose, inside.motion, time);
+      const double size = inside.common.size + growth * time;
+      for (int m = 0; m < 90; ++m) {
+        const Vec2 n = direction(2 * pi * m / 90);
+        const double now = n.dot(pose.position) + size * height(crowd.shapes[0], pose.angle, n);
+        const double then = n.dot(crowd.poses[0].position) +
+                            crowd.sizes[0] * height(crowd.shapes[0], crowd.poses[0].angle, n);
+        ASSERT_LE(now, then + crowd.lists.margin() * (1 + 1e-12) + 1e-13) << "at " << k << "/40";
+      }
+    }
+  }
+}
+
+// Without growth it is exactly the time at which |Δr| + swing |Δθ| reaches the margin.
+TYPED_TEST(Exits, ComeNoEarlierThanNeedBe) {
+  Stream draw(67, Purpose::tests);
+  for (int trial = 0; trial < 2'000; ++trial) {
+    Crowd<TypeParam> crowd(draw, Vec2(9, 7), 6, 5);
+    const Inside inside = random_inside(draw, crowd, 0);
+    const auto used = [&](double time) {
+      const Pose2 pose = advanced(inside.pose, inside.motion, time);
+      return (pose.position - crowd.poses[0].position).norm() +
+             crowd.shapes[0].swing() * std::abs(pose.angle - crowd.poses[0].angle);
+    };
+    const double exit = crowd.lists.exit_time(0, inside.pose, inside.motion, inside.common);
+    EXPECT_NEAR(used(exit), crowd.lists.margin(), 1e-9 * crowd.lists.margin());
+    EXPECT_LT(used(0.5 * exit), crowd.lists.margin());
+  }
+}
+
+// With growth not by much: the swing is taken a tenth too large, and nothing is promised for longer
+// than the time of a growth by a tenth.
+TEST(GrowingExits, ComeNotMuchEarlierThanNeedBe) {
+  Stream draw(68, Purpose::tests);
+  for (int trial = 0; trial < 2'000; ++trial) {
+    Crowd<GrowingEllipse> crowd(draw, Vec2(9, 7), 6, 5);
+    const double growth = draw.uniform(0.01, 1);
+    const Inside inside = random_inside(draw, crowd, growth);
+    const double exit = crowd.lists.exit_time(0, inside.pose, inside.motion, inside.common);
+    const Pose2 pose = advanced(inside.pose, inside.motion, exit);
+    const double used =
+        (pose.position - crowd.poses[0].position).norm() +
+        1.1 * crowd.shapes[0].swing() * std::abs(pose.angle - crowd.poses[0].angle) +
+        growth * exit * crowd.shapes[0].circumradius();
+    const bool at_the_tenth = std::abs(growth * exit - 0.1) < 1e-12;
+    const bool outside_already = exit == 0;
+    if (!at_the_tenth && !outside_already) {
+      EXPECT_NEAR(used, crowd.lists.margin(), 1e-9 * crowd.lists.margin());
+    }
+  }
+}
+
+TYPED_TEST(Exits, ComeAtOnceOutsideAndNeverAtRest) {
+  Stream draw(69, Purpose::tests);
+  Crowd<TypeParam> crowd(draw, Vec2(9, 7), 6, 5);
+  Pose2 outside = crowd.poses[0];
+  outside.position.x() += 1.01 * crowd.lists.margin();
+  EXPECT_EQ(crowd.lists.exit_time(0, outside, {{-1, 0}, 0.1}, {1, 0}), 0);
+  EXPECT_EQ(crowd.lists.exit_time(0, crowd.poses[0], {{0, 0}, 0}, {1, 0}),
+            std::numeric_limits<double>::infinity());
+}
+
+// ---- What lists are kept in ----
+
+TEST(ListPool, HoldsWhatVectorsHold) {
+  Stream draw(70, Purpose::tests);
+  constexpr std::size_t lists = 30;
+  ListPool<std::uint64_t> pool(lists);
+  std::vector<std::vector<std::uint64_t>> twin(lists);
+  std::vector<std::uint32_t> counts(lists);
+  for (std::uint32_t& count : counts) count = static_cast<std::uint32_t>(draw.below(5));
+  for (const bool reserved : {false, true}) {
+    if (reserved) {
+      pool.reserve(counts);
+      for (auto& list : twin) list.clear();
+    }
+    for (int n = 0; n < 20'000; ++n) {
+      const std::size_t k = draw.below(lists);
+      const std::uint64_t choice = draw.below(20), value = draw.below(100);
+      if (choice < 17) {
+        pool.add(k, value);
+        twin[k].push_back(value);
+      } else if (choice < 19) {
+        const auto unwanted = [&](std::uint64_t x) { return x % 3 == value % 3; };
+        pool.remove_if(k, unwanted);
+        std::erase_if(twin[k], unwanted);
+      } else {
+        twin[k].resize(draw.below(9), value);
+        pool.assign(k, twin[k]);
+      }
+      for (std::size_t list : {k, (k + 1) % lists})
+        ASSERT_TRUE(std::ranges::equal(pool[list], twin[list]));
+    }
+    for (std::size_t k = 0; k < lists; ++k) ASSERT_TRUE(std::ranges::equal(pool[k], twin[k]));
+  }
+}
+
+bool is_permutation_of_all(std::vector<std::uint32_t> order, std::size_t points) {
+  std::ranges::sort(order);
+  std::vector<std::uint32_t> all(points);
+  std::iota(all.begin(), all.end(), 0);
+  return order == all;
+}
+
+TEST(SpatialOrder, NamesEveryPointOnce) {
+  Stream draw(71, Purpose::tests);
+  const PeriodicBox<2> box(Vec2(3, 200));
+  for (const std::size_t count : {0, 1, 2, 3, 10, 1000}) {
+    std::vector<Vec2> points;
+    for (std::size_t k = 0; k < count; ++k)
+      points.push_back({draw.uniform(-1.5, 1.5), draw.uniform(-100, 100)});
+    EXPECT_TRUE(is_permutation_of_all(spatial_order(box, points), count));
+  }
+  const std::vector<Vec2> at_one_place(7, Vec2(-1.5, 100));
+  EXPECT_TRUE(is_permutation_of_all(spatial_order(box, at_one_place), 7));
+}
+
+// Along Morton's curve every aligned run of 4^m sites of a lattice with 2^k × 2^k fills a square of
+// 2^m × 2^m.
+TEST(SpatialOrder, FillsSquareAfterSquare) {
+  constexpr int side = 32;
+  const PeriodicBox<2> box(Vec2(side, side));
+  std::vector<Vec2> sites;
+  for (int x = 0; x < side; ++x)
+    for (int y = 0; y < side; ++y) sites.push_back(Vec2(x + 0.5, y + 0.5) - Vec2(16, 16));
+  Stream draw(72, Purpose::tests);
+  for (std::size_t k = sites.size() - 1; k > 0; --k) std::swap(sites[k], sites[draw.below(k + 1)]);
+  const std::vector<std::uint32_t> order = spatial_order(box, sites);
+  for (int length = 2; length <= side; length *= 2)
+    for (std::size_t first = 0; first < order.size(); first += length * length) {
+      Vec2 low = sites[order[first]], high = low;
+      for (int k = 0; k < length * length; ++k) {
+        low = low.cwiseMin(sites[order[first + k]]);
+        high = high.cwiseMax(sites[order[first + k]]);
+      }
+      EXPECT_EQ(high - low, Vec2(length - 1, length - 1));
+    }
+}
+
+}  // namespace
+}  // namespace vitrel
