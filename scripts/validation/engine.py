@@ -187,6 +187,10 @@ def clock_rate():
     return f", {float(found[1]) / 1000:.2f} GHz" if found else ""
 
 
+def commit(data):
+    return data["commit"][:8] + "-modified" * ("modified" in data["commit"])
+
+
 def page(native, release):
     psi = " and ".join(f"{native[key]:.1f}" for key in ("ns_per_psi", "ns_per_psi_at_the_end"))
     return f"""# How fast is the engine?
@@ -194,7 +198,7 @@ def page(native, release):
     scripts/validate engine                       # builds, measures and writes this page
     build/native/bench/bench_engine speed sizes   # parts of it, as JSON
 
-Measured on {datetime.date.today()}, commit {native["commit"][:8]}, {processor()}{clock_rate()}, {native["compiler"]},
+Measured on {datetime.date.today()}, commit {commit(native)}, {processor()}{clock_rate()}, {native["compiler"]},
 `{native["flags"]}`; calibration: {psi} ns per Ψ (the function of Vieillard-Baron of two ellipses, from their
 angles; at the beginning and at the end of the run). The portable build is `{release["flags"]}`, {release["ns_per_psi"]:.1f} ns per Ψ.
 
