@@ -118,6 +118,7 @@ class Simulation final : public Engine {
   enum class Scope { neighborhood, later_numbers };
 
   const Kind& kind(Index i) const { return kinds_[kind_of_[i]]; }
+  const Shape& shape(Index i) const { return shapes_[kind_of_[i]]; }
   CommonSize size_now() const {
     if constexpr (grows) return {1 + options_.growth_rate * now_, options_.growth_rate};
     return {};
@@ -161,9 +162,9 @@ class Simulation final : public Engine {
   std::string description_;
   PeriodicBox<2> box_;
   std::vector<Index> outer_;  // the configuration's numbers of the particles
-  std::vector<Shape> shapes_;  // at size 1, as loaded
+  std::vector<Shape> shapes_;  // of every kind, at size 1, as loaded
   std::vector<Kind> kinds_;
-  std::vector<std::uint32_t> kind_of_;
+  KindOf kind_of_;
   std::vector<Particle> particles_;
   std::vector<Shift<2>> image_;
   std::vector<Index> version_;  // counts the changes of a particle's motion
@@ -193,10 +194,10 @@ void Simulation<B>::load(const Configuration2& configuration, double horizon) {
   for (Index i = 0; i < particles_.size(); ++i) {
     poses.push_back(particles_[i].pose_at(0));
     // An angle is rounded too, and moves the surface by up to `swing` times its rounding.
-    extent = std::max(extent, shapes_[i].swing() * std::abs(particles_[i].angle));
+    extent = std::max(extent, shape(i).swing() * std::abs(particles_[i].angle));
   }
   contact_gap_ = tolerance::contact_gap(extent);
-  neighborhoods_.emplace(box_, shapes_, poses, wanted_neighbors);
+  neighborhoods_.emplace(box_, shapes_, kind_of_, poses, wanted_neighbors);
   events_.assign(particles_.size(), {});
   events_left_ =
       std::max(events_per_particle_and_block * particles_.size(), least_events_per_block);
@@ -224,18 +225,19 @@ void Simulation<B>::load_kinds(const Configuration2& configuration) {
   std::map<std::tuple<double, double, double>, std::uint32_t> known;
   shapes_.clear();
   kinds_.clear();
-  kind_of_.clear();
+  std::vector<std::uint32_t> kind_of;
   for (const Index k : outer_) {
     const Ellipse& semi_axes = configuration.shape[k];
     const double mass = configuration.mass[k];
-    const Shape shape = shape_from<Shape>(semi_axes);
+    const Shape drawn = shape_from<Shape>(semi_axes);
     const auto [place, is_new] = known.try_emplace({semi_axes.a, semi_axes.b, mass}, kinds_.size());
-    if (is_new)
-      kinds_.push_back({Outline<Shape>(shape),
-                        {1 / mass, semi_axes.is_round() ? 0 : 1 / configuration.inertia(k)}});
-    shapes_.push_back(shape);
-    kind_of_.push_back(place->second);
+    kind_of.push_back(place->second);
+    if (!is_new) continue;
+    shapes_.push_back(drawn);
+    kinds_.push_back({Outline<Shape>(drawn),
+                      {1 / mass, semi_axes.is_round() ? 0 : 1 / configuration.inertia(k)}});
   }
+  kind_of_ = KindOf(std::move(kind_of), kinds_.size());
 }
 
 // All at once, every pair by one of its particles: no prediction needs another's result.
@@ -292,7 +294,7 @@ void Simulation<B>::write(Configuration2& configuration) const {
     configuration.angle[k] = pose.angle;
     configuration.velocity[k] = particle.velocity;
     configuration.angular_velocity[k] = particle.angular_velocity;
-    if constexpr (grows) configuration.shape[k] = scaled(shapes_[i], size);
+    if constexpr (grows) configuration.shape[k] = scaled(shape(i), size);
   }
 }
 
@@ -383,7 +385,7 @@ void Simulation<B>::search(Index i, const Pose2& mine, const Neighbor<B>& neighb
                            Entry& best, RunCounters& counters) const {
   const Index j = neighbor.other;
   const auto flight = [&](Index k, const Pose2& pose) {
-    return Flight<B>{body_from<B>(shapes_[k], size_now()), pose, particles_[k].motion()};
+    return Flight<B>{body_from<B>(shape(k), size_now()), pose, particles_[k].motion()};
   };
   Pose2 theirs = particles_[j].pose_at(now_);
   theirs.position += box_.translation(neighbor.shift());
@@ -409,7 +411,7 @@ double Simulation<B>::overlap_event(Index i, Index j, const Vec2& d, Event& even
   const bool receding = d.dot(relative) > 0;
   event.what = receding ? Event::What::look_again : Event::What::correction;
   constexpr double watch = 0.05;  // of the time in which they move by their own width
-  return receding ? watch * (shapes_[i].inradius() + shapes_[j].inradius()) / relative.norm() : 0;
+  return receding ? watch * (shape(i).inradius() + shape(j).inradius()) / relative.norm() : 0;
 }
 
 template <Body B>
@@ -472,7 +474,7 @@ template <Body B>
 void Simulation<B>::impact(Index i, Index j, const Vec2& d, const Vec2& n, RunCounters& counters) {
   const CommonSize size = size_now();
   const auto arm = [&](Index k, const Vec2& outward) {
-    return surface_point(scaled(shapes_[k], size.size), particles_[k].pose_at(now_), outward);
+    return surface_point(scaled(shape(k), size.size), particles_[k].pose_at(now_), outward);
   };
   const Vec2 arm1 = arm(i, n), arm2 = arm(j, -n);
   const double growth = size.growth_rate / size.size * (arm1 - arm2).dot(n);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/geometry/periodic_box.h"
+#include "core/neighbors/list_pool.h"
 
 namespace vitrel {
 
@@ -26,14 +27,20 @@ class CellGrid {
       count_[k] = std::clamp<std::int64_t>(wanted, 1, most);
       width_[k] = box.lengths()[k] / static_cast<double>(count_[k]);
     }
-    first_.assign(static_cast<std::size_t>(count_[0] * count_[1]), none);
-    points_.reserve(particles);
+    const auto cells = static_cast<std::size_t>(count_[0] * count_[1]);
+    members_ = ListPool<Index>(cells);
+    members_.reserve(std::vector<std::uint32_t>(cells, particles / cells));
+    position_.reserve(particles);
+    cell_.reserve(particles);
   }
 
   /// Adds point i at a position wrapped into the box. Points are numbered 0, 1, 2 …
   void insert(std::size_t i, const Vec2& position) {
-    if (points_.size() <= i) points_.resize(i + 1);
-    points_[i].position = position;
+    if (position_.size() <= i) {
+      position_.resize(i + 1);
+      cell_.resize(i + 1);
+    }
+    position_[i] = position;
     enter(static_cast<Index>(i), cell_of(position));
   }
 
@@ -41,11 +48,13 @@ class CellGrid {
 
   void move(std::size_t i, const Vec2& position) {
     const Index cell = cell_of(position);
-    points_[i].position = position;
-    if (cell == points_[i].cell) return;
+    position_[i] = position;
+    if (cell == cell_[i]) return;
     leave(static_cast<Index>(i));
     enter(static_cast<Index>(i), cell);
   }
+
+  const Vec2& position(std::size_t i) const { return position_[i]; }
 
   /// Calls visit(j, shift, separation) for every image r_j + shift ∘ L within `reach` of
   /// `position`, which may lie outside the box; separation = r_j + shift ∘ L − position. A point at
@@ -62,8 +71,8 @@ class CellGrid {
         const Shift<2> shift(boxes_x, boxes_off(cy, 1));
         const std::int64_t cell = column + cy - shift.y() * count_[1];
         const Vec2 offset = box_.translation(shift) - position;
-        for (Index j = first_[static_cast<std::size_t>(cell)]; j != none; j = points_[j].next) {
-          const Vec2 separation = points_[j].position + offset;
+        for (const Index j : members_[static_cast<std::size_t>(cell)]) {
+          const Vec2 separation = position_[j] + offset;
           if (separation.squaredNorm() > reach * reach) continue;
           if (!goes_on(visit, static_cast<std::size_t>(j), shift, separation)) return false;
         }
@@ -74,13 +83,6 @@ class CellGrid {
 
  private:
   using Index = std::uint32_t;
-  static constexpr Index none = UINT32_MAX;
-
-  struct Point {
-    Vec2 position = Vec2::Zero();
-    Index cell = none;
-    Index next = none, previous = none;
-  };
   struct Range {
     std::int64_t low, high;
   };
@@ -123,25 +125,20 @@ class CellGrid {
   }
 
   void enter(Index i, Index cell) {
-    Point& point = points_[i];
-    point.cell = cell;
-    point.previous = none;
-    point.next = first_[cell];
-    if (point.next != none) points_[point.next].previous = i;
-    first_[cell] = i;
+    cell_[i] = cell;
+    members_.add(cell, i);
   }
 
   void leave(Index i) {
-    const Point& point = points_[i];
-    (point.previous == none ? first_[point.cell] : points_[point.previous].next) = point.next;
-    if (point.next != none) points_[point.next].previous = point.previous;
+    members_.remove_if(cell_[i], [i](Index member) { return member == i; });
   }
 
   PeriodicBox<2> box_;
   std::int64_t count_[2];
   double width_[2];
-  std::vector<Index> first_;  // of every cell, x-major
-  std::vector<Point> points_;
+  ListPool<Index> members_;  // of every cell, x-major
+  std::vector<Vec2> position_;
+  std::vector<Index> cell_;
 };
 
 }  // namespace vitrel

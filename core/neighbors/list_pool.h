@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -16,14 +17,16 @@ class ListPool {
   /// Number of lists.
   explicit ListPool(std::size_t lists = 0) : rooms_(lists) {}
 
-  /// Empty lists with room for as many entries as counted and a few more.
+  /// Empty lists with room for as many entries as counted and a few more. There is room for 2³²
+  /// entries in all, and 2¹⁶ in one list.
   void reserve(std::span<const std::uint32_t> counts) {
-    constexpr std::uint32_t more = 3;
+    constexpr std::uint32_t more = 2;
     rooms_.clear();
-    std::size_t end = 0;
+    std::uint32_t end = 0;
     for (const std::uint32_t count : counts) {
-      rooms_.push_back({end, 0, count + more});
-      end += count + more;
+      const auto capacity = static_cast<std::uint16_t>(count + more);
+      rooms_.push_back({end, 0, capacity});
+      end += capacity;
     }
     entries_.assign(end, {});
   }
@@ -41,29 +44,26 @@ class ListPool {
     entries_[room.begin + room.count++] = entry;
   }
 
-  /// `entries` must lie elsewhere.
-  void assign(std::size_t list, std::span<const T> entries) {
-    rooms_[list].count = 0;
-    for (const T& entry : entries) add(list, entry);
-  }
+  void clear(std::size_t list) { rooms_[list].count = 0; }
 
   /// Removes the entries for which `unwanted` holds; the others keep their order.
   template <class Predicate>
   void remove_if(std::size_t list, Predicate unwanted) {
     const std::span<T> entries = (*this)[list];
     rooms_[list].count -=
-        static_cast<std::uint32_t>(std::ranges::remove_if(entries, unwanted).size());
+        static_cast<std::uint16_t>(std::ranges::remove_if(entries, unwanted).size());
   }
 
  private:
   struct Room {
-    std::size_t begin = 0;
-    std::uint32_t count = 0, capacity = 0;
+    std::uint32_t begin = 0;
+    std::uint16_t count = 0, capacity = 0;
   };
 
   void move_to_end(Room& room) {
-    const std::size_t begin = entries_.size();
-    const std::uint32_t capacity = 2 * room.capacity + 1;
+    const auto begin = static_cast<std::uint32_t>(entries_.size());
+    const auto capacity = static_cast<std::uint16_t>(2 * room.capacity + 1);
+    assert(capacity > room.capacity);
     entries_.resize(begin + capacity);
     for (std::uint32_t k = 0; k < room.count; ++k)
       entries_[begin + k] = std::move(entries_[room.begin + k]);

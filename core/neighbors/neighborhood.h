@@ -12,6 +12,7 @@
 #include "core/contact/gap_look.h"
 #include "core/geometry/periodic_box.h"
 #include "core/neighbors/cell_grid.h"
+#include "core/neighbors/kind_of.h"
 #include "core/neighbors/list_pool.h"
 
 namespace vitrel {
@@ -59,22 +60,23 @@ class Neighborhoods {
  public:
   using Shape = typename FirstLook<B>::Shape;
 
-  /// `shapes` (at size 1) must outlive this object; all have size 1; `poses` are wrapped into the
-  /// box.
-  Neighborhoods(const PeriodicBox<2>& box, std::span<const Shape> shapes,
+  /// `shapes` of every kind, all of size 1, and `kind_of` every particle; both must outlive this
+  /// object. `poses` are wrapped into the box.
+  Neighborhoods(const PeriodicBox<2>& box, std::span<const Shape> shapes, const KindOf& kind_of,
                 std::span<const Pose2> poses, double wanted_neighbors)
       : box_(box),
         shapes_(shapes),
+        kind_of_(kind_of),
         reference_(poses.size()),
         largest_(largest_circumradius()),
-        cells_(box, cell_reach(), shapes.size()) {
-    for (std::size_t i = 0; i < shapes_.size(); ++i) {
-      reference_[i] = {poses[i], 1};
+        cells_(box, cell_reach(), poses.size()) {
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      reference_[i] = {poses[i].angle, 1};
       cells_.insert(i, poses[i].position);
     }
     const std::vector<Pair> pairs = pairs_closer_than(widest_gap(wanted_neighbors));
     margin_ = 0.5 * choose_gap(pairs, wanted_neighbors);
-    std::vector<std::uint32_t> counts(shapes_.size());
+    std::vector<std::uint32_t> counts(poses.size());
     const auto near = [&](const Pair& pair) { return pair.gap < 2 * margin_; };
     for (const Pair& pair : pairs)
       if (near(pair)) ++counts[pair.i], ++counts[pair.image.other];
@@ -98,24 +100,25 @@ class Neighborhoods {
 
   /// New reference pose (wrapped into the box), size and list for particle i.
   void renew(std::size_t i, const Pose2& pose, double size) {
-    reference_[i] = {pose, size};
+    reference_[i] = {pose.angle, size};
     cells_.move(i, pose.position);
     near_.clear();
     visit_near(i, 2 * margin_,
-               [&](const Pair& pair) { near_.push_back({pair.image, {pair.axis}}); });
+               [&](const Pair& pair) { near_.push_back(pair); });
     // Most neighbours stay: only those that come or go learn of it.
-    const std::span<Neighbor<B>> before = lists_[i];
-    come_.clear();
-    for (const Neighbor<B>& neighbor : before)
-      if (neighbor.other != i && !find(near_, neighbor)) forget(i, neighbor);
-    for (Neighbor<B>& neighbor : near_)
-      if (const Neighbor<B>* known = find(before, neighbor))
-        neighbor.memory = known->memory;
-      else if (neighbor.other != i)
-        come_.push_back(neighbor);
-    lists_.assign(i, near_);
-    for (const Neighbor<B>& neighbor : come_)
-      lists_.add(neighbor.other, seen_from_there(i, neighbor));
+    before_.assign(lists_[i].begin(), lists_[i].end());
+    lists_.clear(i);
+    for (const Pair& pair : near_)
+      if (const auto known = std::find(before_.begin(), before_.end(), pair.image);
+          known != before_.end()) {
+        lists_.add(i, *known);
+        *known = before_.back();
+        before_.pop_back();
+      } else {
+        link(i, {pair.image, {pair.axis}});
+      }
+    for (const Neighbor<B>& gone : before_)
+      if (gone.other != i) forget(i, gone);
   }
 
   /// A time until which particle i, now at `pose` and of the common size, stays inside its
@@ -127,10 +130,10 @@ class Neighborhoods {
     const Reference& reference = reference_[i];
     const double growing = std::max(common.growth_rate, 0.0);
     const double most = common.size + (growing > 0 ? growth_at_once : 0);
-    const double radius = shapes_[i].circumradius();
-    const double swing = most * shapes_[i].swing();
-    const Vec2 moved = pose.position - reference.pose.position;
-    const double turned = swing * (pose.angle - reference.pose.angle);
+    const double radius = shape(i).circumradius();
+    const double swing = most * shape(i).swing();
+    const Vec2 moved = pose.position - cells_.position(i);
+    const double turned = swing * (pose.angle - reference.angle);
     const double turning = swing * motion.angular_velocity;
     const double room = margin_ - radius * std::max(common.size - reference.size, 0.0);
     const double narrowing = radius * growing;
@@ -141,8 +144,8 @@ class Neighborhoods {
   }
 
  private:
-  struct Reference {
-    Pose2 pose;
+  struct Reference {  // its position is with the cells
+    double angle;
     double size;
   };
   struct Pair {
@@ -175,13 +178,13 @@ class Neighborhoods {
 
   // The reach that gives cells of half a particle, or with one particle each if these are larger.
   double cell_reach() const {
-    const double spacing = std::sqrt(box_.volume() / static_cast<double>(shapes_.size()));
+    const double spacing = std::sqrt(box_.volume() / static_cast<double>(reference_.size()));
     return 2 * std::max(largest_, spacing);
   }
 
   // A gap within which, at the mean density, there are surely more neighbours than wanted.
   double widest_gap(double wanted) const {
-    const double density = static_cast<double>(shapes_.size()) / box_.volume();
+    const double density = static_cast<double>(reference_.size()) / box_.volume();
     const double reach = std::sqrt(2 * wanted / (std::numbers::pi * density));
     double smallest = largest_;
     for (const Shape& shape : shapes_) smallest = std::min(smallest, shape.inradius());
@@ -189,7 +192,7 @@ class Neighborhoods {
   }
 
   double choose_gap(std::vector<Pair> pairs, double wanted) const {
-    const auto rank = static_cast<std::size_t>(0.5 * wanted * static_cast<double>(shapes_.size()));
+    const auto rank = static_cast<std::size_t>(0.5 * wanted * static_cast<double>(reference_.size()));
     if (rank >= pairs.size()) return widest_gap(wanted);
     const auto nth = pairs.begin() + static_cast<std::ptrdiff_t>(rank);
     std::nth_element(pairs.begin(), nth, pairs.end(),
@@ -204,8 +207,8 @@ class Neighborhoods {
   template <class Visit>
   void visit_near(std::size_t i, double limit, Visit&& visit) const {
     const Reference& mine = reference_[i];
-    const Shape one = scaled(shapes_[i], mine.size);
-    GapLook<Shape> look(one, mine.pose.angle);
+    const Shape one = scaled(shape(i), mine.size);
+    GapLook<Shape> look(one, mine.angle);
     NeighborImage image[GapLook<Shape>::lanes];
     int count = 0;
     const auto judge = [&] {
@@ -218,10 +221,10 @@ class Neighborhoods {
     // The other references are older, of a size between 1 and this.
     const double reach = one.circumradius() + largest_ * std::max(mine.size, 1.0) + limit;
     cells_.for_each_near(
-        mine.pose.position, reach, [&](std::size_t j, const Shift<2>& shift, const Vec2& d) {
+        cells_.position(i), reach, [&](std::size_t j, const Shift<2>& shift, const Vec2& d) {
           if (j == i && !comes_after_zero(shift)) return;
           const Reference& other = reference_[j];
-          look.set(count, scaled(shapes_[j], other.size), other.pose.angle, d);
+          look.set(count, scaled(shape(j), other.size), other.angle, d);
           image[count++] = {j, shift};
           if (count == GapLook<Shape>::lanes) judge();
         });
@@ -234,7 +237,7 @@ class Neighborhoods {
 
   std::vector<Pair> pairs_closer_than(double limit) const {
     std::vector<Pair> pairs;
-    for (std::size_t i = 0; i < shapes_.size(); ++i)
+    for (std::size_t i = 0; i < reference_.size(); ++i)
       visit_near(i, limit, [&](const Pair& pair) {
         if (pair.image.other >= i) pairs.push_back(pair);
       });
@@ -244,12 +247,6 @@ class Neighborhoods {
   // Particle i as the neighbour of its neighbour.
   static Neighbor<B> seen_from_there(std::size_t i, const Neighbor<B>& neighbor) {
     return {neighbor.NeighborImage::seen_from_there(i), reversed(neighbor.memory)};
-  }
-
-  static const Neighbor<B>* find(std::span<const Neighbor<B>> list, const NeighborImage& image) {
-    for (const Neighbor<B>& neighbor : list)
-      if (neighbor == image) return &neighbor;
-    return nullptr;
   }
 
   void link(std::size_t i, const Neighbor<B>& neighbor) {
@@ -262,11 +259,15 @@ class Neighborhoods {
     lists_.remove_if(image.other, [&](const Neighbor<B>& neighbor) { return neighbor == mine; });
   }
 
+  const Shape& shape(std::size_t i) const { return shapes_[kind_of_[i]]; }
+
   PeriodicBox<2> box_;
   std::span<const Shape> shapes_;
+  const KindOf& kind_of_;
   std::vector<Reference> reference_;
   ListPool<Neighbor<B>> lists_;
-  std::vector<Neighbor<B>> near_, come_;  // of a renewal
+  std::vector<Pair> near_;  // of a renewal
+  std::vector<Neighbor<B>> before_;
   double largest_;
   CellGrid cells_;
   double margin_ = 0;
