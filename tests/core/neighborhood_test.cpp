@@ -87,7 +87,7 @@ std::multiset<Image> listed(Crowd<B>& crowd) {
   std::multiset<Image> images;
   for (std::size_t i = 0; i < crowd.shapes.size(); ++i)
     for (const Neighbor<B>& neighbor : crowd.lists.of(i))
-      images.insert({i, neighbor.other, neighbor.shift.x(), neighbor.shift.y()});
+      images.insert({i, neighbor.other, neighbor.shift().x(), neighbor.shift().y()});
   return images;
 }
 
@@ -217,8 +217,7 @@ TYPED_TEST(Memories, OfAPairStayWithIt) {
   Crowd<TypeParam> crowd(draw, Vec2(12, 9), 20, 7);
   const auto axis_of = [&](std::size_t i, const NeighborImage& image) {
     for (const Neighbor<TypeParam>& neighbor : crowd.lists.of(i))
-      if (neighbor.other == image.other && neighbor.shift == image.shift)
-        return neighbor.memory.axis;
+      if (neighbor == image) return neighbor.memory.axis;
     ADD_FAILURE() << "no such neighbour";
     return Vec2(0, 0);
   };
@@ -227,7 +226,7 @@ TYPED_TEST(Memories, OfAPairStayWithIt) {
     if (crowd.lists.of(i).empty()) continue;
     const NeighborImage with = crowd.lists.of(i)[0];
     if (with.other == i) continue;
-    const NeighborImage back{static_cast<std::uint32_t>(i), -with.shift};
+    const NeighborImage back = with.seen_from_there(i);
     const Vec2 normal = direction(draw.uniform(0, 2 * pi));
     crowd.lists.remember(i, with, normal);
     EXPECT_EQ(axis_of(i, with), normal);
@@ -247,8 +246,8 @@ TYPED_TEST(Memories, BeginWithAnAxisThatSeparates) {
   for (std::size_t i = 0; i < 100; ++i)
     for (const Neighbor<TypeParam>& neighbor : crowd.lists.of(i)) {
       const std::size_t j = neighbor.other;
-      const Vec2 d =
-          crowd.poses[j].position + crowd.box.translation(neighbor.shift) - crowd.poses[i].position;
+      const Vec2 d = crowd.poses[j].position + crowd.box.translation(neighbor.shift()) -
+                     crowd.poses[i].position;
       const Vec2 n = neighbor.memory.axis;
       EXPECT_NEAR(n.norm(), 1, 1e-14);
       const double reach = support(crowd.shapes[i], direction(crowd.poses[i].angle), n) +
