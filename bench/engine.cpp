@@ -37,10 +37,11 @@ struct Effort {
   int tile = 1000;  // particles
   std::vector<std::pair<int, int>> tilings = {{1, 1}, {5, 2}, {10, 10}, {40, 25}};
   std::vector<int> chart_sizes = {10, 30, 100, 300, 1000, 3000, 10000};
-  int largest_twin = 3000;  // its tables take 88 bytes for each pair
+  int largest_twin = 3000;   // its tables take 88 bytes for each pair
+  int largest_slsqp = 1000;  // overlaps that it leaves can take thousands of slow events to mend
   double twin_seconds = 8;
 };
-const Effort quick{2, 0.01, 100, 64, 36, {{1, 1}, {2, 2}}, {10, 30}, 30, 0.02};
+const Effort quick{2, 0.01, 100, 64, 36, {{1, 1}, {2, 2}}, {10, 30}, 30, 30, 0.02};
 
 void say(const std::string& what) {
   fmt::print(stderr, "{}\n", what);
@@ -50,6 +51,7 @@ void say(const std::string& what) {
 class Repeats {
  public:
   void add(const Work& work) { works_.push_back(work); }
+  double last_seconds() const { return works_.back().seconds; }
 
   /// The best time, the median, and counts per collision over all.
   Json json() const {
@@ -141,15 +143,20 @@ Json measure_sizes(const Effort& effort) {
       const std::size_t allocated = allocated_bytes() - before;
       const std::size_t peak = peak_bytes() - peak_before;
       TimedRun run(std::move(engine), start);
-      run.blocks(effort.stretch);
+      const auto n = static_cast<double>(start.size());
+      constexpr double collisions_of_each = 5, most_stretches = 20;
+      const double to_mix = 0.5 * collisions_of_each * n;
+      run.parts(0, to_mix, to_mix);
       Repeats repeats;
-      const int times = start.size() < 1'000'000 ? effort.repeats : 2;
-      for (int k = 0; k < times; ++k) repeats.add(run.blocks(effort.stretch));
+      double spent = 0;
+      for (int k = 0; k < effort.repeats && spent < most_stretches * effort.stretch; ++k) {
+        repeats.add(run.blocks(effort.stretch));
+        spent += repeats.last_seconds();
+      }
       FluidScene whole = scene;
       whole.particles = static_cast<int>(start.size());
       Json row = scene_json(whole);
       row.update(repeats.json());
-      const auto n = static_cast<double>(start.size());
       row["bytes_per_particle"] = static_cast<double>(allocated) / n;
       if (peak_is_known) row["peak_bytes_per_particle"] = static_cast<double>(peak) / n;
       rows.push_back(row);
@@ -181,12 +188,13 @@ Json measure_all_pairs(const Effort& effort) {
     };
     add("vitrel", TimedRun(make_engine(start, {}), start).blocks(effort.stretch));
     if (n > effort.largest_twin) continue;
-    constexpr double first_collisions = 4;
+    constexpr double first_collisions = 4, enough_collisions = 2000;
     const auto twin = [&](const char* program, const AllPairsOptions& options) {
       TimedRun run(make_all_pairs_engine(options), start);
-      add(program, run.parts(effort.twin_seconds, first_collisions));
+      add(program, run.parts(effort.twin_seconds, first_collisions, enough_collisions));
     };
     twin("all_pairs", {{}, Asking::every_pair, nullptr});
+    if (n > effort.largest_slsqp) continue;
     twin("all_pairs_slsqp", {correcting, Asking::every_pair, &slsqp});
   }
   return rows;
@@ -265,7 +273,8 @@ Json neighbor_counts(const Configuration2& c) {
   constexpr double wanted = 7;
   std::vector<Pose2> poses;
   for (std::size_t i = 0; i < c.size(); ++i) poses.push_back(c.pose(i));
-  Neighborhoods<Ellipse> lists(c.box, c.shape, poses, wanted);
+  const KindOf all_alike(std::vector<std::uint32_t>(c.size(), 0), 1);
+  Neighborhoods<Ellipse> lists(c.box, {c.shape.data(), 1}, all_alike, poses, wanted);
   CellGrid cells(c.box, 4 * c.shape[0].a, c.size());
   for (std::size_t i = 0; i < c.size(); ++i) cells.insert(i, c.position[i]);
   const double reach = 2 * (c.shape[0].a + lists.margin());

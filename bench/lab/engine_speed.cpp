@@ -102,7 +102,7 @@ Work TimedRun::blocks(double least_seconds) {
   return work;
 }
 
-Work TimedRun::parts(double seconds, double first_collisions) {
+Work TimedRun::parts(double seconds, double first_collisions, double enough_collisions) {
   Work work;
   const double start_time = now_.time, start = processor_seconds();
   double length = first_collisions / expected_collision_rate(now_);
@@ -114,11 +114,14 @@ Work TimedRun::parts(double seconds, double first_collisions) {
     while (engine_->advance(until, work.counters) == Engine::Stop::block_end) {
       engine_->write(now_);
       engine_->load(now_);
+      if (work.counters.collisions > 0 && processor_seconds() - start > seconds) break;
     }
     engine_->write(now_);
     work.seconds = processor_seconds() - start;
     length *= 2;
-  } while (work.counters.collisions == 0 || 3 * work.seconds - 2 * before < seconds);
+  } while (work.counters.collisions == 0 ||
+           (static_cast<double>(work.counters.collisions) < enough_collisions &&
+            3 * work.seconds - 2 * before < seconds));
   work.simulated_time = now_.time - start_time;
   return work;
 }

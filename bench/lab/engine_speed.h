@@ -47,9 +47,9 @@ class TimedRun {
   /// many seconds.
   Work blocks(double least_seconds);
 
-  /// For an engine whose blocks are long: ever longer parts of one, the first of about so many
-  /// collisions, until the next would take more than the seconds.
-  Work parts(double seconds, double first_collisions);
+  /// For an engine whose blocks take long: ever longer parts of them, the first of about so many
+  /// collisions, until there were enough or the next would take more than the seconds.
+  Work parts(double seconds, double first_collisions, double enough_collisions);
 
   const Configuration2& now() const { return now_; }
 

@@ -221,15 +221,15 @@ Gilbert, Johnson and Keerthi, which lets overlaps through.
 ## Against the number of particles
 
 φ = 0.5. An equilibrated liquid of 1000 particles is repeated, every copy with other velocities, numbered at random and
-moved for a block (about 25 collisions of each particle).
+moved for about five collisions of each particle; five stretches, or as many as begin within twenty seconds.
 
 {sizes_table(native["sizes"])}
 
 ## Beside the program of the thesis
 
 The same scene (κ = 2, φ = 0.5) without event calendar, neighbour lists and cells: after every event all pairs are asked
-again, as in the thesis, by its method or by ours. Time per unit of simulated time; the slow ones get eight seconds for
-each point, as far as their memory goes (88 bytes for each pair).
+again, as in the thesis, by its method or by ours. Time per unit of simulated time; the slow ones get 2000 collisions or
+eight seconds for each point, as far as their memory goes (88 bytes for each pair).
 
 ![Time per unit of simulated time against the number of particles]({FIGURE.name})
 

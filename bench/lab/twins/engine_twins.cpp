@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "bench/lab/twins/no_look.h"
 #include "edmd/simulation.h"
 
 namespace vitrel::lab {
@@ -30,22 +31,10 @@ struct RoundListedEllipse : Ellipse {
 
 namespace vitrel {
 
-/// Settles nothing.
 template <>
-class FirstLook<lab::SearchedEllipse> : public detail::Urgencies<many> {
+class FirstLook<lab::SearchedEllipse> : public lab::NoLook {
  public:
-  using Shape = Ellipse;
-  static constexpr int lanes = many;
-  static constexpr bool is_exact = false;
-  struct Memory {
-    explicit(false) Memory(const Vec2& /*axis*/ = {}) {}
-    friend Memory reversed(const Memory& memory) { return memory; }
-  };
-
-  FirstLook(const Outline<Ellipse>&, const Pose2&, const Motion2&, const CommonSize&, double) {}
-  void set(int, const Pose2&, const Motion2&, const Outline<Ellipse>&, const Memory&, double) {}
-  Memory memory(int) const { return {}; }
-  void look(int count) { open(0, count); }
+  using NoLook::NoLook;
 };
 
 template <>
@@ -98,8 +87,9 @@ template <>
 double Neighborhoods<lab::RoundListedEllipse>::choose_gap(std::vector<Pair>, double wanted) const {
   const std::vector<Ellipse> shapes(shapes_.begin(), shapes_.end());
   std::vector<Pose2> poses;
-  for (const Reference& reference : reference_) poses.push_back(reference.pose);
-  return 2 * Neighborhoods<Ellipse>(box_, shapes, poses, wanted).margin();
+  for (std::size_t i = 0; i < reference_.size(); ++i)
+    poses.push_back({cells_.position(i), reference_[i].angle});
+  return 2 * Neighborhoods<Ellipse>(box_, shapes, kind_of_, poses, wanted).margin();
 }
 
 template <>
@@ -163,13 +153,13 @@ Prediction first_contact(const Flight<SearchedEllipse>& one, const Flight<Search
 Prediction first_contact(const Flight<FarSightedEllipse>& one, const Flight<FarSightedEllipse>& two,
                          double horizon, double contact_gap,
                          const FirstLook<Ellipse>::Memory& memory) {
-  return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, memory.axis);
+  return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, memory);
 }
 
 Prediction first_contact(const Flight<RoundListedEllipse>& one,
                          const Flight<RoundListedEllipse>& two, double horizon, double contact_gap,
                          const FirstLook<Ellipse>::Memory& memory) {
-  return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, memory.axis);
+  return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, memory);
 }
 
 Prediction first_contact(const Flight<LazyEllipse>& one, const Flight<LazyEllipse>& two,
@@ -179,7 +169,7 @@ Prediction first_contact(const Flight<LazyEllipse>& one, const Flight<LazyEllips
     ++LazyEllipse::put_off;
     return {Outcome::not_converged, LazyEllipse::wait};
   }
-  return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, memory.axis);
+  return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, memory);
 }
 
 }  // namespace

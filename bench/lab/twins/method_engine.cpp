@@ -4,6 +4,7 @@
 
 #include "bench/lab/methods/bracket.h"
 #include "bench/lab/twins/believed.h"
+#include "bench/lab/twins/no_look.h"
 #include "core/contact/pair.h"
 #include "edmd/simulation.h"
 
@@ -21,22 +22,11 @@ thread_local const Method* JudgedEllipse::method = nullptr;
 
 namespace vitrel {
 
-/// Settles nothing: every pair is the method's to judge.
+/// Every pair is the method's to judge.
 template <>
-class FirstLook<lab::JudgedEllipse> : public detail::Urgencies<many> {
+class FirstLook<lab::JudgedEllipse> : public lab::NoLook {
  public:
-  using Shape = Ellipse;
-  static constexpr int lanes = many;
-  static constexpr bool is_exact = false;
-  struct Memory {
-    explicit(false) Memory(const Vec2& /*axis*/ = {}) {}
-    friend Memory reversed(const Memory& memory) { return memory; }
-  };
-
-  FirstLook(const Outline<Ellipse>&, const Pose2&, const Motion2&, const CommonSize&, double) {}
-  void set(int, const Pose2&, const Motion2&, const Outline<Ellipse>&, const Memory&, double) {}
-  Memory memory(int) const { return {}; }
-  void look(int count) { open(0, count); }
+  using NoLook::NoLook;
 };
 
 template <>
