@@ -40,6 +40,18 @@ def rate(row):
     return 1e9 / row["ns_per_collision"]
 
 
+def millions(per_second):
+    return f"{per_second / 1e6:.3g}"
+
+
+def seconds_text(seconds):
+    for unit in ("s", "ms", "µs"):
+        if seconds >= 1:
+            break
+        seconds *= 1000
+    return f"{float(f'{seconds:.2g}'):g} {unit}"
+
+
 def rows_by(rows, *keys):
     return {tuple(row[key] for key in keys): row for row in rows}
 
@@ -51,11 +63,11 @@ def speed(native, release):
         scene = row["aspect_ratio"], row["packing_fraction"]
         goal, public = GOALS[scene]
         reached = "reached" if rate(row) >= goal else "**not reached**"
-        lines.append([shape(scene[0]), scene[1], row["particles"], f"**{rate(row):.3g}**",
-                      f"{1e9 / row['median_ns_per_collision']:.3g}", f"{rate(portable[scene]):.3g}",
-                      f"{goal:.2g}, {reached}", f"{public:.3g}", f"{rate(row) / public:.3g}",
+        lines.append([shape(scene[0]), scene[1], row["particles"], f"**{millions(rate(row))}**",
+                      millions(1e9 / row["median_ns_per_collision"]), millions(rate(portable[scene])),
+                      f"{millions(goal)}, {reached}", millions(public), f"{rate(row) / public:.3g}",
                       f"{row['reduced_pressure']:.2f}"])
-    return table(["", "φ", "N", "collisions per second", "median", "portable build", "goal", "best public program",
+    return table(["", "φ", "N", "millions per second", "median", "portable build", "goal", "best public program",
                   "times as fast", "βP/ρ"], lines)
 
 
@@ -68,8 +80,8 @@ COUNTS = ["events", "predictions", "searches", "steps", "renewals"]
 
 def counts(native):
     lines = [[shape(row["aspect_ratio"]), row["packing_fraction"], f"{row['ns_per_collision']:.0f} ns",
-              f"{row['ns_per_collision'] / native['ns_per_psi']:.1f} Ψ", *count_cells(row)] for row in native["speed"]]
-    return table(["", "φ", "per collision", "", *COUNTS], lines)
+              f"{row['ns_per_collision'] / native['ns_per_psi']:.1f}", *count_cells(row)] for row in native["speed"]]
+    return table(["", "φ", "per collision", "in Ψ", *COUNTS], lines)
 
 
 def cost_ratio(sizes, row):
@@ -130,9 +142,9 @@ def all_pairs(rows):
         ours = points["vitrel"][n]
         for program in PROGRAMS:
             other = points[program].get(n)
-            yield "–" if other is None else f"{other:.3g} s"
+            yield "–" if other is None else seconds_text(other)
             if program != "vitrel":
-                yield "–" if other is None else f"{other / ours:.3g}"
+                yield "–" if other is None else f"{float(f'{other / ours:.2g}'):g}"
 
     return table(["N", "vitrel", PROGRAMS["all_pairs"], "times ours", PROGRAMS["all_pairs_slsqp"], "times ours"],
                  [[n, *cells(n)] for n in points["vitrel"]])
@@ -198,9 +210,9 @@ def page(native, release):
     scripts/validate engine                       # builds, measures and writes this page
     build/native/bench/bench_engine speed sizes   # parts of it, as JSON
 
-Measured on {datetime.date.today()}, commit {commit(native)}, {processor()}{clock_rate()}, {native["compiler"]},
-`{native["flags"]}`; calibration: {psi} ns per Ψ (the function of Vieillard-Baron of two ellipses, from their
-angles; at the beginning and at the end of the run). The portable build is `{release["flags"]}`, {release["ns_per_psi"]:.1f} ns per Ψ.
+Measured on {datetime.date.today()}, commit {commit(native)}, {processor()}{clock_rate()}, {native["compiler"]}, `{native["flags"]}`.
+Calibration: {psi} ns per Ψ (the function of Vieillard-Baron of two ellipses, from their angles; at the
+beginning and at the end of the run). The portable build: `{release["flags"]}`, {release["ns_per_psi"]:.1f} ns per Ψ.
 
 Times are those of the process, on one core; the best of five stretches of whole blocks of at least a second each,
 with what the beginning and the end of a block takes. Every state is a liquid: inserted at random places and angles
@@ -210,9 +222,9 @@ settle), *steps* along separating axes, *renewals* of neighbour lists.
 
 ## Collisions per second
 
-Newtonian dynamics. The best public programs, measured on a machine of this kind (EPYC, `-O3 -march=native`, double
-precision): for disks Smallenburg's code of 2022, held to a plane; for ellipses a generic code by the algorithm of
-Gilbert, Johnson and Keerthi, which lets overlaps through.
+Newtonian dynamics, in millions of collisions per second. The best public programs, measured on a machine of this kind
+(EPYC, `-O3 -march=native`, double precision): for disks Smallenburg's code of 2022, held to a plane; for ellipses a
+generic code by the algorithm of Gilbert, Johnson and Keerthi, which lets overlaps through.
 
 {speed(native, release)}
 
@@ -220,8 +232,8 @@ Gilbert, Johnson and Keerthi, which lets overlaps through.
 
 ## Against the number of particles
 
-φ = 0.5. An equilibrated liquid of 1000 particles is repeated, every copy with other velocities, numbered at random and
-moved for about five collisions of each particle; five stretches, or as many as begin within twenty seconds.
+φ = 0.5. An equilibrated liquid of 1000 particles is repeated, every copy with other velocities, the particles numbered
+at random, and moved for about five collisions of each; then five stretches, or as many as begin within twenty seconds.
 
 {sizes_table(native["sizes"])}
 

@@ -15,6 +15,11 @@
 namespace vitrel::lab {
 namespace {
 
+std::unique_ptr<Engine> make_patient() {
+  set_patience(0.01);
+  return make_engine_with_lazy_searches();
+}
+
 struct Variant {
   std::string name;
   std::function<std::unique_ptr<Engine>()> make;
@@ -23,7 +28,7 @@ const std::vector<Variant> variants = {
     {"without_look", make_engine_without_look},
     {"without_horizon", make_engine_without_horizon},
     {"with_round_lists", make_engine_with_round_lists},
-    {"with_lazy_searches", [] { return make_engine_with_lazy_searches(0.01); }},
+    {"with_lazy_searches", make_patient},
 };
 
 Configuration2 scene() {
@@ -88,7 +93,7 @@ TEST(EngineTwins, DifferInWhatTheyAsk) {
   EXPECT_GT(counts(make_engine_without_horizon()).searches, plain.searches);
   EXPECT_GT(counts(make_engine_with_round_lists()).predictions, 3 * plain.predictions / 2);
   searches_put_off();
-  const RunCounters lazy = counts(make_engine_with_lazy_searches(0.01));
+  const RunCounters lazy = counts(make_patient());
   EXPECT_LT(lazy.searches - searches_put_off(), plain.searches);
   EXPECT_GT(lazy.events, plain.events);
 }

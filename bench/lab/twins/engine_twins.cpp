@@ -183,9 +183,11 @@ std::unique_ptr<Engine> make_engine_without_horizon() {
 std::unique_ptr<Engine> make_engine_with_round_lists() {
   return std::make_unique<Simulation<RoundListedEllipse>>(EngineOptions{}, "with round lists");
 }
-std::unique_ptr<Engine> make_engine_with_lazy_searches(double patience) {
-  LazyEllipse::patience = patience;
+std::unique_ptr<Engine> make_engine_with_lazy_searches() {
   return std::make_unique<Simulation<LazyEllipse>>(EngineOptions{}, "with lazy searches");
+}
+void set_patience(double time) {
+  LazyEllipse::patience = time;
 }
 std::uint64_t searches_put_off() {
   return std::exchange(LazyEllipse::put_off, 0);

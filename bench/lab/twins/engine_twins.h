@@ -20,9 +20,10 @@ std::unique_ptr<Engine> make_engine_without_horizon();
 /// translation alone.
 std::unique_ptr<Engine> make_engine_with_round_lists();
 
-/// With lazy refinement: a contact that cannot come within `patience` is not searched; the particle
-/// is looked at again at the time before which the look rules it out.
-std::unique_ptr<Engine> make_engine_with_lazy_searches(double patience);
+/// With lazy refinement: a contact that cannot come within the patience of this thread is not
+/// searched; the particle is looked at again at the time before which the look rules it out.
+std::unique_ptr<Engine> make_engine_with_lazy_searches();
+void set_patience(double time);
 /// Searches put off in this thread, which the engine counts as searches, since the last call.
 std::uint64_t searches_put_off();
 
