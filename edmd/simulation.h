@@ -167,7 +167,7 @@ class Simulation final : public Engine {
   KindOf kind_of_;
   std::vector<Particle> particles_;
   std::vector<Shift<2>> image_;
-  std::vector<Index> version_;  // counts the changes of a particle's motion
+  std::vector<Index> version_;  // counts the changes of a particle's motion and image
   std::optional<Neighborhoods<B>> neighborhoods_;
   Calendar calendar_;
   std::vector<Event> events_;
@@ -440,7 +440,10 @@ template <Body B>
 void Simulation<B>::leave_neighborhood(Index i) {
   Particle& particle = particles_[i];
   bring_to_now(particle);
+  const Shift<2> image = image_[i];
   box_.wrap(particle.position, image_[i]);
+  // Whoever plans to meet it has its old image in mind.
+  if (image_[i] != image) ++version_[i];
   neighborhoods_->renew(i, particle.pose_at(now_), size_now().size);
 }
 
