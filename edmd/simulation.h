@@ -175,7 +175,8 @@ class Simulation final : public Engine {
   double base_ = 0;           // simulated time at the start of the block
   double now_ = 0;            // since then
   double horizon_ = never;    // since then
-  std::uint64_t events_left_ = 0;
+  std::uint64_t events_left_ = 0;  // until the block ends,
+  double longest_block_ = never;   // which it also does after this time
   bool predicted_ = false;
 };
 
@@ -189,14 +190,20 @@ void Simulation<B>::load(const Configuration2& configuration, double horizon) {
   horizon_ = horizon - base_;
   load_particles(configuration);
   load_kinds(configuration);
-  double extent = 0.5 * box_.lengths().maxCoeff();
+  double extent = 0.5 * box_.lengths().maxCoeff(), fastest = 0;
   std::vector<Pose2> poses;
   for (Index i = 0; i < particles_.size(); ++i) {
-    poses.push_back(particles_[i].pose_at(0));
+    const Particle& particle = particles_[i];
+    const double swing = shape(i).swing();
+    poses.push_back(particle.pose_at(0));
     // An angle is rounded too, and moves the surface by up to `swing` times its rounding.
-    extent = std::max(extent, shape(i).swing() * std::abs(particles_[i].angle));
+    extent = std::max(extent, swing * std::abs(particle.angle));
+    fastest = std::max(fastest,
+                       particle.velocity.norm() + swing * std::abs(particle.angular_velocity));
   }
   contact_gap_ = tolerance::contact_gap(extent);
+  // Times are rounded too: within a block nothing moves farther than the coordinates reach.
+  longest_block_ = fastest > 0 ? extent / fastest : never;
   neighborhoods_.emplace(box_, shapes_, kind_of_, poses, wanted_neighbors);
   events_.assign(particles_.size(), {});
   events_left_ =
@@ -264,7 +271,7 @@ template <Body B>
 Engine::Stop Simulation<B>::advance(double until, RunCounters& counters) {
   if (!predicted_) predict_all(horizon_, counters);
   const double end = until - base_;
-  while (events_left_ > 0) {
+  while (events_left_ > 0 && now_ < longest_block_) {
     const auto i = static_cast<Index>(calendar_.earliest());
     const double time = particles_[i].next;
     if (time > end) {
