@@ -13,9 +13,9 @@ double collide(Motion2& one, const Inertia& inertia1, Motion2& two, const Inerti
   const double spin2 = inertia2.inverse_moment * contact.arm2;
   // n is a unit vector to rounding, which always errs to the same side for equal disks: with n² here
   // the energy is conserved all the same.
-  const double compliance = (inertia1.inverse_mass + inertia2.inverse_mass) *
-                                contact.normal.squaredNorm() +
-                            spin1 * contact.arm1 + spin2 * contact.arm2;
+  const double compliance =
+      (inertia1.inverse_mass + inertia2.inverse_mass) * contact.normal.squaredNorm() +
+      spin1 * contact.arm1 + spin2 * contact.arm2;
   const double impulse = (1 + restitution) * approach_speed(one, two, contact) / compliance;
   one.velocity -= impulse * inertia1.inverse_mass * contact.normal;
   two.velocity += impulse * inertia2.inverse_mass * contact.normal;

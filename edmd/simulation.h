@@ -145,8 +145,8 @@ class Simulation final : public Engine {
   std::size_t gather(Index i, const Pose2& mine, double latest, std::size_t next, Glance& glance);
   void search_most_urgent_first(Index i, const Pose2& mine, Glance& glance, Entry& best,
                                 RunCounters& counters) const;
-  void search(Index i, const Pose2& mine, const Neighbor<B>& neighbor, double horizon,
-              Entry& best, RunCounters& counters) const;
+  void search(Index i, const Pose2& mine, const Neighbor<B>& neighbor, double horizon, Entry& best,
+              RunCounters& counters) const;
   void process(Index i, RunCounters& counters);
   void leave_neighborhood(Index i);
   void meet(Index i, const Event& event, RunCounters& counters);
@@ -161,7 +161,7 @@ class Simulation final : public Engine {
   EngineOptions options_;
   std::string description_;
   PeriodicBox<2> box_;
-  std::vector<Index> outer_;  // the configuration's numbers of the particles
+  std::vector<Index> outer_;   // the configuration's numbers of the particles
   std::vector<Shape> shapes_;  // of every kind, at size 1, as loaded
   std::vector<Kind> kinds_;
   KindOf kind_of_;
@@ -172,9 +172,9 @@ class Simulation final : public Engine {
   Calendar calendar_;
   std::vector<Event> events_;
   double contact_gap_ = 0;
-  double base_ = 0;           // simulated time at the start of the block
-  double now_ = 0;            // since then
-  double horizon_ = never;    // since then
+  double base_ = 0;                // simulated time at the start of the block
+  double now_ = 0;                 // since then
+  double horizon_ = never;         // since then
   std::uint64_t events_left_ = 0;  // until the block ends,
   double longest_block_ = never;   // which it also does after this time
   bool predicted_ = false;
@@ -198,8 +198,8 @@ void Simulation<B>::load(const Configuration2& configuration, double horizon) {
     poses.push_back(particle.pose_at(0));
     // An angle is rounded too, and moves the surface by up to `swing` times its rounding.
     extent = std::max(extent, swing * std::abs(particle.angle));
-    fastest = std::max(fastest,
-                       particle.velocity.norm() + swing * std::abs(particle.angular_velocity));
+    fastest =
+        std::max(fastest, particle.velocity.norm() + swing * std::abs(particle.angular_velocity));
   }
   contact_gap_ = tolerance::contact_gap(extent);
   // Times are rounded too: within a block nothing moves farther than the coordinates reach.
@@ -359,8 +359,7 @@ std::size_t Simulation<B>::gather(Index i, const Pose2& mine, double latest, std
     const Index j = neighbor.other;
     if (scope == Scope::later_numbers && j < i) continue;
     const Particle& partner = particles_[j];
-    glance.horizon[k] =
-        scope == Scope::neighborhood ? std::min(latest, partner.next) : latest;
+    glance.horizon[k] = scope == Scope::neighborhood ? std::min(latest, partner.next) : latest;
     Pose2 pose = partner.pose_at(now_);
     pose.position += box_.translation(neighbor.shift()) - mine.position;
     glance.look.set(k, pose, partner.motion(), kind(j).outline, neighbor.memory,
@@ -513,8 +512,9 @@ void Simulation<B>::report_overlap(Index i, Index j) const {
 
 template <Body B>
 void Simulation<B>::report_wedge(Index i) const {
-  throw InvariantError("particle " + std::to_string(outer_[i]) + " grew into its own image at time " +
-                       std::to_string(base_ + now_) + ": the box is too short for it");
+  throw InvariantError("particle " + std::to_string(outer_[i]) +
+                       " grew into its own image at time " + std::to_string(base_ + now_) +
+                       ": the box is too short for it");
 }
 
 }  // namespace vitrel

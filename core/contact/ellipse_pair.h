@@ -39,8 +39,8 @@ struct SupportAlong {
 };
 
 template <class T>
-VITREL_INLINE SupportAlong<T> support_along(const T& bb, const T& stretch, const T& aabb, const T& ux,
-                              const T& uy, const T& nx, const T& ny) {
+VITREL_INLINE SupportAlong<T> support_along(const T& bb, const T& stretch, const T& aabb,
+                                            const T& ux, const T& uy, const T& nx, const T& ny) {
   SupportAlong<T> s;
   s.along = nx * ux + ny * uy;
   s.across = nx * uy - ny * ux;
@@ -65,7 +65,7 @@ VITREL_INLINE SupportAlong<T> support_along(const T& bb, const T& stretch, const
 /// the latter its largest value at all. K may be negative.
 template <class T>
 VITREL_INLINE T bend_bound(const SupportAlong<T>& s, const T& bb, const T& stretch, const T& omega,
-             const T& largest, const T& duration) {
+                           const T& largest, const T& duration) {
   const T present = abs(s.along);
   const T slope = -omega * s.across * detail::signs(s.along);
   const T turned = omega * duration;

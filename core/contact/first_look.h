@@ -39,7 +39,9 @@ class Urgencies {
     return {time, find_first_set(open_until_ == time)};
   }
   /// Nothing more is to be known of this lane.
-  void close(int lane) { where(lane_numbers<lanes> == lane, open_until_) = Simd<lanes>(no_contact); }
+  void close(int lane) {
+    where(lane_numbers<lanes> == lane, open_until_) = Simd<lanes>(no_contact);
+  }
 
  protected:
   /// The times of the first `count` lanes.
@@ -112,7 +114,8 @@ class FirstLook : public detail::Urgencies<many> {
     const Many omega1 = motion_.angular_velocity, horizon = horizon_.all();
     Many ux, uy;
     directions<Many>(angle_.all(), ux, uy);
-    const auto one = support_along<Many>(outline_.bb, outline_.stretch, outline_.aabb, ux_, uy_, nx, ny);
+    const auto one =
+        support_along<Many>(outline_.bb, outline_.stretch, outline_.aabb, ux_, uy_, nx, ny);
     const auto two = support_along<Many>(bb, stretch, aabb_.all(), ux, uy, nx, ny);
     const Many heights = one.height + two.height;
     const Many spin = omega1 * one.turning + omega2 * two.turning;

@@ -90,8 +90,7 @@ template <class T>
 /// Unit vectors (x, y) at the angles: cosine and sine to within 4 units in the last place of 1.
 template <class T>
 VITREL_INLINE void directions(const T& angle, T& x, T& y) {
-  if (!detail::all_below(abs(angle), detail::far_angle))
-    return detail::far_directions(angle, x, y);
+  if (!detail::all_below(abs(angle), detail::far_angle)) return detail::far_directions(angle, x, y);
   // Adding and subtracting this rounds to a whole number. π is taken off in three parts; a multiple
   // of the first is exact.
   constexpr double rounder = 0x1.8p52;

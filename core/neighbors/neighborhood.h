@@ -103,8 +103,7 @@ class Neighborhoods {
     reference_[i] = {pose.angle, size};
     cells_.move(i, pose.position);
     near_.clear();
-    visit_near(i, 2 * margin_,
-               [&](const Pair& pair) { near_.push_back(pair); });
+    visit_near(i, 2 * margin_, [&](const Pair& pair) { near_.push_back(pair); });
     // Most neighbours stay: only those that come or go learn of it.
     before_.assign(lists_[i].begin(), lists_[i].end());
     lists_.clear(i);
@@ -192,7 +191,8 @@ class Neighborhoods {
   }
 
   double choose_gap(std::vector<Pair> pairs, double wanted) const {
-    const auto rank = static_cast<std::size_t>(0.5 * wanted * static_cast<double>(reference_.size()));
+    const auto rank =
+        static_cast<std::size_t>(0.5 * wanted * static_cast<double>(reference_.size()));
     if (rank >= pairs.size()) return widest_gap(wanted);
     const auto nth = pairs.begin() + static_cast<std::ptrdiff_t>(rank);
     std::nth_element(pairs.begin(), nth, pairs.end(),
@@ -220,14 +220,14 @@ class Neighborhoods {
     };
     // The other references are older, of a size between 1 and this.
     const double reach = one.circumradius() + largest_ * std::max(mine.size, 1.0) + limit;
-    cells_.for_each_near(
-        cells_.position(i), reach, [&](std::size_t j, const Shift<2>& shift, const Vec2& d) {
-          if (j == i && !comes_after_zero(shift)) return;
-          const Reference& other = reference_[j];
-          look.set(count, scaled(shape(j), other.size), other.angle, d);
-          image[count++] = {j, shift};
-          if (count == GapLook<Shape>::lanes) judge();
-        });
+    cells_.for_each_near(cells_.position(i), reach,
+                         [&](std::size_t j, const Shift<2>& shift, const Vec2& d) {
+                           if (j == i && !comes_after_zero(shift)) return;
+                           const Reference& other = reference_[j];
+                           look.set(count, scaled(shape(j), other.size), other.angle, d);
+                           image[count++] = {j, shift};
+                           if (count == GapLook<Shape>::lanes) judge();
+                         });
     if (count > 0) judge();
   }
 
