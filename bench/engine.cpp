@@ -40,6 +40,7 @@ struct Effort {
   int largest_twin = 3000;   // its tables take 88 bytes for each pair
   int largest_slsqp = 1000;  // overlaps that it leaves can take thousands of slow events to mend
   double twin_seconds = 8;
+  int largest = 1'000'000;
 };
 const Effort quick{2, 0.01, 100, 64, 36, {{1, 1}, {2, 2}}, {10, 30}, 30, 30, 0.02};
 
@@ -131,6 +132,7 @@ Json measure_sizes(const Effort& effort) {
     const FluidScene scene{effort.tile, kappa, 0.5};
     const Configuration2 tile = relaxed(scene, effort.stretch);
     for (const auto& [columns, vertical] : effort.tilings) {
+      if (columns * vertical * effort.tile > effort.largest) continue;
       const Configuration2 start = tiled(tile, columns, vertical);
       say(fmt::format("size: kappa = {}, N = {}", kappa, start.size()));
       const std::size_t before = allocated_bytes();
@@ -174,6 +176,7 @@ Json measure_all_pairs(const Effort& effort) {
   correcting.on_overlap = OnOverlap::correct;
   Json rows = Json::array();
   for (const int n : effort.chart_sizes) {
+    if (n > effort.largest) continue;
     say(fmt::format("all pairs: N = {}", n));
     const FluidScene scene{n, 2, 0.5};
     const Configuration2 start = relaxed(scene, 0.1 * effort.stretch);
@@ -392,14 +395,17 @@ int main(int argc, char** argv) {
   std::vector<std::string> wanted;
   bool is_quick = false;
   double stretch = 0;
+  int largest = vitrel::lab::Effort{}.largest;
   app.add_option("part", wanted, "what to measure; all parts if none is named")
       ->check(CLI::IsMember(vitrel::lab::part_names()));
   app.add_flag("--quick", is_quick, "few particles, short runs: to see that it works");
   app.add_option("--stretch", stretch, "seconds of one repeat")->check(CLI::PositiveNumber);
+  app.add_option("--largest", largest, "number of particles")->check(CLI::PositiveNumber);
   CLI11_PARSE(app, argc, argv);
   try {
     vitrel::lab::Effort effort = is_quick ? vitrel::lab::quick : vitrel::lab::Effort{};
     if (stretch > 0) effort.stretch = stretch;
+    effort.largest = largest;
     fmt::print("{}\n", vitrel::lab::measure(effort, wanted).dump(2));
   } catch (const std::exception& error) {
     fmt::print(stderr, "bench_engine: {}\n", error.what());
