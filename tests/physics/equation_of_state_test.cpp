@@ -133,7 +133,8 @@ TEST_P(DiluteEllipses, CollisionRateTendsToTheKineticOne) {
 }
 
 INSTANTIATE_TEST_SUITE_P(KineticTheory, DiluteEllipses,
-                         testing::Values(DiluteCase{2, 9.09600672}, DiluteCase{6, 16.93629264}));
+                         testing::Values(DiluteCase{2, 9.09600672}, DiluteCase{4, 13.53589068},
+                                         DiluteCase{6, 16.93629264}));
 
 }  // namespace
 }  // namespace vitrel
