@@ -150,7 +150,9 @@ class Simulation final : public Engine {
   void process(Index i, RunCounters& counters);
   void leave_neighborhood(Index i);
   void meet(Index i, const Event& event, RunCounters& counters);
-  void impact(Index i, Index j, const Vec2& d, const Vec2& normal, RunCounters& counters);
+  void impact(Index i, Index j, const Vec2& d, const Vec2& normal, double since,
+              RunCounters& counters);
+  void watch_haste(Index i, Index j, double way);
   double overlap_event(Index i, Index j, const Vec2& d, Event& event) const;
   Event collision(const NeighborImage& with, const Vec2& normal) const {
     return {Event::What::collision, version_[with.other], with, normal};
@@ -171,6 +173,7 @@ class Simulation final : public Engine {
   std::optional<Neighborhoods<B>> neighborhoods_;
   Calendar calendar_;
   std::vector<Event> events_;
+  std::vector<std::uint8_t> haste_;  // how many collisions in a row took a particle nowhere
   double contact_gap_ = 0;
   double base_ = 0;                // simulated time at the start of the block
   double now_ = 0;                 // since then
@@ -217,6 +220,7 @@ void Simulation<B>::load_particles(const Configuration2& configuration) {
   particles_.clear();
   image_.clear();
   version_.assign(outer_.size(), 0);
+  haste_.assign(outer_.size(), 0);
   for (const Index k : outer_) {
     Vec2 position = configuration.position[k];
     Shift<2> image = configuration.image[k];
@@ -458,6 +462,7 @@ void Simulation<B>::meet(Index i, const Event& event, RunCounters& counters) {
   const Index j = event.partner.other;
   Particle& one = particles_[i];
   Particle& two = particles_[j];
+  const double since = now_ - std::max(one.time, two.time);
   bring_to_now(one);
   bring_to_now(two);
   const Vec2 d = two.position + box_.translation(event.partner.shift()) - one.position;
@@ -469,7 +474,7 @@ void Simulation<B>::meet(Index i, const Event& event, RunCounters& counters) {
     ++counters.correction_moves;
   } else {
     const Vec2 normal = FirstLook<B>::is_exact ? d.normalized() : event.normal;
-    impact(i, j, d, normal, counters);
+    impact(i, j, d, normal, since, counters);
     neighborhoods_->remember(i, event.partner, normal);
   }
   ++version_[i];
@@ -480,7 +485,8 @@ void Simulation<B>::meet(Index i, const Event& event, RunCounters& counters) {
 }
 
 template <Body B>
-void Simulation<B>::impact(Index i, Index j, const Vec2& d, const Vec2& n, RunCounters& counters) {
+void Simulation<B>::impact(Index i, Index j, const Vec2& d, const Vec2& n, double since,
+                           RunCounters& counters) {
   const CommonSize size = size_now();
   const auto arm = [&](Index k, const Vec2& outward) {
     return surface_point(scaled(shape(k), size.size), particles_[k].pose_at(now_), outward);
@@ -497,9 +503,26 @@ void Simulation<B>::impact(Index i, Index j, const Vec2& d, const Vec2& n, RunCo
   if (!std::isfinite(impulse)) report_wedge(i);
   particles_[i].set_motion(motion1);
   if (i != j) particles_[j].set_motion(motion2);
+  if (options_.restitution < 1) watch_haste(i, j, speed * since);
   ++counters.collisions;
   counters.virial += impulse * n.dot(d);
   counters.dissipated += 0.5 * impulse * speed * (1 - options_.restitution);
+}
+
+// Inelastic collapse: infinitely many collisions of a few particles in a finite time; or of one pair, as
+// of a bouncing ball, if its rotation brings the surfaces together again. It has come when the ways
+// between collisions are lost in the contact gap, time and again.
+template <Body B>
+void Simulation<B>::watch_haste(Index i, Index j, double way) {
+  constexpr int too_often = 10;
+  for (const Index k : {i, j})
+    haste_[k] = std::abs(way) < contact_gap_ ? std::min(haste_[k] + 1, too_often) : 0;
+  if (std::min(haste_[i], haste_[j]) < too_often) return;
+  throw InvariantError(
+      "inelastic collapse at time " + std::to_string(base_ + now_) + ": particles " +
+      std::to_string(outer_[i]) + " and " + std::to_string(outer_[j]) +
+      " collide again and again in no time; a coefficient of restitution closer to 1 "
+      "or fewer collisions would avoid it");
 }
 
 template <Body B>
