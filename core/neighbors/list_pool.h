@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cassert>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -18,13 +17,13 @@ class ListPool {
   explicit ListPool(std::size_t lists = 0) : rooms_(lists) {}
 
   /// Empty lists with room for as many entries as counted and a few more. There is room for 2³²
-  /// entries in all, and 2¹⁶ in one list.
+  /// entries in all.
   void reserve(std::span<const std::uint32_t> counts) {
     constexpr std::uint32_t more = 2;
     rooms_.clear();
     std::uint32_t end = 0;
     for (const std::uint32_t count : counts) {
-      const auto capacity = static_cast<std::uint16_t>(count + more);
+      const std::uint32_t capacity = count + more;
       rooms_.push_back({end, 0, capacity});
       end += capacity;
     }
@@ -51,19 +50,17 @@ class ListPool {
   void remove_if(std::size_t list, Predicate unwanted) {
     const std::span<T> entries = (*this)[list];
     rooms_[list].count -=
-        static_cast<std::uint16_t>(std::ranges::remove_if(entries, unwanted).size());
+        static_cast<std::uint32_t>(std::ranges::remove_if(entries, unwanted).size());
   }
 
  private:
   struct Room {
-    std::uint32_t begin = 0;
-    std::uint16_t count = 0, capacity = 0;
+    std::uint32_t begin = 0, count = 0, capacity = 0;
   };
 
   void move_to_end(Room& room) {
     const auto begin = static_cast<std::uint32_t>(entries_.size());
-    const auto capacity = static_cast<std::uint16_t>(2 * room.capacity + 1);
-    assert(capacity > room.capacity);
+    const std::uint32_t capacity = 2 * room.capacity + 1;
     entries_.resize(begin + capacity);
     for (std::uint32_t k = 0; k < room.count; ++k)
       entries_[begin + k] = std::move(entries_[room.begin + k]);

@@ -117,7 +117,7 @@ TEST_P(DiluteEllipses, CollisionRateTendsToTheKineticOne) {
   const auto rate_over_density = [&](double packing_fraction) {
     const Configuration2 start = square_lattice(
         16, packing_fraction, 0.3, [&](std::size_t) { return of_aspect_ratio(at.aspect_ratio); });
-    const Rates rates = measure(start, 100, 1000, 40);
+    const Rates rates = measure(start, 100, 1000, 60);
     const double density = packing_fraction / std::numbers::pi;
     const double scale =
         density * microcanonical_speed(rates.freedoms) * std::sqrt(rates.temperature);
