@@ -278,8 +278,8 @@ Json neighbor_counts(const Configuration2& c) {
   for (std::size_t i = 0; i < c.size(); ++i) poses.push_back(c.pose(i));
   const KindOf all_alike(std::vector<std::uint32_t>(c.size(), 0), 1);
   Neighborhoods<Ellipse> lists(c.box, {c.shape.data(), 1}, all_alike, poses, wanted);
-  CellGrid cells(c.box, 4 * c.shape[0].a, c.size());
-  for (std::size_t i = 0; i < c.size(); ++i) cells.insert(i, c.position[i]);
+  CellGrid<> cells(c.box, 4 * c.shape[0].a, c.size());
+  for (std::size_t i = 0; i < c.size(); ++i) cells.insert(i, {c.position[i]});
   const double reach = 2 * (c.shape[0].a + lists.margin());
   std::size_t shaped = 0, round = 0;
   for (std::size_t i = 0; i < c.size(); ++i) {

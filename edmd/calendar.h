@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
@@ -17,8 +18,8 @@ namespace vitrel {
 ///
 /// 1. A window of time is cut into equal slots, each with a list of the particles that are planned in
 ///    it; one more list holds those planned later or never. To plan is to divide and to link.
-/// 2. The particles of the slots opened so far are in a small heap, ordered by (time, particle).
-///    When it is empty the next slot is opened.
+/// 2. The particles of the slots opened so far are in a small heap, ordered by (time, particle). When
+///    it holds fewer than `foresight` the next slot is opened, and its particles are announced.
 /// 3. After the last slot the window is renewed: it begins at the earliest time, and a slot is as wide
 ///    as it takes, counted over the nearest eighth of the particles, to find a few of them in each.
 ///    So is a window that has served for very many changes, because events now come much faster.
@@ -29,9 +30,11 @@ namespace vitrel {
 /// more during a renewal.
 class Calendar {
  public:
-  /// Nothing is planned: all times are +∞.
-  explicit Calendar(std::size_t particles = 0)
-      : slots_(static_cast<Index>(slots_per_particle * particles)),
+  /// Nothing is planned: all times are +∞. At least `foresight` particles, 1 or more, are announced
+  /// before their events, as far as the window reaches and as these were planned by then.
+  explicit Calendar(std::size_t particles = 0, std::size_t foresight = 1)
+      : foresight_(foresight),
+        slots_(static_cast<Index>(slots_per_particle * particles)),
         opened_(slots_),
         time_(particles, never),
         links_(particles + slots_ + 1) {
@@ -43,9 +46,13 @@ class Calendar {
 
   /// The particle with the least (time, particle). Opens slots, hence not const.
   std::size_t earliest() {
-    if (due_.empty() || changes_left_ <= 0) open_slots();
+    if (due_.size() < foresight_ || changes_left_ <= 0) open_slots();
     return due_.empty() ? 0 : due_.front().particle;
   }
+
+  /// How many particles have been announced, and one of the last of these: number k, counted from 0.
+  std::uint64_t announcements() const { return announcements_; }
+  std::size_t announced(std::uint64_t k) const { return announced_[k % remembered]; }
 
   void set(std::size_t particle, double time) {
     assert(time > -never);
@@ -77,6 +84,7 @@ class Calendar {
   static constexpr std::size_t least_counted = 8;
   static constexpr std::int64_t changes_per_particle = 64;
   static constexpr std::size_t arity = 4;
+  static constexpr std::size_t remembered = 64;  // announcements
   static constexpr double narrowest = 1e-300;  // of one slot: its inverse stays finite
 
   /// Neighbours in a circular list. The particles come first, then the heads of the slots. A particle
@@ -121,11 +129,11 @@ class Calendar {
     for (Index i = 0; i < time_.size(); ++i) link(i, slot_of(time_[i]));
   }
 
-  // Until somebody is due; nobody is if nothing is planned.
+  // Until enough are due; nobody is if nothing is planned.
   void open_slots() {
     if (changes_left_ <= 0) renew_window();
-    while (due_.empty()) {
-      if (opened_ == slots_) renew_window();
+    while (due_.size() < foresight_) {
+      if (opened_ == slots_ && due_.empty()) renew_window();
       if (opened_ == slots_) return;
       open(opened_++);
     }
@@ -136,6 +144,7 @@ class Calendar {
     for (Index i = links_[head].next; i != head;) {
       const Index next = links_[i].next;
       add_to_heap({time_[i], i});
+      announced_[announcements_++ % remembered] = i;
       i = next;
     }
   }
@@ -212,6 +221,9 @@ class Calendar {
     put(place, entry);
   }
 
+  std::size_t foresight_;
+  std::uint64_t announcements_ = 0;
+  std::array<Index, remembered> announced_{};
   Index slots_;   // of the window
   Index opened_;  // of these
   double begin_ = -never;

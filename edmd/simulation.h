@@ -14,6 +14,7 @@
 #include "core/contact/first_look.h"
 #include "core/contact/pair.h"
 #include "core/error.h"
+#include "core/neighbors/ask_memory.h"
 #include "core/neighbors/neighborhood.h"
 #include "core/neighbors/spatial_order.h"
 #include "core/tolerances.h"
@@ -69,6 +70,10 @@ class Simulation final : public Engine {
   static constexpr double wanted_neighbors = 7;
   static constexpr std::uint64_t events_per_particle_and_block = 32;
   static constexpr std::uint64_t least_events_per_block = 4096;
+  /// Of larger systems the caches do not hold all, and events jump about in them: what an event will
+  /// read is asked for beforehand, in steps so many events apart.
+  static constexpr std::size_t cached_particles = 2048;
+  static constexpr std::uint64_t steps_ahead = 4, events_per_step = 4;
 
   /// What predictions read of a particle: one cache line.
   struct alignas(64) Particle {
@@ -94,7 +99,7 @@ class Simulation final : public Engine {
     Inertia inertia;
   };
 
-  struct Event {
+  struct alignas(32) Event {
     enum class What : std::uint8_t { collision, correction, exit, look_again };
     What what = What::look_again;
     Index partner_version = 0;
@@ -117,6 +122,7 @@ class Simulation final : public Engine {
   /// first; or, when all entries are made anew, every pair once and from whatever thread.
   enum class Scope { neighborhood, later_numbers };
 
+  bool reads_ahead() const { return particles_.size() > cached_particles; }
   const Kind& kind(Index i) const { return kinds_[kind_of_[i]]; }
   const Shape& shape(Index i) const { return shapes_[kind_of_[i]]; }
   CommonSize size_now() const {
@@ -147,6 +153,8 @@ class Simulation final : public Engine {
                                 RunCounters& counters) const;
   void search(Index i, const Pose2& mine, const Neighbor<B>& neighbor, double horizon, Entry& best,
               RunCounters& counters) const;
+  void read_ahead();
+  void read_ahead(Index i, int step) const;
   void process(Index i, RunCounters& counters);
   void leave_neighborhood(Index i);
   void meet(Index i, const Event& event, RunCounters& counters);
@@ -180,6 +188,7 @@ class Simulation final : public Engine {
   double horizon_ = never;         // since then
   std::uint64_t events_left_ = 0;  // until the block ends,
   double longest_block_ = never;   // which it also does after this time
+  std::uint64_t read_ahead_ = 0;   // announcements of the calendar that were heeded
   bool predicted_ = false;
 };
 
@@ -266,7 +275,8 @@ void Simulation<B>::predict_all(double horizon, RunCounters& counters) {
     const std::lock_guard lock(adding);
     counters.add_predictions(mine);
   });
-  calendar_ = Calendar(particles_.size());
+  calendar_ = Calendar(particles_.size(), reads_ahead() ? steps_ahead * events_per_step : 1);
+  read_ahead_ = 0;
   for (Index i = 0; i < particles_.size(); ++i) calendar_.set(i, particles_[i].next);
   predicted_ = true;
 }
@@ -286,9 +296,48 @@ Engine::Stop Simulation<B>::advance(double until, RunCounters& counters) {
     --events_left_;
     ++counters.events;
     particles_[i].next = never;
+    if (reads_ahead()) read_ahead();
     process(i, counters);
   }
   return Stop::block_end;
+}
+
+template <Body B>
+void Simulation<B>::read_ahead() {
+  for (; read_ahead_ < calendar_.announcements(); ++read_ahead_)
+    for (std::uint64_t step = 0; step < steps_ahead && step * events_per_step <= read_ahead_; ++step)
+      read_ahead(
+          static_cast<Index>(calendar_.announced(read_ahead_ - step * events_per_step)),
+          static_cast<int>(step));
+}
+
+// What each step asks for is known from what the step before has asked for.
+template <Body B>
+void Simulation<B>::read_ahead(Index i, int step) const {
+  const auto ask_for_own = [&](Index k) {
+    ask_memory(&particles_[k]);
+    ask_memory(&events_[k]);
+    ask_memory(&version_[k]);
+    neighborhoods_->read_ahead(k);
+  };
+  const auto ask_for_partners = [&](Index k) {
+    for (const NeighborImage& neighbor : std::as_const(*neighborhoods_).of(k))
+      ask_memory(&particles_[neighbor.other]);
+  };
+  if (step == 0) return ask_for_own(i);
+  if (step == 1) neighborhoods_->read_ahead_list(i);
+  if (step == 2) ask_for_partners(i);
+  const Event& event = events_[i];
+  if (event.what == Event::What::exit) {
+    const Particle& particle = particles_[i];
+    if (particle.next == never) return;
+    neighborhoods_->read_ahead_renewal(i, particle.pose_at(particle.next).position, step - 1);
+  } else {
+    const Index j = event.partner.other;
+    if (step == 1) ask_for_own(j);
+    if (step == 2) neighborhoods_->read_ahead_list(j);
+    if (step == 3) ask_for_partners(j);
+  }
 }
 
 template <Body B>

@@ -15,7 +15,7 @@ namespace vitrel {
 double hard_margin(const Configuration2& configuration);
 
 /// Cells filled with the positions of a configuration, which must be wrapped.
-CellGrid make_cells(const Configuration2& configuration);
+CellGrid<> make_cells(const Configuration2& configuration);
 
 /// Whether a particle keeps the margin to its own images, which lie at whole box lengths.
 bool clear_of_own_images(const PeriodicBox<2>& box, const Ellipse& shape, const Vec2& axis,
@@ -26,7 +26,7 @@ bool clear_of_own_images(const PeriodicBox<2>& box, const Ellipse& shape, const 
 /// ±shift).
 template <class Visit>
 void for_each_pair(const Configuration2& configuration, double scale, Visit&& visit) {
-  const CellGrid cells = make_cells(configuration);
+  const CellGrid<> cells = make_cells(configuration);
   const double largest = largest_circumradius(configuration);
   for (std::size_t i = 0; i < configuration.size(); ++i) {
     const double reach = scale * (configuration.shape[i].circumradius() + largest);

@@ -43,7 +43,7 @@ class Insertion {
       configuration_.position[i] = position;
       configuration_.image[i] = Shift<2>::Zero();
       configuration_.angle[i] = angle;
-      cells_.insert(i, position);
+      cells_.insert(i, {position});
       return true;
     }
     return false;
@@ -62,7 +62,7 @@ class Insertion {
 
   Configuration2& configuration_;
   const InsertionOptions& options_;
-  CellGrid cells_;
+  CellGrid<> cells_;
   double largest_, margin_;
 };
 

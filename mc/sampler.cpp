@@ -50,7 +50,7 @@ void Sampler::translate(std::size_t i, Stream& draw) {
   ++counts_.translations_accepted;
   configuration_.box.wrap(position, configuration_.image[i]);
   configuration_.position[i] = position;
-  cells_.move(i, position);
+  cells_.move(i, {position});
 }
 
 void Sampler::rotate(std::size_t i, Stream& draw) {

@@ -50,7 +50,7 @@ class Sampler {
                        double margin) const;
 
   Configuration2& configuration_;
-  CellGrid cells_;
+  CellGrid<> cells_;
   std::vector<Vec2> axis_;  // unit major axes
   double largest_, margin_;
   double translation_, rotation_;

@@ -3,20 +3,29 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <type_traits>
 #include <vector>
 
 #include "core/geometry/periodic_box.h"
-#include "core/neighbors/list_pool.h"
+#include "core/neighbors/ask_memory.h"
 
 namespace vitrel {
+
+/// A point of a cell grid. Other types can take its place that know more of a point and have these two:
+/// whoever is near is then known with the one read that finds it.
+struct CellPoint {
+  Vec2 position;           // wrapped into the box
+  std::uint32_t next = 0;  // the grid's own: the next point of the cell
+};
 
 /// Points in the cells of a periodic box, to find those near a place.
 ///
 /// A query walks the cells that its reach covers in unwrapped cell coordinates; a cell beyond the
 /// box is the image of one inside, and how many boxes lie between is the shift. So every image (j,
-/// shift) within reach is met exactly once, in boxes of any size, down to a single cell. Insert,
-/// move and remove cost O(1).
+/// shift) within reach is met exactly once, in boxes of any size, down to a single cell. Insert and
+/// move cost O(1).
+template <class Point = CellPoint>
 class CellGrid {
  public:
   /// For about `particles` points and queries of about `reach`.
@@ -27,34 +36,28 @@ class CellGrid {
       count_[k] = std::clamp<std::int64_t>(wanted, 1, most);
       width_[k] = box.lengths()[k] / static_cast<double>(count_[k]);
     }
-    const auto cells = static_cast<std::size_t>(count_[0] * count_[1]);
-    members_ = ListPool<Index>(cells);
-    members_.reserve(std::vector<std::uint32_t>(cells, particles / cells));
-    position_.reserve(particles);
-    cell_.reserve(particles);
+    first_.assign(static_cast<std::size_t>(count_[0] * count_[1]), none);
+    points_.reserve(particles);
   }
 
-  /// Adds point i at a position wrapped into the box. Points are numbered 0, 1, 2 …
-  void insert(std::size_t i, const Vec2& position) {
-    if (position_.size() <= i) {
-      position_.resize(i + 1);
-      cell_.resize(i + 1);
-    }
-    position_[i] = position;
-    enter(static_cast<Index>(i), cell_of(position));
+  /// Adds point i. Points are numbered 0, 1, 2 …
+  void insert(std::size_t i, const Point& point) {
+    if (points_.size() <= i) points_.resize(i + 1);
+    points_[i] = point;
+    enter(static_cast<Index>(i), cell_of(point.position));
   }
 
-  void remove(std::size_t i) { leave(static_cast<Index>(i)); }
-
-  void move(std::size_t i, const Vec2& position) {
-    const Index cell = cell_of(position);
-    position_[i] = position;
-    if (cell == cell_[i]) return;
-    leave(static_cast<Index>(i));
-    enter(static_cast<Index>(i), cell);
+  void move(std::size_t i, const Point& point) {
+    const std::size_t from = cell_of(points_[i].position), to = cell_of(point.position);
+    if (from != to) leave(static_cast<Index>(i), from);
+    const Index next = points_[i].next;
+    points_[i] = point;
+    points_[i].next = next;
+    if (from != to) enter(static_cast<Index>(i), to);
   }
 
-  const Vec2& position(std::size_t i) const { return position_[i]; }
+  std::size_t size() const { return points_.size(); }
+  const Point& operator[](std::size_t i) const { return points_[i]; }
 
   /// Calls visit(j, shift, separation) for every image r_j + shift ∘ L within `reach` of
   /// `position`, which may lie outside the box; separation = r_j + shift ∘ L − position. A point at
@@ -62,27 +65,35 @@ class CellGrid {
   /// whether all were visited.
   template <class Visit>
   bool for_each_near(const Vec2& position, double reach, Visit&& visit) const {
-    const Range x = covered(position, reach, 0);
-    const Range y = covered(position, reach, 1);
-    for (std::int64_t cx = x.low; cx <= x.high; ++cx) {
-      const std::int32_t boxes_x = boxes_off(cx, 0);
-      const std::int64_t column = (cx - boxes_x * count_[0]) * count_[1];
-      for (std::int64_t cy = y.low; cy <= y.high; ++cy) {
-        const Shift<2> shift(boxes_x, boxes_off(cy, 1));
-        const std::int64_t cell = column + cy - shift.y() * count_[1];
-        const Vec2 offset = box_.translation(shift) - position;
-        for (const Index j : members_[static_cast<std::size_t>(cell)]) {
-          const Vec2 separation = position_[j] + offset;
-          if (separation.squaredNorm() > reach * reach) continue;
-          if (!goes_on(visit, static_cast<std::size_t>(j), shift, separation)) return false;
-        }
+    return for_each_cell(position, reach, [&](std::size_t cell, const Shift<2>& shift) {
+      const Vec2 offset = box_.translation(shift) - position;
+      for (Index j = first_[cell]; j != none; j = points_[j].next) {
+        const Vec2 separation = points_[j].position + offset;
+        if (separation.squaredNorm() > reach * reach) continue;
+        if (!goes_on(visit, static_cast<std::size_t>(j), shift, separation)) return false;
       }
-    }
-    return true;
+      return true;
+    });
+  }
+
+  /// Asks the memory for what a query will read: in step 0 for the cells, in step 1 for the first point
+  /// of each, in step 2 for the second. It takes a while until a step can build on the one before.
+  void read_ahead(const Vec2& position, double reach, int step) const {
+    for_each_cell(position, reach, [&](std::size_t cell, const Shift<2>&) {
+      if (step == 0) {
+        ask_memory(&first_[cell]);
+        return true;
+      }
+      Index j = first_[cell];
+      if (step == 2 && j != none) j = points_[j].next;
+      if (j != none) ask_memory(&points_[j]);
+      return true;
+    });
   }
 
  private:
   using Index = std::uint32_t;
+  static constexpr Index none = std::numeric_limits<Index>::max();
   struct Range {
     std::int64_t low, high;
   };
@@ -97,6 +108,23 @@ class CellGrid {
       visit(j, shift, separation);
       return true;
     }
+  }
+
+  // visit(cell, shift) for the cells within reach, until one returns false.
+  template <class Visit>
+  bool for_each_cell(const Vec2& position, double reach, Visit&& visit) const {
+    const Range x = covered(position, reach, 0);
+    const Range y = covered(position, reach, 1);
+    for (std::int64_t cx = x.low; cx <= x.high; ++cx) {
+      const std::int32_t boxes_x = boxes_off(cx, 0);
+      const std::int64_t column = (cx - boxes_x * count_[0]) * count_[1];
+      for (std::int64_t cy = y.low; cy <= y.high; ++cy) {
+        const Shift<2> shift(boxes_x, boxes_off(cy, 1));
+        const std::int64_t cell = column + cy - shift.y() * count_[1];
+        if (!visit(static_cast<std::size_t>(cell), shift)) return false;
+      }
+    }
+    return true;
   }
 
   // How many boxes a cell lies beyond the first.
@@ -115,30 +143,31 @@ class CellGrid {
             static_cast<std::int64_t>(std::floor((centre + half) / width_[k]))};
   }
 
-  Index cell_of(const Vec2& position) const {
+  std::size_t cell_of(const Vec2& position) const {
     std::int64_t at[2];
     for (int k = 0; k < 2; ++k)
       at[k] = std::clamp<std::int64_t>(
           static_cast<std::int64_t>((position[k] + 0.5 * box_.lengths()[k]) / width_[k]), 0,
           count_[k] - 1);
-    return static_cast<Index>(at[0] * count_[1] + at[1]);
+    return static_cast<std::size_t>(at[0] * count_[1] + at[1]);
   }
 
-  void enter(Index i, Index cell) {
-    cell_[i] = cell;
-    members_.add(cell, i);
+  void enter(Index i, std::size_t cell) {
+    points_[i].next = first_[cell];
+    first_[cell] = i;
   }
 
-  void leave(Index i) {
-    members_.remove_if(cell_[i], [i](Index member) { return member == i; });
+  void leave(Index i, std::size_t cell) {
+    Index* link = &first_[cell];
+    while (*link != i) link = &points_[*link].next;
+    *link = points_[i].next;
   }
 
   PeriodicBox<2> box_;
   std::int64_t count_[2];
   double width_[2];
-  ListPool<Index> members_;  // of every cell, x-major
-  std::vector<Vec2> position_;
-  std::vector<Index> cell_;
+  std::vector<Index> first_;  // of every cell, x-major
+  std::vector<Point> points_;
 };
 
 }  // namespace vitrel

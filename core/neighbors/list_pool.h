@@ -1,10 +1,13 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
+
+#include "core/neighbors/ask_memory.h"
 
 namespace vitrel {
 
@@ -41,6 +44,16 @@ class ListPool {
     Room& room = rooms_[list];
     if (room.count == room.capacity) move_to_end(room);
     entries_[room.begin + room.count++] = entry;
+  }
+
+  /// Asks the memory for where a list is, and, once that is known, for the list.
+  void read_ahead_room(std::size_t list) const { ask_memory(&rooms_[list]); }
+  void read_ahead(std::size_t list) const {
+    constexpr std::size_t line = 64;
+    const std::span<const T> entries = (*this)[list];
+    const auto* begin = reinterpret_cast<const std::byte*>(entries.data());
+    for (std::size_t at = 0; at < entries.size_bytes() + line; at += line)
+      ask_memory(begin + at);
   }
 
   void clear(std::size_t list) { rooms_[list].count = 0; }

@@ -11,6 +11,7 @@
 #include "core/contact/first_look.h"
 #include "core/contact/gap_look.h"
 #include "core/geometry/periodic_box.h"
+#include "core/neighbors/ask_memory.h"
 #include "core/neighbors/cell_grid.h"
 #include "core/neighbors/kind_of.h"
 #include "core/neighbors/list_pool.h"
@@ -67,13 +68,10 @@ class Neighborhoods {
       : box_(box),
         shapes_(shapes),
         kind_of_(kind_of),
-        reference_(poses.size()),
         largest_(largest_circumradius()),
-        cells_(box, cell_reach(), poses.size()) {
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-      reference_[i] = {poses[i].angle, 1};
-      cells_.insert(i, poses[i].position);
-    }
+        references_(box, cell_reach(poses.size()), poses.size()) {
+    for (std::size_t i = 0; i < poses.size(); ++i)
+      references_.insert(i, {poses[i].position, poses[i].angle});
     const std::vector<Pair> pairs = pairs_closer_than(widest_gap(wanted_neighbors));
     margin_ = 0.5 * choose_gap(pairs, wanted_neighbors);
     std::vector<std::uint32_t> counts(poses.size());
@@ -86,6 +84,7 @@ class Neighborhoods {
   }
 
   std::span<Neighbor<B>> of(std::size_t i) { return lists_[i]; }
+  std::span<const Neighbor<B>> of(std::size_t i) const { return lists_[i]; }
   double margin() const { return margin_; }
 
   /// The axis of a pair is known: `normal` points from i to the other.
@@ -100,8 +99,7 @@ class Neighborhoods {
 
   /// New reference pose (wrapped into the box), size and list for particle i.
   void renew(std::size_t i, const Pose2& pose, double size) {
-    reference_[i] = {pose.angle, size};
-    cells_.move(i, pose.position);
+    references_.move(i, {pose.position, pose.angle, static_cast<float>(size)});
     near_.clear();
     visit_near(i, 2 * margin_, [&](const Pair& pair) { near_.push_back(pair); });
     // Most neighbours stay: only those that come or go learn of it.
@@ -120,18 +118,29 @@ class Neighborhoods {
       if (gone.other != i) forget(i, gone);
   }
 
+  /// Asks the memory for what a prediction for particle i will read: where its list is, and then the list.
+  void read_ahead(std::size_t i) const {
+    lists_.read_ahead_room(i);
+    ask_memory(&references_[i]);
+  }
+  void read_ahead_list(std::size_t i) const { lists_.read_ahead(i); }
+  /// The same for a renewal, at this position; as CellGrid::read_ahead.
+  void read_ahead_renewal(std::size_t i, const Vec2& position, int step) const {
+    references_.read_ahead(position, reach_of(i, 2 * margin_), step);
+  }
+
   /// A time until which particle i, now at `pose` and of the common size, stays inside its
   /// neighbourhood: without growth, exactly that of leaving it.
   double exit_time(std::size_t i, const Pose2& pose, const Motion2& motion,
                    const CommonSize& common) const {
     // While growing by this fraction at most, the swing is bounded by that of the larger size.
     constexpr double growth_at_once = 0.1;
-    const Reference& reference = reference_[i];
+    const Reference& reference = references_[i];
     const double growing = std::max(common.growth_rate, 0.0);
     const double most = common.size + (growing > 0 ? growth_at_once : 0);
     const double radius = shape(i).circumradius();
     const double swing = most * shape(i).swing();
-    const Vec2 moved = pose.position - cells_.position(i);
+    const Vec2 moved = pose.position - reference.position;
     const double turned = swing * (pose.angle - reference.angle);
     const double turning = swing * motion.angular_velocity;
     const double room = margin_ - radius * std::max(common.size - reference.size, 0.0);
@@ -143,10 +152,14 @@ class Neighborhoods {
   }
 
  private:
-  struct Reference {  // its position is with the cells
-    double angle;
-    double size;
+  /// It need not have the very size of the particle when it was made.
+  struct alignas(32) Reference {
+    Vec2 position;
+    double angle = 0;
+    float size = 1;
+    std::uint32_t next = 0;  // the grid's own
   };
+  static_assert(sizeof(Reference) == 32);  // half a cache line
   struct Pair {
     double gap;
     Vec2 axis;
@@ -176,14 +189,14 @@ class Neighborhoods {
   }
 
   // The reach that gives cells of half a particle, or with one particle each if these are larger.
-  double cell_reach() const {
-    const double spacing = std::sqrt(box_.volume() / static_cast<double>(reference_.size()));
+  double cell_reach(std::size_t particles) const {
+    const double spacing = std::sqrt(box_.volume() / static_cast<double>(particles));
     return 2 * std::max(largest_, spacing);
   }
 
   // A gap within which, at the mean density, there are surely more neighbours than wanted.
   double widest_gap(double wanted) const {
-    const double density = static_cast<double>(reference_.size()) / box_.volume();
+    const double density = static_cast<double>(references_.size()) / box_.volume();
     const double reach = std::sqrt(2 * wanted / (std::numbers::pi * density));
     double smallest = largest_;
     for (const Shape& shape : shapes_) smallest = std::min(smallest, shape.inradius());
@@ -192,7 +205,7 @@ class Neighborhoods {
 
   double choose_gap(std::vector<Pair> pairs, double wanted) const {
     const auto rank =
-        static_cast<std::size_t>(0.5 * wanted * static_cast<double>(reference_.size()));
+        static_cast<std::size_t>(0.5 * wanted * static_cast<double>(references_.size()));
     if (rank >= pairs.size()) return widest_gap(wanted);
     const auto nth = pairs.begin() + static_cast<std::ptrdiff_t>(rank);
     std::nth_element(pairs.begin(), nth, pairs.end(),
@@ -202,11 +215,18 @@ class Neighborhoods {
     return std::max(nth->gap, narrowest);
   }
 
+  // How far off the images can be that are closer to particle i than `limit`. The other references are
+  // older, of a size between 1 and its own.
+  double reach_of(std::size_t i, double limit) const {
+    const double size = references_[i].size;
+    return size * shape(i).circumradius() + std::max(size, 1.0) * largest_ + limit;
+  }
+
   // visit(pair) for the images closer to particle i than `limit`, at their reference poses; own
   // images once per unordered pair.
   template <class Visit>
   void visit_near(std::size_t i, double limit, Visit&& visit) const {
-    const Reference& mine = reference_[i];
+    const Reference& mine = references_[i];
     const Shape one = scaled(shape(i), mine.size);
     GapLook<Shape> look(one, mine.angle);
     NeighborImage image[GapLook<Shape>::lanes];
@@ -218,16 +238,14 @@ class Neighborhoods {
           visit(Pair{look.gap(k), look.axis(k), static_cast<std::uint32_t>(i), image[k]});
       count = 0;
     };
-    // The other references are older, of a size between 1 and this.
-    const double reach = one.circumradius() + largest_ * std::max(mine.size, 1.0) + limit;
-    cells_.for_each_near(cells_.position(i), reach,
-                         [&](std::size_t j, const Shift<2>& shift, const Vec2& d) {
-                           if (j == i && !comes_after_zero(shift)) return;
-                           const Reference& other = reference_[j];
-                           look.set(count, scaled(shape(j), other.size), other.angle, d);
-                           image[count++] = {j, shift};
-                           if (count == GapLook<Shape>::lanes) judge();
-                         });
+    references_.for_each_near(mine.position, reach_of(i, limit),
+                              [&](std::size_t j, const Shift<2>& shift, const Vec2& d) {
+                                if (j == i && !comes_after_zero(shift)) return;
+                                const Reference& other = references_[j];
+                                look.set(count, scaled(shape(j), other.size), other.angle, d);
+                                image[count++] = {j, shift};
+                                if (count == GapLook<Shape>::lanes) judge();
+                              });
     if (count > 0) judge();
   }
 
@@ -237,7 +255,7 @@ class Neighborhoods {
 
   std::vector<Pair> pairs_closer_than(double limit) const {
     std::vector<Pair> pairs;
-    for (std::size_t i = 0; i < reference_.size(); ++i)
+    for (std::size_t i = 0; i < references_.size(); ++i)
       visit_near(i, limit, [&](const Pair& pair) {
         if (pair.image.other >= i) pairs.push_back(pair);
       });
@@ -264,12 +282,11 @@ class Neighborhoods {
   PeriodicBox<2> box_;
   std::span<const Shape> shapes_;
   const KindOf& kind_of_;
-  std::vector<Reference> reference_;
   ListPool<Neighbor<B>> lists_;
   std::vector<Pair> near_;  // of a renewal
   std::vector<Neighbor<B>> before_;
   double largest_;
-  CellGrid cells_;
+  CellGrid<Reference> references_;
   double margin_ = 0;
 };
 
