@@ -9,6 +9,8 @@
 #include <limits>
 #include <vector>
 
+#include "core/neighbors/ask_memory.h"
+
 namespace vitrel {
 
 /// The next event time of every particle, and the earliest of them all: a bounded-increment queue
@@ -50,9 +52,15 @@ class Calendar {
     return due_.empty() ? 0 : due_.front().particle;
   }
 
-  /// How many particles have been announced, and one of the last of these: number k, counted from 0.
+  /// How many particles have been announced, and one of the last 64 of these: number k, counted from 0.
   std::uint64_t announcements() const { return announcements_; }
   std::size_t announced(std::uint64_t k) const { return announced_[k % remembered]; }
+
+  /// Asks the memory for what a change of this particle's time will read.
+  void read_ahead(std::size_t particle) const {
+    ask_memory(&time_[particle]);
+    ask_memory(&links_[particle]);
+  }
 
   void set(std::size_t particle, double time) {
     assert(time > -never);
@@ -85,7 +93,7 @@ class Calendar {
   static constexpr std::int64_t changes_per_particle = 64;
   static constexpr std::size_t arity = 4;
   static constexpr std::size_t remembered = 64;  // announcements
-  static constexpr double narrowest = 1e-300;  // of one slot: its inverse stays finite
+  static constexpr double narrowest = 1e-300;    // of one slot: its inverse stays finite
 
   /// Neighbours in a circular list. The particles come first, then the heads of the slots. A particle
   /// that is in the heap keeps its place there in `next`.

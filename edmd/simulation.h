@@ -305,10 +305,10 @@ Engine::Stop Simulation<B>::advance(double until, RunCounters& counters) {
 template <Body B>
 void Simulation<B>::read_ahead() {
   for (; read_ahead_ < calendar_.announcements(); ++read_ahead_)
-    for (std::uint64_t step = 0; step < steps_ahead && step * events_per_step <= read_ahead_; ++step)
-      read_ahead(
-          static_cast<Index>(calendar_.announced(read_ahead_ - step * events_per_step)),
-          static_cast<int>(step));
+    for (std::uint64_t step = 0; step < steps_ahead && step * events_per_step <= read_ahead_;
+         ++step)
+      read_ahead(static_cast<Index>(calendar_.announced(read_ahead_ - step * events_per_step)),
+                 static_cast<int>(step));
 }
 
 // What each step asks for is known from what the step before has asked for.
@@ -318,6 +318,7 @@ void Simulation<B>::read_ahead(Index i, int step) const {
     ask_memory(&particles_[k]);
     ask_memory(&events_[k]);
     ask_memory(&version_[k]);
+    calendar_.read_ahead(k);
     neighborhoods_->read_ahead(k);
   };
   const auto ask_for_partners = [&](Index k) {

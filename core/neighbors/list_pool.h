@@ -52,8 +52,7 @@ class ListPool {
     constexpr std::size_t line = 64;
     const std::span<const T> entries = (*this)[list];
     const auto* begin = reinterpret_cast<const std::byte*>(entries.data());
-    for (std::size_t at = 0; at < entries.size_bytes() + line; at += line)
-      ask_memory(begin + at);
+    for (std::size_t at = 0; at < entries.size_bytes() + line; at += line) ask_memory(begin + at);
   }
 
   void clear(std::size_t list) { rooms_[list].count = 0; }

@@ -52,7 +52,13 @@ class CalendarTest : public testing::Test {
   const std::vector<std::size_t> sizes = {1, 2, 3, 5, 8, 9, 17, 64, 65, 1000};
 };
 
-using Calendars = testing::Types<Calendar, lab::HeapCalendar, lab::TournamentCalendar>;
+/// One that looks ahead.
+struct ForesightedCalendar : Calendar {
+  explicit ForesightedCalendar(std::size_t n) : Calendar(n, 5) {}
+};
+
+using Calendars =
+    testing::Types<Calendar, ForesightedCalendar, lab::HeapCalendar, lab::TournamentCalendar>;
 TYPED_TEST_SUITE(CalendarTest, Calendars, );
 
 // Waiting times as a run draws them.
@@ -192,6 +198,34 @@ TYPED_TEST(CalendarTest, OrderDoesNotDependOnHistory) {
     fresh.set(i, never);
     used.set(i, never);
   }
+}
+
+// A thousand particles with one event per unit of time each. Whoever comes was announced, and mostly
+// some events before, unless it was planned so late that it came at once.
+TEST(Calendar, AnnouncesWhoComesSoon) {
+  const std::size_t n = 1000, foresight = 5;
+  constexpr double soon = 0.03;  // thirty events
+  Calendar calendar(n, foresight);
+  Stream draw(8, Purpose::tests);
+  for (std::size_t i = 0; i < n; ++i) calendar.set(i, exponential(draw));
+  std::vector<double> planned_at(n, 0), announced_at(n, -1);
+  std::uint64_t heard = 0, foreseen = 0;
+  double now = 0;
+  constexpr int events = 20'000;
+  for (int event = 0; event < events; ++event) {
+    const std::size_t i = calendar.earliest();
+    for (; heard < calendar.announcements(); ++heard)
+      announced_at[calendar.announced(heard)] = event;
+    now = calendar.time(i);
+    if (now - planned_at[i] > soon) {
+      ASSERT_GE(announced_at[i], 0);
+    }
+    foreseen += announced_at[i] >= 0 && event - announced_at[i] >= static_cast<int>(foresight) - 1;
+    announced_at[i] = -1;
+    planned_at[i] = now;
+    calendar.set(i, now + exponential(draw));
+  }
+  EXPECT_GT(foreseen, 0.9 * events);
 }
 
 }  // namespace

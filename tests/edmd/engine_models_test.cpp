@@ -187,6 +187,65 @@ TEST_P(Invariance, TheOrderOfTheParticlesChangesNoCollision) {
   expect_same_motion(start, *forward, *backward, 10, frame);
 }
 
+Configuration2 repeated(const Configuration2& tile, int times) {
+  Configuration2 c;
+  c.resize(tile.size() * static_cast<std::size_t>(times * times));
+  c.species_names = tile.species_names;
+  c.box = PeriodicBox<2>(tile.box.lengths() * times);
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    const std::size_t i = k % tile.size(), copy = k / tile.size();
+    const Vec2 corner(static_cast<double>(copy % times), static_cast<double>(copy / times));
+    c.position[k] = tile.position[i] + corner.cwiseProduct(tile.box.lengths());
+    c.box.wrap(c.position[k], c.image[k]);
+    c.angle[k] = tile.angle[i];
+    c.velocity[k] = tile.velocity[i];
+    c.angular_velocity[k] = tile.angular_velocity[i];
+    c.shape[k] = tile.shape[i];
+    c.mass[k] = tile.mass[i];
+  }
+  return c;
+}
+
+// A box and many copies of it side by side: the same motion, but so many particles that what events
+// will read is asked for beforehand, and that the particles are in other cells.
+TEST_P(Invariance, ManyCopiesMoveAsOne) {
+  constexpr int times = 6;
+  Configuration2 one = GetParam().scene();
+  Configuration2 many = repeated(one, times);
+  const auto small = make_engine(one, {}), large = make_engine(many, {});
+  RunCounters of_one, of_many;
+  small->load(one);
+  large->load(many);
+  for (double until = 0.02; of_one.collisions < 3 * one.size(); until += 0.02) {
+    advance(*small, one, until, of_one);
+    advance(*large, many, until, of_many);
+    ASSERT_EQ(of_many.collisions, times * times * of_one.collisions) << "up to " << until;
+    Configuration2 copy = one;
+    for (std::size_t k = 0; k < many.size(); ++k) {
+      const std::size_t i = k % one.size();
+      copy.position[i] = many.position[k];
+      copy.angle[i] = many.angle[k];
+      copy.velocity[i] = many.velocity[k];
+      copy.angular_velocity[i] = many.angular_velocity[k];
+      if (i + 1 < one.size()) continue;
+      ASSERT_LT(difference(one, copy), 1e-5) << "at " << until;
+    }
+  }
+  EXPECT_TRUE(exact_check(many).clean());
+}
+
+// A Brownian step, before whose end many particles meet nobody and stay where they are.
+TEST_P(Invariance, ManyParticlesStayHardInBrownianSteps) {
+  RunState state = begin_run(repeated(GetParam().scene(), 6), 0);
+  DynamicsOptions options;
+  options.brownian = true;
+  options.brownian_step = 0.1;
+  run(state, options, {{}, 2, nullptr, {}}, {});
+  EXPECT_GT(state.counters.collisions, 1000u);
+  EXPECT_EQ(state.counters.correction_moves, 0u);
+  EXPECT_TRUE(exact_check(state.configuration).clean());
+}
+
 RunState brownian_run(const Configuration2& start, int threads) {
   RunState state = begin_run(start, 0);
   DynamicsOptions options;
