@@ -87,8 +87,8 @@ template <>
 double Neighborhoods<lab::RoundListedEllipse>::choose_gap(std::vector<Pair>, double wanted) const {
   const std::vector<Ellipse> shapes(shapes_.begin(), shapes_.end());
   std::vector<Pose2> poses;
-  for (std::size_t i = 0; i < reference_.size(); ++i)
-    poses.push_back({cells_.position(i), reference_[i].angle});
+  for (std::size_t i = 0; i < references_.size(); ++i)
+    poses.push_back({references_[i].position, references_[i].angle});
   return 2 * Neighborhoods<Ellipse>(box_, shapes, kind_of_, poses, wanted).margin();
 }
 
