@@ -14,7 +14,11 @@ void in_parallel(std::size_t count, int threads,
   if (threads <= 1) return work(0, count);
   // Several parts per thread, so that none waits long for another.
   const std::size_t part = count / (4 * static_cast<std::size_t>(threads)) + 1;
-  tbb::task_arena arena(threads);
+  thread_local tbb::task_arena arena;  // kept: to make one takes as long as a small piece of work
+  if (!arena.is_active() || arena.max_concurrency() != threads) {
+    arena.terminate();
+    arena.initialize(threads);
+  }
   arena.execute([&] {
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, count, part),

@@ -70,9 +70,10 @@ class Simulation final : public Engine {
   static constexpr double wanted_neighbors = 7;
   static constexpr std::uint64_t events_per_particle_and_block = 32;
   static constexpr std::uint64_t least_events_per_block = 4096;
-  /// Of larger systems the caches do not hold all, and events jump about in them: what an event will
-  /// read is asked for beforehand, in steps so many events apart.
-  static constexpr std::size_t cached_particles = 2048;
+  /// Of larger systems the caches do not hold all, and events jump about in them: what an event will read
+  /// is asked for beforehand, in steps so many events apart. Of smaller ones it would cost more than
+  /// it gains.
+  static constexpr std::size_t cached_particles = 32768;
   static constexpr std::uint64_t steps_ahead = 4, events_per_step = 4;
 
   /// What predictions read of a particle: one cache line.
@@ -332,7 +333,9 @@ void Simulation<B>::read_ahead(Index i, int step) const {
   if (event.what == Event::What::exit) {
     const Particle& particle = particles_[i];
     if (particle.next == never) return;
-    neighborhoods_->read_ahead_renewal(i, particle.pose_at(particle.next).position, step - 1);
+    const Vec2 there = particle.pose_at(particle.next).position;
+    if (step == 1) neighborhoods_->read_ahead_cells(i, there);
+    if (step == 2) neighborhoods_->read_ahead_references(i, there);
   } else {
     const Index j = event.partner.other;
     if (step == 1) ask_for_own(j);

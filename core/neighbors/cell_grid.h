@@ -76,17 +76,19 @@ class CellGrid {
     });
   }
 
-  /// Asks the memory for what a query will read: in step 0 for the cells, in step 1 for the first point
-  /// of each, in step 2 for the second. It takes a while until a step can build on the one before.
-  void read_ahead(const Vec2& position, double reach, int step) const {
+  /// Asks the memory for what a query will read: for the cells, and, when these have had time to come, for
+  /// the first point of each.
+  void read_ahead_cells(const Vec2& position, double reach) const {
+    const Range x = covered(position, reach, 0);
+    const Range y = covered(position, reach, 1);
+    for (std::int64_t cx = x.low; cx <= x.high; ++cx)
+      for (const std::int64_t cy :
+           {y.low, y.high})  // those between are in the same line, or the next
+        ask_memory(&first_[inside(cx, 0) * count_[1] + inside(cy, 1)]);
+  }
+  void read_ahead_points(const Vec2& position, double reach) const {
     for_each_cell(position, reach, [&](std::size_t cell, const Shift<2>&) {
-      if (step == 0) {
-        ask_memory(&first_[cell]);
-        return true;
-      }
-      Index j = first_[cell];
-      if (step == 2 && j != none) j = points_[j].next;
-      if (j != none) ask_memory(&points_[j]);
+      if (first_[cell] != none) ask_memory(&points_[first_[cell]]);
       return true;
     });
   }
@@ -133,6 +135,10 @@ class CellGrid {
     for (; cell < 0; cell += count_[k]) --boxes;
     for (; cell >= count_[k]; cell -= count_[k]) ++boxes;
     return boxes;
+  }
+
+  std::int64_t inside(std::int64_t cell, int k) const {
+    return cell - boxes_off(cell, k) * count_[k];
   }
 
   // Cells that [position − reach, position + reach] covers, with room for rounding at the edges.

@@ -124,9 +124,12 @@ class Neighborhoods {
     ask_memory(&references_[i]);
   }
   void read_ahead_list(std::size_t i) const { lists_.read_ahead(i); }
-  /// The same for a renewal, at this position; as CellGrid::read_ahead.
-  void read_ahead_renewal(std::size_t i, const Vec2& position, int step) const {
-    references_.read_ahead(position, reach_of(i, 2 * margin_), step);
+  /// The same for a renewal at this position: the cells, and then the references in them.
+  void read_ahead_cells(std::size_t i, const Vec2& position) const {
+    references_.read_ahead_cells(position, reach_of(i, 2 * margin_));
+  }
+  void read_ahead_references(std::size_t i, const Vec2& position) const {
+    references_.read_ahead_points(position, reach_of(i, 2 * margin_));
   }
 
   /// A time until which particle i, now at `pose` and of the common size, stays inside its
