@@ -241,7 +241,7 @@ TEST_P(Invariance, ManyParticlesStayHardInBrownianSteps) {
   DynamicsOptions options;
   options.brownian = true;
   options.brownian_step = 0.1;
-  run(state, options, {{}, 0.5, nullptr, {}}, {});
+  run(state, options, {{}, 2, nullptr, {}}, {});
   EXPECT_GT(state.counters.collisions, 5000u);
   EXPECT_EQ(state.counters.correction_moves, 0u);
   EXPECT_TRUE(exact_check(state.configuration).clean());
