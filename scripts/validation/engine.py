@@ -92,10 +92,7 @@ def cost_ratio(sizes, row):
 
 
 def check_sizes(sizes):
-    """For ellipses. Disks, whose collisions cost a quarter of theirs, wait as long for memory: they are shown."""
     for row in sizes:
-        if row["aspect_ratio"] == 1:
-            continue
         most, ratio = LARGEST_RATIO.get(row["particles"], math.inf), cost_ratio(sizes, row)
         expect(ratio <= most, f"{shape(row['aspect_ratio'])}, N = {row['particles']}: a collision costs {ratio:.2f} "
                               f"times what it costs at N = {REFERENCE_SIZE}, not {most} at most")
