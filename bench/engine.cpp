@@ -23,6 +23,7 @@
 #include "edmd/brownian.h"
 #include "edmd/instances/instances.h"
 #include "edmd/run.h"
+#include "mc/disjoint.h"
 
 namespace vitrel::lab {
 namespace {
@@ -276,10 +277,9 @@ Json neighbor_counts(const Configuration2& c) {
   constexpr double wanted = 7;
   std::vector<Pose2> poses;
   for (std::size_t i = 0; i < c.size(); ++i) poses.push_back(c.pose(i));
-  const KindOf all_alike(std::vector<std::uint32_t>(c.size(), 0), 1);
+  const KindOf all_alike;
   Neighborhoods<Ellipse> lists(c.box, {c.shape.data(), 1}, all_alike, poses, wanted);
-  CellGrid<> cells(c.box, 4 * c.shape[0].a, c.size());
-  for (std::size_t i = 0; i < c.size(); ++i) cells.insert(i, {c.position[i]});
+  const CellGrid<> cells = make_cells(c);
   const double reach = 2 * (c.shape[0].a + lists.margin());
   std::size_t shaped = 0, round = 0;
   for (std::size_t i = 0; i < c.size(); ++i) {

@@ -46,10 +46,10 @@ struct RunCounters {
 /// Event-driven dynamics of N hard bodies in a periodic box: the run-time face of Simulation<Body>.
 ///
 /// Events run in blocks of a fixed count, or of the time in which the fastest particle crosses half
-/// the box. `load` begins a block: everything the engine knows is
-/// derived anew from the configuration, so that a run continued from a configuration written at a
-/// block's end equals the uninterrupted one bit by bit. Virtual calls are per block, sample or
-/// Brownian step, never per event.
+/// the box. `load` begins a block: everything the engine knows is derived anew from the
+/// configuration, so that a run continued from a configuration written at a block's end equals the
+/// uninterrupted one bit by bit. Virtual calls are per block, sample or Brownian step, never per
+/// event.
 class Engine {
  public:
   static constexpr double never = std::numeric_limits<double>::infinity();

@@ -189,7 +189,7 @@ class Simulation final : public Engine {
   double horizon_ = never;         // since then
   std::uint64_t events_left_ = 0;  // until the block ends,
   double longest_block_ = never;   // which it also does after this time
-  std::uint64_t read_ahead_ = 0;   // announcements of the calendar that were heeded
+  std::uint64_t heeded_ = 0;       // announcements of the calendar that were heeded
   bool predicted_ = false;
 };
 
@@ -277,7 +277,7 @@ void Simulation<B>::predict_all(double horizon, RunCounters& counters) {
     counters.add_predictions(mine);
   });
   calendar_ = Calendar(particles_.size(), reads_ahead() ? steps_ahead * events_per_step : 1);
-  read_ahead_ = 0;
+  heeded_ = 0;
   for (Index i = 0; i < particles_.size(); ++i) calendar_.set(i, particles_[i].next);
   predicted_ = true;
 }
@@ -305,10 +305,9 @@ Engine::Stop Simulation<B>::advance(double until, RunCounters& counters) {
 
 template <Body B>
 void Simulation<B>::read_ahead() {
-  for (; read_ahead_ < calendar_.announcements(); ++read_ahead_)
-    for (std::uint64_t step = 0; step < steps_ahead && step * events_per_step <= read_ahead_;
-         ++step)
-      read_ahead(static_cast<Index>(calendar_.announced(read_ahead_ - step * events_per_step)),
+  for (; heeded_ < calendar_.announcements(); ++heeded_)
+    for (std::uint64_t step = 0; step < steps_ahead && step * events_per_step <= heeded_; ++step)
+      read_ahead(static_cast<Index>(calendar_.announced(heeded_ - step * events_per_step)),
                  static_cast<int>(step));
 }
 
@@ -323,7 +322,7 @@ void Simulation<B>::read_ahead(Index i, int step) const {
     neighborhoods_->read_ahead(k);
   };
   const auto ask_for_partners = [&](Index k) {
-    for (const NeighborImage& neighbor : std::as_const(*neighborhoods_).of(k))
+    for (const NeighborImage& neighbor : neighborhoods_->of(k))
       ask_memory(&particles_[neighbor.other]);
   };
   if (step == 0) return ask_for_own(i);

@@ -82,8 +82,8 @@ class CellGrid {
     const Range x = covered(position, reach, 0);
     const Range y = covered(position, reach, 1);
     for (std::int64_t cx = x.low; cx <= x.high; ++cx)
-      for (const std::int64_t cy :
-           {y.low, y.high})  // those between are in the same line, or the next
+      // Those between are in the same line of memory, or the next.
+      for (const std::int64_t cy : {y.low, y.high})
         ask_memory(&first_[inside(cx, 0) * count_[1] + inside(cy, 1)]);
   }
   void read_ahead_points(const Vec2& position, double reach) const {

@@ -98,17 +98,14 @@ def check_sizes(sizes):
                               f"times what it costs at N = {REFERENCE_SIZE}, not {most} at most")
 
 
-def missed(sizes, row):
-    return "" if cost_ratio(sizes, row) <= LARGEST_RATIO[row["particles"]] else ", **missed**"
-
-
 def sizes_table(sizes):
     lines = []
     for row in sizes:
-        wanted = LARGEST_RATIO.get(row["particles"])
+        ratio, most = cost_ratio(sizes, row), LARGEST_RATIO.get(row["particles"])
+        wanted = "–" if most is None else f"≤ {most}" + ", **missed**" * (ratio > most)
         peak = row.get("peak_bytes_per_particle")
         lines.append([shape(row["aspect_ratio"]), row["particles"], f"{row['ns_per_collision']:.0f} ns",
-                      f"{cost_ratio(sizes, row):.2f}", f"≤ {wanted}{missed(sizes, row)}" if wanted else "–",
+                      f"{ratio:.2f}", wanted,
                       f"{row['bytes_per_particle']:.0f}", f"{peak:.0f}" if peak else "–"])
     return table(["", "N", "per collision", "times that at the least N", "wanted", "bytes per particle",
                   "bytes while a block begins, at most"], lines)

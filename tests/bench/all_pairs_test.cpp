@@ -11,37 +11,15 @@
 #include "core/error.h"
 #include "core/state/check.h"
 #include "edmd/brownian.h"
+#include "tests/support/motion.h"
 #include "tests/support/scenes.h"
 
 namespace vitrel::lab {
 namespace {
 
-Configuration2 moving(Configuration2 c) {
-  set_initial_velocities(c, 1, InitialVelocities::maxwell, Temperature::total);
-  return c;
-}
-
 Configuration2 ellipses(int side) {
   return moving(square_lattice(side, 0.5, std::numbers::pi / 4,
                                [](std::size_t) { return of_aspect_ratio(2); }));
-}
-
-void advance(Engine& engine, Configuration2& now, double until, RunCounters& counters) {
-  while (engine.advance(until, counters) == Engine::Stop::block_end) {
-    engine.write(now);
-    engine.load(now);
-  }
-  engine.write(now);
-}
-
-double difference(const Configuration2& one, const Configuration2& two) {
-  double largest = 0;
-  for (std::size_t i = 0; i < one.size(); ++i)
-    largest =
-        std::max({largest, (one.unwrapped(i) - two.unwrapped(i)).norm(),
-                  (one.velocity[i] - two.velocity[i]).norm(), std::abs(one.angle[i] - two.angle[i]),
-                  std::abs(one.angular_velocity[i] - two.angular_velocity[i])});
-  return largest;
 }
 
 // The two engines round differently, and every collision multiplies what they differ by; the same

@@ -11,6 +11,7 @@
 #include "bench/lab/engine_speed.h"
 #include "core/state/check.h"
 #include "edmd/instances/instances.h"
+#include "tests/support/motion.h"
 
 namespace vitrel::lab {
 namespace {
@@ -41,13 +42,7 @@ struct Moving {
       : engine(std::move(made)), now(start) {
     engine->load(now);
   }
-  void advance(double until) {
-    while (engine->advance(until, counters) == Engine::Stop::block_end) {
-      engine->write(now);
-      engine->load(now);
-    }
-    engine->write(now);
-  }
+  void advance(double until) { vitrel::advance(*engine, now, until, counters); }
 
   std::unique_ptr<Engine> engine;
   Configuration2 now;

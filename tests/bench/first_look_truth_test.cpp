@@ -204,9 +204,9 @@ TEST_P(FirstLookAgainstTheTruth, IsNeverLateFromWhateverAxis) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Classes, FirstLookAgainstTheTruth,
-                         testing::Values(Class{2, 0, 3'000}, Class{20, 0, 3'000},
-                                         Class{2, 0.3, 4'000}, Class{20, 0.3, 4'000},
-                                         Class{4, 3, 4'000}));
+                         testing::Values(Class{2, 0, 5'000}, Class{20, 0, 5'000},
+                                         Class{2, 0.3, 6'000}, Class{20, 0.3, 6'000},
+                                         Class{4, 3, 6'000}));
 
 }  // namespace
 }  // namespace vitrel

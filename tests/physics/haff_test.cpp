@@ -13,19 +13,13 @@
 #include "edmd/run.h"
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"
+#include "tests/support/theory.h"
 
 namespace vitrel {
 namespace {
 
 constexpr double packing_fraction = 0.05;
 constexpr double diameter = 2;
-
-/// Z of hard disks to the fifth virial coefficient (Clisby & McCoy, J. Stat. Phys. 122, 15 (2006));
-/// B₂ρ = 2 φ.
-double compressibility() {
-  const double x = 2 * packing_fraction;
-  return 1 + x + 0.782004437912 * x * x + 0.532231807025 * x * x * x + 0.33355604 * x * x * x * x;
-}
 
 /// The deviation of velocities from Maxwell's in the homogeneous cooling state, a₂ (van Noije & Ernst,
 /// Granular Matter 1, 57 (1998), two dimensions): the rate of collisions changes by 1 − a₂/16 and that
@@ -37,7 +31,7 @@ double fourth_cumulant(double e) {
 /// Shear modes per particle that do not cool with the rest.
 double slow_modes(double e) {
   const double density = packing_fraction / std::numbers::pi;
-  const double g = (compressibility() - 1) / (2 * packing_fraction);
+  const double g = disk_contact_value(packing_fraction);
   const double free_path = 1 / (2 * std::numbers::sqrt2 * density * diameter * g);
   const double length = 2 * std::numbers::pi * free_path / std::sqrt(1 - e * e);
   return std::numbers::pi / (density * length * length);
@@ -90,7 +84,8 @@ class Haff : public testing::TestWithParam<double> {};
 TEST_P(Haff, CoolingFollowsTheCollisionRate) {
   const double e = GetParam();
   const double a2 = fourth_cumulant(e);
-  const double rate = 4 * (compressibility() - 1) / diameter / std::sqrt(std::numbers::pi);
+  const double excess = 2 * packing_fraction * disk_contact_value(packing_fraction);  // Z − 1
+  const double rate = 4 * excess / diameter / std::sqrt(std::numbers::pi);
   const double tau = 4 / ((1 - e * e) * rate * (1 + 3. / 16 * a2));
   std::vector<double> roots, logs;
   for (std::uint64_t seed = 1; seed <= 16; ++seed) {

@@ -14,6 +14,7 @@
 #include "edmd/sampling.h"
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"
+#include "tests/support/theory.h"
 
 namespace vitrel {
 namespace {
@@ -30,8 +31,7 @@ constexpr double pi = std::numbers::pi;
 // 1600 and 3249: with 1600 disks it is below 0.5 %. To it come 3 standard errors (false alarm 0.3 %).
 TEST(LowDensity, DisksDiffuseAsEnskogSays) {
   const double packing_fraction = 0.02, diameter = 2;
-  const double x = 2 * packing_fraction;
-  const double g = 1 + 0.782004437912 * x + 0.532231807025 * x * x;
+  const double g = disk_contact_value(packing_fraction);
   const double density = packing_fraction / pi;
   const double enskog = 1.0270 / (2 * density * diameter * g) / std::sqrt(pi);
   const double tau = enskog;
