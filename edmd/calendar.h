@@ -5,8 +5,8 @@
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "core/neighbors/ask_memory.h"
@@ -18,33 +18,35 @@ namespace vitrel {
 /// depends on history. Times are finite or +∞; they may be set in any order, the queue is fast if
 /// they are set forward.
 ///
-/// 1. A window of time is cut into equal slots, each with a list of the particles that are planned in
-///    it; one more list holds those planned later or never. To plan is to divide and to link.
+/// 1. A window of time is cut into equal slots. A slot is a cache line, or several, with the numbers of
+///    the particles that are planned in it; who is planned later or never is noted nowhere. Nothing
+///    is struck out: a particle knows in which slot it waits, and all other notes of it are void.
 /// 2. The particles of the slots opened so far are in a small heap, ordered by (time, particle). When
 ///    it holds fewer than `foresight` the next slot is opened, and its particles are announced.
 /// 3. After the last slot the window is renewed: it begins at the earliest time, and a slot is as wide
 ///    as it takes, counted over the nearest eighth of the particles, to find a few of them in each.
 ///    So is a window that has served for very many changes, because events now come much faster.
+/// 4. Slots are far apart in memory: a note is taken a few changes later, when its slot has had time to
+///    come.
 ///
-/// A particle's place follows from its time alone: slot_of(time) < opened_ means the heap.
 /// Cost: O(1) per change and for the earliest, on average over a window; O(log N) per change if all
-/// times fall into one slot, for instance if they are equal. Memory: 32 bytes per particle, and 8
-/// more during a renewal.
+/// times fall into few slots, for instance if they are equal. Memory: 48 bytes per particle, 8
+/// more during a renewal, and 4 for every void note: there are a few, or as many as changes since
+/// the renewal if times are set to and fro.
 class Calendar {
  public:
   /// Nothing is planned: all times are +∞. At least `foresight` particles, 1 or more, are announced
   /// before their events, as far as the window reaches and as these were planned by then.
   explicit Calendar(std::size_t particles = 0, std::size_t foresight = 1)
       : foresight_(foresight),
-        slots_(static_cast<Index>(slots_per_particle * particles)),
-        opened_(slots_),
-        time_(particles, never),
-        links_(particles + slots_ + 1) {
-    link_all();
+        places_(particles),
+        slots_(particles / particles_per_line + 1),
+        opened_(end()) {
+    note_all();
   }
 
-  std::size_t size() const { return time_.size(); }
-  double time(std::size_t particle) const { return time_[particle]; }
+  std::size_t size() const { return places_.size(); }
+  double time(std::size_t particle) const { return places_[particle].time; }
 
   /// The particle with the least (time, particle). Opens slots, hence not const.
   std::size_t earliest() {
@@ -57,28 +59,23 @@ class Calendar {
   std::size_t announced(std::uint64_t k) const { return announced_[k % remembered]; }
 
   /// Asks the memory for what a change of this particle's time will read.
-  void read_ahead(std::size_t particle) const {
-    ask_memory(&time_[particle]);
-    ask_memory(&links_[particle]);
-  }
+  void read_ahead(std::size_t particle) const { ask_memory(&places_[particle]); }
 
   void set(std::size_t particle, double time) {
     assert(time > -never);
     const auto i = static_cast<Index>(particle);
-    const Index from = slot_of(time_[i]);
-    const Index to = slot_of(time);
-    time_[i] = time;
+    Place& place = places_[i];
+    const Index slot = slot_of(time);
+    place.time = time;
     --changes_left_;
-    if (from < opened_) {
-      if (to < opened_) return settle(links_[i].next, {time, i});
-      take_from_heap(links_[i].next);
-      link(i, to);
-    } else if (from != to) {
-      unlink(i);
-      if (to < opened_)
-        add_to_heap({time, i});
-      else
-        link(i, to);
+    if (place.slot == in_heap) {
+      if (slot < opened_) return settle(place.heap, {time, i});
+      take_from_heap(place.heap);
+      wait(i, slot);
+    } else if (slot < opened_) {
+      add_to_heap(i);
+    } else if (slot != place.slot) {
+      wait(i, slot);
     }
   }
 
@@ -86,19 +83,32 @@ class Calendar {
   using Index = std::uint32_t;
 
   static constexpr double never = std::numeric_limits<double>::infinity();
+  // Instead of a slot: of a particle in the heap, of no particle.
+  static constexpr Index in_heap = std::numeric_limits<Index>::max(), nowhere = in_heap - 1;
   // The cost is flat around these: fewer slots mean more renewals, wider ones a higher heap.
-  static constexpr std::size_t slots_per_particle = 2;
+  static constexpr std::size_t particles_per_line = 2;
   static constexpr double particles_per_slot = 4;
   static constexpr std::size_t least_counted = 8;
   static constexpr std::int64_t changes_per_particle = 64;
   static constexpr std::size_t arity = 4;
   static constexpr std::size_t remembered = 64;  // announcements
   static constexpr double narrowest = 1e-300;    // of one slot: its inverse stays finite
+  // How many slots before their opening these are asked for, and then their particles.
+  static constexpr Index slot_ahead = 6, particles_ahead = 3;
 
-  /// Neighbours in a circular list. The particles come first, then the heads of the slots. A particle
-  /// that is in the heap keeps its place there in `next`.
-  struct Link {
-    Index next = 0, previous = 0;
+  struct Place {
+    double time = never;
+    Index slot = 0;  // where the particle waits,
+    Index heap = 0;  // or where in the heap it is
+  };
+  struct alignas(64) Line {
+    static constexpr Index room = 14;
+    Index count = 0;
+    Index more = 0;  // if not 0: the rest are in more_[more - 1]
+    std::array<Index, room> particle;
+  };
+  struct Note {
+    Index particle = 0, slot = 0;
   };
   struct Entry {
     double time = never;
@@ -109,67 +119,88 @@ class Calendar {
     return one.time < two.time || (one.time == two.time && one.particle < two.particle);
   }
 
+  /// After the window.
+  Index end() const { return static_cast<Index>(slots_.size()); }
+
   // It never decreases with time, so that slots are in order whatever the rounding.
   Index slot_of(double time) const {
     const double slot = std::max((time - begin_) * slots_per_time_, 0.0);
-    return static_cast<Index>(std::min(slot, static_cast<double>(slots_)));
+    return static_cast<Index>(std::min(slot, static_cast<double>(slots_.size())));
   }
 
-  Index head_of(Index slot) const { return static_cast<Index>(time_.size()) + slot; }
-
-  void link(Index particle, Index slot) {
-    const Index head = head_of(slot);
-    const Index next = links_[head].next;
-    links_[particle] = {next, head};
-    links_[head].next = particle;
-    links_[next].previous = particle;
+  // Takes the oldest of the last few notes in place of this one.
+  void wait(Index particle, Index slot) {
+    places_[particle].slot = slot;
+    if (slot == end()) return;
+    ask_memory(&slots_[slot]);
+    const Note due = std::exchange(notes_[noted_++ % notes_.size()], {particle, slot});
+    if (places_[due.particle].slot == due.slot) take(due);
   }
 
-  void unlink(Index particle) {
-    const Link old = links_[particle];
-    links_[old.next].previous = old.previous;
-    links_[old.previous].next = old.next;
+  void take(const Note& note) {
+    Line& line = slots_[note.slot];
+    if (line.count == Line::room) {
+      more_.push_back(line);
+      line.count = 0;
+      line.more = static_cast<Index>(more_.size());
+    }
+    line.particle[line.count++] = note.particle;
   }
 
-  void link_all() {
-    const Index end = head_of(slots_);
-    for (Index head = head_of(0); head <= end; ++head) links_[head] = {head, head};
-    for (Index i = 0; i < time_.size(); ++i) link(i, slot_of(time_[i]));
+  // The note may be void, or have been heard before.
+  void call(const Note& note) {
+    if (places_[note.particle].slot != note.slot) return;
+    add_to_heap(note.particle);
+    announced_[announcements_++ % remembered] = note.particle;
+  }
+
+  void note_all() {
+    more_.clear();
+    for (Line& line : slots_) line.count = line.more = 0;
+    notes_.fill({0, nowhere});
+    for (Place& place : places_) place.slot = end();
+    for (Index i = 0; i < places_.size(); ++i) wait(i, slot_of(places_[i].time));
   }
 
   // Until enough are due; nobody is if nothing is planned.
   void open_slots() {
     if (changes_left_ <= 0) renew_window();
     while (due_.size() < foresight_) {
-      if (opened_ == slots_ && due_.empty()) renew_window();
-      if (opened_ == slots_) return;
+      if (opened_ == end() && due_.empty()) renew_window();
+      if (opened_ == end()) return;
       open(opened_++);
     }
   }
 
   void open(Index slot) {
-    const Index head = head_of(slot);
-    for (Index i = links_[head].next; i != head;) {
-      const Index next = links_[i].next;
-      add_to_heap({time_[i], i});
-      announced_[announcements_++ % remembered] = i;
-      i = next;
-    }
+    if (foresight_ > 1) read_ahead_of(slot);
+    for (const Line* line = &slots_[slot]; line;
+         line = line->more ? &more_[line->more - 1] : nullptr)
+      for (Index k = 0; k < line->count; ++k) call({line->particle[k], slot});
+    for (const Note& note : notes_)
+      if (note.slot == slot) call(note);
+  }
+
+  void read_ahead_of(Index slot) const {
+    if (slot + slot_ahead < end()) ask_memory(&slots_[slot + slot_ahead]);
+    if (slot + particles_ahead >= end()) return;
+    const Line& notes = slots_[slot + particles_ahead];
+    for (Index k = 0; k < notes.count; ++k) read_ahead(notes.particle[k]);
   }
 
   void renew_window() {
     due_.clear();
-    changes_left_ = changes_per_particle * static_cast<std::int64_t>(time_.size());
+    changes_left_ = changes_per_particle * static_cast<std::int64_t>(places_.size());
     place_window();
-    link_all();
+    note_all();
   }
 
   void place_window() {
     std::vector<double> planned;
-    planned.reserve(time_.size());
-    std::copy_if(time_.begin(), time_.end(), std::back_inserter(planned),
-                 [](double time) { return time < never; });
-    opened_ = planned.empty() ? slots_ : 0;
+    planned.reserve(places_.size());
+    for (const Place& place : places_)
+      if (place.time < never) planned.push_back(place.time);
+    opened_ = planned.empty() ? end() : 0;
     begin_ = -never;  // everything is later than the window
     if (planned.empty()) return;
     const std::size_t counted = std::min(planned.size() - 1, least_counted + planned.size() / 8);
@@ -182,10 +213,12 @@ class Calendar {
 
   void put(std::size_t place, const Entry& entry) {
     due_[place] = entry;
-    links_[entry.particle].next = static_cast<Index>(place);
+    places_[entry.particle].heap = static_cast<Index>(place);
   }
 
-  void add_to_heap(const Entry& entry) {
+  void add_to_heap(Index particle) {
+    places_[particle].slot = in_heap;
+    const Entry entry{places_[particle].time, particle};
     due_.push_back(entry);
     rise(due_.size() - 1, entry);
   }
@@ -232,14 +265,16 @@ class Calendar {
   std::size_t foresight_;
   std::uint64_t announcements_ = 0;
   std::array<Index, remembered> announced_{};
-  Index slots_;   // of the window
-  Index opened_;  // of these
+  std::vector<Place> places_;
+  std::vector<Line> slots_;      // the first line of each
+  std::vector<Line> more_;       // further ones
+  std::array<Note, 4> notes_{};  // not yet taken
+  std::uint64_t noted_ = 0;
+  Index opened_ = 0;  // slots
   double begin_ = -never;
   double slots_per_time_ = 1;
   std::int64_t changes_left_ = 1;  // until the window is renewed
-  std::vector<double> time_;
-  std::vector<Link> links_;
-  std::vector<Entry> due_;  // the heap
+  std::vector<Entry> due_;         // the heap
 };
 
 }  // namespace vitrel

@@ -333,6 +333,7 @@ void Simulation<B>::read_ahead(Index i, int step) const {
     const Particle& particle = particles_[i];
     if (particle.next == never) return;
     const Vec2 there = particle.pose_at(particle.next).position;
+    if (step == 1) ask_memory(&image_[i]);
     if (step == 1) neighborhoods_->read_ahead_cells(i, there);
     if (step == 2) neighborhoods_->read_ahead_references(i, there);
   } else {
