@@ -294,48 +294,34 @@ Json neighbor_counts(const Configuration2& c) {
           {"round", static_cast<double>(round) / n}};
 }
 
-/// An engine with lazy searches and its patience, in parts of the mean time between two collisions of
-/// a particle.
-struct LazyRun {
-  double patience;
-  TimedRun run;
-  Repeats repeats;
-  double put_off = 0;
-
-  Json json() const {
-    Json result = repeats.json();
-    const double searches = result["searches"], collisions = result["collisions"];
-    result["searches"] = searches - put_off / collisions;
-    result["patience"] = patience;
-    return result;
-  }
-};
-
-/// Contacts refined only when they are about to happen, with several ideas of what that means.
+/// Contacts searched only when they are about to happen, with several ideas of what that means: within
+/// so many mean times between two collisions of a particle.
 Json lazy_refinement(const Effort& effort, const FluidScene& scene) {
   say("device: lazy refinement");
+  struct Patient {
+    double patience;
+    TimedRun run;
+    Repeats repeats;
+  };
   const Configuration2 start = relaxed(scene, 0.3 * effort.stretch);
-  TimedRun eager(make_ellipse_engine({}), start);
-  const Work sample = eager.blocks(0);
-  const double free_time = 0.5 * scene.particles * sample.simulated_time /
-                           static_cast<double>(sample.counters.collisions);
-  Repeats of_eager;
-  std::vector<LazyRun> others;
-  for (const double patience : {0.1, 0.3, 0.6, 1., 2.})
-    others.push_back({patience, {make_engine_with_lazy_searches(), start}, {}});
-  for (int k = 0; k < effort.repeats; ++k) {
-    of_eager.add(eager.blocks(0.3 * effort.stretch));
-    for (LazyRun& of : others) {
-      set_patience(of.patience * free_time);
-      searches_put_off();
+  constexpr double eager = std::numeric_limits<double>::infinity();
+  std::vector<Patient> runs;
+  for (const double patience : {eager, 0.1, 0.3, 0.6, 1., 2.})
+    runs.push_back({patience, {make_engine_of_patience(), start}, {}});
+  for (int k = 0; k < effort.repeats; ++k)
+    for (Patient& of : runs) {
+      set_patience(of.patience);
       of.repeats.add(of.run.blocks(0.3 * effort.stretch));
-      of.put_off += static_cast<double>(searches_put_off());
     }
-  }
   Json row = scene_json(scene);
-  row["eager"] = of_eager.json();
   row["lazy"] = Json::array();
-  for (const LazyRun& of : others) row["lazy"].push_back(of.json());
+  for (const Patient& of : runs)
+    if (of.patience == eager) {
+      row["eager"] = of.repeats.json();
+    } else {
+      row["lazy"].push_back(of.repeats.json());
+      row["lazy"].back()["patience"] = of.patience;
+    }
   return row;
 }
 

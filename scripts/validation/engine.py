@@ -266,7 +266,7 @@ Neighbours per particle at the margin of the lists, shaped like the particles or
 {neighbors(native["devices"])}
 
 Lazy refinement: a contact that the first look rules out for long is not searched, but looked at again then. Long means
-longer than so many mean times between two collisions of a particle.
+longer than so many mean times between two collisions of a particle; the engine takes 1.
 
 {lazy(native["lazy"])}
 

@@ -1,7 +1,5 @@
 #include "bench/lab/twins/engine_twins.h"
 
-#include <utility>
-
 #include "bench/lab/twins/no_look.h"
 #include "edmd/simulation.h"
 
@@ -11,14 +9,8 @@ namespace {
 // Ellipses, each of which the engine treats in another way.
 struct SearchedEllipse : Ellipse {};
 struct FarSightedEllipse : Ellipse {};
-struct LazyEllipse : Ellipse {
-  static thread_local double patience;
-  static thread_local double wait;  // until which the last look rules out a contact of the pair
-  static thread_local std::uint64_t put_off;
-};
-thread_local double LazyEllipse::patience = 0;
-thread_local double LazyEllipse::wait = 0;
-thread_local std::uint64_t LazyEllipse::put_off = 0;
+struct PatientEllipse : Ellipse {};
+thread_local double free_times_of_patience = 1;
 
 struct RoundListedEllipse : Ellipse {
   RoundListedEllipse() = default;
@@ -44,14 +36,9 @@ class FirstLook<lab::FarSightedEllipse> : public FirstLook<Ellipse> {
 };
 
 template <>
-class FirstLook<lab::LazyEllipse> : public FirstLook<Ellipse> {
+class FirstLook<lab::PatientEllipse> : public FirstLook<Ellipse> {
  public:
   using FirstLook<Ellipse>::FirstLook;
-  Urgent most_urgent() const {
-    const Urgent urgent = FirstLook<Ellipse>::most_urgent();
-    lab::LazyEllipse::wait = urgent.time;
-    return urgent;
-  }
 };
 
 template <>
@@ -101,7 +88,7 @@ lab::FarSightedEllipse body_from<lab::FarSightedEllipse>(const Ellipse& shape, c
   return {shape};
 }
 template <>
-lab::LazyEllipse body_from<lab::LazyEllipse>(const Ellipse& shape, const CommonSize&) {
+lab::PatientEllipse body_from<lab::PatientEllipse>(const Ellipse& shape, const CommonSize&) {
   return {shape};
 }
 template <>
@@ -133,6 +120,11 @@ Simulation<lab::FarSightedEllipse>::gather<Simulation<lab::FarSightedEllipse>::S
   return next;
 }
 
+template <>
+double Simulation<lab::PatientEllipse>::patience() const {
+  return lab::free_times_of_patience * mean_free_time();
+}
+
 }  // namespace vitrel
 
 namespace vitrel::lab {
@@ -162,13 +154,9 @@ Prediction first_contact(const Flight<RoundListedEllipse>& one,
   return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, memory);
 }
 
-Prediction first_contact(const Flight<LazyEllipse>& one, const Flight<LazyEllipse>& two,
+Prediction first_contact(const Flight<PatientEllipse>& one, const Flight<PatientEllipse>& two,
                          double horizon, double contact_gap,
                          const FirstLook<Ellipse>::Memory& memory) {
-  if (LazyEllipse::wait > LazyEllipse::patience) {
-    ++LazyEllipse::put_off;
-    return {Outcome::not_converged, LazyEllipse::wait};
-  }
   return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, memory);
 }
 
@@ -183,14 +171,11 @@ std::unique_ptr<Engine> make_engine_without_horizon() {
 std::unique_ptr<Engine> make_engine_with_round_lists() {
   return std::make_unique<Simulation<RoundListedEllipse>>(EngineOptions{}, "with round lists");
 }
-std::unique_ptr<Engine> make_engine_with_lazy_searches() {
-  return std::make_unique<Simulation<LazyEllipse>>(EngineOptions{}, "with lazy searches");
+std::unique_ptr<Engine> make_engine_of_patience() {
+  return std::make_unique<Simulation<PatientEllipse>>(EngineOptions{}, "of other patience");
 }
-void set_patience(double time) {
-  LazyEllipse::patience = time;
-}
-std::uint64_t searches_put_off() {
-  return std::exchange(LazyEllipse::put_off, 0);
+void set_patience(double mean_free_times) {
+  free_times_of_patience = mean_free_times;
 }
 
 }  // namespace vitrel::lab

@@ -1,12 +1,11 @@
 #pragma once
 
-#include <cstdint>
 #include <memory>
 
 #include "edmd/engine.h"
 
-/// The engine of the program itself, on rotating ellipses, with one of its devices taken out, or one
-/// more put in: what each of them gains. The collisions are the same.
+/// The engine of the program itself, on rotating ellipses, with one of its devices taken out or changed:
+/// what each of them gains. The collisions are the same.
 namespace vitrel::lab {
 
 /// Without the first look: every pair is searched.
@@ -20,11 +19,9 @@ std::unique_ptr<Engine> make_engine_without_horizon();
 /// translation alone.
 std::unique_ptr<Engine> make_engine_with_round_lists();
 
-/// With lazy refinement: a contact that cannot come within the patience of this thread is not
-/// searched; the particle is looked at again at the time before which the look rules it out.
-std::unique_ptr<Engine> make_engine_with_lazy_searches();
-void set_patience(double time);
-/// Searches put off in this thread, which the engine counts as searches, since the last call.
-std::uint64_t searches_put_off();
+/// With another patience: a contact that cannot come within so many mean free times is not searched;
+/// infinity: every one is that could come first. The patience is that of the thread when it predicts.
+std::unique_ptr<Engine> make_engine_of_patience();
+void set_patience(double mean_free_times);
 
 }  // namespace vitrel::lab
