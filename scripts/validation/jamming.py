@@ -10,8 +10,8 @@ FIGURE = HERE.parents[1] / "docs" / "figures" / "jamming.svg"
 
 PARTICLES = 500
 GROWTH_RATE = 1e-3
-# The constant C is measured at the first pressure, φ_J at the last.
-PRESSURES = (1e4, 1e6)
+# The constant C is measured at the first pressure, φ_J at the last. At 1e4 some still rearrange.
+PRESSURES = (1e5, 1e6)
 MIXTURE = (1, 1.1, 1.2, 1.3, 1.4, 1.5, 2, 3, 4, 6)
 ONE_SIZE = (1.4, 4)
 SIZE_RATIO = 1.4
