@@ -24,15 +24,15 @@ namespace vitrel {
 /// 2. The particles of the slots opened so far are in a small heap, ordered by (time, particle). When
 ///    it holds fewer than `foresight` the next slot is opened, and its particles are announced.
 /// 3. After the last slot the window is renewed: it begins at the earliest time, and a slot is as wide
-///    as it takes, counted over the nearest eighth of the particles, to find a few of them in each.
+///    as it takes, by a sample of the nearest eighth of the particles, to find a few of them in each.
 ///    So is a window that has served for very many changes, because events now come much faster.
 /// 4. Slots are far apart in memory: a note is taken a few changes later, when its slot has had time to
 ///    come.
 ///
 /// Cost: O(1) per change and for the earliest, on average over a window; O(log N) per change if all
-/// times fall into few slots, for instance if they are equal. Memory: 48 bytes per particle, 8
-/// more during a renewal, and 4 for every void note: there are a few, or as many as changes since
-/// the renewal if times are set to and fro.
+/// times fall into few slots, for instance if they are equal. Memory: 48 bytes per particle, and
+/// 4 for every void note: a few per particle, or as many as changes since the renewal if times are
+/// set to and fro.
 class Calendar {
  public:
   /// Nothing is planned: all times are +∞. At least `foresight` particles, 1 or more, are announced
@@ -176,9 +176,20 @@ class Calendar {
     if (foresight_ > 1) read_ahead_of(slot);
     for (const Line* line = &slots_[slot]; line;
          line = line->more ? &more_[line->more - 1] : nullptr)
-      for (Index k = 0; k < line->count; ++k) call({line->particle[k], slot});
+      call_all(*line, slot);
     for (const Note& note : notes_)
       if (note.slot == slot) call(note);
+  }
+
+  // First those that are not void, without a branch: which they are cannot be foreseen.
+  void call_all(const Line& line, Index slot) {
+    std::array<Index, Line::room> valid;
+    Index count = 0;
+    for (Index k = 0; k < line.count; ++k) {
+      valid[count] = line.particle[k];
+      count += places_[line.particle[k]].slot == slot;
+    }
+    for (Index k = 0; k < count; ++k) call({valid[k], slot});
   }
 
   void read_ahead_of(Index slot) const {
@@ -196,18 +207,24 @@ class Calendar {
   }
 
   void place_window() {
-    std::vector<double> planned;
-    planned.reserve(places_.size());
+    double first = never;
+    std::size_t planned = 0;
+    for (const Place& place : places_) {
+      first = std::min(first, place.time);
+      if (place.time < never) ++planned;
+    }
+    opened_ = planned == 0 ? end() : 0;
+    begin_ = planned == 0 ? -never : first;  // -never: everything is later than the window
+    if (planned == 0) return;
+    // The nearest eighth, by a sample.
+    const std::size_t step = 1 + planned / sample_.size();
+    std::size_t seen = 0, drawn = 0;
     for (const Place& place : places_)
-      if (place.time < never) planned.push_back(place.time);
-    opened_ = planned.empty() ? end() : 0;
-    begin_ = -never;  // everything is later than the window
-    if (planned.empty()) return;
-    const std::size_t counted = std::min(planned.size() - 1, least_counted + planned.size() / 8);
-    const auto last = planned.begin() + static_cast<std::ptrdiff_t>(counted);
-    std::nth_element(planned.begin(), last, planned.end());
-    begin_ = *std::min_element(planned.begin(), last + 1);
-    const double width = particles_per_slot * (*last - begin_) / static_cast<double>(counted + 1);
+      if (place.time < never && seen++ % step == 0) sample_[drawn++] = place.time;
+    const std::size_t rank = std::min(drawn - 1, least_counted + drawn / 8);
+    std::nth_element(sample_.begin(), sample_.begin() + rank, sample_.begin() + drawn);
+    const auto counted = static_cast<double>((rank + 1) * step);
+    const double width = particles_per_slot * (sample_[rank] - begin_) / counted;
     slots_per_time_ = 1 / std::max(width, narrowest);
   }
 
@@ -266,9 +283,10 @@ class Calendar {
   std::uint64_t announcements_ = 0;
   std::array<Index, remembered> announced_{};
   std::vector<Place> places_;
-  std::vector<Line> slots_;      // the first line of each
-  std::vector<Line> more_;       // further ones
-  std::array<Note, 4> notes_{};  // not yet taken
+  std::vector<Line> slots_;           // the first line of each
+  std::vector<Line> more_;            // further ones
+  std::array<Note, 4> notes_{};       // not yet taken
+  std::array<double, 256> sample_{};  // of times, to place the window
   std::uint64_t noted_ = 0;
   Index opened_ = 0;  // slots
   double begin_ = -never;
