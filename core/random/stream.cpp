@@ -24,6 +24,10 @@ std::uint64_t Stream::bits() {
   return words_[used_++];
 }
 
+void Stream::fill(std::span<std::uint64_t> words) {
+  for (std::uint64_t& word : words) word = bits();
+}
+
 double Stream::uniform() {
   return static_cast<double>(bits() >> 11) * 0x1p-53;
 }

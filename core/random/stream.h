@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 namespace vitrel {
 
@@ -24,6 +25,8 @@ class Stream {
   Stream(std::uint64_t seed, Purpose purpose, std::uint64_t step = 0, std::uint64_t particle = 0);
 
   std::uint64_t bits();
+  /// As many calls of bits().
+  void fill(std::span<std::uint64_t> words);
   /// Uniform on [0, 1), a multiple of 2⁻⁵³.
   double uniform();
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
