@@ -19,7 +19,7 @@ class LaneCells {
   using Index = std::uint32_t;
   static constexpr Index none = std::numeric_limits<Index>::max();
 
-  struct Group : EllipseGroup {
+  struct alignas(64) Group : EllipseGroup {
     Index particle[many];
     Index cell;
     Index next = none;  // of the same cell, or of the spare ones
@@ -90,7 +90,8 @@ class LaneCells {
   }
 
   const Group& operator[](std::size_t group) const { return groups_[group]; }
-  Group& group_of(std::size_t i) { return groups_[place_[i] / many]; }
+  std::size_t group_index(std::size_t i) const { return place_[i] / many; }
+  Group& group_of(std::size_t i) { return groups_[group_index(i)]; }
   int lane_of(std::size_t i) const { return static_cast<int>(place_[i] % many); }
 
  private:

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -80,7 +79,7 @@ class Sampler {
     Looks looks;
   };
   struct Turn;
-  using Words = std::array<std::uint64_t, 4>;  // of a stream, for one trial
+  using Words = Stream::Block;  // one trial's
 
   void arrange();
   void fill_domain(std::size_t domain);
@@ -89,12 +88,14 @@ class Sampler {
   void translate(std::size_t i, const Words& words, Turn& turn);
   void rotate(std::size_t i, const Words& words, Turn& turn);
   bool clear_of_others(std::size_t i, const OverlapLook& look, const Vec2& position,
-                       const Checkerboard::Cell& cell, Looks& looks);
+                       const Checkerboard::Cell& cell, Looks& looks) const;
   bool clear_of_itself(const Ellipse& shape, const Vec2& axis, double margin) const;
   void add(const Tally& tally);
 
   Configuration2& configuration_;
-  double largest_, margin_, shortest_side_;
+  double largest_, margin_;
+  Vec2 half_box_;
+  double shortest_side_;
   int threads_;
   std::vector<Vec2> axis_;  // unit major axes
   Checkerboard board_;

@@ -58,6 +58,9 @@ struct EllipseGroup {
 
 class OverlapLook {
  public:
+  /// Lanes of a group.
+  using Asked = Many::mask_type;
+
   /// `axis` is the unit vector along the major axis; margin ≥ 0.
   OverlapLook(const Ellipse& shape, const Vec2& axis, double margin)
       : shape_(shape),
@@ -67,15 +70,15 @@ class OverlapLook {
         stretch_(shape.stretch()),
         enlarged_(1 + margin / shape.b) {}
 
-  /// Whether the body is clear of all in the group; `offset` + their positions are the separations
-  /// d. Adds the number of pairs that step 4 decided to `alone`.
-  VITREL_INLINE bool clear_of(const EllipseGroup& group, const Vec2& offset,
+  /// Whether the body is clear of all in the group that are asked about; `offset` + their positions
+  /// are the separations d. Adds the number of pairs that step 4 decided to `alone`.
+  VITREL_INLINE bool clear_of(const EllipseGroup& group, const Vec2& offset, Asked asked,
                               std::uint64_t& alone) const {
     const Many dx = all(group.x) + offset.x(), dy = all(group.y) + offset.y();
     const Many distance_squared = dx * dx + dy * dy;
     const Many a = all(group.a);
     const Many outer = a + (shape_.a + margin_);
-    Mask open = distance_squared < outer * outer;
+    Asked open = asked && distance_squared < outer * outer;
     if (none_of(open)) return true;
     const Many b = all(group.b);
     const Many inner = b + shape_.b;
@@ -92,7 +95,6 @@ class OverlapLook {
   }
 
  private:
-  using Mask = Many::mask_type;
   static constexpr double surely = 1 - 1e-10;
 
   VITREL_INLINE static Many all(const double (&lanes)[many]) {
@@ -128,7 +130,7 @@ class OverlapLook {
 
     // False if one of the open pairs is proved to overlap; closes those that are proved clear.
     VITREL_INLINE bool settle(const Many& weight1, const Many& weight2, Heights& heights,
-                              Mask& open) const {
+                              Asked& open) const {
       const Many beta = weight1 * body.bb_ + weight2 * bb;
       const Many along1 = weight1 * body.stretch_, along2 = weight2 * stretch;
       const Many det = beta * (beta + along1 + along2) + along1 * along2 * sine_squared;
@@ -148,7 +150,7 @@ class OverlapLook {
     }
   };
 
-  [[gnu::noinline]] bool clear_alone(const EllipseGroup& group, const Vec2& offset, Mask open,
+  [[gnu::noinline]] bool clear_alone(const EllipseGroup& group, const Vec2& offset, Asked open,
                                      std::uint64_t& alone) const {
     for (int lane = 0; lane < many; ++lane) {
       if (!open[lane]) continue;

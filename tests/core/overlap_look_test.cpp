@@ -17,6 +17,8 @@
 namespace vitrel {
 namespace {
 
+using Asked = OverlapLook::Asked;
+
 constexpr double pi = std::numbers::pi;
 
 struct Pair {
@@ -85,7 +87,7 @@ bool looks_clear(const Pair& pair, int lane, std::uint64_t& alone) {
   const Vec2 offset(0.3, -0.2);
   group.set(lane, pair.two, pair.d - offset, direction(pair.angle2));
   return OverlapLook(pair.one, direction(pair.angle1), pair.margin())
-      .clear_of(group, offset, alone);
+      .clear_of(group, offset, Asked(true), alone);
 }
 
 /// What the coordinates' rounding may do to a gap.
@@ -148,9 +150,9 @@ TEST(OverlapLook, AnswersOfAGroupAreThoseOfItsPairs) {
       group.set(lane, other.two, place, direction(other.angle2));
       EllipseGroup single;
       single.set((lane + k) % many, other.two, place, direction(other.angle2));
-      each_clear = each_clear && look.clear_of(single, Vec2::Zero(), alone);
+      each_clear = each_clear && look.clear_of(single, Vec2::Zero(), Asked(true), alone);
     }
-    const bool answer = look.clear_of(group, Vec2::Zero(), alone_in_group);
+    const bool answer = look.clear_of(group, Vec2::Zero(), Asked(true), alone_in_group);
     ASSERT_EQ(answer, each_clear);
     if (answer) {
       ASSERT_EQ(alone_in_group, alone);
