@@ -143,8 +143,8 @@ void Sampler::take_turn(std::size_t domain, Tally& tally) {
     draw.fill(trials);
     for (const Words& words : trials) {
       const std::size_t i = members[pick(words[0], members.size())];
-      const bool turns = !configuration_.shape[i].is_round() && (words[3] & 1) == 1;
-      if (turns)
+      const bool is_round = cells_.group_of(i).shape(cells_.lane_of(i)).is_round();
+      if (!is_round && (words[3] & 1) == 1)
         rotate(i, words, turn);
       else
         translate(i, words, turn);
