@@ -11,8 +11,7 @@
 
 namespace vitrel {
 
-/// Monte Carlo of hard ellipses at constant N, box and temperature (Metropolis et al., 1953), on any
-/// number of threads.
+/// Monte Carlo of hard ellipses at constant N, box and temperature, on any number of threads.
 ///
 /// A trial picks a particle and, if it is not round, translation or rotation with equal chance; the
 /// displacement is uniform in a square of half side `translation`, the turn uniform within ±
@@ -39,6 +38,7 @@ namespace vitrel {
 /// on the state only, to the rounding of the margin.
 ///
 /// Step sizes change only in `tune`, which belongs to equilibration.
+/// Source: metropolis1953; for the checkerboard anderson2013.
 class Sampler {
  public:
   /// The configuration must be hard, with wrapped positions, and outlive the sampler; nobody else
