@@ -8,17 +8,20 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
-#include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/lab/engine_speed.h"
 #include "bench/lab/twins/one_by_one_sampler.h"
 #include "core/contact/overlap_look.h"
+#include "core/contact/support_gap.h"
 #include "core/error.h"
 #include "core/io/provenance.h"
+#include "core/random/stream.h"
 #include "mc/disjoint.h"
 #include "mc/sampler.h"
 
@@ -35,7 +38,7 @@ struct Effort {
   int tile = 1000, tiles = 10;
   int questions = 20'000;
 };
-const Effort quick{64, 2, 0.001, 36, 3, 500};
+const Effort quick{36, 2, 0.001, 36, 3, 500};
 
 constexpr double wanted_acceptance = 0.3;
 

@@ -20,8 +20,8 @@ class LaneCells {
   static constexpr Index none = std::numeric_limits<Index>::max();
 
   struct alignas(64) Group : EllipseGroup {
-    Index particle[many];
-    Index cell;
+    Index particle[many] = {};
+    Index cell = 0;
     Index next = none;  // of the same cell, or of the spare ones
     int count = 0;
   };

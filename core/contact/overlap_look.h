@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "core/contact/lanes.h"
+#include "core/contact/several.h"
 #include "core/contact/support_gap.h"
 
 /// One ellipse beside several others at rest, `many` at a time: is it clear of them all, that is, are
@@ -34,12 +34,7 @@ namespace vitrel {
 struct EllipseGroup {
   static constexpr double nowhere = 1e150;  // its square is finite
 
-  alignas(sizeof(Many)) double x[many];
-  alignas(sizeof(Many)) double y[many];
-  alignas(sizeof(Many)) double a[many];
-  alignas(sizeof(Many)) double b[many];
-  alignas(sizeof(Many)) double ux[many];
-  alignas(sizeof(Many)) double uy[many];
+  detail::NumbersOf<many> x, y, a, b, ux, uy;
 
   EllipseGroup() {
     for (int lane = 0; lane < many; ++lane) clear(lane);
@@ -74,18 +69,18 @@ class OverlapLook {
   /// are the separations d. Adds the number of pairs that step 4 decided to `alone`.
   VITREL_INLINE bool clear_of(const EllipseGroup& group, const Vec2& offset, Asked asked,
                               std::uint64_t& alone) const {
-    const Many dx = all(group.x) + offset.x(), dy = all(group.y) + offset.y();
+    const Many dx = group.x.all() + offset.x(), dy = group.y.all() + offset.y();
     const Many distance_squared = dx * dx + dy * dy;
-    const Many a = all(group.a);
+    const Many a = group.a.all();
     const Many outer = a + (shape_.a + margin_);
     Asked open = asked && distance_squared < outer * outer;
     if (none_of(open)) return true;
-    const Many b = all(group.b);
+    const Many b = group.b.all();
     const Many inner = b + shape_.b;
     if (any_of(open && distance_squared < inner * inner)) return false;
 
     const Many bb = b * b, stretch = (a - b) * (a + b);
-    const Pairs pairs(*this, all(group.ux), all(group.uy), bb, stretch, dx, dy);
+    const Pairs pairs(*this, group.ux.all(), group.uy.all(), bb, stretch, dx, dy);
     Heights heights;
     if (!pairs.settle(Many(1), Many(1), heights, open)) return false;
     if (none_of(open)) return true;
@@ -96,10 +91,6 @@ class OverlapLook {
 
  private:
   static constexpr double surely = 1 - 1e-10;
-
-  VITREL_INLINE static Many all(const double (&lanes)[many]) {
-    return {lanes, std::experimental::vector_aligned};
-  }
 
   struct Heights {
     Many one, two;
