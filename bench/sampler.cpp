@@ -38,7 +38,7 @@ struct Effort {
   int tile = 1000, tiles = 10;
   int questions = 20'000;
 };
-const Effort quick{36, 2, 0.001, 36, 3, 500};
+const Effort quick{64, 2, 0.001, 36, 3, 500};
 
 constexpr double wanted_acceptance = 0.3;
 
@@ -214,7 +214,7 @@ std::vector<Question> questions(const Configuration2& c, const Steps& steps, int
   const auto plus_minus = [&](double step) { return draw.uniform(-step, step); };
   for (int k = 0; k < count; ++k) {
     const std::size_t i = draw.below(c.size());
-    const bool turns = draw.below(2) == 1;
+    const bool turns = !c.shape[i].is_round() && draw.below(2) == 1;
     Vec2 position = c.position[i];
     if (!turns) position += Vec2(plus_minus(steps.translation), plus_minus(steps.translation));
     Question question{

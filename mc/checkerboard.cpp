@@ -43,10 +43,11 @@ Checkerboard::Line::Line(double length, double reach, std::size_t particles)
     add(cell);
     for (int away = 1; away <= layers; ++away) add(cell + away), add(cell - away);
   }
+  put_origin(0);
 }
 
-void Checkerboard::Line::shift(Stream& draw) {
-  origin_ = draw.below(cells());
+void Checkerboard::Line::put_origin(std::size_t first) {
+  origin_ = first;
   for (std::size_t domain = 0; domain < domains_; ++domain)
     for (std::size_t cell = begin(domain); cell < begin(domain + 1); ++cell)
       domain_of_[static_cast<std::size_t>(shifted(cell))] = domain;
@@ -63,7 +64,7 @@ Checkerboard::Checkerboard(const PeriodicBox<2>& box, double reach, std::size_t 
 }
 
 void Checkerboard::shift(Stream& draw) {
-  for (Line& line : lines_) line.shift(draw);
+  for (Line& line : lines_) line.put_origin(draw.below(line.cells()));
 }
 
 }  // namespace vitrel

@@ -72,7 +72,8 @@ class Checkerboard {
   class Line {
    public:
     Line(double length, double reach, std::size_t particles);
-    void shift(Stream& draw);
+    // Domains begin there.
+    void put_origin(std::size_t first);
 
     std::size_t cells() const { return domain_of_.size(); }
     int cell_of(double x) const {
@@ -91,7 +92,7 @@ class Checkerboard {
    private:
     double half_, cells_per_length_;
     int last_;
-    std::size_t images_, domains_, origin_ = 0;
+    std::size_t images_, domains_, origin_;
     std::vector<Near> near_;
     std::vector<std::size_t> domain_of_;
   };
