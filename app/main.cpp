@@ -90,6 +90,10 @@ class CommandLine {
     CLI::Option* option = sub.add_option("-o,--output", arguments_.output, what);
     if (required) option->required();
   }
+  void add_threads(CLI::App& sub, const std::string& what) {
+    sub.add_option("--threads", arguments_.threads, what + "; the results do not depend on it")
+        ->check(CLI::PositiveNumber);
+  }
   void add_analysis_parameters(CLI::App& sub) {
     sub.add_option("--params", arguments_.parameters,
                    "Parameter file with [analysis], instead of that in the run");
@@ -100,6 +104,7 @@ class CommandLine {
     CLI::App& sub = add("prepare", "Make a first state.", prepare_command);
     add_parameter_file(sub);
     add_output(sub, "State file to write", true);
+    add_threads(sub, "Threads for Monte Carlo (1)");
     add_wall_time(sub);
     add_quiet_and_json(sub);
   }
@@ -111,9 +116,7 @@ class CommandLine {
     add_output(sub, "Trajectory to write; its checkpoint lies beside it", true);
     sub.add_option("--from", arguments_.from, "State or run whose last frame to start from");
     sub.add_flag("--dry-run", arguments_.dry_run, "Print what would be done");
-    sub.add_option("--threads", arguments_.threads,
-                   "Threads for the Brownian steps (1); the results do not depend on it")
-        ->check(CLI::PositiveNumber);
+    add_threads(sub, "Threads for the Brownian steps and for Monte Carlo in the preparation (1)");
     add_wall_time(sub);
     add_quiet_and_json(sub);
   }

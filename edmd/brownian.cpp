@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "edmd/parallel.h"
+#include "core/parallel.h"
 
 namespace vitrel {
 

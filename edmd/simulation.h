@@ -17,11 +17,11 @@
 #include "core/neighbors/ask_memory.h"
 #include "core/neighbors/neighborhood.h"
 #include "core/neighbors/spatial_order.h"
+#include "core/parallel.h"
 #include "core/tolerances.h"
 #include "edmd/calendar.h"
 #include "edmd/collision_rule.h"
 #include "edmd/engine.h"
-#include "edmd/parallel.h"
 
 namespace vitrel {
 

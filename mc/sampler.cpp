@@ -1,25 +1,67 @@
 #include "mc/sampler.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <mutex>
 #include <numbers>
+#include <numeric>
+#include <span>
+#include <utility>
 
 #include "core/contact/support_gap.h"
+#include "core/parallel.h"
 #include "mc/disjoint.h"
 
 namespace vitrel {
 
-Sampler::Sampler(Configuration2& configuration, std::uint64_t seed, std::uint64_t first_sweep)
+namespace {
+
+/// Uniform on 0 … n − 1, but for 1e-16 n.
+std::size_t pick(std::uint64_t word, std::size_t n) {
+  return static_cast<std::size_t>(static_cast<double>(word >> 11) * 0x1p-53 *
+                                  static_cast<double>(n));
+}
+
+/// Uniform on the odd multiples of 2⁻⁵³ between −1 and 1: x as likely as −x.
+double plus_minus_one(std::uint64_t word) {
+  return static_cast<double>((static_cast<std::int64_t>(word) >> 10) | 1) * 0x1p-53;
+}
+
+/// The unit vector at an angle, in less time than the library's.
+Vec2 axis_at(double angle) {
+  Lanes x, y;
+  directions<Lanes>({angle, angle}, x, y);
+  return {x[0], y[0]};
+}
+
+/// Farthest distance of centres at which particles can be closer than `reshape` asks.
+double reach_of(double largest, double margin) {
+  return 2 * (largest + margin);
+}
+
+}  // namespace
+
+struct Sampler::Turn {
+  std::size_t domain;
+  LaneCells::Spare& spare;
+  Tally& tally;
+};
+
+Sampler::Sampler(Configuration2& configuration, std::uint64_t seed, std::uint64_t first_sweep,
+                 int threads)
     : configuration_(configuration),
-      cells_(make_cells(configuration)),
       largest_(largest_circumradius(configuration)),
       margin_(hard_margin(configuration)),
-      translation_(0.1),
-      rotation_(0.1),
+      half_box_(0.5 * configuration.box.lengths()),
+      shortest_side_(configuration.box.lengths().minCoeff()),
+      threads_(threads),
+      board_(configuration.box, reach_of(largest_, margin_), configuration.size()),
       seed_(seed),
       sweep_(first_sweep) {
   axis_.reserve(configuration.size());
-  for (double angle : configuration.angle) axis_.push_back(direction(angle));
+  for (double angle : configuration.angle) axis_.push_back(axis_at(angle));
+  arrange();
 }
 
 void Sampler::set_steps(double translation, double rotation) {
@@ -28,60 +70,184 @@ void Sampler::set_steps(double translation, double rotation) {
 }
 
 void Sampler::sweep() {
-  const std::size_t n = configuration_.size();
-  for (std::size_t trial = 0; trial < n; ++trial) {
-    Stream draw(seed_, Purpose::trial_moves, sweep_, trial);
-    const std::size_t i = draw.below(n);
-    const bool turns = !configuration_.shape[i].is_round() && draw.below(2) == 1;
-    if (turns)
-      rotate(i, draw);
-    else
-      translate(i, draw);
-  }
+  Stream draw(seed_, Purpose::trial_moves, sweep_, 0);
+  board_.shift(draw);
+  arrange();
+  const auto colours = board_.colours();
+  std::vector<std::size_t> order(colours.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  for (std::size_t k = order.size(); k > 1; --k) std::swap(order[k - 1], order[draw.below(k)]);
+  for (const std::size_t colour : order) take_turns(colours[colour]);
   ++sweep_;
 }
 
-void Sampler::translate(std::size_t i, Stream& draw) {
-  Vec2 position =
-      configuration_.position[i] + translation_ * Vec2(draw.uniform(-1, 1), draw.uniform(-1, 1));
-  ++counts_.translations_tried;
-  // Its own images move along: their distance stays a whole number of box lengths.
-  if (!clear_of_others(i, configuration_.shape[i], position, axis_[i], margin_)) return;
-  ++counts_.translations_accepted;
-  configuration_.box.wrap(position, configuration_.image[i]);
-  configuration_.position[i] = position;
-  cells_.move(i, {position});
+// Sorts all particles into the cells, by counting.
+void Sampler::arrange() {
+  const std::size_t n = configuration_.size();
+  order_.resize(n);
+  cell_of_.resize(n);
+  begin_.assign(board_.cells(), 0);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t cell = board_.index(board_.cell_of(configuration_.position[i]));
+    cell_of_[i] = static_cast<LaneCells::Index>(cell);
+    ++begin_[cell];
+  }
+  domain_begin_.clear();
+  LaneCells::Index before = 0;
+  for (std::size_t domain = 0; domain < board_.domains(); ++domain) {
+    domain_begin_.push_back(before);
+    board_.for_each_cell(domain,
+                         [&](std::size_t cell) { before += std::exchange(begin_[cell], before); });
+  }
+  domain_begin_.push_back(before);
+  for (std::size_t i = 0; i < n; ++i)
+    order_[begin_[cell_of_[i]]++] = static_cast<LaneCells::Index>(i);
+
+  cells_.resize(board_.cells(), n);
+  spare_.assign(board_.domains(), LaneCells::Spare(LaneCells::none));
+  in_parallel(board_.domains(), threads_, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t domain = begin; domain < end; ++domain) fill_domain(domain);
+  });
 }
 
-void Sampler::rotate(std::size_t i, Stream& draw) {
-  const double angle = configuration_.angle[i] + rotation_ * draw.uniform(-1, 1);
-  const Vec2 axis = direction(angle);
-  ++counts_.rotations_tried;
-  const Ellipse& shape = configuration_.shape[i];
-  if (!clear_of_others(i, shape, configuration_.position[i], axis, margin_) ||
-      !clear_of_own_images(configuration_.box, shape, axis, margin_))
+void Sampler::fill_domain(std::size_t domain) {
+  board_.for_each_cell(domain, [&](std::size_t cell) { cells_.clear(cell); });
+  const std::size_t begin = domain_begin_[domain], end = domain_begin_[domain + 1];
+  spare_[domain] = cells_.spare_groups(begin, end);
+  for (std::size_t k = begin; k < end; ++k) {
+    const std::size_t i = order_[k];
+    cells_.insert(i, cell_of_[i], configuration_.shape[i], configuration_.position[i], axis_[i],
+                  spare_[domain]);
+  }
+}
+
+void Sampler::take_turns(const std::vector<std::size_t>& domains) {
+  std::mutex adding;
+  in_parallel(domains.size(), threads_, [&](std::size_t begin, std::size_t end) {
+    Tally mine;
+    for (std::size_t k = begin; k < end; ++k) take_turn(domains[k], mine);
+    const std::lock_guard lock(adding);
+    add(mine);
+  });
+}
+
+void Sampler::take_turn(std::size_t domain, Tally& tally) {
+  const std::span members(order_.data() + domain_begin_[domain],
+                          order_.data() + domain_begin_[domain + 1]);
+  Stream draw(seed_, Purpose::trial_moves, sweep_, domain + 1);
+  Turn turn{domain, spare_[domain], tally};
+  // Drawn several at a time: the generator's arithmetic fills its own waiting times.
+  std::array<Words, 16> drawn;
+  for (std::size_t done = 0; done < members.size(); done += drawn.size()) {
+    const std::span trials(drawn.data(), std::min(drawn.size(), members.size() - done));
+    draw.fill(trials);
+    for (const Words& words : trials) {
+      const std::size_t i = members[pick(words[0], members.size())];
+      const bool is_round = cells_.group_of(i).shape(cells_.lane_of(i)).is_round();
+      if (!is_round && (words[3] & 1) == 1)
+        rotate(i, words, turn);
+      else
+        translate(i, words, turn);
+    }
+  }
+}
+
+void Sampler::translate(std::size_t i, const Words& words, Turn& turn) {
+  LaneCells::Group& group = cells_.group_of(i);
+  const int lane = cells_.lane_of(i);
+  const Vec2 step(plus_minus_one(words[1]), plus_minus_one(words[2]));
+  Vec2 position = group.position(lane) + translation_ * step;
+  Shift<2> crossed = Shift<2>::Zero();
+  if (((position.array().abs() >= half_box_.array())).any())
+    configuration_.box.wrap(position, crossed);
+  ++turn.tally.translations_tried;
+  const Checkerboard::Cell cell = board_.cell_of(position);
+  if (board_.domain_of(cell) != turn.domain) return;
+  // Its own images move along: their distance stays a whole number of box lengths.
+  const Ellipse shape = group.shape(lane);
+  const Vec2 axis = group.axis(lane);
+  if (!clear_of_others(i, OverlapLook(shape, axis, margin_), position, cell, turn.tally.looks))
     return;
-  ++counts_.rotations_accepted;
+  ++turn.tally.translations_accepted;
+  configuration_.position[i] = position;
+  configuration_.image[i] += crossed;
+  if (group.cell == board_.index(cell)) {
+    group.x[lane] = position.x();
+    group.y[lane] = position.y();
+  } else {
+    cells_.remove(i, turn.spare);
+    cells_.insert(i, board_.index(cell), shape, position, axis, turn.spare);
+  }
+}
+
+void Sampler::rotate(std::size_t i, const Words& words, Turn& turn) {
+  LaneCells::Group& group = cells_.group_of(i);
+  const int lane = cells_.lane_of(i);
+  const double angle = configuration_.angle[i] + rotation_ * plus_minus_one(words[1]);
+  const Vec2 axis = axis_at(angle), position = group.position(lane);
+  const Ellipse shape = group.shape(lane);
+  ++turn.tally.rotations_tried;
+  if (!clear_of_others(i, OverlapLook(shape, axis, margin_), position, board_.cell_of(position),
+                       turn.tally.looks) ||
+      !clear_of_itself(shape, axis, margin_))
+    return;
+  ++turn.tally.rotations_accepted;
   configuration_.angle[i] = angle;
   axis_[i] = axis;
+  group.ux[lane] = axis.x();
+  group.uy[lane] = axis.y();
 }
 
 bool Sampler::reshape(std::size_t i, const Ellipse& shape) {
+  if (shape.circumradius() > largest_) {
+    largest_ = shape.circumradius();
+    board_ = Checkerboard(configuration_.box, reach_of(largest_, margin_), configuration_.size());
+    arrange();
+  }
   const double margin = 2 * margin_;
-  if (!clear_of_others(i, shape, configuration_.position[i], axis_[i], margin) ||
-      !clear_of_own_images(configuration_.box, shape, axis_[i], margin))
+  const Vec2 position = configuration_.position[i];
+  if (!clear_of_others(i, OverlapLook(shape, axis_[i], margin), position, board_.cell_of(position),
+                       looks_) ||
+      !clear_of_itself(shape, axis_[i], margin))
     return false;
   configuration_.shape[i] = shape;
-  largest_ = std::max(largest_, shape.circumradius());
+  cells_.group_of(i).set(cells_.lane_of(i), shape, position, axis_[i]);
   return true;
 }
 
-bool Sampler::clear_of_others(std::size_t i, const Ellipse& shape, const Vec2& position,
-                              const Vec2& axis, double margin) const {
-  const double reach = shape.circumradius() + largest_ + margin;
-  return cells_.for_each_near(position, reach, [&](std::size_t j, const Shift<2>&, const Vec2& d) {
-    return j == i || separated(shape, axis, configuration_.shape[j], axis_[j], d, margin);
-  });
+bool Sampler::clear_of_others(std::size_t i, const OverlapLook& look, const Vec2& position,
+                              const Checkerboard::Cell& cell, Looks& looks) const {
+  // It is not in its own way, nor are its images.
+  const std::size_t own = cells_.group_index(i);
+  const OverlapLook::Asked all(true);
+  OverlapLook::Asked others(true);
+  others[static_cast<std::size_t>(cells_.lane_of(i))] = false;
+  for (const Checkerboard::Near& column : board_.near_column(cell.x))
+    for (const Checkerboard::Near& row : board_.near_row(cell.y)) {
+      const Vec2 offset = Vec2(column.translation, row.translation) - position;
+      std::size_t at = board_.index(column.cell, row.cell);
+      do {
+        ++looks.groups;
+        const LaneCells::Group& group = cells_[at];
+        if (!look.clear_of(group, offset, at == own ? others : all, looks.alone)) return false;
+        at = group.next;
+      } while (at != LaneCells::none);
+    }
+  return true;
+}
+
+bool Sampler::clear_of_itself(const Ellipse& shape, const Vec2& axis, double margin) const {
+  return shortest_side_ >= 2 * shape.circumradius() + margin ||
+         clear_of_own_images(configuration_.box, shape, axis, margin);
+}
+
+void Sampler::add(const Tally& tally) {
+  counts_.translations_tried += tally.translations_tried;
+  counts_.translations_accepted += tally.translations_accepted;
+  counts_.rotations_tried += tally.rotations_tried;
+  counts_.rotations_accepted += tally.rotations_accepted;
+  looks_.groups += tally.looks.groups;
+  looks_.alone += tally.looks.alone;
 }
 
 namespace {

@@ -3,26 +3,48 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/neighbors/cell_grid.h"
 #include "core/random/stream.h"
 #include "core/state/configuration.h"
 #include "core/state/stage.h"
+#include "mc/checkerboard.h"
+#include "mc/lane_cells.h"
 
 namespace vitrel {
 
-/// Monte Carlo of hard ellipses at constant N, box and temperature (Metropolis et al., 1953).
+/// Monte Carlo of hard ellipses at constant N, box and temperature, on any number of threads.
 ///
-/// One sweep is N trials. A trial picks a particle at random and, if it is not round, translation
-/// or rotation with equal chance; the displacement is uniform in a square of half side
-/// `translation`, the turn uniform within ± `rotation`. It is accepted if the particle then keeps
-/// the hard margin (disjoint.h) to all others. Trial k of sweep s draws from the stream (seed,
-/// trial_moves, s, k). The proposal is symmetric, so detailed balance holds for fixed step sizes;
-/// they change only in `tune`, which belongs to equilibration.
+/// A trial picks a particle and, if it is not round, translation or rotation with equal chance; the
+/// displacement is uniform in a square of half side `translation`, the turn uniform within ±
+/// `rotation`. It is accepted if the particle then keeps the hard margin (disjoint.h) to all others.
+///
+/// One sweep is N trials:
+///   1. The borders between domains (checkerboard.h) are shifted at random, and all particles sorted
+///      into cells anew, in the order of their numbers.
+///   2. The colours take turns, in random order. In the turn of its colour a domain of n particles has n
+///      trials, each with one of these at random. A move of the centre into another domain is rejected.
+/// Domains of one colour share no particle and see none of each other's, so they can have their turns
+/// at the same time. Sweep s draws from the stream (seed, trial_moves, s, 0), its domain k from (seed,
+/// trial_moves, s, k + 1): the state is the same, bit by bit, for any number of threads, and a sampler
+/// that begins at sweep s goes on as one that has come there.
+///
+/// Why every hard state is as likely as any other, for fixed step sizes. Given borders and colours, all
+/// that a trial depends on stays as it is while a domain has its turn: which particles it has, how many,
+/// and all outside. Among these states a trial and its reverse are proposed with the same probability (to
+/// 1e-14: the pick of one of n by a number of 53 bits), and accepted or not by the hard states
+/// alone; so each trial is in detailed balance with the uniform distribution, and so is, the order being
+/// random, the sweep. Borders and order are drawn without regard to the state. There is no other
+/// rejection: cells have no largest number of particles. Every border moves, so that no two states are
+/// cut off from each other by it. Accepted is decided by proofs (overlap_look.h) whose answer depends
+/// on the state only, to the rounding of the margin.
+///
+/// Step sizes change only in `tune`, which belongs to equilibration.
+/// Source: metropolis1953; for the checkerboard anderson2013.
 class Sampler {
  public:
   /// The configuration must be hard, with wrapped positions, and outlive the sampler; nobody else
   /// may move particles meanwhile, nor change shapes but to smaller ones.
-  Sampler(Configuration2& configuration, std::uint64_t seed, std::uint64_t first_sweep = 0);
+  Sampler(Configuration2& configuration, std::uint64_t seed, std::uint64_t first_sweep = 0,
+          int threads = 1);
 
   void sweep();
 
@@ -43,19 +65,50 @@ class Sampler {
   /// Trials and acceptances since construction.
   const StageReport& counts() const { return counts_; }
 
+  /// What the decisions took since construction.
+  struct Looks {
+    std::uint64_t groups = 0;  ///< of up to `many` others looked at
+    std::uint64_t alone = 0;   ///< pairs that were decided one by one
+  };
+  const Looks& looks() const { return looks_; }
+
  private:
-  void translate(std::size_t i, Stream& draw);
-  void rotate(std::size_t i, Stream& draw);
-  bool clear_of_others(std::size_t i, const Ellipse& shape, const Vec2& position, const Vec2& axis,
-                       double margin) const;
+  struct Tally {
+    std::uint64_t rotations_tried = 0, rotations_accepted = 0;
+    std::uint64_t translations_tried = 0, translations_accepted = 0;
+    Looks looks;
+  };
+  struct Turn;
+  using Words = Stream::Block;  // one trial's
+
+  void arrange();
+  void fill_domain(std::size_t domain);
+  void take_turns(const std::vector<std::size_t>& domains);
+  void take_turn(std::size_t domain, Tally& tally);
+  void translate(std::size_t i, const Words& words, Turn& turn);
+  void rotate(std::size_t i, const Words& words, Turn& turn);
+  bool clear_of_others(std::size_t i, const OverlapLook& look, const Vec2& position,
+                       const Checkerboard::Cell& cell, Looks& looks) const;
+  bool clear_of_itself(const Ellipse& shape, const Vec2& axis, double margin) const;
+  void add(const Tally& tally);
 
   Configuration2& configuration_;
-  CellGrid<> cells_;
-  std::vector<Vec2> axis_;  // unit major axes
   double largest_, margin_;
-  double translation_, rotation_;
+  Vec2 half_box_;
+  double shortest_side_;
+  int threads_;
+  std::vector<Vec2> axis_;  // unit major axes
+  Checkerboard board_;
+  LaneCells cells_;
+  std::vector<LaneCells::Index> order_;    // particles, domain by domain and cell by cell
+  std::vector<LaneCells::Index> cell_of_;  // of every particle, while sorting
+  std::vector<LaneCells::Index> begin_;    // of every cell in order_, while sorting
+  std::vector<std::size_t> domain_begin_;  // of every domain in order_
+  std::vector<LaneCells::Spare> spare_;    // of every domain
+  double translation_ = 0.1, rotation_ = 0.1;
   std::uint64_t seed_, sweep_;
   StageReport counts_, tuned_at_;
+  Looks looks_;
 };
 
 }  // namespace vitrel

@@ -111,7 +111,7 @@ class Swelling {
   // Sweeps, and between them enlarges one particle after another. The growth is halved for all as
   // often as some find no room; false if that does not help.
   bool enlarge_all(double& growth, const Budget& budget) {
-    Sampler sampler(configuration_, seed_, sweep_);
+    Sampler sampler(configuration_, seed_, sweep_, options_.threads);
     sampler.set_steps(translation_, rotation_);
     std::vector<std::size_t> waiting(configuration_.size());
     std::iota(waiting.begin(), waiting.end(), 0);

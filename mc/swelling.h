@@ -21,6 +21,7 @@ namespace vitrel {
 struct SwellingOptions {
   double packing_fraction = 0.7;   ///< to be reached, exactly
   std::uint64_t sweeps = 1000000;  ///< at most
+  int threads = 1;                 ///< the result does not depend on it
 };
 
 /// `reached` at the wanted packing fraction; `stuck` if the sweeps were used up, or if the

@@ -55,7 +55,8 @@ int prepare_command(const Arguments& arguments) {
     throw UserError(arguments.output.string() +
                     ": exists already; choose another output, or delete it");
   Session session(arguments);
-  const Preparation preparation = prepare(parameters, session.budget(), session.say());
+  const Preparation preparation =
+      prepare(parameters, session.budget(), session.say(), arguments.threads);
   if (preparation.report.end == StageEnd::stopped) {
     remark(arguments, "stopped; a preparation is not continued but made anew by the same command");
     return stopped;

@@ -22,8 +22,8 @@ constexpr std::uint64_t sweeps_per_tuning = 20;
 
 class Preparer {
  public:
-  Preparer(const Parameters& parameters, const Budget& budget)
-      : parameters_(parameters), budget_(budget) {
+  Preparer(const Parameters& parameters, const Budget& budget, int threads)
+      : parameters_(parameters), budget_(budget), threads_(threads) {
     const SystemParameters& system = parameters.system;
     result.configuration =
         draw_particles(parameters.species, static_cast<std::size_t>(system.particles),
@@ -82,7 +82,8 @@ class Preparer {
         return insert_particles(configuration, {goal, stage.attempts, aligned}, seed, budget_);
       }
       case Method::swell:
-        return swell(configuration, {goal, stage.most_sweeps}, seed, next_sweep_, budget_);
+        return swell(configuration, {goal, stage.most_sweeps, threads_}, seed, next_sweep_,
+                     budget_);
       case Method::grow:
         return grow_stage(stage, goal);
       case Method::sample:
@@ -107,7 +108,7 @@ class Preparer {
 
   // Step sizes adapt all the way: what follows the preparation is what is measured, not this.
   StageReport sample(const PrepareStage& stage) {
-    Sampler sampler(result.configuration, parameters_.system.seed, next_sweep_);
+    Sampler sampler(result.configuration, parameters_.system.seed, next_sweep_, threads_);
     StageEnd end = StageEnd::reached;
     for (std::uint64_t k = 0; k < stage.sweeps; ++k) {
       if (budget_.stop_requested()) {
@@ -127,6 +128,7 @@ class Preparer {
 
   const Parameters& parameters_;
   const Budget& budget_;
+  int threads_;
   double reached_ = 0;
   std::uint64_t next_sweep_ = 0;
 };
@@ -134,9 +136,9 @@ class Preparer {
 }  // namespace
 
 Preparation prepare(const Parameters& parameters, const Budget& budget,
-                    const std::function<void(const std::string&)>& say) {
+                    const std::function<void(const std::string&)>& say, int threads) {
   const auto start = std::chrono::steady_clock::now();
-  Preparer preparer(parameters, budget);
+  Preparer preparer(parameters, budget, threads);
   for (const PrepareStage& stage : parameters.stages) {
     say(preparer.description(stage));
     if (!preparer.run(stage)) break;

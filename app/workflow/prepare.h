@@ -19,11 +19,12 @@ struct Preparation {
   double wall_seconds = 0;
 };
 
-/// `say` gets a line at the start of every stage. Throws UserError if a stage cannot reach its goal
+/// `say` gets a line at the start of every stage. The result does not depend on the number of threads, on
+/// which Monte Carlo runs. Throws UserError if a stage cannot reach its goal
 /// (too dense a lattice or insertion, too few sweeps), and InvariantError if the exact check finds
 /// an overlap at the end. A stopped preparation cannot be continued: the same seed makes it anew.
 Preparation prepare(const Parameters& parameters, const Budget& budget,
-                    const std::function<void(const std::string&)>& say);
+                    const std::function<void(const std::string&)>& say, int threads = 1);
 
 /// Nematic order |⟨exp 2iθ⟩| of the particles that are not round: 1 if all are parallel; of order
 /// 1/√N if there is no order. 0 if all are round.

@@ -106,7 +106,7 @@ class Runner {
       configuration = read_state(*request_.from);
       require_fit(configuration, request_.parameters, *request_.from);
     } else {
-      Preparation preparation = prepare(request_.parameters, budget_, say_);
+      Preparation preparation = prepare(request_.parameters, budget_, say_, request_.threads);
       if (preparation.report.end == StageEnd::stopped) return false;
       configuration = std::move(preparation.configuration);
     }

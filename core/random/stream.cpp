@@ -10,18 +10,25 @@ namespace vitrel {
 Stream::Stream(std::uint64_t seed, Purpose purpose, std::uint64_t step, std::uint64_t particle)
     : key_{seed, static_cast<std::uint64_t>(purpose)}, counter_{0, step, particle, 0} {}
 
-void Stream::refill() {
+Stream::Block Stream::next_block() {
   const r123::Philox4x64::ctr_type counter{{counter_[0], counter_[1], counter_[2], counter_[3]}};
   const r123::Philox4x64::key_type key{{key_[0], key_[1]}};
   const auto words = r123::Philox4x64{}(counter, key);
-  for (int k = 0; k < 4; ++k) words_[k] = words[k];
   ++counter_[0];
-  used_ = 0;
+  return {words[0], words[1], words[2], words[3]};
 }
 
 std::uint64_t Stream::bits() {
-  if (used_ == 4) refill();
+  if (used_ == 4) {
+    words_ = next_block();
+    used_ = 0;
+  }
   return words_[used_++];
+}
+
+void Stream::fill(std::span<Block> blocks) {
+  for (Block& block : blocks) block = next_block();
+  used_ = 4;
 }
 
 double Stream::uniform() {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 namespace vitrel {
 
@@ -21,9 +22,15 @@ enum class Purpose : std::uint64_t {
 /// equal numbers whatever else has been drawn, by whom, or on how many threads.
 class Stream {
  public:
+  /// What one evaluation of the generator gives.
+  using Block = std::array<std::uint64_t, 4>;
+
   Stream(std::uint64_t seed, Purpose purpose, std::uint64_t step = 0, std::uint64_t particle = 0);
 
   std::uint64_t bits();
+  /// Whole blocks of words, each as four calls of bits() give; what is left of a block already begun
+  /// is skipped.
+  void fill(std::span<Block> blocks);
   /// Uniform on [0, 1), a multiple of 2⁻⁵³.
   double uniform();
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
@@ -33,11 +40,11 @@ class Stream {
   double normal();
 
  private:
-  void refill();
+  Block next_block();
 
   std::array<std::uint64_t, 2> key_;
-  std::array<std::uint64_t, 4> counter_;
-  std::array<std::uint64_t, 4> words_{};
+  Block counter_;
+  Block words_{};
   int used_ = 4;
   double spare_normal_ = 0;
   bool has_spare_ = false;

@@ -8,7 +8,8 @@ import subprocess
 import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
-PARAMS = HERE.parents[1] / "params"
+ROOT = HERE.parents[1]
+PARAMS = ROOT / "params"
 
 
 class Failure(Exception):
@@ -51,3 +52,32 @@ def table(head, rows):
     """A Markdown table."""
     lines = [head, ["---"] * len(head), *rows]
     return "\n".join("| " + " | ".join(map(str, line)) + " |" for line in lines)
+
+
+def clock_rate():
+    found = re.search(r"^cpu MHz\s*: (.+)$", pathlib.Path("/proc/cpuinfo").read_text(), re.MULTILINE)
+    return f", {float(found[1]) / 1000:.2f} GHz" if found else ""
+
+
+def commit_of(data):
+    """The commit that a benchmark was built from."""
+    return data["commit"][:8] + "-modified" * ("modified" in data["commit"])
+
+
+def measured(program, preset, *parts):
+    """What a benchmark prints when built with this preset."""
+    for step in (["--preset", preset], ["--build", "--preset", preset, "--target", program]):
+        subprocess.run(["cmake", *step], cwd=ROOT, check=True)
+    return json.loads(output_of([ROOT / "build" / preset / "bench" / program, *parts]))
+
+
+def shape(kappa):
+    return "disks" if kappa == 1 else f"κ = {kappa:g}"
+
+
+def millions(per_second):
+    return f"{per_second / 1e6:.3g}"
+
+
+def rows_by(rows, *keys):
+    return {tuple(row[key] for key in keys): row for row in rows}

@@ -1,16 +1,13 @@
 """The speed of the engine: rewrites bench/engine.md and its picture."""
 
 import datetime
-import json
 import math
-import pathlib
-import re
-import subprocess
 
-from validation.common import HERE, expect, output_of, processor, table
+from validation.common import (ROOT, clock_rate, commit_of, expect, measured, millions, processor, rows_by, shape,
+                               table)
 
 TITLE = "Speed of the engine"
-ROOT = HERE.parents[1]
+PROGRAM = "bench_engine"
 PAGE = ROOT / "bench" / "engine.md"
 FIGURE = ROOT / "bench" / "engine.svg"
 
@@ -32,16 +29,8 @@ DEVICES = {
 }
 
 
-def shape(kappa):
-    return "disks" if kappa == 1 else f"κ = {kappa:g}"
-
-
 def rate(row):
     return 1e9 / row["ns_per_collision"]
-
-
-def millions(per_second):
-    return f"{per_second / 1e6:.3g}"
 
 
 def seconds_text(seconds):
@@ -50,10 +39,6 @@ def seconds_text(seconds):
             break
         seconds *= 1000
     return f"{float(f'{seconds:.2g}'):g} {unit}"
-
-
-def rows_by(rows, *keys):
-    return {tuple(row[key] for key in keys): row for row in rows}
 
 
 def speed(native, release):
@@ -195,15 +180,6 @@ def lazy(rows):
     return table(["", "put off beyond", "per collision", "gain", *COUNTS], lines)
 
 
-def clock_rate():
-    found = re.search(r"^cpu MHz\s*: (.+)$", pathlib.Path("/proc/cpuinfo").read_text(), re.MULTILINE)
-    return f", {float(found[1]) / 1000:.2f} GHz" if found else ""
-
-
-def commit(data):
-    return data["commit"][:8] + "-modified" * ("modified" in data["commit"])
-
-
 def page(native, release):
     psi = " and ".join(f"{native[key]:.1f}" for key in ("ns_per_psi", "ns_per_psi_at_the_end"))
     return f"""# How fast is the engine?
@@ -211,7 +187,7 @@ def page(native, release):
     scripts/validate engine                       # builds, measures and writes this page
     build/native/bench/bench_engine speed sizes   # parts of it, as JSON
 
-Measured on {datetime.date.today()}, commit {commit(native)}, {processor()}{clock_rate()}, {native["compiler"]}, `{native["flags"]}`.
+Measured on {datetime.date.today()}, commit {commit_of(native)}, {processor()}{clock_rate()}, {native["compiler"]}, `{native["flags"]}`.
 Calibration: {psi} ns per Ψ (the function of Vieillard-Baron of two ellipses, from their angles; at the
 beginning and at the end of the run). The portable build: `{release["flags"]}`, {release["ns_per_psi"]:.1f} ns per Ψ.
 
@@ -276,15 +252,8 @@ longer than so many mean times between two collisions of a particle; the engine 
 """
 
 
-def measured(preset, *parts):
-    """What the benchmark prints when built with this preset."""
-    for step in (["--preset", preset], ["--build", "--preset", preset, "--target", "bench_engine"]):
-        subprocess.run(["cmake", *step], cwd=ROOT, check=True)
-    return json.loads(output_of([ROOT / "build" / preset / "bench/bench_engine", *parts]))
-
-
 def measure(_build):
-    native, release = measured("native"), measured("release", "speed")
+    native, release = measured(PROGRAM, "native"), measured(PROGRAM, "release", "speed")
     draw(native["all_pairs"], FIGURE)
     PAGE.write_text(page(native, release), encoding="utf-8")
     check_sizes(native["sizes"])

@@ -50,6 +50,17 @@ TEST(Prepare, TheSeedDecidesEveryBit) {
   EXPECT_NE(positions(3), positions(4));
 }
 
+// Enough particles for domains of several colours.
+TEST(Prepare, ThreadsChangeNothing) {
+  Parameters parameters = small(0.5);
+  parameters.system.particles = 400;
+  const Preparation one = prepare(parameters, {}, say_nothing);
+  const Preparation two = prepare(parameters, {}, say_nothing, 2);
+  EXPECT_EQ(one.configuration.position, two.configuration.position);
+  EXPECT_EQ(one.configuration.angle, two.configuration.angle);
+  EXPECT_EQ(one.report.translations_accepted, two.report.translations_accepted);
+}
+
 TEST(Prepare, ALatticeHasAllParticlesAtItsAngle) {
   Parameters parameters = small(0.5);
   parameters.stages = {stage(PrepareStage::Method::lattice)};

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -22,6 +23,18 @@ TEST(Stream, AnyDifferenceInTheKeyGivesAnotherStream) {
         for (std::uint64_t particle : {0, 1})
           first_words.insert(Stream(seed, purpose, step, particle).bits());
   EXPECT_EQ(first_words.size(), 16u);
+}
+
+TEST(Stream, BlocksAreItsWordsFourByFour) {
+  Stream one(42, Purpose::tests, 3, 5), two = one;
+  std::array<Stream::Block, 3> blocks{};
+  one.fill(blocks);
+  for (const Stream::Block& block : blocks)
+    for (const std::uint64_t word : block) EXPECT_EQ(word, two.bits());
+  EXPECT_EQ(one.bits(), two.bits());
+  one.fill(blocks);  // skips three words
+  for (int skipped = 0; skipped < 3; ++skipped) two.bits();
+  EXPECT_EQ(blocks[0][0], two.bits());
 }
 
 // Sample moments of n draws: each has a standard error of (its own deviation)/√n; five of them are a

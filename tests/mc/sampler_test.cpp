@@ -2,12 +2,17 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
+#include "core/contact/pair.h"
 #include "core/state/check.h"
+#include "core/state/species.h"
 #include "mc/insertion.h"
 #include "tests/support/scenes.h"
+#include "tests/support/statistics.h"
 
 namespace vitrel {
 namespace {
@@ -21,13 +26,119 @@ Configuration2 fluid(std::size_t n, double aspect_ratio, double packing_fraction
   return c;
 }
 
-TEST(Sampler, KeepsTheStateHard) {
-  Configuration2 c = fluid(200, 3, 0.4);
+struct Mixture {
+  const char* name;
+  std::size_t particles;
+  double packing_fraction;
+  std::vector<Species> species;
+  double box_aspect = 1;
+};
+void PrintTo(const Mixture& mixture, std::ostream* out) {
+  *out << mixture.name;
+}
+
+Species species_of(double fraction, const Distribution& aspect_ratio, const Distribution& size) {
+  Species kind;
+  kind.fraction = fraction;
+  kind.aspect_ratio = aspect_ratio;
+  kind.size = size;
+  return kind;
+}
+Distribution always(double value) {
+  return {.mean = value};
+}
+Distribution between(double low, double high) {
+  return {.kind = Distribution::Kind::uniform, .low = low, .high = high};
+}
+
+std::vector<Mixture> mixtures() {
+  const auto all = [](double kappa) {
+    return std::vector{species_of(1, always(kappa), always(1))};
+  };
+  return {{"disks", 300, 0.5, all(1)},
+          {"nearly round", 300, 0.5, all(1.1)},
+          {"kappa 3", 600, 0.4, all(3)},
+          {"kappa 10", 400, 0.3, all(10)},
+          {"sizes 1:5, round and long",
+           500,
+           0.4,
+           {species_of(0.9, always(4), always(1)), species_of(0.1, always(1), always(5))}},
+          {"many shapes and sizes", 400, 0.4, {species_of(1, between(1, 8), between(0.3, 3))}},
+          {"one, among its images", 1, 0.4, all(6)},
+          {"two, among their images", 2, 0.4, all(6)},
+          {"five, in a flat box", 5, 0.3, all(4), 0.2},
+          {"fifty, in a flat box", 50, 0.3, all(3), 0.05}};
+}
+
+class SamplerOf : public testing::TestWithParam<Mixture> {
+ protected:
+  static Configuration2 inserted() {
+    const Mixture& m = GetParam();
+    Configuration2 c = draw_particles(m.species, m.particles, m.packing_fraction, m.box_aspect, 1);
+    const StageReport report = insert_particles(c, {m.packing_fraction, 1'000'000, false}, 1, {});
+    EXPECT_EQ(report.end, StageEnd::reached);
+    return c;
+  }
+};
+
+// Judged in extended precision with tolerance zero, after steps of all sizes.
+TEST_P(SamplerOf, KeepsTheStateHard) {
+  Configuration2 c = inserted();
   Sampler sampler(c, 5);
-  for (int sweep = 0; sweep < 200; ++sweep) sampler.sweep();
-  EXPECT_TRUE(exact_check(c).clean());
-  EXPECT_GT(sampler.counts().translations_accepted, 1000u);
-  EXPECT_GT(sampler.counts().rotations_accepted, 1000u);
+  for (const double step : {3., 0.3, 0.03}) {
+    sampler.set_steps(step, step);
+    for (int sweep = 0; sweep < 100; ++sweep) sampler.sweep();
+    ASSERT_TRUE(exact_check(c).clean());
+  }
+  const StageReport& counts = sampler.counts();
+  EXPECT_GT(counts.translations_accepted, 20 * c.size());
+  if (rotor_count(c) > 0) {
+    EXPECT_GT(counts.rotations_accepted, 10 * rotor_count(c));
+  }
+  EXPECT_EQ(counts.translations_tried + counts.rotations_tried, 300 * c.size());
+}
+
+TEST_P(SamplerOf, AnyNumberOfThreadsGivesTheSameState) {
+  const Configuration2 start = inserted();
+  const auto moved = [&](int threads) {
+    Configuration2 c = start;
+    Sampler sampler(c, 7, 3, threads);
+    for (int round = 0; round < 5; ++round) {
+      for (int sweep = 0; sweep < 10; ++sweep) sampler.sweep();
+      sampler.tune();
+    }
+    return c;
+  };
+  const Configuration2 one = moved(1);
+  EXPECT_NE(one.position, start.position);
+  for (const int threads : {2, 3}) {
+    const Configuration2 more = moved(threads);
+    EXPECT_EQ(more.position, one.position);
+    EXPECT_EQ(more.image, one.image);
+    EXPECT_EQ(more.angle, one.angle);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Mixtures, SamplerOf, testing::ValuesIn(mixtures()));
+
+// All particles grow and shrink, and the longest outgrow the reach that the cells began with.
+TEST(Sampler, ReshapesOnlyWhereThereIsRoom) {
+  Configuration2 c = fluid(200, 3, 0.3);
+  Sampler sampler(c, 5);
+  Stream draw(1, Purpose::tests);
+  int given = 0, refused = 0;
+  for (int round = 0; round < 40; ++round) {
+    sampler.sweep();
+    for (std::size_t i = 0; i < c.size(); ++i) {
+      const double b = draw.uniform(0.3, 0.8);
+      const Ellipse wanted{b * draw.uniform(1, 8), b};
+      (sampler.reshape(i, wanted) ? given : refused) += 1;
+    }
+    ASSERT_TRUE(exact_check(c).clean());
+  }
+  EXPECT_GT(given, 200);
+  EXPECT_GT(refused, 200);
+  EXPECT_GT(largest_circumradius(c), 3);
 }
 
 TEST(Sampler, SameSeedSameStateAndSweepsAreNumbered) {
@@ -68,6 +179,88 @@ TEST(Sampler, RoundParticlesAreNotTurned) {
   for (int sweep = 0; sweep < 20; ++sweep) sampler.sweep();
   EXPECT_EQ(sampler.counts().rotations_tried, 0u);
   EXPECT_EQ(sampler.counts().translations_tried, 1000u);
+}
+
+/// Sixteen long ellipses in a box of four domains, thin enough to be drawn all at once at random.
+Configuration2 thin_gas() {
+  Configuration2 c;
+  c.resize(16);
+  for (Ellipse& shape : c.shape) shape = of_aspect_ratio(3);
+  c.box = PeriodicBox<2>(Vec2(28, 28));
+  return c;
+}
+
+/// Of a state: pairs closer than two thirds of the longest reach, how parallel they are, and the
+/// particles within a tenth of a cell's width of a line between cells.
+std::array<double, 3> measured(const Configuration2& c) {
+  std::array<double, 3> sums{};
+  for (std::size_t i = 0; i < c.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      Vec2 d = c.position[j] - c.position[i];
+      d += c.box.translation(c.box.nearest_shift(d));
+      if (d.norm() > 2.4) continue;
+      sums[0] += 1;
+      sums[1] += std::cos(2 * (c.angle[i] - c.angle[j]));
+    }
+  for (const Vec2& position : c.position) {
+    const double cells = 8 * (position.x() / c.box.lengths().x() + 0.5);
+    sums[2] += std::abs(cells - std::round(cells)) < 0.1;
+  }
+  return sums;
+}
+
+bool is_hard(const Configuration2& c) {
+  for (std::size_t i = 0; i < c.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      Vec2 d = c.position[j] - c.position[i];
+      d += c.box.translation(c.box.nearest_shift(d));
+      if (!separated(c.shape[i], c.pose(i), c.shape[j], c.pose(j), d, 0)) return false;
+    }
+  return true;
+}
+
+// Every hard state must be as likely as any other, with borders between domains too, at which long
+// steps end. Against states drawn independently: all particles at once at random, again until the
+// state is hard. 4 standard errors of the difference, a false alarm of 6e-5 each.
+TEST(Sampler, SeveralDomainsVisitHardStatesEqually) {
+  Configuration2 c = thin_gas();
+  Stream draw(17, Purpose::tests);
+  std::array<std::vector<double>, 3> expected, found;
+  for (int k = 0; k < 20'000; ++k) {
+    do {
+      for (std::size_t i = 0; i < c.size(); ++i) {
+        c.position[i] = {draw.uniform(-14, 14), draw.uniform(-14, 14)};
+        c.angle[i] = draw.uniform(0, std::numbers::pi);
+      }
+    } while (!is_hard(c));
+    const auto values = measured(c);
+    for (std::size_t m = 0; m < 3; ++m) expected[m].push_back(values[m]);
+  }
+
+  Sampler sampler(c, 3);
+  sampler.set_steps(4, 1);
+  const Vec2 start = c.unwrapped(0);
+  double farthest = 0;
+  for (int block = 0; block < 400; ++block) {
+    std::array<double, 3> sums{};
+    constexpr int samples = 100;
+    for (int k = 0; k < samples; ++k) {
+      sampler.sweep();
+      sampler.sweep();
+      const auto values = measured(c);
+      for (std::size_t m = 0; m < 3; ++m) sums[m] += values[m] / samples;
+    }
+    for (std::size_t m = 0; m < 3; ++m) found[m].push_back(sums[m]);
+    farthest = std::max(farthest, (c.unwrapped(0) - start).norm());
+  }
+  for (std::size_t m = 0; m < 3; ++m) {
+    const Estimate here = estimate(found[m]), there = estimate(expected[m]);
+    EXPECT_LT(there.error, 0.03 * std::abs(there.mean));
+    EXPECT_LT(here.error, 0.03 * std::abs(there.mean));
+    EXPECT_NEAR(here.mean, there.mean, 4 * std::hypot(here.error, there.error)) << m;
+  }
+  EXPECT_NEAR(estimate(found[2]).mean, 0.2 * 16, 4 * estimate(found[2]).error);
+  EXPECT_GT(farthest, 5 * 28);  // no border shuts it in
 }
 
 // Two ellipses in a box: every hard state must be as likely as any other. The share of time that

@@ -1,0 +1,70 @@
+#include "mc/checkerboard.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vitrel {
+
+namespace {
+
+/// Wider: fewer moves end at a border. Narrower: more threads find work in a small system, and a
+/// domain stays in the first cache.
+constexpr std::size_t least_cells_of_domain = 4;
+
+/// Cells are so much wider than the reach that the rounding of positions does not matter.
+constexpr double room_for_rounding = 1 + 1e-9;
+
+std::size_t count_cells(double length, double reach, std::size_t particles) {
+  // Many more cells than particles are of no use.
+  const double most = std::ceil(std::sqrt(4 * static_cast<double>(particles))) + 1;
+  return static_cast<std::size_t>(std::clamp(std::floor(length / reach), 1.0, most));
+}
+
+std::size_t count_domains(std::size_t cells) {
+  const std::size_t pairs = cells / (2 * least_cells_of_domain);
+  return pairs > 0 ? 2 * pairs : 1;
+}
+
+}  // namespace
+
+Checkerboard::Line::Line(double length, double reach, std::size_t particles)
+    : half_(0.5 * length), domain_of_(count_cells(length, room_for_rounding * reach, particles)) {
+  const int count = static_cast<int>(cells());
+  cells_per_length_ = count / length;
+  last_ = count - 1;
+  domains_ = count_domains(cells());
+  const int layers = static_cast<int>(std::ceil(room_for_rounding * reach * cells_per_length_));
+  images_ = static_cast<std::size_t>(2 * layers + 1);
+  const auto add = [&](int unwrapped) {
+    const int boxes = static_cast<int>(std::floor(static_cast<double>(unwrapped) / count));
+    near_.push_back({unwrapped - boxes * count, boxes * length});
+  };
+  for (int cell = 0; cell < count; ++cell) {
+    add(cell);
+    for (int away = 1; away <= layers; ++away) add(cell + away), add(cell - away);
+  }
+  put_origin(0);
+}
+
+void Checkerboard::Line::put_origin(std::size_t first) {
+  origin_ = first;
+  for (std::size_t domain = 0; domain < domains_; ++domain)
+    for (std::size_t cell = begin(domain); cell < begin(domain + 1); ++cell)
+      domain_of_[static_cast<std::size_t>(shifted(cell))] = domain;
+}
+
+Checkerboard::Checkerboard(const PeriodicBox<2>& box, double reach, std::size_t particles)
+    : lines_{Line(box.lengths().x(), reach, particles), Line(box.lengths().y(), reach, particles)} {
+  const auto parities = [](const Line& line) { return line.domains() > 1 ? 2u : 1u; };
+  const unsigned across = parities(lines_[0]), up = parities(lines_[1]);
+  colours_.resize(std::size_t{across} * up);
+  for (std::size_t x = 0; x < lines_[0].domains(); ++x)
+    for (std::size_t y = 0; y < lines_[1].domains(); ++y)
+      colours_[x % across * up + y % up].push_back(x * lines_[1].domains() + y);
+}
+
+void Checkerboard::shift(Stream& draw) {
+  for (Line& line : lines_) line.put_origin(draw.below(line.cells()));
+}
+
+}  // namespace vitrel

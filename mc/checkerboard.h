@@ -1,0 +1,104 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "core/geometry/periodic_box.h"
+#include "core/random/stream.h"
+
+namespace vitrel {
+
+/// A periodic box divided into cells, and the cells into rectangular domains that are coloured like
+/// a checkerboard, so that particles of several domains can be moved at the same time.
+///
+/// Cells are at least as wide as the reach of the particles, or as the box if that is shorter: whoever
+/// is within reach of a point lies in the cell of that point or in one near it (`near`). Along each
+/// direction there is one domain, or an even number of them, each at least four cells wide. Between
+/// two domains of one colour lies one of another colour, wider than the reach: no particle of the one
+/// is near one of the other. The box is cut into cells once; `shift` moves the borders of the domains
+/// by whole cells. No border stays where it is for good, since domains are wider than a cell.
+class Checkerboard {
+ public:
+  /// For about `particles` particles, of which two meet at distances up to `reach`.
+  Checkerboard(const PeriodicBox<2>& box, double reach, std::size_t particles);
+
+  /// Moves the borders by a random number of cells, uniform and independent of all else.
+  void shift(Stream& draw);
+
+  struct Cell {
+    int x, y;
+  };
+  /// Where a position lies that is wrapped into the box.
+  Cell cell_of(const Vec2& position) const {
+    return {lines_[0].cell_of(position.x()), lines_[1].cell_of(position.y())};
+  }
+  std::size_t cells() const { return lines_[0].cells() * lines_[1].cells(); }
+  std::size_t index(const Cell& cell) const { return index(cell.x, cell.y); }
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(x) * lines_[1].cells() + static_cast<std::size_t>(y);
+  }
+
+  /// A column or a row that is near another, seen in an image of the box.
+  struct Near {
+    int cell;
+    double translation;
+  };
+  /// Columns near a column, and rows near a row, the nearest first: every image that can be within
+  /// reach, once.
+  std::span<const Near> near_column(int x) const { return lines_[0].near(x); }
+  std::span<const Near> near_row(int y) const { return lines_[1].near(y); }
+
+  std::size_t domains() const { return lines_[0].domains() * lines_[1].domains(); }
+  std::size_t domain_of(const Cell& cell) const {
+    return lines_[0].domain_of(cell.x) * lines_[1].domains() + lines_[1].domain_of(cell.y);
+  }
+  /// Domains of one colour; 1, 2 or 4 colours.
+  std::span<const std::vector<std::size_t>> colours() const { return colours_; }
+
+  /// Calls visit(cell index) for the cells of a domain.
+  template <class Visit>
+  void for_each_cell(std::size_t domain, Visit&& visit) const {
+    const Line &columns = lines_[0], &rows = lines_[1];
+    const std::size_t along_x = domain / rows.domains(), along_y = domain % rows.domains();
+    for (std::size_t x = columns.begin(along_x); x < columns.begin(along_x + 1); ++x)
+      for (std::size_t y = rows.begin(along_y); y < rows.begin(along_y + 1); ++y)
+        visit(index(columns.shifted(x), rows.shifted(y)));
+  }
+
+ private:
+  // Cells and domains along one direction.
+  class Line {
+   public:
+    Line(double length, double reach, std::size_t particles);
+    // Domains begin there.
+    void put_origin(std::size_t first);
+
+    std::size_t cells() const { return domain_of_.size(); }
+    int cell_of(double x) const {
+      const int cell = static_cast<int>((x + half_) * cells_per_length_);
+      return cell < last_ ? cell : last_;  // by rounding, at the border of the box
+    }
+    std::span<const Near> near(int cell) const {
+      return {near_.data() + static_cast<std::size_t>(cell) * images_, images_};
+    }
+    std::size_t domains() const { return domains_; }
+    std::size_t domain_of(int cell) const { return domain_of_[static_cast<std::size_t>(cell)]; }
+    // The first cell of a domain, counted from the origin, and a cell so counted.
+    std::size_t begin(std::size_t domain) const { return domain * cells() / domains_; }
+    int shifted(std::size_t cell) const { return static_cast<int>((origin_ + cell) % cells()); }
+
+   private:
+    double half_, cells_per_length_;
+    int last_;
+    std::size_t images_, domains_, origin_;
+    std::vector<Near> near_;
+    std::vector<std::size_t> domain_of_;
+  };
+
+  std::array<Line, 2> lines_;
+  std::vector<std::vector<std::size_t>> colours_;
+};
+
+}  // namespace vitrel

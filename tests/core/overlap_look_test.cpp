@@ -1,0 +1,201 @@
+// The answers of the look in lanes against the exact criterion in 80-bit arithmetic and the slow gap.
+
+#include "core/contact/overlap_look.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "core/contact/perram_wertheim.h"
+#include "core/contact/vieillard_baron.h"
+#include "core/random/stream.h"
+#include "core/tolerances.h"
+
+namespace vitrel {
+namespace {
+
+using Asked = OverlapLook::Asked;
+
+constexpr double pi = std::numbers::pi;
+
+struct Pair {
+  Ellipse one, two;
+  double angle1, angle2;
+  Vec2 d;
+
+  double extent() const { return std::max({one.a, two.a, d.cwiseAbs().maxCoeff()}); }
+  double margin() const { return tolerance::contact_gap(extent()); }
+  Pair swapped() const { return {two, one, angle2, angle1, -d}; }
+};
+
+std::ostream& operator<<(std::ostream& out, const Pair& pair) {
+  out.precision(17);
+  return out << "one (" << pair.one.a << ", " << pair.one.b << ") at angle " << pair.angle1
+             << ", two (" << pair.two.a << ", " << pair.two.b << ") at angle " << pair.angle2
+             << ", d = (" << pair.d.x() << ", " << pair.d.y() << ")";
+}
+
+/// What the pairs of a test are like: aspect ratios from 1 and ratios of the sizes √(ab) from 1.
+struct Class {
+  double largest_aspect_ratio, largest_size_ratio;
+};
+void PrintTo(const Class& at, std::ostream* out) {
+  *out << "aspect ratios to " << at.largest_aspect_ratio
+       << ", sizes to 1:" << at.largest_size_ratio;
+}
+
+/// A third each: anywhere within the circumcircles, around the contact distance, and at the contact
+/// distance times 1 ± 10⁻¹ … 10⁻¹⁶. One axis in eight is along x or y.
+Pair random_pair(Stream& draw, const Class& at) {
+  const auto ellipse = [&](double size) -> Ellipse {
+    const double root = std::sqrt(std::pow(at.largest_aspect_ratio, draw.uniform()));
+    return {size * root, size / root};
+  };
+  const auto angle = [&] {
+    return draw.below(8) == 0 ? 0.5 * pi * static_cast<double>(draw.below(4))
+                              : draw.uniform(-20, 20);
+  };
+  const double ratio = std::pow(at.largest_size_ratio, draw.uniform());
+  const bool larger_first = draw.below(2) == 0;
+  Pair pair{ellipse(larger_first ? ratio : 1), ellipse(larger_first ? 1 : ratio), angle(), angle(),
+            Vec2::Zero()};
+  const Vec2 e = direction(draw.uniform(-pi, pi));
+  const std::uint64_t kind = draw.below(3);
+  const double contact = contact_distance(pair.one, pair.angle1, pair.two, pair.angle2, e);
+  const double offset = (draw.below(2) == 0 ? 1 : -1) * std::pow(10, -draw.uniform(1, 16));
+  pair.d = kind == 0   ? draw.uniform() * (pair.one.a + pair.two.a) * e
+           : kind == 1 ? draw.uniform(0, 2) * contact * e
+                       : contact * (1 + offset) * e;
+  return pair;
+}
+
+bool disjoint(const Pair& pair) {
+  using Real = long double;
+  const auto axes = [](const Ellipse& shape, double angle) -> EllipseAxes<Real> {
+    return {shape.a, shape.b, std::cos(Real(angle)), std::sin(Real(angle))};
+  };
+  return vieillard_baron<Real>(axes(pair.one, pair.angle1), axes(pair.two, pair.angle2), pair.d.x(),
+                               pair.d.y())
+      .disjoint_or_touching();
+}
+
+bool looks_clear(const Pair& pair, int lane, std::uint64_t& alone) {
+  EllipseGroup group;
+  const Vec2 offset(0.3, -0.2);
+  group.set(lane, pair.two, pair.d - offset, direction(pair.angle2));
+  return OverlapLook(pair.one, direction(pair.angle1), pair.margin())
+      .clear_of(group, offset, Asked(true), alone);
+}
+
+/// What the coordinates' rounding may do to a gap.
+double rounding(const Pair& pair) {
+  return 1e-14 * (pair.one.a + pair.two.a + pair.d.norm());
+}
+
+class OverlapLookAt : public testing::TestWithParam<Class> {};
+
+// Clear is never said of a pair that overlaps, with tolerance zero; and overlap never of a pair
+// farther apart than the margin, but for rounding. Changing places changes nothing, but within that
+// rounding of the margin.
+TEST_P(OverlapLookAt, IsRightAboutEveryPair) {
+  Stream draw(61, Purpose::tests);
+  constexpr int pairs = 100'000;
+  int clear = 0, near = 0;
+  std::uint64_t alone = 0;
+  for (int k = 0; k < pairs; ++k) {
+    const Pair pair = random_pair(draw, GetParam());
+    const bool answer = looks_clear(pair, k % many, alone);
+    clear += answer;
+    const double gap = support_gap(pair.one, pair.angle1, pair.two, pair.angle2, pair.d).gap;
+    near += std::abs(gap) < 1e-9;
+    if (answer) {
+      ASSERT_TRUE(disjoint(pair)) << pair;
+      ASSERT_GT(gap, pair.margin() - rounding(pair)) << pair;
+    } else {
+      ASSERT_LT(gap, pair.margin() + rounding(pair)) << pair;
+    }
+    if (looks_clear(pair.swapped(), k % many, alone) != answer) {
+      ASSERT_NEAR(gap, pair.margin(), rounding(pair)) << pair;
+    }
+  }
+  // The comparison means something: both answers are frequent, and many pairs touch.
+  EXPECT_GT(clear, pairs / 4);
+  EXPECT_LT(clear, 3 * pairs / 4);
+  EXPECT_GT(near, pairs / 10);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, OverlapLookAt,
+                         testing::Values(Class{1, 1}, Class{1, 100}, Class{2, 1}, Class{6, 1},
+                                         Class{10, 3}, Class{100, 1}, Class{100, 100}));
+
+// The same pair in another lane, beside others and beside nobody.
+TEST(OverlapLook, AnswersOfAGroupAreThoseOfItsPairs) {
+  Stream draw(62, Purpose::tests);
+  int clear = 0;
+  constexpr int groups = 20'000;
+  for (int k = 0; k < groups; ++k) {
+    const Pair first = random_pair(draw, {6, 3});
+    const OverlapLook look(first.one, direction(first.angle1), 1e-12);
+    EllipseGroup group;
+    bool each_clear = true;
+    std::uint64_t alone_in_group = 0, alone = 0;
+    for (int lane = 0; lane < many; ++lane) {
+      if (draw.below(3) == 0) continue;
+      const Pair other = random_pair(draw, {6, 3});
+      const Vec2 place =
+          other.d * (1.2 * (first.one.a + other.two.a) / (other.one.a + other.two.a));
+      group.set(lane, other.two, place, direction(other.angle2));
+      EllipseGroup single;
+      single.set((lane + k) % many, other.two, place, direction(other.angle2));
+      each_clear = each_clear && look.clear_of(single, Vec2::Zero(), Asked(true), alone);
+    }
+    const bool answer = look.clear_of(group, Vec2::Zero(), Asked(true), alone_in_group);
+    ASSERT_EQ(answer, each_clear);
+    if (answer) {
+      ASSERT_EQ(alone_in_group, alone);
+    }
+    clear += answer;
+  }
+  EXPECT_GT(clear, groups / 10);
+  EXPECT_LT(clear, groups * 9 / 10);
+}
+
+// Of pairs at random places within the circumcircles nearly all are settled in lanes: what the speed
+// rests on.
+TEST(OverlapLook, FewPairsAreLeftToBeDecidedAlone) {
+  for (const auto& [kappa, most] :
+       {std::pair{1.5, 0.01}, std::pair{2., 0.02}, std::pair{6., 0.04}}) {
+    Stream draw(63, Purpose::tests);
+    const Ellipse shape{std::sqrt(kappa), 1 / std::sqrt(kappa)};
+    constexpr int pairs = 100'000;
+    std::uint64_t alone = 0;
+    for (int k = 0; k < pairs; ++k) {
+      const double distance = 2 * shape.a * std::sqrt(draw.uniform());
+      const Pair pair{shape, shape, draw.uniform(0, pi), draw.uniform(0, pi),
+                      distance * direction(draw.uniform(-pi, pi))};
+      looks_clear(pair, 0, alone);
+    }
+    RecordProperty("kappa_" + std::to_string(kappa), static_cast<int>(alone));
+    EXPECT_LT(static_cast<double>(alone), most * pairs) << "κ = " << kappa;
+    EXPECT_GT(alone, 0u) << "κ = " << kappa;
+  }
+}
+
+// Two disks are settled by their circles.
+TEST(OverlapLook, DisksAreNeverLeft) {
+  Stream draw(64, Purpose::tests);
+  std::uint64_t alone = 0;
+  for (int k = 0; k < 10'000; ++k) {
+    const Ellipse one{draw.uniform(0.1, 3), 0}, two{draw.uniform(0.1, 3), 0};
+    const Pair pair{{one.a, one.a}, {two.a, two.a}, 0.3, 1, Vec2(draw.uniform(0, 5), 0.1)};
+    const bool answer = looks_clear(pair, 1, alone);
+    EXPECT_EQ(answer, pair.d.norm() > one.a + two.a);
+  }
+  EXPECT_EQ(alone, 0u);
+}
+
+}  // namespace
+}  // namespace vitrel
