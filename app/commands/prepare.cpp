@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "analysis/order.h"
 #include "app/commands/common.h"
 #include "core/error.h"
 #include "core/io/h5md.h"

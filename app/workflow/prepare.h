@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@ struct Preparation {
   Configuration2 configuration;  ///< at rest, without overlaps
   StageReport report;            ///< counts of all stages together; `stopped` if the budget said so
   std::vector<GrowthReport> growth;  ///< one for every stage that grows
+  std::uint64_t next_sweep = 0;      ///< Monte Carlo after it goes on with these numbers
   double wall_seconds = 0;
 };
 
@@ -24,9 +26,5 @@ struct Preparation {
 /// an overlap at the end. A stopped preparation cannot be continued: the same seed makes it anew.
 Preparation prepare(const Parameters& parameters, const Budget& budget,
                     const std::function<void(const std::string&)>& say);
-
-/// Nematic order |⟨exp 2iθ⟩| of the particles that are not round: 1 if all are parallel; of order
-/// 1/√N if there is no order. 0 if all are round.
-double nematic_order(const Configuration2& configuration);
 
 }  // namespace vitrel
