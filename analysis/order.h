@@ -23,9 +23,9 @@ struct NematicCorrelation {
   std::vector<double> value;       ///< NaN in a bin without pairs
   std::vector<std::size_t> pairs;  ///< independent angles scatter by 1/√(2 pairs)
 };
-/// `width` of a bin, about; it is rounded so that a whole number of bins fits. All pairs up to 4096
-/// particles; of more, that many, evenly picked, with all others, each pair once from either side.
-/// Empty without two such particles.
+/// `width` of a bin, about; it is rounded so that a whole number of bins fits. Every pair counts
+/// once; beyond 4096 particles only pairs with one of 4096 (or a few less) evenly picked ones do.
+/// Empty without two particles that are not round.
 NematicCorrelation nematic_correlation(const Configuration2& configuration, double width);
 /// The distance beyond which g₂ stays below 1/e: the far end of the last bin where it does not. 0
 /// if it is nowhere above; infinity if it is in the last bin with pairs, at half the box.

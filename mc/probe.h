@@ -15,7 +15,7 @@ namespace vitrel {
 /// In the first fifth of the sweeps the step sizes adapt; then they are fixed, and all is measured
 /// from the configuration reached there, t sweeps later:
 ///   - orientation C₂(t) = ⟨cos 2(θ(t) − θ(0))⟩ of the particles that are not round;
-///   - displacement ⟨(|r(t) − r(0)|/(2b))²⟩^½, in widths 2b of the particles themselves;
+///   - displacement √⟨|r(t) − r(0)|²/(2b)²⟩, in widths 2b of the particles themselves;
 ///   - Z = βP/ρ in every fifth configuration (contact_pressure.h).
 /// C₂ is 1 at first and 0 when all orientations are forgotten; in a nematic it stays near S². With
 /// steps that fit the density, a sweep is a natural unit of time, as long as states are compared at

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "core/state/check.h"
 #include "edmd/growth.h"
 #include "mc/sampler.h"
 
@@ -142,9 +141,12 @@ Preparation prepare(const Parameters& parameters, const Budget& budget,
   Preparation result = std::move(preparer.result);
   result.wall_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (result.report.end == StageEnd::reached && !exact_check(result.configuration).clean())
-    throw InvariantError(
-        "the prepared state has overlapping particles; this is a defect of the program");
+  if (result.report.end == StageEnd::reached) {
+    result.check = exact_check(result.configuration);
+    if (!result.check.clean())
+      throw InvariantError(
+          "the prepared state has overlapping particles; this is a defect of the program");
+  }
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/workflow/parameters.h"
+#include "core/state/check.h"
 #include "core/state/configuration.h"
 #include "core/state/stage.h"
 
@@ -17,6 +18,7 @@ struct Preparation {
   Configuration2 configuration;  ///< at rest, without overlaps
   StageReport report;            ///< counts of all stages together; `stopped` if the budget said so
   std::vector<GrowthReport> growth;  ///< one for every stage that grows
+  ExactCheck check;                  ///< of the state, if not stopped; without overlaps
   std::uint64_t next_sweep = 0;      ///< Monte Carlo after it goes on with these numbers
   double wall_seconds = 0;
 };
