@@ -100,19 +100,23 @@ TEST(Backbone, OfASmallDiskInACageIsTheCage) {
   EXPECT_DOUBLE_EQ(cage.contact_number, 2.0 * (3 * 48 - 6) / 47);
 }
 
-// The six outer disks have three contacts each, all on one side; then the inner one has none.
+// The six outer disks have three contacts each, all on one side; then the inner one has none. Whichever
+// is judged first, all come loose.
 TEST(Backbone, OfAHexagonInTheVoidIsNothing) {
-  Configuration2 c;
-  c.box = PeriodicBox<2>(Vec2(30, 30));
-  c.resize(7);
-  for (int k = 0; k < 6; ++k)
-    c.position[k + 1] =
-        (2 + gap) * Vec2(std::cos(k * std::numbers::pi / 3), std::sin(k * std::numbers::pi / 3));
-  EXPECT_EQ(contacts(c, 2 * gap).size(), 12u);
-  const Backbone none = backbone(c, 2 * gap);
-  EXPECT_EQ(none.rattlers, 7u);
-  EXPECT_EQ(none.contacts, 0u);
-  EXPECT_TRUE(std::isnan(none.contact_number));
+  for (const std::size_t inner : {0u, 6u}) {
+    Configuration2 c;
+    c.box = PeriodicBox<2>(Vec2(30, 30));
+    c.resize(7);
+    for (std::size_t k = 0; k < 6; ++k) {
+      const double angle = static_cast<double>(k) * std::numbers::pi / 3;
+      c.position[k + (inner == 0 ? 1 : 0)] = (2 + gap) * Vec2(std::cos(angle), std::sin(angle));
+    }
+    EXPECT_EQ(contacts(c, 2 * gap).size(), 12u);
+    const Backbone none = backbone(c, 2 * gap);
+    EXPECT_EQ(none.rattlers, 7u);
+    EXPECT_EQ(none.contacts, 0u);
+    EXPECT_TRUE(std::isnan(none.contact_number));
+  }
 }
 
 // The neighbours of a vacancy in the square lattice can step into it: their other contacts leave
@@ -124,6 +128,27 @@ TEST(Backbone, AVacancyUndoesTheSquareLatticeButNotTheTriangularOne) {
   Configuration2 triangular = triangular_lattice(6, 4, 1);
   remove_last(triangular);
   EXPECT_EQ(backbone(triangular, 2 * gap).rattlers, 0u);
+}
+
+TEST(JammedBackbone, HasTheToleranceOfItsPressure) {
+  EXPECT_NEAR(jammed_backbone(triangular_lattice(6, 4, 1), 1e6).tolerance, 2e-3, 1e-12);
+  Configuration2 mixture = triangular_lattice(6, 4, 1);
+  mixture.shape[3] = {0.5, 0.5};
+  EXPECT_NEAR(jammed_backbone(mixture, 1e6).tolerance, 2e-3 * (47.5 / 48), 1e-12);
+}
+
+// Disks on the square lattice at φ = 0.75 are 2 √(π/3) − 2 = 0.047 apart: the tolerance is doubled
+// from 0.002 to 0.064. At φ = 0.5 they are 0.5 apart, more than a tenth of their diameter.
+TEST(JammedBackbone, WidensTheToleranceUntilHalfOfTheParticlesAreHeld) {
+  const auto lattice = [](double phi) {
+    return square_lattice(6, phi, 0, [](std::size_t) { return Ellipse{1, 1}; });
+  };
+  const JammedBackbone wide = jammed_backbone(lattice(0.75), 1e6);
+  EXPECT_NEAR(wide.tolerance, 0.064, 1e-12);
+  EXPECT_EQ(wide.contact_number, 4);
+  const JammedBackbone none = jammed_backbone(lattice(0.5), 1e6);
+  EXPECT_EQ(none.rattlers, 36u);
+  EXPECT_NEAR(none.tolerance, 0.128, 1e-12);
 }
 
 /// A packing grown from a square lattice that melts on the way, and its reduced pressure.

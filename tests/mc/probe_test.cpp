@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "mc/contact_pressure.h"
 #include "mc/disjoint.h"
 #include "mc/lattice.h"
+#include "mc/sampler.h"
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"
 
@@ -26,6 +29,54 @@ TEST(Probe, LeavesTheStateAndNumbersItsSweeps) {
   EXPECT_NE(one->orientation, probe(state, 50, 8, 3, {})->orientation);
   EXPECT_EQ(one->measured, 40u);
   EXPECT_EQ(one->compressibility.size(), 8u);
+}
+
+// By hand, with the sampler itself: a fifth of 500 sweeps with a tuning after every fifth one, then 400
+// with fixed steps.
+TEST(Probe, MeasuresWhatTheSamplerDoes) {
+  const Configuration2 state = dilute(2);
+  const auto result = probe(state, 500, 7, 3, {});
+  ASSERT_TRUE(result);
+  Configuration2 copy = state;
+  Sampler sampler(copy, 7, 3);
+  for (int k = 1; k <= 100; ++k) {
+    sampler.sweep();
+    if (k % 5 == 0) sampler.tune();
+  }
+  const Configuration2 start = copy;
+  std::vector<double> orientation, displacement, pressures;
+  ContactPressure pressure;
+  for (int t = 1; t <= 400; ++t) {
+    sampler.sweep();
+    double kept = 0, moved = 0;
+    for (std::size_t i = 0; i < copy.size(); ++i) {
+      kept += std::cos(2 * copy.angle[i] - 2 * start.angle[i]) / 100;
+      moved += (copy.unwrapped(i) - start.unwrapped(i)).squaredNorm() / 100;
+    }
+    orientation.push_back(kept);
+    displacement.push_back(std::sqrt(moved) / std::sqrt(2.0));  // 2b = √2
+    if (t % 5 != 1) continue;
+    pressure.clear();
+    pressure.add(copy);
+    pressures.push_back(pressure.compressibility());
+  }
+  EXPECT_EQ(result->compressibility, pressures);
+  ASSERT_EQ(result->sweeps.front(), 1);
+  for (std::size_t k = 0; k < result->sweeps.size(); ++k) {
+    const auto t = static_cast<std::size_t>(result->sweeps[k]);
+    EXPECT_NEAR(result->orientation[k], orientation[t - 1], 1e-12);
+    EXPECT_NEAR(result->displacement[k], displacement[t - 1], 1e-12 * displacement[t - 1]);
+  }
+  const auto first = [](const std::vector<double>& values, const auto& holds) {
+    return static_cast<std::uint64_t>(std::find_if(values.begin(), values.end(), holds) -
+                                      values.begin()) +
+           1;
+  };
+  EXPECT_EQ(result->orientation_lost,
+            first(orientation, [](double c) { return c < std::exp(-1); }));
+  EXPECT_EQ(result->place_lost, first(displacement, [](double moved) { return moved > 1; }));
+  // Far enough that some particles left the box.
+  EXPECT_GT(displacement.back(), 1);
 }
 
 // Monte Carlo of the ideal gas is a random walk. Each particle is tried once a sweep on the
