@@ -101,9 +101,11 @@ class CommandLine {
   }
 
   void add_prepare() {
-    CLI::App& sub = add("prepare", "Make a first state.", prepare_command);
+    CLI::App& sub =
+        add("prepare", "Make a first state, and report how good it is.", prepare_command);
     add_parameter_file(sub);
-    add_output(sub, "State file to write", true);
+    add_output(sub, "State file to write; its quality report <state>.quality.json lies beside it",
+               true);
     add_threads(sub, "Threads for Monte Carlo (1)");
     add_wall_time(sub);
     add_quiet_and_json(sub);
@@ -151,9 +153,11 @@ class CommandLine {
     add_quiet_and_json(sub);
   }
   void add_report() {
-    CLI::App& sub = add("report", "One HTML page about a run or a sweep.", report_command);
-    sub.add_option("run", arguments_.input, "Run, or folder of a sweep")->required();
-    add_output(sub, "Page to write; default <run>.html or <sweep>/report.html", false);
+    CLI::App& sub =
+        add("report", "One HTML page about a prepared state, a run or a sweep.", report_command);
+    sub.add_option("run", arguments_.input, "State, run, or folder of a sweep")->required();
+    add_output(sub, "Page to write; default <state>.html, <run>.html or <sweep>/report.html",
+               false);
     add_analysis_parameters(sub);
     add_quiet_and_json(sub);
   }

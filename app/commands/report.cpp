@@ -2,6 +2,7 @@
 
 #include "app/commands/common.h"
 #include "app/workflow/analyze.h"
+#include "app/workflow/quality_file.h"
 #include "app/workflow/sweep.h"
 #include "app/workflow/text_file.h"
 
@@ -14,6 +15,11 @@ int report_command(const Arguments& arguments) {
   if (output.empty())
     output = is_sweep ? arguments.input / "report.html"
                       : fs::path(arguments.input).replace_extension("html");
+  if (!is_sweep && is_single_state(arguments.input)) {
+    write_text(output, state_page(state_page_data(arguments.input)));
+    print_summary(arguments, {{"output", output.string()}, {"states", 1}});
+    return success;
+  }
   AnalysisChoice choice;
   if (!arguments.parameters.empty()) choice.parameters = arguments.parameters;
   choice.overrides = arguments.overrides;

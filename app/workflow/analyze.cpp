@@ -98,36 +98,12 @@ std::vector<Column> summary_columns(const RunAnalysis& run) {
                  run.rotational_diffusion.error)};
 }
 
-std::vector<std::pair<std::string, std::string>> provenance_rows(const Provenance& provenance) {
-  return {{"version", provenance.version},
-          {"commit", provenance.commit},
-          {"command_line", provenance.command_line},
-          {"host", provenance.host},
-          {"seed", std::to_string(provenance.seed)},
-          {"parent", provenance.parent},
-          {"started", provenance.started},
-          {"wall_seconds", fmt::format("{:.1f}", provenance.wall_seconds)}};
-}
-
 std::string dynamics_text(const std::optional<Parameters>& parameters) {
   if (!parameters) return "";
   const DynamicsParameters& p = parameters->dynamics;
   return p.kind == DynamicsParameters::Kind::brownian
              ? fmt::format("Brownian, step {:g}", p.brownian_step)
              : "Newtonian";
-}
-
-// "ellipses, κ = 2" for equal particles, else "species A, B".
-std::string particles_text(const Configuration2& state) {
-  if (state.species_names.size() > 1) {
-    std::string names;
-    for (const std::string& name : state.species_names) names += (names.empty() ? "" : ", ") + name;
-    return "particles of species " + names;
-  }
-  const double ratio = state.shape.front().aspect_ratio();
-  for (const Ellipse& shape : state.shape)
-    if (std::abs(shape.aspect_ratio() - ratio) > 1e-9 * ratio) return "ellipses of several shapes";
-  return ratio == 1 ? "disks" : fmt::format("ellipses, κ = {:.4g}", ratio);
 }
 
 ReportRun report_run(RunAnalysis run) {
@@ -226,6 +202,29 @@ Json analysis_summary(const RunAnalysis& run) {
           {"diffusion_error", run.diffusion.error},
           {"rotational_diffusion", run.rotational_diffusion.value},
           {"rotational_diffusion_error", run.rotational_diffusion.error}};
+}
+
+PageProvenance provenance_rows(const Provenance& provenance) {
+  return {{"version", provenance.version},
+          {"commit", provenance.commit},
+          {"command_line", provenance.command_line},
+          {"host", provenance.host},
+          {"seed", std::to_string(provenance.seed)},
+          {"parent", provenance.parent},
+          {"started", provenance.started},
+          {"wall_seconds", fmt::format("{:.1f}", provenance.wall_seconds)}};
+}
+
+std::string particles_text(const Configuration2& state) {
+  if (state.species_names.size() > 1) {
+    std::string names;
+    for (const std::string& name : state.species_names) names += (names.empty() ? "" : ", ") + name;
+    return "particles of species " + names;
+  }
+  const double ratio = state.shape.front().aspect_ratio();
+  for (const Ellipse& shape : state.shape)
+    if (std::abs(shape.aspect_ratio() - ratio) > 1e-9 * ratio) return "ellipses of several shapes";
+  return ratio == 1 ? "disks" : fmt::format("ellipses, κ = {:.4g}", ratio);
 }
 
 ReportData report_data(std::vector<RunAnalysis> runs, const std::string& title) {

@@ -50,6 +50,11 @@ void write_all(const std::filesystem::path& file, const Results& results);
 
 nlohmann::ordered_json analysis_summary(const RunAnalysis& run);
 
+/// Where a file comes from, as tables and pages give it.
+PageProvenance provenance_rows(const Provenance& provenance);
+/// "ellipses, κ = 2" for equal particles, else "particles of species A, B".
+std::string particles_text(const Configuration2& state);
+
 /// The report's view of these runs.
 ReportData report_data(std::vector<RunAnalysis> runs, const std::string& title);
 

@@ -487,6 +487,11 @@ FieldVisitor::Inside fields(Parameters& p, const Sections& sections) {
       visit.table(
           {"prepare", "", "How the first state is made: stages, one after the other."},
           Style::section, [&](FieldVisitor& in) {
+            in.field({"quality_sweeps", "",
+                      "Monte Carlo sweeps on a copy of the prepared state, in which `vitrel "
+                      "prepare` measures pressure and time correlations for its quality report. 0: "
+                      "none, then these are left out. The state itself stays."},
+                     p.quality_sweeps);
             in.list({"stage", "", "The first stage places the particles, later ones move them."},
                     p.stages, describe_stage);
           });
@@ -576,7 +581,8 @@ std::string parameter_page() {
 std::optional<ParameterDifference> forbidden_change(const std::string& before,
                                                     const std::string& after) {
   return first_difference(before, after, [](const std::string& key) {
-    return key.starts_with("analysis.") || key == "output.checkpoint_interval";
+    return key.starts_with("analysis.") || key == "output.checkpoint_interval" ||
+           key == "prepare.quality_sweeps";
   });
 }
 

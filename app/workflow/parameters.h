@@ -76,6 +76,7 @@ struct OutputParameters {
 struct Parameters {
   SystemParameters system;
   std::vector<Species> species;
+  std::uint64_t quality_sweeps = 1000;
   std::vector<PrepareStage> stages;
   DynamicsParameters dynamics;
   OutputParameters output;
@@ -117,7 +118,7 @@ std::string command_template(const std::string& command);
 std::string parameter_page();
 
 /// The first key that differs and may not, when a run is continued with changed parameters. Changes
-/// of [analysis] and of the checkpoint interval do not touch the run.
+/// of [analysis], of the checkpoint interval and of the quality sweeps do not touch the run.
 std::optional<ParameterDifference> forbidden_change(const std::string& before,
                                                     const std::string& after);
 

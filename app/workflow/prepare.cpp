@@ -5,10 +5,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <complex>
 
 #include "core/error.h"
-#include "core/state/check.h"
 #include "edmd/growth.h"
 #include "mc/sampler.h"
 
@@ -82,7 +80,7 @@ class Preparer {
         return insert_particles(configuration, {goal, stage.attempts, aligned}, seed, budget_);
       }
       case Method::swell:
-        return swell(configuration, {goal, stage.most_sweeps, threads_}, seed, next_sweep_,
+        return swell(configuration, {goal, stage.most_sweeps, threads_}, seed, result.next_sweep,
                      budget_);
       case Method::grow:
         return grow_stage(stage, goal);
@@ -108,7 +106,7 @@ class Preparer {
 
   // Step sizes adapt all the way: what follows the preparation is what is measured, not this.
   StageReport sample(const PrepareStage& stage) {
-    Sampler sampler(result.configuration, parameters_.system.seed, next_sweep_, threads_);
+    Sampler sampler(result.configuration, parameters_.system.seed, result.next_sweep, threads_);
     StageEnd end = StageEnd::reached;
     for (std::uint64_t k = 0; k < stage.sweeps; ++k) {
       if (budget_.stop_requested()) {
@@ -120,7 +118,7 @@ class Preparer {
       const double done = static_cast<double>(k + 1);
       budget_.tell({done / static_cast<double>(stage.sweeps), done, "sweep"});
     }
-    next_sweep_ = sampler.next_sweep();
+    result.next_sweep = sampler.next_sweep();
     StageReport report = sampler.counts();
     report.end = end;
     return report;
@@ -130,7 +128,6 @@ class Preparer {
   const Budget& budget_;
   int threads_;
   double reached_ = 0;
-  std::uint64_t next_sweep_ = 0;
 };
 
 }  // namespace
@@ -146,18 +143,13 @@ Preparation prepare(const Parameters& parameters, const Budget& budget,
   Preparation result = std::move(preparer.result);
   result.wall_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (result.report.end == StageEnd::reached && !exact_check(result.configuration).clean())
-    throw InvariantError(
-        "the prepared state has overlapping particles; this is a defect of the program");
+  if (result.report.end == StageEnd::reached) {
+    result.check = exact_check(result.configuration);
+    if (!result.check.clean())
+      throw InvariantError(
+          "the prepared state has overlapping particles; this is a defect of the program");
+  }
   return result;
-}
-
-double nematic_order(const Configuration2& configuration) {
-  std::complex<double> sum = 0;
-  for (std::size_t i = 0; i < configuration.size(); ++i)
-    if (!configuration.shape[i].is_round()) sum += std::polar(1.0, 2 * configuration.angle[i]);
-  const std::size_t rotors = rotor_count(configuration);
-  return rotors > 0 ? std::abs(sum) / static_cast<double>(rotors) : 0;
 }
 
 }  // namespace vitrel

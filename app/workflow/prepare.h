@@ -1,10 +1,12 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "app/workflow/parameters.h"
+#include "core/state/check.h"
 #include "core/state/configuration.h"
 #include "core/state/stage.h"
 
@@ -16,6 +18,8 @@ struct Preparation {
   Configuration2 configuration;  ///< at rest, without overlaps
   StageReport report;            ///< counts of all stages together; `stopped` if the budget said so
   std::vector<GrowthReport> growth;  ///< one for every stage that grows
+  ExactCheck check;                  ///< of the state, if not stopped; without overlaps
+  std::uint64_t next_sweep = 0;      ///< Monte Carlo after it goes on with these numbers
   double wall_seconds = 0;
 };
 
@@ -25,9 +29,5 @@ struct Preparation {
 /// an overlap at the end. A stopped preparation cannot be continued: the same seed makes it anew.
 Preparation prepare(const Parameters& parameters, const Budget& budget,
                     const std::function<void(const std::string&)>& say, int threads = 1);
-
-/// Nematic order |⟨exp 2iθ⟩| of the particles that are not round: 1 if all are parallel; of order
-/// 1/√N if there is no order. 0 if all are round.
-double nematic_order(const Configuration2& configuration);
 
 }  // namespace vitrel

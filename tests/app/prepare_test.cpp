@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "analysis/order.h"
 #include "core/error.h"
 #include "core/state/check.h"
 
@@ -126,17 +127,6 @@ TEST(Prepare, TheBudgetStopsIt) {
   Budget budget;
   budget.should_stop = [] { return true; };
   EXPECT_EQ(prepare(parameters, budget, say_nothing).report.end, StageEnd::stopped);
-}
-
-TEST(NematicOrder, IsZeroForCrossedPairsAndForDisks) {
-  Configuration2 state;
-  state.resize(2);
-  EXPECT_EQ(nematic_order(state), 0);
-  state.shape = {{2, 1}, {2, 1}};
-  state.angle = {0.3, 0.3 + std::numbers::pi / 2};
-  EXPECT_NEAR(nematic_order(state), 0, 1e-15);
-  state.angle = {0.3, 0.3 + std::numbers::pi};
-  EXPECT_NEAR(nematic_order(state), 1, 1e-15);
 }
 
 }  // namespace

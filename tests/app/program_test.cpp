@@ -77,6 +77,52 @@ TEST(Program, PrepareRunCheckAnalyzeAndReport) {
   EXPECT_GT(std::filesystem::file_size(folder / "page.html"), 10'000u);
 }
 
+TEST(Program, PrepareReportsTheQualityOfTheState) {
+  const Folder folder("quality");
+  folder.write("p.toml", small_system);
+  const Outcome told = run(folder.path(), {"prepare", "p.toml", "-o", "state.h5"});
+  ASSERT_EQ(told.code, 0) << told.errors;
+  EXPECT_THAT(told.output, AllOf(HasSubstr("reduced pressure"), HasSubstr("nematic order"),
+                                 HasSubstr("hexatic order"), HasSubstr("displacement time"),
+                                 HasSubstr("exact check: 0 overlaps")));
+  EXPECT_FALSE(std::filesystem::exists(folder / "state.quality.json.partial"));
+  const Outcome asked = run(folder.path(), {"prepare", "p.toml", "-o", "same.h5", "--json", "-q"});
+  ASSERT_EQ(asked.code, 0) << asked.errors;
+  const Json summary = Json::parse(asked.output);
+  EXPECT_EQ(summary["quality_report"], "same.quality.json");
+  const Json file = Json::parse(std::ifstream(folder / "same.quality.json"));
+  EXPECT_EQ(summary["quality"], file);
+  expect_keys(file, {"packing_fraction", "reduced_pressure", "nematic_order", "nematic_correlation",
+                     "hexatic_order", "overlaps", "smallest_gap", "jamming", "time_correlation"});
+  EXPECT_NEAR(file["packing_fraction"], 0.5, 1e-12);
+  EXPECT_EQ(file["overlaps"], 0);
+  EXPECT_EQ(file["reduced_pressure"]["from"], "sampling");
+  EXPECT_EQ(file["time_correlation"]["measured_sweeps"], 800);
+  // The seed decides this file, too.
+  EXPECT_EQ(file, Json::parse(std::ifstream(folder / "state.quality.json")));
+
+  EXPECT_EQ(run(folder.path(), {"report", "state.h5", "-q"}).code, 0);
+  std::ifstream page(folder / "state.html");
+  const std::string text(std::istreambuf_iterator<char>(page), {});
+  EXPECT_THAT(text,
+              AllOf(HasSubstr("reduced pressure"), HasSubstr("30 ellipses, κ = 2 at φ = 0.5")));
+}
+
+TEST(Program, AStateIsNotReportedWithoutItsQuality) {
+  const Folder folder("no_quality");
+  folder.write("p.toml", small_system);
+  ASSERT_EQ(run(folder.path(), {"prepare", "p.toml", "-o", "state.h5", "-q"}).code, 0);
+  ASSERT_EQ(run(folder.path(), {"prepare", "p.toml", "-o", "b.h5", "-q", "--seed", "2"}).code, 0);
+  std::filesystem::copy_file(folder / "b.quality.json", folder / "state.quality.json",
+                             std::filesystem::copy_options::overwrite_existing);
+  expect_refusal(run(folder.path(), {"report", "state.h5", "-q"}), 3,
+                 "state.quality.json: is the quality report of another state");
+  std::filesystem::remove(folder / "state.quality.json");
+  expect_refusal(run(folder.path(), {"report", "state.h5", "-q"}), 3,
+                 "state.quality.json: is missing");
+  EXPECT_FALSE(std::filesystem::exists(folder / "state.html"));
+}
+
 TEST(Program, ACompleteRunIsLeftAlone) {
   const Folder folder("complete");
   folder.write("p.toml", small_system);

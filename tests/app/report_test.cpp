@@ -6,6 +6,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "app/workflow/report/page_parts.h"
+
 namespace vitrel {
 namespace {
 

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/workflow/report/assets.h"
-#include "app/workflow/report/html.h"
+#include "app/workflow/report/page_parts.h"
 
 namespace vitrel {
 
@@ -17,20 +17,6 @@ using nlohmann::json;
 
 constexpr double points_per_decade = 30;
 constexpr std::size_t most_energy_samples = 400;
-constexpr std::size_t most_pictured_particles = 4000;
-
-/// Six significant digits are more than any pixel shows; JSON has no NaN, null stands for it.
-json number(double value) {
-  if (!std::isfinite(value)) return nullptr;
-  return std::stod(fmt::format("{:.6g}", value));
-}
-
-template <class Values, class Index>
-json numbers(const Values& values, const Index& rows) {
-  json array = json::array();
-  for (const std::size_t row : rows) array.push_back(number(values[row]));
-  return array;
-}
 
 std::vector<std::size_t> every(std::size_t stride, std::size_t size) {
   std::vector<std::size_t> rows;
@@ -50,9 +36,9 @@ std::vector<std::size_t> logarithmic_rows(const std::vector<double>& time) {
 json curve(const std::vector<double>& time, const MeanSquare& square) {
   if (square.value.empty()) return nullptr;
   const std::vector<std::size_t> rows = logarithmic_rows(time);
-  return {{"time", numbers(time, rows)},
-          {"value", numbers(square.value, rows)},
-          {"error", numbers(square.error, rows)}};
+  return {{"time", page_numbers(time, rows)},
+          {"value", page_numbers(square.value, rows)},
+          {"error", page_numbers(square.error, rows)}};
 }
 
 json energy(const EnergySeries& series) {
@@ -61,39 +47,10 @@ json energy(const EnergySeries& series) {
       std::max<std::size_t>(1, (size + most_energy_samples - 1) / most_energy_samples);
   const std::vector<std::size_t> rows = every(stride, size);
   return {{"stride", stride},
-          {"time", numbers(series.time, rows)},
-          {"translational", numbers(series.translational, rows)},
-          {"rotational", numbers(series.rotational, rows)},
-          {"total", numbers(series.total, rows)}};
-}
-
-/// The part of the box, as a fraction of its sides about the centre, that is pictured.
-double pictured_fraction(std::size_t particles) {
-  const double share =
-      static_cast<double>(most_pictured_particles) / static_cast<double>(particles);
-  return std::sqrt(std::min(1.0, share));
-}
-
-/// x, y, angle modulo π, a, b of the particles in the window, one after the other. Positions are
-/// rounded to a thousandth of the unit of length.
-json picture(const Configuration2& state) {
-  if (state.size() == 0) return nullptr;
-  const double fraction = pictured_fraction(state.size());
-  const Vec2 window = fraction * state.box.lengths();
-  const double margin = fraction < 1 ? largest_circumradius(state) : 0;
-  const auto rounded = [](double value) { return std::round(value * 1000) / 1000; };
-  json particles = json::array();
-  for (std::size_t i = 0; i < state.size(); ++i) {
-    const Vec2& r = state.position[i];
-    if ((r.cwiseAbs() - 0.5 * window).maxCoeff() > margin) continue;
-    const double turn = state.angle[i] - M_PI * std::floor(state.angle[i] / M_PI);
-    for (const double value : {r.x(), r.y(), turn, state.shape[i].a, state.shape[i].b})
-      particles.push_back(rounded(value));
-  }
-  return {{"time", number(state.time)},
-          {"window", {number(window.x()), number(window.y())}},
-          {"periodic", fraction == 1},
-          {"particles", std::move(particles)}};
+          {"time", page_numbers(series.time, rows)},
+          {"translational", page_numbers(series.translational, rows)},
+          {"rotational", page_numbers(series.rotational, rows)},
+          {"total", page_numbers(series.total, rows)}};
 }
 
 const DisplacementGroup* all_particles(const ReportRun& run) {
@@ -117,13 +74,6 @@ std::string density(const ReportRun& run) {
   return fmt::format("{:.{}f}", phi, two_suffice ? 2 : 4);
 }
 
-/// 1234567 with thin spaces between groups of three digits.
-std::string grouped(std::uint64_t number) {
-  std::string digits = std::to_string(number);
-  for (std::size_t at = digits.size(); at > 3;) digits.insert(at -= 3, "\u202f");
-  return digits;
-}
-
 /// "φ = 0.5", with the name of the run where another one has the same density.
 std::string label(const ReportRun& run, const std::vector<ReportRun>& runs) {
   const auto equals = std::count_if(runs.begin(), runs.end(), [&](const ReportRun& other) {
@@ -143,14 +93,6 @@ json run_data(const ReportRun& run, const std::vector<ReportRun>& runs) {
           {"msr", all ? curve(lag, all->rotation) : json(nullptr)},
           {"energy", energy(run.energy)},
           {"state", picture(run.final_state)}};
-}
-
-/// JSON inside a script element: no "<" may be left that could end it.
-std::string script_safe(const json& data) {
-  std::string text = data.dump(-1, ' ', false, json::error_handler_t::replace);
-  for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;)
-    text.replace(at, 1, "\\u003c");
-  return text;
 }
 
 std::string cell(const std::string& text) {
@@ -181,36 +123,7 @@ std::string table_row(const ReportRun& run) {
          cell(grouped(run.particles)) + cell(escaped(run.name)) + "</tr>\n";
 }
 
-/// Replaces every {{name}} of the template by its text, in one pass, so that no text is looked
-/// into.
-std::string filled(std::string_view page,
-                   const std::vector<std::pair<std::string_view, std::string>>& texts) {
-  std::string result;
-  while (!page.empty()) {
-    const std::size_t open = page.find("{{");
-    result += page.substr(0, open);
-    if (open == std::string_view::npos) break;
-    const std::size_t close = page.find("}}", open);
-    const std::string_view name = page.substr(open + 2, close - open - 2);
-    for (const auto& [key, text] : texts)
-      if (key == name) result += text;
-    page.remove_prefix(close + 2);
-  }
-  return result;
-}
-
 }  // namespace
-
-std::string with_error(double value, double error) {
-  if (!std::isfinite(value)) return "–";
-  if (!std::isfinite(error)) return fmt::format("{:.4g}", value);
-  if (error == 0) return fmt::format("{:.6g}", value);
-  const int decimals = std::max(0, 1 - static_cast<int>(std::floor(std::log10(error))));
-  // Rounding 0.0996 to two digits gives 0.10: one decimal less.
-  const bool carries = std::round(error * std::pow(10, decimals)) >= 100;
-  const int shown = std::max(0, decimals - (carries ? 1 : 0));
-  return fmt::format("{:.{}f} ± {:.{}f}", value, shown, error, shown);
-}
 
 std::string report_page(const ReportData& data) {
   json runs = json::array();
@@ -230,6 +143,7 @@ std::string report_page(const ReportData& data) {
                                           {"data", script_safe({{"runs", std::move(runs)}})},
                                           {"uplot_licence", text("vendor/uplot/LICENSE")},
                                           {"uplot", text("vendor/uplot/uPlot.iife.min.js")},
+                                          {"charts", text("page/charts.js")},
                                           {"script", text("page/report.js")}});
 }
 

@@ -43,8 +43,4 @@ struct ReportData {
 /// shows a part of the box with 4000 particles at most; the page says where.
 std::string report_page(const ReportData& data);
 
-/// "1.234 ± 0.012": the error with two significant digits, the value with as many decimals. Without
-/// a finite error the value has four significant digits; "–" if it is not finite either.
-std::string with_error(double value, double error);
-
 }  // namespace vitrel

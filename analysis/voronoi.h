@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include "core/neighbors/cell_grid.h"
+#include "core/state/configuration.h"
+
+namespace vitrel {
+
+/// One side of a Voronoi cell, and the neighbour beyond it.
+struct VoronoiEdge {
+  Vec2 to;  ///< from the centre of the cell to that of the neighbour, which may be an own image
+  double length;
+};
+
+struct VoronoiCell {
+  double area;
+  std::vector<VoronoiEdge> edges;  ///< counter-clockwise
+};
+
+/// Voronoi cells of the centres in the periodic box: the cell of a particle is all that lies nearer
+/// to its centre than to any other, images included. Cells fill the box, and have six edges on the
+/// average.
+///
+/// Steps for one cell: it begins as the box itself, whose sides are the bisectors to the nearest
+/// own images; every other centre cuts off what lies beyond its bisector, near ones first, until
+/// the next one is more than twice as far as the farthest corner. Where four cells meet in a point
+/// (square lattice), rounding may leave edges of about 1e-16 between opposite ones: weigh
+/// neighbours by the length of the edge.
+///
+/// Positions must be wrapped, and no two of them equal. Cost about O(N) for all cells if the
+/// density is about even.
+class Voronoi {
+ public:
+  explicit Voronoi(const Configuration2& configuration);
+  VoronoiCell cell(std::size_t i) const;
+
+ private:
+  Vec2 lengths_;
+  double reach_;  // within which the neighbours usually are
+  CellGrid<> centres_;
+};
+
+}  // namespace vitrel

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "analysis/blocking.h"
+#include "analysis/contacts.h"
+#include "analysis/order.h"
+#include "app/workflow/prepare.h"
+#include "app/workflow/report/state_page.h"
+#include "mc/probe.h"
+
+/// How good a prepared state is.
+namespace vitrel {
+
+struct Quality {
+  std::size_t particles = 0, rotors = 0;
+  double packing_fraction = 0;
+
+  enum class PressureFrom { nothing, sampling, growth };
+  PressureFrom pressure_from = PressureFrom::nothing;
+  Estimate reduced_pressure{};  ///< that of a growth has no error
+
+  double nematic_order = 0;
+  NematicCorrelation nematic_correlation;
+  HexaticOrder hexatic_order{};
+  std::size_t overlaps = 0;
+  double smallest_gap = 0;  ///< infinity beyond the longest semi-axis
+
+  std::optional<JammedBackbone> backbone;  ///< from least_jammed_pressure on
+  std::optional<Probe> probe;              ///< none if no sweeps were asked for
+};
+
+/// Measures a preparation that has reached its end; the state stays as it is. The pressure is that
+/// of the growth if that was the last stage, else that of a short sampling on a copy. Nothing if
+/// the budget asked to stop.
+std::optional<Quality> measure_quality(const Preparation& preparation, const Parameters& parameters,
+                                       const Budget& budget);
+
+/// The properties, in words and rounded numbers.
+std::vector<QualityRow> quality_rows(const Quality& quality);
+
+}  // namespace vitrel

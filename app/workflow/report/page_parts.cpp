@@ -1,0 +1,89 @@
+#include "app/workflow/report/page_parts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace vitrel {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr std::size_t most_pictured_particles = 4000;
+
+/// The part of the box, as a fraction of its sides about the centre, that is pictured.
+double pictured_fraction(std::size_t particles) {
+  const double share =
+      static_cast<double>(most_pictured_particles) / static_cast<double>(particles);
+  return std::sqrt(std::min(1.0, share));
+}
+
+}  // namespace
+
+json page_number(double value) {
+  if (!std::isfinite(value)) return nullptr;
+  return std::stod(fmt::format("{:.6g}", value));
+}
+
+json picture(const Configuration2& state) {
+  if (state.size() == 0) return nullptr;
+  const double fraction = pictured_fraction(state.size());
+  const Vec2 window = fraction * state.box.lengths();
+  const double margin = fraction < 1 ? largest_circumradius(state) : 0;
+  const auto rounded = [](double value) { return std::round(value * 1000) / 1000; };
+  json particles = json::array();
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    const Vec2& r = state.position[i];
+    if ((r.cwiseAbs() - 0.5 * window).maxCoeff() > margin) continue;
+    const double turn = state.angle[i] - M_PI * std::floor(state.angle[i] / M_PI);
+    for (const double value : {r.x(), r.y(), turn, state.shape[i].a, state.shape[i].b})
+      particles.push_back(rounded(value));
+  }
+  return {{"time", page_number(state.time)},
+          {"window", {page_number(window.x()), page_number(window.y())}},
+          {"periodic", fraction == 1},
+          {"particles", std::move(particles)}};
+}
+
+std::string script_safe(const json& data) {
+  std::string text = data.dump(-1, ' ', false, json::error_handler_t::replace);
+  for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;)
+    text.replace(at, 1, "\\u003c");
+  return text;
+}
+
+std::string grouped(std::uint64_t number) {
+  std::string digits = std::to_string(number);
+  for (std::size_t at = digits.size(); at > 3;) digits.insert(at -= 3, "\u202f");
+  return digits;
+}
+
+std::string with_error(double value, double error) {
+  if (!std::isfinite(value)) return "–";
+  if (!std::isfinite(error)) return fmt::format("{:.4g}", value);
+  if (error == 0) return fmt::format("{:.6g}", value);
+  const int decimals = std::max(0, 1 - static_cast<int>(std::floor(std::log10(error))));
+  // Rounding 0.0996 to two digits gives 0.10: one decimal less.
+  const bool carries = std::round(error * std::pow(10, decimals)) >= 100;
+  const int shown = std::max(0, decimals - (carries ? 1 : 0));
+  return fmt::format("{:.{}f} ± {:.{}f}", value, shown, error, shown);
+}
+
+std::string filled(std::string_view page,
+                   const std::vector<std::pair<std::string_view, std::string>>& texts) {
+  std::string result;
+  while (!page.empty()) {
+    const std::size_t open = page.find("{{");
+    result += page.substr(0, open);
+    if (open == std::string_view::npos) break;
+    const std::size_t close = page.find("}}", open);
+    const std::string_view name = page.substr(open + 2, close - open - 2);
+    for (const auto& [key, text] : texts)
+      if (key == name) result += text;
+    page.remove_prefix(close + 2);
+  }
+  return result;
+}
+
+}  // namespace vitrel

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "app/workflow/report/html.h"
+#include "core/state/configuration.h"
+
+/// What the pages are put together from.
+namespace vitrel {
+
+/// Six significant digits are more than any pixel shows; JSON has no NaN, null stands for it.
+nlohmann::json page_number(double value);
+
+/// These rows of a column.
+template <class Values, class Rows>
+nlohmann::json page_numbers(const Values& values, const Rows& rows) {
+  nlohmann::json array = nlohmann::json::array();
+  for (const std::size_t row : rows) array.push_back(page_number(static_cast<double>(values[row])));
+  return array;
+}
+
+/// The particles of a window about the centre of the box, of 4000 particles at most: x, y, angle
+/// modulo π, a, b one after the other, rounded to a thousandth of the unit of length. Null without
+/// particles.
+nlohmann::json picture(const Configuration2& state);
+
+/// JSON inside a script element: no "<" may be left that could end it.
+std::string script_safe(const nlohmann::json& data);
+
+/// 1234567 with thin spaces between groups of three digits.
+std::string grouped(std::uint64_t number);
+
+/// "1.234 ± 0.012": the error with two significant digits, the value with as many decimals. Without
+/// a finite error the value has four significant digits; "–" if it is not finite either.
+std::string with_error(double value, double error);
+
+/// Replaces every {{name}} of the template by its text, in one pass, so that no text is looked
+/// into.
+std::string filled(std::string_view page,
+                   const std::vector<std::pair<std::string_view, std::string>>& texts);
+
+}  // namespace vitrel

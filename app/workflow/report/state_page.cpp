@@ -1,0 +1,70 @@
+#include "app/workflow/report/state_page.h"
+
+#include <cmath>
+#include <numeric>
+
+#include "app/workflow/report/assets.h"
+#include "app/workflow/report/page_parts.h"
+
+namespace vitrel {
+
+namespace {
+
+using nlohmann::json;
+
+/// Null without values.
+json curve(const std::vector<double>& abscissa, const std::vector<double>& value) {
+  if (value.empty()) return nullptr;
+  std::vector<std::size_t> rows(value.size());
+  std::iota(rows.begin(), rows.end(), 0);
+  return {{"time", page_numbers(abscissa, rows)}, {"value", page_numbers(value, rows)}};
+}
+
+/// Bins with pairs only.
+json correlation(const NematicCorrelation& correlation) {
+  std::vector<std::size_t> rows;
+  std::vector<double> error;
+  for (std::size_t k = 0; k < correlation.pairs.size(); ++k) {
+    error.push_back(1 / std::sqrt(2 * static_cast<double>(correlation.pairs[k])));
+    if (correlation.pairs[k] > 0) rows.push_back(k);
+  }
+  if (rows.empty()) return nullptr;
+  return {{"time", page_numbers(correlation.distance, rows)},
+          {"value", page_numbers(correlation.value, rows)},
+          {"error", page_numbers(error, rows)}};
+}
+
+std::string table_row(const QualityRow& row) {
+  return "<tr><th scope=\"row\">" + escaped(row.name) + "</th><td>" + escaped(row.value) +
+         "</td><td>" + escaped(row.remark) + "</td></tr>\n";
+}
+
+}  // namespace
+
+std::string state_page(const StatePage& page) {
+  std::string rows;
+  for (const QualityRow& row : page.rows) rows += table_row(row);
+  const json data = {{"label", page.title},
+                     {"particles", page.state.size()},
+                     {"rotors", rotor_count(page.state)},
+                     {"state", picture(page.state)},
+                     {"correlation", correlation(page.nematic_correlation)},
+                     {"order", page_number(page.nematic_order)},
+                     {"orientation", curve(page.sweeps, page.orientation)},
+                     {"displacement", curve(page.sweeps, page.displacement)}};
+  const auto text = [](std::string_view path) { return std::string(asset(path)); };
+  return filled(asset("page/state.html"), {{"title", escaped(page.title)},
+                                           {"subtitle", escaped(page.subtitle)},
+                                           {"uplot_style", text("vendor/uplot/uPlot.min.css")},
+                                           {"style", text("page/report.css")},
+                                           {"rows", rows},
+                                           {"parameters", escaped(page.parameters)},
+                                           {"provenance", provenance_entries(page.provenance)},
+                                           {"data", script_safe(data)},
+                                           {"uplot_licence", text("vendor/uplot/LICENSE")},
+                                           {"uplot", text("vendor/uplot/uPlot.iife.min.js")},
+                                           {"charts", text("page/charts.js")},
+                                           {"script", text("page/state.js")}});
+}
+
+}  // namespace vitrel

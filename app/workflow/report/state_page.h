@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "analysis/order.h"
+#include "app/workflow/report/html.h"
+#include "core/state/configuration.h"
+
+/// The report of one prepared state: one HTML page that needs nothing beside it.
+namespace vitrel {
+
+/// One property of a state, for a person.
+struct QualityRow {
+  std::string name;
+  std::string value;
+  std::string remark;  ///< how it was found, or what to compare it with; may be empty
+};
+
+struct StatePage {
+  std::string title;
+  std::string subtitle;  ///< one line below it: what was prepared
+  std::vector<QualityRow> rows;
+  Configuration2 state;
+  NematicCorrelation nematic_correlation;  ///< not shown if empty
+  double nematic_order = 0;                ///< S² is marked in the chart of the correlation
+  /// After so many sweeps from the state on; nothing is shown of what is empty.
+  std::vector<double> sweeps, orientation, displacement;
+  std::string parameters;     ///< TOML text
+  PageProvenance provenance;  ///< shown if not empty
+};
+
+/// The page as HTML: table of the rows, the particles coloured by their orientation (of more than
+/// 4000 a part), nematic correlation with its scatter, and both time correlations.
+std::string state_page(const StatePage& page);
+
+}  // namespace vitrel

@@ -1,0 +1,90 @@
+#include "mc/probe.h"
+
+#include <cmath>
+
+#include "mc/contact_pressure.h"
+#include "mc/sampler.h"
+
+namespace vitrel {
+
+namespace {
+
+constexpr std::uint64_t tuning_share = 5;  // a fifth of the sweeps
+constexpr std::uint64_t sweeps_per_tuning = 5, sweeps_per_pressure = 5;
+const double spacing = std::pow(10, 1.0 / 30) * (1 - 1e-9);
+
+/// C₂ between two configurations of the same particles.
+double orientation_correlation(const Configuration2& before, const Configuration2& now) {
+  double sum = 0;
+  for (std::size_t i = 0; i < now.size(); ++i)
+    if (!now.shape[i].is_round()) sum += std::cos(2 * (now.angle[i] - before.angle[i]));
+  return sum / static_cast<double>(rotor_count(now));
+}
+
+double displacement_in_widths(const Configuration2& before, const Configuration2& now) {
+  double sum = 0;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    const double width = 2 * now.shape[i].b;
+    sum += (now.unwrapped(i) - before.unwrapped(i)).squaredNorm() / (width * width);
+  }
+  return std::sqrt(sum / static_cast<double>(now.size()));
+}
+
+/// Compares later configurations with one.
+class Comparison {
+ public:
+  Comparison(const Configuration2& start, Probe& result)
+      : start_(start), rotors_(rotor_count(start) > 0), result_(result) {}
+
+  void look(const Configuration2& now, std::uint64_t t) {
+    const double moved = displacement_in_widths(start_, now);
+    if (!result_.place_lost && moved > 1) result_.place_lost = t;
+    const double kept = rotors_ ? orientation_correlation(start_, now) : 1;
+    if (!result_.orientation_lost && kept < std::exp(-1)) result_.orientation_lost = t;
+    result_.measured = t;
+    const auto time = static_cast<double>(t);
+    if (!result_.sweeps.empty() && time < spacing * result_.sweeps.back()) return;
+    result_.sweeps.push_back(time);
+    result_.displacement.push_back(moved);
+    if (rotors_) result_.orientation.push_back(kept);
+  }
+
+ private:
+  const Configuration2 start_;
+  const bool rotors_;
+  Probe& result_;
+};
+
+}  // namespace
+
+std::optional<Probe> probe(const Configuration2& configuration, std::uint64_t sweeps,
+                           std::uint64_t seed, std::uint64_t first_sweep, const Budget& budget) {
+  Configuration2 copy = configuration;
+  Sampler sampler(copy, seed, first_sweep);
+  const auto sweep = [&](std::uint64_t done) {
+    if (budget.stop_requested()) return false;
+    sampler.sweep();
+    budget.tell({static_cast<double>(done + 1) / static_cast<double>(sweeps),
+                 static_cast<double>(done + 1), "sweep"});
+    return true;
+  };
+  const std::uint64_t tuning = sweeps / tuning_share;
+  for (std::uint64_t k = 0; k < tuning; ++k) {
+    if (!sweep(k)) return std::nullopt;
+    if ((k + 1) % sweeps_per_tuning == 0) sampler.tune();
+  }
+  Probe result;
+  Comparison comparison(copy, result);
+  ContactPressure pressure;
+  for (std::uint64_t t = 1; t <= sweeps - tuning; ++t) {
+    if (!sweep(tuning + t - 1)) return std::nullopt;
+    comparison.look(copy, t);
+    if (t % sweeps_per_pressure != 1) continue;
+    pressure.add(copy);
+    result.compressibility.push_back(pressure.compressibility());
+    pressure.clear();
+  }
+  return result;
+}
+
+}  // namespace vitrel

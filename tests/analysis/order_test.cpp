@@ -1,0 +1,232 @@
+#include "analysis/order.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/random/stream.h"
+#include "tests/support/scenes.h"
+
+namespace vitrel {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// n ellipses at random places and angles; they may overlap.
+Configuration2 gas(std::size_t n, std::uint64_t seed) {
+  Configuration2 c;
+  c.resize(n);
+  const double length = std::sqrt(10.0 * static_cast<double>(n));
+  c.box = PeriodicBox<2>(Vec2(length, 1.2 * length));
+  Stream draw(seed, Purpose::tests);
+  for (std::size_t i = 0; i < n; ++i) {
+    c.shape[i] = of_aspect_ratio(2);
+    c.position[i] = {length * draw.uniform(-0.5, 0.5), 1.2 * length * draw.uniform(-0.5, 0.5)};
+    c.angle[i] = draw.uniform(-3 * pi, 3 * pi);
+  }
+  return c;
+}
+
+/// Columns × (2 half_rows) points of a triangular lattice with unit spacing, stretched along x.
+Configuration2 triangular_lattice(int columns, int half_rows, double stretch) {
+  Configuration2 c;
+  const Vec2 lengths(columns * stretch, half_rows * std::sqrt(3.0));
+  c.box = PeriodicBox<2>(lengths);
+  c.resize(static_cast<std::size_t>(2 * columns * half_rows));
+  std::size_t i = 0;
+  for (int row = 0; row < 2 * half_rows; ++row)
+    for (int column = 0; column < columns; ++column, ++i) {
+      c.position[i] =
+          Vec2((column + 0.5 * (row % 2) + 0.1) * stretch, (row + 0.2) * std::sqrt(0.75)) -
+          0.5 * lengths;
+      c.box.wrap(c.position[i], c.image[i]);
+    }
+  return c;
+}
+
+TEST(NematicOrder, IsZeroForCrossedPairsAndForDisks) {
+  Configuration2 state;
+  state.resize(2);
+  EXPECT_EQ(nematic_order(state), 0);
+  state.shape = {{2, 1}, {2, 1}};
+  state.angle = {0.3, 0.3 + pi / 2};
+  EXPECT_NEAR(nematic_order(state), 0, 1e-15);
+  state.angle = {0.3, 0.3 + pi};
+  EXPECT_NEAR(nematic_order(state), 1, 1e-15);
+}
+
+TEST(NematicOrder, LeavesRoundParticlesOut) {
+  Configuration2 state;
+  state.resize(3);
+  state.shape = {{2, 1}, {1, 1}, {2, 1}};
+  state.angle = {0.4, 0.4 + pi / 2, 0.4};
+  EXPECT_NEAR(nematic_order(state), 1, 1e-15);
+}
+
+// ⟨S²⟩ = 1/R for independent angles, with the standard deviation 1/R of an exponential
+// distribution; 400 systems, five standard errors.
+TEST(NematicOrder, OfARandomGasIsThatOfARandomWalk) {
+  double sum = 0;
+  for (std::uint64_t seed = 0; seed < 400; ++seed) sum += std::pow(nematic_order(gas(50, seed)), 2);
+  EXPECT_NEAR(50 * sum / 400, 1, 5.0 / 20);
+}
+
+TEST(NematicCorrelation, IsOneWhereAllAreParallel) {
+  Configuration2 c = gas(200, 1);
+  for (std::size_t i = 0; i < c.size(); ++i) c.angle[i] = 0.7 + pi * static_cast<double>(i);
+  const NematicCorrelation g = nematic_correlation(c, 1);
+  EXPECT_EQ(g.distance.size(), 22u);  // half of √2000 = 44.7, by 1
+  for (std::size_t k = 0; k < g.value.size(); ++k) {
+    if (g.pairs[k] > 0) {
+      EXPECT_NEAR(g.value[k], 1, 1e-10);
+    }
+  }
+  EXPECT_EQ(correlation_length(g), std::numeric_limits<double>::infinity());
+}
+
+// Crosswise neighbours on the square lattice: −1 at distances √(m² + n²) with m + n odd, else 1.
+TEST(NematicCorrelation, OfACheckerboard) {
+  const int side = 12;
+  Configuration2 c = square_lattice(side, 0.4, 0, [](std::size_t) { return Ellipse{1.2, 0.8}; });
+  for (std::size_t i = 0; i < c.size(); ++i)
+    c.angle[i] = (i % side + i / side) % 2 ? 0.3 : 0.3 + pi / 2;
+  const double spacing = c.box.lengths().x() / side;
+  const NematicCorrelation g = nematic_correlation(c, 0.11 * spacing);
+  const auto at = [&](double r) {
+    return static_cast<std::size_t>(r * spacing / (2 * g.distance.front()));
+  };
+  const std::size_t n = c.size();
+  for (const auto& [r, sign, neighbours] : {std::tuple{1.0, -1, 4},
+                                            {std::sqrt(2.0), 1, 4},
+                                            {2.0, 1, 4},
+                                            {std::sqrt(5.0), -1, 8},
+                                            {3.0, -1, 4}}) {
+    EXPECT_NEAR(g.value[at(r)], sign, 1e-12) << r;
+    EXPECT_EQ(g.pairs[at(r)], n * static_cast<std::size_t>(neighbours) / 2) << r;
+  }
+  EXPECT_EQ(g.pairs[at(0.5)], 0u);
+  EXPECT_TRUE(std::isnan(g.value[at(0.5)]));
+}
+
+// Each bin scatters by 1/√(2 pairs), so χ² per bin is 1, with standard deviation √(2/bins) — the
+// pairs of a bin are uncorrelated, though not independent. Five standard deviations.
+TEST(NematicCorrelation, OfARandomGasIsZeroWithinItsScatter) {
+  double chi_squared = 0, bins = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const NematicCorrelation g = nematic_correlation(gas(300, seed), 2);
+    for (std::size_t k = 0; k < g.value.size(); ++k) {
+      if (g.pairs[k] < 20) continue;
+      chi_squared += 2 * static_cast<double>(g.pairs[k]) * g.value[k] * g.value[k];
+      ++bins;
+    }
+  }
+  EXPECT_GT(bins, 250);
+  EXPECT_NEAR(chi_squared / bins, 1, 5 * std::sqrt(2 / bins));
+}
+
+// All pairs nearer than half the box, which the mean number of neighbours knows.
+TEST(NematicCorrelation, CountsEveryPairOnce) {
+  const Configuration2 c = gas(300, 4);
+  const double range = 0.5 * c.box.lengths().minCoeff();
+  std::size_t expected = 0, counted = 0;
+  for (std::size_t i = 0; i < c.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      c.box.for_each_image(c.position[j] - c.position[i], range,
+                           [&](const Shift<2>&, const Vec2&) { ++expected; });
+  for (const std::size_t pairs : nematic_correlation(c, 0.7).pairs) counted += pairs;
+  EXPECT_EQ(counted, expected);
+}
+
+// Beyond 4096 particles only some are origins: 5000 are thinned to every second. Pairs of two
+// origins count once, pairs of none not at all: 1 − 1/4 of all.
+TEST(NematicCorrelation, ThinsTheOriginsOfLargeSystems) {
+  const Configuration2 c = gas(5000, 6);
+  const double range = 0.5 * c.box.lengths().minCoeff();
+  std::size_t counted = 0;
+  const NematicCorrelation g = nematic_correlation(c, 0.5);
+  for (const std::size_t pairs : g.pairs) counted += pairs;
+  const double all = 0.5 * 5000 * 4999 * pi * range * range / c.box.volume();
+  // Poisson scatter of the count, five standard deviations.
+  EXPECT_NEAR(static_cast<double>(counted), 0.75 * all, 5 * std::sqrt(0.75 * all));
+}
+
+TEST(NematicCorrelation, NeedsTwoParticlesThatAreNotRound) {
+  Configuration2 c = gas(3, 1);
+  c.shape[0] = c.shape[2] = {1, 1};
+  EXPECT_TRUE(nematic_correlation(c, 1).distance.empty());
+  EXPECT_EQ(correlation_length(nematic_correlation(c, 1)), 0);
+}
+
+TEST(CorrelationLength, IsTheFarEndOfTheLastBinAboveOneOverE) {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  NematicCorrelation g{{0.5, 1.5, 2.5, 3.5}, {none, 0.9, 0.2, 0.1}, {0, 5, 5, 5}};
+  EXPECT_EQ(correlation_length(g), 2);
+  g.value[2] = 0.4;
+  EXPECT_EQ(correlation_length(g), 3);
+  g.value = {none, 0.3, 0.2, none};
+  g.pairs[3] = 0;
+  EXPECT_EQ(correlation_length(g), 0);
+  g.value[2] = 0.4;
+  EXPECT_EQ(correlation_length(g), std::numeric_limits<double>::infinity());
+}
+
+TEST(HexaticOrder, IsOneOnTheTriangularLattice) {
+  const HexaticOrder order = hexatic_order(triangular_lattice(6, 4, 1));
+  EXPECT_NEAR(order.global, 1, 1e-12);
+  EXPECT_NEAR(order.local, 1, 1e-12);
+}
+
+TEST(HexaticOrder, IsZeroOnTheSquareLattice) {
+  const HexaticOrder order = hexatic_order(square_lattice(7, 0.5, 0, [](std::size_t) {
+    return Ellipse{1, 1};
+  }));
+  EXPECT_NEAR(order.global, 0, 1e-12);
+  EXPECT_NEAR(order.local, 0, 1e-12);
+}
+
+// The triangular lattice stretched by s along x: neighbours at (±s, 0) and (±s/2, ±h), h = √(3)/2.
+// The corners of the cell are the circumcentres of the triangles, at (0, ±y₀), y₀ = h/2 + s²/(8h),
+// and (±s/2, ±y₁), y₁ = h − y₀. So the edge to (s, 0) has the length 2 y₁, the others √(s²/4 + (y₀
+// − y₁)²).
+TEST(HexaticOrder, OfAStretchedTriangularLattice) {
+  for (const double s : {1.05, 1.2, 1.35}) {
+    const double h = std::sqrt(0.75), y0 = h / 2 + s * s / (8 * h), y1 = h - y0;
+    const double along = 2 * y1, oblique = std::hypot(s / 2, y0 - y1);
+    const double wanted =
+        (2 * along + 4 * oblique * std::cos(6 * std::atan2(h, s / 2))) / (2 * along + 4 * oblique);
+    const HexaticOrder order = hexatic_order(triangular_lattice(8, 5, s));
+    EXPECT_NEAR(order.global, std::abs(wanted), 1e-12) << s;
+    EXPECT_NEAR(order.local, std::abs(wanted), 1e-12) << s;
+  }
+}
+
+// Two crystallites turned by 30° against each other would cancel; a small displacement of one
+// particle changes the order only a little, also on the square lattice.
+TEST(HexaticOrder, IsContinuous) {
+  Configuration2 c = square_lattice(6, 0.5, 0, [](std::size_t) { return Ellipse{1, 1}; });
+  const double small = 1e-6;
+  c.position[7] += Vec2(small, 0.4 * small);
+  EXPECT_LT(hexatic_order(c).local, 10 * small);
+  EXPECT_GT(hexatic_order(c).local, 1e-3 * small);
+}
+
+// No order of long range: Σψ of a gas grows like √N, so N |⟨ψ⟩|² has the same mean for all N. The
+// correlations of neighbouring cells make it a little other than the mean of |ψ|².
+TEST(HexaticOrder, OfARandomGasVanishesLikeOneOverRootN) {
+  const auto mean_square = [](std::size_t n, std::uint64_t systems) {
+    double sum = 0;
+    for (std::uint64_t seed = 0; seed < systems; ++seed)
+      sum += std::pow(hexatic_order(gas(n, seed)).global, 2);
+    return static_cast<double>(n) * sum / static_cast<double>(systems);
+  };
+  // |⟨ψ⟩|² is exponentially distributed: relative standard errors of 1/√200 each, 5 of the
+  // difference.
+  const double few = mean_square(50, 200), many = mean_square(800, 200);
+  EXPECT_NEAR(std::log(many / few), 0, 5 * std::sqrt(2.0 / 200));
+  EXPECT_GT(hexatic_order(gas(800, 1)).local, 0.2);
+}
+
+}  // namespace
+}  // namespace vitrel

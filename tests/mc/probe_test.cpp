@@ -1,0 +1,157 @@
+#include "mc/probe.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mc/contact_pressure.h"
+#include "mc/disjoint.h"
+#include "mc/lattice.h"
+#include "mc/sampler.h"
+#include "tests/support/scenes.h"
+#include "tests/support/statistics.h"
+
+namespace vitrel {
+namespace {
+
+Configuration2 dilute(double aspect_ratio) {
+  return square_lattice(10, 0.2, 0, [&](std::size_t) { return of_aspect_ratio(aspect_ratio); });
+}
+
+TEST(Probe, LeavesTheStateAndNumbersItsSweeps) {
+  const Configuration2 state = dilute(2);
+  const auto one = probe(state, 50, 7, 3, {}), same = probe(state, 50, 7, 3, {});
+  ASSERT_TRUE(one && same);
+  EXPECT_EQ(one->orientation, same->orientation);
+  EXPECT_EQ(one->compressibility, same->compressibility);
+  EXPECT_NE(one->orientation, probe(state, 50, 7, 4, {})->orientation);
+  EXPECT_NE(one->orientation, probe(state, 50, 8, 3, {})->orientation);
+  EXPECT_EQ(one->measured, 40u);
+  EXPECT_EQ(one->compressibility.size(), 8u);
+}
+
+// By hand, with the sampler itself: a fifth of 500 sweeps with a tuning after every fifth one, then 400
+// with fixed steps.
+TEST(Probe, MeasuresWhatTheSamplerDoes) {
+  const Configuration2 state = dilute(2);
+  const auto result = probe(state, 500, 7, 3, {});
+  ASSERT_TRUE(result);
+  Configuration2 copy = state;
+  Sampler sampler(copy, 7, 3);
+  for (int k = 1; k <= 100; ++k) {
+    sampler.sweep();
+    if (k % 5 == 0) sampler.tune();
+  }
+  const Configuration2 start = copy;
+  std::vector<double> orientation, displacement, pressures;
+  ContactPressure pressure;
+  for (int t = 1; t <= 400; ++t) {
+    sampler.sweep();
+    double kept = 0, moved = 0;
+    for (std::size_t i = 0; i < copy.size(); ++i) {
+      kept += std::cos(2 * copy.angle[i] - 2 * start.angle[i]) / 100;
+      moved += (copy.unwrapped(i) - start.unwrapped(i)).squaredNorm() / 100;
+    }
+    orientation.push_back(kept);
+    displacement.push_back(std::sqrt(moved) / std::sqrt(2.0));  // 2b = √2
+    if (t % 5 != 1) continue;
+    pressure.clear();
+    pressure.add(copy);
+    pressures.push_back(pressure.compressibility());
+  }
+  EXPECT_EQ(result->compressibility, pressures);
+  ASSERT_EQ(result->sweeps.front(), 1);
+  for (std::size_t k = 0; k < result->sweeps.size(); ++k) {
+    const auto t = static_cast<std::size_t>(result->sweeps[k]);
+    EXPECT_NEAR(result->orientation[k], orientation[t - 1], 1e-12);
+    EXPECT_NEAR(result->displacement[k], displacement[t - 1], 1e-12 * displacement[t - 1]);
+  }
+  const auto first = [](const std::vector<double>& values, const auto& holds) {
+    return static_cast<std::uint64_t>(std::find_if(values.begin(), values.end(), holds) -
+                                      values.begin()) +
+           1;
+  };
+  EXPECT_EQ(result->orientation_lost,
+            first(orientation, [](double c) { return c < std::exp(-1); }));
+  EXPECT_EQ(result->place_lost, first(displacement, [](double moved) { return moved > 1; }));
+  // Far enough that some particles left the box.
+  EXPECT_GT(displacement.back(), 1);
+}
+
+// Monte Carlo of the ideal gas is a random walk. Each particle is tried once a sweep on the
+// average, a number of Poisson distribution, half of the times turned by up to ± w: C₂(t) =
+// exp(−t/2 (1 − sin(2w)/(2w))). All steps are accepted, so tuning makes them as large as it may: w
+// = π/2, where sin 2w = 0.
+TEST(Probe, OrientationsOfAnIdealGasAreLostAtAKnownRate) {
+  Configuration2 state = dilute(1.5);
+  for (Ellipse& shape : state.shape) shape = scaled(shape, 1e-3);
+  const auto result = probe(state, 500, 1, 0, {});
+  ASSERT_TRUE(result && result->orientation.size() > 3);
+  // C₂ of 100 particles scatters by less than 1/√200; five standard deviations.
+  for (const std::size_t k : {0u, 1u, 2u})
+    EXPECT_NEAR(result->orientation[k], std::exp(-0.5 * result->sweeps[k]), 5 / std::sqrt(200.0));
+  ASSERT_TRUE(result->orientation_lost);
+  EXPECT_GE(*result->orientation_lost, 1u);
+  EXPECT_LE(*result->orientation_lost, 4u);
+  EXPECT_EQ(*result->place_lost, 1u);
+}
+
+TEST(Probe, DenseCrystalsKeepTheirPlacesAndOrientations) {
+  Configuration2 state = dilute(2);
+  scale_to_packing_fraction(state, 0.88);
+  place_on_lattice(state, {Arrangement::triangular, 0});
+  const auto result = probe(state, 200, 1, 0, {});
+  ASSERT_TRUE(result);
+  EXPECT_FALSE(result->orientation_lost);
+  EXPECT_FALSE(result->place_lost);
+  EXPECT_GT(result->orientation.back(), 0.9);
+  EXPECT_LT(result->displacement.back(), 0.5);
+  EXPECT_GT(result->displacement.back(), 0);
+}
+
+TEST(Probe, RoundParticlesHaveNoOrientationToLose) {
+  const auto result = probe(dilute(1), 1000, 1, 0, {});
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(result->orientation.empty());
+  EXPECT_FALSE(result->orientation_lost);
+  EXPECT_TRUE(result->place_lost);
+}
+
+TEST(Probe, EvenOneSweepIsMeasured) {
+  const auto result = probe(dilute(2), 1, 1, 0, {});
+  ASSERT_TRUE(result);
+  EXPECT_EQ(result->measured, 1u);
+  EXPECT_EQ(result->compressibility.size(), 1u);
+}
+
+// Z(0.3) = 2.063261 for disks (Kolafa & Rottner 2006). 240 configurations of 400 disks in ten
+// blocks, five standard errors: with ten blocks, a false alarm in 1500.
+TEST(Probe, ThePressureIsThatOfTheDiskFluid) {
+  const Configuration2 state = square_lattice(20, 0.3, 0, [](std::size_t) {
+    return Ellipse{1, 1};
+  });
+  const auto result = probe(state, 1500, 2, 0, {});
+  ASSERT_TRUE(result);
+  std::vector<double> blocks;
+  for (std::size_t k = 0; k + 24 <= result->compressibility.size(); k += 24) {
+    double sum = 0;
+    for (std::size_t m = 0; m < 24; ++m) sum += result->compressibility[k + m] / 24;
+    blocks.push_back(sum);
+  }
+  ASSERT_EQ(blocks.size(), 10u);
+  const Estimate z = estimate(blocks);
+  EXPECT_LT(z.error, 0.02);
+  EXPECT_NEAR(z.mean, 2.063261, 5 * z.error);
+}
+
+TEST(Probe, TheBudgetStopsIt) {
+  Budget budget;
+  int asked = 0;
+  budget.should_stop = [&] { return ++asked > 3; };
+  EXPECT_FALSE(probe(dilute(2), 50, 1, 0, budget));
+  EXPECT_EQ(asked, 4);
+}
+
+}  // namespace
+}  // namespace vitrel
