@@ -43,7 +43,7 @@ struct Effort {
   double twin_seconds = 8;
   int largest = 1'000'000;
 };
-const Effort quick{2, 0.01, 100, 64, 36, {{1, 1}, {2, 2}}, {10, 30}, 30, 30, 0.02};
+const Effort quick{2, 0.01, 100, 64, 64, {{1, 1}, {2, 2}}, {10, 30}, 30, 30, 0.02};
 
 void say(const std::string& what) {
   fmt::print(stderr, "{}\n", what);
