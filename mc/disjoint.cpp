@@ -62,12 +62,16 @@ double shrink_to_contact(const Configuration2& configuration, double lowest) {
   return factor;
 }
 
-void scale_box(Configuration2& configuration, double factor) {
-  configuration.box = PeriodicBox<2>(configuration.box.lengths() * factor);
+void scale_box(Configuration2& configuration, const Vec2& factors) {
+  configuration.box = PeriodicBox<2>(configuration.box.lengths().cwiseProduct(factors));
   for (std::size_t i = 0; i < configuration.size(); ++i) {
-    configuration.position[i] *= factor;
+    configuration.position[i] = configuration.position[i].cwiseProduct(factors);
     configuration.box.wrap(configuration.position[i], configuration.image[i]);
   }
+}
+
+void scale_box(Configuration2& configuration, double factor) {
+  scale_box(configuration, Vec2(factor, factor));
 }
 
 void scale_to_packing_fraction(Configuration2& configuration, double packing_fraction) {

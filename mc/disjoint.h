@@ -47,7 +47,9 @@ std::optional<std::pair<std::size_t, std::size_t>> find_overlap(
 /// already. From max F = μ² of every pair (perram_wertheim.h): the pair touches at 1/μ.
 double shrink_to_contact(const Configuration2& configuration, double lowest);
 
-/// Scales the box and all positions by a factor; shapes stay.
+/// Scales the sides of the box and all positions by these factors; shapes stay.
+void scale_box(Configuration2& configuration, const Vec2& factors);
+/// The same by one factor for both sides.
 void scale_box(Configuration2& configuration, double factor);
 
 /// Scales to this packing fraction exactly (to rounding).

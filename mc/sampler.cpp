@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <mutex>
 #include <numbers>
@@ -52,15 +53,23 @@ Sampler::Sampler(Configuration2& configuration, std::uint64_t seed, std::uint64_
                  int threads)
     : configuration_(configuration),
       largest_(largest_circumradius(configuration)),
-      margin_(hard_margin(configuration)),
-      half_box_(0.5 * configuration.box.lengths()),
-      shortest_side_(configuration.box.lengths().minCoeff()),
       threads_(threads),
-      board_(configuration.box, reach_of(largest_, margin_), configuration.size()),
       seed_(seed),
       sweep_(first_sweep) {
   axis_.reserve(configuration.size());
   for (double angle : configuration.angle) axis_.push_back(axis_at(angle));
+  fit_box();
+}
+
+void Sampler::fit_box() {
+  margin_ = hard_margin(configuration_);
+  half_box_ = 0.5 * configuration_.box.lengths();
+  shortest_side_ = configuration_.box.lengths().minCoeff();
+  fit_board();
+}
+
+void Sampler::fit_board() {
+  board_.emplace(configuration_.box, reach_of(largest_, margin_), configuration_.size());
   arrange();
 }
 
@@ -71,9 +80,9 @@ void Sampler::set_steps(double translation, double rotation) {
 
 void Sampler::sweep() {
   Stream draw(seed_, Purpose::trial_moves, sweep_, 0);
-  board_.shift(draw);
+  board_->shift(draw);
   arrange();
-  const auto colours = board_.colours();
+  const auto colours = board_->colours();
   std::vector<std::size_t> order(colours.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   for (std::size_t k = order.size(); k > 1; --k) std::swap(order[k - 1], order[draw.below(k)]);
@@ -86,32 +95,32 @@ void Sampler::arrange() {
   const std::size_t n = configuration_.size();
   order_.resize(n);
   cell_of_.resize(n);
-  begin_.assign(board_.cells(), 0);
+  begin_.assign(board_->cells(), 0);
   for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t cell = board_.index(board_.cell_of(configuration_.position[i]));
+    const std::size_t cell = board_->index(board_->cell_of(configuration_.position[i]));
     cell_of_[i] = static_cast<LaneCells::Index>(cell);
     ++begin_[cell];
   }
   domain_begin_.clear();
   LaneCells::Index before = 0;
-  for (std::size_t domain = 0; domain < board_.domains(); ++domain) {
+  for (std::size_t domain = 0; domain < board_->domains(); ++domain) {
     domain_begin_.push_back(before);
-    board_.for_each_cell(domain,
-                         [&](std::size_t cell) { before += std::exchange(begin_[cell], before); });
+    board_->for_each_cell(domain,
+                          [&](std::size_t cell) { before += std::exchange(begin_[cell], before); });
   }
   domain_begin_.push_back(before);
   for (std::size_t i = 0; i < n; ++i)
     order_[begin_[cell_of_[i]]++] = static_cast<LaneCells::Index>(i);
 
-  cells_.resize(board_.cells(), n);
-  spare_.assign(board_.domains(), LaneCells::Spare(LaneCells::none));
-  in_parallel(board_.domains(), threads_, [&](std::size_t begin, std::size_t end) {
+  cells_.resize(board_->cells(), n);
+  spare_.assign(board_->domains(), LaneCells::Spare(LaneCells::none));
+  in_parallel(board_->domains(), threads_, [&](std::size_t begin, std::size_t end) {
     for (std::size_t domain = begin; domain < end; ++domain) fill_domain(domain);
   });
 }
 
 void Sampler::fill_domain(std::size_t domain) {
-  board_.for_each_cell(domain, [&](std::size_t cell) { cells_.clear(cell); });
+  board_->for_each_cell(domain, [&](std::size_t cell) { cells_.clear(cell); });
   const std::size_t begin = domain_begin_[domain], end = domain_begin_[domain + 1];
   spare_[domain] = cells_.spare_groups(begin, end);
   for (std::size_t k = begin; k < end; ++k) {
@@ -161,8 +170,8 @@ void Sampler::translate(std::size_t i, const Words& words, Turn& turn) {
   if (((position.array().abs() >= half_box_.array())).any())
     configuration_.box.wrap(position, crossed);
   ++turn.tally.translations_tried;
-  const Checkerboard::Cell cell = board_.cell_of(position);
-  if (board_.domain_of(cell) != turn.domain) return;
+  const Checkerboard::Cell cell = board_->cell_of(position);
+  if (board_->domain_of(cell) != turn.domain) return;
   // Its own images move along: their distance stays a whole number of box lengths.
   const Ellipse shape = group.shape(lane);
   const Vec2 axis = group.axis(lane);
@@ -171,12 +180,12 @@ void Sampler::translate(std::size_t i, const Words& words, Turn& turn) {
   ++turn.tally.translations_accepted;
   configuration_.position[i] = position;
   configuration_.image[i] += crossed;
-  if (group.cell == board_.index(cell)) {
+  if (group.cell == board_->index(cell)) {
     group.x[lane] = position.x();
     group.y[lane] = position.y();
   } else {
     cells_.remove(i, turn.spare);
-    cells_.insert(i, board_.index(cell), shape, position, axis, turn.spare);
+    cells_.insert(i, board_->index(cell), shape, position, axis, turn.spare);
   }
 }
 
@@ -187,7 +196,7 @@ void Sampler::rotate(std::size_t i, const Words& words, Turn& turn) {
   const Vec2 axis = axis_at(angle), position = group.position(lane);
   const Ellipse shape = group.shape(lane);
   ++turn.tally.rotations_tried;
-  if (!clear_of_others(i, OverlapLook(shape, axis, margin_), position, board_.cell_of(position),
+  if (!clear_of_others(i, OverlapLook(shape, axis, margin_), position, board_->cell_of(position),
                        turn.tally.looks) ||
       !clear_of_itself(shape, axis, margin_))
     return;
@@ -201,18 +210,53 @@ void Sampler::rotate(std::size_t i, const Words& words, Turn& turn) {
 bool Sampler::reshape(std::size_t i, const Ellipse& shape) {
   if (shape.circumradius() > largest_) {
     largest_ = shape.circumradius();
-    board_ = Checkerboard(configuration_.box, reach_of(largest_, margin_), configuration_.size());
-    arrange();
+    fit_board();
   }
   const double margin = 2 * margin_;
   const Vec2 position = configuration_.position[i];
-  if (!clear_of_others(i, OverlapLook(shape, axis_[i], margin), position, board_.cell_of(position),
+  if (!clear_of_others(i, OverlapLook(shape, axis_[i], margin), position, board_->cell_of(position),
                        looks_) ||
       !clear_of_itself(shape, axis_[i], margin))
     return false;
   configuration_.shape[i] = shape;
   cells_.group_of(i).set(cells_.lane_of(i), shape, position, axis_[i]);
   return true;
+}
+
+bool Sampler::rescale(const Vec2& factors) {
+  const PeriodicBox<2> box = configuration_.box;
+  const std::vector<Vec2> position = configuration_.position;
+  const std::vector<Shift<2>> image = configuration_.image;
+  scale_box(configuration_, factors);
+  fit_box();
+  if (is_hard()) return true;
+  configuration_.box = box;
+  configuration_.position = position;
+  configuration_.image = image;
+  fit_box();
+  return false;
+}
+
+// Every pair is looked at twice.
+bool Sampler::is_hard() {
+  std::atomic<bool> hard = true;
+  std::mutex adding;
+  in_parallel(order_.size(), threads_, [&](std::size_t begin, std::size_t end) {
+    Looks mine;
+    for (std::size_t k = begin; k < end && hard; ++k) {
+      const std::size_t i = order_[k];
+      const Ellipse& shape = configuration_.shape[i];
+      const Vec2& position = configuration_.position[i];
+      if (!clear_of_others(i, OverlapLook(shape, axis_[i], margin_), position,
+                           board_->cell_of(position), mine) ||
+          !clear_of_itself(shape, axis_[i], margin_))
+        hard = false;
+    }
+    const std::lock_guard lock(adding);
+    looks_.groups += mine.groups;
+    looks_.alone += mine.alone;
+  });
+  return hard;
 }
 
 bool Sampler::clear_of_others(std::size_t i, const OverlapLook& look, const Vec2& position,
@@ -222,10 +266,10 @@ bool Sampler::clear_of_others(std::size_t i, const OverlapLook& look, const Vec2
   const OverlapLook::Asked all(true);
   OverlapLook::Asked others(true);
   others[static_cast<std::size_t>(cells_.lane_of(i))] = false;
-  for (const Checkerboard::Near& column : board_.near_column(cell.x))
-    for (const Checkerboard::Near& row : board_.near_row(cell.y)) {
+  for (const Checkerboard::Near& column : board_->near_column(cell.x))
+    for (const Checkerboard::Near& row : board_->near_row(cell.y)) {
       const Vec2 offset = Vec2(column.translation, row.translation) - position;
-      std::size_t at = board_.index(column.cell, row.cell);
+      std::size_t at = board_->index(column.cell, row.cell);
       do {
         ++looks.groups;
         const LaneCells::Group& group = cells_[at];

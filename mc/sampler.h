@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/random/stream.h"
@@ -56,6 +57,10 @@ class Sampler {
   /// others (twice, so that scaling all lengths afterwards cannot cost it the margin by rounding).
   bool reshape(std::size_t i, const Ellipse& shape);
 
+  /// Scales the sides of the box and all positions by these factors, if all particles then keep the
+  /// margin to each other; shapes and angles stay.
+  bool rescale(const Vec2& factors);
+
   double translation_step() const { return translation_; }
   double rotation_step() const { return rotation_; }
   void set_steps(double translation, double rotation);
@@ -81,6 +86,9 @@ class Sampler {
   struct Turn;
   using Words = Stream::Block;  // one trial's
 
+  void fit_box();
+  void fit_board();
+  bool is_hard();
   void arrange();
   void fill_domain(std::size_t domain);
   void take_turns(const std::vector<std::size_t>& domains);
@@ -98,7 +106,7 @@ class Sampler {
   double shortest_side_;
   int threads_;
   std::vector<Vec2> axis_;  // unit major axes
-  Checkerboard board_;
+  std::optional<Checkerboard> board_;
   LaneCells cells_;
   std::vector<LaneCells::Index> order_;    // particles, domain by domain and cell by cell
   std::vector<LaneCells::Index> cell_of_;  // of every particle, while sorting

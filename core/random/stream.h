@@ -13,6 +13,7 @@ enum class Purpose : std::uint64_t {
   velocities = 3,
   brownian_step = 4,
   trial_moves = 5,
+  box_trials = 6,
   benchmark_cases = 90,
   tests = 100,
 };
