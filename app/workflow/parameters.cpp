@@ -21,7 +21,8 @@ constexpr double easy_insertion = 0.3;
 using Style = FieldVisitor::TableStyle;
 
 constexpr const char* distribution_names[] = {"gaussian", "lognormal", "uniform"};
-constexpr const char* method_names[] = {"lattice", "insert", "swell", "grow", "sample"};
+constexpr const char* method_names[] = {"lattice", "insert", "swell", "compress", "grow", "sample"};
+constexpr const char* box_names[] = {"isotropic", "anisotropic"};
 constexpr const char* arrangement_names[] = {"square", "triangular"};
 constexpr const char* orientation_names[] = {"random", "aligned"};
 constexpr const char* kind_names[] = {"newtonian", "brownian"};
@@ -95,13 +96,15 @@ void describe_species(Species& p, FieldVisitor& visit) {
 
 void describe_stage(PrepareStage& p, FieldVisitor& visit) {
   using Method = PrepareStage::Method;
-  visit.field({"method", "",
-               "What the stage does. lattice: regular positions; insert: random places without "
-               "overlap, as a start at low density; swell: Monte Carlo while the particles grow to "
-               "the wanted packing fraction; grow: event-driven dynamics while they grow to a "
-               "packing fraction or until they jam; sample: Monte Carlo at constant packing "
-               "fraction."},
-              p.method, method_names);
+  visit.field(
+      {"method", "",
+       "What the stage does. lattice: regular positions; insert: random places without "
+       "overlap, as a start at low density; swell: Monte Carlo while the particles grow to "
+       "the wanted packing fraction; compress: Monte Carlo at constant pressure, in a box that "
+       "changes; grow: event-driven dynamics while they grow to a "
+       "packing fraction or until they jam; sample: Monte Carlo at constant packing "
+       "fraction."},
+      p.method, method_names);
   visit.when(p.method == Method::lattice, "method = \"lattice\"", [&](FieldVisitor& in) {
     in.field({"arrangement", "", "The triangular lattice is stretched along x like the particles."},
              p.lattice.arrangement, arrangement_names);
@@ -109,22 +112,32 @@ void describe_stage(PrepareStage& p, FieldVisitor& visit) {
         {"angle", "radians", "From the x axis to the major axes; 0 on the triangular lattice."},
         p.lattice.angle);
   });
-  const bool has_density =
-      p.method == Method::insert || p.method == Method::swell || p.method == Method::grow;
-  visit.when(has_density, "method = \"insert\", \"swell\" or \"grow\"", [&](FieldVisitor& in) {
-    in.optional({"packing_fraction", "",
-                 "At the end of the stage. If left out: that of the system, but to insert at most "
-                 "0.3, and none to grow to a reduced pressure."},
-                p.packing_fraction, 0.3);
-  });
+  const bool has_density = p.method != Method::lattice && p.method != Method::sample;
+  visit.when(has_density, "method = \"insert\", \"swell\", \"compress\" or \"grow\"",
+             [&](FieldVisitor& in) {
+               in.optional({"packing_fraction", "",
+                            "At the end of the stage. If left out: that of the system, but to "
+                            "insert at most 0.3, and none to compress or to grow to a reduced "
+                            "pressure."},
+                           p.packing_fraction, 0.3);
+             });
   visit.when(p.method == Method::insert, "method = \"insert\"", [&](FieldVisitor& in) {
     in.field({"attempts", "", "Random places tried for one particle before the stage gives up."},
              p.attempts);
     in.field({"orientations", "", "Each particle at random, or all along x."}, p.orientations,
              orientation_names);
   });
-  visit.when(p.method == Method::swell, "method = \"swell\"", [&](FieldVisitor& in) {
-    in.field({"most_sweeps", "", "Sweeps after which the stage gives up."}, p.most_sweeps);
+  const bool gives_up = p.method == Method::swell || p.method == Method::compress;
+  visit.when(gives_up, "method = \"swell\" or \"compress\"", [&](FieldVisitor& in) {
+    in.field({"most_sweeps", "", "Sweeps after which a packing fraction is given up."},
+             p.most_sweeps);
+  });
+  visit.when(p.method == Method::compress, "method = \"compress\"", [&](FieldVisitor& in) {
+    in.field({"pressure", "kT/area", "βP, in units of one over the unit of area."}, p.pressure);
+    in.field({"box", "",
+              "Both sides of the box change by one factor, or one at a time, within a factor 2 of "
+              "their ratio at the start."},
+             p.box, box_names);
   });
   visit.when(p.method == Method::grow, "method = \"grow\"", [&](FieldVisitor& in) {
     in.optional({"reduced_pressure", "",
@@ -136,8 +149,11 @@ void describe_stage(PrepareStage& p, FieldVisitor& visit) {
               "order, and so jams at higher packing fractions."},
              p.growth_rate);
   });
-  visit.when(p.method == Method::sample, "method = \"sample\"", [&](FieldVisitor& in) {
-    in.field({"sweeps", "", "Sweeps; one is as many trial moves as there are particles."},
+  const bool has_length = p.method == Method::sample || p.method == Method::compress;
+  visit.when(has_length, "method = \"sample\" or \"compress\"", [&](FieldVisitor& in) {
+    in.field({"sweeps", "",
+              "Sweeps; one is as many trial moves as there are particles. To compress: without a "
+              "packing fraction."},
              p.sweeps);
   });
 }
@@ -342,9 +358,8 @@ void validate_stages(const std::vector<PrepareStage>& stages, const SystemParame
     rules.require(
         places == (i == 0), "method",
         i == 0 ? "of the first stage must be \"lattice\" or \"insert\", which place the particles"
-               : "of a later stage must be \"swell\", \"grow\" or \"sample\": the particles have "
-                 "their "
-                 "places");
+               : "of a later stage must be \"swell\", \"compress\", \"grow\" or \"sample\": the "
+                 "particles have their places");
     const LatticeOptions& lattice = p.lattice;
     rules.require(std::isfinite(lattice.angle), "angle", "must be a finite number");
     rules.require(
@@ -357,6 +372,7 @@ void validate_stages(const std::vector<PrepareStage>& stages, const SystemParame
                   fmt::format("is {}, but must lie above 0 and not above 0.1, where the surfaces "
                               "grow at a tenth of the thermal speed",
                               show(p.growth_rate)));
+    rules.positive(p.pressure, "pressure");
     if (p.reduced_pressure)
       rules.require(*p.reduced_pressure > 1 && *p.reduced_pressure <= greatest_reduced_pressure,
                     "reduced_pressure",
@@ -376,7 +392,7 @@ void validate_stages(const std::vector<PrepareStage>& stages, const SystemParame
         fmt::format("prepare.stage.{}", stages.size() - 1),
         fmt::format("ends at the packing fraction {}, but system.packing_fraction is {}; let the "
                     "last stage that is not \"sample\" end there (insert: packing_fraction = {}, "
-                    "or a stage that swells or grows)",
+                    "or a stage that swells, compresses or grows)",
                     show(reached), show(system.packing_fraction), show(system.packing_fraction)));
 }
 
@@ -457,6 +473,8 @@ double end_of_stage(const PrepareStage& stage, const SystemParameters& system, d
       return stage.packing_fraction.value_or(std::min(easy_insertion, system.packing_fraction));
     case PrepareStage::Method::swell:
       return stage.packing_fraction.value_or(system.packing_fraction);
+    case PrepareStage::Method::compress:
+      return stage.packing_fraction.value_or(before);
     case PrepareStage::Method::grow:
       if (stage.reduced_pressure) return before;
       return stage.packing_fraction.value_or(system.packing_fraction);
@@ -470,7 +488,9 @@ bool ends_at_pressure(const std::vector<PrepareStage>& stages) {
   const auto last = std::find_if(stages.rbegin(), stages.rend(), [](const PrepareStage& stage) {
     return stage.method != PrepareStage::Method::sample;
   });
-  return last != stages.rend() && last->reduced_pressure.has_value();
+  return last != stages.rend() &&
+         (last->reduced_pressure ||
+          (last->method == PrepareStage::Method::compress && !last->packing_fraction));
 }
 
 FieldVisitor::Inside fields(Parameters& p, const Sections& sections) {

@@ -11,6 +11,7 @@
 #include "core/state/species.h"
 #include "edmd/growth.h"
 #include "edmd/run.h"
+#include "mc/compression.h"
 #include "mc/insertion.h"
 #include "mc/lattice.h"
 #include "mc/swelling.h"
@@ -29,24 +30,26 @@ struct SystemParameters {
 
 /// One stage of the preparation; every method uses its own fields only.
 struct PrepareStage {
-  enum class Method { lattice, insert, swell, grow, sample };
+  enum class Method { lattice, insert, swell, compress, grow, sample };
   enum class Orientations { random, aligned };
 
   Method method = Method::insert;
   LatticeOptions lattice;
   std::uint64_t attempts = InsertionOptions().attempts;
   Orientations orientations = Orientations::random;
-  std::optional<double> packing_fraction;  ///< of insert, swell and grow; see end_of_stage
+  std::optional<double> packing_fraction;  ///< of all but lattice and sample; see end_of_stage
   std::optional<double> reduced_pressure;  ///< of grow
   double growth_rate = GrowthOptions().growth_rate;
+  double pressure = CompressionOptions().pressure;
+  BoxChange box = CompressionOptions().change;
   std::uint64_t most_sweeps = SwellingOptions().sweeps;
   std::uint64_t sweeps = 1000;
 };
 
-/// The packing fraction at which a stage ends, for one that begins at `before`; of one that grows to
-/// a reduced pressure, the one it begins at, since it ends beyond in an unknown place.
+/// The packing fraction at which a stage ends, for one that begins at `before`; of one that a pressure
+/// ends, the one it begins at, since it ends in an unknown place.
 double end_of_stage(const PrepareStage& stage, const SystemParameters& system, double before);
-/// Whether a reduced pressure decides at which packing fraction the preparation ends.
+/// Whether a pressure decides at which packing fraction the preparation ends.
 bool ends_at_pressure(const std::vector<PrepareStage>& stages);
 
 struct DynamicsParameters {

@@ -38,6 +38,10 @@ class Preparer {
         return fmt::format("insert at packing fraction {:.4g}", goal);
       case Method::swell:
         return fmt::format("swell to packing fraction {:.4g}", goal);
+      case Method::compress:
+        return stage.packing_fraction ? fmt::format("compress to packing fraction {:.4g}", goal)
+                                      : fmt::format("compress at pressure {:.4g} for {} sweeps",
+                                                    stage.pressure, stage.sweeps);
       case Method::grow:
         return stage.reduced_pressure
                    ? fmt::format("grow to reduced pressure {:.4g}", *stage.reduced_pressure)
@@ -82,6 +86,11 @@ class Preparer {
       case Method::swell:
         return swell(configuration, {goal, stage.most_sweeps, threads_}, seed, result.next_sweep,
                      budget_);
+      case Method::compress:
+        return compress(configuration,
+                        {stage.pressure, stage.box, stage.packing_fraction,
+                         stage.packing_fraction ? stage.most_sweeps : stage.sweeps, threads_},
+                        seed, result.next_sweep, budget_);
       case Method::grow:
         return grow_stage(stage, goal);
       case Method::sample:
