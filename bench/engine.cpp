@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <chrono>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -18,7 +17,7 @@
 #include "bench/lab/methods/method.h"
 #include "bench/lab/twins/all_pairs.h"
 #include "bench/lab/twins/engine_twins.h"
-#include "core/io/provenance.h"
+#include "bench/parts.h"
 #include "core/neighbors/neighborhood.h"
 #include "edmd/brownian.h"
 #include "edmd/instances/instances.h"
@@ -27,8 +26,6 @@
 
 namespace vitrel::lab {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// How much is measured, and for how long.
 struct Effort {
@@ -351,27 +348,10 @@ Json measure_lazy_refinement(const Effort& effort) {
 
 // -----------------------------------------------------------------------------------------------------
 
-using Measure = Json (*)(const Effort&);
-const std::vector<std::pair<std::string, Measure>> parts = {
+const BenchParts<Effort> parts = {
     {"speed", measure_speed},         {"sizes", measure_sizes},
     {"all_pairs", measure_all_pairs}, {"brownian", measure_brownian},
     {"devices", measure_devices},     {"lazy", measure_lazy_refinement}};
-
-Json measure(const Effort& effort, const std::vector<std::string>& wanted) {
-  Json result = {
-      {"commit", program_commit()}, {"compiler", "g++ " __VERSION__}, {"flags", VITREL_FLAGS}};
-  result["ns_per_psi"] = ns_per_psi(0.5 * effort.stretch);
-  for (const auto& [name, measure_part] : parts)
-    if (wanted.empty() || std::ranges::count(wanted, name) > 0) result[name] = measure_part(effort);
-  result["ns_per_psi_at_the_end"] = ns_per_psi(0.5 * effort.stretch);
-  return result;
-}
-
-std::vector<std::string> part_names() {
-  std::vector<std::string> names;
-  for (const auto& [name, measure_part] : parts) names.push_back(name);
-  return names;
-}
 
 }  // namespace
 }  // namespace vitrel::lab
@@ -383,7 +363,7 @@ int main(int argc, char** argv) {
   double stretch = 0;
   int largest = vitrel::lab::Effort{}.largest;
   app.add_option("part", wanted, "what to measure; all parts if none is named")
-      ->check(CLI::IsMember(vitrel::lab::part_names()));
+      ->check(CLI::IsMember(vitrel::lab::part_names(vitrel::lab::parts)));
   app.add_flag("--quick", is_quick, "few particles, short runs: to see that it works");
   app.add_option("--stretch", stretch, "seconds of one repeat")->check(CLI::PositiveNumber);
   app.add_option("--largest", largest, "number of particles")->check(CLI::PositiveNumber);
@@ -392,7 +372,9 @@ int main(int argc, char** argv) {
     vitrel::lab::Effort effort = is_quick ? vitrel::lab::quick : vitrel::lab::Effort{};
     if (stretch > 0) effort.stretch = stretch;
     effort.largest = largest;
-    fmt::print("{}\n", vitrel::lab::measure(effort, wanted).dump(2));
+    fmt::print("{}\n",
+               vitrel::lab::measure_parts(vitrel::lab::parts, effort, wanted, 0.5 * effort.stretch)
+                   .dump(2));
   } catch (const std::exception& error) {
     fmt::print(stderr, "bench_engine: {}\n", error.what());
     return 1;

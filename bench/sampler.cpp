@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -17,18 +16,16 @@
 
 #include "bench/lab/engine_speed.h"
 #include "bench/lab/twins/one_by_one_sampler.h"
+#include "bench/parts.h"
 #include "core/contact/overlap_look.h"
 #include "core/contact/support_gap.h"
 #include "core/error.h"
-#include "core/io/provenance.h"
 #include "core/random/stream.h"
 #include "mc/disjoint.h"
 #include "mc/sampler.h"
 
 namespace vitrel::lab {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// How much is measured, and for how long.
 struct Effort {
@@ -294,25 +291,8 @@ Json measure_lanes(const Effort& effort) {
 
 // ---------------------------------------------------------------------------------------------------------
 
-using Measure = Json (*)(const Effort&);
-const std::vector<std::pair<std::string, Measure>> parts = {
+const BenchParts<Effort> parts = {
     {"speed", measure_speed}, {"threads", measure_threads}, {"lanes", measure_lanes}};
-
-Json measure(const Effort& effort, const std::vector<std::string>& wanted) {
-  Json result = {
-      {"commit", program_commit()}, {"compiler", "g++ " __VERSION__}, {"flags", VITREL_FLAGS}};
-  result["ns_per_psi"] = ns_per_psi(10 * effort.stretch);
-  for (const auto& [name, measure_part] : parts)
-    if (wanted.empty() || std::ranges::count(wanted, name) > 0) result[name] = measure_part(effort);
-  result["ns_per_psi_at_the_end"] = ns_per_psi(10 * effort.stretch);
-  return result;
-}
-
-std::vector<std::string> part_names() {
-  std::vector<std::string> names;
-  for (const auto& [name, measure_part] : parts) names.push_back(name);
-  return names;
-}
 
 }  // namespace
 }  // namespace vitrel::lab
@@ -322,12 +302,14 @@ int main(int argc, char** argv) {
   std::vector<std::string> wanted;
   bool is_quick = false;
   app.add_option("part", wanted, "what to measure; all parts if none is named")
-      ->check(CLI::IsMember(vitrel::lab::part_names()));
+      ->check(CLI::IsMember(vitrel::lab::part_names(vitrel::lab::parts)));
   app.add_flag("--quick", is_quick, "few particles, short runs: to see that it works");
   CLI11_PARSE(app, argc, argv);
   try {
     const vitrel::lab::Effort effort = is_quick ? vitrel::lab::quick : vitrel::lab::Effort{};
-    fmt::print("{}\n", vitrel::lab::measure(effort, wanted).dump(2));
+    fmt::print("{}\n",
+               vitrel::lab::measure_parts(vitrel::lab::parts, effort, wanted, 10 * effort.stretch)
+                   .dump(2));
   } catch (const std::exception& error) {
     fmt::print(stderr, "bench_sampler: {}\n", error.what());
     return 1;

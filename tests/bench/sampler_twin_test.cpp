@@ -8,23 +8,16 @@
 #include "bench/lab/twins/one_by_one_sampler.h"
 #include "core/state/check.h"
 #include "mc/contact_pressure.h"
-#include "mc/insertion.h"
 #include "mc/sampler.h"
-#include "mc/swelling.h"
-#include "tests/support/scenes.h"
+#include "tests/support/fluids.h"
 #include "tests/support/statistics.h"
 
 namespace vitrel::lab {
 namespace {
 
 Configuration2 fluid(double aspect_ratio, double packing_fraction) {
-  Configuration2 c;
-  c.resize(256);
-  for (Ellipse& shape : c.shape) shape = of_aspect_ratio(aspect_ratio);
-  insert_particles(c, {0.3, 100'000, false}, 1, {});
-  std::uint64_t sweep = 0;
-  swell(c, {packing_fraction}, 1, sweep, {});
-  Sampler sampler(c, 1, sweep);
+  Configuration2 c = swollen_fluid(256, aspect_ratio, packing_fraction);
+  Sampler sampler(c, 2);
   for (int k = 0; k < 1000; ++k) sampler.sweep();
   return c;
 }

@@ -10,6 +10,7 @@
 #include "core/contact/support_gap.h"
 #include "core/contact/vieillard_baron.h"
 #include "core/random/stream.h"
+#include "tests/support/posed_pair.h"
 
 namespace vitrel {
 namespace {
@@ -20,32 +21,16 @@ Vec2 unit(double angle) {
   return {std::cos(angle), std::sin(angle)};
 }
 
-struct Pair {
-  Ellipse one, two;
-  double angle1, angle2;
-  Vec2 d;
-
-  Pair with(const Vec2& separation) const { return {one, two, angle1, angle2, separation}; }
-  Pair swapped() const { return {two, one, angle2, angle1, -d}; }
-};
-
-std::ostream& operator<<(std::ostream& out, const Pair& pair) {
-  out.precision(17);
-  return out << "one (" << pair.one.a << ", " << pair.one.b << ") at angle " << pair.angle1
-             << ", two (" << pair.two.a << ", " << pair.two.b << ") at angle " << pair.angle2
-             << ", d = (" << pair.d.x() << ", " << pair.d.y() << ")";
-}
-
-VieillardBaron<double> psi_of(const Pair& p) {
+VieillardBaron<double> psi_of(const PosedPair& p) {
   return vieillard_baron(p.one, p.angle1, p.two, p.angle2, p.d);
 }
-PerramWertheim f_of(const Pair& p) {
+PerramWertheim f_of(const PosedPair& p) {
   return perram_wertheim(p.one, p.angle1, p.two, p.angle2, p.d);
 }
-SupportGap gap_of(const Pair& p) {
+SupportGap gap_of(const PosedPair& p) {
   return support_gap(p.one, p.angle1, p.two, p.angle2, p.d);
 }
-double contact_distance_of(const Pair& p) {
+double contact_distance_of(const PosedPair& p) {
   return contact_distance(p.one, p.angle1, p.two, p.angle2, p.d);
 }
 
@@ -54,7 +39,7 @@ double log_uniform(Stream& draw, double low, double high) {
 }
 
 /// κ of both 1…50, ratio of their sizes √(ab) 1…100 either way round, any orientation.
-Pair random_bodies(Stream& draw) {
+PosedPair random_bodies(Stream& draw) {
   const auto ellipse = [&](double size) -> Ellipse {
     const double root = std::sqrt(log_uniform(draw, 1, 50));
     return {size * root, size / root};
@@ -67,8 +52,8 @@ Pair random_bodies(Stream& draw) {
 
 /// A third each: anywhere within the circumcircles, around the contact distance (half overlap), and
 /// at the contact distance times 1 ± 10⁻¹ … 10⁻¹⁵.
-Pair random_pair(Stream& draw) {
-  Pair pair = random_bodies(draw);
+PosedPair random_pair(Stream& draw) {
+  PosedPair pair = random_bodies(draw);
   const Vec2 e = unit(draw.uniform(-pi, pi));
   const std::uint64_t kind = draw.below(3);
   if (kind == 0) return pair.with(draw.uniform() * (pair.one.a + pair.two.a) * e);
@@ -78,7 +63,7 @@ Pair random_pair(Stream& draw) {
   return pair.with(contact * (draw.uniform() < 0.5 ? 1 + offset : 1 - offset) * e);
 }
 
-double support_sum(const Pair& pair, const Vec2& n) {
+double support_sum(const PosedPair& pair, const Vec2& n) {
   return support(pair.one, unit(pair.angle1), n) + support(pair.two, unit(pair.angle2), n);
 }
 
@@ -90,7 +75,7 @@ std::uint64_t pairs_to_compare() {
 /// Whether the support gap proves that the surfaces are closer than `margin`: as a distance if they
 /// are disjoint; if they overlap, by the proof that a shift by `margin` along the normal separates
 /// them.
-bool closer_than(double margin, const Pair& pair, const Vec2& normal) {
+bool closer_than(double margin, const PosedPair& pair, const Vec2& normal) {
   const double gap = gap_of(pair).gap;
   return gap > 0 ? gap < margin : gap_of(pair.with(pair.d + margin * normal)).gap > 0;
 }
@@ -104,7 +89,7 @@ TEST(OverlapCriteria, ThreeCriteriaAgreeOnRandomPairs) {
   std::uint64_t overlapping = 0, close = 0, blurred = 0;
   double largest_blurred = 0;
   for (std::uint64_t k = 0; k < pairs; ++k) {
-    const Pair pair = random_pair(draw);
+    const PosedPair pair = random_pair(draw);
     const PerramWertheim f = f_of(pair);
     const bool disjoint = gap_of(pair).gap > 0;
     const double b = std::min(pair.one.b, pair.two.b);
@@ -130,7 +115,8 @@ TEST(OverlapCriteria, OrdinaryPairsAgreeDownToRounding) {
   Stream draw(2, Purpose::tests);
   for (int k = 0; k < 100'000; ++k) {
     const double kappa = draw.uniform(1, 6);
-    Pair pair{{kappa, 1}, {kappa, 1}, draw.uniform(-pi, pi), draw.uniform(-pi, pi), Vec2::Zero()};
+    PosedPair pair{
+        {kappa, 1}, {kappa, 1}, draw.uniform(-pi, pi), draw.uniform(-pi, pi), Vec2::Zero()};
     const Vec2 e = unit(draw.uniform(-pi, pi));
     const double offset = std::pow(10, -draw.uniform(1, 13));
     const double contact = contact_distance_of(pair.with(e));
@@ -143,7 +129,7 @@ TEST(OverlapCriteria, OrdinaryPairsAgreeDownToRounding) {
   }
 }
 
-void expect_overlap_despite_positive_psi(const Pair& pair) {
+void expect_overlap_despite_positive_psi(const PosedPair& pair) {
   EXPECT_GT(psi_of(pair).psi, 0) << pair;
   EXPECT_FALSE(psi_of(pair).disjoint()) << pair;
   EXPECT_FALSE(f_of(pair).disjoint()) << pair;
@@ -171,7 +157,7 @@ TEST(VieillardBaron, FrequencyOfWrongVerdictsWithoutTheSigns) {
     int wrong = 0;
     for (int k = 0; k < pairs; ++k) {
       const double distance = 2 * kappa * std::sqrt(draw.uniform());
-      const Pair pair{
+      const PosedPair pair{
           {kappa, 1}, {kappa, 1}, 0, draw.uniform(0, pi), distance * unit(draw.uniform(-pi, pi))};
       const VieillardBaron<double> contact = psi_of(pair);
       wrong += (contact.psi > 0) != contact.disjoint();
@@ -198,11 +184,11 @@ TEST(VieillardBaron, TraceOfEqualEllipses) {
 TEST(VieillardBaron, EqualsTheMatrixFormula) {
   Stream draw(5, Purpose::tests);
   for (int k = 0; k < 1000; ++k) {
-    const Pair pair{{draw.uniform(1, 3), draw.uniform(0.5, 1)},
-                    {draw.uniform(1, 3), draw.uniform(0.5, 1)},
-                    draw.uniform(-pi, pi),
-                    draw.uniform(-pi, pi),
-                    {draw.uniform(-3, 3), draw.uniform(-3, 3)}};
+    const PosedPair pair{{draw.uniform(1, 3), draw.uniform(0.5, 1)},
+                         {draw.uniform(1, 3), draw.uniform(0.5, 1)},
+                         draw.uniform(-pi, pi),
+                         draw.uniform(-pi, pi),
+                         {draw.uniform(-3, 3), draw.uniform(-3, 3)}};
     const Mat2 sigma1 = shape_matrix(pair.one, pair.angle1);
     const Mat2 sigma2 = shape_matrix(pair.two, pair.angle2);
     const Mat2 a1 = sigma1.inverse(), a2 = sigma2.inverse();
@@ -234,11 +220,11 @@ TEST(VieillardBaron, EqualDisksInClosedForm) {
 TEST(PerramWertheim, ValueIsTheMaximumOfTheDefinition) {
   Stream draw(6, Purpose::tests);
   for (int k = 0; k < 2000; ++k) {
-    Pair pair{{draw.uniform(1, 5), draw.uniform(0.5, 1)},
-              {draw.uniform(1, 5), draw.uniform(0.5, 1)},
-              draw.uniform(-pi, pi),
-              draw.uniform(-pi, pi),
-              {draw.uniform(-8, 8), draw.uniform(-8, 8)}};
+    PosedPair pair{{draw.uniform(1, 5), draw.uniform(0.5, 1)},
+                   {draw.uniform(1, 5), draw.uniform(0.5, 1)},
+                   draw.uniform(-pi, pi),
+                   draw.uniform(-pi, pi),
+                   {draw.uniform(-8, 8), draw.uniform(-8, 8)}};
     const Mat2 sigma1 = shape_matrix(pair.one, pair.angle1);
     const Mat2 sigma2 = shape_matrix(pair.two, pair.angle2);
     const auto f = [&](double x) {
@@ -261,7 +247,7 @@ TEST(PerramWertheim, ValueIsTheMaximumOfTheDefinition) {
 TEST(PerramWertheim, NormalAndPointBelongToBothScaledEllipses) {
   Stream draw(7, Purpose::tests);
   for (int k = 0; k < 100'000; ++k) {
-    Pair pair = random_pair(draw);
+    PosedPair pair = random_pair(draw);
     if (pair.d.norm() < 1e-3) continue;
     const PerramWertheim f = f_of(pair);
     const double mu = std::sqrt(f.value);
@@ -278,7 +264,7 @@ TEST(PerramWertheim, NormalAndPointBelongToBothScaledEllipses) {
 }
 
 TEST(PerramWertheim, ScalesWithTheSquareOfTheSeparation) {
-  const Pair pair{{3, 1}, {2, 0.5}, 0.4, 2, {1.5, -2.5}};
+  const PosedPair pair{{3, 1}, {2, 0.5}, 0.4, 2, {1.5, -2.5}};
   const double value = f_of(pair).value;
   for (double factor : {1e-150, 1e-8, 0.5, 3.0, 1e8})
     EXPECT_NEAR(f_of(pair.with(factor * pair.d)).value / (factor * factor * value), 1, 1e-13);
@@ -293,7 +279,7 @@ TEST(PerramWertheim, CoincidingCentresOverlap) {
 TEST(OverlapCriteria, ExchangingTheEllipsesChangesNothing) {
   Stream draw(8, Purpose::tests);
   for (int k = 0; k < 100'000; ++k) {
-    const Pair pair = random_pair(draw);
+    const PosedPair pair = random_pair(draw);
     const double extent = pair.one.a + pair.two.a;
     const VieillardBaron<double> psi = psi_of(pair), psi_swapped = psi_of(pair.swapped());
     EXPECT_EQ(psi.g1, psi_swapped.g2) << pair;
@@ -311,11 +297,11 @@ TEST(OverlapCriteria, ExchangingTheEllipsesChangesNothing) {
 TEST(PerramWertheim, ExchangingTheEllipsesTurnsTheNormal) {
   Stream draw(9, Purpose::tests);
   for (int k = 0; k < 10'000; ++k) {
-    const Pair pair{{draw.uniform(1, 3), 1},
-                    {draw.uniform(1, 3), 1},
-                    draw.uniform(-pi, pi),
-                    draw.uniform(-pi, pi),
-                    {draw.uniform(2, 6), draw.uniform(-6, 6)}};
+    const PosedPair pair{{draw.uniform(1, 3), 1},
+                         {draw.uniform(1, 3), 1},
+                         draw.uniform(-pi, pi),
+                         draw.uniform(-pi, pi),
+                         {draw.uniform(2, 6), draw.uniform(-6, 6)}};
     const PerramWertheim f = f_of(pair), swapped = f_of(pair.swapped());
     EXPECT_NEAR(f.lambda + swapped.lambda, 1, 1e-12) << pair;
     EXPECT_LT((f.normal + swapped.normal).norm(), 1e-12) << pair;
@@ -325,7 +311,7 @@ TEST(PerramWertheim, ExchangingTheEllipsesTurnsTheNormal) {
 
 /// Where `disjoint` turns from false to true along d, by bisection.
 template <class Disjoint>
-double first_disjoint(const Pair& pair, Disjoint&& disjoint) {
+double first_disjoint(const PosedPair& pair, Disjoint&& disjoint) {
   double low = 0, high = pair.one.a + pair.two.a + 1;
   for (int step = 0; step < 80; ++step) {
     const double middle = 0.5 * (low + high);
@@ -344,16 +330,16 @@ TEST(ContactDistance, ReferenceValuesByAllThreeCriteria) {
                {0, 45, 0, 3.335855487022610},
                {30, 100, 20, 2.955140520703047}};
   for (const auto& c : cases) {
-    const Pair pair{
+    const PosedPair pair{
         {2, 1}, {2, 1}, c.angle1 * pi / 180, c.angle2 * pi / 180, unit(c.direction * pi / 180)};
     EXPECT_NEAR(contact_distance_of(pair), c.distance, 1e-12) << pair;
-    EXPECT_NEAR(first_disjoint(pair, [](const Pair& p) { return gap_of(p).gap > 0; }), c.distance,
-                1e-12)
+    EXPECT_NEAR(first_disjoint(pair, [](const PosedPair& p) { return gap_of(p).gap > 0; }),
+                c.distance, 1e-12)
         << pair;
-    EXPECT_NEAR(first_disjoint(pair, [](const Pair& p) { return f_of(p).disjoint(); }), c.distance,
-                1e-12)
+    EXPECT_NEAR(first_disjoint(pair, [](const PosedPair& p) { return f_of(p).disjoint(); }),
+                c.distance, 1e-12)
         << pair;
-    EXPECT_NEAR(first_disjoint(pair, [](const Pair& p) { return psi_of(p).disjoint(); }),
+    EXPECT_NEAR(first_disjoint(pair, [](const PosedPair& p) { return psi_of(p).disjoint(); }),
                 c.distance, 1e-12)
         << pair;
   }
@@ -364,11 +350,11 @@ TEST(ContactDistance, ReferenceValuesByAllThreeCriteria) {
 TEST(ContactDistance, NormalAndPointAtContact) {
   Stream draw(10, Purpose::tests);
   for (int k = 0; k < 10'000; ++k) {
-    Pair pair{{draw.uniform(1, 6), 1},
-              {draw.uniform(0.5, 3), 0.5},
-              draw.uniform(-pi, pi),
-              draw.uniform(-pi, pi),
-              unit(draw.uniform(-pi, pi))};
+    PosedPair pair{{draw.uniform(1, 6), 1},
+                   {draw.uniform(0.5, 3), 0.5},
+                   draw.uniform(-pi, pi),
+                   draw.uniform(-pi, pi),
+                   unit(draw.uniform(-pi, pi))};
     pair.d *= contact_distance_of(pair);
     const PerramWertheim f = f_of(pair);
     EXPECT_NEAR(f.value, 1, 1e-13) << pair;

@@ -13,6 +13,7 @@
 #include "core/contact/vieillard_baron.h"
 #include "core/random/stream.h"
 #include "core/tolerances.h"
+#include "tests/support/posed_pair.h"
 
 namespace vitrel {
 namespace {
@@ -21,21 +22,11 @@ using Asked = OverlapLook::Asked;
 
 constexpr double pi = std::numbers::pi;
 
-struct Pair {
-  Ellipse one, two;
-  double angle1, angle2;
-  Vec2 d;
-
-  double extent() const { return std::max({one.a, two.a, d.cwiseAbs().maxCoeff()}); }
-  double margin() const { return tolerance::contact_gap(extent()); }
-  Pair swapped() const { return {two, one, angle2, angle1, -d}; }
-};
-
-std::ostream& operator<<(std::ostream& out, const Pair& pair) {
-  out.precision(17);
-  return out << "one (" << pair.one.a << ", " << pair.one.b << ") at angle " << pair.angle1
-             << ", two (" << pair.two.a << ", " << pair.two.b << ") at angle " << pair.angle2
-             << ", d = (" << pair.d.x() << ", " << pair.d.y() << ")";
+double extent(const PosedPair& pair) {
+  return std::max({pair.one.a, pair.two.a, pair.d.cwiseAbs().maxCoeff()});
+}
+double margin(const PosedPair& pair) {
+  return tolerance::contact_gap(extent(pair));
 }
 
 /// What the pairs of a test are like: aspect ratios from 1 and ratios of the sizes √(ab) from 1.
@@ -49,7 +40,7 @@ void PrintTo(const Class& at, std::ostream* out) {
 
 /// A third each: anywhere within the circumcircles, around the contact distance, and at the contact
 /// distance times 1 ± 10⁻¹ … 10⁻¹⁶. One axis in eight is along x or y.
-Pair random_pair(Stream& draw, const Class& at) {
+PosedPair random_pair(Stream& draw, const Class& at) {
   const auto ellipse = [&](double size) -> Ellipse {
     const double root = std::sqrt(std::pow(at.largest_aspect_ratio, draw.uniform()));
     return {size * root, size / root};
@@ -60,8 +51,8 @@ Pair random_pair(Stream& draw, const Class& at) {
   };
   const double ratio = std::pow(at.largest_size_ratio, draw.uniform());
   const bool larger_first = draw.below(2) == 0;
-  Pair pair{ellipse(larger_first ? ratio : 1), ellipse(larger_first ? 1 : ratio), angle(), angle(),
-            Vec2::Zero()};
+  PosedPair pair{ellipse(larger_first ? ratio : 1), ellipse(larger_first ? 1 : ratio), angle(),
+                 angle(), Vec2::Zero()};
   const Vec2 e = direction(draw.uniform(-pi, pi));
   const std::uint64_t kind = draw.below(3);
   const double contact = contact_distance(pair.one, pair.angle1, pair.two, pair.angle2, e);
@@ -72,7 +63,7 @@ Pair random_pair(Stream& draw, const Class& at) {
   return pair;
 }
 
-bool disjoint(const Pair& pair) {
+bool disjoint(const PosedPair& pair) {
   using Real = long double;
   const auto axes = [](const Ellipse& shape, double angle) -> EllipseAxes<Real> {
     return {shape.a, shape.b, std::cos(Real(angle)), std::sin(Real(angle))};
@@ -82,16 +73,16 @@ bool disjoint(const Pair& pair) {
       .disjoint_or_touching();
 }
 
-bool looks_clear(const Pair& pair, int lane, std::uint64_t& alone) {
+bool looks_clear(const PosedPair& pair, int lane, std::uint64_t& alone) {
   EllipseGroup group;
   const Vec2 offset(0.3, -0.2);
   group.set(lane, pair.two, pair.d - offset, direction(pair.angle2));
-  return OverlapLook(pair.one, direction(pair.angle1), pair.margin())
+  return OverlapLook(pair.one, direction(pair.angle1), margin(pair))
       .clear_of(group, offset, Asked(true), alone);
 }
 
 /// What the coordinates' rounding may do to a gap.
-double rounding(const Pair& pair) {
+double rounding(const PosedPair& pair) {
   return 1e-14 * (pair.one.a + pair.two.a + pair.d.norm());
 }
 
@@ -106,19 +97,19 @@ TEST_P(OverlapLookAt, IsRightAboutEveryPair) {
   int clear = 0, near = 0;
   std::uint64_t alone = 0;
   for (int k = 0; k < pairs; ++k) {
-    const Pair pair = random_pair(draw, GetParam());
+    const PosedPair pair = random_pair(draw, GetParam());
     const bool answer = looks_clear(pair, k % many, alone);
     clear += answer;
     const double gap = support_gap(pair.one, pair.angle1, pair.two, pair.angle2, pair.d).gap;
     near += std::abs(gap) < 1e-9;
     if (answer) {
       ASSERT_TRUE(disjoint(pair)) << pair;
-      ASSERT_GT(gap, pair.margin() - rounding(pair)) << pair;
+      ASSERT_GT(gap, margin(pair) - rounding(pair)) << pair;
     } else {
-      ASSERT_LT(gap, pair.margin() + rounding(pair)) << pair;
+      ASSERT_LT(gap, margin(pair) + rounding(pair)) << pair;
     }
     if (looks_clear(pair.swapped(), k % many, alone) != answer) {
-      ASSERT_NEAR(gap, pair.margin(), rounding(pair)) << pair;
+      ASSERT_NEAR(gap, margin(pair), rounding(pair)) << pair;
     }
   }
   // The comparison means something: both answers are frequent, and many pairs touch.
@@ -137,14 +128,14 @@ TEST(OverlapLook, AnswersOfAGroupAreThoseOfItsPairs) {
   int clear = 0;
   constexpr int groups = 20'000;
   for (int k = 0; k < groups; ++k) {
-    const Pair first = random_pair(draw, {6, 3});
+    const PosedPair first = random_pair(draw, {6, 3});
     const OverlapLook look(first.one, direction(first.angle1), 1e-12);
     EllipseGroup group;
     bool each_clear = true;
     std::uint64_t alone_in_group = 0, alone = 0;
     for (int lane = 0; lane < many; ++lane) {
       if (draw.below(3) == 0) continue;
-      const Pair other = random_pair(draw, {6, 3});
+      const PosedPair other = random_pair(draw, {6, 3});
       const Vec2 place =
           other.d * (1.2 * (first.one.a + other.two.a) / (other.one.a + other.two.a));
       group.set(lane, other.two, place, direction(other.angle2));
@@ -174,8 +165,8 @@ TEST(OverlapLook, FewPairsAreLeftToBeDecidedAlone) {
     std::uint64_t alone = 0;
     for (int k = 0; k < pairs; ++k) {
       const double distance = 2 * shape.a * std::sqrt(draw.uniform());
-      const Pair pair{shape, shape, draw.uniform(0, pi), draw.uniform(0, pi),
-                      distance * direction(draw.uniform(-pi, pi))};
+      const PosedPair pair{shape, shape, draw.uniform(0, pi), draw.uniform(0, pi),
+                           distance * direction(draw.uniform(-pi, pi))};
       looks_clear(pair, 0, alone);
     }
     RecordProperty("kappa_" + std::to_string(kappa), static_cast<int>(alone));
@@ -190,7 +181,7 @@ TEST(OverlapLook, DisksAreNeverLeft) {
   std::uint64_t alone = 0;
   for (int k = 0; k < 10'000; ++k) {
     const Ellipse one{draw.uniform(0.1, 3), 0}, two{draw.uniform(0.1, 3), 0};
-    const Pair pair{{one.a, one.a}, {two.a, two.a}, 0.3, 1, Vec2(draw.uniform(0, 5), 0.1)};
+    const PosedPair pair{{one.a, one.a}, {two.a, two.a}, 0.3, 1, Vec2(draw.uniform(0, 5), 0.1)};
     const bool answer = looks_clear(pair, 1, alone);
     EXPECT_EQ(answer, pair.d.norm() > one.a + two.a);
   }

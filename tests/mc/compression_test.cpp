@@ -7,27 +7,17 @@
 #include <vector>
 
 #include "core/state/check.h"
-#include "mc/insertion.h"
-#include "tests/support/scenes.h"
+#include "tests/support/fluids.h"
 #include "tests/support/statistics.h"
 
 namespace vitrel {
 namespace {
 
-Configuration2 fluid(std::size_t n, double aspect_ratio, double packing_fraction) {
-  Configuration2 c;
-  c.resize(n);
-  for (Ellipse& shape : c.shape) shape = of_aspect_ratio(aspect_ratio);
-  c.box = PeriodicBox<2>(Vec2(10, 10));
-  insert_particles(c, {packing_fraction, 100000, false}, 1, {});
-  return c;
-}
-
 // One small disk meets nobody, and its volume follows V^N exp(−βPV) with N = 1: ⟨βPV⟩ = 2. Of the
 // aspect of the box the volume is independent. Blocks of 2000 long steps count as independent.
 TEST(PressureSampler, VolumeOfOneParticleFollowsTheGammaDistribution) {
   for (const BoxChange change : {BoxChange::isotropic, BoxChange::anisotropic}) {
-    Configuration2 one = fluid(1, 1, 0.001);
+    Configuration2 one = inserted_fluid(1, 1, 0.001);
     const double pressure = 0.0005;  // V ≈ 4000
     PressureSampler sampler(one, pressure, change, 1);
     sampler.set_box_step(1.5);
@@ -49,7 +39,7 @@ TEST(PressureSampler, VolumeOfOneParticleFollowsTheGammaDistribution) {
 TEST(PressureSampler, KeepsTheStateHardInBoxesOfAnyShape) {
   for (const std::size_t n : {1, 2, 5, 100})
     for (const BoxChange change : {BoxChange::isotropic, BoxChange::anisotropic}) {
-      Configuration2 c = fluid(n, 4, 0.2);
+      Configuration2 c = inserted_fluid(n, 4, 0.2);
       const double aspect = c.box.lengths().y() / c.box.lengths().x();
       PressureSampler sampler(c, 5, change, 7);
       double densest = 0;
@@ -74,7 +64,7 @@ TEST(PressureSampler, KeepsTheStateHardInBoxesOfAnyShape) {
 }
 
 TEST(PressureSampler, SameStateForAnyNumberOfThreadsAndWhenContinued) {
-  const Configuration2 start = fluid(300, 3, 0.3);
+  const Configuration2 start = inserted_fluid(300, 3, 0.3);
   Configuration2 one = start, two = start, three = start;
   PressureSampler alone(one, 8, BoxChange::anisotropic, 5, 0, 1);
   PressureSampler shared(two, 8, BoxChange::anisotropic, 5, 0, 2);
@@ -91,7 +81,7 @@ TEST(PressureSampler, SameStateForAnyNumberOfThreadsAndWhenContinued) {
 }
 
 TEST(Compression, EndsExactlyAtThePackingFraction) {
-  Configuration2 c = fluid(100, 2, 0.3);
+  Configuration2 c = inserted_fluid(100, 2, 0.3);
   std::uint64_t sweep = 3;
   const CompressionReport report =
       compress(c, {.pressure = 30, .packing_fraction = 0.6, .sweeps = 100'000}, 1, sweep, {});
@@ -102,7 +92,7 @@ TEST(Compression, EndsExactlyAtThePackingFraction) {
 }
 
 TEST(Compression, SaysWhenThePressureDoesNotSuffice) {
-  Configuration2 c = fluid(100, 2, 0.3);
+  Configuration2 c = inserted_fluid(100, 2, 0.3);
   std::uint64_t sweep = 0;
   const CompressionReport report =
       compress(c, {.pressure = 2, .packing_fraction = 0.8, .sweeps = 100'000}, 1, sweep, {});
@@ -113,7 +103,7 @@ TEST(Compression, SaysWhenThePressureDoesNotSuffice) {
 }
 
 TEST(Compression, StopsWhenAskedTo) {
-  Configuration2 c = fluid(50, 1, 0.3);
+  Configuration2 c = inserted_fluid(50, 1, 0.3);
   std::uint64_t sweep = 0;
   int asked = 0;
   const CompressionReport report =

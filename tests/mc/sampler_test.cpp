@@ -11,20 +11,11 @@
 #include "core/state/check.h"
 #include "core/state/species.h"
 #include "mc/insertion.h"
-#include "tests/support/scenes.h"
+#include "tests/support/fluids.h"
 #include "tests/support/statistics.h"
 
 namespace vitrel {
 namespace {
-
-Configuration2 fluid(std::size_t n, double aspect_ratio, double packing_fraction) {
-  Configuration2 c;
-  c.resize(n);
-  for (Ellipse& shape : c.shape) shape = of_aspect_ratio(aspect_ratio);
-  c.box = PeriodicBox<2>(Vec2(10, 10));
-  insert_particles(c, {packing_fraction, 100000, false}, 1, {});
-  return c;
-}
 
 struct Mixture {
   const char* name;
@@ -123,7 +114,7 @@ INSTANTIATE_TEST_SUITE_P(Mixtures, SamplerOf, testing::ValuesIn(mixtures()));
 
 // All particles grow and shrink, and the longest outgrow the reach that the cells began with.
 TEST(Sampler, ReshapesOnlyWhereThereIsRoom) {
-  Configuration2 c = fluid(200, 3, 0.3);
+  Configuration2 c = inserted_fluid(200, 3, 0.3);
   Sampler sampler(c, 5);
   Stream draw(1, Purpose::tests);
   int given = 0, refused = 0;
@@ -142,7 +133,7 @@ TEST(Sampler, ReshapesOnlyWhereThereIsRoom) {
 }
 
 TEST(Sampler, SameSeedSameStateAndSweepsAreNumbered) {
-  Configuration2 one = fluid(50, 2, 0.3), two = one;
+  Configuration2 one = inserted_fluid(50, 2, 0.3), two = one;
   Sampler whole(one, 9);
   for (int sweep = 0; sweep < 20; ++sweep) whole.sweep();
   Sampler first(two, 9);
@@ -154,7 +145,7 @@ TEST(Sampler, SameSeedSameStateAndSweepsAreNumbered) {
 }
 
 TEST(Sampler, StepsChangeOnlyWhenTuned) {
-  Configuration2 c = fluid(100, 2, 0.3);
+  Configuration2 c = inserted_fluid(100, 2, 0.3);
   Sampler sampler(c, 2);
   sampler.set_steps(0.05, 0.05);
   for (int sweep = 0; sweep < 20; ++sweep) sampler.sweep();
@@ -174,7 +165,7 @@ TEST(Sampler, StepsChangeOnlyWhenTuned) {
 }
 
 TEST(Sampler, RoundParticlesAreNotTurned) {
-  Configuration2 c = fluid(50, 1, 0.3);
+  Configuration2 c = inserted_fluid(50, 1, 0.3);
   Sampler sampler(c, 2);
   for (int sweep = 0; sweep < 20; ++sweep) sampler.sweep();
   EXPECT_EQ(sampler.counts().rotations_tried, 0u);

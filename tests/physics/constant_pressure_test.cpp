@@ -2,15 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <tuple>
 #include <vector>
 
 #include "mc/compression.h"
-#include "mc/insertion.h"
-#include "mc/swelling.h"
-#include "tests/support/scenes.h"
+#include "tests/support/fluids.h"
 #include "tests/support/statistics.h"
 
 namespace vitrel {
@@ -20,17 +17,6 @@ struct TableEntry {
   double aspect_ratio, packing_fraction, compressibility;
   double table_error;  // relative, of φ
 };
-
-Configuration2 fluid(const TableEntry& entry, std::size_t n) {
-  Configuration2 c;
-  c.resize(n);
-  c.box = PeriodicBox<2>(Vec2(1, 1));
-  for (Ellipse& shape : c.shape) shape = of_aspect_ratio(entry.aspect_ratio);
-  insert_particles(c, {std::min(entry.packing_fraction, 0.3), 100000, false}, 1, {});
-  std::uint64_t sweep = 0;
-  swell(c, {entry.packing_fraction, 1000000}, 1, sweep, {});
-  return c;
-}
 
 Estimate mean_packing_fraction(Configuration2& c, double pressure, BoxChange change) {
   PressureSampler sampler(c, pressure, change, 3);
@@ -56,7 +42,7 @@ class ConstantPressure : public testing::TestWithParam<Case> {};
 
 TEST_P(ConstantPressure, GivesThePackingFractionOfTheTable) {
   const auto& [entry, change] = GetParam();
-  Configuration2 c = fluid(entry, 100);
+  Configuration2 c = swollen_fluid(100, entry.aspect_ratio, entry.packing_fraction);
   const double density = entry.packing_fraction / c.shape[0].volume();
   const Estimate found = mean_packing_fraction(c, density * entry.compressibility, change);
   std::printf("kappa %g: phi %.5f(%.5f), table %g\n", entry.aspect_ratio, found.mean, found.error,

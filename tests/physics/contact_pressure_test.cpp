@@ -8,26 +8,12 @@
 #include "edmd/run.h"
 #include "edmd/sampling.h"
 #include "mc/contact_pressure.h"
-#include "mc/insertion.h"
 #include "mc/sampler.h"
-#include "mc/swelling.h"
-#include "tests/support/scenes.h"
+#include "tests/support/fluids.h"
 #include "tests/support/statistics.h"
 
 namespace vitrel {
 namespace {
-
-Configuration2 fluid(std::size_t n, double aspect_ratio, double packing_fraction,
-                     double box_aspect = 1) {
-  Configuration2 c;
-  c.resize(n);
-  c.box = PeriodicBox<2>(Vec2(1, box_aspect));
-  for (Ellipse& shape : c.shape) shape = of_aspect_ratio(aspect_ratio);
-  insert_particles(c, {0.3, 100000, false}, 1, {});
-  std::uint64_t sweep = 0;
-  swell(c, {packing_fraction, 1000000}, 1, sweep, {});
-  return c;
-}
 
 Estimate monte_carlo(Configuration2& c, int blocks, int samples) {
   Sampler sampler(c, 11);
@@ -63,7 +49,7 @@ Estimate event_driven(Configuration2 c, int blocks, double window) {
 
 // κ = 2, φ = 0.5: Z = 4.492(3), another 0.1 % allowed (oracle: NVT Monte Carlo). 3 standard errors.
 TEST(Compressibility, MonteCarloEventDrivenAndTableAgree) {
-  Configuration2 c = fluid(400, 2, 0.5);
+  Configuration2 c = swollen_fluid(400, 2, 0.5);
   const Estimate mc = monte_carlo(c, 30, 200);
   const Estimate ed = event_driven(c, 40, 10);
   RecordProperty("monte_carlo", std::to_string(mc.mean) + " +- " + std::to_string(mc.error));
@@ -85,7 +71,7 @@ TEST(Compressibility, MonteCarloOfDisks) {
   };
   for (const Case& at : {Case{0.3, 1, 2.063261}, Case{0.5, 1, 4.106364}, Case{0.5, 0.3, 4.106364},
                          Case{0.5, 0.08, 4.106364}}) {
-    Configuration2 c = fluid(400, 1, at.packing_fraction, at.box_aspect);
+    Configuration2 c = swollen_fluid(400, 1, at.packing_fraction, at.box_aspect);
     const Estimate mc = monte_carlo(c, 30, 250);
     EXPECT_LT(mc.error, 0.01);
     EXPECT_NEAR(mc.mean, at.exact, 3 * mc.error)

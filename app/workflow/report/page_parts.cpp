@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "app/workflow/report/assets.h"
+
 namespace vitrel {
 
 using nlohmann::json;
@@ -46,13 +48,6 @@ json picture(const Configuration2& state) {
           {"particles", std::move(particles)}};
 }
 
-std::string script_safe(const json& data) {
-  std::string text = data.dump(-1, ' ', false, json::error_handler_t::replace);
-  for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;)
-    text.replace(at, 1, "\\u003c");
-  return text;
-}
-
 std::string grouped(std::uint64_t number) {
   std::string digits = std::to_string(number);
   for (std::size_t at = digits.size(); at > 3;) digits.insert(at -= 3, "\u202f");
@@ -70,6 +65,17 @@ std::string with_error(double value, double error) {
   return fmt::format("{:.{}f} ± {:.{}f}", value, shown, error, shown);
 }
 
+namespace {
+
+// JSON inside a script element: no "<" may be left that could end it.
+std::string script_safe(const json& data) {
+  std::string text = data.dump(-1, ' ', false, json::error_handler_t::replace);
+  for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;)
+    text.replace(at, 1, "\\u003c");
+  return text;
+}
+
+// Replaces every {{name}} of the template by its text, in one pass, so that no text is looked into.
 std::string filled(std::string_view page,
                    const std::vector<std::pair<std::string_view, std::string>>& texts) {
   std::string result;
@@ -84,6 +90,25 @@ std::string filled(std::string_view page,
     page.remove_prefix(close + 2);
   }
   return result;
+}
+
+}  // namespace
+
+std::string whole_page(PageParts parts) {
+  const auto text = [](std::string_view path) { return std::string(asset(path)); };
+  parts.texts.emplace_back("picture", text("page/picture.html"));
+  return filled(asset("page/page.html"), {{"title", escaped(parts.title)},
+                                          {"subtitle", escaped(parts.subtitle)},
+                                          {"uplot_style", text("vendor/uplot/uPlot.min.css")},
+                                          {"style", text("page/report.css")},
+                                          {"sections", filled(asset(parts.sections), parts.texts)},
+                                          {"parameters", escaped(parts.parameters)},
+                                          {"provenance", provenance_entries(parts.provenance)},
+                                          {"data", script_safe(parts.data)},
+                                          {"uplot_licence", text("vendor/uplot/LICENSE")},
+                                          {"uplot", text("vendor/uplot/uPlot.iife.min.js")},
+                                          {"charts", text("page/charts.js")},
+                                          {"script", text(parts.script)}});
 }
 
 }  // namespace vitrel

@@ -30,9 +30,6 @@ nlohmann::json page_numbers(const Values& values, const Rows& rows) {
 /// particles.
 nlohmann::json picture(const Configuration2& state);
 
-/// JSON inside a script element: no "<" may be left that could end it.
-std::string script_safe(const nlohmann::json& data);
-
 /// 1234567 with thin spaces between groups of three digits.
 std::string grouped(std::uint64_t number);
 
@@ -40,9 +37,16 @@ std::string grouped(std::uint64_t number);
 /// a finite error the value has four significant digits; "–" if it is not finite either.
 std::string with_error(double value, double error);
 
-/// Replaces every {{name}} of the template by its text, in one pass, so that no text is looked
-/// into.
-std::string filled(std::string_view page,
-                   const std::vector<std::pair<std::string_view, std::string>>& texts);
+/// A whole page. `sections` and `script` are names of files of the folder page; the texts fill the
+/// sections.
+struct PageParts {
+  std::string title, subtitle;
+  std::string_view sections, script;
+  std::vector<std::pair<std::string_view, std::string>> texts;
+  nlohmann::json data;     ///< for the script
+  std::string parameters;  ///< TOML
+  PageProvenance provenance;
+};
+std::string whole_page(PageParts parts);
 
 }  // namespace vitrel

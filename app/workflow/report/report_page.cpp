@@ -6,7 +6,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "app/workflow/report/assets.h"
 #include "app/workflow/report/page_parts.h"
 
 namespace vitrel {
@@ -132,19 +131,14 @@ std::string report_page(const ReportData& data) {
     runs.push_back(run_data(*run, data.runs));
     rows += table_row(*run);
   }
-  const auto text = [](std::string_view path) { return std::string(asset(path)); };
-  return filled(asset("page/page.html"), {{"title", escaped(data.title)},
-                                          {"subtitle", escaped(data.subtitle)},
-                                          {"uplot_style", text("vendor/uplot/uPlot.min.css")},
-                                          {"style", text("page/report.css")},
-                                          {"table_rows", rows},
-                                          {"parameters", escaped(data.parameters)},
-                                          {"provenance", provenance_entries(data.provenance)},
-                                          {"data", script_safe({{"runs", std::move(runs)}})},
-                                          {"uplot_licence", text("vendor/uplot/LICENSE")},
-                                          {"uplot", text("vendor/uplot/uPlot.iife.min.js")},
-                                          {"charts", text("page/charts.js")},
-                                          {"script", text("page/report.js")}});
+  return whole_page({data.title,
+                     data.subtitle,
+                     "page/runs_sections.html",
+                     "page/report.js",
+                     {{"table_rows", rows}},
+                     {{"runs", std::move(runs)}},
+                     data.parameters,
+                     data.provenance});
 }
 
 }  // namespace vitrel

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "app/workflow/report/assets.h"
 #include "app/workflow/report/page_parts.h"
 
 namespace vitrel {
@@ -52,19 +51,14 @@ std::string state_page(const StatePage& page) {
                      {"order", page_number(page.nematic_order)},
                      {"orientation", curve(page.sweeps, page.orientation)},
                      {"displacement", curve(page.sweeps, page.displacement)}};
-  const auto text = [](std::string_view path) { return std::string(asset(path)); };
-  return filled(asset("page/state.html"), {{"title", escaped(page.title)},
-                                           {"subtitle", escaped(page.subtitle)},
-                                           {"uplot_style", text("vendor/uplot/uPlot.min.css")},
-                                           {"style", text("page/report.css")},
-                                           {"rows", rows},
-                                           {"parameters", escaped(page.parameters)},
-                                           {"provenance", provenance_entries(page.provenance)},
-                                           {"data", script_safe(data)},
-                                           {"uplot_licence", text("vendor/uplot/LICENSE")},
-                                           {"uplot", text("vendor/uplot/uPlot.iife.min.js")},
-                                           {"charts", text("page/charts.js")},
-                                           {"script", text("page/state.js")}});
+  return whole_page({page.title,
+                     page.subtitle,
+                     "page/state_sections.html",
+                     "page/state.js",
+                     {{"rows", rows}},
+                     data,
+                     page.parameters,
+                     page.provenance});
 }
 
 }  // namespace vitrel
