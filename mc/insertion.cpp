@@ -36,6 +36,7 @@ class Insertion {
   bool insert(std::size_t i, Stream draw) {
     const Vec2 lengths = configuration_.box.lengths();
     for (std::uint64_t attempt = 0; attempt < options_.attempts; ++attempt) {
+      ++places_tried;
       const Vec2 position(draw.uniform(-0.5, 0.5) * lengths.x(),
                           draw.uniform(-0.5, 0.5) * lengths.y());
       const double angle = options_.aligned ? 0 : draw.uniform(0, std::numbers::pi);
@@ -48,6 +49,8 @@ class Insertion {
     }
     return false;
   }
+
+  std::uint64_t places_tried = 0;
 
  private:
   bool fits(std::size_t i, const Pose2& pose) const {
@@ -79,23 +82,27 @@ std::string hopeless(std::size_t placed, std::size_t particles, double reached,
 
 }  // namespace
 
-StageReport insert_particles(Configuration2& configuration, const InsertionOptions& options,
-                             std::uint64_t seed, const Budget& budget) {
+InsertionReport insert_particles(Configuration2& configuration, const InsertionOptions& options,
+                                 std::uint64_t seed, const Budget& budget) {
   scale_to_packing_fraction(configuration, options.packing_fraction);
   Insertion insertion(configuration, options);
   std::size_t placed = 0;
   double covered = 0;
+  const auto ended = [&](StageEnd end, const std::string& reason) {
+    return InsertionReport{{end, reason}, insertion.places_tried};
+  };
   for (std::size_t i : largest_first(configuration)) {
-    if (budget.stop_requested()) return {StageEnd::stopped, "insertion was stopped"};
+    if (budget.stop_requested()) return ended(StageEnd::stopped, "insertion was stopped");
     if (!insertion.insert(i, Stream(seed, Purpose::placement, 0, i)))
-      return {StageEnd::stuck, hopeless(placed, configuration.size(),
-                                        covered / configuration.box.volume(), options.attempts)};
+      return ended(StageEnd::stuck,
+                   hopeless(placed, configuration.size(), covered / configuration.box.volume(),
+                            options.attempts));
     ++placed;
     covered += configuration.shape[i].volume();
     const double share = static_cast<double>(placed) / static_cast<double>(configuration.size());
     budget.tell({share, static_cast<double>(placed), "particles"});
   }
-  return {StageEnd::reached, "all particles inserted"};
+  return ended(StageEnd::reached, "all particles inserted");
 }
 
 }  // namespace vitrel

@@ -15,10 +15,17 @@ struct InsertionOptions {
   bool aligned = false;              ///< all angles 0 instead of random ones
 };
 
+/// The end of an insertion. With n places tried the dimensionless time of its kinetics is τ = n A/V, A
+/// the area of a particle; close to saturation φ∞ − φ ∝ τ^(−1/2) for disks and τ^(−1/3) for
+/// other shapes. Sources: swendsen1981, talbot1989.
+struct InsertionReport : StageReport {
+  std::uint64_t places_tried = 0;
+};
+
 /// `stuck` with a reason if a particle found no place, `stopped` if the budget said so; the
 /// configuration then is not to be used, and the same call makes it anew.
 /// The jamming limit is near φ = 0.547 for disks and 0.583 for ellipses.
-StageReport insert_particles(Configuration2& configuration, const InsertionOptions& options,
-                             std::uint64_t seed, const Budget& budget);
+InsertionReport insert_particles(Configuration2& configuration, const InsertionOptions& options,
+                                 std::uint64_t seed, const Budget& budget);
 
 }  // namespace vitrel

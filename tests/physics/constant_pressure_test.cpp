@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <string>
 #include <tuple>
 #include <vector>
 
@@ -52,6 +53,12 @@ TEST_P(ConstantPressure, GivesThePackingFractionOfTheTable) {
   EXPECT_LT(found.error, 0.003 * entry.packing_fraction);
 }
 
+std::string name_of(const testing::TestParamInfo<Case>& at) {
+  const auto& [entry, change] = at.param;
+  return "kappa_" + std::to_string(static_cast<int>(entry.aspect_ratio)) +
+         (change == BoxChange::isotropic ? "_isotropic" : "_anisotropic");
+}
+
 // Disks: Kolafa & Rottner (2006); ellipses: Monte Carlo at constant volume, N ≈ 400, good to 0.1 %.
 INSTANTIATE_TEST_SUITE_P(Tables, ConstantPressure,
                          testing::Combine(testing::Values(TableEntry{1, 0.5, 4.106364, 0.001},
@@ -59,7 +66,8 @@ INSTANTIATE_TEST_SUITE_P(Tables, ConstantPressure,
                                                           TableEntry{4, 0.4, 3.757, 0.001},
                                                           TableEntry{6, 0.3, 3.0335, 0.001}),
                                           testing::Values(BoxChange::isotropic,
-                                                          BoxChange::anisotropic)));
+                                                          BoxChange::anisotropic)),
+                         name_of);
 
 }  // namespace
 }  // namespace vitrel
