@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "core/contact/support_gap.h"
-#include "core/neighbors/cell_grid.h"
+#include "core/neighbors/pairs.h"
 
 namespace vitrel {
 
@@ -74,23 +74,13 @@ double mean_diameter(const Configuration2& configuration) {
 }  // namespace
 
 std::vector<Contact> contacts(const Configuration2& configuration, double tolerance) {
-  const double largest = largest_circumradius(configuration);
-  CellGrid<> centres(configuration.box, 2 * largest + tolerance, configuration.size());
-  for (std::size_t i = 0; i < configuration.size(); ++i)
-    centres.insert(i, {configuration.position[i]});
   std::vector<Contact> found;
-  for (std::size_t i = 0; i < configuration.size(); ++i) {
-    const Ellipse& one = configuration.shape[i];
-    centres.for_each_near(
-        configuration.position[i], one.circumradius() + largest + tolerance,
-        [&](std::size_t j, const Shift<2>& shift, const Vec2& d) {
-          const bool after_zero = shift.x() > 0 || (shift.x() == 0 && shift.y() > 0);
-          if (j < i || (j == i && !after_zero)) return;
-          const SupportGap surfaces = support_gap(
-              one, configuration.angle[i], configuration.shape[j], configuration.angle[j], d);
-          if (surfaces.gap < tolerance) found.push_back({i, j, surfaces.normal, surfaces.gap});
-        });
-  }
+  const double scale = 1 + tolerance / largest_circumradius(configuration);
+  for_each_pair(configuration, scale, [&](std::size_t i, std::size_t j, const Vec2& d) {
+    const SupportGap surfaces = support_gap(configuration.shape[i], configuration.angle[i],
+                                            configuration.shape[j], configuration.angle[j], d);
+    if (surfaces.gap < tolerance) found.push_back({i, j, surfaces.normal, surfaces.gap});
+  });
   return found;
 }
 

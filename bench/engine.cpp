@@ -19,10 +19,10 @@
 #include "bench/lab/twins/engine_twins.h"
 #include "bench/parts.h"
 #include "core/neighbors/neighborhood.h"
+#include "core/neighbors/pairs.h"
 #include "edmd/brownian.h"
 #include "edmd/instances/instances.h"
 #include "edmd/run.h"
-#include "mc/disjoint.h"
 
 namespace vitrel::lab {
 namespace {
@@ -85,12 +85,6 @@ class Repeats {
  private:
   std::vector<Work> works_;
 };
-
-Json scene_json(const FluidScene& scene) {
-  return {{"particles", scene.particles},
-          {"aspect_ratio", scene.aspect_ratio},
-          {"packing_fraction", scene.packing_fraction}};
-}
 
 /// A liquid that has also moved by event-driven dynamics.
 Configuration2 relaxed(const FluidScene& scene, double seconds) {

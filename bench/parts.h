@@ -14,6 +14,12 @@ namespace vitrel::lab {
 
 using Json = nlohmann::ordered_json;
 
+inline Json scene_json(const FluidScene& scene) {
+  return {{"particles", scene.particles},
+          {"aspect_ratio", scene.aspect_ratio},
+          {"packing_fraction", scene.packing_fraction}};
+}
+
 template <class Effort>
 using BenchParts = std::vector<std::pair<std::string, Json (*)(const Effort&)>>;
 

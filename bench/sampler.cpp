@@ -20,6 +20,7 @@
 #include "core/contact/overlap_look.h"
 #include "core/contact/support_gap.h"
 #include "core/error.h"
+#include "core/neighbors/pairs.h"
 #include "core/random/stream.h"
 #include "mc/disjoint.h"
 #include "mc/sampler.h"
@@ -109,12 +110,6 @@ class Stretches {
  private:
   std::vector<double> ns_;
 };
-
-Json scene_json(const FluidScene& scene) {
-  return {{"particles", scene.particles},
-          {"aspect_ratio", scene.aspect_ratio},
-          {"packing_fraction", scene.packing_fraction}};
-}
 
 std::vector<FluidScene> scenes(const Effort& effort) {
   std::vector<FluidScene> all;

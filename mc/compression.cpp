@@ -34,7 +34,7 @@ void PressureSampler::sweep() {
 
 void PressureSampler::try_box(Stream draw) {
   ++tried_;
-  const double growth = draw.uniform(-box_step_, box_step_);  // of ln V
+  const double growth = draw.uniform(-box_step_.size(), box_step_.size());  // of ln V
   Vec2 factors = Vec2::Constant(std::exp(0.5 * growth));
   if (change_ == BoxChange::anisotropic) {
     const auto side = static_cast<Eigen::Index>(draw.below(2));
@@ -51,17 +51,10 @@ void PressureSampler::try_box(Stream draw) {
 }
 
 void PressureSampler::tune() {
-  moves_.tune();
   constexpr std::uint64_t enough = 20;
-  const std::uint64_t tried = tried_ - tuned_tried_;
-  if (tried < enough) return;
-  constexpr double wanted = 0.35, strongest = 2, widest = 0.1;
-  const double acceptance =
-      static_cast<double>(accepted_ - tuned_accepted_) / static_cast<double>(tried);
-  box_step_ *= std::clamp(acceptance / wanted, 1 / strongest, strongest);
-  box_step_ = std::min(box_step_, widest);
-  tuned_tried_ = tried_;
-  tuned_accepted_ = accepted_;
+  constexpr double widest = 0.1;
+  moves_.tune();
+  box_step_.tune(tried_, accepted_, enough, widest);
 }
 
 namespace {

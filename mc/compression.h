@@ -37,8 +37,8 @@ class PressureSampler {
   /// Adapts all step sizes towards an acceptance of 0.35 (Sampler::tune).
   void tune();
 
-  double box_step() const { return box_step_; }
-  void set_box_step(double step) { box_step_ = step; }
+  double box_step() const { return box_step_.size(); }
+  void set_box_step(double step) { box_step_.set(step); }
   /// The moves of the particles.
   Sampler& moves() { return moves_; }
   std::uint64_t box_trials() const { return tried_; }
@@ -53,8 +53,8 @@ class PressureSampler {
   std::uint64_t seed_;
   double aspect_at_start_;
   Sampler moves_;
-  double box_step_ = 0.01;
-  std::uint64_t tried_ = 0, accepted_ = 0, tuned_tried_ = 0, tuned_accepted_ = 0;
+  StepSize box_step_{0.01};
+  std::uint64_t tried_ = 0, accepted_ = 0;
 };
 
 /// Compression at constant pressure.

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/contact/perram_wertheim.h"
-#include "mc/disjoint.h"
+#include "core/neighbors/pairs.h"
 
 namespace vitrel {
 

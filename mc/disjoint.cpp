@@ -5,6 +5,7 @@
 
 #include "core/contact/pair.h"
 #include "core/contact/perram_wertheim.h"
+#include "core/neighbors/pairs.h"
 #include "core/tolerances.h"
 
 namespace vitrel {
@@ -12,14 +13,6 @@ namespace vitrel {
 double hard_margin(const Configuration2& configuration) {
   return tolerance::contact_gap(0.5 * configuration.box.lengths().maxCoeff() +
                                 largest_circumradius(configuration));
-}
-
-CellGrid<> make_cells(const Configuration2& configuration) {
-  CellGrid<> cells(configuration.box, 2 * largest_circumradius(configuration),
-                   configuration.size());
-  for (std::size_t i = 0; i < configuration.size(); ++i)
-    cells.insert(i, {configuration.position[i]});
-  return cells;
 }
 
 bool clear_of_own_images(const PeriodicBox<2>& box, const Ellipse& shape, const Vec2& axis,

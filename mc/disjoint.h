@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "core/geometry/ellipse.h"
-#include "core/neighbors/cell_grid.h"
 #include "core/state/configuration.h"
 
 /// What all Monte Carlo stages ask of a state: are all particles at least a margin apart?
@@ -14,29 +13,9 @@ namespace vitrel {
 /// particle (tolerances.h), so that rounded coordinates never overlap.
 double hard_margin(const Configuration2& configuration);
 
-/// Cells filled with the positions of a configuration, which must be wrapped.
-CellGrid<> make_cells(const Configuration2& configuration);
-
 /// Whether a particle keeps the margin to its own images, which lie at whole box lengths.
 bool clear_of_own_images(const PeriodicBox<2>& box, const Ellipse& shape, const Vec2& axis,
                          double margin);
-
-/// Calls visit(i, j, d) for every pair (i ≤ j, d from i to the image of j) whose circumcircles meet
-/// when all are enlarged by `scale`, and perhaps for some more; each pair once, also (i, i,
-/// ±shift).
-template <class Visit>
-void for_each_pair(const Configuration2& configuration, double scale, Visit&& visit) {
-  const CellGrid<> cells = make_cells(configuration);
-  const double largest = largest_circumradius(configuration);
-  for (std::size_t i = 0; i < configuration.size(); ++i) {
-    const double reach = scale * (configuration.shape[i].circumradius() + largest);
-    cells.for_each_near(
-        configuration.position[i], reach, [&](std::size_t j, const Shift<2>& shift, const Vec2& d) {
-          const bool after_zero = shift.x() > 0 || (shift.x() == 0 && shift.y() > 0);
-          if (j > i || (j == i && after_zero)) visit(i, j, d);
-        });
-  }
-}
 
 /// The first pair closer than the margin, if any.
 std::optional<std::pair<std::size_t, std::size_t>> find_overlap(

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/contact/pair.h"
+#include "core/neighbors/cell_grid.h"
 #include "core/random/stream.h"
 #include "mc/disjoint.h"
 

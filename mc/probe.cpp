@@ -58,9 +58,10 @@ class Comparison {
 }  // namespace
 
 std::optional<Probe> probe(const Configuration2& configuration, std::uint64_t sweeps,
-                           std::uint64_t seed, std::uint64_t first_sweep, const Budget& budget) {
+                           std::uint64_t seed, std::uint64_t first_sweep, const Budget& budget,
+                           int threads) {
   Configuration2 copy = configuration;
-  Sampler sampler(copy, seed, first_sweep);
+  Sampler sampler(copy, seed, first_sweep, threads);
   const auto sweep = [&](std::uint64_t done) {
     if (budget.stop_requested()) return false;
     sampler.sweep();

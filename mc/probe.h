@@ -33,9 +33,11 @@ struct Probe {
   std::optional<std::uint64_t> place_lost;
 };
 
-/// `sweeps` ≥ 1 are numbered from `first_sweep`, with the streams of the sampler. Nothing if the
+/// `sweeps` ≥ 1 are numbered from `first_sweep`, with the streams of the sampler, on any number of
+/// threads. Nothing if the
 /// budget asked to stop.
 std::optional<Probe> probe(const Configuration2& configuration, std::uint64_t sweeps,
-                           std::uint64_t seed, std::uint64_t first_sweep, const Budget& budget);
+                           std::uint64_t seed, std::uint64_t first_sweep, const Budget& budget,
+                           int threads = 1);
 
 }  // namespace vitrel

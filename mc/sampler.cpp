@@ -74,8 +74,8 @@ void Sampler::fit_board() {
 }
 
 void Sampler::set_steps(double translation, double rotation) {
-  translation_ = translation;
-  rotation_ = rotation;
+  translation_.set(translation);
+  rotation_.set(rotation);
 }
 
 void Sampler::sweep() {
@@ -165,7 +165,7 @@ void Sampler::translate(std::size_t i, const Words& words, Turn& turn) {
   LaneCells::Group& group = cells_.group_of(i);
   const int lane = cells_.lane_of(i);
   const Vec2 step(plus_minus_one(words[1]), plus_minus_one(words[2]));
-  Vec2 position = group.position(lane) + translation_ * step;
+  Vec2 position = group.position(lane) + translation_.size() * step;
   Shift<2> crossed = Shift<2>::Zero();
   if (((position.array().abs() >= half_box_.array())).any())
     configuration_.box.wrap(position, crossed);
@@ -192,7 +192,7 @@ void Sampler::translate(std::size_t i, const Words& words, Turn& turn) {
 void Sampler::rotate(std::size_t i, const Words& words, Turn& turn) {
   LaneCells::Group& group = cells_.group_of(i);
   const int lane = cells_.lane_of(i);
-  const double angle = configuration_.angle[i] + rotation_ * plus_minus_one(words[1]);
+  const double angle = configuration_.angle[i] + rotation_.size() * plus_minus_one(words[1]);
   const Vec2 axis = axis_at(angle), position = group.position(lane);
   const Ellipse shape = group.shape(lane);
   ++turn.tally.rotations_tried;
@@ -294,35 +294,11 @@ void Sampler::add(const Tally& tally) {
   looks_.alone += tally.looks.alone;
 }
 
-namespace {
-
-/// Trials of one kind that tell its acceptance to about 0.05.
-constexpr std::uint64_t trials_to_tune = 100;
-
-double adapted(double step, double largest, std::uint64_t tried, std::uint64_t accepted) {
-  const double acceptance = static_cast<double>(accepted) / static_cast<double>(tried);
-  constexpr double wanted = 0.35, strongest = 2;
-  return std::min(largest, step * std::clamp(acceptance / wanted, 1 / strongest, strongest));
-}
-
-}  // namespace
-
 void Sampler::tune() {
-  const std::uint64_t translations = counts_.translations_tried - tuned_at_.translations_tried;
-  if (translations >= trials_to_tune) {
-    translation_ =
-        adapted(translation_, 0.5 * configuration_.box.lengths().minCoeff(), translations,
-                counts_.translations_accepted - tuned_at_.translations_accepted);
-    tuned_at_.translations_tried = counts_.translations_tried;
-    tuned_at_.translations_accepted = counts_.translations_accepted;
-  }
-  const std::uint64_t rotations = counts_.rotations_tried - tuned_at_.rotations_tried;
-  if (rotations >= trials_to_tune) {
-    rotation_ = adapted(rotation_, std::numbers::pi / 2, rotations,
-                        counts_.rotations_accepted - tuned_at_.rotations_accepted);
-    tuned_at_.rotations_tried = counts_.rotations_tried;
-    tuned_at_.rotations_accepted = counts_.rotations_accepted;
-  }
+  constexpr std::uint64_t enough = 100;  // to tell the acceptance to about 0.05
+  translation_.tune(counts_.translations_tried, counts_.translations_accepted, enough,
+                    0.5 * configuration_.box.lengths().minCoeff());
+  rotation_.tune(counts_.rotations_tried, counts_.rotations_accepted, enough, std::numbers::pi / 2);
 }
 
 }  // namespace vitrel

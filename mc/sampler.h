@@ -9,6 +9,7 @@
 #include "core/state/stage.h"
 #include "mc/checkerboard.h"
 #include "mc/lane_cells.h"
+#include "mc/step_size.h"
 
 namespace vitrel {
 
@@ -61,8 +62,8 @@ class Sampler {
   /// margin to each other; shapes and angles stay.
   bool rescale(const Vec2& factors);
 
-  double translation_step() const { return translation_; }
-  double rotation_step() const { return rotation_; }
+  double translation_step() const { return translation_.size(); }
+  double rotation_step() const { return rotation_.size(); }
   void set_steps(double translation, double rotation);
 
   /// The number of the next sweep.
@@ -113,9 +114,9 @@ class Sampler {
   std::vector<LaneCells::Index> begin_;    // of every cell in order_, while sorting
   std::vector<std::size_t> domain_begin_;  // of every domain in order_
   std::vector<LaneCells::Spare> spare_;    // of every domain
-  double translation_ = 0.1, rotation_ = 0.1;
+  StepSize translation_{0.1}, rotation_{0.1};
   std::uint64_t seed_, sweep_;
-  StageReport counts_, tuned_at_;
+  StageReport counts_;
   Looks looks_;
 };
 

@@ -24,13 +24,6 @@ constexpr double share = 0.95;
 constexpr std::uint64_t jamming_sweeps = 5000;
 constexpr double jamming_rise = 1e-4;
 
-void add_counts(StageReport& sum, const StageReport& part) {
-  sum.translations_tried += part.translations_tried;
-  sum.translations_accepted += part.translations_accepted;
-  sum.rotations_tried += part.rotations_tried;
-  sum.rotations_accepted += part.rotations_accepted;
-}
-
 Ellipse enlarged(const Ellipse& shape, double factor) {
   return {shape.a * factor, shape.b * factor};
 }
@@ -123,7 +116,7 @@ class Swelling {
     }
     translation_ = sampler.translation_step();
     rotation_ = sampler.rotation_step();
-    add_counts(report_, sampler.counts());
+    report_.add_counts(sampler.counts());
     return waiting.empty();
   }
 

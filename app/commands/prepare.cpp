@@ -81,7 +81,7 @@ int prepare_command(const Arguments& arguments) {
   std::optional<Quality> quality;
   if (preparation.report.end == StageEnd::reached) {
     session.say()("quality report");
-    quality = measure_quality(preparation, parameters, session.budget());
+    quality = measure_quality(preparation, parameters, session.budget(), arguments.threads);
   }
   if (!quality) {
     remark(arguments, "stopped; a preparation is not continued but made anew by the same command");

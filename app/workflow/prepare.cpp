@@ -56,10 +56,7 @@ class Preparer {
   bool run(const PrepareStage& stage) {
     const StageReport report = run_stage(stage);
     StageReport& total = result.report;
-    total.translations_tried += report.translations_tried;
-    total.translations_accepted += report.translations_accepted;
-    total.rotations_tried += report.rotations_tried;
-    total.rotations_accepted += report.rotations_accepted;
+    total.add_counts(report);
     total.end = report.end;
     total.reason = report.reason;
     if (report.end == StageEnd::stuck)

@@ -98,12 +98,12 @@ void add_contact_rows(std::vector<QualityRow>& rows, const Quality& quality) {
 }  // namespace
 
 std::optional<Quality> measure_quality(const Preparation& preparation, const Parameters& parameters,
-                                       const Budget& budget) {
+                                       const Budget& budget, int threads) {
   const Configuration2& state = preparation.configuration;
   Quality quality;
   if (parameters.quality_sweeps > 0) {
     quality.probe = probe(state, parameters.quality_sweeps, parameters.system.seed,
-                          preparation.next_sweep, budget);
+                          preparation.next_sweep, budget, threads);
     if (!quality.probe) return std::nullopt;
   }
   quality.particles = state.size();

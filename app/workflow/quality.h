@@ -36,7 +36,7 @@ struct Quality {
 /// of the growth if that was the last stage, else that of a short sampling on a copy. Nothing if
 /// the budget asked to stop.
 std::optional<Quality> measure_quality(const Preparation& preparation, const Parameters& parameters,
-                                       const Budget& budget);
+                                       const Budget& budget, int threads = 1);
 
 /// The properties, in words and rounded numbers.
 std::vector<QualityRow> quality_rows(const Quality& quality);

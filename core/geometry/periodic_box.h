@@ -80,4 +80,9 @@ class PeriodicBox {
   Vec<Dim> lengths_;
 };
 
+/// Of two opposite shifts, exactly one: so that own images are counted once.
+inline bool comes_after_zero(const Shift<2>& shift) {
+  return shift.x() > 0 || (shift.x() == 0 && shift.y() > 0);
+}
+
 }  // namespace vitrel

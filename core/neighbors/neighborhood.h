@@ -252,10 +252,6 @@ class Neighborhoods {
     if (count > 0) judge();
   }
 
-  static bool comes_after_zero(const Shift<2>& shift) {
-    return shift.x() > 0 || (shift.x() == 0 && shift.y() > 0);
-  }
-
   std::vector<Pair> pairs_closer_than(double limit) const {
     std::vector<Pair> pairs;
     for (std::size_t i = 0; i < references_.size(); ++i)

@@ -36,6 +36,13 @@ struct StageReport {
   std::string reason;  ///< one sentence, for a person
   std::uint64_t translations_tried = 0, translations_accepted = 0;
   std::uint64_t rotations_tried = 0, rotations_accepted = 0;
+
+  void add_counts(const StageReport& other) {
+    translations_tried += other.translations_tried;
+    translations_accepted += other.translations_accepted;
+    rotations_tried += other.rotations_tried;
+    rotations_accepted += other.rotations_accepted;
+  }
 };
 
 }  // namespace vitrel

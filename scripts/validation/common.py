@@ -43,6 +43,18 @@ def run_and_check(build, parameters, *overrides, frames=()):
         return run, summary_of(build, "check", file, *frames)
 
 
+def preparation(particles, aspect_ratio, sizes, *sections):
+    """Parameters of a mixture in equal numbers, and these sections."""
+    species = "\n".join(
+        f'[[species]]\nname = "{name}"\nfraction = {1 / len(sizes)}\naspect_ratio = {aspect_ratio}\nsize = {size}'
+        for name, size in zip("AB", sizes))
+    system = f"[system]\nparticles = {particles}\nseed = 1"
+    return "\n\n".join((system, species, *sections)) + "\n"
+
+
+INSERT = '[[prepare.stage]]\nmethod = "insert"\npacking_fraction = 0.3'
+
+
 def processor():
     found = re.search(r"^model name\s*: (.+)$", pathlib.Path("/proc/cpuinfo").read_text(), re.MULTILINE)
     return found[1] if found else platform.machine()

@@ -6,7 +6,7 @@ import re
 import subprocess
 import tempfile
 
-from validation.common import expect, shape, summary_of, table
+from validation.common import INSERT, expect, preparation, shape, summary_of, table
 
 TITLE = "Dense states: method, aspect ratio, packing fraction, time"
 PARTICLES = 1000
@@ -28,36 +28,19 @@ METHODS = {
 MOST_SECONDS = 300
 
 
-def parameters(kappa, sizes, fraction, method):
-    species = "\n".join(
-        f'[[species]]\nname = "{name}"\nfraction = {1 / len(sizes)}\naspect_ratio = {kappa}\nsize = {size}'
-        for name, size in zip("AB", sizes))
-    return f"""[system]
-particles = {PARTICLES}
-packing_fraction = {fraction}
-seed = 1
-
-{species}
-
-[prepare]
-quality_sweeps = 0
-
-[[prepare.stage]]
-method = "insert"
-packing_fraction = 0.3
-
-[[prepare.stage]]
-{METHODS[method]}
-"""
+def parameters(kappa, sizes, method):
+    return preparation(PARTICLES, kappa, sizes, "[prepare]\nquality_sweeps = 0", INSERT,
+                       f"[[prepare.stage]]\n{METHODS[method]}")
 
 
 def outcome(build, kappa, sizes, fraction, method):
     """Whether the packing fraction was reached, and the table's words about it."""
     with tempfile.TemporaryDirectory() as folder:
         file, state = pathlib.Path(folder, "dense.toml"), pathlib.Path(folder, "state.h5")
-        file.write_text(parameters(kappa, sizes, fraction, method), encoding="utf-8")
-        done = subprocess.run([build / "app/vitrel", "prepare", file, "-o", state, "--json", "-q"], check=False,
-                              capture_output=True, text=True, timeout=MOST_SECONDS)
+        file.write_text(parameters(kappa, sizes, method), encoding="utf-8")
+        density = f"system.packing_fraction={fraction}"
+        done = subprocess.run([build / "app/vitrel", "prepare", file, "-o", state, "--json", "-q", "--set", density],
+                              check=False, capture_output=True, text=True, timeout=MOST_SECONDS)
         if done.returncode != 0:
             jammed = re.search(r"jammed,? at a packing fraction of ([0-9.]+)", done.stderr)
             expect(jammed, f"{method}, κ = {kappa}: {done.stderr}")

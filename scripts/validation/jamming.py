@@ -3,7 +3,7 @@
 import pathlib
 import tempfile
 
-from validation.common import HERE, expect, summary_of, table
+from validation.common import HERE, INSERT, expect, preparation, summary_of, table
 
 TITLE = "Jammed packings: packing fraction against aspect ratio"
 FIGURE = HERE.parents[1] / "docs" / "figures" / "jamming.svg"
@@ -28,24 +28,9 @@ TOLERANCE = 0.01
 
 
 def parameters(aspect_ratio, sizes):
-    species = "\n".join(
-        f'[[species]]\nname = "{name}"\nfraction = {1 / len(sizes)}\naspect_ratio = {aspect_ratio}\nsize = {size}'
-        for name, size in zip("AB", sizes))
-    growth = "\n".join(
-        f'[[prepare.stage]]\nmethod = "grow"\nreduced_pressure = {pressure}\ngrowth_rate = {GROWTH_RATE}'
-        for pressure in PRESSURES)
-    return f"""[system]
-particles = {PARTICLES}
-seed = 1
-
-{species}
-
-[[prepare.stage]]
-method = "insert"
-packing_fraction = 0.3
-
-{growth}
-"""
+    growth = (f'[[prepare.stage]]\nmethod = "grow"\nreduced_pressure = {pressure}\ngrowth_rate = {GROWTH_RATE}'
+              for pressure in PRESSURES)
+    return preparation(PARTICLES, aspect_ratio, sizes, INSERT, *growth)
 
 
 class Packing:

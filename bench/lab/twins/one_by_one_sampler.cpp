@@ -1,6 +1,7 @@
 #include "bench/lab/twins/one_by_one_sampler.h"
 
 #include "core/contact/support_gap.h"
+#include "core/neighbors/pairs.h"
 #include "mc/disjoint.h"
 
 namespace vitrel::lab {

@@ -355,6 +355,21 @@ function drawState(view) {
     : `the central ${shortNumber(boxX, 4)} × ${shortNumber(boxY, 4)} of the box, ${particles.length / 5} of N = ${view.particles} particles.`);
 }
 
+// Calls draw when the picture has another width, and recolour when the colours change.
+function watchPicture(draw, recolour) {
+  let width = byId('state').clientWidth;
+  new ResizeObserver(() => {
+    if (byId('state').clientWidth === width) return;
+    width = byId('state').clientWidth;
+    draw();
+  }).observe(byId('state'));
+  darkMode.addEventListener('change', () => {
+    recolour();
+    draw();
+    drawOrientationKey();
+  });
+}
+
 function drawOrientationKey() {
   const canvas = byId('orientation-key');
   const ctx = prepareCanvas(canvas, 260, 44);

@@ -132,18 +132,10 @@ function start() {
   choose(chosen);
   drawOrientationKey();
 
-  let width = byId('state').clientWidth;
-  new ResizeObserver(() => {
-    if (byId('state').clientWidth === width) return;
-    width = byId('state').clientWidth;
-    drawFinalState(runs[chosen]);
-  }).observe(byId('state'));
-  darkMode.addEventListener('change', () => {
+  watchPicture(() => drawFinalState(runs[chosen]), () => {
     charts.forEach(({ chart }) => chart.draw());
     energy?.build();
     refillLegend();
-    drawFinalState(runs[chosen]);
-    drawOrientationKey();
   });
 }
 

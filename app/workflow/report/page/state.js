@@ -24,16 +24,8 @@ function start() {
   drawState(view);
   drawOrientationKey();
 
-  let width = byId('state').clientWidth;
-  new ResizeObserver(() => {
-    if (byId('state').clientWidth === width) return;
-    width = byId('state').clientWidth;
-    drawState(view);
-  }).observe(byId('state'));
-  darkMode.addEventListener('change', () => {
+  watchPicture(() => drawState(view), () => {
     charts.forEach((chart) => chart.draw());
-    drawState(view);
-    drawOrientationKey();
   });
 }
 
