@@ -60,7 +60,7 @@ struct Acceptance {
   double translation, rotation;
 };
 
-Acceptance acceptance(const StageReport& before, const StageReport& after) {
+Acceptance acceptance(const TrialCounts& before, const TrialCounts& after) {
   return {ratio(after.translations_accepted - before.translations_accepted,
                 after.translations_tried - before.translations_tried),
           ratio(after.rotations_accepted - before.rotations_accepted,
@@ -76,7 +76,7 @@ Steps fitting_steps(AnySampler& sampler, int sweeps) {
   };
   for (int round = 0; round < 20; ++round) {
     sampler.set_steps(steps.translation, steps.rotation);
-    const StageReport before = sampler.counts();
+    const TrialCounts before = sampler.counts();
     for (int k = 0; k < sweeps; ++k) sampler.sweep();
     const Acceptance found = acceptance(before, sampler.counts());
     steps.translation = adapted(steps.translation, found.translation);
@@ -129,7 +129,7 @@ Json measure_speed(const Effort& effort) {
     OneByOneSampler twin(plain, 1);
     const Steps steps = fitting_steps(sampler, 20);
     twin.set_steps(steps.translation, steps.rotation);
-    const StageReport before = sampler.counts(), twin_before = twin.counts();
+    const TrialCounts before = sampler.counts(), twin_before = twin.counts();
     const Sampler::Looks looks = sampler.looks();
     const std::uint64_t decisions = twin.decisions();
     Stretches of_ours, of_twin;
@@ -137,9 +137,8 @@ Json measure_speed(const Effort& effort) {
       of_ours.add(sampler, ours.size(), effort.stretch);
       of_twin.add(twin, plain.size(), effort.stretch);
     }
-    const auto trials = [](const StageReport& from, const StageReport& to) {
-      return to.translations_tried + to.rotations_tried - from.translations_tried -
-             from.rotations_tried;
+    const auto trials = [](const TrialCounts& from, const TrialCounts& to) {
+      return to.tried() - from.tried();
     };
     const std::uint64_t tried = trials(before, sampler.counts());
     const Acceptance accepted = acceptance(before, sampler.counts());
@@ -172,7 +171,7 @@ Json measure_threads(const Effort& effort) {
     scene.particles = static_cast<int>(start.size());
     say(fmt::format("threads: kappa = {}, N = {}", kappa, scene.particles));
     Configuration2 first = start, second = start;
-    Sampler one(first, 1, 0, 1), two(second, 1, 0, 2);
+    Sampler one(first, 1, {}, 1), two(second, 1, {}, 2);
     const Steps steps = fitting_steps(one, 2);
     two.set_steps(steps.translation, steps.rotation);
     Stretches of_one, of_two;

@@ -31,35 +31,32 @@ double scale_to(double target, double energy) {
 
 class Growth {
  public:
-  Growth(Configuration2& configuration, const GrowthReport& before, const GrowthOptions& options)
+  Growth(Configuration2& configuration, const GrowthOptions& options, GrowthState& state)
       : configuration_(configuration),
         options_(options),
+        state_(state),
         shapes_(configuration.shape),
         start_time_(configuration.time),
         start_fraction_(vitrel::packing_fraction(configuration)),
         translations_(static_cast<double>(configuration.size()) - 1),
-        rotations_(0.5 * static_cast<double>(rotor_count(configuration))),
-        report_(before) {
+        rotations_(0.5 * static_cast<double>(rotor_count(configuration))) {
     check();
     EngineOptions engine;
     engine.growth_rate = options.growth_rate;
     engine_ = make_engine(configuration, engine);
   }
 
-  void begin() {
-    draw_velocities(configuration_, options_.seed, Purpose::velocities, 0, Temperature::relative);
-    // Alone, a particle would keep its momentum.
-    if (configuration_.size() == 1) configuration_.velocity[0] = Vec2::Zero();
-  }
-
-  GrowthReport run(const Budget& budget) {
+  StageReport run(const Budget& budget) {
+    if (!state_.under_way) begin();
     while (true) {
-      if (at_packing_fraction()) return ended(StageEnd::reached, "the packing fraction");
-      if (at_pressure()) return ended(StageEnd::reached, "the reduced pressure");
-      if (jammed()) return ended(StageEnd::stuck, "the particles are jammed");
-      if (budget.stop_requested()) return ended(StageEnd::stopped, "growth was stopped");
+      if (at_packing_fraction())
+        return ended(StageEnd::reached, "the packing fraction was reached");
+      if (at_pressure()) return ended(StageEnd::reached, "the reduced pressure was reached");
+      if (jammed()) return ended(StageEnd::stuck, stuck_text());
+      if (budget.stop_requested()) return {StageEnd::stopped, "growth was stopped"};
       block();
       budget.tell({progress(), packing_fraction(), "packing fraction"});
+      budget.mark_resumable();
     }
   }
 
@@ -86,21 +83,30 @@ class Growth {
                       std::to_string(start_fraction_));
   }
 
+  void begin() {
+    draw_velocities(configuration_, options_.seed, Purpose::velocities, state_.draws++,
+                    Temperature::relative);
+    // Alone, a particle would keep its momentum.
+    if (configuration_.size() == 1) configuration_.velocity[0] = Vec2::Zero();
+    state_.under_way = true;
+  }
+
   void block() {
     configuration_.time = 0;
-    const double virial = report_.counters.virial;
+    const double virial = state_.counters.virial;
     const double to_goal = time_to_goal();
-    const double most = std::min(largest_growth, largest_compression / report_.reduced_pressure);
+    const double most = std::min(largest_growth, largest_compression / state_.reduced_pressure);
     const double end = std::min(to_goal, most / std::abs(rate()));
     engine_->load(configuration_, end);
-    const bool at_end = engine_->advance(end, report_.counters) == Engine::Stop::time;
+    const bool at_end = engine_->advance(end, state_.counters) == Engine::Stop::time;
     engine_->write(configuration_);
     const double time = configuration_.time;
     stands_still_ = !(time > 0);
     // The last block may be cut so short that it holds hardly any collisions.
-    const bool short_block = at_end && end == to_goal && report_.reduced_pressure > 0;
-    if (!stands_still_ && !short_block) note_pressure(report_.counters.virial - virial, time);
-    report_.time += time;
+    const bool short_block =
+        at_end && time * std::abs(rate()) < 0.5 * most && state_.reduced_pressure > 0;
+    if (!stands_still_ && !short_block) note_pressure(state_.counters.virial - virial, time);
+    state_.time += time;
     divide_lengths(1 + rate() * time);
     rescale_velocities();
     configuration_.time = start_time_;
@@ -116,7 +122,7 @@ class Growth {
     const double temperature =
         (sums.translational_energy + sums.rotational_energy) / (translations_ + rotations_);
     const double n = static_cast<double>(configuration_.size());
-    report_.reduced_pressure = 1 + virial / (2 * n * mean_of_rise(temperature) * time);
+    state_.reduced_pressure = 1 + virial / (2 * n * mean_of_rise(temperature) * time);
   }
 
   void divide_lengths(double size) {
@@ -142,10 +148,10 @@ class Growth {
   }
   bool at_pressure() const {
     return options_.reduced_pressure && rate() > 0 &&
-           report_.reduced_pressure >= *options_.reduced_pressure;
+           state_.reduced_pressure >= *options_.reduced_pressure;
   }
   bool jammed() const {
-    return stands_still_ || report_.reduced_pressure > greatest_reduced_pressure;
+    return stands_still_ || state_.reduced_pressure > greatest_reduced_pressure;
   }
 
   // By the logarithms, in which growth is about even.
@@ -155,42 +161,37 @@ class Growth {
       done = std::log(packing_fraction() / start_fraction_) /
              std::log(*options_.packing_fraction / start_fraction_);
     if (options_.reduced_pressure)
-      done = std::max(done, std::log(std::max(1.0, report_.reduced_pressure)) /
+      done = std::max(done, std::log(std::max(1.0, state_.reduced_pressure)) /
                                 std::log(*options_.reduced_pressure));
     return std::clamp(done, 0.0, 1.0);
   }
 
-  GrowthReport ended(StageEnd end, const std::string& how) {
-    report_.end = end;
-    report_.packing_fraction = packing_fraction();
-    report_.reason = how + (end == StageEnd::reached ? " was reached," : ",") +
-                     " at a packing fraction of " + std::to_string(report_.packing_fraction) +
-                     " and a reduced pressure of " + std::to_string(report_.reduced_pressure);
-    return report_;
+  StageReport ended(StageEnd end, const std::string& reason) {
+    state_.under_way = false;
+    return {end, reason};
+  }
+
+  std::string stuck_text() const {
+    return "the particles are jammed, at a packing fraction of " +
+           std::to_string(packing_fraction()) + " and a reduced pressure of " +
+           std::to_string(state_.reduced_pressure);
   }
 
   Configuration2& configuration_;
   const GrowthOptions& options_;
+  GrowthState& state_;
   const std::vector<Ellipse> shapes_;
   const double start_time_, start_fraction_;
   const double translations_, rotations_;  // energies at kT = 1: N − 1 and N_rot/2
   std::unique_ptr<Engine> engine_;
   bool stands_still_ = false;
-  GrowthReport report_;
 };
 
 }  // namespace
 
-GrowthReport grow(Configuration2& configuration, const GrowthOptions& options,
-                  const Budget& budget) {
-  Growth growth(configuration, {}, options);
-  growth.begin();
-  return growth.run(budget);
-}
-
-GrowthReport resume_growth(Configuration2& configuration, const GrowthReport& before,
-                           const GrowthOptions& options, const Budget& budget) {
-  return Growth(configuration, before, options).run(budget);
+StageReport grow(Configuration2& configuration, const GrowthOptions& options, GrowthState& state,
+                 const Budget& budget) {
+  return Growth(configuration, options, state).run(budget);
 }
 
 }  // namespace vitrel

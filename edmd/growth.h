@@ -17,7 +17,7 @@
 /// (h the support functions) adds to the approach speed, so that every impulse J does the work J s
 /// and the particles heat up.
 ///
-/// Velocities are drawn at the start (brownian.h). Steps of one block, which ends after a fixed count
+/// Velocities are drawn at the start (brownian.h), from the stream (seed, velocities, draws). Steps of one block, which ends after a fixed count
 /// of events, or earlier: when all has grown by 1 %, or kT has risen by some 10 %:
 ///   1. The engine runs with growth rate γ.
 ///   2. Reduced pressure Z = βP/ρ = 1 + Σ J n·d/(2 N ⟨kT⟩ t), d from centre to centre. kT = 2E/f,
@@ -49,29 +49,25 @@ struct GrowthOptions {
   double growth_rate = 1e-3;               ///< γ, relative, per unit of time; negative to shrink
   std::optional<double> packing_fraction;  ///< ends there, exactly (tolerance::given_fraction)
   std::optional<double> reduced_pressure;  ///< ends with the first block of such a pressure
-  std::uint64_t seed = 1;                  ///< of the velocities drawn at the start
+  std::uint64_t seed = 1;
 };
 
-/// The end of a growth, with counts since its start.
-struct GrowthReport : StageReport {
-  double packing_fraction = 0;
+/// Where a growth stands, at a block's end.
+struct GrowthState {
+  std::uint64_t draws = 0;      ///< of velocities, of which the next one bears this number
+  bool under_way = false;       ///< else velocities are drawn first
   double reduced_pressure = 0;  ///< of the last block that ran to its end; 0 if there was none
   double time = 0;              ///< all blocks, each in its own unit of time
   RunCounters counters;
 };
 
-/// Grows from the start: `reached` at the wanted packing fraction or pressure, whichever comes first; `stuck` if the
-/// particles are jammed before; `stopped` by the budget, at a block end. In any case the state is
-/// hard, with shapes as given and a smaller (γ < 0: larger) box, net momentum 0 and kT = 1; its time
-/// is as given. Throws UserError if there is no goal, if γ leads away from it, or if nothing can
-/// move (a lone disk); InvariantError on an overlap, or if a particle grows into its own image and
-/// cannot turn away.
-GrowthReport grow(Configuration2& configuration, const GrowthOptions& options,
-                  const Budget& budget);
-
-/// Goes on after `stopped`, from what that call left and returned, bit by bit as if it had not been
-/// stopped.
-GrowthReport resume_growth(Configuration2& configuration, const GrowthReport& before,
-                           const GrowthOptions& options, const Budget& budget);
+/// `reached` at the wanted packing fraction or pressure, whichever comes first; `stuck` if the particles
+/// are jammed before; `stopped` by the budget, at a block end: the same call then goes on bit by bit. In
+/// any case the state is hard, with shapes as given and a smaller (γ < 0: larger) box, net momentum 0 and
+/// kT = 1; its time is as given. Throws UserError if there is no goal, if γ leads away from it, or if
+/// nothing can move (a lone disk); InvariantError on an overlap, or if a particle grows into its own image
+/// and cannot turn away.
+StageReport grow(Configuration2& configuration, const GrowthOptions& options, GrowthState& state,
+                 const Budget& budget);
 
 }  // namespace vitrel

@@ -1,9 +1,9 @@
 #include "mc/compression.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "mc/disjoint.h"
@@ -19,110 +19,136 @@ double aspect(const PeriodicBox<2>& box) {
 }  // namespace
 
 PressureSampler::PressureSampler(Configuration2& configuration, double pressure, BoxChange change,
-                                 std::uint64_t seed, std::uint64_t first_sweep, int threads)
+                                 std::uint64_t seed, const SweepState& moves, const BoxState& box,
+                                 int threads)
     : configuration_(configuration),
       pressure_(pressure),
       change_(change),
       seed_(seed),
-      aspect_at_start_(aspect(configuration.box)),
-      moves_(configuration, seed, first_sweep, threads) {}
+      box_(box),
+      moves_(configuration, seed, moves, threads) {
+  if (box_.aspect_at_start == 0) box_.aspect_at_start = aspect(configuration.box);
+}
 
 void PressureSampler::sweep() {
-  try_box(Stream(seed_, Purpose::box_trials, moves_.next_sweep()));
+  for (std::uint64_t trial = 0; trial < box_trials; ++trial)
+    try_box(Stream(seed_, Purpose::box_trials, moves_.state().next_sweep, trial));
   moves_.sweep();
 }
 
 void PressureSampler::try_box(Stream draw) {
-  ++tried_;
-  const double growth = draw.uniform(-box_step_.size(), box_step_.size());  // of ln V
+  const double growth = draw.uniform(-box_.step.size, box_.step.size);  // of ln V
   Vec2 factors = Vec2::Constant(std::exp(0.5 * growth));
   if (change_ == BoxChange::anisotropic) {
-    const auto side = static_cast<Eigen::Index>(draw.below(2));
     factors = Vec2::Ones();
-    factors[side] = std::exp(growth);
-    const double change = factors.y() / factors.x() * aspect(configuration_.box) / aspect_at_start_;
-    if (change > widest_change || change < 1 / widest_change) return;
+    factors[static_cast<Eigen::Index>(draw.below(2))] = std::exp(growth);
   }
   const double volume = configuration_.box.volume();
   const auto exponent = static_cast<double>(configuration_.size() + 1);
   const double weight = exponent * growth - pressure_ * volume * std::expm1(growth);
-  if (draw.uniform() >= std::exp(weight)) return;
-  if (moves_.rescale(factors)) ++accepted_;
+  const bool accepted = draw.uniform() < std::exp(weight) && change_box(factors);
+  ++box_.tried;
+  box_.accepted += accepted;
+  box_.step.count(1, accepted);
+}
+
+bool PressureSampler::change_box(const Vec2& factors) {
+  const double change =
+      factors.y() / factors.x() * aspect(configuration_.box) / box_.aspect_at_start;
+  return change <= widest_change && change >= 1 / widest_change && moves_.rescale(factors);
 }
 
 void PressureSampler::tune() {
   constexpr std::uint64_t enough = 20;
   constexpr double widest = 0.1;
   moves_.tune();
-  box_step_.tune(tried_, accepted_, enough, widest);
+  box_.step.tune(enough, widest);
 }
 
 namespace {
 
-constexpr std::uint64_t sweeps_per_tuning = 20;
+double mean(std::span<const double> values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
 
-/// The packing fractions after every sweep.
-class Record {
+/// Whether the packing fractions after all sweeps so far no longer rise.
+bool has_come_to_rest(const std::vector<double>& all) {
+  constexpr std::size_t least = 4000;
+  constexpr double rise = 1e-3;
+  if (all.size() < least) return false;
+  const std::size_t quarter = all.size() / 4;
+  const std::span last(all.end() - static_cast<std::ptrdiff_t>(quarter), quarter);
+  const std::span third(last.data() - quarter, quarter);
+  return mean(last) < (1 + rise) * mean(third);
+}
+
+class Compression {
  public:
-  void add(double packing_fraction) { values_.push_back(packing_fraction); }
-  double mean_of_second_half() const { return mean(values_.size() / 2, values_.size()); }
-  bool has_come_to_rest() const {
-    constexpr std::size_t least = 4000;
-    constexpr double rise = 1e-3;
-    const std::size_t n = values_.size();
-    return n >= least && mean(n - n / 4, n) < (1 + rise) * mean(n / 2, n - n / 4);
+  Compression(Configuration2& configuration, const CompressionOptions& options, std::uint64_t seed,
+              CompressionState& state)
+      : configuration_(configuration),
+        options_(options),
+        state_(state),
+        sampler_(configuration, options.pressure, options.change, seed, state.moves, state.box,
+                 options.threads) {}
+
+  StageReport run(const Budget& budget) {
+    while (true) {
+      if (at_packing_fraction()) return finish();
+      if (at_rest()) return {StageEnd::stuck, end_text("no longer rises at this pressure")};
+      if (state_.moves.sweeps >= options_.sweeps)
+        return options_.packing_fraction
+                   ? StageReport{StageEnd::stuck, end_text("was all that its sweeps reached")}
+                   : StageReport{StageEnd::reached, "all sweeps were made"};
+      if (budget.stop_requested()) return {StageEnd::stopped, "compression was stopped"};
+      sweep();
+      budget.tell({static_cast<double>(state_.moves.sweeps) / static_cast<double>(options_.sweeps),
+                   packing_fraction(configuration_), "packing fraction"});
+      budget.mark_resumable();
+    }
   }
 
  private:
-  double mean(std::size_t begin, std::size_t end) const {
-    if (begin == end) return 0;
-    const std::span some(values_.data() + begin, values_.data() + end);
-    return std::accumulate(some.begin(), some.end(), 0.0) / static_cast<double>(some.size());
+  bool at_packing_fraction() const {
+    return options_.packing_fraction &&
+           packing_fraction(configuration_) >= *options_.packing_fraction;
   }
 
-  std::vector<double> values_;
+  bool at_rest() const {
+    constexpr std::uint64_t between_looks = 1000;
+    return options_.packing_fraction && state_.moves.sweeps % between_looks == 0 &&
+           has_come_to_rest(state_.packing_fraction);
+  }
+
+  void sweep() {
+    sampler_.sweep();
+    if (sampler_.moves().sweeps % sweeps_per_tuning == 0) sampler_.tune();
+    state_.moves = sampler_.moves();
+    state_.box = sampler_.box();
+    state_.packing_fraction.push_back(packing_fraction(configuration_));
+  }
+
+  StageReport finish() {
+    scale_to_packing_fraction(configuration_, *options_.packing_fraction);
+    return {StageEnd::reached, "the packing fraction was reached"};
+  }
+
+  std::string end_text(const std::string& how) const {
+    return "a packing fraction of " + std::to_string(packing_fraction(configuration_)) + " " + how +
+           "; " + std::to_string(*options_.packing_fraction) + " was wanted";
+  }
+
+  Configuration2& configuration_;
+  const CompressionOptions& options_;
+  CompressionState& state_;
+  PressureSampler sampler_;
 };
 
 }  // namespace
 
-CompressionReport compress(Configuration2& configuration, const CompressionOptions& options,
-                           std::uint64_t seed, std::uint64_t& first_sweep, const Budget& budget) {
-  const std::uint64_t between_looks = 1000;
-  PressureSampler sampler(configuration, options.pressure, options.change, seed, first_sweep,
-                          options.threads);
-  Record record;
-  const auto reached = [&] {
-    return options.packing_fraction && packing_fraction(configuration) >= *options.packing_fraction;
-  };
-  StageEnd end = options.packing_fraction ? StageEnd::stuck : StageEnd::reached;
-  std::string reason =
-      options.packing_fraction ? "the sweeps were used up" : "all sweeps were made";
-  for (std::uint64_t done = 0; done < options.sweeps && !reached();) {
-    if (budget.stop_requested()) {
-      end = StageEnd::stopped, reason = "the compression was stopped";
-      break;
-    }
-    sampler.sweep();
-    record.add(packing_fraction(configuration));
-    if (++done % sweeps_per_tuning == 0) sampler.tune();
-    budget.tell({static_cast<double>(done) / static_cast<double>(options.sweeps),
-                 packing_fraction(configuration), "packing fraction"});
-    if (options.packing_fraction && done % between_looks == 0 && record.has_come_to_rest()) {
-      reason = "the packing fraction no longer rises at this pressure";
-      break;
-    }
-  }
-  CompressionReport report{sampler.moves().counts()};
-  report.sweeps = sampler.moves().next_sweep() - first_sweep;
-  first_sweep += report.sweeps;
-  if (reached()) {
-    scale_to_packing_fraction(configuration, *options.packing_fraction);
-    end = StageEnd::reached, reason = "the packing fraction was reached";
-  }
-  report.end = end;
-  report.reason = reason;
-  report.packing_fraction = record.mean_of_second_half();
-  return report;
+StageReport compress(Configuration2& configuration, const CompressionOptions& options,
+                     std::uint64_t seed, CompressionState& state, const Budget& budget) {
+  return Compression(configuration, options, seed, state).run(budget);
 }
 
 }  // namespace vitrel

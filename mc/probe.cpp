@@ -10,7 +10,7 @@ namespace vitrel {
 namespace {
 
 constexpr std::uint64_t tuning_share = 5;  // a fifth of the sweeps
-constexpr std::uint64_t sweeps_per_tuning = 5, sweeps_per_pressure = 5;
+constexpr std::uint64_t sweeps_between_tunings = 5, sweeps_per_pressure = 5;
 const double spacing = std::pow(10, 1.0 / 30) * (1 - 1e-9);
 
 /// C₂ between two configurations of the same particles.
@@ -61,7 +61,7 @@ std::optional<Probe> probe(const Configuration2& configuration, std::uint64_t sw
                            std::uint64_t seed, std::uint64_t first_sweep, const Budget& budget,
                            int threads) {
   Configuration2 copy = configuration;
-  Sampler sampler(copy, seed, first_sweep, threads);
+  Sampler sampler(copy, seed, {.next_sweep = first_sweep}, threads);
   const auto sweep = [&](std::uint64_t done) {
     if (budget.stop_requested()) return false;
     sampler.sweep();
@@ -72,7 +72,7 @@ std::optional<Probe> probe(const Configuration2& configuration, std::uint64_t sw
   const std::uint64_t tuning = sweeps / tuning_share;
   for (std::uint64_t k = 0; k < tuning; ++k) {
     if (!sweep(k)) return std::nullopt;
-    if ((k + 1) % sweeps_per_tuning == 0) sampler.tune();
+    if ((k + 1) % sweeps_between_tunings == 0) sampler.tune();
   }
   Probe result;
   Comparison comparison(copy, result);

@@ -49,13 +49,13 @@ struct Sampler::Turn {
   Tally& tally;
 };
 
-Sampler::Sampler(Configuration2& configuration, std::uint64_t seed, std::uint64_t first_sweep,
+Sampler::Sampler(Configuration2& configuration, std::uint64_t seed, const SweepState& state,
                  int threads)
     : configuration_(configuration),
       largest_(largest_circumradius(configuration)),
       threads_(threads),
       seed_(seed),
-      sweep_(first_sweep) {
+      state_(state) {
   axis_.reserve(configuration.size());
   for (double angle : configuration.angle) axis_.push_back(axis_at(angle));
   fit_box();
@@ -74,12 +74,12 @@ void Sampler::fit_board() {
 }
 
 void Sampler::set_steps(double translation, double rotation) {
-  translation_.set(translation);
-  rotation_.set(rotation);
+  state_.translation.size = translation;
+  state_.rotation.size = rotation;
 }
 
 void Sampler::sweep() {
-  Stream draw(seed_, Purpose::trial_moves, sweep_, 0);
+  Stream draw(seed_, Purpose::trial_moves, state_.next_sweep, 0);
   board_->shift(draw);
   arrange();
   const auto colours = board_->colours();
@@ -87,7 +87,8 @@ void Sampler::sweep() {
   std::iota(order.begin(), order.end(), std::size_t{0});
   for (std::size_t k = order.size(); k > 1; --k) std::swap(order[k - 1], order[draw.below(k)]);
   for (const std::size_t colour : order) take_turns(colours[colour]);
-  ++sweep_;
+  ++state_.next_sweep;
+  ++state_.sweeps;
 }
 
 // Sorts all particles into the cells, by counting.
@@ -143,7 +144,7 @@ void Sampler::take_turns(const std::vector<std::size_t>& domains) {
 void Sampler::take_turn(std::size_t domain, Tally& tally) {
   const std::span members(order_.data() + domain_begin_[domain],
                           order_.data() + domain_begin_[domain + 1]);
-  Stream draw(seed_, Purpose::trial_moves, sweep_, domain + 1);
+  Stream draw(seed_, Purpose::trial_moves, state_.next_sweep, domain + 1);
   Turn turn{domain, spare_[domain], tally};
   // Drawn several at a time: the generator's arithmetic fills its own waiting times.
   std::array<Words, 16> drawn;
@@ -165,11 +166,11 @@ void Sampler::translate(std::size_t i, const Words& words, Turn& turn) {
   LaneCells::Group& group = cells_.group_of(i);
   const int lane = cells_.lane_of(i);
   const Vec2 step(plus_minus_one(words[1]), plus_minus_one(words[2]));
-  Vec2 position = group.position(lane) + translation_.size() * step;
+  Vec2 position = group.position(lane) + state_.translation.size * step;
   Shift<2> crossed = Shift<2>::Zero();
   if (((position.array().abs() >= half_box_.array())).any())
     configuration_.box.wrap(position, crossed);
-  ++turn.tally.translations_tried;
+  ++turn.tally.counts.translations_tried;
   const Checkerboard::Cell cell = board_->cell_of(position);
   if (board_->domain_of(cell) != turn.domain) return;
   // Its own images move along: their distance stays a whole number of box lengths.
@@ -177,7 +178,7 @@ void Sampler::translate(std::size_t i, const Words& words, Turn& turn) {
   const Vec2 axis = group.axis(lane);
   if (!clear_of_others(i, OverlapLook(shape, axis, margin_), position, cell, turn.tally.looks))
     return;
-  ++turn.tally.translations_accepted;
+  ++turn.tally.counts.translations_accepted;
   configuration_.position[i] = position;
   configuration_.image[i] += crossed;
   if (group.cell == board_->index(cell)) {
@@ -192,15 +193,15 @@ void Sampler::translate(std::size_t i, const Words& words, Turn& turn) {
 void Sampler::rotate(std::size_t i, const Words& words, Turn& turn) {
   LaneCells::Group& group = cells_.group_of(i);
   const int lane = cells_.lane_of(i);
-  const double angle = configuration_.angle[i] + rotation_.size() * plus_minus_one(words[1]);
+  const double angle = configuration_.angle[i] + state_.rotation.size * plus_minus_one(words[1]);
   const Vec2 axis = axis_at(angle), position = group.position(lane);
   const Ellipse shape = group.shape(lane);
-  ++turn.tally.rotations_tried;
+  ++turn.tally.counts.rotations_tried;
   if (!clear_of_others(i, OverlapLook(shape, axis, margin_), position, board_->cell_of(position),
                        turn.tally.looks) ||
       !clear_of_itself(shape, axis, margin_))
     return;
-  ++turn.tally.rotations_accepted;
+  ++turn.tally.counts.rotations_accepted;
   configuration_.angle[i] = angle;
   axis_[i] = axis;
   group.ux[lane] = axis.x();
@@ -286,19 +287,18 @@ bool Sampler::clear_of_itself(const Ellipse& shape, const Vec2& axis, double mar
 }
 
 void Sampler::add(const Tally& tally) {
-  counts_.translations_tried += tally.translations_tried;
-  counts_.translations_accepted += tally.translations_accepted;
-  counts_.rotations_tried += tally.rotations_tried;
-  counts_.rotations_accepted += tally.rotations_accepted;
+  const TrialCounts& more = tally.counts;
+  state_.counts.add(more);
+  state_.translation.count(more.translations_tried, more.translations_accepted);
+  state_.rotation.count(more.rotations_tried, more.rotations_accepted);
   looks_.groups += tally.looks.groups;
   looks_.alone += tally.looks.alone;
 }
 
 void Sampler::tune() {
   constexpr std::uint64_t enough = 100;  // to tell the acceptance to about 0.05
-  translation_.tune(counts_.translations_tried, counts_.translations_accepted, enough,
-                    0.5 * configuration_.box.lengths().minCoeff());
-  rotation_.tune(counts_.rotations_tried, counts_.rotations_accepted, enough, std::numbers::pi / 2);
+  state_.translation.tune(enough, 0.5 * configuration_.box.lengths().minCoeff());
+  state_.rotation.tune(enough, std::numbers::pi / 2);
 }
 
 }  // namespace vitrel

@@ -6,10 +6,9 @@
 
 #include "core/random/stream.h"
 #include "core/state/configuration.h"
-#include "core/state/stage.h"
 #include "mc/checkerboard.h"
 #include "mc/lane_cells.h"
-#include "mc/step_size.h"
+#include "mc/trials.h"
 
 namespace vitrel {
 
@@ -45,7 +44,7 @@ class Sampler {
  public:
   /// The configuration must be hard, with wrapped positions, and outlive the sampler; nobody else
   /// may move particles meanwhile, nor change shapes but to smaller ones.
-  Sampler(Configuration2& configuration, std::uint64_t seed, std::uint64_t first_sweep = 0,
+  Sampler(Configuration2& configuration, std::uint64_t seed, const SweepState& state = {},
           int threads = 1);
 
   void sweep();
@@ -62,14 +61,10 @@ class Sampler {
   /// margin to each other; shapes and angles stay.
   bool rescale(const Vec2& factors);
 
-  double translation_step() const { return translation_.size(); }
-  double rotation_step() const { return rotation_.size(); }
   void set_steps(double translation, double rotation);
-
-  /// The number of the next sweep.
-  std::uint64_t next_sweep() const { return sweep_; }
-  /// Trials and acceptances since construction.
-  const StageReport& counts() const { return counts_; }
+  /// As given at construction, and what has been done since.
+  const SweepState& state() const { return state_; }
+  const TrialCounts& counts() const { return state_.counts; }
 
   /// What the decisions took since construction.
   struct Looks {
@@ -80,8 +75,7 @@ class Sampler {
 
  private:
   struct Tally {
-    std::uint64_t rotations_tried = 0, rotations_accepted = 0;
-    std::uint64_t translations_tried = 0, translations_accepted = 0;
+    TrialCounts counts;
     Looks looks;
   };
   struct Turn;
@@ -114,9 +108,8 @@ class Sampler {
   std::vector<LaneCells::Index> begin_;    // of every cell in order_, while sorting
   std::vector<std::size_t> domain_begin_;  // of every domain in order_
   std::vector<LaneCells::Spare> spare_;    // of every domain
-  StepSize translation_{0.1}, rotation_{0.1};
-  std::uint64_t seed_, sweep_;
-  StageReport counts_;
+  std::uint64_t seed_;
+  SweepState state_;
   Looks looks_;
 };
 

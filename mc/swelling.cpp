@@ -17,7 +17,7 @@ namespace {
 /// Sweeps in which all particles should find room, and sweeps that count as fast.
 constexpr std::uint64_t patience = 40, fast = 12;
 /// Limits of the growth g − 1 in one round.
-constexpr double smallest_growth = 1e-9, largest_growth = 0.02;
+constexpr double smallest_growth = 1e-9, largest_growth = SwellingState().growth;
 /// Share of the way to the first touch that is used, so that pairs keep room to move.
 constexpr double share = 0.95;
 /// Jammed: a relative rise of the packing fraction below this in so many sweeps.
@@ -31,108 +31,110 @@ Ellipse enlarged(const Ellipse& shape, double factor) {
 class Swelling {
  public:
   Swelling(Configuration2& configuration, const SwellingOptions& options, std::uint64_t seed,
-           std::uint64_t first_sweep)
+           SwellingState& state)
       : configuration_(configuration),
         options_(options),
         shapes_(configuration.shape),
         seed_(seed),
-        first_sweep_(first_sweep),
-        sweep_(first_sweep) {}
+        state_(state) {}
 
   StageReport run(const Budget& budget) {
     const double start = packing_fraction(configuration_);
     if (start > options_.packing_fraction) finish();
     while (!reached()) {
-      if (budget.stop_requested()) return ended(StageEnd::stopped, "was stopped");
-      if (used_up()) return ended(StageEnd::stuck, "used up its sweeps");
-      if (jammed()) return ended(StageEnd::stuck, "found the particles jammed");
-      round(budget);
+      if (used_up(state_.moves)) return stuck("used up its sweeps");
+      if (jammed()) return stuck("found the particles jammed");
+      if (!round(budget)) return {StageEnd::stopped, "swelling was stopped"};
       const double now = packing_fraction(configuration_);
       budget.tell({(now - start) / (options_.packing_fraction - start), now, "packing fraction"});
+      budget.mark_resumable();
     }
-    report_.reason = "the packing fraction was reached";
-    return report_;
+    return {StageEnd::reached, "the packing fraction was reached"};
   }
-
-  std::uint64_t next_sweep() const { return sweep_; }
 
  private:
   bool reached() const {
     return packing_fraction(configuration_) >=
            options_.packing_fraction * (1 - tolerance::given_fraction);
   }
-  bool used_up() const { return sweep_ - first_sweep_ >= options_.sweeps; }
+  bool used_up(const SweepState& moves) const { return moves.sweeps >= options_.sweeps; }
 
   bool jammed() {
-    if (sweep_ - watched_sweep_ < jamming_sweeps) return false;
-    const double before = watched_fraction_;
-    watched_sweep_ = sweep_;
-    watched_fraction_ = packing_fraction(configuration_);
-    return watched_fraction_ < before * (1 + jamming_rise);
+    if (state_.moves.sweeps - state_.watched_sweeps < jamming_sweeps) return false;
+    const double before = state_.watched_packing_fraction;
+    state_.watched_sweeps = state_.moves.sweeps;
+    state_.watched_packing_fraction = packing_fraction(configuration_);
+    return state_.watched_packing_fraction < before * (1 + jamming_rise);
   }
 
-  StageReport ended(StageEnd end, const std::string& how) {
-    report_.end = end;
-    report_.reason = "swelling " + how + " at a packing fraction of " +
-                     std::to_string(packing_fraction(configuration_)) + " after " +
-                     std::to_string(sweep_ - first_sweep_) + " sweeps; " +
-                     std::to_string(options_.packing_fraction) + " was wanted";
-    return report_;
+  StageReport stuck(const std::string& how) const {
+    return {StageEnd::stuck, "swelling " + how + " at a packing fraction of " +
+                                 std::to_string(packing_fraction(configuration_)) + " after " +
+                                 std::to_string(state_.moves.sweeps) + " sweeps; " +
+                                 std::to_string(options_.packing_fraction) + " was wanted"};
   }
 
-  // One round, from the present growth; adapts the growth of the next.
-  void round(const Budget& budget) {
+  // One round, from the present growth; adapts the growth of the next. False if the budget asked to
+  // stop: then the round has not begun.
+  bool round(const Budget& budget) {
     const Configuration2 before = configuration_;
+    const SweepState began = state_.moves;
     const double needed =
         std::sqrt(options_.packing_fraction / packing_fraction(configuration_)) - 1;
-    double growth = std::min(growth_, needed);
-    const std::uint64_t began = sweep_;
-    const bool all = enlarge_all(growth, budget);
+    double growth = std::min(state_.growth, needed);
+    const Outcome outcome = enlarge_all(growth, budget);
     configuration_.shape = shapes_;
-    if (!all)
+    if (outcome == Outcome::stopped) {
+      configuration_ = before;
+      state_.moves = began;
+      return false;
+    }
+    if (outcome == Outcome::no_room)
       shrink_to_closest_pair();
     else if (growth == needed)
       finish();
     else
       scale_box(configuration_, 1 / (1 + growth));
-    growth_ = sweep_ - began <= fast ? std::min(largest_growth, 1.5 * growth_)
-                                     : std::max(smallest_growth, growth);
+    state_.growth = state_.moves.sweeps - began.sweeps <= fast
+                        ? std::min(largest_growth, 1.5 * state_.growth)
+                        : std::max(smallest_growth, growth);
     // Rounding alone could cost a pair its margin; then the round does not count.
     if (find_overlap(configuration_)) configuration_ = before;
+    return true;
   }
 
+  enum class Outcome { all, no_room, stopped };
+
   // Sweeps, and between them enlarges one particle after another. The growth is halved for all as
-  // often as some find no room; false if that does not help.
-  bool enlarge_all(double& growth, const Budget& budget) {
-    Sampler sampler(configuration_, seed_, sweep_, options_.threads);
-    sampler.set_steps(translation_, rotation_);
+  // often as some find no room, in the hope that this helps.
+  Outcome enlarge_all(double& growth, const Budget& budget) {
+    Sampler sampler(configuration_, seed_, state_.moves, options_.threads);
     std::vector<std::size_t> waiting(configuration_.size());
     std::iota(waiting.begin(), waiting.end(), 0);
-    while (enlarge_waiting(sampler, waiting, growth, budget) && growth > smallest_growth) {
+    while (true) {
+      const Outcome outcome = enlarge_waiting(sampler, waiting, growth, budget);
+      state_.moves = sampler.state();
+      if (outcome != Outcome::no_room || used_up(state_.moves) || growth <= smallest_growth)
+        return outcome;
       growth *= 0.5;
       for (std::size_t i = 0; i < shapes_.size(); ++i)
         if (configuration_.shape[i].a != shapes_[i].a)
           configuration_.shape[i] = enlarged(shapes_[i], 1 + growth);
     }
-    translation_ = sampler.translation_step();
-    rotation_ = sampler.rotation_step();
-    report_.add_counts(sampler.counts());
-    return waiting.empty();
   }
 
-  // True if patience ended with particles still waiting.
-  bool enlarge_waiting(Sampler& sampler, std::vector<std::size_t>& waiting, double growth,
-                       const Budget& budget) {
+  Outcome enlarge_waiting(Sampler& sampler, std::vector<std::size_t>& waiting, double growth,
+                          const Budget& budget) {
     for (std::uint64_t k = 0; k < patience && !waiting.empty(); ++k) {
-      if (used_up() || budget.stop_requested()) return false;
+      if (used_up(sampler.state())) return Outcome::no_room;
+      if (budget.stop_requested()) return Outcome::stopped;
       sampler.sweep();
       sampler.tune();
-      sweep_ = sampler.next_sweep();
       std::erase_if(waiting, [&](std::size_t i) {
         return sampler.reshape(i, enlarged(shapes_[i], 1 + growth));
       });
     }
-    return !waiting.empty();
+    return waiting.empty() ? Outcome::all : Outcome::no_room;
   }
 
   void shrink_to_closest_pair() {
@@ -147,23 +149,15 @@ class Swelling {
   Configuration2& configuration_;
   const SwellingOptions& options_;
   const std::vector<Ellipse> shapes_;
-  const std::uint64_t seed_, first_sweep_;
-  std::uint64_t sweep_;
-  std::uint64_t watched_sweep_ = sweep_;
-  double watched_fraction_ = 0;
-  double growth_ = largest_growth;
-  double translation_ = 0.1, rotation_ = 0.1;
-  StageReport report_;
+  const std::uint64_t seed_;
+  SwellingState& state_;
 };
 
 }  // namespace
 
 StageReport swell(Configuration2& configuration, const SwellingOptions& options, std::uint64_t seed,
-                  std::uint64_t& first_sweep, const Budget& budget) {
-  Swelling swelling(configuration, options, seed, first_sweep);
-  StageReport report = swelling.run(budget);
-  first_sweep = swelling.next_sweep();
-  return report;
+                  SwellingState& state, const Budget& budget) {
+  return Swelling(configuration, options, seed, state).run(budget);
 }
 
 }  // namespace vitrel

@@ -4,6 +4,7 @@
 
 #include "core/state/configuration.h"
 #include "core/state/stage.h"
+#include "mc/trials.h"
 
 namespace vitrel {
 
@@ -24,12 +25,20 @@ struct SwellingOptions {
   int threads = 1;                 ///< the result does not depend on it
 };
 
+/// Where a swelling stands, at the end of a round.
+struct SwellingState {
+  SweepState moves;
+  double growth = 0.02;  ///< g − 1 of the next round
+  // The last look at whether the particles are jammed.
+  std::uint64_t watched_sweeps = 0;
+  double watched_packing_fraction = 0;
+};
+
 /// `reached` at the wanted packing fraction; `stuck` if the sweeps were used up, or if the
 /// particles are jammed: the packing fraction rises by less than 1e-4 of itself in 5000 sweeps;
-/// `stopped` by the budget. In any case the state is hard and can be swollen further by another
-/// call. Sweeps are numbered from `first_sweep`, which returns as the next one. A configuration
-/// that is denser than wanted already is expanded.
+/// `stopped` by the budget, at the end of the round before: the same call then goes on bit by bit. In any
+/// case the state is hard. A configuration that is denser than wanted already is expanded.
 StageReport swell(Configuration2& configuration, const SwellingOptions& options, std::uint64_t seed,
-                  std::uint64_t& first_sweep, const Budget& budget);
+                  SwellingState& state, const Budget& budget);
 
 }  // namespace vitrel

@@ -16,41 +16,52 @@ double ratio(std::uint64_t part, std::uint64_t whole) {
   return static_cast<double>(part) / static_cast<double>(whole);
 }
 
-nlohmann::ordered_json growth_summary(const GrowthReport& growth) {
-  return {{"packing_fraction", growth.packing_fraction},
-          {"reduced_pressure", growth.reduced_pressure},
-          {"time", growth.time},
-          {"collisions", growth.counters.collisions},
-          {"predictions", growth.counters.predictions}};
+/// A number, or null where there is none.
+nlohmann::ordered_json if_positive(double value) {
+  return value > 0 ? nlohmann::ordered_json(value) : nullptr;
+}
+
+nlohmann::ordered_json stage_summary(const PrepareStage& stage, const StageRecord& record) {
+  return {{"method", method_name(stage.method)},
+          {"end", record.report.reason},
+          {"packing_fraction", record.packing_fraction},
+          {"mean_packing_fraction", if_positive(record.mean_packing_fraction.mean)},
+          {"mean_packing_fraction_error", if_positive(record.mean_packing_fraction.error)},
+          {"reduced_pressure", if_positive(record.growth.reduced_pressure)},
+          {"sweeps", record.sweeps},
+          {"trial_moves", record.trials.tried()},
+          {"time", record.growth.time},
+          {"collisions", record.growth.counters.collisions},
+          {"predictions", record.growth.counters.predictions},
+          {"wall_seconds", record.wall_seconds}};
 }
 
 /// What was done; ratios of no moves at all are NaN.
 nlohmann::ordered_json work_summary(const Preparation& preparation,
                                     const std::filesystem::path& output) {
-  const StageReport& counts = preparation.report;
-  const std::uint64_t moves = counts.translations_tried + counts.rotations_tried;
+  const TrialCounts counts = preparation.trials();
   return {
       {"output", output.string()},
       {"quality_report", quality_file(output).string()},
       {"particles", preparation.configuration.size()},
-      {"trial_moves", moves},
+      {"trial_moves", counts.tried()},
       {"acceptance_translation", ratio(counts.translations_accepted, counts.translations_tried)},
       {"acceptance_rotation", ratio(counts.rotations_accepted, counts.rotations_tried)},
       {"wall_seconds", preparation.wall_seconds},
-      {"trial_moves_per_second", static_cast<double>(moves) / preparation.wall_seconds}};
+      {"trial_moves_per_second", static_cast<double>(counts.tried()) / preparation.wall_seconds}};
 }
 
 /// What was done and what came out, for other programs.
-nlohmann::ordered_json summary(const Preparation& preparation, const Quality& quality,
-                               const std::filesystem::path& output) {
+nlohmann::ordered_json summary(const Preparation& preparation, const Parameters& parameters,
+                               const Quality& quality, const std::filesystem::path& output) {
   nlohmann::ordered_json result = work_summary(preparation, output);
   result["packing_fraction"] = quality.packing_fraction;
   result["nematic_order"] = quality.nematic_order;
   result["overlaps"] = quality.overlaps;
   result["smallest_gap"] = quality.smallest_gap;
   result["reduced_pressure"] = quality.reduced_pressure.mean;
-  for (const GrowthReport& growth : preparation.growth)
-    result["growth"].push_back(growth_summary(growth));
+  for (std::size_t k = 0; k < preparation.stages.size(); ++k)
+    result["stages"].push_back(stage_summary(parameters.stages[k], preparation.stages[k]));
   result["quality"] = quality_json(quality);
   return result;
 }
@@ -77,23 +88,26 @@ int prepare_command(const Arguments& arguments) {
                     ": exists already; choose another output, or delete it");
   Session session(arguments);
   const Preparation preparation =
-      prepare(parameters, session.budget(), session.say(), arguments.threads);
+      prepare({parameters, arguments.output, arguments.command_line, arguments.threads},
+              session.budget(), session.say());
   std::optional<Quality> quality;
-  if (preparation.report.end == StageEnd::reached) {
+  if (preparation.complete) {
     session.say()("quality report");
     quality = measure_quality(preparation, parameters, session.budget(), arguments.threads);
   }
   if (!quality) {
-    remark(arguments, "stopped; a preparation is not continued but made anew by the same command");
+    remark(arguments, "stopped; the same command continues");
     return stopped;
   }
   Provenance provenance = current_provenance(
       arguments.command_line, effective_parameters(parameters), parameters.system.seed);
   provenance.wall_seconds = preparation.wall_seconds;
-  write_state(arguments.output, preparation.configuration, provenance);
+  // The state comes last: where there is one, all is there.
   write_quality(quality_file(arguments.output), *quality);
+  write_state(arguments.output, preparation.configuration, provenance);
+  forget_preparation(arguments.output);
   if (arguments.json) {
-    print_summary(arguments, summary(preparation, *quality, arguments.output));
+    print_summary(arguments, summary(preparation, parameters, *quality, arguments.output));
   } else if (!arguments.quiet) {
     print_summary(arguments, preparation, *quality);
   }

@@ -21,8 +21,7 @@ int run_command(const Arguments& arguments) {
   const bool has_begun = outcome.state.configuration.size() > 0;
   if (has_begun) print_summary(arguments, run_summary(request, outcome));
   if (outcome.complete) return success;
-  remark(arguments, has_begun ? "stopped; the same command continues"
-                              : "stopped during the preparation; the same command begins anew");
+  remark(arguments, "stopped; the same command continues");
   return stopped;
 }
 

@@ -21,7 +21,8 @@ constexpr double easy_insertion = 0.3;
 using Style = FieldVisitor::TableStyle;
 
 constexpr const char* distribution_names[] = {"gaussian", "lognormal", "uniform"};
-constexpr const char* method_names[] = {"lattice", "insert", "swell", "compress", "grow", "sample"};
+constexpr const char* method_names[] = {"lattice", "insert", "swell", "compress",
+                                        "grow",    "hybrid", "sample"};
 constexpr const char* box_names[] = {"isotropic", "anisotropic"};
 constexpr const char* arrangement_names[] = {"square", "triangular"};
 constexpr const char* orientation_names[] = {"random", "aligned"};
@@ -102,8 +103,9 @@ void describe_stage(PrepareStage& p, FieldVisitor& visit) {
        "overlap, as a start at low density; swell: Monte Carlo while the particles grow to "
        "the wanted packing fraction; compress: Monte Carlo at constant pressure, in a box that "
        "changes; grow: event-driven dynamics while they grow to a "
-       "packing fraction or until they jam; sample: Monte Carlo at constant packing "
-       "fraction."},
+       "packing fraction or until they jam; hybrid: short stretches of such growth and of Monte "
+       "Carlo "
+       "in turn; sample: Monte Carlo at constant packing fraction."},
       p.method, method_names);
   visit.when(p.method == Method::lattice, "method = \"lattice\"", [&](FieldVisitor& in) {
     in.field({"arrangement", "", "The triangular lattice is stretched along x like the particles."},
@@ -113,11 +115,11 @@ void describe_stage(PrepareStage& p, FieldVisitor& visit) {
         p.lattice.angle);
   });
   const bool has_density = p.method != Method::lattice && p.method != Method::sample;
-  visit.when(has_density, "method = \"insert\", \"swell\", \"compress\" or \"grow\"",
+  visit.when(has_density, "method = \"insert\", \"swell\", \"compress\", \"grow\" or \"hybrid\"",
              [&](FieldVisitor& in) {
                in.optional({"packing_fraction", "",
                             "At the end of the stage. If left out: that of the system, but to "
-                            "insert at most 0.3, and none to compress or to grow to a reduced "
+                            "insert at most 0.3, and none to compress, or where there is a reduced "
                             "pressure."},
                            p.packing_fraction, 0.3);
              });
@@ -139,7 +141,8 @@ void describe_stage(PrepareStage& p, FieldVisitor& visit) {
               "their ratio at the start."},
              p.box, box_names);
   });
-  visit.when(p.method == Method::grow, "method = \"grow\"", [&](FieldVisitor& in) {
+  const bool grows = p.method == Method::grow || p.method == Method::hybrid;
+  visit.when(grows, "method = \"grow\" or \"hybrid\"", [&](FieldVisitor& in) {
     in.optional({"reduced_pressure", "",
                  "βP/ρ at the end of the stage, however dense that is: 1e6 or more for a jammed "
                  "state. With a packing fraction, too, whichever comes first."},
@@ -148,6 +151,13 @@ void describe_stage(PrepareStage& p, FieldVisitor& visit) {
               "Growth of all lengths, relative to the present ones. Slow growth lets the liquid "
               "order, and so jams at higher packing fractions."},
              p.growth_rate);
+  });
+  visit.when(p.method == Method::hybrid, "method = \"hybrid\"", [&](FieldVisitor& in) {
+    in.field(
+        {"stretch_sweeps", "",
+         "Sweeps of Monte Carlo after every stretch of growth, which lasts until all lengths have "
+         "grown by 1 %, or less at high pressure."},
+        p.stretch_sweeps);
   });
   const bool has_length = p.method == Method::sample || p.method == Method::compress;
   visit.when(has_length, "method = \"sample\" or \"compress\"", [&](FieldVisitor& in) {
@@ -208,7 +218,7 @@ void describe_output(OutputParameters& p, FieldVisitor& visit) {
                "pressure are measured without."},
               p.velocities);
   visit.field({"checkpoint_interval", "seconds of wall time",
-               "Time between checkpoints, from which a run that was killed continues."},
+               "Time between checkpoints, from which a preparation or a run that was killed continues."},
               p.checkpoint_interval);
 }
 
@@ -358,8 +368,8 @@ void validate_stages(const std::vector<PrepareStage>& stages, const SystemParame
     rules.require(
         places == (i == 0), "method",
         i == 0 ? "of the first stage must be \"lattice\" or \"insert\", which place the particles"
-               : "of a later stage must be \"swell\", \"compress\", \"grow\" or \"sample\": the "
-                 "particles have their places");
+               : "of a later stage must be \"swell\", \"compress\", \"grow\", \"hybrid\" or "
+                 "\"sample\": the particles have their places");
     const LatticeOptions& lattice = p.lattice;
     rules.require(std::isfinite(lattice.angle), "angle", "must be a finite number");
     rules.require(
@@ -368,6 +378,8 @@ void validate_stages(const std::vector<PrepareStage>& stages, const SystemParame
     rules.require(p.attempts >= 1, "attempts", "is 0, but must be at least 1");
     rules.require(p.most_sweeps >= 1, "most_sweeps", "is 0, but must be at least 1");
     rules.require(p.sweeps >= 1, "sweeps", "is 0, but must be at least 1");
+    rules.require(p.stretch_sweeps >= 1, "stretch_sweeps",
+                  "is 0, but must be at least 1; without sweeps the method is \"grow\"");
     rules.require(p.growth_rate > 0 && p.growth_rate <= 0.1, "growth_rate",
                   fmt::format("is {}, but must lie above 0 and not above 0.1, where the surfaces "
                               "grow at a tenth of the thermal speed",
@@ -465,6 +477,10 @@ std::vector<PrepareStage> default_stages() {
 
 Parameters::Parameters() : species{default_species()}, stages(default_stages()) {}
 
+const char* method_name(PrepareStage::Method method) {
+  return method_names[static_cast<std::size_t>(method)];
+}
+
 double end_of_stage(const PrepareStage& stage, const SystemParameters& system, double before) {
   switch (stage.method) {
     case PrepareStage::Method::lattice:
@@ -476,6 +492,7 @@ double end_of_stage(const PrepareStage& stage, const SystemParameters& system, d
     case PrepareStage::Method::compress:
       return stage.packing_fraction.value_or(before);
     case PrepareStage::Method::grow:
+    case PrepareStage::Method::hybrid:
       if (stage.reduced_pressure) return before;
       return stage.packing_fraction.value_or(system.packing_fraction);
     case PrepareStage::Method::sample:
@@ -599,10 +616,12 @@ std::string parameter_page() {
 }
 
 std::optional<ParameterDifference> forbidden_change(const std::string& before,
-                                                    const std::string& after) {
-  return first_difference(before, after, [](const std::string& key) {
-    return key.starts_with("analysis.") || key == "output.checkpoint_interval" ||
-           key == "prepare.quality_sweeps";
+                                                    const std::string& after, Work work) {
+  return first_difference(before, after, [work](const std::string& key) {
+    if (key == "output.checkpoint_interval" || key == "prepare.quality_sweeps") return true;
+    return key.starts_with("analysis.") ||
+           (work == Work::preparation &&
+            (key.starts_with("dynamics.") || key.starts_with("output.")));
   });
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "analysis/displacement.h"
+#include "app/workflow/hybrid.h"
 #include "core/io/parameters.h"
 #include "core/state/species.h"
 #include "edmd/growth.h"
@@ -14,6 +15,7 @@
 #include "mc/compression.h"
 #include "mc/insertion.h"
 #include "mc/lattice.h"
+#include "mc/sampling.h"
 #include "mc/swelling.h"
 
 /// The parameter file: what it holds, how it is read, and the texts that describe it. All commands
@@ -30,7 +32,7 @@ struct SystemParameters {
 
 /// One stage of the preparation; every method uses its own fields only.
 struct PrepareStage {
-  enum class Method { lattice, insert, swell, compress, grow, sample };
+  enum class Method { lattice, insert, swell, compress, grow, hybrid, sample };
   enum class Orientations { random, aligned };
 
   Method method = Method::insert;
@@ -38,13 +40,17 @@ struct PrepareStage {
   std::uint64_t attempts = InsertionOptions().attempts;
   Orientations orientations = Orientations::random;
   std::optional<double> packing_fraction;  ///< of all but lattice and sample; see end_of_stage
-  std::optional<double> reduced_pressure;  ///< of grow
+  std::optional<double> reduced_pressure;  ///< of grow and hybrid
   double growth_rate = GrowthOptions().growth_rate;
   double pressure = CompressionOptions().pressure;
   BoxChange box = CompressionOptions().change;
   std::uint64_t most_sweeps = SwellingOptions().sweeps;
-  std::uint64_t sweeps = 1000;
+  std::uint64_t stretch_sweeps = HybridOptions().sweeps;
+  std::uint64_t sweeps = SamplingOptions().sweeps;
 };
+
+/// As the parameter file calls it.
+const char* method_name(PrepareStage::Method method);
 
 /// The packing fraction at which a stage ends, for one that begins at `before`; of one that a pressure
 /// ends, the one it begins at, since it ends in an unknown place.
@@ -120,10 +126,12 @@ std::string command_template(const std::string& command);
 /// The page docs/parameters.md.
 std::string parameter_page();
 
-/// The first key that differs and may not, when a run is continued with changed parameters. Changes
-/// of [analysis], of the checkpoint interval and of the quality sweeps do not touch the run.
+enum class Work { preparation, run };
+/// The first key that differs and may not, when a piece of work is continued with changed parameters.
+/// Changes of what it does not use do not matter, nor those of the checkpoint interval and the quality
+/// sweeps.
 std::optional<ParameterDifference> forbidden_change(const std::string& before,
-                                                    const std::string& after);
+                                                    const std::string& after, Work work);
 
 /// The same parameters in the form the engine takes them.
 DynamicsOptions dynamics_options(const Parameters& parameters);

@@ -4,158 +4,286 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
+#include <span>
 
+#include "app/workflow/prepare_checkpoint.h"
 #include "core/error.h"
-#include "edmd/growth.h"
-#include "mc/sampler.h"
+#include "core/io/h5md.h"
+#include "mc/sampling.h"
 
 namespace vitrel {
 namespace {
 
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
 using Method = PrepareStage::Method;
 
-/// Sweeps between two adaptations of the step sizes.
-constexpr std::uint64_t sweeps_per_tuning = 20;
+fs::path checkpoint_path(const fs::path& output) {
+  return output.string() + ".preparation";
+}
+
+fs::path stuck_state_path(const fs::path& output) {
+  return output.string() + ".stuck.h5";
+}
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+Estimate mean_of_second_half(const std::vector<double>& series) {
+  return block_average(std::span(series).subspan(series.size() / 2));
+}
 
 class Preparer {
  public:
-  Preparer(const Parameters& parameters, const Budget& budget, int threads)
-      : parameters_(parameters), budget_(budget), threads_(threads) {
-    const SystemParameters& system = parameters.system;
-    result.configuration =
-        draw_particles(parameters.species, static_cast<std::size_t>(system.particles),
+  Preparer(const PrepareRequest& request, const Budget& budget,
+           const std::function<void(const std::string&)>& say)
+      : request_(request), parameters_(request.parameters), say_(say), budget_(budget) {
+    budget_.resumable = [this] { save_now_and_then(); };
+    stored_.parameters = effective_parameters(parameters_);
+  }
+
+  Preparation run() {
+    if (keeps_files() && checkpoint_exists(checkpoint()))
+      load();
+    else
+      draw();
+    while (done().stages.size() < parameters_.stages.size()) {
+      say_(description());
+      if (!run_stage()) {
+        if (has_places() && keeps_files()) save();
+        return done();
+      }
+    }
+    keep_time();
+    done().check = exact_check(done().configuration);
+    if (!done().check.clean())
+      throw InvariantError(
+          "the prepared state has overlapping particles; this is a defect of the program");
+    done().complete = true;
+    return done();
+  }
+
+ private:
+  const PrepareStage& stage() const { return parameters_.stages[done().stages.size()]; }
+  Preparation& done() { return stored_.done; }
+  const Preparation& done() const { return stored_.done; }
+  std::uint64_t seed() const { return parameters_.system.seed; }
+  /// The first stage places the particles; what is not placed is not worth keeping.
+  bool has_places() const { return !done().stages.empty(); }
+
+  void draw() {
+    const SystemParameters& system = parameters_.system;
+    done().configuration =
+        draw_particles(parameters_.species, static_cast<std::size_t>(system.particles),
                        system.packing_fraction, system.box_aspect, system.seed);
   }
 
-  /// What the stage does, in a few words.
-  std::string description(const PrepareStage& stage) const {
-    const double goal = end_of_stage(stage, parameters_.system, reached_);
-    switch (stage.method) {
-      case Method::lattice:
-        return fmt::format("lattice at packing fraction {:.4g}", goal);
-      case Method::insert:
-        return fmt::format("insert at packing fraction {:.4g}", goal);
-      case Method::swell:
-        return fmt::format("swell to packing fraction {:.4g}", goal);
-      case Method::compress:
-        return stage.packing_fraction ? fmt::format("compress to packing fraction {:.4g}", goal)
-                                      : fmt::format("compress at pressure {:.4g} for {} sweeps",
-                                                    stage.pressure, stage.sweeps);
-      case Method::grow:
-        return stage.reduced_pressure
-                   ? fmt::format("grow to reduced pressure {:.4g}", *stage.reduced_pressure)
-                   : fmt::format("grow to packing fraction {:.4g}", goal);
-      case Method::sample:
-        return fmt::format("sample for {} sweeps", stage.sweeps);
-    }
-    return "";
+  // ---- files ----------------------------------------------------------------------------------------
+
+  bool keeps_files() const { return !request_.output.empty(); }
+  fs::path checkpoint() const { return checkpoint_path(request_.output); }
+
+  void load() {
+    const LoadedCheckpoint loaded = load_checkpoint(checkpoint());
+    if (!loaded.warning.empty()) say_(loaded.warning);
+    const std::string now = stored_.parameters;
+    stored_ = preparation_from_checkpoint(loaded.checkpoint, checkpoint());
+    wall_before_ = done().wall_seconds;
+    stage_before_ = stored_.work.wall_seconds;
+    if (const auto change = forbidden_change(stored_.parameters, now, Work::preparation))
+      throw UserError(
+          fmt::format("{}: the preparation was begun with {} = {}, but now it is {}; continue it "
+                      "with its own parameters, or delete this file",
+                      checkpoint().string(), change->key, change->first, change->second));
+    say_(fmt::format("continuing at stage {} of {}",
+                     std::min(done().stages.size() + 1, parameters_.stages.size()),
+                     parameters_.stages.size()));
   }
+
+  void keep_time() {
+    done().wall_seconds = wall_before_ + seconds_since(start_);
+    stored_.work.wall_seconds = stage_before_ + seconds_since(stage_start_);
+  }
+
+  void save() {
+    keep_time();
+    save_checkpoint(checkpoint(), to_checkpoint(stored_));
+    saved_ = Clock::now();
+  }
+
+  void save_now_and_then() {
+    if (keeps_files() && seconds_since(saved_) >= parameters_.output.checkpoint_interval) save();
+  }
+
+  // ---- stages ---------------------------------------------------------------------------------------
 
   /// False if the budget asked to stop.
-  bool run(const PrepareStage& stage) {
-    const StageReport report = run_stage(stage);
-    StageReport& total = result.report;
-    total.add_counts(report);
-    total.end = report.end;
-    total.reason = report.reason;
-    if (report.end == StageEnd::stuck)
-      throw UserError(fmt::format("preparation, {}: {}", description(stage), report.reason));
-    reached_ = end_of_stage(stage, parameters_.system, reached_);
-    return report.end != StageEnd::stopped;
+  bool run_stage() {
+    stage_start_ = Clock::now();
+    const StageReport report = advance();
+    keep_time();
+    if (report.end == StageEnd::stopped) return false;
+    if (report.end == StageEnd::stuck) refuse_stuck(report);
+    note_stage(report);
+    stored_.work = StageWork(done().next_sweep);
+    stage_before_ = 0;
+    save_now_and_then();
+    return true;
   }
 
-  Preparation result;
-
- private:
-  StageReport run_stage(const PrepareStage& stage) {
-    Configuration2& configuration = result.configuration;
-    const std::uint64_t seed = parameters_.system.seed;
-    const double goal = end_of_stage(stage, parameters_.system, reached_);
-    switch (stage.method) {
+  StageReport advance() {
+    Configuration2& configuration = done().configuration;
+    StageWork& work = stored_.work;
+    switch (stage().method) {
       case Method::lattice:
-        place_on_lattice(configuration, stage.lattice);
-        return {};
-      case Method::insert: {
-        const bool aligned = stage.orientations == PrepareStage::Orientations::aligned;
-        return insert_particles(configuration, {goal, stage.attempts, aligned}, seed, budget_);
-      }
+        return place_on_lattice(configuration, stage().lattice, seed());
+      case Method::insert:
+        return insert_particles(configuration, {goal(), stage().attempts, aligned()}, seed(),
+                                budget_);
       case Method::swell:
-        return swell(configuration, {goal, stage.most_sweeps, threads_}, seed, result.next_sweep,
-                     budget_);
+        return swell(configuration, {goal(), stage().most_sweeps, request_.threads}, seed(),
+                     work.swelling, budget_);
       case Method::compress:
-        return compress(configuration,
-                        {stage.pressure, stage.box, stage.packing_fraction,
-                         stage.packing_fraction ? stage.most_sweeps : stage.sweeps, threads_},
-                        seed, result.next_sweep, budget_);
+        return compress(configuration, compression_options(), seed(), work.compression, budget_);
       case Method::grow:
-        return grow_stage(stage, goal);
+        return at_rest(grow(configuration, growth_options(), work.growth, budget_));
+      case Method::hybrid:
+        return at_rest(hybrid(configuration, hybrid_options(), work.hybrid, budget_));
       case Method::sample:
-        return sample(stage);
+        return sample(configuration, {stage().sweeps, request_.threads}, seed(), work.sampling,
+                      budget_);
     }
     return {};
   }
 
-  StageReport grow_stage(const PrepareStage& stage, double goal) {
-    Configuration2& configuration = result.configuration;
-    GrowthOptions options;
-    options.growth_rate = stage.growth_rate;
-    options.packing_fraction = stage.packing_fraction;
-    options.reduced_pressure = stage.reduced_pressure;
-    if (!stage.reduced_pressure) options.packing_fraction = goal;
-    options.seed = parameters_.system.seed;
-    result.growth.push_back(grow(configuration, options, budget_));
-    std::fill(configuration.velocity.begin(), configuration.velocity.end(), Vec2::Zero());
-    std::fill(configuration.angular_velocity.begin(), configuration.angular_velocity.end(), 0.0);
-    return result.growth.back();
+  double goal() const {
+    return end_of_stage(stage(), parameters_.system, packing_fraction_before());
+  }
+  double packing_fraction_before() const {
+    return has_places() ? done().stages.back().packing_fraction : 0;
+  }
+  bool aligned() const { return stage().orientations == PrepareStage::Orientations::aligned; }
+
+  /// Of growth and hybrid: without a pressure there must be a packing fraction.
+  std::optional<double> packing_fraction_goal() const {
+    return stage().reduced_pressure ? stage().packing_fraction : goal();
   }
 
-  // Step sizes adapt all the way: what follows the preparation is what is measured, not this.
-  StageReport sample(const PrepareStage& stage) {
-    Sampler sampler(result.configuration, parameters_.system.seed, result.next_sweep, threads_);
-    StageEnd end = StageEnd::reached;
-    for (std::uint64_t k = 0; k < stage.sweeps; ++k) {
-      if (budget_.stop_requested()) {
-        end = StageEnd::stopped;
-        break;
-      }
-      sampler.sweep();
-      if ((k + 1) % sweeps_per_tuning == 0) sampler.tune();
-      const double done = static_cast<double>(k + 1);
-      budget_.tell({done / static_cast<double>(stage.sweeps), done, "sweep"});
-    }
-    result.next_sweep = sampler.next_sweep();
-    StageReport report = sampler.counts();
-    report.end = end;
+  CompressionOptions compression_options() const {
+    return {stage().pressure, stage().box, stage().packing_fraction,
+            stage().packing_fraction ? stage().most_sweeps : stage().sweeps, request_.threads};
+  }
+
+  GrowthOptions growth_options() const {
+    return {stage().growth_rate, packing_fraction_goal(), stage().reduced_pressure, seed()};
+  }
+
+  HybridOptions hybrid_options() const {
+    return {stage().growth_rate,
+            packing_fraction_goal(),
+            stage().reduced_pressure,
+            stage().stretch_sweeps,
+            seed(),
+            request_.threads};
+  }
+
+  // A stage that is stopped keeps its velocities, to go on with.
+  StageReport at_rest(const StageReport& report) {
+    if (report.end == StageEnd::stopped) return report;
+    Configuration2& configuration = done().configuration;
+    std::fill(configuration.velocity.begin(), configuration.velocity.end(), Vec2::Zero());
+    std::fill(configuration.angular_velocity.begin(), configuration.angular_velocity.end(), 0.0);
     return report;
   }
 
+  void note_stage(const StageReport& report) {
+    const StageWork& work = stored_.work;
+    StageRecord record;
+    record.report = report;
+    record.packing_fraction = packing_fraction(done().configuration);
+    // All but those of the method at work are 0.
+    for (const SweepState* moves :
+         {&work.sampling, &work.swelling.moves, &work.compression.moves, &work.hybrid.moves}) {
+      record.sweeps += moves->sweeps;
+      record.trials.add(moves->counts);
+    }
+    record.growth = stage().method == Method::hybrid ? work.hybrid.growth : work.growth;
+    if (stage().method == Method::compress && !stage().packing_fraction)
+      record.mean_packing_fraction = mean_of_second_half(work.compression.packing_fraction);
+    record.wall_seconds = work.wall_seconds;
+    say_(fmt::format("  {}; packing fraction {:.6g}", report.reason, record.packing_fraction));
+    done().next_sweep += record.sweeps;
+    done().stages.push_back(record);
+  }
+
+  [[noreturn]] void refuse_stuck(const StageReport& report) const;
+
+  /// What the stage does, in a few words.
+  std::string description() const;
+  std::string goal_text() const {
+    return stage().reduced_pressure
+               ? fmt::format("reduced pressure {:.4g}", *stage().reduced_pressure)
+               : fmt::format("packing fraction {:.4g}", goal());
+  }
+
+  const PrepareRequest& request_;
   const Parameters& parameters_;
-  const Budget& budget_;
-  int threads_;
-  double reached_ = 0;
+  const std::function<void(const std::string&)>& say_;
+  Budget budget_;
+  StoredPreparation stored_;
+  double wall_before_ = 0, stage_before_ = 0;  // seconds that other processes spent
+  Clock::time_point start_ = Clock::now(), stage_start_ = start_, saved_ = start_;
 };
+
+void Preparer::refuse_stuck(const StageReport& report) const {
+  std::string kept;
+  if (has_places() && keeps_files()) {
+    const fs::path path = stuck_state_path(request_.output);
+    write_state(path, done().configuration,
+                current_provenance(request_.command_line, stored_.parameters, seed()), true);
+    kept = "; the state is in " + path.string();
+  }
+  throw UserError(fmt::format("preparation, {}: {}{}", description(), report.reason, kept));
+}
+
+std::string Preparer::description() const {
+  switch (stage().method) {
+    case Method::lattice:
+      return fmt::format("lattice at packing fraction {:.4g}", goal());
+    case Method::insert:
+      return fmt::format("insert at packing fraction {:.4g}", goal());
+    case Method::swell:
+      return fmt::format("swell to packing fraction {:.4g}", goal());
+    case Method::compress:
+      return stage().packing_fraction ? fmt::format("compress to packing fraction {:.4g}", goal())
+                                      : fmt::format("compress at pressure {:.4g} for {} sweeps",
+                                                    stage().pressure, stage().sweeps);
+    case Method::grow:
+    case Method::hybrid:
+      return fmt::format("{} to {}", stage().method == Method::grow ? "grow" : "hybrid",
+                         goal_text());
+    case Method::sample:
+      return fmt::format("sample for {} sweeps", stage().sweeps);
+  }
+  return "";
+}
 
 }  // namespace
 
-Preparation prepare(const Parameters& parameters, const Budget& budget,
-                    const std::function<void(const std::string&)>& say, int threads) {
-  const auto start = std::chrono::steady_clock::now();
-  Preparer preparer(parameters, budget, threads);
-  for (const PrepareStage& stage : parameters.stages) {
-    say(preparer.description(stage));
-    if (!preparer.run(stage)) break;
-  }
-  Preparation result = std::move(preparer.result);
-  result.wall_seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (result.report.end == StageEnd::reached) {
-    result.check = exact_check(result.configuration);
-    if (!result.check.clean())
-      throw InvariantError(
-          "the prepared state has overlapping particles; this is a defect of the program");
-  }
-  return result;
+TrialCounts Preparation::trials() const {
+  TrialCounts all;
+  for (const StageRecord& stage : stages) all.add(stage.trials);
+  return all;
+}
+
+Preparation prepare(const PrepareRequest& request, const Budget& budget,
+                    const std::function<void(const std::string&)>& say) {
+  return Preparer(request, budget, say).run();
+}
+
+void forget_preparation(const fs::path& output) {
+  remove_checkpoint(checkpoint_path(output));
 }
 
 }  // namespace vitrel

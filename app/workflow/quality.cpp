@@ -21,16 +21,16 @@ double unit_length(const Configuration2& configuration) {
   return std::sqrt(areas / static_cast<double>(configuration.size()));
 }
 
-bool ends_with_growth(const Preparation& preparation, const Parameters& parameters) {
-  return parameters.stages.back().method == PrepareStage::Method::grow &&
-         preparation.growth.back().reduced_pressure > 0;
+/// 0 if the last stage was no growth, or too short a one to measure it.
+double pressure_of_growth(const Preparation& preparation) {
+  return preparation.stages.back().growth.reduced_pressure;
 }
 
-void note_pressure(Quality& quality, const Preparation& preparation, const Parameters& parameters) {
+void note_pressure(Quality& quality, const Preparation& preparation) {
   using From = Quality::PressureFrom;
-  if (ends_with_growth(preparation, parameters)) {
+  if (pressure_of_growth(preparation) > 0) {
     quality.pressure_from = From::growth;
-    quality.reduced_pressure = {preparation.growth.back().reduced_pressure, unknown, 0};
+    quality.reduced_pressure = {pressure_of_growth(preparation), unknown, 0};
   } else if (quality.probe) {
     quality.pressure_from = From::sampling;
     quality.reduced_pressure = block_average(quality.probe->compressibility);
@@ -109,7 +109,7 @@ std::optional<Quality> measure_quality(const Preparation& preparation, const Par
   quality.particles = state.size();
   quality.rotors = rotor_count(state);
   quality.packing_fraction = packing_fraction(state);
-  note_pressure(quality, preparation, parameters);
+  note_pressure(quality, preparation);
   quality.nematic_order = nematic_order(state);
   quality.nematic_correlation = nematic_correlation(state, bin_width * unit_length(state));
   quality.hexatic_order = hexatic_order(state);

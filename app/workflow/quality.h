@@ -32,7 +32,7 @@ struct Quality {
   std::optional<Probe> probe;              ///< none if no sweeps were asked for
 };
 
-/// Measures a preparation that has reached its end; the state stays as it is. The pressure is that
+/// Measures a complete preparation; the state stays as it is. The pressure is that
 /// of the growth if that was the last stage, else that of a short sampling on a copy. Nothing if
 /// the budget asked to stop.
 std::optional<Quality> measure_quality(const Preparation& preparation, const Parameters& parameters,

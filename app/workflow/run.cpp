@@ -92,7 +92,7 @@ class Runner {
     if (!loaded.warning.empty()) say_(loaded.warning);
     const std::string now = stored_.parameters;
     stored_ = from_checkpoint(loaded.checkpoint, checkpoint_);
-    if (const auto change = forbidden_change(stored_.parameters, now))
+    if (const auto change = forbidden_change(stored_.parameters, now, Work::run))
       throw UserError(
           fmt::format("{}: the run was begun with {} = {}, but now it is {}; continue it "
                       "with its own parameters, or choose another output",
@@ -106,8 +106,10 @@ class Runner {
       configuration = read_state(*request_.from);
       require_fit(configuration, request_.parameters, *request_.from);
     } else {
-      Preparation preparation = prepare(request_.parameters, budget_, say_, request_.threads);
-      if (preparation.report.end == StageEnd::stopped) return false;
+      Preparation preparation =
+          prepare({request_.parameters, request_.output, request_.command_line, request_.threads},
+                  budget_, say_);
+      if (!preparation.complete) return false;
       configuration = std::move(preparation.configuration);
     }
     if (stops_on_overlap()) refuse_overlaps(configuration);
@@ -115,6 +117,7 @@ class Runner {
     stored_.state = begin_run(configuration, -request_.parameters.dynamics.equilibration);
     // Before the trajectory: one without a checkpoint is never this run's.
     save();
+    if (!request_.from) forget_preparation(request_.output);
     return true;
   }
 

@@ -107,7 +107,7 @@ void write_job_folder(const SweepJob& job, const fs::path& folder) {
   const fs::path file = folder / "parameters.toml";
   const std::string text = effective_parameters(job.parameters);
   if (fs::exists(file)) {
-    if (const auto change = forbidden_change(read_text(file), text))
+    if (const auto change = forbidden_change(read_text(file), text, Work::run))
       throw UserError(
           fmt::format("{}: this job was begun with {} = {}, but now it is {}; use another "
                       "folder for the sweep, or delete the job's",

@@ -52,9 +52,9 @@ Configuration2 fluid(const FluidScene& scene) {
   c.species_names = {"A"};
   std::ranges::fill(c.shape, of_unit_area(scene.aspect_ratio));
   must_reach(insert_particles(c, {std::min(dilute, scene.packing_fraction)}, scene.seed, {}));
-  std::uint64_t sweep = 0;
-  must_reach(swell(c, {scene.packing_fraction}, scene.seed, sweep, {}));
-  Sampler sampler(c, scene.seed, sweep);
+  SwellingState swelling;
+  must_reach(swell(c, {scene.packing_fraction}, scene.seed, swelling, {}));
+  Sampler sampler(c, scene.seed, {.next_sweep = swelling.moves.next_sweep});
   for (int k = 1; k <= sweeps; ++k) {
     sampler.sweep();
     if (k % sweeps_between_tunings == 0) sampler.tune();

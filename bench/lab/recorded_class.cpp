@@ -36,8 +36,8 @@ Configuration2 prepared(double aspect_ratio, std::uint64_t seed) {
   const double length = std::sqrt(particles * std::numbers::pi / packing_fraction);
   c.box = PeriodicBox<2>(Vec2(length, length));
   expect_reached(insert_particles(c, {}, seed, {}));
-  std::uint64_t sweep = 0;
-  expect_reached(swell(c, {packing_fraction}, seed, sweep, {}));
+  SwellingState swelling;
+  expect_reached(swell(c, {packing_fraction}, seed, swelling, {}));
   set_initial_velocities(c, seed, InitialVelocities::maxwell, Temperature::total);
   return c;
 }

@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Raised whenever the layout changes; a checkpoint serves to continue a run, not to keep data.
-constexpr std::int32_t layout = 1;
+constexpr std::int32_t layout = 2;
 
 fs::path previous_of(const fs::path& path) {
   fs::path previous = path;
@@ -65,6 +65,39 @@ std::map<std::string, T> read_map(const h5::Group& root, const std::string& name
   std::map<std::string, T> map;
   for (std::size_t k = 0; k < names.size(); ++k) map[names[k]] = values.at(k);
   return map;
+}
+
+void write_texts(h5::Group& root, const std::map<std::string, std::string>& texts) {
+  std::vector<std::string> words;
+  for (const auto& [key, text] : texts) words.push_back(key), words.push_back(text);
+  write_text(root, "texts", joined(words));
+}
+
+std::map<std::string, std::string> read_texts(const h5::Group& root) {
+  const std::vector<std::string> words = split(read_text(root, "texts"));
+  std::map<std::string, std::string> texts;
+  for (std::size_t k = 0; k + 1 < words.size(); k += 2) texts[words[k]] = words[k + 1];
+  return texts;
+}
+
+void write_series(h5::Group& root, const std::map<std::string, std::vector<double>>& series) {
+  std::vector<std::string> names;
+  for (const auto& [name, values] : series) names.push_back(name);
+  h5::Group group = root.create_group("series");
+  write_text(group, "names", joined(names));
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const std::vector<double>& values = series.at(names[k]);
+    group.create_array<double>(std::to_string(k), {values.size()}, values);
+  }
+}
+
+std::map<std::string, std::vector<double>> read_series(const h5::Group& root) {
+  const h5::Group group = root.group("series");
+  const std::vector<std::string> names = split(read_text(group, "names"));
+  std::map<std::string, std::vector<double>> series;
+  for (std::size_t k = 0; k < names.size(); ++k)
+    series[names[k]] = group.dataset(std::to_string(k)).read<double>();
+  return series;
 }
 
 /// An array of small structures of numbers, as a table with one row per particle.
@@ -126,8 +159,12 @@ Checkpoint read_checkpoint(const fs::path& path) {
     throw FileError(path.string() +
                     ": was written by another version of vitrel: finish the run with "
                     "that version, or start it again");
-  return {read_configuration(root.group("configuration")), read_map<double>(root, "reals"),
-          read_map<std::uint64_t>(root, "counters"), read_text(root, "parameters")};
+  return {read_configuration(root.group("configuration")),
+          read_map<double>(root, "reals"),
+          read_map<std::uint64_t>(root, "counters"),
+          read_series(root),
+          read_texts(root),
+          read_text(root, "parameters")};
 }
 
 }  // namespace
@@ -141,6 +178,8 @@ void save_checkpoint(const fs::path& path, const Checkpoint& checkpoint) {
     write_configuration(root.create_group("configuration"), checkpoint.configuration);
     write_map(root, "reals", checkpoint.reals);
     write_map(root, "counters", checkpoint.counters);
+    write_series(root, checkpoint.series);
+    write_texts(root, checkpoint.texts);
     write_text(root, "parameters", checkpoint.parameters);
   }
   file.close();
@@ -166,6 +205,14 @@ LoadedCheckpoint load_checkpoint(const fs::path& path) {
 
 bool checkpoint_exists(const fs::path& path) {
   return fs::exists(path) || fs::exists(previous_of(path));
+}
+
+void remove_checkpoint(const fs::path& path) {
+  for (const fs::path& file : {path, previous_of(path)}) {
+    std::error_code error;
+    fs::remove(file, error);
+    if (error) throw FileError(file.string() + ": cannot be removed: " + error.message());
+  }
 }
 
 }  // namespace vitrel

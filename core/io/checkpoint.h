@@ -4,18 +4,21 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "core/state/configuration.h"
 
 namespace vitrel {
 
-/// All that a run needs to go on as if it had never stopped: the state at a block's end, and the
-/// numbers that the parts of the run keep, by name.
+/// All that a piece of work needs to go on as if it had never stopped: the state, and what its parts
+/// keep, by name.
 struct Checkpoint {
   Configuration2 configuration;
   std::map<std::string, double> reals;
   std::map<std::string, std::uint64_t> counters;
-  std::string parameters;  ///< TOML text of the run it belongs to
+  std::map<std::string, std::vector<double>> series;
+  std::map<std::string, std::string> texts;  ///< without zero bytes
+  std::string parameters;                    ///< TOML text of the work it belongs to
 };
 
 /// Writes `<path>.partial`, waits for the disk, keeps the checkpoint before as `<path>.previous`,
@@ -33,5 +36,8 @@ LoadedCheckpoint load_checkpoint(const std::filesystem::path& path);
 
 /// Whether load_checkpoint has a file to try.
 bool checkpoint_exists(const std::filesystem::path& path);
+
+/// Removes both files, if there are any. Throws FileError.
+void remove_checkpoint(const std::filesystem::path& path);
 
 }  // namespace vitrel

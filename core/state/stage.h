@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -13,15 +12,20 @@ struct Progress {
   const char* quantity;  ///< its name
 };
 
-/// What a stage may use, and whom it tells. Stages ask `should_stop` only at points from which they can
-/// be resumed; an empty function means: never stop, tell nobody.
+/// What a stage may use, and whom it tells; an empty function means: never stop, tell nobody.
 struct Budget {
   std::function<bool()> should_stop;
   std::function<void(const Progress&)> report;
+  /// Called at moments in which the configuration and the state of the stage, together, are such that
+  /// the stage goes on from copies of them bit by bit.
+  std::function<void()> resumable;
 
   bool stop_requested() const { return should_stop && should_stop(); }
   void tell(const Progress& progress) const {
     if (report) report(progress);
+  }
+  void mark_resumable() const {
+    if (resumable) resumable();
   }
 };
 
@@ -33,16 +37,7 @@ enum class StageEnd {
 
 struct StageReport {
   StageEnd end = StageEnd::reached;
-  std::string reason;  ///< one sentence, for a person
-  std::uint64_t translations_tried = 0, translations_accepted = 0;
-  std::uint64_t rotations_tried = 0, rotations_accepted = 0;
-
-  void add_counts(const StageReport& other) {
-    translations_tried += other.translations_tried;
-    translations_accepted += other.translations_accepted;
-    rotations_tried += other.rotations_tried;
-    rotations_accepted += other.rotations_accepted;
-  }
+  std::string reason;  ///< a few words, for a person
 };
 
 }  // namespace vitrel

@@ -46,7 +46,8 @@ class Packing:
         self.gap = check["smallest_gap"]
         name = f"κ = {aspect_ratio}, {len(sizes)} size(s)"
         expect(check["overlaps"] == 0, f"{name}: {check['overlaps']} overlaps")
-        (z1, phi1), (z2, phi2) = ((g["reduced_pressure"], g["packing_fraction"]) for g in self.summary["growth"])
+        self.growth = [stage for stage in self.summary["stages"] if stage["method"] == "grow"]
+        (z1, phi1), (z2, phi2) = ((g["reduced_pressure"], g["packing_fraction"]) for g in self.growth)
         expect(z2 >= PRESSURES[-1], f"{name}: reduced pressure {z2}")
         # φ = φ_J (1 − C/Z) at both.
         self.constant = (phi2 - phi1) / (phi2 / z1 - phi1 / z2)
@@ -57,7 +58,7 @@ class Packing:
                f"{name}: C = {self.constant}, for {freedoms} degrees of freedom")
 
     def row(self):
-        collisions = sum(g["collisions"] for g in self.summary["growth"])
+        collisions = sum(g["collisions"] for g in self.growth)
         return [self.aspect_ratio, f"{self.jamming:.5f}", f"{self.constant:.2f}", f"{self.pressure:.2e}",
                 f"{self.summary['nematic_order']:.2f}", f"{collisions:.2e}", f"{self.gap:.1e}",
                 f"{self.summary['wall_seconds']:.0f} s"]

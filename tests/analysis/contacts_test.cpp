@@ -157,10 +157,10 @@ std::pair<Configuration2, double> jammed(const std::function<Ellipse(std::size_t
   GrowthOptions options;
   options.growth_rate = 2e-3;
   options.reduced_pressure = 1e7;
-  const GrowthReport report = grow(c, options, {});
-  EXPECT_EQ(report.end, StageEnd::reached);
+  GrowthState state;
+  EXPECT_EQ(grow(c, options, state, {}).end, StageEnd::reached);
   EXPECT_TRUE(exact_check(c).clean());
-  return {c, report.reduced_pressure};
+  return {c, state.reduced_pressure};
 }
 
 // A jammed packing of n disks in a fixed box has 2n − 1 contacts, one more than its 2n − 2 degrees

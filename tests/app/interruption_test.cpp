@@ -85,6 +85,45 @@ TEST_P(Interruption, StoppedBySignalItExitsWithFiveAndContinues) {
   expect_same_datasets_despite({SIGTERM, SIGINT, SIGUSR1}, GetParam(), folder, 0.2, 0.3);
 }
 
+/// The same for a preparation, every stage of which is killed some time, and stopped.
+TEST(InterruptedPreparation, KilledAndStoppedItsStateIsTheSame) {
+  const Folder folder("kill_prepare");
+  folder.write(
+      "p.toml",
+      "[system]\nparticles = 200\npacking_fraction = 0.75\n[prepare]\nquality_sweeps = 50\n"
+      "[[prepare.stage]]\nmethod = \"insert\"\n"
+      "[[prepare.stage]]\nmethod = \"swell\"\npacking_fraction = 0.6\n"
+      "[[prepare.stage]]\nmethod = \"compress\"\npressure = 30\npacking_fraction = 0.65\n"
+      "[[prepare.stage]]\nmethod = \"hybrid\"\npacking_fraction = 0.7\n"
+      "[[prepare.stage]]\nmethod = \"grow\"\n"
+      "[[prepare.stage]]\nmethod = \"sample\"\nsweeps = 500\n"
+      "[output]\ncheckpoint_interval = 0.01\n");
+  const auto prepare = [](const std::string& output) {
+    return std::vector<std::string>{"prepare", "p.toml", "-o", output, "-q"};
+  };
+  const auto start = std::chrono::steady_clock::now();
+  ASSERT_EQ(run(folder.path(), prepare("whole.h5")).code, 0);
+  const auto whole =
+      std::chrono::duration_cast<milliseconds>(std::chrono::steady_clock::now() - start);
+  Stream moments(12, Purpose::tests);
+  int interrupted = 0;
+  for (int round = 0; round < 12; ++round) {
+    const milliseconds delay(static_cast<int>(moments.uniform(0.05, 0.25) * whole.count()));
+    const int code = run_and_signal(folder.path(), prepare("parts.h5"), delay,
+                                    round % 3 == 0 ? SIGTERM : SIGKILL)
+                         .code;
+    if (std::filesystem::exists(folder / "parts.h5")) break;
+    EXPECT_THAT(code, testing::AnyOf(5, 128 + SIGKILL));
+    ++interrupted;
+  }
+  EXPECT_GE(interrupted, 3);
+  if (!std::filesystem::exists(folder / "parts.h5")) {
+    const Outcome last = run(folder.path(), prepare("parts.h5"));
+    ASSERT_EQ(last.code, 0) << last.errors;
+  }
+  EXPECT_THAT(differing_datasets(folder / "whole.h5", folder / "parts.h5"), IsEmpty());
+}
+
 INSTANTIATE_TEST_SUITE_P(Dynamics, Interruption, testing::Values("newtonian", "brownian"),
                          [](const auto& kind) { return std::string(kind.param); });
 

@@ -191,9 +191,13 @@ TEST(ParameterFile, OnlyHarmlessChangesAreAllowedWhenContinuing) {
   Parameters before, after;
   after.output.checkpoint_interval = 1;
   after.analysis.longest_lag = 0.25;
-  EXPECT_FALSE(forbidden_change(effective_parameters(before), effective_parameters(after)));
+  const auto forbidden = [&](Work work) {
+    return forbidden_change(effective_parameters(before), effective_parameters(after), work);
+  };
+  EXPECT_FALSE(forbidden(Work::run));
   after.dynamics.brownian_step = 0.2;
-  const auto change = forbidden_change(effective_parameters(before), effective_parameters(after));
+  EXPECT_FALSE(forbidden(Work::preparation));
+  const auto change = forbidden(Work::run);
   ASSERT_TRUE(change);
   EXPECT_EQ(change->key, "dynamics.brownian_step");
   EXPECT_EQ(change->first, "0.1");

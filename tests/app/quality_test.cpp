@@ -37,7 +37,7 @@ Parameters small() {
 }
 
 Quality measured(const Parameters& parameters) {
-  return *measure_quality(prepare(parameters, {}, say_nothing), parameters, {});
+  return *measure_quality(prepare({parameters}, {}, say_nothing), parameters, {});
 }
 
 std::string text(const Quality& quality) {
@@ -87,7 +87,7 @@ TEST(MeasureQuality, OfASquareLatticeOfParallelEllipses) {
 
 TEST(MeasureQuality, LeavesTheStateAsItIs) {
   const Parameters parameters = small();
-  const Preparation preparation = prepare(parameters, {}, say_nothing);
+  const Preparation preparation = prepare({parameters}, {}, say_nothing);
   const std::vector<Vec2> before = preparation.configuration.position;
   const auto one = measure_quality(preparation, parameters, {});
   EXPECT_EQ(preparation.configuration.position, before);
@@ -101,10 +101,10 @@ TEST(MeasureQuality, TakesThePressureOfAGrowthUnlessTheParticlesMovedSince) {
   parameters.stages[1].reduced_pressure = 1e6;
   parameters.stages[1].growth_rate = 0.02;
   parameters.species[0].aspect_ratio->mean = 1.4;
-  const Preparation grown = prepare(parameters, {}, say_nothing);
+  const Preparation grown = prepare({parameters}, {}, say_nothing);
   const Quality jammed = *measure_quality(grown, parameters, {});
   EXPECT_EQ(jammed.pressure_from, Quality::PressureFrom::growth);
-  EXPECT_EQ(jammed.reduced_pressure.mean, grown.growth.back().reduced_pressure);
+  EXPECT_EQ(jammed.reduced_pressure.mean, grown.stages.back().growth.reduced_pressure);
   ASSERT_TRUE(jammed.backbone);
   EXPECT_GT(jammed.backbone->contact_number, 4);
   EXPECT_LT(jammed.backbone->contact_number, 6.2);
@@ -132,7 +132,7 @@ TEST(MeasureQuality, TheBudgetStopsIt) {
   Budget budget;
   budget.should_stop = [] { return true; };
   const Parameters parameters = small();
-  EXPECT_FALSE(measure_quality(prepare(parameters, {}, say_nothing), parameters, budget));
+  EXPECT_FALSE(measure_quality(prepare({parameters}, {}, say_nothing), parameters, budget));
 }
 
 TEST(QualityRows, SayWhatWasNotReached) {

@@ -200,7 +200,9 @@ TEST_F(Interrupted, ANewFileIsThereWholeOrNotAtAll) {
 
 TEST_F(Interrupted, ACheckpointIsTheOldOneOrTheNewOne) {
   for (const Fault kind : {Fault::kill, Fault::full_disk}) {
-    const auto at = [](std::uint64_t k) { return Checkpoint{frame(k), {}, {{"k", k}}, ""}; };
+    const auto at = [](std::uint64_t k) {
+      return Checkpoint{frame(k), {}, {{"k", k}}, {}, {}, ""};
+    };
     save_checkpoint(file("c"), at(1));
     save_checkpoint(file("c"), at(2));
     long call = 0;

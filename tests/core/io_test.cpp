@@ -449,6 +449,8 @@ Checkpoint some_checkpoint(std::uint64_t step) {
   checkpoint.configuration.velocity[0] = {-0.0, std::numeric_limits<double>::denorm_min()};
   checkpoint.reals = {{"virial", 1.0 / 3}, {"Δ", -0.0}, {"next sample", HUGE_VAL}};
   checkpoint.counters = {{"collisions", step}, {"most", std::numeric_limits<std::uint64_t>::max()}};
+  checkpoint.series = {{"φ", {0.1, -0.0, HUGE_VAL}}, {"none", {}}};
+  checkpoint.texts = {{"empty", ""}, {"reason", "it was\nso"}};
   checkpoint.parameters = "[dynamics]\nduration = 10\n";
   return checkpoint;
 }
@@ -456,6 +458,8 @@ Checkpoint some_checkpoint(std::uint64_t step) {
 void expect_same(const Checkpoint& x, const Checkpoint& y) {
   expect_same_bits(x.configuration, y.configuration);
   EXPECT_EQ(x.counters, y.counters);
+  EXPECT_EQ(x.series, y.series);
+  EXPECT_EQ(x.texts, y.texts);
   EXPECT_EQ(x.parameters, y.parameters);
   ASSERT_EQ(x.reals.size(), y.reals.size());
   for (const auto& [name, value] : x.reals)
@@ -493,6 +497,14 @@ TEST_F(CheckpointFile, TheOneBeforeIsKeptAndTakenIfTheNewestIsCutShort) {
   EXPECT_THAT(file_error([&] { load_checkpoint(path); }), HasSubstr("unreadable too"));
   fs::remove(file("run.checkpoint.previous"));
   EXPECT_THAT(file_error([&] { load_checkpoint(path); }), HasSubstr("no earlier checkpoint"));
+}
+
+TEST_F(CheckpointFile, IsRemovedWithTheOneBefore) {
+  const fs::path path = file("run.checkpoint");
+  for (std::uint64_t step : {1, 2}) save_checkpoint(path, some_checkpoint(step));
+  remove_checkpoint(path);
+  EXPECT_FALSE(checkpoint_exists(path));
+  remove_checkpoint(path);
 }
 
 TEST_F(CheckpointFile, ATrajectoryIsNone) {

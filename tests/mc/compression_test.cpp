@@ -53,7 +53,7 @@ TEST(PressureSampler, KeepsTheStateHardInBoxesOfAnyShape) {
         }
       }
       EXPECT_GT(densest, 0.4);
-      EXPECT_GT(sampler.box_changes(), 20u);
+      EXPECT_GT(sampler.box().accepted, 20u);
       const double change_of_aspect = c.box.lengths().y() / c.box.lengths().x() / aspect;
       EXPECT_LT(change_of_aspect, PressureSampler::widest_change);
       EXPECT_GT(change_of_aspect, 1 / PressureSampler::widest_change);
@@ -66,12 +66,12 @@ TEST(PressureSampler, KeepsTheStateHardInBoxesOfAnyShape) {
 TEST(PressureSampler, SameStateForAnyNumberOfThreadsAndWhenContinued) {
   const Configuration2 start = inserted_fluid(300, 3, 0.3);
   Configuration2 one = start, two = start, three = start;
-  PressureSampler alone(one, 8, BoxChange::anisotropic, 5, 0, 1);
-  PressureSampler shared(two, 8, BoxChange::anisotropic, 5, 0, 2);
+  PressureSampler alone(one, 8, BoxChange::anisotropic, 5, {}, {}, 1);
+  PressureSampler shared(two, 8, BoxChange::anisotropic, 5, {}, {}, 2);
   for (int sweep = 0; sweep < 60; ++sweep) alone.sweep(), shared.sweep();
   PressureSampler first(three, 8, BoxChange::anisotropic, 5);
   for (int sweep = 0; sweep < 25; ++sweep) first.sweep();
-  PressureSampler second(three, 8, BoxChange::anisotropic, 5, 25);
+  PressureSampler second(three, 8, BoxChange::anisotropic, 5, first.moves(), first.box());
   for (int sweep = 25; sweep < 60; ++sweep) second.sweep();
   EXPECT_EQ(one.position, two.position);
   EXPECT_EQ(one.angle, two.angle);
@@ -82,35 +82,49 @@ TEST(PressureSampler, SameStateForAnyNumberOfThreadsAndWhenContinued) {
 
 TEST(Compression, EndsExactlyAtThePackingFraction) {
   Configuration2 c = inserted_fluid(100, 2, 0.3);
-  std::uint64_t sweep = 3;
-  const CompressionReport report =
-      compress(c, {.pressure = 30, .packing_fraction = 0.6, .sweeps = 100'000}, 1, sweep, {});
+  CompressionState state;
+  const StageReport report =
+      compress(c, {.pressure = 30, .packing_fraction = 0.6, .sweeps = 100'000}, 1, state, {});
   EXPECT_EQ(report.end, StageEnd::reached);
   EXPECT_NEAR(packing_fraction(c), 0.6, 1e-12);
   EXPECT_TRUE(exact_check(c).clean());
-  EXPECT_EQ(sweep, 3 + report.sweeps);
+  EXPECT_EQ(state.moves.next_sweep, state.packing_fraction.size());
 }
 
 TEST(Compression, SaysWhenThePressureDoesNotSuffice) {
   Configuration2 c = inserted_fluid(100, 2, 0.3);
-  std::uint64_t sweep = 0;
-  const CompressionReport report =
-      compress(c, {.pressure = 2, .packing_fraction = 0.8, .sweeps = 100'000}, 1, sweep, {});
+  CompressionState state;
+  const StageReport report =
+      compress(c, {.pressure = 2, .packing_fraction = 0.8, .sweeps = 100'000}, 1, state, {});
   EXPECT_EQ(report.end, StageEnd::stuck);
   EXPECT_NE(report.reason.find("no longer rises"), std::string::npos);
-  EXPECT_LT(report.sweeps, 20'000u);
+  EXPECT_LT(state.moves.sweeps, 20'000u);
   EXPECT_TRUE(exact_check(c).clean());
 }
 
-TEST(Compression, StopsWhenAskedTo) {
-  Configuration2 c = inserted_fluid(50, 1, 0.3);
-  std::uint64_t sweep = 0;
-  int asked = 0;
-  const CompressionReport report =
-      compress(c, {.pressure = 5}, 1, sweep, {[&] { return ++asked > 10; }, {}});
-  EXPECT_EQ(report.end, StageEnd::stopped);
-  EXPECT_EQ(sweep, 10u);
-  EXPECT_TRUE(exact_check(c).clean());
+TEST(Compression, SaysWhenTheSweepsDoNotSuffice) {
+  Configuration2 c = inserted_fluid(100, 2, 0.3);
+  CompressionState state;
+  const StageReport report =
+      compress(c, {.pressure = 30, .packing_fraction = 0.6, .sweeps = 10}, 1, state, {});
+  EXPECT_EQ(report.end, StageEnd::stuck);
+  EXPECT_NE(report.reason.find("all that its sweeps reached"), std::string::npos);
+  EXPECT_EQ(state.moves.sweeps, 10u);
+}
+
+TEST(Compression, GoesOnBitByBitAfterStops) {
+  Configuration2 whole = inserted_fluid(50, 2, 0.3), parts = whole;
+  const CompressionOptions options{.pressure = 5, .change = BoxChange::anisotropic, .sweeps = 200};
+  CompressionState undisturbed, state;
+  EXPECT_EQ(compress(whole, options, 1, undisturbed, {}).end, StageEnd::reached);
+  int asked = 0, stops = 0;
+  const Budget budget{[&] { return ++asked % 37 == 0; }, {}, {}};
+  for (; compress(parts, options, 1, state, budget).end == StageEnd::stopped; ++stops)
+    EXPECT_TRUE(exact_check(parts).clean());
+  EXPECT_GT(stops, 3);
+  EXPECT_EQ(parts.position, whole.position);
+  EXPECT_EQ(parts.box.lengths(), whole.box.lengths());
+  EXPECT_EQ(state.packing_fraction, undisturbed.packing_fraction);
 }
 
 }  // namespace

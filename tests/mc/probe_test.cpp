@@ -38,7 +38,7 @@ TEST(Probe, MeasuresWhatTheSamplerDoes) {
   const auto result = probe(state, 500, 7, 3, {});
   ASSERT_TRUE(result);
   Configuration2 copy = state;
-  Sampler sampler(copy, 7, 3);
+  Sampler sampler(copy, 7, {.next_sweep = 3});
   for (int k = 1; k <= 100; ++k) {
     sampler.sweep();
     if (k % 5 == 0) sampler.tune();

@@ -81,7 +81,7 @@ TEST_P(SamplerOf, KeepsTheStateHard) {
     for (int sweep = 0; sweep < 100; ++sweep) sampler.sweep();
     ASSERT_TRUE(exact_check(c).clean());
   }
-  const StageReport& counts = sampler.counts();
+  const TrialCounts& counts = sampler.counts();
   EXPECT_GT(counts.translations_accepted, 20 * c.size());
   if (rotor_count(c) > 0) {
     EXPECT_GT(counts.rotations_accepted, 10 * rotor_count(c));
@@ -93,7 +93,7 @@ TEST_P(SamplerOf, AnyNumberOfThreadsGivesTheSameState) {
   const Configuration2 start = inserted();
   const auto moved = [&](int threads) {
     Configuration2 c = start;
-    Sampler sampler(c, 7, 3, threads);
+    Sampler sampler(c, 7, {.next_sweep = 3}, threads);
     for (int round = 0; round < 5; ++round) {
       for (int sweep = 0; sweep < 10; ++sweep) sampler.sweep();
       sampler.tune();
@@ -138,7 +138,7 @@ TEST(Sampler, SameSeedSameStateAndSweepsAreNumbered) {
   for (int sweep = 0; sweep < 20; ++sweep) whole.sweep();
   Sampler first(two, 9);
   for (int sweep = 0; sweep < 7; ++sweep) first.sweep();
-  Sampler second(two, 9, first.next_sweep());
+  Sampler second(two, 9, first.state());
   for (int sweep = 7; sweep < 20; ++sweep) second.sweep();
   EXPECT_EQ(one.position, two.position);
   EXPECT_EQ(one.angle, two.angle);
@@ -149,15 +149,15 @@ TEST(Sampler, StepsChangeOnlyWhenTuned) {
   Sampler sampler(c, 2);
   sampler.set_steps(0.05, 0.05);
   for (int sweep = 0; sweep < 20; ++sweep) sampler.sweep();
-  EXPECT_EQ(sampler.translation_step(), 0.05);
+  EXPECT_EQ(sampler.state().translation.size, 0.05);
   for (int round = 0; round < 20; ++round) {
     for (int sweep = 0; sweep < 10; ++sweep) sampler.sweep();
     sampler.tune();
   }
-  EXPECT_GT(sampler.translation_step(), 0.2);
-  const StageReport before = sampler.counts();
+  EXPECT_GT(sampler.state().translation.size, 0.2);
+  const TrialCounts before = sampler.counts();
   for (int sweep = 0; sweep < 50; ++sweep) sampler.sweep();
-  const StageReport after = sampler.counts();
+  const TrialCounts after = sampler.counts();
   const double acceptance =
       static_cast<double>(after.translations_accepted - before.translations_accepted) /
       static_cast<double>(after.translations_tried - before.translations_tried);

@@ -36,8 +36,8 @@ class Swelling : public testing::TestWithParam<Goal> {};
 TEST_P(Swelling, ReachesThePackingFractionWithoutOverlap) {
   Configuration2 c = inserted(500, GetParam().shapes);
   const std::vector<Ellipse> shapes(c.shape);
-  std::uint64_t sweep = 0;
-  const StageReport report = swell(c, {GetParam().packing_fraction, 1000000}, 1, sweep, {});
+  SwellingState state;
+  const StageReport report = swell(c, {GetParam().packing_fraction, 1000000}, 1, state, {});
   EXPECT_EQ(report.end, StageEnd::reached) << report.reason;
   EXPECT_NEAR(packing_fraction(c), GetParam().packing_fraction, 1e-12);
   EXPECT_TRUE(exact_check(c).clean());
@@ -53,8 +53,8 @@ INSTANTIATE_TEST_SUITE_P(
 // start of so few sweeps stays well below.
 TEST(SwellingLimits, KnowsWhenTheParticlesAreJammed) {
   Configuration2 c = inserted(60, {of_aspect_ratio(1.5)});
-  std::uint64_t sweep = 0;
-  const StageReport report = swell(c, {0.95, 1000000}, 1, sweep, {});
+  SwellingState state;
+  const StageReport report = swell(c, {0.95, 1000000}, 1, state, {});
   EXPECT_EQ(report.end, StageEnd::stuck);
   EXPECT_NE(report.reason.find("jammed"), std::string::npos) << report.reason;
   EXPECT_LT(packing_fraction(c), 0.9069);
@@ -65,31 +65,37 @@ TEST(SwellingLimits, KnowsWhenTheParticlesAreJammed) {
 // In a box barely longer than a particle, where it meets its own images.
 TEST(SwellingLimits, MindsImagesInATinyBox) {
   Configuration2 c = inserted(3, {of_aspect_ratio(4)});
-  std::uint64_t sweep = 0;
-  const StageReport report = swell(c, {0.5, 1000000}, 1, sweep, {});
+  SwellingState state;
+  const StageReport report = swell(c, {0.5, 1000000}, 1, state, {});
   EXPECT_EQ(report.end, StageEnd::reached) << report.reason;
   EXPECT_TRUE(exact_check(c).clean());
 }
 
-// A stop leaves a hard state of unchanged particles, from which another call goes on.
-TEST(SwellingLimits, GoesOnAfterAStop) {
-  Configuration2 c = inserted(100, {of_aspect_ratio(3)});
-  std::uint64_t sweep = 0;
-  int questions = 0;
-  const Budget budget{[&] { return ++questions > 25; }, {}};
-  EXPECT_EQ(swell(c, {0.7, 1000000}, 1, sweep, budget).end, StageEnd::stopped);
-  EXPECT_TRUE(exact_check(c).clean());
-  EXPECT_EQ(c.shape[0].a, of_aspect_ratio(3).a);
-  EXPECT_EQ(swell(c, {0.7, 1000000}, 1, sweep, {}).end, StageEnd::reached);
-  EXPECT_TRUE(exact_check(c).clean());
+// A stop in the middle of a round leaves the state at its beginning, hard and of unchanged particles.
+TEST(SwellingLimits, GoesOnBitByBitAfterStops) {
+  Configuration2 whole = inserted(100, {of_aspect_ratio(3)}), parts = whole;
+  SwellingState undisturbed, state;
+  EXPECT_EQ(swell(whole, {0.75, 1000000}, 1, undisturbed, {}).end, StageEnd::reached);
+  std::uint64_t patience = 25, questions = 0, stops = 0;
+  const Budget budget{[&] { return ++questions > patience; }, {}, {}};
+  while (swell(parts, {0.75, 1000000}, 1, state, budget).end == StageEnd::stopped) {
+    EXPECT_TRUE(exact_check(parts).clean());
+    EXPECT_EQ(parts.shape[0].a, of_aspect_ratio(3).a);
+    patience = 25 + 10 * ++stops;  // so that every round comes to its end some time
+    questions = 0;
+  }
+  EXPECT_GT(stops, 3u);
+  EXPECT_EQ(parts.position, whole.position);
+  EXPECT_EQ(parts.angle, whole.angle);
+  EXPECT_EQ(state.moves.counts.tried(), undisturbed.moves.counts.tried());
 }
 
 TEST(SwellingLimits, SaysHowFarItGot) {
   Configuration2 c = inserted(100, {of_aspect_ratio(2)});
-  std::uint64_t sweep = 0;
-  const StageReport report = swell(c, {0.8, 50}, 1, sweep, {});
+  SwellingState state;
+  const StageReport report = swell(c, {0.8, 50}, 1, state, {});
   EXPECT_EQ(report.end, StageEnd::stuck);
-  EXPECT_EQ(sweep, 50u);
+  EXPECT_EQ(state.moves.sweeps, 50u);
   EXPECT_NE(report.reason.find("0.8"), std::string::npos);
   EXPECT_TRUE(exact_check(c).clean());
 }

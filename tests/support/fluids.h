@@ -24,8 +24,8 @@ inline Configuration2 inserted_fluid(std::size_t n, double aspect_ratio, double 
 inline Configuration2 swollen_fluid(std::size_t n, double aspect_ratio, double packing_fraction,
                                     double box_aspect = 1) {
   Configuration2 c = inserted_fluid(n, aspect_ratio, std::min(packing_fraction, 0.3), box_aspect);
-  std::uint64_t sweep = 0;
-  swell(c, {packing_fraction}, 1, sweep, {});
+  SwellingState state;
+  swell(c, {packing_fraction}, 1, state, {});
   return c;
 }
 

@@ -6,7 +6,7 @@
 #include "core/neighbors/cell_grid.h"
 #include "core/random/stream.h"
 #include "core/state/configuration.h"
-#include "core/state/stage.h"
+#include "mc/trials.h"
 
 namespace vitrel::lab {
 
@@ -21,7 +21,7 @@ class OneByOneSampler {
   /// N trials.
   void sweep();
   void set_steps(double translation, double rotation);
-  const StageReport& counts() const { return counts_; }
+  const TrialCounts& counts() const { return counts_; }
   /// Pairs decided since construction.
   std::uint64_t decisions() const { return decisions_; }
 
@@ -36,7 +36,7 @@ class OneByOneSampler {
   double largest_, margin_;
   double translation_ = 0.1, rotation_ = 0.1;
   std::uint64_t seed_, sweep_ = 0, decisions_ = 0;
-  StageReport counts_;
+  TrialCounts counts_;
 };
 
 }  // namespace vitrel::lab

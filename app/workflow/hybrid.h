@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/state/configuration.h"
+#include "core/state/stage.h"
+#include "edmd/growth.h"
+#include "mc/trials.h"
+
+namespace vitrel {
+
+/// Compression by both engines in turn: event-driven growth (edmd/growth.h), and Monte Carlo at the
+/// packing fraction reached, in which the liquid relaxes.
+///
+/// A stretch of growth ends when all lengths have grown by `stretch`, or by `stretch_of_gap`/Z if that is
+/// less: then about that share of the free lengths is used up, and Z has risen by as much. Velocities are
+/// drawn anew after every stretch of Monte Carlo. Goals are met within growth, which ends the stage.
+struct HybridOptions {
+  double growth_rate = 1e-2;
+  std::optional<double> packing_fraction;  ///< ends there, exactly
+  std::optional<double> reduced_pressure;  ///< ends at such a pressure
+  std::uint64_t sweeps = 100;              ///< in every stretch of Monte Carlo
+  std::uint64_t seed = 1;
+  int threads = 1;  ///< of Monte Carlo; the result does not depend on it
+};
+
+struct HybridState {
+  GrowthState growth;
+  SweepState moves;
+  std::uint64_t stretches = 0;  ///< of both kinds, complete
+  double stretch_end = 0;       ///< packing fraction at which the present growth ends
+};
+
+/// `reached` at the wanted packing fraction or pressure, `stuck` if the particles are jammed before,
+/// `stopped` by the budget: the same call then goes on bit by bit. Else as `grow`.
+StageReport hybrid(Configuration2& configuration, const HybridOptions& options, HybridState& state,
+                   const Budget& budget);
+
+}  // namespace vitrel

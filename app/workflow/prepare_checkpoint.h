@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "app/workflow/hybrid.h"
+#include "app/workflow/prepare.h"
+#include "core/io/checkpoint.h"
+#include "mc/compression.h"
+#include "mc/swelling.h"
+
+namespace vitrel {
+
+/// Where the stage at work stands; every method uses its own field.
+struct StageWork {
+  SweepState sampling;
+  SwellingState swelling;
+  CompressionState compression;
+  GrowthState growth;
+  HybridState hybrid;
+  double wall_seconds = 0;
+
+  StageWork() = default;
+  explicit StageWork(std::uint64_t next_sweep) {
+    for (SweepState* moves : {&sampling, &swelling.moves, &compression.moves, &hybrid.moves})
+      moves->next_sweep = next_sweep;
+  }
+};
+
+/// A preparation at work, as its checkpoint holds it.
+struct StoredPreparation {
+  Preparation done;        ///< `stages` are those that have ended
+  StageWork work;          ///< of the stage after them
+  std::string parameters;  ///< effective parameters, TOML
+};
+
+Checkpoint to_checkpoint(const StoredPreparation& preparation);
+/// Throws FileError, naming `file`, if something is missing.
+StoredPreparation preparation_from_checkpoint(const Checkpoint& checkpoint,
+                                              const std::filesystem::path& file);
+
+}  // namespace vitrel

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+namespace vitrel {
+
+struct TrialCounts {
+  std::uint64_t translations_tried = 0, translations_accepted = 0;
+  std::uint64_t rotations_tried = 0, rotations_accepted = 0;
+
+  std::uint64_t tried() const { return translations_tried + rotations_tried; }
+  void add(const TrialCounts& other) {
+    translations_tried += other.translations_tried;
+    translations_accepted += other.translations_accepted;
+    rotations_tried += other.rotations_tried;
+    rotations_accepted += other.rotations_accepted;
+  }
+};
+
+/// The size of a kind of trial steps, adapted by how many of them were accepted.
+struct StepSize {
+  double size;
+  std::uint64_t tried = 0, accepted = 0;  ///< since the last adaptation
+
+  void count(std::uint64_t more_tried, std::uint64_t more_accepted) {
+    tried += more_tried;
+    accepted += more_accepted;
+  }
+
+  /// Towards an acceptance of 0.35; waits for more trials if they are fewer than `enough`.
+  void tune(std::uint64_t enough, double largest) {
+    constexpr double wanted = 0.35, strongest = 2;
+    if (tried < enough) return;
+    const double acceptance = static_cast<double>(accepted) / static_cast<double>(tried);
+    size = std::min(largest, size * std::clamp(acceptance / wanted, 1 / strongest, strongest));
+    tried = accepted = 0;
+  }
+};
+
+/// Where a stage of sweeps stands: with the configuration, all it takes to go on bit by bit.
+struct SweepState {
+  std::uint64_t next_sweep = 0;  ///< its number, by which it draws
+  std::uint64_t sweeps = 0;      ///< made so far
+  StepSize translation{0.1}, rotation{0.1};
+  TrialCounts counts = {};
+};
+
+/// Sweeps between two adaptations of the step sizes.
+inline constexpr std::uint64_t sweeps_per_tuning = 20;
+
+}  // namespace vitrel
