@@ -217,9 +217,10 @@ void describe_output(OutputParameters& p, FieldVisitor& visit) {
                "Whether the velocities of all particles are written, too. Energies and the "
                "pressure are measured without."},
               p.velocities);
-  visit.field({"checkpoint_interval", "seconds of wall time",
-               "Time between checkpoints, from which a preparation or a run that was killed continues."},
-              p.checkpoint_interval);
+  visit.field(
+      {"checkpoint_interval", "seconds of wall time",
+       "Time between checkpoints, from which a preparation or a run that was killed continues."},
+      p.checkpoint_interval);
 }
 
 void describe_analysis(DisplacementOptions& p, FieldVisitor& visit) {
