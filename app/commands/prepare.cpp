@@ -79,13 +79,21 @@ void print_summary(const Arguments& arguments, const Preparation& preparation,
   flush_output();
 }
 
+/// Before the work, which may be long.
+void require_new_file(const std::filesystem::path& output) {
+  if (std::filesystem::exists(output))
+    throw UserError(output.string() + ": exists already; choose another output, or delete it");
+  const std::filesystem::path folder = std::filesystem::absolute(output).parent_path();
+  if (!std::filesystem::is_directory(folder))
+    throw FileError(fmt::format("{}: cannot be written: there is no folder {}", output.string(),
+                                folder.string()));
+}
+
 }  // namespace
 
 int prepare_command(const Arguments& arguments) {
   const Parameters parameters = load_parameters(parameter_source(arguments));
-  if (std::filesystem::exists(arguments.output))
-    throw UserError(arguments.output.string() +
-                    ": exists already; choose another output, or delete it");
+  require_new_file(arguments.output);
   Session session(arguments);
   const Preparation preparation =
       prepare({parameters, arguments.output, arguments.command_line, arguments.threads},

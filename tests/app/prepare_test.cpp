@@ -9,9 +9,12 @@
 #include "core/error.h"
 #include "core/io/h5md.h"
 #include "core/state/check.h"
+#include "tests/app/program.h"
 
 namespace vitrel {
 namespace {
+
+using testing_program::Folder;
 
 const auto say_nothing = [](const std::string&) {};
 
@@ -167,11 +170,7 @@ Parameters by(PrepareStage::Method method) {
 
 class StoppedPreparation : public testing::TestWithParam<PrepareStage::Method> {
  protected:
-  void SetUp() override { std::filesystem::create_directories(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  const std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) /
-                                        (std::string("vitrel_stopped_") + method_name(GetParam()));
+  const Folder folder_{"stopped_preparation"};
 };
 
 // Every process stops a little later than the one before, so that each gets somewhere.
@@ -201,7 +200,7 @@ TEST_P(StoppedPreparation, GoesOnBitByBitFromItsFile) {
     EXPECT_EQ(one.growth.counters.collisions, other.growth.counters.collisions);
   }
   forget_preparation(request.output);
-  EXPECT_TRUE(std::filesystem::is_empty(folder_));
+  EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
 }
 
 // A checkpoint at every moment at which there may be one, and a copy of one in the middle.
@@ -256,13 +255,11 @@ INSTANTIATE_TEST_SUITE_P(Methods, StoppedPreparation,
 TEST(Prepare, AStuckStateIsKept) {
   Parameters parameters = small(0.88);
   parameters.stages[1].most_sweeps = 50;
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "vitrel_stuck";
-  std::filesystem::create_directories(folder);
+  const Folder folder("stuck");
   EXPECT_THROW(prepare({parameters, folder / "state.h5"}, {}, say_nothing), UserError);
   const Configuration2 kept = read_state(folder / "state.h5.stuck.h5");
   EXPECT_GT(packing_fraction(kept), 0.3);
   EXPECT_TRUE(exact_check(kept).clean());
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace
