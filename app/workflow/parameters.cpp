@@ -470,7 +470,7 @@ Species default_species() {
 
 std::vector<PrepareStage> default_stages() {
   std::vector<PrepareStage> stages(2);
-  stages[1].method = PrepareStage::Method::swell;
+  stages[1].method = PrepareStage::Method::grow;
   return stages;
 }
 

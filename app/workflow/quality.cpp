@@ -28,12 +28,13 @@ double pressure_of_growth(const Preparation& preparation) {
 
 void note_pressure(Quality& quality, const Preparation& preparation) {
   using From = Quality::PressureFrom;
-  if (pressure_of_growth(preparation) > 0) {
-    quality.pressure_from = From::growth;
-    quality.reduced_pressure = {pressure_of_growth(preparation), unknown, 0};
-  } else if (quality.probe) {
+  const double grown = pressure_of_growth(preparation);
+  if (quality.probe && grown < least_jammed_pressure) {
     quality.pressure_from = From::sampling;
     quality.reduced_pressure = block_average(quality.probe->compressibility);
+  } else if (grown > 0) {
+    quality.pressure_from = From::growth;
+    quality.reduced_pressure = {grown, unknown, 0};
   } else {
     quality.reduced_pressure = {unknown, unknown, 0};
   }

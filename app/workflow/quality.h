@@ -32,9 +32,9 @@ struct Quality {
   std::optional<Probe> probe;              ///< none if no sweeps were asked for
 };
 
-/// Measures a complete preparation; the state stays as it is. The pressure is that
-/// of the growth if that was the last stage, else that of a short sampling on a copy. Nothing if
-/// the budget asked to stop.
+/// Measures a complete preparation; the state stays as it is. The pressure is that of a short sampling on
+/// a copy; without one, or if the last stage was a growth that ended jammed (least_jammed_pressure), that of
+/// the growth. Nothing if the budget asked to stop.
 std::optional<Quality> measure_quality(const Preparation& preparation, const Parameters& parameters,
                                        const Budget& budget, int threads = 1);
 

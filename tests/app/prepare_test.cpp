@@ -18,17 +18,19 @@ using testing_program::Folder;
 
 const auto say_nothing = [](const std::string&) {};
 
-Parameters small(double packing_fraction) {
-  Parameters parameters;
-  parameters.system.particles = 49;
-  parameters.system.packing_fraction = packing_fraction;
-  return parameters;
-}
-
 PrepareStage stage(PrepareStage::Method method) {
   PrepareStage result;
   result.method = method;
   return result;
+}
+
+/// Inserted and swollen.
+Parameters small(double packing_fraction) {
+  Parameters parameters;
+  parameters.system.particles = 49;
+  parameters.system.packing_fraction = packing_fraction;
+  parameters.stages[1] = stage(PrepareStage::Method::swell);
+  return parameters;
 }
 
 TEST(Prepare, StagesInARowReachThePackingFractionWithoutOverlap) {

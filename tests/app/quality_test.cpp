@@ -95,7 +95,7 @@ TEST(MeasureQuality, LeavesTheStateAsItIs) {
   EXPECT_EQ(text(*one), text(*measure_quality(preparation, parameters, {})));
 }
 
-TEST(MeasureQuality, TakesThePressureOfAGrowthUnlessTheParticlesMovedSince) {
+TEST(MeasureQuality, TakesThePressureOfAGrowthThatEndedJammed) {
   Parameters parameters = small();
   parameters.stages[1] = stage(PrepareStage::Method::grow);
   parameters.stages[1].reduced_pressure = 1e6;
@@ -111,14 +111,22 @@ TEST(MeasureQuality, TakesThePressureOfAGrowthUnlessTheParticlesMovedSince) {
   EXPECT_FALSE(jammed.probe->place_lost);
 
   parameters.stages[1].reduced_pressure = 20;
-  parameters.stages.push_back(stage(PrepareStage::Method::sample));
   const Quality sampled = measured(parameters);
   EXPECT_EQ(sampled.pressure_from, Quality::PressureFrom::sampling);
   EXPECT_FALSE(sampled.backbone);
 }
 
-TEST(MeasureQuality, WithoutSweepsThereIsNeitherPressureNorTime) {
+TEST(MeasureQuality, WithoutSweepsThePressureIsThatOfTheGrowth) {
   Parameters parameters = small();
+  parameters.quality_sweeps = 0;
+  const Quality quality = measured(parameters);
+  EXPECT_EQ(quality.pressure_from, Quality::PressureFrom::growth);
+  EXPECT_NEAR(quality.reduced_pressure.mean, 4.5, 0.5);
+}
+
+TEST(MeasureQuality, WithoutSweepsAndGrowthThereIsNeitherPressureNorTime) {
+  Parameters parameters = small();
+  parameters.stages[1] = stage(PrepareStage::Method::swell);
   parameters.quality_sweeps = 0;
   const Quality quality = measured(parameters);
   EXPECT_EQ(quality.pressure_from, Quality::PressureFrom::nothing);
