@@ -59,7 +59,9 @@ class Packing:
 
     def row(self):
         collisions = sum(g["collisions"] for g in self.growth)
+        held = self.summary["quality"]["jamming"]
         return [self.aspect_ratio, f"{self.jamming:.5f}", f"{self.constant:.2f}", f"{self.pressure:.2e}",
+                f"{held['contact_number']:.3f}", f"{held['isostatic_number']:.3f}", held["rattlers"],
                 f"{self.summary['nematic_order']:.2f}", f"{collisions:.2e}", f"{self.gap:.1e}",
                 f"{self.summary['wall_seconds']:.0f} s"]
 
@@ -106,12 +108,14 @@ def measure(build):
     one_size = [Packing(build, aspect_ratio, (1,)) for aspect_ratio in ONE_SIZE]
     rows = beside_literature(mixture, one_size)
     draw(mixture, one_size)
-    head = ["κ", "φ_J", "C", "Z at the end", "nematic order", "collisions", "smallest gap", "time"]
+    head = ["κ", "φ_J", "C", "Z at the end", "contacts", "isostatic", "rattlers", "nematic order", "collisions", "smallest gap", "time"]
     return f"""{PARTICLES} particles, inserted at random at φ = 0.3, grow in motion (Lubachevsky and Stillinger) at the rate
 {GROWTH_RATE:g} until their reduced pressure Z = βP/ρ is {PRESSURES[-1]:.0e}. Masses stay, the moment of inertia follows the axes,
 ω is constant in flight. Disks and nearly round particles of one size crystallise, so the curve is of mixtures: two
 sizes, 1 : {SIZE_RATIO}, in equal numbers. φ_J and C follow from Z = C/(1 − φ/φ_J) at Z = {PRESSURES[0]:.0e} and at the end; in a
-true jam C is the number of degrees of freedom, 2 for disks and 3 for ellipses, less the share of rattlers.
+true jam C is the number of degrees of freedom, 2 for disks and 3 for ellipses, less the share of rattlers. Contacts are
+those of the quality report, per particle without rattlers, beside the number that would fix all degrees of freedom;
+nearly round ellipses have fewer (Donev et al. 2007).
 
 One seed each. Long particles align while they grow (nematic order), which raises φ_J again towards κ = 6.
 
