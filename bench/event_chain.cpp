@@ -218,9 +218,7 @@ int run(const Request& r) {
     translation = sampler.translation_step(), rotation = sampler.rotation_step();
   }
   if (!round || r.particles <= 5000) {
-    EventChain chain(start, 4);
-    chain.set_plan({10 * spacing, static_cast<std::uint64_t>(r.particles / 10),
-                    static_cast<std::uint64_t>(r.particles)});
+    EventChain chain(start, {}, 4);
     for (const double until = processor_seconds() + r.warm; processor_seconds() < until;) {
       chain.sweep();
       chain.tune();
@@ -263,19 +261,10 @@ int run(const Request& r) {
       auto c = std::make_unique<Contestant>();
       c->name = fmt::format("chain l={} r={}", length, ratio);
       c->state = start;
-      chains.push_back(std::make_unique<EventChain>(c->state, 12));
+      chains.push_back(
+          std::make_unique<EventChain>(c->state, EventChainOptions{length, ratio}, 12));
       EventChain* s = chains.back().get();
-      const double l = length * spacing;
-      s->set_plan({l,
-                   std::max<std::uint64_t>(1, static_cast<std::uint64_t>(r.particles / length / 4)),
-                   static_cast<std::uint64_t>(r.particles)});
-      for (int k = 0; k < 50; ++k) s->sweep(), s->tune();
-      const EventChain::Counts n = s->counts();
-      const double contacts_per_chain = double(n.contacts) / (n.length / l);
-      const auto per_sweep =
-          std::max<std::uint64_t>(1, static_cast<std::uint64_t>(r.particles / contacts_per_chain));
-      s->set_plan({l, per_sweep,
-                   static_cast<std::uint64_t>(ratio * contacts_per_chain * double(per_sweep))});
+      for (int k = 0; k < 60; ++k) s->sweep(), s->tune();
       const double before = processor_seconds();
       for (int k = 0; k < 20; ++k) s->sweep();
       const double each = (processor_seconds() - before) / 20;
@@ -283,18 +272,17 @@ int run(const Request& r) {
       c->tick = [s, sweeps] {
         for (int k = 0; k < sweeps; ++k) s->sweep();
       };
-      c->counts = [s, sweeps, n]() -> Json {
+      c->counts = [s, sweeps]() -> Json {
         const EventChain::Counts& m = s->counts();
         return {{"moves", m.contacts + m.rotations_tried},
                 {"contacts", m.contacts},
-                {"crossings", m.crossings},
-                {"alone", m.alone},
+                {"crossings", m.looks - m.contacts},
                 {"rotations", m.rotations_tried},
                 {"rotations_accepted", double(m.rotations_accepted) /
                                            double(std::max<std::uint64_t>(1, m.rotations_tried))},
-                {"rotation_step", s->rotation_step()},
+                {"rotation_step", s->plan().rotation_step},
                 {"free_path", m.length / double(m.contacts)},
-                {"z_of_chains", s->compressibility()},
+                {"z_of_chains", m.compressibility()},
                 {"chains_per_sweep", s->plan().chains},
                 {"sweeps_per_tick", sweeps}};
       };

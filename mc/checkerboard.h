@@ -44,12 +44,13 @@ class Checkerboard {
   struct Near {
     int cell;
     double translation;
+    int away;  ///< by how many columns or rows it comes after the other
   };
   /// Columns near a column, and rows near a row, the nearest first: every image that can be within
   /// reach, once.
   std::span<const Near> near_column(int x) const { return lines_[0].near(x); }
   std::span<const Near> near_row(int y) const { return lines_[1].near(y); }
-  /// Where a column begins, and a row, and how wide they are.
+  /// Where the column and the row of a cell begin, and how wide they are.
   Vec2 corner(const Cell& cell) const {
     return {lines_[0].begin_of(cell.x), lines_[1].begin_of(cell.y)};
   }

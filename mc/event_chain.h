@@ -4,73 +4,117 @@
 #include <optional>
 #include <vector>
 
+#include "core/contact/path_look.h"
 #include "core/random/stream.h"
 #include "core/state/configuration.h"
 #include "mc/checkerboard.h"
 #include "mc/lane_cells.h"
 #include "mc/step_size.h"
+#include "mc/trial.h"
 
 namespace vitrel {
 
-/// Straight event chains for hard ellipses, with local rotations. On one thread.
+/// How event chains go. The defaults are those of bench/event_chain.md.
+struct EventChainOptions {
+  double length = 10;    ///< of a chain, in √(V/N), the mean distance of neighbours
+  double rotations = 1;  ///< trial rotations for every contact; of no effect if all are round
+};
+
+/// Event-chain Monte Carlo of hard ellipses at constant N, box and temperature, on one thread.
+///
+/// A chain: a random particle moves along x or along y, either with probability ½ and always forwards,
+/// until it touches another (path_look.h); that one goes on from there in the same direction, until
+/// the paths add up to the length of the chain. Nothing is rejected. Angles change by trial
+/// rotations, uniform within ± the step, as in sampler.h.
+///
+/// One sweep is a fixed number of chains with trial rotations of random particles spread evenly among
+/// them; `tune` chooses both so that a sweep has about N contacts. Particles are sorted into cells
+/// anew at the beginning. Sweep s draws from the stream (seed, trial_moves, s, 0): a chain that
+/// begins at sweep s with the plan of one that has come there goes on as that one, bit by bit.
+///
+/// Why every hard state is as likely as any other. Cut a chain of length l along x into steps ε → 0: of
+/// the N lifted states (hard state, moving particle i) each has one successor, either with i moved by
+/// ε, or, if that would overlap with j, the same state with j moving. Conversely each is reached from
+/// one alone: from i moved back by ε, or, if that would overlap with k behind, from the same state with k
+/// moving. A contact depends on the difference of the two positions only, angles fixed, so that j is
+/// in the way of i exactly if i is in the way of j going backwards. So a chain maps lifted states one
+/// to one and without change of volume (the flow is a translation between contacts): the uniform
+/// distribution goes into itself (global balance), the particle and direction being drawn uniformly
+/// and without regard to the state. Rotations are in detailed balance. Both directions, and any
+/// particle first, make all hard states accessible to each other that local moves connect.
+///
+/// Since the paths of N chains probe all contacts, the pressure comes for free (michel2014):
+///     Z = βP/ρ = 1 + ⟨Σ (r_j − r_i)·e⟩/l,
+/// the sum over the contacts of a chain along e.
+///
+/// A chain that meets more than N contacts in a row without room between them ends there; such states, in
+/// which a row of particles is jammed, have no volume.
+///
+/// Contacts are declared between 1.25 and 1.6 hard margins (disjoint.h), rotations keep one, so that the
+/// margin holds always. A particle's own images move along; those of others are others.
+/// Sources: bernard2009; for ellipses and all else whose potential depends on differences michel2014.
 class EventChain {
  public:
-  EventChain(Configuration2& configuration, std::uint64_t seed, std::uint64_t first_sweep = 0);
-
-  struct Plan {
-    double length = 10;           ///< of a chain
-    std::uint64_t chains = 10;    ///< in a sweep
-    std::uint64_t rotations = 0;  ///< in a sweep
-  };
-  void set_plan(const Plan& plan) { plan_ = plan; }
-  const Plan& plan() const { return plan_; }
+  /// The configuration must be hard, with wrapped positions, and outlive the chains; nobody else may
+  /// move particles during a sweep.
+  EventChain(Configuration2& configuration, const EventChainOptions& options, std::uint64_t seed,
+             std::uint64_t first_sweep = 0);
 
   void sweep();
-  /// Adapts the rotation step towards an acceptance of 0.35.
-  void tune();
-  double rotation_step() const { return rotation_.size(); }
 
+  /// Adapts the plan by the counts since the last adaptation: about N contacts in a sweep, rotations as
+  /// asked for, 0.35 of them accepted. It belongs to equilibration.
+  void tune();
+
+  /// What a sweep is. Depends on nothing but `tune` and `set_plan`.
+  struct Plan {
+    std::uint64_t chains, rotations;
+    double rotation_step;
+  };
+  Plan plan() const { return {chains_, rotations_, rotation_.size()}; }
+  void set_plan(const Plan& plan);
+
+  /// The number of the next sweep.
+  std::uint64_t next_sweep() const { return sweep_; }
+
+  /// Since construction.
   struct Counts {
-    std::uint64_t contacts = 0, crossings = 0, alone = 0;
+    std::uint64_t chains = 0, contacts = 0;
+    std::uint64_t looks = 0;  ///< for the next contact; a path ends at every border of cells too
     std::uint64_t rotations_tried = 0, rotations_accepted = 0;
-    double length = 0, virial = 0;
+    double length = 0;  ///< Σ l
+    double ahead = 0;   ///< Σ (r_j − r_i)·e over the contacts
+
+    /// Z, if there were chains.
+    double compressibility() const { return 1 + ahead / length; }
   };
   const Counts& counts() const { return counts_; }
-  /// Z = 1 + Σ d·e/length over the contacts, d between the centres, e the direction.
-  double compressibility() const { return 1 + counts_.virial / counts_.length; }
 
  private:
-  struct Path {
-    double length;
-    std::uint32_t next;
-    double between;  // centres along the chain at the contact
-  };
-  struct Candidates;
-
   void arrange();
-  template <int axis>
-  void run_chain(std::size_t i);
-  template <int axis>
-  Path free_path_round(std::size_t i, double remaining) const;
-  template <int axis>
-  Path free_path(std::size_t i, double remaining);
-  template <int axis>
+  void run_chain(std::size_t first, bool along_x);
+  template <int direction, template <int> class Look>
+  void run(std::size_t first);
+  template <int direction, template <int> class Look>
+  PathEnd next_contact(std::size_t i, double remaining) const;
+  template <int direction>
   void advance(std::size_t i, double length);
-  void rotate(std::size_t i, std::uint64_t word);
-  bool clear_of_others(std::size_t i, const OverlapLook& look, const Vec2& position) const;
+  void rotate(std::size_t i, double turn);
 
   Configuration2& configuration_;
-  double largest_, largest_swing_, margin_;
+  double largest_, margin_;
   Vec2 half_box_;
-  bool all_round_;
-  std::vector<Vec2> axis_;
+  double rounding_;  // more than that of any position
+  double length_, rotations_per_contact_;
+  std::vector<Vec2> axis_;                // unit major axes
+  std::vector<LaneCells::Index> rotors_;  // the particles that are not round
   std::optional<Checkerboard> board_;
   LaneCells cells_;
-  LaneCells::Spare spare_{LaneCells::none};
-  Plan plan_;
+  LaneCells::Spare spare_;
+  std::uint64_t chains_ = 1, rotations_ = 0;
   StepSize rotation_{0.1};
   std::uint64_t seed_, sweep_;
-  Counts counts_;
+  Counts counts_, tuned_;  // now, and at the last adaptation
 };
 
 }  // namespace vitrel

@@ -10,6 +10,7 @@
 #include "mc/checkerboard.h"
 #include "mc/lane_cells.h"
 #include "mc/step_size.h"
+#include "mc/trial.h"
 
 namespace vitrel {
 
@@ -72,10 +73,6 @@ class Sampler {
   const StageReport& counts() const { return counts_; }
 
   /// What the decisions took since construction.
-  struct Looks {
-    std::uint64_t groups = 0;  ///< of up to `many` others looked at
-    std::uint64_t alone = 0;   ///< pairs that were decided one by one
-  };
   const Looks& looks() const { return looks_; }
 
  private:
