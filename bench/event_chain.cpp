@@ -1,4 +1,6 @@
 // Do event chains forget a state sooner than local moves, per second of one processor?
+//
+// Prints JSON. scripts/validate event_chain builds and runs this, and writes the page, event_chain.md.
 
 #include <fmt/format.h>
 
@@ -8,12 +10,15 @@
 #include <complex>
 #include <ctime>
 #include <functional>
-#include <nlohmann/json.hpp>
+#include <memory>
 #include <numbers>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/lab/engine_speed.h"
+#include "bench/parts.h"
 #include "core/error.h"
 #include "core/neighbors/pairs.h"
 #include "core/state/check.h"
@@ -27,323 +32,445 @@
 namespace vitrel::lab {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using Complex = std::complex<double>;
 
+/// How much is measured.
+struct Effort {
+  int share_of_particles = 1;  ///< one in so many
+  double seconds = 1;          ///< as many times those of every state
+  double mixing = 5;           ///< seconds of either method, before
+};
+const Effort quick{16, 0.004, 0.02};
+
+/// A fluid: equal particles, or disks of two sizes.
+struct State {
+  FluidScene scene;
+  double size_ratio = 1;
+  double seconds;  ///< of either method
+  double tick;     ///< seconds between looks at the state, about
+};
+
+void say(const std::string& what) {
+  fmt::print(stderr, "{}\n", what);
+}
+
+/// Of this process, so that others do not count.
 double processor_seconds() {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-Configuration2 binary_disks(int n, double ratio, double phi) {
+double ratio(std::uint64_t part, std::uint64_t whole) {
+  return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0;
+}
+
+Configuration2 disks_of_two_sizes(const State& state) {
+  constexpr double dilute = 0.2;
   Species small, large;
   small.name = "A", large.name = "B";
   small.fraction = large.fraction = 0.5;
   small.size = Distribution{.mean = 1};
-  large.size = Distribution{.mean = ratio};
-  Configuration2 c = draw_particles({small, large}, static_cast<std::size_t>(n), 0.2, 1, 1);
-  if (insert_particles(c, {0.2, 1'000'000, false}, 1, {}).end != StageEnd::reached)
-    throw InvariantError("no state");
+  large.size = Distribution{.mean = state.size_ratio};
+  Configuration2 c = draw_particles({small, large}, static_cast<std::size_t>(state.scene.particles),
+                                    dilute, 1, state.scene.seed);
   std::uint64_t sweep = 0;
-  if (swell(c, {phi}, 1, sweep, {}).end != StageEnd::reached) throw InvariantError("no state");
+  if (insert_particles(c, {dilute}, state.scene.seed, {}).end != StageEnd::reached ||
+      swell(c, {state.scene.packing_fraction}, state.scene.seed, sweep, {}).end !=
+          StageEnd::reached)
+    throw InvariantError("no state to measure");
   return c;
 }
 
-/// A series of several components that are measured alike.
-struct Series {
-  int components = 0;  // real and independent
-  std::vector<std::vector<Complex>> values;
+// ---- what is measured ---------------------------------------------------------------------------------
 
+struct Mean {
+  double value, error;
+};
+Mean mean_of(const std::vector<double>& values) {
+  const double n = static_cast<double>(values.size());
+  double sum = 0, square = 0;
+  for (const double x : values) sum += x;
+  for (const double x : values) square += (x - sum / n) * (x - sum / n);
+  return {sum / n, std::sqrt(square / std::max(1., n - 1) / n)};
+}
+
+/// A complex quantity of mean zero, of several components that are independent and alike, at every tick.
+class Series {
+ public:
+  void add(std::vector<Complex> values) { values_.push_back(std::move(values)); }
+
+  /// The autocorrelation time ½ + Σ C(t)/C(0), summed up to six times itself (Sokal), in seconds.
   Json json(double seconds_per_tick) const {
-    const std::size_t n = values.size();
-    if (n < 10) return nullptr;
-    const auto correlation = [&](std::size_t lag) {
-      double sum = 0;
-      for (std::size_t t = 0; t + lag < n; ++t)
-        for (std::size_t k = 0; k < values[t].size(); ++k)
-          sum += (values[t + lag][k] * std::conj(values[t][k])).real();
-      return sum / static_cast<double>(n - lag);
-    };
+    constexpr double window = 6;
     const double norm = correlation(0);
-    double tau = 0.5;
-    std::size_t window = 1;
-    for (; window < n / 3; ++window) {
-      tau += correlation(window) / norm;
-      if (static_cast<double>(window) >= 6 * tau) break;
-    }
-    const double samples = static_cast<double>(n) * components;
-    return {{"seconds", tau * seconds_per_tick},
-            {"relative_error", std::sqrt(2 * (2 * static_cast<double>(window) + 1) / samples)},
-            {"ticks", tau},
-            {"in_run", static_cast<double>(n) / tau},
-            {"mean_square", norm / components},
-            {"closed", window < n / 3}};
+    double time = 0.5;
+    std::size_t lag = 1;
+    for (; lag < values_.size() / 3 && static_cast<double>(lag) < window * time; ++lag)
+      time += correlation(lag) / norm;
+    const double samples = static_cast<double>(2 * values_[0].size() * values_.size());
+    const double spread = std::sqrt(2 * (2 * static_cast<double>(lag) + 1) / samples);
+    return {{"seconds", time * seconds_per_tick},
+            {"error", spread * time * seconds_per_tick},
+            {"times_in_run", static_cast<double>(values_.size()) / time},
+            {"is_long_enough", lag < values_.size() / 3}};
   }
+
+ private:
+  double correlation(std::size_t lag) const {
+    double sum = 0;
+    for (std::size_t t = 0; t + lag < values_.size(); ++t)
+      for (std::size_t k = 0; k < values_[t].size(); ++k)
+        sum += (values_[t + lag][k] * std::conj(values_[t][k])).real();
+    return sum / static_cast<double>(values_.size() - lag);
+  }
+
+  std::vector<std::vector<Complex>> values_;
 };
 
-class Measured {
+/// How long it takes, again and again, until a quantity that starts at `start` has come to `goal`.
+class Passages {
  public:
-  Measured(const Configuration2& c, std::size_t ticks_of_block)
-      : start_(c), block_(c), ticks_of_block_(ticks_of_block), round_(rotor_count(c) == 0) {
-    density_.components = 8;
-    nematic_.components = 2;
-    hexatic_.components = 2;
+  Passages(double start, double goal) : start_(start), goal_(goal), last_(start) {}
+
+  void add(double value) {
+    if (there_) return;
+    if ((value - goal_) * (start_ - goal_) <= 0) {
+      times_.push_back(ticks_ + (goal_ - last_) / (value - last_));
+      there_ = true;
+    }
+    last_ = value;
+    ++ticks_;
+  }
+  bool there() const { return there_; }
+  void again() { there_ = false, ticks_ = 0, last_ = start_; }
+
+  Json json(double seconds_per_tick) const {
+    if (times_.size() < 2) return nullptr;
+    const Mean mean = mean_of(times_);
+    return {{"seconds", mean.value * seconds_per_tick},
+            {"error", mean.error * seconds_per_tick},
+            {"times", times_.size()}};
   }
 
+ private:
+  double start_, goal_, last_, ticks_ = 0;
+  bool there_ = false;
+  std::vector<double> times_;
+};
+
+/// Everything about one run. Displacements are those relative to all: chains push all forwards.
+class Measured {
+ public:
+  explicit Measured(const Configuration2& c)
+      : start_(c), from_(c), is_round_(rotor_count(c) == 0) {}
+
   void add(const Configuration2& c) {
-    const std::size_t n = c.size();
-    const Vec2 drift = mean_displacement(c, start_);
-    Complex rho[4] = {}, q = 0;
-    const Vec2 k = 2 * std::numbers::pi * c.box.lengths().cwiseInverse();
-    for (std::size_t i = 0; i < n; ++i) {
-      const Vec2 at = c.position[i] - drift;
-      const Complex x = std::polar(1., k.x() * at.x()), y = std::polar(1., k.y() * at.y());
-      rho[0] += x, rho[1] += y, rho[2] += x * y, rho[3] += x * std::conj(y);
-      if (!round_) q += std::polar(1., 2 * c.angle[i]);
-    }
-    const double root = 1 / std::sqrt(static_cast<double>(n));
-    density_.values.push_back({root * rho[0], root * rho[1], root * rho[2], root * rho[3]});
-    if (!round_) nematic_.values.push_back({root * q});
-    if (round_) {
-      Complex psi = 0;
-      for_each_pair(c, 1.45, [&](std::size_t, std::size_t, const Vec2& d) {
-        const Complex u = Complex(d.x(), d.y()) / d.norm();
-        const Complex cube = u * u * u;
-        psi += cube * cube;
-      });
-      hexatic_.values.push_back({root / 3 * psi});
-    }
-    // Places and angles, block by block.
-    const Vec2 moved = mean_displacement(c, block_);
-    double square = 0, cosine = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      square += (c.unwrapped(i) - block_.unwrapped(i) - moved).squaredNorm();
-      cosine += std::cos(2 * (c.angle[i] - block_.angle[i]));
-    }
-    if (msd_.size() <= in_block_) msd_.emplace_back(), cosine_.emplace_back();
-    msd_[in_block_].push_back(square / static_cast<double>(n));
-    cosine_[in_block_].push_back(cosine / static_cast<double>(n));
-    if (++in_block_ == ticks_of_block_) {
-      in_block_ = 0;
-      block_ = c;
-    }
-    pressure_.add(c);
-    if (density_.values.size() % 50 == 0) {
-      z_.push_back(pressure_.compressibility());
-      pressure_.clear();
+    add_modes(c);
+    add_passages(c);
+    if (ticks_++ % 20 == 0) {
+      pressure_.add(c);
+      if (ticks_ % 200 == 1 && ticks_ > 1) {
+        compressibility_.push_back(pressure_.compressibility());
+        pressure_.clear();
+      }
     }
   }
 
   Json json(double seconds_per_tick) const {
-    Json j;
-    j["density"] = density_.json(seconds_per_tick);
-    if (!round_) j["nematic"] = nematic_.json(seconds_per_tick);
-    if (round_) j["hexatic"] = hexatic_.json(seconds_per_tick);
-    const auto mean = [](const std::vector<double>& v) {
-      double sum = 0, square = 0;
-      for (double x : v) sum += x, square += x * x;
-      const double n = static_cast<double>(v.size()), m = sum / n;
-      return std::pair(m, std::sqrt(std::max(0., square / n - m * m) / std::max(1., n - 1)));
-    };
-    Json rows = Json::array();
-    std::size_t last = 0;
-    for (std::size_t k = 0; k < msd_.size(); ++k) {
-      if (k + 1 < msd_.size() && static_cast<double>(k + 1) < 1.5 * static_cast<double>(last))
-        continue;
-      if (msd_[k].size() < 2) continue;
-      last = k + 1;
-      const auto [m, e] = mean(msd_[k]);
-      const auto [c, ce] = mean(cosine_[k]);
-      rows.push_back({{"s", static_cast<double>(k + 1) * seconds_per_tick},
-                      {"msd", m},
-                      {"msd_error", e},
-                      {"c2", c},
-                      {"c2_error", ce}});
+    Json j = {{"density", density_.json(seconds_per_tick)},
+              {is_round_ ? "hexatic" : "nematic", order_.json(seconds_per_tick)},
+              {"place", place_.json(seconds_per_tick)}};
+    if (!is_round_) j["orientation"] = orientation_.json(seconds_per_tick);
+    if (compressibility_.size() > 1) {
+      const Mean z = mean_of(compressibility_);
+      j["compressibility"] = z.value, j["compressibility_error"] = z.error;
     }
-    j["single"] = rows;
-    const auto [z, ze] = mean(z_);
-    j["z"] = z, j["z_error"] = ze;
     return j;
   }
 
  private:
+  // ρ(k) at the four shortest k and opposite ones, ψ₆ of bonds or the nematic tensor, all over √N.
+  void add_modes(const Configuration2& c) {
+    const double scale = 1 / std::sqrt(static_cast<double>(c.size()));
+    const Vec2 drift = mean_displacement(c, start_);
+    const Vec2 k = 2 * std::numbers::pi * c.box.lengths().cwiseInverse();
+    std::vector<Complex> density(4);
+    Complex order = 0;
+    for (std::size_t i = 0; i < c.size(); ++i) {
+      const Vec2 at = c.position[i] - drift;
+      const Complex x = std::polar(scale, k.x() * at.x()), y = std::polar(1., k.y() * at.y());
+      density[0] += x, density[1] += scale * y, density[2] += x * y, density[3] += x * std::conj(y);
+      if (!is_round_) order += std::polar(scale, 2 * c.angle[i]);
+    }
+    density_.add(std::move(density));
+    // Closer than the first minimum of g(r).
+    constexpr double bond = 1.45;
+    if (is_round_)
+      for_each_pair(c, bond, [&](std::size_t, std::size_t, const Vec2& d) {
+        const Complex u = Complex(d.x(), d.y()) / d.norm(), cube = u * u * u;
+        order += scale * cube * cube;
+      });
+    order_.add({order});
+  }
+
+  void add_passages(const Configuration2& c) {
+    const Vec2 drift = mean_displacement(c, from_);
+    double square = 0, cosine = 0;
+    for (std::size_t i = 0; i < c.size(); ++i) {
+      const double width = 2 * c.shape[i].b;
+      square += (c.unwrapped(i) - from_.unwrapped(i) - drift).squaredNorm() / (width * width);
+      cosine += std::cos(2 * (c.angle[i] - from_.angle[i]));
+    }
+    place_.add(square / static_cast<double>(c.size()));
+    if (!is_round_) orientation_.add(cosine / static_cast<double>(c.size()));
+    if (place_.there() && (is_round_ || orientation_.there())) {
+      from_ = c;
+      place_.again();
+      orientation_.again();
+    }
+  }
+
   static Vec2 mean_displacement(const Configuration2& c, const Configuration2& from) {
     Vec2 sum = Vec2::Zero();
     for (std::size_t i = 0; i < c.size(); ++i) sum += c.unwrapped(i) - from.unwrapped(i);
     return sum / static_cast<double>(c.size());
   }
 
-  Configuration2 start_, block_;
-  std::size_t ticks_of_block_, in_block_ = 0;
-  bool round_;
-  Series density_, nematic_, hexatic_;
-  std::vector<std::vector<double>> msd_, cosine_;
+  Configuration2 start_, from_;
+  bool is_round_;
+  std::uint64_t ticks_ = 0;
+  Series density_, order_;
+  Passages place_{0, 1}, orientation_{1, 1 / std::numbers::e};
   ContactPressure pressure_;
-  std::vector<double> z_;
+  std::vector<double> compressibility_;
 };
 
-struct Request {
-  int particles = 1024;
-  double kappa = 1, phi = 0.5, ratio = 0;
-  std::vector<double> lengths{10};   // of chains, in particles' spacings
-  std::vector<double> rotations{1};  // per contact
-  double seconds = 10, tick = 0.01, warm = 2;
-  double acceptance = 0.35;
-  std::size_t block = 100;
-  bool local = true;
-};
+// ---- who is measured ------------------------------------------------------------------------------------
 
+/// A method with a state of its own.
 struct Contestant {
+  Contestant(std::string what, const Configuration2& start) : name(std::move(what)), state(start) {}
+  virtual ~Contestant() = default;
+  virtual void sweep() = 0;
+  virtual void tune() = 0;
+  virtual std::uint64_t moves() const = 0;
+  virtual Json counts() const = 0;
+
   std::string name;
   Configuration2 state;
-  std::function<void()> tick;
-  std::function<Json()> counts;
-  double seconds = 0;
-  std::vector<Measured> measured;
 };
 
-int run(const Request& r) {
-  Configuration2 start = r.ratio > 0 ? binary_disks(r.particles, r.ratio, r.phi)
-                                     : fluid({r.particles, r.kappa, r.phi});
-  const bool round = rotor_count(start) == 0;
-  const double spacing = std::sqrt(start.box.volume() / r.particles);
-  double translation = 0.1, rotation = 0.1;
-  {
-    Sampler sampler(start, 3);
-    for (const double until = processor_seconds() + r.warm; processor_seconds() < until;) {
-      for (int k = 0; k < 10; ++k) sampler.sweep();
-      sampler.tune();
-    }
-    translation = sampler.translation_step(), rotation = sampler.rotation_step();
+struct LocalMoves : Contestant {
+  LocalMoves(const Configuration2& start, double step_factor)
+      : Contestant(fmt::format("local moves, steps times {}", step_factor), start),
+        sampler(state, 11),
+        factor(step_factor) {}
+  void sweep() override { sampler.sweep(); }
+  void tune() override {
+    sampler.set_steps(sampler.translation_step() / applied, sampler.rotation_step() / applied);
+    sampler.tune();
+    applied = 1;
   }
-  if (!round || r.particles <= 5000) {
-    EventChain chain(start, {}, 4);
-    for (const double until = processor_seconds() + r.warm; processor_seconds() < until;) {
-      chain.sweep();
-      chain.tune();
-    }
+  // The steps of an acceptance of 0.35, times the factor.
+  void begin() {
+    applied = factor;
+    sampler.set_steps(factor * sampler.translation_step(),
+                      std::min(std::numbers::pi, factor * sampler.rotation_step()));
   }
-  if (!exact_check(start).clean()) throw InvariantError("overlap at the start");
+  std::uint64_t moves() const override {
+    return sampler.counts().translations_tried + sampler.counts().rotations_tried;
+  }
+  Json counts() const override {
+    const StageReport& n = sampler.counts();
+    return {{"translation_step", sampler.translation_step()},
+            {"rotation_step", sampler.rotation_step()},
+            {"translations_accepted", ratio(n.translations_accepted, n.translations_tried)},
+            {"rotations_accepted", ratio(n.rotations_accepted, n.rotations_tried)}};
+  }
 
-  std::vector<std::unique_ptr<Contestant>> all;
-  std::vector<std::unique_ptr<Sampler>> samplers;
-  std::vector<std::unique_ptr<EventChain>> chains;
-  if (r.local) {
-    auto c = std::make_unique<Contestant>();
-    c->name = "local";
-    c->state = start;
-    samplers.push_back(std::make_unique<Sampler>(c->state, 11));
-    Sampler* s = samplers.back().get();
-    s->set_steps(translation, rotation);
-    const double before = processor_seconds();
-    for (int k = 0; k < 20; ++k) s->sweep();
-    const double each = (processor_seconds() - before) / 20;
-    const int sweeps = std::max(1, static_cast<int>(std::lround(r.tick / each)));
-    c->tick = [s, sweeps] {
-      for (int k = 0; k < sweeps; ++k) s->sweep();
-    };
-    c->counts = [s, sweeps]() -> Json {
-      const StageReport& n = s->counts();
-      return {
-          {"moves", n.translations_tried + n.rotations_tried},
-          {"sweeps_per_tick", sweeps},
-          {"translation_step", s->translation_step()},
-          {"rotation_step", s->rotation_step()},
-          {"translations_accepted", double(n.translations_accepted) / double(n.translations_tried)},
-          {"rotations_accepted",
-           double(n.rotations_accepted) / double(std::max<std::uint64_t>(1, n.rotations_tried))}};
-    };
-    all.push_back(std::move(c));
+  Sampler sampler;
+  double factor, applied = 1;
+};
+
+struct Chains : Contestant {
+  Chains(const Configuration2& start, const EventChainOptions& wanted)
+      : Contestant(fmt::format("chains of {} contacts, {} rotations for each", wanted.contacts,
+                               wanted.rotations),
+                   start),
+        options(wanted),
+        chains(state, wanted, 12) {}
+  void sweep() override { chains.sweep(); }
+  void tune() override { chains.tune(); }
+  std::uint64_t moves() const override {
+    return chains.counts().contacts + chains.counts().rotations_tried;
   }
-  for (const double length : r.lengths)
-    for (const double ratio : round ? std::vector{0.} : r.rotations) {
-      auto c = std::make_unique<Contestant>();
-      c->name = fmt::format("chain l={} r={}", length, ratio);
-      c->state = start;
-      chains.push_back(
-          std::make_unique<EventChain>(c->state, EventChainOptions{length, ratio}, 12));
-      EventChain* s = chains.back().get();
-      for (int k = 0; k < 60; ++k) s->sweep(), s->tune();
-      const double before = processor_seconds();
-      for (int k = 0; k < 20; ++k) s->sweep();
-      const double each = (processor_seconds() - before) / 20;
-      const int sweeps = std::max(1, static_cast<int>(std::lround(r.tick / each)));
-      c->tick = [s, sweeps] {
-        for (int k = 0; k < sweeps; ++k) s->sweep();
-      };
-      c->counts = [s, sweeps]() -> Json {
-        const EventChain::Counts& m = s->counts();
-        return {{"moves", m.contacts + m.rotations_tried},
-                {"contacts", m.contacts},
-                {"crossings", m.looks - m.contacts},
-                {"rotations", m.rotations_tried},
-                {"rotations_accepted", double(m.rotations_accepted) /
-                                           double(std::max<std::uint64_t>(1, m.rotations_tried))},
-                {"rotation_step", s->plan().rotation_step},
-                {"free_path", m.length / double(m.contacts)},
-                {"z_of_chains", m.compressibility()},
-                {"chains_per_sweep", s->plan().chains},
-                {"sweeps_per_tick", sweeps}};
-      };
-      all.push_back(std::move(c));
-    }
-  std::vector<Json> first;
-  for (auto& c : all) {
-    c->measured.emplace_back(c->state, r.block);
-    first.push_back(c->counts());
+  Json counts() const override {
+    const EventChain::Counts& n = chains.counts();
+    return {{"contacts", options.contacts},
+            {"rotations", options.rotations},
+            {"length", chains.plan().length},
+            {"chains_in_a_sweep", chains.plan().chains},
+            {"looks_for_a_contact", ratio(n.looks, n.contacts)},
+            {"rotations_accepted", ratio(n.rotations_accepted, n.rotations_tried)},
+            {"compressibility_of_chains", n.compressibility()}};
   }
-  std::size_t ticks = 0;
-  double spent = 0;
-  while (spent < r.seconds * static_cast<double>(all.size())) {
-    for (auto& c : all) {
-      const double before = processor_seconds();
-      c->tick();
-      const double took = processor_seconds() - before;
-      c->seconds += took, spent += took;
-      c->measured[0].add(c->state);
-    }
-    ++ticks;
+
+  EventChainOptions options;
+  EventChain chains;
+};
+
+using Contestants = std::vector<std::unique_ptr<Contestant>>;
+
+// ---- the comparison -------------------------------------------------------------------------------------
+
+/// Sweeps until so many seconds are over.
+void mix(Contestant& method, double seconds) {
+  const double end = processor_seconds() + seconds;
+  for (int k = 0; k < 50 || processor_seconds() < end; ++k) {
+    method.sweep();
+    method.tune();
   }
-  Json out = {
-      {"particles", r.particles}, {"kappa", r.kappa}, {"phi", r.phi}, {"size_ratio", r.ratio}};
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    Contestant& c = *all[k];
-    const double per_tick = c.seconds / static_cast<double>(ticks);
-    Json j = {
-        {"name", c.name}, {"seconds", c.seconds}, {"ticks", ticks}, {"seconds_per_tick", per_tick}};
-    Json counts = c.counts();
-    j["ns_per_move"] =
-        1e9 * c.seconds / (counts["moves"].get<double>() - first[k]["moves"].get<double>());
-    j.update(counts);
-    j.update(c.measured[0].json(per_tick));
-    j["clean"] = exact_check(c.state).clean();
-    out["results"].push_back(j);
-  }
-  fmt::print("{}\n", out.dump(1));
-  return 0;
 }
+
+Configuration2 mixed_state(const State& state, const Effort& effort) {
+  const Configuration2 first =
+      state.size_ratio == 1 ? fluid(state.scene) : disks_of_two_sizes(state);
+  Chains chains(first, {});
+  mix(chains, effort.mixing);
+  LocalMoves local(chains.state, 1);
+  mix(local, effort.mixing);
+  return local.state;
+}
+
+Json compare(const State& state, const Effort& effort, Contestants all) {
+  struct Run {
+    int sweeps;
+    double seconds = 0;
+    std::uint64_t moves;
+    Measured measured;
+  };
+  std::vector<Run> runs;
+  for (const auto& method : all) {
+    mix(*method, 0.5 * effort.mixing);
+    if (auto* local = dynamic_cast<LocalMoves*>(method.get())) local->begin();
+    constexpr int trial = 20;
+    const double before = processor_seconds();
+    for (int k = 0; k < trial; ++k) method->sweep();
+    const double sweep = (processor_seconds() - before) / trial;
+    runs.push_back({std::max(1, static_cast<int>(std::lround(state.tick / sweep))), 0,
+                    method->moves(), Measured(method->state)});
+  }
+  int ticks = 0;
+  const double enough = effort.seconds * state.seconds * static_cast<double>(all.size());
+  for (double spent = 0; spent < enough || ticks < 50; ++ticks)
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const double before = processor_seconds();
+      for (int n = 0; n < runs[k].sweeps; ++n) all[k]->sweep();
+      const double took = processor_seconds() - before;
+      runs[k].seconds += took, spent += took;
+      runs[k].measured.add(all[k]->state);
+    }
+  Json rows = Json::array();
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (!exact_check(all[k]->state).clean()) throw InvariantError(all[k]->name + ": overlap");
+    const Run& run = runs[k];
+    Json row = {
+        {"method", all[k]->name},
+        {"seconds", run.seconds},
+        {"seconds_per_sweep", run.seconds / ticks / run.sweeps},
+        {"ns_per_move", 1e9 * run.seconds / static_cast<double>(all[k]->moves() - run.moves)}};
+    row.update(all[k]->counts());
+    row.update(run.measured.json(run.seconds / ticks));
+    rows.push_back(row);
+  }
+  Json json = scene_json(state.scene);
+  json["size_ratio"] = state.size_ratio;
+  json["methods"] = rows;
+  return json;
+}
+
+/// Compares in every state what `contestants` makes of it.
+template <class Make>
+Json compare_all(std::vector<State> states, const Effort& effort, Make&& contestants) {
+  Json rows = Json::array();
+  for (State& state : states) {
+    state.scene.particles /= effort.share_of_particles;
+    say(fmt::format("kappa = {}, phi = {}, N = {}", state.scene.aspect_ratio,
+                    state.scene.packing_fraction, state.scene.particles));
+    const Configuration2 start = mixed_state(state, effort);
+    rows.push_back(compare(state, effort, contestants(start)));
+  }
+  return rows;
+}
+
+Json measure_states(const Effort& effort) {
+  const std::vector<State> states = {
+      {{1024, 1, 0.5}, 1, 15, 0.002}, {{1024, 1, 0.7}, 1, 90, 0.01},
+      {{4096, 1, 0.7}, 1, 60, 0.05},  {{1024, 1, 0.78}, 1.4, 40, 0.02},
+      {{1024, 2, 0.5}, 1, 15, 0.002}, {{1024, 2, 0.7}, 1, 40, 0.01},
+      {{1024, 6, 0.3}, 1, 15, 0.003}, {{1024, 6, 0.5}, 1, 50, 0.01},
+      {{1024, 6, 0.7}, 1, 50, 0.05}};
+  return compare_all(states, effort, [](const Configuration2& start) {
+    Contestants all;
+    all.push_back(std::make_unique<LocalMoves>(start, 1));
+    all.push_back(std::make_unique<Chains>(start, EventChainOptions{}));
+    return all;
+  });
+}
+
+const std::vector<State> tuning_states = {
+    {{1024, 1, 0.7}, 1, 10, 0.01}, {{1024, 2, 0.7}, 1, 10, 0.01}, {{1024, 6, 0.5}, 1, 10, 0.01}};
+
+Json measure_lengths(const Effort& effort) {
+  return compare_all(tuning_states, effort, [](const Configuration2& start) {
+    Contestants all;
+    for (const double contacts : {3., 10., 30., 100., 300., 1000., 3000.})
+      all.push_back(std::make_unique<Chains>(start, EventChainOptions{contacts, 1}));
+    return all;
+  });
+}
+
+Json measure_rotations(const Effort& effort) {
+  return compare_all(
+      {tuning_states.begin() + 1, tuning_states.end()}, effort, [](const Configuration2& start) {
+        Contestants all;
+        for (const double rotations : {0.25, 0.5, 1., 2., 4., 8.})
+          all.push_back(std::make_unique<Chains>(start, EventChainOptions{100, rotations}));
+        return all;
+      });
+}
+
+Json measure_steps(const Effort& effort) {
+  return compare_all(tuning_states, effort, [](const Configuration2& start) {
+    Contestants all;
+    for (const double factor : {0.5, 0.7, 1., 1.4, 2.})
+      all.push_back(std::make_unique<LocalMoves>(start, factor));
+    return all;
+  });
+}
+
+const BenchParts<Effort> parts = {{"states", measure_states},
+                                  {"lengths", measure_lengths},
+                                  {"rotations", measure_rotations},
+                                  {"steps", measure_steps}};
 
 }  // namespace
 }  // namespace vitrel::lab
 
 int main(int argc, char** argv) {
-  vitrel::lab::Request r;
   CLI::App app("Do event chains forget a state sooner than local moves?");
-  app.add_option("-n", r.particles);
-  app.add_option("--kappa", r.kappa);
-  app.add_option("--phi", r.phi);
-  app.add_option("--ratio", r.ratio);
-  app.add_option("--lengths", r.lengths)->delimiter(',');
-  app.add_option("--rotations", r.rotations)->delimiter(',');
-  app.add_option("--seconds", r.seconds);
-  app.add_option("--tick", r.tick);
-  app.add_option("--warm", r.warm);
-  app.add_option("--block", r.block);
-  app.add_flag("!--no-local", r.local);
+  std::vector<std::string> wanted;
+  bool is_quick = false;
+  app.add_option("part", wanted, "what to measure; all parts if none is named")
+      ->check(CLI::IsMember(vitrel::lab::part_names(vitrel::lab::parts)));
+  app.add_flag("--quick", is_quick, "few particles, short runs: to see that it works");
   CLI11_PARSE(app, argc, argv);
   try {
-    return vitrel::lab::run(r);
+    const vitrel::lab::Effort effort = is_quick ? vitrel::lab::quick : vitrel::lab::Effort{};
+    fmt::print(
+        "{}\n",
+        vitrel::lab::measure_parts(vitrel::lab::parts, effort, wanted, 2 * effort.seconds).dump(2));
   } catch (const std::exception& error) {
     fmt::print(stderr, "bench_event_chain: {}\n", error.what());
     return 1;

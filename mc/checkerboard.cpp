@@ -38,7 +38,7 @@ Checkerboard::Line::Line(double length, double reach, std::size_t particles)
   const auto add = [&](int cell, int away) {
     const int unwrapped = cell + away;
     const int boxes = static_cast<int>(std::floor(static_cast<double>(unwrapped) / count));
-    near_.push_back({unwrapped - boxes * count, boxes * length, away});
+    near_.push_back({unwrapped - boxes * count, boxes * length, away * width()});
   };
   for (int cell = 0; cell < count; ++cell) {
     add(cell, 0);

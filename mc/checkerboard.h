@@ -44,7 +44,7 @@ class Checkerboard {
   struct Near {
     int cell;
     double translation;
-    int away;  ///< by how many columns or rows it comes after the other
+    double begin;  ///< of this column or row, from the beginning of the other
   };
   /// Columns near a column, and rows near a row, the nearest first: every image that can be within
   /// reach, once.

@@ -13,6 +13,10 @@ namespace {
 
 /// At contact, in hard margins: so much more than one that rounding does not matter.
 constexpr double contact_margins = 1.25;
+/// Of chains before they are tuned, in √(V/N): few contacts, however dense.
+constexpr double first_length = 1e-3;
+/// More contacts than are wanted, by this factor, cut a chain short.
+constexpr double too_many = 1000;
 
 }  // namespace
 
@@ -23,10 +27,11 @@ EventChain::EventChain(Configuration2& configuration, const EventChainOptions& o
       margin_(hard_margin(configuration)),
       half_box_(0.5 * configuration.box.lengths()),
       rounding_(16 * std::numeric_limits<double>::epsilon() * half_box_.maxCoeff()),
-      length_(options.length *
-              std::sqrt(configuration.box.volume() / static_cast<double>(configuration.size()))),
-      rotations_per_contact_(options.rotations),
+      options_(options),
       spare_(LaneCells::none),
+      chains_(configuration.size()),
+      length_(first_length *
+              std::sqrt(configuration.box.volume() / static_cast<double>(configuration.size()))),
       seed_(seed),
       sweep_(first_sweep) {
   axis_.reserve(configuration.size());
@@ -40,6 +45,7 @@ EventChain::EventChain(Configuration2& configuration, const EventChainOptions& o
 
 void EventChain::set_plan(const Plan& plan) {
   chains_ = plan.chains;
+  length_ = plan.length;
   rotations_ = plan.rotations;
   rotation_.set(plan.rotation_step);
 }
@@ -86,18 +92,24 @@ template <int direction, template <int> class Look>
 void EventChain::run(std::size_t first) {
   ++counts_.chains;
   counts_.length += length_;
-  std::size_t moving = first, without_room = 0;
+  const std::uint64_t begin = counts_.contacts;
+  const auto most = static_cast<std::uint64_t>(too_many * options_.contacts);
+  std::size_t moving = first;
   for (double remaining = length_; remaining > 0;) {
     const PathEnd path = next_contact<direction, Look>(moving, remaining);
     ++counts_.looks;
+    const bool touches = path.touched != PathEnd::nobody;
+    const std::size_t next = touches ? cells_.particle_at(path.touched) : moving;
     advance<direction>(moving, path.length);
     remaining -= path.length;
-    if (path.touched == PathEnd::nobody) continue;
+    if (!touches) continue;
     ++counts_.contacts;
     counts_.ahead += path.ahead;
-    moving = path.touched;
-    without_room = path.length > rounding_ ? 0 : without_room + 1;
-    if (without_room > configuration_.size()) return;
+    moving = next;
+    if (counts_.contacts - begin == most) {
+      ++counts_.cut_short;
+      return;
+    }
   }
 }
 
@@ -112,30 +124,26 @@ PathEnd EventChain::next_contact(std::size_t i, double remaining) const {
   const double to_border = std::max(width[direction] - into[direction], 0.) + rounding_;
   Look<direction> look(configuration_.shape[i], axis_[i], contact_margins * margin_,
                        std::min(remaining, to_border));
-  const double behind = look.reach_behind(largest_) + rounding_;
   const double aside = look.reach_aside(largest_) + rounding_;
+  const double first_before = into[direction] - look.reach_behind(largest_) - rounding_;
+  const double lowest = into[across] - aside, highest = into[across] + aside;
   const std::size_t own = cells_.group_index(i);
   const typename Look<direction>::Asked all(true);
   typename Look<direction>::Asked others(true);
   others[static_cast<std::size_t>(cells_.lane_of(i))] = false;
-  const auto reaches = [](const Checkerboard::Near& near, double cell_width, double inside,
-                          double before, double after) {
-    const double begin = near.away * cell_width - inside;
-    return begin + cell_width > -before && begin < after;
-  };
   const auto columns = board_->near_column(cell.x), rows = board_->near_row(cell.y);
   for (const Checkerboard::Near& one : direction == 0 ? columns : rows) {
-    if (!reaches(one, width[direction], into[direction], behind, look.reach_ahead(largest_)))
-      continue;
+    const double last_after = into[direction] + look.reach_ahead(largest_);
+    if (one.begin + width[direction] < first_before || one.begin > last_after) continue;
     for (const Checkerboard::Near& two : direction == 0 ? rows : columns) {
-      if (!reaches(two, width[across], into[across], aside, aside)) continue;
+      if (two.begin + width[across] < lowest || two.begin > highest) continue;
       const Checkerboard::Near &column = direction == 0 ? one : two,
                                &row = direction == 0 ? two : one;
       const Vec2 offset = Vec2(column.translation, row.translation) - position;
       std::size_t at = board_->index(column.cell, row.cell);
       do {
         const LaneCells::Group& group = cells_[at];
-        look.look(group, group.particle, offset, at == own ? others : all);
+        look.look(group, LaneCells::first_place(at), offset, at == own ? others : all);
         at = group.next;
       } while (at != LaneCells::none);
     }
@@ -182,20 +190,22 @@ void EventChain::rotate(std::size_t i, double turn) {
 }
 
 void EventChain::tune() {
-  constexpr std::uint64_t enough = 100;
-  rotation_.tune(counts_.rotations_tried, counts_.rotations_accepted, enough, std::numbers::pi / 2);
+  constexpr std::uint64_t enough_trials = 400, enough_chains = 100;
+  rotation_.tune(counts_.rotations_tried, counts_.rotations_accepted, enough_trials,
+                 std::numbers::pi / 2);
   const std::uint64_t chains = counts_.chains - tuned_.chains;
-  const std::uint64_t contacts = counts_.contacts - tuned_.contacts;
-  if (contacts < enough) {
-    // So thin: more chains, until there is something to count.
-    chains_ = std::min<std::uint64_t>(2 * chains_, configuration_.size());
-    return;
-  }
-  const double contacts_of_chain = static_cast<double>(contacts) / static_cast<double>(chains);
-  const double wanted = static_cast<double>(configuration_.size()) / contacts_of_chain;
-  chains_ = std::max<std::uint64_t>(1, static_cast<std::uint64_t>(std::lround(wanted)));
+  if (chains < enough_chains) return;
+  const double particles = static_cast<double>(configuration_.size());
+  const double found =
+      static_cast<double>(counts_.contacts - tuned_.contacts) / static_cast<double>(chains);
+  const double longest = options_.contacts * 2 * half_box_.maxCoeff();
+  const double length =
+      std::min(longest, length_ * std::clamp(options_.contacts / found, 0.125, 2.));
+  const double expected = std::max(1., found * length / length_);
+  length_ = length;
+  chains_ = static_cast<std::uint64_t>(std::lround(std::max(1., particles / expected)));
   rotations_ = static_cast<std::uint64_t>(
-      std::lround(rotations_per_contact_ * contacts_of_chain * static_cast<double>(chains_)));
+      std::lround(options_.rotations * expected * static_cast<double>(chains_)));
   tuned_ = counts_;
 }
 

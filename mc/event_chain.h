@@ -14,10 +14,10 @@
 
 namespace vitrel {
 
-/// How event chains go. The defaults are those of bench/event_chain.md.
+/// How event chains are tuned. The defaults are those that bench/event_chain.md found good.
 struct EventChainOptions {
-  double length = 10;    ///< of a chain, in √(V/N), the mean distance of neighbours
-  double rotations = 1;  ///< trial rotations for every contact; of no effect if all are round
+  double contacts = 100;  ///< of a chain
+  double rotations = 1;   ///< trial rotations for every contact; of no effect if all are round
 };
 
 /// Event-chain Monte Carlo of hard ellipses at constant N, box and temperature, on one thread.
@@ -27,8 +27,8 @@ struct EventChainOptions {
 /// the paths add up to the length of the chain. Nothing is rejected. Angles change by trial
 /// rotations, uniform within ± the step, as in sampler.h.
 ///
-/// One sweep is a fixed number of chains with trial rotations of random particles spread evenly among
-/// them; `tune` chooses both so that a sweep has about N contacts. Particles are sorted into cells
+/// One sweep is a fixed number of chains of one length with trial rotations of random particles spread
+/// evenly among them; `tune` chooses them so that a sweep has about N contacts. Particles are sorted into cells
 /// anew at the beginning. Sweep s draws from the stream (seed, trial_moves, s, 0): a chain that
 /// begins at sweep s with the plan of one that has come there goes on as that one, bit by bit.
 ///
@@ -47,8 +47,8 @@ struct EventChainOptions {
 ///     Z = βP/ρ = 1 + ⟨Σ (r_j − r_i)·e⟩/l,
 /// the sum over the contacts of a chain along e.
 ///
-/// A chain that meets more than N contacts in a row without room between them ends there; such states, in
-/// which a row of particles is jammed, have no volume.
+/// In a row of particles that is jammed across the whole box a chain would have contacts without end: a
+/// chain of 1000 times as many as wanted is cut short, against the balance, and counted.
 ///
 /// Contacts are declared between 1.25 and 1.6 hard margins (disjoint.h), rotations keep one, so that the
 /// margin holds always. A particle's own images move along; those of others are others.
@@ -62,16 +62,19 @@ class EventChain {
 
   void sweep();
 
-  /// Adapts the plan by the counts since the last adaptation: about N contacts in a sweep, rotations as
-  /// asked for, 0.35 of them accepted. It belongs to equilibration.
+  /// Adapts the plan by the counts since the last adaptation, or waits for more: contacts and rotations
+  /// as asked for, about N contacts in a sweep, 0.35 of the rotations accepted. At first chains are short,
+  /// and their length at most doubles each time. It belongs to equilibration.
   void tune();
 
   /// What a sweep is. Depends on nothing but `tune` and `set_plan`.
   struct Plan {
-    std::uint64_t chains, rotations;
+    std::uint64_t chains;
+    double length;  ///< of every chain
+    std::uint64_t rotations;
     double rotation_step;
   };
-  Plan plan() const { return {chains_, rotations_, rotation_.size()}; }
+  Plan plan() const { return {chains_, length_, rotations_, rotation_.size()}; }
   void set_plan(const Plan& plan);
 
   /// The number of the next sweep.
@@ -80,6 +83,7 @@ class EventChain {
   /// Since construction.
   struct Counts {
     std::uint64_t chains = 0, contacts = 0;
+    std::uint64_t cut_short = 0;  ///< chains
     std::uint64_t looks = 0;  ///< for the next contact; a path ends at every border of cells too
     std::uint64_t rotations_tried = 0, rotations_accepted = 0;
     double length = 0;  ///< Σ l
@@ -105,13 +109,14 @@ class EventChain {
   double largest_, margin_;
   Vec2 half_box_;
   double rounding_;  // more than that of any position
-  double length_, rotations_per_contact_;
+  EventChainOptions options_;
   std::vector<Vec2> axis_;                // unit major axes
   std::vector<LaneCells::Index> rotors_;  // the particles that are not round
   std::optional<Checkerboard> board_;
   LaneCells cells_;
   LaneCells::Spare spare_;
-  std::uint64_t chains_ = 1, rotations_ = 0;
+  std::uint64_t chains_, rotations_ = 0;
+  double length_;
   StepSize rotation_{0.1};
   std::uint64_t seed_, sweep_;
   Counts counts_, tuned_;  // now, and at the last adaptation

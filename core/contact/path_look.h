@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -93,8 +94,8 @@ class PathLook {
   double reach_ahead(double largest) const { return latest_ + circumradius_ + largest; }
 
   /// Looks at those in the group that are asked about; `offset` + their positions are the separations
-  /// d, `names` what to call them.
-  VITREL_INLINE void look(const EllipseGroup& group, const std::uint32_t* names, const Vec2& offset,
+  /// d, `first_name` + lane is what to call them.
+  VITREL_INLINE void look(const EllipseGroup& group, std::uint32_t first_name, const Vec2& offset,
                           Asked asked) {
     using detail::one_of;
     const Many dx = one_of<direction>(group.x, group.y) + offset[direction];
@@ -126,8 +127,9 @@ class PathLook {
     for (int lane = 0; lane < many; ++lane) {
       if (!open[lane] || !(earliest[lane] < latest_)) continue;
       if (waiting_ == many) settle();
-      put(waiting_++, lane, names[lane], dx, dy, other, xy, yy, det, earliest);
-      latest_ = std::fmin(latest_, latest[lane] + tolerance_);
+      put(waiting_++, lane, first_name + static_cast<std::uint32_t>(lane), dx, dy, other, xy, yy,
+          det, earliest);
+      if (const double then = latest[lane] + tolerance_; then < latest_) latest_ = then;
     }
   }
 
@@ -187,7 +189,7 @@ class PathLook {
       v = next;
     }
     for (int lane = 0; lane < waiting_; ++lane) {
-      const double length = std::fmax(free[lane], 0);
+      const double length = std::max<double>(free[lane], 0);
       if (asked[lane] && length < end_.length) end_ = {length, name_[lane], dx_[lane] - length};
     }
     if (end_.length < latest_) latest_ = end_.length;
@@ -217,7 +219,7 @@ class RoundPathLook {
   double reach_aside(double largest) const { return radius_ + largest; }
   double reach_ahead(double largest) const { return longest_ + radius_ + largest; }
 
-  VITREL_INLINE void look(const EllipseGroup& group, const std::uint32_t* names, const Vec2& offset,
+  VITREL_INLINE void look(const EllipseGroup& group, std::uint32_t first_name, const Vec2& offset,
                           Asked asked) {
     using detail::one_of;
     const Many dx = one_of<direction>(group.x, group.y) + offset[direction];
@@ -225,23 +227,23 @@ class RoundPathLook {
     const Many reach = group.a.all() + radius_;
     const Many room = reach * reach - dy * dy;
     const Many free = dx - sqrt(max(room, Many(0)));
-    const Asked first = asked && room > 0. && dx > 0. && free < length_;
-    where(first, length_) = free;
-    where(first, ahead_) = dx;
-    for (int lane = 0; lane < many; ++lane)
-      if (first[lane]) name_[lane] = names[lane];
+    const Asked sooner = asked && room > 0. && dx > 0. && free < length_;
+    where(sooner, length_) = free;
+    where(sooner, ahead_) = dx;
+    where(sooner, name_) = detail::lane_numbers<many> + static_cast<double>(first_name);
   }
 
   PathEnd end() const {
-    const double shortest = hmin(length_), length = std::fmax(shortest, 0);
+    const double shortest = hmin(length_), length = std::max(shortest, 0.);
     const int lane = find_first_set(length_ == shortest);
-    return {length, name_[lane], ahead_[lane] - length};
+    if (name_[lane] < 0) return {length, PathEnd::nobody, 0};
+    return {length, static_cast<std::uint32_t>(static_cast<double>(name_[lane])),
+            ahead_[lane] - length};
   }
 
  private:
   double radius_, longest_;
-  Many length_, ahead_{0};
-  std::uint32_t name_[many] = {PathEnd::nobody, PathEnd::nobody, PathEnd::nobody, PathEnd::nobody};
+  Many length_, ahead_{0}, name_{-1};
 };
 
 }  // namespace vitrel

@@ -76,14 +76,12 @@ PathEnd path_end(const Scene& scene, double longest) {
   const Vec2 offset(0.25, -0.5);
   for (std::size_t begin = 0; begin < scene.others.size(); begin += many) {
     EllipseGroup group;
-    std::uint32_t names[many] = {};
     for (std::size_t k = begin; k < std::min(begin + many, scene.others.size()); ++k) {
       const Placed& other = scene.others[k];
       group.set(static_cast<int>(k - begin), other.shape, other.position - offset,
                 direction(other.angle));
-      names[k - begin] = static_cast<std::uint32_t>(k);
     }
-    look.look(group, names, offset, typename Look<along>::Asked(true));
+    look.look(group, static_cast<std::uint32_t>(begin), offset, typename Look<along>::Asked(true));
   }
   return look.end();
 }
@@ -177,10 +175,9 @@ TEST(PathLook, TouchesAtOnceWhatIsAhead) {
   PathLook<0> look(shape, Vec2(1, 0), gap, 1);
   EllipseGroup group;
   group.set(2, shape, Vec2(4.5, 0), Vec2(1, 0));
-  const std::uint32_t names[many] = {};
   PathLook<0>::Asked asked(true);
   asked[2] = false;
-  look.look(group, names, Vec2::Zero(), asked);
+  look.look(group, 0, Vec2::Zero(), asked);
   EXPECT_EQ(look.end().touched, PathEnd::nobody);
 }
 
