@@ -38,7 +38,7 @@ using Complex = std::complex<double>;
 struct Effort {
   int share_of_particles = 1;  ///< one in so many
   double seconds = 1;          ///< as many times those of every state
-  double mixing = 5;           ///< seconds of either method, before
+  double mixing = 3;           ///< seconds of either method, before
 };
 const Effort quick{16, 0.004, 0.02};
 
@@ -406,11 +406,11 @@ Json compare_all(std::vector<State> states, const Effort& effort, Make&& contest
 
 Json measure_states(const Effort& effort) {
   const std::vector<State> states = {
-      {{1024, 1, 0.5}, 1, 15, 0.002}, {{1024, 1, 0.7}, 1, 90, 0.01},
-      {{4096, 1, 0.7}, 1, 60, 0.05},  {{1024, 1, 0.78}, 1.4, 40, 0.02},
-      {{1024, 2, 0.5}, 1, 15, 0.002}, {{1024, 2, 0.7}, 1, 40, 0.01},
-      {{1024, 6, 0.3}, 1, 15, 0.003}, {{1024, 6, 0.5}, 1, 50, 0.01},
-      {{1024, 6, 0.7}, 1, 50, 0.05}};
+      {{1024, 1, 0.5}, 1, 8, 0.002},    {{1024, 1, 0.7}, 1, 40, 0.01},
+      {{1024, 1, 0.78}, 1.4, 25, 0.02}, {{1024, 2, 0.5}, 1, 8, 0.002},
+      {{1024, 2, 0.7}, 1, 25, 0.01},    {{1024, 6, 0.3}, 1, 8, 0.003},
+      {{1024, 6, 0.5}, 1, 25, 0.01},    {{1024, 6, 0.7}, 1, 25, 0.05},
+      {{4096, 1, 0.7}, 1, 40, 0.05}};
   return compare_all(states, effort, [](const Configuration2& start) {
     Contestants all;
     all.push_back(std::make_unique<LocalMoves>(start, 1));
@@ -420,7 +420,7 @@ Json measure_states(const Effort& effort) {
 }
 
 const std::vector<State> tuning_states = {
-    {{1024, 1, 0.7}, 1, 10, 0.01}, {{1024, 2, 0.7}, 1, 10, 0.01}, {{1024, 6, 0.5}, 1, 10, 0.01}};
+    {{1024, 1, 0.7}, 1, 4, 0.01}, {{1024, 2, 0.7}, 1, 4, 0.01}, {{1024, 6, 0.5}, 1, 4, 0.01}};
 
 Json measure_lengths(const Effort& effort) {
   return compare_all(tuning_states, effort, [](const Configuration2& start) {
