@@ -34,13 +34,16 @@ EventChain::EventChain(Configuration2& configuration, const EventChainOptions& o
               std::sqrt(configuration.box.volume() / static_cast<double>(configuration.size()))),
       seed_(seed),
       sweep_(first_sweep) {
+  double smallest = largest_;
   axis_.reserve(configuration.size());
   for (std::size_t i = 0; i < configuration.size(); ++i) {
     axis_.push_back(axis_at(configuration.angle[i]));
+    smallest = std::min(smallest, configuration.shape[i].inradius());
     if (!configuration.shape[i].is_round()) rotors_.push_back(static_cast<LaneCells::Index>(i));
   }
-  // Contacts are at two margins at most.
-  board_.emplace(configuration_.box, 2 * (largest_ + margin_), configuration_.size());
+  // As far apart as two of the longest can touch (path_look.h).
+  const double enlarged = 1 + 2 * contact_margins * margin_ / smallest;
+  board_.emplace(configuration_.box, 2 * enlarged * largest_, configuration_.size());
 }
 
 void EventChain::set_plan(const Plan& plan) {

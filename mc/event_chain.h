@@ -29,8 +29,8 @@ struct EventChainOptions {
 ///
 /// One sweep is a fixed number of chains of one length with trial rotations of random particles spread
 /// evenly among them; `tune` chooses them so that a sweep has about N contacts. Particles are sorted into cells
-/// anew at the beginning. Sweep s draws from the stream (seed, trial_moves, s, 0): a chain that
-/// begins at sweep s with the plan of one that has come there goes on as that one, bit by bit.
+/// anew at the beginning. Sweep s draws from the stream (seed, trial_moves, s, 0): event chains that
+/// begin at sweep s with the plan of others that have come there go on as these, bit by bit.
 ///
 /// Why every hard state is as likely as any other. Cut a chain of length l along x into steps ε → 0: of
 /// the N lifted states (hard state, moving particle i) each has one successor, either with i moved by
@@ -40,23 +40,23 @@ struct EventChainOptions {
 /// in the way of i exactly if i is in the way of j going backwards. So a chain maps lifted states one
 /// to one and without change of volume (the flow is a translation between contacts): the uniform
 /// distribution goes into itself (global balance), the particle and direction being drawn uniformly
-/// and without regard to the state. Rotations are in detailed balance. Both directions, and any
-/// particle first, make all hard states accessible to each other that local moves connect.
+/// and without regard to the state. Rotations are in detailed balance.
+/// That all hard states can be reached is not shown by this; tests compare with states drawn independently.
 ///
-/// Since the paths of N chains probe all contacts, the pressure comes for free (michel2014):
+/// The pressure comes with the contacts (michel2014):
 ///     Z = βP/ρ = 1 + ⟨Σ (r_j − r_i)·e⟩/l,
 /// the sum over the contacts of a chain along e.
 ///
 /// In a row of particles that is jammed across the whole box a chain would have contacts without end: a
 /// chain of 1000 times as many as wanted is cut short, against the balance, and counted.
 ///
-/// Contacts are declared between 1.25 and 1.6 hard margins (disjoint.h), rotations keep one, so that the
-/// margin holds always. A particle's own images move along; those of others are others.
+/// Contact is at 1.25 hard margins (disjoint.h), or a little more (path_look.h), and rotations keep one, so
+/// that the margin holds always. A particle's own images move along; those of others are others.
 /// Sources: bernard2009; for ellipses and all else whose potential depends on differences michel2014.
 class EventChain {
  public:
   /// The configuration must be hard, with wrapped positions, and outlive the chains; nobody else may
-  /// move particles during a sweep.
+  /// move or turn particles meanwhile.
   EventChain(Configuration2& configuration, const EventChainOptions& options, std::uint64_t seed,
              std::uint64_t first_sweep = 0);
 
