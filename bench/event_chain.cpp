@@ -254,6 +254,8 @@ struct Contestant {
   virtual ~Contestant() = default;
   virtual void sweep() = 0;
   virtual void tune() = 0;
+  /// No more tuning: other steps now, if it is to have such.
+  virtual void begin() = 0;
   virtual std::uint64_t moves() const = 0;
   virtual Json counts() const = 0;
 
@@ -263,18 +265,10 @@ struct Contestant {
 
 struct LocalMoves : Contestant {
   LocalMoves(const Configuration2& start, double step_factor)
-      : Contestant(fmt::format("local moves, steps times {}", step_factor), start),
-        sampler(state, 11),
-        factor(step_factor) {}
+      : Contestant("local moves", start), sampler(state, 11), factor(step_factor) {}
   void sweep() override { sampler.sweep(); }
-  void tune() override {
-    sampler.set_steps(sampler.translation_step() / applied, sampler.rotation_step() / applied);
-    sampler.tune();
-    applied = 1;
-  }
-  // The steps of an acceptance of 0.35, times the factor.
-  void begin() {
-    applied = factor;
+  void tune() override { sampler.tune(); }
+  void begin() override {
     sampler.set_steps(factor * sampler.translation_step(),
                       std::min(std::numbers::pi, factor * sampler.rotation_step()));
   }
@@ -283,25 +277,30 @@ struct LocalMoves : Contestant {
   }
   Json counts() const override {
     const StageReport& n = sampler.counts();
-    return {{"translation_step", sampler.translation_step()},
+    return {{"step_factor", factor},
+            {"translation_step", sampler.translation_step()},
             {"rotation_step", sampler.rotation_step()},
             {"translations_accepted", ratio(n.translations_accepted, n.translations_tried)},
             {"rotations_accepted", ratio(n.rotations_accepted, n.rotations_tried)}};
   }
 
   Sampler sampler;
-  double factor, applied = 1;
+  double factor;
 };
 
 struct Chains : Contestant {
-  Chains(const Configuration2& start, const EventChainOptions& wanted)
-      : Contestant(fmt::format("chains of {} contacts, {} rotations for each", wanted.contacts,
-                               wanted.rotations),
-                   start),
+  Chains(const Configuration2& start, const EventChainOptions& wanted, double step_factor = 1)
+      : Contestant("event chains", start),
         options(wanted),
-        chains(state, wanted, 12) {}
+        chains(state, wanted, 12),
+        factor(step_factor) {}
   void sweep() override { chains.sweep(); }
   void tune() override { chains.tune(); }
+  void begin() override {
+    EventChain::Plan plan = chains.plan();
+    plan.rotation_step = std::min(std::numbers::pi, factor * plan.rotation_step);
+    chains.set_plan(plan);
+  }
   std::uint64_t moves() const override {
     return chains.counts().contacts + chains.counts().rotations_tried;
   }
@@ -309,6 +308,7 @@ struct Chains : Contestant {
     const EventChain::Counts& n = chains.counts();
     return {{"contacts", options.contacts},
             {"rotations", options.rotations},
+            {"step_factor", factor},
             {"length", chains.plan().length},
             {"chains_in_a_sweep", chains.plan().chains},
             {"looks_for_a_contact", ratio(n.looks, n.contacts)},
@@ -318,6 +318,7 @@ struct Chains : Contestant {
 
   EventChainOptions options;
   EventChain chains;
+  double factor;
 };
 
 using Contestants = std::vector<std::unique_ptr<Contestant>>;
@@ -353,7 +354,7 @@ Json compare(const State& state, const Effort& effort, Contestants all) {
   std::vector<Run> runs;
   for (const auto& method : all) {
     mix(*method, 0.5 * effort.mixing);
-    if (auto* local = dynamic_cast<LocalMoves*>(method.get())) local->begin();
+    method->begin();
     constexpr int trial = 20;
     const double before = processor_seconds();
     for (int k = 0; k < trial; ++k) method->sweep();
@@ -444,8 +445,11 @@ Json measure_rotations(const Effort& effort) {
 Json measure_steps(const Effort& effort) {
   return compare_all(tuning_states, effort, [](const Configuration2& start) {
     Contestants all;
-    for (const double factor : {0.5, 0.7, 1., 1.4, 2.})
+    for (const double factor : {0.5, 1., 2., 3.})
       all.push_back(std::make_unique<LocalMoves>(start, factor));
+    // Disks have no rotations whose steps could be others.
+    for (const double factor : rotor_count(start) > 0 ? std::vector{1., 2., 3.} : std::vector{1.})
+      all.push_back(std::make_unique<Chains>(start, EventChainOptions{}, factor));
     return all;
   });
 }

@@ -136,11 +136,12 @@ Trial rotations for every contact, in chains of 100.
 
 {tuning(data["rotations"], "rotations", lambda method: f"{method['rotations']:g}")}
 
-## Local moves with other steps
+## Other steps
 
-The steps at an acceptance of 0.35, times a factor.
+The steps at an acceptance of 0.35 times a factor: of translations and rotations for local moves, of rotations for event
+chains. In the table of all states above both have the factor 1, as in the program.
 
-{tuning(data["steps"], "steps", lambda method: method["method"].rsplit(" ", 1)[1])}
+{tuning(data["steps"], "steps", lambda method: f"{method['method']}, {method['step_factor']:g}")}
 """
 
 
