@@ -38,9 +38,10 @@ using Complex = std::complex<double>;
 struct Effort {
   int share_of_particles = 1;  ///< one in so many
   double seconds = 1;          ///< as many times those of every state
+  double ticks = 1;            ///< as many times as far apart as those of every state
   double mixing = 3;           ///< seconds of either method, before
 };
-const Effort quick{16, 0.004, 0.02};
+const Effort quick{16, 0.004, 0.05, 0.02};
 
 /// A fluid: equal particles, or disks of two sizes.
 struct State {
@@ -359,8 +360,8 @@ Json compare(const State& state, const Effort& effort, Contestants all) {
     const double before = processor_seconds();
     for (int k = 0; k < trial; ++k) method->sweep();
     const double sweep = (processor_seconds() - before) / trial;
-    runs.push_back({std::max(1, static_cast<int>(std::lround(state.tick / sweep))), 0,
-                    method->moves(), Measured(method->state)});
+    runs.push_back({std::max(1, static_cast<int>(std::lround(effort.ticks * state.tick / sweep))),
+                    0, method->moves(), Measured(method->state)});
   }
   int ticks = 0;
   const double enough = effort.seconds * state.seconds * static_cast<double>(all.size());
