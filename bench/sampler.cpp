@@ -130,7 +130,7 @@ Json measure_speed(const Effort& effort) {
     const Steps steps = fitting_steps(sampler, 20);
     twin.set_steps(steps.translation, steps.rotation);
     const TrialCounts before = sampler.counts(), twin_before = twin.counts();
-    const Sampler::Looks looks = sampler.looks();
+    const Looks looks = sampler.looks();
     const std::uint64_t decisions = twin.decisions();
     Stretches of_ours, of_twin;
     for (int k = 0; k < effort.stretches; ++k) {

@@ -35,13 +35,14 @@ Checkerboard::Line::Line(double length, double reach, std::size_t particles)
   domains_ = count_domains(cells());
   const int layers = static_cast<int>(std::ceil(room_for_rounding * reach * cells_per_length_));
   images_ = static_cast<std::size_t>(2 * layers + 1);
-  const auto add = [&](int unwrapped) {
+  const auto add = [&](int cell, int away) {
+    const int unwrapped = cell + away;
     const int boxes = static_cast<int>(std::floor(static_cast<double>(unwrapped) / count));
-    near_.push_back({unwrapped - boxes * count, boxes * length});
+    near_.push_back({unwrapped - boxes * count, boxes * length, away * width()});
   };
   for (int cell = 0; cell < count; ++cell) {
-    add(cell);
-    for (int away = 1; away <= layers; ++away) add(cell + away), add(cell - away);
+    add(cell, 0);
+    for (int away = 1; away <= layers; ++away) add(cell, away), add(cell, -away);
   }
   put_origin(0);
 }

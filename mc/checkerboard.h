@@ -44,11 +44,17 @@ class Checkerboard {
   struct Near {
     int cell;
     double translation;
+    double begin;  ///< of this column or row, from the beginning of the other
   };
   /// Columns near a column, and rows near a row, the nearest first: every image that can be within
   /// reach, once.
   std::span<const Near> near_column(int x) const { return lines_[0].near(x); }
   std::span<const Near> near_row(int y) const { return lines_[1].near(y); }
+  /// Where the column and the row of a cell begin, and how wide they are.
+  Vec2 corner(const Cell& cell) const {
+    return {lines_[0].begin_of(cell.x), lines_[1].begin_of(cell.y)};
+  }
+  Vec2 cell_size() const { return {lines_[0].width(), lines_[1].width()}; }
 
   std::size_t domains() const { return lines_[0].domains() * lines_[1].domains(); }
   std::size_t domain_of(const Cell& cell) const {
@@ -83,6 +89,8 @@ class Checkerboard {
     std::span<const Near> near(int cell) const {
       return {near_.data() + static_cast<std::size_t>(cell) * images_, images_};
     }
+    double width() const { return 1 / cells_per_length_; }
+    double begin_of(int cell) const { return cell / cells_per_length_ - half_; }
     std::size_t domains() const { return domains_; }
     std::size_t domain_of(int cell) const { return domain_of_[static_cast<std::size_t>(cell)]; }
     // The first cell of a domain, counted from the origin, and a cell so counted.

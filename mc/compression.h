@@ -7,7 +7,7 @@
 #include "core/state/configuration.h"
 #include "core/state/stage.h"
 #include "mc/sampler.h"
-#include "mc/trials.h"
+#include "mc/sweep_state.h"
 
 namespace vitrel {
 

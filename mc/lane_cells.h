@@ -94,6 +94,12 @@ class LaneCells {
   Group& group_of(std::size_t i) { return groups_[group_index(i)]; }
   int lane_of(std::size_t i) const { return static_cast<int>(place_[i] % many); }
 
+  /// The name of the place of lane 0 of a group; those of its other lanes follow.
+  static Index first_place(std::size_t group) { return static_cast<Index>(group * many); }
+  std::size_t particle_at(Index place) const {
+    return groups_[place / many].particle[place % many];
+  }
+
  private:
   Index append(Index to, Spare& spare) {
     const Index added = spare.first_, cell = groups_[to].cell;

@@ -18,24 +18,6 @@ namespace vitrel {
 
 namespace {
 
-/// Uniform on 0 … n − 1, but for 1e-16 n.
-std::size_t pick(std::uint64_t word, std::size_t n) {
-  return static_cast<std::size_t>(static_cast<double>(word >> 11) * 0x1p-53 *
-                                  static_cast<double>(n));
-}
-
-/// Uniform on the odd multiples of 2⁻⁵³ between −1 and 1: x as likely as −x.
-double plus_minus_one(std::uint64_t word) {
-  return static_cast<double>((static_cast<std::int64_t>(word) >> 10) | 1) * 0x1p-53;
-}
-
-/// The unit vector at an angle, in less time than the library's.
-Vec2 axis_at(double angle) {
-  Lanes x, y;
-  directions<Lanes>({angle, angle}, x, y);
-  return {x[0], y[0]};
-}
-
 /// Farthest distance of centres at which particles can be closer than `reshape` asks.
 double reach_of(double largest, double margin) {
   return 2 * (largest + margin);
@@ -262,23 +244,7 @@ bool Sampler::is_hard() {
 
 bool Sampler::clear_of_others(std::size_t i, const OverlapLook& look, const Vec2& position,
                               const Checkerboard::Cell& cell, Looks& looks) const {
-  // It is not in its own way, nor are its images.
-  const std::size_t own = cells_.group_index(i);
-  const OverlapLook::Asked all(true);
-  OverlapLook::Asked others(true);
-  others[static_cast<std::size_t>(cells_.lane_of(i))] = false;
-  for (const Checkerboard::Near& column : board_->near_column(cell.x))
-    for (const Checkerboard::Near& row : board_->near_row(cell.y)) {
-      const Vec2 offset = Vec2(column.translation, row.translation) - position;
-      std::size_t at = board_->index(column.cell, row.cell);
-      do {
-        ++looks.groups;
-        const LaneCells::Group& group = cells_[at];
-        if (!look.clear_of(group, offset, at == own ? others : all, looks.alone)) return false;
-        at = group.next;
-      } while (at != LaneCells::none);
-    }
-  return true;
+  return vitrel::clear_of_others(*board_, cells_, i, look, position, cell, looks);
 }
 
 bool Sampler::clear_of_itself(const Ellipse& shape, const Vec2& axis, double margin) const {

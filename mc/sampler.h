@@ -8,7 +8,8 @@
 #include "core/state/configuration.h"
 #include "mc/checkerboard.h"
 #include "mc/lane_cells.h"
-#include "mc/trials.h"
+#include "mc/sweep_state.h"
+#include "mc/trial.h"
 
 namespace vitrel {
 
@@ -67,10 +68,6 @@ class Sampler {
   const TrialCounts& counts() const { return state_.counts; }
 
   /// What the decisions took since construction.
-  struct Looks {
-    std::uint64_t groups = 0;  ///< of up to `many` others looked at
-    std::uint64_t alone = 0;   ///< pairs that were decided one by one
-  };
   const Looks& looks() const { return looks_; }
 
  private:

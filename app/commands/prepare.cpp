@@ -30,6 +30,7 @@ nlohmann::ordered_json stage_summary(const PrepareStage& stage, const StageRecor
           {"reduced_pressure", if_positive(record.growth.reduced_pressure)},
           {"sweeps", record.sweeps},
           {"trial_moves", record.trials.tried()},
+          {"chain_contacts", record.chain_contacts},
           {"time", record.growth.time},
           {"collisions", record.growth.counters.collisions},
           {"predictions", record.growth.counters.predictions},

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "mc/sampling.h"
-
 namespace vitrel {
 namespace {
 
@@ -64,8 +62,9 @@ class Hybrid {
   }
 
   StageReport sampling() {
-    const SamplingOptions sampling{(state_.stretches + 1) / 2 * options_.sweeps, options_.threads};
-    return sample(configuration_, sampling, options_.seed, state_.moves, silent_);
+    SamplingOptions sampling = options_.stretch;
+    sampling.sweeps *= (state_.stretches + 1) / 2;  // all so far
+    return sample(configuration_, sampling, options_.seed, state_.sampling, silent_);
   }
 
   double progress() const {

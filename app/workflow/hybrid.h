@@ -6,7 +6,7 @@
 #include "core/state/configuration.h"
 #include "core/state/stage.h"
 #include "edmd/growth.h"
-#include "mc/trials.h"
+#include "mc/sampling.h"
 
 namespace vitrel {
 
@@ -18,16 +18,15 @@ namespace vitrel {
 /// drawn anew after every stretch of Monte Carlo. Goals are met within growth, which ends the stage.
 struct HybridOptions {
   double growth_rate = 1e-2;
-  std::optional<double> packing_fraction;  ///< ends there, exactly
-  std::optional<double> reduced_pressure;  ///< ends at such a pressure
-  std::uint64_t sweeps = 100;              ///< in every stretch of Monte Carlo
+  std::optional<double> packing_fraction;     ///< ends there, exactly
+  std::optional<double> reduced_pressure;     ///< ends at such a pressure
+  SamplingOptions stretch = {.sweeps = 100};  ///< of Monte Carlo
   std::uint64_t seed = 1;
-  int threads = 1;  ///< of Monte Carlo; the result does not depend on it
 };
 
 struct HybridState {
   GrowthState growth;
-  SweepState moves;
+  SamplingState sampling;
   std::uint64_t stretches = 0;  ///< of both kinds, complete
   double stretch_end = 0;       ///< packing fraction at which the present growth ends
 };

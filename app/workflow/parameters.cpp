@@ -23,6 +23,7 @@ using Style = FieldVisitor::TableStyle;
 constexpr const char* distribution_names[] = {"gaussian", "lognormal", "uniform"};
 constexpr const char* method_names[] = {"lattice", "insert", "swell", "compress",
                                         "grow",    "hybrid", "sample"};
+constexpr const char* moves_names[] = {"chains", "local"};
 constexpr const char* box_names[] = {"isotropic", "anisotropic"};
 constexpr const char* arrangement_names[] = {"square", "triangular"};
 constexpr const char* orientation_names[] = {"random", "aligned"};
@@ -158,6 +159,14 @@ void describe_stage(PrepareStage& p, FieldVisitor& visit) {
          "Sweeps of Monte Carlo after every stretch of growth, which lasts until all lengths have "
          "grown by 1 %, or less at high pressure."},
         p.stretch_sweeps);
+  });
+  const bool samples = p.method == Method::sample || p.method == Method::hybrid;
+  visit.when(samples, "method = \"sample\" or \"hybrid\"", [&](FieldVisitor& in) {
+    in.field(
+        {"moves", "",
+         "How Monte Carlo moves particles: in event chains, which forget density and places many "
+         "times sooner, or one at a time (local), on any number of threads."},
+        p.moves, moves_names);
   });
   const bool has_length = p.method == Method::sample || p.method == Method::compress;
   visit.when(has_length, "method = \"sample\" or \"compress\"", [&](FieldVisitor& in) {

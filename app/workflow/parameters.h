@@ -45,7 +45,8 @@ struct PrepareStage {
   double pressure = CompressionOptions().pressure;
   BoxChange box = CompressionOptions().change;
   std::uint64_t most_sweeps = SwellingOptions().sweeps;
-  std::uint64_t stretch_sweeps = HybridOptions().sweeps;
+  std::uint64_t stretch_sweeps = HybridOptions().stretch.sweeps;
+  Moves moves = SamplingOptions().moves;
   std::uint64_t sweeps = SamplingOptions().sweeps;
 };
 

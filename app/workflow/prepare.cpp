@@ -151,8 +151,8 @@ class Preparer {
       case Method::hybrid:
         return at_rest(hybrid(configuration, hybrid_options(), work.hybrid, budget_));
       case Method::sample:
-        return sample(configuration, {stage().sweeps, request_.threads}, seed(), work.sampling,
-                      budget_);
+        return sample(configuration, {stage().sweeps, stage().moves, request_.threads}, seed(),
+                      work.sampling, budget_);
     }
     return {};
   }
@@ -183,9 +183,8 @@ class Preparer {
     return {stage().growth_rate,
             packing_fraction_goal(),
             stage().reduced_pressure,
-            stage().stretch_sweeps,
-            seed(),
-            request_.threads};
+            {stage().stretch_sweeps, stage().moves, request_.threads},
+            seed()};
   }
 
   // A stage that is stopped keeps its velocities, to go on with.
@@ -203,10 +202,14 @@ class Preparer {
     record.report = report;
     record.packing_fraction = packing_fraction(done().configuration);
     // All but those of the method at work are 0.
-    for (const SweepState* moves :
-         {&work.sampling, &work.swelling.moves, &work.compression.moves, &work.hybrid.moves}) {
-      record.sweeps += moves->sweeps;
-      record.trials.add(moves->counts);
+    for (const SweepState* moves : {&work.sampling.local, &work.swelling.moves,
+                                    &work.compression.moves, &work.hybrid.sampling.local})
+      record.sweeps += moves->sweeps, record.trials.add(moves->counts);
+    for (const ChainState* chains : {&work.sampling.chains, &work.hybrid.sampling.chains}) {
+      record.sweeps += chains->sweeps;
+      record.chain_contacts += chains->counts.contacts;
+      record.trials.rotations_tried += chains->counts.rotations_tried;
+      record.trials.rotations_accepted += chains->counts.rotations_accepted;
     }
     record.growth = stage().method == Method::hybrid ? work.hybrid.growth : work.growth;
     if (stage().method == Method::compress && !stage().packing_fraction)

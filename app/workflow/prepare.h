@@ -12,7 +12,7 @@
 #include "core/state/configuration.h"
 #include "core/state/stage.h"
 #include "edmd/growth.h"
-#include "mc/trials.h"
+#include "mc/sweep_state.h"
 
 /// From parameters to a first state: particles are drawn, then the stages of [prepare] run in a
 /// row.
@@ -33,6 +33,7 @@ struct StageRecord {
   double packing_fraction = 0;                 ///< at its end
   Estimate mean_packing_fraction = {0, 0, 0};  ///< second half of a compression without such a goal
   std::uint64_t sweeps = 0;
+  std::uint64_t chain_contacts = 0;  ///< of event chains
   TrialCounts trials;
   GrowthState growth;  ///< of growth and hybrid; its counters are 0 elsewhere
   double wall_seconds = 0;

@@ -15,6 +15,7 @@ void each_item_of_record(Record& record, const std::string& path, Visit&& visit)
   visit(path + "mean_packing_fraction", record.mean_packing_fraction.mean);
   visit(path + "mean_packing_fraction_error", record.mean_packing_fraction.error);
   visit(path + "sweeps", record.sweeps);
+  visit(path + "chain_contacts", record.chain_contacts);
   visit(path + "wall_seconds", record.wall_seconds);
   each_item_of_trials(record.trials, path, visit);
   each_item_of_growth(record.growth, path, visit);
@@ -23,7 +24,7 @@ void each_item_of_record(Record& record, const std::string& path, Visit&& visit)
 template <class Work, class Visit>
 void each_item_of_work(Work& work, Visit&& visit) {
   visit("work.wall_seconds", work.wall_seconds);
-  each_item_of_moves(work.sampling, "sampling.", visit);
+  each_item_of_sampling(work.sampling, "sampling.", visit);
   each_item_of_moves(work.swelling.moves, "swelling.", visit);
   visit("swelling.growth", work.swelling.growth);
   visit("swelling.watched_sweeps", work.swelling.watched_sweeps);
@@ -36,7 +37,7 @@ void each_item_of_work(Work& work, Visit&& visit) {
   visit("compression.packing_fraction", work.compression.packing_fraction);
   each_item_of_growth(work.growth, "growth.", visit);
   each_item_of_growth(work.hybrid.growth, "hybrid.growth.", visit);
-  each_item_of_moves(work.hybrid.moves, "hybrid.", visit);
+  each_item_of_sampling(work.hybrid.sampling, "hybrid.", visit);
   visit("hybrid.stretches", work.hybrid.stretches);
   visit("hybrid.stretch_end", work.hybrid.stretch_end);
 }

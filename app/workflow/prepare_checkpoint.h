@@ -13,7 +13,7 @@ namespace vitrel {
 
 /// Where the stage at work stands; every method uses its own field.
 struct StageWork {
-  SweepState sampling;
+  SamplingState sampling;
   SwellingState swelling;
   CompressionState compression;
   GrowthState growth;
@@ -22,8 +22,10 @@ struct StageWork {
 
   StageWork() = default;
   explicit StageWork(std::uint64_t next_sweep) {
-    for (SweepState* moves : {&sampling, &swelling.moves, &compression.moves, &hybrid.moves})
+    for (SweepState* moves :
+         {&sampling.local, &swelling.moves, &compression.moves, &hybrid.sampling.local})
       moves->next_sweep = next_sweep;
+    sampling.chains.next_sweep = hybrid.sampling.chains.next_sweep = next_sweep;
   }
 };
 

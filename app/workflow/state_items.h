@@ -4,6 +4,7 @@
 
 #include "edmd/growth.h"
 #include "mc/compression.h"
+#include "mc/sampling.h"
 #include "mc/swelling.h"
 
 /// The items of what checkpoints hold of runs and stages; `visit` is an ItemWriter or an ItemReader
@@ -54,6 +55,32 @@ void each_item_of_moves(Moves& moves, const std::string& path, Visit&& visit) {
   each_item_of_step(moves.translation, path + "translation.", visit);
   each_item_of_step(moves.rotation, path + "rotation.", visit);
   each_item_of_trials(moves.counts, path, visit);
+}
+
+template <class Chains, class Visit>
+void each_item_of_chains(Chains& state, const std::string& path, Visit&& visit) {
+  visit(path + "next_sweep", state.next_sweep);
+  visit(path + "sweeps", state.sweeps);
+  visit(path + "chains", state.chains);
+  visit(path + "rotations", state.rotations);
+  visit(path + "length", state.length);
+  each_item_of_step(state.rotation, path + "rotation.", visit);
+  visit(path + "all_chains", state.counts.chains);
+  visit(path + "all_contacts", state.counts.contacts);
+  visit(path + "cut_short", state.counts.cut_short);
+  visit(path + "looks", state.counts.looks);
+  visit(path + "rotations_tried", state.counts.rotations_tried);
+  visit(path + "rotations_accepted", state.counts.rotations_accepted);
+  visit(path + "all_length", state.counts.length);
+  visit(path + "all_ahead", state.counts.ahead);
+  visit(path + "tuned_chains", state.tuned_chains);
+  visit(path + "tuned_contacts", state.tuned_contacts);
+}
+
+template <class Sampling, class Visit>
+void each_item_of_sampling(Sampling& state, const std::string& path, Visit&& visit) {
+  each_item_of_chains(state.chains, path + "chains.", visit);
+  each_item_of_moves(state.local, path + "local.", visit);
 }
 
 }  // namespace vitrel

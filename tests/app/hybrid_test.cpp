@@ -12,14 +12,14 @@ TEST(Hybrid, ReachesThePackingFractionExactlyByBothEnginesInTurn) {
   Configuration2 c = inserted_fluid(100, 2, 0.3);
   HybridOptions options;
   options.packing_fraction = 0.7;
-  options.sweeps = 10;
+  options.stretch.sweeps = 10;
   HybridState state;
   EXPECT_EQ(hybrid(c, options, state, {}).end, StageEnd::reached);
   EXPECT_NEAR(packing_fraction(c), 0.7, 1e-12);
   EXPECT_TRUE(exact_check(c).clean());
   // Lengths grow by 1 % or less in each of the stretches of growth but the last.
   EXPECT_GE(state.stretches, 2 * 42u);
-  EXPECT_EQ(state.moves.sweeps, state.stretches / 2 * 10);
+  EXPECT_EQ(state.sampling.sweeps(), state.stretches / 2 * 10);
   EXPECT_EQ(state.growth.draws, state.stretches / 2 + 1);
   EXPECT_GT(state.growth.counters.collisions, 1000u);
 }
@@ -28,7 +28,7 @@ TEST(Hybrid, EndsAtThePressure) {
   Configuration2 c = inserted_fluid(64, 1.4, 0.3);
   HybridOptions options;
   options.reduced_pressure = 1e4;
-  options.sweeps = 10;
+  options.stretch.sweeps = 10;
   HybridState state;
   const StageReport report = hybrid(c, options, state, {});
   EXPECT_EQ(report.end, StageEnd::reached);
@@ -42,7 +42,7 @@ TEST(Hybrid, KnowsWhenTheParticlesAreJammed) {
   Configuration2 c = inserted_fluid(64, 1.4, 0.3);
   HybridOptions options;
   options.packing_fraction = 0.905;
-  options.sweeps = 2;
+  options.stretch.sweeps = 2;
   HybridState state;
   const StageReport report = hybrid(c, options, state, {});
   EXPECT_EQ(report.end, StageEnd::stuck);
@@ -58,7 +58,7 @@ TEST(Hybrid, JamsTheLaterTheMoreMonteCarloRelaxes) {
     HybridOptions options;
     options.growth_rate = 0.1;
     options.reduced_pressure = 1e4;
-    options.sweeps = sweeps;
+    options.stretch.sweeps = sweeps;
     HybridState state;
     hybrid(c, options, state, {});
     return packing_fraction(c);

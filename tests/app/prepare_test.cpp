@@ -48,9 +48,11 @@ TEST(Prepare, StagesInARowReachThePackingFractionWithoutOverlap) {
   ASSERT_EQ(result.stages.size(), 3u);
   EXPECT_EQ(result.stages[0].sweeps, 0u);
   EXPECT_GT(result.stages[1].sweeps, 0u);
-  EXPECT_EQ(result.stages[2].trials.tried(), 50u * 49u);
+  EXPECT_EQ(result.stages[2].sweeps, 50u);
+  EXPECT_GT(result.stages[2].chain_contacts, 1000u);
   EXPECT_EQ(result.next_sweep, result.stages[1].sweeps + 50);
-  EXPECT_EQ(result.trials().tried(), result.stages[1].trials.tried() + 50u * 49u);
+  EXPECT_EQ(result.trials().tried(),
+            result.stages[1].trials.tried() + result.stages[2].trials.tried());
 }
 
 TEST(Prepare, TheSeedDecidesEveryBit) {
@@ -156,11 +158,12 @@ TEST(Prepare, TheBudgetStopsIt) {
 }
 
 /// Insertion and one stage of this method.
-Parameters by(PrepareStage::Method method) {
+Parameters by(PrepareStage::Method method, Moves moves) {
   Parameters parameters = small(0.6);
   parameters.stages[1] = stage(method);
   parameters.stages[1].growth_rate = 0.02;
   parameters.stages[1].stretch_sweeps = 5;
+  parameters.stages[1].moves = moves;
   if (method == PrepareStage::Method::compress) {
     parameters.stages[1].packing_fraction = 0.6;
     parameters.stages[1].pressure = 20;
@@ -170,14 +173,16 @@ Parameters by(PrepareStage::Method method) {
   return parameters;
 }
 
-class StoppedPreparation : public testing::TestWithParam<PrepareStage::Method> {
+using Way = std::pair<PrepareStage::Method, Moves>;
+
+class StoppedPreparation : public testing::TestWithParam<Way> {
  protected:
   const Folder folder_{"stopped_preparation"};
 };
 
 // Every process stops a little later than the one before, so that each gets somewhere.
 TEST_P(StoppedPreparation, GoesOnBitByBitFromItsFile) {
-  const Parameters parameters = by(GetParam());
+  const Parameters parameters = by(GetParam().first, GetParam().second);
   const Preparation whole = prepare({parameters}, {}, say_nothing);
   const PrepareRequest request{parameters, folder_ / "state.h5"};
   std::uint64_t asked = 0, patience = 10, stops = 0;
@@ -207,7 +212,7 @@ TEST_P(StoppedPreparation, GoesOnBitByBitFromItsFile) {
 
 // A checkpoint at every moment at which there may be one, and a copy of one in the middle.
 TEST_P(StoppedPreparation, GoesOnBitByBitFromAnyCheckpoint) {
-  Parameters parameters = by(GetParam());
+  Parameters parameters = by(GetParam().first, GetParam().second);
   parameters.output.checkpoint_interval = 0;
   const PrepareRequest request{parameters, folder_ / "state.h5"};
   const std::filesystem::path checkpoint = folder_ / "state.h5.preparation";
@@ -230,7 +235,7 @@ TEST_P(StoppedPreparation, GoesOnBitByBitFromAnyCheckpoint) {
 }
 
 TEST_P(StoppedPreparation, RefusesOtherParameters) {
-  Parameters parameters = by(GetParam());
+  Parameters parameters = by(GetParam().first, GetParam().second);
   const PrepareRequest request{parameters, folder_ / "state.h5"};
   std::uint64_t asked = 0;
   const std::uint64_t during_insertion = 49;
@@ -247,12 +252,17 @@ TEST_P(StoppedPreparation, RefusesOtherParameters) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, StoppedPreparation,
-                         testing::Values(PrepareStage::Method::swell,
-                                         PrepareStage::Method::compress, PrepareStage::Method::grow,
-                                         PrepareStage::Method::hybrid,
-                                         PrepareStage::Method::sample),
-                         [](const auto& at) { return std::string(method_name(at.param)); });
+using Method = PrepareStage::Method;
+INSTANTIATE_TEST_SUITE_P(
+    Methods, StoppedPreparation,
+    testing::Values(Way{Method::swell, Moves::local}, Way{Method::compress, Moves::local},
+                    Way{Method::grow, Moves::local}, Way{Method::hybrid, Moves::local},
+                    Way{Method::hybrid, Moves::chains}, Way{Method::sample, Moves::local},
+                    Way{Method::sample, Moves::chains}),
+    [](const auto& at) {
+      return method_name(at.param.first) +
+             std::string(at.param.second == Moves::chains ? "_chains" : "");
+    });
 
 TEST(Prepare, AStuckStateIsKept) {
   Parameters parameters = small(0.88);

@@ -7,69 +7,19 @@
 #include <numbers>
 #include <vector>
 
-#include "core/contact/pair.h"
 #include "core/state/check.h"
-#include "core/state/species.h"
 #include "mc/insertion.h"
 #include "tests/support/fluids.h"
+#include "tests/support/mixtures.h"
 #include "tests/support/statistics.h"
+#include "tests/support/thin_gas.h"
 
 namespace vitrel {
 namespace {
 
-struct Mixture {
-  const char* name;
-  std::size_t particles;
-  double packing_fraction;
-  std::vector<Species> species;
-  double box_aspect = 1;
-};
-void PrintTo(const Mixture& mixture, std::ostream* out) {
-  *out << mixture.name;
-}
-
-Species species_of(double fraction, const Distribution& aspect_ratio, const Distribution& size) {
-  Species kind;
-  kind.fraction = fraction;
-  kind.aspect_ratio = aspect_ratio;
-  kind.size = size;
-  return kind;
-}
-Distribution always(double value) {
-  return {.mean = value};
-}
-Distribution between(double low, double high) {
-  return {.kind = Distribution::Kind::uniform, .low = low, .high = high};
-}
-
-std::vector<Mixture> mixtures() {
-  const auto all = [](double kappa) {
-    return std::vector{species_of(1, always(kappa), always(1))};
-  };
-  return {{"disks", 300, 0.5, all(1)},
-          {"nearly round", 300, 0.5, all(1.1)},
-          {"kappa 3", 600, 0.4, all(3)},
-          {"kappa 10", 400, 0.3, all(10)},
-          {"sizes 1:5, round and long",
-           500,
-           0.4,
-           {species_of(0.9, always(4), always(1)), species_of(0.1, always(1), always(5))}},
-          {"many shapes and sizes", 400, 0.4, {species_of(1, between(1, 8), between(0.3, 3))}},
-          {"one, among its images", 1, 0.4, all(6)},
-          {"two, among their images", 2, 0.4, all(6)},
-          {"five, in a flat box", 5, 0.3, all(4), 0.2},
-          {"fifty, in a flat box", 50, 0.3, all(3), 0.05}};
-}
-
 class SamplerOf : public testing::TestWithParam<Mixture> {
  protected:
-  static Configuration2 inserted() {
-    const Mixture& m = GetParam();
-    Configuration2 c = draw_particles(m.species, m.particles, m.packing_fraction, m.box_aspect, 1);
-    const StageReport report = insert_particles(c, {m.packing_fraction, 1'000'000, false}, 1, {});
-    EXPECT_EQ(report.end, StageEnd::reached);
-    return c;
-  }
+  static Configuration2 inserted() { return inserted_mixture(GetParam()); }
 };
 
 // Judged in extended precision with tolerance zero, after steps of all sizes.
@@ -172,62 +122,13 @@ TEST(Sampler, RoundParticlesAreNotTurned) {
   EXPECT_EQ(sampler.counts().translations_tried, 1000u);
 }
 
-/// Sixteen long ellipses in a box of four domains, thin enough to be drawn all at once at random.
-Configuration2 thin_gas() {
-  Configuration2 c;
-  c.resize(16);
-  for (Ellipse& shape : c.shape) shape = of_aspect_ratio(3);
-  c.box = PeriodicBox<2>(Vec2(28, 28));
-  return c;
-}
-
-/// Of a state: pairs closer than two thirds of the longest reach, how parallel they are, and the
-/// particles within a tenth of a cell's width of a line between cells.
-std::array<double, 3> measured(const Configuration2& c) {
-  std::array<double, 3> sums{};
-  for (std::size_t i = 0; i < c.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) {
-      Vec2 d = c.position[j] - c.position[i];
-      d += c.box.translation(c.box.nearest_shift(d));
-      if (d.norm() > 2.4) continue;
-      sums[0] += 1;
-      sums[1] += std::cos(2 * (c.angle[i] - c.angle[j]));
-    }
-  for (const Vec2& position : c.position) {
-    const double cells = 8 * (position.x() / c.box.lengths().x() + 0.5);
-    sums[2] += std::abs(cells - std::round(cells)) < 0.1;
-  }
-  return sums;
-}
-
-bool is_hard(const Configuration2& c) {
-  for (std::size_t i = 0; i < c.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) {
-      Vec2 d = c.position[j] - c.position[i];
-      d += c.box.translation(c.box.nearest_shift(d));
-      if (!separated(c.shape[i], c.pose(i), c.shape[j], c.pose(j), d, 0)) return false;
-    }
-  return true;
-}
-
 // Every hard state must be as likely as any other, with borders between domains too, at which long
 // steps end. Against states drawn independently: all particles at once at random, again until the
 // state is hard. 4 standard errors of the difference, a false alarm of 6e-5 each.
 TEST(Sampler, SeveralDomainsVisitHardStatesEqually) {
   Configuration2 c = thin_gas();
-  Stream draw(17, Purpose::tests);
-  std::array<std::vector<double>, 3> expected, found;
-  for (int k = 0; k < 20'000; ++k) {
-    do {
-      for (std::size_t i = 0; i < c.size(); ++i) {
-        c.position[i] = {draw.uniform(-14, 14), draw.uniform(-14, 14)};
-        c.angle[i] = draw.uniform(0, std::numbers::pi);
-      }
-    } while (!is_hard(c));
-    const auto values = measured(c);
-    for (std::size_t m = 0; m < 3; ++m) expected[m].push_back(values[m]);
-  }
-
+  const std::array<std::vector<double>, 3> expected = independent_states(c, 20'000);
+  std::array<std::vector<double>, 3> found;
   Sampler sampler(c, 3);
   sampler.set_steps(4, 1);
   const Vec2 start = c.unwrapped(0);

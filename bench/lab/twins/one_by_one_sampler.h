@@ -6,7 +6,7 @@
 #include "core/neighbors/cell_grid.h"
 #include "core/random/stream.h"
 #include "core/state/configuration.h"
-#include "mc/trials.h"
+#include "mc/sweep_state.h"
 
 namespace vitrel::lab {
 
