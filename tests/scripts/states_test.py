@@ -9,7 +9,7 @@ import unittest
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "scripts"))
 
-from validation import constant_pressure  # noqa: E402 (needs the path)
+from validation import constant_pressure, liquid_crystal  # noqa: E402 (needs the path)
 from validation.common import Failure  # noqa: E402
 
 
@@ -56,6 +56,37 @@ class ConstantPressure(unittest.TestCase):
         mean, error = constant_pressure.mean_deviation([found(0.001, 0.003), found(0.003, 0.004)])
         self.assertAlmostEqual(mean, 0.002)
         self.assertAlmostEqual(error, 0.0025)
+
+
+class LiquidCrystal(unittest.TestCase):
+    def test_estimate(self):
+        mean, error = liquid_crystal.estimate([1, 2, 3])
+        self.assertAlmostEqual(mean, 2)
+        self.assertAlmostEqual(error, 1 / math.sqrt(3))
+
+    def test_exponent_of_a_power(self):
+        power, error = liquid_crystal.exponent({2000: (0.05, 0.001), 500: (0.1, 0.002)})
+        self.assertAlmostEqual(power, -0.5)
+        self.assertAlmostEqual(error, math.hypot(0.02, 0.02) / math.log(4))
+
+    def test_a_liquid_is_told_apart_from_a_nematic(self):
+        liquid_crystal.check_exponent("liquid", {500: (0.1, 0.005), 2000: (0.055, 0.003)})
+        for falls_slowly in (0.1 * 4 ** (-1 / 16), 0.1):
+            with self.assertRaises(Failure):
+                liquid_crystal.check_exponent("nematic", {500: (0.1, 0.003), 2000: (falls_slowly, 0.003)})
+        with self.assertRaises(Failure):
+            liquid_crystal.check_exponent("noise", {500: (0.1, 0.05), 2000: (0.05, 0.03)})
+
+    def test_correlated_sums(self):
+        # The mean falls below 0 in the third bin: what comes later does not count.
+        correlations = [{"pairs": [10, 20, 30, 40], "value": [0.5, None, -0.2, 0.9]},
+                        {"pairs": [10, 20, 30, 40], "value": [0.3, 0.1, 0.1, 0.9]}]
+        first, second = liquid_crystal.correlated_sums(correlations, 10)
+        self.assertAlmostEqual(first, 1 + 2 / 10 * 5)
+        self.assertAlmostEqual(second, 1 + 2 / 10 * 5)
+
+    def test_least_order_of_a_nematic_hardly_depends_on_the_size(self):
+        self.assertAlmostEqual(liquid_crystal.least_order(2000) / liquid_crystal.least_order(500), 2 ** (-1 / 8))
 
 
 if __name__ == "__main__":
