@@ -287,8 +287,9 @@ Aligned starts, {NEMATIC_SEEDS} seeds; the power of N at the end is {text_of(pow
 
 {table(["N", *(f"S after {n} sweeps" for n in NEMATIC_WAY), "S, least"], order)}
 
-Random starts, {RANDOM_PARTICLES} particles: domains of different directions have to grow together, and disclinations to meet. S and
-the correlation length of g₂ for each seed, and the mean time. Nothing is wanted here.
+Random starts, {RANDOM_PARTICLES} particles: domains of different directions have to grow together, and disclinations to meet, the
+sooner the longer they stay at densities where particles still move. S and the correlation length of g₂ for each seed,
+and the mean time. Nothing is wanted here.
 
 {table(["stages", "S", "correlation length", "time"], from_random(build))}
 """
