@@ -178,7 +178,7 @@ does not depend on N, and small systems are cheap.
 {table(head, [one.row() for one in found])}
 
 How much the size of the system matters, in an isotropic box. The shift falls as 1/N or faster: that of the smallest
-systems, which need not agree, is four times that at N = {PARTICLES} at least, and so the latter is well below the errors.
+systems, which need not agree, is four times that at N = {PARTICLES} at least, and so the latter is below the errors.
 
 {table(["", "φ, table", "N", "φ", "standard error", "deviation", "sweeps per independent volume"],
        [one.size_row() for one in sizes(build, numbers, found)])}
