@@ -1,0 +1,185 @@
+"""Monte Carlo at constant pressure: at the pressure of an equation of state it finds the packing fraction."""
+
+import itertools
+import math
+import pathlib
+import statistics
+import tempfile
+
+from validation.common import expect, preparation, shape, summary_of, table
+
+TITLE = "Constant pressure: packing fractions of hard disks and ellipses"
+
+# Aspect ratio, φ, Z = βP/ρ. Disks: Kolafa & Rottner (2006); ellipses: Monte Carlo at constant volume,
+# N ≈ 400.
+REFERENCE = (
+    (1, 0.3, 2.063261),
+    (1, 0.5, 4.106364),
+    (1, 0.6, 6.455337),
+    (1, 0.65, 8.408044),
+    (2, 0.2, 1.6332),
+    (2, 0.3, 2.1878),
+    (2, 0.5, 4.492),
+    (4, 0.2, 1.8666),
+    (4, 0.3, 2.6229),
+    (4, 0.4, 3.757),
+    (6, 0.2, 2.1272),
+    (6, 0.3, 3.0335),
+)
+BOXES = ("isotropic", "anisotropic")
+SEEDS = 16
+PARTICLES = 100
+# Of every seed, by aspect ratio; the second half counts.
+SWEEPS = {1: 16_000, 2: 16_000, 4: 24_000, 6: 28_000}
+# Particles: how many times as many sweeps.
+SIZES = {25: 2, 400: 0.5}
+SIZE_STATES = ((1, 0.6), (6, 0.2))
+
+LARGEST_ERROR = 0.003  # of φ
+ERRORS = 3
+
+
+def table_error(packing_fraction):
+    """Relative, as its authors state it."""
+    return 0.003 if packing_fraction >= 0.6 else 0.001
+
+
+def pressure(packing_fraction, compressibility):
+    """βP = ρZ in units of 1/(a b): an ellipse with a b = 1 covers π."""
+    return packing_fraction / math.pi * compressibility
+
+
+def derivative(points, x):
+    """At x, of the polynomial through these points (x, y)."""
+    total = 0
+    for j, (x_j, y_j) in enumerate(points):
+        others = [x_k for k, (x_k, _) in enumerate(points) if k != j]
+        slopes = (math.prod(x - x_k for x_k in others if x_k != left_out) for left_out in others)
+        total += y_j * sum(slopes) / math.prod(x_j - x_k for x_k in others)
+    return total
+
+
+def spread(aspect_ratio, packing_fraction, particles):
+    """Relative standard deviation of φ at constant pressure: the inverse square root of N ∂(φZ)/∂φ.
+
+    The slope is that of the table, in which 1/√Z is interpolated: nearly a straight line, 1 − φ for disks by
+    scaled-particle theory.
+    """
+    of_shape = {phi: z for kappa, phi, z in REFERENCE if kappa == aspect_ratio}
+    z = of_shape[packing_fraction]
+    slope = derivative([(0, 1), *((phi, 1 / math.sqrt(z)) for phi, z in of_shape.items())], packing_fraction)
+    return 1 / math.sqrt(particles * (z - 2 * packing_fraction * z**1.5 * slope))
+
+
+def parameters(particles, aspect_ratio, betap, box, sweeps):
+    return preparation(particles, aspect_ratio, (1,), "[prepare]\nquality_sweeps = 0",
+                       '[[prepare.stage]]\nmethod = "insert"', '[[prepare.stage]]\nmethod = "swell"',
+                       f'[[prepare.stage]]\nmethod = "compress"\npressure = {betap!r}\nbox = "{box}"\n'
+                       f'sweeps = {sweeps}')
+
+
+def seeds(number):
+    """Of one measurement. With equal seeds two of them would draw equal changes of the box."""
+    return range(number * SEEDS + 1, (number + 1) * SEEDS + 1)
+
+
+class Found:
+    """The mean packing fraction at the pressure of one entry of the table, by independent seeds."""
+
+    def __init__(self, build, number, entry, box, particles=PARTICLES, more_sweeps=1):
+        self.entry = entry
+        self.aspect_ratio, self.reference, self.compressibility = entry
+        self.box, self.particles = box, particles
+        sweeps = round(SWEEPS[self.aspect_ratio] * more_sweeps)
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder, "pressure.toml")
+            betap = pressure(self.reference, self.compressibility)
+            file.write_text(parameters(particles, self.aspect_ratio, betap, box, sweeps), encoding="utf-8")
+            means = []
+            for seed in seeds(number):
+                done = summary_of(build, "prepare", file, "-o", pathlib.Path(folder, f"{seed}.h5"),
+                                  "--set", f"system.packing_fraction={self.reference}",
+                                  "--set", f"system.seed={seed}")
+                means.append(done["stages"][-1]["mean_packing_fraction"])
+        self.mean = statistics.mean(means)
+        self.error = statistics.stdev(means) / math.sqrt(SEEDS)
+        # Relative, as all below.
+        self.deviation = self.mean / self.reference - 1
+        self.relative_error = self.error / self.reference
+        ratio = self.relative_error / spread(self.aspect_ratio, self.reference, particles)
+        self.independent = SEEDS * sweeps / 2 * ratio**2
+
+    def name(self):
+        return f"{shape(self.aspect_ratio)}, φ = {self.reference}, {self.box}, N = {self.particles}"
+
+    def check(self):
+        expect(self.relative_error <= LARGEST_ERROR, f"{self.name()}: an error of {self.relative_error:.2%}")
+        most = ERRORS * self.relative_error + table_error(self.reference)
+        expect(abs(self.deviation) <= most, f"{self.name()}: φ = {self.mean:.5f} ± {self.error:.5f}")
+
+    def row(self):
+        return [shape(self.aspect_ratio), self.reference, f"{pressure(self.reference, self.compressibility):.6f}",
+                self.box, f"{self.mean:.5f}", f"{self.error:.5f}", f"{self.deviation:+.2%}",
+                f"{self.deviation / self.relative_error:+.1f}", f"{self.independent:.0f}"]
+
+    def size_row(self):
+        return [shape(self.aspect_ratio), self.reference, self.particles, f"{self.mean:.5f}", f"{self.error:.5f}",
+                f"{self.deviation:+.2%}", f"{self.independent:.0f}"]
+
+
+def mean_deviation(found):
+    """Relative, and its standard error."""
+    error = math.hypot(*(one.relative_error for one in found)) / len(found)
+    return statistics.mean(one.deviation for one in found), error
+
+
+def sizes(build, numbers, found):
+    """The states of SIZE_STATES at all sizes, small ones first; only the larger ones have to agree."""
+    all_sizes = []
+    for entry in REFERENCE:
+        if entry[:2] not in SIZE_STATES:
+            continue
+        same = [one for one in found if one.entry == entry and one.box == "isotropic"]
+        for size in SIZES.items():
+            same.append(Found(build, next(numbers), entry, "isotropic", *size))
+        all_sizes += sorted(same, key=lambda one: one.particles)
+    for one in all_sizes:
+        if one.particles >= PARTICLES:
+            one.check()
+    return all_sizes
+
+
+def measure(build):
+    numbers = itertools.count()
+    found = [Found(build, next(numbers), entry, box) for entry in REFERENCE for box in BOXES]
+    for one in found:
+        one.check()
+    mean, error = mean_deviation(found)
+    expect(abs(mean) <= ERRORS * error + table_error(0), f"a mean deviation of {mean:+.3%} ± {error:.3%}")
+    head = ["", "φ, table", "βP", "box", "φ", "standard error", "deviation", "in standard errors",
+            "sweeps per independent volume"]
+    lengths = ", ".join(f"{sweeps} ({shape(kappa)})" for kappa, sweeps in SWEEPS.items())
+    return f"""Monte Carlo at the pressure P = ρZ of a table has to find the table's packing fraction, in a box that keeps its shape
+(isotropic) and in one whose sides change one at a time (anisotropic). βP is in units of 1/(a b): an ellipse with a b = 1
+covers π, so βP = φZ/π. Z of disks: Kolafa and Rottner, Mol. Phys. 104, 3435 (2006), for the infinite system; Z of
+ellipses: Monte Carlo at constant volume, N ≈ 400, another road to the same.
+
+{SEEDS} seeds of {PARTICLES} particles each, from random places at the table's φ. Sweeps of each seed, of which the second half counts:
+{lengths}. Wanted: a standard error (from the scatter of the seeds) of
+at most {LARGEST_ERROR:.1%} of φ, and a deviation of at most {ERRORS} standard errors and what the tables may be off ({table_error(0):.1%} of φ, {table_error(0.6):.1%}
+from φ = 0.6 on); the same ({table_error(0):.1%}) of the mean of all deviations: {mean:+.3%} ± {error:.3%}.
+
+Volumes forget each other slowly. A trial of the box survives if it makes no pair overlap, so its step is about
+1/(N (Z − 1)) of the volume, and the volume diffuses through its own spread, which is 1/√(N ∂(φZ)/∂φ). The last column
+follows from the measured error and this spread: the length of the run over the number of independent volumes that give
+this error. It grows with N as the square of the one over the other, so that an error costs a number of sweeps that
+does not depend on N, and small systems are cheap.
+
+{table(head, [one.row() for one in found])}
+
+How much the size of the system matters, in an isotropic box. The shift falls as 1/N or faster: that of the smallest
+systems, which need not agree, is four times that at N = {PARTICLES} at least, and so the latter is below the errors.
+
+{table(["", "φ, table", "N", "φ", "standard error", "deviation", "sweeps per independent volume"],
+       [one.size_row() for one in sizes(build, numbers, found)])}
+"""
