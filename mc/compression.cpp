@@ -120,9 +120,13 @@ class Compression {
            has_come_to_rest(state_.packing_fraction);
   }
 
+  bool adapts() const {
+    return options_.packing_fraction || sampler_.moves().sweeps <= options_.sweeps / 2;
+  }
+
   void sweep() {
     sampler_.sweep();
-    if (sampler_.moves().sweeps % sweeps_per_tuning == 0) sampler_.tune();
+    if (adapts() && sampler_.moves().sweeps % sweeps_per_tuning == 0) sampler_.tune();
     state_.moves = sampler_.moves();
     state_.box = sampler_.box();
     state_.packing_fraction.push_back(packing_fraction(configuration_));

@@ -83,7 +83,8 @@ struct CompressionState {
 /// `reached` at the wanted packing fraction or, without one, after all sweeps; `stuck` if the sweeps
 /// did not suffice or if the packing fraction no longer rises: by less than a thousandth from the
 /// third to the last quarter of what has been done, and that 4000 sweeps or more; `stopped` by the
-/// budget between two sweeps: the same call then goes on bit by bit. Step sizes adapt all the way. In
+/// budget between two sweeps: the same call then goes on bit by bit. Step sizes adapt all the way; without
+/// a packing fraction only in the first half of the sweeps, so that the second samples equilibrium. In
 /// any case the state is hard. A configuration denser than wanted is expanded.
 StageReport compress(Configuration2& configuration, const CompressionOptions& options,
                      std::uint64_t seed, CompressionState& state, const Budget& budget);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "core/contact/overlap_look.h"
@@ -87,6 +88,17 @@ class LaneCells {
     groups_[before].next = none;
     from.next = spare.first_;
     spare.first_ = last;
+  }
+
+  /// Particles i and j of one domain take each other's places, with their axes.
+  void exchange(std::size_t i, std::size_t j) {
+    Group &group_i = group_of(i), &group_j = group_of(j);
+    const int lane_i = lane_of(i), lane_j = lane_of(j);
+    const Ellipse shape_i = group_i.shape(lane_i), shape_j = group_j.shape(lane_j);
+    group_i.set(lane_i, shape_j, group_i.position(lane_i), group_i.axis(lane_i));
+    group_j.set(lane_j, shape_i, group_j.position(lane_j), group_j.axis(lane_j));
+    std::swap(group_i.particle[lane_i], group_j.particle[lane_j]);
+    std::swap(place_[i], place_[j]);
   }
 
   const Group& operator[](std::size_t group) const { return groups_[group]; }

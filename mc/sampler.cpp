@@ -135,6 +135,10 @@ void Sampler::take_turn(std::size_t domain, Tally& tally) {
     draw.fill(trials);
     for (const Words& words : trials) {
       const std::size_t i = members[pick(words[0], members.size())];
+      if (is_exchange(words[3])) {
+        exchange(i, members[pick(words[1], members.size())], turn);
+        continue;
+      }
       const bool is_round = cells_.group_of(i).shape(cells_.lane_of(i)).is_round();
       if (!is_round && (words[3] & 1) == 1)
         rotate(i, words, turn);
@@ -188,6 +192,35 @@ void Sampler::rotate(std::size_t i, const Words& words, Turn& turn) {
   axis_[i] = axis;
   group.ux[lane] = axis.x();
   group.uy[lane] = axis.y();
+}
+
+void Sampler::exchange(std::size_t i, std::size_t j, Turn& turn) {
+  const Ellipse shape_i = configuration_.shape[i], shape_j = configuration_.shape[j];
+  if (shape_i.a == shape_j.a && shape_i.b == shape_j.b) return;
+  ++turn.tally.counts.exchanges_tried;
+  cells_.exchange(i, j);
+  const bool i_is_larger = shape_i.volume() > shape_j.volume();
+  if (!has_room(i_is_larger ? i : j, turn.tally.looks) ||
+      !has_room(i_is_larger ? j : i, turn.tally.looks)) {
+    cells_.exchange(i, j);
+    return;
+  }
+  ++turn.tally.counts.exchanges_accepted;
+  std::swap(configuration_.position[i], configuration_.position[j]);
+  std::swap(configuration_.image[i], configuration_.image[j]);
+  std::swap(configuration_.angle[i], configuration_.angle[j]);
+  std::swap(axis_[i], axis_[j]);
+}
+
+// Where the cells have it.
+bool Sampler::has_room(std::size_t i, Looks& looks) const {
+  const LaneCells::Group& group = cells_[cells_.group_index(i)];
+  const int lane = cells_.lane_of(i);
+  const Ellipse shape = group.shape(lane);
+  const Vec2 axis = group.axis(lane), position = group.position(lane);
+  return clear_of_others(i, OverlapLook(shape, axis, margin_), position, board_->cell_of(position),
+                         looks) &&
+         clear_of_itself(shape, axis, margin_);
 }
 
 bool Sampler::reshape(std::size_t i, const Ellipse& shape) {

@@ -19,11 +19,15 @@ namespace vitrel {
 /// displacement is uniform in a square of half side `translation`, the turn uniform within ±
 /// `rotation`. It is accepted if the particle then keeps the hard margin (disjoint.h) to all others.
 ///
+/// In mixtures, a share of the trials instead picks two particles, which exchange places and angles if both
+/// have room there. Where sizes are spread this relaxes dense liquids many orders of magnitude sooner.
+///
 /// One sweep is N trials:
 ///   1. The borders between domains (checkerboard.h) are shifted at random, and all particles sorted
 ///      into cells anew, in the order of their numbers.
 ///   2. The colours take turns, in random order. In the turn of its colour a domain of n particles has n
-///      trials, each with one of these at random. A move of the centre into another domain is rejected.
+///      trials, each with one of these at random (an exchange: with two). A move of the centre into
+///      another domain is rejected.
 /// Domains of one colour share no particle and see none of each other's, so they can have their turns
 /// at the same time. Sweep s draws from the stream (seed, trial_moves, s, 0), its domain k from (seed,
 /// trial_moves, s, k + 1): the state is the same, bit by bit, for any number of threads, and a sampler
@@ -40,7 +44,7 @@ namespace vitrel {
 /// on the state only, to the rounding of the margin.
 ///
 /// Step sizes change only in `tune`, which belongs to equilibration.
-/// Source: metropolis1953; for the checkerboard anderson2013.
+/// Sources: metropolis1953; for the checkerboard anderson2013, for exchanges berthier2016.
 class Sampler {
  public:
   /// The configuration must be hard, with wrapped positions, and outlive the sampler; nobody else
@@ -63,6 +67,9 @@ class Sampler {
   bool rescale(const Vec2& factors);
 
   void set_steps(double translation, double rotation);
+  /// The share of trials, 0 at first, that instead let two particles exchange their places and angles:
+  /// of any shapes, or nothing happens.
+  void set_exchanges(double share) { exchanges_ = share; }
   /// As given at construction, and what has been done since.
   const SweepState& state() const { return state_; }
   const TrialCounts& counts() const { return state_.counts; }
@@ -87,6 +94,11 @@ class Sampler {
   void take_turn(std::size_t domain, Tally& tally);
   void translate(std::size_t i, const Words& words, Turn& turn);
   void rotate(std::size_t i, const Words& words, Turn& turn);
+  void exchange(std::size_t i, std::size_t j, Turn& turn);
+  bool is_exchange(std::uint64_t word) const {
+    return static_cast<double>(word >> 11) * 0x1p-53 < exchanges_;
+  }
+  bool has_room(std::size_t i, Looks& looks) const;
   bool clear_of_others(std::size_t i, const OverlapLook& look, const Vec2& position,
                        const Checkerboard::Cell& cell, Looks& looks) const;
   bool clear_of_itself(const Ellipse& shape, const Vec2& axis, double margin) const;
@@ -105,6 +117,7 @@ class Sampler {
   std::vector<LaneCells::Index> begin_;    // of every cell in order_, while sorting
   std::vector<std::size_t> domain_begin_;  // of every domain in order_
   std::vector<LaneCells::Spare> spare_;    // of every domain
+  double exchanges_ = 0;
   std::uint64_t seed_;
   SweepState state_;
   Looks looks_;

@@ -42,6 +42,7 @@ StageReport sample(Configuration2& configuration, const SamplingOptions& options
     end = make_sweeps(chains, state.chains, options.sweeps, 1, budget);
   } else {
     Sampler sampler(configuration, seed, state.local, options.threads);
+    sampler.set_exchanges(options.exchanges);
     end = make_sweeps(sampler, state.local, options.sweeps, sweeps_per_tuning, budget);
   }
   if (end == StageEnd::stopped) return {end, "sampling was stopped"};

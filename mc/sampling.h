@@ -16,7 +16,8 @@ enum class Moves { chains, local };
 struct SamplingOptions {
   std::uint64_t sweeps = 1000;
   Moves moves = Moves::chains;
-  int threads = 1;  ///< of local moves; the result does not depend on it
+  double exchanges = 0;  ///< share of the local moves (sampler.h)
+  int threads = 1;       ///< of local moves; the result does not depend on it
 };
 
 /// Where a sampling stands; each kind of moves uses its own.

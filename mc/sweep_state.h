@@ -8,13 +8,16 @@ namespace vitrel {
 struct TrialCounts {
   std::uint64_t translations_tried = 0, translations_accepted = 0;
   std::uint64_t rotations_tried = 0, rotations_accepted = 0;
+  std::uint64_t exchanges_tried = 0, exchanges_accepted = 0;  ///< of different shapes
 
-  std::uint64_t tried() const { return translations_tried + rotations_tried; }
+  std::uint64_t tried() const { return translations_tried + rotations_tried + exchanges_tried; }
   void add(const TrialCounts& other) {
     translations_tried += other.translations_tried;
     translations_accepted += other.translations_accepted;
     rotations_tried += other.rotations_tried;
     rotations_accepted += other.rotations_accepted;
+    exchanges_tried += other.exchanges_tried;
+    exchanges_accepted += other.exchanges_accepted;
   }
 };
 

@@ -48,6 +48,7 @@ nlohmann::ordered_json work_summary(const Preparation& preparation,
       {"trial_moves", counts.tried()},
       {"acceptance_translation", ratio(counts.translations_accepted, counts.translations_tried)},
       {"acceptance_rotation", ratio(counts.rotations_accepted, counts.rotations_tried)},
+      {"acceptance_exchange", ratio(counts.exchanges_accepted, counts.exchanges_tried)},
       {"wall_seconds", preparation.wall_seconds},
       {"trial_moves_per_second", static_cast<double>(counts.tried()) / preparation.wall_seconds}};
 }

@@ -47,6 +47,7 @@ struct PrepareStage {
   std::uint64_t most_sweeps = SwellingOptions().sweeps;
   std::uint64_t stretch_sweeps = HybridOptions().stretch.sweeps;
   Moves moves = SamplingOptions().moves;
+  double exchanges = SamplingOptions().exchanges;
   std::uint64_t sweeps = SamplingOptions().sweeps;
 };
 

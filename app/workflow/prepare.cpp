@@ -151,8 +151,8 @@ class Preparer {
       case Method::hybrid:
         return at_rest(hybrid(configuration, hybrid_options(), work.hybrid, budget_));
       case Method::sample:
-        return sample(configuration, {stage().sweeps, stage().moves, request_.threads}, seed(),
-                      work.sampling, budget_);
+        return sample(configuration, sampling_options(stage().sweeps), seed(), work.sampling,
+                      budget_);
     }
     return {};
   }
@@ -180,11 +180,12 @@ class Preparer {
   }
 
   HybridOptions hybrid_options() const {
-    return {stage().growth_rate,
-            packing_fraction_goal(),
-            stage().reduced_pressure,
-            {stage().stretch_sweeps, stage().moves, request_.threads},
-            seed()};
+    return {stage().growth_rate, packing_fraction_goal(), stage().reduced_pressure,
+            sampling_options(stage().stretch_sweeps), seed()};
+  }
+
+  SamplingOptions sampling_options(std::uint64_t sweeps) const {
+    return {sweeps, stage().moves, stage().exchanges, request_.threads};
   }
 
   // A stage that is stopped keeps its velocities, to go on with.

@@ -39,6 +39,8 @@ void each_item_of_trials(Counts& counts, const std::string& path, Visit&& visit)
   visit(path + "translations_accepted", counts.translations_accepted);
   visit(path + "rotations_tried", counts.rotations_tried);
   visit(path + "rotations_accepted", counts.rotations_accepted);
+  visit(path + "exchanges_tried", counts.exchanges_tried);
+  visit(path + "exchanges_accepted", counts.exchanges_accepted);
 }
 
 template <class Step, class Visit>

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/state/check.h"
+#include "core/state/species.h"
 #include "tests/support/fluids.h"
 
 namespace vitrel {
@@ -65,6 +66,27 @@ TEST(Hybrid, JamsTheLaterTheMoreMonteCarloRelaxes) {
   };
   const double little = jammed_at(1), much = jammed_at(200);
   EXPECT_GT(much, little + 0.04);
+}
+
+// Where sizes are spread, exchanges of places let the mixture relax at packing fractions at which nobody
+// moves far any more: it jams at 0.854 instead of 0.841.
+TEST(Hybrid, ExchangesLetSpreadSizesJamLater) {
+  const auto jammed_at = [](double exchanges) {
+    Species species;
+    species.aspect_ratio = Distribution{.mean = 1};
+    species.size = Distribution{.kind = Distribution::Kind::uniform, .low = 0.6, .high = 1.4};
+    Configuration2 c = draw_particles({species}, 400, 0.3, 1, 1);
+    insert_particles(c, {}, 1, {});
+    HybridOptions options;
+    options.reduced_pressure = 1e4;
+    options.stretch = {.sweeps = 50, .moves = Moves::local, .exchanges = exchanges};
+    HybridState state;
+    hybrid(c, options, state, {});
+    EXPECT_TRUE(exact_check(c).clean());
+    return packing_fraction(c);
+  };
+  const double without = jammed_at(0), with = jammed_at(0.2);
+  EXPECT_GT(with, without + 0.01);
 }
 
 }  // namespace

@@ -79,5 +79,28 @@ TEST(LaneCells, KeepTrackOfEverybody) {
   EXPECT_GT(fullest, 3u * many);
 }
 
+TEST(LaneCells, ExchangePlaces) {
+  LaneCells cells;
+  cells.resize(8, 40);
+  for (std::size_t cell = 0; cell < 8; ++cell) cells.clear(cell);
+  LaneCells::Spare spare = cells.spare_groups(0, 40);
+  cells.insert(0, 0, {3, 1}, Vec2(1, 2), Vec2(1, 0), spare);
+  cells.insert(1, 1, {2, 0.5}, Vec2(5, 6), Vec2(0, 1), spare);
+  cells.exchange(0, 1);
+  const auto expect_at = [&cells](std::size_t i, std::size_t cell, const Ellipse& shape,
+                                  const Vec2& position, const Vec2& axis) {
+    const LaneCells::Group& group = cells.group_of(i);
+    const int lane = cells.lane_of(i);
+    EXPECT_EQ(group.cell, cell);
+    EXPECT_EQ(group.particle[lane], i);
+    EXPECT_EQ(group.shape(lane).a, shape.a);
+    EXPECT_EQ(group.shape(lane).b, shape.b);
+    EXPECT_EQ(group.position(lane), position);
+    EXPECT_EQ(group.axis(lane), axis);
+  };
+  expect_at(0, 1, {3, 1}, Vec2(5, 6), Vec2(0, 1));
+  expect_at(1, 0, {2, 0.5}, Vec2(1, 2), Vec2(1, 0));
+}
+
 }  // namespace
 }  // namespace vitrel

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "core/state/check.h"
@@ -39,11 +41,33 @@ TEST_P(SamplerOf, KeepsTheStateHard) {
   EXPECT_EQ(counts.translations_tried + counts.rotations_tried, 300 * c.size());
 }
 
+TEST_P(SamplerOf, ExchangesKeepTheStateHard) {
+  Configuration2 c = inserted();
+  const Configuration2 start = c;
+  Sampler sampler(c, 5);
+  sampler.set_steps(0.3, 0.3);
+  sampler.set_exchanges(0.5);
+  for (int sweep = 0; sweep < 200; ++sweep) sampler.sweep();
+  ASSERT_TRUE(exact_check(c).clean());
+  const auto same_axes = [](const Ellipse& x, const Ellipse& y) {
+    return x.a == y.a && x.b == y.b;
+  };
+  EXPECT_TRUE(std::ranges::equal(c.shape, start.shape, same_axes));
+  const bool one_shape = std::ranges::all_of(
+      c.shape, [&](const Ellipse& shape) { return same_axes(shape, c.shape[0]); });
+  const TrialCounts& counts = sampler.counts();
+  EXPECT_EQ(counts.exchanges_tried == 0, one_shape);
+  if (std::string(GetParam().name) == "many shapes and sizes") {
+    EXPECT_GT(counts.exchanges_accepted, c.size());
+  }
+}
+
 TEST_P(SamplerOf, AnyNumberOfThreadsGivesTheSameState) {
   const Configuration2 start = inserted();
   const auto moved = [&](int threads) {
     Configuration2 c = start;
     Sampler sampler(c, 7, {.next_sweep = 3}, threads);
+    sampler.set_exchanges(0.2);
     for (int round = 0; round < 5; ++round) {
       for (int sweep = 0; sweep < 10; ++sweep) sampler.sweep();
       sampler.tune();
@@ -122,14 +146,12 @@ TEST(Sampler, RoundParticlesAreNotTurned) {
   EXPECT_EQ(sampler.counts().translations_tried, 1000u);
 }
 
-// Every hard state must be as likely as any other, with borders between domains too, at which long
-// steps end. Against states drawn independently: all particles at once at random, again until the
-// state is hard. 4 standard errors of the difference, a false alarm of 6e-5 each.
-TEST(Sampler, SeveralDomainsVisitHardStatesEqually) {
-  Configuration2 c = thin_gas();
-  const std::array<std::vector<double>, 3> expected = independent_states(c, 20'000);
+/// The same statistics of hard states drawn one after the other as of states drawn independently: all
+/// particles at once at random, again until the state is hard. 4 standard errors of the difference, a false
+/// alarm of 6e-5 each.
+void expect_hard_states_equally(Configuration2& c, Sampler& sampler,
+                                const std::array<std::vector<double>, 3>& expected) {
   std::array<std::vector<double>, 3> found;
-  Sampler sampler(c, 3);
   sampler.set_steps(4, 1);
   const Vec2 start = c.unwrapped(0);
   double farthest = 0;
@@ -153,6 +175,24 @@ TEST(Sampler, SeveralDomainsVisitHardStatesEqually) {
   }
   EXPECT_NEAR(estimate(found[2]).mean, 0.2 * 16, 4 * estimate(found[2]).error);
   EXPECT_GT(farthest, 5 * 28);  // no border shuts it in
+}
+
+// With borders between domains too, at which long steps end.
+TEST(Sampler, SeveralDomainsVisitHardStatesEqually) {
+  Configuration2 c = thin_gas();
+  const std::array<std::vector<double>, 3> expected = independent_states(c, 20'000);
+  Sampler sampler(c, 3);
+  expect_hard_states_equally(c, sampler, expected);
+}
+
+TEST(Sampler, ExchangesVisitHardStatesEqually) {
+  Configuration2 c = thin_gas();
+  for (std::size_t i = 0; i < c.size(); i += 2) c.shape[i] = {1.5, 0.35};
+  const std::array<std::vector<double>, 3> expected = independent_states(c, 20'000);
+  Sampler sampler(c, 3);
+  sampler.set_exchanges(0.5);
+  expect_hard_states_equally(c, sampler, expected);
+  EXPECT_GT(sampler.counts().exchanges_accepted, 16 * 10'000u);
 }
 
 // Two ellipses in a box: every hard state must be as likely as any other. The share of time that
