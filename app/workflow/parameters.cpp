@@ -417,9 +417,11 @@ void validate_stages(const std::vector<PrepareStage>& stages, const SystemParame
     if (p.packing_fraction) rules.packing_fraction(*p.packing_fraction, "packing_fraction");
     const double end = end_of_stage(p, system, reached);
     const double goal = p.packing_fraction.value_or(end);
-    rules.require(goal >= reached * (1 - packing_fraction_slack), "packing_fraction",
-                  fmt::format("is {}, but the stage before ends at {}, and no stage shrinks",
-                              show(goal), show(reached)));
+    // A stage without a packing fraction of its own ends at that of the system.
+    (p.packing_fraction ? rules : Rules("system"))
+        .require(goal >= reached * (1 - packing_fraction_slack), "packing_fraction",
+                 fmt::format("is {}, but the stage before ends at {}, and no stage shrinks",
+                             show(goal), show(reached)));
     reached = end;
   }
   if (!ends_at_pressure(stages) &&

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <span>
 
 #include "app/workflow/prepare_checkpoint.h"
@@ -28,6 +29,18 @@ fs::path stuck_state_path(const fs::path& output) {
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// How a stage ended, for a person.
+std::string end_text(const StageRecord& record) {
+  const Estimate& mean = record.mean_packing_fraction;
+  const std::string text =
+      fmt::format("{}; packing fraction {:.6g}", record.report.reason, record.packing_fraction);
+  if (!(mean.mean > 0)) return text;
+  return text +
+         (std::isfinite(mean.error)
+              ? fmt::format(", in the second half {:.6g} ± {:.2g}", mean.mean, mean.error)
+              : fmt::format(", in the second half {:.6g}, too few sweeps for an error", mean.mean));
 }
 
 Estimate mean_of_second_half(const std::vector<double>& series) {
@@ -216,7 +229,7 @@ class Preparer {
     if (stage().method == Method::compress && !stage().packing_fraction)
       record.mean_packing_fraction = mean_of_second_half(work.compression.packing_fraction);
     record.wall_seconds = work.wall_seconds;
-    say_(fmt::format("  {}; packing fraction {:.6g}", report.reason, record.packing_fraction));
+    say_("  " + end_text(record));
     done().next_sweep += record.sweeps;
     done().stages.push_back(record);
   }

@@ -44,7 +44,7 @@ def run_and_check(build, parameters, *overrides, frames=()):
 
 
 def preparation(particles, aspect_ratio, sizes, *sections):
-    """Parameters of a mixture in equal numbers, and these sections."""
+    """Parameters of a mixture in equal numbers, sizes being TOML values, and these sections."""
     species = "\n".join(
         f'[[species]]\nname = "{name}"\nfraction = {1 / len(sizes)}\naspect_ratio = {aspect_ratio}\nsize = {size}'
         for name, size in zip("AB", sizes))

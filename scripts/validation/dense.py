@@ -12,6 +12,7 @@ TITLE = "Dense states: method, aspect ratio, packing fraction, time"
 PARTICLES = 1000
 
 # Aspect ratio, sizes, packing fraction, and whether the first method must reach it.
+SPREAD = '{ distribution = "uniform", low = 0.6, high = 1.4 }'
 STATES = (
     (1, (1, 1.4), 0.83, True),
     (1, (1, 1.4), 0.845, False),
@@ -19,11 +20,15 @@ STATES = (
     (1.4, (1, 1.4), 0.89, False),
     (2, (1,), 0.80, True),
     (6, (1,), 0.80, True),
+    (1, (SPREAD,), 0.86, False),
+    (2, (SPREAD,), 0.88, False),
 )
+NAMES = {(1,): "one", (1, 1.4): "1 : 1.4", (SPREAD,): "0.6 … 1.4"}
 METHODS = {
     "grow, rate 1e-3": 'method = "grow"\ngrowth_rate = 1e-3',
     "grow, rate 1e-2": 'method = "grow"\ngrowth_rate = 1e-2',
     "hybrid, rate 1e-2": 'method = "hybrid"\ngrowth_rate = 1e-2',
+    "hybrid with exchanges": 'method = "hybrid"\ngrowth_rate = 1e-2\nmoves = "local"\nexchanges = 0.2',
     "swell": 'method = "swell"',
     "compress, βP = 100": 'method = "compress"\npressure = 100\npacking_fraction = {fraction}',
 }
@@ -67,12 +72,12 @@ def measure(build):
         found = {method: outcome(build, kappa, sizes, fraction, method) for method in METHODS}
         reached, words = next(iter(found.values()))
         expect(reached or not must, f"κ = {kappa}, φ = {fraction}: {words}")
-        mixture = "1 : 1.4" if len(sizes) > 1 else "one"
-        rows.append([shape(kappa), mixture, fraction, *(words for _, words in found.values())])
+        rows.append([shape(kappa), NAMES[sizes], fraction, *(words for _, words in found.values())])
     return f"""{PARTICLES} particles, one seed each: inserted at random places and angles at φ = 0.3, then brought to φ by one more stage on
 one core. Every state is free of overlaps by the exact check (tolerance zero). The default, growth at the rate 1e-3, has
 to reach 0.83 (disks), 0.86 (κ = 1.4) and 0.80 (κ = 2 and 6); 0.845 and 0.89 are goals. The hybrid makes 100 sweeps of
-Monte Carlo after every stretch of growth; to compress at constant pressure is Monte Carlo, too.
+Monte Carlo after every stretch of growth, by event chains, or by local moves of which a fifth exchange the places of two
+particles; to compress at constant pressure is Monte Carlo, too. Sizes 0.6 … 1.4 are spread evenly.
 
 {table(["", "sizes", "φ", *METHODS], rows)}
 """

@@ -32,7 +32,7 @@ LARGEST_DECAY = 1 / 4
 RANDOM_PARTICLES = 1000
 GROW = 'method = "grow"\ngrowth_rate = {}'
 HYBRID = 'method = "hybrid"\ngrowth_rate = 1e-2\nstretch_sweeps = {}'
-SAMPLE = 'method = "sample"\nsweeps = {}'
+SAMPLE = 'method = "sample"\nmoves = "local"\nsweeps = {}'
 METHODS = {
     "swell": (2, 'method = "swell"'),
     "compress, βP = 10": (1, f'method = "compress"\npressure = 10\npacking_fraction = {NEMATIC[1]}'),
@@ -255,7 +255,8 @@ def measure(build):
     seeds = " and ".join(f"{count} (N = {particles})" for particles, count in SIZES.items())
     kappa, fraction, _ = ISOTROPIC[-1]
     return f"""Ellipses of one size in a square box. The nematic order is S = |⟨exp 2iθ⟩|. Particles are inserted at φ = {INSERTED}, at random
-angles (random start) or all at the angle 0 (aligned start, S = 1), swollen to φ and then sampled for a number of sweeps.
+angles (random start) or all at the angle 0 (aligned start, S = 1), swollen to φ and then sampled for a number of sweeps of
+local moves.
 
 ### Isotropic states
 
