@@ -97,7 +97,7 @@ const BadFile bad_files[] = {
      "file.toml:4:18: key 'prepare.stage.1.stretch_sweeps' is 0, but must be at least 1"},
     {"[system]\npacking_fraction = 0.3\n[[prepare.stage]]\nmethod = \"insert\"\npacking_fraction = "
      "0.4\n"
-     "[[prepare.stage]]",
+     "[[prepare.stage]]\nmethod = \"swell\"",
      "file.toml:2:20: key 'system.packing_fraction' is 0.3, but the stage before ends at 0.4"},
     {"[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"grow\"\ngrowth_rate = 0",
      "file.toml:4:15: key 'prepare.stage.1.growth_rate' is 0.0, but must lie above 0"},
