@@ -259,6 +259,8 @@ void Preparer::refuse_stuck(const StageReport& report) const {
     const fs::path path = stuck_state_path(request_.output);
     write_state(path, done().configuration,
                 current_provenance(request_.command_line, stored_.parameters, seed()), true);
+    // To go on from the same place with the same parameters would lead to the same end.
+    forget_preparation(request_.output);
     kept = "; the state is in " + path.string();
   }
   throw UserError(fmt::format("preparation, {}: {}{}", description(), report.reason, kept));

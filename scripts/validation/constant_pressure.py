@@ -32,7 +32,7 @@ PARTICLES = 100
 # Of every seed, by aspect ratio; the second half counts.
 SWEEPS = {1: 16_000, 2: 16_000, 4: 24_000, 6: 28_000}
 # Particles: how many times as many sweeps.
-SIZES = {25: 2, 400: 0.5}
+SIZES = {25: 2, 400: 1}
 SIZE_STATES = ((1, 0.6), (6, 0.2))
 
 LARGEST_ERROR = 0.003  # of φ

@@ -267,9 +267,11 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(Prepare, AStuckStateIsKept) {
   Parameters parameters = small(0.88);
   parameters.stages[1].most_sweeps = 50;
+  parameters.output.checkpoint_interval = 0;
   const Folder folder("stuck");
   EXPECT_THROW(prepare({parameters, folder / "state.h5"}, {}, say_nothing), UserError);
   const Configuration2 kept = read_state(folder / "state.h5.stuck.h5");
+  EXPECT_FALSE(std::filesystem::exists(folder / "state.h5.preparation"));
   EXPECT_GT(packing_fraction(kept), 0.3);
   EXPECT_TRUE(exact_check(kept).clean());
 }
