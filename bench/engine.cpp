@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <functional>
@@ -41,10 +40,6 @@ struct Effort {
   int largest = 1'000'000;
 };
 const Effort quick{2, 0.01, 100, 64, 64, {{1, 1}, {2, 2}}, {10, 30}, 30, 30, 0.02};
-
-void say(const std::string& what) {
-  fmt::print(stderr, "{}\n", what);
-}
 
 /// Work that was done several times, here and there in alternation with other work.
 class Repeats {
@@ -351,26 +346,15 @@ const BenchParts<Effort> parts = {
 }  // namespace vitrel::lab
 
 int main(int argc, char** argv) {
-  CLI::App app("How fast is the engine?");
-  std::vector<std::string> wanted;
-  bool is_quick = false;
+  using namespace vitrel::lab;
+  CLI::App app("How fast is the engine?", "bench_engine");
   double stretch = 0;
-  int largest = vitrel::lab::Effort{}.largest;
-  app.add_option("part", wanted, "what to measure; all parts if none is named")
-      ->check(CLI::IsMember(vitrel::lab::part_names(vitrel::lab::parts)));
-  app.add_flag("--quick", is_quick, "few particles, short runs: to see that it works");
+  int largest = Effort{}.largest;
   app.add_option("--stretch", stretch, "seconds of one repeat")->check(CLI::PositiveNumber);
   app.add_option("--largest", largest, "number of particles")->check(CLI::PositiveNumber);
-  CLI11_PARSE(app, argc, argv);
-  try {
-    vitrel::lab::Effort effort = is_quick ? vitrel::lab::quick : vitrel::lab::Effort{};
+  return measure_command<Effort>(app, argc, argv, parts, quick, [&](Effort& effort) {
     if (stretch > 0) effort.stretch = stretch;
     effort.largest = largest;
-    fmt::print("{}\n",
-               vitrel::lab::measure_parts(vitrel::lab::parts, effort, wanted, 0.5 * effort.stretch)
-                   .dump(2));
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "bench_engine: {}\n", error.what());
-    return 1;
-  }
+    return 0.5 * effort.stretch;
+  });
 }

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -50,10 +49,6 @@ struct State {
   double seconds;  ///< of either method
   double tick;     ///< seconds between looks at the state, about
 };
-
-void say(const std::string& what) {
-  fmt::print(stderr, "{}\n", what);
-}
 
 /// Of this process, so that others do not count.
 double processor_seconds() {
@@ -462,20 +457,8 @@ const BenchParts<Effort> parts = {{"states", measure_states},
 }  // namespace vitrel::lab
 
 int main(int argc, char** argv) {
-  CLI::App app("Do event chains forget a state sooner than local moves?");
-  std::vector<std::string> wanted;
-  bool is_quick = false;
-  app.add_option("part", wanted, "what to measure; all parts if none is named")
-      ->check(CLI::IsMember(vitrel::lab::part_names(vitrel::lab::parts)));
-  app.add_flag("--quick", is_quick, "few particles, short runs: to see that it works");
-  CLI11_PARSE(app, argc, argv);
-  try {
-    const vitrel::lab::Effort effort = is_quick ? vitrel::lab::quick : vitrel::lab::Effort{};
-    fmt::print(
-        "{}\n",
-        vitrel::lab::measure_parts(vitrel::lab::parts, effort, wanted, 2 * effort.seconds).dump(2));
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "bench_event_chain: {}\n", error.what());
-    return 1;
-  }
+  using namespace vitrel::lab;
+  CLI::App app("Do event chains forget a state sooner than local moves?", "bench_event_chain");
+  return measure_command<Effort>(app, argc, argv, parts, quick,
+                                 [](Effort& effort) { return 2 * effort.seconds; });
 }

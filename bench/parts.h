@@ -1,6 +1,12 @@
 #pragma once
 
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
@@ -42,6 +48,34 @@ Json measure_parts(const BenchParts<Effort>& parts, const Effort& effort,
     if (wanted.empty() || std::ranges::count(wanted, name) > 0) result[name] = measure(effort);
   result["ns_per_psi_at_the_end"] = ns_per_psi(calibration_seconds);
   return result;
+}
+
+/// What is being measured, on standard error.
+inline void say(const std::string& what) {
+  fmt::print(stderr, "{}\n", what);
+}
+
+/// The main program: the parts named on the command line, with less effort if it says --quick, as JSON on
+/// standard output. `app` has the question, the name of the program and options of its own, which
+/// `apply` carries out; it returns the seconds of a calibration.
+template <class Effort>
+int measure_command(CLI::App& app, int argc, char** argv, const BenchParts<Effort>& parts,
+                    const Effort& quick, const std::function<double(Effort&)>& apply) {
+  std::vector<std::string> wanted;
+  bool is_quick = false;
+  app.add_option("part", wanted, "what to measure; all parts if none is named")
+      ->check(CLI::IsMember(part_names(parts)));
+  app.add_flag("--quick", is_quick, "few particles, short runs: to see that it works");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    Effort effort = is_quick ? quick : Effort{};
+    const double calibration_seconds = apply(effort);
+    fmt::print("{}\n", measure_parts(parts, effort, wanted, calibration_seconds).dump(2));
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}: {}\n", app.get_name(), error.what());
+    return 1;
+  }
+  return 0;
 }
 
 }  // namespace vitrel::lab

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <limits>
@@ -39,10 +38,6 @@ struct Effort {
 const Effort quick{64, 2, 0.001, 36, 3, 500};
 
 constexpr double wanted_acceptance = 0.3;
-
-void say(const std::string& what) {
-  fmt::print(stderr, "{}\n", what);
-}
 
 double seconds_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -292,20 +287,8 @@ const BenchParts<Effort> parts = {
 }  // namespace vitrel::lab
 
 int main(int argc, char** argv) {
-  CLI::App app("How fast is Monte Carlo?");
-  std::vector<std::string> wanted;
-  bool is_quick = false;
-  app.add_option("part", wanted, "what to measure; all parts if none is named")
-      ->check(CLI::IsMember(vitrel::lab::part_names(vitrel::lab::parts)));
-  app.add_flag("--quick", is_quick, "few particles, short runs: to see that it works");
-  CLI11_PARSE(app, argc, argv);
-  try {
-    const vitrel::lab::Effort effort = is_quick ? vitrel::lab::quick : vitrel::lab::Effort{};
-    fmt::print("{}\n",
-               vitrel::lab::measure_parts(vitrel::lab::parts, effort, wanted, 10 * effort.stretch)
-                   .dump(2));
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "bench_sampler: {}\n", error.what());
-    return 1;
-  }
+  using namespace vitrel::lab;
+  CLI::App app("How fast is Monte Carlo?", "bench_sampler");
+  return measure_command<Effort>(app, argc, argv, parts, quick,
+                                 [](Effort& effort) { return 10 * effort.stretch; });
 }

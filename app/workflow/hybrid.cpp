@@ -8,7 +8,7 @@ namespace vitrel {
 namespace {
 
 /// Growth of all lengths in one stretch, and the same times Z.
-constexpr double stretch = 0.01, stretch_of_gap = 0.2;
+constexpr double largest_growth = 0.01, largest_compression = 0.2;
 
 class Hybrid {
  public:
@@ -46,7 +46,7 @@ class Hybrid {
 
   double next_end() const {
     const double z = std::max(1.0, state_.growth.reduced_pressure);
-    const double size = 1 + std::min(stretch, stretch_of_gap / z);
+    const double size = 1 + std::min(largest_growth, largest_compression / z);
     const double end = packing_fraction(configuration_) * size * size;
     return std::min(end, goal());
   }

@@ -13,8 +13,8 @@ namespace vitrel {
 /// Compression by both engines in turn: event-driven growth (edmd/growth.h), and Monte Carlo at the
 /// packing fraction reached, in which the liquid relaxes.
 ///
-/// A stretch of growth ends when all lengths have grown by `stretch`, or by `stretch_of_gap`/Z if that is
-/// less: then about that share of the free lengths is used up, and Z has risen by as much. Velocities are
+/// A stretch of growth ends when all lengths have grown by 1 %, or by 0.2/Z if that is less: then about
+/// a fifth of the free lengths is used up, and Z has risen by as much. Velocities are
 /// drawn anew after every stretch of Monte Carlo. Goals are met within growth, which ends the stage.
 struct HybridOptions {
   double growth_rate = 1e-2;
