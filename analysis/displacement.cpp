@@ -13,52 +13,6 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// Which pairs of frames make up one point: (k, k + frames) for k = 0, stride, 2 stride …
-struct Lag {
-  std::size_t frames;
-  std::size_t stride;
-  std::size_t origins;
-};
-
-Lag lag_of(std::size_t frames, std::size_t samples, std::size_t most_origins) {
-  const std::size_t available = samples - frames;
-  const std::size_t stride = (available + most_origins - 1) / most_origins;
-  return {frames, stride, (available - 1) / stride + 1};
-}
-
-std::vector<Lag> even_lags(std::size_t samples, const DisplacementOptions& options) {
-  const double span = options.longest_lag * static_cast<double>(samples - 1);
-  const auto longest = std::max<std::size_t>(1, static_cast<std::size_t>(span));
-  const double growth = std::pow(10, 1 / static_cast<double>(options.lags_per_decade));
-  std::vector<Lag> lags;
-  double next = 1;
-  for (std::size_t frames = 1; frames <= longest;) {
-    lags.push_back(lag_of(frames, samples, options.most_origins));
-    if (frames < options.every_lag_up_to) {
-      next = static_cast<double>(++frames);
-    } else {
-      next = std::max(next * growth, static_cast<double>(frames + 1));
-      frames = static_cast<std::size_t>(next);
-    }
-  }
-  return lags;
-}
-
-std::vector<Lag> lags_from_the_start(std::size_t samples) {
-  std::vector<Lag> lags;
-  for (std::size_t frames = 1; frames < samples; ++frames) lags.push_back({frames, 1, 1});
-  return lags;
-}
-
-/// Displacements from origins closer than the lag share part of their path. For diffusion their
-/// squares are correlated as (1 − s/lag)², and blocks of four lags leave 6 % of the variance
-/// between blocks.
-double shortest_block(const Lag& lag) {
-  return lag.stride < lag.frames
-             ? 4 * static_cast<double>(lag.frames) / static_cast<double>(lag.stride)
-             : 1;
-}
-
 /// Sums behind one curve, for every lag.
 class SquareSum {
  public:
@@ -84,7 +38,7 @@ class SquareSum {
     if (particles == 0) return square;
     for (std::size_t lag = 0; lag < per_origin_.size(); ++lag) {
       for (double& value : per_origin_[lag]) value /= static_cast<double>(particles);
-      Estimate estimate = block_average(per_origin_[lag], shortest_block(lags_[lag]));
+      Estimate estimate = block_average(per_origin_[lag], lags_[lag].shortest_block());
       square.value.push_back(estimate.mean);
       square.blocks.push_back(estimate.blocks);
       if (estimate.blocks == 0)
@@ -202,8 +156,7 @@ Displacements displacements(Trajectory& trajectory, const DisplacementOptions& o
   if (samples < 2)
     throw UserError("displacements: the run holds " + std::to_string(samples) +
                     " frame(s); a displacement needs at least two");
-  const std::vector<Lag> lags =
-      evenly_spaced(times) ? even_lags(samples, options) : lags_from_the_start(samples);
+  const std::vector<Lag> lags = time_axis(times, options.axis);
 
   const Configuration2 first = trajectory.read(0);
   std::vector<Group> groups = make_groups(first, lags);

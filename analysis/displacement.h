@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/time_axis.h"
 #include "analysis/trajectory.h"
 
 /// Mean squared displacement ⟨|r(t) − r(0)|²⟩ (MSD, units of length squared, a b = 1) and mean
@@ -11,11 +12,7 @@
 namespace vitrel {
 
 struct DisplacementOptions {
-  double longest_lag = 0.5;  ///< longest time difference, as a fraction of the run; in (0, 1]
-  std::size_t every_lag_up_to =
-      100;  ///< in sample intervals; longer lags are spaced logarithmically,
-  std::size_t lags_per_decade = 50;             ///< that many to a decade
-  std::size_t most_origins = 4096;              ///< time origins per lag; evenly thinned beyond
+  TimeAxisOptions axis;
   std::size_t memory = std::size_t{512} << 20;  ///< bytes for particle tracks
 };
 
@@ -44,10 +41,7 @@ struct Displacements {
 };
 
 /// Steps.
-/// 1. Evenly sampled run: every lag of 1 … `every_lag_up_to` sample intervals, then logarithmically
-///    spaced ones up to `longest_lag`; all frames are origins, evenly thinned to `most_origins` per
-///    lag. Any other run (logarithmic samples): the first frame is the only origin, every later one
-///    a lag.
+/// 1. Lags and origins are those of the time axis.
 /// 2. At every origin the square is averaged over the particles; the mean over origins is the
 /// value.
 /// 3. The error is that of this series of origins by blocking, with blocks of four lags or more; it

@@ -243,16 +243,16 @@ void describe_output(OutputParameters& p, FieldVisitor& visit) {
 
 void describe_analysis(DisplacementOptions& p, FieldVisitor& visit) {
   visit.field({"longest_lag", "", "Longest time difference, as a fraction of the run."},
-              p.longest_lag);
+              p.axis.longest_lag);
   visit.field(
       {"every_lag_up_to", "sample intervals",
        "Up to here every time difference is evaluated, beyond they are spaced logarithmically."},
-      p.every_lag_up_to);
+      p.axis.every_lag_up_to);
   visit.field(
       {"lags_per_decade", "", "Time differences per factor of ten in the logarithmic part."},
-      p.lags_per_decade);
+      p.axis.lags_per_decade);
   visit.field({"most_origins", "", "Time origins per time difference; evenly thinned beyond."},
-              p.most_origins);
+              p.axis.most_origins);
   visit.field({"memory", "bytes", "Memory for particle tracks."}, p.memory);
 }
 
@@ -468,11 +468,12 @@ void validate_output(const Parameters& parameters) {
 
 void validate_analysis(const DisplacementOptions& p) {
   const Rules rules("analysis");
-  rules.require(p.longest_lag > 0 && p.longest_lag <= 1, "longest_lag",
-                fmt::format("is {}, but must lie above 0 and not above 1", show(p.longest_lag)));
-  rules.at_least(static_cast<std::int64_t>(p.every_lag_up_to), 1, "every_lag_up_to");
-  rules.at_least(static_cast<std::int64_t>(p.lags_per_decade), 1, "lags_per_decade");
-  rules.at_least(static_cast<std::int64_t>(p.most_origins), 1, "most_origins");
+  rules.require(
+      p.axis.longest_lag > 0 && p.axis.longest_lag <= 1, "longest_lag",
+      fmt::format("is {}, but must lie above 0 and not above 1", show(p.axis.longest_lag)));
+  rules.at_least(static_cast<std::int64_t>(p.axis.every_lag_up_to), 1, "every_lag_up_to");
+  rules.at_least(static_cast<std::int64_t>(p.axis.lags_per_decade), 1, "lags_per_decade");
+  rules.at_least(static_cast<std::int64_t>(p.axis.most_origins), 1, "most_origins");
   rules.at_least(static_cast<std::int64_t>(p.memory), 1 << 20, "memory");
 }
 

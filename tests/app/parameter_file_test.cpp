@@ -200,7 +200,7 @@ TEST(ParameterFile, OverridesReachSpeciesAndStages) {
 TEST(ParameterFile, OnlyHarmlessChangesAreAllowedWhenContinuing) {
   Parameters before, after;
   after.output.checkpoint_interval = 1;
-  after.analysis.longest_lag = 0.25;
+  after.analysis.axis.longest_lag = 0.25;
   const auto forbidden = [&](Work work) {
     return forbidden_change(effective_parameters(before), effective_parameters(after), work);
   };
