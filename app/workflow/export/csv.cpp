@@ -31,23 +31,21 @@ CsvSink::CsvSink(const std::filesystem::path& path, StoredMotion motion)
 void CsvSink::write(const StoredFrame& frame) {
   const Configuration2& configuration = frame.configuration;
   const Vec2& box = configuration.box.lengths();
-  const std::string start = fmt::format("{},{},{:.17g},{:.17g},{:.17g}", frame.index, frame.step,
-                                        configuration.time, box.x(), box.y());
+  const std::string start =
+      fmt::format("{},{},{},{},{}", frame.index, frame.step, configuration.time, box.x(), box.y());
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
   for (std::size_t i = 0; i < configuration.size(); ++i) {
     const Vec2& position = configuration.position[i];
     const Vec2 unwrapped = configuration.unwrapped(i);
     const Ellipse& shape = configuration.shape[i];
-    fmt::format_to(out, "{},{},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}",
-                   start, i, field(configuration.species_names[configuration.species[i]]),
-                   position.x(), position.y(), unwrapped.x(), unwrapped.y(), configuration.angle[i],
-                   shape.a, shape.b, configuration.mass[i]);
+    fmt::format_to(out, "{},{},{},{},{},{},{},{},{},{},{}", start, i,
+                   field(configuration.species_names[configuration.species[i]]), position.x(),
+                   position.y(), unwrapped.x(), unwrapped.y(), configuration.angle[i], shape.a,
+                   shape.b, configuration.mass[i]);
     if (motion_.velocities)
-      fmt::format_to(out, ",{:.17g},{:.17g}", configuration.velocity[i].x(),
-                     configuration.velocity[i].y());
-    if (motion_.angular_velocities)
-      fmt::format_to(out, ",{:.17g}", configuration.angular_velocity[i]);
+      fmt::format_to(out, ",{},{}", configuration.velocity[i].x(), configuration.velocity[i].y());
+    if (motion_.angular_velocities) fmt::format_to(out, ",{}", configuration.angular_velocity[i]);
     text.push_back('\n');
   }
   file_.write({text.data(), text.size()});

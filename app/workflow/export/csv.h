@@ -7,7 +7,7 @@
 namespace vitrel {
 
 /// A trajectory as one table: a line per frame and particle, after one line of `name [unit]`, every
-/// number with 17 significant digits.
+/// number with the digits, 17 at most, that give the same double back.
 ///
 ///   frame, step, time            frame: its place in the trajectory, from 0
 ///   box_x, box_y

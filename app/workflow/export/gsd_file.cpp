@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <bit>
-#include <tuple>
+#include <cassert>
 #include <type_traits>
 
 namespace vitrel {
@@ -43,8 +43,10 @@ GsdFile::GsdFile(const std::filesystem::path& path, const std::string& applicati
 
 template <class T>
 void GsdFile::write(const std::string& name, std::span<const T> values, std::uint32_t columns) {
+  const std::uint16_t number = number_of(name);
+  assert(index_.empty() || index_.back().frame < frame_ || index_.back().name < number);
   index_.push_back({frame_, values.size() / columns, static_cast<std::int64_t>(file_.size()),
-                    columns, number_of(name), type_number<T>(), 0});
+                    columns, number, type_number<T>(), 0});
   file_.write(bytes_of(values));
 }
 
@@ -66,9 +68,6 @@ void GsdFile::write_names() {
 }
 
 void GsdFile::write_index() {
-  std::sort(index_.begin(), index_.end(), [](const Entry& x, const Entry& y) {
-    return std::tie(x.frame, x.name) < std::tie(y.frame, y.name);
-  });
   index_.push_back({});  // ends the list
   header_.index_entries = index_.size();
   header_.index_location = file_.size();

@@ -28,7 +28,8 @@ class GsdFile {
           const std::string& schema, std::uint32_t schema_version);
 
   /// Adds an array of `columns` numbers per row to the frame; T is one of uint8_t, uint32_t,
-  /// uint64_t, int8_t, int32_t, float, double. At most once per name and frame.
+  /// uint64_t, int8_t, int32_t, float, double. Every frame writes its names in the same order, each at
+  /// most once; some may be left out.
   template <class T>
   void write(const std::string& name, std::span<const T> values, std::uint32_t columns = 1);
   void end_frame() { ++frame_; }

@@ -6,8 +6,9 @@
 
 namespace vitrel {
 
-/// A trajectory as extended XYZ, frame after frame, every number with 17 significant digits. OVITO
-/// takes the columns for what they are by their names; ASE keeps all of them as arrays.
+/// A trajectory as extended XYZ, frame after frame, every number with the digits, 17 at most, that
+/// give the same double back. OVITO takes the columns for what they are by their names; ASE keeps
+/// all of them as arrays.
 ///
 ///   Lattice, Origin                   the box, of height 1, centred at the origin; pbc="T T F"
 ///   Time, Step
