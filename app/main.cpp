@@ -164,13 +164,20 @@ class CommandLine {
   }
   void add_export() {
     CLI::App& sub =
-        add("export", "Write a state or a run in the format of another program.", export_command);
-    sub.add_option("file", arguments_.input, "State or run")->required();
-    sub.add_option("--to", arguments_.format,
-                   "gsd (HOOMD-blue, OVITO), xyz (OVITO, ASE) or csv (tables)")
+        add("export", "Write a state, a run or results in the format of another program.",
+            export_command);
+    sub.add_option("file", arguments_.input, "State or run, or results of vitrel analyze")
         ->required();
-    add_output(sub, "File to write, which must not exist; default <file> with the new suffix",
-               false);
+    sub.add_option(
+           "--to", arguments_.format,
+           "gsd (HOOMD-blue, OVITO), xyz (OVITO, ASE) or csv; of results: gnuplot (a folder of "
+           "data and scripts)")
+        ->required();
+    add_output(
+        sub,
+        "File or folder to write, which must not exist; default <file> with the new suffix, or "
+        "<results>_gnuplot",
+        false);
     sub.add_option("--frames", arguments_.frames,
                    "Which frames, as Python's slices: 7, -1 (the last), first:end:step (all)");
     add_quiet_and_json(sub);

@@ -21,8 +21,9 @@ std::unique_ptr<FrameSink> sink(const std::string& format, const std::filesystem
   if (format == "gsd") return std::make_unique<GsdSink>(path, motion);
   if (format == "xyz") return std::make_unique<XyzSink>(path, motion);
   if (format == "csv") return std::make_unique<CsvSink>(path, motion);
-  throw UserError(fmt::format("--to {}: is no format of trajectories; there are {}", format,
-                              fmt::join(trajectory_formats, ", ")));
+  throw UserError(fmt::format(
+      "--to {}: there is no such format, but {} for trajectories and gnuplot for results", format,
+      fmt::join(trajectory_formats, ", ")));
 }
 
 }  // namespace
