@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "analysis/results.h"
 #include "app/workflow/export/frame_range.h"
 #include "app/workflow/export/gsd.h"
 #include "app/workflow/export/trajectory_export.h"
@@ -98,6 +99,7 @@ TEST(Export, NamesTheFileAfterTheInputAndSaysWhatItDid) {
 TEST(Export, RefusesWithOneMessageAndLeavesNothing) {
   const Folder folder("export_refusals");
   write_run(folder / "run.h5", 5, 4);
+  write_results(folder / "results.h5", {{{"t", "", {{"time", "time", {1, 2}, {}}}}}, {}});
   folder.write("there.xyz", "kept");
   const auto expect = [&](std::vector<std::string> arguments, int code, const std::string& part) {
     arguments.insert(arguments.begin(), "export");
@@ -107,17 +109,37 @@ TEST(Export, RefusesWithOneMessageAndLeavesNothing) {
     EXPECT_THAT(outcome.errors, HasSubstr(part));
     EXPECT_EQ(outcome.output, "");
   };
-  expect({"run.h5", "--to", "pdf"}, 2, "there are gsd, xyz, csv");
+  expect({"run.h5", "--to", "pdf"}, 2, "gsd, xyz, csv for trajectories and gnuplot for results");
   expect({"run.h5", "--to", "xyz", "-o", "there.xyz"}, 2, "exists already");
   expect({"run.h5", "--to", "xyz", "--frames", "4"}, 2, "has 4 frame(s)");
   expect({"there.xyz", "--to", "gsd"}, 3, "not an HDF5 file");
   expect({"nowhere.h5", "--to", "gsd"}, 3, "nowhere.h5");
   expect({"run.h5", "--to", "gsd", "-o", "nowhere/run.gsd"}, 3, "nowhere/run.gsd");
+  expect({"run.h5", "--to", "gnuplot"}, 3, "holds no results");
+  expect({"results.h5", "--to", "gnuplot", "-o", "there.xyz"}, 2, "exists already");
+  expect({"results.h5", "--to", "gnuplot", "-o", "nowhere/plots"}, 3, "nowhere/plots");
+  expect({"results.h5", "--to", "gnuplot", "--frames", "1"}, 2, "--frames");
+  expect({"results.h5", "--to", "csv"}, 3, "not an H5MD file");
   std::vector<std::string> left;
   for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
     left.push_back(entry.path().filename().string());
-  EXPECT_THAT(left, testing::UnorderedElementsAre("run.h5", "standard_error", "standard_output",
-                                                  "there.xyz"));
+  EXPECT_THAT(left, testing::UnorderedElementsAre("results.h5", "run.h5", "standard_error",
+                                                  "standard_output", "there.xyz"));
+}
+
+TEST(Export, ReplacesTheFolderThatAKilledOneLeft) {
+  const Folder folder("export_folder");
+  std::filesystem::create_directory(folder / "plots.partial");
+  folder.write("plots.partial/old.dat", "old");
+  write_results(folder / "results.h5", {{{"t", "", {{"time", "time", {1, 2}, {}}}}}, {}});
+  const Outcome outcome = run(
+      folder.path(), {"export", "results.h5", "--to", "gnuplot", "-o", "plots", "--json", "-q"});
+  ASSERT_EQ(outcome.code, 0) << outcome.errors;
+  // A table of one column has no curve.
+  EXPECT_EQ(nlohmann::json::parse(outcome.output)["files"], 1);
+  EXPECT_TRUE(std::filesystem::exists(folder / "plots/t.dat"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "plots/old.dat"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "plots.partial"));
 }
 
 TEST(Export, LeavesNothingIfStopped) {

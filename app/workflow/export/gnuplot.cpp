@@ -86,10 +86,15 @@ class Script {
         "set terminal svg size {1},{2} background \"white\"\n"
         "set output \"{0}.svg\"\n"
         "set multiplot layout {3},{4} title \"{0}\" noenhanced\n"
-        "set key outside right top noenhanced\n"
+        "set key above left horizontal noenhanced\n"
+        "# Error bars short and without a blank around their middle.\n"
+        "set errorbars 0.3\n"
+        "set pointintervalbox 0.01\n"
         "set grid\n"
         "set xlabel \"{5}\"\n",
         table_.name, 660 * columns, 400 * rows + 40, rows, columns, axis_label());
+    if (style_.starts_with("points"))
+      text += "set offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\n";
     if (logarithmic_x_) text += "set logscale x\nset format x \"10^{%L}\"\n";
     for (const Panel& panel : panels_) text += panel_text(panel);
     return text + "unset multiplot\n";
