@@ -38,17 +38,17 @@ Configuration2 monodisperse(int k) {
   return configuration;
 }
 
-/// Each particle of its own shape but the last two, in two species; no number is exact in single
+/// Each particle of its own shape but the last two, in three species; no number is exact in single
 /// precision, and some particles are as close to the edges of the box as can be.
 Configuration2 polydisperse(int k) {
   Configuration2 configuration = binary(k);
   const Vec2 box(7.1 + 0.1 * k, 13.3);
   configuration.box = PeriodicBox<2>(box);
-  configuration.species_names = {"A small", "say \"B\", large"};
+  configuration.species_names = {"A small", "say \"B\", large", "A small#2"};
   for (int i = 0; i < 7; ++i) {
     const double x = i % 2 ? std::nextafter(0.5 * box.x(), 0) : -0.5 * box.x();
     configuration.position[i] = {i < 4 ? x : 0.1 * i, -0.5 * box.y() + 1.9 * i};
-    configuration.species[i] = i / 4;
+    configuration.species[i] = i < 4 ? 0 : i == 4 ? 1 : 2;
     configuration.shape[i] = i < 5 ? Ellipse{1.1 + 0.1 * i, 0.7} : Ellipse{2.3, 0.3};
     configuration.mass[i] = 0.1 * (i + 1);
     configuration.velocity[i] = {0.1 * i, -0.3 * k};

@@ -43,7 +43,7 @@ std::string shape_text(const Type& type) {
                      std::get<2>(type));
 }
 
-/// The name of the species, with a number if it has several types.
+/// The name of the species, with a number if it has several types; no name comes twice.
 std::vector<std::string> names_of(const std::vector<Type>& types,
                                   const std::vector<std::string>& species) {
   std::vector<int> count(species.size()), number(species.size());
@@ -53,9 +53,11 @@ std::vector<std::string> names_of(const std::vector<Type>& types,
   for (const Type& type : types) {
     const auto k = static_cast<std::size_t>(std::get<0>(type));
     std::string name = species[k];
-    if (count[k] > 1) do
+    if (count[k] > 1) {
+      do {
         name = fmt::format("{}#{}", species[k], ++number[k]);
-      while (!taken.insert(name).second);
+      } while (!taken.insert(name).second);
+    }
     names.push_back(name);
   }
   return names;
