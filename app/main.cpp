@@ -33,6 +33,7 @@ class CommandLine {
     add_analyze();
     add_sweep();
     add_report();
+    add_export();
     add_bench();
     add_params();
   }
@@ -159,6 +160,26 @@ class CommandLine {
     add_output(sub, "Page to write; default <state>.html, <run>.html or <sweep>/report.html",
                false);
     add_analysis_parameters(sub);
+    add_quiet_and_json(sub);
+  }
+  void add_export() {
+    CLI::App& sub =
+        add("export", "Write a state, a run or results in the format of another program.",
+            export_command);
+    sub.add_option("file", arguments_.input, "State or run, or results of vitrel analyze")
+        ->required();
+    sub.add_option(
+           "--to", arguments_.format,
+           "gsd (HOOMD-blue, OVITO), xyz (OVITO, ASE) or csv; of results: gnuplot (a folder of "
+           "data and scripts)")
+        ->required();
+    add_output(
+        sub,
+        "File or folder to write, which must not exist; default <file> with the new suffix, or "
+        "<results>_gnuplot",
+        false);
+    sub.add_option("--frames", arguments_.frames,
+                   "Which frames, as Python's slices: 7, -1 (the last), first:end:step (all)");
     add_quiet_and_json(sub);
   }
   void add_bench() {

@@ -34,6 +34,8 @@ struct Arguments {
   bool quiet = false, json = false;
   bool dry_run = false, status = false, last_only = false, reference = false;
   std::string template_command;  ///< params: whose template
+  std::string format;            ///< export: of the output
+  std::string frames = ":";      ///< export: which ones
   // bench; what is not given is the benchmark's default
   std::vector<std::string> methods, classes;  ///< by name; empty: all
   std::optional<std::uint64_t> pairs;         ///< of each class
@@ -50,6 +52,7 @@ int run_command(const Arguments& arguments);
 int check_command(const Arguments& arguments);
 int analyze_command(const Arguments& arguments);
 int sweep_command(const Arguments& arguments);
+int export_command(const Arguments& arguments);
 int report_command(const Arguments& arguments);
 int params_command(const Arguments& arguments);
 int bench_collision_time_command(const Arguments& arguments);

@@ -1,14 +1,15 @@
 #include <cmath>
+#include <string>
 
 #include "core/io/h5md.h"
 
-/// Writes a trajectory whose every number follows from the particle i and the frame k by a formula that
-/// the scripts beside repeat: write_sample <path>.
+/// Writes a trajectory whose every number follows from the particle i and the frame k by a formula:
+/// write_sample <path> <kind>. The scripts beside repeat that of the binary one.
 namespace {
 
 using namespace vitrel;
 
-Configuration2 sample(int k) {
+Configuration2 binary(int k) {
   Configuration2 configuration;
   configuration.box = PeriodicBox<2>(Vec2(20 + k, 10));
   configuration.time = 0.25 * k;
@@ -27,13 +28,48 @@ Configuration2 sample(int k) {
   return configuration;
 }
 
+/// Equal ellipses.
+Configuration2 monodisperse(int k) {
+  Configuration2 configuration = binary(k);
+  configuration.species_names = {"A"};
+  configuration.species.assign(7, 0);
+  configuration.shape.assign(7, Ellipse{2, 0.5});
+  configuration.mass.assign(7, 1);
+  return configuration;
+}
+
+/// Each particle of its own shape but the last two, in three species; no number is exact in single
+/// precision, and some particles are as close to the edges of the box as can be.
+Configuration2 polydisperse(int k) {
+  Configuration2 configuration = binary(k);
+  const Vec2 box(7.1 + 0.1 * k, 13.3);
+  configuration.box = PeriodicBox<2>(box);
+  configuration.species_names = {"A small", "say \"B\", large", "A small#2"};
+  for (int i = 0; i < 7; ++i) {
+    const double x = i % 2 ? std::nextafter(0.5 * box.x(), 0) : -0.5 * box.x();
+    configuration.position[i] = {i < 4 ? x : 0.1 * i, -0.5 * box.y() + 1.9 * i};
+    configuration.species[i] = i < 4 ? 0 : i == 4 ? 1 : 2;
+    configuration.shape[i] = i < 5 ? Ellipse{1.1 + 0.1 * i, 0.7} : Ellipse{2.3, 0.3};
+    configuration.mass[i] = 0.1 * (i + 1);
+    configuration.velocity[i] = {0.1 * i, -0.3 * k};
+    configuration.angular_velocity[i] = 0.7 - 0.1 * i;
+  }
+  configuration.position[6].y() = std::nextafter(0.5 * box.y(), 0);
+  return configuration;
+}
+
+Configuration2 sample(const std::string& kind, int k) {
+  return kind == "binary" ? binary(k) : kind == "monodisperse" ? monodisperse(k) : polydisperse(k);
+}
+
 }  // namespace
 
 int main(int, char** arguments) {
+  const std::string kind = arguments[2];
   const Provenance provenance = current_provenance("write_sample", "[system]\nseed = 3\n", 3);
   auto writer = TrajectoryWriter::create(
-      arguments[1], sample(0), provenance,
-      {.velocities = true, .observables = {"collisions"}, .overwrite = true});
-  for (int k = 0; k < 4; ++k) writer.write(sample(k), 10 * k, {{"collisions", 100.0 * k}});
+      arguments[1], sample(kind, 0), provenance,
+      {.velocities = kind != "monodisperse", .observables = {"collisions"}, .overwrite = true});
+  for (int k = 0; k < 4; ++k) writer.write(sample(kind, k), 10 * k, {{"collisions", 100.0 * k}});
   writer.close();
 }

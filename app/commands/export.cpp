@@ -1,0 +1,59 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/commands/common.h"
+#include "app/workflow/export/gnuplot.h"
+#include "app/workflow/export/trajectory_export.h"
+#include "core/error.h"
+
+namespace vitrel {
+namespace {
+
+namespace fs = std::filesystem;
+
+void require_new(const fs::path& output) {
+  if (fs::exists(output))
+    throw UserError(output.string() + ": exists already; choose another output, or delete it");
+}
+
+int export_results(const Arguments& arguments) {
+  const fs::path output =
+      arguments.output.empty()
+          ? arguments.input.parent_path() / (arguments.input.stem().string() + "_gnuplot")
+          : arguments.output;
+  require_new(output);
+  if (arguments.frames != ":")
+    throw UserError("--frames: is for trajectories, but --to gnuplot writes tables of results");
+  const std::vector<TextFile> files = gnuplot_files(read_results(arguments.input));
+  write_folder(output, files);
+  print_summary(arguments,
+                {{"output", output.string()}, {"format", "gnuplot"}, {"files", files.size()}});
+  return success;
+}
+
+int export_frames(const Arguments& arguments) {
+  const fs::path output = arguments.output.empty()
+                              ? fs::path(arguments.input).replace_extension(arguments.format)
+                              : arguments.output;
+  require_new(output);
+  Session session(arguments);
+  session.say()("export of " + arguments.input.string());
+  const std::optional<ExportedTrajectory> done = export_trajectory(
+      {arguments.input, arguments.format, output, arguments.frames}, session.budget());
+  if (!done) return stopped;
+  print_summary(arguments, {{"output", output.string()},
+                            {"format", arguments.format},
+                            {"frames", done->frames},
+                            {"particles", done->particles},
+                            {"bytes", done->bytes}});
+  return success;
+}
+
+}  // namespace
+
+int export_command(const Arguments& arguments) {
+  return arguments.format == "gnuplot" ? export_results(arguments) : export_frames(arguments);
+}
+
+}  // namespace vitrel

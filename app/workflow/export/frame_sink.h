@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+
+#include "core/state/configuration.h"
+
+namespace vitrel {
+
+/// A frame of a trajectory, and its place there.
+struct StoredFrame {
+  std::uint64_t index;  ///< counted from 0
+  std::int64_t step;
+  const Configuration2& configuration;
+};
+
+/// What the file to be exported has beside positions and angles.
+struct StoredMotion {
+  bool velocities = false;
+  bool angular_velocities = false;
+};
+
+/// A file of another format that frames are written to, one after the other. Without `close` it is
+/// not complete. Throws FileError.
+class FrameSink {
+ public:
+  virtual ~FrameSink() = default;
+  virtual void write(const StoredFrame& frame) = 0;
+  virtual void close() = 0;
+};
+
+/// A file to be written from start to end, whose every failure is a FileError.
+class OutputFile {
+ public:
+  explicit OutputFile(const std::filesystem::path& path);
+  void write(std::string_view bytes);
+  /// Overwrites the first bytes.
+  void write_at_start(std::string_view bytes);
+  void close();
+  std::uint64_t size() const { return size_; }
+
+ private:
+  void check();
+
+  std::filesystem::path path_;
+  std::ofstream stream_;
+  std::uint64_t size_ = 0;
+};
+
+}  // namespace vitrel
