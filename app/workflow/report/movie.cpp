@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -10,6 +11,7 @@
 #include <utility>
 
 #include "app/workflow/report/page_parts.h"
+#include "core/parallel.h"
 #include "core/state/check.h"
 
 namespace vitrel {
@@ -19,6 +21,8 @@ using nlohmann::json;
 namespace {
 
 constexpr double steps_per_turn = 65'536;
+constexpr std::size_t frames_at_a_time = 32;
+constexpr int all_cores = std::numeric_limits<int>::max();
 constexpr std::size_t characters_per_pose = 8;
 constexpr std::size_t characters_per_jump = 16;
 
@@ -47,15 +51,30 @@ class Camera {
   Camera(Trajectory& trajectory, const MovieLimits& limits)
       : trajectory_(trajectory), limits_(limits) {}
 
-  /// Chooses the particles in the first frame, then takes all frames.
-  Movie take(std::size_t wanted) {
+  /// Chooses the particles in the first frame, then takes the poses of all.
+  const Movie& take(std::size_t wanted) {
     movie_ = {};
-    steps_.clear();
     movie_.run_frames = trajectory_.frames();
-    for (const std::size_t k : shown_frames(trajectory_.frames(), wanted)) {
+    frames_ = shown_frames(trajectory_.frames(), wanted);
+    for (const std::size_t k : frames_) {
       const Configuration2& state = trajectory_.read(k);
       if (movie_.time.empty()) choose_particles(state);
       take_frame(state);
+    }
+    return movie_;
+  }
+
+  /// Checks what was taken, a few frames at a time on all cores.
+  Movie checked() {
+    for (std::size_t first = 0; first < frames_.size(); first += frames_at_a_time) {
+      std::vector<Configuration2> states;
+      for (std::size_t k = first; k < std::min(first + frames_at_a_time, frames_.size()); ++k)
+        states.push_back(trajectory_.read(frames_[k]));
+      std::vector<std::vector<PairImage>> overlaps(states.size());
+      in_parallel(states.size(), all_cores, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) overlaps[k] = exact_check(states[k]).overlaps;
+      });
+      for (const std::vector<PairImage>& pairs : overlaps) mark(pairs);
     }
     return std::move(movie_);
   }
@@ -72,20 +91,19 @@ class Camera {
       movie_.shape.push_back(state.shape[i]);
       movie_.species.push_back(state.species[i]);
     }
-    steps_.resize(shown_.size());
+    steps_.assign(shown_.size(), {});
   }
 
   void take_frame(const Configuration2& state) {
     movie_.time.push_back(state.time);
     movie_.box.push_back(state.box.lengths());
-    mark_overlaps(exact_check(state));
     for (std::size_t n = 0; n < shown_.size(); ++n) take_pose(state, n);
   }
 
-  void mark_overlaps(const ExactCheck& check) {
+  void mark(const std::vector<PairImage>& pairs) {
     std::set<std::size_t> overlapping;
-    for (const PairImage& pair : check.overlaps) overlapping.insert({pair.i, pair.j});
-    movie_.overlapping_pairs.push_back(check.overlaps.size());
+    for (const PairImage& pair : pairs) overlapping.insert({pair.i, pair.j});
+    movie_.overlapping_pairs.push_back(pairs.size());
     movie_.overlapping.emplace_back();
     for (std::size_t n = 0; n < shown_.size(); ++n)
       if (overlapping.contains(shown_[n])) movie_.overlapping.back().push_back(n);
@@ -113,7 +131,7 @@ class Camera {
   Trajectory& trajectory_;
   MovieLimits limits_;
   Movie movie_;
-  std::vector<std::size_t> shown_;
+  std::vector<std::size_t> frames_, shown_;
   std::vector<std::array<std::int64_t, 2>> steps_;  // of the frame before, unwrapped
 };
 
@@ -159,14 +177,11 @@ void add_shapes(json& data, const Movie& movie) {
 
 Movie film(Trajectory& trajectory, const MovieLimits& limits) {
   Camera camera(trajectory, limits);
-  Movie movie = camera.take(1);
-  std::size_t wanted =
-      std::min(limits.frames, limits.poses / std::max<std::size_t>(1, movie.particles()));
-  if (wanted <= 1) return movie;
-  for (;; wanted /= 2) {
-    movie = camera.take(wanted);
-    if (wanted <= 1 || fits(movie, limits)) return movie;
-  }
+  const std::size_t particles = std::max<std::size_t>(1, camera.take(1).particles());
+  std::size_t wanted = std::min(limits.frames, limits.poses / particles);
+  while (wanted > 1 && !fits(camera.take(wanted), limits)) wanted /= 2;
+  if (wanted == 1) camera.take(1);
+  return camera.checked();
 }
 
 json movie_data(const Movie& movie) {

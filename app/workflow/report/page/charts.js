@@ -162,7 +162,7 @@ function drawUpright(plot, { value, error, colour, label }, row) {
     ctx.stroke();
     ctx.font = `${12 * devicePixelRatio}px system-ui, sans-serif`;
     ctx.textAlign = 'right';
-    ctx.fillText(label, x - 5 * devicePixelRatio, top + (16 + 17 * row) * devicePixelRatio);
+    ctx.fillText(label, x - 5 * devicePixelRatio, top + height - (10 + 17 * row) * devicePixelRatio);
   });
 }
 

@@ -3,7 +3,7 @@ const margin = 0.03;  // of the box, shown beyond its edges
 const overlapRed = '#f2003c';
 const roundGrey = '#9aa3ad';
 
-/** A quarter of a million numbers of 16 bits in base64, low byte first. */
+/** Numbers of 16 bits from base64, low byte first. */
 function numbersFrom(base64) {
   const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
   return Uint16Array.from({ length: bytes.length / 2 }, (_, k) => bytes[2 * k] + 256 * bytes[2 * k + 1]);
@@ -67,7 +67,7 @@ const colourings = {
       const [a, b] = film.shapes[film.shape[i]];
       return a === b ? roundGrey : orientationPalette[Math.floor(angle * 180 / Math.PI) % 180];
     },
-    text: () => 'angle of the major axis; round particles are grey',
+    text: (film) => 'angle of the major axis' + (film.shapes.some(([a, b]) => a === b) ? '; round particles are grey' : ''),
   },
   displacement: {
     name: 'displacement', offered: (film) => film.frames > 1,

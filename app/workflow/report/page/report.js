@@ -55,8 +55,7 @@ const series = [
 /** [{name, label}] of the columns of this table that the family shows, in the order of the family. */
 function shownColumns(table, family, run) {
   return family.columns.flatMap(([pattern, label]) => Object.keys(table.columns)
-    .filter((name) => pattern.test(name) && !(name === 's_orientation' && pattern.source.includes('(.+)_')))
-    .map((name) => ({ name, label: label(name.match(pattern), run) })));
+    .filter((name) => pattern.test(name)).map((name) => ({ name, label: label(name.match(pattern), run) })));
 }
 
 /** The groups of particles that some run has a table of the family for: "" if the table has no group. */
