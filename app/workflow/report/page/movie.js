@@ -93,12 +93,12 @@ function drawOrientationKey(ctx) {
 }
 
 function drawDisplacementKey(ctx, film) {
-  displacementPalette.forEach((colour, k) => {
-    ctx.fillStyle = colour;
-    ctx.fillRect(8 + k * 240 / 256, 5, 1.2, 18);
-  });
+  for (let x = 0; x < 240; ++x) {
+    ctx.fillStyle = sequential(x / 239);
+    ctx.fillRect(8 + x, 5, 1, 18);
+  }
   for (const part of [0, 0.5, 1])
-    keyLabel(ctx, 14 + 230 * part, (part === 1 ? '≥ ' : '') + shortNumber(part * film.largestDisplacement, 2));
+    keyLabel(ctx, 14 + 228 * part, (part === 1 ? '≥ ' : '') + shortNumber(part * film.largestDisplacement, 2));
 }
 
 function drawSpeciesKey(ctx, film) {
