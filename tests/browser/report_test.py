@@ -374,19 +374,25 @@ class Page(unittest.TestCase):
 
     def test_logarithmic_axes_are_labelled_with_powers_of_ten(self):
         self.open("sweep.html")
-        motion, glass = self.browser.evaluate("""(async () => {
+        motion, glass, diffusion = self.browser.evaluate("""(async () => {
           const texts = new Map(), fill = CanvasRenderingContext2D.prototype.fillText;
-          CanvasRenderingContext2D.prototype.fillText = function (text, ...rest) {
-            texts.set(this.canvas, [...texts.get(this.canvas) ?? [], text]);
-            fill.call(this, text, ...rest); };
+          CanvasRenderingContext2D.prototype.fillText = function (text, x, y) {
+            texts.set(this.canvas, [...texts.get(this.canvas) ?? [], [text, y]]);
+            fill.call(this, text, x, y); };
           document.getElementById('theme').click();
           await new Promise(requestAnimationFrame);
           CanvasRenderingContext2D.prototype.fillText = fill;
-          return ['motion', 'glass'].map((id) => texts.get(document.querySelector(`#${id} canvas`)).filter(Boolean)); })()""")
+          return ['#motion', '#glass', '#over-density .chart:nth-child(2)'].map((chart) =>
+            texts.get(document.querySelector(chart + ' canvas')).filter(([text]) => text)); })()""")
         # Times from 0.5 to 237 and mean squared displacements from 0.08 to 214 …
-        self.assertEqual(sorted(motion), sorted(["1", "10", "100", "0.1", "1", "10", "100", "∝ t"]))
+        self.assertEqual(sorted(text for text, _ in motion), sorted(["1", "10", "100", "0.1", "1", "10", "100", "∝ t"]))
         # … and relaxation times up to 2·10⁴.
-        self.assertLessEqual({"10¹", "10²", "10³", "10⁴", "φc rotation"}, set(glass))
+        self.assertLessEqual({"10¹", "10²", "10³", "10⁴", "φc rotation"}, {text for text, _ in glass})
+        # Diffusion coefficients from 0.002 to 0.006, on an axis from 0.8 to 1.25 times that.
+        self.assertEqual([text for text, _ in diffusion[-2:]], ["0.002", "0.005"])
+        height = self.browser.evaluate("document.querySelector('#over-density .chart:nth-child(2) .u-over').clientHeight")
+        decades = math.log10(1.25 * 0.006 / (0.8 * 0.002))
+        self.assertAlmostEqual((diffusion[-2][1] - diffusion[-1][1]) / height, math.log10(2.5) / decades, delta=2 / height)
 
 
 if __name__ == "__main__":

@@ -4,7 +4,16 @@ const font = '12px system-ui, sans-serif';
 
 const powerOfTen = (value) => Math.abs(Math.log10(value) - Math.round(Math.log10(value))) < 1e-9;
 
-// uPlot's own labels print "0" for values under 1e-3.
+// uPlot's own ticks begin at the end of the axis, wherever that is, and its labels print "0" for values under 1e-3.
+
+/** 1, 2 … 9 times the powers of ten; only these over many decades. */
+function logarithmicSplits(low, high) {
+  const first = Math.floor(Math.log10(low)), last = Math.ceil(Math.log10(high));
+  const mantissas = last - first > 9 ? [1] : [1, 2, 3, 4, 5, 6, 7, 8, 9];
+  return Array.from({ length: last - first + 1 }, (_, k) => mantissas.map((mantissa) => mantissa * 10 ** (first + k))).flat()
+    .filter((value) => value >= low && value <= high);
+}
+
 function logarithmicLabels(splits) {
   const shown = splits.filter((value) => value > 0);
   const few = shown.filter(powerOfTen).length < 3;
@@ -34,8 +43,8 @@ function axisOptions(logarithmic, size) {
     stroke: cssColour('--quiet'), font, size, grid, ticks: { stroke: cssColour('--line'), width: 1, size: 5 },
     values: (plot, splits) => logarithmic ? logarithmicLabels(splits) : linearLabels(splits),
   };
-  if (logarithmic) options.filter = (plot, splits) => splits;
-  return options;
+  if (!logarithmic) return options;
+  return { ...options, splits: (plot, axis, low, high) => logarithmicSplits(low, high), filter: (plot, splits) => splits };
 }
 
 // Data

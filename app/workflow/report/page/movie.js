@@ -151,7 +151,7 @@ class Player {
     byId('movie').classList.toggle('empty', !this.film);
     if (!this.film) return byId('movie-note').textContent = texts.note;
     this.k = 0;
-    byId('player').hidden = this.film.frames < 2;
+    byId('player').hidden = byId('play-keys').hidden = this.film.frames < 2;
     byId('scrub').max = this.film.frames - 1;
     this.offerColours();
     this.reset();
