@@ -30,9 +30,8 @@ int report_command(const Arguments& arguments) {
   } else {
     analyses.push_back(analyze_run(arguments.input, choice));
   }
-  const std::size_t runs = analyses.size();
-  write_text(output, report_page(report_data(std::move(analyses), "vitrel")));
-  print_summary(arguments, {{"output", output.string()}, {"runs", runs}});
+  write_text(output, report_page(report_data(analyses, "vitrel")));
+  print_summary(arguments, {{"output", output.string()}, {"runs", analyses.size()}});
   return success;
 }
 

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "app/workflow/stored_run.h"
 #include "core/error.h"
@@ -89,6 +91,8 @@ std::vector<Column> summary_columns(const RunAnalysis& run) {
   const Estimate& z = run.compressibility.mean;
   return {{"packing_fraction", "1", {run.packing_fraction}, {}},
           {"particles", "1", {static_cast<double>(run.particles)}, {}},
+          {"rotors", "1", {static_cast<double>(run.rotors)}, {}},
+          {"collisions", "1", {static_cast<double>(run.collisions)}, {}},
           {"duration", "time", {run.duration}, {}},
           single("compressibility", "1", z.mean, z.error),
           single("translational_energy", "kT", translational.mean, translational.error),
@@ -106,22 +110,36 @@ std::string dynamics_text(const std::optional<Parameters>& parameters) {
              : "Newtonian";
 }
 
-ReportRun report_run(RunAnalysis run) {
-  ReportRun result;
-  result.name = run.file.filename() == "run.h5" && run.file.has_parent_path()
-                    ? run.file.parent_path().filename().string()
-                    : run.file.stem().string();
-  result.dynamics = dynamics_text(run.parameters);
-  result.packing_fraction = run.packing_fraction;
-  result.particles = run.particles;
-  result.rotors = run.rotors;
-  result.duration = run.duration;
-  result.collisions = run.collisions;
-  result.compressibility = run.compressibility.mean;
-  result.displacements = std::move(run.displacements);
-  result.energy = std::move(run.energy);
-  result.final_state = std::move(run.final_state);
-  return result;
+std::string run_name(const RunAnalysis& run) {
+  const bool in_job_folder = run.file.filename() == "run.h5" && run.file.has_parent_path();
+  return in_job_folder ? run.file.parent_path().filename().string() : run.file.stem().string();
+}
+
+constexpr std::size_t most_movies = 6;
+
+/// How many poses the movie of every run may have.
+std::vector<std::size_t> movie_poses(const std::vector<RunAnalysis>& runs) {
+  if (runs.size() == 1) return {MovieLimits{}.poses};
+  std::vector<std::size_t> order(runs.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t left, std::size_t right) {
+    return runs[left].packing_fraction < runs[right].packing_fraction;
+  });
+  const std::size_t movies = std::min(runs.size(), most_movies);
+  std::vector<std::size_t> poses(runs.size(), 0);
+  for (std::size_t k = 0; k < movies; ++k)
+    poses[order[k * (runs.size() - 1) / (movies - 1)]] = MovieLimits{}.poses / (2 * movies);
+  return poses;
+}
+
+ReportRun report_run(const RunAnalysis& run, std::size_t movie_poses) {
+  StoredTrajectory trajectory(run.file);
+  MovieLimits limits;
+  limits.poses = movie_poses;
+  limits.images_known = trajectory.reader().has("image");
+  return {run_name(run),        dynamics_text(run.parameters),
+          run.packing_fraction, run.collisions_per_second,
+          results_of(run),      film(trajectory, limits)};
 }
 
 }  // namespace
@@ -144,6 +162,8 @@ RunAnalysis analyze_run(const std::filesystem::path& file, const AnalysisChoice&
   if (std::find(names.begin(), names.end(), "collisions") != names.end()) {
     const std::vector<double> collisions = reader.observable("collisions");
     run.collisions = static_cast<std::uint64_t>(collisions.back() - collisions.front());
+    if (run.provenance.wall_seconds > 0)
+      run.collisions_per_second = collisions.back() / run.provenance.wall_seconds;
   }
   return run;
 }
@@ -227,7 +247,7 @@ std::string particles_text(const Configuration2& state) {
   return ratio == 1 ? "disks" : fmt::format("ellipses, κ = {:.4g}", ratio);
 }
 
-ReportData report_data(std::vector<RunAnalysis> runs, const std::string& title) {
+ReportData report_data(const std::vector<RunAnalysis>& runs, const std::string& title) {
   ReportData data;
   data.title = title;
   const RunAnalysis& first = runs.front();
@@ -235,7 +255,9 @@ ReportData report_data(std::vector<RunAnalysis> runs, const std::string& title) 
                               first.parameters ? ", " : "", dynamics_text(first.parameters));
   data.parameters = first.provenance.parameters;
   data.provenance = provenance_rows(first.provenance);
-  for (RunAnalysis& run : runs) data.runs.push_back(report_run(std::move(run)));
+  const std::vector<std::size_t> poses = movie_poses(runs);
+  for (std::size_t k = 0; k < runs.size(); ++k) data.runs.push_back(report_run(runs[k], poses[k]));
+  if (runs.size() > 1) data.study = results_of_sweep(runs);
   return data;
 }
 

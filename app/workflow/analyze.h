@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -24,6 +25,8 @@ struct RunAnalysis {
   std::size_t particles = 0, rotors = 0, frames = 0;
   double duration = 0;
   std::uint64_t collisions = 0;
+  double collisions_per_second = std::numeric_limits<
+      double>::quiet_NaN();  ///< of wall time, over the whole run; NaN if not recorded
   Displacements displacements;
   EnergySeries energy;
   CompressibilitySeries compressibility;
@@ -55,7 +58,9 @@ PageProvenance provenance_rows(const Provenance& provenance);
 /// "ellipses, κ = 2" for equal particles, else "particles of species A, B".
 std::string particles_text(const Configuration2& state);
 
-/// The report's view of these runs.
-ReportData report_data(std::vector<RunAnalysis> runs, const std::string& title);
+/// The report's view of these runs. Reads the files again, for the movies: one run has 200 000 poses
+/// in its movie; of several, six spread over the densities share half as many, and the others show
+/// their final state.
+ReportData report_data(const std::vector<RunAnalysis>& runs, const std::string& title);
 
 }  // namespace vitrel

@@ -63,10 +63,10 @@ TEST(StatePage, HasARowForEveryPropertyAndKeepsTextAsText) {
 
 TEST(StatePage, CarriesThePictureAndTheCurves) {
   const nlohmann::json data = embedded_data(state_page(example(2)));
-  EXPECT_EQ(data["particles"], 2);
-  EXPECT_EQ(data["rotors"], 1);
-  ASSERT_EQ(data["state"]["particles"].size(), 10u);
-  EXPECT_NEAR(data["state"]["particles"][2], 7 - 2 * M_PI, 1e-3);
+  EXPECT_EQ(data["movie"]["particles"], 2);
+  EXPECT_EQ(data["movie"]["shapes"], nlohmann::json({{2, 0.5}, {1, 1}}));
+  // The second particle, a disk of radius 1, lies on the first.
+  EXPECT_EQ(data["movie"]["overlapping"], nlohmann::json({{0, 1}}));
   // Bins with pairs only; independent angles scatter by 1/√(2 pairs).
   EXPECT_EQ(data["correlation"]["time"], nlohmann::json({1.5, 2.5}));
   EXPECT_EQ(data["correlation"]["value"], nlohmann::json({0.25, 0.125}));

@@ -10,42 +10,9 @@ namespace vitrel {
 
 using nlohmann::json;
 
-namespace {
-
-constexpr std::size_t most_pictured_particles = 4000;
-
-/// The part of the box, as a fraction of its sides about the centre, that is pictured.
-double pictured_fraction(std::size_t particles) {
-  const double share =
-      static_cast<double>(most_pictured_particles) / static_cast<double>(particles);
-  return std::sqrt(std::min(1.0, share));
-}
-
-}  // namespace
-
 json page_number(double value) {
   if (!std::isfinite(value)) return nullptr;
   return std::stod(fmt::format("{:.6g}", value));
-}
-
-json picture(const Configuration2& state) {
-  if (state.size() == 0) return nullptr;
-  const double fraction = pictured_fraction(state.size());
-  const Vec2 window = fraction * state.box.lengths();
-  const double margin = fraction < 1 ? largest_circumradius(state) : 0;
-  const auto rounded = [](double value) { return std::round(value * 1000) / 1000; };
-  json particles = json::array();
-  for (std::size_t i = 0; i < state.size(); ++i) {
-    const Vec2& r = state.position[i];
-    if ((r.cwiseAbs() - 0.5 * window).maxCoeff() > margin) continue;
-    const double turn = state.angle[i] - M_PI * std::floor(state.angle[i] / M_PI);
-    for (const double value : {r.x(), r.y(), turn, state.shape[i].a, state.shape[i].b})
-      particles.push_back(rounded(value));
-  }
-  return {{"time", page_number(state.time)},
-          {"window", {page_number(window.x()), page_number(window.y())}},
-          {"periodic", fraction == 1},
-          {"particles", std::move(particles)}};
 }
 
 std::string grouped(std::uint64_t number) {
@@ -96,7 +63,7 @@ std::string filled(std::string_view page,
 
 std::string whole_page(PageParts parts) {
   const auto text = [](std::string_view path) { return std::string(asset(path)); };
-  parts.texts.emplace_back("picture", text("page/picture.html"));
+  parts.texts.emplace_back("movie", text("page/movie.html"));
   return filled(asset("page/page.html"), {{"title", escaped(parts.title)},
                                           {"subtitle", escaped(parts.subtitle)},
                                           {"uplot_style", text("vendor/uplot/uPlot.min.css")},
@@ -107,7 +74,9 @@ std::string whole_page(PageParts parts) {
                                           {"data", script_safe(parts.data)},
                                           {"uplot_licence", text("vendor/uplot/LICENSE")},
                                           {"uplot", text("vendor/uplot/uPlot.iife.min.js")},
+                                          {"common", text("page/common.js")},
                                           {"charts", text("page/charts.js")},
+                                          {"movie_script", text("page/movie.js")},
                                           {"script", text(parts.script)}});
 }
 

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "app/workflow/report/html.h"
-#include "core/state/configuration.h"
 
 /// What the pages are put together from.
 namespace vitrel {
@@ -24,11 +23,6 @@ nlohmann::json page_numbers(const Values& values, const Rows& rows) {
   for (const std::size_t row : rows) array.push_back(page_number(static_cast<double>(values[row])));
   return array;
 }
-
-/// The particles of a window about the centre of the box, of 4000 particles at most: x, y, angle
-/// modulo π, a, b one after the other, rounded to a thousandth of the unit of length. Null without
-/// particles.
-nlohmann::json picture(const Configuration2& state);
 
 /// 1234567 with thin spaces between groups of three digits.
 std::string grouped(std::uint64_t number);

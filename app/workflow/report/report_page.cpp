@@ -7,54 +7,13 @@
 #include <nlohmann/json.hpp>
 
 #include "app/workflow/report/page_parts.h"
+#include "app/workflow/report/page_tables.h"
 
 namespace vitrel {
 
 namespace {
 
 using nlohmann::json;
-
-constexpr double points_per_decade = 30;
-constexpr std::size_t most_energy_samples = 400;
-
-std::vector<std::size_t> every(std::size_t stride, std::size_t size) {
-  std::vector<std::size_t> rows;
-  for (std::size_t k = 0; k < size; k += stride) rows.push_back(k);
-  return rows;
-}
-
-/// Rows far enough apart on a logarithmic axis.
-std::vector<std::size_t> logarithmic_rows(const std::vector<double>& time) {
-  const double growth = std::pow(10, 1 / points_per_decade) * (1 - 1e-9);
-  std::vector<std::size_t> rows;
-  for (std::size_t k = 0; k < time.size(); ++k)
-    if (rows.empty() || time[k] >= growth * time[rows.back()]) rows.push_back(k);
-  return rows;
-}
-
-json curve(const std::vector<double>& time, const MeanSquare& square) {
-  if (square.value.empty()) return nullptr;
-  const std::vector<std::size_t> rows = logarithmic_rows(time);
-  return {{"time", page_numbers(time, rows)},
-          {"value", page_numbers(square.value, rows)},
-          {"error", page_numbers(square.error, rows)}};
-}
-
-json energy(const EnergySeries& series) {
-  const std::size_t size = series.time.size();
-  const std::size_t stride =
-      std::max<std::size_t>(1, (size + most_energy_samples - 1) / most_energy_samples);
-  const std::vector<std::size_t> rows = every(stride, size);
-  return {{"stride", stride},
-          {"time", page_numbers(series.time, rows)},
-          {"translational", page_numbers(series.translational, rows)},
-          {"rotational", page_numbers(series.rotational, rows)},
-          {"total", page_numbers(series.total, rows)}};
-}
-
-const DisplacementGroup* all_particles(const ReportRun& run) {
-  return run.displacements.groups.empty() ? nullptr : &run.displacements.groups.front();
-}
 
 /// The runs by packing fraction.
 std::vector<const ReportRun*> ordered(const std::vector<ReportRun>& runs) {
@@ -67,59 +26,102 @@ std::vector<const ReportRun*> ordered(const std::vector<ReportRun>& runs) {
 }
 
 /// With two decimals if that is exact, else four: 0.50, 0.7125.
-std::string density(const ReportRun& run) {
-  const double phi = run.packing_fraction;
+std::string density(double phi) {
   const bool two_suffice = std::abs(phi * 100 - std::round(phi * 100)) < 1e-6;
   return fmt::format("{:.{}f}", phi, two_suffice ? 2 : 4);
 }
 
+/// What comes after the beginning that all these names share, cut behind an underscore.
+std::string distinction(const std::string& name, const std::vector<std::string>& names) {
+  std::size_t shared = name.size();
+  for (const std::string& other : names) {
+    const auto apart = std::mismatch(name.begin(), name.end(), other.begin(), other.end());
+    if (other != name)
+      shared = std::min(shared, static_cast<std::size_t>(apart.first - name.begin()));
+  }
+  const std::size_t underscore = name.substr(0, shared).rfind('_');
+  return underscore == std::string::npos ? name : name.substr(underscore + 1);
+}
+
 /// "φ = 0.5", with the name of the run where another one has the same density.
 std::string label(const ReportRun& run, const std::vector<ReportRun>& runs) {
-  const auto equals = std::count_if(runs.begin(), runs.end(), [&](const ReportRun& other) {
-    return density(other) == density(run);
-  });
-  return "φ = " + density(run) + (equals > 1 ? " (" + run.name + ")" : "");
+  std::vector<std::string> equals;
+  for (const ReportRun& other : runs)
+    if (density(other.packing_fraction) == density(run.packing_fraction))
+      equals.push_back(other.name);
+  return "φ = " + density(run.packing_fraction) +
+         (equals.size() > 1 ? " (" + distinction(run.name, equals) + ")" : "");
 }
 
 json run_data(const ReportRun& run, const std::vector<ReportRun>& runs) {
-  const DisplacementGroup* all = all_particles(run);
-  const std::vector<double>& lag = run.displacements.lag;
   return {{"label", label(run, runs)},
+          {"name", run.name},
           {"dynamics", run.dynamics},
-          {"particles", run.particles},
-          {"rotors", run.rotors},
-          {"msd", all ? curve(lag, all->translation) : json(nullptr)},
-          {"msr", all ? curve(lag, all->rotation) : json(nullptr)},
-          {"energy", energy(run.energy)},
-          {"state", picture(run.final_state)}};
+          {"packingFraction", page_number(run.packing_fraction)},
+          {"collisionsPerSecond", page_number(run.collisions_per_second)},
+          {"tables", tables_data(run.results)},
+          {"movie", movie_data(run.movie)}};
 }
 
 std::string cell(const std::string& text) {
   return "<td>" + text + "</td>";
 }
 
-std::string diffusion_cell(const ReportRun& run, bool rotation) {
-  const DisplacementGroup* all = all_particles(run);
-  if (!all) return cell("–");
-  const Diffusion d = rotation ? long_time_diffusion(run.displacements.lag, all->rotation, 1)
-                               : long_time_diffusion(run.displacements.lag, all->translation, 2);
-  return cell(with_error(d.value, d.error));
-}
-
-std::string mean_cell(const ReportRun& run, const std::vector<double>& series) {
-  if (series.empty()) return cell("–");
-  const Estimate mean = time_average(run.energy.time, series);
-  return cell(with_error(mean.mean, mean.error));
+std::string count_cell(double count) {
+  return cell(std::isfinite(count) ? grouped(static_cast<std::uint64_t>(count)) : "–");
 }
 
 std::string table_row(const ReportRun& run) {
-  return "<tr><th scope=\"row\">" + density(run) + "</th>" +
-         cell(with_error(run.compressibility.mean, run.compressibility.error)) +
-         diffusion_cell(run, false) + diffusion_cell(run, true) +
-         mean_cell(run, run.energy.translational) +
-         (run.rotors > 0 ? mean_cell(run, run.energy.rotational) : cell("–")) +
-         cell(grouped(run.collisions)) + cell(fmt::format("{:.6g}", run.duration)) +
-         cell(grouped(run.particles)) + cell(escaped(run.name)) + "</tr>\n";
+  const auto text = [&](const char* column) {
+    return cell(table_text(run.results, "summary", column));
+  };
+  const auto value = [&](const char* column) {
+    return table_value(run.results, "summary", column);
+  };
+  const double duration = value("duration");
+  return "<tr><th scope=\"row\">" + density(run.packing_fraction) + "</th>" +
+         text("compressibility") + text("diffusion") + text("rotational_diffusion") +
+         text("translational_energy") +
+         (value("rotors") == 0 ? cell("–") : text("rotational_energy")) +
+         count_cell(value("collisions")) + count_cell(run.collisions_per_second) +
+         cell(std::isfinite(duration) ? fmt::format("{:.6g}", duration) : "–") +
+         count_cell(value("particles")) + cell(escaped(run.name)) + "</tr>\n";
+}
+
+std::string verdict(double value) {
+  return value == 0 ? "equilibrated" : value == 1 ? "ageing" : "not enough time";
+}
+
+std::string relaxation_rows(const Results& study) {
+  const Table* table = study.find("relaxation");
+  std::string rows;
+  for (std::size_t k = 0; table && k < table->rows(); ++k) {
+    const auto text = [&](const char* column) {
+      return cell(table_text(study, table->name, column, k));
+    };
+    rows += "<tr><th scope=\"row\">" +
+            density(table_value(study, table->name, "packing_fraction", k)) + "</th>" +
+            text("seed") + text("tau_rotation") + text("tau_translation") + text("nematic_order") +
+            cell(verdict(table_value(study, table->name, "verdict", k))) + "</tr>\n";
+  }
+  return rows;
+}
+
+std::string fit_rows(const Results& study) {
+  const Table* table = study.find("glass_fit");
+  std::string rows;
+  for (std::size_t k = 0; table && k < table->rows(); ++k) {
+    const auto text = [&](const char* column) { return table_text(study, table->name, column, k); };
+    const auto value = [&](const char* column) {
+      return table_value(study, table->name, column, k);
+    };
+    rows += fmt::format("<tr><th scope=\"row\">{}</th>",
+                        value("kind") == 0 ? "rotation" : "translation") +
+            cell(value("law") == 0 ? "power law" : "Vogel–Fulcher") + cell(text("phi_c")) +
+            cell(text("exponent")) + cell(text("window_low") + " … " + text("window_high")) +
+            "</tr>\n";
+  }
+  return rows;
 }
 
 }  // namespace
@@ -135,8 +137,10 @@ std::string report_page(const ReportData& data) {
                      data.subtitle,
                      "page/runs_sections.html",
                      "page/report.js",
-                     {{"table_rows", rows}},
-                     {{"runs", std::move(runs)}},
+                     {{"table_rows", rows},
+                      {"relaxation_rows", relaxation_rows(data.study)},
+                      {"fit_rows", fit_rows(data.study)}},
+                     {{"runs", std::move(runs)}, {"study", tables_data(data.study)}},
                      data.parameters,
                      data.provenance});
 }

@@ -1,46 +1,44 @@
 #pragma once
 
-#include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
-#include "analysis/displacement.h"
-#include "analysis/energy.h"
+#include "analysis/results.h"
 #include "app/workflow/report/html.h"
-#include "core/state/configuration.h"
+#include "app/workflow/report/movie.h"
 
 /// The report: one HTML page that needs nothing beside it, neither files nor a network.
 namespace vitrel {
 
-/// One run, as the page shows it. Whatever is not known stays empty or NaN and is shown as "–".
+/// One run, as the page shows it. What is not known stays empty or NaN and is not shown, or as "–".
 struct ReportRun {
   std::string name;      ///< of its file or folder, to tell runs of equal density apart
   std::string dynamics;  ///< "Brownian, step 0.1"
   double packing_fraction = 0;
-  std::size_t particles = 0;
-  std::size_t rotors = 0;
-  double duration = 0;
-  std::uint64_t collisions = 0;
-  Estimate compressibility{};
-  Displacements displacements;  ///< the first group, all particles, is shown
-  EnergySeries energy;
-  Configuration2 final_state;
+  double collisions_per_second = std::numeric_limits<double>::quiet_NaN();
+  Results results;  ///< tables by name: summary, displacements_all, energies …
+  Movie movie;
 };
 
 struct ReportData {
   std::string title;
   std::string subtitle;         ///< one line below it: what was simulated
   std::vector<ReportRun> runs;  ///< shown in the order of their packing fraction
+  Results study = {};           ///< tables over all runs: relaxation, glass_fit
   std::string parameters;       ///< TOML text
   PageProvenance provenance;    ///< shown if not empty
 };
 
-/// The page as HTML: MSD and MSR of all runs (log–log), a table of densities (collisions, Z,
-/// diffusion coefficients where they can be read off), final state and energies of each run,
-/// parameters, provenance.
+/// The page as HTML: the moving particles of a run, its series over time, the correlations and the
+/// structure of all runs, what depends on the packing fraction, a table of the runs, parameters,
+/// provenance. A chart is there if its table is: displacements_<group>, self_scattering_<group> with
+/// wave_numbers, orientation_<group>, susceptibility, collective_scattering, structure_factor,
+/// pair_correlation, orientation_distribution, order, energies, compressibility, summary; of the
+/// study, relaxation and glass_fit.
 ///
-/// To stay small, curves are thinned to 30 points a decade, energies to 400 samples, and a picture
-/// shows a part of the box with 4000 particles at most; the page says where.
+/// To stay small, tables are thinned (page_tables.h), and movies are what film (movie.h) made of
+/// them; the page says where it shows a part only.
 std::string report_page(const ReportData& data);
 
 }  // namespace vitrel

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "app/workflow/report/movie.h"
 #include "app/workflow/report/page_parts.h"
 
 namespace vitrel {
@@ -43,10 +44,9 @@ std::string table_row(const QualityRow& row) {
 std::string state_page(const StatePage& page) {
   std::string rows;
   for (const QualityRow& row : page.rows) rows += table_row(row);
+  MemoryTrajectory state({page.state});
   const json data = {{"label", page.title},
-                     {"particles", page.state.size()},
-                     {"rotors", rotor_count(page.state)},
-                     {"state", picture(page.state)},
+                     {"movie", movie_data(film(state))},
                      {"correlation", correlation(page.nematic_correlation)},
                      {"order", page_number(page.nematic_order)},
                      {"orientation", curve(page.sweeps, page.orientation)},

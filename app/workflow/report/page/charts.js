@@ -1,46 +1,19 @@
-const pageData = JSON.parse(document.getElementById('data').textContent);
-const darkMode = matchMedia('(prefers-color-scheme: dark)');
-const byId = (id) => document.getElementById(id);
-const cssColour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+const font = '12px system-ui, sans-serif';
 
-function element(tag, attributes = {}, text = '') {
-  const node = document.createElement(tag);
-  for (const [name, value] of Object.entries(attributes)) node.setAttribute(name, value);
-  node.textContent = text;
-  return node;
-}
-
-// Numbers
-
-const superscripts = '⁰¹²³⁴⁵⁶⁷⁸⁹';
-function superscript(n) {
-  return (n < 0 ? '⁻' : '') + [...String(Math.abs(n))].map((digit) => superscripts[digit]).join('');
-}
-
-function shortNumber(value, digits = 3) {
-  if (value === null || !isFinite(value)) return '–';
-  const size = Math.abs(value);
-  if (size !== 0 && (size < 1e-3 || size >= 1e5)) {
-    const [mantissa, exponent] = value.toExponential(digits - 1).split('e');
-    return mantissa + '·10' + superscript(Number(exponent));
-  }
-  return String(Number(value.toPrecision(digits)));
-}
-
-/** Pure numbers have no unit. */
-const withUnit = (symbol, unit) => unit ? `${symbol} [${unit}]` : symbol;
-
-/** The error with two digits, the value with as many decimals. */
-function withError(value, error) {
-  if (!(error > 0)) return shortNumber(value, 4);
-  const decimals = Math.max(0, 1 - Math.floor(Math.log10(error)));
-  if (decimals > 7) return `${shortNumber(value, 4)} ± ${shortNumber(error, 2)}`;
-  return `${value.toFixed(decimals)} ± ${error.toFixed(decimals)}`;
-}
+// Axes
 
 const powerOfTen = (value) => Math.abs(Math.log10(value) - Math.round(Math.log10(value))) < 1e-9;
 
-// uPlot's own labels print "0" for values under 1e-3.
+// uPlot's own ticks begin at the end of the axis, wherever that is, and its labels print "0" for values under 1e-3.
+
+/** 1, 2 … 9 times the powers of ten; only these over many decades. */
+function logarithmicSplits(low, high) {
+  const first = Math.floor(Math.log10(low)), last = Math.ceil(Math.log10(high));
+  const mantissas = last - first > 9 ? [1] : [1, 2, 3, 4, 5, 6, 7, 8, 9];
+  return Array.from({ length: last - first + 1 }, (_, k) => mantissas.map((mantissa) => mantissa * 10 ** (first + k))).flat()
+    .filter((value) => value >= low && value <= high);
+}
+
 function logarithmicLabels(splits) {
   const shown = splits.filter((value) => value > 0);
   const few = shown.filter(powerOfTen).length < 3;
@@ -55,114 +28,13 @@ function logarithmicLabels(splits) {
   });
 }
 
-function linearLabels(splits) {
-  return splits.map((value) => value === null ? '' : shortNumber(value, 6));
-}
+const linearLabels = (splits) => splits.map((value) => value === null ? '' : shortNumber(value, 6));
 
-// Of curves in one chart.
-function curveColours() {
-  return darkMode.matches ? ['#56b4e9', '#f0a030', '#c3cad2'] : ['#0072b2', '#c65200', '#3c434b'];
-}
+/** As wide as the longest label. */
+const labelWidth = (plot, labels) => 18 + 7 * Math.max(3, ...(labels ?? []).map((label) => label.length));
 
-// Orientations are cyclic: once around, light – orange – dark – blue – light, in the two directions
-// (lightness, blue to yellow) that all eyes tell apart. Mixed in OKLab.
-function orientationColour(angle) {
-  const phase = 2 * angle;
-  const lightness = 0.64 + 0.24 * Math.cos(phase);
-  const yellow = 0.125 * Math.sin(phase), red = 0.045 * Math.sin(phase);
-  const root = [[0.3963377774, 0.2158037573], [-0.1055613458, -0.0638541728], [-0.0894841775, -1.291485548]];
-  const [l, m, s] = root.map(([p, q]) => (lightness + p * red + q * yellow) ** 3);
-  const linear = [4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s,
-                  -1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s,
-                  -0.0041960863 * l - 0.7034186147 * m + 1.707614701 * s];
-  const channel = (value) => {
-    const clipped = Math.min(Math.max(value, 0), 1);
-    return Math.round(255 * (clipped <= 0.0031308 ? 12.92 * clipped : 1.055 * clipped ** (1 / 2.4) - 0.055));
-  };
-  return `rgb(${linear.map(channel).join(' ')})`;
-}
-
-// Charts
-
-const font = '12px system-ui, sans-serif';
-
-/** All curves on one common, sorted grid of times, as uPlot wants them; missing values are null. */
-function aligned(curves) {
-  const times = [...new Set(curves.flatMap((curve) => curve.time))].sort((a, b) => a - b);
-  const column = (curve, key) => {
-    const at = new Map(curve.time.map((time, k) => [time, curve[key][k]]));
-    return times.map((time) => at.get(time) ?? null);
-  };
-  return { times, values: curves.map((curve) => column(curve, 'value')),
-           errors: curves.map((curve) => curve.error ? column(curve, 'error') : null) };
-}
-
-/** Shades value ± error; where that reaches zero on a logarithmic axis, down to the frame. */
-function drawBand(plot, data, k, logarithmic) {
-  if (!data.errors[k] || !plot.series[k + 1].show) return;
-  const { ctx } = plot;
-  const { left, top, width, height } = plot.bbox;
-  const upper = [], lower = [];
-  data.times.forEach((time, i) => {
-    const value = data.values[k][i], error = data.errors[k][i];
-    if (value === null || error === null) return;
-    const x = plot.valToPos(time, 'x', true);
-    upper.push([x, plot.valToPos(value + error, 'y', true)]);
-    lower.push([x, value > error || !logarithmic ? plot.valToPos(value - error, 'y', true) : top + height]);
-  });
-  if (!upper.length) return;
-  ctx.save();
-  ctx.beginPath();
-  ctx.rect(left, top, width, height);
-  ctx.clip();
-  ctx.beginPath();
-  [...upper, ...lower.reverse()].forEach(([x, y], i) => i ? ctx.lineTo(x, y) : ctx.moveTo(x, y));
-  ctx.closePath();
-  ctx.globalAlpha = 0.22;
-  ctx.fillStyle = plot.series[k + 1].stroke();
-  ctx.fill();
-  ctx.restore();
-}
-
-/** A dashed line across the frame at a height with a meaning of its own. */
-function drawLevel(plot, value) {
-  const { ctx } = plot;
-  const { left, width, top, height } = plot.bbox;
-  const y = plot.valToPos(value, 'y', true);
-  if (y < top || y > top + height) return;
-  ctx.save();
-  ctx.strokeStyle = cssColour('--ink');
-  ctx.lineWidth = 1.5 * devicePixelRatio;
-  ctx.setLineDash([6 * devicePixelRatio, 5 * devicePixelRatio]);
-  ctx.beginPath();
-  ctx.moveTo(left, y);
-  ctx.lineTo(left + width, y);
-  ctx.stroke();
-  ctx.restore();
-}
-
-/** A short dashed line of slope 1, the mark of diffusion, in the lower right corner. */
-function drawDiffusionGuide(plot) {
-  const { ctx } = plot;
-  const { left, top, width, height } = plot.bbox;
-  const ratio = devicePixelRatio;
-  const decadeX = width / Math.log10(plot.scales.x.max / plot.scales.x.min);
-  const decadeY = height / Math.log10(plot.scales.y.max / plot.scales.y.min);
-  const decades = Math.min(0.16 * width / decadeX, 0.22 * height / decadeY);
-  const x = left + width - decades * decadeX - 14 * ratio, y = top + height - 14 * ratio;
-  ctx.save();
-  ctx.strokeStyle = ctx.fillStyle = cssColour('--quiet');
-  ctx.lineWidth = 1.25 * ratio;
-  ctx.setLineDash([4 * ratio, 3 * ratio]);
-  ctx.beginPath();
-  ctx.moveTo(x, y);
-  ctx.lineTo(x + decades * decadeX, y - decades * decadeY);
-  ctx.stroke();
-  ctx.font = `${12 * ratio}px system-ui, sans-serif`;
-  ctx.textAlign = 'right';
-  ctx.fillText('∝ t', x + 0.5 * decades * decadeX - 4 * ratio, y - 0.5 * decades * decadeY - 4 * ratio);
-  ctx.restore();
-}
+/** Not widened to whole decades. */
+const logarithmicRange = (plot, low, high) => low > 0 ? [0.8 * low, 1.25 * high] : [0.1, 1];
 
 function axisOptions(logarithmic, size) {
   const grid = { stroke: cssColour('--grid'), width: 1 };
@@ -171,30 +43,170 @@ function axisOptions(logarithmic, size) {
     stroke: cssColour('--quiet'), font, size, grid, ticks: { stroke: cssColour('--line'), width: 1, size: 5 },
     values: (plot, splits) => logarithmic ? logarithmicLabels(splits) : linearLabels(splits),
   };
-  if (logarithmic) options.filter = (plot, splits) => splits;
-  return options;
+  if (!logarithmic) return options;
+  return { ...options, splits: (plot, axis, low, high) => logarithmicSplits(low, high), filter: (plot, splits) => splits };
+}
+
+// Data
+
+/**
+ * All curves on one common, sorted grid of abscissas, as uPlot wants them; missing values are null. An abscissa that a
+ * curve has several times is there as often.
+ */
+function aligned(curves) {
+  const keyed = curves.map((curve) => {
+    const met = new Map();
+    return curve.x.map((x) => {
+      met.set(x, (met.get(x) ?? 0) + 1);
+      return `${x} ${met.get(x)}`;
+    });
+  });
+  const keys = new Map();
+  curves.forEach((curve, c) => curve.x.forEach((x, i) => keys.set(keyed[c][i], x)));
+  const order = [...keys].sort((a, b) => a[1] - b[1]);
+  const place = new Map(order.map(([key], row) => [key, row]));
+  const column = (curve, c, values) => {
+    const result = order.map(() => null);
+    keyed[c].forEach((key, i) => { result[place.get(key)] = values[i]; });
+    return result;
+  };
+  return { x: order.map(([, x]) => x), values: curves.map((curve, c) => column(curve, c, curve.value)),
+           errors: curves.map((curve, c) => curve.error ? column(curve, c, curve.error) : null) };
 }
 
 function csvText(chart) {
   const quoted = (text) => `"${text.replaceAll('"', '""')}"`;
+  const { variant, data } = chart;
   const header = [quoted(withUnit(chart.xSymbol, chart.xUnit))];
-  const columns = [chart.data.times];
-  chart.curves.forEach((curve, k) => {
-    header.push(quoted(withUnit(curve.label, chart.yUnit)));
-    columns.push(chart.data.values[k]);
-    if (chart.data.errors[k]) {
-      header.push(quoted(withUnit(curve.label + ' error', chart.yUnit)));
-      columns.push(chart.data.errors[k]);
+  const columns = [data.x];
+  variant.curves.forEach((curve, k) => {
+    header.push(quoted(withUnit(curve.label, variant.unit)));
+    columns.push(data.values[k]);
+    if (data.errors[k]) {
+      header.push(quoted(withUnit(curve.label + ' error', variant.unit)));
+      columns.push(data.errors[k]);
     }
   });
-  const rows = chart.data.times.map((time, i) => columns.map((column) => column[i] ?? 'nan').join(','));
+  const rows = data.x.map((x, i) => columns.map((column) => column[i] ?? 'nan').join(','));
   return [header.join(','), ...rows].join('\n') + '\n';
 }
 
 function download(name, text) {
-  const link = element('a', { href: 'data:text/csv;charset=utf-8,' + encodeURIComponent(text), download: name });
-  link.click();
+  element('a', { href: 'data:text/csv;charset=utf-8,' + encodeURIComponent(text), download: name }).click();
 }
+
+// Drawing
+
+/** Calls draw(ctx, frame of the plot) with everything clipped to the frame. */
+function insideFrame(plot, draw) {
+  const { ctx, bbox } = plot;
+  ctx.save();
+  ctx.beginPath();
+  ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+  ctx.clip();
+  draw(ctx, bbox);
+  ctx.restore();
+}
+
+/** [x, low end, high end] of value ± error; where that reaches zero on a logarithmic axis, the frame is the end. */
+function errorSpans(plot, chart, k) {
+  const { data } = chart;
+  const { top, height } = plot.bbox;
+  return data.x.flatMap((x, i) => {
+    const value = data.values[k][i], error = data.errors[k][i];
+    if (value === null || error === null || (chart.logY && !(value > 0))) return [];
+    const low = value > error || !chart.logY ? plot.valToPos(value - error, 'y', true) : top + height;
+    return [[plot.valToPos(x, 'x', true), low, plot.valToPos(value + error, 'y', true)]];
+  });
+}
+
+/** Shades lines, and gives points their bars. */
+function drawErrors(plot, chart, k) {
+  if (!chart.data.errors[k] || !plot.series[k + 1].show) return;
+  const spans = errorSpans(plot, chart, k);
+  const curve = chart.variant.curves[k];
+  insideFrame(plot, (ctx) => {
+    ctx.strokeStyle = ctx.fillStyle = curve.colour();
+    ctx.lineWidth = 1.5 * devicePixelRatio;
+    ctx.beginPath();
+    if (curve.points) {
+      spans.forEach(([x, low, high]) => { ctx.moveTo(x, low); ctx.lineTo(x, high); });
+      return ctx.stroke();
+    }
+    const outline = [...spans.map(([x, low, high]) => [x, high]), ...spans.reverse().map(([x, low]) => [x, low])];
+    outline.forEach(([x, y], i) => i ? ctx.lineTo(x, y) : ctx.moveTo(x, y));
+    ctx.closePath();
+    ctx.globalAlpha = 0.2;
+    ctx.fill();
+  });
+}
+
+/** A dashed line across the frame at a height with a meaning of its own. */
+function drawLevel(plot, value) {
+  insideFrame(plot, (ctx, { left, width }) => {
+    const y = plot.valToPos(value, 'y', true);
+    ctx.strokeStyle = cssColour('--ink');
+    ctx.lineWidth = 1.25 * devicePixelRatio;
+    ctx.setLineDash([6 * devicePixelRatio, 5 * devicePixelRatio]);
+    ctx.beginPath();
+    ctx.moveTo(left, y);
+    ctx.lineTo(left + width, y);
+    ctx.stroke();
+  });
+}
+
+/** An abscissa with its error: a dashed upright line in a band. */
+function drawUpright(plot, { value, error, colour, label }, row) {
+  insideFrame(plot, (ctx, { top, height }) => {
+    const [low, x, high] = [-1, 0, 1].map((sign) => plot.valToPos(value + sign * (error ?? 0), 'x', true));
+    ctx.fillStyle = ctx.strokeStyle = colour();
+    ctx.globalAlpha = 0.14;
+    ctx.fillRect(low, top, high - low, height);
+    ctx.globalAlpha = 1;
+    ctx.lineWidth = 1.25 * devicePixelRatio;
+    ctx.setLineDash([3 * devicePixelRatio, 3 * devicePixelRatio]);
+    ctx.beginPath();
+    ctx.moveTo(x, top);
+    ctx.lineTo(x, top + height);
+    ctx.stroke();
+    ctx.font = `${12 * devicePixelRatio}px system-ui, sans-serif`;
+    ctx.textAlign = 'right';
+    ctx.fillText(label, x - 5 * devicePixelRatio, top + height - (10 + 17 * row) * devicePixelRatio);
+  });
+}
+
+/** A short dashed line of this slope: 1, the mark of diffusion, in the lower right corner; 2, of free flight, upper left. */
+function drawSlope(plot, slope) {
+  const ratio = devicePixelRatio;
+  insideFrame(plot, (ctx, { left, top, width, height }) => {
+    const decadeX = width / Math.log10(plot.scales.x.max / plot.scales.x.min);
+    const decadeY = height / Math.log10(plot.scales.y.max / plot.scales.y.min);
+    const decades = Math.min(0.16 * width / decadeX, 0.22 * height / (slope * decadeY));
+    const run = decades * decadeX, rise = slope * decades * decadeY;
+    const x = slope === 1 ? left + width - run - 14 * ratio : left + 34 * ratio;
+    const y = slope === 1 ? top + height - 14 * ratio : top + rise + 14 * ratio;
+    ctx.strokeStyle = ctx.fillStyle = cssColour('--quiet');
+    ctx.lineWidth = 1.25 * ratio;
+    ctx.setLineDash([4 * ratio, 3 * ratio]);
+    ctx.beginPath();
+    ctx.moveTo(x, y);
+    ctx.lineTo(x + run, y - rise);
+    ctx.stroke();
+    ctx.font = `${12 * ratio}px system-ui, sans-serif`;
+    ctx.textAlign = 'right';
+    ctx.fillText(slope === 1 ? '∝ t' : '∝ t²', x + 0.5 * run - 4 * ratio, y - 0.5 * rise - 4 * ratio);
+  });
+}
+
+function seriesOptions(curve, shown) {
+  const series = { stroke: curve.colour(), width: 2, spanGaps: true, points: { show: false }, show: shown };
+  if (curve.dashed) series.dash = [7, 5];
+  if (!curve.points) return series;
+  const fill = curve.points === 'hollow' ? cssColour('--card') : curve.colour();
+  return { ...series, paths: () => null, points: { show: true, size: 9, width: 2, stroke: curve.colour(), fill } };
+}
+
+// Reading
 
 /** Arrow keys move the cursor: left and right along a curve, up and down from curve to curve. */
 function moveByKey(chart, event) {
@@ -208,89 +220,117 @@ function moveByKey(chart, event) {
   if (!shown.length) return;
   const place = Math.max(0, shown.indexOf(chart.focused));
   const k = shown[(place + across + shown.length) % shown.length];
-  let i = plot.cursor.idx ?? Math.floor(data.times.length / 2);
-  do i += along; while (along && i >= 0 && i < data.times.length && data.values[k][i] === null);
-  if (i < 0 || i >= data.times.length || data.values[k][i] === null) return;
+  const from = plot.cursor.idx ?? Math.floor(data.x.length / 2);
+  const places = data.x.map((_, i) => i).filter((i) => data.values[k][i] !== null && (!along || (i - from) * along > 0));
+  if (!places.length) return;
+  const i = places.reduce((best, i) => Math.abs(i - from) < Math.abs(best - from) ? i : best);
   chart.focused = k;
-  plot.setCursor({ left: plot.valToPos(data.times[i], 'x'), top: plot.valToPos(data.values[k][i], 'y') });
+  plot.setCursor({ left: plot.valToPos(data.x[i], 'x'), top: plot.valToPos(data.values[k][i], 'y') });
 }
 
 function readOut(chart) {
-  const i = chart.plot.cursor.idx, k = chart.focused;
-  const value = i === null || i === undefined || k === null ? null : chart.data.values[k][i];
-  if (value === null || value === undefined) return chart.readout.textContent = '';
-  const error = chart.data.errors[k]?.[i];
-  chart.readout.textContent = `${chart.curves[k].label}:  ${chart.xSymbol} = ${shortNumber(chart.data.times[i], 4)},  ` +
-    `${chart.symbol} = ${withError(value, error)} ${chart.yUnit}`;
+  const i = chart.plot?.cursor.idx, k = chart.focused;
+  const value = i === null || i === undefined || k === null ? null : chart.data.values[k]?.[i];
+  if (value === null || value === undefined) return chart.readout.textContent = chart.hint;
+  chart.readout.textContent = `${chart.variant.curves[k].label}:  ${chart.xSymbol} = ${shortNumber(chart.data.x[i], 4)},  ` +
+    `${withError(value, chart.data.errors[k]?.[i])} ${chart.variant.unit}`;
 }
 
 /**
- * One chart in `host`: heading, unit of the ordinate, plot, unit of the abscissa, reading, download.
- * `description`: heading, symbol, xSymbol, xUnit, yUnit, file, logX, logY (logarithmic axes), curves [{label, time,
- * value, error}] (time: the abscissa),
- * colours(k), levels [values marked by a dashed line], legend [nodes].
+ * One chart in `host`. `description`: heading; xSymbol, xUnit; logX, logY; file, the name of its CSV; range, slopes, hint;
+ * variants, of which a select shows one: [{label, symbol, unit, curves, levels, uprights}].
+ * A curve: {label, x, value, error, colour(), points: 'full' or 'hollow' instead of a line, dashed, id}. Curves are
+ * switched off by their `id`, in the legend of the chart or from outside (show).
  */
 class Chart {
   constructor(host, description) {
-    Object.assign(this, description);
+    Object.assign(this, { hint: '', ...description });
     this.host = host;
-    this.focused = null;
     this.hidden = new Set();
-    this.data = aligned(this.curves);
+    this.variant = this.variants[0];
     this.build();
     new ResizeObserver(() => this.resize()).observe(host);
+    recoloured.push(() => { if (this.host.isConnected) this.choose(this.variants.indexOf(this.variant)); });
   }
 
   build() {
-    this.host.replaceChildren(element('h3', {}, this.heading));
-    this.host.append(element('p', { class: 'axis-title' }, withUnit(this.symbol, this.yUnit)));
-    this.frame = element('div', { class: 'plot', tabindex: '0', role: 'img', 'aria-label':
-      `Chart: ${this.heading} against ${this.xSymbol}, ${this.curves.length} curve(s). Arrow keys read values.` });
+    const head = element('div', { class: 'chart-head' });
+    head.append(element('h3', {}, this.heading));
+    if (this.variants.length > 1)
+      head.append(selection('', this.variants.map((variant) => variant.label), 0, (k) => this.choose(k)));
+    head.querySelector('select')?.setAttribute('aria-label', `${this.heading}: which`);
+    this.unit = element('p', { class: 'axis-title' });
+    this.frame = element('div', { class: 'plot', tabindex: '0', role: 'img' });
+    this.legend = element('div', { class: 'legend small', role: 'group', 'aria-label': 'Curves shown' });
     this.readout = element('p', { class: 'readout', role: 'status' });
-    this.host.append(this.frame, element('p', { class: 'axis-title x' }, withUnit(this.xSymbol, this.xUnit)));
-    if (this.legend) this.host.append(this.legend());
-    this.host.append(this.readout, this.tools());
+    this.host.replaceChildren(head, this.unit, this.frame,
+      element('p', { class: 'axis-title x' }, withUnit(this.xSymbol, this.xUnit)), this.legend, this.readout, this.tools());
     this.frame.addEventListener('keydown', (event) => moveByKey(this, event));
-    this.draw();
+    this.choose(0);
   }
 
   tools() {
-    const row = element('div', { class: 'tools' });
-    const button = element('button', { type: 'button' }, 'Save these curves as CSV');
+    const button = element('button', { type: 'button', class: 'link' }, 'CSV');
+    button.setAttribute('aria-label', `Save the curves of ${this.heading} as CSV`);
     button.addEventListener('click', () => download(this.file, csvText(this)));
+    const row = element('div', { class: 'tools' });
     row.append(button);
     return row;
   }
 
+  choose(k) {
+    this.variant = this.variants[k];
+    this.focused = null;
+    this.data = aligned(this.variant.curves);
+    this.unit.textContent = withUnit(this.variant.symbol, this.variant.unit);
+    this.frame.setAttribute('aria-label', `Chart: ${this.heading}, ${this.variant.symbol} against ${this.xSymbol}, ` +
+      `${this.variant.curves.length} curve(s). Arrow keys read values.`);
+    this.fillLegend();
+    this.draw();
+    readOut(this);
+  }
+
+  /** A single curve needs none, nor do curves that a legend outside the chart names. */
+  fillLegend() {
+    const curves = this.variant.curves;
+    this.legend.hidden = this.legendOutside || curves.length < 2;
+    this.legend.replaceChildren(...curves.map((curve) => legendButton(curve, !this.hidden.has(curve.id),
+      (shown) => this.show(curve.id, shown))));
+  }
+
   size() {
     const width = Math.max(200, this.frame.clientWidth);
-    return { width, height: Math.round(Math.min(400, Math.max(250, 0.7 * width))) };
+    return { width, height: Math.round(Math.min(380, Math.max(240, 0.66 * width))) };
   }
 
   draw() {
     this.plot?.destroy();
+    const { curves, levels = [], uprights = [] } = this.variant;
     const scale = (logarithmic) => logarithmic ? { distr: 3, time: false } : { time: false };
-    const range = this.range ? { range: this.range } : {};
+    const rangeOf = (range, logarithmic) => range || logarithmic ? { range: range ?? logarithmicRange } : {};
     this.plot = new uPlot({
       ...this.size(),
       padding: [10, 20, 0, 0],
-      scales: { x: scale(this.logX), y: { ...scale(this.logY), ...range } },
-      axes: [axisOptions(this.logX, 30), axisOptions(this.logY, 52)],
-      series: [{}, ...this.curves.map((curve, k) => ({
-        stroke: this.colours(k), width: 2, spanGaps: true, points: { show: false }, show: !this.hidden.has(k) }))],
+      scales: { x: { ...scale(this.logX), ...rangeOf(this.rangeX, this.logX) },
+                y: { ...scale(this.logY), ...rangeOf(this.range, this.logY) } },
+      axes: [axisOptions(this.logX, 30), axisOptions(this.logY, labelWidth)],
+      series: [{}, ...curves.map((curve) => seriesOptions(curve, !this.hidden.has(curve.id)))],
       legend: { show: false },
       cursor: { drag: { x: false, y: false }, focus: { prox: 1e6 }, points: { size: 7 } },
       focus: { alpha: 0.35 },
       hooks: {
+        drawAxes: [(plot) => {
+          uprights.forEach((upright, row) => drawUpright(plot, upright, row));
+          (this.slopes ?? []).forEach((slope) => drawSlope(plot, slope));
+        }],
         draw: [(plot) => {
-          (this.levels ?? []).forEach((level) => drawLevel(plot, level));
-          this.curves.forEach((_, k) => drawBand(plot, this.data, k, this.logY));
-          if (this.logX && this.logY) drawDiffusionGuide(plot);
+          curves.forEach((_, k) => drawErrors(plot, this, k));
+          levels.forEach((level) => drawLevel(plot, level));
         }],
         setSeries: [(plot, k, options) => { if (options.focus !== undefined) this.focused = k > 0 ? k - 1 : null; }],
         setCursor: [() => readOut(this)],
       },
-    }, [this.data.times, ...this.data.values.map((column) => column.map((value) =>
+    }, [this.data.x, ...this.data.values.map((column) => column.map((value) =>
       this.logY && !(value > 0) ? null : value))], this.frame);
   }
 
@@ -299,92 +339,22 @@ class Chart {
     if (width !== this.plot.width) this.plot.setSize({ width, height });
   }
 
-  show(k, shown) {
-    if (shown) this.hidden.delete(k); else this.hidden.add(k);
-    this.plot.setSeries(k + 1, { show: shown });
+  show(id, shown) {
+    if (shown) this.hidden.delete(id); else this.hidden.add(id);
+    this.variant.curves.forEach((curve, k) => { if (curve.id === id) this.plot.setSeries(k + 1, { show: shown }); });
   }
 }
 
-// Pictures
-
-function prepareCanvas(canvas, width, height) {
-  canvas.width = Math.round(width * devicePixelRatio);
-  canvas.height = Math.round(height * devicePixelRatio);
-  canvas.style.height = height + 'px';
-  return canvas.getContext('2d');
-}
-
-const outlineColour = () => darkMode.matches ? 'rgb(255 255 255 / 40%)' : 'rgb(20 25 30 / 55%)';
-
-function drawEllipse(ctx, x, y, angle, a, b) {
-  ctx.beginPath();
-  ctx.ellipse(x, y, a, b, -angle, 0, 2 * Math.PI);
-  ctx.fillStyle = a === b ? '#9aa3ad' : orientationColour(angle);
-  ctx.fill();
-  ctx.stroke();
-}
-
-/**
- * Every particle of `view` {state, particles, rotors, label, caption, missing}, and its images where it reaches over the
- * border of the box.
- */
-function drawState(view) {
-  const canvas = byId('state');
-  const { state } = view;
-  canvas.hidden = !state;
-  byId('orientation-key').parentElement.hidden = !view.rotors;
-  if (!state) return byId('state-note').textContent = view.missing;
-  const [boxX, boxY] = state.window;
-  const width = canvas.clientWidth - 2, height = Math.round(width * boxY / boxX);
-  const ctx = prepareCanvas(canvas, width, height);
-  const scale = width * devicePixelRatio / boxX;
-  ctx.strokeStyle = outlineColour();
-  const { particles } = state;
-  for (let i = 0; i < particles.length; i += 5) {
-    const [x, y, angle, a, b] = particles.slice(i, i + 5);
-    ctx.lineWidth = Math.min(1.2 * devicePixelRatio, 0.25 * b * scale);
-    for (const dx of [-boxX, 0, boxX]) for (const dy of [-boxY, 0, boxY]) {
-      if (!state.periodic && (dx || dy)) continue;
-      if (Math.abs(x + dx) > boxX / 2 + a || Math.abs(y + dy) > boxY / 2 + a) continue;
-      drawEllipse(ctx, (x + dx + boxX / 2) * scale, (boxY / 2 - y - dy) * scale, angle, a * scale, b * scale);
-    }
-  }
-  canvas.setAttribute('aria-label', `State at ${view.label}: ${particles.length / 5} particles in a periodic box`);
-  byId('state-note').textContent = view.caption + (state.periodic
-    ? `N = ${view.particles} in a periodic box of ${shortNumber(boxX, 4)} × ${shortNumber(boxY, 4)}.`
-    : `the central ${shortNumber(boxX, 4)} × ${shortNumber(boxY, 4)} of the box, ${particles.length / 5} of N = ${view.particles} particles.`);
-}
-
-// Calls draw when the picture has another width, and recolour when the colours change.
-function watchPicture(draw, recolour) {
-  let width = byId('state').clientWidth;
-  new ResizeObserver(() => {
-    if (byId('state').clientWidth === width) return;
-    width = byId('state').clientWidth;
-    draw();
-  }).observe(byId('state'));
-  darkMode.addEventListener('change', () => {
-    recolour();
-    draw();
-    drawOrientationKey();
+/** Names a curve and switches it off and on. */
+function legendButton(curve, shown, toggle) {
+  const button = element('button', { type: 'button', 'aria-pressed': String(shown) });
+  const swatch = element('i', { class: curve.points ?? (curve.dashed ? 'dashed' : 'line') });
+  swatch.style.color = curve.colour();
+  button.append(swatch, curve.label);
+  button.addEventListener('click', () => {
+    const on = button.getAttribute('aria-pressed') !== 'true';
+    button.setAttribute('aria-pressed', String(on));
+    toggle(on);
   });
+  return button;
 }
-
-function drawOrientationKey() {
-  const canvas = byId('orientation-key');
-  const ctx = prepareCanvas(canvas, 260, 44);
-  ctx.scale(devicePixelRatio, devicePixelRatio);
-  ctx.strokeStyle = outlineColour();
-  const text = cssColour('--quiet');
-  for (let k = 0; k <= 8; ++k) {
-    const x = 18 + 28 * k;
-    drawEllipse(ctx, x, 14, k * Math.PI / 8, 12, 6);
-    if (k % 2 === 0) {
-      ctx.fillStyle = text;
-      ctx.font = font;
-      ctx.textAlign = 'center';
-      ctx.fillText(`${22.5 * k}°`, x, 41);
-    }
-  }
-}
-

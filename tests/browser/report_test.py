@@ -1,0 +1,399 @@
+"""report_test.py <chromium> <folder with the pages of write_pages>: the report pages in a browser."""
+
+import base64
+import itertools
+import json
+import math
+import pathlib
+import struct
+import sys
+import unittest
+
+from browser import Browser
+
+PROGRAM, FOLDER = sys.argv.pop(1), pathlib.Path(sys.argv.pop(1)).resolve()
+WIDTHS = (390, 820, 1440)
+SHIFT = 8
+
+# The pixels of a canvas, read from a copy: reading from the canvas itself would make the browser complain.
+PIXELS = """const pixels = (canvas) => {
+    const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext('2d', { willReadFrequently: true });
+    copy.drawImage(canvas, 0, 0);
+    return copy.getImageData(0, 0, canvas.width, canvas.height);
+  };"""
+
+# The picture of the movie as [count of different colours, checksum, pixels of the red of overlaps, their mean x and y].
+LOOK = f"(() => {{ {PIXELS}" + """
+  const { data, width } = pixels(document.getElementById('scene'));
+  const colours = new Set();
+  let sum = 0, red = 0, x = 0, y = 0;
+  for (let at = 0; at < data.length; at += 4) {
+    const [r, g, b] = data.subarray(at, at + 3);
+    colours.add(r << 16 | g << 8 | b);
+    sum = (sum * 31 + (r << 16 | g << 8 | b)) % 2147483647;
+    if (r === 242 && g === 0 && b === 60) { ++red; x += at / 4 % width; y += Math.floor(at / 4 / width); }
+  }
+  return [colours.size, sum, red, red ? x / red : null, red ? y / red : null];
+})()"""
+
+
+class Page(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.browser = Browser(PROGRAM)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.__exit__()
+
+    def open(self, name, width=1440, scheme="light", reduced_motion=False):
+        self.browser.complaints.clear(), self.browser.requests.clear()
+        self.browser.resize(width, 900, scheme, reduced_motion)
+        self.address = (FOLDER / name).as_uri()
+        self.browser.open(self.address)
+
+    def tearDown(self):
+        self.browser.settle()
+        self.assertEqual(self.browser.complaints, [])
+        self.assertEqual(self.browser.requests, [self.address])
+
+    def look(self):
+        self.browser.settle()
+        return self.browser.evaluate(LOOK)
+
+    def text(self, name):
+        return self.browser.evaluate(f"document.getElementById('{name}').textContent")
+
+    def scrub(self, frame):
+        self.browser.evaluate(f"""(() => {{ const input = document.getElementById('scrub');
+          input.value = {frame}; input.dispatchEvent(new Event('input', {{ bubbles: true }})); }})()""")
+
+    def click(self, selector):
+        self.browser.evaluate(f"document.querySelector({json.dumps(selector)}).click()")
+
+    def focus(self, selector):
+        self.browser.evaluate(f"document.querySelector({json.dumps(selector)}).focus()")
+
+    def data(self):
+        return json.loads(self.browser.evaluate("document.getElementById('data').textContent"))
+
+    # The page
+
+    def test_fits_every_width_in_both_schemes(self):
+        for name, width, scheme in itertools.product(("sweep.html", "run.html", "state.html"), WIDTHS, ("light", "dark")):
+            with self.subTest(name=name, width=width, scheme=scheme):
+                self.open(name, width, scheme)
+                self.assertLessEqual(self.browser.evaluate("document.documentElement.scrollWidth"), width)
+                self.assertGreater(self.look()[0], 50)
+
+    def test_dark_and_light(self):
+        background = "getComputedStyle(document.body).backgroundColor"
+        self.open("sweep.html", scheme="light")
+        light, picture = self.browser.evaluate(background), self.look()[1]
+        self.click("#theme")
+        dark = self.browser.evaluate(background)
+        self.assertNotEqual(dark, light)
+        self.assertNotEqual(self.look()[1], picture)
+        self.click("#theme")
+        self.assertEqual(self.browser.evaluate(background), light)
+        self.assertEqual(self.look()[1], picture)
+        self.browser.resize(1440, 900, "dark")
+        self.open("sweep.html", scheme="dark")
+        self.assertEqual(self.browser.evaluate(background), dark)
+
+    def test_headings_descend_and_controls_have_names(self):
+        for name in ("sweep.html", "state.html"):
+            self.open(name)
+            levels = self.browser.evaluate("""[...document.querySelectorAll('h1, h2, h3')]
+              .filter((heading) => heading.checkVisibility()).map((heading) => Number(heading.tagName[1]))""")
+            self.assertEqual(levels[0], 1)
+            self.assertEqual(levels.count(1), 1)
+            self.assertLessEqual(max(b - a for a, b in zip(levels, levels[1:])), 1)
+            nameless = self.browser.evaluate("""[...document.querySelectorAll('button, select, input, [tabindex]')]
+              .filter((node) => node.checkVisibility() && !node.textContent.trim() && !node.getAttribute('aria-label') &&
+                !node.labels?.length).map((node) => node.outerHTML)""")
+            self.assertEqual(nameless, [])
+
+    def test_every_control_is_reached_by_tab_and_shows_the_focus(self):
+        self.open("sweep.html")
+        met = set()
+        for _ in range(200):
+            self.browser.call("Input.dispatchKeyEvent", type="keyDown", key="Tab", windowsVirtualKeyCode=9)
+            self.browser.call("Input.dispatchKeyEvent", type="keyUp", key="Tab", windowsVirtualKeyCode=9)
+            where, width = self.browser.evaluate("""(() => { const node = document.activeElement;
+              const styled = node.matches('.picker input') ? node.parentElement : node;
+              return [node.id || node.className || node.tagName, getComputedStyle(styled).outlineStyle]; })()""")
+            if where == "BODY":
+                break
+            self.assertNotEqual(width, "none", where)
+            met.add(where)
+        self.assertLessEqual({"scene", "play", "scrub", "speed", "zoom-in", "zoom-out", "zoom-reset", "theme", "plot"}, met)
+
+    def test_what_is_not_known_is_not_shown(self):
+        self.open("bare.html")
+        shown = self.browser.evaluate("""[...document.querySelectorAll('h2')].filter((heading) => heading.checkVisibility())
+          .map((heading) => heading.textContent)""")
+        self.assertEqual(shown, ["Particles", "Table of runs", "Parameters and provenance"])
+        self.assertEqual(self.text("movie-note"), "The run holds no frame.")
+
+    # The movie
+
+    def test_scrubbing_changes_the_picture_and_comes_back(self):
+        self.open("run.html")
+        colours, first, *_ = self.look()
+        self.assertGreater(colours, 50)
+        self.scrub(5)
+        self.assertNotEqual(self.look()[1], first)
+        self.assertEqual(self.text("clock"), "t = 2.5 √(m ab/kT), frame 6 of 20")
+        self.scrub(0)
+        self.assertEqual(self.look()[1], first)
+
+    def test_overlaps_are_red_where_the_flags_say_so(self):
+        self.open("run.html")
+        self.assertIn("Overlaps in 1 of 20 frames", self.text("overlaps"))
+        self.assertEqual(self.look()[2], 0)
+        self.click("#overlaps button")
+        self.assertIn("frame 3 of 20", self.text("clock"))
+        self.assertIn("1 overlapping pair(s) in this frame", self.text("overlaps"))
+        # Particles 0 and 1 lie half a unit apart at (-14 + 2, -14 + 1) in a box of 32, which with its margins
+        # of 3 % fills the canvas.
+        _, _, red, x, y = self.look()
+        width = self.browser.evaluate("document.getElementById('scene').width")
+        scale = width / (32 * 1.06)
+        self.assertAlmostEqual(x, width / 2 + (-12 + 0.25) * scale, delta=3)
+        self.assertAlmostEqual(y, width / 2 - (-13) * scale, delta=3)
+        # Between the area of one ellipse, π, less its outline, and that of two.
+        self.assertGreater(red, 0.7 * math.pi * scale**2)
+        self.assertLess(red, 2 * math.pi * scale**2)
+        self.scrub(3)
+        self.assertEqual(self.look()[2], 0)
+
+    def test_colours(self):
+        self.open("run.html")
+        self.scrub(8)
+        pictures, keys = [], []
+        for kind in ("orientation", "displacement", "species"):
+            self.click(f"#colour input[value={kind}]")
+            pictures.append(self.look()[1])
+            keys.append(self.text("key-text"))
+        self.assertEqual(len(set(pictures)), 3)
+        self.assertEqual(len(set(keys)), 3)
+
+    def test_displacement_is_followed_over_the_edges(self):
+        # In frame 19 every particle has gone (19, 9.5); the colours end there, and every particle has the last one.
+        self.open("run.html")
+        self.click("#colour input[value=displacement]")
+        self.scrub(19)
+        yellow = self.browser.evaluate(f"(() => {{ {PIXELS}" + """
+          const { data, width } = pixels(document.getElementById('scene'));
+          let count = 0;
+          for (let at = 0; at < data.length; at += 4) if (data[at] === 253 && data[at + 1] === 231 && data[at + 2] === 37) ++count;
+          return count / width ** 2 * (32 * 1.06) ** 2;
+        })()""")
+        # 64 ellipses of area π less their outlines.
+        self.assertGreater(yellow, 0.75 * 64 * math.pi)
+        self.assertLess(yellow, 64 * math.pi)
+
+    def test_poses_are_drawn_where_they_are(self):
+        self.open("run.html")
+        movie = self.data()["runs"][0]["movie"]
+        poses = struct.unpack(f"<{3 * 64 * 20}H", base64.b64decode(movie["poses"]))
+        self.assertAlmostEqual(poses[0] / 65536, 2 / 32, delta=1e-5)
+        colours = self.browser.evaluate(f"(() => {{ {PIXELS}" + """
+          const { data, width } = pixels(document.getElementById('scene')), scale = width / (32 * 1.06);
+          const at = (x, y) => [...data.subarray(...[0, 4].map((part) => part +
+            4 * (Math.floor(width / 2 + x * scale) + width * Math.floor(width / 2 - y * scale))))].join();
+          return [at(-14, -14), at(-12, -14), at(14, 14), at(12, 12)]; })()""")
+        self.assertEqual(colours[0], colours[2])  # two particles
+        self.assertEqual(colours[1], colours[3])  # between particles
+        self.assertNotEqual(colours[0], colours[1])
+
+    def test_keyboard(self):
+        self.open("run.html")
+        self.focus("#scene")
+        whole = self.look()[1]
+        self.browser.press("ArrowRight", 39)
+        self.assertIn("frame 2 of 20", self.text("clock"))
+        self.browser.press("End", 35)
+        self.assertIn("frame 20 of 20", self.text("clock"))
+        self.browser.press("ArrowLeft", 37)
+        self.assertIn("frame 19 of 20", self.text("clock"))
+        self.browser.press("Home", 36)
+        self.assertEqual(self.look()[1], whole)
+        self.browser.press("+", 187, "+")
+        zoomed = self.look()[1]
+        self.assertNotEqual(zoomed, whole)
+        self.browser.press("ArrowRight", 39, modifiers=SHIFT)
+        self.assertNotEqual(self.look()[1], zoomed)
+        self.browser.press("0", 48, "0")
+        self.assertEqual(self.look()[1], whole)
+        self.browser.press(" ", 32, " ")
+        self.assertEqual(self.text("play"), "Pause")
+        self.browser.evaluate("""new Promise((done) => { const wait = () =>
+          document.getElementById('scrub').value > 2 ? done() : setTimeout(wait, 20); wait(); })""")
+        self.browser.press(" ", 32, " ")
+        self.assertEqual(self.text("play"), "Play")
+        stopped = self.text("clock")
+        self.browser.evaluate("new Promise((done) => setTimeout(done, 300))")
+        self.assertEqual(self.text("clock"), stopped)
+
+    def test_range_input_scrubs_by_arrows(self):
+        self.open("run.html")
+        self.focus("#scrub")
+        self.browser.press("ArrowRight", 39)
+        self.assertIn("frame 2 of 20", self.text("clock"))
+
+    def test_plays_to_the_end_and_from_the_start_again(self):
+        self.open("run.html")
+        self.browser.evaluate("""(() => { const speed = document.getElementById('speed');
+          speed.value = 60; speed.dispatchEvent(new Event('change')); })()""")
+        self.click("#play")
+        self.browser.evaluate("""new Promise((done) => { const wait = () =>
+          document.getElementById('play').textContent === 'Play' ? done() : setTimeout(wait, 20); wait(); })""")
+        self.assertIn("frame 20 of 20", self.text("clock"))
+        self.browser.evaluate("document.getElementById('speed').value = 1")
+        self.browser.evaluate("document.getElementById('speed').dispatchEvent(new Event('change'))")
+        self.click("#play")
+        self.browser.evaluate("""new Promise((done) => { const wait = () =>
+          document.getElementById('scrub').value === '1' ? done() : setTimeout(wait, 20); wait(); })""")
+        self.assertIn("frame 2 of 20", self.text("clock"))
+
+    def test_nothing_moves_by_itself_and_play_is_slow_where_motion_is_unwanted(self):
+        self.open("run.html", reduced_motion=True)
+        before = self.look()[1]
+        self.assertEqual(self.browser.evaluate("document.getElementById('speed').value"), "1")
+        self.browser.evaluate("new Promise((done) => setTimeout(done, 300))")
+        self.assertEqual(self.look()[1], before)
+
+    def test_wheel_zooms_only_a_picture_in_focus(self):
+        self.open("run.html")
+        whole = self.look()[1]
+        self.browser.wheel(400, 400, -200)
+        self.browser.evaluate("new Promise((done) => setTimeout(done, 200))")
+        self.assertEqual(self.look()[1], whole)
+        self.browser.evaluate("window.scrollTo(0, 0)")
+        self.focus("#scene")
+        self.browser.wheel(400, 400, -200)
+        self.browser.evaluate("new Promise((done) => setTimeout(done, 200))")
+        self.assertNotEqual(self.look()[1], whole)
+
+    def test_two_fingers_zoom(self):
+        self.open("run.html")
+        whole = self.look()[1]
+        self.browser.call("Emulation.setTouchEmulationEnabled", enabled=True, maxTouchPoints=2)
+        for kind, reach in (("touchStart", 30), ("touchMove", 60), ("touchMove", 120)):
+            points = [{"x": 400 + side * reach, "y": 500, "id": k} for k, side in enumerate((-1, 1))]
+            self.browser.call("Input.dispatchTouchEvent", type=kind, touchPoints=points)
+        self.browser.call("Input.dispatchTouchEvent", type="touchEnd", touchPoints=[])
+        self.browser.call("Emulation.setTouchEmulationEnabled", enabled=False)
+        self.assertNotEqual(self.look()[1], whole)
+
+    def test_a_sweep_shows_the_run_that_is_chosen(self):
+        self.open("sweep.html")
+        self.assertIn("frame 1 of 12", self.text("clock"))
+        self.browser.evaluate("""(() => { const select = document.querySelector('#movie-run select');
+          select.value = 1; select.dispatchEvent(new Event('change')); })()""")
+        self.assertEqual(self.text("series-run"), "at φ = 0.60")
+        self.assertEqual(self.text("clock"), "t = 0 √(m ab/kT)")
+        self.assertIn("Only the final state of this run is in the page", self.text("movie-note"))
+        self.assertFalse(self.browser.evaluate("document.getElementById('player').checkVisibility()"))
+        self.assertGreater(self.look()[0], 50)
+
+    def test_large_page_is_small_enough_and_plays(self):
+        self.assertLess((FOLDER / "large.html").stat().st_size, 2_000_000)
+        self.open("large.html")
+        self.assertIn("The page holds 195 of 200 frames, evenly thinned", self.text("movie-note"))
+        milliseconds = self.browser.evaluate("""(() => { const from = performance.now(); const input = document.getElementById('scrub');
+          for (let k = 0; k < 20; ++k) { input.value = k; input.dispatchEvent(new Event('input')); }
+          return (performance.now() - from) / 20; })()""")
+        print(f"a frame of 1024 particles takes {milliseconds:.1f} ms", file=sys.stderr)
+
+    # The charts
+
+    def headings(self):
+        return self.browser.evaluate("[...document.querySelectorAll('.chart h3')].map((heading) => heading.textContent)")
+
+    def test_a_chart_for_every_table(self):
+        curves = ["Energy per particle", "Compressibility factor", "Order", "Director", "Mean squared displacement",
+                  "Mean squared rotation", "Non-Gaussian parameter", "Self-intermediate scattering",
+                  "Orientational correlation", "Collective scattering", "Four-point susceptibility", "Overlap",
+                  "Structure factor", "Pair correlation", "Orientations about the director"]
+        self.open("run.html")
+        self.assertEqual(self.headings(), curves)
+        self.open("sweep.html")
+        self.assertEqual(self.headings(), curves + ["Relaxation times", "Nematic order", "Compressibility factor",
+                                                    "Diffusion", "Speed of the simulation"])
+        blank = self.browser.evaluate(f"(() => {{ {PIXELS}" + """
+          return [...document.querySelectorAll('.chart')].filter((chart) =>
+            new Set(new Uint32Array(pixels(chart.querySelector('canvas')).data.buffer)).size < 20)
+            .map((chart) => chart.textContent); })()""")
+        self.assertEqual(blank, [])
+
+    def test_the_legend_hides_a_run_in_all_charts(self):
+        self.open("sweep.html")
+        ink = """[...document.querySelectorAll('#motion canvas, #structure canvas')].map((canvas) => canvas.toDataURL())"""
+        before = self.browser.evaluate(ink)
+        self.click(".densities button")
+        self.browser.settle()
+        after = self.browser.evaluate(ink)
+        self.assertTrue(all(a != b for a, b in zip(before, after)))
+        self.assertEqual(self.browser.evaluate("""[...document.querySelectorAll('.densities')].map((legend) =>
+          legend.firstChild.getAttribute('aria-pressed'))"""), ["false"] * 3)
+        self.click(".densities button")
+        self.browser.settle()
+        self.assertEqual(self.browser.evaluate(ink), before)
+
+    def test_a_chart_of_several_runs_shows_the_column_that_is_chosen(self):
+        self.open("sweep.html")
+        labels = self.browser.evaluate("[...document.querySelectorAll('#relaxation .chart:first-child option')].map((o) => o.textContent)")
+        self.assertEqual(labels[:3], ["q = 2.4, all particles", "q = 5, all particles", "q = 2.4, species A"])
+        picture = "document.querySelector('#relaxation canvas').toDataURL()"
+        before = self.browser.evaluate(picture)
+        self.browser.evaluate("""(() => { const select = document.querySelector('#relaxation select');
+          select.value = 1; select.dispatchEvent(new Event('change')); })()""")
+        self.browser.settle()
+        self.assertNotEqual(self.browser.evaluate(picture), before)
+
+    def test_arrow_keys_read_values(self):
+        self.open("run.html")
+        self.focus("#relaxation .plot")
+        self.browser.press("ArrowLeft", 37)
+        readout = "document.querySelector('#relaxation .readout').textContent"
+        first = self.browser.evaluate(readout)
+        self.assertRegex(first, r"^q = 2\.4:  t = [\d.]+,  0\.\d+ ± 0\.\d+")
+        self.browser.press("ArrowDown", 40)
+        self.assertRegex(self.browser.evaluate(readout), r"^q = 5:  t = [\d.]+,  ")
+
+    def test_points_that_did_not_equilibrate_are_hollow_and_out_of_the_fit(self):
+        self.open("sweep.html")
+        marks = self.browser.evaluate("""[...document.querySelector('#glass .legend').children].map((button) =>
+          [button.textContent, button.querySelector('i').className])""")
+        self.assertEqual(marks, [["rotation", "full"], ["rotation, not equilibrated", "hollow"], ["translation", "full"],
+                                 ["translation, not equilibrated", "hollow"], ["rotation, power law", "line"],
+                                 ["translation, power law", "line"], ["translation, Vogel–Fulcher", "dashed"]])
+
+    def test_logarithmic_axes_are_labelled_with_powers_of_ten(self):
+        self.open("sweep.html")
+        motion, glass, diffusion = self.browser.evaluate("""(async () => {
+          const texts = new Map(), fill = CanvasRenderingContext2D.prototype.fillText;
+          CanvasRenderingContext2D.prototype.fillText = function (text, x, y) {
+            texts.set(this.canvas, [...texts.get(this.canvas) ?? [], [text, y]]);
+            fill.call(this, text, x, y); };
+          document.getElementById('theme').click();
+          await new Promise(requestAnimationFrame);
+          CanvasRenderingContext2D.prototype.fillText = fill;
+          return ['#motion', '#glass', '#over-density .chart:nth-child(2)'].map((chart) =>
+            texts.get(document.querySelector(chart + ' canvas')).filter(([text]) => text)); })()""")
+        # Times from 0.5 to 237 and mean squared displacements from 0.08 to 214 …
+        self.assertEqual(sorted(text for text, _ in motion), sorted(["1", "10", "100", "0.1", "1", "10", "100", "∝ t"]))
+        # … and relaxation times up to 2·10⁴.
+        self.assertLessEqual({"10¹", "10²", "10³", "10⁴", "φc rotation"}, {text for text, _ in glass})
+        # Diffusion coefficients from 0.002 to 0.006, on an axis from 0.8 to 1.25 times that.
+        self.assertEqual([text for text, _ in diffusion[-2:]], ["0.002", "0.005"])
+        height = self.browser.evaluate("document.querySelector('#over-density .chart:nth-child(2) .u-over').clientHeight")
+        decades = math.log10(1.25 * 0.006 / (0.8 * 0.002))
+        self.assertAlmostEqual((diffusion[-2][1] - diffusion[-1][1]) / height, math.log10(2.5) / decades, delta=2 / height)
+
+
+if __name__ == "__main__":
+    unittest.main()

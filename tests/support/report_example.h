@@ -1,0 +1,237 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "analysis/trajectory.h"
+#include "app/workflow/report/report_page.h"
+
+/// Made-up runs for the report page: every table that it knows, and particles whose motion and overlaps
+/// are known.
+namespace vitrel::report_example {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t overlapping_frame = 2;
+
+/// n² ellipses (κ = 2) on a square lattice of spacing 4, in two species by turns. In frame k all have
+/// moved by (1, 0.5) k, so that they cross the edges again and again, and turned by 0.1 k; in the
+/// overlapping frame particle 1 is on particle 0.
+inline MemoryTrajectory lattice(std::size_t n, std::size_t frames) {
+  const double side = 4.0 * static_cast<double>(n);
+  Configuration2 state;
+  state.box = PeriodicBox<2>(Vec2(side, side));
+  state.resize(n * n);
+  state.species_names = {"A", "B"};
+  std::vector<Configuration2> all;
+  for (std::size_t k = 0; k < frames; ++k) {
+    state.time = 0.5 * static_cast<double>(k);
+    const auto step = static_cast<double>(k);
+    for (std::size_t i = 0; i < n * n; ++i) {
+      state.shape[i] = {std::sqrt(2.0), std::sqrt(0.5)};
+      state.species[i] = static_cast<std::int32_t>(i % 2);
+      state.image[i] = Shift<2>::Zero();
+      state.position[i] = Vec2(4.0 * static_cast<double>(i % n) - 0.5 * side + 2 + step,
+                               4.0 * static_cast<double>(i / n) - 0.5 * side + 2 + 0.5 * step);
+      if (k == overlapping_frame && i == 1) state.position[i] = state.position[0] + Vec2(0.5, 0);
+      state.box.wrap(state.position[i], state.image[i]);
+      state.angle[i] = 0.3 + 0.1 * step;
+    }
+    all.push_back(state);
+  }
+  return MemoryTrajectory(std::move(all));
+}
+
+inline std::vector<double> constant(std::size_t rows, double value) {
+  return std::vector<double>(rows, value);
+}
+
+/// A column of values with an error of 5 %.
+template <class Function>
+Column column(const std::string& name, const std::string& unit, const std::vector<double>& x,
+              Function function) {
+  Column result{name, unit, {}, {}};
+  for (const double value : x) {
+    result.value.push_back(function(value));
+    result.error.push_back(0.05 * std::abs(result.value.back()));
+  }
+  return result;
+}
+
+inline Column plain(const std::string& name, const std::string& unit,
+                    const std::vector<double>& value) {
+  return {name, unit, value, {}};
+}
+
+inline std::vector<double> evenly(double first, double step, std::size_t count) {
+  std::vector<double> values;
+  for (std::size_t k = 0; k < count; ++k) values.push_back(first + step * static_cast<double>(k));
+  return values;
+}
+
+inline Column single(const std::string& name, double value, double error) {
+  return {name, "1", {value}, {error}};
+}
+
+inline Table summary(double phi) {
+  return {"summary",
+          "",
+          {plain("packing_fraction", "1", {phi}), plain("particles", "1", {1000}),
+           plain("rotors", "1", {1000}), plain("collisions", "1", {123'456}),
+           plain("duration", "time", {250}), single("compressibility", 4.4921, 0.0312),
+           single("translational_energy", 1, 0), single("rotational_energy", 0.5, 0.001),
+           single("diffusion", 0.02 * (0.8 - phi), 0.0002),
+           single("rotational_diffusion", none, none)}};
+}
+
+/// Brownian particles of relaxation time τ, as far as anything can be made of that.
+inline std::vector<Table> correlations(double tau, const std::string& group) {
+  const std::vector<double> t = evenly(0.5, 0.5, 500);
+  const auto decay = [tau](double rate) {
+    return [tau, rate](double time) { return std::exp(-std::pow(rate * time / tau, 0.7)); };
+  };
+  const auto square = [tau](double share) {
+    return [tau, share](double time) { return share * (0.1 * time / (1 + time) + time / tau); };
+  };
+  const auto hump = [tau](double height) {
+    return [tau, height](double time) {
+      return height * std::exp(-std::pow(std::log(time / tau), 2));
+    };
+  };
+  return {{"displacements_" + group,
+           "",
+           {plain("time", "time", t), column("msd", "length^2", t, square(1)),
+            column("msd_parallel", "length^2", t, square(0.7)),
+            column("msd_perpendicular", "length^2", t, square(0.3)),
+            column("non_gaussian", "1", t, hump(1.2)), column("msr", "rad^2", t, square(0.5)),
+            column("non_gaussian_rotation", "1", t, hump(0.6))}},
+          {"self_scattering_" + group,
+           "",
+           {plain("time", "time", t), column("fs_1", "1", t, decay(1)),
+            column("fs_2", "1", t, decay(4))}},
+          {"orientation_" + group,
+           "",
+           {plain("time", "time", t), column("l_2", "1", t, decay(0.5)),
+            column("l_4", "1", t, decay(2))}}};
+}
+
+inline std::vector<Table> collective(double tau) {
+  const std::vector<double> t = evenly(0.5, 0.5, 500);
+  return {{"wave_numbers", "", {plain("index", "1", {1, 2}), plain("q", "1/length", {2.4, 5})}},
+          {"susceptibility",
+           "",
+           {plain("time", "time", t),
+            column("overlap", "1", t, [tau](double time) { return std::exp(-time / tau); }),
+            column("chi_4", "1", t,
+                   [tau](double time) { return 5 * time / tau * std::exp(-time / tau); })}},
+          {"collective_scattering",
+           "",
+           {plain("time", "time", t),
+            column("f_1", "1", t, [tau](double time) { return 2.1 * std::exp(-time / tau); })}}};
+}
+
+inline std::vector<Table> structure() {
+  const std::vector<double> q = evenly(0.1, 0.1, 120), r = evenly(0.05, 0.1, 100);
+  const std::vector<double> angle = evenly(-1.5, 0.1, 31);
+  const auto peak = [](double x) {
+    return 1 - std::exp(-x * x) + std::exp(-8 * std::pow(x - 2.4, 2));
+  };
+  const auto flat = [](double) { return 1.0; };
+  const auto shell = [](double x) { return x < 0.8 ? 0.0 : 1 + std::exp(-x) * std::cos(3 * x); };
+  return {{"structure_factor",
+           "",
+           {plain("q", "1/length", q), column("s", "1", q, peak), column("s_A_B", "1", q, flat),
+            column("s_orientation", "1", q, flat), plain("modes", "1", constant(120, 8))}},
+          {"pair_correlation",
+           "",
+           {plain("r", "length", r), column("g", "1", r, shell), column("g_2", "1", r, shell),
+            column("g_4", "1", r, shell)}},
+          {"orientation_distribution",
+           "",
+           {plain("angle", "rad", angle), column("density", "1/rad", angle, [](double x) {
+              return std::exp(std::cos(2 * x)) / 4;
+            })}}};
+}
+
+inline std::vector<Table> series() {
+  const std::vector<double> t = evenly(0, 0.25, 1000);
+  return {
+      {"energies",
+       "",
+       {plain("time", "time", t), plain("translational", "kT", constant(1000, 1)),
+        plain("rotational", "kT", constant(1000, 0.5)), plain("total", "kT", constant(1000, 1.5))}},
+      {"compressibility", "", {plain("time", "time", t), plain("z", "1", constant(1000, 4.5))}},
+      {"order",
+       "",
+       {plain("time", "time", t), plain("nematic", "1", constant(1000, 0.7)),
+        plain("director", "rad", constant(1000, 0.1)),
+        plain("hexatic", "1", constant(1000, 0.2))}}};
+}
+
+/// Relaxation slows down as (0.8 − φ)^−2.
+inline double relaxation_time(double phi) {
+  return 0.1 * std::pow(0.8 - phi, -2);
+}
+
+inline ReportRun run(double phi, MemoryTrajectory trajectory) {
+  ReportRun run;
+  run.name = "run <1>";
+  run.dynamics = "Brownian, step 0.1";
+  run.packing_fraction = phi;
+  run.collisions_per_second = 300'000;
+  std::vector<Table>& tables = run.results.tables;
+  const auto add = [&tables](const std::vector<Table>& more) {
+    tables.insert(tables.end(), more.begin(), more.end());
+  };
+  add({summary(phi)});
+  for (const char* group : {"all", "A", "B"}) add(correlations(relaxation_time(phi), group));
+  add(collective(relaxation_time(phi)));
+  add(structure());
+  add(series());
+  run.movie = film(trajectory);
+  return run;
+}
+
+/// Two seeds at every density; the densest are not equilibrated, and stay out of the fit.
+inline Results study() {
+  std::vector<double> phi, seed, verdict;
+  for (const double density : {0.6, 0.64, 0.68, 0.7, 0.72, 0.74, 0.76})
+    for (const double number : {1.0, 2.0}) {
+      phi.push_back(density);
+      seed.push_back(number);
+      verdict.push_back(density < 0.73 ? 0 : density < 0.75 ? 1 : 2);
+    }
+  return {
+      {{"relaxation",
+        "",
+        {plain("packing_fraction", "1", phi), plain("seed", "1", seed),
+         column("tau_rotation", "time", phi, [](double x) { return 4 * std::pow(0.81 - x, -2.5); }),
+         column("tau_translation", "time", phi, relaxation_time),
+         column("nematic_order", "1", phi, [](double x) { return 2 * x - 0.9; }),
+         plain("verdict", "1", verdict)}},
+       {"glass_fit",
+        "",
+        {plain("kind", "1", {0, 1, 1}),
+         plain("law", "1", {0, 0, 1}),
+         {"phi_c", "1", {0.81, 0.8, 0.85}, {0.004, 0.003, 0.02}},
+         {"exponent", "1", {2.5, 2, 0.6}, {0.2, 0.1, 0.3}},
+         plain("amplitude", "time", {4, 0.1, 0.6}),
+         plain("window_low", "1", {0.6, 0.6, 0.6}),
+         plain("window_high", "1", {0.72, 0.72, 0.72})}}},
+      {}};
+}
+
+/// A sweep of three densities.
+inline ReportData sweep(std::size_t n, std::size_t frames) {
+  ReportData data;
+  data.title = "Ellipses & <disks>";
+  data.subtitle = "N = " + std::to_string(n * n);
+  for (const double phi : {0.7, 0.5, 0.6}) data.runs.push_back(run(phi, lattice(n, frames)));
+  data.study = study();
+  data.parameters = "[system]\nname = \"</script><b>\"\n";
+  data.provenance = {{"version", "0.1.0"}, {"command", "vitrel run \"a\" > b"}};
+  return data;
+}
+
+}  // namespace vitrel::report_example
