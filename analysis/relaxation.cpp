@@ -27,8 +27,8 @@ void check(const Decay& c) {
     throw UserError("relaxation time: the times of a correlation must be above 0 and ascend");
 }
 
-RelaxationTime without(double least, const std::string& reason) {
-  return {none, none, least, reason};
+RelaxationTime without(const std::string& reason, double least = none, double most = none) {
+  return {none, none, least, most, reason};
 }
 
 /// Whether some value from `begin` on is above 1/e by more than three errors.
@@ -70,25 +70,26 @@ RelaxationTime relaxation_time(const Decay& c) {
   const auto below =
       std::find_if(c.value.begin(), c.value.end(), [](double value) { return value <= level; });
   if (below == c.value.end())
-    return without(c.time.back(), fmt::format("still {:.2g} at the longest time {:.4g}",
-                                              c.value.back(), c.time.back()));
+    return without(
+        fmt::format("still {:.2g} at the longest time {:.4g}", c.value.back(), c.time.back()),
+        c.time.back());
   const auto k = static_cast<std::size_t>(below - c.value.begin());
   if (k == 0)
-    return without(none,
-                   fmt::format("already {:.2g} at the shortest time {:.4g}: sample more often",
-                               c.value.front(), c.time.front()));
-  if (returns(c, k)) return without(c.time[k], "returns above 1/e after having fallen below");
+    return without(fmt::format("already {:.2g} at the shortest time {:.4g}: sample more often",
+                               c.value.front(), c.time.front()),
+                   none, c.time.front());
+  if (returns(c, k)) return without("returns above 1/e after having fallen below", c.time[k]);
 
   std::size_t begin = k - 1, end = k + 1;
   while (begin > 0 && c.time[begin - 1] >= c.time[k] / reach) --begin;
   while (end < c.time.size() && c.time[end] <= c.time[k] * reach) ++end;
   const Line line = straight_line(c, begin, end);
-  if (!(line.slope < 0)) return without(none, "does not fall where it crosses 1/e");
+  if (!(line.slope < 0)) return without("does not fall where it crosses 1/e");
   const double shift = (level - line.value) / line.slope;
   const double time = line.time * std::exp(shift);
   if (!(time > c.time[begin] / reach && time < c.time[end - 1] * reach))
-    return without(none, "too noisy where it crosses 1/e");
-  return {time, time * line.error / -line.slope, none, ""};
+    return without("too noisy where it crosses 1/e");
+  return {time, time * line.error / -line.slope, none, none, ""};
 }
 
 Decay connected_part(const Decay& correlation, double plateau) {

@@ -15,7 +15,8 @@ struct Decay {
 struct RelaxationTime {
   double value;        ///< NaN if there is none
   double error;        ///< standard error; NaN where none can be given
-  double least;        ///< without a value: the time that the correlation outlives; else NaN
+  double least;        ///< without a value: a time that the correlation outlives; NaN if unknown
+  double most;         ///< without a value: a time by which it has decayed; NaN if unknown
   std::string reason;  ///< why there is no value; else empty
 };
 

@@ -94,9 +94,11 @@ TEST(RelaxationTime, WithoutOneTheReasonIsGiven) {
   const RelaxationTime late = relaxation_time(decay({1, 10, 90}, 0.01, exponential));
   EXPECT_TRUE(std::isnan(late.value) && std::isnan(late.error));
   EXPECT_EQ(late.least, 90);
+  EXPECT_TRUE(std::isnan(late.most));
   EXPECT_NE(late.reason.find("still 0.41"), std::string::npos) << late.reason;
   const RelaxationTime early = relaxation_time(decay({110, 200}, 0.01, exponential));
   EXPECT_TRUE(std::isnan(early.value) && std::isnan(early.least));
+  EXPECT_EQ(early.most, 110);
   EXPECT_NE(early.reason.find("sample more often"), std::string::npos);
   const RelaxationTime back = relaxation_time({{1, 2, 4}, {0.5, 0.3, 0.6}, {0.01, 0.01, 0.01}});
   EXPECT_TRUE(std::isnan(back.value));
