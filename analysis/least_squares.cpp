@@ -75,9 +75,8 @@ LeastSquares least_squares(std::size_t points, const Vector& start,
   gsl_matrix_view target = gsl_matrix_view_array(covariance.data(), n, n);
   gsl_multifit_nlinear_covar(gsl_multifit_nlinear_jac(workspace.get()), 0, &target.matrix);
   const Vector r = to_eigen(gsl_multifit_nlinear_residual(workspace.get()));
-  // GSL_ENOPROG: no step makes Σ r² smaller, so the minimum is met to rounding.
   return {to_eigen(gsl_multifit_nlinear_position(workspace.get())), covariance, r.squaredNorm(),
-          status == GSL_SUCCESS || status == GSL_ENOPROG};
+          status == GSL_SUCCESS};
 }
 
 }  // namespace vitrel

@@ -17,8 +17,7 @@ struct LeastSquares {
 };
 
 /// Minimises Σ r² over p, from a start in its valley, by the Levenberg–Marquardt method of GSL;
-/// converged where the last step was below 1e-10 of p, the gradient vanished, or no step made Σ r²
-/// smaller any more. Needs at least as many points as parameters.
+/// converged where the last step was below 1e-10 of p, or the gradient vanished. Needs at least as many points as parameters.
 LeastSquares least_squares(std::size_t points, const Eigen::VectorXd& start,
                            const WeightedResiduals& residuals);
 
