@@ -71,8 +71,6 @@ TEST(Equilibration, StationaryRunsAreHardlyEverCalledAgeing) {
     ageing += verdict == EquilibrationVerdict::ageing;
     equilibrated += verdict == EquilibrationVerdict::equilibrated;
   }
-  RecordProperty("ageing", ageing);
-  RecordProperty("equilibrated", equilibrated);
   EXPECT_LE(ageing, 13);
   EXPECT_GE(equilibrated, 580);
 }
@@ -89,7 +87,6 @@ TEST(Equilibration, DriftOfSixErrorsIsFound) {
       series[k] += change * static_cast<double>(k) / static_cast<double>(frames);
     ageing += judge_equilibration(run).verdict == EquilibrationVerdict::ageing;
   }
-  RecordProperty("ageing", ageing);
   EXPECT_GE(ageing, 95);
 }
 
@@ -107,7 +104,6 @@ TEST(Equilibration, SlowerSecondHalfIsFound) {
     ageing += result.verdict == EquilibrationVerdict::ageing &&
               result.reason.find("MSD at time") != std::string::npos;
   }
-  RecordProperty("ageing", ageing);
   EXPECT_GE(ageing, 95);
 }
 
@@ -161,7 +157,6 @@ TEST(Equilibration, RateOfFalseAlarmsIsTheStatedOne) {
     for (int k = 0; k < 5; ++k) run.series.push_back({"x", autoregressive(512, 0, draw)});
     ageing += judge_equilibration(run).verdict == EquilibrationVerdict::ageing;
   }
-  RecordProperty("ageing", ageing);
   EXPECT_NEAR(ageing, 20, 3 * 4.5);
 }
 

@@ -38,7 +38,6 @@ double vogel_fulcher_law(double phi) {
 /// How often φ_c lies within one and two errors.
 struct Coverage {
   int found = 0, one = 0, two = 0, statistical_one = 0, strength_one = 0;
-  double mean = 0, error = 0, spread = 0;
 
   void count(const GlassFit& fit, double density, double strength) {
     if (fit.verdict != GlassVerdict::found) return;
@@ -48,17 +47,6 @@ struct Coverage {
     two += distance < 2 * fit.error;
     statistical_one += distance < fit.statistical;
     strength_one += std::abs(fit.strength - strength) < fit.strength_error;
-    mean += fit.density, error += fit.error, spread += fit.spread;
-  }
-  void record() const {
-    testing::Test::RecordProperty("mean", std::to_string(mean / found));
-    testing::Test::RecordProperty("error", std::to_string(error / found));
-    testing::Test::RecordProperty("spread", std::to_string(spread / found));
-    testing::Test::RecordProperty("found", found);
-    testing::Test::RecordProperty("one", one);
-    testing::Test::RecordProperty("two", two);
-    testing::Test::RecordProperty("statistical_one", statistical_one);
-    testing::Test::RecordProperty("strength_one", strength_one);
   }
 };
 
@@ -73,7 +61,6 @@ TEST(GlassFit, ErrorsCoverTheDensityOfThePowerLaw) {
                                  GlassLaw::mode_coupling),
                    0.79, 2.3);
   }
-  coverage.record();
   EXPECT_GE(coverage.found, 90);
   EXPECT_NEAR(coverage.statistical_one, 0.6827 * coverage.found, 3 * 4.65);
   EXPECT_GE(coverage.strength_one, 0.6827 * coverage.found - 3 * 4.65);
@@ -89,7 +76,6 @@ TEST(GlassFit, ErrorsCoverTheDensityOfVogelAndFulcher) {
                                  GlassLaw::vogel_fulcher),
                    0.83, 0.8);
   }
-  coverage.record();
   EXPECT_GE(coverage.found, 90);
   EXPECT_NEAR(coverage.statistical_one, 0.6827 * coverage.found, 3 * 4.65);
   EXPECT_GE(coverage.two, 0.954 * coverage.found - 3 * 2.1);
@@ -108,8 +94,6 @@ TEST(GlassFit, DensitiesBelowThePowerLawStayOutside) {
     coverage.count(fit, 0.79, 2.3);
     low += fit.window.lowest < 0.59;
   }
-  coverage.record();
-  testing::Test::RecordProperty("low", low);
   EXPECT_LE(low, 5);
   EXPECT_GE(coverage.found, 90);
   EXPECT_GE(coverage.one, 0.6827 * coverage.found - 3 * 4.65);
@@ -127,7 +111,6 @@ TEST(GlassFit, DensitiesBeyondThePowerLawMakeTheErrorLarge) {
         fit_glass_law(times(densities(0.58, 0.02, 11), 0.05, draw, y), GlassLaw::mode_coupling),
         0.79, 2.3);
   }
-  coverage.record();
   EXPECT_GE(coverage.found, 80);
   EXPECT_GE(coverage.one, 0.6827 * coverage.found - 3 * 4.65);
   EXPECT_GE(coverage.two, 0.954 * coverage.found - 3 * 2.1);
@@ -145,9 +128,6 @@ TEST(GlassFit, FarFromTheDivergenceThereIsABoundOnly) {
     bounds += fit.verdict == GlassVerdict::lower_bound;
     wrong += fit.verdict == GlassVerdict::lower_bound && fit.least > 0.79;
   }
-  testing::Test::RecordProperty("found", found);
-  testing::Test::RecordProperty("bounds", bounds);
-  testing::Test::RecordProperty("wrong", wrong);
   EXPECT_GE(bounds, 50);
   EXPECT_LE(wrong, 5 + 3 * 2.2);
 }

@@ -83,8 +83,6 @@ TEST(RelaxationTime, ErrorsCoverTheTruth) {
     one += std::abs(tau.value - 20) < tau.error;
     two += std::abs(tau.value - 20) < 2 * tau.error;
   }
-  RecordProperty("one", one);
-  RecordProperty("two", two);
   EXPECT_NEAR(one, 68.27, 3 * 4.65);
   EXPECT_NEAR(two, 95.4, 3 * 2.1);
 }
