@@ -1,0 +1,135 @@
+#include "analysis/equilibration.h"
+
+#include <fmt/format.h>
+#include <gsl/gsl_cdf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "analysis/blocking.h"
+
+namespace vitrel {
+
+namespace {
+
+constexpr double false_alarms = 0.01;  // of a verdict of ageing
+constexpr double rounding = 1e-9;      // of a value: conserved energies drift by it
+constexpr double spacing = 2;          // of the times at which curves are compared
+
+/// One comparison: what it is about, and the probability of such a difference by chance.
+struct Comparison {
+  std::string text;
+  double probability;
+};
+
+double two_sided(double t, std::size_t degrees) {
+  return 2 * gsl_cdf_tdist_Q(std::abs(t), static_cast<double>(degrees));
+}
+
+/// Change over the series of the line fitted to it, and the error of the mean of what it leaves.
+struct Trend {
+  double mean, change;
+  Estimate residual;
+};
+
+Trend trend(const std::vector<double>& series) {
+  const double n = static_cast<double>(series.size());
+  double mean = 0;
+  for (const double value : series) mean += value;
+  mean /= n;
+  double xy = 0, xx = 0;
+  for (std::size_t k = 0; k < series.size(); ++k) {
+    const double x = (static_cast<double>(k) + 0.5) / n - 0.5;
+    xy += x * (series[k] - mean);
+    xx += x * x;
+  }
+  const double change = xy / xx;
+  std::vector<double> residual;
+  for (std::size_t k = 0; k < series.size(); ++k)
+    residual.push_back(series[k] - mean - change * ((static_cast<double>(k) + 0.5) / n - 0.5));
+  return {mean, change, block_average(residual)};
+}
+
+/// Nothing if the series is too short for an error.
+std::optional<Comparison> drift(const ScalarSeries& series) {
+  if (series.value.size() < 2) return std::nullopt;
+  const Trend t = trend(series.value);
+  if (t.residual.blocks == 0) return std::nullopt;
+  const std::size_t degrees = t.residual.blocks - 2;
+  const double error = std::sqrt(12) * t.residual.error / student_factor(t.residual.blocks - 1);
+  const bool rounded = std::abs(t.change) <= rounding * std::abs(t.mean);
+  const double probability = rounded ? 1 : two_sided(t.change / error, degrees);
+  return Comparison{fmt::format("{} drifts by {:.3g} over the run, {:.1f} standard errors",
+                                series.name, t.change, std::abs(t.change / error)),
+                    probability};
+}
+
+/// The difference of two curves at the k-th point of the first one, the l-th of the second.
+Comparison difference(const HalvesOfCurve& c, std::size_t k, std::size_t l) {
+  const auto squared = [](const BlockedCurve& curve, std::size_t at) {
+    const double error = curve.error[at] / student_factor(curve.blocks[at] - 1);
+    return error * error;
+  };
+  const double change = c.second.value[l] - c.first.value[k];
+  const double error = std::sqrt(squared(c.first, k) + squared(c.second, l));
+  const std::size_t degrees = c.first.blocks[k] + c.second.blocks[l] - 2;
+  const double probability = change == 0 ? 1 : two_sided(change / error, degrees);
+  return {fmt::format("{} at time {:.4g} is {:.4g} in the first half, {:.4g} in the second, {:.1f} "
+                      "standard errors apart",
+                      c.name, c.first.time[k], c.first.value[k], c.second.value[l],
+                      std::abs(change / error)),
+          probability};
+}
+
+void compare_halves(const HalvesOfCurve& c, std::vector<Comparison>& comparisons) {
+  double next = std::numeric_limits<double>::infinity();
+  for (std::size_t k = c.first.time.size(); k-- > 0;) {
+    const double time = c.first.time[k];
+    if (time > next * (1 + 1e-9) || c.first.blocks[k] == 0) continue;
+    const auto same = std::find_if(c.second.time.begin(), c.second.time.end(), [&](double other) {
+      return std::abs(other - time) <= 1e-9 * time;
+    });
+    if (same == c.second.time.end()) continue;
+    const auto l = static_cast<std::size_t>(same - c.second.time.begin());
+    if (c.second.blocks[l] == 0) continue;
+    comparisons.push_back(difference(c, k, l));
+    next = time / spacing;
+  }
+}
+
+/// Why the run is too short for a relaxation time; empty if it is not.
+std::string shortage(const NamedTime& named, double duration) {
+  const RelaxationTime& tau = named.time;
+  const double time = std::isnan(tau.value) ? tau.most : tau.value;
+  if (std::isnan(time)) return fmt::format("{}: {}", named.name, tau.reason);
+  if (duration >= fewest_relaxations * time) return "";
+  return fmt::format("the run lasts {:.2g} times {} = {:.4g}; {:g} times are needed",
+                     duration / time, named.name, time, fewest_relaxations);
+}
+
+}  // namespace
+
+Equilibration judge_equilibration(const RunEvidence& run) {
+  std::vector<Comparison> comparisons;
+  std::string too_short;
+  for (const ScalarSeries& series : run.series) {
+    if (const auto comparison = drift(series))
+      comparisons.push_back(*comparison);
+    else if (too_short.empty())
+      too_short = fmt::format("{} is correlated over too much of the run", series.name);
+  }
+  for (const HalvesOfCurve& curve : run.curves) compare_halves(curve, comparisons);
+  const double n = static_cast<double>(comparisons.size());
+  for (const Comparison& c : comparisons)
+    if (c.probability < false_alarms / n) return {EquilibrationVerdict::ageing, c.text};
+
+  if (run.times.empty()) too_short = "no relaxation time";
+  for (const NamedTime& time : run.times)
+    if (too_short.empty()) too_short = shortage(time, run.duration);
+  if (!too_short.empty()) return {EquilibrationVerdict::too_short, too_short};
+  return {EquilibrationVerdict::equilibrated, ""};
+}
+
+}  // namespace vitrel

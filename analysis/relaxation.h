@@ -1,0 +1,48 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace vitrel {
+
+/// A correlation that decays from 1 at time difference 0.
+struct Decay {
+  std::vector<double> time;  ///< ascending, above 0
+  std::vector<double> value;
+  std::vector<double> error;  ///< standard errors; NaN where unknown
+};
+
+struct RelaxationTime {
+  double value;        ///< NaN if there is none
+  double error;        ///< standard error; NaN where none can be given
+  double least;        ///< without a value: a time that the correlation outlives; NaN if unknown
+  double most;         ///< without a value: a time by which it has decayed; NaN if unknown
+  std::string reason;  ///< why there is no value; else empty
+};
+
+/// The time τ at which a correlation has fallen to 1/e.
+///
+/// 1. The first time at which it is not above 1/e tells where, up to noise.
+/// 2. There a straight line in ln t is fitted to all points within a factor 5/4 of that time, and to
+///    the two points on both sides of 1/e if these are farther. exp(−(t/τ)^β) has its point of
+///    inflection in ln t at τ, for every β, so the line is wrong in third order only: by less than
+///    0.2 % of τ for β ≤ 1. τ is where the line is 1/e.
+/// 3. The error is the mean error of these points over the slope of the line: neighbouring times
+///    share their noise, so more points do not make it smaller.
+///
+/// No value where the correlation does not fall that far within its times, where it is below 1/e
+/// from the first time on, or where it returns above 1/e by more than three errors. Throws UserError
+/// for columns of different lengths, none, or times that do not ascend.
+RelaxationTime relaxation_time(const Decay& correlation);
+
+/// The connected part (C − P)/(1 − P) of a correlation that ends on a plateau P < 1 because there is
+/// order: it decays from 1 to 0 again.
+Decay connected_part(const Decay& correlation, double plateau);
+
+/// The plateau of L₂(t) = ⟨cos 2(θ(t) − θ(0))⟩ in a nematic whose director stays: ⟨cos 2(θ − θ_d)⟩²
+/// = (R⟨S²⟩ − 1)/(R − 1), the mean of cos 2(θ_i − θ_j) over pairs of the R particles; it takes off
+/// what S² has without order, 1/R. Not below 0. `square` is ⟨S²⟩. A plateau of order that is
+/// only quasi-long-ranged depends on R as ⟨S²⟩ does (frenkel1985).
+double nematic_plateau(double square, std::size_t rotors);
+
+}  // namespace vitrel

@@ -1,0 +1,420 @@
+#include "app/workflow/glass_study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <tuple>
+
+namespace vitrel {
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double least_order = 0.5;      // nematic order of a nematic
+constexpr double well_above_chance = 3;  // in units of the order of as many rotors without any
+
+double chance_order(std::size_t rotors) {
+  return std::sqrt(std::numbers::pi / (4 * static_cast<double>(rotors)));
+}
+
+bool is_nematic(const GlassRun& run) {
+  return run.nematic_order.mean >=
+         std::max(least_order, well_above_chance * chance_order(run.rotors));
+}
+
+double mean_square(const std::vector<double>& series) {
+  double sum = 0;
+  for (const double value : series) sum += value * value;
+  return sum / static_cast<double>(series.size());
+}
+
+void judge_orientation(GlassRun& run, const GlassRunData& data) {
+  run.nematic_order = {unknown, unknown, 0};
+  run.plateau = 0;
+  run.orientation = Orientation::round;
+  run.rotation = {unknown, unknown, unknown, unknown, "no particle can turn"};
+  if (data.rotors == 0) return;
+  run.nematic_order = block_average(data.nematic_order);
+  const bool nematic = is_nematic(run);
+  if (nematic) run.plateau = nematic_plateau(mean_square(data.nematic_order), data.rotors);
+  run.rotation = relaxation_time(connected_part(data.orientation, run.plateau));
+  const bool decays = !std::isnan(run.rotation.value) || !std::isnan(run.rotation.most);
+  run.orientation = !decays   ? Orientation::frozen
+                    : nematic ? Orientation::ordered
+                              : Orientation::relaxes;
+}
+
+Equilibration judge(const GlassRun& run, const GlassRunData& data) {
+  RunEvidence evidence{data.duration, data.series, data.halves, {{"tau_alpha", run.translation}}};
+  if (data.rotors > 0) {
+    evidence.series.push_back({"the nematic order", data.nematic_order});
+    evidence.times.push_back({"tau_2", run.rotation});
+  }
+  return judge_equilibration(evidence);
+}
+
+/// A time of one kind and its error; NaN if the run has none.
+struct Time {
+  double value, error;
+};
+
+Time inverse(const DiffusionCoefficient& d) {
+  return {1 / d.value, d.error / (d.value * d.value)};
+}
+
+bool nematic(const GlassRun& run) {
+  return run.rotors > 0 && is_nematic(run);
+}
+
+/// Whether a run can have a time of this kind at all.
+bool applies(GlassKind kind, const GlassRun& run) {
+  switch (kind) {
+    case GlassKind::translation:
+    case GlassKind::diffusion:
+      return true;
+    case GlassKind::nematic_rotation:
+      return nematic(run);
+    case GlassKind::rotation:
+    case GlassKind::rotational_diffusion:
+      return run.rotors > 0 && !nematic(run);
+  }
+  return false;
+}
+
+Time time_of(GlassKind kind, const GlassRun& run) {
+  switch (kind) {
+    case GlassKind::translation:
+      return {run.translation.value, run.translation.error};
+    case GlassKind::rotation:
+    case GlassKind::nematic_rotation:
+      return {run.rotation.value, run.rotation.error};
+    case GlassKind::diffusion:
+      return inverse(run.diffusion);
+    case GlassKind::rotational_diffusion:
+      return inverse(run.rotational_diffusion);
+  }
+  return {unknown, unknown};
+}
+
+bool equilibrated(const GlassRun& run) {
+  return run.equilibration.verdict == EquilibrationVerdict::equilibrated;
+}
+
+bool enters_fit(GlassKind kind, const GlassRun& run) {
+  const Time time = time_of(kind, run);
+  return applies(kind, run) && equilibrated(run) && time.value > 0 && time.error > 0;
+}
+
+const char* name_of(GlassKind kind) {
+  switch (kind) {
+    case GlassKind::translation:
+      return "translation, tau_alpha";
+    case GlassKind::rotation:
+      return "rotation, tau_2";
+    case GlassKind::nematic_rotation:
+      return "rotation in the nematic, tau_2";
+    case GlassKind::diffusion:
+      return "diffusion, 1/D";
+    case GlassKind::rotational_diffusion:
+      return "rotational diffusion, 1/D_r";
+  }
+  return "";
+}
+
+const char* name_of(GlassLaw law) {
+  return law == GlassLaw::mode_coupling ? "power law" : "Vogel-Fulcher";
+}
+
+const char* name_of(EquilibrationVerdict verdict) {
+  switch (verdict) {
+    case EquilibrationVerdict::equilibrated:
+      return "equilibrated";
+    case EquilibrationVerdict::ageing:
+      return "ageing";
+    case EquilibrationVerdict::too_short:
+      return "not enough time";
+  }
+  return "";
+}
+
+const char* name_of(Orientation orientation) {
+  switch (orientation) {
+    case Orientation::round:
+      return "round";
+    case Orientation::relaxes:
+      return "relaxes";
+    case Orientation::ordered:
+      return "nematic order";
+    case Orientation::frozen:
+      return "frozen";
+  }
+  return "";
+}
+
+template <class Code>
+double number(Code code) {
+  return static_cast<double>(static_cast<int>(code));
+}
+
+/// A table that grows by rows.
+class Rows {
+ public:
+  Rows(const char* name, std::string description, std::vector<Column> columns)
+      : table_{name, std::move(description), std::move(columns)} {}
+
+  /// A pair (value, error) for every column; errors of columns that have none are not looked at.
+  void add(const std::vector<Time>& row, const std::vector<bool>& has_error) {
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      table_.columns[k].value.push_back(row[k].value);
+      if (has_error[k]) table_.columns[k].error.push_back(row[k].error);
+    }
+  }
+  Table table() && { return std::move(table_); }
+
+ private:
+  Table table_;
+};
+
+Time plain(double value) {
+  return {value, unknown};
+}
+
+constexpr const char* kinds_text =
+    "kind: 0 translation (tau_alpha), 1 rotation (tau_2), 2 rotation in the nematic (tau_2 of the "
+    "connected part), 3 diffusion (1/D), 4 rotational diffusion (1/D_r)";
+
+Table relaxation_table(const GlassStudy& study) {
+  Rows rows("relaxation",
+            fmt::format("Relaxation times, one row per run and kind. {}. verdict: 0 equilibrated, "
+                        "1 ageing, 2 not enough time; fitted: 1 if the row enters the fits. "
+                        "orientation: 0 round, 1 relaxes, 2 nematic order, 3 frozen. nematic: S, "
+                        "beside that of as many rotors without order; plateau: of L_2 by order.",
+                        kinds_text),
+            {{"packing_fraction", "1", {}, {}},
+             {"seed", "1", {}, {}},
+             {"kind", "1", {}, {}},
+             {"tau", "time", {}, {}},
+             {"duration", "time", {}, {}},
+             {"verdict", "1", {}, {}},
+             {"fitted", "1", {}, {}},
+             {"nematic", "1", {}, {}},
+             {"nematic_by_chance", "1", {}, {}},
+             {"plateau", "1", {}, {}},
+             {"orientation", "1", {}, {}}});
+  const std::vector<bool> has_error = {false, false, false, true,  false, false,
+                                       false, true,  false, false, false};
+  for (const GlassRun& run : study.runs)
+    for (const GlassKind kind : glass_kinds) {
+      if (!applies(kind, run)) continue;
+      const double chance = run.rotors > 0 ? chance_order(run.rotors) : unknown;
+      rows.add(
+          {plain(run.packing_fraction), plain(static_cast<double>(run.seed)), plain(number(kind)),
+           time_of(kind, run), plain(run.duration), plain(number(run.equilibration.verdict)),
+           plain(enters_fit(kind, run)), Time{run.nematic_order.mean, run.nematic_order.error},
+           plain(chance), plain(run.plateau), plain(number(run.orientation))},
+          has_error);
+    }
+  return std::move(rows).table();
+}
+
+Table fit_table(const GlassStudy& study) {
+  Rows rows(
+      "glass_fit",
+      fmt::format("Laws of the glass transition. {}. law: 0 tau = A (phi_c - phi)^-s, 1 tau = "
+                  "A exp(s phi/(phi_c - phi)). verdict: 0 found, 1 lower bound only, 2 "
+                  "refused. phi_c is above phi_c_least with a probability of 95 %; window: "
+                  "that of the greatest weight, and its fit.",
+                  kinds_text),
+      {{"kind", "1", {}, {}},
+       {"law", "1", {}, {}},
+       {"verdict", "1", {}, {}},
+       {"phi_c", "1", {}, {}},
+       {"phi_c_statistical", "1", {}, {}},
+       {"phi_c_spread", "1", {}, {}},
+       {"phi_c_least", "1", {}, {}},
+       {"exponent", "1", {}, {}},
+       {"window_low", "1", {}, {}},
+       {"window_high", "1", {}, {}},
+       {"densities", "1", {}, {}},
+       {"window_phi_c", "1", {}, {}},
+       {"window_exponent", "1", {}, {}},
+       {"window_log_prefactor", "ln(time)", {}, {}},
+       {"chi2", "1", {}, {}},
+       {"dof", "1", {}, {}},
+       {"scatter", "1", {}, {}}});
+  std::vector<bool> has_error(17, false);
+  has_error[3] = has_error[7] = true;
+  for (const StudiedLaw& studied : study.laws) {
+    const GlassFit& fit = studied.fit;
+    const GlassWindow& w = fit.window;
+    const bool found = fit.verdict == GlassVerdict::found;
+    const bool any = !fit.windows.empty();
+    const auto if_any = [&](double value) { return plain(any ? value : unknown); };
+    rows.add({plain(number(studied.kind)), plain(number(studied.law)), plain(number(fit.verdict)),
+              found ? Time{fit.density, fit.error} : plain(unknown),
+              plain(found ? fit.statistical : unknown), plain(found ? fit.spread : unknown),
+              plain(fit.verdict == GlassVerdict::refused ? unknown : fit.least),
+              found ? Time{fit.strength, fit.strength_error} : plain(unknown), if_any(w.lowest),
+              if_any(w.highest), if_any(static_cast<double>(w.densities)), if_any(w.density),
+              if_any(w.strength), if_any(w.log_prefactor), if_any(w.chi_square),
+              if_any(static_cast<double>(w.degrees)), plain(fit.scatter)},
+             has_error);
+  }
+  return std::move(rows).table();
+}
+
+Table window_table(const GlassStudy& study) {
+  Rows rows("glass_fit_windows",
+            fmt::format("The laws fitted to every window of densities. {}. law as in glass_fit; "
+                        "phi_c_low and phi_c_high: where chi^2 is 1 above its minimum.",
+                        kinds_text),
+            {{"kind", "1", {}, {}},
+             {"law", "1", {}, {}},
+             {"window_low", "1", {}, {}},
+             {"window_high", "1", {}, {}},
+             {"phi_c", "1", {}, {}},
+             {"phi_c_low", "1", {}, {}},
+             {"phi_c_high", "1", {}, {}},
+             {"exponent", "1", {}, {}},
+             {"chi2", "1", {}, {}},
+             {"dof", "1", {}, {}},
+             {"goodness", "1", {}, {}},
+             {"weight", "1", {}, {}}});
+  const std::vector<bool> has_error(12, false);
+  for (const StudiedLaw& studied : study.laws)
+    for (const GlassWindow& w : studied.fit.windows)
+      rows.add({plain(number(studied.kind)), plain(number(studied.law)), plain(w.lowest),
+                plain(w.highest), plain(w.density), plain(w.low), plain(w.high), plain(w.strength),
+                plain(w.chi_square), plain(static_cast<double>(w.degrees)), plain(w.goodness),
+                plain(w.weight)},
+               has_error);
+  return std::move(rows).table();
+}
+
+std::string time_text(double value, double error) {
+  if (std::isnan(value)) return "-";
+  return std::isnan(error) ? fmt::format("{:.3g}", value)
+                           : fmt::format("{:.4g} +- {:.2g}", value, error);
+}
+
+std::string run_line(const GlassRun& run) {
+  return fmt::format("{:8.4g} {:5} {:>7} {:>20} {:>20}  {:<13}  {}\n", run.packing_fraction,
+                     run.seed, run.rotors > 0 ? fmt::format("{:.3f}", run.nematic_order.mean) : "-",
+                     time_text(run.translation.value, run.translation.error),
+                     time_text(run.rotation.value, run.rotation.error), name_of(run.orientation),
+                     name_of(run.equilibration.verdict));
+}
+
+std::string fit_line(const StudiedLaw& studied) {
+  const GlassFit& fit = studied.fit;
+  std::string text = fmt::format("{}, {}: ", name_of(studied.kind), name_of(studied.law));
+  if (fit.verdict != GlassVerdict::found) return text + "no phi_c: " + fit.reason + "\n";
+  return text + fmt::format(
+                    "phi_c = {:.4f} +- {:.4f} (statistical {:.4f}, window {:.4f}), s = {:.3g} "
+                    "+- {:.2g}; best window {:.4g} ... {:.4g}, chi^2/dof {:.2f}\n",
+                    fit.density, fit.error, fit.statistical, fit.spread, fit.strength,
+                    fit.strength_error, fit.window.lowest, fit.window.highest,
+                    fit.window.chi_square / static_cast<double>(fit.window.degrees));
+}
+
+/// The densities of the runs of which something is true, each once.
+template <class Predicate>
+std::string densities_where(const GlassStudy& study, Predicate&& predicate) {
+  std::string text;
+  std::string last;
+  for (const GlassRun& run : study.runs) {
+    const std::string density = fmt::format("{:.4g}", run.packing_fraction);
+    if (!predicate(run) || density == last) continue;
+    text += (text.empty() ? "" : ", ") + density;
+    last = density;
+  }
+  return text;
+}
+
+std::string order_or_glass(const GlassStudy& study) {
+  const std::string ordered = densities_where(
+      study, [](const GlassRun& run) { return run.orientation == Orientation::ordered; });
+  const std::string frozen = densities_where(
+      study, [](const GlassRun& run) { return run.orientation == Orientation::frozen; });
+  std::string text;
+  if (!ordered.empty())
+    text += fmt::format(
+        "Nematic order, not glass, keeps orientations at {}: L_2 decays to the "
+        "plateau that order gives it.\n",
+        ordered);
+  if (!frozen.empty())
+    text += fmt::format(
+        "Orientations do not relax within the run (beyond what order explains) at {}.\n", frozen);
+  return text;
+}
+
+}  // namespace
+
+GlassRun judge_glass_run(const GlassRunData& data) {
+  GlassRun run{};
+  run.name = data.name;
+  run.packing_fraction = data.packing_fraction;
+  run.seed = data.seed;
+  run.rotors = data.rotors;
+  run.duration = data.duration;
+  run.diffusion = data.diffusion;
+  run.rotational_diffusion = data.rotational_diffusion;
+  run.translation = relaxation_time(data.scattering);
+  judge_orientation(run, data);
+  run.equilibration = judge(run, data);
+  return run;
+}
+
+GlassStudy study_glass(std::vector<GlassRun> runs) {
+  std::stable_sort(runs.begin(), runs.end(), [](const GlassRun& a, const GlassRun& b) {
+    return std::tie(a.packing_fraction, a.seed) < std::tie(b.packing_fraction, b.seed);
+  });
+  GlassStudy study{std::move(runs), {}};
+  for (const GlassKind kind : glass_kinds) {
+    std::vector<GlassPoint> points;
+    bool applied = false;
+    for (const GlassRun& run : study.runs) {
+      applied = applied || applies(kind, run);
+      const Time time = time_of(kind, run);
+      if (enters_fit(kind, run)) points.push_back({run.packing_fraction, time.value, time.error});
+    }
+    if (!applied) continue;
+    for (const GlassLaw law : {GlassLaw::mode_coupling, GlassLaw::vogel_fulcher})
+      study.laws.push_back({kind, law, fit_glass_law(points, law)});
+  }
+  return study;
+}
+
+std::vector<Table> glass_tables(const GlassStudy& study) {
+  return {relaxation_table(study), fit_table(study), window_table(study)};
+}
+
+std::vector<std::pair<std::string, std::string>> glass_notes(const GlassStudy& study) {
+  std::vector<std::pair<std::string, std::string>> notes;
+  const auto add = [&](const std::string& text) {
+    notes.emplace_back(fmt::format("note_{}", notes.size() + 1), text);
+  };
+  for (const GlassRun& run : study.runs)
+    if (!equilibrated(run))
+      add(fmt::format("{} (density {:.4g}, seed {}) stays out of the fits, {}: {}", run.name,
+                      run.packing_fraction, run.seed, name_of(run.equilibration.verdict),
+                      run.equilibration.reason));
+  for (const StudiedLaw& studied : study.laws)
+    if (studied.fit.verdict != GlassVerdict::found)
+      add(fmt::format("{}, {}: no phi_c, {}", name_of(studied.kind), name_of(studied.law),
+                      studied.fit.reason));
+  return notes;
+}
+
+std::string glass_text(const GlassStudy& study) {
+  std::string text = fmt::format("{:>8} {:>5} {:>7} {:>20} {:>20}  {:<13}  {}\n", "phi", "seed",
+                                 "S", "tau_alpha", "tau_2", "orientation", "verdict");
+  for (const GlassRun& run : study.runs) text += run_line(run);
+  text += order_or_glass(study);
+  for (const StudiedLaw& studied : study.laws) text += fit_line(studied);
+  return text;
+}
+
+}  // namespace vitrel

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "analysis/blocking.h"
+#include "analysis/diffusion.h"
+#include "analysis/equilibration.h"
+#include "analysis/glass_fit.h"
+#include "analysis/relaxation.h"
+#include "analysis/results.h"
+
+/// Where particles cease to move and to turn, from runs at several densities.
+namespace vitrel {
+
+/// What the analysis of one run hands over.
+struct GlassRunData {
+  std::string name;
+  double packing_fraction;
+  std::uint64_t seed;
+  std::size_t rotors;
+  double duration;
+  Decay scattering;                   ///< F_s(q, t) at the main peak
+  Decay orientation;                  ///< L_2(t); empty without rotors
+  std::vector<double> nematic_order;  ///< S at evenly spaced times; empty without rotors
+  std::vector<ScalarSeries> series;   ///< others that must not drift: compressibility, energy
+  std::vector<HalvesOfCurve> halves;  ///< curves that must be the same in both halves
+  DiffusionCoefficient diffusion, rotational_diffusion;
+};
+
+/// Why orientations are kept, or not.
+enum class Orientation {
+  round,    ///< there are none
+  relaxes,  ///< L_2 decays
+  ordered,  ///< nematic: L_2 decays to its plateau, and is kept there by order
+  frozen,   ///< L_2 does not decay within the run, or not to the plateau: glass, or too short
+};
+
+struct GlassRun {
+  std::string name;
+  double packing_fraction;
+  std::uint64_t seed;
+  std::size_t rotors;
+  double duration;
+  Estimate nematic_order;  ///< S
+  double plateau;          ///< of L_2, by order; 0 if not nematic
+  Orientation orientation;
+  RelaxationTime translation;  ///< τ_α: F_s = 1/e
+  RelaxationTime rotation;     ///< τ_2: L_2 = 1/e, in a nematic its connected part
+  DiffusionCoefficient diffusion, rotational_diffusion;
+  Equilibration equilibration;
+};
+
+/// Relaxation times, order and verdict of one run.
+///
+/// Nematic or not: of R rotors without order S is about √(π/(4R)), or √g times that if g of them turn
+/// together. In two dimensions order decays as a power of the distance, with an exponent of 1/4 at most
+/// (frenkel1985), hence S falls with the box; but as S² ≈ 1.1 (box/2 particles)^(−1/4) it is above 0.5
+/// in every box shorter than some hundred particles. A run counts as nematic from S = 0.5 on, if that is
+/// three times √(π/(4R)) at least.
+///
+/// In a nematic, L_2 does not decay and the mean squared rotation stops although all is in
+/// equilibrium. So it is judged by its connected part (relaxation.h): if that decays, the stop is
+/// order; if it does not, orientations are frozen beyond their order. That S is stationary is part of
+/// the verdict, as are τ_α and τ_2.
+GlassRun judge_glass_run(const GlassRunData& data);
+
+/// What a law is fitted to.
+enum class GlassKind {
+  translation,           ///< τ_α
+  rotation,              ///< τ_2 of runs that are not nematic
+  nematic_rotation,      ///< τ_2 of nematic runs
+  diffusion,             ///< 1/D
+  rotational_diffusion,  ///< 1/D_r of runs that are not nematic
+};
+inline constexpr std::array glass_kinds = {GlassKind::translation, GlassKind::rotation,
+                                           GlassKind::nematic_rotation, GlassKind::diffusion,
+                                           GlassKind::rotational_diffusion};
+
+struct StudiedLaw {
+  GlassKind kind;
+  GlassLaw law;
+  GlassFit fit;
+};
+
+struct GlassStudy {
+  std::vector<GlassRun> runs;    ///< by density, then by seed
+  std::vector<StudiedLaw> laws;  ///< both laws for every kind that some run has a time of
+};
+
+/// Both laws for all kinds, from the runs that were in equilibrium and have a time with an error.
+GlassStudy study_glass(std::vector<GlassRun> runs);
+
+/// Tables `relaxation` (one row per run and kind), `glass_fit` (one row per kind and law) and
+/// `glass_fit_windows` (one row per kind, law and window). Kinds, laws and verdicts are numbers there,
+/// which the descriptions explain.
+std::vector<Table> glass_tables(const GlassStudy& study);
+/// What numbers cannot say, as provenance: why runs stay out of the fits, why a law has no φ_c.
+std::vector<std::pair<std::string, std::string>> glass_notes(const GlassStudy& study);
+/// A page for people: densities with order, verdict and times, and where the laws put φ_c.
+std::string glass_text(const GlassStudy& study);
+
+}  // namespace vitrel

@@ -1,0 +1,171 @@
+#include "analysis/equilibration.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "analysis/blocking.h"
+#include "core/random/stream.h"
+
+namespace vitrel {
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t frames = 4096;
+
+/// x_{k+1} = c x_k + √(1 − c²) ξ, from equilibrium: variance 1, correlation c^|k|.
+std::vector<double> autoregressive(std::size_t n, double c, Stream& draw) {
+  std::vector<double> series(n);
+  double x = draw.normal();
+  for (double& value : series) {
+    value = x;
+    x = c * x + std::sqrt(1 - c * c) * draw.normal();
+  }
+  return series;
+}
+
+/// Standard error of the mean of n ≫ 1/(1 − c) such values.
+double error_of_mean(std::size_t n, double c) {
+  return std::sqrt((1 + c) / (1 - c) / static_cast<double>(n));
+}
+
+/// ⟨(x(t + lag) − x(t))²⟩ of part of a series.
+BlockedCurve mean_square(const std::vector<double>& x, std::size_t begin, std::size_t end) {
+  BlockedCurve curve;
+  for (std::size_t lag = 1; lag <= 64; lag *= 2) {
+    std::vector<double> squares;
+    for (std::size_t k = begin; k + lag < end; ++k)
+      squares.push_back((x[k + lag] - x[k]) * (x[k + lag] - x[k]));
+    const Estimate estimate = block_average(squares, 4.0 * static_cast<double>(lag));
+    curve.time.push_back(static_cast<double>(lag));
+    curve.value.push_back(estimate.mean);
+    curve.error.push_back(estimate.error);
+    curve.blocks.push_back(estimate.blocks);
+  }
+  return curve;
+}
+
+HalvesOfCurve halves(const std::vector<double>& x) {
+  return {"MSD", mean_square(x, 0, x.size() / 2), mean_square(x, x.size() / 2, x.size())};
+}
+
+RelaxationTime known(double tau) {
+  return {tau, 0.1 * tau, unknown, unknown, ""};
+}
+
+RunEvidence stationary(std::uint64_t seed) {
+  Stream draw(seed, Purpose::tests);
+  RunEvidence run{4096, {}, {}, {{"tau", known(100)}}};
+  for (const double c : {0.0, 0.5, 0.9})
+    run.series.push_back({"x", autoregressive(frames, c, draw)});
+  run.curves.push_back(halves(autoregressive(frames, 0.8, draw)));
+  return run;
+}
+
+// Stated: at most 1 % of 600 runs, 6 ± 2.4; three standard deviations allow 13.
+TEST(Equilibration, StationaryRunsAreHardlyEverCalledAgeing) {
+  int ageing = 0, equilibrated = 0;
+  for (std::uint64_t seed = 0; seed < 600; ++seed) {
+    const EquilibrationVerdict verdict = judge_equilibration(stationary(seed)).verdict;
+    ageing += verdict == EquilibrationVerdict::ageing;
+    equilibrated += verdict == EquilibrationVerdict::equilibrated;
+  }
+  EXPECT_LE(ageing, 13);
+  EXPECT_GE(equilibrated, 580);
+}
+
+// A change over the run of six of its standard errors √12 e: the statistic is normal about 6, the
+// limit for one of 3 + 7 tests is 3.4 with about 60 degrees of freedom; power 99 %.
+TEST(Equilibration, DriftOfSixErrorsIsFound) {
+  int ageing = 0;
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    RunEvidence run = stationary(seed);
+    std::vector<double>& series = run.series[1].value;
+    const double change = 6 * std::sqrt(12) * error_of_mean(frames, 0.5);
+    for (std::size_t k = 0; k < frames; ++k)
+      series[k] += change * static_cast<double>(k) / static_cast<double>(frames);
+    ageing += judge_equilibration(run).verdict == EquilibrationVerdict::ageing;
+  }
+  EXPECT_GE(ageing, 95);
+}
+
+// Steps 15 % shorter in the second half: squares 28 % smaller, at lag 1 some ten of their errors
+// √(2/2048)·√2 = 4.4 %, times √(1.3) for correlations; power 99 % and more.
+TEST(Equilibration, SlowerSecondHalfIsFound) {
+  int ageing = 0;
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    RunEvidence run = stationary(seed);
+    Stream draw(seed, Purpose::tests, 1);
+    std::vector<double> x = autoregressive(frames, 0.8, draw);
+    for (std::size_t k = frames / 2; k < frames; ++k) x[k] *= 0.85;
+    run.curves = {halves(x)};
+    const Equilibration result = judge_equilibration(run);
+    ageing += result.verdict == EquilibrationVerdict::ageing &&
+              result.reason.find("MSD at time") != std::string::npos;
+  }
+  EXPECT_GE(ageing, 95);
+}
+
+// A value that approaches its end exponentially, over a fifth of the run.
+TEST(Equilibration, RelaxationFromTheStartNeverPasses) {
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    RunEvidence run = stationary(seed);
+    for (std::size_t k = 0; k < frames; ++k)
+      run.series[1].value[k] += 2 * std::exp(-5.0 * static_cast<double>(k) / frames);
+    EXPECT_NE(judge_equilibration(run).verdict, EquilibrationVerdict::equilibrated) << seed;
+  }
+}
+
+Equilibration with_time(const RelaxationTime& time) {
+  RunEvidence run = stationary(1);
+  run.times = {{"tau", known(1)}, {"tau_2", time}};
+  return judge_equilibration(run);
+}
+
+TEST(Equilibration, TenRelaxationTimesAreNeeded) {
+  EXPECT_EQ(with_time(known(409.6)).verdict, EquilibrationVerdict::equilibrated);
+  const Equilibration shorter = with_time(known(409.7));
+  EXPECT_EQ(shorter.verdict, EquilibrationVerdict::too_short);
+  EXPECT_NE(shorter.reason.find("10 times tau_2 = 409.7"), std::string::npos) << shorter.reason;
+  // Not relaxed, and relaxed before the first sample.
+  const Equilibration never = with_time({unknown, unknown, 2000, unknown, "still 0.8"});
+  EXPECT_EQ(never.verdict, EquilibrationVerdict::too_short);
+  EXPECT_EQ(never.reason, "tau_2: still 0.8");
+  EXPECT_EQ(with_time({unknown, unknown, unknown, 1, "already 0.1"}).verdict,
+            EquilibrationVerdict::equilibrated);
+}
+
+TEST(Equilibration, WithoutEvidenceThereIsNotEnoughTime) {
+  EXPECT_EQ(judge_equilibration({100, {}, {}, {}}).verdict, EquilibrationVerdict::too_short);
+  RunEvidence run{4096, {}, {}, {{"tau", known(1)}}};
+  EXPECT_EQ(judge_equilibration(run).verdict, EquilibrationVerdict::equilibrated);
+  // As slow as the run is long.
+  Stream draw(1, Purpose::tests);
+  run.series = {{"S", autoregressive(1000, 0.999, draw)}};
+  const Equilibration slow = judge_equilibration(run);
+  EXPECT_EQ(slow.verdict, EquilibrationVerdict::too_short);
+  EXPECT_NE(slow.reason.find("S is correlated"), std::string::npos) << slow.reason;
+}
+
+// Independent values, where blocking is exact: the rate is the stated 1 %, 20 ± 4.5 of 2000 runs.
+TEST(Equilibration, RateOfFalseAlarmsIsTheStatedOne) {
+  int ageing = 0;
+  for (std::uint64_t seed = 0; seed < 2000; ++seed) {
+    Stream draw(seed, Purpose::tests, 2);
+    RunEvidence run{100, {}, {}, {{"tau", known(1)}}};
+    for (int k = 0; k < 5; ++k) run.series.push_back({"x", autoregressive(512, 0, draw)});
+    ageing += judge_equilibration(run).verdict == EquilibrationVerdict::ageing;
+  }
+  EXPECT_NEAR(ageing, 20, 3 * 4.5);
+}
+
+TEST(Equilibration, ConstantsDoNotDriftButForRounding) {
+  RunEvidence run{100, {{"E", std::vector<double>(100, 1.5)}}, {}, {{"tau", known(1)}}};
+  EXPECT_EQ(judge_equilibration(run).verdict, EquilibrationVerdict::equilibrated);
+  for (std::size_t k = 0; k < 100; ++k) run.series[0].value[k] += 1e-12 * static_cast<double>(k);
+  EXPECT_EQ(judge_equilibration(run).verdict, EquilibrationVerdict::equilibrated);
+}
+
+}  // namespace
+}  // namespace vitrel
