@@ -124,7 +124,7 @@ void DensityGrid::list_wave_vectors(double from, double to) {
       if (q >= to) break;
       if (q < from) continue;
       wave_vectors_.push_back({x, y, q});
-      place_.push_back(static_cast<std::size_t>(x < 0 ? x + count_[0] : x) * (count_[1] / 2 + 1) +
+      index_.push_back(static_cast<std::size_t>(x < 0 ? x + count_[0] : x) * (count_[1] / 2 + 1) +
                        y);
       const double sign = (x + y) % 2 == 0 ? 1 : -1;
       gain_.push_back(sign / (transformed_spline(static_cast<double>(x) / count_[0]) *
@@ -132,25 +132,49 @@ void DensityGrid::list_wave_vectors(double from, double to) {
     }
 }
 
-void DensityGrid::spread(const Vec2& position, std::size_t i, const std::vector<Weights>& fields,
-                         std::vector<double*>& grids) const {
-  SplineValues value[2];
+/// Where a point lies: the first of its p nodes in both directions, and how far beyond the middle left
+/// one.
+struct DensityGrid::Place {
+  std::size_t point;
   std::size_t first[2];
-  for (int k = 0; k < 2; ++k) {
-    double box = position[k] / lengths_[k] + 0.5;
-    box -= std::floor(box);
-    const double at = box * count_[k];
-    const double node = std::floor(at);
-    value[k] = spline_values(at - node);
-    first[k] = (static_cast<std::size_t>(node) + count_[k] - (spline_order / 2 - 1)) % count_[k];
+  double fraction[2];
+};
+
+// Sorted by rows: points next to each other then write to the same part of the grid, which the cache
+// keeps.
+std::vector<DensityGrid::Place> DensityGrid::places(std::span<const Vec2> positions) const {
+  std::vector<Place> places;
+  std::vector<std::size_t> next(static_cast<std::size_t>(count_[0]) + 1, 0);
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    Place& place = places.emplace_back(Place{i, {}, {}});
+    for (int k = 0; k < 2; ++k) {
+      double box = positions[i][k] / lengths_[k] + 0.5;
+      box -= std::floor(box);
+      const double at = box * count_[k];
+      const double node = std::floor(at);
+      place.first[k] =
+          (static_cast<std::size_t>(node) + count_[k] - (spline_order / 2 - 1)) % count_[k];
+      place.fraction[k] = at - node;
+    }
+    ++next[place.first[0] + 1];
   }
+  for (std::size_t row = 1; row < next.size(); ++row) next[row] += next[row - 1];
+  std::vector<Place> sorted(places.size());
+  for (const Place& place : places) sorted[next[place.first[0]]++] = place;
+  return sorted;
+}
+
+void DensityGrid::spread(const Place& place, const std::vector<Weights>& fields,
+                         const std::vector<double*>& grids) const {
+  const SplineValues across = spline_values(place.fraction[0]);
+  const SplineValues along = spline_values(place.fraction[1]);
   for (std::size_t f = 0; f < fields.size(); ++f) {
-    const double weight = fields[f][i];
+    const double weight = fields[f][place.point];
     if (weight == 0) continue;
-    double* row = grids[f] + first[0] * row_ + first[1];
+    double* row = grids[f] + place.first[0] * row_ + place.first[1];
     for (int k = 0; k < spline_order; ++k, row += row_) {
-      const double factor = weight * value[0][k];
-      for (int l = 0; l < spline_order; ++l) row[l] += factor * value[1][l];
+      const double factor = weight * across[k];
+      for (int l = 0; l < spline_order; ++l) row[l] += factor * along[l];
     }
   }
 }
@@ -175,7 +199,7 @@ std::vector<Modes> DensityGrid::modes(std::span<const Vec2> positions,
     grids.push_back(memory.back().get());
     std::fill_n(grids.back(), transform_->reals, 0.0);
   }
-  for (std::size_t i = 0; i < positions.size(); ++i) spread(positions[i], i, fields, grids);
+  for (const Place& place : places(positions)) spread(place, fields, grids);
 
   const Array<fftw_complex> out = complex_array(transform_->complexes);
   std::vector<Modes> result;
@@ -184,7 +208,7 @@ std::vector<Modes> DensityGrid::modes(std::span<const Vec2> positions,
     fftw_execute_dft_r2c(transform_->plan, grid, out.get());
     Modes& modes = result.emplace_back(wave_vectors_.size());
     for (std::size_t k = 0; k < modes.size(); ++k) {
-      const fftw_complex& mode = out[place_[k]];
+      const fftw_complex& mode = out[index_[k]];
       modes[k] = gain_[k] * std::complex<double>(mode[0], mode[1]);
     }
   }

@@ -69,15 +69,18 @@ class DensityGrid {
   struct Transform;
 
   void list_wave_vectors(double from, double to);
-  void spread(const Vec2& position, std::size_t i, const std::vector<Weights>& fields,
-              std::vector<double*>& grids) const;
+  struct Place;
+
+  std::vector<Place> places(std::span<const Vec2> positions) const;
+  void spread(const Place& place, const std::vector<Weights>& fields,
+              const std::vector<double*>& grids) const;
   void close_period(double* grid) const;
 
   Vec2 lengths_;
   int count_[2];     // nodes
   std::size_t row_;  // numbers in a row of the grid, with those beyond the period
   std::vector<WaveVector> wave_vectors_;
-  std::vector<std::size_t> place_;  // of each wave vector, in the transformed grid
+  std::vector<std::size_t> index_;  // of each wave vector, in the transformed grid
   std::vector<double> gain_;        // 1/ŵ, and the sign for an origin in the middle of the box
   std::unique_ptr<Transform> transform_;
 };
