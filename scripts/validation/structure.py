@@ -11,7 +11,7 @@ def measure(_build):
         expect(row["share_of_bound"] <= 1, f"N = {row['particles']}: an error is {row['share_of_bound']:.2f} bounds")
     lines = [[row["particles"], f"{row['wave_vectors']:.0f}", f"{row['transform_ms']:.2f}", f"{row['direct_ms']:.1f}",
               f"{row['direct_ms'] / row['transform_ms']:.1f}", f"{row['largest_error']:.1e}",
-              f"{row['share_of_bound']:.3f}"] for row in rows]
+              f"{row['share_of_bound']:.0e}"] for row in rows]
     head = ["N", "wave vectors", "transform, ms", "direct, ms", "times as fast", "largest error of S", "of its bound"]
     return f"""Ellipses of κ = 4 at φ = 0.3 in a square box; structure factors of centres and orientations in shells up to
 q = 12, in processor time of one core, by a B-spline grid of order 12 and by direct sums over the same wave vectors. The
