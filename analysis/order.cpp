@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <numbers>
 
 #include "analysis/voronoi.h"
 
@@ -47,12 +48,51 @@ std::complex<double> hexatic_order(const VoronoiCell& cell) {
 
 }  // namespace
 
-double nematic_order(const Configuration2& configuration) {
+Mat2 OrderTensor::matrix() const {
+  return (Mat2() << cosine, sine, sine, -cosine).finished();
+}
+
+double OrderTensor::order() const {
+  return std::hypot(cosine, sine);
+}
+
+double OrderTensor::director() const {
+  return 0.5 * std::atan2(sine, cosine);
+}
+
+OrderTensor order_tensor(const Configuration2& configuration) {
   const std::vector<Rotor> rotors = rotors_of(configuration);
-  if (rotors.empty()) return 0;
+  if (rotors.empty()) return {};
   Vec2 sum = Vec2::Zero();
   for (const Rotor& rotor : rotors) sum += rotor.director;
-  return sum.norm() / static_cast<double>(rotors.size());
+  const Vec2 mean = sum / static_cast<double>(rotors.size());
+  return {mean.x(), mean.y()};
+}
+
+double nematic_order(const Configuration2& configuration) {
+  return order_tensor(configuration).order();
+}
+
+double nematic_order_by_chance(std::size_t rotors) {
+  return std::sqrt(std::numbers::pi / (4 * static_cast<double>(rotors)));
+}
+
+std::vector<double> orientation_distribution(const Configuration2& configuration,
+                                             std::size_t bins) {
+  const std::size_t rotors = rotor_count(configuration);
+  if (rotors == 0) return {};
+  const double director = order_tensor(configuration).director();
+  const double width = std::numbers::pi / static_cast<double>(bins);
+  std::vector<double> density(bins, 0);
+  for (std::size_t i = 0; i < configuration.size(); ++i) {
+    if (configuration.shape[i].is_round()) continue;
+    const double turns = (configuration.angle[i] - director) / std::numbers::pi + 0.5;
+    const double place = (turns - std::floor(turns)) * static_cast<double>(bins);
+    // Rounding can put a place at the very end.
+    const std::size_t bin = std::min(static_cast<std::size_t>(place), bins - 1);
+    density[bin] += 1 / (static_cast<double>(rotors) * width);
+  }
+  return density;
 }
 
 NematicCorrelation nematic_correlation(const Configuration2& configuration, double width) {

@@ -9,9 +9,33 @@
 /// alike after half a turn, so angles enter as 2θ.
 namespace vitrel {
 
-/// Nematic order S = |⟨exp 2iθ⟩| of the particles that are not round: 1 if all are parallel;
-/// √(π/(4R)) on the average of R particles without order. 0 if all are round.
+/// The order tensor Q = ⟨2 u uᵀ − 1⟩, u along the major axis, of the particles that are not round:
+///   Q = ( ⟨cos 2θ⟩   ⟨sin 2θ⟩ )
+///       ( ⟨sin 2θ⟩  −⟨cos 2θ⟩ ),
+/// with the eigenvalues ± S; the eigenvector of + S is the director. 0 if all are round.
+struct OrderTensor {
+  double cosine = 0, sine = 0;  ///< ⟨cos 2θ⟩ and ⟨sin 2θ⟩
+
+  Mat2 matrix() const;
+  /// Nematic order S = |⟨exp 2iθ⟩|: 1 if all are parallel, and not 0 without order, see
+  /// nematic_order_by_chance.
+  double order() const;
+  /// Angle of the director, from −π/2 to π/2; without order any.
+  double director() const;
+};
+OrderTensor order_tensor(const Configuration2& configuration);
+
+/// S, for short.
 double nematic_order(const Configuration2& configuration);
+
+/// Mean S of R independent angles, √(π/(4R)), the mean length of a random walk of R steps of length
+/// 1/R: what a finite system without any order shows. Good to 1 % from R = 10 on.
+double nematic_order_by_chance(std::size_t rotors);
+
+/// Density of the angles of the particles that are not round, seen from the director, in bins of equal
+/// width from −π/2 to π/2; its integral is 1. The director is that of the same particles: without
+/// order it is (1 + 2 S cos 2α)/π, not 1/π, with the S of a finite system. Empty if all are round.
+std::vector<double> orientation_distribution(const Configuration2& configuration, std::size_t bins);
 
 /// g₂(r) = ⟨cos 2(θ_i − θ_j)⟩ over the pairs of particles that are not round, by the distance r of
 /// their centres. Bins of equal width fill 0 … half the shorter side of the box, so that the

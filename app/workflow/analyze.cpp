@@ -7,8 +7,10 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <thread>
 
 #include "app/workflow/stored_run.h"
+#include "app/workflow/structure_tables.h"
 #include "core/error.h"
 
 namespace vitrel {
@@ -18,13 +20,18 @@ using Json = nlohmann::ordered_json;
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-DisplacementOptions analysis_options(const RunAnalysis& run, const AnalysisChoice& choice) {
+Parameters analysis_parameters(const RunAnalysis& run, const AnalysisChoice& choice) {
   if (choice.parameters)
-    return load_parameters({*choice.parameters, choice.overrides, std::nullopt}).analysis;
-  return parse_parameters(run.provenance.parameters, run.file.string(), choice.overrides).analysis;
+    return load_parameters({*choice.parameters, choice.overrides, std::nullopt});
+  return parse_parameters(run.provenance.parameters, run.file.string(), choice.overrides);
 }
 
-void measure(RunAnalysis& run, StoredTrajectory& trajectory, const DisplacementOptions& options) {
+/// As many threads as the machine has: the results do not depend on it.
+int all_threads() {
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+void measure(RunAnalysis& run, StoredTrajectory& trajectory, const Parameters& parameters) {
   const TrajectoryReader& reader = trajectory.reader();
   run.final_state = trajectory.read(trajectory.frames() - 1);
   run.particles = run.final_state.size();
@@ -32,7 +39,8 @@ void measure(RunAnalysis& run, StoredTrajectory& trajectory, const DisplacementO
   run.packing_fraction = packing_fraction(run.final_state);
   run.frames = trajectory.frames();
   run.duration = trajectory.times().back() - trajectory.times().front();
-  run.displacements = displacements(trajectory, options);
+  run.displacements = displacements(trajectory, parameters.analysis);
+  run.structure = structure_tables(trajectory, parameters.structure, all_threads());
   run.energy = stored_energies(trajectory);
   run.compressibility = stored_compressibility(reader, run.energy, run.rotors);
   const DisplacementGroup& all = run.displacements.groups.front();
@@ -40,13 +48,6 @@ void measure(RunAnalysis& run, StoredTrajectory& trajectory, const DisplacementO
   run.rotational_diffusion = run.rotors > 0
                                  ? long_time_diffusion(run.displacements.lag, all.rotation, 1)
                                  : Diffusion{unknown, unknown};
-}
-
-std::string identifier(const std::string& name) {
-  std::string result = name;
-  for (char& c : result)
-    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
-  return result;
 }
 
 Table displacement_table(const Displacements& displacements, const DisplacementGroup& group) {
@@ -157,7 +158,7 @@ RunAnalysis analyze_run(const std::filesystem::path& file, const AnalysisChoice&
   run.provenance = reader.provenance();
   if (!run.provenance.parameters.empty())
     run.parameters = parse_parameters(run.provenance.parameters, file.string());
-  measure(run, trajectory, analysis_options(run, choice));
+  measure(run, trajectory, analysis_parameters(run, choice));
   const std::vector<std::string> names = reader.observable_names();
   if (std::find(names.begin(), names.end(), "collisions") != names.end()) {
     const std::vector<double> collisions = reader.observable("collisions");
@@ -176,6 +177,7 @@ Results results_of(const RunAnalysis& run) {
   results.tables.push_back(energy_table(run.energy));
   if (!run.compressibility.value.empty())
     results.tables.push_back(compressibility_table(run.compressibility));
+  results.tables.insert(results.tables.end(), run.structure.begin(), run.structure.end());
   results.provenance = provenance_rows(run.provenance);
   results.provenance.emplace_back("source", run.file.string());
   return results;

@@ -256,6 +256,19 @@ void describe_analysis(DisplacementOptions& p, FieldVisitor& visit) {
   visit.field({"memory", "bytes", "Memory for particle tracks."}, p.memory);
 }
 
+void describe_structure(StructureOptions& p, FieldVisitor& visit) {
+  visit.field({"frames", "", "Frames averaged over; evenly thinned beyond."}, p.most_frames);
+  visit.field({"wave_number_max", "1/length", "Largest wave number q of structure factors."},
+              p.shells.wave_number_max);
+  visit.field({"wave_number_step", "1/length", "Width of the shells of q averaged over."},
+              p.shells.wave_number_step);
+  visit.field({"distance_max", "length",
+               "Largest distance of pair correlations, but at most half the shorter side of the "
+               "box."},
+              p.pairs.distance_max);
+  visit.field({"distance_step", "length", "Width of the bins of distance."}, p.pairs.distance_step);
+}
+
 FieldVisitor::Inside section_of(auto& part, auto describe) {
   return [&part, describe](FieldVisitor& visit) { describe(part, visit); };
 }
@@ -477,6 +490,22 @@ void validate_analysis(const DisplacementOptions& p) {
   rules.at_least(static_cast<std::int64_t>(p.memory), 1 << 20, "memory");
 }
 
+void validate_structure(const StructureOptions& p) {
+  const Rules rules("analysis.structure");
+  rules.at_least(static_cast<std::int64_t>(p.most_frames), 1, "frames");
+  const auto steps = [&](double longest, double step, const char* longest_key,
+                         const char* step_key) {
+    rules.positive(longest, longest_key);
+    rules.positive(step, step_key);
+    rules.require(step <= longest && longest / step <= 1e4, step_key,
+                  fmt::format("is {}, but must lie between {} and {} = {}, a ten-thousandth of it "
+                              "and all of it",
+                              show(step), show(longest / 1e4), longest_key, show(longest)));
+  };
+  steps(p.shells.wave_number_max, p.shells.wave_number_step, "wave_number_max", "wave_number_step");
+  steps(p.pairs.distance_max, p.pairs.distance_step, "distance_max", "distance_step");
+}
+
 Parameters read(const TomlNode& root) {
   Parameters parameters;
   read_parameters(root, fields(parameters), [&] { validate(parameters); });
@@ -566,8 +595,13 @@ FieldVisitor::Inside fields(Parameters& p, const Sections& sections) {
                   section_of(p.output, describe_output));
     }
     if (sections.analysis)
-      visit.table({"analysis", "", "How mean squared displacements are evaluated."}, Style::section,
-                  section_of(p.analysis, describe_analysis));
+      visit.table(
+          {"analysis", "", "How saved runs are evaluated."}, Style::section, [&](FieldVisitor& in) {
+            describe_analysis(p.analysis, in);
+            in.table(
+                {"structure", "", "Structure factors, pair correlations, order of single frames."},
+                Style::inline_table, section_of(p.structure, describe_structure));
+          });
     if (sections.sweep)
       visit.table({"sweep", "", "Many runs from one file."}, Style::section, [&](FieldVisitor& in) {
         in.grid({"grid", "",
@@ -585,6 +619,7 @@ void validate(const Parameters& parameters) {
   validate_dynamics(parameters.dynamics);
   validate_output(parameters);
   validate_analysis(parameters.analysis);
+  validate_structure(parameters.structure);
 }
 
 Parameters load_parameters(const ParameterSource& source) {

@@ -8,6 +8,7 @@
 
 #include "analysis/displacement.h"
 #include "app/workflow/hybrid.h"
+#include "app/workflow/structure_tables.h"
 #include "core/io/parameters.h"
 #include "core/state/species.h"
 #include "edmd/growth.h"
@@ -92,6 +93,7 @@ struct Parameters {
   DynamicsParameters dynamics;
   OutputParameters output;
   DisplacementOptions analysis;
+  StructureOptions structure;
   ParameterGrid sweep;
 
   Parameters();

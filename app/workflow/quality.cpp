@@ -51,8 +51,7 @@ std::string pressure_remark(const Quality& quality) {
 
 void add_nematic_rows(std::vector<QualityRow>& rows, const Quality& quality) {
   if (quality.rotors == 0) return;
-  // The mean length of a random walk of R steps of length 1/R.
-  const double noise = std::sqrt(M_PI / (4 * static_cast<double>(quality.rotors)));
+  const double noise = nematic_order_by_chance(quality.rotors);
   rows.push_back({"nematic order S", fmt::format("{:.3f}", quality.nematic_order),
                   fmt::format("1: all parallel; {:.3f} on average without order", noise)});
   const NematicCorrelation& g = quality.nematic_correlation;

@@ -73,6 +73,77 @@ TEST(NematicOrder, OfARandomGasIsThatOfARandomWalk) {
   EXPECT_NEAR(50 * sum / 400, 1, 5.0 / 20);
 }
 
+// √(π/(4R)) is the mean of the same walk's length, with the standard deviation √((1 − π/4)/R); five
+// standard errors. For R = 50 the formula itself is off by 0.1 %.
+TEST(NematicOrder, ByChanceIsThatOfARandomGas) {
+  double sum = 0;
+  for (std::uint64_t seed = 0; seed < 400; ++seed) sum += nematic_order(gas(50, seed));
+  EXPECT_NEAR(sum / 400, nematic_order_by_chance(50), 5 * std::sqrt((1 - pi / 4) / 50 / 400));
+}
+
+// Q from its definition, ⟨2 u uᵀ − 1⟩, and the director as its eigenvector to + S.
+TEST(OrderTensor, IsTheMeanOfTheMajorAxes) {
+  for (const double mean : {-1.2, 0.0, 0.4, 1.5}) {
+    Configuration2 c = gas(40, 3);
+    Mat2 sum = Mat2::Zero();
+    for (double& angle : c.angle) {
+      angle = mean + 0.2 * angle;
+      const Vec2 u(std::cos(angle), std::sin(angle));
+      sum += 2 * u * u.transpose() - Mat2::Identity();
+    }
+    const OrderTensor tensor = order_tensor(c);
+    EXPECT_TRUE(tensor.matrix().isApprox(sum / 40, 1e-13));
+    const Vec2 director(std::cos(tensor.director()), std::sin(tensor.director()));
+    EXPECT_TRUE((tensor.matrix() * director).isApprox(tensor.order() * director, 1e-13));
+    EXPECT_GT(tensor.order(), 0.1);
+    EXPECT_EQ(tensor.order(), nematic_order(c));
+  }
+}
+
+// Evenly spread angles: the bins differ by one angle at most.
+TEST(OrientationDistribution, OfEvenlySpreadAnglesIsFlat) {
+  Configuration2 c = gas(1000, 1);
+  for (std::size_t i = 0; i < c.size(); ++i) c.angle[i] = 0.1 + pi * static_cast<double>(i) / 1000;
+  for (const double density : orientation_distribution(c, 20))
+    EXPECT_NEAR(density, 1 / pi, 1.001 / (1000 * pi / 20));
+}
+
+TEST(OrientationDistribution, OfParallelParticlesIsOnePeakInTheMiddle) {
+  Configuration2 c = gas(50, 1);
+  for (std::size_t i = 0; i < c.size(); ++i) c.angle[i] = 1.3 + pi * static_cast<double>(i % 7);
+  const std::vector<double> density = orientation_distribution(c, 9);
+  for (std::size_t k = 0; k < 9; ++k) EXPECT_NEAR(density[k], k == 4 ? 9 / pi : 0, 1e-12);
+}
+
+// ⟨cos 2α⟩ = S and ⟨sin 2α⟩ = 0 hold in every state, whichever way the director points; a bin's width
+// is off by at most |d cos 2α/dα| width/2.
+TEST(OrientationDistribution, HasTheMomentsOfTheOrder) {
+  for (const double turn : {0.0, 0.9, -2.0}) {
+    Configuration2 c = gas(30, 8);
+    c.shape[3] = {1, 1};
+    for (double& angle : c.angle) angle += turn;
+    const std::size_t bins = 400;
+    const double width = pi / static_cast<double>(bins);
+    const std::vector<double> density = orientation_distribution(c, bins);
+    double sum = 0, cosine = 0, sine = 0;
+    for (std::size_t k = 0; k < bins; ++k) {
+      const double angle = (static_cast<double>(k) + 0.5) * width - pi / 2;
+      sum += density[k] * width;
+      cosine += density[k] * width * std::cos(2 * angle);
+      sine += density[k] * width * std::sin(2 * angle);
+    }
+    EXPECT_NEAR(sum, 1, 1e-12);
+    EXPECT_NEAR(cosine, nematic_order(c), width);
+    EXPECT_NEAR(sine, 0, width);
+  }
+}
+
+TEST(OrientationDistribution, OfDisksIsEmpty) {
+  Configuration2 c;
+  c.resize(3);
+  EXPECT_TRUE(orientation_distribution(c, 10).empty());
+}
+
 TEST(NematicCorrelation, IsOneWhereAllAreParallel) {
   Configuration2 c = gas(200, 1);
   for (std::size_t i = 0; i < c.size(); ++i) c.angle[i] = 0.7 + pi * static_cast<double>(i);

@@ -136,6 +136,15 @@ const BadFile bad_files[] = {
     {"[output]\ncheckpoint_interval = -1", "file.toml:2:23: key 'output.checkpoint_interval'"},
     {"[analysis]\nlongest_lag = 2", "file.toml:2:15: key 'analysis.longest_lag' is 2.0"},
     {"[analysis]\nmost_origins = 0", "file.toml:2:16: key 'analysis.most_origins' is 0"},
+    {"[analysis]\nstructure = { frames = 0 }",
+     "file.toml:2:24: key 'analysis.structure.frames' is 0"},
+    {"[analysis]\nstructure = { wave_number_step = 0 }",
+     "file.toml:2:34: key 'analysis.structure.wave_number_step' is 0.0, but must be positive"},
+    {"[analysis]\nstructure = { distance_step = 21 }",
+     "key 'analysis.structure.distance_step' is 21.0, but must lie between 0.002 and distance_max "
+     "= 20.0"},
+    {"[analysis]\nstructure = { wave_number_max = 2000 }",
+     "key 'analysis.structure.wave_number_step' is 0.1, but must lie between 0.2 and "},
 };
 
 TEST(ParameterFile, EveryImpossibleValueIsRefusedWithItsPlace) {

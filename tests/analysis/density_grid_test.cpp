@@ -1,0 +1,123 @@
+#include "analysis/density_grid.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/random/stream.h"
+
+namespace vitrel {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+Vec2 grid_wave(const WaveVector& q, const Vec2& lengths, const Vec2& spacing) {
+  return Vec2(q.x, q.y).cwiseProduct(spacing).cwiseQuotient(lengths);
+}
+
+// At x = 1/2 the images form Σ 1/(1 + 2m)^p over all whole m: 2 (1 − 2^−12) ζ(12), ζ(12) = 691
+// π^12/638512875.
+TEST(AliasBound, IsASumOverImages) {
+  const double half = 2 * (1 - std::pow(2.0, -12)) * 691 * std::pow(pi, 12) / 638512875;
+  EXPECT_NEAR(alias_bound({0.5, 0}), half - 1, 1e-13);
+  EXPECT_NEAR(alias_bound({0, -0.5}), half - 1, 1e-13);
+  EXPECT_NEAR(alias_bound({0.5, 0.5}), half * half - 1, 1e-13);
+  EXPECT_EQ(alias_bound({0, 0}), 0);
+}
+
+TEST(AliasBound, IsBelowTheToleranceWhereverAGridIsUsed) {
+  double largest = 0;
+  for (int k = 0; k <= 90; ++k) {
+    const double angle = k * pi / 180;
+    for (const double x : {0.1, 0.2, largest_grid_wave})
+      largest = std::max(largest, alias_bound(x * Vec2(std::cos(angle), std::sin(angle))));
+  }
+  EXPECT_LT(largest, alias_tolerance);
+  EXPECT_GT(largest, 0.9 * alias_tolerance);
+}
+
+// A point on a node: all its images are in phase, and the error of ρ = 1 is the bound itself.
+TEST(DensityGrid, OfAPointOnANodeIsOffByTheBound) {
+  const Vec2 lengths(20, 31);
+  const DensityGrid grid(lengths, 0, 6);
+  const std::vector<Vec2> origin{Vec2::Zero()};
+  const std::vector<Modes> modes = grid.modes(origin, {{1.0}});
+  double largest = 0;
+  for (std::size_t k = 0; k < modes[0].size(); ++k) {
+    const Vec2 x = grid_wave(grid.wave_vectors()[k], lengths, grid.spacing());
+    EXPECT_NEAR(std::abs(modes[0][k] - (1 + alias_bound(x))), 0, 1e-12);
+    largest = std::max(largest, std::abs(modes[0][k] - 1.0));
+  }
+  EXPECT_GT(largest, 0.5 * alias_tolerance);
+  EXPECT_LT(largest, alias_tolerance);
+}
+
+struct Scene {
+  Vec2 lengths;
+  double from, to;
+};
+
+class DensityGridOfAGas : public testing::TestWithParam<Scene> {};
+
+// Positive and negative weights, positions far outside of the box. Rounding: 1e-13 of the sum.
+TEST_P(DensityGridOfAGas, AgreesWithTheDirectSumWithinTheBound) {
+  const auto& [lengths, from, to] = GetParam();
+  Stream draw(3, Purpose::tests);
+  std::vector<Vec2> positions;
+  std::vector<Weights> fields(2);
+  double sums[2] = {0, 0};
+  for (int i = 0; i < 150; ++i) {
+    positions.push_back(lengths.cwiseProduct(Vec2(draw.uniform(-2, 2), draw.uniform(-2, 2))));
+    fields[0].push_back(draw.uniform(-1, 2));
+    fields[1].push_back(i % 2);
+    for (int f = 0; f < 2; ++f) sums[f] += std::abs(fields[f].back());
+  }
+  const DensityGrid grid(lengths, from, to);
+  const std::vector<Modes> fast = grid.modes(positions, fields);
+  const std::vector<Modes> exact = direct_modes(lengths, grid.wave_vectors(), positions, fields);
+  double largest = 0;
+  for (int f = 0; f < 2; ++f)
+    for (std::size_t k = 0; k < exact[f].size(); ++k) {
+      const double error = std::abs(fast[f][k] - exact[f][k]);
+      const Vec2 x = grid_wave(grid.wave_vectors()[k], lengths, grid.spacing());
+      EXPECT_LE(error, (alias_bound(x) + 1e-13) * sums[f]);
+      largest = std::max(largest, error / sums[f]);
+    }
+  // As large as √N images without order make it: the bound is no empty one.
+  EXPECT_GT(largest, 0.1 * alias_tolerance / std::sqrt(150.0));
+}
+
+INSTANTIATE_TEST_SUITE_P(Boxes, DensityGridOfAGas,
+                         testing::Values(Scene{{30, 30}, 0, 5}, Scene{{7, 90}, 0, 4},
+                                         Scene{{90, 7}, 2, 4}, Scene{{2.5, 3}, 0, 9},
+                                         Scene{{0.3, 40}, 0, 5}));
+
+// π (q_max² − q_min²) L_x L_y/(2π)² wave vectors, half of them listed; the number of lattice points
+// in an annulus is off by no more than the length of its edges.
+TEST(DensityGrid, ListsOneOfEachTwoOppositeWaveVectors) {
+  const Vec2 lengths(50, 40);
+  const DensityGrid grid(lengths, 2, 5);
+  for (const WaveVector& q : grid.wave_vectors()) {
+    EXPECT_TRUE(q.y > 0 || (q.y == 0 && q.x > 0));
+    EXPECT_NEAR(q.wave_number, 2 * pi * std::hypot(q.x / lengths.x(), q.y / lengths.y()), 1e-12);
+    EXPECT_TRUE(q.wave_number >= 2 && q.wave_number < 5);
+  }
+  const double area = lengths.prod() / (4 * pi * pi);
+  EXPECT_NEAR(static_cast<double>(grid.wave_vectors().size()), 0.5 * pi * (25 - 4) * area,
+              0.5 * 2 * pi * (5 + 2) * std::sqrt(area));
+}
+
+// ρ at three wave vectors of two points, by hand: L = 4, points at x = ±1 and y = 0, 1.
+TEST(DirectModes, OfTwoPoints) {
+  const std::vector<WaveVector> waves{{1, 0, 0}, {2, 0, 0}, {0, 1, 0}};
+  const std::vector<Vec2> positions{{1, 0}, {-1, 1}};
+  const Modes rho = direct_modes({4, 4}, waves, positions, {{1.0, 3.0}})[0];
+  // exp(−iπ/2) + 3 exp(iπ/2) = 2i; exp(−iπ) + 3 exp(iπ) = −4; 1 + 3 exp(−iπ/2) = 1 − 3i.
+  EXPECT_NEAR(std::abs(rho[0] - std::complex<double>(0, 2)), 0, 1e-15);
+  EXPECT_NEAR(std::abs(rho[1] - std::complex<double>(-4, 0)), 0, 1e-14);
+  EXPECT_NEAR(std::abs(rho[2] - std::complex<double>(1, -3)), 0, 1e-14);
+}
+
+}  // namespace
+}  // namespace vitrel

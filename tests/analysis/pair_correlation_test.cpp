@@ -1,0 +1,117 @@
+#include "analysis/pair_correlation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/random/stream.h"
+#include "tests/support/scenes.h"
+#include "tests/support/statistics.h"
+
+namespace vitrel {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+Configuration2 gas(std::size_t n, const Vec2& lengths, std::uint64_t seed) {
+  Configuration2 c;
+  c.resize(n);
+  c.box = PeriodicBox<2>(lengths);
+  Stream draw(seed, Purpose::tests);
+  for (std::size_t i = 0; i < n; ++i) {
+    c.shape[i] = i % 4 == 0 ? Ellipse{1, 1} : of_aspect_ratio(2);
+    c.position[i] = lengths.cwiseProduct(Vec2(draw.uniform(-0.5, 0.5), draw.uniform(-0.5, 0.5)));
+    c.angle[i] = draw.uniform(-pi, pi);
+  }
+  return c;
+}
+
+// All pairs, nearest images, angles as they are.
+TEST(PairCorrelation, IsThatOfALoopOverAllPairs) {
+  for (const Vec2& lengths : {Vec2(30, 30), Vec2(50, 17), Vec2(9, 70)})
+    for (const double range : {3.1, 40.0}) {
+      const Configuration2 c = gas(120, lengths, 2);
+      const PairCorrelation fast = pair_correlation(c, {range, 0.5});
+      const auto bins =
+          static_cast<std::size_t>(std::min(range, 0.5 * lengths.minCoeff()) / 0.5 + 1e-9);
+      ASSERT_EQ(fast.g.size(), bins);
+      std::vector<double> pairs(bins), rotors(bins), cosines_2(bins), cosines_4(bins);
+      for (std::size_t i = 0; i < c.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j) {
+          Vec2 d = c.position[j] - c.position[i];
+          d += c.box.translation(c.box.nearest_shift(d));
+          const auto bin = static_cast<std::size_t>(d.norm() / 0.5);
+          if (bin >= bins) continue;
+          ++pairs[bin];
+          if (i % 4 == 0 || j % 4 == 0) continue;
+          ++rotors[bin];
+          cosines_2[bin] += std::cos(2 * (c.angle[i] - c.angle[j]));
+          cosines_4[bin] += std::cos(4 * (c.angle[i] - c.angle[j]));
+        }
+      for (std::size_t k = 0; k < bins; ++k) {
+        const double r = 0.5 * static_cast<double>(k);
+        const double ring = pi * ((r + 0.5) * (r + 0.5) - r * r);
+        EXPECT_NEAR(fast.g[k], pairs[k] * lengths.prod() / (120 * 119 / 2 * ring), 1e-10);
+        EXPECT_NEAR(fast.distance[k], r + 0.25, 1e-12);
+        EXPECT_EQ(fast.rotor_pairs[k], rotors[k]);
+        if (rotors[k] == 0) continue;
+        EXPECT_NEAR(fast.g_2[k], cosines_2[k] / rotors[k], 1e-12);
+        EXPECT_NEAR(fast.g_4[k], cosines_4[k] / rotors[k], 1e-12);
+      }
+    }
+}
+
+// ⟨g⟩ = 1 in every bin, ⟨g_n⟩ = 0; 300 gases. χ² per bin with its standard deviation √(2/bins), five
+// of them.
+TEST(PairCorrelation, OfAnIdealGasIsOne) {
+  std::vector<std::vector<double>> g(20), g_2(20), g_4(20);
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    const PairCorrelation one = pair_correlation(gas(100, {24, 20}, seed), {10, 0.5});
+    for (std::size_t k = 0; k < 20; ++k) {
+      g[k].push_back(one.g[k]);
+      if (one.rotor_pairs[k] == 0) continue;
+      g_2[k].push_back(one.g_2[k]);
+      g_4[k].push_back(one.g_4[k]);
+    }
+  }
+  const auto chi_squared = [](const std::vector<std::vector<double>>& values, double truth) {
+    double sum = 0;
+    for (const std::vector<double>& bin : values) {
+      const Estimate mean = estimate(bin);
+      sum += std::pow((mean.mean - truth) / mean.error, 2);
+    }
+    return sum / static_cast<double>(values.size());
+  };
+  EXPECT_NEAR(chi_squared(g, 1), 1, 5 * std::sqrt(2.0 / 20));
+  EXPECT_NEAR(chi_squared(g_2, 0), 1, 5 * std::sqrt(2.0 / 20));
+  EXPECT_NEAR(chi_squared(g_4, 0), 1, 5 * std::sqrt(2.0 / 20));
+}
+
+// Square lattice, neighbours of a checkerboard turned by 45°: cos 2·45° = 0 and cos 4·45° = −1 between
+// the two colours, 1 within one.
+TEST(PairCorrelation, OfACheckerboard) {
+  Configuration2 c = square_lattice(12, 0.4, 0, [](std::size_t) { return of_aspect_ratio(1.2); });
+  for (std::size_t i = 0; i < c.size(); ++i)
+    c.angle[i] = (i % 12 + i / 12) % 2 ? 0.3 : 0.3 + pi / 4;
+  const double spacing = c.box.lengths().x() / 12, step = 0.11 * spacing;
+  const PairCorrelation pairs = pair_correlation(c, {6 * spacing, step});
+  const double density = 143 / c.box.volume();
+  for (const auto& [r, sign, neighbours] :
+       {std::tuple{1.0, -1, 4}, {std::sqrt(2.0), 1, 4}, {2.0, 1, 4}, {std::sqrt(5.0), -1, 8}}) {
+    const auto bin = static_cast<std::size_t>(r * spacing / step);
+    const double inner = static_cast<double>(bin) * step, outer = inner + step;
+    EXPECT_NEAR(pairs.g[bin] * density * pi * (outer * outer - inner * inner), neighbours, 1e-10);
+    EXPECT_NEAR(pairs.g_2[bin], sign > 0 ? 1 : 0, 1e-12);
+    EXPECT_NEAR(pairs.g_4[bin], sign, 1e-12);
+  }
+  EXPECT_EQ(pairs.g[2], 0);
+  EXPECT_TRUE(std::isnan(pairs.g_2[2]));
+}
+
+TEST(PairCorrelation, IsEmptyInABoxNarrowerThanTwoBins) {
+  EXPECT_TRUE(pair_correlation(gas(5, {1, 8}, 1), {20, 0.6}).g.empty());
+}
+
+}  // namespace
+}  // namespace vitrel

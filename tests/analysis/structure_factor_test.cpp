@@ -1,0 +1,226 @@
+#include "analysis/structure_factor.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/random/stream.h"
+#include "tests/support/fluids.h"
+#include "tests/support/mixtures.h"
+#include "tests/support/scenes.h"
+#include "tests/support/statistics.h"
+
+namespace vitrel {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// Two species of ellipses, every third of the second, at random places and angles.
+Configuration2 gas(std::size_t n, const Vec2& lengths, std::uint64_t seed) {
+  Configuration2 c;
+  c.resize(n);
+  c.box = PeriodicBox<2>(lengths);
+  c.species_names = {"A", "B"};
+  Stream draw(seed, Purpose::tests);
+  for (std::size_t i = 0; i < n; ++i) {
+    c.shape[i] = of_aspect_ratio(2);
+    c.species[i] = i % 3 == 0;
+    c.position[i] = lengths.cwiseProduct(Vec2(draw.uniform(-0.5, 0.5), draw.uniform(-0.5, 0.5)));
+    c.angle[i] = draw.uniform(-pi, pi);
+  }
+  return c;
+}
+
+/// |ΔS| of a pair of fields with n and m members and the structure factors s and t, when each mode is
+/// off by ε times its members: products of ρ = √(n s) and √(m t).
+double bound(double n, double m, double s, double t) {
+  return alias_tolerance * (std::sqrt(s * m) + std::sqrt(t * n)) +
+         alias_tolerance * alias_tolerance * std::sqrt(n * m) + 1e-11;
+}
+
+void expect_same_within_bound(const Configuration2& c, const ShellOptions& options) {
+  const ScatteringShells shells(c.box.lengths(), options);
+  const StructureFactor fast = shells.structure_factor(c);
+  const StructureFactor exact = shells.direct_structure_factor(c);
+  std::vector<double> members(2, 0.0);
+  for (const std::int32_t kind : c.species) members[kind] += 1;
+  const double n = static_cast<double>(c.size());
+  EXPECT_EQ(fast.modes, exact.modes);
+  for (std::size_t k = 0; k < exact.q.size(); ++k) {
+    if (exact.modes[k] == 0) continue;
+    EXPECT_NEAR(fast.total[k], exact.total[k], bound(n, n, exact.total[k], exact.total[k]));
+    if (!exact.orientation.empty()) {
+      // Both fields have Σ|w| ≤ R, and |c| + |s| ≤ √2 √(|c|² + |s|²).
+      EXPECT_NEAR(fast.orientation[k], exact.orientation[k],
+                  2 * bound(n, n, exact.orientation[k], exact.orientation[k]));
+    }
+    if (exact.partial.empty()) continue;
+    const double s[3] = {exact.partial[0][k], exact.partial[1][k], exact.partial[2][k]};
+    EXPECT_NEAR(fast.partial[0][k], s[0], bound(members[0], members[0], s[0], s[0]));
+    EXPECT_NEAR(fast.partial[1][k], s[1], bound(members[0], members[1], s[0], s[2]));
+    EXPECT_NEAR(fast.partial[2][k], s[2], bound(members[1], members[1], s[2], s[2]));
+  }
+}
+
+TEST(StructureFactor, ByTransformIsThatOfTheDirectSumInAFluid) {
+  expect_same_within_bound(swollen_fluid(300, 3, 0.6), {});
+  expect_same_within_bound(swollen_fluid(200, 1.5, 0.5, 0.2), {});
+}
+
+TEST(StructureFactor, ByTransformIsThatOfTheDirectSumInMixtures) {
+  for (const Mixture& mixture : mixtures()) {
+    SCOPED_TRACE(mixture.name);
+    expect_same_within_bound(inserted_mixture(mixture), {20, 0.3});
+  }
+}
+
+// 120² q²: the box is folded twice, or along its longer side only.
+TEST(StructureFactor, ByTransformIsThatOfTheDirectSumInFoldedBoxes) {
+  expect_same_within_bound(gas(300, {120, 120}, 1), {25, 0.2});
+  expect_same_within_bound(gas(100, {700, 30}, 2), {20, 0.5});
+}
+
+TEST(StructureFactor, OfALatticeInStepWithTheGridKeepsToTheBound) {
+  const Configuration2 c =
+      square_lattice(16, 0.5, 0.2, [](std::size_t) { return of_aspect_ratio(1.2); });
+  expect_same_within_bound(c, {10, 0.05});
+}
+
+// Folding leaves out wave vectors, but those it takes are wave vectors of the box: every level's are
+// whole multiples, and each shell has some where the box has.
+TEST(StructureFactor, TakesWaveVectorsInEveryShell) {
+  const Vec2 lengths(200, 150);
+  const ScatteringShells shells(lengths, {15, 0.2});
+  const StructureFactor s = shells.structure_factor(gas(10, lengths, 1));
+  ASSERT_EQ(s.modes.size(), 75u);
+  const double density = lengths.prod() / (4 * pi * pi);  // wave vectors per area
+  for (std::size_t k = 0; k < 75; ++k) {
+    const double all = 0.5 * pi * 0.04 * static_cast<double>(2 * k + 1) * density;
+    EXPECT_GT(s.modes[k], std::min(0.6 * all, 90.0)) << k;
+    EXPECT_LT(s.modes[k], 1.5 * all + 5) << k;
+    EXPECT_NEAR(s.q[k], 0.2 * (static_cast<double>(k) + 0.5), 0.1) << k;
+  }
+}
+
+/// Σ S over the wave vectors of every shell; those of the reciprocal lattice have S = N, all others 0.
+void expect_peaks(const Configuration2& c, const Vec2& reciprocal1, const Vec2& reciprocal2,
+                  int rings) {
+  const ShellOptions options{12, 0.05};
+  const double n = static_cast<double>(c.size());
+  std::vector<double> peaks(240, 0);
+  for (int i = -40; i <= 40; ++i)
+    for (int j = -40; j <= 40; ++j) {
+      const double q = (i * reciprocal1 + j * reciprocal2).norm();
+      if (q > 0 && q < 12) peaks[static_cast<std::size_t>(q / 0.05)] += 0.5 * n;
+    }
+  const StructureFactor s = ScatteringShells(c.box.lengths(), options).structure_factor(c);
+  ASSERT_EQ(s.total.size(), peaks.size());
+  int seen = 0;
+  for (std::size_t k = 0; k < peaks.size(); ++k) {
+    if (s.modes[k] == 0) continue;
+    // Each wave vector within the bound for S = N, or for 0.
+    const double tolerance = 2 * alias_tolerance * (peaks[k] + s.modes[k] * 1e-6 * n) + 1e-9;
+    EXPECT_NEAR(s.modes[k] * s.total[k], peaks[k], tolerance) << s.q[k];
+    seen += peaks[k] > 0;
+  }
+  EXPECT_EQ(seen, rings);
+}
+
+// Rings at √1, 2, 4, 5, 8, 9, 10, 13, 16, 17 and 18 times the first, 2.75.
+TEST(StructureFactor, OfASquareLatticeHasPeaksOfHeightN) {
+  const Configuration2 c = square_lattice(32, 0.6, 0, [](std::size_t) { return Ellipse{1, 1}; });
+  const double q = 2 * pi * 32 / c.box.lengths().x();
+  expect_peaks(c, {q, 0}, {0, q}, 11);
+}
+
+// Rows of spacing d = 2.1, h = √3 d/2 apart: reciprocal vectors (2π/d)(1, −1/√3) and (2π/d)(0, 2/√3);
+// rings at √1, 3, 4, 7, 9 and 12 times the first, 4π/(√3 d) = 3.45.
+TEST(StructureFactor, OfATriangularLatticeHasPeaksOfHeightN) {
+  const double d = 2.1, h = std::sqrt(0.75) * d;
+  Configuration2 c;
+  c.resize(32 * 32);
+  c.box = PeriodicBox<2>(Vec2(32 * d, 32 * h));
+  for (int row = 0, i = 0; row < 32; ++row)
+    for (int column = 0; column < 32; ++column, ++i) {
+      c.position[i] = Vec2((column + 0.5 * (row % 2)) * d, row * h) - 0.5 * c.box.lengths();
+      c.box.wrap(c.position[i], c.image[i]);
+    }
+  const double q = 2 * pi / d;
+  expect_peaks(c, {q, -q / std::sqrt(3.0)}, {0, 2 * q / std::sqrt(3.0)}, 6);
+}
+
+// For independent points ⟨|ρ|²⟩ is N at every wave vector of the box, N_α for a species, and ⟨ρ_α
+// ρ_β*⟩ = 0; angles do not matter. Over 300 gases; χ² per shell is 1 with standard deviation
+// √(2/shells), six of them: neighbouring shells are correlated weakly through N only.
+TEST(StructureFactor, OfAnIdealGasIsOne) {
+  const Vec2 lengths(30, 22);
+  const ScatteringShells shells(lengths, {6, 0.2});
+  std::vector<std::vector<std::vector<double>>> values(5);  // quantity, shell, gas
+  for (std::vector<std::vector<double>>& quantity : values) quantity.resize(30);
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    const StructureFactor s = shells.structure_factor(gas(150, lengths, seed));
+    const std::vector<double>* rows[5] = {&s.total, &s.partial[0], &s.partial[1], &s.partial[2],
+                                          &s.orientation};
+    for (int m = 0; m < 5; ++m)
+      for (std::size_t k = 0; k < 30; ++k) values[m][k].push_back(rows[m]->at(k));
+  }
+  for (int m = 0; m < 5; ++m) {
+    double chi_squared = 0;
+    int counted = 0;
+    for (std::size_t k = 1; k < 30; ++k) {  // the first shell has no wave vector
+      const Estimate mean = estimate(values[m][k]);
+      chi_squared += std::pow((mean.mean - (m == 2 ? 0 : 1)) / mean.error, 2);
+      ++counted;
+    }
+    EXPECT_NEAR(chi_squared / counted, 1, 6 * std::sqrt(2.0 / counted)) << m;
+    EXPECT_TRUE(std::isnan(values[m][0][0]));
+  }
+}
+
+// Σ_αβ √(x_α x_β) S_αβ = S, where A_B counts twice.
+TEST(StructureFactor, OfTheSpeciesAddsUpToTheTotal) {
+  const Configuration2 c = gas(90, {20, 25}, 5);
+  const StructureFactor s = ScatteringShells(c.box.lengths(), {8, 0.25}).structure_factor(c);
+  for (std::size_t k = 0; k < s.q.size(); ++k) {
+    if (s.modes[k] == 0) continue;
+    const double sum = 2.0 / 3 * s.partial[0][k] + 2 * std::sqrt(2.0) / 3 * s.partial[1][k] +
+                       1.0 / 3 * s.partial[2][k];
+    EXPECT_NEAR(sum, s.total[k], 1e-12);
+  }
+  EXPECT_EQ(pair_names({"A", "B", "C"}),
+            (std::vector<std::string>{"A_A", "A_B", "A_C", "B_B", "B_C", "C_C"}));
+}
+
+TEST(StructureFactor, OfOrientationsIsThatOfCentresWhereAllAreParallel) {
+  Configuration2 c = gas(60, {20, 20}, 6);
+  for (double& angle : c.angle) angle = 0.7;
+  const StructureFactor s = ScatteringShells(c.box.lengths(), {8, 0.4}).structure_factor(c);
+  for (std::size_t k = 1; k < s.q.size(); ++k) EXPECT_NEAR(s.orientation[k], s.total[k], 1e-10);
+}
+
+// Angles that turn along x by 3 half turns per box: cos 2θ and sin 2θ are waves with n = 3, their modes
+// N/2 at ± q and S₂ = N/2 there; the lattice shows nothing.
+TEST(StructureFactor, OfOrientationsSeesAWaveOfTheDirector) {
+  Configuration2 c = square_lattice(12, 0.5, 0, [](std::size_t) { return of_aspect_ratio(1.5); });
+  const double wave = 2 * pi * 3 / c.box.lengths().x(), step = wave / 9.5;
+  for (std::size_t i = 0; i < c.size(); ++i) c.angle[i] = 0.5 * wave * c.position[i].x();
+  const StructureFactor s =
+      ScatteringShells(c.box.lengths(), {10 * step, step}).structure_factor(c);
+  for (std::size_t k = 0; k < 10; ++k) {
+    if (s.modes[k] == 0) continue;
+    // (3, 0) and (0, 3) are alone in their shell: (2, 2) has 2.83.
+    EXPECT_NEAR(s.modes[k] * s.orientation[k], k == 9 ? 72 : 0, 72 * 4 * alias_tolerance) << k;
+    EXPECT_NEAR(s.total[k], 0, 1e-6);
+  }
+  EXPECT_EQ(s.modes[9], 2);
+}
+
+TEST(StructureFactor, OfDisksHasNoOrientation) {
+  Configuration2 c = gas(20, {20, 20}, 6);
+  for (Ellipse& shape : c.shape) shape = {1, 1};
+  EXPECT_TRUE(ScatteringShells(c.box.lengths(), {}).structure_factor(c).orientation.empty());
+}
+
+}  // namespace
+}  // namespace vitrel
