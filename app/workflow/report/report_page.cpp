@@ -32,7 +32,7 @@ std::vector<std::size_t> logarithmic_rows(const std::vector<double>& time) {
   return rows;
 }
 
-json curve(const std::vector<double>& time, const MeanSquare& square) {
+json curve(const std::vector<double>& time, const Correlation& square) {
   if (square.value.empty()) return nullptr;
   const std::vector<std::size_t> rows = logarithmic_rows(time);
   return {{"time", page_numbers(time, rows)},
