@@ -192,6 +192,7 @@ Displacements displacements(Trajectory& trajectory, const DisplacementOptions& o
   Displacements result;
   result.wave_numbers = quantities.wave_numbers;
   result.orders = quantities.orders;
+  result.overlap_distance = quantities.overlap_distance;
   const Members all = together(species, lags, quantities);
   for (std::size_t l = 0; l < lags.size(); ++l) {
     result.lag.push_back(times[lags[l].frames] - times[0]);

@@ -33,7 +33,7 @@ struct DisplacementGroup {
   Correlation quartic;       ///< ⟨|Δr|⁴⟩
   Correlation non_gaussian;  ///< α₂ = ⟨|Δr|⁴⟩/(2⟨|Δr|²⟩²) − 1
   /// F_s(q, t) = ⟨J₀(q |Δr|)⟩ for every wave number: the average of exp(iq·Δr) over all directions
-  /// of q in the plane, exact but for 1e-10 (bessel.h).
+  /// of q in the plane, exact but for 1e-10 (bessel_j0.h).
   std::vector<Correlation> self_scattering;
   // The rest is that of the rotors, and empty without any.
   Correlation parallel;          ///< ⟨(Δr·u)²⟩, u along the long axis at the origin of time
@@ -49,6 +49,7 @@ struct Displacements {
   std::vector<std::size_t> origins;  ///< time origins averaged over, for every lag
   std::vector<double> wave_numbers;  ///< those of self_scattering
   std::vector<double> orders;        ///< those of orientation
+  double overlap_distance = 0;       ///< that of overlap
   /// "all" first, then every species that has particles, if there is more than one.
   std::vector<DisplacementGroup> groups;
   /// ⟨Q⟩ of the overlap Q(t) = N⁻¹ Σ_i Θ(a − |Δr_i|), the share of particles that are still, or

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "analysis/bessel.h"
+#include "analysis/bessel_j0.h"
 #include "analysis/correlation.h"
 #include "analysis/time_axis.h"
 #include "analysis/tracks.h"

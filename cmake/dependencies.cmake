@@ -8,5 +8,8 @@ find_package(nlohmann_json 3.11 REQUIRED)
 find_package(NLopt 2.7 REQUIRED)
 find_package(CLI11 2.1 REQUIRED)
 find_package(TBB 2021 REQUIRED)
+# Debian's FFTW has no usable CMake package; it is linked by its name.
+find_library(FFTW_LIBRARY fftw3 REQUIRED)
+find_path(FFTW_INCLUDE_DIR fftw3.h REQUIRED)
 find_path(RANDOM123_INCLUDE_DIR Random123/philox.h REQUIRED)
 find_path(TOMLPLUSPLUS_INCLUDE_DIR toml++/toml.h REQUIRED)
