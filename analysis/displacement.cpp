@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <optional>
 
-#include "analysis/blocking.h"
+#include "analysis/lag_sums.h"
+#include "analysis/tracks.h"
 #include "core/error.h"
+#include "core/parallel.h"
 
 namespace vitrel {
 
@@ -13,117 +17,136 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// Sums behind one curve, for every lag.
-class SquareSum {
+/// Tracks taken apart into phases at a time.
+constexpr std::size_t paths_at_once = 16;
+
+/// Particles of one species, or all of them.
+struct Members {
+  std::string name;
+  std::size_t particles = 0, rotors = 0;
+  std::vector<LagSums> sums;  ///< one per lag
+
+  void make_room(const std::vector<Lag>& lags, const TrackQuantities& quantities) {
+    for (const Lag& lag : lags) sums.emplace_back(lag, quantities, rotors > 0);
+  }
+};
+
+std::vector<Members> species_of(const Configuration2& first) {
+  std::vector<Members> species;
+  for (const std::string& name : first.species_names) species.push_back({name, 0, 0, {}});
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    Members& members = species.at(static_cast<std::size_t>(first.species[i]));
+    ++members.particles;
+    if (!first.shape[i].is_round()) ++members.rotors;
+  }
+  return species;
+}
+
+/// Sums of all particles from those of the species.
+Members together(const std::vector<Members>& species, const std::vector<Lag>& lags,
+                 const TrackQuantities& quantities) {
+  Members all{"all", 0, 0, {}};
+  for (const Members& members : species) {
+    all.particles += members.particles;
+    all.rotors += members.rotors;
+  }
+  all.make_room(lags, quantities);
+  for (const Members& members : species)
+    for (std::size_t l = 0; l < members.sums.size(); ++l) all.sums[l].add(members.sums[l]);
+  return all;
+}
+
+/// One pass over all particles, a batch of tracks at a time.
+class Pass {
  public:
-  explicit SquareSum(const std::vector<Lag>& lags)
-      : lags_(lags), sum_(lags.size()), sum_of_squares_(lags.size()) {
-    for (const Lag& lag : lags) per_origin_.emplace_back(lag.origins, 0.0);
-  }
+  Pass(Trajectory& trajectory, const DisplacementOptions& options, const std::vector<Lag>& lags,
+       const TrackQuantities& quantities, std::vector<Members>& species,
+       const ProgressReport& report)
+      : trajectory_(trajectory),
+        threads_(options.threads),
+        lags_(lags),
+        quantities_(quantities),
+        first_(trajectory.read(0)),
+        species_(species),
+        report_(report) {}
 
-  /// The squares of one more particle, one for every origin.
-  void add(std::size_t lag, const std::vector<double>& squares) {
-    double total = 0;
-    for (std::size_t k = 0; k < squares.size(); ++k) {
-      per_origin_[lag][k] += squares[k];
-      total += squares[k];
-    }
-    const double mean = total / static_cast<double>(squares.size());
-    sum_[lag] += mean;
-    sum_of_squares_[lag] += mean * mean;
-  }
-
-  MeanSquare result(std::size_t particles) {
-    MeanSquare square;
-    if (particles == 0) return square;
-    for (std::size_t lag = 0; lag < per_origin_.size(); ++lag) {
-      for (double& value : per_origin_[lag]) value /= static_cast<double>(particles);
-      Estimate estimate = block_average(per_origin_[lag], lags_[lag].shortest_block());
-      square.value.push_back(estimate.mean);
-      square.blocks.push_back(estimate.blocks);
-      if (estimate.blocks == 0)
-        estimate = independent_average(particles, sum_[lag], sum_of_squares_[lag]);
-      square.error.push_back(estimate.error);
-    }
-    return square;
+  void run(std::size_t batch) {
+    for (std::size_t begin = 0; begin < first_.size(); begin += batch)
+      add_batch(begin, std::min(begin + batch, first_.size()));
   }
 
  private:
-  std::vector<Lag> lags_;
-  std::vector<std::vector<double>> per_origin_;  ///< summed over particles
-  std::vector<double> sum_, sum_of_squares_;     ///< of the particles' means over origins
-};
-
-struct Group {
-  Group(const std::string& name, const std::vector<Lag>& lags) : translation(lags), rotation(lags) {
-    result.name = name;
+  /// Reading a batch counts as much as summing it.
+  void tell(std::size_t begin, std::size_t end, double part) const {
+    const double done = static_cast<double>(begin) + static_cast<double>(end - begin) * part;
+    if (report_) report_({done / static_cast<double>(first_.size()), done, "particles"});
   }
-  DisplacementGroup result;
-  SquareSum translation, rotation;
-};
 
-std::vector<Group> make_groups(const Configuration2& first, const std::vector<Lag>& lags) {
-  std::vector<std::size_t> members(first.species_names.size());
-  for (const std::int32_t species : first.species) ++members.at(species);
-  std::vector<Group> groups;
-  groups.emplace_back("all", lags);
-  if (std::count_if(members.begin(), members.end(), [](std::size_t n) { return n > 0; }) > 1)
-    for (const std::string& name : first.species_names) groups.emplace_back(name, lags);
-  return groups;
-}
-
-/// The unwrapped path of one particle.
-struct Track {
-  std::vector<Vec2> position;
-  std::vector<double> angle;
-};
-
-std::vector<Track> read_tracks(Trajectory& trajectory, std::size_t begin, std::size_t end) {
-  const std::size_t samples = trajectory.frames();
-  std::vector<Track> tracks(end - begin);
-  for (Track& track : tracks) {
-    track.position.resize(samples);
-    track.angle.resize(samples);
-  }
-  for (std::size_t k = 0; k < samples; ++k) {
-    const Configuration2& frame = trajectory.read(k);
-    for (std::size_t i = begin; i < end; ++i) {
-      tracks[i - begin].position[k] = frame.unwrapped(i);
-      tracks[i - begin].angle[k] = frame.angle[i];
+  void add_batch(std::size_t begin, std::size_t end) {
+    const std::vector<Track> tracks =
+        read_tracks(trajectory_, begin, end, [&](double read) { tell(begin, end, 0.5 * read); });
+    for (std::size_t i = begin; i < end; i += paths_at_once) {
+      add_paths(tracks, begin, i, std::min(i + paths_at_once, end));
+      tell(begin, end,
+           0.5 + 0.5 * static_cast<double>(i - begin) / static_cast<double>(end - begin));
     }
   }
-  return tracks;
-}
 
-template <class Square>
-void squares_at(const Lag& lag, std::vector<double>& squares, Square&& square) {
-  squares.resize(lag.origins);
-  for (std::size_t k = 0; k < lag.origins; ++k) {
-    const std::size_t origin = k * lag.stride;
-    squares[k] = square(origin, origin + lag.frames);
+  /// Threads share the lags, so that every sum adds up its particles in their order.
+  void add_paths(const std::vector<Track>& tracks, std::size_t batch, std::size_t begin,
+                 std::size_t end) {
+    std::vector<std::optional<Path>> paths(end - begin);
+    in_parallel(paths.size(), threads_, [&](std::size_t from, std::size_t to) {
+      for (std::size_t p = from; p < to; ++p)
+        paths[p].emplace(tracks[begin + p - batch], !first_.shape[begin + p].is_round(),
+                         quantities_.orders);
+    });
+    in_parallel(lags_.size(), threads_, [&](std::size_t from, std::size_t to) {
+      for (std::size_t l = from; l < to; ++l)
+        for (std::size_t p = 0; p < paths.size(); ++p)
+          species_[static_cast<std::size_t>(first_.species[begin + p])].sums[l].add(*paths[p]);
+    });
   }
+
+  Trajectory& trajectory_;
+  int threads_;
+  const std::vector<Lag>& lags_;
+  const TrackQuantities& quantities_;
+  const Configuration2 first_;
+  std::vector<Members>& species_;
+  const ProgressReport& report_;
+};
+
+void evaluate_rotation(DisplacementGroup& group, const LagSums::Rotation& sums, const Lag& lag) {
+  const std::size_t n = group.rotors;
+  group.parallel.push_back(sums.parallel.estimate(lag, n));
+  group.perpendicular.push_back(sums.perpendicular.estimate(lag, n));
+  group.rotation.push_back(sums.turn.square.estimate(lag, n));
+  group.quartic_rotation.push_back(sums.turn.quartic.estimate(lag, n));
+  group.non_gaussian_rotation.push_back(sums.turn.non_gaussian(1.0 / 3, lag, n));
+  for (std::size_t j = 0; j < sums.orientation.size(); ++j)
+    group.orientation[j].push_back(sums.orientation[j].estimate(lag, n));
 }
 
-/// Adds one particle to all the groups it belongs to.
-void add_track(const Track& track, bool rotor, const std::vector<Lag>& lags,
-               const std::vector<Group*>& groups) {
-  std::vector<double> squares;
+DisplacementGroup evaluate(const Members& members, const std::vector<Lag>& lags,
+                           const TrackQuantities& quantities) {
+  DisplacementGroup group;
+  group.name = members.name;
+  group.particles = members.particles;
+  group.rotors = members.rotors;
+  group.self_scattering.resize(quantities.wave_numbers.size());
+  if (group.rotors > 0) group.orientation.resize(quantities.orders.size());
   for (std::size_t l = 0; l < lags.size(); ++l) {
-    squares_at(lags[l], squares, [&](std::size_t from, std::size_t to) {
-      return (track.position[to] - track.position[from]).squaredNorm();
-    });
-    for (Group* group : groups) group->translation.add(l, squares);
-    if (!rotor) continue;
-    squares_at(lags[l], squares, [&](std::size_t from, std::size_t to) {
-      const double turn = track.angle[to] - track.angle[from];
-      return turn * turn;
-    });
-    for (Group* group : groups) group->rotation.add(l, squares);
+    const LagSums& sums = members.sums[l];
+    const std::size_t n = group.particles;
+    group.translation.push_back(sums.translation().square.estimate(lags[l], n));
+    group.quartic.push_back(sums.translation().quartic.estimate(lags[l], n));
+    group.non_gaussian.push_back(sums.translation().non_gaussian(1.0 / 2, lags[l], n));
+    for (std::size_t j = 0; j < group.self_scattering.size(); ++j)
+      group.self_scattering[j].push_back(sums.scattering()[j].estimate(lags[l], n));
+    if (group.rotors > 0) evaluate_rotation(group, sums.rotation(), lags[l]);
   }
-  for (Group* group : groups) {
-    ++group->result.particles;
-    if (rotor) ++group->result.rotors;
-  }
+  return group;
 }
 
 std::size_t interpolation_start(const std::vector<double>& lag, double at) {
@@ -132,7 +155,7 @@ std::size_t interpolation_start(const std::vector<double>& lag, double at) {
 }
 
 /// Mean square at a time difference between two lags, linearly in between, with the larger error.
-Diffusion square_at(const std::vector<double>& lag, const MeanSquare& square, double at) {
+Diffusion square_at(const std::vector<double>& lag, const Correlation& square, double at) {
   const std::size_t k = interpolation_start(lag, at);
   const double w = (at - lag[k]) / (lag[k + 1] - lag[k]);
   return {(1 - w) * square.value[k] + w * square.value[k + 1],
@@ -140,7 +163,7 @@ Diffusion square_at(const std::vector<double>& lag, const MeanSquare& square, do
 }
 
 /// Diffusion coefficient from the slope between two time differences.
-Diffusion slope(const std::vector<double>& lag, const MeanSquare& square, double from, double to,
+Diffusion slope(const std::vector<double>& lag, const Correlation& square, double from, double to,
                 int dimension) {
   const Diffusion low = square_at(lag, square, from);
   const Diffusion high = square_at(lag, square, to);
@@ -150,43 +173,49 @@ Diffusion slope(const std::vector<double>& lag, const MeanSquare& square, double
 
 }  // namespace
 
-Displacements displacements(Trajectory& trajectory, const DisplacementOptions& options) {
+Displacements displacements(Trajectory& trajectory, const DisplacementOptions& options,
+                            const ProgressReport& report) {
   const std::vector<double>& times = trajectory.times();
-  const std::size_t samples = times.size();
-  if (samples < 2)
-    throw UserError("displacements: the run holds " + std::to_string(samples) +
+  if (times.size() < 2)
+    throw UserError("displacements: the run holds " + std::to_string(times.size()) +
                     " frame(s); a displacement needs at least two");
   const std::vector<Lag> lags = time_axis(times, options.axis);
-
-  const Configuration2 first = trajectory.read(0);
-  std::vector<Group> groups = make_groups(first, lags);
-  const std::size_t track_bytes = samples * (sizeof(Vec2) + sizeof(double));
-  const std::size_t batch = std::max<std::size_t>(1, options.memory / track_bytes);
-  for (std::size_t begin = 0; begin < first.size(); begin += batch) {
-    const std::size_t end = std::min(begin + batch, first.size());
-    const std::vector<Track> tracks = read_tracks(trajectory, begin, end);
-    for (std::size_t i = begin; i < end; ++i) {
-      std::vector<Group*> members{&groups.front()};
-      if (groups.size() > 1) members.push_back(&groups[1 + first.species[i]]);
-      add_track(tracks[i - begin], !first.shape[i].is_round(), lags, members);
-    }
-  }
+  const Configuration2& first = trajectory.read(0);
+  TrackQuantities quantities{options.wave_numbers, options.orders, options.overlap_distance, {}};
+  if (quantities.wave_numbers.empty()) quantities.wave_numbers = {main_wave_number(first)};
+  std::vector<Members> species = species_of(first);
+  for (Members& members : species)
+    if (members.particles > 0) members.make_room(lags, quantities);
+  const std::size_t batch = options.memory / track_bytes(times.size());
+  Pass(trajectory, options, lags, quantities, species, report).run(std::max<std::size_t>(1, batch));
 
   Displacements result;
-  for (const Lag& lag : lags) {
-    result.lag.push_back(times[lag.frames] - times[0]);
-    result.origins.push_back(lag.origins);
+  result.wave_numbers = quantities.wave_numbers;
+  result.orders = quantities.orders;
+  result.overlap_distance = quantities.overlap_distance;
+  const Members all = together(species, lags, quantities);
+  for (std::size_t l = 0; l < lags.size(); ++l) {
+    result.lag.push_back(times[lags[l].frames] - times[0]);
+    result.origins.push_back(lags[l].origins);
+    const CorrelationSum& overlap = all.sums[l].overlap();
+    result.overlap.push_back(overlap.estimate(lags[l], all.particles));
+    result.susceptibility.push_back(susceptibility(overlap, lags[l], all.particles));
   }
-  for (Group& group : groups) {
-    if (group.result.particles == 0) continue;
-    group.result.translation = group.translation.result(group.result.particles);
-    group.result.rotation = group.rotation.result(group.result.rotors);
-    result.groups.push_back(std::move(group.result));
-  }
+  result.groups.push_back(evaluate(all, lags, quantities));
+  std::erase_if(species, [](const Members& members) { return members.particles == 0; });
+  if (species.size() > 1)
+    for (const Members& members : species)
+      result.groups.push_back(evaluate(members, lags, quantities));
   return result;
 }
 
-Diffusion long_time_diffusion(const std::vector<double>& lag, const MeanSquare& square,
+double main_wave_number(const Configuration2& configuration) {
+  const Vec2& lengths = configuration.box.lengths();
+  const double density = static_cast<double>(configuration.size()) / (lengths.x() * lengths.y());
+  return 2 * std::numbers::pi * std::sqrt(2 * density / std::sqrt(3.0));
+}
+
+Diffusion long_time_diffusion(const std::vector<double>& lag, const Correlation& square,
                               int dimension) {
   if (square.value.size() < 2 || lag.front() > lag.back() / 9) return {none, none};
   if (!(square.value.back() >= 1)) return {none, none};

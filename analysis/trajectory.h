@@ -1,13 +1,18 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "core/state/configuration.h"
+#include "core/state/stage.h"
 
 /// Saved runs, as the analysis sees them: a list of sample times and one configuration at each.
 namespace vitrel {
+
+/// Whom an analysis tells how far it has come; empty: nobody.
+using ProgressReport = std::function<void(const Progress&)>;
 
 /// A sequence of configurations of the same particles, read one at a time: no method of the
 /// analysis needs more than one of them in memory at once.

@@ -15,6 +15,7 @@ AnalysisChoice analysis_choice(const Arguments& arguments) {
   AnalysisChoice choice;
   if (!arguments.parameters.empty()) choice.parameters = arguments.parameters;
   choice.overrides = arguments.overrides;
+  choice.progress = ProgressDisplay::mode(arguments.quiet);
   return choice;
 }
 

@@ -23,6 +23,7 @@ int report_command(const Arguments& arguments) {
   AnalysisChoice choice;
   if (!arguments.parameters.empty()) choice.parameters = arguments.parameters;
   choice.overrides = arguments.overrides;
+  choice.progress = ProgressDisplay::mode(arguments.quiet);
   std::vector<RunAnalysis> analyses;
   if (is_sweep) {
     for (const fs::path& folder : finished_jobs(arguments.input))

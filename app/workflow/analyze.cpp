@@ -31,7 +31,31 @@ int all_threads() {
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-void measure(RunAnalysis& run, StoredTrajectory& trajectory, const Parameters& parameters) {
+/// What displacements need of a file; those of round particles need no angles.
+void require_tracks(const TrajectoryReader& reader, std::size_t rotors) {
+  reader.require("image",
+                 "displacements: positions in the box do not tell how often it was crossed");
+  if (rotors > 0)
+    reader.require("angle", "rotations: orientations do not tell the number of turns");
+}
+
+/// The short part first: it refuses wave numbers that do not fit into the box.
+RunDynamics measure_dynamics(StoredTrajectory& trajectory, DisplacementOptions options,
+                             ProgressDisplay::Mode progress) {
+  ProgressDisplay display(progress);
+  const auto report = [&](const Progress& state) { display.show(state); };
+  if (options.wave_numbers.empty()) options.wave_numbers = {main_wave_number(trajectory.read(0))};
+  RunDynamics dynamics;
+  display.begin("collective scattering");
+  dynamics.collective = collective_scattering(trajectory, options.wave_numbers, options.axis,
+                                              report, options.threads);
+  display.begin("displacements");
+  dynamics.displacements = displacements(trajectory, options, report);
+  return dynamics;
+}
+
+void measure(RunAnalysis& run, StoredTrajectory& trajectory, const Parameters& parameters,
+             ProgressDisplay::Mode progress) {
   const TrajectoryReader& reader = trajectory.reader();
   run.final_state = trajectory.read(trajectory.frames() - 1);
   run.particles = run.final_state.size();
@@ -39,31 +63,16 @@ void measure(RunAnalysis& run, StoredTrajectory& trajectory, const Parameters& p
   run.packing_fraction = packing_fraction(run.final_state);
   run.frames = trajectory.frames();
   run.duration = trajectory.times().back() - trajectory.times().front();
-  run.displacements = displacements(trajectory, parameters.analysis);
+  require_tracks(reader, run.rotors);
+  run.dynamics = measure_dynamics(trajectory, parameters.analysis, progress);
   run.structure = structure_tables(trajectory, parameters.structure, all_threads());
   run.energy = stored_energies(trajectory);
   run.compressibility = stored_compressibility(reader, run.energy, run.rotors);
-  const DisplacementGroup& all = run.displacements.groups.front();
-  run.diffusion = long_time_diffusion(run.displacements.lag, all.translation, 2);
-  run.rotational_diffusion = run.rotors > 0
-                                 ? long_time_diffusion(run.displacements.lag, all.rotation, 1)
-                                 : Diffusion{unknown, unknown};
-}
-
-Table displacement_table(const Displacements& displacements, const DisplacementGroup& group) {
-  Table table;
-  table.name = "displacements_" + identifier(group.name);
-  table.description = fmt::format(
-      "Mean squared displacement and rotation of {} particles ({}) against the time difference; "
-      "lengths in units where a b = 1 for the reference species, time in sqrt(m a b/kT).",
-      group.particles, group.name);
-  std::vector<double> origins(displacements.origins.begin(), displacements.origins.end());
-  table.columns = {{"time", "time", displacements.lag, {}},
-                   {"msd", "length^2", group.translation.value, group.translation.error}};
-  if (group.rotors > 0)
-    table.columns.push_back({"msr", "rad^2", group.rotation.value, group.rotation.error});
-  table.columns.push_back({"origins", "1", std::move(origins), {}});
-  return table;
+  const Displacements& found = run.dynamics.displacements;
+  const DisplacementGroup& all = found.groups.front();
+  run.diffusion = long_time_diffusion(found.lag, all.translation, 2);
+  run.rotational_diffusion = run.rotors > 0 ? long_time_diffusion(found.lag, all.rotation, 1)
+                                            : Diffusion{unknown, unknown};
 }
 
 Table energy_table(const EnergySeries& energy) {
@@ -158,7 +167,7 @@ RunAnalysis analyze_run(const std::filesystem::path& file, const AnalysisChoice&
   run.provenance = reader.provenance();
   if (!run.provenance.parameters.empty())
     run.parameters = parse_parameters(run.provenance.parameters, file.string());
-  measure(run, trajectory, analysis_parameters(run, choice));
+  measure(run, trajectory, analysis_parameters(run, choice), choice.progress);
   const std::vector<std::string> names = reader.observable_names();
   if (std::find(names.begin(), names.end(), "collisions") != names.end()) {
     const std::vector<double> collisions = reader.observable("collisions");
@@ -172,8 +181,7 @@ RunAnalysis analyze_run(const std::filesystem::path& file, const AnalysisChoice&
 Results results_of(const RunAnalysis& run) {
   Results results;
   results.tables.push_back({"summary", "Averages over the run.", summary_columns(run)});
-  for (const DisplacementGroup& group : run.displacements.groups)
-    results.tables.push_back(displacement_table(run.displacements, group));
+  for (Table& table : dynamics_tables(run.dynamics)) results.tables.push_back(std::move(table));
   results.tables.push_back(energy_table(run.energy));
   if (!run.compressibility.value.empty())
     results.tables.push_back(compressibility_table(run.compressibility));

@@ -7,10 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "analysis/displacement.h"
 #include "analysis/energy.h"
 #include "analysis/results.h"
+#include "app/workflow/dynamics_tables.h"
 #include "app/workflow/parameters.h"
+#include "app/workflow/progress.h"
 #include "app/workflow/report/report_page.h"
 #include "core/io/provenance.h"
 
@@ -27,7 +28,7 @@ struct RunAnalysis {
   std::uint64_t collisions = 0;
   double collisions_per_second = std::numeric_limits<
       double>::quiet_NaN();  ///< of wall time, over the whole run; NaN if not recorded
-  Displacements displacements;
+  RunDynamics dynamics;
   EnergySeries energy;
   CompressibilitySeries compressibility;
   Diffusion diffusion{}, rotational_diffusion{};  ///< of all particles; NaN where not reached
@@ -39,12 +40,13 @@ struct RunAnalysis {
 struct AnalysisChoice {
   std::optional<std::filesystem::path> parameters;
   std::vector<std::string> overrides;
+  ProgressDisplay::Mode progress = ProgressDisplay::Mode::silent;
 };
 
 /// Throws FileError or UserError, naming the file.
 RunAnalysis analyze_run(const std::filesystem::path& file, const AnalysisChoice& choice);
 
-/// Tables of displacements (one per group), energies, compressibility, structure, and a summary of one
+/// Tables of time correlations (dynamics_tables.h), energies, compressibility, structure, and a summary of one
 /// row.
 Results results_of(const RunAnalysis& run);
 /// One row per run: packing fraction, compressibility, diffusion coefficients.

@@ -253,6 +253,16 @@ void describe_analysis(DisplacementOptions& p, FieldVisitor& visit) {
       p.axis.lags_per_decade);
   visit.field({"most_origins", "", "Time origins per time difference; evenly thinned beyond."},
               p.axis.most_origins);
+  visit.field({"wave_numbers", "1/length",
+               "Wave numbers q of the intermediate scattering functions; if empty one, about that "
+               "of the main peak of the structure factor: 2π√(2ρ/√3) of the number density ρ."},
+              p.wave_numbers);
+  visit.field({"orders", "", "Orders n of the orientational correlations ⟨cos n(θ(t) − θ(0))⟩."},
+              p.orders);
+  visit.field({"overlap_distance", "length",
+               "A particle counts as being where it was, in overlap and four-point susceptibility, "
+               "if it has moved by less: somewhat more than it rattles in its cage."},
+              p.overlap_distance);
   visit.field({"memory", "bytes", "Memory for particle tracks."}, p.memory);
 }
 
@@ -487,6 +497,13 @@ void validate_analysis(const DisplacementOptions& p) {
   rules.at_least(static_cast<std::int64_t>(p.axis.every_lag_up_to), 1, "every_lag_up_to");
   rules.at_least(static_cast<std::int64_t>(p.axis.lags_per_decade), 1, "lags_per_decade");
   rules.at_least(static_cast<std::int64_t>(p.axis.most_origins), 1, "most_origins");
+  for (const double q : p.wave_numbers) rules.positive(q, "wave_numbers");
+  for (const double n : p.orders)
+    rules.require(n >= 1 && n <= 100 && n == std::floor(n), "orders",
+                  fmt::format("has {}, but must hold whole numbers from 1 to 100", show(n)));
+  for (std::size_t k = 1; k < p.orders.size(); ++k)
+    rules.require(p.orders[k] > p.orders[k - 1], "orders", "must hold increasing numbers");
+  rules.positive(p.overlap_distance, "overlap_distance");
   rules.at_least(static_cast<std::int64_t>(p.memory), 1 << 20, "memory");
 }
 

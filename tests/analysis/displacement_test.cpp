@@ -2,122 +2,140 @@
 
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
 #include <cmath>
+#include <map>
+#include <numbers>
 
 #include "core/error.h"
-#include "core/random/stream.h"
+#include "tests/support/free_brownian.h"
 
 namespace vitrel {
 namespace {
 
-constexpr double brownian_step = 0.1;
+constexpr double overlap_distance = 0.3;
 
-/// n ellipses of aspect ratio 2 (a b = 1), mass 1, at the origin of a box that is soon left.
-Configuration2 ellipses(std::size_t n) {
-  Configuration2 configuration;
-  configuration.box = PeriodicBox<2>(Vec2(5, 7));
-  configuration.species_names = {"A"};
-  configuration.resize(n);
-  for (Ellipse& shape : configuration.shape) shape = {std::sqrt(2.0), std::sqrt(0.5)};
-  return configuration;
-}
+/// What of one result has a closed form: value, error and truth.
+struct Judged {
+  std::string name;
+  const Correlation* found;
+  double truth;
+};
 
-void fly(Configuration2& configuration, double time) {
-  configuration.time += time;
-  for (std::size_t i = 0; i < configuration.size(); ++i) {
-    configuration.position[i] += time * configuration.velocity[i];
-    configuration.box.wrap(configuration.position[i], configuration.image[i]);
-    configuration.angle[i] += time * configuration.angular_velocity[i];
-  }
-}
-
-void redraw_velocities(Configuration2& configuration, Stream& draw) {
-  for (std::size_t i = 0; i < configuration.size(); ++i) {
-    const double speed = std::sqrt(1 / configuration.mass[i]);
-    configuration.velocity[i] = {speed * draw.normal(), speed * draw.normal()};
-    configuration.angular_velocity[i] = draw.normal() / std::sqrt(configuration.inertia(i));
-  }
-}
-
-/// Free particles whose velocities are drawn anew after every step: the k-th frame follows k steps.
-MemoryTrajectory free_brownian(Configuration2 configuration, std::size_t frames,
-                               std::uint64_t seed) {
-  Stream draw(seed, Purpose::tests);
-  std::vector<Configuration2> saved{configuration};
-  while (saved.size() < frames) {
-    redraw_velocities(configuration, draw);
-    fly(configuration, brownian_step);
-    saved.push_back(configuration);
-  }
-  return MemoryTrajectory(std::move(saved));
-}
-
-// Closed forms after n steps: MSD = 2 n τ² kT/m, MSR = n τ² kT/I.
-double free_msd(double time) {
-  return 2 * brownian_step * time;
-}
-double free_msr(double time, double inertia) {
-  return brownian_step * time / inertia;
-}
-
-// 3 standard errors: false-alarm rate 0.3 % (0.6 % with the fewest blocks) for each of these
-// points.
-TEST(Displacement, FreeBrownianParticlesFollowTheClosedForm) {
-  const Configuration2 start = ellipses(100);
-  const double inertia = start.inertia(0);
-  MemoryTrajectory trajectory = free_brownian(start, 801, 1);
-  const Displacements result = displacements(trajectory);
-  ASSERT_EQ(result.groups.size(), 1u);
+/// Displacements per axis are normal with variance v = MSD/2, rotations with w = MSR:
+/// ⟨r⁴⟩ = 2 MSD² in the plane, ⟨θ⁴⟩ = 3 MSR², F_s = exp(−q² v/2), L_n = exp(−n² w/2), and the share p
+/// within a is 1 − exp(−a²/2v). Particles are independent: χ_4 = p(1 − p), whatever N.
+std::vector<Judged> judged(const Displacements& result, double time, double inertia) {
   const DisplacementGroup& all = result.groups[0];
-  EXPECT_EQ(all.rotors, 100u);
-  for (const std::size_t k : {0u, 1u, 4u, 19u, 99u, 115u}) {
-    const double t = result.lag.at(k);
-    EXPECT_NEAR(all.translation.value.at(k), free_msd(t), 3 * all.translation.error[k]) << t;
-    EXPECT_NEAR(all.rotation.value.at(k), free_msr(t, inertia), 3 * all.rotation.error[k]) << t;
-    EXPECT_LT(all.translation.error[k], 0.1 * free_msd(t));
+  const double msd = free_msd(time), msr = free_msr(time, inertia);
+  const double p = 1 - std::exp(-overlap_distance * overlap_distance / msd);
+  std::vector<Judged> list = {{"msd", &all.translation, msd},
+                              {"parallel", &all.parallel, msd / 2},
+                              {"perpendicular", &all.perpendicular, msd / 2},
+                              {"quartic", &all.quartic, 2 * msd * msd},
+                              {"alpha", &all.non_gaussian, 0},
+                              {"msr", &all.rotation, msr},
+                              {"quartic rotation", &all.quartic_rotation, 3 * msr * msr},
+                              {"alpha of rotation", &all.non_gaussian_rotation, 0},
+                              {"overlap", &result.overlap, p},
+                              {"chi_4", &result.susceptibility, p * (1 - p)}};
+  for (std::size_t j = 0; j < result.wave_numbers.size(); ++j) {
+    const double q = result.wave_numbers[j];
+    list.push_back(
+        {fmt::format("F_s({})", q), &all.self_scattering.at(j), std::exp(-q * q * msd / 4)});
   }
+  for (std::size_t j = 0; j < result.orders.size(); ++j) {
+    const double n = result.orders[j];
+    list.push_back({fmt::format("L_{}", n), &all.orientation.at(j), std::exp(-n * n * msr / 2)});
+  }
+  return list;
+}
+
+DisplacementOptions two_wave_numbers() {
+  return {.wave_numbers = {2, 4}, .overlap_distance = overlap_distance};
+}
+
+// Four standard errors: false-alarm rate 0.06 per mille for a normal variable, for each of 84 points.
+TEST(Displacement, FreeBrownianParticlesFollowTheClosedForms) {
+  const Configuration2 start = ellipses(100);
+  MemoryTrajectory trajectory = free_brownian(start, 801, 1);
+  const Displacements result = displacements(trajectory, two_wave_numbers());
+  ASSERT_EQ(result.groups.size(), 1u);
+  EXPECT_EQ(result.groups[0].rotors, 100u);
+  for (const std::size_t k : {0u, 1u, 4u, 19u, 99u, 115u})
+    for (const Judged& judge : judged(result, result.lag.at(k), start.inertia(0))) {
+      const double error = judge.found->error.at(k);
+      if (judge.name == "chi_4" && k >= 19) {
+        EXPECT_TRUE(std::isnan(judge.found->value.at(k))) << "fewer than eight blocks";
+        continue;
+      }
+      EXPECT_GT(error, 0) << judge.name;
+      EXPECT_NEAR(judge.found->value.at(k), judge.truth, 4 * error)
+          << judge.name << " at " << result.lag[k];
+    }
+  EXPECT_LT(result.groups[0].translation.error[19], 0.1 * free_msd(2));
   EXPECT_LE(result.lag.back(), 40 + 1e-9);
   EXPECT_GT(result.lag.back(), 37);
 }
 
-/// Counts of truths within one and two errors over many runs, for one lag.
+/// Counts of truths within one and two errors over many runs.
 struct Coverage {
-  double lag;
-  bool blocked = false;
-  int msd_one = 0, msd_two = 0, msr_one = 0, msr_two = 0;
+  int runs = 0, one = 0, two = 0, blocked = 0;
+
+  void count(double deviation, double error, std::size_t blocks) {
+    if (std::isnan(error)) return;
+    ++runs;
+    one += std::abs(deviation) < error;
+    two += std::abs(deviation) < 2 * error;
+    blocked += blocks > 0;
+  }
 };
 
-void count(Coverage& coverage, const Displacements& result, double inertia) {
-  std::size_t k = 0;
-  while (result.lag.at(k) < coverage.lag - 1e-9) ++k;
-  const DisplacementGroup& all = result.groups[0];
-  const double msd = std::abs(all.translation.value[k] - free_msd(result.lag[k]));
-  const double msr = std::abs(all.rotation.value[k] - free_msr(result.lag[k], inertia));
-  coverage.blocked = all.translation.blocks[k] > 0;
-  coverage.msd_one += msd < all.translation.error[k];
-  coverage.msd_two += msd < 2 * all.translation.error[k];
-  coverage.msr_one += msr < all.rotation.error[k];
-  coverage.msr_two += msr < 2 * all.rotation.error[k];
+/// The lag next to so many steps.
+std::size_t lag_of(const Displacements& result, double steps) {
+  const auto closer = [&](double a, double b) {
+    return std::abs(a - steps * brownian_step) < std::abs(b - steps * brownian_step);
+  };
+  const auto at = std::min_element(result.lag.begin(), result.lag.end(), closer);
+  return static_cast<std::size_t>(at - result.lag.begin());
 }
 
-// 100 runs; the counts stay within 3 binomial standard deviations (4.65 for one error, 2.2 for two)
-// of 68.27 and 95: false-alarm rate 0.3 % each. Short lags have errors by blocking, long ones by
-// particles.
-TEST(Displacement, ErrorBarsCoverTheClosedForm) {
-  Coverage lags[] = {{0.1}, {0.5}, {1}, {5}, {20}};
-  const Configuration2 start = ellipses(40);
-  for (std::uint64_t seed = 0; seed < 100; ++seed) {
-    MemoryTrajectory trajectory = free_brownian(start, 501, 100 + seed);
-    const Displacements result = displacements(trajectory);
-    for (Coverage& lag : lags) count(lag, result, start.inertia(0));
+using CoverageTable = std::map<std::pair<std::string, int>, Coverage>;
+
+CoverageTable coverage_of_free_runs(int seeds, const std::vector<int>& steps) {
+  CoverageTable coverage;
+  const Configuration2 start = ellipses(60);
+  DisplacementOptions options = two_wave_numbers();
+  options.axis.every_lag_up_to = 1;
+  options.axis.lags_per_decade = 10;
+  for (int seed = 0; seed < seeds; ++seed) {
+    MemoryTrajectory trajectory = free_brownian(start, 1001, 100 + seed);
+    const Displacements result = displacements(trajectory, options);
+    for (const int n : steps) {
+      const std::size_t k = lag_of(result, n);
+      for (const Judged& judge : judged(result, result.lag[k], start.inertia(0)))
+        coverage[{judge.name, n}].count(judge.found->value[k] - judge.truth, judge.found->error[k],
+                                        judge.found->blocks[k]);
+    }
   }
-  EXPECT_TRUE(lags[0].blocked);
-  EXPECT_FALSE(lags[4].blocked);
-  for (const Coverage& lag : lags) {
-    EXPECT_NEAR(lag.msd_one, 68.27, 3 * 4.65) << lag.lag;
-    EXPECT_NEAR(lag.msr_one, 68.27, 3 * 4.65) << lag.lag;
-    EXPECT_NEAR(lag.msd_two, 95, 3 * 2.2) << lag.lag;
-    EXPECT_NEAR(lag.msr_two, 95, 3 * 2.2) << lag.lag;
+  return coverage;
+}
+
+// 100 runs. Counts stay within 3.5 binomial standard deviations (4.65 for one error, 2.2 for two) of
+// 68.27 and 95: false-alarm rate 0.05 % for each of 108, 5 % for all. Lags up to 10 steps have errors
+// by blocking, longer ones by particles.
+TEST(Displacement, ErrorBarsCoverTheClosedForms) {
+  for (const auto& [what, counts] : coverage_of_free_runs(100, {1, 5, 10, 50})) {
+    const std::string where = fmt::format("{} at {}", what.first, what.second);
+    const bool by_blocks = what.second <= 10;
+    if (what.first == "chi_4" && !by_blocks) {
+      EXPECT_EQ(counts.runs, 0);
+      continue;
+    }
+    EXPECT_GE(counts.runs, 99) << where;
+    EXPECT_NEAR(100.0 * counts.one / counts.runs, 68.27, 3.5 * 4.65) << where;
+    EXPECT_NEAR(100.0 * counts.two / counts.runs, 95, 3.5 * 2.2) << where;
+    EXPECT_EQ(counts.blocked > 50, by_blocks) << where;
   }
 }
 
@@ -202,6 +220,66 @@ TEST(Displacement, ResultDoesNotDependOnTheMemoryGranted) {
   EXPECT_EQ(whole.groups[0].rotation.value, single.groups[0].rotation.value);
 }
 
+// Every sum is over the same numbers in the same order.
+TEST(Displacement, ResultDoesNotDependOnTheNumberOfThreads) {
+  MemoryTrajectory trajectory = free_brownian(ellipses(40), 300, 5);
+  const Displacements one = displacements(trajectory, {.threads = 1});
+  const Displacements two = displacements(trajectory, {.threads = 2});
+  const auto judge_one = judged(one, 1, 1), judge_two = judged(two, 1, 1);
+  for (std::size_t j = 0; j < judge_one.size(); ++j) {
+    EXPECT_EQ(judge_one[j].found->value[0], judge_two[j].found->value[0]) << judge_one[j].name;
+    EXPECT_EQ(judge_one[j].found->error[0], judge_two[j].found->error[0]) << judge_one[j].name;
+  }
+}
+
+// A particle that flies along its long axis, and one that flies across while it turns: the long axis
+// is that at the origin of time.
+TEST(Displacement, PartsAlongAndAcrossTheLongAxisAtTheOriginOfTime) {
+  Configuration2 configuration = ellipses(2);
+  configuration.angle = {0.7, std::numbers::pi / 2};
+  configuration.velocity = {Vec2(3 * std::cos(0.7), 3 * std::sin(0.7)), Vec2(2, 0)};
+  configuration.angular_velocity = {0, 2 * std::numbers::pi};
+  std::vector<Configuration2> frames;
+  for (int k = 0; k <= 4; ++k, fly(configuration, 0.5)) frames.push_back(configuration);
+  MemoryTrajectory trajectory(std::move(frames));
+  const DisplacementGroup all = displacements(trajectory).groups[0];
+  EXPECT_NEAR(all.parallel.value[0], 0.5 * 2.25, 1e-13);
+  EXPECT_NEAR(all.perpendicular.value[0], 0.5 * 1, 1e-13);
+  EXPECT_NEAR(all.quartic.value[0], 0.5 * (2.25 * 2.25 + 1), 1e-13);
+  EXPECT_NEAR(all.quartic_rotation.value[0], 0.5 * std::pow(std::numbers::pi, 4), 1e-12);
+  EXPECT_NEAR(all.orientation[0].value[0], 0.5 * (1 + 1), 1e-13);
+}
+
+// Half of the time all particles jump by 1 in every step, half of the time none does: Q of one step is
+// 0 or 1 for all at once, ⟨Q⟩ = 1/2 and χ_4 = N/4. Moves are drawn anew for every step, the same for
+// all: blocking sees N particles as one. Two standard errors.
+TEST(Displacement, SusceptibilityCountsParticlesThatMoveTogether) {
+  Stream draw(7, Purpose::tests);
+  Configuration2 configuration = ellipses(50);
+  std::vector<Configuration2> frames;
+  for (int k = 0; k < 2000; ++k) {
+    frames.push_back(configuration);
+    const double jump = draw.uniform() < 0.5 ? 1 : 0;
+    for (Vec2& velocity : configuration.velocity) velocity = Vec2(jump, 0);
+    fly(configuration, 1);
+  }
+  MemoryTrajectory trajectory(std::move(frames));
+  const Displacements result = displacements(trajectory);
+  EXPECT_NEAR(result.overlap.value[0], 0.5, 2 * result.overlap.error[0]);
+  EXPECT_NEAR(result.overlap.error[0], 0.5 / std::sqrt(2000), 0.2 * 0.5 / std::sqrt(2000));
+  EXPECT_NEAR(result.susceptibility.value[0], 12.5, 0.02);
+}
+
+// 4π/(√3 s) with the spacing s = √(2/(√3 ρ)) of the triangular lattice.
+TEST(Displacement, MainWaveNumberIsThatOfTheTriangularLattice) {
+  const double spacing = std::sqrt(2 / (std::sqrt(3.0) * 70 / 35));
+  EXPECT_NEAR(main_wave_number(ellipses(70)), 4 * std::numbers::pi / (std::sqrt(3.0) * spacing),
+              1e-13);
+  MemoryTrajectory trajectory = free_brownian(ellipses(70), 3, 6);
+  EXPECT_EQ(displacements(trajectory).wave_numbers,
+            std::vector<double>{main_wave_number(ellipses(70))});
+}
+
 TEST(Displacement, OriginsAreThinnedEvenlyAndLongLagsLogarithmically) {
   MemoryTrajectory trajectory = free_brownian(ellipses(1), 2001, 4);
   const Displacements result = displacements(
@@ -221,8 +299,8 @@ TEST(Displacement, OneFrameIsTheUsersMistake) {
 }
 
 /// A mean square m(t) with small relative errors.
-MeanSquare square(const std::vector<double>& lag, double (*m)(double), double error = 0.01) {
-  MeanSquare result;
+Correlation square(const std::vector<double>& lag, double (*m)(double), double error = 0.01) {
+  Correlation result;
   for (const double t : lag) {
     result.value.push_back(m(t));
     result.error.push_back(error * m(t));

@@ -72,7 +72,10 @@ TEST(Program, PrepareRunCheckAnalyzeAndReport) {
 
   EXPECT_EQ(run(folder.path(), {"analyze", "run.h5", "-o", "results.h5", "-q"}).code, 0);
   EXPECT_TRUE(std::filesystem::exists(folder / "results.h5"));
-  EXPECT_TRUE(std::filesystem::exists(folder / "results_displacements_all.csv"));
+  for (const char* table : {"displacements_all", "self_scattering_all", "orientation_all",
+                            "wave_numbers", "collective_scattering", "susceptibility"})
+    EXPECT_TRUE(std::filesystem::exists(folder / (std::string("results_") + table + ".csv")))
+        << table;
   EXPECT_EQ(run(folder.path(), {"report", "run.h5", "-o", "page.html", "-q"}).code, 0);
   EXPECT_GT(std::filesystem::file_size(folder / "page.html"), 10'000u);
 }

@@ -307,5 +307,29 @@ TEST(Parameters, AMissingFileAndAFolderAreFileErrors) {
   EXPECT_THROW(read_toml_file("."), FileError);
 }
 
+TEST(Parameters, ListsOfNumbersHaveAnyLength) {
+  std::vector<double> values{1};
+  const auto describe = [&](FieldVisitor& visit) {
+    visit.field({"values", "", "Values."}, values);
+  };
+  const auto read = [&](const std::string& text) {
+    read_parameters(parse_toml(text, "file.toml"), describe, [] {});
+  };
+  read("values = [2, 0.5, 3.0]");
+  EXPECT_EQ(values, (std::vector<double>{2, 0.5, 3}));
+  const std::string written = write_parameters(describe);
+  read("values = []");
+  EXPECT_TRUE(values.empty());
+  EXPECT_EQ(write_parameters(describe), "values = []\n");
+  read(written);
+  EXPECT_EQ(values, (std::vector<double>{2, 0.5, 3}));
+  for (const char* wrong : {"values = 1", "values = [1, \"x\"]"}) try {
+      read(wrong);
+      ADD_FAILURE() << wrong;
+    } catch (const UserError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("'values' must be a")) << wrong;
+    }
+}
+
 }  // namespace
 }  // namespace vitrel

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "analysis/blocking.h"
+#include "analysis/time_axis.h"
+
+/// Averages over particles and time origins against the time difference, with their errors.
+namespace vitrel {
+
+/// A function of the time difference.
+struct Correlation {
+  std::vector<double> value;
+  std::vector<double> error;  ///< standard error; NaN where none can be given
+  std::vector<std::size_t>
+      blocks;  ///< blocks of time origins behind the error; 0: spread of particles
+
+  void push_back(const Estimate& estimate) {
+    value.push_back(estimate.mean);
+    error.push_back(estimate.error);
+    blocks.push_back(estimate.blocks);
+  }
+};
+
+/// Sums of one quantity x_i(k), of particle i from time origin k to a fixed time difference later.
+///
+/// 1. At every origin x is averaged over the particles; the mean over origins is the value.
+/// 2. The error is that of this series of origins by blocking, with blocks of four time differences
+///    or more; it sees correlations in time and between particles.
+/// 3. Where the time difference is too long for eight such blocks, or with a single origin, it is
+///    that of the particles' own means over the origins, taken as independent of each other: good
+///    far from the glass, too small by √χ_4 where motion is cooperative. Both include Student's
+///    factor.
+class CorrelationSum {
+ public:
+  explicit CorrelationSum(std::size_t origins) : per_origin_(origins) {}
+
+  /// The values of one particle at consecutive origins, the next ones of that particle.
+  void add(std::size_t first_origin, std::span<const double> values);
+  /// Its mean over all origins; the next values belong to another particle.
+  double finish_particle();
+  /// The sums of other particles at the same origins.
+  void add(const CorrelationSum& other);
+
+  std::span<const double> per_origin() const { return per_origin_; }
+  Estimate estimate(const Lag& lag, std::size_t particles) const;
+
+ private:
+  friend class MomentSum;
+
+  std::vector<double> per_origin_;  ///< summed over particles
+  double particle_ = 0;             ///< sum over the origins of the present particle
+  double sum_ = 0, squares_ = 0;    ///< of the particles' means over origins
+};
+
+/// Sums of the squares s and fourth powers s² of displacements, whose ratio shows how far they are
+/// from being normally distributed: the non-Gaussian parameter
+///   α = c ⟨s²⟩/⟨s⟩² − 1, c = 1/2 in the plane, 1/3 for rotation; 0 for normal distributions.
+class MomentSum {
+ public:
+  explicit MomentSum(std::size_t origins) : square(origins), quartic(origins) {}
+
+  void add(std::size_t first_origin, std::span<const double> squares,
+           std::span<const double> fourth_powers);
+  void finish_particle();
+  void add(const MomentSum& other);
+
+  /// Its error is that of the linearised ratio, α + c (x₄ − ⟨s²⟩)/⟨s⟩² − 2 c ⟨s²⟩(x₂ − ⟨s⟩)/⟨s⟩³,
+  /// as a CorrelationSum has it: x₂ and x₄ stem from the same origins or particles, and their
+  /// correlation counts. The bias from the ratio is that of a sample, −1/n of n independent
+  /// displacements; the error is 1/√n. NaN where nothing moves.
+  Estimate non_gaussian(double c, const Lag& lag, std::size_t particles) const;
+
+  CorrelationSum square, quartic;
+
+ private:
+  double mixed_ = 0;  ///< Σ (mean of s)(mean of s²) over particles
+};
+
+/// χ = N(⟨Q²⟩ − ⟨Q⟩²) from Q = Σ_i x_i/N at every origin: 0 if particles move alike at all times,
+/// the variance of x_i if they are independent. The variance of a sample of correlated origins is
+/// too small by the squared error of ⟨Q⟩, which blocking gives and which is added. Error by blocking
+/// of N(Q − ⟨Q⟩)². Value and error are NaN where there are fewer than eight blocks: fluctuations in
+/// time need many independent times.
+Estimate susceptibility(const CorrelationSum& sum, const Lag& lag, std::size_t particles);
+
+}  // namespace vitrel

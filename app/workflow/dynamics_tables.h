@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "analysis/collective_scattering.h"
+#include "analysis/displacement.h"
+#include "analysis/results.h"
+
+namespace vitrel {
+
+/// The time correlations of a run.
+struct RunDynamics {
+  Displacements displacements;
+  CollectiveScattering collective;  ///< at the wave numbers of the displacements
+};
+
+/// Tables displacements_<group>, self_scattering_<group> and, of groups with rotors,
+/// orientation_<group>; wave_numbers, collective_scattering and, if the run has more than one time
+/// origin, susceptibility.
+std::vector<Table> dynamics_tables(const RunDynamics& dynamics);
+
+}  // namespace vitrel
