@@ -38,7 +38,7 @@ rule all:
 rule job:
     output: "{id}/done.json"
     wildcard_constraints: id="[^/]+"
-    retries: 20
+    retries: 20 if workflow.mode == Mode.default else 0  # not inside a job of the cluster
     resources: attempt=lambda wildcards, attempt: attempt
     shell:
         """

@@ -93,3 +93,41 @@ def millions(per_second):
 
 def rows_by(rows, *keys):
     return {tuple(row[key] for key in keys): row for row in rows}
+
+
+def datasets(file):
+    """All datasets of an HDF5 file but its provenance, by name: type, shape and bytes."""
+    import h5py  # what does not compare files does not need it
+
+    found = {}
+
+    def note(name, item):
+        if isinstance(item, h5py.Dataset) and not name.startswith("provenance/"):
+            found[name] = (str(item.dtype), item.shape, item[()].tobytes())
+
+    with h5py.File(file) as content:
+        content.visititems(note)
+    return found
+
+
+def differing_datasets(first, second):
+    left, right = datasets(first), datasets(second)
+    return sorted(name for name in left.keys() | right.keys() if left.get(name) != right.get(name))
+
+
+def differing_files(first, second, jobs):
+    """What differs between the states, runs and results of two sweeps, and the number of files compared."""
+    different, count = [], 0
+    for job in jobs:
+        names = {file.name for sweep in (first, second) for kind in ("h5", "csv") for file in (sweep / job).glob(f"*.{kind}")}
+        expect({"state.h5", "run.h5", "results.h5"} <= names, f"{job}: only {', '.join(sorted(names))} are there")
+        for name in sorted(names):
+            pair = first / job / name, second / job / name
+            if not all(file.exists() for file in pair):
+                different.append(f"{job}/{name}: only one sweep has it")
+            elif name.endswith(".h5"):
+                different += [f"{job}/{name}: {dataset}" for dataset in differing_datasets(*pair)]
+            elif pair[0].read_bytes() != pair[1].read_bytes():
+                different.append(f"{job}/{name}")
+            count += 1
+    return different, count

@@ -322,5 +322,82 @@ TEST(Program, AFailedJobDoesNotStopTheOthers) {
                                     HasSubstr("packing_fraction-0.1: done")));
 }
 
+const std::string three_seeds = small_system + "[sweep.grid]\n\"system.seed\" = [1, 2, 3]\n";
+
+TEST(Program, AJobOfASweepIsWorkedOffAlone) {
+  const Folder folder("one_job");
+  folder.write("p.toml", three_seeds);
+  const std::vector<std::string> whole = {"sweep", "p.toml", "-o", "whole", "-q"};
+  ASSERT_EQ(run(folder.path(), whole).code, 0);
+  const auto job = [](const std::string& id) {
+    return std::vector<std::string>{"sweep", "p.toml", "-o", "parts", "--job", id, "--json", "-q"};
+  };
+  const Outcome second = run(folder.path(), job("seed-2"));
+  ASSERT_EQ(second.code, 0) << second.errors;
+  EXPECT_EQ(Json::parse(second.output)["jobs"].size(), 1u);
+  EXPECT_FALSE(std::filesystem::exists(folder / "parts/seed-1"));
+  EXPECT_THAT(
+      differing_datasets(folder / "whole/seed-2/run.h5", folder / "parts/seed-2/run.h5"),
+      testing::IsEmpty());
+  expect_refusal(run(folder.path(), job("seed-4")), 2,
+                 "no job of the sweep has the name 'seed-4'; there are seed-1, seed-2, seed-3");
+}
+
+// Two processes given the same job at once: one works, the other waits and finds the job done. Both given
+// the sweep: the second is refused.
+TEST(Program, AJobIsWorkedOffOnceHoweverManyProcessesGetIt) {
+  const Folder folder("same_job");
+  folder.write("p.toml", three_seeds + "[dynamics]\nduration = 300\n");
+  Outcome first;
+  std::thread other([&] {
+    first = run(folder.path(), {"sweep", "p.toml", "-o", "sweep", "--job", "seed-1", "-q"});
+  });
+  while (!std::filesystem::exists(folder / "sweep/seed-1/state.h5"))
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  std::filesystem::create_directory(folder / "elsewhere");
+  const Outcome sweep =
+      run(folder / "elsewhere", {"sweep", "../p.toml", "-o", "../sweep", "-q"});
+  const Outcome second =
+      run(folder / "elsewhere", {"sweep", "../p.toml", "-o", "../sweep", "--job", "seed-1"});
+  other.join();
+  EXPECT_EQ(first.code, 0) << first.errors;
+  expect_refusal(sweep, 2, "another process works on this sweep");
+  EXPECT_EQ(second.code, 0);
+  EXPECT_THAT(second.errors, AllOf(HasSubstr("waiting for another process"),
+                                   HasSubstr("1 of 1 jobs are done already")));
+}
+
+// A kill may fall between the last act of a preparation and the summary that says it is done.
+TEST(Program, AStateWithoutItsSummaryIsMadeAgain) {
+  const Folder folder("state_without_summary");
+  folder.write("p.toml", small_system);
+  const std::vector<std::string> sweep = {"sweep", "p.toml", "-o", "sweep", "-q"};
+  ASSERT_EQ(run(folder.path(), sweep).code, 0);
+  const auto job = folder / "sweep/job";
+  std::filesystem::copy(job, folder / "before");
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "before"))
+    if (const auto name = entry.path().filename();
+        name != "state.h5" && name != "state.quality.json" && name != "parameters.toml")
+      std::filesystem::remove(job / name);
+  const Outcome again = run(folder.path(), sweep);
+  ASSERT_EQ(again.code, 0) << again.errors;
+  for (const char* file : {"state.h5", "run.h5"})
+    EXPECT_THAT(differing_datasets(folder / "before" / file, job / file), testing::IsEmpty());
+}
+
+TEST(Program, AFinishedJobIsAnalyzedAnewWithOtherParametersOfTheAnalysis) {
+  const Folder folder("analyzed_anew");
+  folder.write("p.toml", small_system);
+  std::vector<std::string> sweep = {"sweep", "p.toml", "-o", "sweep", "-q"};
+  ASSERT_EQ(run(folder.path(), sweep).code, 0);
+  const auto job = folder / "sweep/job";
+  std::filesystem::copy(job, folder / "before");
+  sweep.insert(sweep.end(), {"--set", "analysis.longest_lag=0.1"});
+  ASSERT_EQ(run(folder.path(), sweep).code, 0);
+  EXPECT_THAT(differing_datasets(folder / "before/run.h5", job / "run.h5"), testing::IsEmpty());
+  EXPECT_THAT(differing_datasets(folder / "before/results.h5", job / "results.h5"),
+              testing::Contains("/tables/displacements_all/time"));
+}
+
 }  // namespace
 }  // namespace vitrel
