@@ -143,7 +143,7 @@ std::string last_line(const fs::path& file) {
 void hold_alone(FolderLock& lock, const fs::path& folder) {
   // As long as children of a killed sweep may take to die.
   int asked = 0;
-  const auto gives_up = [&asked] { return ++asked > 20; };
+  const auto gives_up = [&asked] { return ++asked > 10; };
   if (!lock.acquire(FolderLock::Share::alone, gives_up))
     throw UserError(folder.string() +
                     ": another process works on this sweep; wait for it or stop it "

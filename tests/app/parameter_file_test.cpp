@@ -137,13 +137,16 @@ const BadFile bad_files[] = {
     {"[analysis]\nlongest_lag = 2", "file.toml:2:15: key 'analysis.longest_lag' is 2.0"},
     {"[analysis]\nmost_origins = 0", "file.toml:2:16: key 'analysis.most_origins' is 0"},
     {"[sweep.together]\n\"system.seed\" = [1, 2]\n\"dynamics.duration\" = [50]",
-     "file.toml:3:23: key 'sweep.together.dynamics.duration' has 1 value(s), but 'system.seed' has 2"},
+     "file.toml:3:23: key 'sweep.together.dynamics.duration' has 1 value(s), but 'system.seed' has "
+     "2"},
     {"[sweep.grid]\nsystem.seed = [1]\n[sweep.together]\n\"system.seed\" = [2]",
-     "file.toml:2:15: key 'sweep.grid.system.seed' stands twice in [sweep.grid] and [sweep.together]"},
+     "file.toml:2:15: key 'sweep.grid.system.seed' stands twice in [sweep.grid] and "
+     "[sweep.together]"},
     {"[sweep.grid]\nsystem.seed = [1]\n\"system.seed\" = [2]",
      "key 'sweep.grid.system.seed' stands twice"},
     {"[sweep.together]\n\"system.seed\" = []",
-     "file.toml:2:17: key 'sweep.together.system.seed' must hold arrays of values to run through, not an "
+     "file.toml:2:17: key 'sweep.together.system.seed' must hold arrays of values to run through, "
+     "not an "
      "empty array"},
 };
 
