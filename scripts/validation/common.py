@@ -1,11 +1,13 @@
 """What the validations share."""
 
+import contextlib
 import json
 import pathlib
 import platform
 import re
 import subprocess
 import tempfile
+import time
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
@@ -131,3 +133,23 @@ def differing_files(first, second, jobs):
                 different.append(f"{job}/{name}")
             count += 1
     return different, count
+
+
+def wait_until(condition, seconds, what):
+    """Returns what `condition` returns as soon as that is true."""
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        if found := condition():
+            return found
+        time.sleep(0.05)
+    raise Failure(f"after {seconds} s: {what}")
+
+
+def process_of_run(sweep, job):
+    """The process of `vitrel run` of a job of an exported sweep, or None."""
+    for entry in pathlib.Path("/proc").glob("[0-9]*"):
+        with contextlib.suppress(OSError):
+            words = (entry / "cmdline").read_bytes().split(b"\0")
+            if words[1:2] == [b"run"] and f"./{job}/run.h5".encode() in words and (entry / "cwd").readlink() == sweep:
+                return int(entry.name)
+    return None
