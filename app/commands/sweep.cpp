@@ -25,9 +25,10 @@ void print_table(const Arguments& arguments) {
 
 int export_workflow(const Arguments& arguments) {
   export_sweep(parameter_source(arguments), arguments.output, this_program());
-  remark(arguments, fmt::format("{}: in this folder, snakemake -j 2 works off the sweep, and snakemake "
-                                "--profile slurm hands its jobs to Slurm",
-                                arguments.output.string()));
+  remark(arguments,
+         fmt::format("{}: in this folder, snakemake -j 2 works off the sweep, and snakemake "
+                     "--profile slurm hands its jobs to Slurm",
+                     arguments.output.string()));
   return success;
 }
 

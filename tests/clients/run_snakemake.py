@@ -21,6 +21,7 @@ particles = 30
 [dynamics]
 equilibration = 2
 [output]
+samples = { spacing = "linear", interval = 1.0 }
 checkpoint_interval = 0.2
 """
 SWEEP = SYSTEM + """
@@ -59,10 +60,10 @@ class Snakemake(unittest.TestCase):
         self.assertGreaterEqual(files, 3 * len(JOBS))
 
     def test_a_stopped_job_continues(self):
-        long = SYSTEM + '[sweep.grid]\n"system.seed" = [1]\n"dynamics.duration" = [1000]\n'
+        long = SYSTEM + '[sweep.grid]\n"system.particles" = [200]\n"dynamics.duration" = [500]\n'
         self.sweep(long, "local")
         self.sweep(long, "exported", "--export", "snakemake")
-        sweep, job = self.folder / "exported", "seed-1_duration-1000"
+        sweep, job = self.folder / "exported", "particles-200_duration-500"
         with subprocess.Popen(SNAKEMAKE, cwd=sweep, stderr=subprocess.PIPE, text=True) as workflow:
             wait_until((sweep / job / "run.h5").exists, 60, "no run")
             os.kill(wait_until(lambda: process_of_run(sweep, job), 60, "no process"), signal.SIGUSR1)
