@@ -13,7 +13,8 @@ PROGRAM = sys.argv.pop(1)
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts"))
 
-from validation.common import differing_files, output_of, process_of_run, wait_until  # noqa: E402 (needs the path)
+from validation.common import (  # noqa: E402 (needs the path)
+    differing_datasets, differing_files, output_of, process_of_run, wait_until)
 
 SYSTEM = """
 [system]
@@ -58,6 +59,8 @@ class Snakemake(unittest.TestCase):
         different, files = differing_files(self.folder / "local", moved, JOBS)
         self.assertEqual(different, [])
         self.assertGreaterEqual(files, 3 * len(JOBS))
+        runs = [moved / job / "run.h5" for job in JOBS[:2]]
+        self.assertIn("particles/all/position/value", differing_datasets(*runs))
 
     def test_a_stopped_job_continues(self):
         long = SYSTEM + '[sweep.grid]\n"system.particles" = [200]\n"dynamics.duration" = [500]\n'
