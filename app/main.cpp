@@ -144,12 +144,24 @@ class CommandLine {
   }
   void add_sweep() {
     CLI::App& sub =
-        add("sweep", "Work off all combinations of [sweep.grid]: prepare, run, analyze.",
-            sweep_command);
+        add("sweep", "Work off all jobs of [sweep]: prepare, run, analyze.", sweep_command);
     add_parameter_file(sub);
     add_output(sub, "Folder of the sweep", true);
-    sub.add_option("-j,--jobs", arguments_.parallel, "Jobs at a time")->check(CLI::PositiveNumber);
-    sub.add_flag("--status", arguments_.status, "Only print how far every job is");
+    CLI::Option* parallel = sub.add_option("-j,--jobs", arguments_.parallel, "Jobs at a time")
+                                ->check(CLI::PositiveNumber);
+    CLI::Option* status =
+        sub.add_flag("--status", arguments_.status, "Only print how far every job is");
+    CLI::Option* job =
+        sub.add_option("--job", arguments_.job,
+                       "Work off the job of this name only, beside other processes that "
+                       "work on others");
+    CLI::Option* exported =
+        sub.add_option("--export", arguments_.export_as,
+                       "Work off nothing, but write the sweep into its folder as a workflow of "
+                       "snakemake, which runs it here or on Slurm")
+            ->check(CLI::IsMember({"snakemake"}));
+    job->excludes(parallel)->excludes(status)->excludes(exported);
+    exported->excludes(parallel)->excludes(status);
     add_wall_time(sub);
     add_quiet_and_json(sub);
   }

@@ -36,6 +36,8 @@ struct Arguments {
   std::string template_command;  ///< params: whose template
   std::string format;            ///< export: of the output
   std::string frames = ":";      ///< export: which ones
+  std::string job;               ///< sweep: the only one to work off; empty: all
+  std::string export_as;         ///< sweep: what to write it as; empty: work it off
   // bench; what is not given is the benchmark's default
   std::vector<std::string> methods, classes;  ///< by name; empty: all
   std::optional<std::uint64_t> pairs;         ///< of each class

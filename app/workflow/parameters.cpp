@@ -523,6 +523,25 @@ void validate_structure(const StructureOptions& p) {
   steps(p.pairs.distance_max, p.pairs.distance_step, "distance_max", "distance_step");
 }
 
+void validate_sweep(const SweepParameters& p) {
+  std::set<std::string> keys;
+  for (const auto& [table, grid] :
+       {std::pair("sweep.together.", &p.together), {"sweep.grid.", &p.grid}})
+    for (const auto& [key, values] : *grid)
+      if (!keys.insert(key).second)
+        throw BadValue(table + key,
+                       "stands twice in [sweep.grid] and [sweep.together]; leave one out");
+  for (const auto& [key, values] : p.together) {
+    const auto& [first, wanted] = p.together.front();
+    if (values.size() != wanted.size())
+      throw BadValue(
+          "sweep.together." + key,
+          fmt::format("has {} value(s), but '{}' has {}; the keys of [sweep.together] advance "
+                      "together and need as many values each",
+                      values.size(), first, wanted.size()));
+  }
+}
+
 Parameters read(const TomlNode& root) {
   Parameters parameters;
   read_parameters(root, fields(parameters), [&] { validate(parameters); });
@@ -624,7 +643,13 @@ FieldVisitor::Inside fields(Parameters& p, const Sections& sections) {
         in.grid({"grid", "",
                  "Keys of this file in quotes, and the values each of them runs through; every "
                  "combination is one job."},
-                p.sweep);
+                p.sweep.grid);
+        in.grid(
+            {"together", "",
+             "Keys that advance together, each with as many values: the first values of all make "
+             "one job, the second ones the next; with a grid, each of them is combined with all of "
+             "the grid. The job is named after the first of these keys, and those of the grid."},
+            p.sweep.together);
       });
   };
 }
@@ -637,6 +662,7 @@ void validate(const Parameters& parameters) {
   validate_output(parameters);
   validate_analysis(parameters.analysis);
   validate_structure(parameters.structure);
+  validate_sweep(parameters.sweep);
 }
 
 Parameters load_parameters(const ParameterSource& source) {
@@ -676,8 +702,9 @@ std::string command_template(const std::string& command) {
         command));
   Parameters parameters;
   if (found->second.sweep)
-    parameters.sweep = {{"system.packing_fraction", {"0.4", "0.5", "0.6"}},
-                        {"system.seed", {"1", "2"}}};
+    parameters.sweep = {
+        {{"system.seed", {"1", "2"}}},
+        {{"system.packing_fraction", {"0.4", "0.6"}}, {"dynamics.duration", {"100.0", "400.0"}}}};
   return fmt::format("# Parameters of `vitrel {}`, all at their defaults.\n\n", command) +
          parameter_template(fields(parameters, found->second));
 }

@@ -85,6 +85,12 @@ struct OutputParameters {
   double checkpoint_interval = 30;
 };
 
+/// The values that keys of the file run through in a sweep.
+struct SweepParameters {
+  ParameterGrid grid;      ///< every value of a key with every value of the others
+  ParameterGrid together;  ///< the k-th values of all keys together
+};
+
 struct Parameters {
   SystemParameters system;
   std::vector<Species> species;
@@ -94,7 +100,7 @@ struct Parameters {
   OutputParameters output;
   DisplacementOptions analysis;
   StructureOptions structure;
-  ParameterGrid sweep;
+  SweepParameters sweep;
 
   Parameters();
 };

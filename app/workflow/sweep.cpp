@@ -1,23 +1,21 @@
 #include "app/workflow/sweep.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <deque>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <thread>
 
+#include "app/workflow/folder_lock.h"
 #include "app/workflow/process.h"
+#include "app/workflow/snakemake.h"
 #include "app/workflow/stop.h"
 #include "app/workflow/text_file.h"
 #include "core/error.h"
+#include "core/io/pending_file.h"
 
 namespace vitrel {
 namespace {
@@ -27,91 +25,20 @@ using Json = nlohmann::ordered_json;
 
 constexpr int stopped_exit_code = 5;
 
-std::string last_part(const std::string& key) {
-  return key.substr(key.rfind('.') + 1);
-}
-
-// Letters, digits and a few marks; anything else becomes "_", so that every shell takes the name.
-std::string file_name_part(std::string text) {
-  std::erase(text, '"');
-  for (char& c : text)
-    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '.' && c != '-' && c != '+') c = '_';
-  return text;
-}
-
-std::string job_id(const std::vector<std::pair<std::string, std::string>>& values) {
-  std::map<std::string, int> uses;
-  for (const auto& [key, value] : values) ++uses[last_part(key)];
-  std::string id;
-  for (const auto& [key, value] : values) {
-    const std::string name = uses[last_part(key)] == 1 ? last_part(key) : key;
-    id += fmt::format("{}{}-{}", id.empty() ? "" : "_", name, file_name_part(value));
-  }
-  return id.empty() ? "job" : id;
-}
-
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error)
-    throw FileError(
-        fmt::format("{}: the folder cannot be made: {}", folder.string(), error.message()));
-}
-
-// Holds the sweep's folder for this process; the kernel lets go when the process ends, however it
-// does.
-class FolderLock {
- public:
-  explicit FolderLock(const fs::path& folder) {
-    const fs::path path = folder / "lock";
-    descriptor_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (descriptor_ < 0)
-      throw FileError(
-          fmt::format("{}: cannot be written: {}", path.string(), std::strerror(errno)));
-    if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
-      close(descriptor_);
-      throw UserError(folder.string() +
-                      ": another process works on this sweep; wait for it or stop it "
-                      "(vitrel sweep --status shows how far it is)");
-    }
-  }
-  ~FolderLock() { close(descriptor_); }
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-
- private:
-  int descriptor_;
-};
-
-Json values_json(const SweepJob& job) {
-  Json values = Json::object();
-  for (const auto& [key, value] : job.values) {
-    const TomlNode node = parse_toml("x = " + value, key);
-    const TomlNode& parsed = node.find("x")->node;
-    if (const auto* real = parsed.get<double>())
-      values[key] = *real;
-    else if (const auto* integer = parsed.get<std::int64_t>())
-      values[key] = *integer;
-    else if (const auto* flag = parsed.get<bool>())
-      values[key] = *flag;
-    else if (const auto* text = parsed.get<std::string>())
-      values[key] = *text;
-    else
-      values[key] = value;
-  }
-  return values;
-}
-
+// What was begun with other parameters is refused, but for those of the analysis, which is made anew.
 void write_job_folder(const SweepJob& job, const fs::path& folder) {
   make_folder(folder);
   const fs::path file = folder / "parameters.toml";
   const std::string text = effective_parameters(job.parameters);
   if (fs::exists(file)) {
-    if (const auto change = forbidden_change(read_text(file), text, Work::run))
+    const std::string before = read_text(file);
+    if (const auto change = forbidden_change(before, text, Work::run))
       throw UserError(
           fmt::format("{}: this job was begun with {} = {}, but now it is {}; use another "
                       "folder for the sweep, or delete the job's",
                       folder.string(), change->key, change->first, change->second));
+    const auto is_elsewhere = [](const std::string& key) { return !key.starts_with("analysis."); };
+    if (first_difference(before, text, is_elsewhere)) fs::remove(folder / "done.json");
   }
   write_text(file, text);
   write_text(folder / "params.json",
@@ -146,8 +73,7 @@ class JobWorker {
     } else if (*code != 0) {
       state_ = State::failed;
     } else {
-      const Step& step = steps_[next_++];
-      fs::rename(unfinished(step), folder_ / (std::string(step.name) + ".json"));
+      PendingFile(summary(steps_[next_++])).commit();
       start_next();
     }
   }
@@ -161,13 +87,10 @@ class JobWorker {
   static constexpr std::array<Step, 3> steps_ = {
       {{"prepare", "state.h5", true}, {"run", "run.h5", false}, {"analyze", "results.h5", false}}};
 
-  fs::path unfinished(const Step& step) const {
-    return folder_ / (std::string(step.name) + ".json.partial");
-  }
+  fs::path summary(const Step& step) const { return folder_ / (std::string(step.name) + ".json"); }
 
   bool is_complete(const Step& step) const {
-    return step.skip_if_there && fs::exists(folder_ / step.product) &&
-           fs::exists(folder_ / (std::string(step.name) + ".json"));
+    return step.skip_if_there && fs::exists(folder_ / step.product) && fs::exists(summary(step));
   }
 
   void start_next() {
@@ -177,7 +100,10 @@ class JobWorker {
       return;
     }
     const Step& step = steps_[next_];
-    child_ = std::make_unique<ChildProcess>(command(step), unfinished(step), folder_ / "log.txt");
+    // A product without its summary comes from a sweep killed between the two; it is made again.
+    if (step.skip_if_there) fs::remove(folder_ / step.product);
+    const fs::path unfinished = summary(step).string() + ".partial";
+    child_ = std::make_unique<ChildProcess>(command(step), unfinished, folder_ / "log.txt");
   }
 
   std::vector<std::string> command(const Step& step) const {
@@ -195,9 +121,7 @@ class JobWorker {
 
   void finish() {
     Json done = {{"id", job_.id}, {"values", values_json(job_)}};
-    for (const Step& step : steps_)
-      done[step.name] =
-          Json::parse(read_text(folder_ / (std::string(step.name) + ".json")), nullptr, false);
+    for (const Step& step : steps_) done[step.name] = Json::parse(read_text(summary(step)));
     write_text(folder_ / "done.json", done.dump(2) + "\n");
     state_ = State::done;
   }
@@ -216,16 +140,54 @@ std::string last_line(const fs::path& file) {
   return text.substr(text.rfind('\n') + 1);
 }
 
+void hold_alone(FolderLock& lock, const fs::path& folder) {
+  // As long as children of a killed sweep may take to die.
+  int asked = 0;
+  const auto gives_up = [&asked] { return ++asked > 10; };
+  if (!lock.acquire(FolderLock::Share::alone, gives_up))
+    throw UserError(folder.string() +
+                    ": another process works on this sweep; wait for it or stop it "
+                    "(vitrel sweep --status shows how far it is)");
+}
+
 // Keeps `parallel` jobs going until all are done or the user wants to stop.
 class Sweep {
  public:
-  Sweep(const SweepRequest& request, const std::function<void(const std::string&)>& say)
-      : request_(request), say_(say), jobs_(sweep_jobs(request.source)) {}
+  Sweep(const SweepRequest& request, const std::vector<SweepJob>& jobs,
+        const std::function<void(const std::string&)>& say)
+      : request_(request), say_(say), jobs_(jobs) {}
 
   SweepOutcome run() {
     make_folder(request_.folder);
-    const FolderLock lock(request_.folder);
+    FolderLock lock(request_.folder);
+    hold_alone(lock, request_.folder);
     for (const SweepJob& job : jobs_) write_job_folder(job, request_.folder / job.id);
+    return work_off();
+  }
+
+  /// Of a single job, beside others that work on other jobs.
+  SweepOutcome run_beside_others() {
+    const fs::path folder = request_.folder / jobs_.front().id;
+    make_folder(folder);
+    FolderLock sweep(request_.folder), job(folder);
+    if (!wait_for(sweep, FolderLock::Share::with_others) ||
+        !wait_for(job, FolderLock::Share::alone))
+      return {.stopped = true};
+    write_job_folder(jobs_.front(), folder);
+    return work_off();
+  }
+
+ private:
+  bool wait_for(FolderLock& lock, FolderLock::Share share) const {
+    bool told = false;
+    return lock.acquire(share, [&] {
+      if (!told) say_("waiting for another process that works on this job");
+      told = true;
+      return stop_signalled() || time_is_up();
+    });
+  }
+
+  SweepOutcome work_off() {
     for (const SweepJob& job : jobs_) {
       if (job_stage(request_.folder / job.id) == JobStage::done)
         ++outcome_.done;
@@ -245,7 +207,6 @@ class Sweep {
     return outcome_;
   }
 
- private:
   bool time_is_up() const {
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
     return request_.wall_time > 0 && elapsed.count() > request_.wall_time;
@@ -287,7 +248,7 @@ class Sweep {
 
   const SweepRequest& request_;
   const std::function<void(const std::string&)>& say_;
-  std::vector<SweepJob> jobs_;
+  const std::vector<SweepJob>& jobs_;
   std::deque<const SweepJob*> waiting_;
   std::vector<std::unique_ptr<JobWorker>> active_;
   SweepOutcome outcome_;
@@ -322,34 +283,6 @@ std::vector<std::string> result_cells(const fs::path& folder) {
 
 }  // namespace
 
-std::vector<SweepJob> sweep_jobs(const ParameterSource& source) {
-  const ParameterGrid grid = load_parameters(source).sweep;
-  std::vector<std::vector<std::pair<std::string, std::string>>> combinations(1);
-  for (const auto& [key, values] : grid) {
-    std::vector<std::vector<std::pair<std::string, std::string>>> longer;
-    for (const auto& combination : combinations)
-      for (const std::string& value : values) {
-        longer.push_back(combination);
-        longer.back().emplace_back(key, value);
-      }
-    combinations = std::move(longer);
-  }
-  std::vector<SweepJob> jobs;
-  std::set<std::string> ids;
-  for (auto& combination : combinations) {
-    ParameterSource job_source = source;
-    for (const auto& [key, value] : combination) job_source.overrides.push_back(key + "=" + value);
-    SweepJob job{job_id(combination), std::move(combination), load_parameters(job_source)};
-    if (!ids.insert(job.id).second)
-      throw UserError(
-          fmt::format("{}: two jobs of [sweep.grid] have the same values ({}); every value "
-                      "may appear once",
-                      source.file.string(), job.id));
-    jobs.push_back(std::move(job));
-  }
-  return jobs;
-}
-
 const char* name_of(JobStage stage) {
   constexpr const char* names[] = {"waiting", "prepared", "started", "done"};
   return names[static_cast<std::size_t>(stage)];
@@ -364,7 +297,23 @@ JobStage job_stage(const fs::path& folder) {
 
 SweepOutcome run_sweep(const SweepRequest& request,
                        const std::function<void(const std::string&)>& say) {
-  return Sweep(request, say).run();
+  const std::vector<SweepJob> jobs = sweep_jobs(request.source);
+  return Sweep(request, jobs, say).run();
+}
+
+SweepOutcome run_job(const SweepRequest& request, const std::string& id,
+                     const std::function<void(const std::string&)>& say) {
+  const std::vector<SweepJob> jobs = {job_named(sweep_jobs(request.source), id)};
+  return Sweep(request, jobs, say).run_beside_others();
+}
+
+void export_sweep(const ParameterSource& source, const fs::path& folder, const fs::path& program) {
+  const std::vector<SweepJob> jobs = sweep_jobs(source);
+  make_folder(folder);
+  FolderLock lock(folder);
+  hold_alone(lock, folder);
+  for (const SweepJob& job : jobs) write_job_folder(job, folder / job.id);
+  export_snakemake(source, jobs, folder, program);
 }
 
 std::string sweep_table(const std::vector<SweepJob>& jobs, const fs::path& folder) {

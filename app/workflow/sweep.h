@@ -4,13 +4,12 @@
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "app/workflow/parameters.h"
+#include "app/workflow/sweep_jobs.h"
 
-/// Many runs from one parameter file. Every combination of the grid's values is a job with a folder
-/// of its own:
+/// Many runs from one parameter file. Every job has a folder of its own:
 ///
 ///   sweep/<id>/params.json      the job's values of the grid, and its id
 ///             /parameters.toml  all its parameters
@@ -20,19 +19,11 @@
 ///                               what these said
 ///             /done.json        written last
 ///
-/// Every step may be repeated: what is complete is left alone, a run that was cut off is continued.
-/// So the same command continues a sweep that was stopped or killed.
+/// Every step may be repeated: what is complete is left alone, a preparation or a run that was cut off is
+/// continued. So the same command continues a sweep that was stopped or killed. To equilibrate is the
+/// first part of the run, not a step of its own: both are one trajectory of the dynamics with one
+/// checkpoint, and cutting it in two would add a file and a hand-over, but nothing to the results.
 namespace vitrel {
-
-struct SweepJob {
-  std::string id;  ///< name of the folder, from the last parts of the keys: "packing_fraction-0.4"
-  std::vector<std::pair<std::string, std::string>> values;  ///< dotted key, TOML text of the value
-  Parameters parameters;
-};
-
-/// All combinations, the last key of the grid fastest; a file without a grid is one job. Throws
-/// UserError if a combination is impossible.
-std::vector<SweepJob> sweep_jobs(const ParameterSource& source);
 
 enum class JobStage { waiting, prepared, started, done };
 const char* name_of(JobStage stage);
@@ -59,6 +50,16 @@ struct SweepOutcome {
 /// another process works on the sweep, FileError if folders cannot be written.
 SweepOutcome run_sweep(const SweepRequest& request,
                        const std::function<void(const std::string&)>& say);
+
+/// The same of one job, beside other processes that work on other jobs: what a batch system runs. Waits
+/// while another process works on this job or on the whole sweep, and then finds what that has done.
+SweepOutcome run_job(const SweepRequest& request, const std::string& id,
+                     const std::function<void(const std::string&)>& say);
+
+/// Makes the folders and writes the sweep as a workflow of Snakemake; `program` is what it runs. Throws
+/// like run_sweep.
+void export_sweep(const ParameterSource& source, const std::filesystem::path& folder,
+                  const std::filesystem::path& program);
 
 /// One row per job: its values, stage and results.
 std::string sweep_table(const std::vector<SweepJob>& jobs, const std::filesystem::path& folder);

@@ -33,4 +33,12 @@ void write_text(const std::filesystem::path& path, std::string_view text) {
   pending.commit();
 }
 
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error)
+    throw FileError(
+        fmt::format("{}: the folder cannot be made: {}", folder.string(), error.message()));
+}
+
 }  // namespace vitrel

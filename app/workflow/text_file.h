@@ -12,4 +12,7 @@ std::string read_text(const std::filesystem::path& path);
 /// Writes beside the file, then renames: readers never see half of it. Throws FileError.
 void write_text(const std::filesystem::path& path, std::string_view text);
 
+/// Makes the folder and those around it, as far as they are missing. Throws FileError.
+void make_folder(const std::filesystem::path& folder);
+
 }  // namespace vitrel

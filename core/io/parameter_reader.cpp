@@ -244,7 +244,7 @@ class Reader final : public FieldVisitor {
       throw UserError(
           fmt::format("{}: key '{}' must hold arrays of values to run through, not {}; for "
                       "example \"system.packing_fraction\" = [0.4, 0.5]",
-                      node.where, path, called(node)));
+                      node.where, path, items && items->empty() ? "an empty array" : called(node)));
     std::vector<std::string> values;
     for (const TomlNode& item : *items) values.push_back(to_toml(item));
     grid.emplace_back(key, std::move(values));

@@ -111,6 +111,24 @@ TomlNode override_value(const std::string& text, const std::string& option) {
   return value;
 }
 
+bool begins_with_key(std::string_view path, std::string_view key) {
+  return path.starts_with(key) && (path.size() == key.size() || path[key.size()] == '.');
+}
+
+// What the first part of a dotted key leads to, null if nothing, and the length of that part. A key
+// of a table may have dots itself: "system.seed" = 1.
+std::pair<const TomlNode*, std::size_t> enter(const TomlNode& node, std::string_view path) {
+  if (const auto* array = node.get<TomlNode::Array>()) {
+    const std::string part(path.substr(0, path.find('.')));
+    const std::optional<std::size_t> index = as_index(part);
+    if (index && *index < array->size()) return {&(*array)[*index], part.size()};
+  }
+  if (const auto* table = node.get<TomlNode::Table>())
+    for (const TomlEntry& entry : *table)
+      if (begins_with_key(path, entry.key)) return {&entry.node, entry.key.size()};
+  return {nullptr, 0};
+}
+
 // The entry `part` of `parent`, made if it is missing; `made` is what a new entry starts as.
 TomlNode& descend(TomlNode& parent, const std::string& part, const std::string& walked,
                   const TomlNode& made, const std::string& option) {
@@ -188,16 +206,11 @@ void apply_override(TomlNode& root, std::string_view assignment, const std::stri
 
 std::string locate(const TomlNode& root, std::string_view path) {
   const TomlNode* node = &root;
-  for (const std::string& part : split(path)) {
-    if (const auto* array = node->get<TomlNode::Array>()) {
-      const std::optional<std::size_t> index = as_index(part);
-      if (!index || *index >= array->size()) break;
-      node = &(*array)[*index];
-    } else if (const TomlEntry* entry = node->find(part)) {
-      node = &entry->node;
-    } else {
-      break;
-    }
+  while (!path.empty()) {
+    const auto [child, length] = enter(*node, path);
+    if (!child) break;
+    node = child;
+    path.remove_prefix(std::min(length + 1, path.size()));
   }
   return node->where;
 }

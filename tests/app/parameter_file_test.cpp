@@ -145,6 +145,18 @@ const BadFile bad_files[] = {
      "= 20.0"},
     {"[analysis]\nstructure = { wave_number_max = 2000 }",
      "key 'analysis.structure.wave_number_step' is 0.1, but must lie between 0.2 and "},
+    {"[sweep.together]\n\"system.seed\" = [1, 2]\n\"dynamics.duration\" = [50]",
+     "file.toml:3:23: key 'sweep.together.dynamics.duration' has 1 value(s), but 'system.seed' has "
+     "2"},
+    {"[sweep.grid]\nsystem.seed = [1]\n[sweep.together]\n\"system.seed\" = [2]",
+     "file.toml:2:15: key 'sweep.grid.system.seed' stands twice in [sweep.grid] and "
+     "[sweep.together]"},
+    {"[sweep.grid]\nsystem.seed = [1]\n\"system.seed\" = [2]",
+     "key 'sweep.grid.system.seed' stands twice"},
+    {"[sweep.together]\n\"system.seed\" = []",
+     "file.toml:2:17: key 'sweep.together.system.seed' must hold arrays of values to run through, "
+     "not an "
+     "empty array"},
 };
 
 TEST(ParameterFile, EveryImpossibleValueIsRefusedWithItsPlace) {
@@ -256,6 +268,46 @@ TEST(SweepJobs, EveryCombinationIsAJobOfItsOwn) {
   EXPECT_THROW(sweep_jobs({file, {}, {}}), UserError);
   std::ofstream(file) << "[sweep.grid]\n\"system.sed\" = [1, 2]\n";
   EXPECT_THROW(sweep_jobs({file, {}, {}}), UserError);
+  std::filesystem::remove(file);
+}
+
+// Three densities with durations and sample intervals of their own, each with both seeds; of the keys that
+// advance together only the first is in the names.
+TEST(SweepJobs, KeysAdvanceTogether) {
+  const std::filesystem::path file = testing::TempDir() + "vitrel_sweep_together.toml";
+  std::ofstream(file) << "[sweep.grid]\n\"system.seed\" = [1, 2]\n[sweep.together]\n"
+                         "\"system.packing_fraction\" = [0.4, 0.5, 0.6]\n"
+                         "\"dynamics.duration\" = [10, 20, 40]\n"
+                         "\"output.samples.interval\" = [0.1, 0.2, 0.5]\n";
+  const std::vector<SweepJob> jobs = sweep_jobs({file, {}, {}});
+  ASSERT_EQ(jobs.size(), 6u);
+  const char* ids[] = {"packing_fraction-0.4_seed-1", "packing_fraction-0.4_seed-2",
+                       "packing_fraction-0.5_seed-1", "packing_fraction-0.5_seed-2",
+                       "packing_fraction-0.6_seed-1", "packing_fraction-0.6_seed-2"};
+  const double fractions[] = {0.4, 0.5, 0.6}, durations[] = {10, 20, 40},
+               intervals[] = {0.1, 0.2, 0.5};
+  for (std::size_t k = 0; k < 6; ++k) {
+    const Parameters& p = jobs[k].parameters;
+    EXPECT_EQ(jobs[k].id, ids[k]);
+    EXPECT_EQ(p.system.packing_fraction, fractions[k / 2]);
+    EXPECT_EQ(p.dynamics.duration, durations[k / 2]);
+    EXPECT_EQ(p.output.interval, intervals[k / 2]);
+    EXPECT_EQ(p.system.seed, 1 + k % 2);
+    EXPECT_EQ(jobs[k].values.size(), 4u);
+  }
+  EXPECT_EQ(&job_named(jobs, ids[3]), &jobs[3]);
+  EXPECT_THROW(job_named(jobs, "packing_fraction-0.7_seed-1"), UserError);
+  std::filesystem::remove(file);
+}
+
+TEST(SweepJobs, WhatTheCommandLineWouldSetInVainIsRefused) {
+  const std::filesystem::path file = testing::TempDir() + "vitrel_sweep_in_vain.toml";
+  std::ofstream(file) << "[sweep.grid]\n\"system.seed\" = [1, 2]\n"
+                         "[sweep.together]\n\"system.particles\" = [10, 20]\n";
+  EXPECT_THROW(sweep_jobs({file, {}, 7}), UserError);
+  EXPECT_THROW(sweep_jobs({file, {"system.seed=7"}, {}}), UserError);
+  EXPECT_THROW(sweep_jobs({file, {"system.particles=7"}, {}}), UserError);
+  EXPECT_EQ(sweep_jobs({file, {"dynamics.duration=7"}, {}}).size(), 4u);
   std::filesystem::remove(file);
 }
 

@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <chrono>
 #include <fstream>
+#include <future>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "core/io/h5md.h"
 #include "tests/app/program.h"
@@ -14,6 +17,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing_program::differing_datasets;
 using testing_program::Folder;
 using testing_program::Outcome;
 using testing_program::run;
@@ -323,6 +327,85 @@ TEST(Program, AFailedJobDoesNotStopTheOthers) {
   EXPECT_EQ(outcome.code, 2);
   EXPECT_THAT(outcome.errors, AllOf(HasSubstr("packing_fraction-0.85: failed with exit code 2"),
                                     HasSubstr("packing_fraction-0.1: done")));
+}
+
+const std::string three_seeds = small_system + "[sweep.grid]\n\"system.seed\" = [1, 2, 3]\n";
+
+TEST(Program, AJobOfASweepIsWorkedOffAlone) {
+  const Folder folder("one_job");
+  folder.write("p.toml", three_seeds);
+  const std::vector<std::string> whole = {"sweep", "p.toml", "-o", "whole", "-q"};
+  ASSERT_EQ(run(folder.path(), whole).code, 0);
+  const auto job = [](const std::string& id) {
+    return std::vector<std::string>{"sweep", "p.toml", "-o", "parts", "--job", id, "--json", "-q"};
+  };
+  const Outcome second = run(folder.path(), job("seed-2"));
+  ASSERT_EQ(second.code, 0) << second.errors;
+  EXPECT_EQ(Json::parse(second.output)["jobs"].size(), 1u);
+  EXPECT_FALSE(std::filesystem::exists(folder / "parts/seed-1"));
+  EXPECT_THAT(differing_datasets(folder / "whole/seed-2/run.h5", folder / "parts/seed-2/run.h5"),
+              testing::IsEmpty());
+  expect_refusal(run(folder.path(), job("seed-4")), 2,
+                 "no job of the sweep has the name 'seed-4'; there are seed-1, seed-2, seed-3");
+}
+
+// Two processes given the same job at once: one works, the other waits and finds the job done. One that is
+// given the whole sweep meanwhile is refused.
+TEST(Program, AJobIsWorkedOffOnceHoweverManyProcessesGetIt) {
+  const Folder folder("same_job");
+  folder.write("p.toml", three_seeds);
+  const auto start = [&](const std::string& own_folder, std::vector<std::string> more) {
+    std::filesystem::create_directory(folder / own_folder);
+    std::vector<std::string> words = {"sweep",    "../p.toml", "-o",
+                                      "../sweep", "--set",     "dynamics.duration=1000"};
+    words.insert(words.end(), more.begin(), more.end());
+    return std::async(std::launch::async,
+                      [&folder, own_folder, words] { return run(folder / own_folder, words); });
+  };
+  auto first = start("a", {"--job", "seed-1"});
+  while (!std::filesystem::exists(folder / "sweep/seed-1/state.h5"))
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  auto second = start("b", {"--job", "seed-1"}), sweep = start("c", {"-q"});
+  expect_refusal(sweep.get(), 2, "another process works on this sweep");
+  const Outcome worked = first.get(), waited = second.get();
+  EXPECT_EQ(worked.code, 0) << worked.errors;
+  EXPECT_EQ(waited.code, 0);
+  EXPECT_THAT(waited.errors, AllOf(HasSubstr("waiting for another process"),
+                                   HasSubstr("1 of 1 jobs are done already")));
+}
+
+// A kill may fall between the last act of a preparation and the summary that says it is done.
+TEST(Program, AStateWithoutItsSummaryIsMadeAgain) {
+  const Folder folder("state_without_summary");
+  folder.write("p.toml", small_system);
+  const std::vector<std::string> sweep = {"sweep", "p.toml", "-o", "sweep", "-q"};
+  ASSERT_EQ(run(folder.path(), sweep).code, 0);
+  const auto job = folder / "sweep/job";
+  std::filesystem::copy(job, folder / "before");
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "before"))
+    if (const auto name = entry.path().filename();
+        name != "state.h5" && name != "state.quality.json" && name != "parameters.toml")
+      std::filesystem::remove(job / name);
+  const Outcome again = run(folder.path(), sweep);
+  ASSERT_EQ(again.code, 0) << again.errors;
+  for (const char* file : {"state.h5", "run.h5"})
+    EXPECT_THAT(differing_datasets(folder / "before" / file, job / file), testing::IsEmpty());
+}
+
+TEST(Program, AFinishedJobIsAnalyzedAnewWithOtherParametersOfTheAnalysis) {
+  const Folder folder("analyzed_anew");
+  folder.write("p.toml", small_system);
+  std::vector<std::string> sweep = {"sweep", "p.toml", "-o", "sweep", "-q"};
+  ASSERT_EQ(run(folder.path(), sweep).code, 0);
+  const auto job = folder / "sweep/job";
+  std::filesystem::copy(job, folder / "before");
+  sweep.insert(sweep.end(), {"--set", "analysis.longest_lag=0.1"});
+  ASSERT_EQ(run(folder.path(), sweep).code, 0);
+  EXPECT_THAT(differing_datasets(folder / "before/run.h5", job / "run.h5"), testing::IsEmpty());
+  // Fewer time differences.
+  const char* table = "results_displacements_all.csv";
+  EXPECT_LT(std::filesystem::file_size(job / table),
+            std::filesystem::file_size(folder / "before" / table) / 2);
 }
 
 }  // namespace
