@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+namespace vitrel {
+
+/// The Bessel function J_0(x) for x ≥ 0, ⟨exp(i q·r)⟩ over all directions of r in two dimensions with
+/// x = q |r|, from a table: cubic Hermite interpolation between nodes 1/64 apart, with the exact values and
+/// slopes (J_0' = −J_1) there. The absolute error is at most (1/64)⁴/384 · max|J_0''''| = 5.9e-11, since
+/// |J_0''''| ≤ 3/8. From x = 64 on, J_0 of the C library. A call takes 4 ns where that takes 8 (x < 2) to
+/// 60 ns.
+class BesselJ0 {
+ public:
+  BesselJ0();
+
+  double operator()(double x) const {
+    if (!(x < table_end)) return ::j0(x);
+    const double place = x * nodes_per_unit;
+    const auto node = static_cast<std::size_t>(place);
+    const double u = place - static_cast<double>(node);
+    const Node& left = nodes_[node];
+    const Node& right = nodes_[node + 1];
+    const double rise = right.value - left.value;
+    const double bend = left.slope + right.slope - 2 * rise;
+    return left.value + u * (left.slope + u * (rise - left.slope - bend + u * bend));
+  }
+
+ private:
+  static constexpr double nodes_per_unit = 64, table_end = 64;
+  struct Node {
+    double value;
+    double slope;  ///< per distance of two nodes
+  };
+  std::vector<Node> nodes_;
+};
+
+}  // namespace vitrel
