@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "analysis/blocking.h"
 #include "core/error.h"
@@ -184,6 +185,12 @@ Displacements displacements(Trajectory& trajectory, const DisplacementOptions& o
     result.groups.push_back(std::move(group.result));
   }
   return result;
+}
+
+double main_wave_number(const Configuration2& configuration) {
+  const Vec2& lengths = configuration.box.lengths();
+  const double density = static_cast<double>(configuration.size()) / (lengths.x() * lengths.y());
+  return 2 * std::numbers::pi * std::sqrt(2 * density / std::sqrt(3.0));
 }
 
 Diffusion long_time_diffusion(const std::vector<double>& lag, const MeanSquare& square,

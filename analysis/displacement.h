@@ -55,6 +55,10 @@ struct Displacements {
 /// than two frames.
 Displacements displacements(Trajectory& trajectory, const DisplacementOptions& options = {});
 
+/// Where the main peak of the structure factor of a dense liquid is, about: the first Bragg peak
+/// of the triangular lattice of the same number density ρ, q = 2π √(2ρ/√3).
+double main_wave_number(const Configuration2& configuration);
+
 /// A long-time diffusion coefficient, D = d⟨|r|²⟩/(2 d dt) (d = 2; for rotation d = 1).
 struct Diffusion {
   double value;

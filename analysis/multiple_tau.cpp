@@ -39,16 +39,22 @@ std::size_t level_count(std::uint64_t longest) {
   return levels;
 }
 
-/// Σ term(i), begin ≤ i < end, in four partial sums that do not wait for each other; the order is
+/// Σ terms(i), begin ≤ i < end, each in two partial sums that do not wait for each other; the order is
 /// always the same.
-template <class Term>
-double sum(std::size_t begin, std::size_t end, Term&& term) {
-  std::array<double, 4> parts{};
+template <std::size_t Count, class Terms>
+std::array<double, Count> sums_of(std::size_t begin, std::size_t end, Terms&& terms) {
+  std::array<double, Count> even{}, odd{};
+  const auto add = [](std::array<double, Count>& sums, const std::array<double, Count>& more) {
+    for (std::size_t k = 0; k < Count; ++k) sums[k] += more[k];
+  };
   std::size_t i = begin;
-  for (; i + 4 <= end; i += 4)
-    for (std::size_t k = 0; k < 4; ++k) parts[k] += term(i + k);
-  for (; i < end; ++i) parts[0] += term(i);
-  return (parts[0] + parts[1]) + (parts[2] + parts[3]);
+  for (; i + 2 <= end; i += 2) {
+    add(even, terms(i));
+    add(odd, terms(i + 1));
+  }
+  if (i < end) add(even, terms(i));
+  add(even, odd);
+  return even;
 }
 
 void append(std::vector<double>& numbers, const std::vector<double>& more) {
@@ -78,7 +84,7 @@ MultipleTau::MultipleTau(const Configuration2& particles, MultipleTauOptions opt
   make_levels();
   for (std::vector<double>* values : {&now_.x, &now_.y, &now_.angle, &now_.cosine, &now_.sine})
     values->resize(particles.size());
-  distance_.resize(particles.size());
+  square_.resize(particles.size());
 }
 
 void MultipleTau::make_groups(const Configuration2& particles) {
@@ -173,34 +179,30 @@ void MultipleTau::correlate(const Sample& from, const Sample& to, LagSums& lag) 
 
 void MultipleTau::sum_translation(const Sample& from, const Sample& to, const Range& range,
                                   double* sums) {
-  sums[0] = sum(range.begin, range.end, [&](std::size_t i) {
+  double* const square = square_.data();
+  sums[0] = sums_of<1>(range.begin, range.end, [&](std::size_t i) {
     const double x = to.x[i] - from.x[i], y = to.y[i] - from.y[i];
-    const double square = x * x + y * y;
-    distance_[i] = std::sqrt(square);
-    return square;
-  });
+    square[i] = x * x + y * y;
+    return std::array{square[i]};
+  })[0];
   for (std::size_t k = 0; k < options_.wave_numbers.size(); ++k) {
     const double q = options_.wave_numbers[k];
-    sums[1 + k] =
-        sum(range.begin, range.end, [&](std::size_t i) { return bessel_(q * distance_[i]); });
+    sums[1 + k] = sums_of<1>(range.begin, range.end, [&](std::size_t i) {
+      return std::array{bessel_(q * std::sqrt(square[i]))};
+    })[0];
   }
 }
 
 void MultipleTau::sum_rotation(const Sample& from, const Sample& to, const Range& range,
                                double* sums) const {
-  sums[0] = sum(range.begin, range.rotors_end, [&](std::size_t i) {
+  const auto terms = [&](std::size_t i) {
     const double turn = to.angle[i] - from.angle[i];
-    return turn * turn;
-  });
-  const auto cosine_of_twice = [&](std::size_t i) {
-    const double cosine = to.cosine[i] * from.cosine[i] + to.sine[i] * from.sine[i];
-    return 2 * cosine * cosine - 1;
+    const double once = to.cosine[i] * from.cosine[i] + to.sine[i] * from.sine[i];
+    const double twice = 2 * once * once - 1;
+    return std::array{turn * turn, twice, 2 * twice * twice - 1};
   };
-  sums[1] = sum(range.begin, range.rotors_end, cosine_of_twice);
-  sums[2] = sum(range.begin, range.rotors_end, [&](std::size_t i) {
-    const double cosine = cosine_of_twice(i);
-    return 2 * cosine * cosine - 1;
-  });
+  const auto found = sums_of<3>(range.begin, range.rotors_end, terms);
+  std::copy(found.begin(), found.end(), sums);
 }
 
 std::vector<CorrelatedGroup> MultipleTau::correlations() const {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/bessel_j0.h"
+#include "analysis/bessel.h"
 #include "analysis/blocking.h"
 #include "analysis/results.h"
 #include "core/state/observer.h"
@@ -38,9 +38,9 @@ struct CorrelatedGroup {
 /// Steps (multiple tau with p = `points` places per level and levels a factor m = 2 apart):
 /// 1. Level l keeps the last p of the samples 0, 2^l, 2 · 2^l … Every new one is paired with the older
 ///    ones of its level: lags j 2^l with j = 1 … p − 1 on level 0, and j = p/2 … p − 1 above, since the
-///    level below has the shorter ones. So there are p/2 lags to a factor of 2 in time, all exact, and
-///    lag j 2^l has an origin every 2^l samples: p/2 to p − 1 of them in the time of the lag itself, so
-///    that hardly anything is lost against all of them.
+///    level below has the shorter ones. So there are p/2 = 4 lags to a factor of 2 in time, all exact.
+///    A lag has 4 to 7 origins in its own time: for diffusion, where the squares from origins s apart
+///    are correlated as (1 − s/lag)², the variance is at most 3 % above that of all origins.
 /// 2. Every pair of samples gives one mean over the particles of the group. The mean over the pairs is
 ///    the value; its error is that of their series by blocking on the fly (blocking.h), with blocks of
 ///    four lags or more as in time_axis.h. It is NaN where the run has fewer than eight such blocks, for
@@ -50,17 +50,17 @@ struct CorrelatedGroup {
 /// Samples are thinned from level to level, not averaged as for autocorrelations of fluctuating scalars
 /// in Ramírez, Sukumaran, Vorselaars & Likhtman, J. Chem. Phys. 133, 154103 (2010) [ramirez2010], whose
 /// levels these are. Averages would bias: the mean position over a time w lacks the motion within it, so
-/// that diffusion over t gives 2 d D (t − w/3), 4 % too little at the shortest lags of every level, and
+/// that diffusion over t gives 2 d D (t − w/3), 8 % too little at the shortest lags of every level, and
 /// averaged angles do not determine ⟨cos nΔθ⟩ at all. Thinned samples keep every pair exact.
 ///
-/// Memory, with L = 1 + log_2(longest lag/(p interval)) levels: 5 p L N numbers for the samples, that is
-/// 640 N L bytes (N = 500, L = 16: 5 MB), and about 4 · ½ p L log_2(samples) of them for every
-/// correlation and group. A checkpoint holds 3/5 of the former. A sample costs 1.5 p pairs of
-/// samples, 24 N evaluations of every correlation.
+/// Memory, with L = log_2(longest lag/interval) − 1 levels: 5 p L N numbers for the samples, that is
+/// 320 N L bytes (N = 500, L = 16: 2.6 MB), and about 2 p L log_2(samples) of them for every
+/// correlation and group. A checkpoint holds 3/5 of the former. A sample costs 11 pairs of samples on
+/// the average, 11 N evaluations of every correlation.
 /// The results depend on nothing but the samples.
 class MultipleTau final : public Observer<2> {
  public:
-  static constexpr std::size_t points = 16;
+  static constexpr std::size_t points = 8;
 
   /// `particles` gives species and shapes; they and their number may not change.
   MultipleTau(const Configuration2& particles, MultipleTauOptions options);
@@ -130,7 +130,7 @@ class MultipleTau final : public Observer<2> {
   std::vector<Level> levels_;
   std::uint64_t samples_ = 0;
   Sample now_;
-  std::vector<double> distance_, sums_;  ///< working space
+  std::vector<double> square_, sums_;  ///< working space
 };
 
 }  // namespace vitrel

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -107,6 +108,13 @@ const Table* Results::find(const std::string& table) const {
   const auto found = std::find_if(tables.begin(), tables.end(),
                                   [&](const Table& candidate) { return candidate.name == table; });
   return found == tables.end() ? nullptr : &*found;
+}
+
+std::string identifier(const std::string& name) {
+  std::string result = name;
+  for (char& c : result)
+    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+  return result;
 }
 
 void write_csv(const std::filesystem::path& path, const Table& table) {

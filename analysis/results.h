@@ -35,6 +35,10 @@ struct Results {
   const Table* find(const std::string& table) const;
 };
 
+/// The name of a species or the like as names of tables and columns may be: other characters than
+/// letters and digits become underscores.
+std::string identifier(const std::string& name);
+
 /// CSV: one line per row with 17 significant digits (`nan` for an unknown number), after one header
 /// line of `name [unit]`; the column after one with errors is `name_error [unit]`. Written to a
 /// temporary file beside `path` and renamed, so that readers never see half a table. Throws

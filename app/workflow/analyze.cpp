@@ -6,6 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "app/workflow/correlations_file.h"
 #include "app/workflow/stored_run.h"
 #include "core/error.h"
 
@@ -38,13 +39,6 @@ void measure(RunAnalysis& run, StoredTrajectory& trajectory, const DisplacementO
   run.rotational_diffusion = run.rotors > 0
                                  ? long_time_diffusion(run.displacements.lag, all.rotation, 1)
                                  : Diffusion{unknown, unknown};
-}
-
-std::string identifier(const std::string& name) {
-  std::string result = name;
-  for (char& c : result)
-    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
-  return result;
 }
 
 Table displacement_table(const Displacements& displacements, const DisplacementGroup& group) {
@@ -145,6 +139,7 @@ RunAnalysis analyze_run(const std::filesystem::path& file, const AnalysisChoice&
     const std::vector<double> collisions = reader.observable("collisions");
     run.collisions = static_cast<std::uint64_t>(collisions.back() - collisions.front());
   }
+  run.on_the_fly = on_the_fly_tables(file);
   return run;
 }
 
@@ -156,6 +151,7 @@ Results results_of(const RunAnalysis& run) {
   results.tables.push_back(energy_table(run.energy));
   if (!run.compressibility.value.empty())
     results.tables.push_back(compressibility_table(run.compressibility));
+  results.tables.insert(results.tables.end(), run.on_the_fly.begin(), run.on_the_fly.end());
   results.provenance = provenance_rows(run.provenance);
   results.provenance.emplace_back("source", run.file.string());
   return results;

@@ -94,6 +94,16 @@ class Reader final : public FieldVisitor {
       values[k] = number((*items)[k], field, to_toml(values[k]));
   }
 
+  void field(const Field& field, std::vector<double>& values) override {
+    const TomlNode* node = find(field);
+    if (!node) return;
+    const auto* items = node->get<TomlNode::Array>();
+    if (!items)
+      wrong_type(*node, field, "an array of numbers", values.empty() ? "[1.0]" : to_toml(values));
+    values.clear();
+    for (const TomlNode& item : *items) values.push_back(number(item, field, "[1.0]"));
+  }
+
   void integer(const Field& field, std::int64_t& value, std::int64_t low,
                std::int64_t high) override {
     const TomlNode* node = find(field);

@@ -22,6 +22,9 @@ class ValueVisitor : public FieldVisitor {
   void numbers(const Field& field, std::span<double> values) override {
     put(field, to_toml(values), "");
   }
+  void field(const Field& field, std::vector<double>& values) override {
+    put(field, to_toml(values), "");
+  }
   void integer(const Field& field, std::int64_t& value, std::int64_t, std::int64_t) override {
     put(field, fmt::format("{}", value), "");
   }

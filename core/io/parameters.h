@@ -51,6 +51,8 @@ class FieldVisitor {
   virtual void field(const Field&, std::string&) = 0;
   /// As many numbers as `values` has room for.
   virtual void numbers(const Field&, std::span<double> values) = 0;
+  /// Any number of numbers.
+  virtual void field(const Field&, std::vector<double>& values) = 0;
   /// An integer from `low` to `high`.
   virtual void integer(const Field&, std::int64_t& value, std::int64_t low, std::int64_t high) = 0;
   /// One of `names`, by its index.

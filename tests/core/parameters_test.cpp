@@ -307,5 +307,31 @@ TEST(Parameters, AMissingFileAndAFolderAreFileErrors) {
   EXPECT_THROW(read_toml_file("."), FileError);
 }
 
+TEST(ParameterReader, ReadsAndWritesAnyNumberOfNumbers) {
+  std::vector<double> lengths{1};
+  const FieldVisitor::Inside describe = [&](FieldVisitor& visit) {
+    visit.field({"lengths", "length", "Lengths."}, lengths);
+  };
+  for (const char* text : {"lengths = [2.5, 3.0, 4.0]\n", "lengths = []\n", "lengths = [1e-3]\n"}) {
+    read_parameters(parse_toml(text, "file.toml"), describe, [] {});
+    const std::vector<double> read = lengths;
+    lengths = {7, 7};
+    read_parameters(parse_toml(write_parameters([&](FieldVisitor& visit) {
+                                 std::vector<double> copy = read;
+                                 visit.field({"lengths", "length", "Lengths."}, copy);
+                               }),
+                               "again"),
+                    describe, [] {});
+    EXPECT_EQ(lengths, read) << text;
+  }
+  EXPECT_EQ(lengths, std::vector<double>{1e-3});
+  const auto refused = [&](const char* text) {
+    EXPECT_THROW(read_parameters(parse_toml(text, "file.toml"), describe, [] {}), UserError)
+        << text;
+  };
+  refused("lengths = 3\n");
+  refused("lengths = [1, \"a\"]\n");
+}
+
 }  // namespace
 }  // namespace vitrel
