@@ -252,8 +252,8 @@ void describe_output(OutputParameters& p, FieldVisitor& visit) {
   const Field correlations{"correlations", "",
                            "Correlations measured while the run goes on, from states that need not "
                            "be written: displacement, rotation, self scattering and orientation "
-                           "over times from the interval to half the run, in "
-                           "<output>.correlations.h5. None if left out."};
+                           "over times from the interval to half the run, in a file of the "
+                           "run's name with .correlations.h5 behind it. None if left out."};
   visit.optional(correlations, p.correlations, CorrelationParameters(),
                  [&](FieldVisitor& in, CorrelationParameters& inner) {
                    in.table(correlations, Style::inline_table,
