@@ -57,9 +57,9 @@ struct CorrelatedGroup {
 /// 320 N L bytes (N = 500, L = 16: 2.6 MB), and about 2 p L log_2(samples) of them for every
 /// correlation and group. A checkpoint holds 3/5 of the former. A sample costs 11 pairs of samples on
 /// the average, 11 N evaluations of every correlation.
-/// Measured with one wave number: about 100 µs for a sample of N = 500,
-/// so that a Brownian run of κ = 6 correlated at every step of τ_B = 0.1 takes 9 % longer at
-/// φ = 0.60, where a step takes 1.1 ms, and 3 % at 0.72 (2.1 ms).
+/// Measured with one wave number: about 100 µs for a sample of N = 500, so that a Brownian run of κ = 6
+/// correlated at every step of τ_B = 0.1 takes 9 % longer at φ = 0.60, where a step takes 1.1 ms, and 3 %
+/// at 0.72 (2.1 ms).
 /// The results depend on nothing but the samples.
 class MultipleTau final : public Observer<2> {
  public:
