@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
-#include <numeric>
-#include <vector>
 
 namespace vitrel {
 
@@ -12,45 +11,76 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-double mean_of(std::span<const double> values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
 /// Variance of the mean of values taken as independent.
-double squared_error(std::span<const double> values) {
-  const double mean = mean_of(values);
-  double sum = 0;
-  for (const double value : values) sum += (value - mean) * (value - mean);
-  const double n = static_cast<double>(values.size());
-  return sum / (n * (n - 1));
-}
-
-/// Averages neighbours in pairs; an odd last value is left out.
-void halve(std::vector<double>& values) {
-  const std::size_t pairs = values.size() / 2;
-  for (std::size_t k = 0; k < pairs; ++k) values[k] = 0.5 * (values[2 * k] + values[2 * k + 1]);
-  values.resize(pairs);
+double squared_error(double count, double squares) {
+  return squares / (count * (count - 1));
 }
 
 }  // namespace
 
 Estimate block_average(std::span<const double> series, double shortest_block) {
-  if (series.empty()) return {none, none, 0};
-  const double mean = mean_of(series);
-  if (series.size() < fewest_blocks) return {mean, none, 0};
-  const double naive = squared_error(series);
-  if (naive == 0) return {mean, 0, series.size()};
+  BlockSums sums;
+  for (const double value : series) sums.add(value);
+  return sums.estimate(shortest_block);
+}
 
-  const double n = static_cast<double>(series.size());
-  std::vector<double> blocks(series.begin(), series.end());
-  for (double length = 1; blocks.size() >= fewest_blocks; length *= 2, halve(blocks)) {
-    if (length < shortest_block) continue;
-    const double squared = squared_error(blocks);
+void BlockSums::add(double value) {
+  for (std::size_t k = 0;; ++k) {
+    if (k == levels_.size()) levels_.emplace_back();
+    Level& level = levels_[k];
+    const double step = value - level.mean;
+    level.count += 1;
+    level.mean += step / level.count;
+    level.squares += step * (value - level.mean);
+    const bool is_odd = static_cast<std::uint64_t>(level.count) % 2 == 1;
+    if (is_odd) {
+      level.waiting = value;
+      return;
+    }
+    value = 0.5 * (level.waiting + value);
+  }
+}
+
+std::size_t BlockSums::count() const {
+  return levels_.empty() ? 0 : static_cast<std::size_t>(levels_.front().count);
+}
+
+Estimate BlockSums::estimate(double shortest_block) const {
+  if (levels_.empty()) return {none, none, 0};
+  const double n = levels_.front().count;
+  const double mean = levels_.front().mean;
+  if (n < fewest_blocks) return {mean, none, 0};
+  const double naive = squared_error(n, levels_.front().squares);
+  if (naive == 0) return {mean, 0, count()};
+
+  double length = 1;
+  for (const Level& level : levels_) {
+    if (level.count < fewest_blocks) break;
+    const double squared = squared_error(level.count, level.squares);
     const double correlation = std::max(1.0, squared / naive);
-    if (length * length * length >= 2 * n * correlation * correlation)
-      return {mean, std::sqrt(squared) * student_factor(blocks.size() - 1), blocks.size()};
+    if (length >= shortest_block && length * length * length >= 2 * n * correlation * correlation) {
+      const auto blocks = static_cast<std::size_t>(level.count);
+      return {mean, std::sqrt(squared) * student_factor(blocks - 1), blocks};
+    }
+    length *= 2;
   }
   return {mean, none, 0};
+}
+
+void BlockSums::store(std::vector<double>& numbers) const {
+  numbers.push_back(static_cast<double>(levels_.size()));
+  for (const Level& level : levels_)
+    numbers.insert(numbers.end(), {level.count, level.mean, level.squares, level.waiting});
+}
+
+std::span<const double> BlockSums::restore(std::span<const double> numbers) {
+  levels_.resize(static_cast<std::size_t>(numbers.front()));
+  numbers = numbers.subspan(1);
+  for (Level& level : levels_) {
+    level = {numbers[0], numbers[1], numbers[2], numbers[3]};
+    numbers = numbers.subspan(4);
+  }
+  return numbers;
 }
 
 Estimate independent_average(std::size_t count, double sum, double sum_of_squares) {

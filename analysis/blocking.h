@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <span>
+#include <vector>
 
 namespace vitrel {
 
@@ -31,6 +32,31 @@ struct Estimate {
 /// Sources: Flyvbjerg & Petersen, J. Chem. Phys. 91, 461 (1989) for 1; Lee, Conduit, Nemec, López
 /// Ríos & Drummond, Phys. Rev. E 83, 066706 (2011) for 2.
 Estimate block_average(std::span<const double> series, double shortest_block = 1);
+
+/// The same for a series that comes value by value and is not kept: for every block length it holds
+/// number, mean and variance of the blocks so far, updated as they come [welford1962]. Memory
+/// O(log n); a value costs two updates on the average.
+class BlockSums {
+ public:
+  void add(double value);
+  std::size_t count() const;
+  Estimate estimate(double shortest_block = 1) const;
+
+  /// Appends all it consists of to `numbers`.
+  void store(std::vector<double>& numbers) const;
+  /// Takes from the front of `numbers` what `store` appended, and returns the rest.
+  std::span<const double> restore(std::span<const double> numbers);
+
+ private:
+  /// Blocks of 2^k values.
+  struct Level {
+    double count = 0;
+    double mean = 0;
+    double squares = 0;  ///< Σ (block − mean)²
+    double waiting = 0;  ///< an odd last block, until the one it is paired with is there
+  };
+  std::vector<Level> levels_;  ///< those of which a block is complete
+};
 
 /// The fewest blocks on which an error may rest.
 inline constexpr std::size_t fewest_blocks = 8;

@@ -74,6 +74,10 @@ Displacements displacements(Trajectory& trajectory, const DisplacementOptions& o
 /// of the triangular lattice of the same number density ρ, q = 2π √(2ρ/√3).
 double main_wave_number(const Configuration2& configuration);
 
+/// Where the main peak of the structure factor of a dense liquid is, about: the first Bragg peak
+/// of the triangular lattice of the same number density ρ, q = 2π √(2ρ/√3).
+double main_wave_number(const Configuration2& configuration);
+
 /// A long-time diffusion coefficient, D = d⟨|r|²⟩/(2 d dt) (d = 2; for rotation d = 1).
 struct Diffusion {
   double value;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "edmd/sampling.h"
 
 namespace vitrel {
 
@@ -22,7 +23,8 @@ class Runner {
         options_(options),
         plan_(plan),
         budget_(budget),
-        engine_(make_engine(state.configuration, options.engine)) {}
+        engine_(make_engine(state.configuration, options.engine)),
+        ticks_(plan.ticks.observer ? even_count(plan.ticks.interval, plan.end_time) : 0) {}
 
   StageReport run() {
     try {
@@ -56,15 +58,22 @@ class Runner {
     while (true) {
       const double stop = next_stop();
       if (engine_->advance(stop, state_.counters) == Engine::Stop::block_end) return false;
-      if (stop == next_sample_time()) sample(stop);
+      if (stop == next_sample_time()) observe(plan_.observer, state_.next_sample, stop);
+      if (stop == next_tick_time()) observe(plan_.ticks.observer, state_.next_tick, stop);
       if (stop == next_step_time()) redraw_velocities();
-      if (stop >= plan_.end_time && next_sample_time() > plan_.end_time) return true;
+      if (stop >= plan_.end_time && std::min(next_sample_time(), next_tick_time()) > plan_.end_time)
+        return true;
     }
   }
 
   double next_sample_time() const {
     return state_.next_sample < plan_.sample_times.size() ? plan_.sample_times[state_.next_sample]
                                                           : std::numeric_limits<double>::infinity();
+  }
+  double next_tick_time() const {
+    return state_.next_tick < ticks_
+               ? even_time(state_.next_tick, plan_.ticks.interval, plan_.end_time)
+               : std::numeric_limits<double>::infinity();
   }
   double next_step_time() const {
     return options_.brownian
@@ -75,17 +84,17 @@ class Runner {
   // Nothing is predicted beyond it.
   double horizon() const { return std::min(plan_.end_time, next_step_time()); }
   double next_stop() const {
-    return std::min({plan_.end_time, next_sample_time(), next_step_time()});
+    return std::min({plan_.end_time, next_sample_time(), next_tick_time(), next_step_time()});
   }
 
-  void sample(double time) {
+  // Shows the observer, if there is one, the frame of this number, and counts it.
+  void observe(Observer<2>* observer, std::uint64_t& number, double time) {
     engine_->write(state_.configuration);
     state_.configuration.time = time;
     const Tally tally{state_.counters.collisions, state_.counters.virial};
-    if (plan_.observer)
-      plan_.observer->observe(
-          {static_cast<std::int64_t>(state_.next_sample), state_.configuration, tally});
-    ++state_.next_sample;
+    if (observer)
+      observer->observe({static_cast<std::int64_t>(number), state_.configuration, tally});
+    ++number;
   }
 
   void redraw_velocities() {
@@ -116,6 +125,7 @@ class Runner {
   const RunPlan& plan_;
   const Budget& budget_;
   std::unique_ptr<Engine> engine_;
+  const std::uint64_t ticks_;  ///< in the whole run
 };
 
 }  // namespace

@@ -27,6 +27,7 @@ struct RunState {
   RunCounters counters;
   std::uint64_t brownian_steps = 0;
   std::uint64_t next_sample = 0;
+  std::uint64_t next_tick = 0;
   double start_time = 0;        ///< of the whole run
   double flight_energy = 0;     ///< energy + dissipated energy after the last draw of velocities
   double energy_drift = 0;      ///< largest |change of energy + dissipated|/energy between draws
@@ -36,16 +37,26 @@ struct RunState {
 /// The state at the start of a run from a configuration with its velocities set.
 RunState begin_run(const Configuration2& configuration, double start_time);
 
+/// A second schedule beside the samples, for an observer that wants many more of them and keeps none:
+/// ticks at 0, interval, 2 interval … ≤ end of the run.
+struct Ticks {
+  double interval = 0;
+  Observer<2>* observer = nullptr;  ///< null: no ticks
+};
+
 /// What is to happen: samples at ascending times (in simulated time), the end, and who is told. The
 /// observer sees every sample; `at_block_end` gets a state from which the run continues bit by bit.
+/// Samples and ticks change nothing in the motion, except that a block may end at one of them: from there
+/// on, two runs with different schedules differ in their rounding.
 struct RunPlan {
   std::vector<double> sample_times;
   double end_time = 0;
   Observer<2>* observer = nullptr;
   std::function<void(const RunState&)> at_block_end;
+  Ticks ticks = {};
 };
 
-/// Runs to the end, or to the end of the block in which the budget asked to stop. A sample that
+/// Runs to the end, or to the end of the block in which the budget asked to stop. A sample or tick that
 /// coincides with a Brownian step is taken before the velocities are redrawn. Throws InvariantError
 /// on an overlap, and if time stands still (inelastic collapse); `state` then holds the moment of
 /// the failure.

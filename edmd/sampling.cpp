@@ -12,10 +12,18 @@ constexpr double slack = 1e-9;
 
 }  // namespace
 
+std::uint64_t even_count(double interval, double duration) {
+  return static_cast<std::uint64_t>(std::floor(duration / interval * (1 + slack))) + 1;
+}
+
+double even_time(std::uint64_t k, double interval, double duration) {
+  return std::min(interval * static_cast<double>(k), duration);
+}
+
 std::vector<double> linear_times(double interval, double duration) {
   std::vector<double> times;
-  const auto last = static_cast<long>(std::floor(duration / interval * (1 + slack)));
-  for (long k = 0; k <= last; ++k) times.push_back(std::min(interval * k, duration));
+  const std::uint64_t count = even_count(interval, duration);
+  for (std::uint64_t k = 0; k < count; ++k) times.push_back(even_time(k, interval, duration));
   return times;
 }
 

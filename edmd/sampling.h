@@ -1,10 +1,15 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 namespace vitrel {
 
-/// Sample times 0, interval, 2 interval, … ≤ duration.
+/// The even times 0, interval, 2 interval, … ≤ duration: how many there are, and the k-th of them.
+std::uint64_t even_count(double interval, double duration);
+double even_time(std::uint64_t k, double interval, double duration);
+
+/// All of them, as sample times.
 std::vector<double> linear_times(double interval, double duration);
 
 /// Sample times 0, first, first · 10^(1/per_decade), … ≤ duration.

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <thread>
 
+#include "app/workflow/correlations_file.h"
 #include "app/workflow/stored_run.h"
 #include "app/workflow/structure_tables.h"
 #include "core/error.h"
@@ -175,6 +176,7 @@ RunAnalysis analyze_run(const std::filesystem::path& file, const AnalysisChoice&
     if (run.provenance.wall_seconds > 0)
       run.collisions_per_second = collisions.back() / run.provenance.wall_seconds;
   }
+  run.on_the_fly = on_the_fly_tables(file);
   return run;
 }
 
@@ -186,6 +188,7 @@ Results results_of(const RunAnalysis& run) {
   if (!run.compressibility.value.empty())
     results.tables.push_back(compressibility_table(run.compressibility));
   results.tables.insert(results.tables.end(), run.structure.begin(), run.structure.end());
+  results.tables.insert(results.tables.end(), run.on_the_fly.begin(), run.on_the_fly.end());
   results.provenance = provenance_rows(run.provenance);
   results.provenance.emplace_back("source", run.file.string());
   return results;

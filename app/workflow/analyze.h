@@ -33,7 +33,8 @@ struct RunAnalysis {
   CompressibilitySeries compressibility;
   Diffusion diffusion{}, rotational_diffusion{};  ///< of all particles; NaN where not reached
   Configuration2 final_state;
-  std::vector<Table> structure;  ///< see structure_tables.h
+  std::vector<Table> structure;   ///< see structure_tables.h
+  std::vector<Table> on_the_fly;  ///< what the run measured itself (correlations_file.h)
 };
 
 /// What the command line says; without a file of its own the parameters stored in the run are used.
@@ -46,8 +47,8 @@ struct AnalysisChoice {
 /// Throws FileError or UserError, naming the file.
 RunAnalysis analyze_run(const std::filesystem::path& file, const AnalysisChoice& choice);
 
-/// Tables of time correlations (dynamics_tables.h), energies, compressibility, structure, and a summary of one
-/// row.
+/// Tables of time correlations (dynamics_tables.h), energies, compressibility, structure, correlations measured
+/// on the fly, and a summary of one row.
 Results results_of(const RunAnalysis& run);
 /// One row per run: packing fraction, compressibility, diffusion coefficients.
 Results results_of_sweep(const std::vector<RunAnalysis>& runs);

@@ -33,6 +33,10 @@ constexpr const char* temperature_names[] = {"total", "relative"};
 constexpr const char* velocity_names[] = {"maxwell", "translation", "rotation", "keep"};
 constexpr const char* spacing_names[] = {"linear", "logarithmic"};
 
+FieldVisitor::Inside section_of(auto& part, auto describe) {
+  return [&part, describe](FieldVisitor& visit) { describe(part, visit); };
+}
+
 void describe_system(SystemParameters& p, FieldVisitor& visit) {
   visit.field({"dimension", "", "Space dimensions; only 2 so far."}, p.dimension);
   visit.field({"particles", "", "Number of particles."}, p.particles);
@@ -228,6 +232,16 @@ void describe_samples(OutputParameters& p, FieldVisitor& visit) {
   });
 }
 
+void describe_correlations(CorrelationParameters& p, FieldVisitor& visit) {
+  visit.field({"interval", "time",
+               "Time between the states that are correlated, the shortest time difference."},
+              p.interval);
+  visit.field({"wave_numbers", "1/length",
+               "Wave numbers q of the self scattering functions F_s(q, t); none: about that of the "
+               "main peak of the structure factor, 2π √(2ρ/√3) with ρ the number density."},
+              p.wave_numbers);
+}
+
 void describe_output(OutputParameters& p, FieldVisitor& visit) {
   visit.table({"samples", "", "When the state is written to the trajectory."}, Style::inline_table,
               [&](FieldVisitor& in) { describe_samples(p, in); });
@@ -235,6 +249,16 @@ void describe_output(OutputParameters& p, FieldVisitor& visit) {
                "Whether the velocities of all particles are written, too. Energies and the "
                "pressure are measured without."},
               p.velocities);
+  const Field correlations{"correlations", "",
+                           "Correlations measured while the run goes on, from states that need not "
+                           "be written: displacement, rotation, self scattering and orientation "
+                           "over times from the interval to half the run, in a file of the "
+                           "run's name with .correlations.h5 behind it. None if left out."};
+  visit.optional(correlations, p.correlations, CorrelationParameters(),
+                 [&](FieldVisitor& in, CorrelationParameters& inner) {
+                   in.table(correlations, Style::inline_table,
+                            section_of(inner, describe_correlations));
+                 });
   visit.field(
       {"checkpoint_interval", "seconds of wall time",
        "Time between checkpoints, from which a preparation or a run that was killed continues."},
@@ -277,10 +301,6 @@ void describe_structure(StructureOptions& p, FieldVisitor& visit) {
                "box."},
               p.pairs.distance_max);
   visit.field({"distance_step", "length", "Width of the bins of distance."}, p.pairs.distance_step);
-}
-
-FieldVisitor::Inside section_of(auto& part, auto describe) {
-  return [&part, describe](FieldVisitor& visit) { describe(part, visit); };
 }
 
 std::string show(double value) {
@@ -467,6 +487,17 @@ void validate_dynamics(const DynamicsParameters& p) {
       fmt::format("is {}, but must lie above 0 and not above 1 (elastic)", show(p.restitution)));
 }
 
+void validate_correlations(const CorrelationParameters& p, double duration) {
+  const Rules rules("output.correlations");
+  rules.positive(p.interval, "interval");
+  rules.require(p.interval <= duration && duration / p.interval <= 1e12, "interval",
+                fmt::format("is {}, but must lie between 1e-12 of dynamics.duration = {} and all "
+                            "of it",
+                            show(p.interval), show(duration)));
+  for (std::size_t k = 0; k < p.wave_numbers.size(); ++k)
+    rules.positive(p.wave_numbers[k], fmt::format("wave_numbers.{}", k));
+}
+
 void validate_output(const Parameters& parameters) {
   const OutputParameters& p = parameters.output;
   const Rules samples("output.samples");
@@ -486,6 +517,7 @@ void validate_output(const Parameters& parameters) {
     within(p.first, "first");
     samples.at_least(p.per_decade, 1, "per_decade");
   }
+  if (p.correlations) validate_correlations(*p.correlations, duration);
   Rules("output").not_negative(p.checkpoint_interval, "checkpoint_interval");
 }
 

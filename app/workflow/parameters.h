@@ -74,6 +74,12 @@ struct DynamicsParameters {
   InitialVelocities initial_velocities = InitialVelocities::maxwell;
 };
 
+/// Of correlations on the fly.
+struct CorrelationParameters {
+  double interval = 0.1;
+  std::vector<double> wave_numbers;  ///< empty: main_wave_number
+};
+
 struct OutputParameters {
   enum class Spacing { linear, logarithmic };
 
@@ -82,6 +88,7 @@ struct OutputParameters {
   double first = 0.01;
   int per_decade = 20;
   bool velocities = true;
+  std::optional<CorrelationParameters> correlations;
   double checkpoint_interval = 30;
 };
 

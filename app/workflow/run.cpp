@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "app/workflow/correlations_file.h"
 #include "app/workflow/prepare.h"
 #include "app/workflow/run_checkpoint.h"
 #include "app/workflow/stored_run.h"
@@ -115,6 +116,7 @@ class Runner {
     if (stops_on_overlap()) refuse_overlaps(configuration);
     set_velocities(configuration);
     stored_.state = begin_run(configuration, -request_.parameters.dynamics.equilibration);
+    forget_correlations(request_.output);
     // Before the trajectory: one without a checkpoint is never this run's.
     save();
     if (!request_.from) forget_preparation(request_.output);
@@ -143,7 +145,16 @@ class Runner {
           "use \"maxwell\", or start (--from) from a run with velocities");
   }
 
+  void make_correlator() {
+    correlator_ = correlator(request_.parameters, stored_.state.configuration);
+    if (correlator_ && !stored_.correlations.empty()) correlator_->restore(stored_.correlations);
+  }
+
   void save() {
+    if (correlator_) {
+      stored_.correlations = correlator_->state();
+      write_correlations(request_.output, request_.parameters, *correlator_);
+    }
     save_checkpoint(checkpoint_, to_checkpoint(stored_));
     saved_ = Clock::now();
   }
@@ -165,6 +176,7 @@ class Runner {
     say_("run of " + make_engine(state.configuration, dynamics().engine)->description());
     TrajectoryWriter writer = open_trajectory();
     TrajectoryObserver observer(writer, measure_run);
+    make_correlator();
     const double wall_before = stored_.wall_seconds;
     const Clock::time_point start = Clock::now();
     RunPlan plan{sample_times(request_.parameters), request_.parameters.dynamics.duration,
@@ -176,6 +188,7 @@ class Runner {
                    writer.synchronize();
                    save();
                  }};
+    if (correlator_) plan.ticks = {correlator_->options().interval, &*correlator_};
     const StageReport report = run_or_keep_failed_state(plan);
     stored_.wall_seconds = wall_before + seconds_since(start);
     stored_.complete = report.end == StageEnd::reached;
@@ -224,6 +237,7 @@ class Runner {
   const std::function<void(const std::string&)>& say_;
   fs::path checkpoint_;
   StoredRun stored_;
+  std::optional<MultipleTau> correlator_;  ///< on the fly, if the parameters ask for it
   Clock::time_point saved_ = Clock::now();
 };
 
@@ -264,6 +278,10 @@ std::string run_plan(const RunRequest& request) {
                       p.dynamics.duration);
   text += fmt::format("writes       {}, {} frames, at most {:.3g} MB; checkpoint every {} s\n",
                       request.output.string(), frames, size / 1e6, p.output.checkpoint_interval);
+  if (p.output.correlations)
+    text += fmt::format("correlates   every {}, into {}; {:.3g} MB of memory\n",
+                        p.output.correlations->interval, correlations_path(request.output).string(),
+                        correlator_bytes(p) / 1e6);
   return text;
 }
 
@@ -280,24 +298,28 @@ nlohmann::ordered_json run_summary(const RunRequest& request, const RunOutcome& 
       trajectory.reader(), stored_energies(trajectory), rotor_count(state.configuration));
   const double simulated = state.configuration.time - state.start_time;
   const auto collisions = static_cast<double>(counters.collisions);
-  return {{"output", request.output.string()},
-          {"complete", outcome.complete},
-          {"particles", state.configuration.size()},
-          {"packing_fraction", packing_fraction(state.configuration)},
-          {"simulated_time", simulated},
-          {"frames", trajectory.frames()},
-          {"collisions", counters.collisions},
-          {"events", counters.events},
-          {"predictions_per_collision", static_cast<double>(counters.predictions) / collisions},
-          {"searches_per_collision", static_cast<double>(counters.searches) / collisions},
-          {"correction_moves", counters.correction_moves},
-          {"energy_drift", state.energy_drift},
-          {"largest_momentum", state.largest_momentum},
-          {"compressibility", z.mean.mean},
-          {"compressibility_error", z.mean.error},
-          {"overlaps", exact_check(state.configuration).overlaps.size()},
-          {"wall_seconds", outcome.wall_seconds},
-          {"collisions_per_second", collisions / outcome.wall_seconds}};
+  nlohmann::ordered_json summary = {
+      {"output", request.output.string()},
+      {"complete", outcome.complete},
+      {"particles", state.configuration.size()},
+      {"packing_fraction", packing_fraction(state.configuration)},
+      {"simulated_time", simulated},
+      {"frames", trajectory.frames()},
+      {"collisions", counters.collisions},
+      {"events", counters.events},
+      {"predictions_per_collision", static_cast<double>(counters.predictions) / collisions},
+      {"searches_per_collision", static_cast<double>(counters.searches) / collisions},
+      {"correction_moves", counters.correction_moves},
+      {"energy_drift", state.energy_drift},
+      {"largest_momentum", state.largest_momentum},
+      {"compressibility", z.mean.mean},
+      {"compressibility_error", z.mean.error},
+      {"overlaps", exact_check(state.configuration).overlaps.size()},
+      {"wall_seconds", outcome.wall_seconds},
+      {"collisions_per_second", collisions / outcome.wall_seconds}};
+  if (request.parameters.output.correlations)
+    summary["correlations"] = correlations_path(request.output).string();
+  return summary;
 }
 
 }  // namespace vitrel

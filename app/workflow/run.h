@@ -10,7 +10,7 @@
 #include "core/state/stage.h"
 
 /// The event-driven run with its files. The trajectory run.h5 has a checkpoint run.h5.checkpoint
-/// beside it; the same request starts the run, continues it, or finds it complete. A run that was
+/// beside it, and run.h5.correlations.h5 if the run correlates on the fly; the same request starts the run, continues it, or finds it complete. A run that was
 /// killed at any moment and continued has the same datasets, bit by bit, as one that was not.
 namespace vitrel {
 

@@ -17,6 +17,8 @@ void each_item(Run& run, Visit&& visit) {
   visit("wall_seconds", run.wall_seconds);
   visit("brownian_steps", state.brownian_steps);
   visit("next_sample", state.next_sample);
+  visit("next_tick", state.next_tick);
+  visit("correlations", run.correlations);
   visit("complete", run.complete);
 }
 

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "core/io/checkpoint.h"
 #include "edmd/run.h"
@@ -13,7 +14,8 @@ struct StoredRun {
   RunState state;
   double wall_seconds = 0;
   bool complete = false;
-  std::string parameters;  ///< effective parameters, TOML
+  std::vector<double> correlations;  ///< state of those measured on the fly; empty: none yet
+  std::string parameters;            ///< effective parameters, TOML
 };
 
 Checkpoint to_checkpoint(const StoredRun& run);

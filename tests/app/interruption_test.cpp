@@ -44,13 +44,16 @@ class Interruption : public testing::TestWithParam<const char*> {};
 /// machine does, so one that ends before its signal counts as a run of its own, and the next begins.
 void expect_same_datasets_despite(const std::vector<int>& signals, const std::string& kind,
                                   const Folder& folder, double earliest, double latest) {
-  folder.write("p.toml", system_text);
+  folder.write("p.toml", system_text + "correlations = { interval = 0.05 }\n");
   const milliseconds whole = run_uninterrupted(folder, kind);
   Stream moments(11, Purpose::tests);
   int round = 0;
   const auto output = [&round] { return "interrupted_" + std::to_string(round) + ".h5"; };
   const auto expect_same = [&] {
     EXPECT_THAT(differing_datasets(folder / "whole.h5", folder / output()), IsEmpty());
+    EXPECT_THAT(differing_datasets(folder / "whole.h5.correlations.h5",
+                                   folder / (output() + ".correlations.h5")),
+                IsEmpty());
   };
   std::size_t delivered = 0;
   for (std::size_t starts = 0; delivered < signals.size(); ++starts) {

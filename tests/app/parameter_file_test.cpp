@@ -133,6 +133,15 @@ const BadFile bad_files[] = {
      "file.toml:2:51: key 'output.samples.per_decade' is 0"},
     {"[output]\nsamples = { spacing = \"logarithmic\", interval = 1 }",
      "has a meaning only with spacing = \"linear\""},
+    {"[output]\ncorrelations = { interval = 0 }",
+     "file.toml:2:29: key 'output.correlations.interval' is 0.0"},
+    {"[output]\ncorrelations = { interval = 101 }",
+     "is 101.0, but must lie between 1e-12 of dynamics.duration = 100.0 and all of it"},
+    {"[output]\ncorrelations = { wave_numbers = 3 }",
+     "file.toml:2:33: key 'output.correlations.wave_numbers' must be an array of numbers, not the "
+     "number 3; for example wave_numbers = [1.0]"},
+    {"[output]\ncorrelations = { wave_numbers = [3, -1] }",
+     "key 'output.correlations.wave_numbers.1' is -1.0, but must be positive"},
     {"[output]\ncheckpoint_interval = -1", "file.toml:2:23: key 'output.checkpoint_interval'"},
     {"[analysis]\nlongest_lag = 2", "file.toml:2:15: key 'analysis.longest_lag' is 2.0"},
     {"[analysis]\nmost_origins = 0", "file.toml:2:16: key 'analysis.most_origins' is 0"},
@@ -198,6 +207,7 @@ method = "sample"
 sweeps = 12
 [output]
 samples = { spacing = "logarithmic", first = 0.3, per_decade = 7 }
+correlations = { interval = 0.05, wave_numbers = [1, 2.7] }
 )",
                                            "file.toml");
   const std::string text = effective_parameters(parameters);

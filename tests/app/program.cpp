@@ -56,7 +56,7 @@ void collect(const h5::Group& group, const std::string& path,
              std::map<std::string, Bytes>& datasets) {
   for (const std::string& name : group.members()) {
     const std::string full = path + "/" + name;
-    if (full == "/parameters") continue;
+    if (full == "/parameters" || full == "/provenance") continue;
     if (group.has_group(name))
       collect(group.group(name), full, datasets);
     else

@@ -39,7 +39,7 @@ class Folder {
   std::filesystem::path path_;
 };
 
-/// The names of all datasets of an HDF5 file outside /parameters whose shapes or bits differ from those of
+/// The names of all datasets of an HDF5 file, outside /parameters and /provenance, whose shapes or bits differ from those of
 /// another file, or which only one of them has.
 std::vector<std::string> differing_datasets(const std::filesystem::path& first,
                                             const std::filesystem::path& second);

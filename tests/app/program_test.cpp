@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "analysis/results.h"
 #include "core/io/h5md.h"
 #include "tests/app/program.h"
 
@@ -82,6 +83,48 @@ TEST(Program, PrepareRunCheckAnalyzeAndReport) {
         << table;
   EXPECT_EQ(run(folder.path(), {"report", "run.h5", "-o", "page.html", "-q"}).code, 0);
   EXPECT_GT(std::filesystem::file_size(folder / "page.html"), 10'000u);
+}
+
+// Where the run correlates the states it writes, both analyses average over the same: lags up to 7, which
+// have all origins.
+TEST(Program, CorrelatesOnTheFly) {
+  const Folder folder("correlates");
+  folder.write("p.toml",
+               small_system + "correlations = { interval = 0.5, wave_numbers = [2, 3] }\n");
+  const Outcome plan = run(folder.path(), {"run", "p.toml", "-o", "run.h5", "--dry-run"});
+  EXPECT_THAT(plan.output, HasSubstr("correlates   every 0.5, into run.h5.correlations.h5"));
+  const Outcome ran = run(folder.path(), {"run", "p.toml", "-o", "run.h5", "--json", "-q"});
+  ASSERT_EQ(ran.code, 0) << ran.errors;
+  EXPECT_EQ(Json::parse(ran.output)["correlations"], "run.h5.correlations.h5");
+  ASSERT_EQ(run(folder.path(), {"analyze", "run.h5", "-o", "results.h5", "-q"}).code, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder / "results_on_the_fly_all.csv"));
+  const Results results = read_results(folder / "results.h5");
+  const Table* measured = results.find("on_the_fly_all");
+  const Table* stored = results.find("displacements_all");
+  ASSERT_TRUE(measured && stored);
+  EXPECT_EQ(results.find("on_the_fly_wave_numbers")->find("q")->value, (std::vector<double>{2, 3}));
+  for (const std::string name : {"time", "msd", "msr", "origins"})
+    for (std::size_t k = 0; k < 7; ++k)
+      EXPECT_NEAR(measured->find(name)->value.at(k), stored->find(name)->value.at(k), 1e-12)
+          << name << " " << k;
+  EXPECT_EQ(measured->find("time")->value,
+            (std::vector<double>{0.5, 1, 1.5, 2, 2.5, 3, 3.5, 4, 5}));
+  EXPECT_TRUE(measured->find("fs_2"));
+}
+
+// Correlations belong to the run beside which they lie, and are never those of an earlier one.
+TEST(Program, ANewRunForgetsTheCorrelationsOfAnEarlierOne) {
+  const Folder folder("forgets");
+  folder.write("p.toml", small_system);
+  ASSERT_EQ(run(folder.path(), {"run", "p.toml", "-o", "run.h5", "-q", "--set",
+                                "output.correlations.interval=0.1"})
+                .code,
+            0);
+  ASSERT_TRUE(std::filesystem::exists(folder / "run.h5.correlations.h5"));
+  for (const std::string end : {"", ".checkpoint", ".checkpoint.previous"})
+    std::filesystem::remove(folder / ("run.h5" + end));
+  ASSERT_EQ(run(folder.path(), {"run", "p.toml", "-o", "run.h5", "-q"}).code, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder / "run.h5.correlations.h5"));
 }
 
 TEST(Program, PrepareReportsTheQualityOfTheState) {

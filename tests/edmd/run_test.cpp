@@ -8,6 +8,7 @@
 #include "core/contact/support_gap.h"
 #include "core/error.h"
 #include "edmd/sampling.h"
+#include "tests/support/motion.h"
 #include "tests/support/scenes.h"
 
 namespace vitrel {
@@ -104,9 +105,18 @@ TEST(Run, ALoneParticleMeetsItsOwnImages) {
   EXPECT_GT(smallest_gap(state.configuration), 0);
 }
 
+/// Keeps the numbers and times of what it is shown.
+class Clock : public Observer<2> {
+ public:
+  void observe(const Frame<2>& frame) override {
+    ticks.emplace_back(frame.index, frame.configuration.time);
+  }
+  std::vector<std::pair<std::int64_t, double>> ticks;
+};
+
 struct Interruption {
   RunState state;
-  std::size_t frames;
+  std::size_t frames, ticks;
 };
 
 // The state handed out at every block end continues to the same bits.
@@ -114,16 +124,26 @@ void expect_continues_exactly(const DynamicsOptions& options) {
   const double end = 60;
   RunState state = begin_run(thesis_scene(), -2);
   Recorder whole;
+  Clock clock;
   std::vector<Interruption> interruptions;
   RunPlan plan = plan_until(end, &whole);
-  plan.at_block_end = [&](const RunState& s) { interruptions.push_back({s, whole.frames.size()}); };
+  plan.ticks = {0.15, &clock};
+  plan.at_block_end = [&](const RunState& s) {
+    interruptions.push_back({s, whole.frames.size(), clock.ticks.size()});
+  };
   run(state, options, plan, {});
   ASSERT_GT(interruptions.size(), 3u);
   for (const Interruption& at : interruptions) {
     RunState resumed = at.state;
     Recorder rest;
-    if (at.state.configuration.time < end) run(resumed, options, plan_until(end, &rest), {});
+    Clock rest_clock;
+    RunPlan rest_plan = plan_until(end, &rest);
+    rest_plan.ticks = {0.15, &rest_clock};
+    if (at.state.configuration.time < end) run(resumed, options, rest_plan, {});
     ASSERT_EQ(at.frames + rest.frames.size(), whole.frames.size());
+    ASSERT_EQ(at.ticks + rest_clock.ticks.size(), clock.ticks.size());
+    EXPECT_TRUE(std::equal(rest_clock.ticks.begin(), rest_clock.ticks.end(),
+                           clock.ticks.begin() + static_cast<std::ptrdiff_t>(at.ticks)));
     EXPECT_EQ(resumed.configuration.position, state.configuration.position);
     EXPECT_EQ(resumed.configuration.angle, state.configuration.angle);
     EXPECT_EQ(resumed.counters.collisions, state.counters.collisions);
@@ -144,6 +164,50 @@ TEST(Run, BrownianContinuesBitByBit) {
   options.brownian = true;
   options.brownian_step = 0.1;
   expect_continues_exactly(options);
+}
+
+// Ticks come at their times, those at 0, at the end and with a sample among them. Neither the samples nor
+// the last state notice, to the last bit, as long as no block ends (after 4096 events, or about 3 units
+// of time).
+TEST(Run, TicksComeInTimeAndChangeNothing) {
+  DynamicsOptions options;
+  options.brownian = true;
+  const double end = 2;
+  const auto run_with = [&](Recorder& frames, Clock* clock) {
+    RunState state = begin_run(thesis_scene(), -0.5);
+    RunPlan plan = plan_until(end, &frames);
+    plan.ticks = {0.05, clock};
+    run(state, options, plan, {});
+    return state;
+  };
+  Recorder frames_alone, frames;
+  Clock clock;
+  const RunState alone = run_with(frames_alone, nullptr);
+  const RunState ticking = run_with(frames, &clock);
+  ASSERT_EQ(clock.ticks.size(), 41u);
+  for (std::size_t k = 0; k < clock.ticks.size(); ++k) {
+    EXPECT_EQ(clock.ticks[k].first, static_cast<std::int64_t>(k));
+    EXPECT_DOUBLE_EQ(clock.ticks[k].second, 0.05 * static_cast<double>(k));
+  }
+  EXPECT_EQ(clock.ticks.back().second, end);
+  ASSERT_EQ(frames.frames.size(), frames_alone.frames.size());
+  for (std::size_t k = 0; k < frames.frames.size(); ++k)
+    EXPECT_EQ(difference(frames.frames[k], frames_alone.frames[k]), 0);
+  EXPECT_EQ(difference(ticking.configuration, alone.configuration), 0);
+  EXPECT_GT(alone.counters.collisions, 100u);
+  EXPECT_EQ(ticking.counters.events, alone.counters.events);
+  EXPECT_EQ(ticking.energy_drift, alone.energy_drift);
+}
+
+// An interval that does not divide the run: the last tick is the last within it.
+TEST(Run, TicksEndWithTheRun) {
+  RunState state = begin_run(thesis_scene(), 0);
+  Clock clock;
+  RunPlan plan{{}, 2, nullptr, {}, {0.3, &clock}};
+  run(state, {}, plan, {});
+  ASSERT_EQ(clock.ticks.size(), 7u);
+  EXPECT_DOUBLE_EQ(clock.ticks.back().second, 1.8);
+  EXPECT_EQ(state.configuration.time, 2);
 }
 
 TEST(Run, BudgetStopsAtABlockEndAndTheRunGoesOn) {
