@@ -45,7 +45,10 @@ ReportRun run(double packing_fraction) {
   run.duration = 12.5;
   run.collisions = 123456;
   run.compressibility = {4.4921, 0.0312, 20};
-  DisplacementGroup all{"all", 11, 10, {}, {}};
+  DisplacementGroup all;
+  all.name = "all";
+  all.particles = 11;
+  all.rotors = 10;
   for (int k = 1; k <= 500; ++k) {
     run.displacements.lag.push_back(0.025 * k);
     all.translation.value.push_back(2.0 * k);
