@@ -37,7 +37,8 @@ struct CollectiveScattering {
 ///    multiplication, error below 1e-13 N. Threads share the frames. 16 bytes per frame and wave
 ///    vector are kept.
 /// 2. Lags and origins are those of the time axis. Errors are those of CorrelationSum with wave
-///    vectors in the place of particles: their modes are independent of each other up to O(1/N).
+///    vectors in the place of particles: their modes are independent of each other up to O(1/N). Of few wave vectors (small q) the errors
+///    have Student's wide tails.
 ///
 /// The box must be the same in all frames, else UserError. Cost about N × (32 + q L/π) per frame and
 /// wave number.

@@ -232,22 +232,24 @@ TEST(Displacement, ResultDoesNotDependOnTheNumberOfThreads) {
   }
 }
 
-// A particle that flies along its long axis, and one that flies across while it turns: the long axis
-// is that at the origin of time.
+// A particle that flies along its long axis, and one that flies across while it makes a quarter turn: the
+// long axis is that at the origin of time.
 TEST(Displacement, PartsAlongAndAcrossTheLongAxisAtTheOriginOfTime) {
   Configuration2 configuration = ellipses(2);
-  configuration.angle = {0.7, std::numbers::pi / 2};
-  configuration.velocity = {Vec2(3 * std::cos(0.7), 3 * std::sin(0.7)), Vec2(2, 0)};
-  configuration.angular_velocity = {0, 2 * std::numbers::pi};
-  std::vector<Configuration2> frames;
-  for (int k = 0; k <= 4; ++k, fly(configuration, 0.5)) frames.push_back(configuration);
+  configuration.angle = {0.7, 1.1};
+  configuration.velocity = {Vec2(3 * std::cos(0.7), 3 * std::sin(0.7)),
+                            Vec2(-2 * std::sin(1.1), 2 * std::cos(1.1))};
+  configuration.angular_velocity = {0, std::numbers::pi};
+  std::vector<Configuration2> frames{configuration};
+  fly(configuration, 0.5);
+  frames.push_back(configuration);
   MemoryTrajectory trajectory(std::move(frames));
   const DisplacementGroup all = displacements(trajectory).groups[0];
   EXPECT_NEAR(all.parallel.value[0], 0.5 * 2.25, 1e-13);
   EXPECT_NEAR(all.perpendicular.value[0], 0.5 * 1, 1e-13);
   EXPECT_NEAR(all.quartic.value[0], 0.5 * (2.25 * 2.25 + 1), 1e-13);
-  EXPECT_NEAR(all.quartic_rotation.value[0], 0.5 * std::pow(std::numbers::pi, 4), 1e-12);
-  EXPECT_NEAR(all.orientation[0].value[0], 0.5 * (1 + 1), 1e-13);
+  EXPECT_NEAR(all.quartic_rotation.value[0], 0.5 * std::pow(std::numbers::pi / 2, 4), 1e-12);
+  EXPECT_NEAR(all.orientation[0].value[0], 0.5 * (1 - 1), 1e-13);
 }
 
 // Half of the time all particles jump by 1 in every step, half of the time none does: Q of one step is
