@@ -35,13 +35,58 @@ double mean_of(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
+/// The number of steps k after which the autocorrelation of a series of n values has fallen to 1/e; 0
+/// of a constant. The mean of a short series follows the series, which takes about b = 2k/n off every
+/// correlation and the variance, if k is the correlation time; so c(k) + b is compared with (1 + b)/e.
+std::size_t correlation_steps(const std::vector<double>& series) {
+  const double mean = mean_of(series);
+  const auto correlation = [&](std::size_t lag) {
+    double sum = 0;
+    for (std::size_t k = lag; k < series.size(); ++k)
+      sum += (series[k] - mean) * (series[k - lag] - mean);
+    return sum / static_cast<double>(series.size() - lag);
+  };
+  const double variance = correlation(0);
+  if (std::sqrt(variance) <= rounding * std::abs(mean)) return 0;
+  const auto lasts = [&](std::size_t lag) {
+    const double bias = 2 * static_cast<double>(lag) / static_cast<double>(series.size());
+    return correlation(lag) / variance + bias > (1 + bias) / std::numbers::e;
+  };
+  std::size_t lag = 0;
+  while (lag + 1 < series.size() && lasts(lag)) ++lag;
+  return lag;
+}
+
+/// Time between two values of a series over the whole run.
+double step_of(const ScalarSeries& series, double duration) {
+  return duration / static_cast<double>(series.value.size() - 1);
+}
+
+double correlation_time(const ScalarSeries& series, double duration) {
+  if (series.value.size() < 2) return 0;
+  return step_of(series, duration) * static_cast<double>(correlation_steps(series.value));
+}
+
+/// The time by which a correlation has decayed; NaN if that is not known.
+double known_time(const RelaxationTime& tau) {
+  return std::isnan(tau.value) ? tau.most : tau.value;
+}
+
+double slowest_time(const RunEvidence& run) {
+  double slowest = 0;
+  for (const NamedTime& named : run.times) slowest = std::fmax(slowest, known_time(named.time));
+  for (const ScalarSeries& series : run.series)
+    slowest = std::max(slowest, correlation_time(series, run.duration));
+  return slowest;
+}
+
 /// Change over the series of the line fitted to it, and the error of the mean of what it leaves.
 struct Trend {
   double mean, change;
   Estimate residual;
 };
 
-Trend trend(const std::vector<double>& series) {
+Trend trend(const std::vector<double>& series, double shortest_block) {
   const double n = static_cast<double>(series.size());
   const double mean = mean_of(series);
   double xy = 0, xx = 0;
@@ -54,13 +99,13 @@ Trend trend(const std::vector<double>& series) {
   std::vector<double> residual;
   for (std::size_t k = 0; k < series.size(); ++k)
     residual.push_back(series[k] - mean - change * ((static_cast<double>(k) + 0.5) / n - 0.5));
-  return {mean, change, block_average(residual)};
+  return {mean, change, block_average(residual, shortest_block)};
 }
 
 /// Nothing if the series is too short for an error.
-std::optional<Comparison> drift(const ScalarSeries& series) {
+std::optional<Comparison> drift(const ScalarSeries& series, double duration, double slowest) {
   if (series.value.size() < 2) return std::nullopt;
-  const Trend t = trend(series.value);
+  const Trend t = trend(series.value, 2 * slowest / step_of(series, duration));
   if (t.residual.blocks == 0) return std::nullopt;
   const std::size_t degrees = t.residual.blocks - 2;
   const double error = std::sqrt(12) * t.residual.error / student_factor(t.residual.blocks - 1);
@@ -88,10 +133,11 @@ Comparison difference(const HalvesOfCurve& c, std::size_t k, std::size_t l) {
           probability};
 }
 
-void compare_halves(const HalvesOfCurve& c, std::vector<Comparison>& comparisons) {
+void compare_halves(const HalvesOfCurve& c, double slowest, std::vector<Comparison>& comparisons) {
   double next = std::numeric_limits<double>::infinity();
   for (std::size_t k = c.first.time.size(); k-- > 0;) {
     const double time = c.first.time[k];
+    if (time < slowest / 2) return;
     if (time > next * (1 + 1e-9) || c.first.blocks[k] == 0) continue;
     const auto same = std::find_if(c.second.time.begin(), c.second.time.end(), [&](double other) {
       return std::abs(other - time) <= 1e-9 * time;
@@ -104,28 +150,6 @@ void compare_halves(const HalvesOfCurve& c, std::vector<Comparison>& comparisons
   }
 }
 
-/// The number of steps k after which the autocorrelation of a series of n values has fallen to 1/e; 0
-/// of a constant. The mean of a short series follows the series, which takes about b = 2k/n off every
-/// correlation and the variance, if k is the correlation time; so c(k) + b is compared with (1 + b)/e.
-std::size_t correlation_steps(const std::vector<double>& series) {
-  const double mean = mean_of(series);
-  const auto correlation = [&](std::size_t lag) {
-    double sum = 0;
-    for (std::size_t k = lag; k < series.size(); ++k)
-      sum += (series[k] - mean) * (series[k - lag] - mean);
-    return sum / static_cast<double>(series.size() - lag);
-  };
-  const double variance = correlation(0);
-  if (std::sqrt(variance) <= rounding * std::abs(mean)) return 0;
-  const auto lasts = [&](std::size_t lag) {
-    const double bias = 2 * static_cast<double>(lag) / static_cast<double>(series.size());
-    return correlation(lag) / variance + bias > (1 + bias) / std::numbers::e;
-  };
-  std::size_t lag = 0;
-  while (lag + 1 < series.size() && lasts(lag)) ++lag;
-  return lag;
-}
-
 std::string shortage(const std::string& name, double time, double duration) {
   if (duration >= fewest_relaxations * time) return "";
   return fmt::format("the run lasts {:.2g} times {} = {:.4g}; {:g} times are needed",
@@ -134,26 +158,26 @@ std::string shortage(const std::string& name, double time, double duration) {
 
 std::string shortage(const ScalarSeries& series, double duration) {
   if (series.value.size() < 2) return series.name + " has no series";
-  const double step = duration / static_cast<double>(series.value.size() - 1);
-  return shortage("the correlation time of " + series.name,
-                  step * static_cast<double>(correlation_steps(series.value)), duration);
+  return shortage("the correlation time of " + series.name, correlation_time(series, duration),
+                  duration);
 }
 
 /// Why the run is too short for a relaxation time; empty if it is not.
 std::string shortage(const NamedTime& named, double duration) {
-  const RelaxationTime& tau = named.time;
-  const double time = std::isnan(tau.value) ? tau.most : tau.value;
-  if (std::isnan(time)) return fmt::format("{}: {}", named.name, tau.reason);
+  const double time = known_time(named.time);
+  if (std::isnan(time)) return fmt::format("{}: {}", named.name, named.time.reason);
   return shortage(named.name, time, duration);
 }
 
 }  // namespace
 
 Equilibration judge_equilibration(const RunEvidence& run) {
+  const double slowest = slowest_time(run);
   std::vector<Comparison> comparisons;
   for (const ScalarSeries& series : run.series)
-    if (const auto comparison = drift(series)) comparisons.push_back(*comparison);
-  for (const HalvesOfCurve& curve : run.curves) compare_halves(curve, comparisons);
+    if (const auto comparison = drift(series, run.duration, slowest))
+      comparisons.push_back(*comparison);
+  for (const HalvesOfCurve& curve : run.curves) compare_halves(curve, slowest, comparisons);
   const double n = static_cast<double>(comparisons.size());
   for (const Comparison& c : comparisons)
     if (c.probability < false_alarms / n) return {EquilibrationVerdict::ageing, c.text};

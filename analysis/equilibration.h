@@ -50,6 +50,10 @@ struct Equilibration {
 
 /// The verdict, from tests of which the first that fails decides.
 ///
+/// 0. The slowest known time of the run: the longest of the relaxation times and of the correlation
+///    times of the series (at which the autocorrelation has fallen to 1/e). What is slow and weak hides
+///    in the noise of what is fast, where blocking does not see it: so blocks of a series must be twice
+///    that long, and curves are compared at times from half of it on, where their blocks are.
 /// 1. Drift: the change D of a straight line fitted to the series, over the whole run, has the error
 ///    √12 e, e that of the mean by blocking of what the line leaves. D/(√12 e) is judged as Student's
 ///    with (blocks − 2) degrees of freedom. Changes below 1e-9 of the value are rounding. A series too
@@ -59,9 +63,9 @@ struct Equilibration {
 ///    half as long as the one before or less.
 ///    Ageing, if one of the n tests of 1 and 2 has a probability below 1 %/n: so much of the stationary
 ///    runs, or less, is called ageing (measured: 8 of 600).
-/// 3. Too short, if the duration is below ten relaxation times or ten correlation times of a series
-///    (at which its autocorrelation has fallen to 1/e; of series of six, less than half pass), if a relaxation time is not within the
-///    measured ones, or if none is given.
+/// 3. Too short, if the duration is below ten relaxation times or ten correlation times of a series (of
+///    series of six, less than half pass), if a relaxation time is not within the measured ones, or if
+///    none is given.
 ///
 /// Ageing means that the run shows a change; slow change with little statistics is "too short" or
 /// passes. A drift of six of its standard errors is found in more than 95 % of the cases.

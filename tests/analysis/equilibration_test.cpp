@@ -90,21 +90,38 @@ TEST(Equilibration, DriftOfSixErrorsIsFound) {
   EXPECT_GE(ageing, 95);
 }
 
-// Steps 15 % shorter in the second half: squares 28 % smaller, at lag 1 some ten of their errors
-// √(2/2048)·√2 = 4.4 %, times √(1.3) for correlations; power 99 % and more.
+// Displacements half as long in the second half: squares a quarter. Compared from lag 5 on, half the
+// correlation time of the slowest series. About 2048/18 squares of that lag are independent, each half
+// has errors of √(2·18/2048) = 13 %: a difference of 0.75/0.13 = 5.6 errors, where 3.5 would do.
 TEST(Equilibration, SlowerSecondHalfIsFound) {
   int ageing = 0;
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     RunEvidence run = stationary(seed);
     Stream draw(seed, Purpose::tests, 1);
     std::vector<double> x = autoregressive(frames, 0.8, draw);
-    for (std::size_t k = frames / 2; k < frames; ++k) x[k] *= 0.85;
+    for (std::size_t k = frames / 2; k < frames; ++k) x[k] *= 0.5;
     run.curves = {halves(x)};
+    run.times = {{"tau", known(5)}};
     const Equilibration result = judge_equilibration(run);
     ageing += result.verdict == EquilibrationVerdict::ageing &&
               result.reason.find("MSD at time") != std::string::npos;
   }
   EXPECT_GE(ageing, 95);
+}
+
+// A mode of a hundred steps with a quarter of the amplitude of the noise that hides it: blocks that are not
+// told of it do not see it, and call 28 of these 300 runs ageing.
+TEST(Equilibration, SlowModesUnderNoiseAreNoDrift) {
+  int ageing = 0;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    Stream draw(seed, Purpose::tests, 4);
+    std::vector<double> x = autoregressive(frames, 0, draw);
+    const std::vector<double> slow = autoregressive(frames, 0.99, draw);
+    for (std::size_t k = 0; k < frames; ++k) x[k] += 0.25 * slow[k];
+    RunEvidence run{4096, {{"Z", x}}, {halves(x)}, {{"tau", known(100)}}};
+    ageing += judge_equilibration(run).verdict == EquilibrationVerdict::ageing;
+  }
+  EXPECT_LE(ageing, 3 + 3 * 1.8);  // 1 % of 300, and three standard deviations
 }
 
 // A value that approaches its end exponentially, over a fifth of the run.
