@@ -149,28 +149,6 @@ DisplacementGroup evaluate(const Members& members, const std::vector<Lag>& lags,
   return group;
 }
 
-std::size_t interpolation_start(const std::vector<double>& lag, double at) {
-  const auto above = std::upper_bound(lag.begin() + 1, lag.end() - 1, at);
-  return static_cast<std::size_t>(above - lag.begin()) - 1;
-}
-
-/// Mean square at a time difference between two lags, linearly in between, with the larger error.
-Diffusion square_at(const std::vector<double>& lag, const Correlation& square, double at) {
-  const std::size_t k = interpolation_start(lag, at);
-  const double w = (at - lag[k]) / (lag[k + 1] - lag[k]);
-  return {(1 - w) * square.value[k] + w * square.value[k + 1],
-          std::max(square.error[k], square.error[k + 1])};
-}
-
-/// Diffusion coefficient from the slope between two time differences.
-Diffusion slope(const std::vector<double>& lag, const Correlation& square, double from, double to,
-                int dimension) {
-  const Diffusion low = square_at(lag, square, from);
-  const Diffusion high = square_at(lag, square, to);
-  const double scale = 1 / (2 * dimension * (to - from));
-  return {scale * (high.value - low.value), scale * std::hypot(low.error, high.error)};
-}
-
 }  // namespace
 
 Displacements displacements(Trajectory& trajectory, const DisplacementOptions& options,
@@ -213,19 +191,6 @@ double main_wave_number(const Configuration2& configuration) {
   const Vec2& lengths = configuration.box.lengths();
   const double density = static_cast<double>(configuration.size()) / (lengths.x() * lengths.y());
   return 2 * std::numbers::pi * std::sqrt(2 * density / std::sqrt(3.0));
-}
-
-Diffusion long_time_diffusion(const std::vector<double>& lag, const Correlation& square,
-                              int dimension) {
-  if (square.value.size() < 2 || lag.front() > lag.back() / 9) return {none, none};
-  if (!(square.value.back() >= 1)) return {none, none};
-  const double longest = lag.back();
-  const Diffusion late = slope(lag, square, longest / 3, longest, dimension);
-  const Diffusion early = slope(lag, square, longest / 9, longest / 3, dimension);
-  const double change = std::abs(late.value - early.value);
-  const double chance = 3 * std::hypot(late.error, early.error);
-  if (!(change <= std::max(0.1 * late.value, chance))) return {none, none};
-  return {late.value, std::max(late.error, change)};
 }
 
 }  // namespace vitrel

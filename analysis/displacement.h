@@ -74,17 +74,4 @@ Displacements displacements(Trajectory& trajectory, const DisplacementOptions& o
 /// of the triangular lattice of the same number density ρ, q = 2π √(2ρ/√3).
 double main_wave_number(const Configuration2& configuration);
 
-/// A long-time diffusion coefficient, D = d⟨|r|²⟩/(2 d dt) (d = 2; for rotation d = 1).
-struct Diffusion {
-  double value;
-  double error;
-};
-/// Read off between a third of the longest lag T and T, as (m(T) − m(T/3))/(2 d · 2T/3); NaN unless
-/// it is honest: the slope between T/9 and T/3 must agree within 10 % or three standard errors, and
-/// the particles must have moved by one unit (length or radian) in the mean square. The error is
-/// the larger of the change from the earlier slope to this one, and of those of both ends added in
-/// squares, an upper bound because they are positively correlated.
-Diffusion long_time_diffusion(const std::vector<double>& lag, const Correlation& square,
-                              int dimension);
-
 }  // namespace vitrel

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 #include "analysis/blocking.h"
@@ -28,6 +29,12 @@ double two_sided(double t, std::size_t degrees) {
   return 2 * gsl_cdf_tdist_Q(std::abs(t), static_cast<double>(degrees));
 }
 
+double mean_of(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
 /// Change over the series of the line fitted to it, and the error of the mean of what it leaves.
 struct Trend {
   double mean, change;
@@ -36,9 +43,7 @@ struct Trend {
 
 Trend trend(const std::vector<double>& series) {
   const double n = static_cast<double>(series.size());
-  double mean = 0;
-  for (const double value : series) mean += value;
-  mean /= n;
+  const double mean = mean_of(series);
   double xy = 0, xx = 0;
   for (std::size_t k = 0; k < series.size(); ++k) {
     const double x = (static_cast<double>(k) + 0.5) / n - 0.5;
@@ -99,35 +104,65 @@ void compare_halves(const HalvesOfCurve& c, std::vector<Comparison>& comparisons
   }
 }
 
+/// The number of steps k after which the autocorrelation of a series of n values has fallen to 1/e; 0
+/// of a constant. The mean of a short series follows the series, which takes about b = 2k/n off every
+/// correlation and the variance, if k is the correlation time; so c(k) + b is compared with (1 + b)/e.
+std::size_t correlation_steps(const std::vector<double>& series) {
+  const double mean = mean_of(series);
+  const auto correlation = [&](std::size_t lag) {
+    double sum = 0;
+    for (std::size_t k = lag; k < series.size(); ++k)
+      sum += (series[k] - mean) * (series[k - lag] - mean);
+    return sum / static_cast<double>(series.size() - lag);
+  };
+  const double variance = correlation(0);
+  if (std::sqrt(variance) <= rounding * std::abs(mean)) return 0;
+  const auto lasts = [&](std::size_t lag) {
+    const double bias = 2 * static_cast<double>(lag) / static_cast<double>(series.size());
+    return correlation(lag) / variance + bias > (1 + bias) / std::numbers::e;
+  };
+  std::size_t lag = 0;
+  while (lag + 1 < series.size() && lasts(lag)) ++lag;
+  return lag;
+}
+
+std::string shortage(const std::string& name, double time, double duration) {
+  if (duration >= fewest_relaxations * time) return "";
+  return fmt::format("the run lasts {:.2g} times {} = {:.4g}; {:g} times are needed",
+                     duration / time, name, time, fewest_relaxations);
+}
+
+std::string shortage(const ScalarSeries& series, double duration) {
+  if (series.value.size() < 2) return series.name + " has no series";
+  const double step = duration / static_cast<double>(series.value.size() - 1);
+  return shortage("the correlation time of " + series.name,
+                  step * static_cast<double>(correlation_steps(series.value)), duration);
+}
+
 /// Why the run is too short for a relaxation time; empty if it is not.
 std::string shortage(const NamedTime& named, double duration) {
   const RelaxationTime& tau = named.time;
   const double time = std::isnan(tau.value) ? tau.most : tau.value;
   if (std::isnan(time)) return fmt::format("{}: {}", named.name, tau.reason);
-  if (duration >= fewest_relaxations * time) return "";
-  return fmt::format("the run lasts {:.2g} times {} = {:.4g}; {:g} times are needed",
-                     duration / time, named.name, time, fewest_relaxations);
+  return shortage(named.name, time, duration);
 }
 
 }  // namespace
 
 Equilibration judge_equilibration(const RunEvidence& run) {
   std::vector<Comparison> comparisons;
-  std::string too_short;
-  for (const ScalarSeries& series : run.series) {
-    if (const auto comparison = drift(series))
-      comparisons.push_back(*comparison);
-    else if (too_short.empty())
-      too_short = fmt::format("{} is correlated over too much of the run", series.name);
-  }
+  for (const ScalarSeries& series : run.series)
+    if (const auto comparison = drift(series)) comparisons.push_back(*comparison);
   for (const HalvesOfCurve& curve : run.curves) compare_halves(curve, comparisons);
   const double n = static_cast<double>(comparisons.size());
   for (const Comparison& c : comparisons)
     if (c.probability < false_alarms / n) return {EquilibrationVerdict::ageing, c.text};
 
-  if (run.times.empty()) too_short = "no relaxation time";
+  std::string too_short = run.times.empty() ? "no relaxation time" : "";
   for (const NamedTime& time : run.times)
     if (too_short.empty()) too_short = shortage(time, run.duration);
+  for (const ScalarSeries& series : run.series)
+    if (too_short.empty()) too_short = shortage(series, run.duration);
   if (!too_short.empty()) return {EquilibrationVerdict::too_short, too_short};
   return {EquilibrationVerdict::equilibrated, ""};
 }

@@ -53,15 +53,15 @@ struct Equilibration {
 /// 1. Drift: the change D of a straight line fitted to the series, over the whole run, has the error
 ///    √12 e, e that of the mean by blocking of what the line leaves. D/(√12 e) is judged as Student's
 ///    with (blocks − 2) degrees of freedom. Changes below 1e-9 of the value are rounding. A series too
-///    short for blocking is not judged here.
+///    short or too slow for blocking is not judged here.
 /// 2. Halves: the difference of the curves in units of its error, Student's with the degrees of
 ///    freedom of both, at the longest time that both have a blocked error at, and at shorter ones, each
 ///    half as long as the one before or less.
 ///    Ageing, if one of the n tests of 1 and 2 has a probability below 1 %/n: so much of the stationary
 ///    runs, or less, is called ageing (measured: 8 of 600).
-/// 3. Too short, if blocking finds no error for a series (it is as slow as the run is long), if the
-///    duration is below ten relaxation times, if one is not within the measured times, or if none is
-///    given.
+/// 3. Too short, if the duration is below ten relaxation times or ten correlation times of a series
+///    (at which its autocorrelation has fallen to 1/e; of series of six, less than half pass), if a relaxation time is not within the
+///    measured ones, or if none is given.
 ///
 /// Ageing means that the run shows a change; slow change with little statistics is "too short" or
 /// passes. A drift of six of its standard errors is found in more than 95 % of the cases.

@@ -41,6 +41,23 @@ class MemoryTrajectory : public Trajectory {
   std::vector<double> times_;
 };
 
+/// Frames `begin` … `end` − 1 of another trajectory, which must outlive it.
+class TrajectoryPart : public Trajectory {
+ public:
+  TrajectoryPart(Trajectory& whole, std::size_t begin, std::size_t end)
+      : whole_(whole),
+        begin_(begin),
+        times_(whole.times().begin() + static_cast<std::ptrdiff_t>(begin),
+               whole.times().begin() + static_cast<std::ptrdiff_t>(end)) {}
+  const std::vector<double>& times() const override { return times_; }
+  const Configuration2& read(std::size_t k) override { return whole_.read(begin_ + k); }
+
+ private:
+  Trajectory& whole_;
+  std::size_t begin_;
+  std::vector<double> times_;
+};
+
 /// Whether all intervals between the times are equal, to a millionth: time differences then depend
 /// on the difference of the indices only, and every frame can serve as an origin of time.
 bool evenly_spaced(std::span<const double> times);

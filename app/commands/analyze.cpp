@@ -1,5 +1,6 @@
 #include "app/workflow/analyze.h"
 
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "app/commands/common.h"
@@ -42,7 +43,13 @@ int analyze_sweep(const Arguments& arguments) {
     runs.push_back(analysis_summary(analyses.back()));
   }
   write_all(output, results_of_sweep(analyses));
-  print_summary(arguments, {{"output", output.string()}, {"runs", std::move(runs)}});
+  const GlassStudy study = glass_study(analyses);
+  Json summary = {{"output", output.string()}};
+  if (arguments.json)
+    summary.update({{"runs", std::move(runs)}, {"glass", glass_summary(study)}});
+  else if (!arguments.quiet)
+    std::fputs(glass_text(study).c_str(), stdout);
+  print_summary(arguments, summary);
   return success;
 }
 

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "app/workflow/correlations_file.h"
+#include "app/workflow/glass_data.h"
 #include "app/workflow/stored_run.h"
 #include "app/workflow/structure_tables.h"
 #include "core/error.h"
@@ -55,6 +56,20 @@ RunDynamics measure_dynamics(StoredTrajectory& trajectory, DisplacementOptions o
   return dynamics;
 }
 
+std::string run_name(const RunAnalysis& run) {
+  const bool in_job_folder = run.file.filename() == "run.h5" && run.file.has_parent_path();
+  return in_job_folder ? run.file.parent_path().filename().string() : run.file.stem().string();
+}
+
+const Table& order_table(const std::vector<Table>& tables) {
+  return *std::find_if(tables.begin(), tables.end(),
+                       [](const Table& table) { return table.name == "order"; });
+}
+
+DiffusionCoefficient no_diffusion(const char* reason) {
+  return {unknown, unknown, unknown, unknown, reason};
+}
+
 void measure(RunAnalysis& run, StoredTrajectory& trajectory, const Parameters& parameters,
              ProgressDisplay::Mode progress) {
   const TrajectoryReader& reader = trajectory.reader();
@@ -71,9 +86,16 @@ void measure(RunAnalysis& run, StoredTrajectory& trajectory, const Parameters& p
   run.compressibility = stored_compressibility(reader, run.energy, run.rotors);
   const Displacements& found = run.dynamics.displacements;
   const DisplacementGroup& all = found.groups.front();
-  run.diffusion = long_time_diffusion(found.lag, all.translation, 2);
-  run.rotational_diffusion = run.rotors > 0 ? long_time_diffusion(found.lag, all.rotation, 1)
-                                            : Diffusion{unknown, unknown};
+  const std::vector<double>& times = trajectory.times();
+  run.diffusion = diffusion_coefficient(found, all.translation, 2, times);
+  run.rotational_diffusion = run.rotors > 0 ? diffusion_coefficient(found, all.rotation, 1, times)
+                                            : no_diffusion("no particle can turn");
+  if (const auto data =
+          glass_run_data(trajectory,
+                         {run_name(run), run.provenance.seed, run.packing_fraction, run.rotors,
+                          found, run.compressibility, order_table(run.structure)},
+                         parameters.analysis))
+    run.glass = judge_glass_run(*data);
 }
 
 Table energy_table(const EnergySeries& energy) {
@@ -109,8 +131,12 @@ std::vector<Column> summary_columns(const RunAnalysis& run) {
           single("translational_energy", "kT", translational.mean, translational.error),
           single("rotational_energy", "kT", rotational.mean, rotational.error),
           single("diffusion", "length^2/time", run.diffusion.value, run.diffusion.error),
+          {"diffusion_from", "time", {run.diffusion.from}, {}},
+          {"diffusion_to", "time", {run.diffusion.to}, {}},
           single("rotational_diffusion", "rad^2/time", run.rotational_diffusion.value,
-                 run.rotational_diffusion.error)};
+                 run.rotational_diffusion.error),
+          {"rotational_diffusion_from", "time", {run.rotational_diffusion.from}, {}},
+          {"rotational_diffusion_to", "time", {run.rotational_diffusion.to}, {}}};
 }
 
 std::string dynamics_text(const std::optional<Parameters>& parameters) {
@@ -119,11 +145,6 @@ std::string dynamics_text(const std::optional<Parameters>& parameters) {
   return p.kind == DynamicsParameters::Kind::brownian
              ? fmt::format("Brownian, step {:g}", p.brownian_step)
              : "Newtonian";
-}
-
-std::string run_name(const RunAnalysis& run) {
-  const bool in_job_folder = run.file.filename() == "run.h5" && run.file.has_parent_path();
-  return in_job_folder ? run.file.parent_path().filename().string() : run.file.stem().string();
 }
 
 constexpr std::size_t most_movies = 6;
@@ -141,6 +162,14 @@ std::vector<std::size_t> movie_poses(const std::vector<RunAnalysis>& runs) {
   for (std::size_t k = 0; k < movies; ++k)
     poses[order[k * (runs.size() - 1) / (movies - 1)]] = MovieLimits{}.poses / (2 * movies);
   return poses;
+}
+
+/// Appends what the study found, and its notes to the provenance.
+void add_study(Results& results, const GlassStudy& study) {
+  if (study.runs.empty()) return;
+  for (Table& table : glass_tables(study))
+    if (table.rows() > 0) results.tables.push_back(std::move(table));
+  for (auto& note : glass_notes(study)) results.provenance.push_back(std::move(note));
 }
 
 ReportRun report_run(const RunAnalysis& run, std::size_t movie_poses) {
@@ -180,6 +209,13 @@ RunAnalysis analyze_run(const std::filesystem::path& file, const AnalysisChoice&
   return run;
 }
 
+GlassStudy glass_study(const std::vector<RunAnalysis>& runs) {
+  std::vector<GlassRun> judged;
+  for (const RunAnalysis& run : runs)
+    if (run.glass) judged.push_back(*run.glass);
+  return study_glass(std::move(judged));
+}
+
 Results results_of(const RunAnalysis& run) {
   Results results;
   results.tables.push_back({"summary", "Averages over the run.", summary_columns(run)});
@@ -190,6 +226,7 @@ Results results_of(const RunAnalysis& run) {
   results.tables.insert(results.tables.end(), run.structure.begin(), run.structure.end());
   results.tables.insert(results.tables.end(), run.on_the_fly.begin(), run.on_the_fly.end());
   results.provenance = provenance_rows(run.provenance);
+  if (run.glass) add_study(results, {{*run.glass}, {}});
   results.provenance.emplace_back("source", run.file.string());
   return results;
 }
@@ -211,6 +248,7 @@ Results results_of_sweep(const std::vector<RunAnalysis>& runs) {
                                     run.file.string());
   }
   results.tables.push_back(std::move(table));
+  add_study(results, glass_study(runs));
   return results;
 }
 
@@ -223,18 +261,20 @@ void write_all(const std::filesystem::path& file, const Results& results) {
 
 Json analysis_summary(const RunAnalysis& run) {
   const Estimate& z = run.compressibility.mean;
-  return {{"file", run.file.string()},
-          {"particles", run.particles},
-          {"packing_fraction", run.packing_fraction},
-          {"frames", run.frames},
-          {"duration", run.duration},
-          {"collisions", run.collisions},
-          {"compressibility", z.mean},
-          {"compressibility_error", z.error},
-          {"diffusion", run.diffusion.value},
-          {"diffusion_error", run.diffusion.error},
-          {"rotational_diffusion", run.rotational_diffusion.value},
-          {"rotational_diffusion_error", run.rotational_diffusion.error}};
+  Json summary = {{"file", run.file.string()},
+                  {"particles", run.particles},
+                  {"packing_fraction", run.packing_fraction},
+                  {"frames", run.frames},
+                  {"duration", run.duration},
+                  {"collisions", run.collisions},
+                  {"compressibility", z.mean},
+                  {"compressibility_error", z.error},
+                  {"diffusion", run.diffusion.value},
+                  {"diffusion_error", run.diffusion.error},
+                  {"rotational_diffusion", run.rotational_diffusion.value},
+                  {"rotational_diffusion_error", run.rotational_diffusion.error}};
+  if (run.glass) summary.update(glass_summary(*run.glass));
+  return summary;
 }
 
 PageProvenance provenance_rows(const Provenance& provenance) {

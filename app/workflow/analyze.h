@@ -10,6 +10,7 @@
 #include "analysis/energy.h"
 #include "analysis/results.h"
 #include "app/workflow/dynamics_tables.h"
+#include "app/workflow/glass_study.h"
 #include "app/workflow/parameters.h"
 #include "app/workflow/progress.h"
 #include "app/workflow/report/report_page.h"
@@ -31,9 +32,10 @@ struct RunAnalysis {
   RunDynamics dynamics;
   EnergySeries energy;
   CompressibilitySeries compressibility;
-  Diffusion diffusion{}, rotational_diffusion{};  ///< of all particles; NaN where not reached
+  DiffusionCoefficient diffusion{}, rotational_diffusion{};  ///< of all particles
   Configuration2 final_state;
   std::vector<Table> structure;   ///< see structure_tables.h
+  std::optional<GlassRun> glass;  ///< none if it cannot be judged (glass_data.h)
   std::vector<Table> on_the_fly;  ///< what the run measured itself (correlations_file.h)
 };
 
@@ -50,7 +52,10 @@ RunAnalysis analyze_run(const std::filesystem::path& file, const AnalysisChoice&
 /// Tables of time correlations (dynamics_tables.h), energies, compressibility, structure, correlations measured
 /// on the fly, and a summary of one row.
 Results results_of(const RunAnalysis& run);
-/// One row per run: packing fraction, compressibility, diffusion coefficients.
+/// Relaxation times and verdicts of the runs that can be judged, and fits of the laws of the glass
+/// transition to them.
+GlassStudy glass_study(const std::vector<RunAnalysis>& runs);
+/// One row per run: packing fraction, compressibility, diffusion coefficients; and the glass study.
 Results results_of_sweep(const std::vector<RunAnalysis>& runs);
 
 /// Writes the HDF5 file and beside it one CSV file per table, <name>_<table>.csv.

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
+#include <nlohmann/json.hpp>
 #include <tuple>
+
+#include "analysis/order.h"
 
 namespace vitrel {
 namespace {
@@ -15,13 +17,9 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double least_order = 0.5;      // nematic order of a nematic
 constexpr double well_above_chance = 3;  // in units of the order of as many rotors without any
 
-double chance_order(std::size_t rotors) {
-  return std::sqrt(std::numbers::pi / (4 * static_cast<double>(rotors)));
-}
-
 bool is_nematic(const GlassRun& run) {
   return run.nematic_order.mean >=
-         std::max(least_order, well_above_chance * chance_order(run.rotors));
+         std::max(least_order, well_above_chance * nematic_order_by_chance(run.rotors));
 }
 
 double mean_square(const std::vector<double>& series) {
@@ -186,36 +184,34 @@ constexpr const char* kinds_text =
     "connected part), 3 diffusion (1/D), 4 rotational diffusion (1/D_r)";
 
 Table relaxation_table(const GlassStudy& study) {
-  Rows rows("relaxation",
-            fmt::format("Relaxation times, one row per run and kind. {}. verdict: 0 equilibrated, "
-                        "1 ageing, 2 not enough time; fitted: 1 if the row enters the fits. "
-                        "orientation: 0 round, 1 relaxes, 2 nematic order, 3 frozen. nematic: S, "
-                        "beside that of as many rotors without order; plateau: of L_2 by order.",
-                        kinds_text),
-            {{"packing_fraction", "1", {}, {}},
-             {"seed", "1", {}, {}},
-             {"kind", "1", {}, {}},
-             {"tau", "time", {}, {}},
-             {"duration", "time", {}, {}},
-             {"verdict", "1", {}, {}},
-             {"fitted", "1", {}, {}},
-             {"nematic", "1", {}, {}},
-             {"nematic_by_chance", "1", {}, {}},
-             {"plateau", "1", {}, {}},
-             {"orientation", "1", {}, {}}});
-  const std::vector<bool> has_error = {false, false, false, true,  false, false,
-                                       false, true,  false, false, false};
+  Rows rows(
+      "relaxation",
+      "Relaxation times, one row per run. tau_translation: F_s = 1/e; tau_rotation: L_2 = 1/e, "
+      "in a nematic its connected part. verdict: 0 equilibrated, 1 ageing, 2 not enough time; "
+      "only equilibrated runs enter the fits. nematic_order: S, beside that of as many "
+      "rotors without order; plateau: of L_2 by order, 0 if not nematic. orientation: 0 round, "
+      "1 relaxes, 2 nematic order, 3 frozen.",
+      {{"packing_fraction", "1", {}, {}},
+       {"seed", "1", {}, {}},
+       {"duration", "time", {}, {}},
+       {"verdict", "1", {}, {}},
+       {"tau_translation", "time", {}, {}},
+       {"tau_rotation", "time", {}, {}},
+       {"nematic_order", "1", {}, {}},
+       {"nematic_by_chance", "1", {}, {}},
+       {"plateau", "1", {}, {}},
+       {"orientation", "1", {}, {}}});
+  const std::vector<bool> has_error = {false, false, false, false, true,
+                                       true,  true,  false, false, false};
   for (const GlassRun& run : study.runs)
-    for (const GlassKind kind : glass_kinds) {
-      if (!applies(kind, run)) continue;
-      const double chance = run.rotors > 0 ? chance_order(run.rotors) : unknown;
-      rows.add(
-          {plain(run.packing_fraction), plain(static_cast<double>(run.seed)), plain(number(kind)),
-           time_of(kind, run), plain(run.duration), plain(number(run.equilibration.verdict)),
-           plain(enters_fit(kind, run)), Time{run.nematic_order.mean, run.nematic_order.error},
-           plain(chance), plain(run.plateau), plain(number(run.orientation))},
-          has_error);
-    }
+    rows.add({plain(run.packing_fraction), plain(static_cast<double>(run.seed)),
+              plain(run.duration), plain(number(run.equilibration.verdict)),
+              Time{run.translation.value, run.translation.error},
+              Time{run.rotation.value, run.rotation.error},
+              Time{run.nematic_order.mean, run.nematic_order.error},
+              plain(run.rotors > 0 ? nematic_order_by_chance(run.rotors) : unknown),
+              plain(run.plateau), plain(number(run.orientation))},
+             has_error);
   return std::move(rows).table();
 }
 
@@ -406,6 +402,32 @@ std::vector<std::pair<std::string, std::string>> glass_notes(const GlassStudy& s
       add(fmt::format("{}, {}: no phi_c, {}", name_of(studied.kind), name_of(studied.law),
                       studied.fit.reason));
   return notes;
+}
+
+nlohmann::ordered_json glass_summary(const GlassRun& run) {
+  return {{"verdict", name_of(run.equilibration.verdict)},
+          {"reason", run.equilibration.reason},
+          {"orientation", name_of(run.orientation)},
+          {"nematic_order", run.nematic_order.mean},
+          {"tau_translation", run.translation.value},
+          {"tau_translation_error", run.translation.error},
+          {"tau_rotation", run.rotation.value},
+          {"tau_rotation_error", run.rotation.error}};
+}
+
+nlohmann::ordered_json glass_summary(const GlassStudy& study) {
+  nlohmann::ordered_json fits = nlohmann::ordered_json::array();
+  for (const auto& [kind, law, fit] : study.laws) {
+    const bool found = fit.verdict == GlassVerdict::found;
+    const bool bounded = fit.verdict != GlassVerdict::refused;
+    fits.push_back({{"kind", name_of(kind)},
+                    {"law", name_of(law)},
+                    {"phi_c", found ? fit.density : unknown},
+                    {"phi_c_error", found ? fit.error : unknown},
+                    {"phi_c_least", bounded ? fit.least : unknown},
+                    {"reason", fit.reason}});
+  }
+  return fits;
 }
 
 std::string glass_text(const GlassStudy& study) {

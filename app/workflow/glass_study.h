@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -94,12 +95,16 @@ struct GlassStudy {
 /// Both laws for all kinds, from the runs that were in equilibrium and have a time with an error.
 GlassStudy study_glass(std::vector<GlassRun> runs);
 
-/// Tables `relaxation` (one row per run and kind), `glass_fit` (one row per kind and law) and
+/// Tables `relaxation` (one row per run), `glass_fit` (one row per kind and law) and
 /// `glass_fit_windows` (one row per kind, law and window). Kinds, laws and verdicts are numbers there,
 /// which the descriptions explain.
 std::vector<Table> glass_tables(const GlassStudy& study);
 /// What numbers cannot say, as provenance: why runs stay out of the fits, why a law has no φ_c.
 std::vector<std::pair<std::string, std::string>> glass_notes(const GlassStudy& study);
+/// Times, order and verdict of one run.
+nlohmann::ordered_json glass_summary(const GlassRun& run);
+/// φ_c of every kind and law, or why there is none.
+nlohmann::ordered_json glass_summary(const GlassStudy& study);
 /// A page for people: densities with order, verdict and times, and where the laws put φ_c.
 std::string glass_text(const GlassStudy& study);
 

@@ -316,33 +316,5 @@ std::vector<double> lags_up_to(int last) {
   return lag;
 }
 
-TEST(LongTimeDiffusion, IsGivenOnlyWhereMotionIsDiffusive) {
-  const std::vector<double> lag = lags_up_to(90);
-  // Langevin: 4 D (t − τ(1 − e^{−t/τ})) with D = 0.5, τ = 2; the offset drops out.
-  const Diffusion d = long_time_diffusion(
-      lag, square(lag, [](double t) { return 2 * (t - 2 * (1 - std::exp(-t / 2))); }), 2);
-  EXPECT_NEAR(d.value, 0.5, 0.01);
-  // Errors 0.01·2·88 and 0.01·2·28, over 4·60.
-  EXPECT_NEAR(d.error, 0.01 * 2 * std::hypot(88, 28) / 240, 1e-4);
-  // m' = 2 − 1/√t: the slopes are 2 − 2 (√a − √b)/(a − b), 5 % apart, and that is the error.
-  const Diffusion slow =
-      long_time_diffusion(lag,
-                          square(
-                              lag, [](double t) { return 2 * t - 2 * std::sqrt(t); }, 1e-6),
-                          1);
-  const auto steepness = [](double from, double to) {
-    return 1 - (std::sqrt(to) - std::sqrt(from)) / (to - from);
-  };
-  EXPECT_NEAR(slow.value, steepness(30, 90), 1e-3);
-  EXPECT_NEAR(slow.error, steepness(30, 90) - steepness(10, 30), 1e-3);
-  const auto ballistic = square(lag, [](double t) { return t * t; });
-  EXPECT_TRUE(std::isnan(long_time_diffusion(lag, ballistic, 2).value));
-  const auto caged = square(lag, [](double t) { return 0.01 * t; });
-  EXPECT_TRUE(std::isnan(long_time_diffusion(lag, caged, 2).value));
-  const std::vector<double> few = lags_up_to(5);
-  EXPECT_TRUE(
-      std::isnan(long_time_diffusion(few, square(few, [](double t) { return t; }), 1).value));
-}
-
 }  // namespace
 }  // namespace vitrel

@@ -145,7 +145,23 @@ TEST(Equilibration, WithoutEvidenceThereIsNotEnoughTime) {
   run.series = {{"S", autoregressive(1000, 0.999, draw)}};
   const Equilibration slow = judge_equilibration(run);
   EXPECT_EQ(slow.verdict, EquilibrationVerdict::too_short);
-  EXPECT_NE(slow.reason.find("S is correlated"), std::string::npos) << slow.reason;
+  EXPECT_NE(slow.reason.find("times the correlation time of S = "), std::string::npos)
+      << slow.reason;
+}
+
+// A correlation time of a hundred steps, estimated from the series itself: six of them, and forty.
+TEST(Equilibration, TenCorrelationTimesOfASeriesAreNeeded) {
+  int few = 0, many = 0;
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    Stream draw(seed, Purpose::tests, 3);
+    RunEvidence run{4000, {}, {}, {{"tau", known(1)}}};
+    run.series = {{"S", autoregressive(600, 0.99, draw)}};
+    few += judge_equilibration(run).verdict == EquilibrationVerdict::equilibrated;
+    run.series = {{"S", autoregressive(4000, 0.99, draw)}};
+    many += judge_equilibration(run).verdict == EquilibrationVerdict::equilibrated;
+  }
+  EXPECT_LE(few, 50);
+  EXPECT_GE(many, 95);
 }
 
 // Independent values, where blocking is exact: the rate is the stated 1 %, 20 ± 4.5 of 2000 runs.

@@ -1,0 +1,83 @@
+#include "app/workflow/glass_data.h"
+
+#include <algorithm>
+
+namespace vitrel {
+namespace {
+
+constexpr double nematic_order_of_l = 2;  // the n of L_n that is judged
+
+/// Null if it was not measured.
+const Correlation* l_2(const Displacements& found) {
+  const auto order = std::find(found.orders.begin(), found.orders.end(), nematic_order_of_l);
+  const std::vector<Correlation>& orientation = found.groups.front().orientation;
+  const auto index = static_cast<std::size_t>(order - found.orders.begin());
+  return index < orientation.size() ? &orientation[index] : nullptr;
+}
+
+Decay decay(const Displacements& found, const Correlation& correlation) {
+  return {found.lag, correlation.value, correlation.error};
+}
+
+BlockedCurve blocked(const Displacements& found, const Correlation& correlation) {
+  return {found.lag, correlation.value, correlation.error, correlation.blocks};
+}
+
+std::vector<HalvesOfCurve> halves(Trajectory& trajectory, const DisplacementOptions& options) {
+  const std::size_t middle = trajectory.frames() / 2;
+  if (middle < 2) return {};
+  TrajectoryPart early(trajectory, 0, middle);
+  TrajectoryPart late(trajectory, middle, trajectory.frames());
+  const Displacements first = displacements(early, options);
+  const Displacements second = displacements(late, options);
+  const DisplacementGroup& before = first.groups.front();
+  const DisplacementGroup& after = second.groups.front();
+  std::vector<HalvesOfCurve> curves{
+      {"the mean squared displacement", blocked(first, before.translation),
+       blocked(second, after.translation)},
+      {"F_s", blocked(first, before.self_scattering.front()),
+       blocked(second, after.self_scattering.front())}};
+  if (const Correlation* l = l_2(first))
+    curves.push_back({"L_2", blocked(first, *l), blocked(second, *l_2(second))});
+  return curves;
+}
+
+}  // namespace
+
+std::optional<GlassRunData> glass_run_data(Trajectory& trajectory, const AnalysedRun& run,
+                                           DisplacementOptions options) {
+  const Displacements& found = run.displacements;
+  const DisplacementGroup& all = found.groups.front();
+  const Correlation* l = l_2(found);
+  if (!evenly_spaced(trajectory.times()) || (run.rotors > 0 && !l)) return std::nullopt;
+  GlassRunData data{};
+  data.name = run.name;
+  data.packing_fraction = run.packing_fraction;
+  data.seed = run.seed;
+  data.rotors = run.rotors;
+  data.duration = trajectory.times().back() - trajectory.times().front();
+  data.scattering = decay(found, all.self_scattering.front());
+  data.diffusion = diffusion_coefficient(found, all.translation, 2, trajectory.times());
+  if (run.rotors > 0) {
+    data.orientation = decay(found, *l);
+    data.nematic_order = run.order.find("nematic")->value;
+    data.rotational_diffusion = diffusion_coefficient(found, all.rotation, 1, trajectory.times());
+  }
+  if (!run.compressibility.value.empty())
+    data.series.push_back({"the compressibility factor", run.compressibility.value});
+  data.series.push_back({"the hexatic order", run.order.find("hexatic")->value});
+  options.wave_numbers = {found.wave_numbers.front()};
+  options.orders = {nematic_order_of_l};
+  data.halves = halves(trajectory, options);
+  return data;
+}
+
+DiffusionCoefficient diffusion_coefficient(const Displacements& displacements,
+                                           const Correlation& square, int dimension,
+                                           const std::vector<double>& times) {
+  const double duration = evenly_spaced(times) ? times.back() - times.front() : 0;
+  return diffusion_coefficient({displacements.lag, square.value, square.error, duration},
+                               dimension);
+}
+
+}  // namespace vitrel

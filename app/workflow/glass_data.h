@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+
+#include "analysis/displacement.h"
+#include "analysis/energy.h"
+#include "analysis/results.h"
+#include "app/workflow/glass_study.h"
+
+namespace vitrel {
+
+/// What the analysis has found out about a run.
+struct AnalysedRun {
+  std::string name;
+  std::uint64_t seed;
+  double packing_fraction;
+  std::size_t rotors;
+  const Displacements& displacements;
+  const CompressibilitySeries& compressibility;
+  const Table& order;  ///< the table `order`
+};
+
+/// What the glass study needs of it: F_s at the first of the wave numbers, L_2, order, diffusion, and
+/// these curves once more from each half of the run. No value for runs that are not evenly sampled,
+/// which cannot be judged, and for rotors without L_2 (order 2 was not asked for).
+std::optional<GlassRunData> glass_run_data(Trajectory& trajectory, const AnalysedRun& run,
+                                           DisplacementOptions options);
+
+/// Long-time diffusion coefficient of a mean square displacement (dimension 2) or rotation (1).
+DiffusionCoefficient diffusion_coefficient(const Displacements& displacements,
+                                           const Correlation& square, int dimension,
+                                           const std::vector<double>& times);
+
+}  // namespace vitrel
