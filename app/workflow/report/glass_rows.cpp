@@ -56,10 +56,10 @@ std::string relaxation_row(const Row& row) {
   const bool nematic = row.value("plateau") > 0;
   return html_row(
       density_text(row.value("packing_fraction")),
-      {row.text("seed"), row.text("duration"), row.text("tau_translation"),
+      {row.text("seed"), std::string(row.word("verdict", verdicts)),
+       std::string(row.word("orientation", orientations)), row.text("tau_translation"),
        row.text("tau_rotation"), row.text("nematic_order"), row.text("nematic_by_chance"),
-       nematic ? row.text("plateau") : "–", std::string(row.word("orientation", orientations)),
-       std::string(row.word("verdict", verdicts))});
+       nematic ? row.text("plateau") : "–", row.text("duration")});
 }
 
 std::string critical_density(const Row& row) {

@@ -7,8 +7,8 @@
 /// The glass study in words, for people: the rows of two tables of the page, and the notes below them.
 namespace vitrel {
 
-/// One row per run: φ, seed, duration, τ_α, τ_2, nematic order and that by chance, plateau of L_2,
-/// what orientations do, verdict. From the table `relaxation`; empty without it.
+/// One row per run: φ, seed, verdict, what orientations do, τ_α, τ_2, nematic order and that by
+/// chance, plateau of L_2, duration. From the table `relaxation`; empty without it.
 std::string relaxation_rows(const Results& study);
 
 /// One row per kind of time and law: φ_c with its error, or the bound "> 0.81", or "–" if the law was
