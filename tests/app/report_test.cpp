@@ -81,18 +81,72 @@ TEST(ReportPage, TableHasOneRowPerRunInTheOrderOfDensities) {
   EXPECT_EQ(count(page, "<td>123\u202f456</td>"), 3u);
   EXPECT_EQ(count(page, "<td>300\u202f000</td>"), 3u);
   // The rotational diffusion coefficients are not known.
-  EXPECT_EQ(count(page, "<td>–</td>"), 3u);
+  EXPECT_EQ(count(page.substr(table), "<td>–</td>"), 3u);
 }
 
-TEST(ReportPage, TableNamesFitsAndVerdicts) {
+TEST(ReportPage, TableOfFitsGivesValuesBoundsAndDashes) {
   const std::string page = report_page(sweep(2, 1));
-  EXPECT_NE(page.find("<tr><th scope=\"row\">rotation</th><td>power law</td><td>0.8100 ± "
-                      "0.0040</td><td>2.50 ± 0.20</td><td>0.6 … 0.72</td></tr>"),
-            std::string::npos);
-  EXPECT_EQ(count(page, "<td>Vogel–Fulcher</td>"), 1u);
-  EXPECT_EQ(count(page, "<td>equilibrated</td>"), 10u);
-  EXPECT_EQ(count(page, "<td>ageing</td>"), 2u);
-  EXPECT_EQ(count(page, "<td>not enough time</td>"), 2u);
+  const auto row = [&page](const std::string& cells) {
+    return count(page, "<tr>" + cells + "</tr>");
+  };
+  EXPECT_EQ(row("<th scope=\"row\">translation, τ<sub>α</sub></th><td>power law</td>"
+                "<td>0.8000 ± 0.0050</td><td>0.003</td><td>0.004</td><td>2.00 ± 0.10</td>"
+                "<td>0.62 … 0.72</td><td>1.20</td><td>1</td>"),
+            1u);
+  EXPECT_EQ(row("<th scope=\"row\">rotation, τ<sub>2</sub></th><td>power law</td>"
+                "<td>&gt; 0.795</td><td>–</td><td>–</td><td>–</td>"
+                "<td>0.6 … 0.66</td><td>1.00</td><td>1.5</td>"),
+            1u);
+  EXPECT_EQ(row("<th scope=\"row\">rotation, τ<sub>2</sub></th><td>Vogel–Fulcher</td>"
+                "<td>–</td><td>–</td><td>–</td><td>–</td>"
+                "<td>0.6 … 0.66</td><td>20.00</td><td>1.5</td>"),
+            1u);
+  EXPECT_EQ(count(page, "<th scope=\"row\">rotation in the nematic, τ<sub>2</sub></th>"), 1u);
+  EXPECT_EQ(count(page, "<th scope=\"row\">diffusion, 1/D</th>"), 1u);
+}
+
+TEST(ReportPage, LawsThatNoDataCouldBeFittedToHaveNoWindow) {
+  ReportData data = sweep(2, 1);
+  Table& fits = data.study.tables[1];
+  for (Column& column : fits.columns) {
+    const bool told = column.name == "kind" || column.name == "law" || column.name == "scatter";
+    column.value = {told ? 1 : column.name == "verdict" ? 2 : none};
+    if (!column.error.empty()) column.error = {none};
+  }
+  EXPECT_EQ(
+      count(report_page(data),
+            "<tr><th scope=\"row\">rotation, τ<sub>2</sub></th><td>Vogel–Fulcher</td><td>–</td>"
+            "<td>–</td><td>–</td><td>–</td><td>–</td><td>–</td><td>1</td></tr>"),
+      1u);
+}
+
+TEST(ReportPage, TableOfRunsOfTheStudyNamesVerdictsAndOrientations) {
+  const std::string page = report_page(sweep(2, 1));
+  // τ_α = 0.1 (0.8 − 0.6)^−2 and τ_2 = 4 (0.81 − 0.6)^−2.5, errors 5 %.
+  EXPECT_EQ(count(page,
+                  "<tr><th scope=\"row\">0.60</th><td>1</td><td>equilibrated</td><td>relax</td>"
+                  "<td>2.50 ± 0.12</td><td>197.9 ± 9.9</td><td>0.1000 ± 0.0050</td><td>0.04</td>"
+                  "<td>–</td><td>2500</td></tr>"),
+            1u);
+  EXPECT_EQ(count(page, "<td>equilibrated</td><td>nematic order</td>"), 6u);
+  EXPECT_EQ(count(page, "<td>ageing</td><td>nematic order</td>"), 2u);
+  EXPECT_EQ(count(page,
+                  "<td>not enough time</td><td>frozen</td><td>62.5 ± 3.1</td><td>–</td>"
+                  "<td>0.690 ± 0.034</td><td>0.04</td><td>0.4</td><td>2500</td></tr>"),
+            2u);
+}
+
+TEST(ReportPage, NotesOfTheStudyAreAList) {
+  ReportData data = sweep(2, 1);
+  const std::string page = report_page(data);
+  EXPECT_EQ(count(page,
+                  "<ul class=\"note\">\n<li>phi-0.74 (density 0.74, seed 1) stays out of the fits, "
+                  "ageing: S drifts</li>\n<li>rotation, tau_2, Vogel-Fulcher: no phi_c, chi^2 "
+                  "&lt;is&gt; too large</li>\n</ul>"),
+            1u);
+  EXPECT_EQ(count(page, "phi-0.6/run.h5"), 0u);
+  data.study.provenance.clear();
+  EXPECT_EQ(count(report_page(data), "<ul"), 0u);
 }
 
 TEST(ReportPage, CarriesTheTables) {
@@ -117,8 +171,56 @@ TEST(ReportPage, CarriesTheTables) {
   EXPECT_FALSE(energies["columns"]["total"].contains("error"));
   EXPECT_EQ(first["tables"]["pair_correlation"]["columns"]["r"]["value"].size(), 100u);
   EXPECT_TRUE(first["tables"]["summary"]["columns"]["rotational_diffusion"]["value"][0].is_null());
-  EXPECT_EQ(data["study"]["relaxation"]["columns"]["verdict"]["value"].size(), 14u);
+  EXPECT_EQ(data["study"]["relaxation"]["columns"]["verdict"]["value"].size(), 18u);
   EXPECT_EQ(first["movie"]["particles"], 9);
+}
+
+/// Runs of 484 particles in seven groups, with twelve frames each in the page.
+ReportData many_runs(std::size_t runs) {
+  ReportData data = sweep(2, 1);
+  ReportRun run = report_example::run(0.7, report_example::lattice(22, 12));
+  for (const char* group : {"C", "D", "E", "F"})
+    for (Table& table : report_example::correlations(10, group))
+      run.results.tables.push_back(std::move(table));
+  data.runs.assign(runs, run);
+  return data;
+}
+
+std::size_t rows_of(const nlohmann::json& page, const char* table, const char* column) {
+  return page["runs"][0]["tables"][table]["columns"][column]["value"].size();
+}
+
+TEST(ReportPage, TablesOfManyRunsAreThinnedUntilThePageHasTwoMegabytes) {
+  const std::string few = report_page(many_runs(4)), many = report_page(many_runs(20));
+  const nlohmann::json all = embedded_data(few), thinned = embedded_data(many);
+  EXPECT_LT(few.size(), 2'000'000u);
+  EXPECT_EQ(rows_of(all, "energies", "time"), 334u);
+  EXPECT_LT(many.size(), 2'000'000u);
+  // Not more than is needed: a step takes a quarter.
+  EXPECT_GT(many.size(), 1'600'000u);
+  EXPECT_LT(rows_of(thinned, "energies", "time"), rows_of(all, "energies", "time"));
+  EXPECT_LT(rows_of(thinned, "displacements_A", "time"), rows_of(all, "displacements_A", "time"));
+  // The study is not thinned.
+  EXPECT_EQ(thinned["study"], all["study"]);
+}
+
+TEST(ReportPage, TablesOfManyRunsKeepFiveRowsADecade) {
+  const nlohmann::json data = embedded_data(report_page(many_runs(100)));
+  // Times 0.5 … 250 at 20 · 0.75⁵ a decade; 1000 rows by strides of 11, as 400 · 0.75⁵ rounds to 94.
+  EXPECT_EQ(data["runs"][0]["tables"]["energies"]["stride"], 11);
+  EXPECT_GE(rows_of(data, "displacements_A", "time"), 10u);
+  EXPECT_LE(rows_of(data, "displacements_A", "time"), 14u);
+}
+
+TEST(ReportPage, TablesThatItDoesNotShowStayOut) {
+  ReportData data = sweep(2, 1);
+  const std::size_t size = report_page(data).size();
+  for (const char* name : {"on_the_fly_all", "glass_fit_windows", "runs"}) {
+    const Table table{name, "", {report_example::plain("time", "time", {1, 2, 3})}};
+    data.study.tables.push_back(table);
+    data.runs[0].results.tables.push_back(table);
+  }
+  EXPECT_EQ(report_page(data).size(), size);
 }
 
 TEST(ReportPage, RunsOfEqualDensityAreToldApartByWhatDiffersInTheirNames) {

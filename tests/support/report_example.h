@@ -193,33 +193,65 @@ inline ReportRun run(double phi, MemoryTrajectory trajectory) {
   return run;
 }
 
-/// Two seeds at every density; the densest are not equilibrated, and stay out of the fit.
-inline Results study() {
-  std::vector<double> phi, seed, verdict;
-  for (const double density : {0.6, 0.64, 0.68, 0.7, 0.72, 0.74, 0.76})
+/// Two seeds at every density. From 0.68 on particles are nematic, at 0.76 their orientations are
+/// frozen; the densest are not equilibrated, and stay out of the fits.
+inline Table relaxation_table() {
+  std::vector<double> phi, seed, verdict, orientation, plateau;
+  for (const double density : {0.6, 0.62, 0.64, 0.66, 0.68, 0.7, 0.72, 0.74, 0.76})
     for (const double number : {1.0, 2.0}) {
       phi.push_back(density);
       seed.push_back(number);
       verdict.push_back(density < 0.73 ? 0 : density < 0.75 ? 1 : 2);
+      orientation.push_back(density < 0.67 ? 1 : density < 0.75 ? 2 : 3);
+      plateau.push_back(density < 0.67 ? 0 : 0.4);
     }
+  const auto rotation = [](double x) {
+    return x > 0.75 ? none : (x < 0.67 ? 4 : 0.8) * std::pow(0.81 - x, -2.5);
+  };
   return {
-      {{"relaxation",
-        "",
-        {plain("packing_fraction", "1", phi), plain("seed", "1", seed),
-         column("tau_rotation", "time", phi, [](double x) { return 4 * std::pow(0.81 - x, -2.5); }),
-         column("tau_translation", "time", phi, relaxation_time),
-         column("nematic_order", "1", phi, [](double x) { return 2 * x - 0.9; }),
-         plain("verdict", "1", verdict)}},
-       {"glass_fit",
-        "",
-        {plain("kind", "1", {0, 1, 1}),
-         plain("law", "1", {0, 0, 1}),
-         {"phi_c", "1", {0.81, 0.8, 0.85}, {0.004, 0.003, 0.02}},
-         {"exponent", "1", {2.5, 2, 0.6}, {0.2, 0.1, 0.3}},
-         plain("amplitude", "time", {4, 0.1, 0.6}),
-         plain("window_low", "1", {0.6, 0.6, 0.6}),
-         plain("window_high", "1", {0.72, 0.72, 0.72})}}},
-      {}};
+      "relaxation",
+      "",
+      {plain("packing_fraction", "1", phi), plain("seed", "1", seed),
+       plain("duration", "time", constant(phi.size(), 2500)), plain("verdict", "1", verdict),
+       column("tau_translation", "time", phi, relaxation_time),
+       column("tau_rotation", "time", phi, rotation),
+       column("nematic_order", "1", phi, [](double x) { return x < 0.67 ? 0.1 : 0.6 + x - 0.67; }),
+       plain("nematic_by_chance", "1", constant(phi.size(), 0.04)), plain("plateau", "1", plateau),
+       plain("orientation", "1", orientation)}};
+}
+
+/// Of translation both laws are found, of rotation there is a bound or nothing; both laws agree with the
+/// times, and at the middle of the window with one another.
+inline Table fit_table() {
+  const double vogel_fulcher = std::log(relaxation_time(0.66)) - 0.6 * 0.66 / (0.85 - 0.66);
+  return {
+      "glass_fit",
+      "",
+      {plain("kind", "1", {0, 0, 1, 1, 2, 3}),
+       plain("law", "1", {0, 1, 0, 1, 0, 0}),
+       plain("verdict", "1", {0, 0, 1, 2, 1, 0}),
+       {"phi_c", "1", {0.8, 0.85, none, none, none, 0.79}, {0.005, 0.02, none, none, none, 0.01}},
+       plain("phi_c_statistical", "1", {0.003, 0.012, none, none, none, 0.006}),
+       plain("phi_c_spread", "1", {0.004, 0.016, none, none, none, 0.008}),
+       plain("phi_c_least", "1", {0.792, 0.82, 0.795, none, 0.785, 0.78}),
+       {"exponent", "1", {2, 0.6, none, none, none, 2.2}, {0.1, 0.3, none, none, none, 0.2}},
+       plain("window_low", "1", {0.62, 0.62, 0.6, 0.6, 0.68, 0.62}),
+       plain("window_high", "1", {0.72, 0.72, 0.66, 0.66, 0.72, 0.72}),
+       plain("densities", "1", {6, 6, 4, 4, 3, 6}),
+       plain("window_phi_c", "1", {0.8, 0.85, 0.81, none, 0.81, 0.79}),
+       plain("window_exponent", "1", {2, 0.6, 2.5, none, 2.5, 2.2}),
+       plain("window_log_prefactor", "ln(time)",
+             {std::log(0.1), vogel_fulcher, std::log(4), none, std::log(0.8), 0}),
+       plain("chi2", "1", {3.6, 4.5, 1, 20, 1, 3}),
+       plain("dof", "1", {3, 3, 1, 1, 1, 3}),
+       plain("scatter", "1", {1, 1, 1.5, 1.5, 1, 1})}};
+}
+
+inline Results study() {
+  return {{relaxation_table(), fit_table()},
+          {{"row_0", "sweep/phi-0.6/run.h5"},
+           {"note_1", "phi-0.74 (density 0.74, seed 1) stays out of the fits, ageing: S drifts"},
+           {"note_2", "rotation, tau_2, Vogel-Fulcher: no phi_c, chi^2 <is> too large"}}};
 }
 
 /// A sweep of three densities.

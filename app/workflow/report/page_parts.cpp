@@ -10,9 +10,9 @@ namespace vitrel {
 
 using nlohmann::json;
 
-json page_number(double value) {
+json page_number(double value, int digits) {
   if (!std::isfinite(value)) return nullptr;
-  return std::stod(fmt::format("{:.6g}", value));
+  return std::stod(fmt::format("{:.{}g}", value, digits));
 }
 
 std::string grouped(std::uint64_t number) {

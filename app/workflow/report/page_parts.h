@@ -14,13 +14,14 @@
 namespace vitrel {
 
 /// Six significant digits are more than any pixel shows; JSON has no NaN, null stands for it.
-nlohmann::json page_number(double value);
+nlohmann::json page_number(double value, int digits = 6);
 
 /// These rows of a column.
 template <class Values, class Rows>
-nlohmann::json page_numbers(const Values& values, const Rows& rows) {
+nlohmann::json page_numbers(const Values& values, const Rows& rows, int digits = 6) {
   nlohmann::json array = nlohmann::json::array();
-  for (const std::size_t row : rows) array.push_back(page_number(static_cast<double>(values[row])));
+  for (const std::size_t row : rows)
+    array.push_back(page_number(static_cast<double>(values[row]), digits));
   return array;
 }
 

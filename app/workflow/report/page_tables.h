@@ -8,12 +8,19 @@
 /// Tables of results, as the pages carry and show them.
 namespace vitrel {
 
+/// How many rows tables keep at most.
+struct Thinning {
+  double rows_per_decade = 20;  ///< of correlations, whose first column is the time
+  std::size_t most_rows = 400;  ///< evenly, of energies, compressibility, order and all others
+};
+
 /// For the script: a table by its name; in it the columns by theirs, with unit, value and error (if
-/// there is any), and the stride that evenly spaced rows were thinned by.
-///
-/// Correlations, whose first column is the time, keep 20 rows a decade; the series energies,
-/// compressibility and order, and tables of any other kind, 400 rows evenly.
-nlohmann::json tables_data(const Results& results);
+/// there is any), and the stride that evenly spaced rows were thinned by. Tables that the page does
+/// not show stay out.
+nlohmann::json tables_data(const Results& results, const Thinning& thinning);
+
+/// A packing fraction with two decimals if that is exact, else four: 0.50, 0.7125.
+std::string density_text(double phi);
 
 /// The one number, or one of several, of a column, with its error as "1.234 ± 0.012"; "–" if the
 /// table, the column or the number is not there.

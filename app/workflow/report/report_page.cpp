@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "app/workflow/report/glass_rows.h"
 #include "app/workflow/report/page_parts.h"
 #include "app/workflow/report/page_tables.h"
 
@@ -15,6 +16,9 @@ namespace {
 
 using nlohmann::json;
 
+constexpr std::size_t most_bytes = 2'000'000;
+constexpr double fewest_rows_per_decade = 5;
+
 /// The runs by packing fraction.
 std::vector<const ReportRun*> ordered(const std::vector<ReportRun>& runs) {
   std::vector<const ReportRun*> order;
@@ -23,12 +27,6 @@ std::vector<const ReportRun*> ordered(const std::vector<ReportRun>& runs) {
     return left->packing_fraction < right->packing_fraction;
   });
   return order;
-}
-
-/// With two decimals if that is exact, else four: 0.50, 0.7125.
-std::string density(double phi) {
-  const bool two_suffice = std::abs(phi * 100 - std::round(phi * 100)) < 1e-6;
-  return fmt::format("{:.{}f}", phi, two_suffice ? 2 : 4);
 }
 
 /// What comes after the beginning that all these names share, cut behind an underscore.
@@ -47,19 +45,19 @@ std::string distinction(const std::string& name, const std::vector<std::string>&
 std::string label(const ReportRun& run, const std::vector<ReportRun>& runs) {
   std::vector<std::string> equals;
   for (const ReportRun& other : runs)
-    if (density(other.packing_fraction) == density(run.packing_fraction))
+    if (density_text(other.packing_fraction) == density_text(run.packing_fraction))
       equals.push_back(other.name);
-  return "φ = " + density(run.packing_fraction) +
+  return "φ = " + density_text(run.packing_fraction) +
          (equals.size() > 1 ? " (" + distinction(run.name, equals) + ")" : "");
 }
 
-json run_data(const ReportRun& run, const std::vector<ReportRun>& runs) {
+json run_data(const ReportRun& run, const std::vector<ReportRun>& runs, const Thinning& thinning) {
   return {{"label", label(run, runs)},
           {"name", run.name},
           {"dynamics", run.dynamics},
           {"packingFraction", page_number(run.packing_fraction)},
           {"collisionsPerSecond", page_number(run.collisions_per_second)},
-          {"tables", tables_data(run.results)},
+          {"tables", tables_data(run.results, thinning)},
           {"movie", movie_data(run.movie)}};
 }
 
@@ -79,7 +77,7 @@ std::string table_row(const ReportRun& run) {
     return table_value(run.results, "summary", column);
   };
   const double duration = value("duration");
-  return "<tr><th scope=\"row\">" + density(run.packing_fraction) + "</th>" +
+  return "<tr><th scope=\"row\">" + density_text(run.packing_fraction) + "</th>" +
          text("compressibility") + text("diffusion") + text("rotational_diffusion") +
          text("translational_energy") +
          (value("rotors") == 0 ? cell("–") : text("rotational_energy")) +
@@ -88,49 +86,11 @@ std::string table_row(const ReportRun& run) {
          count_cell(value("particles")) + cell(escaped(run.name)) + "</tr>\n";
 }
 
-std::string verdict(double value) {
-  return value == 0 ? "equilibrated" : value == 1 ? "ageing" : "not enough time";
-}
-
-std::string relaxation_rows(const Results& study) {
-  const Table* table = study.find("relaxation");
-  std::string rows;
-  for (std::size_t k = 0; table && k < table->rows(); ++k) {
-    const auto text = [&](const char* column) {
-      return cell(table_text(study, table->name, column, k));
-    };
-    rows += "<tr><th scope=\"row\">" +
-            density(table_value(study, table->name, "packing_fraction", k)) + "</th>" +
-            text("seed") + text("tau_rotation") + text("tau_translation") + text("nematic_order") +
-            cell(verdict(table_value(study, table->name, "verdict", k))) + "</tr>\n";
-  }
-  return rows;
-}
-
-std::string fit_rows(const Results& study) {
-  const Table* table = study.find("glass_fit");
-  std::string rows;
-  for (std::size_t k = 0; table && k < table->rows(); ++k) {
-    const auto text = [&](const char* column) { return table_text(study, table->name, column, k); };
-    const auto value = [&](const char* column) {
-      return table_value(study, table->name, column, k);
-    };
-    rows += fmt::format("<tr><th scope=\"row\">{}</th>",
-                        value("kind") == 0 ? "rotation" : "translation") +
-            cell(value("law") == 0 ? "power law" : "Vogel–Fulcher") + cell(text("phi_c")) +
-            cell(text("exponent")) + cell(text("window_low") + " … " + text("window_high")) +
-            "</tr>\n";
-  }
-  return rows;
-}
-
-}  // namespace
-
-std::string report_page(const ReportData& data) {
+std::string page_with(const ReportData& data, const Thinning& thinning) {
   json runs = json::array();
   std::string rows;
   for (const ReportRun* run : ordered(data.runs)) {
-    runs.push_back(run_data(*run, data.runs));
+    runs.push_back(run_data(*run, data.runs, thinning));
     rows += table_row(*run);
   }
   return whole_page({data.title,
@@ -139,10 +99,24 @@ std::string report_page(const ReportData& data) {
                      "page/report.js",
                      {{"table_rows", rows},
                       {"relaxation_rows", relaxation_rows(data.study)},
-                      {"fit_rows", fit_rows(data.study)}},
-                     {{"runs", std::move(runs)}, {"study", tables_data(data.study)}},
+                      {"fit_rows", fit_rows(data.study)},
+                      {"study_notes", study_notes(data.study)}},
+                     {{"runs", std::move(runs)}, {"study", tables_data(data.study, {})}},
                      data.parameters,
                      data.provenance});
+}
+
+}  // namespace
+
+std::string report_page(const ReportData& data) {
+  Thinning thinning;
+  std::string page = page_with(data, thinning);
+  while (page.size() > most_bytes && thinning.rows_per_decade > fewest_rows_per_decade) {
+    thinning.rows_per_decade *= 0.75;
+    thinning.most_rows = thinning.most_rows * 3 / 4;
+    page = page_with(data, thinning);
+  }
+  return page;
 }
 
 }  // namespace vitrel

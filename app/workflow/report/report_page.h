@@ -25,7 +25,7 @@ struct ReportData {
   std::string title;
   std::string subtitle;         ///< one line below it: what was simulated
   std::vector<ReportRun> runs;  ///< shown in the order of their packing fraction
-  Results study = {};           ///< tables over all runs: relaxation, glass_fit
+  Results study = {};           ///< tables over all runs: relaxation, glass_fit; notes
   std::string parameters;       ///< TOML text
   PageProvenance provenance;    ///< shown if not empty
 };
@@ -35,10 +35,11 @@ struct ReportData {
 /// provenance. A chart is there if its table is: displacements_<group>, self_scattering_<group> with
 /// wave_numbers, orientation_<group>, susceptibility, collective_scattering, structure_factor,
 /// pair_correlation, orientation_distribution, order, energies, compressibility, summary; of the
-/// study, relaxation and glass_fit.
+/// study, relaxation and glass_fit (glass_rows.h).
 ///
 /// To stay small, tables are thinned (page_tables.h), and movies are what film (movie.h) made of
-/// them; the page says where it shows a part only.
+/// them; the page says where it shows a part only. If the page has more than 2 MB, which many runs
+/// can do, all tables of runs are thinned in steps of a quarter, down to about 5 rows a decade and 100 rows evenly.
 std::string report_page(const ReportData& data);
 
 }  // namespace vitrel

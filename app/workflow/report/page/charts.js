@@ -155,10 +155,24 @@ function drawLevel(plot, value) {
   });
 }
 
-/** An abscissa with its error: a dashed upright line in a band. */
-function drawUpright(plot, { value, error, colour, label }, row) {
+/** From a lower bound on to larger values. */
+function drawArrow(ctx, x, y) {
+  const length = 16 * devicePixelRatio, head = 5 * devicePixelRatio;
+  ctx.setLineDash([]);
+  ctx.beginPath();
+  ctx.moveTo(x, y);
+  ctx.lineTo(x + length, y);
+  ctx.moveTo(x + length - head, y - head);
+  ctx.lineTo(x + length, y);
+  ctx.lineTo(x + length - head, y + head);
+  ctx.stroke();
+}
+
+/** An abscissa with its error: a dashed upright line in a band; of one that is open, a lower bound, with an arrow. */
+function drawUpright(plot, { value, error, open, colour, label }, row) {
   insideFrame(plot, (ctx, { top, height }) => {
     const [low, x, high] = [-1, 0, 1].map((sign) => plot.valToPos(value + sign * (error ?? 0), 'x', true));
+    const y = top + height - (10 + 17 * row) * devicePixelRatio;
     ctx.fillStyle = ctx.strokeStyle = colour();
     ctx.globalAlpha = 0.14;
     ctx.fillRect(low, top, high - low, height);
@@ -169,9 +183,14 @@ function drawUpright(plot, { value, error, colour, label }, row) {
     ctx.moveTo(x, top);
     ctx.lineTo(x, top + height);
     ctx.stroke();
+    if (open) drawArrow(ctx, x, y - 4 * devicePixelRatio);
     ctx.font = `${12 * devicePixelRatio}px system-ui, sans-serif`;
     ctx.textAlign = 'right';
-    ctx.fillText(label, x - 5 * devicePixelRatio, top + height - (10 + 17 * row) * devicePixelRatio);
+    ctx.strokeStyle = cssColour('--card');
+    ctx.lineWidth = 4 * devicePixelRatio;
+    ctx.setLineDash([]);
+    ctx.strokeText(label, x - 5 * devicePixelRatio, y);
+    ctx.fillText(label, x - 5 * devicePixelRatio, y);
   });
 }
 
@@ -199,7 +218,7 @@ function drawSlope(plot, slope) {
 }
 
 function seriesOptions(curve, shown) {
-  const series = { stroke: curve.colour(), width: 2, spanGaps: true, points: { show: false }, show: shown };
+  const series = { stroke: curve.colour(), width: curve.thin ? 1 : 2, spanGaps: true, points: { show: false }, show: shown };
   if (curve.dashed) series.dash = [7, 5];
   if (!curve.points) return series;
   const fill = curve.points === 'hollow' ? cssColour('--card') : curve.colour();
@@ -224,8 +243,10 @@ function moveByKey(chart, event) {
   const places = data.x.map((_, i) => i).filter((i) => data.values[k][i] !== null && (!along || (i - from) * along > 0));
   if (!places.length) return;
   const i = places.reduce((best, i) => Math.abs(i - from) < Math.abs(best - from) ? i : best);
-  chart.focused = k;
   plot.setCursor({ left: plot.valToPos(data.x[i], 'x'), top: plot.valToPos(data.values[k][i], 'y') });
+  // Where curves meet, the cursor would take the first of them.
+  plot.setSeries(k + 1, { focus: true });
+  readOut(chart);
 }
 
 function readOut(chart) {
@@ -238,9 +259,9 @@ function readOut(chart) {
 
 /**
  * One chart in `host`. `description`: heading; xSymbol, xUnit; logX, logY; file, the name of its CSV; range, slopes, hint;
- * variants, of which a select shows one: [{label, symbol, unit, curves, levels, uprights}].
- * A curve: {label, x, value, error, colour(), points: 'full' or 'hollow' instead of a line, dashed, id}. Curves are
- * switched off by their `id`, in the legend of the chart or from outside (show).
+ * variants, of which a select shows one: [{label, symbol, unit, curves, levels, uprights, rangeX}].
+ * A curve: {label, x, value, error, colour(), points: 'full' or 'hollow' instead of a line, dashed, thin, id}. Curves are
+ * switched off by their `id`, in the legend of the chart or from outside (show); the legend names the first of each.
  */
 class Chart {
   constructor(host, description) {
@@ -292,7 +313,8 @@ class Chart {
 
   /** A single curve needs none, nor do curves that a legend outside the chart names. */
   fillLegend() {
-    const curves = this.variant.curves;
+    const all = this.variant.curves;
+    const curves = all.filter((curve, k) => all.findIndex(({ id }) => id === curve.id) === k);
     this.legend.hidden = this.legendOutside || curves.length < 2;
     this.legend.replaceChildren(...curves.map((curve) => legendButton(curve, !this.hidden.has(curve.id),
       (shown) => this.show(curve.id, shown))));
@@ -305,13 +327,13 @@ class Chart {
 
   draw() {
     this.plot?.destroy();
-    const { curves, levels = [], uprights = [] } = this.variant;
+    const { curves, levels = [], uprights = [], rangeX = this.rangeX } = this.variant;
     const scale = (logarithmic) => logarithmic ? { distr: 3, time: false } : { time: false };
     const rangeOf = (range, logarithmic) => range || logarithmic ? { range: range ?? logarithmicRange } : {};
     this.plot = new uPlot({
       ...this.size(),
       padding: [10, 20, 0, 0],
-      scales: { x: { ...scale(this.logX), ...rangeOf(this.rangeX, this.logX) },
+      scales: { x: { ...scale(this.logX), ...rangeOf(rangeX, this.logX) },
                 y: { ...scale(this.logY), ...rangeOf(this.range, this.logY) } },
       axes: [axisOptions(this.logX, 30), axisOptions(this.logY, labelWidth)],
       series: [{}, ...curves.map((curve) => seriesOptions(curve, !this.hidden.has(curve.id)))],

@@ -133,8 +133,9 @@ function familyChart(family) {
     if (groups.length && family.missing) byId(family.section).append(element('p', { class: 'note' }, family.missing));
     return null;
   }
+  const stride = Math.max(...runs.flatMap((run) => groups.map((group) => tableOf(run, family, group)?.stride ?? 1)));
   return addChart(family.section, { ...family, variants, legendOutside: runs.length > 1, file: fileName(family.heading),
-    slopes: family.slopes ? slopesOf(variants) : [] });
+    hint: stride > 1 ? `Shown: one point in ${stride}.` : '', slopes: family.slopes ? slopesOf(variants) : [] });
 }
 
 // The legend of the runs stands above every group of charts, and all of these act alike.
@@ -221,57 +222,109 @@ function densityCharts() {
 
 // Glass
 
-const kinds = [{ name: 'rotation', column: 'tau_rotation' }, { name: 'translation', column: 'tau_translation' }];
+const kinds = ['translation', 'rotation', 'rotation in the nematic'];
+const orientations = [null, { label: 'orientations relax', kind: 1 }, { label: 'kept by nematic order', kind: 2 },
+                      { label: 'frozen', kind: 6 }];
+const found = 0, lowerBound = 1, notEquilibrated = ', not equilibrated';
 
-function relaxationPoints(column, name, kind) {
-  const { packing_fraction: phi, verdict, [column]: tau } = study.relaxation.columns;
-  const rows = phi.value.map((_, k) => k).filter((k) => tau.value[k] !== null);
-  const points = (wanted, label, style) => {
-    const chosen = rows.filter((k) => (verdict.value[k] === 0) === wanted);
+/** These rows of the table `relaxation` that have a value, as points: full, or hollow if the run is not in equilibrium. */
+function glassPoints(column, rows, label, colour) {
+  const { packing_fraction: phi, verdict, [column]: { value, error } } = study.relaxation.columns;
+  return [['full', ''], ['hollow', notEquilibrated]].map(([points, suffix]) => {
+    const chosen = rows.filter((k) => value[k] !== null && (verdict.value[k] === 0) === (points === 'full'));
     const pick = (values) => chosen.map((k) => values?.[k] ?? null);
-    return { x: pick(phi.value), value: pick(tau.value), error: pick(tau.error), points: style, label, id: label,
-             colour: () => curveColour(kind) };
-  };
-  return [points(true, name, 'full'), points(false, name + ', not equilibrated', 'hollow')].filter((curve) => curve.x.length);
+    return { x: pick(phi.value), value: pick(value), error: pick(error), points, label: label + suffix, id: label + suffix, colour };
+  }).filter((curve) => curve.x.length);
+}
+
+const glassRows = () => study.relaxation.columns.packing_fraction.value.map((_, k) => k);
+
+function timesOf(kind) {
+  const { orientation, plateau } = study.relaxation.columns;
+  const nematic = (k) => orientation.value[k] === 2 || plateau.value[k] > 0;
+  const rows = glassRows().filter((k) => kind === 0 || nematic(k) === (kind === 2));
+  return glassPoints(kind === 0 ? 'tau_translation' : 'tau_rotation', rows, kinds[kind], () => curveColour(kind));
 }
 
 const laws = [
-  { name: 'power law', at: (phi, { phiC, exponent, amplitude }) => amplitude * (phiC - phi) ** -exponent },
-  { name: 'Vogel–Fulcher', at: (phi, { phiC, exponent, amplitude }) => amplitude * Math.exp(exponent * phi / (phiC - phi)) },
+  { name: 'power law', logarithm: (phi, { phiC, s, logPrefactor }) => logPrefactor - s * Math.log(phiC - phi) },
+  { name: 'Vogel–Fulcher', logarithm: (phi, { phiC, s, logPrefactor }) => logPrefactor + s * phi / (phiC - phi) },
 ];
 
-/** The fits as [{curve, upright}]; curves reach over the fitted window and on towards φ_c. */
-function glassFits() {
-  const table = study.glass_fit?.columns;
-  if (!table) return [];
-  return table.kind.value.flatMap((kind, k) => {
-    const fit = { phiC: table.phi_c.value[k], exponent: table.exponent.value[k], amplitude: table.amplitude.value[k] };
-    const low = table.window_low.value[k], high = table.window_high.value[k];
-    if (Object.values(fit).includes(null) || low === null || high === null) return [];
-    const law = laws[table.law.value[k]];
-    const end = high + 0.6 * (fit.phiC - high);
-    const x = Array.from({ length: 80 }, (_, i) => low + (end - low) * i / 79);
-    const colour = () => curveColour(kind);
-    const label = `${kinds[kind].name}, ${law.name}`;
-    return [{ curve: { x, value: x.map((phi) => law.at(phi, fit)), label, id: label, colour, dashed: table.law.value[k] === 1 },
-              upright: { value: fit.phiC, error: table.phi_c.error?.[k], colour, label: `φc ${kinds[kind].name}` },
-              law: table.law.value[k] }];
-  });
+/** The law over the best window, and dashed a little beyond: a quarter of it, or until times are ten times as long. */
+function lawCurves(name, law, fit, colour) {
+  const { low, high, phiC } = fit;
+  if ([low, high, phiC, fit.s, fit.logPrefactor].includes(null)) return [];
+  const least = Math.min(...study.relaxation.columns.packing_fraction.value);
+  const at = (phi) => Math.exp(law.logarithm(phi, fit));
+  const grid = (from, to) => Array.from({ length: 41 }, (_, i) => from + (to - from) * i / 40);
+  const reach = 0.25 * (high - low), id = `${name}, ${law.name}`;
+  const curve = (suffix, dashed, x) => ({ x, value: x.map(at), label: id + suffix, id, colour, dashed });
+  return [curve('', false, grid(low, high)),
+          curve(', below its window', true, grid(Math.max(least, low - reach), low)),
+          curve(', above its window', true, grid(high, Math.min(high + reach, phiC))
+            .filter((phi) => phi < phiC && at(phi) <= 10 * at(high)))];
+}
+
+function markOf(name, columns, k, colour) {
+  const of = (column) => columns[column].value[k];
+  if (of('verdict') === found)
+    return { value: of('phi_c'), error: columns.phi_c.error[k], colour, label: `φc ${name} = ${of('phi_c').toFixed(3)}` };
+  const least = of('phi_c_least');
+  return { value: least, open: true, colour, label: `φc ${name} > ${least.toFixed(3)}` };
+}
+
+/** What a law makes of the times shown: curves, and φ_c as uprights. */
+function fitsOf(law) {
+  const columns = study.glass_fit.columns;
+  const of = (column, k) => columns[column].value[k];
+  const fits = columns.kind.value.map((_, k) => k)
+    .filter((k) => of('law', k) === law && of('kind', k) < kinds.length && [found, lowerBound].includes(of('verdict', k)))
+    .map((k) => {
+      const name = kinds[of('kind', k)], colour = () => curveColour(of('kind', k));
+      const fit = { low: of('window_low', k), high: of('window_high', k), phiC: of('window_phi_c', k),
+                    s: of('window_exponent', k), logPrefactor: of('window_log_prefactor', k) };
+      return { curves: lawCurves(name, laws[law], fit, colour), upright: markOf(name, columns, k, colour) };
+    });
+  return { curves: fits.flatMap(({ curves }) => curves), uprights: fits.map(({ upright }) => upright) };
+}
+
+function timesChart() {
+  const points = kinds.flatMap((_, kind) => timesOf(kind));
+  if (!points.length) return;
+  const variant = (label, { curves, uprights }) => {
+    const reach = uprights.map(({ value, error }) => value + (error ?? 0));
+    return { label, symbol: 'τ', unit: timeUnit, curves: [...points, ...curves], uprights,
+             rangeX: (plot, low, high) => density.rangeX(plot, low, Math.max(high, ...reach)) };
+  };
+  const variants = study.glass_fit ? laws.map(({ name }, law) => variant('with ' + name, fitsOf(law)))
+                                   : [variant('', { curves: [], uprights: [] })];
+  addChart('glass', { heading: 'Relaxation times', ...density, logY: true, file: 'relaxation_times.csv', variants });
+}
+
+/** The order of rotors that have none is not zero, as there are so few. */
+function orderByChance() {
+  const { packing_fraction: phi, nematic_by_chance: chance } = study.relaxation.columns;
+  const rows = glassRows().filter((k) => chance.value[k] !== null && phi.value[k] !== phi.value[k - 1]);
+  return { x: rows.map((k) => phi.value[k]), value: rows.map((k) => chance.value[k]), label: 'by chance', id: 'by chance',
+           colour: () => cssColour('--quiet'), thin: true };
+}
+
+function orderChart() {
+  const { orientation } = study.relaxation.columns;
+  const points = orientations.flatMap((kept, code) => !kept ? [] : glassPoints('nematic_order',
+    glassRows().filter((k) => orientation.value[k] === code), kept.label, () => curveColour(kept.kind)));
+  if (!points.length) return;
+  addChart('glass', { heading: 'Nematic order', ...density, file: 'nematic_order.csv', range: () => [0, 1],
+    variants: [{ symbol: 'S', unit: '', curves: [...points, orderByChance()] }] });
 }
 
 function glassCharts() {
+  byId('glass').closest('section').hidden = !study.relaxation;
   byId('fits').parentElement.hidden = !study.glass_fit;
-  byId('times').parentElement.hidden = !study.relaxation;
   if (!study.relaxation) return;
-  const fits = glassFits();
-  const curves = [...kinds.flatMap(({ column, name }, kind) => relaxationPoints(column, name, kind)), ...fits.map(({ curve }) => curve)];
-  const uprights = fits.filter(({ law }) => law === 0).map(({ upright }) => upright);
-  const rangeX = (plot, low, high) => density.rangeX(plot, low, Math.max(high, ...uprights.map(({ value, error }) => value + (error ?? 0))));
-  addChart('glass', { heading: 'Relaxation times', ...density, rangeX, logY: true, file: 'relaxation_times.csv',
-    variants: [{ symbol: 'τ', unit: timeUnit, curves, uprights }] });
-  const order = relaxationPoints('nematic_order', 'nematic order', 2);
-  if (order.length) addChart('glass', { heading: 'Nematic order', ...density, file: 'nematic_order.csv', range: () => [0, 1],
-    variants: [{ symbol: 'S', unit: '', curves: order }] });
+  timesChart();
+  orderChart();
 }
 
 // The page
@@ -298,7 +351,7 @@ function start() {
   runLegends(charts);
   densityCharts();
   glassCharts();
-  ['motion', 'relaxation', 'structure', 'glass', 'over-density'].forEach(hideIfEmpty);
+  ['motion', 'relaxation', 'structure', 'over-density'].forEach(hideIfEmpty);
   recolour();
 }
 

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "analysis/results.h"
+
+/// The glass study in words, for people: the rows of two tables of the page, and the notes below them.
+namespace vitrel {
+
+/// One row per run: φ, seed, verdict, what orientations do, τ_α, τ_2, nematic order and that by
+/// chance, plateau of L_2, duration. From the table `relaxation`; empty without it.
+std::string relaxation_rows(const Results& study);
+
+/// One row per kind of time and law: φ_c with its error, or the bound "> 0.81", or "–" if the law was
+/// refused; the two parts of the error, the exponent, the best window and how well the law fits there.
+/// From the table `glass_fit`; empty without it.
+std::string fit_rows(const Results& study);
+
+/// The notes of the study (entries note_1, note_2 … of its provenance) as a list; empty without any.
+std::string study_notes(const Results& study);
+
+}  // namespace vitrel
