@@ -450,7 +450,7 @@ class Page(unittest.TestCase):
         self.open("sweep.html")
         self.assertEqual(self.glass_legend(2), [["orientations relax", "full"], ["kept by nematic order", "full"],
                                                 ["kept by nematic order, not equilibrated", "hollow"],
-                                                ["frozen, not equilibrated", "hollow"], ["by chance", "line"]])
+                                                ["not relaxed within the run, not equilibrated", "hollow"], ["by chance", "line"]])
 
     def test_notes_of_the_study_are_below_its_tables(self):
         self.open("sweep.html")

@@ -20,7 +20,7 @@ constexpr std::array<std::string_view, 5> kinds = {
 constexpr std::array<std::string_view, 2> laws = {"power law", "Vogel–Fulcher"};
 constexpr std::array<std::string_view, 3> verdicts = {"equilibrated", "ageing", "not enough time"};
 constexpr std::array<std::string_view, 4> orientations = {"round", "relax", "nematic order",
-                                                          "frozen"};
+                                                          "do not relax"};
 constexpr double found = 0, lower_bound = 1;
 
 /// One row of a table.
@@ -74,7 +74,8 @@ std::string fit_row(const Row& row) {
       {std::string(row.word("law", laws)), critical_density(row), row.text("phi_c_statistical"),
        row.text("phi_c_spread"), row.text("exponent"),
        dof > 0 ? fmt::format("{} … {}", row.text("window_low"), row.text("window_high")) : "–",
-       dof > 0 ? fmt::format("{:.2f}", row.value("chi2") / dof) : "–", row.text("scatter")});
+       dof > 0 ? fmt::format("{:.2f}", row.value("chi2") / dof) : "–",
+       dof > 0 ? row.text("scatter") : "–"});
 }
 
 }  // namespace

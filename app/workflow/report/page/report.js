@@ -224,7 +224,7 @@ function densityCharts() {
 
 const kinds = ['translation', 'rotation', 'rotation in the nematic'];
 const orientations = [null, { label: 'orientations relax', kind: 1 }, { label: 'kept by nematic order', kind: 2 },
-                      { label: 'frozen', kind: 6 }];
+                      { label: 'not relaxed within the run', kind: 6 }];
 const found = 0, lowerBound = 1, notEquilibrated = ', not equilibrated';
 
 /** These rows of the table `relaxation` that have a value, as points: full, or hollow if the run is not in equilibrium. */
