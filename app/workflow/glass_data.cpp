@@ -23,23 +23,21 @@ BlockedCurve blocked(const Displacements& found, const Correlation& correlation)
   return {found.lag, correlation.value, correlation.error, correlation.blocks};
 }
 
-std::vector<HalvesOfCurve> halves(Trajectory& trajectory, const DisplacementOptions& options) {
+void add_halves(GlassRunData& data, Trajectory& trajectory, const DisplacementOptions& options) {
   const std::size_t middle = trajectory.frames() / 2;
-  if (middle < 2) return {};
+  if (middle < 2) return;
   TrajectoryPart early(trajectory, 0, middle);
   TrajectoryPart late(trajectory, middle, trajectory.frames());
   const Displacements first = displacements(early, options);
   const Displacements second = displacements(late, options);
   const DisplacementGroup& before = first.groups.front();
   const DisplacementGroup& after = second.groups.front();
-  std::vector<HalvesOfCurve> curves{
-      {"the mean squared displacement", blocked(first, before.translation),
-       blocked(second, after.translation)},
-      {"F_s", blocked(first, before.self_scattering.front()),
-       blocked(second, after.self_scattering.front())}};
+  data.halves = {{"the mean squared displacement", blocked(first, before.translation),
+                  blocked(second, after.translation)},
+                 {"F_s", blocked(first, before.self_scattering.front()),
+                  blocked(second, after.self_scattering.front())}};
   if (const Correlation* l = l_2(first))
-    curves.push_back({"L_2", blocked(first, *l), blocked(second, *l_2(second))});
-  return curves;
+    data.rotation_halves = {{"L_2", blocked(first, *l), blocked(second, *l_2(second))}};
 }
 
 }  // namespace
@@ -68,7 +66,7 @@ std::optional<GlassRunData> glass_run_data(Trajectory& trajectory, const Analyse
   data.series.push_back({"the hexatic order", run.order.find("hexatic")->value});
   options.wave_numbers = {found.wave_numbers.front()};
   options.orders = {nematic_order_of_l};
-  data.halves = halves(trajectory, options);
+  add_halves(data, trajectory, options);
   return data;
 }
 

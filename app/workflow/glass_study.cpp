@@ -44,13 +44,16 @@ void judge_orientation(GlassRun& run, const GlassRunData& data) {
                               : Orientation::relaxes;
 }
 
-Equilibration judge(const GlassRun& run, const GlassRunData& data) {
+void judge(GlassRun& run, const GlassRunData& data) {
   RunEvidence evidence{data.duration, data.series, data.halves, {{"tau_alpha", run.translation}}};
+  run.translation_equilibration = judge_equilibration(evidence);
   if (data.rotors > 0) {
     evidence.series.push_back({"the nematic order", data.nematic_order});
+    evidence.curves.insert(evidence.curves.end(), data.rotation_halves.begin(),
+                           data.rotation_halves.end());
     evidence.times.push_back({"tau_2", run.rotation});
   }
-  return judge_equilibration(evidence);
+  run.equilibration = judge_equilibration(evidence);
 }
 
 /// A time of one kind and its error; NaN if the run has none.
@@ -96,13 +99,19 @@ Time time_of(GlassKind kind, const GlassRun& run) {
   return {unknown, unknown};
 }
 
-bool equilibrated(const GlassRun& run) {
-  return run.equilibration.verdict == EquilibrationVerdict::equilibrated;
+bool equilibrated(const Equilibration& equilibration) {
+  return equilibration.verdict == EquilibrationVerdict::equilibrated;
+}
+
+/// Whether a run was in equilibrium as far as this kind of time needs it.
+bool equilibrated(GlassKind kind, const GlassRun& run) {
+  const bool places_suffice = kind == GlassKind::translation || kind == GlassKind::diffusion;
+  return equilibrated(places_suffice ? run.translation_equilibration : run.equilibration);
 }
 
 bool enters_fit(GlassKind kind, const GlassRun& run) {
   const Time time = time_of(kind, run);
-  return applies(kind, run) && equilibrated(run) && time.value > 0 && time.error > 0;
+  return applies(kind, run) && equilibrated(kind, run) && time.value > 0 && time.error > 0;
 }
 
 const char* name_of(GlassKind kind) {
@@ -188,24 +197,27 @@ Table relaxation_table(const GlassStudy& study) {
       "relaxation",
       "Relaxation times, one row per run. tau_translation: F_s = 1/e; tau_rotation: L_2 = 1/e, "
       "in a nematic its connected part. verdict: 0 equilibrated, 1 ageing, 2 not enough time; "
-      "only equilibrated runs enter the fits. nematic_order: S, beside that of as many "
+      "verdict_translation, whatever rotation does; only equilibrated runs enter the fits, of "
+      "translation by the latter. nematic_order: S, beside that of as many "
       "rotors without order; plateau: of L_2 by order, 0 if not nematic. orientation: 0 round, "
       "1 relaxes, 2 nematic order, 3 frozen.",
       {{"packing_fraction", "1", {}, {}},
        {"seed", "1", {}, {}},
        {"duration", "time", {}, {}},
        {"verdict", "1", {}, {}},
+       {"verdict_translation", "1", {}, {}},
        {"tau_translation", "time", {}, {}},
        {"tau_rotation", "time", {}, {}},
        {"nematic_order", "1", {}, {}},
        {"nematic_by_chance", "1", {}, {}},
        {"plateau", "1", {}, {}},
        {"orientation", "1", {}, {}}});
-  const std::vector<bool> has_error = {false, false, false, false, true,
+  const std::vector<bool> has_error = {false, false, false, false, false, true,
                                        true,  true,  false, false, false};
   for (const GlassRun& run : study.runs)
     rows.add({plain(run.packing_fraction), plain(static_cast<double>(run.seed)),
               plain(run.duration), plain(number(run.equilibration.verdict)),
+              plain(number(run.translation_equilibration.verdict)),
               Time{run.translation.value, run.translation.error},
               Time{run.rotation.value, run.rotation.error},
               Time{run.nematic_order.mean, run.nematic_order.error},
@@ -359,7 +371,7 @@ GlassRun judge_glass_run(const GlassRunData& data) {
   run.rotational_diffusion = data.rotational_diffusion;
   run.translation = relaxation_time(data.scattering);
   judge_orientation(run, data);
-  run.equilibration = judge(run, data);
+  judge(run, data);
   return run;
 }
 
@@ -392,11 +404,15 @@ std::vector<std::pair<std::string, std::string>> glass_notes(const GlassStudy& s
   const auto add = [&](const std::string& text) {
     notes.emplace_back(fmt::format("note_{}", notes.size() + 1), text);
   };
+  const auto add_run = [&](const GlassRun& run, const char* what, const Equilibration& why) {
+    add(fmt::format("{} (density {:.4g}, seed {}): {} stays out of the fits, {}: {}", run.name,
+                    run.packing_fraction, run.seed, what, name_of(why.verdict), why.reason));
+  };
   for (const GlassRun& run : study.runs)
-    if (!equilibrated(run))
-      add(fmt::format("{} (density {:.4g}, seed {}) stays out of the fits, {}: {}", run.name,
-                      run.packing_fraction, run.seed, name_of(run.equilibration.verdict),
-                      run.equilibration.reason));
+    if (!equilibrated(run.translation_equilibration))
+      add_run(run, "all", run.translation_equilibration);
+    else if (!equilibrated(run.equilibration))
+      add_run(run, "rotation", run.equilibration);
   for (const StudiedLaw& studied : study.laws)
     if (studied.fit.verdict != GlassVerdict::found)
       add(fmt::format("{}, {}: no phi_c, {}", name_of(studied.kind), name_of(studied.law),
@@ -407,6 +423,7 @@ std::vector<std::pair<std::string, std::string>> glass_notes(const GlassStudy& s
 nlohmann::ordered_json glass_summary(const GlassRun& run) {
   return {{"verdict", name_of(run.equilibration.verdict)},
           {"reason", run.equilibration.reason},
+          {"verdict_translation", name_of(run.translation_equilibration.verdict)},
           {"orientation", name_of(run.orientation)},
           {"nematic_order", run.nematic_order.mean},
           {"tau_translation", run.translation.value},

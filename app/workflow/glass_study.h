@@ -28,7 +28,9 @@ struct GlassRunData {
   Decay orientation;                  ///< L_2(t); empty without rotors
   std::vector<double> nematic_order;  ///< S at evenly spaced times; empty without rotors
   std::vector<ScalarSeries> series;   ///< others that must not drift: compressibility, energy
-  std::vector<HalvesOfCurve> halves;  ///< curves that must be the same in both halves
+  std::vector<HalvesOfCurve>
+      halves;  ///< curves of translation that must be the same in both halves
+  std::vector<HalvesOfCurve> rotation_halves;  ///< the same of rotation
   DiffusionCoefficient diffusion, rotational_diffusion;
 };
 
@@ -52,7 +54,9 @@ struct GlassRun {
   RelaxationTime translation;  ///< τ_α: F_s = 1/e
   RelaxationTime rotation;     ///< τ_2: L_2 = 1/e, in a nematic its connected part
   DiffusionCoefficient diffusion, rotational_diffusion;
-  Equilibration equilibration;
+  Equilibration equilibration;  ///< of everything
+  Equilibration
+      translation_equilibration;  ///< of τ_α, `series` and `halves`, whatever rotation does
 };
 
 /// Relaxation times, order and verdict of one run.
@@ -66,7 +70,8 @@ struct GlassRun {
 /// In a nematic, L_2 does not decay and the mean squared rotation stops although all is in
 /// equilibrium. So it is judged by its connected part (relaxation.h): if that decays, the stop is
 /// order; if it does not, orientations are frozen beyond their order. That S is stationary is part of
-/// the verdict, as are τ_α and τ_2.
+/// the verdict, as are τ_α and τ_2. Translation has a verdict of its own besides: where orientations
+/// stand still, or a director wanders slowly, places may still be in equilibrium among them.
 GlassRun judge_glass_run(const GlassRunData& data);
 
 /// What a law is fitted to.
@@ -92,7 +97,8 @@ struct GlassStudy {
   std::vector<StudiedLaw> laws;  ///< both laws for every kind that some run has a time of
 };
 
-/// Both laws for all kinds, from the runs that were in equilibrium and have a time with an error.
+/// Both laws for all kinds, from the runs that were in equilibrium and have a time with an error;
+/// translation and diffusion by the verdict of translation.
 GlassStudy study_glass(std::vector<GlassRun> runs);
 
 /// Tables `relaxation` (one row per run), `glass_fit` (one row per kind and law) and

@@ -60,7 +60,8 @@ class Study:
                  number(r["nematic_order"][k], r["nematic_order_error"][k], 2),
                  number(r["tau_translation"][k], r["tau_translation_error"][k]),
                  number(r["tau_rotation"][k], r["tau_rotation_error"][k]),
-                 ORIENTATIONS[int(r["orientation"][k])], VERDICTS[int(r["verdict"][k])]]
+                 ORIENTATIONS[int(r["orientation"][k])],
+                 VERDICTS[int(r["verdict_translation"][k])], VERDICTS[int(r["verdict"][k])]]
                 for k in range(len(r["seed"]))]
 
     def fit_rows(self):
@@ -77,7 +78,7 @@ class Study:
         return rows
 
     def text(self):
-        runs = table(["φ", "seed", "duration", "S", "τ_α", "τ_2", "orientation", "verdict"], self.rows())
+        runs = table(["φ", "seed", "duration", "S", "τ_α", "τ_2", "orientation", "places", "all"], self.rows())
         fits = table(["kind", "law", "φ_c", "exponent", "densities", "χ²/dof", "experiment, κ = 6"], self.fit_rows())
         return f"{runs}\n\n{fits}"
 

@@ -300,21 +300,5 @@ TEST(Displacement, OneFrameIsTheUsersMistake) {
   EXPECT_THROW(displacements(trajectory), UserError);
 }
 
-/// A mean square m(t) with small relative errors.
-Correlation square(const std::vector<double>& lag, double (*m)(double), double error = 0.01) {
-  Correlation result;
-  for (const double t : lag) {
-    result.value.push_back(m(t));
-    result.error.push_back(error * m(t));
-  }
-  return result;
-}
-
-std::vector<double> lags_up_to(int last) {
-  std::vector<double> lag;
-  for (int k = 1; k <= last; ++k) lag.push_back(k);
-  return lag;
-}
-
 }  // namespace
 }  // namespace vitrel

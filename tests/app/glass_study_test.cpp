@@ -100,6 +100,7 @@ TEST(GlassRun, DriftOfTheOrderIsAgeing) {
   const GlassRun run = judge_glass_run(data);
   EXPECT_EQ(run.equilibration.verdict, EquilibrationVerdict::ageing);
   EXPECT_THAT(run.equilibration.reason, HasSubstr("the nematic order drifts"));
+  EXPECT_EQ(run.translation_equilibration.verdict, EquilibrationVerdict::equilibrated);
 }
 
 TEST(GlassRun, DisksHaveNoOrientation) {
@@ -146,8 +147,14 @@ TEST(GlassStudy, FindsBothTransitionsFromTheRunsInEquilibrium) {
   EXPECT_NEAR(turning.density, 0.76, 2 * turning.error);
   EXPECT_NEAR(moving.density, 0.80, 2 * moving.error);
   EXPECT_LT(turning.error, 0.005);
-  // 0.76 and 0.78 did not equilibrate: translation, too, ends at 0.74.
-  EXPECT_NEAR(moving.windows[4].highest, 0.74, 1e-9);
+  // At 0.76 and 0.78 orientations did not equilibrate, but places did.
+  const auto highest = [](const GlassFit& fit) {
+    double high = 0;
+    for (const GlassWindow& window : fit.windows) high = std::max(high, window.highest);
+    return high;
+  };
+  EXPECT_NEAR(highest(turning), 0.74, 1e-9);
+  EXPECT_NEAR(highest(moving), 0.78, 1e-9);
   EXPECT_EQ(study.runs.front().packing_fraction, 0.58);
   EXPECT_EQ(study.runs.front().seed, 1u);
 }
@@ -168,6 +175,7 @@ TEST(GlassStudy, TablesSayWhichRunsWereFitted) {
     const GlassRun& run = study.runs[k];
     const bool in_time = relaxation.find("packing_fraction")->value[k] < 0.75;
     EXPECT_EQ(relaxation.find("verdict")->value[k], in_time ? 0 : 2);
+    EXPECT_EQ(relaxation.find("verdict_translation")->value[k], 0);
     EXPECT_EQ(relaxation.find("tau_translation")->value[k], run.translation.value);
     EXPECT_EQ(relaxation.find("tau_translation")->error[k], run.translation.error);
     EXPECT_EQ(relaxation.find("plateau")->value[k], 0);  // none is nematic
@@ -189,8 +197,9 @@ TEST(GlassStudy, NotesAndTextSayWhy) {
   const GlassStudy study = sweep();
   std::string notes;
   for (const auto& [name, text] : glass_notes(study)) notes += text + "\n";
-  EXPECT_THAT(notes, HasSubstr("job_10 (density 0.78, seed 2) stays out of the fits, not enough "
-                               "time: tau_2: still 1 at the longest time"));
+  EXPECT_THAT(notes,
+              HasSubstr("job_10 (density 0.78, seed 2): rotation stays out of the fits, not enough "
+                        "time: tau_2: still 1 at the longest time"));
   EXPECT_THAT(notes, HasSubstr("rotational diffusion, 1/D_r, power law: no phi_c, 0 densities"));
   const std::string text = glass_text(study);
   EXPECT_THAT(text, HasSubstr("do not relax within the run (beyond what order explains) at 0.76, "

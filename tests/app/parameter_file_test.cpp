@@ -139,7 +139,7 @@ const BadFile bad_files[] = {
      "is 101.0, but must lie between 1e-12 of dynamics.duration = 100.0 and all of it"},
     {"[output]\ncorrelations = { wave_numbers = 3 }",
      "file.toml:2:33: key 'output.correlations.wave_numbers' must be an array of numbers, not the "
-     "number 3; for example wave_numbers = [1.0]"},
+     "number 3; for example wave_numbers = [1.0, 2.0]"},
     {"[output]\ncorrelations = { wave_numbers = [3, -1] }",
      "key 'output.correlations.wave_numbers.1' is -1.0, but must be positive"},
     {"[output]\ncheckpoint_interval = -1", "file.toml:2:23: key 'output.checkpoint_interval'"},

@@ -213,6 +213,7 @@ inline Table relaxation_table() {
       "",
       {plain("packing_fraction", "1", phi), plain("seed", "1", seed),
        plain("duration", "time", constant(phi.size(), 2500)), plain("verdict", "1", verdict),
+       plain("verdict_translation", "1", verdict),
        column("tau_translation", "time", phi, relaxation_time),
        column("tau_rotation", "time", phi, rotation),
        column("nematic_order", "1", phi, [](double x) { return x < 0.67 ? 0.1 : 0.6 + x - 0.67; }),

@@ -229,7 +229,8 @@ const found = 0, lowerBound = 1, notEquilibrated = ', not equilibrated';
 
 /** These rows of the table `relaxation` that have a value, as points: full, or hollow if the run is not in equilibrium. */
 function glassPoints(column, rows, label, colour) {
-  const { packing_fraction: phi, verdict, [column]: { value, error } } = study.relaxation.columns;
+  const { packing_fraction: phi, [column]: { value, error } } = study.relaxation.columns;
+  const verdict = study.relaxation.columns[column === 'tau_translation' ? 'verdict_translation' : 'verdict'];
   return [['full', ''], ['hollow', notEquilibrated]].map(([points, suffix]) => {
     const chosen = rows.filter((k) => value[k] !== null && (verdict.value[k] === 0) === (points === 'full'));
     const pick = (values) => chosen.map((k) => values?.[k] ?? null);
