@@ -131,9 +131,11 @@ class CommandLine {
     add_quiet_and_json(sub);
   }
   void add_analyze() {
-    CLI::App& sub =
-        add("analyze", "Displacements, energies and pressure of a run, or of all runs of a sweep.",
-            analyze_command);
+    CLI::App& sub = add(
+        "analyze",
+        "Structure, motion, energies and pressure of a run; relaxation times and the glass "
+        "transition of a sweep, from the results of its jobs, which --params or --set make anew.",
+        analyze_command);
     sub.add_option("run", arguments_.input, "Run, or folder of a sweep")->required();
     add_output(sub,
                "Results to write (HDF5, and CSV tables beside it); default <run>_results.h5 or "

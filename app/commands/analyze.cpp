@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/common.h"
-#include "app/workflow/sweep.h"
+#include "app/workflow/sweep_results.h"
 
 namespace vitrel {
 namespace {
@@ -24,8 +24,8 @@ int analyze_file(const Arguments& arguments) {
   fs::path output = arguments.output;
   if (output.empty())
     output = arguments.input.parent_path() / (arguments.input.stem().string() + "_results.h5");
-  const RunAnalysis analysis = analyze_run(arguments.input, analysis_choice(arguments));
-  write_all(output, results_of(analysis));
+  const AnalysedRun analysis = analyze_run(arguments.input, analysis_choice(arguments));
+  write_all(output, analysis.results);
   Json summary = analysis_summary(analysis);
   summary["output"] = output.string();
   print_summary(arguments, summary);
@@ -35,12 +35,12 @@ int analyze_file(const Arguments& arguments) {
 int analyze_sweep(const Arguments& arguments) {
   const fs::path output =
       arguments.output.empty() ? arguments.input / "results.h5" : arguments.output;
-  std::vector<RunAnalysis> analyses;
+  const AnalysisChoice choice = analysis_choice(arguments);
+  const std::vector<AnalysedRun> analyses = analysed_jobs(arguments.input, choice);
   Json runs = Json::array();
-  for (const fs::path& folder : finished_jobs(arguments.input)) {
-    analyses.push_back(analyze_run(folder / "run.h5", analysis_choice(arguments)));
-    write_all(folder / "results.h5", results_of(analyses.back()));
-    runs.push_back(analysis_summary(analyses.back()));
+  for (const AnalysedRun& run : analyses) {
+    if (choice.given()) write_all(run.file.parent_path() / "results.h5", run.results);
+    runs.push_back(analysis_summary(run));
   }
   write_all(output, results_of_sweep(analyses));
   const GlassStudy study = glass_study(analyses);

@@ -3,7 +3,8 @@
 #include "app/commands/common.h"
 #include "app/workflow/analyze.h"
 #include "app/workflow/quality_file.h"
-#include "app/workflow/sweep.h"
+#include "app/workflow/run_report.h"
+#include "app/workflow/sweep_results.h"
 #include "app/workflow/text_file.h"
 
 namespace vitrel {
@@ -24,13 +25,9 @@ int report_command(const Arguments& arguments) {
   if (!arguments.parameters.empty()) choice.parameters = arguments.parameters;
   choice.overrides = arguments.overrides;
   choice.progress = ProgressDisplay::mode(arguments.quiet);
-  std::vector<RunAnalysis> analyses;
-  if (is_sweep) {
-    for (const fs::path& folder : finished_jobs(arguments.input))
-      analyses.push_back(analyze_run(folder / "run.h5", choice));
-  } else {
-    analyses.push_back(analyze_run(arguments.input, choice));
-  }
+  const std::vector<AnalysedRun> analyses =
+      is_sweep ? analysed_jobs(arguments.input, choice)
+               : std::vector<AnalysedRun>{analyze_run(arguments.input, choice)};
   write_text(output, report_page(report_data(analyses, "vitrel")));
   print_summary(arguments, {{"output", output.string()}, {"runs", analyses.size()}});
   return success;

@@ -42,7 +42,7 @@ void add_halves(GlassRunData& data, Trajectory& trajectory, const DisplacementOp
 
 }  // namespace
 
-std::optional<GlassRunData> glass_run_data(Trajectory& trajectory, const AnalysedRun& run,
+std::optional<GlassRunData> glass_run_data(Trajectory& trajectory, const GlassSource& run,
                                            DisplacementOptions options) {
   const Displacements& found = run.displacements;
   const DisplacementGroup& all = found.groups.front();

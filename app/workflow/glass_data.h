@@ -10,7 +10,7 @@
 namespace vitrel {
 
 /// What the analysis has found out about a run.
-struct AnalysedRun {
+struct GlassSource {
   std::string name;
   std::uint64_t seed;
   double packing_fraction;
@@ -23,7 +23,7 @@ struct AnalysedRun {
 /// What the glass study needs of it: F_s at the first of the wave numbers, L_2, order, diffusion, and
 /// these curves once more from each half of the run. No value for runs that are not evenly sampled,
 /// which cannot be judged, and for rotors without L_2 (order 2 was not asked for).
-std::optional<GlassRunData> glass_run_data(Trajectory& trajectory, const AnalysedRun& run,
+std::optional<GlassRunData> glass_run_data(Trajectory& trajectory, const GlassSource& run,
                                            DisplacementOptions options);
 
 /// Long-time diffusion coefficient of a mean square displacement (dimension 2) or rotation (1).

@@ -22,6 +22,16 @@ bool is_nematic(const GlassRun& run) {
          std::max(least_order, well_above_chance * nematic_order_by_chance(run.rotors));
 }
 
+constexpr const char* reason_key = "verdict_reason";
+constexpr const char* translation_reason_key = "verdict_translation_reason";
+
+/// Empty if the provenance has no such entry.
+std::string text_of(const Results& results, const std::string& name) {
+  for (const auto& [key, text] : results.provenance)
+    if (key == name) return text;
+  return "";
+}
+
 double mean_square(const std::vector<double>& series) {
   double sum = 0;
   for (const double value : series) sum += value * value;
@@ -372,6 +382,53 @@ GlassRun judge_glass_run(const GlassRunData& data) {
   run.translation = relaxation_time(data.scattering);
   judge_orientation(run, data);
   judge(run, data);
+  return run;
+}
+
+void store_glass_run(const GlassRun& run, Results& results) {
+  results.tables.push_back(relaxation_table({{run}, {}}));
+  results.provenance.emplace_back(reason_key, run.equilibration.reason);
+  results.provenance.emplace_back(translation_reason_key, run.translation_equilibration.reason);
+}
+
+std::optional<GlassRun> stored_glass_run(const std::string& name, const Results& results) {
+  const Table* relaxation = results.find("relaxation");
+  const Table* summary = results.find("summary");
+  if (!relaxation || !summary || relaxation->rows() != 1) return std::nullopt;
+  const auto value = [](const Table& table, const char* column) {
+    return table.find(column)->value.front();
+  };
+  const auto error = [](const Table& table, const char* column) {
+    return table.find(column)->error.front();
+  };
+  const auto verdict = [&](const char* column, const char* reason) {
+    const auto code = static_cast<int>(value(*relaxation, column));
+    return Equilibration{static_cast<EquilibrationVerdict>(code), text_of(results, reason)};
+  };
+  const auto time = [&](const char* column) {
+    return RelaxationTime{value(*relaxation, column), error(*relaxation, column), unknown, unknown,
+                          ""};
+  };
+  const auto diffusion = [&](const std::string& column) {
+    return DiffusionCoefficient{value(*summary, column.c_str()), error(*summary, column.c_str()),
+                                value(*summary, (column + "_from").c_str()),
+                                value(*summary, (column + "_to").c_str()), ""};
+  };
+  GlassRun run{};
+  run.name = name;
+  run.packing_fraction = value(*relaxation, "packing_fraction");
+  run.seed = static_cast<std::uint64_t>(value(*relaxation, "seed"));
+  run.rotors = static_cast<std::size_t>(value(*summary, "rotors"));
+  run.duration = value(*relaxation, "duration");
+  run.nematic_order = {value(*relaxation, "nematic_order"), error(*relaxation, "nematic_order"), 0};
+  run.plateau = value(*relaxation, "plateau");
+  run.orientation = static_cast<Orientation>(static_cast<int>(value(*relaxation, "orientation")));
+  run.translation = time("tau_translation");
+  run.rotation = time("tau_rotation");
+  run.diffusion = diffusion("diffusion");
+  run.rotational_diffusion = diffusion("rotational_diffusion");
+  run.equilibration = verdict("verdict", reason_key);
+  run.translation_equilibration = verdict("verdict_translation", translation_reason_key);
   return run;
 }
 

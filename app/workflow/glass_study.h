@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -73,6 +74,11 @@ struct GlassRun {
 /// the verdict, as are τ_α and τ_2. Translation has a verdict of its own besides: where orientations
 /// stand still, or a director wanders slowly, places may still be in equilibrium among them.
 GlassRun judge_glass_run(const GlassRunData& data);
+
+/// Adds a judged run to its results: a table `relaxation` of one row, and reasons in the provenance.
+void store_glass_run(const GlassRun& run, Results& results);
+/// The same from there, with all that a study needs; no value if the results have none.
+std::optional<GlassRun> stored_glass_run(const std::string& name, const Results& results);
 
 /// What a law is fitted to.
 enum class GlassKind {

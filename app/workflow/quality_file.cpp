@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/workflow/analyze.h"
+#include "app/workflow/run_report.h"
 #include "app/workflow/text_file.h"
 #include "core/error.h"
 #include "core/io/h5md.h"

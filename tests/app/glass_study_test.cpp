@@ -213,5 +213,32 @@ TEST(GlassStudy, NotesAndTextSayWhy) {
   EXPECT_THAT(nematic, HasSubstr("no phi_c: 1 densities with a relaxation time"));
 }
 
+/// The results of a run as the analysis stores them.
+Results stored(const GlassRun& run) {
+  const auto column = [](const char* name, double value) {
+    return Column{name, "1", {value}, {0.01 * value}};
+  };
+  Results results;
+  results.tables = {
+      {"summary",
+       "",
+       {column("rotors", static_cast<double>(run.rotors)), column("diffusion", run.diffusion.value),
+        column("diffusion_from", 1), column("diffusion_to", 2),
+        column("rotational_diffusion", run.rotational_diffusion.value),
+        column("rotational_diffusion_from", 1), column("rotational_diffusion_to", 2)}}};
+  store_glass_run(run, results);
+  return results;
+}
+
+TEST(GlassStudy, IsTheSameFromStoredResults) {
+  const GlassStudy study = sweep();
+  std::vector<GlassRun> runs;
+  for (const GlassRun& run : study.runs) runs.push_back(*stored_glass_run(run.name, stored(run)));
+  const GlassStudy again = study_glass(runs);
+  EXPECT_EQ(glass_text(again), glass_text(study));
+  EXPECT_EQ(glass_notes(again), glass_notes(study));
+  EXPECT_FALSE(stored_glass_run("x", {}));
+}
+
 }  // namespace
 }  // namespace vitrel

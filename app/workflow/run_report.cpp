@@ -1,0 +1,100 @@
+#include "app/workflow/run_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "app/workflow/parameters.h"
+#include "app/workflow/stored_run.h"
+#include "app/workflow/sweep_results.h"
+
+namespace vitrel {
+namespace {
+
+std::string dynamics_text(const Provenance& provenance, const std::string& file) {
+  if (provenance.parameters.empty()) return "";
+  const DynamicsParameters p = parse_parameters(provenance.parameters, file).dynamics;
+  return p.kind == DynamicsParameters::Kind::brownian
+             ? fmt::format("Brownian, step {:g}", p.brownian_step)
+             : "Newtonian";
+}
+
+double density(const AnalysedRun& run) {
+  return run.results.find("summary")->find("packing_fraction")->value.front();
+}
+
+constexpr std::size_t most_movies = 6;
+
+/// How many poses the movie of every run may have.
+std::vector<std::size_t> movie_poses(const std::vector<AnalysedRun>& runs) {
+  if (runs.size() == 1) return {MovieLimits{}.poses};
+  std::vector<std::size_t> order(runs.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t left, std::size_t right) {
+    return density(runs[left]) < density(runs[right]);
+  });
+  const std::size_t movies = std::min(runs.size(), most_movies);
+  std::vector<std::size_t> poses(runs.size(), 0);
+  for (std::size_t k = 0; k < movies; ++k)
+    poses[order[k * (runs.size() - 1) / (movies - 1)]] = MovieLimits{}.poses / (2 * movies);
+  return poses;
+}
+
+/// Of wall time, over the whole run; NaN if not recorded.
+double collisions_per_second(const TrajectoryReader& reader) {
+  const std::vector<std::string> names = reader.observable_names();
+  const double seconds = reader.provenance().wall_seconds;
+  if (!(seconds > 0) || std::find(names.begin(), names.end(), "collisions") == names.end())
+    return std::numeric_limits<double>::quiet_NaN();
+  return reader.observable("collisions").back() / seconds;
+}
+
+ReportRun report_run(const AnalysedRun& run, StoredTrajectory& trajectory,
+                     std::size_t movie_poses) {
+  const TrajectoryReader& reader = trajectory.reader();
+  MovieLimits limits;
+  limits.poses = movie_poses;
+  limits.images_known = reader.has("image");
+  return {run.name(),   dynamics_text(reader.provenance(), run.file.string()),
+          density(run), collisions_per_second(reader),
+          run.results,  film(trajectory, limits)};
+}
+
+}  // namespace
+
+std::string particles_text(const Configuration2& state) {
+  if (state.species_names.size() > 1) {
+    std::string names;
+    for (const std::string& name : state.species_names) names += (names.empty() ? "" : ", ") + name;
+    return "particles of species " + names;
+  }
+  const double ratio = state.shape.front().aspect_ratio();
+  for (const Ellipse& shape : state.shape)
+    if (std::abs(shape.aspect_ratio() - ratio) > 1e-9 * ratio) return "ellipses of several shapes";
+  return ratio == 1 ? "disks" : fmt::format("ellipses, κ = {:.4g}", ratio);
+}
+
+ReportData report_data(const std::vector<AnalysedRun>& runs, const std::string& title) {
+  ReportData data;
+  data.title = title;
+  const std::vector<std::size_t> poses = movie_poses(runs);
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    StoredTrajectory trajectory(runs[k].file);
+    data.runs.push_back(report_run(runs[k], trajectory, poses[k]));
+    if (k > 0) continue;
+    const Configuration2& state = trajectory.read(0);
+    const std::string& dynamics = data.runs.front().dynamics;
+    const Provenance provenance = trajectory.reader().provenance();
+    data.subtitle = fmt::format("{} {}{}{}", state.size(), particles_text(state),
+                                dynamics.empty() ? "" : ", ", dynamics);
+    data.parameters = provenance.parameters;
+    data.provenance = provenance_rows(provenance);
+  }
+  if (runs.size() > 1) data.study = results_of_sweep(runs);
+  return data;
+}
+
+}  // namespace vitrel

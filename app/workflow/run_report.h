@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/workflow/analyze.h"
+#include "app/workflow/report/report_page.h"
+#include "core/state/configuration.h"
+
+namespace vitrel {
+
+/// "ellipses, κ = 2" for equal particles, else "particles of species A, B".
+std::string particles_text(const Configuration2& state);
+
+/// The report's view of these runs. Reads the files again, for the movies: one run has 200 000 poses
+/// in its movie; of several, six spread over the densities share half as many, and the others show
+/// their final state.
+ReportData report_data(const std::vector<AnalysedRun>& runs, const std::string& title);
+
+}  // namespace vitrel

@@ -1,0 +1,68 @@
+#include "app/workflow/sweep_results.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "app/workflow/sweep.h"
+#include "core/error.h"
+
+namespace vitrel {
+namespace {
+
+/// The summaries below each other; columns that a run does not have are unknown there.
+Table runs_table(const std::vector<AnalysedRun>& runs) {
+  Table table{"runs", "Averages over every run of the sweep, one run per row.", {}};
+  for (const AnalysedRun& run : runs) {
+    const Table& row = *run.results.find("summary");
+    if (table.columns.empty()) {
+      table.columns = row.columns;
+      continue;
+    }
+    for (Column& column : table.columns) {
+      const Column* value = row.find(column.name);
+      constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+      column.value.push_back(value ? value->value.front() : unknown);
+      if (!column.error.empty())
+        column.error.push_back(value && !value->error.empty() ? value->error.front() : unknown);
+    }
+  }
+  return table;
+}
+
+}  // namespace
+
+std::vector<AnalysedRun> analysed_jobs(const std::filesystem::path& folder,
+                                       const AnalysisChoice& choice) {
+  std::vector<AnalysedRun> runs;
+  for (const std::filesystem::path& job : finished_jobs(folder)) {
+    runs.push_back(choice.given() ? analyze_run(job / "run.h5", choice)
+                                  : AnalysedRun{job / "run.h5", read_results(job / "results.h5")});
+    if (!runs.back().results.find("summary"))
+      throw FileError((job / "results.h5").string() +
+                      ": has no table 'summary'; delete it and repeat the sweep");
+  }
+  return runs;
+}
+
+GlassStudy glass_study(const std::vector<AnalysedRun>& runs) {
+  std::vector<GlassRun> judged;
+  for (const AnalysedRun& run : runs)
+    if (const auto glass = stored_glass_run(run.name(), run.results)) judged.push_back(*glass);
+  return study_glass(std::move(judged));
+}
+
+Results results_of_sweep(const std::vector<AnalysedRun>& runs) {
+  Results results;
+  results.tables.push_back(runs_table(runs));
+  for (const AnalysedRun& run : runs)
+    results.provenance.emplace_back(fmt::format("row_{}", results.provenance.size()),
+                                    run.file.string());
+  const GlassStudy study = glass_study(runs);
+  if (study.runs.empty()) return results;
+  for (Table& table : glass_tables(study)) results.tables.push_back(std::move(table));
+  for (auto& note : glass_notes(study)) results.provenance.push_back(std::move(note));
+  return results;
+}
+
+}  // namespace vitrel
