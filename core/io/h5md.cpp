@@ -257,19 +257,22 @@ void TrajectoryReader::fail(const std::string& what) const {
   throw FileError(path_.string() + ": " + what);
 }
 
-h5::Dataset TrajectoryReader::dataset(const std::string& name, const std::string& meaning) const {
+const h5::Dataset& TrajectoryReader::dataset(const std::string& name,
+                                             const std::string& meaning) const {
+  const auto open = datasets_.find(name);
+  if (open != datasets_.end()) return open->second;
   if (!root_.has_dataset(name))
     fail("the dataset " + name + " is missing: it should hold " + meaning);
-  return root_.dataset(name);
+  return datasets_.emplace(name, root_.dataset(name)).first->second;
 }
 
 /// Frames are counted by `step`, the last thing written of a frame; a single number is the
 /// increment.
 void TrajectoryReader::read_axes() {
-  const h5::Dataset position =
+  const h5::Dataset& position =
       dataset(group_ + "/position/value", "the positions, one frame after another");
-  const h5::Dataset step = dataset(group_ + "/position/step", "the step of every frame");
-  const h5::Dataset time = dataset(group_ + "/position/time", "the time of every frame");
+  const h5::Dataset& step = dataset(group_ + "/position/step", "the step of every frame");
+  const h5::Dataset& time = dataset(group_ + "/position/time", "the time of every frame");
   const h5::Shape shape = position.shape();
   if (shape.size() != 3 || shape[1] != particles())
     fail("the dataset " + position.name() + " should have the shape frames × " +
@@ -292,7 +295,7 @@ void TrajectoryReader::read_axes() {
 }
 
 void TrajectoryReader::read_shapes() {
-  const h5::Dataset semiaxes =
+  const h5::Dataset& semiaxes =
       dataset(group_ + "/semiaxes", "the semi-axes a ≥ b of every particle");
   const h5::Shape shape = semiaxes.shape();
   if (shape.size() != 2 || shape[1] < 2 || shape[1] > 3)
@@ -354,7 +357,7 @@ std::size_t TrajectoryReader::columns(const h5::Dataset& values) const {
 std::vector<double> TrajectoryReader::frame_values(const std::string& element,
                                                    const std::string& meaning, std::uint64_t frame,
                                                    std::size_t per_particle) const {
-  const h5::Dataset values = dataset(group_ + '/' + element + "/value", meaning);
+  const h5::Dataset& values = dataset(group_ + '/' + element + "/value", meaning);
   const std::size_t stored = columns(values);
   std::vector<double> numbers(particles() * stored);
   values.read_frame<double>(frame, numbers);
@@ -374,7 +377,7 @@ std::vector<double> TrajectoryReader::frame_values(const std::string& element,
 void TrajectoryReader::read_box(std::uint64_t frame, Configuration2& configuration) const {
   const std::string path = group_ + "/box/edges";
   const bool fixed = root_.has_dataset(path);
-  const h5::Dataset edges = dataset(fixed ? path : path + "/value", "the box lengths");
+  const h5::Dataset& edges = dataset(fixed ? path : path + "/value", "the box lengths");
   h5::Shape shape = edges.shape();
   if (!fixed && !shape.empty()) shape.erase(shape.begin());
   const std::size_t d = shape.empty() ? 0 : shape[0];
@@ -455,7 +458,7 @@ std::vector<std::string> TrajectoryReader::observable_names() const {
 }
 
 std::vector<double> TrajectoryReader::observable(const std::string& name) const {
-  const h5::Dataset values = dataset("observables/" + name + "/value", "one number per frame");
+  const h5::Dataset& values = dataset("observables/" + name + "/value", "one number per frame");
   std::vector<double> numbers = values.read<double>();
   if (values.shape().size() != 1 || numbers.size() < frames())
     fail("the dataset " + values.name() + " should have one number per frame, " +

@@ -139,7 +139,7 @@ class TrajectoryReader {
   const std::filesystem::path& path() const { return path_; }
 
  private:
-  h5::Dataset dataset(const std::string& name, const std::string& meaning) const;
+  const h5::Dataset& dataset(const std::string& name, const std::string& meaning) const;
   [[noreturn]] void fail(const std::string& what) const;
   void read_axes();
   void read_shapes();
@@ -158,7 +158,8 @@ class TrajectoryReader {
   std::string group_;  ///< of the particles: "particles/all" in vitrel's files
   std::vector<double> times_;
   std::vector<std::int64_t> steps_;
-  Configuration2 fixed_;  ///< what all frames share
+  Configuration2 fixed_;                                 ///< what all frames share
+  mutable std::map<std::string, h5::Dataset> datasets_;  ///< those in use stay open
 };
 
 /// One frame with velocities, complete under its name or not there at all.
