@@ -162,7 +162,7 @@ Results results_of(const RunAnalysis& run) {
   Results results;
   results.tables.push_back({"summary", "Averages over the run.", summary_columns(run)});
   for (Table& table : dynamics_tables(run.dynamics)) results.tables.push_back(std::move(table));
-  results.tables.push_back(energy_table(run.energy));
+  if (!run.energy.time.empty()) results.tables.push_back(energy_table(run.energy));
   if (!run.compressibility.value.empty())
     results.tables.push_back(compressibility_table(run.compressibility));
   results.tables.insert(results.tables.end(), run.structure.begin(), run.structure.end());
@@ -192,6 +192,10 @@ AnalysedRun analyze_run(const std::filesystem::path& file, const AnalysisChoice&
   for (Table& table : on_the_fly_tables(file)) results.tables.push_back(std::move(table));
   results.provenance = provenance_rows(reader.provenance());
   results.provenance.emplace_back("source", file.string());
+  if (run.energy.time.empty())
+    results.provenance.emplace_back("left_out",
+                                    "energies: the file has neither velocities nor the observables "
+                                    "translational_energy and rotational_energy");
   if (run.glass) store_glass_run(*run.glass, results);
   return analysed;
 }

@@ -32,10 +32,8 @@ Observables measure_run(const Frame<2>& frame) {
 EnergySeries stored_energies(StoredTrajectory& trajectory) {
   const TrajectoryReader& reader = trajectory.reader();
   if (!has_observable(reader, "translational_energy") ||
-      !has_observable(reader, "rotational_energy")) {
-    reader.require("velocity", "energies");
-    return energies(trajectory);
-  }
+      !has_observable(reader, "rotational_energy"))
+    return reader.has("velocity") ? energies(trajectory) : EnergySeries{};
   EnergySeries series;
   series.time = reader.times();
   series.translational =
@@ -49,7 +47,8 @@ EnergySeries stored_energies(StoredTrajectory& trajectory) {
 CompressibilitySeries stored_compressibility(const TrajectoryReader& reader,
                                              const EnergySeries& energy, std::size_t rotors) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  if (!has_observable(reader, "virial")) return {{}, {}, {unknown, unknown, 0}};
+  if (energy.time.empty() || !has_observable(reader, "virial"))
+    return {{}, {}, {unknown, unknown, 0}};
   return compressibility(energy, reader.observable("virial"), reader.particles(), rotors);
 }
 

@@ -33,11 +33,10 @@ class StoredTrajectory final : public Trajectory {
   Configuration2 frame_;
 };
 
-/// From the observables if the file has them, else from the velocities; FileError if it has
-/// neither.
+/// From the observables if the file has them, else from the velocities; empty if it has neither.
 EnergySeries stored_energies(StoredTrajectory& trajectory);
 
-/// Without values if the file has no virial.
+/// Without values if there is no energy, or the file has no virial.
 CompressibilitySeries stored_compressibility(const TrajectoryReader& reader,
                                              const EnergySeries& energy, std::size_t rotors);
 

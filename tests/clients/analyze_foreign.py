@@ -1,0 +1,66 @@
+"""Analyses an H5MD file of another program: two-dimensional, a fixed box, other names, nothing of vitrel's own."""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import h5py
+import numpy as np
+
+PROGRAM = sys.argv[1]
+FRAMES, PARTICLES, INTERVAL, SIDE = 300, 40, 0.25, 30.0
+
+draw = np.random.default_rng(1)
+unwrapped = np.cumsum(draw.normal(0, 0.3, (FRAMES, PARTICLES, 2)), axis=0)
+angle = np.cumsum(draw.normal(0, 0.1, (FRAMES, PARTICLES)), axis=0)
+image = np.round(unwrapped / SIDE).astype(np.int32)
+
+
+def write(path, *left_out):
+    with h5py.File(path, "w") as file:
+        file.create_group("h5md").attrs["version"] = np.array([1, 1], dtype=np.int32)
+        rods = file.create_group("particles/rods")
+        rods.create_group("box").attrs["dimension"] = 2
+        rods["box/edges"] = np.array([SIDE, SIDE])
+        rods["semiaxes"] = np.tile([1.5, 0.5], (PARTICLES, 1))
+        series = {"position": unwrapped - image * SIDE, "image": image, "angle": angle}
+        for name, values in series.items():
+            if name in left_out:
+                continue
+            group = rods.create_group(name)
+            group["step"] = np.arange(FRAMES)
+            group["time"] = INTERVAL * np.arange(FRAMES)
+            group["value"] = values
+
+
+def analyze(path):
+    return subprocess.run([PROGRAM, "analyze", path, "-o", path.with_suffix(".results.h5"), "--json"],
+                          capture_output=True, text=True, check=False)
+
+
+def mean_over_origins(function, lag):
+    return np.mean([function(k, k + lag) for k in range(FRAMES - lag)])
+
+
+with tempfile.TemporaryDirectory() as folder:
+    file = pathlib.Path(folder, "rods.h5")
+    write(file)
+    done = analyze(file)
+    assert done.returncode == 0, done.stderr
+    assert json.loads(done.stdout)["particles"] == PARTICLES
+    with h5py.File(file.with_suffix(".results.h5")) as results:
+        moved, turned = results["displacements_all"], results["orientation_all"]
+        for lag in (1, 7, 60):
+            row = np.flatnonzero(np.isclose(moved["time"][:], lag * INTERVAL))[0]
+            msd = mean_over_origins(lambda a, b: np.sum((unwrapped[b] - unwrapped[a])**2, axis=1).mean(), lag)
+            l_2 = mean_over_origins(lambda a, b: np.cos(2 * (angle[b] - angle[a])).mean(), lag)
+            np.testing.assert_allclose(moved["msd"][row], msd, rtol=1e-12)
+            np.testing.assert_allclose(turned["l_2"][row], l_2, rtol=1e-12)
+    for missing in ("image", "angle", "position"):
+        incomplete = pathlib.Path(folder, f"without_{missing}.h5")
+        write(incomplete, missing)
+        done = analyze(incomplete)
+        assert done.returncode == 3, (missing, done.returncode, done.stderr)
+        assert str(incomplete) in done.stderr and f"particles/rods/{missing}" in done.stderr, done.stderr
+        assert not incomplete.with_suffix(".results.h5").exists()
