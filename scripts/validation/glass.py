@@ -8,7 +8,6 @@ from validation.common import PARAMS, ROOT, expect, output_of, summary_of, table
 
 TITLE = "The glass transition of ellipses"
 FOLDER = ROOT / "out" / "glass"  # kept, so that a study that was stopped goes on
-FIGURES = ROOT / "docs" / "figures" / "glass"
 VERDICTS = ("equilibrated", "ageing", "not enough time")
 ORIENTATIONS = ("round", "relaxes", "nematic order", "frozen")
 KINDS = ("translation, τ_α", "rotation, τ_2", "rotation in the nematic, τ_2", "diffusion, 1/D",
@@ -21,7 +20,7 @@ LONGEST = 4 * 3600 * 2  # seconds of one core
 
 
 def columns(results, name):
-    """The columns of a table of results, without those of errors, by name."""
+    """The columns of a table of results by name; that of the errors of x is x_error."""
     group = results[name]
     return {key: group[key][:] for key in group}
 
