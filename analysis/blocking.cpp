@@ -18,6 +18,12 @@ double squared_error(double count, double squares) {
 
 }  // namespace
 
+double mean_of(std::span<const double> values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
 Estimate block_average(std::span<const double> series, double shortest_block) {
   BlockSums sums;
   for (const double value : series) sums.add(value);

@@ -6,6 +6,9 @@
 
 namespace vitrel {
 
+/// Arithmetic mean; NaN without values.
+double mean_of(std::span<const double> values);
+
 /// A mean and its standard error. The error is widened by Student's factor for the few blocks (or
 /// particles) it rests on, so that mean ± error covers the truth in 68.3 % of the cases; it is NaN
 /// where no error can be given.

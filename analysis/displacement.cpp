@@ -159,8 +159,10 @@ Displacements displacements(Trajectory& trajectory, const DisplacementOptions& o
                     " frame(s); a displacement needs at least two");
   const std::vector<Lag> lags = time_axis(times, options.axis);
   const Configuration2& first = trajectory.read(0);
-  TrackQuantities quantities{options.wave_numbers, options.orders, options.overlap_distance, {}};
-  if (quantities.wave_numbers.empty()) quantities.wave_numbers = {main_wave_number(first)};
+  const TrackQuantities quantities{wave_numbers_or_main(options.wave_numbers, first),
+                                   options.orders,
+                                   options.overlap_distance,
+                                   {}};
   std::vector<Members> species = species_of(first);
   for (Members& members : species)
     if (members.particles > 0) members.make_room(lags, quantities);
@@ -191,6 +193,12 @@ double main_wave_number(const Configuration2& configuration) {
   const Vec2& lengths = configuration.box.lengths();
   const double density = static_cast<double>(configuration.size()) / (lengths.x() * lengths.y());
   return 2 * std::numbers::pi * std::sqrt(2 * density / std::sqrt(3.0));
+}
+
+std::vector<double> wave_numbers_or_main(std::vector<double> wanted,
+                                         const Configuration2& configuration) {
+  if (wanted.empty()) wanted = {main_wave_number(configuration)};
+  return wanted;
 }
 
 }  // namespace vitrel

@@ -1,13 +1,13 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "analysis/correlation.h"
 #include "analysis/time_axis.h"
 #include "analysis/trajectory.h"
+#include "core/parallel.h"
 
 /// Correlations of single particles: how far each has moved and turned in a time t, from unwrapped
 /// positions and angles. Δr = r(t) − r(0), Δθ = θ(t) − θ(0); lengths in units where a b = 1, angles
@@ -18,10 +18,10 @@ struct DisplacementOptions {
   TimeAxisOptions axis = {};
   /// q of F_s and F; empty: that of main_wave_number alone.
   std::vector<double> wave_numbers = {};
-  std::vector<double> orders = {2, 4};            ///< n of L_n
-  double overlap_distance = 0.3;                  ///< a of the overlap Q
-  std::size_t memory = std::size_t{1} << 30;      ///< bytes for particle tracks
-  int threads = std::numeric_limits<int>::max();  ///< at most; the result does not depend on it
+  std::vector<double> orders = {2, 4};        ///< n of L_n
+  double overlap_distance = 0.3;              ///< a of the overlap Q
+  std::size_t memory = std::size_t{1} << 30;  ///< bytes for particle tracks
+  int threads = all_cores;                    ///< at most; the result does not depend on it
 };
 
 struct DisplacementGroup {
@@ -73,5 +73,8 @@ Displacements displacements(Trajectory& trajectory, const DisplacementOptions& o
 /// Where the main peak of the structure factor of a dense liquid is, about: the first Bragg peak
 /// of the triangular lattice of the same number density ρ, q = 2π √(2ρ/√3).
 double main_wave_number(const Configuration2& configuration);
+/// The wanted wave numbers, or that of main_wave_number if none is.
+std::vector<double> wave_numbers_or_main(std::vector<double> wanted,
+                                         const Configuration2& configuration);
 
 }  // namespace vitrel

@@ -29,12 +29,6 @@ double two_sided(double t, std::size_t degrees) {
   return 2 * gsl_cdf_tdist_Q(std::abs(t), static_cast<double>(degrees));
 }
 
-double mean_of(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
-}
-
 /// The number of steps k after which the autocorrelation of a series of n values has fallen to 1/e; 0
 /// of a constant. The mean of a short series follows the series, which takes about b = 2k/n off every
 /// correlation and the variance, if k is the correlation time; so c(k) + b is compared with (1 + b)/e.
@@ -72,11 +66,17 @@ double known_time(const RelaxationTime& tau) {
   return std::isnan(tau.value) ? tau.most : tau.value;
 }
 
-double slowest_time(const RunEvidence& run) {
+std::vector<double> correlation_times(const RunEvidence& run) {
+  std::vector<double> times;
+  for (const ScalarSeries& series : run.series)
+    times.push_back(correlation_time(series, run.duration));
+  return times;
+}
+
+double slowest_time(const RunEvidence& run, const std::vector<double>& of_series) {
   double slowest = 0;
   for (const NamedTime& named : run.times) slowest = std::fmax(slowest, known_time(named.time));
-  for (const ScalarSeries& series : run.series)
-    slowest = std::max(slowest, correlation_time(series, run.duration));
+  for (const double time : of_series) slowest = std::max(slowest, time);
   return slowest;
 }
 
@@ -156,10 +156,9 @@ std::string shortage(const std::string& name, double time, double duration) {
                      duration / time, name, time, fewest_relaxations);
 }
 
-std::string shortage(const ScalarSeries& series, double duration) {
+std::string shortage(const ScalarSeries& series, double correlation_time, double duration) {
   if (series.value.size() < 2) return series.name + " has no series";
-  return shortage("the correlation time of " + series.name, correlation_time(series, duration),
-                  duration);
+  return shortage("the correlation time of " + series.name, correlation_time, duration);
 }
 
 /// Why the run is too short for a relaxation time; empty if it is not.
@@ -172,7 +171,8 @@ std::string shortage(const NamedTime& named, double duration) {
 }  // namespace
 
 Equilibration judge_equilibration(const RunEvidence& run) {
-  const double slowest = slowest_time(run);
+  const std::vector<double> of_series = correlation_times(run);
+  const double slowest = slowest_time(run, of_series);
   std::vector<Comparison> comparisons;
   for (const ScalarSeries& series : run.series)
     if (const auto comparison = drift(series, run.duration, slowest))
@@ -185,8 +185,8 @@ Equilibration judge_equilibration(const RunEvidence& run) {
   std::string too_short = run.times.empty() ? "no relaxation time" : "";
   for (const NamedTime& time : run.times)
     if (too_short.empty()) too_short = shortage(time, run.duration);
-  for (const ScalarSeries& series : run.series)
-    if (too_short.empty()) too_short = shortage(series, run.duration);
+  for (std::size_t k = 0; k < run.series.size() && too_short.empty(); ++k)
+    too_short = shortage(run.series[k], of_series[k], run.duration);
   if (!too_short.empty()) return {EquilibrationVerdict::too_short, too_short};
   return {EquilibrationVerdict::equilibrated, ""};
 }

@@ -12,14 +12,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-AnalysisChoice analysis_choice(const Arguments& arguments) {
-  AnalysisChoice choice;
-  if (!arguments.parameters.empty()) choice.parameters = arguments.parameters;
-  choice.overrides = arguments.overrides;
-  choice.progress = ProgressDisplay::mode(arguments.quiet);
-  return choice;
-}
-
 int analyze_file(const Arguments& arguments) {
   fs::path output = arguments.output;
   if (output.empty())
@@ -42,8 +34,8 @@ int analyze_sweep(const Arguments& arguments) {
     if (choice.given()) write_all(run.file.parent_path() / "results.h5", run.results);
     runs.push_back(analysis_summary(run));
   }
-  write_all(output, results_of_sweep(analyses));
   const GlassStudy study = glass_study(analyses);
+  write_all(output, results_of_sweep(analyses, study));
   Json summary = {{"output", output.string()}};
   if (arguments.json)
     summary.update({{"runs", std::move(runs)}, {"glass", glass_summary(study)}});

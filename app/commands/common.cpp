@@ -33,6 +33,19 @@ ParameterSource parameter_source(const Arguments& arguments) {
   return {arguments.input, arguments.overrides, arguments.seed};
 }
 
+AnalysisChoice analysis_choice(const Arguments& arguments) {
+  AnalysisChoice choice;
+  if (!arguments.parameters.empty()) choice.parameters = arguments.parameters;
+  choice.overrides = arguments.overrides;
+  choice.progress = ProgressDisplay::mode(arguments.quiet);
+  return choice;
+}
+
+void require_new(const std::filesystem::path& output) {
+  if (std::filesystem::exists(output))
+    throw UserError(output.string() + ": exists already; choose another output, or delete it");
+}
+
 void print_summary(const Arguments& arguments, const nlohmann::ordered_json& summary) {
   if (arguments.json) {
     fmt::print("{}\n", summary.dump(2));

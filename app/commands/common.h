@@ -1,11 +1,13 @@
 #pragma once
 
 #include <chrono>
+#include <filesystem>
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "app/commands/commands.h"
+#include "app/workflow/analyze.h"
 #include "app/workflow/parameters.h"
 #include "app/workflow/progress.h"
 #include "core/state/stage.h"
@@ -32,6 +34,10 @@ class Session {
 };
 
 ParameterSource parameter_source(const Arguments& arguments);
+AnalysisChoice analysis_choice(const Arguments& arguments);
+
+/// Throws UserError if the output exists: before the work, which may be long.
+void require_new(const std::filesystem::path& output);
 
 /// To standard output: as JSON if asked for, else as lines "key  value" unless quiet.
 void print_summary(const Arguments& arguments, const nlohmann::ordered_json& summary);

@@ -12,11 +12,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void require_new(const fs::path& output) {
-  if (fs::exists(output))
-    throw UserError(output.string() + ": exists already; choose another output, or delete it");
-}
-
 int export_results(const Arguments& arguments) {
   const fs::path output =
       arguments.output.empty()

@@ -81,10 +81,8 @@ void print_summary(const Arguments& arguments, const Preparation& preparation,
   flush_output();
 }
 
-/// Before the work, which may be long.
 void require_new_file(const std::filesystem::path& output) {
-  if (std::filesystem::exists(output))
-    throw UserError(output.string() + ": exists already; choose another output, or delete it");
+  require_new(output);
   const std::filesystem::path folder = std::filesystem::absolute(output).parent_path();
   if (!std::filesystem::is_directory(folder))
     throw FileError(fmt::format("{}: cannot be written: there is no folder {}", output.string(),

@@ -21,10 +21,7 @@ int report_command(const Arguments& arguments) {
     print_summary(arguments, {{"output", output.string()}, {"states", 1}});
     return success;
   }
-  AnalysisChoice choice;
-  if (!arguments.parameters.empty()) choice.parameters = arguments.parameters;
-  choice.overrides = arguments.overrides;
-  choice.progress = ProgressDisplay::mode(arguments.quiet);
+  const AnalysisChoice choice = analysis_choice(arguments);
   const std::vector<AnalysedRun> analyses =
       is_sweep ? analysed_jobs(arguments.input, choice)
                : std::vector<AnalysedRun>{analyze_run(arguments.input, choice)};

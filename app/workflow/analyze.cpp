@@ -7,7 +7,6 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <thread>
 
 #include "app/workflow/correlations_file.h"
 #include "app/workflow/dynamics_tables.h"
@@ -42,11 +41,6 @@ Parameters analysis_parameters(const TrajectoryReader& reader, const AnalysisCho
   return parse_parameters(reader.provenance().parameters, reader.path().string(), choice.overrides);
 }
 
-/// As many threads as the machine has: the results do not depend on it.
-int all_threads() {
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
-
 /// What displacements need of a file; those of round particles need no angles.
 void require_tracks(const TrajectoryReader& reader, std::size_t rotors) {
   reader.require("image",
@@ -60,7 +54,7 @@ RunDynamics measure_dynamics(StoredTrajectory& trajectory, DisplacementOptions o
                              ProgressDisplay::Mode progress) {
   ProgressDisplay display(progress);
   const auto report = [&](const Progress& state) { display.show(state); };
-  if (options.wave_numbers.empty()) options.wave_numbers = {main_wave_number(trajectory.read(0))};
+  options.wave_numbers = wave_numbers_or_main(std::move(options.wave_numbers), trajectory.read(0));
   RunDynamics dynamics;
   display.begin("collective scattering");
   dynamics.collective = collective_scattering(trajectory, options.wave_numbers, options.axis,
@@ -101,7 +95,7 @@ RunAnalysis measure(StoredTrajectory& trajectory, const std::string& name,
   run.collisions = collisions_between_frames(reader);
   require_tracks(reader, run.rotors);
   run.dynamics = measure_dynamics(trajectory, parameters.analysis, progress);
-  run.structure = structure_tables(trajectory, parameters.structure, all_threads());
+  run.structure = structure_tables(trajectory, parameters.structure);
   run.energy = stored_energies(trajectory);
   run.compressibility = stored_compressibility(reader, run.energy, run.rotors);
   const Displacements& found = run.dynamics.displacements;

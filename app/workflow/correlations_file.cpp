@@ -44,7 +44,7 @@ std::optional<MultipleTau> correlator(const Parameters& parameters,
                                       const Configuration2& configuration) {
   if (!parameters.output.correlations) return std::nullopt;
   MultipleTauOptions options = correlator_options(parameters);
-  if (options.wave_numbers.empty()) options.wave_numbers = {main_wave_number(configuration)};
+  options.wave_numbers = wave_numbers_or_main(std::move(options.wave_numbers), configuration);
   return MultipleTau(configuration, std::move(options));
 }
 

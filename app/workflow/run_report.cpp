@@ -93,7 +93,7 @@ ReportData report_data(const std::vector<AnalysedRun>& runs, const std::string& 
     data.parameters = provenance.parameters;
     data.provenance = provenance_rows(provenance);
   }
-  if (runs.size() > 1) data.study = results_of_sweep(runs);
+  if (runs.size() > 1) data.study = results_of_sweep(runs, glass_study(runs));
   return data;
 }
 

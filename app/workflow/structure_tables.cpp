@@ -16,6 +16,8 @@ namespace {
 
 /// Of the angles from the director: about 2° each, one of them in the middle around it.
 constexpr std::size_t angle_bins = 91;
+/// Frames shared by the threads at a time.
+constexpr std::size_t frames_at_once = 32;
 
 /// One frame, and all that is measured in it.
 struct Measured {
@@ -180,8 +182,7 @@ std::vector<Table> structure_tables(Trajectory& trajectory, const StructureOptio
   Vec2 lengths = Vec2::Zero();
   for (std::size_t next = 0; next < trajectory.frames();) {
     std::vector<Measured> batch;
-    for (; next < trajectory.frames() && batch.size() < static_cast<std::size_t>(threads);
-         next += stride) {
+    for (; next < trajectory.frames() && batch.size() < frames_at_once; next += stride) {
       Measured& frame = batch.emplace_back();
       frame.configuration = trajectory.read(next);
       if (frame.configuration.box.lengths() != lengths) {

@@ -7,6 +7,7 @@
 #include "analysis/results.h"
 #include "analysis/structure_factor.h"
 #include "analysis/trajectory.h"
+#include "core/parallel.h"
 
 /// The structure of a run, averaged over its frames.
 namespace vitrel {
@@ -19,9 +20,9 @@ struct StructureOptions {
 
 /// The tables structure_factor, pair_correlation, orientation_distribution (unless all particles are
 /// round) and order. Errors are those of averages over frames (frame_average.h). Frames are read
-/// one after another and measured on up to `threads` threads; only so many are in memory, and the
-/// results do not depend on it.
+/// one after another and measured on up to `threads` threads, some at a time; the results do not
+/// depend on it.
 std::vector<Table> structure_tables(Trajectory& trajectory, const StructureOptions& options,
-                                    int threads);
+                                    int threads = all_cores);
 
 }  // namespace vitrel

@@ -52,13 +52,12 @@ GlassStudy glass_study(const std::vector<AnalysedRun>& runs) {
   return study_glass(std::move(judged));
 }
 
-Results results_of_sweep(const std::vector<AnalysedRun>& runs) {
+Results results_of_sweep(const std::vector<AnalysedRun>& runs, const GlassStudy& study) {
   Results results;
   results.tables.push_back(runs_table(runs));
   for (const AnalysedRun& run : runs)
     results.provenance.emplace_back(fmt::format("row_{}", results.provenance.size()),
                                     run.file.string());
-  const GlassStudy study = glass_study(runs);
   if (study.runs.empty()) return results;
   for (Table& table : glass_tables(study)) results.tables.push_back(std::move(table));
   for (auto& note : glass_notes(study)) results.provenance.push_back(std::move(note));

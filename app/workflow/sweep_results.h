@@ -18,7 +18,7 @@ std::vector<AnalysedRun> analysed_jobs(const std::filesystem::path& folder,
 /// transition to them.
 GlassStudy glass_study(const std::vector<AnalysedRun>& runs);
 
-/// Table `runs`, the summaries of all runs, one row each; and those of the glass study.
-Results results_of_sweep(const std::vector<AnalysedRun>& runs);
+/// Table `runs`, the summaries of all runs, one row each; and those of their glass study.
+Results results_of_sweep(const std::vector<AnalysedRun>& runs, const GlassStudy& study);
 
 }  // namespace vitrel

@@ -6,20 +6,14 @@
 #include <vector>
 
 #include "core/random/stream.h"
+#include "tests/support/series.h"
 
 namespace vitrel {
 namespace {
 
-/// x_{k+1} = c x_k + √(1 − c²) ξ: mean 0, variance 1, correlation c^|k|, started from equilibrium.
-std::vector<double> autoregressive_series(std::size_t n, double c, std::uint64_t seed) {
+std::vector<double> series_of(std::size_t n, double c, std::uint64_t seed) {
   Stream draw(seed, Purpose::tests);
-  std::vector<double> series(n);
-  double x = draw.normal();
-  for (double& value : series) {
-    value = x;
-    x = c * x + std::sqrt(1 - c * c) * draw.normal();
-  }
-  return series;
+  return autoregressive_series(n, c, draw);
 }
 
 /// Exact standard error of the mean of n such values:
@@ -56,7 +50,7 @@ class BlockingCoverage : public testing::TestWithParam<double> {};
 TEST_P(BlockingCoverage, ErrorsCoverTheTrueMean) {
   Coverage coverage;
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
-    const Estimate estimate = block_average(autoregressive_series(4096, GetParam(), seed));
+    const Estimate estimate = block_average(series_of(4096, GetParam(), seed));
     coverage.count(estimate.mean, estimate.error);
   }
   EXPECT_EQ(coverage.without_error, 0);
@@ -74,7 +68,7 @@ TEST(Blocking, MeanErrorIsTheExactOne) {
     double sum = 0;
     const int seeds = 400;
     for (int seed = 0; seed < seeds; ++seed) {
-      const Estimate estimate = block_average(autoregressive_series(4096, c, 1000 + seed));
+      const Estimate estimate = block_average(series_of(4096, c, 1000 + seed));
       sum += estimate.error / student_factor(estimate.blocks - 1);
     }
     EXPECT_NEAR(sum / seeds / autoregressive_error(4096, c), 1, 0.07) << "c = " << c;
@@ -84,13 +78,13 @@ TEST(Blocking, MeanErrorIsTheExactOne) {
 TEST(Blocking, NoErrorForSeriesTooShortToTell) {
   EXPECT_TRUE(std::isnan(block_average({}).mean));
   for (const std::size_t n : {1u, 2u, 7u, 31u}) {
-    const Estimate estimate = block_average(autoregressive_series(n, 0, 5));
+    const Estimate estimate = block_average(series_of(n, 0, 5));
     EXPECT_TRUE(std::isfinite(estimate.mean));
     EXPECT_TRUE(std::isnan(estimate.error)) << n;
     EXPECT_EQ(estimate.blocks, 0u);
   }
   // Two correlation times long: no blocking can know the error, whatever the number of values.
-  EXPECT_TRUE(std::isnan(block_average(autoregressive_series(1000, 0.996, 5)).error));
+  EXPECT_TRUE(std::isnan(block_average(series_of(1000, 0.996, 5)).error));
 }
 
 TEST(Blocking, ConstantSeriesHasErrorZero) {

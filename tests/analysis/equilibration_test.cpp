@@ -7,23 +7,13 @@
 
 #include "analysis/blocking.h"
 #include "core/random/stream.h"
+#include "tests/support/series.h"
 
 namespace vitrel {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t frames = 4096;
-
-/// x_{k+1} = c x_k + √(1 − c²) ξ, from equilibrium: variance 1, correlation c^|k|.
-std::vector<double> autoregressive(std::size_t n, double c, Stream& draw) {
-  std::vector<double> series(n);
-  double x = draw.normal();
-  for (double& value : series) {
-    value = x;
-    x = c * x + std::sqrt(1 - c * c) * draw.normal();
-  }
-  return series;
-}
 
 /// Standard error of the mean of n ≫ 1/(1 − c) such values.
 double error_of_mean(std::size_t n, double c) {
@@ -58,8 +48,8 @@ RunEvidence stationary(std::uint64_t seed) {
   Stream draw(seed, Purpose::tests);
   RunEvidence run{4096, {}, {}, {{"tau", known(100)}}};
   for (const double c : {0.0, 0.5, 0.9})
-    run.series.push_back({"x", autoregressive(frames, c, draw)});
-  run.curves.push_back(halves(autoregressive(frames, 0.8, draw)));
+    run.series.push_back({"x", autoregressive_series(frames, c, draw)});
+  run.curves.push_back(halves(autoregressive_series(frames, 0.8, draw)));
   return run;
 }
 
@@ -98,7 +88,7 @@ TEST(Equilibration, SlowerSecondHalfIsFound) {
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     RunEvidence run = stationary(seed);
     Stream draw(seed, Purpose::tests, 1);
-    std::vector<double> x = autoregressive(frames, 0.8, draw);
+    std::vector<double> x = autoregressive_series(frames, 0.8, draw);
     for (std::size_t k = frames / 2; k < frames; ++k) x[k] *= 0.5;
     run.curves = {halves(x)};
     run.times = {{"tau", known(5)}};
@@ -115,8 +105,8 @@ TEST(Equilibration, SlowModesUnderNoiseAreNoDrift) {
   int ageing = 0;
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     Stream draw(seed, Purpose::tests, 4);
-    std::vector<double> x = autoregressive(frames, 0, draw);
-    const std::vector<double> slow = autoregressive(frames, 0.99, draw);
+    std::vector<double> x = autoregressive_series(frames, 0, draw);
+    const std::vector<double> slow = autoregressive_series(frames, 0.99, draw);
     for (std::size_t k = 0; k < frames; ++k) x[k] += 0.25 * slow[k];
     RunEvidence run{4096, {{"Z", x}}, {halves(x)}, {{"tau", known(100)}}};
     ageing += judge_equilibration(run).verdict == EquilibrationVerdict::ageing;
@@ -159,7 +149,7 @@ TEST(Equilibration, WithoutEvidenceThereIsNotEnoughTime) {
   EXPECT_EQ(judge_equilibration(run).verdict, EquilibrationVerdict::equilibrated);
   // As slow as the run is long.
   Stream draw(1, Purpose::tests);
-  run.series = {{"S", autoregressive(1000, 0.999, draw)}};
+  run.series = {{"S", autoregressive_series(1000, 0.999, draw)}};
   const Equilibration slow = judge_equilibration(run);
   EXPECT_EQ(slow.verdict, EquilibrationVerdict::too_short);
   EXPECT_NE(slow.reason.find("times the correlation time of S = "), std::string::npos)
@@ -172,9 +162,9 @@ TEST(Equilibration, TenCorrelationTimesOfASeriesAreNeeded) {
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     Stream draw(seed, Purpose::tests, 3);
     RunEvidence run{4000, {}, {}, {{"tau", known(1)}}};
-    run.series = {{"S", autoregressive(600, 0.99, draw)}};
+    run.series = {{"S", autoregressive_series(600, 0.99, draw)}};
     few += judge_equilibration(run).verdict == EquilibrationVerdict::equilibrated;
-    run.series = {{"S", autoregressive(4000, 0.99, draw)}};
+    run.series = {{"S", autoregressive_series(4000, 0.99, draw)}};
     many += judge_equilibration(run).verdict == EquilibrationVerdict::equilibrated;
   }
   EXPECT_LE(few, 50);
@@ -187,7 +177,7 @@ TEST(Equilibration, RateOfFalseAlarmsIsTheStatedOne) {
   for (std::uint64_t seed = 0; seed < 2000; ++seed) {
     Stream draw(seed, Purpose::tests, 2);
     RunEvidence run{100, {}, {}, {{"tau", known(1)}}};
-    for (int k = 0; k < 5; ++k) run.series.push_back({"x", autoregressive(512, 0, draw)});
+    for (int k = 0; k < 5; ++k) run.series.push_back({"x", autoregressive_series(512, 0, draw)});
     ageing += judge_equilibration(run).verdict == EquilibrationVerdict::ageing;
   }
   EXPECT_NEAR(ageing, 20, 3 * 4.5);

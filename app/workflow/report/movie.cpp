@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -22,7 +21,6 @@ namespace {
 
 constexpr double steps_per_turn = 65'536;
 constexpr std::size_t frames_at_a_time = 32;
-constexpr int all_cores = std::numeric_limits<int>::max();
 constexpr std::size_t characters_per_pose = 8;
 constexpr std::size_t characters_per_jump = 16;
 
