@@ -56,8 +56,13 @@ double step_of(const ScalarSeries& series, double duration) {
   return duration / static_cast<double>(series.value.size() - 1);
 }
 
+bool is_known(const ScalarSeries& series) {
+  return series.value.size() >= 2 && std::all_of(series.value.begin(), series.value.end(),
+                                                 [](double value) { return std::isfinite(value); });
+}
+
 double correlation_time(const ScalarSeries& series, double duration) {
-  if (series.value.size() < 2) return 0;
+  if (!is_known(series)) return 0;
   return step_of(series, duration) * static_cast<double>(correlation_steps(series.value));
 }
 
@@ -80,13 +85,47 @@ double slowest_time(const RunEvidence& run, const std::vector<double>& of_series
   return slowest;
 }
 
+/// Standard error of a mean, without Student's factor, and the pieces it rests on; 0: too few.
+struct BlockError {
+  double error;
+  std::size_t blocks;
+};
+
+/// Of the mean of what a line leaves of a series, whose correlations decay in `correlation` steps, from
+/// blocks of a given length; a line takes two degrees of freedom. Exponential correlations make the
+/// variance between blocks of length B too small by 1 − (τ/B)(1 − exp(−B/τ)), which is put back.
+BlockError error_of_known_blocks(const std::vector<double>& residual, std::size_t length,
+                                 double correlation) {
+  const std::size_t blocks = residual.size() / length;
+  if (blocks < fewest_blocks) return {0, 0};
+  double squares = 0;
+  for (std::size_t b = 0; b < blocks; ++b) {
+    const double mean = mean_of(std::span(residual).subspan(b * length, length));
+    squares += mean * mean;
+  }
+  const double ratio = static_cast<double>(length) / correlation;
+  const double seen = correlation > 0 ? 1 + std::expm1(-ratio) / ratio : 1;
+  const double m = static_cast<double>(blocks);
+  return {std::sqrt(squares / (m * (m - 2)) / seen), blocks};
+}
+
+/// Blocks where they reach a plateau, which finds slow modes by itself; else of the least length.
+BlockError error_of_residual(const std::vector<double>& residual, double shortest_block,
+                             double correlation) {
+  const Estimate plateau = block_average(residual, shortest_block);
+  if (plateau.blocks > 0)
+    return {plateau.error / student_factor(plateau.blocks - 1), plateau.blocks};
+  const auto length = static_cast<std::size_t>(std::ceil(std::max(1.0, shortest_block)));
+  return error_of_known_blocks(residual, length, correlation);
+}
+
 /// Change over the series of the line fitted to it, and the error of the mean of what it leaves.
 struct Trend {
   double mean, change;
-  Estimate residual;
+  BlockError residual;
 };
 
-Trend trend(const std::vector<double>& series, double shortest_block) {
+Trend trend(const std::vector<double>& series, double shortest_block, double correlation) {
   const double n = static_cast<double>(series.size());
   const double mean = mean_of(series);
   double xy = 0, xx = 0;
@@ -99,16 +138,18 @@ Trend trend(const std::vector<double>& series, double shortest_block) {
   std::vector<double> residual;
   for (std::size_t k = 0; k < series.size(); ++k)
     residual.push_back(series[k] - mean - change * ((static_cast<double>(k) + 0.5) / n - 0.5));
-  return {mean, change, block_average(residual, shortest_block)};
+  return {mean, change, error_of_residual(residual, shortest_block, correlation)};
 }
 
 /// Nothing if the series is too short for an error.
-std::optional<Comparison> drift(const ScalarSeries& series, double duration, double slowest) {
-  if (series.value.size() < 2) return std::nullopt;
-  const Trend t = trend(series.value, 2 * slowest / step_of(series, duration));
+std::optional<Comparison> drift(const ScalarSeries& series, double duration, double correlation,
+                                double slowest) {
+  if (!is_known(series)) return std::nullopt;
+  const double step = step_of(series, duration);
+  const Trend t = trend(series.value, 2 * slowest / step, correlation / step);
   if (t.residual.blocks == 0) return std::nullopt;
   const std::size_t degrees = t.residual.blocks - 2;
-  const double error = std::sqrt(12) * t.residual.error / student_factor(t.residual.blocks - 1);
+  const double error = std::sqrt(12) * t.residual.error;
   const bool rounded = std::abs(t.change) <= rounding * std::abs(t.mean);
   const double probability = rounded ? 1 : two_sided(t.change / error, degrees);
   return Comparison{fmt::format("{} drifts by {:.3g} over the run, {:.1f} standard errors",
@@ -157,7 +198,7 @@ std::string shortage(const std::string& name, double time, double duration) {
 }
 
 std::string shortage(const ScalarSeries& series, double correlation_time, double duration) {
-  if (series.value.size() < 2) return series.name + " has no series";
+  if (!is_known(series)) return series.name + " is not known at all times";
   return shortage("the correlation time of " + series.name, correlation_time, duration);
 }
 
@@ -168,27 +209,45 @@ std::string shortage(const NamedTime& named, double duration) {
   return shortage(named.name, time, duration);
 }
 
+/// Why the run is too short for a verdict; empty if it is not.
+std::string shortage(const RunEvidence& run, const std::vector<double>& of_series,
+                     const std::string& untested, double slowest) {
+  if (run.times.empty()) return "no relaxation time";
+  std::string reason;
+  for (const NamedTime& time : run.times)
+    if (reason.empty()) reason = shortage(time, run.duration);
+  for (std::size_t k = 0; k < run.series.size() && reason.empty(); ++k)
+    reason = shortage(run.series[k], of_series[k], run.duration);
+  if (reason.empty() && !untested.empty())
+    reason = fmt::format(
+        "too little to test {} for ageing: it takes {} blocks "
+        "of twice the slowest time, {:.4g}",
+        untested, fewest_blocks, slowest);
+  return reason;
+}
+
 }  // namespace
 
 Equilibration judge_equilibration(const RunEvidence& run) {
   const std::vector<double> of_series = correlation_times(run);
   const double slowest = slowest_time(run, of_series);
   std::vector<Comparison> comparisons;
-  for (const ScalarSeries& series : run.series)
-    if (const auto comparison = drift(series, run.duration, slowest))
+  std::string untested = run.series.empty() ? "anything" : "";
+  for (std::size_t k = 0; k < run.series.size(); ++k)
+    if (const auto comparison = drift(run.series[k], run.duration, of_series[k], slowest))
       comparisons.push_back(*comparison);
+    else if (untested.empty())
+      untested = run.series[k].name;
   for (const HalvesOfCurve& curve : run.curves) compare_halves(curve, slowest, comparisons);
-  const double n = static_cast<double>(comparisons.size());
-  for (const Comparison& c : comparisons)
-    if (c.probability < false_alarms / n) return {EquilibrationVerdict::ageing, c.text};
+  if (run.series.empty() && !comparisons.empty()) untested.clear();
 
-  std::string too_short = run.times.empty() ? "no relaxation time" : "";
-  for (const NamedTime& time : run.times)
-    if (too_short.empty()) too_short = shortage(time, run.duration);
-  for (std::size_t k = 0; k < run.series.size() && too_short.empty(); ++k)
-    too_short = shortage(run.series[k], of_series[k], run.duration);
-  if (!too_short.empty()) return {EquilibrationVerdict::too_short, too_short};
-  return {EquilibrationVerdict::equilibrated, ""};
+  const std::size_t tests = comparisons.size();
+  for (const Comparison& c : comparisons)
+    if (c.probability < false_alarms / static_cast<double>(tests))
+      return {EquilibrationVerdict::ageing, c.text, tests};
+  const std::string too_short = shortage(run, of_series, untested, slowest);
+  if (!too_short.empty()) return {EquilibrationVerdict::too_short, too_short, tests};
+  return {EquilibrationVerdict::equilibrated, "", tests};
 }
 
 }  // namespace vitrel
