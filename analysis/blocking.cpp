@@ -30,6 +30,18 @@ Estimate block_average(std::span<const double> series, double shortest_block) {
   return sums.estimate(shortest_block);
 }
 
+Estimate known_block_average(std::span<const double> series, std::size_t block) {
+  const std::size_t blocks = series.size() / block;
+  double sum = 0, squares = 0;
+  for (std::size_t b = 0; b < blocks; ++b) {
+    const double mean = mean_of(series.subspan(b * block, block));
+    sum += mean;
+    squares += mean * mean;
+  }
+  if (blocks < fewest_blocks) return {mean_of(series), none, 0};
+  return {mean_of(series), independent_average(blocks, sum, squares).error, blocks};
+}
+
 void BlockSums::add(double value) {
   for (std::size_t k = 0;; ++k) {
     if (k == levels_.size()) levels_.emplace_back();

@@ -27,14 +27,18 @@ struct Estimate {
 ///    of e_B² from correlations between blocks equals its statistical scatter (n: length of the
 ///    series). Blocks shorter than `shortest_block` are passed over: for a caller who knows how
 ///    long the correlations are at least, and need not trust chance.
-/// 3. At least `fewest_blocks` blocks must be left there, else the error is NaN: the series is too
-///    short to tell. Hence no error is ever given for fewer than 32 values.
+/// 3. At least `fewest_blocks` blocks must be left there: some 60 to 180 correlation times, and never
+///    below 32 values. If not, the error is NaN: the series is too short to tell.
 /// 4. The error is e_B times Student's factor for (blocks − 1) degrees of freedom.
 ///
 /// A constant series has error 0. An empty one has mean NaN. Cost O(n).
 /// Sources: Flyvbjerg & Petersen, J. Chem. Phys. 91, 461 (1989) for 1; Lee, Conduit, Nemec, López
 /// Ríos & Drummond, Phys. Rev. E 83, 066706 (2011) for 2.
 Estimate block_average(std::span<const double> series, double shortest_block = 1);
+
+/// The same from blocks of a given length, for a caller who knows that correlations are shorter. NaN as
+/// error for fewer than `fewest_blocks` of them; what is left over counts for the mean only.
+Estimate known_block_average(std::span<const double> series, std::size_t block);
 
 /// The same for a series that comes value by value and is not kept: for every block length it holds
 /// number, mean and variance of the blocks so far, updated as they come [welford1962]. Memory

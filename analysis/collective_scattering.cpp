@@ -160,7 +160,7 @@ Correlation correlate(const Series& series, std::size_t first, std::size_t count
       sum.add(0, products);
       sum.finish_particle();
     }
-    result.push_back(sum.estimate(lag, count));
+    result.push_back(sum.estimate_with_plateau(lag, count));
   }
   return result;
 }

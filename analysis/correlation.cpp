@@ -1,6 +1,8 @@
 #include "analysis/correlation.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 namespace vitrel {
@@ -26,7 +28,38 @@ std::vector<double> means(const CorrelationSum& sum, std::size_t particles) {
   return series;
 }
 
+/// Of a series of origins that forget within four time differences.
+Estimate over_origins(std::span<const double> series, const Lag& lag) {
+  const Estimate plateau = block_average(series, lag.shortest_block());
+  const auto block = static_cast<std::size_t>(std::ceil(lag.shortest_block()));
+  return plateau.blocks > 0 || block == 1 ? plateau : known_block_average(series, block);
+}
+
+/// Points at the long end that tell how many particles move together.
+constexpr std::size_t last_points = 16;
+
 }  // namespace
+
+void Correlation::push_back(const Estimate& estimate) {
+  value.push_back(estimate.mean);
+  error.push_back(estimate.error);
+  blocks.push_back(estimate.blocks);
+}
+
+void Correlation::push_back(const PointEstimate& point) {
+  push_back(point.by_blocks);
+  const double quotient = point.by_blocks.error / point.spread;
+  if (blocks.back() == 0)
+    error.back() = point.spread * cooperation();
+  else if (std::isfinite(quotient))
+    squared_quotients_.push_back(quotient * quotient);
+}
+
+double Correlation::cooperation() const {
+  if (squared_quotients_.empty()) return 1;
+  const std::size_t count = std::min(last_points, squared_quotients_.size());
+  return std::max(1.0, std::sqrt(mean_of(std::span(squared_quotients_).last(count))));
+}
 
 void CorrelationSum::add(std::size_t first_origin, std::span<const double> values) {
   double* const sums = per_origin_.data() + first_origin;
@@ -48,10 +81,16 @@ void CorrelationSum::add(const CorrelationSum& other) {
   squares_ += other.squares_;
 }
 
-Estimate CorrelationSum::estimate(const Lag& lag, std::size_t particles) const {
-  Estimate estimate = block_average(means(*this, particles), lag.shortest_block());
-  if (estimate.blocks == 0) estimate.error = independent_average(particles, sum_, squares_).error;
-  return estimate;
+PointEstimate CorrelationSum::estimate(const Lag& lag, std::size_t particles) const {
+  return {over_origins(means(*this, particles), lag), spread(particles)};
+}
+
+PointEstimate CorrelationSum::estimate_with_plateau(const Lag& lag, std::size_t particles) const {
+  return {block_average(means(*this, particles), lag.shortest_block()), spread(particles)};
+}
+
+double CorrelationSum::spread(std::size_t particles) const {
+  return independent_average(particles, sum_, squares_).error;
 }
 
 void MomentSum::add(std::size_t first_origin, std::span<const double> squares,
@@ -71,31 +110,29 @@ void MomentSum::add(const MomentSum& other) {
   mixed_ += other.mixed_;
 }
 
-Estimate MomentSum::non_gaussian(double c, const Lag& lag, std::size_t particles) const {
+PointEstimate MomentSum::non_gaussian(double c, const Lag& lag, std::size_t particles) const {
   const std::vector<double> squares = means(square, particles);
   std::vector<double> line = means(quartic, particles);
   const double origins = static_cast<double>(line.size());
   const double m2 = sum_of(squares) / origins, m4 = sum_of(line) / origins;
-  if (!(m2 > 0)) return {none, none, 0};
+  if (!(m2 > 0)) return {{none, none, 0}, none};
   const double by_m4 = c / (m2 * m2), by_m2 = -2 * c * m4 / (m2 * m2 * m2);
   for (std::size_t k = 0; k < line.size(); ++k) line[k] = by_m4 * line[k] + by_m2 * squares[k];
-  Estimate estimate = block_average(line, lag.shortest_block());
-  if (estimate.blocks == 0)
-    estimate.error =
-        independent_average(particles, by_m4 * quartic.sum_ + by_m2 * square.sum_,
-                            by_m4 * by_m4 * quartic.squares_ + 2 * by_m4 * by_m2 * mixed_ +
-                                by_m2 * by_m2 * square.squares_)
-            .error;
+  Estimate estimate = over_origins(line, lag);
   estimate.mean = c * m4 / (m2 * m2) - 1;
-  return estimate;
+  const Estimate particles_alone =
+      independent_average(particles, by_m4 * quartic.sum_ + by_m2 * square.sum_,
+                          by_m4 * by_m4 * quartic.squares_ + 2 * by_m4 * by_m2 * mixed_ +
+                              by_m2 * by_m2 * square.squares_);
+  return {estimate, particles_alone.error};
 }
 
 Estimate susceptibility(const CorrelationSum& sum, const Lag& lag, std::size_t particles) {
   std::vector<double> series = means(sum, particles);
-  const Estimate overlap = block_average(series, lag.shortest_block());
+  const Estimate overlap = over_origins(series, lag);
   const double n = static_cast<double>(particles);
   for (double& q : series) q = n * (q - overlap.mean) * (q - overlap.mean);
-  const Estimate variance = block_average(series, lag.shortest_block());
+  const Estimate variance = over_origins(series, lag);
   if (overlap.blocks == 0 || variance.blocks == 0) return {none, none, 0};
   const double uncertainty = overlap.error / student_factor(overlap.blocks - 1);
   return {variance.mean + n * uncertainty * uncertainty, variance.error, variance.blocks};

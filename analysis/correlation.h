@@ -10,29 +10,41 @@
 /// Averages over particles and time origins against the time difference, with their errors.
 namespace vitrel {
 
+/// One point of a correlation. `spread` is the standard error if the particles were independent of each
+/// other, from the scatter of their own means over the origins.
+struct PointEstimate {
+  Estimate by_blocks;  ///< of time origins; without an error where these are too few
+  double spread;
+};
+
 /// A function of the time difference.
 struct Correlation {
   std::vector<double> value;
-  std::vector<double> error;  ///< standard error; NaN where none can be given
-  std::vector<std::size_t>
-      blocks;  ///< blocks of time origins behind the error; 0: spread of particles
+  std::vector<double> error;        ///< standard error; NaN where none can be given
+  std::vector<std::size_t> blocks;  ///< of time origins behind the error; 0: particles
 
-  void push_back(const Estimate& estimate) {
-    value.push_back(estimate.mean);
-    error.push_back(estimate.error);
-    blocks.push_back(estimate.blocks);
-  }
+  /// With the error by blocks, and no other.
+  void push_back(const Estimate& estimate);
+  /// The next longer time difference. Where there are no blocks the error is the spread of the
+  /// particles, widened by √(particles that move together): the quotient of both errors where both
+  /// are known, at the sixteen longest time differences of that kind (root mean square), or 1.
+  void push_back(const PointEstimate& estimate);
+
+ private:
+  double cooperation() const;
+  std::vector<double> squared_quotients_;  ///< of both errors, where both are known
 };
 
 /// Sums of one quantity x_i(k), of particle i from time origin k to a fixed time difference later.
 ///
 /// 1. At every origin x is averaged over the particles; the mean over origins is the value.
 /// 2. The error is that of this series of origins by blocking, with blocks of four time differences
-///    or more; it sees correlations in time and between particles.
-/// 3. Where the time difference is too long for eight such blocks, or with a single origin, it is
-///    that of the particles' own means over the origins, taken as independent of each other: good
-///    far from the glass, too small by √χ_4 where motion is cooperative. Both include Student's
-///    factor.
+///    or more; where blocking sees no plateau, from blocks of just that length, which displacements
+///    do not remember. It sees correlations in time and between particles.
+/// 3. Where the time difference is too long for eight such blocks the particles stand in for them
+///    (see Correlation), as if it grew no further how many of them move together: fair from some
+///    thirty relaxation times on. With a single origin they count as independent of each other, and
+///    the error is too small by √χ_4 where motion is cooperative. Both include Student's factor.
 class CorrelationSum {
  public:
   explicit CorrelationSum(std::size_t origins) : per_origin_(origins) {}
@@ -45,10 +57,13 @@ class CorrelationSum {
   void add(const CorrelationSum& other);
 
   std::span<const double> per_origin() const { return per_origin_; }
-  Estimate estimate(const Lag& lag, std::size_t particles) const;
+  PointEstimate estimate(const Lag& lag, std::size_t particles) const;
+  /// Of x that is remembered for longer than the time difference: blocks with a plateau only.
+  PointEstimate estimate_with_plateau(const Lag& lag, std::size_t particles) const;
 
  private:
   friend class MomentSum;
+  double spread(std::size_t particles) const;
 
   std::vector<double> per_origin_;  ///< summed over particles
   double particle_ = 0;             ///< sum over the origins of the present particle
@@ -71,7 +86,7 @@ class MomentSum {
   /// as a CorrelationSum has it: x₂ and x₄ stem from the same origins or particles, and their
   /// correlation counts. The bias from the ratio is that of a sample, −1/n of n independent
   /// displacements; the error is 1/√n. NaN where nothing moves.
-  Estimate non_gaussian(double c, const Lag& lag, std::size_t particles) const;
+  PointEstimate non_gaussian(double c, const Lag& lag, std::size_t particles) const;
 
   CorrelationSum square, quartic;
 

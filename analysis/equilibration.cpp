@@ -85,38 +85,34 @@ double slowest_time(const RunEvidence& run, const std::vector<double>& of_series
   return slowest;
 }
 
-/// Standard error of a mean, without Student's factor, and the pieces it rests on; 0: too few.
+/// Standard error of a mean, without Student's factor, and the blocks it rests on; 0: too few.
 struct BlockError {
   double error;
   std::size_t blocks;
 };
 
-/// Of the mean of what a line leaves of a series, whose correlations decay in `correlation` steps, from
-/// blocks of a given length; a line takes two degrees of freedom. Exponential correlations make the
-/// variance between blocks of length B too small by 1 − (τ/B)(1 − exp(−B/τ)), which is put back.
-BlockError error_of_known_blocks(const std::vector<double>& residual, std::size_t length,
-                                 double correlation) {
-  const std::size_t blocks = residual.size() / length;
-  if (blocks < fewest_blocks) return {0, 0};
-  double squares = 0;
-  for (std::size_t b = 0; b < blocks; ++b) {
-    const double mean = mean_of(std::span(residual).subspan(b * length, length));
-    squares += mean * mean;
-  }
-  const double ratio = static_cast<double>(length) / correlation;
-  const double seen = correlation > 0 ? 1 + std::expm1(-ratio) / ratio : 1;
-  const double m = static_cast<double>(blocks);
-  return {std::sqrt(squares / (m * (m - 2)) / seen), blocks};
+BlockError without_student(const Estimate& estimate) {
+  if (estimate.blocks == 0) return {0, 0};
+  return {estimate.error / student_factor(estimate.blocks - 1), estimate.blocks};
 }
 
-/// Blocks where they reach a plateau, which finds slow modes by itself; else of the least length.
+/// Of the mean of what a line leaves of a series, whose correlations decay in `correlation` steps. By
+/// blocking, where that reaches a plateau; else from blocks of the least length B, whose variance
+/// exponential correlations make too small by 1 − (τ/B)(1 − exp(−B/τ)), and the line by one degree of
+/// freedom: both are put back.
 BlockError error_of_residual(const std::vector<double>& residual, double shortest_block,
                              double correlation) {
-  const Estimate plateau = block_average(residual, shortest_block);
-  if (plateau.blocks > 0)
-    return {plateau.error / student_factor(plateau.blocks - 1), plateau.blocks};
-  const auto length = static_cast<std::size_t>(std::ceil(std::max(1.0, shortest_block)));
-  return error_of_known_blocks(residual, length, correlation);
+  BlockSums sums;
+  for (const double value : residual) sums.add(value);
+  const BlockError plateau = without_student(sums.estimate(shortest_block));
+  if (plateau.blocks > 0) return plateau;
+  const double length = std::ceil(std::max(1.0, shortest_block));
+  const BlockError known =
+      without_student(known_block_average(residual, static_cast<std::size_t>(length)));
+  const double seen =
+      correlation > 0 ? 1 + std::expm1(-length / correlation) * correlation / length : 1;
+  const double m = static_cast<double>(known.blocks);
+  return {known.error * std::sqrt((m - 1) / (m - 2) / seen), known.blocks};
 }
 
 /// Change over the series of the line fitted to it, and the error of the mean of what it leaves.
