@@ -4,12 +4,14 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 
 namespace vitrel {
 
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double rounding = 1e-9;  // of a mean: below it nothing fluctuates
 
 /// Variance of the mean of values taken as independent.
 double squared_error(double count, double squares) {
@@ -30,7 +32,8 @@ Estimate block_average(std::span<const double> series, double shortest_block) {
   return sums.estimate(shortest_block);
 }
 
-Estimate known_block_average(std::span<const double> series, std::size_t block) {
+Estimate known_block_average(std::span<const double> series, std::size_t block,
+                             double correlation) {
   const std::size_t blocks = series.size() / block;
   double sum = 0, squares = 0;
   for (std::size_t b = 0; b < blocks; ++b) {
@@ -39,7 +42,37 @@ Estimate known_block_average(std::span<const double> series, std::size_t block) 
     squares += mean * mean;
   }
   if (blocks < fewest_blocks) return {mean_of(series), none, 0};
-  return {mean_of(series), independent_average(blocks, sum, squares).error, blocks};
+  const double ratio = static_cast<double>(block) / correlation;
+  const double seen = correlation > 0 ? 1 + std::expm1(-ratio) / ratio : 1;
+  return {mean_of(series), independent_average(blocks, sum, squares).error / std::sqrt(seen),
+          blocks};
+}
+
+std::size_t correlation_steps(std::span<const double> series) {
+  const double mean = mean_of(series);
+  const auto correlation = [&](std::size_t lag) {
+    double sum = 0;
+    for (std::size_t k = lag; k < series.size(); ++k)
+      sum += (series[k] - mean) * (series[k - lag] - mean);
+    return sum / static_cast<double>(series.size() - lag);
+  };
+  const double variance = correlation(0);
+  if (std::sqrt(variance) <= rounding * std::abs(mean)) return 0;
+  const auto lasts = [&](std::size_t lag) {
+    const double bias = 2 * static_cast<double>(lag) / static_cast<double>(series.size());
+    return correlation(lag) / variance + bias > (1 + bias) / std::numbers::e;
+  };
+  std::size_t lag = 0;
+  while (lag + 1 < series.size() && lasts(lag)) ++lag;
+  return lag;
+}
+
+Estimate slow_average(std::span<const double> series) {
+  const Estimate plateau = block_average(series);
+  if (plateau.blocks > 0) return plateau;
+  const std::size_t steps = correlation_steps(series);
+  return known_block_average(series, std::max<std::size_t>(1, 2 * steps),
+                             static_cast<double>(steps));
 }
 
 void BlockSums::add(double value) {

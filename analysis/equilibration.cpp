@@ -29,28 +29,6 @@ double two_sided(double t, std::size_t degrees) {
   return 2 * gsl_cdf_tdist_Q(std::abs(t), static_cast<double>(degrees));
 }
 
-/// The number of steps k after which the autocorrelation of a series of n values has fallen to 1/e; 0
-/// of a constant. The mean of a short series follows the series, which takes about b = 2k/n off every
-/// correlation and the variance, if k is the correlation time; so c(k) + b is compared with (1 + b)/e.
-std::size_t correlation_steps(const std::vector<double>& series) {
-  const double mean = mean_of(series);
-  const auto correlation = [&](std::size_t lag) {
-    double sum = 0;
-    for (std::size_t k = lag; k < series.size(); ++k)
-      sum += (series[k] - mean) * (series[k - lag] - mean);
-    return sum / static_cast<double>(series.size() - lag);
-  };
-  const double variance = correlation(0);
-  if (std::sqrt(variance) <= rounding * std::abs(mean)) return 0;
-  const auto lasts = [&](std::size_t lag) {
-    const double bias = 2 * static_cast<double>(lag) / static_cast<double>(series.size());
-    return correlation(lag) / variance + bias > (1 + bias) / std::numbers::e;
-  };
-  std::size_t lag = 0;
-  while (lag + 1 < series.size() && lasts(lag)) ++lag;
-  return lag;
-}
-
 /// Time between two values of a series over the whole run.
 double step_of(const ScalarSeries& series, double duration) {
   return duration / static_cast<double>(series.value.size() - 1);
@@ -96,23 +74,17 @@ BlockError without_student(const Estimate& estimate) {
   return {estimate.error / student_factor(estimate.blocks - 1), estimate.blocks};
 }
 
-/// Of the mean of what a line leaves of a series, whose correlations decay in `correlation` steps. By
-/// blocking, where that reaches a plateau; else from blocks of the least length B, whose variance
-/// exponential correlations make too small by 1 − (τ/B)(1 − exp(−B/τ)), and the line by one degree of
-/// freedom: both are put back.
+/// Of the mean of what a line leaves of a series, whose correlations decay in `correlation` steps: by
+/// blocking, where that reaches a plateau; else from blocks of the least length. There the line takes a
+/// degree of freedom.
 BlockError error_of_residual(const std::vector<double>& residual, double shortest_block,
                              double correlation) {
-  BlockSums sums;
-  for (const double value : residual) sums.add(value);
-  const BlockError plateau = without_student(sums.estimate(shortest_block));
+  const BlockError plateau = without_student(block_average(residual, shortest_block));
   if (plateau.blocks > 0) return plateau;
-  const double length = std::ceil(std::max(1.0, shortest_block));
-  const BlockError known =
-      without_student(known_block_average(residual, static_cast<std::size_t>(length)));
-  const double seen =
-      correlation > 0 ? 1 + std::expm1(-length / correlation) * correlation / length : 1;
+  const auto length = static_cast<std::size_t>(std::ceil(std::max(1.0, shortest_block)));
+  const BlockError known = without_student(known_block_average(residual, length, correlation));
   const double m = static_cast<double>(known.blocks);
-  return {known.error * std::sqrt((m - 1) / (m - 2) / seen), known.blocks};
+  return {known.error * std::sqrt((m - 1) / (m - 2)), known.blocks};
 }
 
 /// Change over the series of the line fitted to it, and the error of the mean of what it leaves.

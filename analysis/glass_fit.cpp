@@ -48,8 +48,11 @@ struct Line {
 /// The law over the points of one window.
 class WindowFit {
  public:
-  WindowFit(std::vector<Point> points, GlassLaw law) : points_(std::move(points)), law_(law) {
+  /// φ_c is above `relaxed`.
+  WindowFit(std::vector<Point> points, GlassLaw law, double relaxed)
+      : points_(std::move(points)), law_(law) {
     highest_ = points_.back().packing_fraction;
+    least_gap_ = std::max(relaxed - highest_, 0.0) + smallest_gap;
   }
 
   GlassWindow operator()() const {
@@ -62,7 +65,7 @@ class WindowFit {
 
  private:
   double density(double u) const { return highest_ + std::exp(u); }
-  double first() const { return std::log(smallest_gap); }
+  double first() const { return std::log(least_gap_); }
   double last() const { return std::log(densest - highest_); }
 
   Line line(double u) const {
@@ -138,7 +141,7 @@ class WindowFit {
     };
     const Eigen::Vector3d start(w.log_prefactor, w.strength, std::log(w.density - highest_));
     const LeastSquares fit = least_squares(points_.size(), start, residuals);
-    if (!fit.converged || !(fit.chi_square <= w.chi_square)) return;
+    if (!fit.converged || !(fit.chi_square <= w.chi_square) || fit.parameters[2] < first()) return;
     w.log_prefactor = fit.parameters[0];
     w.strength = fit.parameters[1];
     w.density = density(fit.parameters[2]);
@@ -151,7 +154,7 @@ class WindowFit {
 
   std::vector<Point> points_;
   GlassLaw law_;
-  double highest_;
+  double highest_, least_gap_;
 };
 
 void check(const std::vector<GlassPoint>& points) {
@@ -201,12 +204,17 @@ Densities merge(std::vector<GlassPoint> points) {
   return result;
 }
 
+/// Above which density a law may have its φ_c: at a divergence nothing relaxes.
+double lower_end(const std::vector<Point>& points, GlassLaw law) {
+  return law == GlassLaw::vogel_fulcher ? points.back().packing_fraction : 0;
+}
+
 std::vector<GlassWindow> all_windows(const std::vector<Point>& points, GlassLaw law) {
   std::vector<GlassWindow> windows;
   for (auto begin = points.begin(); points.end() - begin >= std::ptrdiff_t{fewest_densities};
        ++begin)
     for (auto end = begin + fewest_densities; end <= points.end(); ++end)
-      windows.push_back(WindowFit({begin, end}, law)());
+      windows.push_back(WindowFit({begin, end}, law, lower_end(points, law))());
   return windows;
 }
 
@@ -255,11 +263,11 @@ double quantile(const std::vector<Belief>& beliefs, double probability, double f
   return from;
 }
 
-void combine_densities(GlassFit& fit) {
+void combine_densities(GlassFit& fit, double lower_end) {
   std::vector<Belief> beliefs;
   for (const GlassWindow& w : fit.windows)
     beliefs.push_back({w.weight, w.density, w.density - w.low, w.high - w.density});
-  const double from = fit.window.highest;
+  const double from = std::max(fit.window.highest, lower_end);
   fit.density = quantile(beliefs, 0.5, from, densest);
   fit.low = quantile(beliefs, one_sigma, from, densest);
   fit.high = quantile(beliefs, 1 - one_sigma, from, densest);
@@ -303,7 +311,7 @@ GlassFit fit_glass_law(const std::vector<GlassPoint>& points, GlassLaw law) {
   fit.density = fit.low = fit.high = fit.error = fit.statistical = fit.spread = fit.least = none;
   fit.strength = fit.strength_error = none;
   if (densities.points.size() < fewest_densities)
-    return refuse(fit, fmt::format("{} densities with a relaxation time; a fit needs {} or more",
+    return refuse(fit, fmt::format("{} densities in equilibrium; a fit needs {} or more",
                                    densities.points.size(), fewest_densities));
   fit.windows = all_windows(densities.points, law);
   weigh(fit.windows);
@@ -315,12 +323,12 @@ GlassFit fit_glass_law(const std::vector<GlassPoint>& points, GlassLaw law) {
                                    "one, [{:.4g}, {:.4g}]",
                                    fit.window.chi_square / static_cast<double>(fit.window.degrees),
                                    fit.window.lowest, fit.window.highest));
-  combine_densities(fit);
+  combine_densities(fit, lower_end(densities.points, law));
   combine_strengths(fit);
   if (std::isnan(fit.low))
     return refuse(fit, fmt::format("the density at which times diverge is not distinct from the "
                                    "highest one, {:.4g}",
-                                   fit.window.highest));
+                                   densities.points.back().packing_fraction));
   if (std::isnan(fit.high)) {
     fit.verdict = GlassVerdict::lower_bound;
     fit.reason =

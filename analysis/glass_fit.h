@@ -64,8 +64,10 @@ struct GlassFit {
 ///    over all densities, all errors are multiplied by S.
 /// 2. In a window of at least five neighbouring densities, ln τ is fitted by nonlinear least squares.
 ///    For every φ_c the law is linear in ln A and s ≥ 0, so χ²(φ_c) is known exactly (profile
-///    likelihood). It is followed from 1e-5 above the highest density up to 1; where it rises by 1
-///    are the ends of the interval of φ_c. A side where it does not rise by 1 is open.
+///    likelihood). It is followed from 1e-5 above the highest density up to 1: the highest of
+///    the window for the power law, which real systems cross by other ways of relaxing; the highest of
+///    all for Vogel and Fulcher's, as what relaxes is not beyond a divergence. Where it rises by 1 are
+///    the ends of the interval of φ_c. A side where it does not rise by 1 is open.
 /// 3. This is done for all windows, as nobody knows where the law begins and ends. Each has the weight
 ///    w ∝ exp(−χ²/2 − densities left out): Akaike's, which makes leaving out a density as dear as a
 ///    parameter of its own (jay2021).

@@ -32,6 +32,13 @@ double nematic_order(const Configuration2& configuration);
 /// 1/R: what a finite system without any order shows. Good to 1 % from R = 10 on.
 double nematic_order_by_chance(std::size_t rotors);
 
+/// Whether S, averaged over a run, is that of a nematic: above 0.5, and three times that of chance at
+/// least (R rotors of which g always turn together have √g times as much). In two dimensions order
+/// decays as a power of the distance, with an exponent of 1/4 at most (frenkel1985), hence S falls
+/// with the box; but as S² ≈ 1.1 (box/2 particles)^(−1/4) it is above 0.5 in every box shorter than
+/// some hundred particles.
+bool is_nematic(double order, std::size_t rotors);
+
 /// Density of the angles of the particles that are not round, seen from the director, in bins of equal
 /// width from −π/2 to π/2; its integral is 1. The director is that of the same particles: without
 /// order it is (1 + 2 S cos 2α)/π, not 1/π, with the S of a finite system. Empty if all are round.

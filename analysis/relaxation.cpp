@@ -92,16 +92,16 @@ RelaxationTime relaxation_time(const Decay& c) {
   return {time, time * line.error / -line.slope, none, none, ""};
 }
 
-Decay connected_part(const Decay& correlation, double plateau) {
+Decay connected_part(const Decay& correlation, const Estimate& plateau) {
   Decay result = correlation;
-  for (double& value : result.value) value = (value - plateau) / (1 - plateau);
-  for (double& error : result.error) error /= 1 - plateau;
+  const double rest = 1 - plateau.mean;
+  for (std::size_t k = 0; k < result.value.size(); ++k) {
+    result.value[k] = (correlation.value[k] - plateau.mean) / rest;
+    // Of (C − P)/(1 − P) with respect to P: (1 − C)/(1 − P)².
+    const double of_plateau = plateau.error * (1 - correlation.value[k]) / rest;
+    result.error[k] = std::hypot(correlation.error[k], of_plateau) / rest;
+  }
   return result;
-}
-
-double nematic_plateau(double square, std::size_t rotors) {
-  const double n = static_cast<double>(rotors);
-  return std::max(0.0, (n * square - 1) / (n - 1));
 }
 
 }  // namespace vitrel

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "analysis/blocking.h"
+
 namespace vitrel {
 
 /// A correlation that decays from 1 at time difference 0.
@@ -36,13 +38,9 @@ struct RelaxationTime {
 RelaxationTime relaxation_time(const Decay& correlation);
 
 /// The connected part (C − P)/(1 − P) of a correlation that ends on a plateau P < 1 because there is
-/// order: it decays from 1 to 0 again.
-Decay connected_part(const Decay& correlation, double plateau);
-
-/// The plateau of L₂(t) = ⟨cos 2(θ(t) − θ(0))⟩ in a nematic whose director stays: ⟨cos 2(θ − θ_d)⟩²
-/// = (R⟨S²⟩ − 1)/(R − 1), the mean of cos 2(θ_i − θ_j) over pairs of the R particles; it takes off
-/// what S² has without order, 1/R. Not below 0. `square` is ⟨S²⟩. A plateau of order that is
-/// only quasi-long-ranged depends on R as ⟨S²⟩ does (frenkel1985).
-double nematic_plateau(double square, std::size_t rotors);
+/// order: it decays from 1 to 0 again. L₂ of a nematic, seen from its director (director_frame.h), has the
+/// plateau ⟨S⟩²: the angles α to the director are such that ⟨sin 2α⟩ = 0 and ⟨cos 2α⟩ = S. `plateau` has
+/// a standard error, which adds to that of the correlation.
+Decay connected_part(const Decay& correlation, const Estimate& plateau);
 
 }  // namespace vitrel

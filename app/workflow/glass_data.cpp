@@ -1,6 +1,11 @@
 #include "app/workflow/glass_data.h"
 
 #include <algorithm>
+#include <optional>
+
+#include "analysis/blocking.h"
+#include "analysis/director_frame.h"
+#include "analysis/order.h"
 
 namespace vitrel {
 namespace {
@@ -23,6 +28,22 @@ BlockedCurve blocked(const Displacements& found, const Correlation& correlation)
   return {found.lag, correlation.value, correlation.error, correlation.blocks};
 }
 
+/// L_2 alone, and F_s at the first of the wave numbers.
+DisplacementOptions of_glass(DisplacementOptions options, const Displacements& found) {
+  options.wave_numbers = {found.wave_numbers.front()};
+  options.orders = {nematic_order_of_l};
+  return options;
+}
+
+/// L_2, from another pass if the run's own correlations do not have it.
+Decay orientation_of(Trajectory& seen, const Displacements& found,
+                     const DisplacementOptions& options, bool from_director) {
+  const Correlation* l = from_director ? nullptr : l_2(found);
+  if (l) return decay(found, *l);
+  const Displacements again = displacements(seen, options);
+  return decay(again, *l_2(again));
+}
+
 void add_halves(GlassRunData& data, Trajectory& trajectory, const DisplacementOptions& options) {
   const std::size_t middle = trajectory.frames() / 2;
   if (middle < 2) return;
@@ -43,30 +64,35 @@ void add_halves(GlassRunData& data, Trajectory& trajectory, const DisplacementOp
 }  // namespace
 
 std::optional<GlassRunData> glass_run_data(Trajectory& trajectory, const GlassSource& run,
-                                           DisplacementOptions options) {
+                                           const DisplacementOptions& options) {
+  if (!evenly_spaced(trajectory.times())) return std::nullopt;
   const Displacements& found = run.displacements;
   const DisplacementGroup& all = found.groups.front();
-  const Correlation* l = l_2(found);
-  if (!evenly_spaced(trajectory.times()) || (run.rotors > 0 && !l)) return std::nullopt;
+  const DisplacementOptions wanted = of_glass(options, found);
   GlassRunData data{};
   data.name = run.name;
   data.packing_fraction = run.packing_fraction;
   data.seed = run.seed;
   data.rotors = run.rotors;
   data.duration = trajectory.times().back() - trajectory.times().front();
+  data.wave_number = found.wave_numbers.front();
   data.scattering = decay(found, all.self_scattering.front());
   data.diffusion = diffusion_coefficient(found, all.translation, 2, trajectory.times());
-  if (run.rotors > 0) {
-    data.orientation = decay(found, *l);
-    data.nematic_order = run.order.find("nematic")->value;
-    data.rotational_diffusion = diffusion_coefficient(found, all.rotation, 1, trajectory.times());
-  }
   if (!run.compressibility.value.empty())
     data.series.push_back({"the compressibility factor", run.compressibility.value});
   data.series.push_back({"the hexatic order", run.order.find("hexatic")->value});
-  options.wave_numbers = {found.wave_numbers.front()};
-  options.orders = {nematic_order_of_l};
-  add_halves(data, trajectory, options);
+  if (run.rotors == 0) {
+    add_halves(data, trajectory, wanted);
+    return data;
+  }
+  data.nematic_order = run.order.find("nematic")->value;
+  data.rotational_diffusion = diffusion_coefficient(found, all.rotation, 1, trajectory.times());
+  const bool nematic = is_nematic(mean_of(data.nematic_order), run.rotors);
+  std::optional<DirectorFrame> director;
+  if (nematic) director.emplace(trajectory);
+  Trajectory& seen = nematic ? *director : trajectory;
+  data.orientation = orientation_of(seen, found, wanted, nematic);
+  add_halves(data, seen, wanted);
   return data;
 }
 

@@ -6,21 +6,15 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <tuple>
 
 #include "analysis/order.h"
+#include "core/error.h"
 
 namespace vitrel {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double least_order = 0.5;      // nematic order of a nematic
-constexpr double well_above_chance = 3;  // in units of the order of as many rotors without any
-
-bool is_nematic(const GlassRun& run) {
-  return run.nematic_order.mean >=
-         std::max(least_order, well_above_chance * nematic_order_by_chance(run.rotors));
-}
+constexpr double negligible = 0.05;  // rest of a correlation that has decayed
 
 constexpr const char* reason_key = "verdict_reason";
 constexpr const char* translation_reason_key = "verdict_translation_reason";
@@ -32,10 +26,10 @@ std::string text_of(const Results& results, const std::string& name) {
   return "";
 }
 
-double mean_square(const std::vector<double>& series) {
-  double sum = 0;
-  for (const double value : series) sum += value * value;
-  return sum / static_cast<double>(series.size());
+/// Whether nothing is left of a correlation at the longest time, but for what its error explains.
+bool vanishes(const Decay& correlation) {
+  const double error = std::isnan(correlation.error.back()) ? 0 : correlation.error.back();
+  return correlation.value.back() <= std::max(negligible, 3 * error);
 }
 
 void judge_orientation(GlassRun& run, const GlassRunData& data) {
@@ -44,14 +38,20 @@ void judge_orientation(GlassRun& run, const GlassRunData& data) {
   run.orientation = Orientation::round;
   run.rotation = {unknown, unknown, unknown, unknown, "no particle can turn"};
   if (data.rotors == 0) return;
-  run.nematic_order = block_average(data.nematic_order);
-  const bool nematic = is_nematic(run);
-  if (nematic) run.plateau = nematic_plateau(mean_square(data.nematic_order), data.rotors);
-  run.rotation = relaxation_time(connected_part(data.orientation, run.plateau));
-  const bool decays = !std::isnan(run.rotation.value) || !std::isnan(run.rotation.most);
-  run.orientation = !decays   ? Orientation::frozen
-                    : nematic ? Orientation::ordered
-                              : Orientation::relaxes;
+  run.nematic_order = slow_average(data.nematic_order);
+  const auto& [order, error, blocks] = run.nematic_order;
+  if (!is_nematic(order, data.rotors)) {
+    run.rotation = relaxation_time(data.orientation);
+    const bool decays = !std::isnan(run.rotation.value) || !std::isnan(run.rotation.most);
+    run.orientation = decays ? Orientation::relaxes : Orientation::lasting;
+    return;
+  }
+  run.plateau = order * order;
+  const Decay connected =
+      connected_part(data.orientation, {run.plateau, 2 * order * error, blocks});
+  run.rotation = relaxation_time(connected);
+  const bool decays = !std::isnan(run.rotation.value) && vanishes(connected);
+  run.orientation = decays ? Orientation::ordered : Orientation::lasting;
 }
 
 void judge(GlassRun& run, const GlassRunData& data) {
@@ -76,7 +76,7 @@ Time inverse(const DiffusionCoefficient& d) {
 }
 
 bool nematic(const GlassRun& run) {
-  return run.rotors > 0 && is_nematic(run);
+  return run.rotors > 0 && is_nematic(run.nematic_order.mean, run.rotors);
 }
 
 /// Whether a run can have a time of this kind at all.
@@ -164,8 +164,8 @@ const char* name_of(Orientation orientation) {
       return "relaxes";
     case Orientation::ordered:
       return "nematic order";
-    case Orientation::frozen:
-      return "frozen";
+    case Orientation::lasting:
+      return "does not relax";
   }
   return "";
 }
@@ -205,30 +205,38 @@ constexpr const char* kinds_text =
 Table relaxation_table(const GlassStudy& study) {
   Rows rows(
       "relaxation",
-      "Relaxation times, one row per run. tau_translation: F_s = 1/e; tau_rotation: L_2 = 1/e, "
-      "in a nematic its connected part. verdict: 0 equilibrated, 1 ageing, 2 not enough time; "
-      "verdict_translation, whatever rotation does; only equilibrated runs enter the fits, of "
-      "translation by the latter. nematic_order: S, beside that of as many "
+      "Relaxation times, one row per run. tau_translation: F_s = 1/e at wave_number; tau_rotation: "
+      "L_2 = 1/e, in a nematic its connected part, seen from the director. verdict: 0 "
+      "equilibrated, "
+      "1 ageing, 2 not enough time, from so many tests; verdict_translation, whatever rotation "
+      "does; "
+      "only equilibrated runs enter the fits, of translation by the latter. nematic_order: S, "
+      "beside that of as many "
       "rotors without order; plateau: of L_2 by order, 0 if not nematic. orientation: 0 round, "
-      "1 relaxes, 2 nematic order, 3 frozen.",
+      "1 relaxes, 2 nematic order, 3 does not relax.",
       {{"packing_fraction", "1", {}, {}},
        {"seed", "1", {}, {}},
        {"duration", "time", {}, {}},
        {"verdict", "1", {}, {}},
+       {"tests", "1", {}, {}},
        {"verdict_translation", "1", {}, {}},
+       {"tests_translation", "1", {}, {}},
+       {"wave_number", "1/length", {}, {}},
        {"tau_translation", "time", {}, {}},
        {"tau_rotation", "time", {}, {}},
        {"nematic_order", "1", {}, {}},
        {"nematic_by_chance", "1", {}, {}},
        {"plateau", "1", {}, {}},
        {"orientation", "1", {}, {}}});
-  const std::vector<bool> has_error = {false, false, false, false, false, true,
-                                       true,  true,  false, false, false};
+  std::vector<bool> has_error(14, false);
+  has_error[8] = has_error[9] = has_error[10] = true;
   for (const GlassRun& run : study.runs)
     rows.add({plain(run.packing_fraction), plain(static_cast<double>(run.seed)),
               plain(run.duration), plain(number(run.equilibration.verdict)),
+              plain(static_cast<double>(run.equilibration.tests)),
               plain(number(run.translation_equilibration.verdict)),
-              Time{run.translation.value, run.translation.error},
+              plain(static_cast<double>(run.translation_equilibration.tests)),
+              plain(run.wave_number), Time{run.translation.value, run.translation.error},
               Time{run.rotation.value, run.rotation.error},
               Time{run.nematic_order.mean, run.nematic_order.error},
               plain(run.rotors > 0 ? nematic_order_by_chance(run.rotors) : unknown),
@@ -318,23 +326,36 @@ std::string time_text(double value, double error) {
 }
 
 std::string run_line(const GlassRun& run) {
-  return fmt::format("{:8.4g} {:5} {:>7} {:>20} {:>20}  {:<13}  {}\n", run.packing_fraction,
+  return fmt::format("{:8.4g} {:5} {:>7} {:>18} {:>18}  {:<14}  {:<15}  {}\n", run.packing_fraction,
                      run.seed, run.rotors > 0 ? fmt::format("{:.3f}", run.nematic_order.mean) : "-",
                      time_text(run.translation.value, run.translation.error),
                      time_text(run.rotation.value, run.rotation.error), name_of(run.orientation),
+                     name_of(run.translation_equilibration.verdict),
                      name_of(run.equilibration.verdict));
 }
 
-std::string fit_line(const StudiedLaw& studied) {
-  const GlassFit& fit = studied.fit;
-  std::string text = fmt::format("{}, {}: ", name_of(studied.kind), name_of(studied.law));
-  if (fit.verdict != GlassVerdict::found) return text + "no phi_c: " + fit.reason + "\n";
-  return text + fmt::format(
-                    "phi_c = {:.4f} +- {:.4f} (statistical {:.4f}, window {:.4f}), s = {:.3g} "
-                    "+- {:.2g}; best window {:.4g} ... {:.4g}, chi^2/dof {:.2f}\n",
-                    fit.density, fit.error, fit.statistical, fit.spread, fit.strength,
-                    fit.strength_error, fit.window.lowest, fit.window.highest,
-                    fit.window.chi_square / static_cast<double>(fit.window.degrees));
+std::string law_text(const GlassFit& fit) {
+  if (fit.verdict != GlassVerdict::found) return "no phi_c: " + fit.reason;
+  return fmt::format(
+      "phi_c = {:.4f} +- {:.4f} (statistical {:.4f}, window {:.4f}), s = {:.3g} +- {:.2g}; best "
+      "window {:.4g} ... {:.4g}, chi^2/dof {:.2f}",
+      fit.density, fit.error, fit.statistical, fit.spread, fit.strength, fit.strength_error,
+      fit.window.lowest, fit.window.highest,
+      fit.window.chi_square / static_cast<double>(fit.window.degrees));
+}
+
+/// Kinds with what each law says of them; one line where both say the same.
+std::vector<std::string> law_lines(const GlassStudy& study) {
+  std::vector<std::string> lines;
+  for (std::size_t k = 0; k < study.laws.size(); ++k) {
+    const auto& [kind, law, fit] = study.laws[k];
+    const bool has_next = k + 1 < study.laws.size() && study.laws[k + 1].kind == kind;
+    const bool same = has_next && law_text(fit) == law_text(study.laws[k + 1].fit);
+    lines.push_back(same ? fmt::format("{}: {}", name_of(kind), law_text(fit))
+                         : fmt::format("{}, {}: {}", name_of(kind), name_of(law), law_text(fit)));
+    k += same;
+  }
+  return lines;
 }
 
 /// The densities of the runs of which something is true, each once.
@@ -352,20 +373,32 @@ std::string densities_where(const GlassStudy& study, Predicate&& predicate) {
 }
 
 std::string order_or_glass(const GlassStudy& study) {
-  const std::string ordered = densities_where(
-      study, [](const GlassRun& run) { return run.orientation == Orientation::ordered; });
-  const std::string frozen = densities_where(
-      study, [](const GlassRun& run) { return run.orientation == Orientation::frozen; });
+  const std::string ordered = densities_where(study, [](const GlassRun& run) {
+    return run.orientation == Orientation::ordered && equilibrated(run.equilibration);
+  });
+  const std::string lasting = densities_where(
+      study, [](const GlassRun& run) { return run.orientation == Orientation::lasting; });
   std::string text;
   if (!ordered.empty())
     text += fmt::format(
-        "Nematic order, not glass, keeps orientations at {}: L_2 decays to the "
-        "plateau that order gives it.\n",
+        "Nematic order, not glass, keeps orientations at {}: seen from the director, L_2 decays to "
+        "the plateau that order gives it.\n",
         ordered);
-  if (!frozen.empty())
+  if (!lasting.empty())
     text += fmt::format(
-        "Orientations do not relax within the run (beyond what order explains) at {}.\n", frozen);
+        "Orientations do not relax within the run (beyond what order explains) at {}.\n", lasting);
   return text;
+}
+
+/// The power law is an extrapolation that real systems cross: what still relaxes beyond.
+std::string crossed(const StudiedLaw& studied, const std::vector<GlassPoint>& points) {
+  double highest = 0;
+  for (const GlassPoint& point : points) highest = std::max(highest, point.packing_fraction);
+  if (studied.fit.verdict != GlassVerdict::found || studied.fit.density > highest) return "";
+  return fmt::format(
+      "{}, {}: phi_c = {:.4f} lies below {:.4g}, where the system is still in "
+      "equilibrium: it marks a crossover",
+      name_of(studied.kind), name_of(studied.law), studied.fit.density, highest);
 }
 
 }  // namespace
@@ -377,6 +410,7 @@ GlassRun judge_glass_run(const GlassRunData& data) {
   run.seed = data.seed;
   run.rotors = data.rotors;
   run.duration = data.duration;
+  run.wave_number = data.wave_number;
   run.diffusion = data.diffusion;
   run.rotational_diffusion = data.rotational_diffusion;
   run.translation = relaxation_time(data.scattering);
@@ -395,24 +429,34 @@ std::optional<GlassRun> stored_glass_run(const std::string& name, const Results&
   const Table* relaxation = results.find("relaxation");
   const Table* summary = results.find("summary");
   if (!relaxation || !summary || relaxation->rows() != 1) return std::nullopt;
-  const auto value = [](const Table& table, const char* column) {
-    return table.find(column)->value.front();
+  const auto column = [&](const Table& table, const char* wanted) -> const Column& {
+    const Column* found = table.find(wanted);
+    if (!found)
+      throw FileError(
+          fmt::format("{}: the results have no column '{}' in the table '{}': they are of "
+                      "another version; analyse the run again",
+                      name, wanted, table.name));
+    return *found;
   };
-  const auto error = [](const Table& table, const char* column) {
-    return table.find(column)->error.front();
+  const auto value = [&](const Table& table, const char* wanted) {
+    return column(table, wanted).value.front();
   };
-  const auto verdict = [&](const char* column, const char* reason) {
-    const auto code = static_cast<int>(value(*relaxation, column));
-    return Equilibration{static_cast<EquilibrationVerdict>(code), text_of(results, reason)};
+  const auto error = [&](const Table& table, const char* wanted) {
+    const Column& found = column(table, wanted);
+    return found.error.empty() ? unknown : found.error.front();
   };
-  const auto time = [&](const char* column) {
-    return RelaxationTime{value(*relaxation, column), error(*relaxation, column), unknown, unknown,
-                          ""};
+  const auto verdict = [&](const char* code, const char* tests, const char* reason) {
+    return Equilibration{
+        static_cast<EquilibrationVerdict>(static_cast<int>(value(*relaxation, code))),
+        text_of(results, reason), static_cast<std::size_t>(value(*relaxation, tests))};
   };
-  const auto diffusion = [&](const std::string& column) {
-    return DiffusionCoefficient{value(*summary, column.c_str()), error(*summary, column.c_str()),
-                                value(*summary, (column + "_from").c_str()),
-                                value(*summary, (column + "_to").c_str()), ""};
+  const auto time = [&](const char* of) {
+    return RelaxationTime{value(*relaxation, of), error(*relaxation, of), unknown, unknown, ""};
+  };
+  const auto diffusion = [&](const std::string& of) {
+    return DiffusionCoefficient{value(*summary, of.c_str()), error(*summary, of.c_str()),
+                                value(*summary, (of + "_from").c_str()),
+                                value(*summary, (of + "_to").c_str()), ""};
   };
   GlassRun run{};
   run.name = name;
@@ -420,6 +464,7 @@ std::optional<GlassRun> stored_glass_run(const std::string& name, const Results&
   run.seed = static_cast<std::uint64_t>(value(*relaxation, "seed"));
   run.rotors = static_cast<std::size_t>(value(*summary, "rotors"));
   run.duration = value(*relaxation, "duration");
+  run.wave_number = value(*relaxation, "wave_number");
   run.nematic_order = {value(*relaxation, "nematic_order"), error(*relaxation, "nematic_order"), 0};
   run.plateau = value(*relaxation, "plateau");
   run.orientation = static_cast<Orientation>(static_cast<int>(value(*relaxation, "orientation")));
@@ -427,16 +472,20 @@ std::optional<GlassRun> stored_glass_run(const std::string& name, const Results&
   run.rotation = time("tau_rotation");
   run.diffusion = diffusion("diffusion");
   run.rotational_diffusion = diffusion("rotational_diffusion");
-  run.equilibration = verdict("verdict", reason_key);
-  run.translation_equilibration = verdict("verdict_translation", translation_reason_key);
+  run.equilibration = verdict("verdict", "tests", reason_key);
+  run.translation_equilibration =
+      verdict("verdict_translation", "tests_translation", translation_reason_key);
   return run;
 }
 
-GlassStudy study_glass(std::vector<GlassRun> runs) {
-  std::stable_sort(runs.begin(), runs.end(), [](const GlassRun& a, const GlassRun& b) {
-    return std::tie(a.packing_fraction, a.seed) < std::tie(b.packing_fraction, b.seed);
-  });
+GlassStudy study_glass(std::vector<GlassRun> runs, const std::string& mixed) {
   GlassStudy study{std::move(runs), {}};
+  if (!mixed.empty()) {
+    study.remarks.push_back(fmt::format(
+        "no laws are fitted: the runs differ in {} as well; make a sweep of its own for each",
+        mixed));
+    return study;
+  }
   for (const GlassKind kind : glass_kinds) {
     std::vector<GlassPoint> points;
     bool applied = false;
@@ -446,8 +495,11 @@ GlassStudy study_glass(std::vector<GlassRun> runs) {
       if (enters_fit(kind, run)) points.push_back({run.packing_fraction, time.value, time.error});
     }
     if (!applied) continue;
-    for (const GlassLaw law : {GlassLaw::mode_coupling, GlassLaw::vogel_fulcher})
+    for (const GlassLaw law : {GlassLaw::mode_coupling, GlassLaw::vogel_fulcher}) {
       study.laws.push_back({kind, law, fit_glass_law(points, law)});
+      const std::string remark = crossed(study.laws.back(), points);
+      if (!remark.empty()) study.remarks.push_back(remark);
+    }
   }
   return study;
 }
@@ -470,10 +522,9 @@ std::vector<std::pair<std::string, std::string>> glass_notes(const GlassStudy& s
       add_run(run, "all", run.translation_equilibration);
     else if (!equilibrated(run.equilibration))
       add_run(run, "rotation", run.equilibration);
-  for (const StudiedLaw& studied : study.laws)
-    if (studied.fit.verdict != GlassVerdict::found)
-      add(fmt::format("{}, {}: no phi_c, {}", name_of(studied.kind), name_of(studied.law),
-                      studied.fit.reason));
+  for (const std::string& line : law_lines(study))
+    if (line.find("no phi_c") != std::string::npos) add(line);
+  for (const std::string& remark : study.remarks) add(remark);
   return notes;
 }
 
@@ -505,11 +556,13 @@ nlohmann::ordered_json glass_summary(const GlassStudy& study) {
 }
 
 std::string glass_text(const GlassStudy& study) {
-  std::string text = fmt::format("{:>8} {:>5} {:>7} {:>20} {:>20}  {:<13}  {}\n", "phi", "seed",
-                                 "S", "tau_alpha", "tau_2", "orientation", "verdict");
+  std::string text =
+      fmt::format("{:>8} {:>5} {:>7} {:>18} {:>18}  {:<14}  {:<15}  {}\n", "phi", "seed", "S",
+                  "tau_alpha", "tau_2", "orientation", "translation", "all");
   for (const GlassRun& run : study.runs) text += run_line(run);
   text += order_or_glass(study);
-  for (const StudiedLaw& studied : study.laws) text += fit_line(studied);
+  for (const std::string& line : law_lines(study)) text += line + "\n";
+  for (const std::string& remark : study.remarks) text += remark + "\n";
   return text;
 }
 

@@ -25,8 +25,9 @@ struct GlassRunData {
   std::uint64_t seed;
   std::size_t rotors;
   double duration;
-  Decay scattering;                   ///< F_s(q, t) at the main peak
-  Decay orientation;                  ///< L_2(t); empty without rotors
+  double wave_number;  ///< q of F_s
+  Decay scattering;    ///< F_s(q, t)
+  Decay orientation;   ///< L_2(t), of a nematic seen from its director; empty without rotors
   std::vector<double> nematic_order;  ///< S at evenly spaced times; empty without rotors
   std::vector<ScalarSeries> series;   ///< others that must not drift: compressibility, energy
   std::vector<HalvesOfCurve>
@@ -40,7 +41,7 @@ enum class Orientation {
   round,    ///< there are none
   relaxes,  ///< L_2 decays
   ordered,  ///< nematic: L_2 decays to its plateau, and is kept there by order
-  frozen,   ///< L_2 does not decay within the run, or not to the plateau: glass, or too short
+  lasting,  ///< L_2 does not decay within the run, or not to the plateau: glass, or too short
 };
 
 struct GlassRun {
@@ -49,10 +50,11 @@ struct GlassRun {
   std::uint64_t seed;
   std::size_t rotors;
   double duration;
+  double wave_number;      ///< q of τ_α
   Estimate nematic_order;  ///< S
   double plateau;          ///< of L_2, by order; 0 if not nematic
   Orientation orientation;
-  RelaxationTime translation;  ///< τ_α: F_s = 1/e
+  RelaxationTime translation;  ///< τ_α: F_s(q, t) = 1/e
   RelaxationTime rotation;     ///< τ_2: L_2 = 1/e, in a nematic its connected part
   DiffusionCoefficient diffusion, rotational_diffusion;
   Equilibration equilibration;  ///< of everything
@@ -62,22 +64,18 @@ struct GlassRun {
 
 /// Relaxation times, order and verdict of one run.
 ///
-/// Nematic or not: of R rotors without order S is about √(π/(4R)), or √g times that if g of them turn
-/// together. In two dimensions order decays as a power of the distance, with an exponent of 1/4 at most
-/// (frenkel1985), hence S falls with the box; but as S² ≈ 1.1 (box/2 particles)^(−1/4) it is above 0.5
-/// in every box shorter than some hundred particles. A run counts as nematic from S = 0.5 on, if that is
-/// three times √(π/(4R)) at least.
-///
-/// In a nematic, L_2 does not decay and the mean squared rotation stops although all is in
-/// equilibrium. So it is judged by its connected part (relaxation.h): if that decays, the stop is
-/// order; if it does not, orientations are frozen beyond their order. That S is stationary is part of
-/// the verdict, as are τ_α and τ_2. Translation has a verdict of its own besides: where orientations
-/// stand still, or a director wanders slowly, places may still be in equilibrium among them.
+/// In a nematic (order.h) L_2 does not decay to 0 and the mean squared rotation stops although all is in
+/// equilibrium. So its connected part is judged, seen from the director (relaxation.h): if that decays
+/// below 1/e, and to less than three errors or 0.05 at the longest time, the stop is order; if it does
+/// not, orientations last beyond their order. That S is stationary is part of the verdict, as are τ_α
+/// and τ_2. Translation has a verdict of its own besides: where orientations stand still, places may
+/// still be in equilibrium among them.
 GlassRun judge_glass_run(const GlassRunData& data);
 
 /// Adds a judged run to its results: a table `relaxation` of one row, and reasons in the provenance.
 void store_glass_run(const GlassRun& run, Results& results);
-/// The same from there, with all that a study needs; no value if the results have none.
+/// The same from there, with all that a study needs; no value if the results have none. Throws FileError
+/// for results of another version.
 std::optional<GlassRun> stored_glass_run(const std::string& name, const Results& results);
 
 /// What a law is fitted to.
@@ -99,13 +97,16 @@ struct StudiedLaw {
 };
 
 struct GlassStudy {
-  std::vector<GlassRun> runs;    ///< by density, then by seed
+  std::vector<GlassRun> runs;    ///< in the order given
   std::vector<StudiedLaw> laws;  ///< both laws for every kind that some run has a time of
+  std::vector<std::string> remarks =
+      {};  ///< what else must be known, such as why there are no laws
 };
 
 /// Both laws for all kinds, from the runs that were in equilibrium and have a time with an error;
-/// translation and diffusion by the verdict of translation.
-GlassStudy study_glass(std::vector<GlassRun> runs);
+/// translation and diffusion by the verdict of translation. Of runs that differ in more than density,
+/// seed and duration no law holds: `mixed` names what differs, and then none is fitted.
+GlassStudy study_glass(std::vector<GlassRun> runs, const std::string& mixed = "");
 
 /// Tables `relaxation` (one row per run), `glass_fit` (one row per kind and law) and
 /// `glass_fit_windows` (one row per kind, law and window). Kinds, laws and verdicts are numbers there,
