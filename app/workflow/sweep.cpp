@@ -23,7 +23,13 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr int stopped_exit_code = 5;
+// A preparation or a run saves its state and ends with 5; an analysis has nothing to save, and a
+// signal just ends it.
+bool is_stop(int exit_code) {
+  return exit_code == 5 ||
+         std::any_of(stop_signals.begin(), stop_signals.end(),
+                     [exit_code](int number) { return exit_code == 128 + number; });
+}
 
 // What was begun with other parameters is refused, but for those of the analysis, which is made anew.
 void write_job_folder(const SweepJob& job, const fs::path& folder) {
@@ -68,7 +74,7 @@ class JobWorker {
     const std::optional<int> code = child_->poll();
     if (!code) return;
     exit_code_ = *code;
-    if (*code == stopped_exit_code) {
+    if (is_stop(*code)) {
       state_ = State::stopped;
     } else if (*code != 0) {
       state_ = State::failed;
@@ -203,7 +209,7 @@ class Sweep {
       collect();
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
-    outcome_.stopped = stopping_ && outcome_.done + outcome_.failed < jobs_.size();
+    outcome_.stopped = outcome_.done + outcome_.failed < jobs_.size();
     return outcome_;
   }
 
