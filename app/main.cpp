@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <functional>
 #include <iostream>
+#include <system_error>
 
 #include "app/commands/commands.h"
 #include "core/error.h"
@@ -15,7 +16,9 @@ using Chosen = std::function<int(const Arguments&)>;
 
 const std::string exit_codes =
     "Exit codes: 0 done, 2 mistake in parameters or command line, 3 a file cannot be read or "
-    "written, ";
+    "written";
+const std::string overlap_code = ", 4 overlap or another broken invariant";
+const std::string resumed_code = ", 5 stopped (the same command continues)";
 
 class CommandLine {
  public:
@@ -61,7 +64,7 @@ class CommandLine {
                 const Chosen& command) {
     CLI::App& sub = *parent.add_subcommand(name, sentence);
     sub.callback([this, command] { chosen_ = command; });
-    sub.footer(exit_codes + "4 overlap, 5 stopped (the same command continues).");
+    sub.footer(exit_codes + ".");
     return sub;
   }
 
@@ -69,9 +72,9 @@ class CommandLine {
     sub.add_flag("-q,--quiet", arguments_.quiet, "No progress and no summary");
     sub.add_flag("--json", arguments_.json, "Summary as JSON on standard output");
   }
-  void add_overrides(CLI::App& sub) {
+  void add_overrides(CLI::App& sub, const std::string& example) {
     sub.add_option("--set", arguments_.overrides,
-                   "key=value, instead of the value in the file: --set dynamics.duration=10")
+                   "key=value, instead of the value in the file: --set " + example)
         ->take_all()
         ->allow_extra_args(false);
   }
@@ -83,7 +86,7 @@ class CommandLine {
   void add_parameter_file(CLI::App& sub) {
     sub.add_option("params", arguments_.input, "Parameter file (TOML); vitrel params prints one")
         ->required();
-    add_overrides(sub);
+    add_overrides(sub, "dynamics.duration=10");
     sub.add_option("--seed", arguments_.seed,
                    "Seed of all random numbers, the same as --set system.seed=");
   }
@@ -98,12 +101,13 @@ class CommandLine {
   void add_analysis_parameters(CLI::App& sub) {
     sub.add_option("--params", arguments_.parameters,
                    "Parameter file with [analysis], instead of that in the run");
-    add_overrides(sub);
+    add_overrides(sub, "analysis.longest_lag=0.1");
   }
 
   void add_prepare() {
     CLI::App& sub =
         add("prepare", "Make a first state, and report how good it is.", prepare_command);
+    sub.footer(exit_codes + overlap_code + resumed_code + ".");
     add_parameter_file(sub);
     add_output(sub, "State file to write; its quality report <state>.quality.json lies beside it",
                true);
@@ -115,6 +119,7 @@ class CommandLine {
     CLI::App& sub =
         add("run", "Start or continue an event-driven run; without --from, prepare first.",
             run_command);
+    sub.footer(exit_codes + overlap_code + resumed_code + ".");
     add_parameter_file(sub);
     add_output(sub, "Trajectory to write; its checkpoint lies beside it", true);
     sub.add_option("--from", arguments_.from, "State or run whose last frame to start from");
@@ -126,6 +131,7 @@ class CommandLine {
   void add_check() {
     CLI::App& sub = add("check", "Exact check of a state or of all frames of a run for overlaps.",
                         check_command);
+    sub.footer(exit_codes + overlap_code + ", 5 stopped (no overlap so far).");
     sub.add_option("file", arguments_.input, "State or run")->required();
     sub.add_flag("--last", arguments_.last_only, "The last frame only");
     add_quiet_and_json(sub);
@@ -134,9 +140,10 @@ class CommandLine {
     CLI::App& sub = add(
         "analyze",
         "Structure, motion, energies and pressure of a run; relaxation times and the glass "
-        "transition of a sweep, from the results of its jobs, which --params or --set make anew.",
+        "transition of a sweep, from the results of its jobs, or with --params or --set from their "
+        "runs.",
         analyze_command);
-    sub.add_option("run", arguments_.input, "Run, or folder of a sweep")->required();
+    sub.add_option("run", arguments_.input, "Run, or folder of a job or a sweep")->required();
     add_output(sub,
                "Results to write (HDF5, and CSV tables beside it); default <run>_results.h5 or "
                "<sweep>/results.h5",
@@ -147,6 +154,8 @@ class CommandLine {
   void add_sweep() {
     CLI::App& sub =
         add("sweep", "Work off all jobs of [sweep]: prepare, run, analyze.", sweep_command);
+    sub.footer(exit_codes + overlap_code + resumed_code +
+               "; of jobs that failed, the first one's.");
     add_parameter_file(sub);
     add_output(sub, "Folder of the sweep", true);
     CLI::Option* parallel = sub.add_option("-j,--jobs", arguments_.parallel, "Jobs at a time")
@@ -170,7 +179,8 @@ class CommandLine {
   void add_report() {
     CLI::App& sub =
         add("report", "One HTML page about a prepared state, a run or a sweep.", report_command);
-    sub.add_option("run", arguments_.input, "State, run, or folder of a sweep")->required();
+    sub.add_option("run", arguments_.input, "State, run, or folder of a job or a sweep")
+        ->required();
     add_output(sub, "Page to write; default <state>.html, <run>.html or <sweep>/report.html",
                false);
     add_analysis_parameters(sub);
@@ -180,6 +190,7 @@ class CommandLine {
     CLI::App& sub =
         add("export", "Write a state, a run or results in the format of another program.",
             export_command);
+    sub.footer(exit_codes + ", 5 stopped (nothing was written).");
     sub.add_option("file", arguments_.input, "State or run, or results of vitrel analyze")
         ->required();
     sub.add_option(
@@ -242,7 +253,7 @@ class CommandLine {
     sub.add_option("--method", arguments_.methods, "Only these methods, by name");
   }
   void add_measured(CLI::App& sub, const std::string& folder) {
-    sub.footer(exit_codes + "5 stopped (rows of what was done, no files).");
+    sub.footer(exit_codes + ", 5 stopped (rows of what was done, no files).");
     add_output(sub, folder, false);
     sub.add_option("--seed", arguments_.seed, "Seed of all random numbers (1)");
     add_wall_time(sub);
@@ -284,7 +295,7 @@ int run_command_line(const CommandLine& line) {
     return complain(command, error.what(), file_error);
   } catch (const InvariantError& error) {
     return complain(command, error.what(), broken_invariant);
-  } catch (const std::filesystem::filesystem_error& error) {
+  } catch (const std::system_error& error) {
     return complain(command, error.what(), file_error);
   } catch (const std::bad_alloc&) {
     return complain(command,

@@ -84,7 +84,6 @@ void write_collision_time(const fs::path& folder, const CollisionTimeBench& benc
                           const std::vector<lab::OverlapRow>& overlap,
                           const std::vector<lab::WholeRun>& runs,
                           const PageProvenance& provenance) {
-  fs::create_directories(folder);
   const Json data = {{"rows", collision_time_json(bench.survey.rows)},
                      {"classes", classes_json()},
                      {"tolerances", collision_time_json(bench.tolerances)},
@@ -112,7 +111,6 @@ void write_collision_time(const fs::path& folder, const CollisionTimeBench& benc
 void write_files(const fs::path& folder, const std::string& name, const Json& rows,
                  const PageProvenance& provenance, const std::string& chart,
                  const std::string& page) {
-  fs::create_directories(folder);
   const Json data = {{"rows", rows}, {"provenance", as_json(provenance)}};
   write_text(folder / (name + ".json"), data.dump(2) + "\n");
   write_text(folder / (name + ".svg"), chart);
@@ -131,6 +129,7 @@ int bench_collision_time_command(const Arguments& arguments) {
   request.methods = arguments.methods;
   request.classes = arguments.classes;
   request.with_chart = !arguments.output.empty();
+  if (!arguments.output.empty()) make_folder(arguments.output);
   Session session(arguments);
   const CollisionTimeBench bench = bench_collision_time(request, session.budget(), session.say());
   print_rows(arguments, collision_time_json(bench.survey.rows),
@@ -165,6 +164,7 @@ int bench_overlap_command(const Arguments& arguments) {
   request.seed = arguments.seed.value_or(request.seed);
   request.methods = arguments.methods;
   request.classes = arguments.classes;
+  if (!arguments.output.empty()) make_folder(arguments.output);
   Session session(arguments);
   session.say()("overlap criteria");
   const lab::OverlapSurvey survey = bench_overlap(request, session.budget());
@@ -188,6 +188,7 @@ int bench_thesis_command(const Arguments& arguments) {
   request.relaxations = arguments.runs.value_or(request.relaxations);
   request.largest = arguments.largest.value_or(request.largest);
   request.seed = arguments.seed.value_or(request.seed);
+  if (!arguments.output.empty()) make_folder(arguments.output);
   Session session(arguments);
   const ThesisBench bench = bench_thesis(request, session.budget(), session.say());
   print_rows(arguments, thesis_rows_json(bench.by_size), thesis_text(bench));
@@ -200,7 +201,6 @@ int bench_thesis_command(const Arguments& arguments) {
                             request.largest, request.seed)},
        {"time limit", fmt::format("{:g} s for a run of the thesis's program", request.seconds)}},
       session));
-  fs::create_directories(arguments.output);
   write_text(arguments.output / "thesis.json", data.dump(2) + "\n");
   for (const ThesisFigure& figure : thesis_figures(bench))
     write_text(arguments.output / figure.file, chart_svg(figure.chart));
@@ -212,6 +212,7 @@ int bench_whole_run_command(const Arguments& arguments) {
   request.duration = arguments.duration.value_or(request.duration);
   request.seed = arguments.seed.value_or(request.seed);
   request.methods = arguments.methods;
+  if (!arguments.output.empty()) make_folder(arguments.output);
   Session session(arguments);
   session.say()("whole runs");
   const WholeRunBench bench = bench_whole_run(request, session.budget());

@@ -5,11 +5,13 @@
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 #include "app/commands/commands.h"
 #include "app/workflow/analyze.h"
 #include "app/workflow/parameters.h"
 #include "app/workflow/progress.h"
+#include "app/workflow/sweep.h"
 #include "core/state/stage.h"
 
 namespace vitrel {
@@ -34,9 +36,19 @@ class Session {
 };
 
 ParameterSource parameter_source(const Arguments& arguments);
+/// UserError if --set names a key that no analysis has.
 AnalysisChoice analysis_choice(const Arguments& arguments);
 
-/// Throws UserError if the output exists: before the work, which may be long.
+/// A run's file or a sweep's folder; of a job's folder, the run in it. FileError if it is not there.
+std::filesystem::path run_or_sweep(const std::filesystem::path& input);
+
+// What is to be written is looked at before the work, which may be long.
+
+/// FileError if the output's folder is missing; UserError if the output is a folder or a device, or
+/// one of the files that are read.
+void require_output_file(const std::filesystem::path& output,
+                         const std::vector<std::filesystem::path>& inputs);
+/// The same of a file or folder that must not exist (UserError).
 void require_new(const std::filesystem::path& output);
 
 /// To standard output: as JSON if asked for, else as lines "key  value" unless quiet.
@@ -47,5 +59,7 @@ void flush_output();
 
 /// One line on standard error, unless quiet.
 void remark(const Arguments& arguments, const std::string& line);
+/// Says which jobs of a sweep are missing, if any.
+void remark_left_out(const Arguments& arguments, const SweepProgress& sweep);
 
 }  // namespace vitrel

@@ -13,10 +13,10 @@ namespace {
 namespace fs = std::filesystem;
 
 int export_results(const Arguments& arguments) {
-  const fs::path output =
-      arguments.output.empty()
-          ? arguments.input.parent_path() / (arguments.input.stem().string() + "_gnuplot")
-          : arguments.output;
+  fs::path output = arguments.output;
+  if (output.empty())
+    output = arguments.input.parent_path() / (arguments.input.stem().string() + "_gnuplot");
+  if (!output.has_filename()) output = output.parent_path();  // a folder given as "folder/"
   require_new(output);
   if (arguments.frames != ":")
     throw UserError("--frames: is for trajectories, but --to gnuplot writes tables of results");

@@ -12,8 +12,10 @@ int run_command(const Arguments& arguments) {
   RunRequest request{load_parameters(parameter_source(arguments)), arguments.output, std::nullopt,
                      arguments.command_line, arguments.threads};
   if (!arguments.from.empty()) request.from = arguments.from;
+  require_output_file(arguments.output, {arguments.input, arguments.from});
   if (arguments.dry_run) {
     fmt::print("{}", run_plan(request));
+    flush_output();
     return success;
   }
   Session session(arguments);

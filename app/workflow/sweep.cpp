@@ -1,6 +1,7 @@
 #include "app/workflow/sweep.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -356,16 +357,42 @@ Json sweep_summary(const std::vector<SweepJob>& jobs, const fs::path& folder) {
   return {{"jobs", std::move(rows)}};
 }
 
-std::vector<fs::path> finished_jobs(const fs::path& folder) {
-  std::vector<fs::path> jobs;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (entry.is_directory() && fs::exists(entry.path() / "done.json"))
-      jobs.push_back(entry.path());
-  std::sort(jobs.begin(), jobs.end());
-  if (jobs.empty())
-    throw UserError(folder.string() +
-                    ": no finished job of a sweep is in this folder; vitrel sweep makes them");
-  return jobs;
+std::vector<fs::path> SweepProgress::files() const {
+  std::vector<fs::path> files;
+  for (const fs::path& job : finished)
+    for (const char* name : {"run.h5", "results.h5"}) files.push_back(job / name);
+  return files;
+}
+
+std::string SweepProgress::share() const {
+  return fmt::format("{} of {} jobs are finished", finished.size(),
+                     finished.size() + unfinished.size());
+}
+
+std::string SweepProgress::left_out() const {
+  return fmt::format("{}; {} {} left out", share(), fmt::join(unfinished, ", "),
+                     unfinished.size() == 1 ? "is" : "are");
+}
+
+SweepProgress sweep_progress(const fs::path& folder) {
+  SweepProgress state;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (fs::exists(entry.path() / "done.json"))
+      state.finished.push_back(entry.path());
+    else if (fs::exists(entry.path() / "params.json"))
+      state.unfinished.push_back(entry.path().filename().string());
+  }
+  std::sort(state.unfinished.begin(), state.unfinished.end());
+  if (state.finished.empty())
+    throw UserError(
+        state.unfinished.empty()
+            ? fmt::format("{}: is neither the folder of a sweep nor that of a job which has begun "
+                          "to run; give one of these, or the file of a run",
+                          folder.string())
+            : fmt::format("{}: none of the {} jobs of this sweep is finished; vitrel sweep works "
+                          "them off",
+                          folder.string(), state.unfinished.size()));
+  return state;
 }
 
 }  // namespace vitrel
