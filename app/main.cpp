@@ -2,6 +2,8 @@
 #include <filesystem>
 #include <functional>
 #include <iostream>
+#include <memory>
+#include <sstream>
 #include <system_error>
 
 #include "app/commands/commands.h"
@@ -20,10 +22,62 @@ const std::string exit_codes =
 const std::string overlap_code = ", 4 overlap or another broken invariant";
 const std::string resumed_code = ", 5 stopped (the same command continues)";
 
+constexpr std::size_t help_width = 80;
+
+/// Line breaks between words, so that no line is longer than `width`.
+std::string wrapped(const std::string& text, std::size_t width) {
+  std::istringstream words(text);
+  std::string lines, word;
+  std::size_t column = 0;
+  while (words >> word) {
+    const bool fits = column + 1 + word.size() <= width;
+    if (column > 0) lines += fits ? ' ' : '\n';
+    lines += word;
+    column = (column > 0 && fits ? column + 1 : 0) + word.size();
+  }
+  return lines;
+}
+
+/// Help in lines that fit a terminal.
+class Help : public CLI::Formatter {
+  std::string make_description(const CLI::App* app) const override {
+    return wrapped(app->get_description(), help_width) + '\n';
+  }
+  std::string make_footer(const CLI::App* app) const override {
+    const std::string footer = app->get_footer();
+    return footer.empty() ? footer : wrapped(footer, help_width) + '\n';
+  }
+  std::string make_subcommand(const CLI::App* app) const override {
+    std::ostringstream text;
+    CLI::detail::format_help(text, app->get_name(), in_column(app->get_description()),
+                             get_column_width());
+    return text.str();
+  }
+  std::string make_option_desc(const CLI::Option* option) const override {
+    return in_column(option->get_description());
+  }
+  std::string in_column(const std::string& text) const {
+    return wrapped(text, help_width - get_column_width());
+  }
+};
+
+CLI::Validator number_above_zero(bool or_zero, const std::string& wanted) {
+  return {[=](const std::string& text) {
+            double number = 0;
+            const bool fits =
+                CLI::detail::lexical_cast(text, number) && (number > 0 || (or_zero && number == 0));
+            return fits ? std::string() : text + " is not " + wanted;
+          },
+          ""};
+}
+const CLI::Validator positive = number_above_zero(false, "a positive number");
+const CLI::Validator not_negative = number_above_zero(true, "a positive number or 0");
+
 class CommandLine {
  public:
   CommandLine()
       : app_("Simulation of hard anisotropic particles, from the liquid to the glass.", "vitrel") {
+    app_.formatter(std::make_shared<Help>());
     app_.require_subcommand(1);
     app_.set_version_flag("--version", program_version());
     app_.failure_message([](const CLI::App*, const CLI::Error& error) {
@@ -81,7 +135,7 @@ class CommandLine {
   void add_wall_time(CLI::App& sub) {
     sub.add_option("--wall-time", arguments_.wall_time,
                    "Stop cleanly after this many seconds (exit code 5)")
-        ->check(CLI::NonNegativeNumber);
+        ->check(not_negative);
   }
   void add_parameter_file(CLI::App& sub) {
     sub.add_option("params", arguments_.input, "Parameter file (TOML); vitrel params prints one")
@@ -96,7 +150,7 @@ class CommandLine {
   }
   void add_threads(CLI::App& sub, const std::string& what) {
     sub.add_option("--threads", arguments_.threads, what + "; the results do not depend on it")
-        ->check(CLI::PositiveNumber);
+        ->check(positive);
   }
   void add_analysis_parameters(CLI::App& sub) {
     sub.add_option("--params", arguments_.parameters,
@@ -158,8 +212,8 @@ class CommandLine {
                "; of jobs that failed, the first one's.");
     add_parameter_file(sub);
     add_output(sub, "Folder of the sweep", true);
-    CLI::Option* parallel = sub.add_option("-j,--jobs", arguments_.parallel, "Jobs at a time")
-                                ->check(CLI::PositiveNumber);
+    CLI::Option* parallel =
+        sub.add_option("-j,--jobs", arguments_.parallel, "Jobs at a time")->check(positive);
     CLI::Option* status =
         sub.add_flag("--status", arguments_.status, "Only print how far every job is");
     CLI::Option* job =
@@ -220,10 +274,10 @@ class CommandLine {
     time.add_option("--tolerance", arguments_.tolerance,
                     "How far off still counts as correct (1e-8): of the horizon for times, of the "
                     "semi-minor axis for gaps")
-        ->check(CLI::PositiveNumber);
+        ->check(positive);
     time.add_option("--gap-tolerance", arguments_.gap_tolerance,
                     "The same for gaps, if they have another one")
-        ->check(CLI::PositiveNumber);
+        ->check(positive);
     add_duration(time, "Simulated time of the whole runs on the page (20)");
     CLI::App& overlap = add(bench, "overlap", "Speed and accuracy of every criterion of overlap.",
                             bench_overlap_command);
@@ -236,11 +290,11 @@ class CommandLine {
     thesis
         .add_option("--seconds", arguments_.seconds,
                     "Seconds after which a run of the thesis's program is cut short (1)")
-        ->check(CLI::PositiveNumber);
+        ->check(positive);
     thesis.add_option("--largest", arguments_.largest, "Largest number of particles (400)")
-        ->check(CLI::PositiveNumber);
+        ->check(positive);
     thesis.add_option("--runs", arguments_.runs, "Runs that are averaged in figure 4.7 (32)")
-        ->check(CLI::PositiveNumber);
+        ->check(positive);
     add_duration(thesis, "Simulated time of each run (100)");
     CLI::App& run = add(bench, "whole-run",
                         "The scene of the thesis, run with every method that can carry a run.",
@@ -260,19 +314,21 @@ class CommandLine {
     add_quiet_and_json(sub);
   }
   void add_pairs(CLI::App& sub, const std::string& pairs, const std::string& seconds) {
-    sub.add_option("--pairs", arguments_.pairs, pairs)->check(CLI::PositiveNumber);
-    sub.add_option("--seconds", arguments_.seconds, seconds)->check(CLI::PositiveNumber);
+    sub.add_option("--pairs", arguments_.pairs, pairs)->check(positive);
+    sub.add_option("--seconds", arguments_.seconds, seconds)->check(positive);
     sub.add_option("--class", arguments_.classes, "Only these classes of pairs, by name");
   }
   void add_duration(CLI::App& sub, const std::string& what) {
-    sub.add_option("--duration", arguments_.duration, what)->check(CLI::PositiveNumber);
+    sub.add_option("--duration", arguments_.duration, what)->check(positive);
   }
   void add_params() {
     CLI::App& sub =
         add("params", "Print a commented template of a command's parameters.", params_command);
-    sub.add_option("command", arguments_.template_command, "prepare, run, analyze or sweep");
+    CLI::Option* of =
+        sub.add_option("command", arguments_.template_command, "prepare, run, analyze or sweep");
     sub.add_flag("--reference", arguments_.reference,
-                 "All parameters as Markdown (docs/parameters.md)");
+                 "All parameters as Markdown (docs/parameters.md)")
+        ->excludes(of);
   }
 
   CLI::App app_;

@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
+#include "app/workflow/report/page_parts.h"
 #include "app/workflow/stop.h"
 #include "core/error.h"
 
@@ -31,6 +34,24 @@ void require_folder_of(const fs::path& output) {
   if (!fs::is_directory(folder))
     throw FileError(fmt::format("{}: cannot be written: there is no folder {}", output.string(),
                                 folder.string()));
+}
+
+constexpr std::string_view error_suffix = "_error";
+
+/// Whether the value is the error of another one, and is printed with that.
+bool is_error(const nlohmann::ordered_json& summary, const std::string& key) {
+  return key.ends_with(error_suffix) &&
+         summary.contains(key.substr(0, key.size() - error_suffix.size()));
+}
+
+std::string value_text(const nlohmann::ordered_json& summary, const std::string& key) {
+  const nlohmann::ordered_json& value = summary.at(key);
+  if (value.is_string()) return value.get<std::string>();
+  if (!value.is_number_float()) return value.dump();
+  const auto number = value.get<double>();
+  const auto error = summary.find(key + std::string(error_suffix));
+  if (error != summary.end()) return with_error(number, error->get<double>());
+  return std::isnan(number) ? "–" : fmt::format("{:.8g}", number);
 }
 
 }  // namespace
@@ -82,6 +103,14 @@ void require_output_file(const fs::path& output, const std::vector<fs::path>& in
                       ": is read, and must not be overwritten; choose another output");
 }
 
+void require_output_folder(const fs::path& output) {
+  fs::path there = fs::absolute(output);
+  while (!fs::exists(there)) there = there.parent_path();
+  if (!fs::is_directory(there))
+    throw FileError(fmt::format("{}: the folder cannot be made: {} is a file", output.string(),
+                                there.string()));
+}
+
 void require_new(const fs::path& output) {
   require_folder_of(output);
   if (fs::exists(output))
@@ -93,11 +122,8 @@ void print_summary(const Arguments& arguments, const nlohmann::ordered_json& sum
     fmt::print("{}\n", summary.dump(2));
   } else if (!arguments.quiet) {
     for (const auto& [key, value] : summary.items()) {
-      const bool is_real = value.is_number_float();
-      fmt::print("{:<26} {}\n", key,
-                 is_real             ? fmt::format("{:.8g}", value.get<double>())
-                 : value.is_string() ? value.get<std::string>()
-                                     : value.dump());
+      const std::string text = value_text(summary, key);
+      if (!is_error(summary, key) && !text.empty()) fmt::print("{:<26} {}\n", key, text);
     }
   }
   flush_output();

@@ -25,6 +25,8 @@ class Session {
   const Budget& budget() const { return budget_; }
   /// Announces a step: a line, and the label of the progress that follows.
   const std::function<void(const std::string&)>& say() const { return say_; }
+  /// Takes the progress off the terminal, before a summary is printed.
+  void clear() { display_.clear(); }
   double seconds() const;
 
  private:
@@ -48,10 +50,14 @@ std::filesystem::path run_or_sweep(const std::filesystem::path& input);
 /// one of the files that are read.
 void require_output_file(const std::filesystem::path& output,
                          const std::vector<std::filesystem::path>& inputs);
-/// The same of a file or folder that must not exist (UserError).
+/// FileError if the folder is not there and cannot be made, as something on its path is a file.
+void require_output_folder(const std::filesystem::path& output);
+/// Of a file or folder that must not exist yet: FileError if the folder around it is missing, UserError
+/// if it exists.
 void require_new(const std::filesystem::path& output);
 
-/// To standard output: as JSON if asked for, else as lines "key  value" unless quiet.
+/// To standard output: as JSON if asked for, else unless quiet as lines "key  value", or "key  value ±
+/// error" where `key_error` is in the summary, too.
 void print_summary(const Arguments& arguments, const nlohmann::ordered_json& summary);
 
 /// Ends what was printed to standard output; throws FileError if it could not be written.

@@ -36,6 +36,7 @@ int export_frames(const Arguments& arguments) {
   session.say()("export of " + arguments.input.string());
   const std::optional<ExportedTrajectory> done = export_trajectory(
       {arguments.input, arguments.format, output, arguments.frames}, session.budget());
+  session.clear();
   if (!done) return stopped;
   print_summary(arguments, {{"output", output.string()},
                             {"format", arguments.format},

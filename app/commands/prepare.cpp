@@ -94,6 +94,7 @@ int prepare_command(const Arguments& arguments) {
     session.say()("quality report");
     quality = measure_quality(preparation, parameters, session.budget(), arguments.threads);
   }
+  session.clear();
   if (!quality) {
     remark(arguments, "stopped; the same command continues");
     return stopped;

@@ -20,6 +20,7 @@ int run_command(const Arguments& arguments) {
   }
   Session session(arguments);
   const RunOutcome outcome = run(request, session.budget(), session.say());
+  session.clear();
   const bool has_begun = outcome.state.configuration.size() > 0;
   if (has_begun) print_summary(arguments, run_summary(request, outcome));
   if (outcome.complete) return success;

@@ -375,24 +375,25 @@ std::string SweepProgress::left_out() const {
 }
 
 SweepProgress sweep_progress(const fs::path& folder) {
-  SweepProgress state;
+  SweepProgress progress;
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (fs::exists(entry.path() / "done.json"))
-      state.finished.push_back(entry.path());
+      progress.finished.push_back(entry.path());
     else if (fs::exists(entry.path() / "params.json"))
-      state.unfinished.push_back(entry.path().filename().string());
+      progress.unfinished.push_back(entry.path().filename().string());
   }
-  std::sort(state.unfinished.begin(), state.unfinished.end());
-  if (state.finished.empty())
+  std::sort(progress.finished.begin(), progress.finished.end());
+  std::sort(progress.unfinished.begin(), progress.unfinished.end());
+  if (progress.finished.empty())
     throw UserError(
-        state.unfinished.empty()
+        progress.unfinished.empty()
             ? fmt::format("{}: is neither the folder of a sweep nor that of a job which has begun "
                           "to run; give one of these, or the file of a run",
                           folder.string())
             : fmt::format("{}: none of the {} jobs of this sweep is finished; vitrel sweep works "
                           "them off",
-                          folder.string(), state.unfinished.size()));
-  return state;
+                          folder.string(), progress.unfinished.size()));
+  return progress;
 }
 
 }  // namespace vitrel

@@ -66,10 +66,10 @@ std::string sweep_table(const std::vector<SweepJob>& jobs, const std::filesystem
 nlohmann::ordered_json sweep_summary(const std::vector<SweepJob>& jobs,
                                      const std::filesystem::path& folder);
 
-/// How far a sweep is, by its folder alone.
+/// How far a sweep is, by its folder alone; all in alphabetical order.
 struct SweepProgress {
   std::vector<std::filesystem::path> finished;  ///< folders of the jobs that are done
-  std::vector<std::string> unfinished;          ///< names of the others, in alphabetical order
+  std::vector<std::string> unfinished;          ///< names of the others
 
   /// The runs of the finished jobs and their results.
   std::vector<std::filesystem::path> files() const;

@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "analysis/results.h"
@@ -103,6 +105,37 @@ TEST(SavedRuns, AReportOverwritesNothingButPages) {
   folder.write("run.html", "<!DOCTYPE html>\n<p>an earlier one");
   EXPECT_EQ(run(folder.path(), {"report", "run.h5", "-q"}).code, 0);
   EXPECT_GT(fs::file_size(folder / "run.html"), 10'000u);
+}
+
+TEST(SavedRuns, TheSummaryGivesErrorsBesideTheirValues) {
+  const Folder folder("summary");
+  folder.write("p.toml", tiny_system);
+  // Many samples, so that the errors are known.
+  ASSERT_EQ(run(folder.path(),
+                {"run", "p.toml", "-o", "run.h5", "-q", "--set", "output.samples.interval=0.02"})
+                .code,
+            0);
+  const std::string text = run(folder.path(), {"analyze", "run.h5"}).output;
+  const Results results = read_results(folder / "run_results.h5");
+  const Column& z = *results.find("summary")->find("compressibility");
+  const std::size_t line = text.find("compressibility            ");
+  ASSERT_NE(line, std::string::npos) << text;
+  double value = 0, error = 0;
+  ASSERT_EQ(std::sscanf(text.c_str() + line, "compressibility %lf ± %lf", &value, &error), 2);
+  // Two digits of the error.
+  EXPECT_NEAR(error, z.error[0], 0.051 * z.error[0]);
+  EXPECT_NEAR(value, z.value[0], 0.051 * z.error[0]);
+  EXPECT_THAT(text, AllOf(Not(HasSubstr("_error")), Not(HasSubstr("nan"))));
+}
+
+TEST(SavedRuns, AnEndingSlashNamesAFolderToo) {
+  const Folder folder("slash");
+  write_run(folder);
+  ASSERT_EQ(run(folder.path(), {"analyze", "run.h5", "-q"}).code, 0);
+  const Outcome outcome =
+      run(folder.path(), {"export", "run_results.h5", "--to", "gnuplot", "-o", "plots/", "-q"});
+  EXPECT_EQ(outcome.code, 0) << outcome.errors;
+  EXPECT_TRUE(fs::exists(folder / "plots/summary.dat"));
 }
 
 TEST(SavedRuns, OfTablesThatAreGoneNothingStays) {
