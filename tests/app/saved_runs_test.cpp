@@ -153,7 +153,7 @@ TEST(SavedRuns, OfTablesThatAreGoneNothingStays) {
 }
 
 // The input is no run, so that no message about the output can come after the work.
-TEST(SavedRuns, TheOutputsFolderIsLookedAtFirst) {
+TEST(SavedRuns, TheOutputIsLookedAtFirst) {
   const Folder folder("missing_folder");
   folder.write("p.toml", tiny_system);
   folder.write("no_run.h5", "");
@@ -172,6 +172,8 @@ TEST(SavedRuns, TheOutputsFolderIsLookedAtFirst) {
   }
   expect_refusal(folder, {"bench", "thesis", "-o", "p.toml/output"}, 3,
                  "p.toml/output: the folder cannot be made");
+  expect_refusal(folder, {"analyze", "no_run.h5", "-o", "p.toml"}, 2,
+                 "p.toml: exists and holds no");
   expect_refusal(folder, {"analyze", "absent.h5"}, 3, "absent.h5: there is no such file");
 }
 
