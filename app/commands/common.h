@@ -38,7 +38,7 @@ class Session {
 };
 
 ParameterSource parameter_source(const Arguments& arguments);
-/// UserError if --set names a key that no analysis has.
+/// UserError if --set names anything but a parameter of the analysis.
 AnalysisChoice analysis_choice(const Arguments& arguments);
 
 /// A run's file or a sweep's folder; of a job's folder, the run in it. FileError if it is not there.
