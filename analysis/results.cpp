@@ -73,6 +73,13 @@ void write_table(h5::Group& root, const Table& table) {
   group.set_attribute("columns", joined(names));
 }
 
+std::vector<std::string> table_names(const h5::Group& root, const std::filesystem::path& path) {
+  if (!root.has_attribute("tables"))
+    throw FileError(fmt::format(
+        "{}: holds no results; a file written by `vitrel analyze` is needed", path.string()));
+  return split(root.text_attribute("tables"));
+}
+
 Table read_table(const h5::Group& root, const std::string& name) {
   const h5::Group group = root.group(name);
   Table table{name, group.text_attribute("description"), {}};
@@ -143,14 +150,15 @@ void write_results(const std::filesystem::path& path, const Results& results) {
   pending.commit();
 }
 
+std::vector<std::string> stored_tables(const std::filesystem::path& path) {
+  return table_names(h5::File::open(path, h5::Access::read).root(), path);
+}
+
 Results read_results(const std::filesystem::path& path) {
   const h5::File file = h5::File::open(path, h5::Access::read);
   const h5::Group root = file.root();
-  if (!root.has_attribute("tables"))
-    throw FileError(fmt::format(
-        "{}: holds no results; a file written by `vitrel analyze` is needed", path.string()));
   Results results;
-  for (const std::string& name : split(root.text_attribute("tables")))
+  for (const std::string& name : table_names(root, path))
     results.tables.push_back(read_table(root, name));
   const h5::Group provenance = root.group("provenance");
   for (const std::string& name : split(provenance.text_attribute("entries")))

@@ -51,6 +51,9 @@ void write_csv(const std::filesystem::path& path, const Table& table);
 /// write_csv. Throws FileError.
 void write_results(const std::filesystem::path& path, const Results& results);
 
+/// The names of the tables in what write_results wrote. Throws FileError.
+std::vector<std::string> stored_tables(const std::filesystem::path& path);
+
 /// Reads what write_results wrote. Throws FileError.
 Results read_results(const std::filesystem::path& path);
 

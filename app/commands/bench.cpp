@@ -43,7 +43,9 @@ Json as_json(const PageProvenance& provenance) {
   return result;
 }
 
-void print_rows(const Arguments& arguments, const Json& rows, const std::string& table) {
+void print_rows(const Arguments& arguments, Session& session, const Json& rows,
+                const std::string& table) {
+  session.clear();
   if (arguments.json)
     fmt::print("{}\n", Json{{"rows", rows}}.dump(2));
   else if (!arguments.quiet)
@@ -84,7 +86,7 @@ void write_collision_time(const fs::path& folder, const CollisionTimeBench& benc
                           const std::vector<lab::OverlapRow>& overlap,
                           const std::vector<lab::WholeRun>& runs,
                           const PageProvenance& provenance) {
-  fs::create_directories(folder);
+  make_folder(folder);
   const Json data = {{"rows", collision_time_json(bench.survey.rows)},
                      {"classes", classes_json()},
                      {"tolerances", collision_time_json(bench.tolerances)},
@@ -112,7 +114,7 @@ void write_collision_time(const fs::path& folder, const CollisionTimeBench& benc
 void write_files(const fs::path& folder, const std::string& name, const Json& rows,
                  const PageProvenance& provenance, const std::string& chart,
                  const std::string& page) {
-  fs::create_directories(folder);
+  make_folder(folder);
   const Json data = {{"rows", rows}, {"provenance", as_json(provenance)}};
   write_text(folder / (name + ".json"), data.dump(2) + "\n");
   write_text(folder / (name + ".svg"), chart);
@@ -131,9 +133,10 @@ int bench_collision_time_command(const Arguments& arguments) {
   request.methods = arguments.methods;
   request.classes = arguments.classes;
   request.with_chart = !arguments.output.empty();
+  if (!arguments.output.empty()) require_output_folder(arguments.output);
   Session session(arguments);
   const CollisionTimeBench bench = bench_collision_time(request, session.budget(), session.say());
-  print_rows(arguments, collision_time_json(bench.survey.rows),
+  print_rows(arguments, session, collision_time_json(bench.survey.rows),
              collision_time_text(bench.survey.rows));
   if (bench.stopped) return stopped_early(arguments);
   if (arguments.output.empty()) return success;
@@ -165,10 +168,11 @@ int bench_overlap_command(const Arguments& arguments) {
   request.seed = arguments.seed.value_or(request.seed);
   request.methods = arguments.methods;
   request.classes = arguments.classes;
+  if (!arguments.output.empty()) require_output_folder(arguments.output);
   Session session(arguments);
   session.say()("overlap criteria");
   const lab::OverlapSurvey survey = bench_overlap(request, session.budget());
-  print_rows(arguments, overlap_json(survey.rows), overlap_text(survey.rows));
+  print_rows(arguments, session, overlap_json(survey.rows), overlap_text(survey.rows));
   if (survey.stopped) return stopped_early(arguments);
   if (arguments.output.empty()) return success;
   const PageProvenance how =
@@ -188,9 +192,10 @@ int bench_thesis_command(const Arguments& arguments) {
   request.relaxations = arguments.runs.value_or(request.relaxations);
   request.largest = arguments.largest.value_or(request.largest);
   request.seed = arguments.seed.value_or(request.seed);
+  if (!arguments.output.empty()) require_output_folder(arguments.output);
   Session session(arguments);
   const ThesisBench bench = bench_thesis(request, session.budget(), session.say());
-  print_rows(arguments, thesis_rows_json(bench.by_size), thesis_text(bench));
+  print_rows(arguments, session, thesis_rows_json(bench.by_size), thesis_text(bench));
   if (bench.stopped) return stopped_early(arguments);
   if (arguments.output.empty()) return success;
   Json data = thesis_json(bench);
@@ -200,7 +205,7 @@ int bench_thesis_command(const Arguments& arguments) {
                             request.largest, request.seed)},
        {"time limit", fmt::format("{:g} s for a run of the thesis's program", request.seconds)}},
       session));
-  fs::create_directories(arguments.output);
+  make_folder(arguments.output);
   write_text(arguments.output / "thesis.json", data.dump(2) + "\n");
   for (const ThesisFigure& figure : thesis_figures(bench))
     write_text(arguments.output / figure.file, chart_svg(figure.chart));
@@ -212,10 +217,11 @@ int bench_whole_run_command(const Arguments& arguments) {
   request.duration = arguments.duration.value_or(request.duration);
   request.seed = arguments.seed.value_or(request.seed);
   request.methods = arguments.methods;
+  if (!arguments.output.empty()) require_output_folder(arguments.output);
   Session session(arguments);
   session.say()("whole runs");
   const WholeRunBench bench = bench_whole_run(request, session.budget());
-  print_rows(arguments, whole_run_json(bench.rows), whole_run_text(bench.rows));
+  print_rows(arguments, session, whole_run_json(bench.rows), whole_run_text(bench.rows));
   if (bench.stopped) return stopped_early(arguments);
   if (arguments.output.empty()) return success;
   const PageProvenance how = provenance(

@@ -32,6 +32,7 @@ int check_command(const Arguments& arguments) {
   Session session(arguments);
   session.say()("check of " + arguments.input.string());
   const FileCheck check = check_file(arguments.input, arguments.last_only, session.budget());
+  session.clear();
   if (check.frames == 0) return stopped;
   print_summary(arguments, summary(check, arguments.input));
   if (check.overlaps > 0) {

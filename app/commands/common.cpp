@@ -3,14 +3,58 @@
 #include <fmt/format.h>
 
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
+#include "app/workflow/report/page_parts.h"
 #include "app/workflow/stop.h"
 #include "core/error.h"
 
 namespace vitrel {
+namespace {
+
+namespace fs = std::filesystem;
+
+void refuse_other_key(const std::string& assignment) {
+  const bool is_analysis = assignment.starts_with("analysis.") ||
+                           assignment.starts_with("analysis=") ||
+                           assignment.find('=') == std::string::npos;
+  if (!is_analysis)
+    throw UserError(fmt::format(
+        "--set {}: has no effect on a run that is there; only parameters of its analysis, "
+        "analysis.…, can be set, and `vitrel params analyze` prints them",
+        assignment));
+}
+
+void require_folder_of(const fs::path& output) {
+  const fs::path folder = fs::absolute(output).parent_path();
+  if (!fs::is_directory(folder))
+    throw FileError(fmt::format("{}: cannot be written: there is no folder {}", output.string(),
+                                folder.string()));
+}
+
+constexpr std::string_view error_suffix = "_error";
+
+/// Whether the value is the error of another one, and is printed with that.
+bool is_error(const nlohmann::ordered_json& summary, const std::string& key) {
+  return key.ends_with(error_suffix) &&
+         summary.contains(key.substr(0, key.size() - error_suffix.size()));
+}
+
+std::string value_text(const nlohmann::ordered_json& summary, const std::string& key) {
+  const nlohmann::ordered_json& value = summary.at(key);
+  if (value.is_string()) return value.get<std::string>();
+  if (!value.is_number_float()) return value.dump();
+  const auto number = value.get<double>();
+  const auto error = summary.find(key + std::string(error_suffix));
+  if (error != summary.end()) return with_error(number, error->get<double>());
+  return std::isnan(number) ? "–" : fmt::format("{:.8g}", number);
+}
+
+}  // namespace
 
 Session::Session(const Arguments& arguments)
     : display_(ProgressDisplay::mode(arguments.quiet)), wall_time_(arguments.wall_time) {
@@ -34,6 +78,7 @@ ParameterSource parameter_source(const Arguments& arguments) {
 }
 
 AnalysisChoice analysis_choice(const Arguments& arguments) {
+  for (const std::string& assignment : arguments.overrides) refuse_other_key(assignment);
   AnalysisChoice choice;
   if (!arguments.parameters.empty()) choice.parameters = arguments.parameters;
   choice.overrides = arguments.overrides;
@@ -41,8 +86,34 @@ AnalysisChoice analysis_choice(const Arguments& arguments) {
   return choice;
 }
 
-void require_new(const std::filesystem::path& output) {
-  if (std::filesystem::exists(output))
+fs::path run_or_sweep(const fs::path& input) {
+  if (!fs::exists(input)) throw FileError(input.string() + ": there is no such file or folder");
+  const bool is_job = fs::exists(input / "run.h5") && fs::exists(input / "parameters.toml");
+  return is_job ? input / "run.h5" : input;
+}
+
+void require_output_file(const fs::path& output, const std::vector<fs::path>& inputs) {
+  require_folder_of(output);
+  if (fs::exists(output) && !fs::is_regular_file(output))
+    throw UserError(fmt::format("{}: is a {}, but a file is to be written; choose another output",
+                                output.string(), fs::is_directory(output) ? "folder" : "device"));
+  for (const fs::path& input : inputs)
+    if (std::error_code ignored; fs::equivalent(output, input, ignored))
+      throw UserError(output.string() +
+                      ": is read, and must not be overwritten; choose another output");
+}
+
+void require_output_folder(const fs::path& output) {
+  fs::path there = fs::absolute(output);
+  while (!fs::exists(there)) there = there.parent_path();
+  if (!fs::is_directory(there))
+    throw FileError(fmt::format("{}: the folder cannot be made: {} is a file", output.string(),
+                                there.string()));
+}
+
+void require_new(const fs::path& output) {
+  require_folder_of(output);
+  if (fs::exists(output))
     throw UserError(output.string() + ": exists already; choose another output, or delete it");
 }
 
@@ -51,11 +122,8 @@ void print_summary(const Arguments& arguments, const nlohmann::ordered_json& sum
     fmt::print("{}\n", summary.dump(2));
   } else if (!arguments.quiet) {
     for (const auto& [key, value] : summary.items()) {
-      const bool is_real = value.is_number_float();
-      fmt::print("{:<26} {}\n", key,
-                 is_real             ? fmt::format("{:.8g}", value.get<double>())
-                 : value.is_string() ? value.get<std::string>()
-                                     : value.dump());
+      const std::string text = value_text(summary, key);
+      if (!is_error(summary, key) && !text.empty()) fmt::print("{:<26} {}\n", key, text);
     }
   }
   flush_output();
@@ -68,6 +136,11 @@ void flush_output() {
 
 void remark(const Arguments& arguments, const std::string& line) {
   if (!arguments.quiet) fmt::print(stderr, "{}\n", line);
+}
+
+void remark_left_out(const Arguments& arguments, const SweepProgress& sweep) {
+  if (!sweep.unfinished.empty())
+    remark(arguments, arguments.input.string() + ": " + sweep.left_out());
 }
 
 }  // namespace vitrel

@@ -5,11 +5,13 @@
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 #include "app/commands/commands.h"
 #include "app/workflow/analyze.h"
 #include "app/workflow/parameters.h"
 #include "app/workflow/progress.h"
+#include "app/workflow/sweep.h"
 #include "core/state/stage.h"
 
 namespace vitrel {
@@ -23,6 +25,8 @@ class Session {
   const Budget& budget() const { return budget_; }
   /// Announces a step: a line, and the label of the progress that follows.
   const std::function<void(const std::string&)>& say() const { return say_; }
+  /// Takes the progress off the terminal, before a summary is printed.
+  void clear() { display_.clear(); }
   double seconds() const;
 
  private:
@@ -34,12 +38,26 @@ class Session {
 };
 
 ParameterSource parameter_source(const Arguments& arguments);
+/// UserError if --set names anything but a parameter of the analysis.
 AnalysisChoice analysis_choice(const Arguments& arguments);
 
-/// Throws UserError if the output exists: before the work, which may be long.
+/// A run's file or a sweep's folder; of a job's folder, the run in it. FileError if it is not there.
+std::filesystem::path run_or_sweep(const std::filesystem::path& input);
+
+// What is to be written is looked at before the work, which may be long.
+
+/// FileError if the output's folder is missing; UserError if the output is a folder or a device, or
+/// one of the files that are read.
+void require_output_file(const std::filesystem::path& output,
+                         const std::vector<std::filesystem::path>& inputs);
+/// FileError if the folder is not there and cannot be made, as something on its path is a file.
+void require_output_folder(const std::filesystem::path& output);
+/// Of a file or folder that must not exist yet: FileError if the folder around it is missing, UserError
+/// if it exists.
 void require_new(const std::filesystem::path& output);
 
-/// To standard output: as JSON if asked for, else as lines "key  value" unless quiet.
+/// To standard output: as JSON if asked for, else unless quiet as lines "key  value", or "key  value ±
+/// error" where `key_error` is in the summary, too.
 void print_summary(const Arguments& arguments, const nlohmann::ordered_json& summary);
 
 /// Ends what was printed to standard output; throws FileError if it could not be written.
@@ -47,5 +65,7 @@ void flush_output();
 
 /// One line on standard error, unless quiet.
 void remark(const Arguments& arguments, const std::string& line);
+/// Says which jobs of a sweep are missing, if any.
+void remark_left_out(const Arguments& arguments, const SweepProgress& sweep);
 
 }  // namespace vitrel

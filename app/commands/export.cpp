@@ -13,10 +13,10 @@ namespace {
 namespace fs = std::filesystem;
 
 int export_results(const Arguments& arguments) {
-  const fs::path output =
-      arguments.output.empty()
-          ? arguments.input.parent_path() / (arguments.input.stem().string() + "_gnuplot")
-          : arguments.output;
+  fs::path output = arguments.output;
+  if (output.empty())
+    output = arguments.input.parent_path() / (arguments.input.stem().string() + "_gnuplot");
+  if (!output.has_filename()) output = output.parent_path();  // a folder given as "folder/"
   require_new(output);
   if (arguments.frames != ":")
     throw UserError("--frames: is for trajectories, but --to gnuplot writes tables of results");
@@ -36,6 +36,7 @@ int export_frames(const Arguments& arguments) {
   session.say()("export of " + arguments.input.string());
   const std::optional<ExportedTrajectory> done = export_trajectory(
       {arguments.input, arguments.format, output, arguments.frames}, session.budget());
+  session.clear();
   if (!done) return stopped;
   print_summary(arguments, {{"output", output.string()},
                             {"format", arguments.format},

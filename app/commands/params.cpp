@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "app/commands/commands.h"
+#include "app/commands/common.h"
 #include "app/workflow/parameters.h"
 #include "core/error.h"
 
@@ -11,6 +11,7 @@ int params_command(const Arguments& arguments) {
     throw UserError("name a command, for example: vitrel params run > params.toml");
   fmt::print("{}",
              arguments.reference ? parameter_page() : command_template(arguments.template_command));
+  flush_output();
   return success;
 }
 

@@ -6,7 +6,6 @@
 
 #include "app/commands/common.h"
 #include "app/workflow/quality_file.h"
-#include "core/error.h"
 #include "core/io/h5md.h"
 
 namespace vitrel {
@@ -81,19 +80,11 @@ void print_summary(const Arguments& arguments, const Preparation& preparation,
   flush_output();
 }
 
-void require_new_file(const std::filesystem::path& output) {
-  require_new(output);
-  const std::filesystem::path folder = std::filesystem::absolute(output).parent_path();
-  if (!std::filesystem::is_directory(folder))
-    throw FileError(fmt::format("{}: cannot be written: there is no folder {}", output.string(),
-                                folder.string()));
-}
-
 }  // namespace
 
 int prepare_command(const Arguments& arguments) {
   const Parameters parameters = load_parameters(parameter_source(arguments));
-  require_new_file(arguments.output);
+  require_new(arguments.output);
   Session session(arguments);
   const Preparation preparation =
       prepare({parameters, arguments.output, arguments.command_line, arguments.threads},
@@ -103,6 +94,7 @@ int prepare_command(const Arguments& arguments) {
     session.say()("quality report");
     quality = measure_quality(preparation, parameters, session.budget(), arguments.threads);
   }
+  session.clear();
   if (!quality) {
     remark(arguments, "stopped; the same command continues");
     return stopped;

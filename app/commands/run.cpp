@@ -12,12 +12,15 @@ int run_command(const Arguments& arguments) {
   RunRequest request{load_parameters(parameter_source(arguments)), arguments.output, std::nullopt,
                      arguments.command_line, arguments.threads};
   if (!arguments.from.empty()) request.from = arguments.from;
+  require_output_file(arguments.output, {arguments.input, arguments.from});
   if (arguments.dry_run) {
     fmt::print("{}", run_plan(request));
+    flush_output();
     return success;
   }
   Session session(arguments);
   const RunOutcome outcome = run(request, session.budget(), session.say());
+  session.clear();
   const bool has_begun = outcome.state.configuration.size() > 0;
   if (has_begun) print_summary(arguments, run_summary(request, outcome));
   if (outcome.complete) return success;

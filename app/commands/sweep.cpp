@@ -18,7 +18,7 @@ void print_table(const Arguments& arguments) {
   if (!arguments.job.empty()) jobs = {job_named(jobs, arguments.job)};
   if (arguments.json)
     fmt::print("{}\n", sweep_summary(jobs, arguments.output).dump(2));
-  else
+  else if (!arguments.quiet)
     fmt::print("{}", sweep_table(jobs, arguments.output));
   flush_output();
 }

@@ -163,11 +163,26 @@ Results results_of(const RunAnalysis& run) {
   return results;
 }
 
+std::filesystem::path csv_file(const std::filesystem::path& results, const std::string& table) {
+  return results.parent_path() / fmt::format("{}_{}.csv", results.stem().string(), table);
+}
+
 }  // namespace
 
 std::string AnalysedRun::name() const {
   const bool in_job_folder = file.filename() == "run.h5" && file.has_parent_path();
-  return in_job_folder ? file.parent_path().filename().string() : file.stem().string();
+  if (!in_job_folder) return file.stem().string();
+  return std::filesystem::absolute(file).lexically_normal().parent_path().filename().string();
+}
+
+double AnalysedRun::packing_fraction() const {
+  return results.find("summary")->find("packing_fraction")->value.front();
+}
+
+std::uint64_t AnalysedRun::seed() const {
+  const auto entry = std::find_if(results.provenance.begin(), results.provenance.end(),
+                                  [](const auto& candidate) { return candidate.first == "seed"; });
+  return entry == results.provenance.end() ? 0 : std::stoull(entry->second);
 }
 
 AnalysedRun analyze_run(const std::filesystem::path& file, const AnalysisChoice& choice) {
@@ -194,11 +209,30 @@ AnalysedRun analyze_run(const std::filesystem::path& file, const AnalysisChoice&
   return analysed;
 }
 
+std::vector<std::string> former_tables(const std::filesystem::path& file) {
+  if (!std::filesystem::exists(file)) return {};
+  std::vector<std::string> tables;
+  try {
+    tables = stored_tables(file);
+  } catch (const FileError&) {
+    // no file of ours
+  }
+  // Correlations on the fly are tables in such a file, too, but nothing can make them again.
+  const bool is_analysis = std::any_of(tables.begin(), tables.end(), [](const std::string& name) {
+    return name == "summary" || name == "runs";
+  });
+  if (!is_analysis)
+    throw UserError(file.string() +
+                    ": exists and holds no results of vitrel analyze, which are all that it "
+                    "overwrites; choose another output, or delete it");
+  return tables;
+}
+
 void write_all(const std::filesystem::path& file, const Results& results) {
+  for (const std::string& table : former_tables(file))
+    if (!results.find(table)) std::filesystem::remove(csv_file(file, table));
   write_results(file, results);
-  for (const Table& table : results.tables)
-    write_csv(file.parent_path() / fmt::format("{}_{}.csv", file.stem().string(), table.name),
-              table);
+  for (const Table& table : results.tables) write_csv(csv_file(file, table.name), table);
 }
 
 Json analysis_summary(const AnalysedRun& run) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -31,6 +32,8 @@ struct AnalysedRun {
 
   /// That of the job's folder, or of the file.
   std::string name() const;
+  double packing_fraction() const;
+  std::uint64_t seed() const;
 };
 
 /// Tables: a summary of one row, time correlations (dynamics_tables.h), energies, compressibility,
@@ -39,7 +42,13 @@ struct AnalysedRun {
 /// naming the file.
 AnalysedRun analyze_run(const std::filesystem::path& file, const AnalysisChoice& choice);
 
-/// Writes the HDF5 file and beside it one CSV file per table, <name>_<table>.csv.
+/// The tables of the results in this file, if there is one. Throws UserError if it holds anything but
+/// the results of an analysis, for which these must not take its place.
+std::vector<std::string> former_tables(const std::filesystem::path& file);
+
+/// Writes the HDF5 file and beside it one CSV file per table, <name>_<table>.csv; those of tables that
+/// only the former results in this file had are removed. Throws FileError, and UserError like
+/// former_tables.
 void write_all(const std::filesystem::path& file, const Results& results);
 
 /// All numbers of the summary, and the verdict.

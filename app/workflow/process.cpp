@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "app/workflow/stop.h"
 #include "core/error.h"
 
 namespace vitrel {
@@ -22,8 +23,33 @@ int open_for_writing(const std::filesystem::path& path, int flags) {
   return descriptor;
 }
 
+// Holds back the signals of a stop for the time of its life.
+class HeldSignals {
+ public:
+  HeldSignals() {
+    sigset_t stops;
+    sigemptyset(&stops);
+    for (const int number : stop_signals) sigaddset(&stops, number);
+    sigprocmask(SIG_BLOCK, &stops, &before_);
+  }
+  ~HeldSignals() { sigprocmask(SIG_SETMASK, &before_, nullptr); }
+  HeldSignals(const HeldSignals&) = delete;
+  HeldSignals& operator=(const HeldSignals&) = delete;
+
+  // In the child: a stop ends it, instead of being noted by a handler that exec forgets.
+  void release_to_default() const {
+    for (const int number : stop_signals) signal(number, SIG_DFL);
+    sigprocmask(SIG_SETMASK, &before_, nullptr);
+  }
+
+ private:
+  sigset_t before_;
+};
+
 // Between fork and exec only calls that are safe there.
-[[noreturn]] void become(char* const* arguments, int output, int log, pid_t parent) {
+[[noreturn]] void become(char* const* arguments, int output, int log, pid_t parent,
+                         const HeldSignals& held) {
+  held.release_to_default();
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   // The parent may have died before the line above.
   if (getppid() != parent) _exit(1);
@@ -45,8 +71,9 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command,
   const int output_file = open_for_writing(output, O_TRUNC);
   const int log_file = open_for_writing(log, O_APPEND);
   const pid_t parent = getpid();
+  const HeldSignals held;
   pid_ = fork();
-  if (pid_ == 0) become(arguments.data(), output_file, log_file, parent);
+  if (pid_ == 0) become(arguments.data(), output_file, log_file, parent, held);
   const int error = errno;
   close(output_file);
   close(log_file);

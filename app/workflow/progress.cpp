@@ -41,9 +41,10 @@ void ProgressDisplay::show(const Progress& progress) {
   const double rate = (progress.value - first_->value) / elapsed;
   const double advance = progress.fraction - first_->fraction;
   const std::string left =
-      advance > 0 ? duration_text(elapsed * (1 - progress.fraction) / advance) + " left" : "";
+      advance > 0 ? ", " + duration_text(elapsed * (1 - progress.fraction) / advance) + " left"
+                  : "";
   const std::string line =
-      fmt::format("{} {:.1f} %, {} {:.5g} ({:.3g}/s), {}", label_, 100 * progress.fraction,
+      fmt::format("{} {:.1f} %, {} {:.5g} ({:.3g}/s){}", label_, 100 * progress.fraction,
                   progress.quantity, progress.value, rate, left);
   if (mode_ == Mode::terminal) {
     // Return to the start of the line, write, erase what is left of the line before.

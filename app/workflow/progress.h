@@ -24,10 +24,11 @@ class ProgressDisplay {
   void show(const Progress& progress);
   /// A line of its own, unless silent.
   void say(const std::string& line);
+  /// Leaves an empty line on a terminal, for what is printed next.
+  void clear();
 
  private:
   using Clock = std::chrono::steady_clock;
-  void clear();
 
   Mode mode_;
   std::string label_;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "app/workflow/parameters.h"
 #include "app/workflow/stored_run.h"
@@ -22,24 +21,15 @@ std::string dynamics_text(const Provenance& provenance, const std::string& file)
              : "Newtonian";
 }
 
-double density(const AnalysedRun& run) {
-  return run.results.find("summary")->find("packing_fraction")->value.front();
-}
-
 constexpr std::size_t most_movies = 6;
 
 /// How many poses the movie of every run may have.
-std::vector<std::size_t> movie_poses(const std::vector<AnalysedRun>& runs) {
-  if (runs.size() == 1) return {MovieLimits{}.poses};
-  std::vector<std::size_t> order(runs.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t left, std::size_t right) {
-    return density(runs[left]) < density(runs[right]);
-  });
-  const std::size_t movies = std::min(runs.size(), most_movies);
-  std::vector<std::size_t> poses(runs.size(), 0);
+std::vector<std::size_t> movie_poses(std::size_t runs) {
+  if (runs == 1) return {MovieLimits{}.poses};
+  const std::size_t movies = std::min(runs, most_movies);
+  std::vector<std::size_t> poses(runs, 0);
   for (std::size_t k = 0; k < movies; ++k)
-    poses[order[k * (runs.size() - 1) / (movies - 1)]] = MovieLimits{}.poses / (2 * movies);
+    poses[k * (runs - 1) / (movies - 1)] = MovieLimits{}.poses / (2 * movies);
   return poses;
 }
 
@@ -58,9 +48,12 @@ ReportRun report_run(const AnalysedRun& run, StoredTrajectory& trajectory,
   MovieLimits limits;
   limits.poses = movie_poses;
   limits.images_known = reader.has("image");
-  return {run.name(),   dynamics_text(reader.provenance(), run.file.string()),
-          density(run), collisions_per_second(reader),
-          run.results,  film(trajectory, limits)};
+  return {run.name(),
+          dynamics_text(reader.provenance(), run.file.string()),
+          run.packing_fraction(),
+          collisions_per_second(reader),
+          run.results,
+          film(trajectory, limits)};
 }
 
 }  // namespace
@@ -80,7 +73,7 @@ std::string particles_text(const Configuration2& state) {
 ReportData report_data(const std::vector<AnalysedRun>& runs, const std::string& title) {
   ReportData data;
   data.title = title;
-  const std::vector<std::size_t> poses = movie_poses(runs);
+  const std::vector<std::size_t> poses = movie_poses(runs.size());
   for (std::size_t k = 0; k < runs.size(); ++k) {
     StoredTrajectory trajectory(runs[k].file);
     data.runs.push_back(report_run(runs[k], trajectory, poses[k]));

@@ -12,9 +12,9 @@ namespace vitrel {
 /// "ellipses, κ = 2" for equal particles, else "particles of species A, B".
 std::string particles_text(const Configuration2& state);
 
-/// The report's view of these runs. Reads the files again, for the movies: one run has 200 000 poses
-/// in its movie; of several, six spread over the densities share half as many, and the others show
-/// their final state.
+/// The report's view of these runs, in their order. Reads the files again, for the movies: one run has
+/// 200 000 poses in its movie; of several, six spread evenly over them share half as many, and the
+/// others show their final state.
 ReportData report_data(const std::vector<AnalysedRun>& runs, const std::string& title);
 
 }  // namespace vitrel

@@ -1,7 +1,6 @@
 #include "app/workflow/stop.h"
 
 #include <csignal>
-#include <initializer_list>
 
 namespace vitrel {
 namespace {
@@ -15,12 +14,14 @@ extern "C" void note_signal(int number) {
 
 }  // namespace
 
+const std::array<int, 3> stop_signals = {SIGINT, SIGTERM, SIGUSR1};
+
 void catch_stop_signals() {
   struct sigaction action {};
   action.sa_handler = note_signal;
   sigemptyset(&action.sa_mask);
   action.sa_flags = SA_RESTART;
-  for (const int number : {SIGINT, SIGTERM, SIGUSR1}) sigaction(number, &action, nullptr);
+  for (const int number : stop_signals) sigaction(number, &action, nullptr);
 }
 
 bool stop_signalled() {

@@ -1,6 +1,7 @@
 #include "app/workflow/sweep.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -23,7 +24,13 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr int stopped_exit_code = 5;
+// A preparation or a run saves its state and ends with 5; an analysis has nothing to save, and a
+// signal just ends it.
+bool is_stop(int exit_code) {
+  return exit_code == 5 ||
+         std::any_of(stop_signals.begin(), stop_signals.end(),
+                     [exit_code](int number) { return exit_code == 128 + number; });
+}
 
 // What was begun with other parameters is refused, but for those of the analysis, which is made anew.
 void write_job_folder(const SweepJob& job, const fs::path& folder) {
@@ -68,7 +75,7 @@ class JobWorker {
     const std::optional<int> code = child_->poll();
     if (!code) return;
     exit_code_ = *code;
-    if (*code == stopped_exit_code) {
+    if (is_stop(*code)) {
       state_ = State::stopped;
     } else if (*code != 0) {
       state_ = State::failed;
@@ -203,7 +210,7 @@ class Sweep {
       collect();
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
-    outcome_.stopped = stopping_ && outcome_.done + outcome_.failed < jobs_.size();
+    outcome_.stopped = outcome_.done + outcome_.failed < jobs_.size();
     return outcome_;
   }
 
@@ -350,16 +357,43 @@ Json sweep_summary(const std::vector<SweepJob>& jobs, const fs::path& folder) {
   return {{"jobs", std::move(rows)}};
 }
 
-std::vector<fs::path> finished_jobs(const fs::path& folder) {
-  std::vector<fs::path> jobs;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (entry.is_directory() && fs::exists(entry.path() / "done.json"))
-      jobs.push_back(entry.path());
-  std::sort(jobs.begin(), jobs.end());
-  if (jobs.empty())
-    throw UserError(folder.string() +
-                    ": no finished job of a sweep is in this folder; vitrel sweep makes them");
-  return jobs;
+std::vector<fs::path> SweepProgress::files() const {
+  std::vector<fs::path> files;
+  for (const fs::path& job : finished)
+    for (const char* name : {"run.h5", "results.h5"}) files.push_back(job / name);
+  return files;
+}
+
+std::string SweepProgress::share() const {
+  return fmt::format("{} of {} jobs are finished", finished.size(),
+                     finished.size() + unfinished.size());
+}
+
+std::string SweepProgress::left_out() const {
+  return fmt::format("{}; {} {} left out", share(), fmt::join(unfinished, ", "),
+                     unfinished.size() == 1 ? "is" : "are");
+}
+
+SweepProgress sweep_progress(const fs::path& folder) {
+  SweepProgress progress;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (fs::exists(entry.path() / "done.json"))
+      progress.finished.push_back(entry.path());
+    else if (fs::exists(entry.path() / "params.json"))
+      progress.unfinished.push_back(entry.path().filename().string());
+  }
+  std::sort(progress.finished.begin(), progress.finished.end());
+  std::sort(progress.unfinished.begin(), progress.unfinished.end());
+  if (progress.finished.empty())
+    throw UserError(
+        progress.unfinished.empty()
+            ? fmt::format("{}: is neither the folder of a sweep nor that of a job which has begun "
+                          "to run; give one of these, or the file of a run",
+                          folder.string())
+            : fmt::format("{}: none of the {} jobs of this sweep is finished; vitrel sweep works "
+                          "them off",
+                          folder.string(), progress.unfinished.size()));
+  return progress;
 }
 
 }  // namespace vitrel

@@ -66,7 +66,20 @@ std::string sweep_table(const std::vector<SweepJob>& jobs, const std::filesystem
 nlohmann::ordered_json sweep_summary(const std::vector<SweepJob>& jobs,
                                      const std::filesystem::path& folder);
 
-/// The folders of a sweep's finished jobs, in alphabetical order. UserError if there are none.
-std::vector<std::filesystem::path> finished_jobs(const std::filesystem::path& folder);
+/// How far a sweep is, by its folder alone; all in alphabetical order.
+struct SweepProgress {
+  std::vector<std::filesystem::path> finished;  ///< folders of the jobs that are done
+  std::vector<std::string> unfinished;          ///< names of the others
+
+  /// The runs of the finished jobs and their results.
+  std::vector<std::filesystem::path> files() const;
+  /// "12 of 18 jobs are finished".
+  std::string share() const;
+  /// The same, and the names of those that are left out of what is made of the others.
+  std::string left_out() const;
+};
+
+/// UserError if no job is finished.
+SweepProgress sweep_progress(const std::filesystem::path& folder);
 
 }  // namespace vitrel

@@ -124,7 +124,7 @@ const SweepJob& job_named(const std::vector<SweepJob>& jobs, const std::string& 
     if (job.id == id) return job;
     names.push_back(job.id);
   }
-  throw UserError(fmt::format("no job of the sweep has the name '{}'; there are {}", id,
+  throw UserError(fmt::format("no job of the sweep has the name '{}'; its jobs: {}", id,
                               fmt::join(names, ", ")));
 }
 

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
+#include <tuple>
 
-#include "app/workflow/sweep.h"
 #include "core/error.h"
 
 namespace vitrel {
@@ -30,18 +32,29 @@ Table runs_table(const std::vector<AnalysedRun>& runs) {
   return table;
 }
 
+/// Densities are prepared to a goal, and miss it by rounding errors.
+std::tuple<double, std::uint64_t, std::string> place(const AnalysedRun& run) {
+  return {std::round(run.packing_fraction() * 1e6), run.seed(), run.name()};
+}
+
 }  // namespace
 
-std::vector<AnalysedRun> analysed_jobs(const std::filesystem::path& folder,
-                                       const AnalysisChoice& choice) {
+std::vector<AnalysedRun> analysed_jobs(const SweepProgress& sweep, const AnalysisChoice& choice) {
   std::vector<AnalysedRun> runs;
-  for (const std::filesystem::path& job : finished_jobs(folder)) {
+  ProgressDisplay display(choice.progress);
+  for (const std::filesystem::path& job : sweep.finished) {
+    if (choice.given())
+      display.say(fmt::format("{}: analysis ({} of {})", job.filename().string(), runs.size() + 1,
+                              sweep.finished.size()));
     runs.push_back(choice.given() ? analyze_run(job / "run.h5", choice)
                                   : AnalysedRun{job / "run.h5", read_results(job / "results.h5")});
     if (!runs.back().results.find("summary"))
       throw FileError((job / "results.h5").string() +
                       ": has no table 'summary'; delete it and repeat the sweep");
   }
+  std::sort(runs.begin(), runs.end(), [](const AnalysedRun& left, const AnalysedRun& right) {
+    return place(left) < place(right);
+  });
   return runs;
 }
 

@@ -1,24 +1,24 @@
 #pragma once
 
-#include <filesystem>
 #include <vector>
 
 #include "app/workflow/analyze.h"
 #include "app/workflow/glass_study.h"
+#include "app/workflow/sweep.h"
 
 /// What the runs of a sweep say together.
 namespace vitrel {
 
-/// All finished jobs of a sweep with the results that are in their folders; a choice of other
-/// parameters makes these anew. Throws FileError or UserError, naming the file.
-std::vector<AnalysedRun> analysed_jobs(const std::filesystem::path& folder,
-                                       const AnalysisChoice& choice);
+/// The finished jobs of a sweep by packing fraction (to six decimals), then by seed, then by name.
+/// Their results are those in their folders; with parameters of its own, the choice has the runs analysed
+/// again, and what is in the folders stays. Throws FileError or UserError, naming the file.
+std::vector<AnalysedRun> analysed_jobs(const SweepProgress& sweep, const AnalysisChoice& choice);
 
 /// Relaxation times and verdicts of the runs that could be judged, and fits of the laws of the glass
 /// transition to them.
 GlassStudy glass_study(const std::vector<AnalysedRun>& runs);
 
-/// Table `runs`, the summaries of all runs, one row each; and those of their glass study.
+/// Table `runs`, the summaries of all runs, one row each in their order; and those of their glass study.
 Results results_of_sweep(const std::vector<AnalysedRun>& runs, const GlassStudy& study);
 
 }  // namespace vitrel

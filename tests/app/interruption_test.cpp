@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/mount.h>
+#include <sys/stat.h>
 
 #include <chrono>
 #include <nlohmann/json.hpp>
@@ -163,6 +164,32 @@ TEST(Sweep, KilledAndContinuedItIsTheSame) {
     EXPECT_THAT(differing_datasets(folder / ("whole" + file), folder / ("killed" + file)),
                 IsEmpty());
   }
+}
+
+// An analysis that cannot end by itself: it waits for what nobody writes into the file of correlations.
+TEST(Sweep, StoppedDuringTheAnalysisItContinues) {
+  const Folder folder("stop_analysis");
+  folder.write("p.toml", system_text);
+  const std::vector<std::string> sweep = {"sweep", "p.toml", "-o", "sweep"};
+  ASSERT_EQ(run(folder.path(), sweep).code, 0);
+  const auto job = folder / "sweep/job";
+  std::filesystem::copy_file(job / "results.h5", folder / "before.h5");
+  for (const char* file : {"done.json", "analyze.json", "results.h5"})
+    std::filesystem::remove(job / file);
+  const auto correlations = job / "run.h5.correlations.h5";
+  ASSERT_EQ(mkfifo(correlations.c_str(), 0600), 0);
+  const auto begins = [&job] { return std::filesystem::exists(job / "analyze.json.partial"); };
+  for (const int signal : {SIGTERM, SIGINT, SIGUSR1}) {
+    std::filesystem::remove(job / "analyze.json.partial");
+    const Outcome stopped = run_and_signal(folder.path(), sweep, begins, signal);
+    EXPECT_EQ(stopped.code, 5);
+    EXPECT_THAT(stopped.errors, testing::AllOf(testing::HasSubstr("the same command continues"),
+                                               testing::Not(testing::HasSubstr("failed"))));
+    EXPECT_FALSE(std::filesystem::exists(job / "done.json"));
+  }
+  std::filesystem::remove(correlations);
+  ASSERT_EQ(run(folder.path(), sweep).code, 0);
+  EXPECT_THAT(differing_datasets(folder / "before.h5", job / "results.h5"), IsEmpty());
 }
 
 // A real full disk: a tmpfs too small for the run. The frames written stay readable, and with room made

@@ -77,19 +77,25 @@ bool same_bits(const Bytes& x, const Bytes& y) {
 }  // namespace
 
 Outcome run_and_signal(const fs::path& folder, const std::vector<std::string>& arguments,
-                       std::chrono::milliseconds delay, int signal) {
+                       const std::function<bool()>& time, int signal) {
   const fs::path output = folder / "standard_output", errors = folder / "standard_error";
   const pid_t pid = start(folder, arguments, output, errors);
-  const auto end = std::chrono::steady_clock::now() + delay;
   int status = 0;
   bool ended = false;
-  while (!(ended = waitpid(pid, &status, WNOHANG) == pid) && std::chrono::steady_clock::now() < end)
+  while (!(ended = waitpid(pid, &status, WNOHANG) == pid) && !time())
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   if (!ended) {
     kill(pid, signal);
     waitpid(pid, &status, 0);
   }
   return {exit_code(status), content(output), content(errors)};
+}
+
+Outcome run_and_signal(const fs::path& folder, const std::vector<std::string>& arguments,
+                       std::chrono::milliseconds delay, int signal) {
+  const auto end = std::chrono::steady_clock::now() + delay;
+  return run_and_signal(
+      folder, arguments, [end] { return std::chrono::steady_clock::now() >= end; }, signal);
 }
 
 Outcome run(const fs::path& folder, const std::vector<std::string>& arguments) {

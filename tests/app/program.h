@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,11 @@ struct Outcome {
 /// Runs the program in `folder` to its end.
 Outcome run(const std::filesystem::path& folder, const std::vector<std::string>& arguments);
 
-/// The same, but sends `signal` after `delay` unless the program has ended before.
+/// The same, but sends `signal` as soon as it is `time`, unless the program has ended before.
+Outcome run_and_signal(const std::filesystem::path& folder,
+                       const std::vector<std::string>& arguments, const std::function<bool()>& time,
+                       int signal);
+/// The same after `delay`.
 Outcome run_and_signal(const std::filesystem::path& folder,
                        const std::vector<std::string>& arguments, std::chrono::milliseconds delay,
                        int signal);

@@ -3,10 +3,13 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <future>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <thread>
 
 #include "analysis/results.h"
@@ -250,12 +253,30 @@ TEST(Program, MistakesOnTheCommandLineExitWithTwo) {
                                              {"check", "--frames"},
                                              {"params"},
                                              {"params", "check"},
+                                             {"params", "run", "--reference"},
+                                             {"run", "p.toml", "-o", "r.h5", "--wall-time", "-1"},
                                              {"sweep", "p.toml", "-o", "s", "-j", "0"}})
     expect_refusal(run(folder.path(), arguments), 2, "vitrel");
-  for (const char* command : {"prepare", "run", "check", "analyze", "sweep", "report", "params"}) {
+}
+
+TEST(Program, HelpFitsATerminalAndNamesTheExitCodesThatOccur) {
+  const Folder folder("help");
+  const std::map<std::string, std::vector<int>> codes = {
+      {"prepare", {0, 2, 3, 4, 5}}, {"run", {0, 2, 3, 4, 5}}, {"check", {0, 2, 3, 4, 5}},
+      {"analyze", {0, 2, 3}},       {"report", {0, 2, 3}},    {"sweep", {0, 2, 3, 4, 5}},
+      {"export", {0, 2, 3, 5}},     {"params", {0, 2, 3}}};
+  for (const auto& [command, expected] : codes) {
     const Outcome help = run(folder.path(), {command, "--help"});
     EXPECT_EQ(help.code, 0);
-    EXPECT_THAT(help.output, HasSubstr("Exit codes"));
+    std::istringstream lines(help.output);
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << line;
+    std::string footer = help.output.substr(help.output.find("Exit codes: "));
+    std::replace(footer.begin(), footer.end(), '\n', ' ');
+    std::vector<int> named;
+    for (const char digit : std::string("0123456789"))
+      if (footer.find(std::string{' ', digit, ' '}) != std::string::npos)
+        named.push_back(digit - '0');
+    EXPECT_EQ(named, expected) << command;
   }
 }
 
@@ -389,7 +410,7 @@ TEST(Program, AJobOfASweepIsWorkedOffAlone) {
   EXPECT_THAT(differing_datasets(folder / "whole/seed-2/run.h5", folder / "parts/seed-2/run.h5"),
               testing::IsEmpty());
   expect_refusal(run(folder.path(), job("seed-4")), 2,
-                 "no job of the sweep has the name 'seed-4'; there are seed-1, seed-2, seed-3");
+                 "no job of the sweep has the name 'seed-4'; its jobs: seed-1, seed-2, seed-3");
 }
 
 // Two processes given the same job at once: one works, the other waits and finds the job done. One that is

@@ -34,7 +34,7 @@ ReportData one_run() {
 void write_pages(const std::filesystem::path& folder) {
   ReportData sweep = report_example::sweep(6, 12);
   MemoryTrajectory final_state = report_example::lattice(6, 1);
-  sweep.runs.back().movie = film(final_state);
+  sweep.runs[1].movie = film(final_state);
   write_text(folder / "sweep.html", report_page(sweep));
   write_text(folder / "run.html", report_page(one_run()));
   write_text(folder / "state.html", state_page(state()));

@@ -260,7 +260,7 @@ inline ReportData sweep(std::size_t n, std::size_t frames) {
   ReportData data;
   data.title = "Ellipses & <disks>";
   data.subtitle = "N = " + std::to_string(n * n);
-  for (const double phi : {0.7, 0.5, 0.6}) data.runs.push_back(run(phi, lattice(n, frames)));
+  for (const double phi : {0.5, 0.6, 0.7}) data.runs.push_back(run(phi, lattice(n, frames)));
   data.study = study();
   data.parameters = "[system]\nname = \"</script><b>\"\n";
   data.provenance = {{"version", "0.1.0"}, {"command", "vitrel run \"a\" > b"}};

@@ -19,16 +19,6 @@ using nlohmann::json;
 constexpr std::size_t most_bytes = 2'000'000;
 constexpr double fewest_rows_per_decade = 5;
 
-/// The runs by packing fraction.
-std::vector<const ReportRun*> ordered(const std::vector<ReportRun>& runs) {
-  std::vector<const ReportRun*> order;
-  for (const ReportRun& run : runs) order.push_back(&run);
-  std::stable_sort(order.begin(), order.end(), [](const ReportRun* left, const ReportRun* right) {
-    return left->packing_fraction < right->packing_fraction;
-  });
-  return order;
-}
-
 /// What comes after the beginning that all these names share, cut behind an underscore.
 std::string distinction(const std::string& name, const std::vector<std::string>& names) {
   std::size_t shared = name.size();
@@ -89,9 +79,9 @@ std::string table_row(const ReportRun& run) {
 std::string page_with(const ReportData& data, const Thinning& thinning) {
   json runs = json::array();
   std::string rows;
-  for (const ReportRun* run : ordered(data.runs)) {
-    runs.push_back(run_data(*run, data.runs, thinning));
-    rows += table_row(*run);
+  for (const ReportRun& run : data.runs) {
+    runs.push_back(run_data(run, data.runs, thinning));
+    rows += table_row(run);
   }
   return whole_page({data.title,
                      data.subtitle,

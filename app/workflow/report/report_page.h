@@ -24,7 +24,7 @@ struct ReportRun {
 struct ReportData {
   std::string title;
   std::string subtitle;         ///< one line below it: what was simulated
-  std::vector<ReportRun> runs;  ///< shown in the order of their packing fraction
+  std::vector<ReportRun> runs;  ///< shown in this order
   Results study = {};           ///< tables over all runs: relaxation, glass_fit; notes
   std::string parameters;       ///< TOML text
   PageProvenance provenance;    ///< shown if not empty

@@ -1,0 +1,304 @@
+// Analysis, report and export of saved runs and sweeps from outside: what they take, what they refuse, and
+// that no file is lost.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "analysis/results.h"
+#include "tests/app/program.h"
+
+namespace vitrel {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+using testing_program::Folder;
+using testing_program::Outcome;
+using testing_program::run;
+
+const std::string tiny_system =
+    "[system]\nparticles = 20\n[prepare]\nquality_sweeps = 10\n"
+    "[dynamics]\nequilibration = 1\nduration = 10\n"
+    "[output]\nsamples = { spacing = \"linear\", interval = 0.5 }\n"
+    "correlations = { interval = 0.5 }\n";
+
+std::string content(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// A state and a run of it.
+void write_run(const Folder& folder) {
+  folder.write("p.toml", tiny_system);
+  ASSERT_EQ(run(folder.path(), {"prepare", "p.toml", "-o", "state.h5", "-q"}).code, 0);
+  ASSERT_EQ(run(folder.path(), {"run", "p.toml", "--from", "state.h5", "-o", "run.h5", "-q"}).code,
+            0);
+}
+
+void expect_refusal(const Folder& folder, const std::vector<std::string>& arguments, int code,
+                    const std::string& part) {
+  const Outcome outcome = run(folder.path(), arguments);
+  EXPECT_EQ(outcome.code, code) << testing::PrintToString(arguments);
+  EXPECT_THAT(outcome.errors, HasSubstr(part)) << testing::PrintToString(arguments);
+  EXPECT_EQ(outcome.output, "");
+}
+
+TEST(SavedRuns, NoCommandOverwritesWhatItReads) {
+  const Folder folder("overwrites_input");
+  write_run(folder);
+  fs::create_symlink("run.h5", folder / "link.h5");
+  std::map<std::string, std::string> before;
+  for (const char* name : {"p.toml", "state.h5", "run.h5"}) before[name] = content(folder / name);
+  const char* is_read = "is read, and must not be overwritten; choose another output";
+  for (const char* command : {"analyze", "report"})
+    for (const char* output : {"run.h5", "./run.h5", "link.h5"})
+      expect_refusal(folder, {command, "run.h5", "-o", output}, 2, is_read);
+  for (const char* command : {"analyze", "report"})
+    expect_refusal(folder, {command, "run.h5", "--params", "p.toml", "-o", "p.toml"}, 2, is_read);
+  expect_refusal(folder, {"report", "state.h5", "-o", "state.h5"}, 2, is_read);
+  expect_refusal(folder, {"run", "p.toml", "--from", "run.h5", "-o", "run.h5"}, 2, is_read);
+  expect_refusal(folder, {"run", "p.toml", "-o", "p.toml"}, 2, is_read);
+  expect_refusal(folder, {"prepare", "p.toml", "-o", "p.toml"}, 2, "exists already");
+  expect_refusal(folder, {"export", "run.h5", "--to", "xyz", "-o", "run.h5"}, 2, "exists already");
+  for (const auto& [name, bytes] : before) EXPECT_EQ(content(folder / name), bytes) << name;
+}
+
+TEST(SavedRuns, AnalysisOverwritesNothingButItsResults) {
+  const Folder folder("overwrites_others");
+  write_run(folder);
+  folder.write("notes.txt", "mine");
+  fs::copy_file(folder / "run.h5", folder / "other.h5");
+  fs::copy_file(folder / "run.h5.correlations.h5", folder / "correlations.h5");
+  for (const char* output : {"notes.txt", "other.h5", "state.h5", "correlations.h5"}) {
+    const std::string before = content(folder / output);
+    expect_refusal(folder, {"analyze", "run.h5", "-o", output}, 2,
+                   std::string(output) + ": exists and holds no results of vitrel analyze");
+    EXPECT_EQ(content(folder / output), before);
+  }
+  expect_refusal(folder, {"analyze", "run.h5", "-o", "."}, 2, ".: is a folder");
+  expect_refusal(folder, {"analyze", "run.h5", "-o", "/dev/null"}, 2, "/dev/null: is a device");
+  ASSERT_EQ(run(folder.path(), {"analyze", "run.h5", "-q"}).code, 0);
+  const std::string first = content(folder / "run_results_displacements_all.csv");
+  ASSERT_EQ(
+      run(folder.path(), {"analyze", "run.h5", "-q", "--set", "analysis.longest_lag=0.1"}).code, 0);
+  EXPECT_LT(content(folder / "run_results_displacements_all.csv").size(), first.size() / 2);
+}
+
+TEST(SavedRuns, AReportOverwritesNothingButPages) {
+  const Folder folder("overwrites_no_page");
+  write_run(folder);
+  ASSERT_EQ(run(folder.path(), {"analyze", "run.h5", "-q"}).code, 0);
+  for (const char* output : {"run_results.h5", "p.toml", "state.quality.json"}) {
+    const std::string before = content(folder / output);
+    for (const char* input : {"run.h5", "state.h5"})
+      expect_refusal(folder, {"report", input, "-o", output}, 2,
+                     std::string(output) + ": exists and is no HTML page");
+    EXPECT_EQ(content(folder / output), before);
+  }
+  folder.write("run.html", "<!DOCTYPE html>\n<p>an earlier one");
+  EXPECT_EQ(run(folder.path(), {"report", "run.h5", "-q"}).code, 0);
+  EXPECT_GT(fs::file_size(folder / "run.html"), 10'000u);
+}
+
+TEST(SavedRuns, TheSummaryGivesErrorsBesideTheirValues) {
+  const Folder folder("summary");
+  folder.write("p.toml", tiny_system);
+  // Many samples, so that the errors are known.
+  ASSERT_EQ(run(folder.path(),
+                {"run", "p.toml", "-o", "run.h5", "-q", "--set", "output.samples.interval=0.02"})
+                .code,
+            0);
+  const std::string text = run(folder.path(), {"analyze", "run.h5"}).output;
+  const Results results = read_results(folder / "run_results.h5");
+  const Column& z = *results.find("summary")->find("compressibility");
+  const std::size_t line = text.find("compressibility            ");
+  ASSERT_NE(line, std::string::npos) << text;
+  double value = 0, error = 0;
+  ASSERT_EQ(std::sscanf(text.c_str() + line, "compressibility %lf ± %lf", &value, &error), 2);
+  // Two digits of the error.
+  EXPECT_NEAR(error, z.error[0], 0.051 * z.error[0]);
+  EXPECT_NEAR(value, z.value[0], 0.051 * z.error[0]);
+  EXPECT_THAT(text, AllOf(Not(HasSubstr("_error")), Not(HasSubstr("nan"))));
+}
+
+TEST(SavedRuns, AnEndingSlashNamesAFolderToo) {
+  const Folder folder("slash");
+  write_run(folder);
+  ASSERT_EQ(run(folder.path(), {"analyze", "run.h5", "-q"}).code, 0);
+  const Outcome outcome =
+      run(folder.path(), {"export", "run_results.h5", "--to", "gnuplot", "-o", "plots/", "-q"});
+  EXPECT_EQ(outcome.code, 0) << outcome.errors;
+  EXPECT_TRUE(fs::exists(folder / "plots/summary.dat"));
+}
+
+TEST(SavedRuns, OfTablesThatAreGoneNothingStays) {
+  const Folder folder("gone_tables");
+  write_run(folder);
+  folder.write("run_results_notes.csv", "mine");
+  ASSERT_EQ(run(folder.path(), {"analyze", "run.h5", "-q"}).code, 0);
+  ASSERT_TRUE(fs::exists(folder / "run_results_on_the_fly_all.csv"));
+  fs::remove(folder / "run.h5.correlations.h5");
+  ASSERT_EQ(run(folder.path(), {"analyze", "run.h5", "-q"}).code, 0);
+  EXPECT_FALSE(fs::exists(folder / "run_results_on_the_fly_all.csv"));
+  EXPECT_TRUE(fs::exists(folder / "run_results_notes.csv"));
+  for (const Table& table : read_results(folder / "run_results.h5").tables)
+    EXPECT_TRUE(fs::exists(folder / ("run_results_" + table.name + ".csv"))) << table.name;
+}
+
+// The input is no run, so that no message about the output can come after the work.
+TEST(SavedRuns, TheOutputIsLookedAtFirst) {
+  const Folder folder("missing_folder");
+  folder.write("p.toml", tiny_system);
+  folder.write("no_run.h5", "");
+  const std::vector<std::vector<std::string>> commands = {
+      {"prepare", "p.toml"},
+      {"run", "p.toml"},
+      {"run", "p.toml", "--from", "no_run.h5"},
+      {"analyze", "no_run.h5"},
+      {"export", "no_run.h5", "--to", "gsd"},
+      {"export", "no_run.h5", "--to", "gnuplot"}};
+  for (std::vector<std::string> command : commands) {
+    command.insert(command.end(), {"-o", "absent/output"});
+    expect_refusal(
+        folder, command, 3,
+        "absent/output: cannot be written: there is no folder " + (folder / "absent").string());
+  }
+  expect_refusal(folder, {"bench", "thesis", "-o", "p.toml/output"}, 3,
+                 "p.toml/output: the folder cannot be made");
+  expect_refusal(folder, {"analyze", "no_run.h5", "-o", "p.toml"}, 2,
+                 "p.toml: exists and holds no");
+  expect_refusal(folder, {"analyze", "absent.h5"}, 3, "absent.h5: there is no such file");
+}
+
+TEST(SavedRuns, SettingsWithoutEffectAreRefused) {
+  const Folder folder("no_effect");
+  write_run(folder);
+  for (const char* command : {"analyze", "report"}) {
+    expect_refusal(folder, {command, "run.h5", "--set", "dynamics.duration=5"}, 2,
+                   "--set dynamics.duration=5: has no effect on a run that is there; only "
+                   "parameters of its analysis, analysis.…, can be set");
+    expect_refusal(folder, {command, "run.h5", "--set", "analysis.longest_leg=1"}, 2,
+                   "key 'analysis.longest_leg' is unknown");
+  }
+  const char* no_analysis = "is a single state, whose page holds no analysis";
+  expect_refusal(folder, {"report", "state.h5", "--params", "p.toml"}, 2, no_analysis);
+  expect_refusal(folder, {"report", "state.h5", "--set", "analysis.longest_lag=0.1"}, 2,
+                 no_analysis);
+  EXPECT_FALSE(fs::exists(folder / "state.html"));
+}
+
+/// Densities and seeds whose order is neither that of the jobs nor that of their names.
+const std::string four_jobs = tiny_system +
+                              "[sweep.grid]\n\"system.packing_fraction\" = [0.4, 0.3]\n"
+                              "\"system.seed\" = [10, 2]\n";
+
+class SavedSweep : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder.write("p.toml", four_jobs);
+    ASSERT_EQ(run(folder.path(), {"sweep", "p.toml", "-o", "sweep", "-j", "2", "-q"}).code, 0);
+  }
+  fs::path job(const std::string& id) const { return folder / "sweep" / id; }
+
+  const Folder folder{"saved_sweep"};
+};
+
+TEST_F(SavedSweep, RunsAreOrderedByDensityThenBySeed) {
+  ASSERT_EQ(run(folder.path(), {"analyze", "sweep", "-q"}).code, 0);
+  const Results results = read_results(folder / "sweep/results.h5");
+  std::vector<std::string> rows;
+  for (const auto& [name, text] : results.provenance)
+    if (name == "row_" + std::to_string(rows.size()))
+      rows.push_back(fs::path(text).parent_path().filename());
+  EXPECT_THAT(rows, ElementsAre("packing_fraction-0.3_seed-2", "packing_fraction-0.3_seed-10",
+                                "packing_fraction-0.4_seed-2", "packing_fraction-0.4_seed-10"));
+  const Table& runs = *results.find("runs");
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Results of_job = read_results(job(rows[k]) / "results.h5");
+    EXPECT_EQ(runs.find("collisions")->value[k],
+              of_job.find("summary")->find("collisions")->value[0]);
+  }
+  ASSERT_EQ(run(folder.path(), {"report", "sweep", "-q"}).code, 0);
+  const std::string page = content(folder / "sweep/report.html");
+  std::size_t place = 0;
+  for (const std::string& row : rows) {
+    place = page.find("<td>" + row + "</td>", place);
+    EXPECT_NE(place, std::string::npos) << row;
+  }
+}
+
+TEST_F(SavedSweep, OtherParametersOfTheAnalysisLeaveTheJobsAlone) {
+  ASSERT_EQ(run(folder.path(), {"analyze", "sweep", "-q"}).code, 0);
+  const std::string plain = content(folder / "sweep/results_runs.csv");
+  std::map<fs::path, std::string> before;
+  for (const auto& entry : fs::directory_iterator(job("packing_fraction-0.3_seed-2")))
+    before[entry.path()] = content(entry.path());
+  ASSERT_EQ(
+      run(folder.path(), {"analyze", "sweep", "-q", "--set", "analysis.longest_lag=0.2"}).code, 0);
+  for (const auto& entry : fs::directory_iterator(job("packing_fraction-0.3_seed-2")))
+    EXPECT_EQ(content(entry.path()), before[entry.path()]) << entry.path();
+  // Diffusion comes from the longest time differences.
+  EXPECT_NE(content(folder / "sweep/results_runs.csv"), plain);
+  ASSERT_EQ(run(folder.path(), {"analyze", "sweep", "-q"}).code, 0);
+  EXPECT_EQ(content(folder / "sweep/results_runs.csv"), plain);
+}
+
+TEST_F(SavedSweep, ItsOwnFilesAreNotOverwritten) {
+  const std::string id = "sweep/packing_fraction-0.3_seed-2/";
+  for (const char* file : {"run.h5", "results.h5"})
+    for (const char* command : {"analyze", "report"})
+      expect_refusal(folder, {command, "sweep", "-o", id + file}, 2, "is read, and must not be");
+  expect_refusal(folder, {"analyze", "sweep", "-o", "sweep"}, 2, "sweep: is a folder");
+}
+
+TEST_F(SavedSweep, AJobsFolderStandsForItsRun) {
+  const std::string id = "packing_fraction-0.3_seed-2";
+  ASSERT_EQ(run(folder.path(), {"analyze", "sweep/" + id, "-o", "a.h5", "-q"}).code, 0);
+  ASSERT_EQ(run(folder.path(), {"analyze", "sweep/" + id + "/run.h5", "-o", "b.h5", "-q"}).code, 0);
+  EXPECT_THAT(testing_program::differing_datasets(folder / "a.h5", folder / "b.h5"),
+              testing::IsEmpty());
+  ASSERT_EQ(run(job(id), {"report", ".", "-q"}).code, 0);
+  EXPECT_THAT(content(job(id) / "run.html"), HasSubstr("<td>" + id + "</td>"));
+}
+
+TEST_F(SavedSweep, JobsThatAreNotFinishedAreNamed) {
+  fs::remove(job("packing_fraction-0.3_seed-10") / "done.json");
+  fs::remove(job("packing_fraction-0.4_seed-2") / "done.json");
+  const std::string left_out =
+      "2 of 4 jobs are finished; packing_fraction-0.3_seed-10, packing_fraction-0.4_seed-2 are "
+      "left out";
+  for (const char* command : {"analyze", "report"}) {
+    const Outcome told = run(folder.path(), {command, "sweep"});
+    EXPECT_EQ(told.code, 0);
+    EXPECT_THAT(told.errors, HasSubstr("sweep: " + left_out + "\n"));
+    EXPECT_EQ(run(folder.path(), {command, "sweep", "-q"}).errors, "");
+  }
+  const Results results = read_results(folder / "sweep/results.h5");
+  EXPECT_EQ(results.find("runs")->rows(), 2u);
+  EXPECT_THAT(results.provenance, testing::Contains(std::pair("left_out", left_out)));
+  EXPECT_THAT(content(folder / "sweep/report.html"),
+              AllOf(HasSubstr("; 2 of 4 jobs are finished</p>"), HasSubstr(left_out)));
+  for (const auto& entry : fs::recursive_directory_iterator(folder / "sweep"))
+    if (entry.path().filename() == "done.json") fs::remove(entry.path());
+  expect_refusal(folder, {"analyze", "sweep"}, 2, "none of the 4 jobs of this sweep is finished");
+  expect_refusal(folder, {"analyze", "."}, 2, "is neither the folder of a sweep nor that of a job");
+}
+
+TEST_F(SavedSweep, QuietItSaysNothing) {
+  std::vector<std::string> again = {"sweep", "p.toml", "-o", "sweep", "-q"};
+  const Outcome quiet = run(folder.path(), again);
+  EXPECT_EQ(quiet.code, 0);
+  EXPECT_EQ(quiet.output + quiet.errors, "");
+  again.push_back("--json");
+  EXPECT_EQ(nlohmann::json::parse(run(folder.path(), again).output)["jobs"].size(), 4u);
+}
+
+}  // namespace
+}  // namespace vitrel
