@@ -266,11 +266,15 @@ void describe_output(OutputParameters& p, FieldVisitor& visit) {
 }
 
 void describe_analysis(DisplacementOptions& p, FieldVisitor& visit) {
-  visit.field({"longest_lag", "", "Longest time difference, as a fraction of the run."},
-              p.axis.longest_lag);
+  visit.field(
+      {"longest_lag", "",
+       "Longest time difference, as a fraction of an evenly sampled run; those of others go "
+       "to the end."},
+      p.axis.longest_lag);
   visit.field(
       {"every_lag_up_to", "sample intervals",
-       "Up to here every time difference is evaluated, beyond they are spaced logarithmically."},
+       "Up to here every time difference is evaluated, beyond they are spaced logarithmically; of "
+       "runs that are not evenly sampled all are."},
       p.axis.every_lag_up_to);
   visit.field(
       {"lags_per_decade", "", "Time differences per factor of ten in the logarithmic part."},
