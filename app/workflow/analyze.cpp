@@ -12,6 +12,7 @@
 #include "app/workflow/dynamics_tables.h"
 #include "app/workflow/glass_data.h"
 #include "app/workflow/parameters.h"
+#include "app/workflow/relaxation_tables.h"
 #include "app/workflow/stored_run.h"
 #include "app/workflow/structure_tables.h"
 #include "core/error.h"
@@ -186,6 +187,9 @@ AnalysedRun analyze_run(const std::filesystem::path& file, const AnalysisChoice&
   for (Table& table : on_the_fly_tables(file)) results.tables.push_back(std::move(table));
   results.provenance = provenance_rows(reader.provenance());
   results.provenance.emplace_back("source", file.string());
+  results.provenance.emplace_back("time_axis",
+                                  time_axis_text(trajectory.times(), run.dynamics.displacements));
+  store_relaxation_times(run.dynamics.displacements, results);
   if (run.energy.time.empty())
     results.provenance.emplace_back("left_out",
                                     "energies: the file has neither velocities nor the observables "

@@ -33,7 +33,8 @@ struct AnalysedRun {
   std::string name() const;
 };
 
-/// Tables: a summary of one row, time correlations (dynamics_tables.h), energies, compressibility,
+/// Tables: a summary of one row, time correlations (dynamics_tables.h), relaxation times
+/// (relaxation_tables.h), energies, compressibility,
 /// structure (structure_tables.h), correlations measured on the fly (correlations_file.h), and if the
 /// run can be judged (glass_data.h) its relaxation times and verdict. Throws FileError or UserError,
 /// naming the file.
