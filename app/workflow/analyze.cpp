@@ -13,6 +13,7 @@
 #include "app/workflow/glass_data.h"
 #include "app/workflow/parameters.h"
 #include "app/workflow/relaxation_tables.h"
+#include "app/workflow/species_names.h"
 #include "app/workflow/stored_run.h"
 #include "app/workflow/structure_tables.h"
 #include "core/error.h"
@@ -48,6 +49,24 @@ void require_tracks(const TrajectoryReader& reader, std::size_t rotors) {
                  "displacements: positions in the box do not tell how often it was crossed");
   if (rotors > 0)
     reader.require("angle", "rotations: orientations do not tell the number of turns");
+}
+
+/// Tables of files with one species are not called after it.
+void require_own_names(const TrajectoryReader& reader) {
+  if (reader.species_names().size() < 2) return;
+  if (const auto conflict = species_name_conflict(reader.species_names()))
+    throw FileError(fmt::format("{}: the name of species {} {}", reader.path().string(),
+                                conflict->species, conflict->complaint));
+}
+
+/// The file becomes part of the message where it cannot be analysed as it was asked for.
+template <class Work>
+auto naming(const std::filesystem::path& file, Work&& work) {
+  try {
+    return work();
+  } catch (const UserError& error) {
+    throw UserError(fmt::format("{}: {}", file.string(), error.what()));
+  }
 }
 
 /// The short part first: it refuses wave numbers that do not fit into the box.
@@ -179,9 +198,11 @@ AnalysedRun analyze_run(const std::filesystem::path& file, const AnalysisChoice&
         fmt::format("{}: has {} frame(s), but an analysis needs two or more; continue the "
                     "run, or sample more often ([output] samples)",
                     file.string(), trajectory.frames()));
+  require_own_names(reader);
   AnalysedRun analysed{file, {}};
-  const RunAnalysis run =
-      measure(trajectory, analysed.name(), analysis_parameters(reader, choice), choice.progress);
+  const Parameters parameters = analysis_parameters(reader, choice);
+  const RunAnalysis run = naming(
+      file, [&] { return measure(trajectory, analysed.name(), parameters, choice.progress); });
   Results& results = analysed.results;
   results = results_of(run);
   for (Table& table : on_the_fly_tables(file)) results.tables.push_back(std::move(table));
