@@ -69,11 +69,14 @@ auto naming(const std::filesystem::path& file, Work&& work) {
   }
 }
 
+ProgressReport shown_by(ProgressDisplay& display) {
+  return [&display](const Progress& state) { display.show(state); };
+}
+
 /// The short part first: it refuses wave numbers that do not fit into the box.
 RunDynamics measure_dynamics(StoredTrajectory& trajectory, DisplacementOptions options,
-                             ProgressDisplay::Mode progress) {
-  ProgressDisplay display(progress);
-  const auto report = [&](const Progress& state) { display.show(state); };
+                             ProgressDisplay& display) {
+  const ProgressReport report = shown_by(display);
   options.wave_numbers = wave_numbers_or_main(std::move(options.wave_numbers), trajectory.read(0));
   RunDynamics dynamics;
   display.begin("collective scattering");
@@ -102,7 +105,7 @@ double collisions_between_frames(const TrajectoryReader& reader) {
 }
 
 RunAnalysis measure(StoredTrajectory& trajectory, const std::string& name,
-                    const Parameters& parameters, ProgressDisplay::Mode progress) {
+                    const Parameters& parameters, ProgressDisplay& display) {
   const TrajectoryReader& reader = trajectory.reader();
   const std::vector<double>& times = trajectory.times();
   RunAnalysis run{};
@@ -114,8 +117,9 @@ RunAnalysis measure(StoredTrajectory& trajectory, const std::string& name,
   run.duration = times.back() - times.front();
   run.collisions = collisions_between_frames(reader);
   require_tracks(reader, run.rotors);
-  run.dynamics = measure_dynamics(trajectory, parameters.analysis, progress);
-  run.structure = structure_tables(trajectory, parameters.structure);
+  run.dynamics = measure_dynamics(trajectory, parameters.analysis, display);
+  display.begin("structure");
+  run.structure = structure_tables(trajectory, parameters.structure, all_cores, shown_by(display));
   run.energy = stored_energies(trajectory);
   run.compressibility = stored_compressibility(reader, run.energy, run.rotors);
   const Displacements& found = run.dynamics.displacements;
@@ -125,7 +129,8 @@ RunAnalysis measure(StoredTrajectory& trajectory, const std::string& name,
                                             : no_diffusion("no particle can turn");
   const GlassSource source{name,  reader.provenance().seed, run.packing_fraction,      run.rotors,
                            found, run.compressibility,      order_table(run.structure)};
-  if (const auto data = glass_run_data(trajectory, source, parameters.analysis))
+  display.begin("halves of the run");
+  if (const auto data = glass_run_data(trajectory, source, parameters.analysis, shown_by(display)))
     run.glass = judge_glass_run(*data);
   return run;
 }
@@ -201,8 +206,9 @@ AnalysedRun analyze_run(const std::filesystem::path& file, const AnalysisChoice&
   require_own_names(reader);
   AnalysedRun analysed{file, {}};
   const Parameters parameters = analysis_parameters(reader, choice);
-  const RunAnalysis run = naming(
-      file, [&] { return measure(trajectory, analysed.name(), parameters, choice.progress); });
+  ProgressDisplay display(choice.progress, choice.job);
+  const RunAnalysis run =
+      naming(file, [&] { return measure(trajectory, analysed.name(), parameters, display); });
   Results& results = analysed.results;
   results = results_of(run);
   for (Table& table : on_the_fly_tables(file)) results.tables.push_back(std::move(table));

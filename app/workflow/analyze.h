@@ -19,6 +19,7 @@ struct AnalysisChoice {
   std::optional<std::filesystem::path> parameters;
   std::vector<std::string> overrides;
   ProgressDisplay::Mode progress = ProgressDisplay::Mode::silent;
+  std::string job = {};  ///< which of many, before the phases of the progress: "job 3 of 18: "
 
   /// Whether it says anything about the analysis.
   bool given() const { return parameters || !overrides.empty(); }

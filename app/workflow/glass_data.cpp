@@ -23,13 +23,24 @@ BlockedCurve blocked(const Displacements& found, const Correlation& correlation)
   return {found.lag, correlation.value, correlation.error, correlation.blocks};
 }
 
-void add_halves(GlassRunData& data, Trajectory& trajectory, const DisplacementOptions& options) {
+/// Tells of the first (0) or second (1) of two passes over all particles as halves of one.
+ProgressReport half(std::size_t number, std::size_t particles, const ProgressReport& report) {
+  if (!report) return {};
+  return [&report, done = static_cast<double>(number),
+          n = static_cast<double>(particles)](const Progress& pass) {
+    report({0.5 * (done + pass.fraction), done * n + pass.value, pass.quantity});
+  };
+}
+
+void add_halves(GlassRunData& data, Trajectory& trajectory, const DisplacementOptions& options,
+                const ProgressReport& report) {
   const std::size_t middle = trajectory.frames() / 2;
   if (middle < 2) return;
   TrajectoryPart early(trajectory, 0, middle);
   TrajectoryPart late(trajectory, middle, trajectory.frames());
-  const Displacements first = displacements(early, options);
-  const Displacements second = displacements(late, options);
+  const std::size_t particles = trajectory.read(0).size();
+  const Displacements first = displacements(early, options, half(0, particles, report));
+  const Displacements second = displacements(late, options, half(1, particles, report));
   const DisplacementGroup& before = first.groups.front();
   const DisplacementGroup& after = second.groups.front();
   data.halves = {{"the mean squared displacement", blocked(first, before.translation),
@@ -43,7 +54,8 @@ void add_halves(GlassRunData& data, Trajectory& trajectory, const DisplacementOp
 }  // namespace
 
 std::optional<GlassRunData> glass_run_data(Trajectory& trajectory, const GlassSource& run,
-                                           DisplacementOptions options) {
+                                           DisplacementOptions options,
+                                           const ProgressReport& report) {
   const Displacements& found = run.displacements;
   const DisplacementGroup& all = found.groups.front();
   const Correlation* l = l_2(found);
@@ -66,7 +78,7 @@ std::optional<GlassRunData> glass_run_data(Trajectory& trajectory, const GlassSo
   data.series.push_back({"the hexatic order", run.order.find("hexatic")->value});
   options.wave_numbers = {found.wave_numbers.front()};
   options.orders = {nematic_order_of_l};
-  add_halves(data, trajectory, options);
+  add_halves(data, trajectory, options, report);
   return data;
 }
 

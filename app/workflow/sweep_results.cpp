@@ -32,10 +32,11 @@ Table runs_table(const std::vector<AnalysedRun>& runs) {
 
 }  // namespace
 
-std::vector<AnalysedRun> analysed_jobs(const std::filesystem::path& folder,
-                                       const AnalysisChoice& choice) {
+std::vector<AnalysedRun> analysed_jobs(const std::filesystem::path& folder, AnalysisChoice choice) {
   std::vector<AnalysedRun> runs;
-  for (const std::filesystem::path& job : finished_jobs(folder)) {
+  const std::vector<std::filesystem::path> jobs = finished_jobs(folder);
+  for (const std::filesystem::path& job : jobs) {
+    choice.job = fmt::format("job {} of {}: ", runs.size() + 1, jobs.size());
     runs.push_back(choice.given() ? analyze_run(job / "run.h5", choice)
                                   : AnalysedRun{job / "run.h5", read_results(job / "results.h5")});
     if (!runs.back().results.find("summary"))

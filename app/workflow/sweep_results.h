@@ -11,8 +11,7 @@ namespace vitrel {
 
 /// All finished jobs of a sweep with the results that are in their folders; a choice of other
 /// parameters makes these anew. Throws FileError or UserError, naming the file.
-std::vector<AnalysedRun> analysed_jobs(const std::filesystem::path& folder,
-                                       const AnalysisChoice& choice);
+std::vector<AnalysedRun> analysed_jobs(const std::filesystem::path& folder, AnalysisChoice choice);
 
 /// Relaxation times and verdicts of the runs that could be judged, and fits of the laws of the glass
 /// transition to them.
