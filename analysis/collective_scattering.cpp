@@ -133,12 +133,20 @@ Series read_modes(Trajectory& trajectory, const std::vector<std::array<int, 2>>&
   return series;
 }
 
-/// Time difference 0 before those of the time axis.
+/// Time difference 0 before those of the time axis: from all frames if they are evenly spaced, else from
+/// the origins of the shortest lag, for unevenly sampled stretches count according to their length.
 std::vector<Lag> lags_from_zero(std::span<const double> times, const TimeAxisOptions& axis) {
   std::vector<Lag> lags = time_axis(times, axis);
-  const std::size_t stride = (times.size() + axis.most_origins - 1) / axis.most_origins;
-  const bool many = lags.empty() || evenly_spaced(times);
-  lags.insert(lags.begin(), many ? Lag{0, stride, (times.size() - 1) / stride + 1} : Lag{0, 1, 1});
+  Lag zero{};
+  if (lags.empty() || lags.front().pairs.empty()) {
+    const std::size_t stride = (times.size() + axis.most_origins - 1) / axis.most_origins;
+    zero = {0, stride, (times.size() - 1) / stride + 1};
+  } else {
+    zero = lags.front();
+    zero.time = 0;
+    for (FramePair& pair : zero.pairs) pair.to = pair.from;
+  }
+  lags.insert(lags.begin(), std::move(zero));
   return lags;
 }
 
@@ -152,8 +160,8 @@ Correlation correlate(const Series& series, std::size_t first, std::size_t count
     products.resize(lag.origins);
     for (std::size_t v = first; v < first + count; ++v) {
       for (std::size_t k = 0; k < lag.origins; ++k) {
-        const std::complex<double> now = series[v][k * lag.stride];
-        const std::complex<double> then = series[v][k * lag.stride + lag.frames];
+        const std::complex<double> now = series[v][lag.from(k)];
+        const std::complex<double> then = series[v][lag.to(k)];
         products[k] =
             (now.real() * then.real() + now.imag() * then.imag()) / static_cast<double>(particles);
       }
@@ -208,7 +216,7 @@ CollectiveScattering collective_scattering(Trajectory& trajectory,
   const Series series = read_modes(trajectory, vectors, threads, report);
   const std::vector<Lag> lags = lags_from_zero(times, axis);
   for (const Lag& lag : lags) {
-    result.lag.push_back(times[lag.frames] - times[0]);
+    result.lag.push_back(lag.time);
     result.origins.push_back(lag.origins);
   }
   std::size_t begin = 0;

@@ -175,7 +175,7 @@ Displacements displacements(Trajectory& trajectory, const DisplacementOptions& o
   result.overlap_distance = quantities.overlap_distance;
   const Members all = together(species, lags, quantities);
   for (std::size_t l = 0; l < lags.size(); ++l) {
-    result.lag.push_back(times[lags[l].frames] - times[0]);
+    result.lag.push_back(lags[l].time);
     result.origins.push_back(lags[l].origins);
     const CorrelationSum& overlap = all.sums[l].overlap();
     result.overlap.push_back(overlap.estimate(lags[l], all.particles));

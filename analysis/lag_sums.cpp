@@ -37,9 +37,14 @@ class LagSums::Part {
   /// values[k] = value(frame of origin k, frame one lag later).
   template <class Value>
   void at_frames(Chunk& values, Value&& value) const {
-    std::size_t from = first * lag_.stride;
-    for (std::size_t k = 0; k < count; ++k, from += lag_.stride)
-      values[k] = value(from, from + lag_.frames);
+    if (lag_.pairs.empty()) {
+      std::size_t from = first * lag_.stride;
+      for (std::size_t k = 0; k < count; ++k, from += lag_.stride)
+        values[k] = value(from, from + lag_.frames);
+    } else {
+      const FramePair* const pairs = &lag_.pairs[first];
+      for (std::size_t k = 0; k < count; ++k) values[k] = value(pairs[k].from, pairs[k].to);
+    }
   }
   template <class Value>
   void at_origins(Chunk& values, Value&& value) const {
@@ -54,7 +59,7 @@ class LagSums::Part {
 };
 
 LagSums::LagSums(const Lag& lag, const TrackQuantities& quantities, bool rotors)
-    : lag_(lag),
+    : lag_(&lag),
       quantities_(&quantities),
       translation_(lag.origins),
       overlap_(lag.origins),
@@ -66,8 +71,8 @@ LagSums::LagSums(const Lag& lag, const TrackQuantities& quantities, bool rotors)
 }
 
 void LagSums::add(const Path& path) {
-  for (std::size_t begin = 0; begin < lag_.origins; begin += chunk) {
-    const Part part(lag_, begin);
+  for (std::size_t begin = 0; begin < lag_->origins; begin += chunk) {
+    const Part part(*lag_, begin);
     add_translation(*path.track, part);
     if (path.axis) add_rotation(path, part);
   }

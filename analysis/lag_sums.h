@@ -34,7 +34,8 @@ struct Path {
 /// Sums over particles that are not told apart.
 class LagSums {
  public:
-  /// `rotors`: whether there may be any among the particles. `quantities` must outlive the sums.
+  /// `rotors`: whether there may be any among the particles. `lag` and `quantities` must outlive the
+  /// sums.
   LagSums(const Lag& lag, const TrackQuantities& quantities, bool rotors);
   void add(const Path& path);
   void add(const LagSums& other);
@@ -55,7 +56,7 @@ class LagSums {
   void add_rotation(const Path& path, const Part& part);
   void finish_particle(bool rotor);
 
-  Lag lag_;
+  const Lag* lag_;
   const TrackQuantities* quantities_;
   MomentSum translation_;
   CorrelationSum overlap_;

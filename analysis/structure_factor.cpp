@@ -133,6 +133,11 @@ StructureFactor ScatteringShells::averaged(const Configuration2& configuration, 
 }
 
 StructureFactor ScatteringShells::structure_factor(const Configuration2& configuration) const {
+  return averaged(configuration, configuration.size() <= most_summed_directly);
+}
+
+StructureFactor ScatteringShells::transformed_structure_factor(
+    const Configuration2& configuration) const {
   return averaged(configuration, false);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -8,29 +9,58 @@
 namespace vitrel {
 
 struct TimeAxisOptions {
-  double longest_lag = 0.5;  ///< longest time difference, as a fraction of the run; in (0, 1]
+  /// Longest time difference, as a fraction of the run, if that is evenly sampled; in (0, 1].
+  double longest_lag = 0.5;
   std::size_t every_lag_up_to =
       100;  ///< in sample intervals; longer lags are spaced logarithmically,
   std::size_t lags_per_decade = 50;  ///< that many to a decade
   std::size_t most_origins = 4096;   ///< time origins per lag; evenly thinned beyond
 };
 
-/// Which pairs of frames make up one point: (k, k + frames) for k = 0, stride, 2 stride …
-struct Lag {
-  std::size_t frames;
-  std::size_t stride;
-  std::size_t origins;
+struct FramePair {
+  std::uint32_t from, to;
+};
 
-  /// Displacements from origins closer than the lag share part of their path. For diffusion their
-  /// squares are correlated as (1 − s/lag)², and blocks of four lags leave 6 % of the variance
-  /// between blocks: that many origins. 1 where origins share nothing.
+/// Which pairs of frames make up one point, by time of origin. Of evenly sampled runs
+/// (k, k + frames) for k = 0, stride, 2 stride …; else those of a list.
+struct Lag {
+  std::size_t frames, stride;
+  std::size_t origins;
+  double time = 0;                    ///< the mean time difference of the pairs
+  std::vector<FramePair> pairs = {};  ///< empty: evenly sampled
+  std::size_t pairs_per_block = 1;    ///< shortest_block of listed pairs
+
+  std::size_t from(std::size_t origin) const {
+    return pairs.empty() ? origin * stride : pairs[origin].from;
+  }
+  std::size_t to(std::size_t origin) const {
+    return pairs.empty() ? origin * stride + frames : pairs[origin].to;
+  }
+
+  /// The fewest origins that blocks for the errors consist of. Displacements from origins closer
+  /// than the lag share part of their path. For diffusion their squares are correlated as
+  /// (1 − s/lag)², and blocks of four lags leave 6 % of the variance between blocks: as many origins
+  /// as lie within four lags, where they are densest. 1 where origins share nothing.
   double shortest_block() const;
 };
 
-/// The lags of a run with these sample times. Evenly sampled: 1 … `every_lag_up_to` sample
-/// intervals, then logarithmically spaced ones up to `longest_lag`; all frames are origins, evenly
-/// thinned to `most_origins` per lag. Any other run (logarithmic samples): the first frame is the
-/// only origin, every later one a lag. Empty for fewer than two frames.
+/// The lags of a run with these sample times, ascending, without 0. Empty for fewer than two frames.
+///
+/// Evenly sampled: 1 … `every_lag_up_to` sample intervals, then logarithmically spaced ones up to
+/// `longest_lag`; all frames are origins, evenly thinned to `most_origins` per lag.
+///
+/// Any other run, such as logarithmic samples, once or in cycles:
+/// 1. Time differences of pairs of frames are equal if rounding to single precision can account for
+///    what they differ by, 2⁻²⁴ of each of the four times, but never by more than a thousandth.
+/// 2. A lag is a time difference that two pairs have at least, or the first frame with another one.
+///    Of those within one of `lags_per_decade` steps the one with most pairs is taken; of equals the
+///    shortest. They go on to the end of the run, for the longest may have as many origins as any.
+/// 3. All its pairs are origins, in the order of time, evenly thinned to `most_origins`. Blocks for
+///    the errors are counted in origins, so their durations differ, but none is shorter than four
+///    lags.
+/// Lags are looked for among 2²² pairs or fewer, those of the first frames: all pairs of 2 896 frames,
+/// and 2²²/frames origins of longer runs, which should comprise a cycle. Cost about (lags) × (frames),
+/// and a second for the pairs.
 std::vector<Lag> time_axis(std::span<const double> times, const TimeAxisOptions& options = {});
 
 }  // namespace vitrel

@@ -58,8 +58,11 @@ class TrajectoryPart : public Trajectory {
   std::vector<double> times_;
 };
 
-/// Whether all intervals between the times are equal, to a millionth: time differences then depend
-/// on the difference of the indices only, and every frame can serve as an origin of time.
+/// Whether the times are equally spaced up to rounding to single precision, in which many programs
+/// write them: none is farther from its place between the first and the last than 2⁻²³ of the
+/// greatest (2⁻²⁴ for its own rounding, as much for that of the ends), nor than a quarter of the
+/// interval. Time differences then depend on the difference of the indices only, and every frame can
+/// serve as an origin of time.
 bool evenly_spaced(std::span<const double> times);
 
 }  // namespace vitrel

@@ -12,6 +12,8 @@
 #include "app/workflow/dynamics_tables.h"
 #include "app/workflow/glass_data.h"
 #include "app/workflow/parameters.h"
+#include "app/workflow/relaxation_tables.h"
+#include "app/workflow/species_names.h"
 #include "app/workflow/stored_run.h"
 #include "app/workflow/structure_tables.h"
 #include "core/error.h"
@@ -49,11 +51,32 @@ void require_tracks(const TrajectoryReader& reader, std::size_t rotors) {
     reader.require("angle", "rotations: orientations do not tell the number of turns");
 }
 
+/// Tables of files with one species are not called after it.
+void require_own_names(const TrajectoryReader& reader) {
+  if (reader.species_names().size() < 2) return;
+  if (const auto conflict = species_name_conflict(reader.species_names()))
+    throw FileError(fmt::format("{}: the name of species {} {}", reader.path().string(),
+                                conflict->species, conflict->complaint));
+}
+
+/// The file becomes part of the message where it cannot be analysed as it was asked for.
+template <class Work>
+auto naming(const std::filesystem::path& file, Work&& work) {
+  try {
+    return work();
+  } catch (const UserError& error) {
+    throw UserError(fmt::format("{}: {}", file.string(), error.what()));
+  }
+}
+
+ProgressReport shown_by(ProgressDisplay& display) {
+  return [&display](const Progress& state) { display.show(state); };
+}
+
 /// The short part first: it refuses wave numbers that do not fit into the box.
 RunDynamics measure_dynamics(StoredTrajectory& trajectory, DisplacementOptions options,
-                             ProgressDisplay::Mode progress) {
-  ProgressDisplay display(progress);
-  const auto report = [&](const Progress& state) { display.show(state); };
+                             ProgressDisplay& display) {
+  const ProgressReport report = shown_by(display);
   options.wave_numbers = wave_numbers_or_main(std::move(options.wave_numbers), trajectory.read(0));
   RunDynamics dynamics;
   display.begin("collective scattering");
@@ -82,7 +105,7 @@ double collisions_between_frames(const TrajectoryReader& reader) {
 }
 
 RunAnalysis measure(StoredTrajectory& trajectory, const std::string& name,
-                    const Parameters& parameters, ProgressDisplay::Mode progress) {
+                    const Parameters& parameters, ProgressDisplay& display) {
   const TrajectoryReader& reader = trajectory.reader();
   const std::vector<double>& times = trajectory.times();
   RunAnalysis run{};
@@ -94,8 +117,9 @@ RunAnalysis measure(StoredTrajectory& trajectory, const std::string& name,
   run.duration = times.back() - times.front();
   run.collisions = collisions_between_frames(reader);
   require_tracks(reader, run.rotors);
-  run.dynamics = measure_dynamics(trajectory, parameters.analysis, progress);
-  run.structure = structure_tables(trajectory, parameters.structure);
+  run.dynamics = measure_dynamics(trajectory, parameters.analysis, display);
+  display.begin("structure");
+  run.structure = structure_tables(trajectory, parameters.structure, all_cores, shown_by(display));
   run.energy = stored_energies(trajectory);
   run.compressibility = stored_compressibility(reader, run.energy, run.rotors);
   const Displacements& found = run.dynamics.displacements;
@@ -105,7 +129,8 @@ RunAnalysis measure(StoredTrajectory& trajectory, const std::string& name,
                                             : no_diffusion("no particle can turn");
   const GlassSource source{name,  reader.provenance().seed, run.packing_fraction,      run.rotors,
                            found, run.compressibility,      order_table(run.structure)};
-  if (const auto data = glass_run_data(trajectory, source, parameters.analysis))
+  display.begin("halves of the run");
+  if (const auto data = glass_run_data(trajectory, source, parameters.analysis, shown_by(display)))
     run.glass = judge_glass_run(*data);
   return run;
 }
@@ -193,14 +218,20 @@ AnalysedRun analyze_run(const std::filesystem::path& file, const AnalysisChoice&
         fmt::format("{}: has {} frame(s), but an analysis needs two or more; continue the "
                     "run, or sample more often ([output] samples)",
                     file.string(), trajectory.frames()));
+  require_own_names(reader);
   AnalysedRun analysed{file, {}};
+  const Parameters parameters = analysis_parameters(reader, choice);
+  ProgressDisplay display(choice.progress, choice.job);
   const RunAnalysis run =
-      measure(trajectory, analysed.name(), analysis_parameters(reader, choice), choice.progress);
+      naming(file, [&] { return measure(trajectory, analysed.name(), parameters, display); });
   Results& results = analysed.results;
   results = results_of(run);
   for (Table& table : on_the_fly_tables(file)) results.tables.push_back(std::move(table));
   results.provenance = provenance_rows(reader.provenance());
   results.provenance.emplace_back("source", file.string());
+  results.provenance.emplace_back("time_axis",
+                                  time_axis_text(trajectory.times(), run.dynamics.displacements));
+  store_relaxation_times(run.dynamics.displacements, results);
   if (run.energy.time.empty())
     results.provenance.emplace_back("left_out",
                                     "energies: the file has neither velocities nor the observables "

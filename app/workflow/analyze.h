@@ -20,6 +20,7 @@ struct AnalysisChoice {
   std::optional<std::filesystem::path> parameters;
   std::vector<std::string> overrides;
   ProgressDisplay::Mode progress = ProgressDisplay::Mode::silent;
+  std::string job = {};  ///< which of many, before the phases of the progress: "job 3 of 18: "
 
   /// Whether it says anything about the analysis.
   bool given() const { return parameters || !overrides.empty(); }
@@ -36,7 +37,8 @@ struct AnalysedRun {
   std::uint64_t seed() const;
 };
 
-/// Tables: a summary of one row, time correlations (dynamics_tables.h), energies, compressibility,
+/// Tables: a summary of one row, time correlations (dynamics_tables.h), relaxation times
+/// (relaxation_tables.h), energies, compressibility,
 /// structure (structure_tables.h), correlations measured on the fly (correlations_file.h), and if the
 /// run can be judged (glass_data.h) its relaxation times and verdict. Throws FileError or UserError,
 /// naming the file.

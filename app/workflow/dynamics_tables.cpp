@@ -124,4 +124,12 @@ std::vector<Table> dynamics_tables(const RunDynamics& dynamics) {
   return tables;
 }
 
+std::string time_axis_text(std::span<const double> times, const Displacements& found) {
+  const std::size_t most = *std::ranges::max_element(found.origins);
+  if (!evenly_spaced(times))
+    return fmt::format("unevenly sampled: {} lags with up to {} origins", found.lag.size(), most);
+  if (found.origins.front() == times.size() - 1) return "linear, every frame an origin";
+  return fmt::format("linear, up to {} origins, evenly thinned", most);
+}
+
 }  // namespace vitrel

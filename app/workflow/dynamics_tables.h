@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+#include <string>
 #include <vector>
 
 #include "analysis/collective_scattering.h"
@@ -18,5 +20,8 @@ struct RunDynamics {
 /// orientation_<group>; wave_numbers, collective_scattering and, if the run has more than one time
 /// origin, susceptibility.
 std::vector<Table> dynamics_tables(const RunDynamics& dynamics);
+
+/// The time differences of these tables and their origins in words, for the provenance.
+std::string time_axis_text(std::span<const double> times, const Displacements& found);
 
 }  // namespace vitrel

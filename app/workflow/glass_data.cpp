@@ -44,13 +44,24 @@ Decay orientation_of(Trajectory& seen, const Displacements& found,
   return decay(again, *l_2(again));
 }
 
-void add_halves(GlassRunData& data, Trajectory& trajectory, const DisplacementOptions& options) {
+/// Tells of the first (0) or second (1) of two passes over all particles as halves of one.
+ProgressReport half(std::size_t number, std::size_t particles, const ProgressReport& report) {
+  if (!report) return {};
+  return [&report, done = static_cast<double>(number),
+          n = static_cast<double>(particles)](const Progress& pass) {
+    report({0.5 * (done + pass.fraction), done * n + pass.value, pass.quantity});
+  };
+}
+
+void add_halves(GlassRunData& data, Trajectory& trajectory, const DisplacementOptions& options,
+                const ProgressReport& report) {
   const std::size_t middle = trajectory.frames() / 2;
   if (middle < 2) return;
   TrajectoryPart early(trajectory, 0, middle);
   TrajectoryPart late(trajectory, middle, trajectory.frames());
-  const Displacements first = displacements(early, options);
-  const Displacements second = displacements(late, options);
+  const std::size_t particles = trajectory.read(0).size();
+  const Displacements first = displacements(early, options, half(0, particles, report));
+  const Displacements second = displacements(late, options, half(1, particles, report));
   const DisplacementGroup& before = first.groups.front();
   const DisplacementGroup& after = second.groups.front();
   data.halves = {{"the mean squared displacement", blocked(first, before.translation),
@@ -64,7 +75,8 @@ void add_halves(GlassRunData& data, Trajectory& trajectory, const DisplacementOp
 }  // namespace
 
 std::optional<GlassRunData> glass_run_data(Trajectory& trajectory, const GlassSource& run,
-                                           const DisplacementOptions& options) {
+                                           const DisplacementOptions& options,
+                                           const ProgressReport& report) {
   if (!evenly_spaced(trajectory.times())) return std::nullopt;
   const Displacements& found = run.displacements;
   const DisplacementGroup& all = found.groups.front();
@@ -82,7 +94,7 @@ std::optional<GlassRunData> glass_run_data(Trajectory& trajectory, const GlassSo
     data.series.push_back({"the compressibility factor", run.compressibility.value});
   data.series.push_back({"the hexatic order", run.order.find("hexatic")->value});
   if (run.rotors == 0) {
-    add_halves(data, trajectory, wanted);
+    add_halves(data, trajectory, wanted, report);
     return data;
   }
   data.nematic_order = run.order.find("nematic")->value;
@@ -92,7 +104,7 @@ std::optional<GlassRunData> glass_run_data(Trajectory& trajectory, const GlassSo
   if (nematic) director.emplace(trajectory);
   Trajectory& seen = nematic ? *director : trajectory;
   data.orientation = orientation_of(seen, found, wanted, nematic);
-  add_halves(data, seen, wanted);
+  add_halves(data, seen, wanted, report);
   return data;
 }
 

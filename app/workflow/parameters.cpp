@@ -8,6 +8,7 @@
 #include <numbers>
 #include <set>
 
+#include "app/workflow/species_names.h"
 #include "edmd/sampling.h"
 
 namespace vitrel {
@@ -266,11 +267,15 @@ void describe_output(OutputParameters& p, FieldVisitor& visit) {
 }
 
 void describe_analysis(DisplacementOptions& p, FieldVisitor& visit) {
-  visit.field({"longest_lag", "", "Longest time difference, as a fraction of the run."},
-              p.axis.longest_lag);
+  visit.field(
+      {"longest_lag", "",
+       "Longest time difference, as a fraction of an evenly sampled run; those of others go "
+       "to the end."},
+      p.axis.longest_lag);
   visit.field(
       {"every_lag_up_to", "sample intervals",
-       "Up to here every time difference is evaluated, beyond they are spaced logarithmically."},
+       "Up to here every time difference is evaluated, beyond they are spaced logarithmically; of "
+       "runs that are not evenly sampled all are."},
       p.axis.every_lag_up_to);
   visit.field(
       {"lags_per_decade", "", "Time differences per factor of ten in the logarithmic part."},
@@ -396,22 +401,21 @@ void validate_species(const std::vector<Species>& species) {
   if (species.empty())
     throw BadValue("species", "is empty, but there must be at least one [[species]]");
   double sum = 0;
-  std::set<std::string> names;
+  std::vector<std::string> names;
   for (std::size_t i = 0; i < species.size(); ++i) {
     const std::string path = fmt::format("species.{}", i);
     const Rules rules(path);
     const Species& p = species[i];
     rules.require(!p.name.empty(), "name", "is empty, but a species needs a name");
-    rules.require(
-        names.insert(p.name).second, "name",
-        fmt::format("is \"{}\" like that of an earlier species; every species needs its own",
-                    p.name));
+    names.push_back(p.name);
     rules.require(p.fraction > 0 && p.fraction <= 1, "fraction",
                   fmt::format("is {}, but must lie above 0 and not above 1", show(p.fraction)));
     validate_shape(p, path);
     if (p.mass) rules.positive(*p.mass, "mass");
     sum += p.fraction;
   }
+  if (const auto conflict = species_name_conflict(names))
+    throw BadValue(fmt::format("species.{}.name", conflict->species), conflict->complaint);
   if (std::abs(sum - 1) > 1e-9)
     throw BadValue(
         "species",

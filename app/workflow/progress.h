@@ -3,6 +3,7 @@
 #include <chrono>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "core/state/stage.h"
 
@@ -16,7 +17,9 @@ class ProgressDisplay {
   /// `lines` or `terminal` by what standard error is.
   static Mode mode(bool quiet);
 
-  explicit ProgressDisplay(Mode mode) : mode_(mode) {}
+  /// `prefix` stands before every label ("job 3 of 18: ").
+  explicit ProgressDisplay(Mode mode, std::string prefix = "")
+      : mode_(mode), prefix_(std::move(prefix)) {}
   ~ProgressDisplay() { clear(); }
 
   /// What the following progress is about ("swell").
@@ -31,7 +34,7 @@ class ProgressDisplay {
   using Clock = std::chrono::steady_clock;
 
   Mode mode_;
-  std::string label_;
+  std::string prefix_, label_;
   std::optional<Progress> first_;
   Clock::time_point started_{}, shown_{};
   bool line_is_open_ = false;

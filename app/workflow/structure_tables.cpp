@@ -175,7 +175,7 @@ class StructureAverages {
 }  // namespace
 
 std::vector<Table> structure_tables(Trajectory& trajectory, const StructureOptions& options,
-                                    int threads) {
+                                    int threads, const ProgressReport& report) {
   StructureAverages averages(options);
   const std::size_t stride = (trajectory.frames() + options.most_frames - 1) / options.most_frames;
   std::shared_ptr<const ScatteringShells> shells;
@@ -195,6 +195,8 @@ std::vector<Table> structure_tables(Trajectory& trajectory, const StructureOptio
       for (std::size_t k = begin; k < end; ++k) batch[k].measure(options);
     });
     for (const Measured& frame : batch) averages.add(frame);
+    const auto done = static_cast<double>(std::min(next, trajectory.frames()));
+    if (report) report({done / static_cast<double>(trajectory.frames()), done, "frames"});
   }
   return averages.tables();
 }

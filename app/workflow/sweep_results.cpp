@@ -39,13 +39,10 @@ std::tuple<double, std::uint64_t, std::string> place(const AnalysedRun& run) {
 
 }  // namespace
 
-std::vector<AnalysedRun> analysed_jobs(const SweepProgress& sweep, const AnalysisChoice& choice) {
+std::vector<AnalysedRun> analysed_jobs(const SweepProgress& sweep, AnalysisChoice choice) {
   std::vector<AnalysedRun> runs;
-  ProgressDisplay display(choice.progress);
   for (const std::filesystem::path& job : sweep.finished) {
-    if (choice.given())
-      display.say(fmt::format("{}: analysis ({} of {})", job.filename().string(), runs.size() + 1,
-                              sweep.finished.size()));
+    choice.job = fmt::format("job {} of {}: ", runs.size() + 1, sweep.finished.size());
     runs.push_back(choice.given() ? analyze_run(job / "run.h5", choice)
                                   : AnalysedRun{job / "run.h5", read_results(job / "results.h5")});
     if (!runs.back().results.find("summary"))

@@ -1,5 +1,7 @@
 #include "core/io/h5md.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -292,6 +294,16 @@ void TrajectoryReader::read_axes() {
   if (times_.size() < steps_.size() || shape[0] < steps_.size())
     fail("the datasets time and value of " + group_ + "/position have fewer frames than step");
   times_.resize(steps_.size());
+  for (std::size_t k = 0; k < times_.size(); ++k) {
+    const bool ascends = k == 0 || times_[k] > times_[k - 1];
+    const bool is_finite = std::isfinite(times_[k]);
+    if (is_finite && ascends) continue;
+    const std::string right = is_finite
+                                  ? fmt::format("above that of the frame before, {}", times_[k - 1])
+                                  : "a finite number";
+    fail(fmt::format("the time of frame {} (dataset {}/position/time) is {}, but should be {}", k,
+                     group_, times_[k], right));
+  }
 }
 
 void TrajectoryReader::read_shapes() {

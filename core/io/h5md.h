@@ -109,7 +109,7 @@ class TrajectoryObserver : public Observer<2> {
 /// is read: image: 0; velocity, angular_velocity: 0; mass: 1; species: one, "A"; angle: taken from
 /// the orientation, then not unwrapped. `require` turns such a lack into an error where it matters.
 ///
-/// FileError names the file, the dataset, and what would be right.
+/// Times must be finite and ascend. FileError names the file, the dataset, and what would be right.
 class TrajectoryReader {
  public:
   explicit TrajectoryReader(const std::filesystem::path& path);

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numbers>
 
@@ -102,14 +103,20 @@ std::size_t lag_of(const Displacements& result, double steps) {
 
 using CoverageTable = std::map<std::pair<std::string, int>, Coverage>;
 
-CoverageTable coverage_of_free_runs(int seeds, const std::vector<int>& steps) {
+using Sampling = std::function<MemoryTrajectory(MemoryTrajectory&)>;
+
+/// Of runs of so many steps, or of those of their frames that are sampled.
+CoverageTable coverage_of_free_runs(std::size_t length, const std::vector<int>& steps,
+                                    const Sampling& sampled = {}) {
+  constexpr int seeds = 100;
   CoverageTable coverage;
   const Configuration2 start = ellipses(60);
   DisplacementOptions options = two_wave_numbers();
   options.axis.every_lag_up_to = 1;
   options.axis.lags_per_decade = 10;
   for (int seed = 0; seed < seeds; ++seed) {
-    MemoryTrajectory trajectory = free_brownian(start, 1001, 100 + seed);
+    MemoryTrajectory trajectory = free_brownian(start, length + 1, 100 + seed);
+    if (sampled) trajectory = sampled(trajectory);
     const Displacements result = displacements(trajectory, options);
     for (const int n : steps) {
       const std::size_t k = lag_of(result, n);
@@ -121,11 +128,53 @@ CoverageTable coverage_of_free_runs(int seeds, const std::vector<int>& steps) {
   return coverage;
 }
 
+/// Frames 0, 1, 2, 5 and 10 steps after the start of every cycle of 20.
+MemoryTrajectory cycles(MemoryTrajectory& steps) {
+  std::vector<Configuration2> frames;
+  for (std::size_t k = 0; k < steps.frames(); ++k)
+    for (const std::size_t sampled : {0, 1, 2, 5, 10})
+      if (k % 20 == sampled) frames.push_back(steps.read(k));
+  return MemoryTrajectory(std::move(frames));
+}
+
+// All pairs of frames that many steps apart, one after another.
+TEST(Displacement, UnevenTimesAreAveragedOverAllPairsOfEqualDifference) {
+  MemoryTrajectory steps = free_brownian(ellipses(20), 161, 8);
+  MemoryTrajectory trajectory = cycles(steps);
+  const Displacements result = displacements(trajectory, two_wave_numbers());
+  ASSERT_GT(result.lag.size(), 20u);
+  for (std::size_t l = 0; l < result.lag.size(); ++l) {
+    double origins = 0, msd = 0, scattering = 0, l_4 = 0, parallel = 0;
+    for (std::size_t k = 0; k < trajectory.frames(); ++k)
+      for (std::size_t m = k + 1; m < trajectory.frames(); ++m) {
+        const Configuration2 then = trajectory.read(k), now = trajectory.read(m);
+        if (std::lround((now.time - then.time) / brownian_step) !=
+            std::lround(result.lag[l] / brownian_step))
+          continue;
+        ++origins;
+        for (std::size_t i = 0; i < 20; ++i) {
+          const Vec2 moved = now.unwrapped(i) - then.unwrapped(i);
+          const Vec2 axis(std::cos(then.angle[i]), std::sin(then.angle[i]));
+          msd += moved.squaredNorm() / 20;
+          parallel += moved.dot(axis) * moved.dot(axis) / 20;
+          scattering += std::cyl_bessel_j(0.0, 4 * moved.norm()) / 20;
+          l_4 += std::cos(4 * (now.angle[i] - then.angle[i])) / 20;
+        }
+      }
+    const DisplacementGroup& all = result.groups[0];
+    ASSERT_EQ(static_cast<double>(result.origins[l]), origins) << result.lag[l];
+    EXPECT_NEAR(all.translation.value[l], msd / origins, 1e-12 * msd);
+    EXPECT_NEAR(all.parallel.value[l], parallel / origins, 1e-12 * msd);
+    EXPECT_NEAR(all.self_scattering[1].value[l], scattering / origins, 1e-9);
+    EXPECT_NEAR(all.orientation[1].value[l], l_4 / origins, 1e-12);
+  }
+}
+
 // 100 runs. Counts stay within 3.5 binomial standard deviations (4.65 for one error, 2.2 for two) of
 // 68.27 and 95: false-alarm rate 0.05 % for each of 108, 5 % for all. Lags up to 10 steps have errors
 // by blocking, longer ones by particles.
 TEST(Displacement, ErrorBarsCoverTheClosedForms) {
-  for (const auto& [what, counts] : coverage_of_free_runs(100, {1, 5, 10, 50})) {
+  for (const auto& [what, counts] : coverage_of_free_runs(1000, {1, 5, 10, 50})) {
     const std::string where = fmt::format("{} at {}", what.first, what.second);
     const bool by_blocks = what.second <= 10;
     if (what.first == "chi_4" && !by_blocks) {
@@ -136,6 +185,18 @@ TEST(Displacement, ErrorBarsCoverTheClosedForms) {
     EXPECT_NEAR(100.0 * counts.one / counts.runs, 68.27, 3.5 * 4.65) << where;
     EXPECT_NEAR(100.0 * counts.two / counts.runs, 95, 3.5 * 2.2) << where;
     EXPECT_EQ(counts.blocked > 50, by_blocks) << where;
+  }
+}
+
+// The same of cycles. Origins of lags of 1 and 5 steps share nothing, of 20 steps twenty of them begin within
+// four lags.
+TEST(Displacement, ErrorBarsOfUnevenOriginsCoverTheClosedForms) {
+  for (const auto& [what, counts] : coverage_of_free_runs(2400, {1, 5, 20}, cycles)) {
+    const std::string where = fmt::format("{} at {}", what.first, what.second);
+    EXPECT_GE(counts.runs, 99) << where;
+    EXPECT_NEAR(100.0 * counts.one / counts.runs, 68.27, 3.5 * 4.65) << where;
+    EXPECT_NEAR(100.0 * counts.two / counts.runs, 95, 3.5 * 2.2) << where;
+    EXPECT_GT(counts.blocked, 50) << where;
   }
 }
 
@@ -160,7 +221,7 @@ TEST(Displacement, BallisticMotionIsExactAndWrappingImmaterial) {
   }
 }
 
-TEST(Displacement, LogarithmicTimesUseTheFirstFrameAsTheOnlyOrigin) {
+TEST(Displacement, LogarithmicTimesUseAllPairsOfEqualDifference) {
   Configuration2 configuration = ellipses(4);
   for (int i = 0; i < 4; ++i) configuration.velocity[i] = Vec2(1 + i, 0);
   std::vector<Configuration2> frames{configuration};
@@ -175,7 +236,7 @@ TEST(Displacement, LogarithmicTimesUseTheFirstFrameAsTheOnlyOrigin) {
   for (std::size_t k = 0; k < 7; ++k) {
     const double t = result.lag[k];
     EXPECT_DOUBLE_EQ(t, 0.125 * std::pow(2, k));
-    EXPECT_EQ(result.origins[k], 1u);
+    EXPECT_EQ(result.origins[k], k < 6 ? 2u : 1u) << "from 0 to t, and from t to 2 t";
     EXPECT_NEAR(result.groups[0].translation.value[k], 7.5 * t * t, 1e-12 * t * t);
     EXPECT_NEAR(result.groups[0].translation.error[k], std::sqrt(43.0 / 4) * 1.1967592 * t * t,
                 1e-6 * t * t);

@@ -41,7 +41,7 @@ double bound(double n, double m, double s, double t) {
 
 void expect_same_within_bound(const Configuration2& c, const ShellOptions& options) {
   const ScatteringShells shells(c.box.lengths(), options);
-  const StructureFactor fast = shells.structure_factor(c);
+  const StructureFactor fast = shells.transformed_structure_factor(c);
   const StructureFactor exact = shells.direct_structure_factor(c);
   std::vector<double> members(2, 0.0);
   for (const std::int32_t kind : c.species) members[kind] += 1;
@@ -61,6 +61,18 @@ void expect_same_within_bound(const Configuration2& c, const ShellOptions& optio
     EXPECT_NEAR(fast.partial[1][k], s[1], bound(members[0], members[1], s[0], s[2]));
     EXPECT_NEAR(fast.partial[2][k], s[2], bound(members[1], members[1], s[2], s[2]));
   }
+}
+
+// To the last bit one of the two, so the choice shows.
+TEST(StructureFactor, IsThatOfDirectSumsForFewParticles) {
+  const Vec2 lengths(12, 9);
+  const ScatteringShells shells(lengths, {8, 1});
+  const Configuration2 few = gas(ScatteringShells::most_summed_directly, lengths, 3);
+  EXPECT_EQ(shells.structure_factor(few).total, shells.direct_structure_factor(few).total);
+  EXPECT_NE(shells.structure_factor(few).total, shells.transformed_structure_factor(few).total);
+  const Configuration2 many = gas(ScatteringShells::most_summed_directly + 1, lengths, 3);
+  EXPECT_EQ(shells.structure_factor(many).total, shells.transformed_structure_factor(many).total);
+  EXPECT_NE(shells.structure_factor(many).total, shells.direct_structure_factor(many).total);
 }
 
 TEST(StructureFactor, ByTransformIsThatOfTheDirectSumInAFluid) {

@@ -58,5 +58,18 @@ TEST(DynamicsTables, RoundParticlesHaveNoAnglesAndOneOriginNoSusceptibility) {
   EXPECT_EQ(results.find("susceptibility"), nullptr);
 }
 
+TEST(DynamicsTables, SayWhichTimesTheyAreOf) {
+  MemoryTrajectory even = free_brownian(ellipses(1), 81, 1);
+  EXPECT_EQ(time_axis_text(even.times(), displacements(even)), "linear, every frame an origin");
+  EXPECT_EQ(time_axis_text(even.times(), displacements(even, {.axis = {.most_origins = 10}})),
+            "linear, up to 10 origins, evenly thinned");
+  // Steps 0, 1, 2, 4, 8 … 64: seven lags, of two origins but for the longest.
+  std::vector<Configuration2> frames{even.read(0)};
+  for (std::size_t k = 1; k <= 64; k *= 2) frames.push_back(even.read(k));
+  MemoryTrajectory uneven(std::move(frames));
+  EXPECT_EQ(time_axis_text(uneven.times(), displacements(uneven)),
+            "unevenly sampled: 7 lags with up to 2 origins");
+}
+
 }  // namespace
 }  // namespace vitrel

@@ -46,6 +46,15 @@ const BadFile bad_files[] = {
     {"[[species]]\nname = \"\"", "file.toml:2:8: key 'species.0.name' is empty"},
     {"[[species]]\nfraction = 0.5\naspect_ratio = 1\n[[species]]\nfraction = 0.5\naspect_ratio = 1",
      "key 'species.1.name' is \"A\" like that of an earlier species"},
+    {"[[species]]\nname = \"all\"\naspect_ratio = 1",
+     "file.toml:2:8: key 'species.0.name' is \"all\", which results have in their table "
+     "displacements_all"},
+    {"[[species]]\nname = \"wave numbers\"\naspect_ratio = 1",
+     "is \"wave numbers\", which results have in their table on_the_fly_wave_numbers"},
+    {"[[species]]\nname = \"a-1\"\nfraction = 0.5\naspect_ratio = 1\n"
+     "[[species]]\nname = \"a 1\"\nfraction = 0.5\naspect_ratio = 1",
+     "file.toml:6:8: key 'species.1.name' is \"a 1\", which tables of results call a_1 like the "
+     "earlier \"a-1\"; choose names"},
     {"[[species]]\naspect_ratio = 0.5",
      "file.toml:2:16: key 'species.0.aspect_ratio' is 0.5, but must "
      "be at least 1.0"},

@@ -280,6 +280,16 @@ TEST(Program, HelpFitsATerminalAndNamesTheExitCodesThatOccur) {
   }
 }
 
+// Whatever the analysis finds wrong comes with the file.
+TEST(Program, AWaveNumberTooSmallForTheBoxIsRefusedNamingTheFile) {
+  const Folder folder("small_wave_number");
+  folder.write("p.toml", small_system);
+  ASSERT_EQ(run(folder.path(), {"run", "p.toml", "-o", "run.h5", "-q"}).code, 0);
+  expect_refusal(
+      run(folder.path(), {"analyze", "run.h5", "-q", "--set", "analysis.wave_numbers=[1e-3]"}), 2,
+      "run.h5: the wave number 0.001000 is too small for the box");
+}
+
 TEST(Program, FilesThatCannotBeReadOrWrittenExitWithThree) {
   const Folder folder("files");
   folder.write("p.toml", small_system);

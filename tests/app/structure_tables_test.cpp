@@ -54,6 +54,20 @@ bool same_bits(const std::vector<double>& x, const std::vector<double>& y) {
   return x.size() == y.size() && std::memcmp(x.data(), y.data(), x.size() * sizeof(double)) == 0;
 }
 
+// 100 frames, one in three of them measured, 32 at a time.
+TEST(StructureTables, TellHowFarTheyAre) {
+  MemoryTrajectory trajectory(gases(100, false));
+  StructureOptions options;
+  options.most_frames = 40;
+  std::vector<double> frames;
+  structure_tables(trajectory, options, 2, [&](const Progress& progress) {
+    frames.push_back(progress.value);
+    EXPECT_DOUBLE_EQ(progress.fraction, progress.value / 100);
+    EXPECT_STREQ(progress.quantity, "frames");
+  });
+  EXPECT_EQ(frames, (std::vector<double>{96, 100}));
+}
+
 TEST(StructureTables, HaveTheColumnsThatReadersRelyOn) {
   MemoryTrajectory trajectory(gases(40, false));
   const std::vector<Table> tables = structure_tables(trajectory, {}, 1);

@@ -57,6 +57,14 @@ with tempfile.TemporaryDirectory() as folder:
             l_2 = mean_over_origins(lambda a, b: np.cos(2 * (angle[b] - angle[a])).mean(), lag)
             np.testing.assert_allclose(moved["msd"][row], msd, rtol=1e-12)
             np.testing.assert_allclose(turned["l_2"][row], l_2, rtol=1e-12)
+    alike = pathlib.Path(folder, "alike.h5")
+    write(alike)
+    with h5py.File(alike, "a") as rods:
+        names = h5py.enum_dtype({"a-1": 0, "a 1": 1}, basetype="i4")
+        rods["particles/rods"].create_dataset("species", data=np.arange(PARTICLES) % 2, dtype=names)
+    done = analyze(alike)
+    assert done.returncode == 3, (done.returncode, done.stderr)
+    assert f'{alike}: the name of species 1 is "a 1", which tables of results call a_1' in done.stderr, done.stderr
     for missing in ("image", "angle", "position"):
         incomplete = pathlib.Path(folder, f"without_{missing}.h5")
         write(incomplete, missing)

@@ -376,6 +376,30 @@ TEST_F(TrajectoryFile, ReadsWhatOtherProgramsWrite) {
   EXPECT_FALSE(reader.has("image"));
 }
 
+// The first of the frames at fault is named, counted from 0.
+TEST_F(TrajectoryFile, TimesMustBeFiniteAndAscend) {
+  const auto message_about = [&](const std::vector<double>& times) {
+    TrajectoryWriter writer = TrajectoryWriter::create(file("times.h5"), random_configuration(3, 0),
+                                                       {}, {.overwrite = true});
+    for (const double time : times) {
+      Configuration2 frame = random_configuration(3, 0);
+      frame.time = time;
+      writer.write(frame, 0);
+    }
+    writer.close();
+    return file_error([&] { TrajectoryReader(file("times.h5")); });
+  };
+  EXPECT_EQ(message_about({-1, 0, 2}), "(no FileError)");
+  EXPECT_THAT(message_about({0, 1, NAN, 3}),
+              HasSubstr("times.h5: the time of frame 2 (dataset particles/all/position/time) is "
+                        "nan, but should be a finite number"));
+  EXPECT_THAT(message_about({0, INFINITY}), HasSubstr("frame 1"));
+  EXPECT_THAT(message_about({0, 1, 0.5}),
+              HasSubstr("the time of frame 2 (dataset particles/all/position/time) is 0.5, but "
+                        "should be above that of the frame before, 1"));
+  EXPECT_THAT(message_about({0.1, 0.1}), HasSubstr("frame 1"));
+}
+
 TEST_F(TrajectoryFile, AMissingDatasetIsNamed) {
   write_foreign_file(file("foreign.h5"), false);
   const std::string message = file_error([&] { TrajectoryReader(file("foreign.h5")); });
