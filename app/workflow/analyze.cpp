@@ -236,7 +236,11 @@ AnalysedRun analyze_run(const std::filesystem::path& file, const AnalysisChoice&
     results.provenance.emplace_back("left_out",
                                     "energies: the file has neither velocities nor the observables "
                                     "translational_energy and rotational_energy");
-  if (run.glass) store_glass_run(*run.glass, results);
+  if (run.glass)
+    store_glass_run(*run.glass, results);
+  else
+    results.provenance.emplace_back(
+        "not_judged", "equilibration and relaxation: the samples are not evenly spaced in time");
   return analysed;
 }
 

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/order.h"
+#include "app/workflow/report/page_parts.h"
 #include "core/error.h"
 
 namespace vitrel {
@@ -319,17 +320,11 @@ Table window_table(const GlassStudy& study) {
   return std::move(rows).table();
 }
 
-std::string time_text(double value, double error) {
-  if (std::isnan(value)) return "-";
-  return std::isnan(error) ? fmt::format("{:.3g}", value)
-                           : fmt::format("{:.4g} +- {:.2g}", value, error);
-}
-
 std::string run_line(const GlassRun& run) {
   return fmt::format("{:8.4g} {:5} {:>7} {:>18} {:>18}  {:<14}  {:<15}  {}\n", run.packing_fraction,
                      run.seed, run.rotors > 0 ? fmt::format("{:.3f}", run.nematic_order.mean) : "-",
-                     time_text(run.translation.value, run.translation.error),
-                     time_text(run.rotation.value, run.rotation.error), name_of(run.orientation),
+                     with_error(run.translation.value, run.translation.error),
+                     with_error(run.rotation.value, run.rotation.error), name_of(run.orientation),
                      name_of(run.translation_equilibration.verdict),
                      name_of(run.equilibration.verdict));
 }
@@ -337,10 +332,10 @@ std::string run_line(const GlassRun& run) {
 std::string law_text(const GlassFit& fit) {
   if (fit.verdict != GlassVerdict::found) return "no phi_c: " + fit.reason;
   return fmt::format(
-      "phi_c = {:.4f} +- {:.4f} (statistical {:.4f}, window {:.4f}), s = {:.3g} +- {:.2g}; best "
-      "window {:.4g} ... {:.4g}, chi^2/dof {:.2f}",
-      fit.density, fit.error, fit.statistical, fit.spread, fit.strength, fit.strength_error,
-      fit.window.lowest, fit.window.highest,
+      "phi_c = {} (statistical {:.2g}, window {:.2g}), s = {}; best window {:.4g} ... {:.4g}, "
+      "chi^2/dof {:.2f}",
+      with_error(fit.density, fit.error), fit.statistical, fit.spread,
+      with_error(fit.strength, fit.strength_error), fit.window.lowest, fit.window.highest,
       fit.window.chi_square / static_cast<double>(fit.window.degrees));
 }
 
@@ -556,9 +551,10 @@ nlohmann::ordered_json glass_summary(const GlassStudy& study) {
 }
 
 std::string glass_text(const GlassStudy& study) {
-  std::string text =
-      fmt::format("{:>8} {:>5} {:>7} {:>18} {:>18}  {:<14}  {:<15}  {}\n", "phi", "seed", "S",
-                  "tau_alpha", "tau_2", "orientation", "translation", "all");
+  std::string text;
+  if (!study.runs.empty())
+    text += fmt::format("{:>8} {:>5} {:>7} {:>18} {:>18}  {:<14}  {:<15}  {}\n", "phi", "seed", "S",
+                        "tau_alpha", "tau_2", "orientation", "translation", "all");
   for (const GlassRun& run : study.runs) text += run_line(run);
   text += order_or_glass(study);
   for (const std::string& line : law_lines(study)) text += line + "\n";

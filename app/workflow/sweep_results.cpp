@@ -1,12 +1,17 @@
 #include "app/workflow/sweep_results.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
 #include <tuple>
 
+#include "app/workflow/text_file.h"
 #include "core/error.h"
 
 namespace vitrel {
@@ -37,6 +42,29 @@ std::tuple<double, std::uint64_t, std::string> place(const AnalysedRun& run) {
   return {std::round(run.packing_fraction() * 1e6), run.seed(), run.name()};
 }
 
+/// What may differ between runs to which one law is fitted.
+bool is_free(const std::string& key) {
+  return key == "system.packing_fraction" || key == "system.seed" || key == "dynamics.duration" ||
+         key == "dynamics.equilibration" || key.starts_with("prepare.") ||
+         key.starts_with("output.");
+}
+
+/// The other keys that do differ between the jobs, with commas.
+std::string differing_keys(const std::vector<AnalysedRun>& runs) {
+  std::map<std::string, std::set<std::string>> values;
+  for (const AnalysedRun& run : runs) {
+    const std::filesystem::path file = run.file.parent_path() / "params.json";
+    if (!std::filesystem::exists(file)) continue;
+    const auto job = nlohmann::json::parse(read_text(file));
+    for (const auto& [key, value] : job.at("values").items())
+      if (!is_free(key)) values[key].insert(value.dump());
+  }
+  std::vector<std::string> keys;
+  for (const auto& [key, different] : values)
+    if (different.size() > 1) keys.push_back(key);
+  return fmt::format("{}", fmt::join(keys, ", "));
+}
+
 }  // namespace
 
 std::vector<AnalysedRun> analysed_jobs(const SweepProgress& sweep, AnalysisChoice choice) {
@@ -59,7 +87,14 @@ GlassStudy glass_study(const std::vector<AnalysedRun>& runs) {
   std::vector<GlassRun> judged;
   for (const AnalysedRun& run : runs)
     if (const auto glass = stored_glass_run(run.name(), run.results)) judged.push_back(*glass);
-  return study_glass(std::move(judged));
+  const std::size_t others = runs.size() - judged.size();
+  GlassStudy study = study_glass(std::move(judged), differing_keys(runs));
+  if (others > 0)
+    study.remarks.push_back(fmt::format(
+        "{} of {} runs cannot be judged, as their samples are not evenly spaced in time "
+        "([output] samples)",
+        others, runs.size()));
+  return study;
 }
 
 Results results_of_sweep(const std::vector<AnalysedRun>& runs, const GlassStudy& study) {
@@ -68,8 +103,8 @@ Results results_of_sweep(const std::vector<AnalysedRun>& runs, const GlassStudy&
   for (const AnalysedRun& run : runs)
     results.provenance.emplace_back(fmt::format("row_{}", results.provenance.size()),
                                     run.file.string());
-  if (study.runs.empty()) return results;
-  for (Table& table : glass_tables(study)) results.tables.push_back(std::move(table));
+  if (!study.runs.empty())
+    for (Table& table : glass_tables(study)) results.tables.push_back(std::move(table));
   for (auto& note : glass_notes(study)) results.provenance.push_back(std::move(note));
   return results;
 }
