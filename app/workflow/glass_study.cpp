@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/order.h"
+#include "app/workflow/glass_words.h"
 #include "app/workflow/report/page_parts.h"
 #include "core/error.h"
 
@@ -141,34 +142,16 @@ const char* name_of(GlassKind kind) {
   return "";
 }
 
-const char* name_of(GlassLaw law) {
-  return law == GlassLaw::mode_coupling ? "power law" : "Vogel-Fulcher";
+std::string_view name_of(GlassLaw law) {
+  return law_words[static_cast<std::size_t>(law)];
 }
 
-const char* name_of(EquilibrationVerdict verdict) {
-  switch (verdict) {
-    case EquilibrationVerdict::equilibrated:
-      return "equilibrated";
-    case EquilibrationVerdict::ageing:
-      return "ageing";
-    case EquilibrationVerdict::too_short:
-      return "not enough time";
-  }
-  return "";
+std::string_view name_of(EquilibrationVerdict verdict) {
+  return verdict_words[static_cast<std::size_t>(verdict)];
 }
 
-const char* name_of(Orientation orientation) {
-  switch (orientation) {
-    case Orientation::round:
-      return "round";
-    case Orientation::relaxes:
-      return "relaxes";
-    case Orientation::ordered:
-      return "nematic order";
-    case Orientation::lasting:
-      return "does not relax";
-  }
-  return "";
+std::string_view name_of(Orientation orientation) {
+  return orientation_words[static_cast<std::size_t>(orientation)];
 }
 
 template <class Code>
@@ -381,7 +364,8 @@ std::string order_or_glass(const GlassStudy& study) {
         ordered);
   if (!lasting.empty())
     text += fmt::format(
-        "Orientations do not relax within the run (beyond what order explains) at {}.\n", lasting);
+        "Orientations do not relax within the times measured (beyond what order explains) at {}.\n",
+        lasting);
   return text;
 }
 

@@ -214,8 +214,10 @@ TEST(GlassStudy, NotesAndTextSayWhy) {
   EXPECT_THAT(notes,
               HasSubstr("rotational diffusion, 1/D_r: no phi_c: 0 densities in equilibrium"));
   const std::string text = glass_text(study);
-  EXPECT_THAT(text, HasSubstr("do not relax within the run (beyond what order explains) at 0.76, "
-                              "0.78."));
+  EXPECT_THAT(
+      text,
+      HasSubstr("do not relax within the times measured (beyond what order explains) at 0.76, "
+                "0.78."));
   EXPECT_THAT(text, testing::Not(HasSubstr("Nematic order, not glass")));
   const GlassFit& fit = fit_of(study, GlassKind::rotation, GlassLaw::mode_coupling);
   EXPECT_THAT(

@@ -126,14 +126,14 @@ TEST(ReportPage, TableOfRunsOfTheStudyNamesVerdictsAndOrientations) {
   const std::string page = report_page(sweep(2, 1));
   // τ_α = 0.1 (0.8 − 0.6)^−2 and τ_2 = 4 (0.81 − 0.6)^−2.5, errors 5 %.
   EXPECT_EQ(count(page,
-                  "<tr><th scope=\"row\">0.60</th><td>1</td><td>equilibrated</td><td>relax</td>"
+                  "<tr><th scope=\"row\">0.60</th><td>1</td><td>equilibrated</td><td>equilibrated</td><td>relaxes</td>"
                   "<td>2.50 ± 0.12</td><td>197.9 ± 9.9</td><td>0.1000 ± 0.0050</td><td>0.04</td>"
                   "<td>–</td><td>2500</td></tr>"),
             1u);
   EXPECT_EQ(count(page, "<td>equilibrated</td><td>nematic order</td>"), 6u);
   EXPECT_EQ(count(page, "<td>ageing</td><td>nematic order</td>"), 2u);
   EXPECT_EQ(count(page,
-                  "<td>not enough time</td><td>do not relax</td><td>62.5 ± 3.1</td><td>–</td>"
+                  "<td>not enough time</td><td>does not relax</td><td>62.5 ± 3.1</td><td>–</td>"
                   "<td>0.690 ± 0.034</td><td>0.04</td><td>0.4</td><td>2500</td></tr>"),
             2u);
 }
@@ -217,7 +217,7 @@ TEST(ReportPage, TablesOfManyRunsKeepFiveRowsADecade) {
 TEST(ReportPage, TablesThatItDoesNotShowStayOut) {
   ReportData data = sweep(2, 1);
   const std::size_t size = report_page(data).size();
-  for (const char* name : {"on_the_fly_all", "glass_fit_windows", "runs"}) {
+  for (const char* name : {"relaxation_times", "glass_fit_windows", "runs"}) {
     const Table table{name, "", {report_example::plain("time", "time", {1, 2, 3})}};
     data.study.tables.push_back(table);
     data.runs[0].results.tables.push_back(table);

@@ -355,6 +355,18 @@ class Page(unittest.TestCase):
         self.browser.settle()
         self.assertNotEqual(self.browser.evaluate(picture), before)
 
+    def test_correlations_measured_on_the_fly_are_shown(self):
+        self.open("run.html")
+        charts = self.browser.evaluate("""[...document.querySelectorAll('.chart')].map((chart) =>
+          [chart.querySelector('h3').textContent, ...[...chart.querySelectorAll('option')].map((o) => o.textContent)])""")
+        measured = [chart[0] for chart in charts if "all particles, on the fly" in chart]
+        self.assertEqual(measured, ["Mean squared displacement", "Self-intermediate scattering"])
+        self.browser.evaluate("""(() => { const select = document.querySelector('#relaxation select');
+          select.value = select.options.length - 1; select.dispatchEvent(new Event('change')); })()""")
+        self.browser.settle()
+        legend = self.browser.evaluate("document.querySelector('#relaxation .chart').textContent")
+        self.assertIn("q = 3.1", legend)
+
     def test_arrow_keys_read_values(self):
         self.open("run.html")
         self.focus("#relaxation .plot")
@@ -450,7 +462,7 @@ class Page(unittest.TestCase):
         self.open("sweep.html")
         self.assertEqual(self.glass_legend(2), [["orientations relax", "full"], ["kept by nematic order", "full"],
                                                 ["kept by nematic order, not equilibrated", "hollow"],
-                                                ["not relaxed within the run, not equilibrated", "hollow"], ["by chance", "line"]])
+                                                ["orientations do not relax, not equilibrated", "hollow"], ["by chance", "line"]])
 
     def test_notes_of_the_study_are_below_its_tables(self):
         self.open("sweep.html")

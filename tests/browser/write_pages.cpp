@@ -28,6 +28,16 @@ ReportData one_run() {
   ReportData data = report_example::sweep(2, 1);
   data.runs = {report_example::run(0.7, report_example::lattice(8, 20))};
   data.study = {};
+  std::vector<Table>& tables = data.runs.front().results.tables;
+  tables.push_back({"on_the_fly_all",
+                    "",
+                    {report_example::plain("time", "time", {1, 2, 4}),
+                     report_example::plain("msd", "length^2", {0.1, 0.2, 0.4}),
+                     report_example::plain("fs_1", "1", {0.9, 0.8, 0.6})}});
+  tables.push_back(
+      {"on_the_fly_wave_numbers",
+       "",
+       {report_example::plain("index", "1", {1}), report_example::plain("q", "1/length", {3.1})}});
   return data;
 }
 

@@ -193,8 +193,8 @@ inline ReportRun run(double phi, MemoryTrajectory trajectory) {
   return run;
 }
 
-/// Two seeds at every density. From 0.68 on particles are nematic, at 0.76 their orientations are
-/// frozen; the densest are not equilibrated, and stay out of the fits.
+/// Two seeds at every density. From 0.68 on particles are nematic, at 0.76 their orientations do not
+/// relax; the densest are not equilibrated, and stay out of the fits.
 inline Table relaxation_table() {
   std::vector<double> phi, seed, verdict, orientation, plateau;
   for (const double density : {0.6, 0.62, 0.64, 0.66, 0.68, 0.7, 0.72, 0.74, 0.76})

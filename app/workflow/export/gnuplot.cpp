@@ -23,13 +23,27 @@ bool contains(const std::array<std::string_view, n>& names, std::string_view nam
 }
 
 constexpr std::array<std::string_view, 5> axes = {"time", "q", "r", "angle", "packing_fraction"};
-constexpr std::array<std::string_view, 4> counts = {"origins", "modes", "particles", "duration"};
+/// Counts and codes.
+constexpr std::array<std::string_view, 14> not_drawn = {"origins",
+                                                        "modes",
+                                                        "particles",
+                                                        "duration",
+                                                        "seed",
+                                                        "rotors",
+                                                        "frames",
+                                                        "collisions",
+                                                        "verdict",
+                                                        "tests",
+                                                        "verdict_translation",
+                                                        "tests_translation",
+                                                        "orientation",
+                                                        "wave_number"};
 constexpr std::array<std::string_view, 7> logarithmic_units = {
     "length^2", "length^4", "rad^2", "rad^4", "time", "length^2/time", "rad^2/time"};
 /// Beginnings of the names of tables over time differences.
-constexpr std::array<std::string_view, 5> correlations = {"displacements_", "self_scattering_",
-                                                          "orientation_", "susceptibility",
-                                                          "collective_scattering"};
+constexpr std::array<std::string_view, 6> correlations = {
+    "displacements_", "self_scattering_",      "orientation_",
+    "susceptibility", "collective_scattering", "on_the_fly_"};
 
 bool is_over_time_differences(const Table& table) {
   return table.columns.front().name == "time" &&
@@ -115,7 +129,7 @@ class Script {
     std::size_t place = 0;
     for (const Column& column : table_.columns) {
       ++place;
-      if (&column != &x_ && !contains(counts, column.name)) add({&column, place});
+      if (&column != &x_ && !contains(not_drawn, column.name)) add({&column, place});
       if (!column.error.empty()) ++place;
     }
     std::erase_if(panels_,

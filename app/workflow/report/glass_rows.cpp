@@ -5,6 +5,7 @@
 #include <array>
 #include <string_view>
 
+#include "app/workflow/glass_words.h"
 #include "app/workflow/report/html.h"
 #include "app/workflow/report/page_tables.h"
 
@@ -17,10 +18,6 @@ constexpr std::array<std::string_view, 5> kinds = {
     "translation, τ<sub>α</sub>", "rotation, τ<sub>2</sub>",
     "rotation in the nematic, τ<sub>2</sub>", "diffusion, 1/D",
     "rotational diffusion, 1/D<sub>r</sub>"};
-constexpr std::array<std::string_view, 2> laws = {"power law", "Vogel–Fulcher"};
-constexpr std::array<std::string_view, 3> verdicts = {"equilibrated", "ageing", "not enough time"};
-constexpr std::array<std::string_view, 4> orientations = {"round", "relax", "nematic order",
-                                                          "do not relax"};
 constexpr double found = 0, lower_bound = 1;
 
 /// One row of a table.
@@ -56,8 +53,9 @@ std::string relaxation_row(const Row& row) {
   const bool nematic = row.value("plateau") > 0;
   return html_row(
       density_text(row.value("packing_fraction")),
-      {row.text("seed"), std::string(row.word("verdict", verdicts)),
-       std::string(row.word("orientation", orientations)), row.text("tau_translation"),
+      {row.text("seed"), std::string(row.word("verdict_translation", verdict_words)),
+       std::string(row.word("verdict", verdict_words)),
+       std::string(row.word("orientation", orientation_words)), row.text("tau_translation"),
        row.text("tau_rotation"), row.text("nematic_order"), row.text("nematic_by_chance"),
        nematic ? row.text("plateau") : "–", row.text("duration")});
 }
@@ -71,8 +69,8 @@ std::string fit_row(const Row& row) {
   const double dof = row.value("dof");
   return html_row(
       row.word("kind", kinds),
-      {std::string(row.word("law", laws)), critical_density(row), row.text("phi_c_statistical"),
-       row.text("phi_c_spread"), row.text("exponent"),
+      {std::string(row.word("law", law_words)), critical_density(row),
+       row.text("phi_c_statistical"), row.text("phi_c_spread"), row.text("exponent"),
        dof > 0 ? fmt::format("{} … {}", row.text("window_low"), row.text("window_high")) : "–",
        dof > 0 ? fmt::format("{:.2f}", row.value("chi2") / dof) : "–",
        dof > 0 ? row.text("scatter") : "–"});

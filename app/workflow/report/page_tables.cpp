@@ -26,8 +26,8 @@ constexpr std::array<std::string_view, 11> shown = {
     "summary",          "wave_numbers",     "susceptibility", "collective_scattering",
     "structure_factor", "pair_correlation", "order",          "energies",
     "compressibility",  "relaxation",       "glass_fit"};
-constexpr std::array<std::string_view, 3> shown_groups = {"displacements_", "self_scattering_",
-                                                          "orientation_"};
+constexpr std::array<std::string_view, 4> shown_groups = {"displacements_", "self_scattering_",
+                                                          "orientation_", "on_the_fly_"};
 
 bool is_correlation(const Table& table) {
   return !table.columns.empty() && table.columns.front().name == "time" &&

@@ -3,8 +3,8 @@ const { runs, study } = pageData;
 // Which curves the tables hold. A family is a table, or several with a group of particles behind the name; `columns` are
 // regular expressions of column names, and what their curves are called.
 
-const q = (k, run) => {
-  const table = run.tables.wave_numbers?.columns;
+const q = (k, run, origin = '') => {
+  const table = run.tables[origin + 'wave_numbers']?.columns;
   const row = table?.index.value.indexOf(k) ?? -1;
   return row < 0 ? `q${subscript(k)}` : `q = ${shortNumber(table.q.value[row], 3)}`;
 };
@@ -23,7 +23,7 @@ const families = [
     columns: [[/^non_gaussian$/, () => 'of displacements'], [/^non_gaussian_rotation$/, () => 'of rotations']],
     symbol: 'α₂(t)', unit: '' },
   { section: 'relaxation', table: 'self_scattering', heading: 'Self-intermediate scattering', ...time, ...decays,
-    levels: [Math.exp(-1)], columns: [[/^fs_(\d+)$/, (match, run) => q(Number(match[1]), run)]], symbol: 'Fₛ(q, t)', unit: '' },
+    levels: [Math.exp(-1)], columns: [[/^fs_(\d+)$/, (match, run, origin) => q(Number(match[1]), run, origin)]], symbol: 'Fₛ(q, t)', unit: '' },
   { section: 'relaxation', table: 'orientation', heading: 'Orientational correlation', ...time, ...decays,
     levels: [Math.exp(-1)], columns: [[/^l_(\d+)$/, (match) => `L${subscript(match[1])}`]],
     symbol: 'Lₙ(t) = ⟨cos nΔθ⟩', unit: '' },
@@ -52,10 +52,15 @@ const series = [
   { table: 'order', heading: 'Director', symbol: 'angle of the director', unit: 'rad', columns: [[/^director$/, () => 'director']] },
 ];
 
+// Correlations measured while the run went on have one table for each group of particles, of all families together.
+const onTheFly = 'on_the_fly_';
+const isOnTheFly = (group) => group.startsWith(onTheFly);
+
 /** [{name, label}] of the columns of this table that the family shows, in the order of the family. */
-function shownColumns(table, family, run) {
+function shownColumns(table, family, run, group = '') {
+  const origin = isOnTheFly(group) ? onTheFly : '';
   return family.columns.flatMap(([pattern, label]) => Object.keys(table.columns)
-    .filter((name) => pattern.test(name)).map((name) => ({ name, label: label(name.match(pattern), run) })));
+    .filter((name) => pattern.test(name)).map((name) => ({ name, label: label(name.match(pattern), run, origin) })));
 }
 
 /** The groups of particles that some run has a table of the family for: "" if the table has no group. */
@@ -63,10 +68,12 @@ function groupsOf(family) {
   const names = runs.flatMap((run) => Object.keys(run.tables));
   if (names.includes(family.table)) return [''];
   const groups = new Set(names.filter((name) => name.startsWith(family.table + '_')).map((name) => name.slice(family.table.length)));
-  return [...groups].sort((a, b) => (b === '_all') - (a === '_all'));
+  const others = new Set(runs.flatMap((run) => Object.keys(run.tables).filter((name) => isOnTheFly(name) &&
+    run.tables[name].columns[family.x] && shownColumns(run.tables[name], family, run).length)));
+  return [...groups].sort((a, b) => (b === '_all') - (a === '_all')).concat([...others]);
 }
 
-const tableOf = (run, family, group) => run.tables[family.table + group];
+const tableOf = (run, family, group) => run.tables[isOnTheFly(group) ? group : family.table + group];
 
 function curveOf(table, name, family) {
   const { value, error } = table.columns[name];
@@ -80,14 +87,16 @@ function runColour(run) {
   return orderedColour(high > low ? (run.packingFraction - low) / (high - low) : 0.5);
 }
 
-const groupName = (group, groups) => groups.length > 1 ? (group === '_all' ? 'all particles' : 'species ' + group.slice(1)) : '';
+const particlesOf = (group) => group === '_all' ? 'all particles' : 'species ' + group.slice(1);
+const groupName = (group, groups) => groups.length < 2 ? ''
+  : isOnTheFly(group) ? particlesOf(group.slice(onTheFly.length - 1)) + ', on the fly' : particlesOf(group);
 
 /** One run: its columns in one chart. */
 function variantsOfOneRun(family, groups) {
   const [run] = runs;
   return groups.flatMap((group) => {
     const table = tableOf(run, family, group);
-    const columns = shownColumns(table, family, run);
+    const columns = shownColumns(table, family, run, group);
     if (!columns.length) return [];
     return [{ label: groupName(group, groups), curves: columns.map(({ name, label }, k) =>
       ({ ...curveOf(table, name, family), label, id: name, colour: () => curveColour(k) })) }];
@@ -99,7 +108,7 @@ function variantsOfRuns(family, groups) {
   return groups.flatMap((group) => {
     const names = new Map(runs.flatMap((run) => {
       const table = tableOf(run, family, group);
-      return table ? shownColumns(table, family, run).map(({ name, label }) => [name, label]) : [];
+      return table ? shownColumns(table, family, run, group).map(({ name, label }) => [name, label]) : [];
     }));
     return [...names].map(([name, label]) => ({
       label: [names.size > 1 ? label : '', groupName(group, groups)].filter(Boolean).join(', '),
@@ -224,7 +233,7 @@ function densityCharts() {
 
 const kinds = ['translation', 'rotation', 'rotation in the nematic'];
 const orientations = [null, { label: 'orientations relax', kind: 1 }, { label: 'kept by nematic order', kind: 2 },
-                      { label: 'not relaxed within the run', kind: 6 }];
+                      { label: 'orientations do not relax', kind: 6 }];
 const found = 0, lowerBound = 1, notEquilibrated = ', not equilibrated';
 
 /** These rows of the table `relaxation` that have a value, as points: full, or hollow if the run is not in equilibrium. */
