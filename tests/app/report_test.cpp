@@ -126,7 +126,9 @@ TEST(ReportPage, TableOfRunsOfTheStudyNamesVerdictsAndOrientations) {
   const std::string page = report_page(sweep(2, 1));
   // τ_α = 0.1 (0.8 − 0.6)^−2 and τ_2 = 4 (0.81 − 0.6)^−2.5, errors 5 %.
   EXPECT_EQ(count(page,
-                  "<tr><th scope=\"row\">0.60</th><td>1</td><td>equilibrated</td><td>equilibrated</td><td>relaxes</td>"
+                  "<tr><th "
+                  "scope=\"row\">0.60</th><td>1</td><td>equilibrated</td><td>equilibrated</"
+                  "td><td>relaxes</td>"
                   "<td>2.50 ± 0.12</td><td>197.9 ± 9.9</td><td>0.1000 ± 0.0050</td><td>0.04</td>"
                   "<td>–</td><td>2500</td></tr>"),
             1u);
