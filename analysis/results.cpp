@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 
@@ -29,12 +30,17 @@ std::string csv_header(const Table& table) {
   return line;
 }
 
+/// An unknown number has no sign.
+std::string number(double value) {
+  return std::isnan(value) ? "nan" : fmt::format("{:.17g}", value);
+}
+
 std::string csv_row(const Table& table, std::size_t row) {
   std::string line;
   for (const Column& column : table.columns) {
     if (!line.empty()) line += ',';
-    line += fmt::format("{:.17g}", column.value.at(row));
-    if (!column.error.empty()) line += fmt::format(",{:.17g}", column.error.at(row));
+    line += number(column.value.at(row));
+    if (!column.error.empty()) line += "," + number(column.error.at(row));
   }
   return line;
 }

@@ -350,23 +350,27 @@ std::string densities_where(const GlassStudy& study, Predicate&& predicate) {
   return text;
 }
 
-std::string order_or_glass(const GlassStudy& study) {
-  const std::string ordered = densities_where(study, [](const GlassRun& run) {
-    return run.orientation == Orientation::ordered && equilibrated(run.equilibration);
-  });
-  const std::string lasting = densities_where(
-      study, [](const GlassRun& run) { return run.orientation == Orientation::lasting; });
-  std::string text;
-  if (!ordered.empty())
-    text += fmt::format(
-        "Nematic order, not glass, keeps orientations at {}: seen from the director, L_2 decays to "
-        "the plateau that order gives it.\n",
-        ordered);
-  if (!lasting.empty())
-    text += fmt::format(
-        "Orientations do not relax within the times measured (beyond what order explains) at {}.\n",
-        lasting);
-  return text;
+/// What keeps orientations, a sentence each.
+std::vector<std::string> order_or_glass(const GlassStudy& study) {
+  std::vector<std::string> sentences;
+  const auto say = [&](const char* sentence, const std::string& densities) {
+    if (!densities.empty()) sentences.push_back(fmt::format(fmt::runtime(sentence), densities));
+  };
+  const auto ordered = [&](bool surely) {
+    return densities_where(study, [surely](const GlassRun& run) {
+      return run.orientation == Orientation::ordered && equilibrated(run.equilibration) == surely;
+    });
+  };
+  say("Nematic order, not glass, keeps orientations at {}: seen from the director, L_2 decays to "
+      "the "
+      "plateau that order gives it.",
+      ordered(true));
+  say("So it seems at {}, where a run was not in equilibrium or too short to tell.",
+      ordered(false));
+  say("Orientations do not relax within the times measured (beyond what order explains) at {}.",
+      densities_where(study,
+                      [](const GlassRun& run) { return run.orientation == Orientation::lasting; }));
+  return sentences;
 }
 
 /// The power law is an extrapolation that real systems cross: what still relaxes beyond.
@@ -496,6 +500,7 @@ std::vector<std::pair<std::string, std::string>> glass_notes(const GlassStudy& s
     add(fmt::format("{} (density {:.4g}, seed {}): {} stays out of the fits, {}: {}", run.name,
                     run.packing_fraction, run.seed, what, name_of(why.verdict), why.reason));
   };
+  for (const std::string& sentence : order_or_glass(study)) add(sentence);
   for (const GlassRun& run : study.runs)
     if (!equilibrated(run.translation_equilibration))
       add_run(run, "all", run.translation_equilibration);
@@ -508,11 +513,15 @@ std::vector<std::pair<std::string, std::string>> glass_notes(const GlassStudy& s
 }
 
 nlohmann::ordered_json glass_summary(const GlassRun& run) {
-  return {{"verdict", name_of(run.equilibration.verdict)},
+  return {{"seed", run.seed},
+          {"verdict", name_of(run.equilibration.verdict)},
           {"reason", run.equilibration.reason},
           {"verdict_translation", name_of(run.translation_equilibration.verdict)},
+          {"reason_translation", run.translation_equilibration.reason},
           {"orientation", name_of(run.orientation)},
           {"nematic_order", run.nematic_order.mean},
+          {"nematic_order_error", run.nematic_order.error},
+          {"wave_number", run.wave_number},
           {"tau_translation", run.translation.value},
           {"tau_translation_error", run.translation.error},
           {"tau_rotation", run.rotation.value},
@@ -529,9 +538,16 @@ nlohmann::ordered_json glass_summary(const GlassStudy& study) {
                     {"phi_c", found ? fit.density : unknown},
                     {"phi_c_error", found ? fit.error : unknown},
                     {"phi_c_least", bounded ? fit.least : unknown},
+                    {"exponent", found ? fit.strength : unknown},
+                    {"exponent_error", found ? fit.strength_error : unknown},
+                    {"window", {fit.window.lowest, fit.window.highest}},
+                    {"chi2", fit.window.chi_square},
+                    {"dof", fit.window.degrees},
                     {"reason", fit.reason}});
   }
-  return fits;
+  std::vector<std::string> remarks = order_or_glass(study);
+  remarks.insert(remarks.end(), study.remarks.begin(), study.remarks.end());
+  return {{"fits", std::move(fits)}, {"remarks", std::move(remarks)}};
 }
 
 std::string glass_text(const GlassStudy& study) {
@@ -540,9 +556,8 @@ std::string glass_text(const GlassStudy& study) {
     text += fmt::format("{:>8} {:>5} {:>7} {:>18} {:>18}  {:<14}  {:<15}  {}\n", "phi", "seed", "S",
                         "tau_alpha", "tau_2", "orientation", "translation", "all");
   for (const GlassRun& run : study.runs) text += run_line(run);
-  text += order_or_glass(study);
-  for (const std::string& line : law_lines(study)) text += line + "\n";
-  for (const std::string& remark : study.remarks) text += remark + "\n";
+  for (const auto& lines : {order_or_glass(study), law_lines(study), study.remarks})
+    for (const std::string& line : lines) text += line + "\n";
   return text;
 }
 

@@ -116,7 +116,7 @@ std::vector<Table> glass_tables(const GlassStudy& study);
 std::vector<std::pair<std::string, std::string>> glass_notes(const GlassStudy& study);
 /// Times, order and verdict of one run.
 nlohmann::ordered_json glass_summary(const GlassRun& run);
-/// φ_c of every kind and law, or why there is none.
+/// `fits`: φ_c of every kind and law, or why there is none; `remarks`: order or glass, and what else must be known.
 nlohmann::ordered_json glass_summary(const GlassStudy& study);
 /// A page for people: densities with order, verdict and times, and where the laws put φ_c.
 std::string glass_text(const GlassStudy& study);

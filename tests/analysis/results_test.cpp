@@ -29,7 +29,7 @@ Table displacement_table() {
   return {"msd",
           "Mean squared displacement; rows are time differences.",
           {{"time", "sqrt(m ab/kT)", {0.1, 1.0 / 3}, {}},
-           {"all", "ab", {2, 1e-300}, {0.25, none}},
+           {"all", "ab", {2, 1e-300}, {0.25, -none}},
            {"A", "ab", {4, 8}, {}}}};
 }
 
