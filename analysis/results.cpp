@@ -40,7 +40,7 @@ std::string csv_row(const Table& table, std::size_t row) {
   for (const Column& column : table.columns) {
     if (!line.empty()) line += ',';
     line += number(column.value.at(row));
-    if (!column.error.empty()) line += "," + number(column.error.at(row));
+    if (!column.error.empty()) line.append(",").append(number(column.error.at(row)));
   }
   return line;
 }
