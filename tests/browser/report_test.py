@@ -377,6 +377,16 @@ class Page(unittest.TestCase):
         self.browser.press("ArrowDown", 40)
         self.assertRegex(self.browser.evaluate(readout), r"^q = 5:  t = [\d.]+,  ")
 
+    def test_a_time_of_zero_is_not_on_a_logarithmic_axis(self):
+        self.open("run.html")
+        chart = """[...document.querySelectorAll('#relaxation .chart')].find((chart) =>
+          chart.querySelector('h3').textContent === 'Collective scattering')"""
+        self.browser.evaluate(f"{chart}.querySelector('.plot').focus()")
+        for _ in range(60):  # to the left end
+            self.browser.press("ArrowLeft", 37)
+        readout = self.browser.evaluate(f"{chart}.querySelector('.readout').textContent")
+        self.assertRegex(readout, r"^q = 2\.4:  t = 0\.5,")
+
     def glass_legend(self, chart):
         return self.browser.evaluate(f"""[...document.querySelectorAll('#glass .chart:nth-child({chart}) .legend button')]
           .map((button) => [button.textContent, button.querySelector('i').className])""")

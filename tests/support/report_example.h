@@ -117,7 +117,7 @@ inline std::vector<Table> correlations(double tau, const std::string& group) {
 }
 
 inline std::vector<Table> collective(double tau) {
-  const std::vector<double> t = evenly(0.5, 0.5, 500);
+  const std::vector<double> t = evenly(0.5, 0.5, 500), from_zero = evenly(0, 0.5, 501);
   return {{"wave_numbers", "", {plain("index", "1", {1, 2}), plain("q", "1/length", {2.4, 5})}},
           {"susceptibility",
            "",
@@ -127,8 +127,9 @@ inline std::vector<Table> collective(double tau) {
                    [tau](double time) { return 5 * time / tau * std::exp(-time / tau); })}},
           {"collective_scattering",
            "",
-           {plain("time", "time", t),
-            column("f_1", "1", t, [tau](double time) { return 2.1 * std::exp(-time / tau); })}}};
+           {plain("time", "time", from_zero), column("f_1", "1", from_zero, [tau](double time) {
+              return 2.1 * std::exp(-time / tau);
+            })}}};
 }
 
 inline std::vector<Table> structure() {

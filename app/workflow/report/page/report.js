@@ -75,9 +75,11 @@ function groupsOf(family) {
 
 const tableOf = (run, family, group) => run.tables[isOnTheFly(group) ? group : family.table + group];
 
+/** A time of 0 has no place on a logarithmic axis. */
 function curveOf(table, name, family) {
   const { value, error } = table.columns[name];
-  return { x: table.columns[family.x].value, value, error };
+  const x = table.columns[family.x].value, begin = family.logX && x[0] === 0 ? 1 : 0;
+  return { x: x.slice(begin), value: value.slice(begin), error: error?.slice(begin) };
 }
 
 /** Densities are ordered, and so are their colours. */
