@@ -84,6 +84,10 @@ class Study:
         ends = [mean(end(run["packing_fraction"] for run in self.runs)) for end in (min, max)]
         return " to ".join(number(value) for value in ends)
 
+    def exponent(self, kind, law):
+        fit = next(fit for fit in self.fits if (fit["kind"], fit["law"]) == (kind, law))
+        return number(fit["exponent"], fit["exponent_error"])
+
     def found(self, kind):
         return "; ".join(f"{density(fit)} ({fit['law']})" for fit in self.fits if fit["kind"] == kind) or "–"
 
@@ -118,7 +122,9 @@ densities. Preparation and dynamics took {seconds / 7200:.1f} hours on two cores
 Equal ellipses of κ = 6 are nematic at every density of the study (S = {low:.2f} … {high:.2f}). There the mean squared
 rotation stops because of order, and no isotropic glass of orientations can be reached by slow growth. What is left
 of rotation, about the director, slows from τ_2 = {nematic.growth("tau_rotation")} between the lowest density and the
-highest, places from τ_α = {nematic.growth("tau_translation")}. Where order itself changes as slowly as the run lasts,
+highest, places from τ_α = {nematic.growth("tau_translation")}. The power law of τ_α has an exponent of
+{nematic.exponent("translation, tau_alpha", "power law")}, where mode-coupling theory has no less than 1.77, and
+Vogel and Fulcher's φ_c is another: that the first is near the experiment's is no evidence. Where order itself changes as slowly as the run lasts,
 there is no verdict of equilibrium, and no φ_θ. So the experiment's two stops are not reproduced by equal ellipses in
 slow growth: its orientational glass is beside, not on, this path through the nematic.
 
