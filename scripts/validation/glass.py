@@ -120,17 +120,22 @@ densities. Preparation and dynamics took {seconds / 7200:.1f} hours on two cores
 {comparison(nematic, isotropic)}
 
 Equal ellipses of κ = 6 are nematic at every density of the study (S = {low:.2f} … {high:.2f}). There the mean squared
-rotation stops because of order, and no isotropic glass of orientations can be reached by slow growth. What is left
-of rotation, about the director, slows from τ_2 = {nematic.growth("tau_rotation")} between the lowest density and the
-highest, places from τ_α = {nematic.growth("tau_translation")}. The power law of τ_α has an exponent of
-{nematic.exponent("translation, tau_alpha", "power law")}, where mode-coupling theory has no less than 1.77, and
-Vogel and Fulcher's φ_c is another: that the first is near the experiment's is no evidence. Where order itself changes as slowly as the run lasts,
-there is no verdict of equilibrium, and no φ_θ. So the experiment's two stops are not reproduced by equal ellipses in
-slow growth: its orientational glass is beside, not on, this path through the nematic.
+rotation stops because of order, and slow growth does not lead to an isotropic glass of orientations. What is left of
+rotation, about the director, slows from τ_2 = {nematic.growth("tau_rotation")} between the lowest density and the
+highest, places from τ_α = {nematic.growth("tau_translation")}. Order itself changes as slowly as the runs last, and
+differs between seeds: there is no verdict of equilibrium at most densities, and no φ_θ. φ_T is what the power law says,
+but its exponent is {nematic.exponent("translation, tau_alpha", "power law")}, where mode-coupling theory has no less
+than 1.77, and Vogel and Fulcher's φ_T is another: that the first is near the experiment's is no evidence. The two stops
+of the experiment are not on this path through the nematic.
 
-Binary ellipses of κ = 2 stay isotropic (S ≤ {order:.2f}): what stops there is a glass. That κ = 2 shows no two
-separate transitions is what simulations of such mixtures found (Xu et al. 2014); the mode-coupling density of binary disks
-of the same ratio is 0.795 (Weysser & Hajnal 2011).
+Binary ellipses of κ = 2 stay isotropic (S ≤ {order:.2f}): what stops there is a glass. Orientations come first by the
+power law, as in the experiment, but by less, and the laws differ by more than that: τ_2 grows
+from {isotropic.growth("tau_rotation")} and τ_α from {isotropic.growth("tau_translation")}, and what still relaxes at the
+highest density is above the power law's φ_θ. Exponents ({isotropic.exponent("translation, tau_alpha", "power law")} and
+{isotropic.exponent("rotation, tau_2", "power law")}) are below 1.77 here, too: the growth is followed over two decades
+in τ_2, and the laws are extrapolations from there. No two separate transitions are what other simulations of such
+mixtures say (Xu et al. 2014); the mode-coupling density of binary disks of the same ratio is 0.795 (Weysser & Hajnal
+2011).
 
 ### Ellipses of κ = 6
 
