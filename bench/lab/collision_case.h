@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/geometry/growing_ellipse.h"
+#include "core/geometry/growing.h"
 #include "core/tolerances.h"
 
 namespace vitrel::lab {

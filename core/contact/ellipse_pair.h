@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/contact/lanes.h"
-#include "core/geometry/growing_ellipse.h"
+#include "core/geometry/growing.h"
 
 namespace vitrel {
 

@@ -3,7 +3,7 @@
 #include "core/geometry/body.h"
 #include "core/geometry/disk.h"
 #include "core/geometry/ellipse.h"
-#include "core/geometry/growing_ellipse.h"
+#include "core/geometry/growing.h"
 
 /// When do two bodies in free flight, perhaps growing, first touch?
 ///

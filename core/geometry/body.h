@@ -11,9 +11,9 @@ namespace vitrel {
 ///   circumradius, inradius  radii of the smallest enclosing and the largest enclosed circle (sphere)
 ///   volume                  area in two dimensions
 ///   swing                   largest speed of the support function per unit of angular speed,
-///                           max |∂h/∂θ| (0 for a round body)
+///                           max |dh/dt|/|ω| (0 for a round body)
 ///
-/// `Disk` and `Ellipse` satisfy it; `Sphere` and `Ellipsoid` are meant to.
+/// `Disk`, `Ellipse`, `Sphere`, `Ellipsoid` and what grows (growing.h) satisfy it.
 template <class B>
 concept Body = requires(const B body) {
   { B::dimension } -> std::convertible_to<int>;

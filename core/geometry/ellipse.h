@@ -18,6 +18,8 @@ struct Ellipse {
   double swing() const { return a - b; }
   double aspect_ratio() const { return a / b; }
   bool is_round() const { return a == b; }
+  /// Ways to rotate that smooth collisions can see.
+  int rotations() const { return is_round() ? 0 : 1; }
   /// a² − b², without cancellation.
   double stretch() const { return (a - b) * (a + b); }
   /// Moment of inertia of the homogeneous ellipse over its mass, (a² + b²)/4.

@@ -81,8 +81,11 @@ class PeriodicBox {
 };
 
 /// Of two opposite shifts, exactly one: so that own images are counted once.
-inline bool comes_after_zero(const Shift<2>& shift) {
-  return shift.x() > 0 || (shift.x() == 0 && shift.y() > 0);
+template <int Dim>
+bool comes_after_zero(const Shift<Dim>& shift) {
+  for (int k = 0; k < Dim; ++k)
+    if (shift[k] != 0) return shift[k] > 0;
+  return false;
 }
 
 }  // namespace vitrel

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstdint>
 
 /// Small fixed-size vectors. Lengths are in the program's unit of length (the reference species has
@@ -12,6 +13,9 @@ using Vec = Eigen::Matrix<double, Dim, 1>;
 using Vec2 = Vec<2>;
 using Vec3 = Vec<3>;
 using Mat2 = Eigen::Matrix2d;
+using Mat3 = Eigen::Matrix3d;
+/// A rotation, of norm 1 to rounding.
+using Quaternion = Eigen::Quaterniond;
 
 /// Whole box lengths per direction: the image of a particle at r lies at r + shift ∘ L.
 template <int Dim>

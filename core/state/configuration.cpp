@@ -4,46 +4,93 @@
 
 namespace vitrel {
 
+namespace {
+
+template <int Dim>
+void resize_particles(Particles<Dim>& particles, std::size_t n,
+                      const AngularVelocity<Dim>& at_rest) {
+  particles.position.resize(n, Vec<Dim>::Zero());
+  particles.image.resize(n, Shift<Dim>::Zero());
+  particles.velocity.resize(n, Vec<Dim>::Zero());
+  particles.angular_velocity.resize(n, at_rest);
+  particles.shape.resize(n);
+  particles.mass.resize(n, 1.0);
+  particles.species.resize(n, 0);
+}
+
+double rotational_energy(const Configuration2& configuration, std::size_t i) {
+  const double omega = configuration.angular_velocity[i];
+  return 0.5 * configuration.inertia(i) * omega * omega;
+}
+
+double rotational_energy(const Configuration3& configuration, std::size_t i) {
+  const Vec3 own = configuration.orientation[i].conjugate() * configuration.angular_velocity[i];
+  return 0.5 * configuration.inertia(i).dot(own.cwiseAbs2());
+}
+
+}  // namespace
+
 void Configuration2::resize(std::size_t n) {
-  position.resize(n, Vec2::Zero());
-  image.resize(n, Shift<2>::Zero());
+  resize_particles(*this, n, 0);
   angle.resize(n, 0.0);
-  velocity.resize(n, Vec2::Zero());
-  angular_velocity.resize(n, 0.0);
-  shape.resize(n);
-  mass.resize(n, 1.0);
-  species.resize(n, 0);
 }
 
-double packing_fraction(const Configuration2& configuration) {
-  double area = 0;
-  for (const Ellipse& shape : configuration.shape) area += shape.volume();
-  return area / configuration.box.volume();
+void Configuration3::resize(std::size_t n) {
+  resize_particles(*this, n, Vec3::Zero());
+  orientation.resize(n, Quaternion::Identity());
 }
 
-double largest_circumradius(const Configuration2& configuration) {
+template <int Dim>
+double packing_fraction(const Configuration<Dim>& configuration) {
+  double volume = 0;
+  for (const Solid<Dim>& shape : configuration.shape) volume += shape.volume();
+  return volume / configuration.box.volume();
+}
+
+template <int Dim>
+double largest_circumradius(const Configuration<Dim>& configuration) {
   double largest = 0;
-  for (const Ellipse& shape : configuration.shape)
+  for (const Solid<Dim>& shape : configuration.shape)
     largest = std::max(largest, shape.circumradius());
   return largest;
 }
 
-Mechanics mechanics(const Configuration2& configuration) {
-  Mechanics sums{Vec2::Zero(), 0, 0};
+template <int Dim>
+Mechanics<Dim> mechanics(const Configuration<Dim>& configuration) {
+  Mechanics<Dim> sums;
   for (std::size_t i = 0; i < configuration.size(); ++i) {
-    const Vec2& v = configuration.velocity[i];
+    const Vec<Dim>& v = configuration.velocity[i];
     sums.momentum += configuration.mass[i] * v;
     sums.translational_energy += 0.5 * configuration.mass[i] * v.squaredNorm();
-    if (configuration.shape[i].is_round()) continue;
-    const double omega = configuration.angular_velocity[i];
-    sums.rotational_energy += 0.5 * configuration.inertia(i) * omega * omega;
+    if (!configuration.shape[i].is_round())
+      sums.rotational_energy += rotational_energy(configuration, i);
   }
   return sums;
 }
 
-std::size_t rotor_count(const Configuration2& configuration) {
-  return std::count_if(configuration.shape.begin(), configuration.shape.end(),
-                       [](const Ellipse& shape) { return !shape.is_round(); });
+template <int Dim>
+std::size_t rotor_count(const Configuration<Dim>& configuration) {
+  return std::ranges::count_if(configuration.shape,
+                               [](const Solid<Dim>& shape) { return !shape.is_round(); });
 }
+
+template <int Dim>
+std::size_t rotation_count(const Configuration<Dim>& configuration) {
+  std::size_t count = 0;
+  for (const Solid<Dim>& shape : configuration.shape)
+    count += static_cast<std::size_t>(shape.rotations());
+  return count;
+}
+
+template double packing_fraction(const Configuration2&);
+template double packing_fraction(const Configuration3&);
+template double largest_circumradius(const Configuration2&);
+template double largest_circumradius(const Configuration3&);
+template Mechanics<2> mechanics(const Configuration2&);
+template Mechanics<3> mechanics(const Configuration3&);
+template std::size_t rotor_count(const Configuration2&);
+template std::size_t rotor_count(const Configuration3&);
+template std::size_t rotation_count(const Configuration2&);
+template std::size_t rotation_count(const Configuration3&);
 
 }  // namespace vitrel

@@ -2,9 +2,11 @@
 
 #include <cstdint>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "core/geometry/ellipse.h"
+#include "core/geometry/ellipsoid.h"
 #include "core/geometry/periodic_box.h"
 #include "core/geometry/pose.h"
 
@@ -13,49 +15,89 @@ namespace vitrel {
 /// The state of N particles in a periodic box: the form that files, Monte Carlo, event-driven dynamics
 /// and analysis share. One entry per particle in every vector; a plain value, copied at will.
 ///
-/// Units: kT = 1, mass 1 and a b = 1 for the reference species, time √(m a b/kT).
+/// Units: kT = 1, mass 1 and a b = 1 (in three dimensions a b c = 1) for the reference species; with ℓ
+/// that unit of length, time is in √(m ℓ²/kT).
 template <int Dim>
 struct Configuration;
 
-template <>
-struct Configuration<2> {
-  PeriodicBox<2> box;
+/// The shape of any particle of a configuration.
+template <int Dim>
+using Solid = std::conditional_t<Dim == 2, Ellipse, Ellipsoid>;
+
+/// What does not depend on how an orientation is given.
+template <int Dim>
+struct Particles {
+  PeriodicBox<Dim> box;
   double time = 0;
 
-  std::vector<Vec2> position;   ///< wrapped into the box
-  std::vector<Shift<2>> image;  ///< unwrapped position = position + image ∘ L
-  std::vector<double> angle;    ///< unwrapped, radians
-  std::vector<Vec2> velocity;
-  std::vector<double> angular_velocity;
+  std::vector<Vec<Dim>> position;  ///< wrapped into the box
+  std::vector<Shift<Dim>> image;   ///< unwrapped position = position + image ∘ L
+  std::vector<Vec<Dim>> velocity;
+  std::vector<AngularVelocity<Dim>> angular_velocity;
 
-  std::vector<Ellipse> shape;  ///< semi-axes a ≥ b of every particle
+  std::vector<Solid<Dim>> shape;
   std::vector<double> mass;
   std::vector<std::int32_t> species;  ///< index into species_names
   std::vector<std::string> species_names;
 
   std::size_t size() const { return position.size(); }
+  Vec<Dim> unwrapped(std::size_t i) const { return position[i] + box.translation(image[i]); }
+};
+
+template <>
+struct Configuration<2> : Particles<2> {
+  std::vector<double> angle;  ///< unwrapped, radians
+
   /// Makes room for n particles at rest at the origin, round with radius 1, mass 1, species 0.
   void resize(std::size_t n);
   Pose2 pose(std::size_t i) const { return {position[i], angle[i]}; }
-  Vec2 unwrapped(std::size_t i) const { return position[i] + box.translation(image[i]); }
+  void set_pose(std::size_t i, const Pose2& pose) {
+    position[i] = pose.position;
+    angle[i] = pose.angle;
+  }
   double inertia(std::size_t i) const { return mass[i] * shape[i].inertia_per_mass(); }
 };
 
-using Configuration2 = Configuration<2>;
+template <>
+struct Configuration<3> : Particles<3> {
+  std::vector<Quaternion> orientation;  ///< from the axes of the body to those of space
 
-/// Σ π a b / box area.
-double packing_fraction(const Configuration2& configuration);
-/// The longest semi-axis of any particle.
-double largest_circumradius(const Configuration2& configuration);
-
-/// Sums over all particles. Angular velocity of round particles is not modelled and counts nowhere.
-struct Mechanics {
-  Vec2 momentum;
-  double translational_energy;  ///< Σ m v²/2
-  double rotational_energy;     ///< Σ I ω²/2 over particles that are not round
+  void resize(std::size_t n);
+  Pose3 pose(std::size_t i) const { return {position[i], orientation[i]}; }
+  void set_pose(std::size_t i, const Pose3& pose) {
+    position[i] = pose.position;
+    orientation[i] = pose.orientation;
+  }
+  /// About the own axes (ellipsoid.h).
+  Vec3 inertia(std::size_t i) const { return mass[i] * shape[i].inertia_per_mass(); }
 };
-Mechanics mechanics(const Configuration2& configuration);
-/// Number of particles whose rotation is modelled, that is, which are not round.
-std::size_t rotor_count(const Configuration2& configuration);
+
+using Configuration2 = Configuration<2>;
+using Configuration3 = Configuration<3>;
+
+/// Total area (volume) of the particles over that of the box.
+template <int Dim>
+double packing_fraction(const Configuration<Dim>& configuration);
+/// The longest semi-axis of any particle.
+template <int Dim>
+double largest_circumradius(const Configuration<Dim>& configuration);
+
+/// Sums over all particles. Rotations that smooth collisions cannot see are not modelled and count
+/// nowhere: that of round particles, and that of spheroids about their axes.
+template <int Dim>
+struct Mechanics {
+  Vec<Dim> momentum = Vec<Dim>::Zero();
+  double translational_energy = 0;  ///< Σ m v²/2
+  double rotational_energy = 0;     ///< Σ ω·Iω/2
+};
+template <int Dim>
+Mechanics<Dim> mechanics(const Configuration<Dim>& configuration);
+/// Number of particles that are not round.
+template <int Dim>
+std::size_t rotor_count(const Configuration<Dim>& configuration);
+/// Number of rotations that are modelled: of an ellipse 1, a spheroid 2, a scalene ellipsoid 3, a round
+/// body 0.
+template <int Dim>
+std::size_t rotation_count(const Configuration<Dim>& configuration);
 
 }  // namespace vitrel

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/geometry/growing_ellipse.h"
+#include "core/geometry/growing.h"
 
 namespace vitrel::lab {
 

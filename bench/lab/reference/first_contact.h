@@ -2,7 +2,7 @@
 
 #include <boost/multiprecision/float128.hpp>
 
-#include "core/geometry/growing_ellipse.h"
+#include "core/geometry/growing.h"
 
 namespace vitrel::lab {
 

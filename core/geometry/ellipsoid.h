@@ -1,0 +1,61 @@
+#pragma once
+
+#include <algorithm>
+#include <numbers>
+
+#include "core/geometry/body.h"
+
+namespace vitrel {
+
+/// A hard ellipsoid with semi-axes (a, b, c) > 0 along its own x, y and z axes, in any order.
+///
+/// Rotation. The body is homogeneous; its principal moments are m (b² + c²)/5 and so on. A spheroid is
+/// special: smooth collisions exert no torque about its axis of symmetry, and its shape, free, turns
+/// uniformly about the angular momentum L with ω = L/I⊥. That ω is the angular velocity which vitrel
+/// keeps; with it the spheroid moves like a body of the three equal moments I⊥, which is exact, and
+/// L = I⊥ ω. Of a scalene body the angular velocity is the common one, and its being constant in flight
+/// is a model for packing (after the article): then neither L nor the energy is constant in flight.
+struct Ellipsoid {
+  static constexpr int dimension = 3;
+  Vec3 semi_axes = Vec3::Ones();
+
+  double circumradius() const { return semi_axes.maxCoeff(); }
+  double inradius() const { return semi_axes.minCoeff(); }
+  double volume() const { return 4 * std::numbers::pi / 3 * semi_axes.prod(); }
+  double swing() const { return circumradius() - inradius(); }
+
+  bool is_round() const { return semi_axes[0] == semi_axes[1] && semi_axes[1] == semi_axes[2]; }
+  /// The axis of symmetry of a spheroid: 0, 1 or 2; none if all three semi-axes differ, or none does.
+  static constexpr int none = -1;
+  int symmetry_axis() const {
+    if (is_round()) return none;
+    for (int k = 0; k < 3; ++k)
+      if (semi_axes[(k + 1) % 3] == semi_axes[(k + 2) % 3]) return k;
+    return none;
+  }
+  /// Ways to rotate that smooth collisions can see: 0, 2 or 3.
+  int rotations() const { return is_round() ? 0 : symmetry_axis() == none ? 3 : 2; }
+
+  /// Moments of inertia over the mass about the own axes; of a spheroid I⊥ three times.
+  Vec3 inertia_per_mass() const {
+    const Vec3 squares = semi_axes.cwiseAbs2();
+    const Vec3 moments = 0.2 * (Vec3::Constant(squares.sum()) - squares);
+    const int axis = symmetry_axis();
+    return axis == none ? moments : Vec3::Constant(moments[(axis + 1) % 3]);
+  }
+};
+
+static_assert(Body<Ellipsoid>);
+
+/// The same shape, of another size.
+inline Ellipsoid scaled(const Ellipsoid& ellipsoid, double size) {
+  return {size * ellipsoid.semi_axes};
+}
+
+/// Shape matrix Σ = R diag(a², b², c²) Rᵀ; the ellipsoid is the set of x with xᵀ Σ⁻¹ x ≤ 1.
+inline Mat3 shape_matrix(const Ellipsoid& ellipsoid, const Quaternion& orientation) {
+  const Mat3 axes = orientation.toRotationMatrix() * ellipsoid.semi_axes.asDiagonal();
+  return axes * axes.transpose();
+}
+
+}  // namespace vitrel

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <numbers>
+
+#include "core/geometry/body.h"
+
+namespace vitrel {
+
+/// A hard sphere. It has no orientation that a smooth (frictionless) collision could see.
+struct Sphere {
+  static constexpr int dimension = 3;
+  double radius = 1;
+
+  double circumradius() const { return radius; }
+  double inradius() const { return radius; }
+  double volume() const { return 4 * std::numbers::pi / 3 * radius * radius * radius; }
+  double swing() const { return 0; }
+};
+
+static_assert(Body<Sphere>);
+
+/// The same shape, of another size.
+inline Sphere scaled(const Sphere& sphere, double size) {
+  return {size * sphere.radius};
+}
+
+}  // namespace vitrel
