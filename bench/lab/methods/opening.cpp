@@ -38,7 +38,7 @@ VieillardBaron<double> vieillard_baron_at(const CollisionCase& asked, double tim
                          separation_at(asked, time));
 }
 
-PerramWertheim perram_wertheim_at(const CollisionCase& asked, double time) {
+PerramWertheim<2> perram_wertheim_at(const CollisionCase& asked, double time) {
   return perram_wertheim(body_at(asked.one, time), angle_at(asked.one, time),
                          body_at(asked.two, time), angle_at(asked.two, time),
                          separation_at(asked, time));
@@ -59,7 +59,7 @@ Prediction contact_along(const Vec2& outward, double time, const Vec2& point, in
 }
 
 Prediction contact_at(const CollisionCase& asked, double time, int steps) {
-  const PerramWertheim touch = perram_wertheim_at(asked, time);
+  const PerramWertheim<2> touch = perram_wertheim_at(asked, time);
   const Vec2 centre = asked.one.pose.position + asked.one.motion.velocity * time;
   return {Outcome::contact, time, touch.normal, centre + touch.point, steps};
 }
