@@ -1,6 +1,6 @@
 #include "core/contact/ellipsoid_eta.h"
 
-#include <Eigen/LU>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -148,8 +148,8 @@ EllipsoidEta<Real> ellipsoid_eta(const EllipsoidAxes<Real>& one, const Ellipsoid
 }
 
 template <class Real>
-Vector<Real> touching_point(const EllipsoidAxes<Real>& one, const EllipsoidAxes<Real>& two,
-                            const Vector<Real>& d) {
+EllipsoidTouch<Real> ellipsoid_touch(const EllipsoidAxes<Real>& one, const EllipsoidAxes<Real>& two,
+                                     const Vector<Real>& d) {
   const CharacteristicPolynomial<Real> q = characteristic_polynomial(one, two, d);
   const auto shape_matrix = [](const EllipsoidAxes<Real>& body) -> Matrix<Real> {
     const Matrix<Real> axes = body.directions * body.lengths.asDiagonal();
@@ -157,7 +157,8 @@ Vector<Real> touching_point(const EllipsoidAxes<Real>& one, const EllipsoidAxes<
   };
   const Matrix<Real> sigma1 = shape_matrix(one);
   const Matrix<Real> both = sigma1 + q.sigma * q.most_open() * shape_matrix(two);
-  return sigma1 * (both.inverse() * d);
+  const Vector<Real> y = both.llt().solve(d);
+  return {sigma1 * y, y.normalized()};
 }
 
 EllipsoidEta<double> ellipsoid_eta(const Ellipsoid& one, const Quaternion& orientation1,
@@ -179,10 +180,11 @@ template CharacteristicPolynomial<double> characteristic_polynomial(const Ellips
 template CharacteristicPolynomial<long double> characteristic_polynomial(
     const EllipsoidAxes<long double>&, const EllipsoidAxes<long double>&,
     const Vector<long double>&);
-template Vector<double> touching_point(const EllipsoidAxes<double>&, const EllipsoidAxes<double>&,
-                                       const Vector<double>&);
-template Vector<long double> touching_point(const EllipsoidAxes<long double>&,
-                                            const EllipsoidAxes<long double>&,
-                                            const Vector<long double>&);
+template EllipsoidTouch<double> ellipsoid_touch(const EllipsoidAxes<double>&,
+                                                const EllipsoidAxes<double>&,
+                                                const Vector<double>&);
+template EllipsoidTouch<long double> ellipsoid_touch(const EllipsoidAxes<long double>&,
+                                                     const EllipsoidAxes<long double>&,
+                                                     const Vector<long double>&);
 
 }  // namespace vitrel

@@ -104,15 +104,19 @@ template <class Real>
 EllipsoidEta<Real> ellipsoid_eta(const EllipsoidAxes<Real>& one, const EllipsoidAxes<Real>& two,
                                  const Eigen::Matrix<Real, 3, 1>& d);
 
-/// Where two ellipsoids that touch from outside do so, relative to centre 1: with the double root λ of
-/// the characteristic polynomial, (λA₁ + A₂) x = 0 for the 4 × 4 quadrics (the article's equation 14 has
-/// a minus), in three dimensions
-///     x = Σ₁ (Σ₁ + λΣ₂)⁻¹ d.
-/// The double root is taken where F is largest, so x moves little if the bodies nearly touch.
+/// Where two ellipsoids that touch from outside do so. With the double root λ of the characteristic
+/// polynomial the point x, relative to centre 1, is the solution of (λA₁ + A₂) x = 0 for the 4 × 4 quadrics
+/// (the article's equation 14 has a minus), in three dimensions
+///     x = Σ₁y,   y = (Σ₁ + λΣ₂)⁻¹d,   normal y/|y|, from 1 to 2.
+/// The double root is where F is largest, and λ is taken there in any case: the normal of disjoint
+/// ellipsoids separates them (F > 1, and the inequality of Cauchy and Schwarz). The centres must differ.
 template <class Real>
-Eigen::Matrix<Real, 3, 1> touching_point(const EllipsoidAxes<Real>& one,
-                                         const EllipsoidAxes<Real>& two,
-                                         const Eigen::Matrix<Real, 3, 1>& d);
+struct EllipsoidTouch {
+  Eigen::Matrix<Real, 3, 1> point, normal;
+};
+template <class Real>
+EllipsoidTouch<Real> ellipsoid_touch(const EllipsoidAxes<Real>& one, const EllipsoidAxes<Real>& two,
+                                     const Eigen::Matrix<Real, 3, 1>& d);
 
 EllipsoidEta<double> ellipsoid_eta(const Ellipsoid& one, const Quaternion& orientation1,
                                    const Ellipsoid& two, const Quaternion& orientation2,
