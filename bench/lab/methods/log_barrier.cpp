@@ -50,7 +50,7 @@ std::optional<Vec3> interior_point(const CollisionCase& asked, const Bracket& br
 
 }  // namespace
 
-Prediction log_barrier(const CollisionCase& asked, double tolerance) {
+Prediction2 log_barrier(const CollisionCase& asked, double tolerance) {
   const Opening opening = open_search(asked);
   if (opening.answer) return *opening.answer;
   const ScaledProblem problem(asked, opening.bracket);

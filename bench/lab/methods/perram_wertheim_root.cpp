@@ -127,7 +127,7 @@ PerramWertheimRate perram_wertheim_rate(const CollisionCase& asked, double time)
   return {f.value, lambda * (1 - lambda) * (2 * v.dot(y) - shapes)};
 }
 
-Prediction perram_wertheim_root(const CollisionCase& asked, double tolerance) {
+Prediction2 perram_wertheim_root(const CollisionCase& asked, double tolerance) {
   const Opening opening = open_search(asked);
   if (opening.answer) return *opening.answer;
   Search search(asked);
