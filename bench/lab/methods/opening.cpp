@@ -38,7 +38,7 @@ VieillardBaron<double> vieillard_baron_at(const CollisionCase& asked, double tim
                          separation_at(asked, time));
 }
 
-PerramWertheim perram_wertheim_at(const CollisionCase& asked, double time) {
+PerramWertheim<2> perram_wertheim_at(const CollisionCase& asked, double time) {
   return perram_wertheim(body_at(asked.one, time), angle_at(asked.one, time),
                          body_at(asked.two, time), angle_at(asked.two, time),
                          separation_at(asked, time));
@@ -58,8 +58,13 @@ Prediction2 contact_along(const Vec2& outward, double time, const Vec2& point, i
   return {Outcome::contact, time, normal, point, steps};
 }
 
+<<<<<<< HEAD
+Prediction contact_at(const CollisionCase& asked, double time, int steps) {
+  const PerramWertheim<2> touch = perram_wertheim_at(asked, time);
+=======
 Prediction2 contact_at(const CollisionCase& asked, double time, int steps) {
   const PerramWertheim touch = perram_wertheim_at(asked, time);
+>>>>>>> three
   const Vec2 centre = asked.one.pose.position + asked.one.motion.velocity * time;
   return {Outcome::contact, time, touch.normal, centre + touch.point, steps};
 }

@@ -17,7 +17,7 @@ inline constexpr double smallest_size = 1e-30;
 
 /// The complete criterion of Vieillard-Baron at a time.
 VieillardBaron<double> vieillard_baron_at(const CollisionCase& asked, double time);
-PerramWertheim perram_wertheim_at(const CollisionCase& asked, double time);
+PerramWertheim<2> perram_wertheim_at(const CollisionCase& asked, double time);
 bool overlaps_at_start(const CollisionCase& asked);
 
 /// An answer that is no contact, with the number of steps or evaluations it took.

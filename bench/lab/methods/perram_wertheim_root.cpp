@@ -115,7 +115,7 @@ class Search {
 }  // namespace
 
 PerramWertheimRate perram_wertheim_rate(const CollisionCase& asked, double time) {
-  const PerramWertheim f = perram_wertheim_at(asked, time);
+  const PerramWertheim<2> f = perram_wertheim_at(asked, time);
   const Moving one(asked.one, time);
   const Moving two(asked.two, time);
   const Vec2 v = asked.two.motion.velocity - asked.one.motion.velocity;
