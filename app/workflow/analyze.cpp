@@ -205,9 +205,8 @@ double AnalysedRun::packing_fraction() const {
 }
 
 std::uint64_t AnalysedRun::seed() const {
-  const auto entry = std::find_if(results.provenance.begin(), results.provenance.end(),
-                                  [](const auto& candidate) { return candidate.first == "seed"; });
-  return entry == results.provenance.end() ? 0 : std::stoull(entry->second);
+  const std::string seed = results.text("seed");
+  return seed.empty() ? 0 : std::stoull(seed);
 }
 
 AnalysedRun analyze_run(const std::filesystem::path& file, const AnalysisChoice& choice) {

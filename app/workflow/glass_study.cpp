@@ -21,13 +21,6 @@ constexpr double negligible = 0.05;  // rest of a correlation that has decayed
 constexpr const char* reason_key = "verdict_reason";
 constexpr const char* translation_reason_key = "verdict_translation_reason";
 
-/// Empty if the provenance has no such entry.
-std::string text_of(const Results& results, const std::string& name) {
-  for (const auto& [key, text] : results.provenance)
-    if (key == name) return text;
-  return "";
-}
-
 /// Whether nothing is left of a correlation at the longest time, but for what its error explains.
 bool vanishes(const Decay& correlation) {
   const double error = std::isnan(correlation.error.back()) ? 0 : correlation.error.back();
@@ -431,7 +424,7 @@ std::optional<GlassRun> stored_glass_run(const std::string& name, const Results&
   const auto verdict = [&](const char* code, const char* tests, const char* reason) {
     return Equilibration{
         static_cast<EquilibrationVerdict>(static_cast<int>(value(*relaxation, code))),
-        text_of(results, reason), static_cast<std::size_t>(value(*relaxation, tests))};
+        results.text(reason), static_cast<std::size_t>(value(*relaxation, tests))};
   };
   const auto time = [&](const char* of) {
     return RelaxationTime{value(*relaxation, of), error(*relaxation, of), unknown, unknown, ""};

@@ -10,12 +10,6 @@
 namespace vitrel {
 namespace {
 
-std::string note(const Results& results, const std::string& name) {
-  for (const auto& [key, text] : results.provenance)
-    if (key == name) return text;
-  return "";
-}
-
 Configuration2 ellipses_and_disks() {
   Configuration2 configuration = ellipses(150);
   configuration.species_names = {"ellipse", "disk"};
@@ -51,9 +45,9 @@ void expect_closed_forms(Trajectory& trajectory) {
   EXPECT_EQ(table.find("group")->value, (std::vector<double>{0, 0, 0, 0, 1, 1, 1, 1, 2, 2}));
   EXPECT_EQ(table.find("kind")->value, (std::vector<double>{0, 0, 1, 1, 0, 0, 1, 1, 0, 0}));
   EXPECT_EQ(table.find("parameter")->value, (std::vector<double>{2, 3, 2, 4, 2, 3, 2, 4, 2, 3}));
-  EXPECT_EQ(note(results, "group_0"), "all");
-  EXPECT_EQ(note(results, "group_1"), "ellipse");
-  EXPECT_EQ(note(results, "group_2"), "disk");
+  EXPECT_EQ(results.text("group_0"), "all");
+  EXPECT_EQ(results.text("group_1"), "ellipse");
+  EXPECT_EQ(results.text("group_2"), "disk");
   const Column& tau = *table.find("tau");
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const double expected =
@@ -61,7 +55,7 @@ void expect_closed_forms(Trajectory& trajectory) {
     EXPECT_GT(tau.error[row], 0) << row;
     EXPECT_LT(tau.error[row], 0.1 * expected) << row;
     EXPECT_NEAR(tau.value[row], expected, 4 * tau.error[row] + 0.002 * expected) << row;
-    EXPECT_EQ(note(results, "relaxation_times_" + std::to_string(row)), "");
+    EXPECT_EQ(results.text("relaxation_times_" + std::to_string(row)), "");
   }
 }
 
@@ -88,8 +82,8 @@ TEST(RelaxationTables, SayWhyThereIsNoTime) {
   EXPECT_NEAR(table.find("least")->value[0], 5, 1e-12);
   EXPECT_TRUE(std::isnan(table.find("most")->value[0]));
   EXPECT_NEAR(table.find("most")->value[1], 0.1, 1e-12);
-  EXPECT_NE(note(results, "relaxation_times_0").find("still"), std::string::npos);
-  EXPECT_NE(note(results, "relaxation_times_1").find("already"), std::string::npos);
+  EXPECT_NE(results.text("relaxation_times_0").find("still"), std::string::npos);
+  EXPECT_NE(results.text("relaxation_times_1").find("already"), std::string::npos);
 }
 
 }  // namespace
