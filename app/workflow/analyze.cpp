@@ -98,8 +98,7 @@ DiffusionCoefficient no_diffusion(const char* reason) {
 
 /// NaN if the file does not say.
 double collisions_between_frames(const TrajectoryReader& reader) {
-  const std::vector<std::string> names = reader.observable_names();
-  if (std::find(names.begin(), names.end(), "collisions") == names.end()) return unknown;
+  if (!reader.has_observable("collisions")) return unknown;
   const std::vector<double> collisions = reader.observable("collisions");
   return collisions.back() - collisions.front();
 }
