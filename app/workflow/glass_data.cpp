@@ -89,7 +89,8 @@ std::optional<GlassRunData> glass_run_data(Trajectory& trajectory, const GlassSo
   data.duration = trajectory.times().back() - trajectory.times().front();
   data.wave_number = found.wave_numbers.front();
   data.scattering = decay(found, all.self_scattering.front());
-  data.diffusion = diffusion_coefficient(found, all.translation, 2, trajectory.times());
+  data.diffusion = run.diffusion;
+  data.rotational_diffusion = run.rotational_diffusion;
   if (!run.compressibility.value.empty())
     data.series.push_back({"the compressibility factor", run.compressibility.value});
   data.series.push_back({"the hexatic order", run.order.find("hexatic")->value});
@@ -98,7 +99,6 @@ std::optional<GlassRunData> glass_run_data(Trajectory& trajectory, const GlassSo
     return data;
   }
   data.nematic_order = run.order.find("nematic")->value;
-  data.rotational_diffusion = diffusion_coefficient(found, all.rotation, 1, trajectory.times());
   const bool nematic = is_nematic(mean_of(data.nematic_order), run.rotors);
   std::optional<DirectorFrame> director;
   if (nematic) director.emplace(trajectory);
@@ -106,14 +106,6 @@ std::optional<GlassRunData> glass_run_data(Trajectory& trajectory, const GlassSo
   data.orientation = orientation_of(seen, found, wanted, nematic);
   add_halves(data, seen, wanted, report);
   return data;
-}
-
-DiffusionCoefficient diffusion_coefficient(const Displacements& displacements,
-                                           const Correlation& square, int dimension,
-                                           const std::vector<double>& times) {
-  const double duration = evenly_spaced(times) ? times.back() - times.front() : 0;
-  return diffusion_coefficient({displacements.lag, square.value, square.error, duration},
-                               dimension);
 }
 
 }  // namespace vitrel

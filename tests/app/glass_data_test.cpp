@@ -14,9 +14,14 @@ TEST(GlassRunData, TellsOfBothHalvesAsOne) {
   const Table order{"order", "", {{"nematic", "1", {0.1}, {}}, {"hexatic", "1", {0.1}, {}}}};
   const CompressibilitySeries no_pressure{};
   std::vector<Progress> told;
-  const auto data = glass_run_data(trajectory, {"run", 1, 0.5, 30, found, no_pressure, order}, {},
+  const DiffusionCoefficient diffusion{1, 0.1, 2, 3, ""}, rotational_diffusion{4, 0.4, 5, 6, ""};
+  const GlassSource run{
+      "run", 1, 0.5, 30, found, no_pressure, order, diffusion, rotational_diffusion};
+  const auto data = glass_run_data(trajectory, run, {},
                                    [&](const Progress& progress) { told.push_back(progress); });
   ASSERT_TRUE(data);
+  EXPECT_EQ(data->diffusion.value, 1);
+  EXPECT_EQ(data->rotational_diffusion.value, 4);
   EXPECT_EQ(data->halves.size(), 2u);
   ASSERT_FALSE(told.empty());
   for (std::size_t k = 0; k < told.size(); ++k) {
