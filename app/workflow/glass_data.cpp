@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "analysis/blocking.h"
 #include "analysis/director_frame.h"
-#include "analysis/order.h"
 
 namespace vitrel {
 namespace {
@@ -99,7 +97,7 @@ std::optional<GlassRunData> glass_run_data(Trajectory& trajectory, const GlassSo
     return data;
   }
   data.nematic_order = run.order.find("nematic")->value;
-  const bool nematic = is_nematic(mean_of(data.nematic_order), run.rotors);
+  const bool nematic = is_nematic(data);
   std::optional<DirectorFrame> director;
   if (nematic) director.emplace(trajectory);
   Trajectory& seen = nematic ? *director : trajectory;

@@ -35,7 +35,7 @@ void judge_orientation(GlassRun& run, const GlassRunData& data) {
   if (data.rotors == 0) return;
   run.nematic_order = slow_average(data.nematic_order);
   const auto& [order, error, blocks] = run.nematic_order;
-  if (!is_nematic(order, data.rotors)) {
+  if (!is_nematic(data)) {
     run.rotation = relaxation_time(data.orientation);
     const bool decays = !std::isnan(run.rotation.value) || !std::isnan(run.rotation.most);
     run.orientation = decays ? Orientation::relaxes : Orientation::lasting;
@@ -71,7 +71,7 @@ Time inverse(const DiffusionCoefficient& d) {
 }
 
 bool nematic(const GlassRun& run) {
-  return run.rotors > 0 && is_nematic(run.nematic_order.mean, run.rotors);
+  return run.plateau > 0;
 }
 
 /// Whether a run can have a time of this kind at all.
@@ -378,6 +378,10 @@ std::string crossed(const StudiedLaw& studied, const std::vector<GlassPoint>& po
 }
 
 }  // namespace
+
+bool is_nematic(const GlassRunData& data) {
+  return data.rotors > 0 && is_nematic(mean_of(data.nematic_order), data.rotors);
+}
 
 GlassRun judge_glass_run(const GlassRunData& data) {
   GlassRun run{};
