@@ -20,15 +20,6 @@ Configuration2 ellipses_and_disks() {
   return configuration;
 }
 
-/// Frames 0, 1, 2, 5 and 10 steps after the start of every cycle of 20.
-MemoryTrajectory cycles(MemoryTrajectory& steps) {
-  std::vector<Configuration2> frames;
-  for (std::size_t k = 0; k < steps.frames(); ++k)
-    for (const std::size_t sampled : {0, 1, 2, 5, 10})
-      if (k % 20 == sampled) frames.push_back(steps.read(k));
-  return MemoryTrajectory(std::move(frames));
-}
-
 /// F_s = exp(−q² MSD/4) and L_n = exp(−n² MSR/2), MSD and MSR proportional to time.
 double truth(double kind, double parameter) {
   const double per_time = kind == 0 ? free_msd(1) / 4 : free_msr(1, ellipses(1).inertia(0)) / 2;
