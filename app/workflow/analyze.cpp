@@ -123,7 +123,7 @@ std::optional<GlassRun> measure_glass(StoredTrajectory& trajectory, const std::s
                            .order = order_table(run.structure),
                            .diffusion = run.diffusion,
                            .rotational_diffusion = run.rotational_diffusion};
-  display.begin("halves of the run");
+  display.begin("relaxation and halves");
   const auto data = glass_run_data(trajectory, source, options, shown_by(display));
   if (!data) return std::nullopt;
   return judge_glass_run(*data);
