@@ -210,9 +210,10 @@ template <int Dim>
 void TrajectoryWriter::check(const Configuration<Dim>& configuration,
                              const Observables& observables) const {
   if (angle_.has_value() != (Dim == 2))
-    throw UserError(fmt::format("{}: holds frames of the other dimension than {}, the one of the "
-                                "configuration to be added",
-                                file_.path(), Dim));
+    throw UserError(
+        fmt::format("{}: holds frames of the other dimension than {}, the one of the "
+                    "configuration to be added",
+                    file_.path(), Dim));
   if (configuration.size() != particles_)
     throw UserError(file_.path() + ": holds " + std::to_string(particles_) +
                     " particles, but the configuration to be added has " +
@@ -297,7 +298,8 @@ std::size_t TrajectoryReader::particles() const {
 }
 
 const std::vector<std::string>& TrajectoryReader::species_names() const {
-  return std::visit([](const auto& fixed) -> const auto& { return fixed.species_names; }, fixed_);
+  return std::visit(
+      [](const auto& fixed) -> const auto& { return fixed.species_names; }, fixed_);
 }
 
 void TrajectoryReader::require_dimension(int wanted) const {
@@ -552,8 +554,7 @@ void TrajectoryReader::read_velocities(std::uint64_t frame,
                                        Configuration<Dim>& configuration) const {
   if (has("velocity")) {
     const std::vector<double> v = frame_values("velocity", "the velocities", frame, Dim);
-    for (std::size_t i = 0; i < particles(); ++i)
-      configuration.velocity[i] = Vec<Dim>(&v[Dim * i]);
+    for (std::size_t i = 0; i < particles(); ++i) configuration.velocity[i] = Vec<Dim>(&v[Dim * i]);
   }
   if (!has("angular_velocity")) return;
   const std::vector<double> w =

@@ -447,8 +447,8 @@ void write_foreign_solid(const fs::path& path, double norm) {
   position.create_array<std::int64_t>("step", {1}, std::array<std::int64_t, 1>{0});
   position.create_array<double>("time", {1}, std::array{0.0});
   const double w = static_cast<float>(norm * std::sqrt(0.5));
-  particles.create_group("orientation").create_array<double>("value", {1, 1, 4},
-                                                             std::array{w, 0.0, 0.0, w});
+  particles.create_group("orientation")
+      .create_array<double>("value", {1, 1, 4}, std::array{w, 0.0, 0.0, w});
   particles.create_array<double>("semiaxes", {1, 3}, std::array{3.0, 1.0, 2.0});
   file.close();
 }
