@@ -61,7 +61,7 @@ std::vector<Question<B>> questions_about(const std::vector<CollisionCase>& cases
 // A function of its own, so that callgrind can count it alone.
 template <class B>
 [[gnu::noinline]] void answer_all(const std::vector<Question<B>>& questions,
-                                  std::vector<Prediction>& answers) {
+                                  std::vector<Prediction2>& answers) {
   for (std::size_t k = 0; k < questions.size(); ++k) {
     const Question<B>& asked = questions[k];
     answers[k] = first_contact(asked.one, asked.two, asked.horizon, asked.contact_gap);
@@ -71,7 +71,7 @@ template <class B>
 template <class B>
 void measure(const Request& request, const std::vector<CollisionCase>& cases) {
   const auto questions = questions_about<B>(cases);
-  std::vector<Prediction> answers(questions.size());
+  std::vector<Prediction2> answers(questions.size());
   double best = std::numeric_limits<double>::infinity();
   for (int k = 0; k < request.repeats; ++k) {
     const auto start = std::chrono::steady_clock::now();
@@ -80,7 +80,7 @@ void measure(const Request& request, const std::vector<CollisionCase>& cases) {
     best = std::min(best, spent.count());
   }
   double steps = 0, contacts = 0;
-  for (const Prediction& answer : answers) {
+  for (const Prediction2& answer : answers) {
     steps += answer.steps;
     contacts += answer.outcome == Outcome::contact;
   }

@@ -472,7 +472,7 @@ void Simulation<B>::search(Index i, const Pose2& mine, const Neighbor<B>& neighb
   };
   Pose2 theirs = particles_[j].pose_at(now_);
   theirs.position += box_.translation(neighbor.shift());
-  const Prediction touch = first_contact(flight(i, mine), flight(j, theirs), horizon - now_,
+  const Prediction2 touch = first_contact(flight(i, mine), flight(j, theirs), horizon - now_,
                                          contact_gap_, neighbor.memory);
   ++counters.searches;
   counters.steps += static_cast<std::uint64_t>(touch.steps);

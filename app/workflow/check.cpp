@@ -12,9 +12,10 @@ namespace {
 
 constexpr std::size_t most_complaints = 5;
 
-void note_overlaps(FileCheck& result, const ExactCheck& check, std::uint64_t frame, double time) {
+void note_overlaps(FileCheck& result, const ExactCheck<2>& check, std::uint64_t frame,
+                   double time) {
   result.overlaps += check.overlaps.size();
-  for (const PairImage& pair : check.overlaps) {
+  for (const PairImage<2>& pair : check.overlaps) {
     if (result.complaints.size() == most_complaints) return;
     result.complaints.push_back(
         fmt::format("frame {} (time {:.6g}): particles {} and {}, image ({}, {})", frame, time,
@@ -32,7 +33,7 @@ FileCheck check_file(const std::filesystem::path& file, bool last_only, const Bu
   const std::uint64_t first = last_only ? reader.frames() - 1 : 0;
   for (std::uint64_t frame = first; frame < reader.frames() && !budget.stop_requested(); ++frame) {
     reader.read(frame, result.last);
-    const ExactCheck check = exact_check(result.last);
+    const ExactCheck<2> check = exact_check(result.last);
     ++result.frames;
     note_overlaps(result, check, frame, result.last.time);
     if (check.smallest_gap < result.smallest_gap) {

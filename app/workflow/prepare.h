@@ -43,7 +43,7 @@ struct Preparation {
   Configuration2 configuration;  ///< at rest, without overlaps
   bool complete = false;         ///< else stopped by the budget
   std::vector<StageRecord> stages;
-  ExactCheck check;              ///< of the state, if complete; without overlaps
+  ExactCheck<2> check;           ///< of the state, if complete; without overlaps
   std::uint64_t next_sweep = 0;  ///< Monte Carlo after it goes on with these numbers
   double wall_seconds = 0;       ///< of all processes that worked on it
 

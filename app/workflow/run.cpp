@@ -124,9 +124,9 @@ class Runner {
   }
 
   void refuse_overlaps(const Configuration2& configuration) const {
-    const ExactCheck check = exact_check(configuration);
+    const ExactCheck<2> check = exact_check(configuration);
     if (check.clean()) return;
-    const PairImage& pair = check.overlaps.front();
+    const PairImage<2>& pair = check.overlaps.front();
     throw InvariantError(
         fmt::format("the state to start from has {} overlapping pair(s), the first of particles {} "
                     "and {}; start "
@@ -223,7 +223,7 @@ class Runner {
 
   void check_last_state() const {
     if (!stops_on_overlap()) return;
-    const ExactCheck check = exact_check(stored_.state.configuration);
+    const ExactCheck<2> check = exact_check(stored_.state.configuration);
     if (check.clean()) return;
     keep_failed_state();
     throw InvariantError(fmt::format(

@@ -9,12 +9,12 @@ namespace vitrel::lab {
 
 namespace {
 
-bool answers_contact(const Prediction& answer) {
+bool answers_contact(const Prediction2& answer) {
   return answer.outcome == Outcome::contact || answer.outcome == Outcome::overlap;
 }
 
 // An overlap found at the start is a contact at time 0.
-double time_of(const Prediction& answer) {
+double time_of(const Prediction2& answer) {
   return answer.outcome == Outcome::overlap ? 0 : answer.time;
 }
 
@@ -34,7 +34,7 @@ Verdict timing(double off, double allowed, bool degenerate, bool at_rounding) {
 
 }  // namespace
 
-Judgement judge(const CollisionCase& asked, const TrueContact& truth, const Prediction& answer,
+Judgement judge(const CollisionCase& asked, const TrueContact& truth, const Prediction2& answer,
                 const JudgingTolerance& tolerance) {
   using Truth = TrueContact::Outcome;
   constexpr double none = std::numeric_limits<double>::quiet_NaN();

@@ -46,7 +46,7 @@ struct Judgement {
   double gap_error = 0;
 };
 
-Judgement judge(const CollisionCase& asked, const TrueContact& truth, const Prediction& answer,
+Judgement judge(const CollisionCase& asked, const TrueContact& truth, const Prediction2& answer,
                 const JudgingTolerance& tolerance);
 
 }  // namespace vitrel::lab

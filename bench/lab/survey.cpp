@@ -168,7 +168,7 @@ class Examination {
   TimedBatches timer_;
   SurveyRow row_;
   std::vector<double> errors_;
-  std::vector<Prediction> answers_;
+  std::vector<Prediction2> answers_;
   std::vector<Judgement> judgements_;
   bool over_ = false;
 };

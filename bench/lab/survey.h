@@ -61,7 +61,7 @@ struct FailingCase {
   std::uint64_t index = 0;
   CollisionCase asked;
   TrueContact truth;
-  Prediction answer;
+  Prediction2 answer;
   Judgement judgement;
 };
 

@@ -91,7 +91,7 @@ std::unique_ptr<Engine> make_program(Program program, const Configuration2& star
 }
 
 void note_overlaps(const Configuration2& now, ThesisRun& result) {
-  const ExactCheck check = exact_check(now);
+  const ExactCheck<2> check = exact_check(now);
   ++result.samples;
   if (check.clean()) return;
   ++result.samples_with_overlap;

@@ -84,8 +84,14 @@ struct GapAlongAxis : SupportAlong<Lanes> {
   double slope = 0;      ///< dg/dφ
   double curvature = 0;  ///< −d²g/dφ² = g + σ₁ρ₁ + σ₂ρ₂
 
-  /// What one Newton step in φ would add to g, to second order (only meaningful if curvature > 0).
+  bool is_concave() const { return curvature > 0; }
+  /// Newton's step in φ to the maximum.
+  double newton() const { return slope / curvature; }
+  /// What it would add to g, to second order (only meaningful if concave).
   double gain() const { return 0.5 * slope * slope / curvature; }
+  /// The curvature as a matrix C of one row: det C and (det C) C⁻¹ t.
+  double determinant() const { return curvature; }
+  double adjugate(double t) const { return t; }
 };
 
 /// `sized`: whether the sizes may differ from 1.

@@ -4,6 +4,7 @@
 #include "core/geometry/disk.h"
 #include "core/geometry/ellipse.h"
 #include "core/geometry/growing.h"
+#include "core/geometry/sphere.h"
 
 /// When do two bodies in free flight, perhaps growing, first touch?
 ///
@@ -28,7 +29,9 @@
 /// level is let through by at most contact_gap/8: the step then is never shorter than
 /// √(contact_gap/4M), so time always passes.
 ///
-/// Disks and round ellipses: closed form, the same gap.
+/// In three dimensions the angle of n becomes two coordinates on the sphere, and all else stays.
+///
+/// Disks, spheres, and pairs that are both round: closed form, the same gap.
 namespace vitrel {
 
 enum class Outcome {
@@ -39,24 +42,24 @@ enum class Outcome {
 };
 
 /// Times count from the start of the flights, 0; the point is in their coordinates.
+template <int Dim>
 struct Prediction {
   Outcome outcome = Outcome::none;
   double time = 0;
-  Vec2 normal = Vec2::Zero();  ///< unit vector from body 1 to body 2
-  Vec2 point = Vec2::Zero();
+  Vec<Dim> normal = Vec<Dim>::Zero();  ///< unit vector from body 1 to body 2
+  Vec<Dim> point = Vec<Dim>::Zero();
   int steps = 0;  ///< how often the axis was sought anew
 };
+using Prediction2 = Prediction<2>;
+using Prediction3 = Prediction<3>;
 
-Prediction first_contact(const Flight<Ellipse>& one, const Flight<Ellipse>& two, double horizon,
-                         double contact_gap);
-Prediction first_contact(const Flight<GrowingEllipse>& one, const Flight<GrowingEllipse>& two,
-                         double horizon, double contact_gap);
-/// The same, beginning with an axis that is likely to separate them at the start.
-Prediction first_contact(const Flight<Ellipse>& one, const Flight<Ellipse>& two, double horizon,
-                         double contact_gap, const Vec2& likely_axis);
-Prediction first_contact(const Flight<GrowingEllipse>& one, const Flight<GrowingEllipse>& two,
-                         double horizon, double contact_gap, const Vec2& likely_axis);
-Prediction first_contact(const Flight<Disk>& one, const Flight<Disk>& two, double horizon,
-                         double contact_gap);
+/// Disk, Ellipse, GrowingEllipse; Sphere, Ellipsoid, GrowingEllipsoid.
+template <Body B>
+Prediction<B::dimension> first_contact(const Flight<B>& one, const Flight<B>& two, double horizon,
+                                       double contact_gap);
+/// The same, not for round bodies, beginning with an axis that is likely to separate them at the start.
+template <Body B>
+Prediction<B::dimension> first_contact(const Flight<B>& one, const Flight<B>& two, double horizon,
+                                       double contact_gap, const Vec<B::dimension>& likely_axis);
 
 }  // namespace vitrel

@@ -217,19 +217,19 @@ class FirstLook<Disk> : public detail::Urgencies<8> {
 };
 
 /// first_contact, beginning with what a look remembered.
-inline Prediction first_contact(const Flight<Ellipse>& one, const Flight<Ellipse>& two,
-                                double horizon, double contact_gap,
-                                const FirstLook<Ellipse>::Memory& memory) {
+inline Prediction2 first_contact(const Flight<Ellipse>& one, const Flight<Ellipse>& two,
+                                 double horizon, double contact_gap,
+                                 const FirstLook<Ellipse>::Memory& memory) {
   return first_contact(one, two, horizon, contact_gap, memory.axis);
 }
-inline Prediction first_contact(const Flight<GrowingEllipse>& one,
-                                const Flight<GrowingEllipse>& two, double horizon,
-                                double contact_gap,
-                                const FirstLook<GrowingEllipse>::Memory& memory) {
+inline Prediction2 first_contact(const Flight<GrowingEllipse>& one,
+                                 const Flight<GrowingEllipse>& two, double horizon,
+                                 double contact_gap,
+                                 const FirstLook<GrowingEllipse>::Memory& memory) {
   return first_contact(one, two, horizon, contact_gap, memory.axis);
 }
-inline Prediction first_contact(const Flight<Disk>& one, const Flight<Disk>& two, double horizon,
-                                double contact_gap, const FirstLook<Disk>::Memory&) {
+inline Prediction2 first_contact(const Flight<Disk>& one, const Flight<Disk>& two, double horizon,
+                                 double contact_gap, const FirstLook<Disk>::Memory&) {
   return first_contact(one, two, horizon, contact_gap);
 }
 

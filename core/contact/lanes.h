@@ -27,6 +27,10 @@ VITREL_INLINE Many signs(const Many& x) {
   return copysign(Many(1), x);
 }
 
+inline double signs(double x) {
+  return std::copysign(1.0, x);
+}
+
 VITREL_INLINE Lanes lesser(const Lanes& x, const Lanes& y) {
   return x.min(y);
 }

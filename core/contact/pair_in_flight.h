@@ -4,7 +4,7 @@
 #include <cmath>
 #include <type_traits>
 
-#include "core/contact/ellipse_pair.h"
+#include "core/contact/support_gap.h"
 
 namespace vitrel {
 
@@ -17,12 +17,15 @@ namespace vitrel {
 /// with σ the size, γ the growth rate, h' = dh/dφ, ρ = h + h'' (at size 1): turning a body by dθ is
 /// turning n by −dθ, so that dh/dt = −ω h' and d²h/dt² = ω² h''.
 template <class B>
-class PairInFlight {
+class EllipsePairInFlight {
  public:
+  using Axis = Vec2;
+  using Gap = GapAlongAxis;
+
   /// Else sizes are 1 and stay so, which the compiler makes use of.
   static constexpr bool grows = !std::is_same_v<B, Ellipse>;
 
-  PairInFlight(const Flight<B>& one, const Flight<B>& two)
+  EllipsePairInFlight(const Flight<B>& one, const Flight<B>& two)
       : d0_(two.pose.position - one.pose.position),
         v_(two.motion.velocity - one.motion.velocity),
         angle0_(one.pose.angle, two.pose.angle),
@@ -52,7 +55,6 @@ class PairInFlight {
   }
 
   double time() const { return time_; }
-  const EllipsePair& now() const { return pair_; }
 
   /// Goes to `time`, the axes taken from the angles.
   void start_at(double time) {
@@ -73,6 +75,19 @@ class PairInFlight {
     small_directions<Lanes>(turn, cosine, sine);
     pair_.ux = cosine * axes_x_ - sine * axes_y_;
     pair_.uy = sine * axes_x_ + cosine * axes_y_;
+  }
+
+  Gap look(const Axis& n) const { return gap_along<grows>(pair_, n); }
+  Axis likely_axis() const { return detail::likely_axis(pair_); }
+  detail::SoughtAxis find_separating_axis() const { return detail::find_separating_axis(pair_); }
+  bool climb(Axis& n, Gap& here) const { return detail::climb(pair_, n, here); }
+  void settle(Axis& n, const Gap& here) const { detail::settle(pair_, n, here); }
+  /// From centre 1 to its surface point with normal n.
+  Vec2 arm1(const Axis& n) const {
+    const Vec2 u(pair_.ux[0], pair_.uy[0]);
+    const double along = u.dot(n);
+    const double h = std::sqrt(pair_.bb[0] + pair_.stretch[0] * along * along);
+    return pair_.size[0] / h * (pair_.bb[0] * n + pair_.stretch[0] * along * u);
   }
 
   /// ġ along the axis n, of which `g` is the gap.

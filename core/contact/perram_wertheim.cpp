@@ -1,10 +1,16 @@
 #include "core/contact/perram_wertheim.h"
 
+#include <Eigen/Cholesky>
 #include <cmath>
 #include <limits>
 
 namespace vitrel {
 namespace {
+
+/// Of ln F with respect to ln t.
+struct Derivatives {
+  double slope, curvature;
+};
 
 /// F as the rational function of t = λ/(1−λ) given in the header.
 struct ContactFunction {
@@ -16,17 +22,12 @@ struct ContactFunction {
 
   double value(double t) const { return t * (p1 + p2 * t) / ((1 + t) * determinant(t)); }
 
-  /// d ln F/d ln t.
-  double slope(double t) const {
-    return 1 + p2 * t / (p1 + p2 * t) - t / (1 + t) - t * (m + 2 * d2 * t) / determinant(t);
-  }
-
-  /// d² ln F/d(ln t)².
-  double curvature(double t) const {
+  Derivatives derivatives(double t) const {
     const double p = p1 + p2 * t;
     const double det = determinant(t);
-    return t * (p1 * p2 / (p * p) - 1 / ((1 + t) * (1 + t)) -
-                (m * d1 + t * (4 * d1 * d2 + t * m * d2)) / (det * det));
+    return {1 + p2 * t / p - t / (1 + t) - t * (m + 2 * d2 * t) / det,
+            t * (p1 * p2 / (p * p) - 1 / ((1 + t) * (1 + t)) -
+                 (m * d1 + t * (4 * d1 * d2 + t * m * d2)) / (det * det))};
   }
 };
 
@@ -61,17 +62,47 @@ double mixed_determinant(const Axes& one, const Axes& two) {
   return c * c * (one.aa * two.bb + one.bb * two.aa) + s * s * (one.aa * two.aa + one.bb * two.bb);
 }
 
+/// Two ellipsoids, given by the matrices of their semi-axes (as columns), and d.
+struct EllipsoidPair {
+  Mat3 axes1, axes2;
+  Vec3 d;
+  Mat3 sigma1 = axes1 * axes1.transpose(), sigma2 = axes2 * axes2.transpose();
+
+  /// y = (Σ₁ + tΣ₂)⁻¹d, along the common normal if t is that of the largest F.
+  Vec3 direction(double t) const { return (sigma1 + t * sigma2).llt().solve(d); }
+
+  double height1(const Vec3& n) const { return (axes1.transpose() * n).norm(); }
+  double height2(const Vec3& n) const { return (axes2.transpose() * n).norm(); }
+
+  Derivatives derivatives(double t) const {
+    const Eigen::LLT<Mat3> both(sigma1 + t * sigma2);
+    const Vec3 y = both.solve(d);
+    const Vec3 z = sigma2 * y;
+    const double hh1 = (axes1.transpose() * y).squaredNorm();
+    const double hh2 = y.dot(z);
+    const double along = hh1 + t * hh2;
+    const double weight = t * hh2 / along;
+    return {(hh1 - t * t * hh2) / ((1 + t) * along), 2 * t * t * z.dot(both.solve(z)) / along -
+                                                         weight - weight * weight -
+                                                         t / ((1 + t) * (1 + t))};
+  }
+};
+
+Mat3 semi_axes(const Ellipsoid& ellipsoid, const Quaternion& orientation) {
+  return orientation.toRotationMatrix() * ellipsoid.semi_axes.asDiagonal();
+}
+
 /// The root of the slope in [low, high], where it falls from positive to negative.
-double maximiser(const ContactFunction& f, double low, double high) {
+template <class Function>
+double maximiser(const Function& f, double low, double high) {
   // The slope is a sum of four terms of order 1: below this it is rounding.
   constexpr double negligible = 4 * std::numeric_limits<double>::epsilon();
   constexpr int most_steps = 60;  // as many bisections exhaust a double
   double t = std::sqrt(low * high);
   for (int step = 0; step < most_steps; ++step) {
-    const double slope = f.slope(t);
+    const auto [slope, curvature] = f.derivatives(t);
     if (std::abs(slope) <= negligible) break;
     (slope > 0 ? low : high) = t;
-    const double curvature = f.curvature(t);
     double next = curvature < 0 ? t * std::exp(-slope / curvature) : low;
     if (!(next > low && next < high)) next = std::sqrt(low * high);
     if (next == t) break;
@@ -82,8 +113,8 @@ double maximiser(const ContactFunction& f, double low, double high) {
 
 }  // namespace
 
-PerramWertheim perram_wertheim(const Ellipse& one, double angle1, const Ellipse& two, double angle2,
-                               const Vec2& d) {
+PerramWertheim<2> perram_wertheim(const Ellipse& one, double angle1, const Ellipse& two,
+                                  double angle2, const Vec2& d) {
   const Axes first(one, angle1);
   const Axes second(two, angle2);
   // A tiny d is scaled up, lest its square underflow.
@@ -105,6 +136,27 @@ double contact_distance(const Ellipse& one, double angle1, const Ellipse& two, d
                         const Vec2& direction) {
   const Vec2 e = direction.normalized();
   return 1 / std::sqrt(perram_wertheim(one, angle1, two, angle2, e).value);
+}
+
+PerramWertheim<3> perram_wertheim(const Ellipsoid& one, const Quaternion& orientation1,
+                                  const Ellipsoid& two, const Quaternion& orientation2,
+                                  const Vec3& d) {
+  const double distance = d.norm();
+  if (distance == 0) return {0, 0.5, Vec3::UnitX(), Vec3::Zero()};
+  const EllipsoidPair pair{semi_axes(one, orientation1), semi_axes(two, orientation2),
+                           d / distance};
+  const double t =
+      maximiser(pair, one.inradius() / two.circumradius(), one.circumradius() / two.inradius());
+  const Vec3 n = pair.direction(t).normalized();
+  const double h1 = pair.height1(n);
+  const double mu = distance * n.dot(pair.d) / (h1 + pair.height2(n));
+  return {mu * mu, t / (1 + t), n, (mu / h1) * (pair.sigma1 * n)};
+}
+
+double contact_distance(const Ellipsoid& one, const Quaternion& orientation1, const Ellipsoid& two,
+                        const Quaternion& orientation2, const Vec3& direction) {
+  const Vec3 e = direction.normalized();
+  return 1 / std::sqrt(perram_wertheim(one, orientation1, two, orientation2, e).value);
 }
 
 }  // namespace vitrel

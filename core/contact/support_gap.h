@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/contact/ellipse_pair.h"
@@ -52,6 +53,10 @@ inline Vec2 turned(const Vec2& n, double angle) {
   const double q = 0.5 * angle;
   const double scale = 1 / (1 + q * q);
   return (1 - q * q) * scale * n + angle * scale * perpendicular(n);
+}
+
+inline double clamped(double turn, double most) {
+  return std::clamp(turn, -most, most);
 }
 
 /// C(λ)⁻¹d at λ : 1 − λ as the radii along d: the best axis for circles, and a good one while the

@@ -9,12 +9,13 @@
 /// The exact check of a whole state: which hard particles overlap, judged from the stored doubles
 /// in 80-bit arithmetic, over all images, with tolerance zero and without any code of the engine.
 ///
-/// Positions, angles, semi-axes and box lengths are taken into long double unchanged; a pair is
-/// (i, j, shift), with i = j for a particle and its own image. Pairs whose circumcircles meet are
-/// judged by the complete Vieillard-Baron criterion (core/contact/vieillard_baron.h). Crossed and
-/// contained overlaps are found like any other.
+/// Positions, orientations, semi-axes and box lengths are taken into long double unchanged; a pair is
+/// (i, j, shift), with i = j for a particle and its own image. Pairs whose circumcircles (spheres)
+/// meet are judged by the complete Vieillard-Baron criterion (core/contact/vieillard_baron.h), in
+/// three dimensions by the completed criterion of the characteristic polynomial
+/// (core/contact/ellipsoid_eta.h). Crossed and contained overlaps are found like any other.
 ///
-/// Tolerance zero: Ψ < 0 by any amount is an overlap, Ψ = 0 is a touch and is none. The evaluation
+/// Tolerance zero: an overlap by any amount is one, a touch is none. The evaluation
 /// itself is blurred by a few hundred units of 80-bit rounding, 2⁻⁶⁴ of the coordinates each: a
 /// pair that touches exactly, or misses touching by less than about 1e-17 of the largest length
 /// involved, may be judged either way. That is far below the spacing of the stored doubles, so
@@ -27,27 +28,32 @@ namespace vitrel {
 
 /// Particles i ≤ j, j seen at r_j + shift ∘ L. If i = j, shift and −shift are the same pair, and
 /// the one whose first non-zero component is positive is given.
+template <int Dim>
 struct PairImage {
   std::size_t i, j;
-  Shift<2> shift;
+  Shift<Dim> shift;
 };
 
+template <int Dim>
 struct ExactCheck {
   /// All overlapping pairs in ascending order of (i, j, shift).
-  std::vector<PairImage> overlaps;
+  std::vector<PairImage<Dim>> overlaps;
   /// The smallest distance of two surfaces, good to rounding of the coordinates; negative if there
   /// are overlaps: the depth of the deepest, that is, the shortest translation that would undo it
   /// (of a crossed pair, a close upper bound of that). Infinity if no two surfaces are closer than
   /// the longest semi-axis in the state.
   double smallest_gap;
-  /// Number of pairs (i, j, shift) whose circumcircles meet.
+  /// Number of pairs (i, j, shift) whose circumcircles (spheres) meet.
   std::uint64_t pairs_examined;
 
   bool clean() const { return overlaps.empty(); }
 };
 
-/// Throws InvariantError if a number is not finite, if not 0 < b ≤ a, or if a position or semi-axis
-/// exceeds 300 box lengths (positions are stored wrapped).
-ExactCheck exact_check(const Configuration2& configuration, std::size_t brute_force_limit = 10'000);
+/// Throws InvariantError if a number is not finite, if a semi-axis is not positive (in two dimensions if
+/// not 0 < b ≤ a), if the norm of a quaternion is not 1, or if a position or semi-axis exceeds 300 box
+/// lengths (positions are stored wrapped). Quaternions are normalised in long double.
+template <int Dim>
+ExactCheck<Dim> exact_check(const Configuration<Dim>& configuration,
+                            std::size_t brute_force_limit = 10'000);
 
 }  // namespace vitrel

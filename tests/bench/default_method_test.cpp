@@ -151,7 +151,7 @@ struct Tally {
   Worst time, high_gap, low_gap, normal, point_on_one, point_on_two;
 };
 
-void take_contact(const CollisionCase& asked, const TrueContact& truth, const Prediction& answer,
+void take_contact(const CollisionCase& asked, const TrueContact& truth, const Prediction2& answer,
                   const Judgement& judgement, std::uint64_t index, Tally& tally) {
   const double time = answer.time, gap = judgement.gap_error;
   const GapRange range = gap_range(asked, time, truth.approach_speed);
@@ -175,7 +175,7 @@ Tally tally_of(const CaseClass& of, const Method& method) {
   for (std::uint64_t index = 0; index < pairs; ++index) {
     const CollisionCase asked = make_case(of, seed, index);
     const TrueContact truth = true_first_contact(asked.one, asked.two, asked.horizon);
-    const Prediction answer = method.predict(asked);
+    const Prediction2 answer = method.predict(asked);
     const double gap = gap_range(asked, answer.time, truth.approach_speed).high;
     const Judgement judgement =
         judge(asked, truth, answer, {time_tolerance, gap / asked.gap_unit()});
@@ -232,7 +232,7 @@ TEST(DefaultMethodSteps, AreFewToAGrazeOfGrowingBodies) {
   for (const CaseClass& of : stability_suite()) {
     if (of.name != "growth" || of.aspect_ratio != 6) continue;
     const CollisionCase asked = make_case(of, 1, 588'500);
-    const Prediction answer = collision_time_methods().front().predict(asked);
+    const Prediction2 answer = collision_time_methods().front().predict(asked);
     EXPECT_NE(answer.outcome, Outcome::not_converged);
     EXPECT_LT(answer.steps, 100);
   }

@@ -78,7 +78,7 @@ void PrintTo(const Class& at, std::ostream* out) {
 class Predictor : public testing::TestWithParam<Class> {};
 
 // Speed at which the surfaces approach each other at the predicted contact.
-double approach_speed(const Pair& pair, const Prediction& contact) {
+double approach_speed(const Pair& pair, const Prediction2& contact) {
   const auto surface_velocity = [&](const Flight<Ellipse>& flight) -> Vec2 {
     const Vec2 centre = advanced(flight.pose, flight.motion, contact.time).position;
     return flight.motion.velocity +
@@ -97,7 +97,7 @@ TEST_P(Predictor, IsNeverLateNeverWrongAgainstTheTruth) {
   for (int trial = 0; trial < GetParam().pairs; ++trial) {
     const Pair pair = random_pair(draw, GetParam().largest_aspect_ratio, GetParam().size_ratio);
     const auto truth = true_first_contact(pair.one, pair.two, horizon);
-    const Prediction found = first_contact(pair.one, pair.two, horizon, pair.contact_gap());
+    const Prediction2 found = first_contact(pair.one, pair.two, horizon, pair.contact_gap());
     ASSERT_NE(truth.outcome, Truth::undecided);
     ASSERT_EQ(truth.outcome == Truth::overlap_at_start, found.outcome == Outcome::overlap);
     ASSERT_EQ(truth.outcome == Truth::contact, found.outcome == Outcome::contact) << trial;

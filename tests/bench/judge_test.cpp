@@ -17,18 +17,18 @@ CollisionCase head_on(double speed, double horizon) {
   return {disk({0, 0}, {0, 0}), disk({4, 0}, {-speed, 0}), horizon};
 }
 
-Verdict verdict(const CollisionCase& asked, const Prediction& answer,
+Verdict verdict(const CollisionCase& asked, const Prediction2& answer,
                 const JudgingTolerance& tolerance = {}) {
   const TrueContact truth = true_first_contact(asked.one, asked.two, asked.horizon);
   return judge(asked, truth, answer, tolerance).verdict;
 }
 
-Prediction contact_at(double time) {
+Prediction2 contact_at(double time) {
   return {Outcome::contact, time, {1, 0}, {1, 0}, 1};
 }
-const Prediction nothing{};
-const Prediction gave_up{Outcome::not_converged, 0, {0, 0}, {0, 0}, 1};
-const Prediction overlapping{Outcome::overlap, 0, {0, 0}, {0, 0}, 1};
+const Prediction2 nothing{};
+const Prediction2 gave_up{Outcome::not_converged, 0, {0, 0}, {0, 0}, 1};
+const Prediction2 overlapping{Outcome::overlap, 0, {0, 0}, {0, 0}, 1};
 
 TEST(Judge, ContactAtOne) {
   const CollisionCase asked = head_on(2, 10);

@@ -83,13 +83,13 @@ Accuracy accuracy(const std::string& name) {
 
 class EveryMethod : public testing::TestWithParam<Method> {
  protected:
-  Prediction predict(const CollisionCase& asked) const { return GetParam().predict(asked); }
+  Prediction2 predict(const CollisionCase& asked) const { return GetParam().predict(asked); }
   bool round_only() const { return GetParam().name == "circles"; }
   Accuracy within() const { return accuracy(GetParam().name); }
 
   void expect_contact(const CollisionCase& asked, double time, const Vec2& point,
                       const Vec2& normal) const {
-    const Prediction answer = predict(asked);
+    const Prediction2 answer = predict(asked);
     ASSERT_EQ(answer.outcome, Outcome::contact);
     EXPECT_NEAR(answer.time, time, within().time);
     EXPECT_LT((answer.point - point).norm(), within().place);
@@ -181,7 +181,7 @@ TEST_P(EveryMethod, SurvivesAnything) {
   odd[11].two.motion.angular_velocity = 1e6;
   odd[12].one.body.shape = {1e-8, 1e-9};
   for (const CollisionCase& asked : odd) {
-    const Prediction answer = predict(asked);
+    const Prediction2 answer = predict(asked);
     if (answer.outcome != Outcome::contact) continue;
     EXPECT_GE(answer.time, 0);
     EXPECT_LE(answer.time, asked.horizon);
@@ -197,7 +197,7 @@ TEST_P(EveryMethod, AnswersWithinTheBracket) {
   int contacts = 0;
   for (int number = 0; number < cases; ++number) {
     const CollisionCase asked = random_case(number);
-    const Prediction answer = predict(asked);
+    const Prediction2 answer = predict(asked);
     if (answer.outcome != Outcome::contact) continue;
     ++contacts;
     const auto bracket = bracket_contact(asked);
@@ -213,9 +213,9 @@ TEST(CollisionTimeMethods, RootsAgree) {
   int contacts = 0;
   for (int number = 0; number < 1000; ++number) {
     const CollisionCase asked = random_case(number);
-    const Prediction psi = psi_root(asked, 1.0 / 300);
-    const Prediction perram = perram_wertheim_root(asked, 1.0 / 300);
-    const Prediction circle = unit_circle(asked, 1.0 / 300);
+    const Prediction2 psi = psi_root(asked, 1.0 / 300);
+    const Prediction2 perram = perram_wertheim_root(asked, 1.0 / 300);
+    const Prediction2 circle = unit_circle(asked, 1.0 / 300);
     ASSERT_EQ(psi.outcome, perram.outcome) << number;
     ASSERT_EQ(psi.outcome, circle.outcome) << number;
     if (psi.outcome != Outcome::contact) continue;

@@ -20,7 +20,7 @@ const CaseClass& generic() {
 Method delayed(const std::string& name, double delay) {
   return {name, 0, [delay](const CollisionCase& asked) {
             const TrueContact truth = true_first_contact(asked.one, asked.two, asked.horizon);
-            Prediction answer;
+            Prediction2 answer;
             if (truth.outcome == TrueContact::Outcome::none) return answer;
             answer.outcome = Outcome::contact;
             answer.time = static_cast<double>(truth.time) + delay * asked.horizon;
@@ -30,7 +30,7 @@ Method delayed(const std::string& name, double delay) {
 
 Method that_always_says(const std::string& name, Outcome outcome) {
   return {name, 0, [outcome](const CollisionCase&) {
-            Prediction answer;
+            Prediction2 answer;
             answer.outcome = outcome;
             return answer;
           }};
@@ -114,7 +114,7 @@ TEST(Survey, CountsEveryAnswerOnceAndMeasuresItsError) {
 TEST(Survey, KeepsTheFirstFailureOfEachMethodThatAppliesAtAll) {
   Method lost_at_times = delayed("lost at times", 0);
   lost_at_times.predict = [exact = lost_at_times.predict](const CollisionCase& asked) {
-    Prediction answer = exact(asked);
+    Prediction2 answer = exact(asked);
     if (answer.outcome == Outcome::contact) answer.outcome = Outcome::not_converged;
     return answer;
   };
@@ -145,7 +145,7 @@ TEST(Survey, ASlowMethodAnswersWhatItsTimeAllows) {
   Method slow = that_always_says("slow", Outcome::none);
   slow.predict = [](const CollisionCase&) {
     spin(5e-3);
-    return Prediction{};
+    return Prediction2{};
   };
   const SurveyRequest request{
       {{that_always_says("fast", Outcome::none)}, {slow, 0.1}}, {generic()}, 500, 5, {}};

@@ -33,7 +33,7 @@ void add(Configuration2& configuration, const Ellipse& shape, const Vec2& positi
 void expect_one_overlap(const Configuration2& configuration, std::size_t i, std::size_t j,
                         const Shift<2>& shift) {
   for (std::size_t limit : {10'000, 0}) {
-    const ExactCheck check = exact_check(configuration, limit);
+    const ExactCheck<2> check = exact_check(configuration, limit);
     EXPECT_FALSE(check.clean());
     ASSERT_EQ(check.overlaps.size(), 1u);
     EXPECT_EQ(check.overlaps[0].i, i);
@@ -47,7 +47,7 @@ TEST(ExactCheck, EmptyAndLonelyStatesAreClean) {
   EXPECT_TRUE(exact_check(empty_box(5, 5)).clean());
   Configuration2 one = empty_box(20, 20);
   add(one, {2, 1}, {0, 0}, 0.3);
-  const ExactCheck check = exact_check(one);
+  const ExactCheck<2> check = exact_check(one);
   EXPECT_TRUE(check.clean());
   EXPECT_EQ(check.smallest_gap, infinity);
   EXPECT_EQ(check.pairs_examined, 0u);
@@ -133,11 +133,11 @@ TEST(ExactCheck, TouchingLatticeIsResolvedTo1em13) {
   const int n = 6;
   for (const Ellipse& shape : {Ellipse{1, 1}, Ellipse{1.3, 1}}) {
     for (double angle : {0.0, pi / 6, 7.3}) {
-      const ExactCheck apart = exact_check(touching_lattice(n, shape, angle, 1e-13));
+      const ExactCheck<2> apart = exact_check(touching_lattice(n, shape, angle, 1e-13));
       EXPECT_TRUE(apart.clean());
       EXPECT_GT(apart.smallest_gap, 0.5e-13);
       EXPECT_LT(apart.smallest_gap, 1.1e-13);
-      const ExactCheck hit = exact_check(touching_lattice(n, shape, angle, -1e-13));
+      const ExactCheck<2> hit = exact_check(touching_lattice(n, shape, angle, -1e-13));
       EXPECT_EQ(hit.overlaps.size(), 2u * n * n);
       EXPECT_LT(hit.smallest_gap, -0.5e-13);
       EXPECT_GT(hit.smallest_gap, -1.1e-13);
@@ -177,7 +177,7 @@ Configuration2 random_state(int n, double x, double y, std::uint64_t seed) {
   return configuration;
 }
 
-void expect_equal(const ExactCheck& one, const ExactCheck& two) {
+void expect_equal(const ExactCheck<2>& one, const ExactCheck<2>& two) {
   EXPECT_EQ(one.pairs_examined, two.pairs_examined);
   EXPECT_EQ(one.smallest_gap, two.smallest_gap);
   ASSERT_EQ(one.overlaps.size(), two.overlaps.size());
@@ -196,7 +196,7 @@ TEST(ExactCheck, CellsFindWhatAllPairsFind) {
       random_state(200, 600, 500, 4),  // dilute
   };
   for (const Configuration2& state : states) {
-    const ExactCheck all_pairs = exact_check(state);
+    const ExactCheck<2> all_pairs = exact_check(state);
     EXPECT_GT(all_pairs.overlaps.size(), 0u);
     expect_equal(all_pairs, exact_check(state, 0));
   }
@@ -207,7 +207,7 @@ TEST(ExactCheck, CellsFindWhatAllPairsFind) {
 TEST(ExactCheck, EqualsAScanWithTheSupportGap) {
   const Configuration2 state = random_state(150, 25, 9, 5);
   std::size_t k = 0;
-  const ExactCheck check = exact_check(state);
+  const ExactCheck<2> check = exact_check(state);
   for (std::size_t i = 0; i < state.size(); ++i) {
     for (std::size_t j = i; j < state.size(); ++j) {
       for (int x = -3; x <= 3; ++x) {

@@ -24,7 +24,7 @@ Vec2 unit(double angle) {
 VieillardBaron<double> psi_of(const PosedPair& p) {
   return vieillard_baron(p.one, p.angle1, p.two, p.angle2, p.d);
 }
-PerramWertheim f_of(const PosedPair& p) {
+PerramWertheim<2> f_of(const PosedPair& p) {
   return perram_wertheim(p.one, p.angle1, p.two, p.angle2, p.d);
 }
 SupportGap gap_of(const PosedPair& p) {
@@ -90,7 +90,7 @@ TEST(OverlapCriteria, ThreeCriteriaAgreeOnRandomPairs) {
   double largest_blurred = 0;
   for (std::uint64_t k = 0; k < pairs; ++k) {
     const PosedPair pair = random_pair(draw);
-    const PerramWertheim f = f_of(pair);
+    const PerramWertheim<2> f = f_of(pair);
     const bool disjoint = gap_of(pair).gap > 0;
     const double b = std::min(pair.one.b, pair.two.b);
     const double distance = (std::sqrt(f.value) - 1) * support_sum(pair, f.normal);
@@ -236,7 +236,7 @@ TEST(PerramWertheim, ValueIsTheMaximumOfTheDefinition) {
       const double left = high - golden * (high - low), right = low + golden * (high - low);
       f(left) < f(right) ? low = left : high = right;
     }
-    const PerramWertheim found = f_of(pair);
+    const PerramWertheim<2> found = f_of(pair);
     EXPECT_NEAR(found.value, f(low), 1e-12 * found.value) << pair;
     EXPECT_NEAR(found.lambda, low, 1e-6) << pair;
     EXPECT_NEAR(f(found.lambda), found.value, 1e-12 * found.value) << pair;
@@ -249,7 +249,7 @@ TEST(PerramWertheim, NormalAndPointBelongToBothScaledEllipses) {
   for (int k = 0; k < 100'000; ++k) {
     PosedPair pair = random_pair(draw);
     if (pair.d.norm() < 1e-3) continue;
-    const PerramWertheim f = f_of(pair);
+    const PerramWertheim<2> f = f_of(pair);
     const double mu = std::sqrt(f.value);
     const double extent = std::max(pair.one.a, pair.two.a);
     EXPECT_NEAR(f.normal.norm(), 1, 1e-14);
@@ -271,7 +271,7 @@ TEST(PerramWertheim, ScalesWithTheSquareOfTheSeparation) {
 }
 
 TEST(PerramWertheim, CoincidingCentresOverlap) {
-  const PerramWertheim f = f_of({{3, 1}, {2, 0.5}, 0.4, 2, {0, 0}});
+  const PerramWertheim<2> f = f_of({{3, 1}, {2, 0.5}, 0.4, 2, {0, 0}});
   EXPECT_EQ(f.value, 0);
   EXPECT_FALSE(f.disjoint());
 }
@@ -284,7 +284,7 @@ TEST(OverlapCriteria, ExchangingTheEllipsesChangesNothing) {
     const VieillardBaron<double> psi = psi_of(pair), psi_swapped = psi_of(pair.swapped());
     EXPECT_EQ(psi.g1, psi_swapped.g2) << pair;
     EXPECT_EQ(psi.g2, psi_swapped.g1) << pair;
-    const PerramWertheim f = f_of(pair), f_swapped = f_of(pair.swapped());
+    const PerramWertheim<2> f = f_of(pair), f_swapped = f_of(pair.swapped());
     EXPECT_NEAR(f.value, f_swapped.value, 1e-13 * f.value) << pair;
     const double gap = gap_of(pair).gap;
     if (gap > 0) {
@@ -302,7 +302,7 @@ TEST(PerramWertheim, ExchangingTheEllipsesTurnsTheNormal) {
                          draw.uniform(-pi, pi),
                          draw.uniform(-pi, pi),
                          {draw.uniform(2, 6), draw.uniform(-6, 6)}};
-    const PerramWertheim f = f_of(pair), swapped = f_of(pair.swapped());
+    const PerramWertheim<2> f = f_of(pair), swapped = f_of(pair.swapped());
     EXPECT_NEAR(f.lambda + swapped.lambda, 1, 1e-12) << pair;
     EXPECT_LT((f.normal + swapped.normal).norm(), 1e-12) << pair;
     EXPECT_LT((f.point - pair.d - swapped.point).norm(), 1e-11) << pair;
@@ -356,7 +356,7 @@ TEST(ContactDistance, NormalAndPointAtContact) {
                    draw.uniform(-pi, pi),
                    unit(draw.uniform(-pi, pi))};
     pair.d *= contact_distance_of(pair);
-    const PerramWertheim f = f_of(pair);
+    const PerramWertheim<2> f = f_of(pair);
     EXPECT_NEAR(f.value, 1, 1e-13) << pair;
     const auto function = [&](const Ellipse& body, double angle, const Vec2& at) {
       return ellipse_function({body, {Vec2::Zero(), angle}, {Vec2::Zero(), 0}}, 0, at);

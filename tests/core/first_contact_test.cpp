@@ -15,7 +15,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double forever = std::numeric_limits<double>::infinity();
 
-Prediction predict(const Flight<Ellipse>& one, const Flight<Ellipse>& two,
+Prediction2 predict(const Flight<Ellipse>& one, const Flight<Ellipse>& two,
                    double horizon = forever) {
   return first_contact(one, two, horizon, tolerance::contact_gap(one.body.a + two.body.a));
 }
@@ -30,7 +30,7 @@ double gap_at(const Flight<Ellipse>& one, const Flight<Ellipse>& two, double tim
 TEST(FirstContact, TwoBodyCollisionOfOneMovingEllipse) {
   const Flight<Ellipse> one{{2, 1}, {{0, 0}, 0}, {{0, 0}, 0}};
   const Flight<Ellipse> two{{2, 1}, {{6, 0.5}, pi / 2}, {{-1, 0}, 0.7}};
-  const Prediction touch = predict(one, two);
+  const Prediction2 touch = predict(one, two);
   ASSERT_EQ(touch.outcome, Outcome::contact);
   EXPECT_NEAR(touch.time, 2.170137851790125, 1e-12);
   EXPECT_NEAR(touch.normal.x(), 0.860699250292, 1e-12);
@@ -42,7 +42,7 @@ TEST(FirstContact, TwoBodyCollisionOfOneMovingEllipse) {
 TEST(FirstContact, TwoBodyCollisionOfTwoSpinningEllipses) {
   const Flight<Ellipse> one{{2, 1}, {{0, 0}, 0.3}, {{0.2, -0.1}, 1.5}};
   const Flight<Ellipse> two{{2, 1}, {{3, 2.5}, -0.4}, {{-0.5, -0.6}, -0.8}};
-  const Prediction touch = predict(one, two);
+  const Prediction2 touch = predict(one, two);
   ASSERT_EQ(touch.outcome, Outcome::contact);
   EXPECT_NEAR(touch.time, 1.495639195538086, 1e-12);
 }
@@ -51,7 +51,7 @@ TEST(FirstContact, TwoBodyCollisionOfTwoSpinningEllipses) {
 TEST(FirstContact, SceneOfAppendixB1) {
   const Flight<Ellipse> one{{1, 0.5}, {{0, 0}, 0}, {{0, 0}, 0}};
   const Flight<Ellipse> two{{1, 0.5}, {{1, 1}, 0}, {{-1, 0}, pi}};
-  const Prediction touch = predict(one, two);
+  const Prediction2 touch = predict(one, two);
   ASSERT_EQ(touch.outcome, Outcome::contact);
   EXPECT_NEAR(touch.time, 0.08472238582199765, 1e-12);
   EXPECT_NEAR(touch.point.x(), 0.3428630757205, 1e-12);
@@ -63,7 +63,7 @@ TEST(FirstContact, SceneOfAppendixB1) {
 TEST(FirstContact, DisksMeetWhereTheClosedFormSays) {
   const Flight<Disk> one{{1}, {{0, 0}, 0}, {{0.5, 0}, 0}};
   const Flight<Disk> two{{2}, {{7, 1}, 0}, {{-1.5, 0}, 0}};
-  const Prediction touch = first_contact(one, two, forever, 0);
+  const Prediction2 touch = first_contact(one, two, forever, 0);
   ASSERT_EQ(touch.outcome, Outcome::contact);
   EXPECT_NEAR(touch.time, (7 - std::sqrt(8.0)) / 2, 1e-14);
   EXPECT_EQ(first_contact(one, two, 1.0, 0).outcome, Outcome::none);
@@ -170,12 +170,12 @@ TEST(EllipsePair, DirectionsAreCosineAndSine) {
 TEST(FirstContact, GrowingDisksAndPointsInClosedForm) {
   const Flight<GrowingEllipse> one{{{1, 1}, 0, 0.5}, {{0, 0}, 0}, {{0.5, 0}, 0}};
   const Flight<GrowingEllipse> two{{{2, 2}, 0, 0.25}, {{7, 0}, 0}, {{0, 0}, 0}};
-  const Prediction touch = first_contact(one, two, forever, 1e-14);
+  const Prediction2 touch = first_contact(one, two, forever, 1e-14);
   ASSERT_EQ(touch.outcome, Outcome::contact);
   EXPECT_NEAR(touch.time, 7 / 1.5, 1e-13);
   // Receding more slowly than they grow.
   const Flight<GrowingEllipse> receding{two.body, two.pose, {{1, 0}, 0}};
-  const Prediction later = first_contact(one, receding, forever, 1e-14);
+  const Prediction2 later = first_contact(one, receding, forever, 1e-14);
   ASSERT_EQ(later.outcome, Outcome::contact);
   EXPECT_NEAR(later.time, 7 / 0.5, 1e-13);
   const Flight<GrowingEllipse> faster{two.body, two.pose, {{2, 0}, 0}};
@@ -186,7 +186,7 @@ TEST(FirstContact, GrowingDisksAndPointsInClosedForm) {
 TEST(FirstContact, EllipsesGrowingFromPointsInClosedForm) {
   const Flight<GrowingEllipse> one{{{2, 1}, 0, 1}, {{0, 0}, 0}, {{0, 0}, 0}};
   const Flight<GrowingEllipse> two{{{2, 1}, 0, 1}, {{6, 0}, pi / 2}, {{-1, 0}, 0}};
-  const Prediction touch = first_contact(one, two, 10, tolerance::contact_gap(4));
+  const Prediction2 touch = first_contact(one, two, 10, tolerance::contact_gap(4));
   ASSERT_EQ(touch.outcome, Outcome::contact);
   EXPECT_NEAR(touch.time, 1.5, 1e-13);
   EXPECT_NEAR(touch.point.x(), 3, 1e-12);
@@ -197,8 +197,8 @@ TEST(FirstContact, EllipsesGrowingFromPointsInClosedForm) {
 TEST(FirstContact, EllipsesThatDoNotGrowAreEllipses) {
   const Flight<Ellipse> one{{2, 1}, {{0, 0}, 0.3}, {{0.2, -0.1}, 1.5}};
   const Flight<Ellipse> two{{2, 1}, {{3, 2.5}, -0.4}, {{-0.5, -0.6}, -0.8}};
-  const Prediction still = predict(one, two);
-  const Prediction growing =
+  const Prediction2 still = predict(one, two);
+  const Prediction2 growing =
       first_contact(Flight<GrowingEllipse>{{one.body, 1, 0}, one.pose, one.motion},
                     Flight<GrowingEllipse>{{two.body, 1, 0}, two.pose, two.motion}, forever,
                     tolerance::contact_gap(4));
@@ -223,7 +223,7 @@ TEST(FirstContact, NeverLateNeverMissedAgainstAScan) {
         e2, {d, draw.uniform(0, 2 * pi)}, {{draw.normal(), draw.normal()}, 2 * draw.normal()}};
     const double horizon = 2;
     const bool overlapping = gap_at(one, two, 0) <= 0;
-    const Prediction touch = predict(one, two, horizon);
+    const Prediction2 touch = predict(one, two, horizon);
     ASSERT_EQ(overlapping, touch.outcome == Outcome::overlap);
     if (overlapping) continue;
     ASSERT_NE(touch.outcome, Outcome::not_converged);
@@ -247,7 +247,7 @@ TEST(FirstContact, SlidingAtTheContactGapMakesProgress) {
   const double gap = 1e-13;
   const Flight<Ellipse> one{{2, 1}, {{0, 0}, 0}, {{0, 0}, 0.5}};
   const Flight<Ellipse> two{{2, 1}, {{0, 2 + gap}, 0}, {{0.3, 0}, 0}};
-  const Prediction touch = first_contact(one, two, 10, gap);
+  const Prediction2 touch = first_contact(one, two, 10, gap);
   ASSERT_EQ(touch.outcome, Outcome::contact);
   EXPECT_GT(touch.time, 0);
   EXPECT_GT(gap_at(one, two, touch.time), 0);

@@ -96,7 +96,7 @@ void check(const Scene& scene, double longest, int& touched, int& free) {
   for (const Placed& other : scene.others) {
     const Flight<Ellipse> moving{scene.shape, {Vec2::Zero(), scene.angle}, {e, 0}};
     const Flight<Ellipse> resting{other.shape, {other.position, other.angle}, {Vec2::Zero(), 0}};
-    const Prediction met = first_contact(moving, resting, end.length, 0.5 * gap);
+    const Prediction2 met = first_contact(moving, resting, end.length, 0.5 * gap);
     ASSERT_EQ(met.outcome, Outcome::none) << "after " << met.time << " of " << end.length;
   }
   if (end.touched == PathEnd::nobody) {

@@ -22,7 +22,7 @@ struct TwoBodies {
 
   // Flies to the first contact and applies the rule; false without a contact.
   bool collide_first(double restitution, double* impulse = nullptr, double* speed = nullptr) {
-    const Prediction touch = first_contact(one, two, 1e6, 1e-14);
+    const Prediction2 touch = first_contact(one, two, 1e6, 1e-14);
     if (touch.outcome != Outcome::contact) return false;
     one.pose = advanced(one.pose, one.motion, touch.time);
     two.pose = advanced(two.pose, two.motion, touch.time);

@@ -52,7 +52,7 @@ bool overlap(const Placed& one, const Placed& two) {
 /// the ellipses scaled by μ to touch, where n·d = μ (h₁ + h₂).
 double depth(const Placed& one, const Placed& two) {
   const Vec2 d = two.position - one.position;
-  const PerramWertheim scaled = perram_wertheim(one.body, one.angle, two.body, two.angle, d);
+  const PerramWertheim<2> scaled = perram_wertheim(one.body, one.angle, two.body, two.angle, d);
   return scaled.normal.dot(d) * (1 / std::sqrt(scaled.value) - 1);
 }
 

@@ -90,7 +90,7 @@ std::vector<SceneAnswer> scene_answers() {
                                  duration};
   std::vector<SceneAnswer> answers = {{"reference", 0, first_touch()}};
   for (const lab::Method& method : lab::collision_time_methods()) {
-    const Prediction found = method.predict(asked);
+    const Prediction2 found = method.predict(asked);
     if (found.outcome == Outcome::not_converged) continue;
     answers.push_back({method.name, method.tolerance, {}});
     if (found.outcome == Outcome::contact) answers.back().time = found.time;

@@ -68,11 +68,11 @@ class Camera {
       std::vector<Configuration2> states;
       for (std::size_t k = first; k < std::min(first + frames_at_a_time, frames_.size()); ++k)
         states.push_back(trajectory_.read(frames_[k]));
-      std::vector<std::vector<PairImage>> overlaps(states.size());
+      std::vector<std::vector<PairImage<2>>> overlaps(states.size());
       in_parallel(states.size(), all_cores, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) overlaps[k] = exact_check(states[k]).overlaps;
       });
-      for (const std::vector<PairImage>& pairs : overlaps) mark(pairs);
+      for (const std::vector<PairImage<2>>& pairs : overlaps) mark(pairs);
     }
     return std::move(movie_);
   }
@@ -98,9 +98,9 @@ class Camera {
     for (std::size_t n = 0; n < shown_.size(); ++n) take_pose(state, n);
   }
 
-  void mark(const std::vector<PairImage>& pairs) {
+  void mark(const std::vector<PairImage<2>>& pairs) {
     std::set<std::size_t> overlapping;
-    for (const PairImage& pair : pairs) overlapping.insert({pair.i, pair.j});
+    for (const PairImage<2>& pair : pairs) overlapping.insert({pair.i, pair.j});
     movie_.overlapping_pairs.push_back(pairs.size());
     movie_.overlapping.emplace_back();
     for (std::size_t n = 0; n < shown_.size(); ++n)

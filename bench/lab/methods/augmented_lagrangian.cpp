@@ -72,7 +72,7 @@ class Solver {
 
 }  // namespace
 
-Prediction augmented_lagrangian(const CollisionCase& asked, double tolerance) {
+Prediction2 augmented_lagrangian(const CollisionCase& asked, double tolerance) {
   const Opening opening = open_search(asked);
   if (opening.answer) return *opening.answer;
   const ScaledProblem problem(asked, opening.bracket);

@@ -12,6 +12,6 @@ namespace vitrel::lab {
 /// the variables of ScaledProblem with 0 ≤ τ ≤ 1, from where the circumcircles touch. `tolerance` (usual
 /// 1e-10): the relative change of the variables at which both loops end; 1000 evaluations end them too.
 /// A result that violates a constraint by more than 1e-6 means no contact. Local.
-Prediction augmented_lagrangian(const CollisionCase& asked, double tolerance);
+Prediction2 augmented_lagrangian(const CollisionCase& asked, double tolerance);
 
 }  // namespace vitrel::lab

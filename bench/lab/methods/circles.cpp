@@ -6,7 +6,7 @@
 
 namespace vitrel::lab {
 
-Prediction circles(const CollisionCase& asked, double) {
+Prediction2 circles(const CollisionCase& asked, double) {
   const GrowingEllipse& one = asked.one.body;
   const GrowingEllipse& two = asked.two.body;
   if (!is_sound(asked) || !one.shape.is_round() || !two.shape.is_round())

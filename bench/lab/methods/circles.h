@@ -7,6 +7,6 @@ namespace vitrel::lab {
 
 /// Round pairs in closed form, growing or not: the earlier solution of |d + v t| = R(t), see bracket.h.
 /// not_converged for pairs of which one is not round. The tolerance has no meaning here.
-Prediction circles(const CollisionCase& asked, double tolerance);
+Prediction2 circles(const CollisionCase& asked, double tolerance);
 
 }  // namespace vitrel::lab

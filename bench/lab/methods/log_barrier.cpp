@@ -39,7 +39,7 @@ std::optional<Vec3> interior_point(const CollisionCase& asked, const Bracket& br
                                    const ScaledProblem& problem) {
   for (int sample = 1; sample <= sampled_times; ++sample) {
     const double time = bracket.earliest + bracket.duration() * sample / sampled_times;
-    const PerramWertheim touch = perram_wertheim_at(asked, time);
+    const PerramWertheim<2> touch = perram_wertheim_at(asked, time);
     if (!(touch.value < 1)) continue;
     const Vec2 centre = asked.one.pose.position + asked.one.motion.velocity * time;
     const Vec3 y = problem.scaled(time, centre + touch.point);
@@ -50,7 +50,7 @@ std::optional<Vec3> interior_point(const CollisionCase& asked, const Bracket& br
 
 }  // namespace
 
-Prediction log_barrier(const CollisionCase& asked, double tolerance) {
+Prediction2 log_barrier(const CollisionCase& asked, double tolerance) {
   const Opening opening = open_search(asked);
   if (opening.answer) return *opening.answer;
   const ScaledProblem problem(asked, opening.bracket);

@@ -13,6 +13,6 @@ namespace vitrel::lab {
 /// first with Perram-Wertheim F < 1, and the point where the ellipses shrunk by √F touch. Without
 /// such a time it reports no contact: contacts that last shorter than its step escape it. The time is
 /// late by about 2μ (in units of the bracket). Local: the beginning of the overlap that was found.
-Prediction log_barrier(const CollisionCase& asked, double tolerance);
+Prediction2 log_barrier(const CollisionCase& asked, double tolerance);
 
 }  // namespace vitrel::lab

@@ -16,7 +16,7 @@ namespace vitrel::lab {
 struct Method {
   std::string name;      ///< "slsqp"
   double tolerance = 0;  ///< the method's own: what it means is said in its header
-  std::function<Prediction(const CollisionCase&)> predict;
+  std::function<Prediction2(const CollisionCase&)> predict;
 };
 
 /// Every method at its usual tolerance, the default first.

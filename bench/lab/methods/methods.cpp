@@ -16,7 +16,7 @@
 namespace vitrel::lab {
 namespace {
 
-using Predict = Prediction(const CollisionCase&, double tolerance);
+using Predict = Prediction2(const CollisionCase&, double tolerance);
 
 struct Entry {
   const char* name;

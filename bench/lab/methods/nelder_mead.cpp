@@ -57,7 +57,7 @@ class Simplex {
 
 }  // namespace
 
-Prediction nelder_mead(const CollisionCase& asked, double tolerance) {
+Prediction2 nelder_mead(const CollisionCase& asked, double tolerance) {
   const Opening opening = open_search(asked);
   if (opening.answer) return *opening.answer;
   const ScaledProblem problem(asked, opening.bracket);

@@ -12,6 +12,6 @@ namespace vitrel::lab {
 /// simplex is smaller than the tolerance (in the scaled variables). The first one starts where the
 /// circumcircles touch. A result that violates a constraint by more than √tolerance means no contact.
 /// Local, and blind to a first contact that its simplex steps over.
-Prediction nelder_mead(const CollisionCase& asked, double tolerance);
+Prediction2 nelder_mead(const CollisionCase& asked, double tolerance);
 
 }  // namespace vitrel::lab

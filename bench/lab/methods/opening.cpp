@@ -38,7 +38,7 @@ VieillardBaron<double> vieillard_baron_at(const CollisionCase& asked, double tim
                          separation_at(asked, time));
 }
 
-PerramWertheim perram_wertheim_at(const CollisionCase& asked, double time) {
+PerramWertheim<2> perram_wertheim_at(const CollisionCase& asked, double time) {
   return perram_wertheim(body_at(asked.one, time), angle_at(asked.one, time),
                          body_at(asked.two, time), angle_at(asked.two, time),
                          separation_at(asked, time));
@@ -48,18 +48,23 @@ bool overlaps_at_start(const CollisionCase& asked) {
   return !vieillard_baron_at(asked, 0).disjoint_or_touching();
 }
 
-Prediction without_contact(Outcome outcome, int steps) {
+Prediction2 without_contact(Outcome outcome, int steps) {
   return {outcome, 0, Vec2::Zero(), Vec2::Zero(), steps};
 }
 
-Prediction contact_along(const Vec2& outward, double time, const Vec2& point, int steps) {
+Prediction2 contact_along(const Vec2& outward, double time, const Vec2& point, int steps) {
   const Vec2 normal = outward.stableNormalized();
   if (!normal.allFinite() || normal.isZero()) return without_contact(Outcome::not_converged, steps);
   return {Outcome::contact, time, normal, point, steps};
 }
 
+<<<<<<< HEAD
 Prediction contact_at(const CollisionCase& asked, double time, int steps) {
+  const PerramWertheim<2> touch = perram_wertheim_at(asked, time);
+=======
+Prediction2 contact_at(const CollisionCase& asked, double time, int steps) {
   const PerramWertheim touch = perram_wertheim_at(asked, time);
+>>>>>>> three
   const Vec2 centre = asked.one.pose.position + asked.one.motion.velocity * time;
   return {Outcome::contact, time, touch.normal, centre + touch.point, steps};
 }
@@ -69,7 +74,7 @@ bool is_sound(const CollisionCase& asked) {
 }
 
 Opening open_search(const CollisionCase& asked) {
-  const auto answer = [](Outcome outcome) { return Opening{Prediction{outcome}, {}}; };
+  const auto answer = [](Outcome outcome) { return Opening{Prediction2{outcome}, {}}; };
   if (!is_sound(asked)) return answer(Outcome::not_converged);
   const auto bracket = bracket_contact(asked);
   if (!bracket) return answer(Outcome::none);

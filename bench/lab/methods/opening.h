@@ -17,15 +17,15 @@ inline constexpr double smallest_size = 1e-30;
 
 /// The complete criterion of Vieillard-Baron at a time.
 VieillardBaron<double> vieillard_baron_at(const CollisionCase& asked, double time);
-PerramWertheim perram_wertheim_at(const CollisionCase& asked, double time);
+PerramWertheim<2> perram_wertheim_at(const CollisionCase& asked, double time);
 bool overlaps_at_start(const CollisionCase& asked);
 
 /// An answer that is no contact, with the number of steps or evaluations it took.
-Prediction without_contact(Outcome outcome, int steps);
+Prediction2 without_contact(Outcome outcome, int steps);
 /// The contact with the normal along `outward`; not_converged if that is no direction.
-Prediction contact_along(const Vec2& outward, double time, const Vec2& point, int steps);
+Prediction2 contact_along(const Vec2& outward, double time, const Vec2& point, int steps);
 /// The contact at a time known to be one, with the normal and point of Perram and Wertheim.
-Prediction contact_at(const CollisionCase& asked, double time, int steps);
+Prediction2 contact_at(const CollisionCase& asked, double time, int steps);
 
 /// All numbers finite, semi-axes positive, sizes not negative. Methods answer not_converged
 /// otherwise.
@@ -35,7 +35,7 @@ bool is_sound(const CollisionCase& asked);
 /// overlapping at the start; a pair whose bracket is a single time, as of circles), else the
 /// bracket to search.
 struct Opening {
-  std::optional<Prediction> answer;
+  std::optional<Prediction2> answer;
   Bracket bracket;
 };
 Opening open_search(const CollisionCase& asked);

@@ -115,7 +115,7 @@ class Search {
 }  // namespace
 
 PerramWertheimRate perram_wertheim_rate(const CollisionCase& asked, double time) {
-  const PerramWertheim f = perram_wertheim_at(asked, time);
+  const PerramWertheim<2> f = perram_wertheim_at(asked, time);
   const Moving one(asked.one, time);
   const Moving two(asked.two, time);
   const Vec2 v = asked.two.motion.velocity - asked.one.motion.velocity;
@@ -127,7 +127,7 @@ PerramWertheimRate perram_wertheim_rate(const CollisionCase& asked, double time)
   return {f.value, lambda * (1 - lambda) * (2 * v.dot(y) - shapes)};
 }
 
-Prediction perram_wertheim_root(const CollisionCase& asked, double tolerance) {
+Prediction2 perram_wertheim_root(const CollisionCase& asked, double tolerance) {
   const Opening opening = open_search(asked);
   if (opening.answer) return *opening.answer;
   Search search(asked);

@@ -24,6 +24,6 @@ PerramWertheimRate perram_wertheim_rate(const CollisionCase& asked, double time)
 ///      halved to the part that still dips, ten times at most.
 ///   4. Algorithm 748 refines the root to double precision.
 /// A dip between samples that the slopes do not show is missed. Source: donev2005.
-Prediction perram_wertheim_root(const CollisionCase& asked, double tolerance);
+Prediction2 perram_wertheim_root(const CollisionCase& asked, double tolerance);
 
 }  // namespace vitrel::lab

@@ -7,7 +7,7 @@
 
 namespace vitrel::lab {
 
-Prediction psi_root(const CollisionCase& asked, double tolerance) {
+Prediction2 psi_root(const CollisionCase& asked, double tolerance) {
   const Opening opening = open_search(asked);
   if (opening.answer) return *opening.answer;
   const auto signed_psi = [&](double time) {

@@ -10,6 +10,6 @@ namespace vitrel::lab {
 /// for the first time at which the pair is not disjoint; algorithm 748 refines Ψ within that step to
 /// double precision, with −|Ψ| where the pair overlaps. A contact shorter than a step can be missed; Ψ has
 /// a steep end and a flat one, which costs iterations only. Normal and point by Perram and Wertheim.
-Prediction psi_root(const CollisionCase& asked, double tolerance);
+Prediction2 psi_root(const CollisionCase& asked, double tolerance);
 
 }  // namespace vitrel::lab

@@ -32,7 +32,7 @@ struct Penalised {
 
 }  // namespace
 
-Prediction quadratic_penalty(const CollisionCase& asked, double tolerance) {
+Prediction2 quadratic_penalty(const CollisionCase& asked, double tolerance) {
   const Opening opening = open_search(asked);
   if (opening.answer) return *opening.answer;
   const ScaledProblem problem(asked, opening.bracket);

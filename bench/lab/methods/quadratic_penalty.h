@@ -11,6 +11,6 @@ namespace vitrel::lab {
 /// in the variables of ScaledProblem, 0 ≤ τ ≤ 1, by damped Newton steps with exact second
 /// derivatives (newton.h). At the minimum Eᵢ = μ λᵢ with the multipliers λᵢ: the time is early by
 /// μ (λ₁² + λ₂²) to first order. A final |Eᵢ| above √tolerance means no contact. Local.
-Prediction quadratic_penalty(const CollisionCase& asked, double tolerance);
+Prediction2 quadratic_penalty(const CollisionCase& asked, double tolerance);
 
 }  // namespace vitrel::lab

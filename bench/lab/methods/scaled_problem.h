@@ -49,7 +49,7 @@ class ScaledProblem {
   EllipseFunction full2(const Vec3& y) const { return second_order(two_, y); }
 
   /// The contact at an optimum: its time and point, and the normal along ∇E₁.
-  Prediction contact(const Vec3& y, int steps) const {
+  Prediction2 contact(const Vec3& y, int steps) const {
     Vec3 gradient;
     one_.value(time(y), point(y), gradient);
     return contact_along(gradient.tail<2>(), time(y), point(y), steps);

@@ -4,7 +4,7 @@
 
 namespace vitrel::lab {
 
-Prediction separating_axis(const CollisionCase& asked, double tolerance) {
+Prediction2 separating_axis(const CollisionCase& asked, double tolerance) {
   if (!is_sound(asked)) return {Outcome::not_converged};
   const double contact_gap = tolerance * (asked.one.body.shape.a + asked.two.body.shape.a);
   if (asked.grows()) return first_contact(asked.one, asked.two, asked.horizon, contact_gap);

@@ -47,7 +47,7 @@ struct FreeRandom {
 
 }  // namespace
 
-Prediction simulated_annealing(const CollisionCase& asked, double tolerance) {
+Prediction2 simulated_annealing(const CollisionCase& asked, double tolerance) {
   const Opening opening = open_search(asked);
   if (opening.answer) return *opening.answer;
   const ScaledProblem problem(asked, opening.bracket);

@@ -13,6 +13,6 @@ namespace vitrel::lab {
 /// temperatures. The random numbers start from the same seed in every call. The best point ever seen
 /// is the result, as it is; if it violates a constraint by more than 1e-2 there is no contact.
 /// Global in principle, but it seldom comes closer than 1e-3 of the bracket, whatever the tolerance.
-Prediction simulated_annealing(const CollisionCase& asked, double tolerance);
+Prediction2 simulated_annealing(const CollisionCase& asked, double tolerance);
 
 }  // namespace vitrel::lab

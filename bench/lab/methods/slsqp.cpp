@@ -90,7 +90,7 @@ Box reach(const CollisionCase& asked, const Bracket& bracket) {
 // Where the constraints of the result are checked.
 enum class Check { ends_of_bracket, everywhere };
 
-Prediction optimised(const CollisionCase& asked, double tolerance, Check check) {
+Prediction2 optimised(const CollisionCase& asked, double tolerance, Check check) {
   if (!is_sound(asked)) return {Outcome::not_converged};
   const auto bracket = bracket_contact(asked);
   if (!bracket) return {};
@@ -124,11 +124,11 @@ Prediction optimised(const CollisionCase& asked, double tolerance, Check check) 
 
 }  // namespace
 
-Prediction slsqp(const CollisionCase& asked, double tolerance) {
+Prediction2 slsqp(const CollisionCase& asked, double tolerance) {
   return optimised(asked, tolerance, Check::ends_of_bracket);
 }
 
-Prediction slsqp_checked(const CollisionCase& asked, double tolerance) {
+Prediction2 slsqp_checked(const CollisionCase& asked, double tolerance) {
   return optimised(asked, tolerance, Check::everywhere);
 }
 

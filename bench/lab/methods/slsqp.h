@@ -15,10 +15,10 @@ namespace vitrel::lab {
 ///      a time below 1e-8 of an overlapping pair means overlap (here by the complete criterion).
 /// What the optimiser returns besides is believed, as the thesis does. If it gives up, its last
 /// point counts if the constraints hold there. It is local: nothing makes its contact the first one.
-Prediction slsqp(const CollisionCase& asked, double tolerance);
+Prediction2 slsqp(const CollisionCase& asked, double tolerance);
 
 /// The same, but a result that violates a constraint is no contact wherever it lies: what SLSQP
 /// itself fails at, without what a missing check adds.
-Prediction slsqp_checked(const CollisionCase& asked, double tolerance);
+Prediction2 slsqp_checked(const CollisionCase& asked, double tolerance);
 
 }  // namespace vitrel::lab

@@ -70,7 +70,7 @@ ClosestPoint closest_to_origin(const Vec2& c, const Mat2& m) {
   return {origin_inside ? -point.norm() : point.norm(), point};
 }
 
-Prediction unit_circle(const CollisionCase& asked, double tolerance) {
+Prediction2 unit_circle(const CollisionCase& asked, double tolerance) {
   const Opening opening = open_search(asked);
   if (opening.answer) return *opening.answer;
   const auto excess = [&](double time) {

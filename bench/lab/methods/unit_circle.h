@@ -32,6 +32,6 @@ ClosestPoint closest_to_origin(const Vec2& c, const Mat2& m);
 /// `tolerance` times its length (usual 1/100), then algorithm 748 to double precision. The distance
 /// comes from eigenvalues, good to about 1e-15 of the square of the largest of |c|, |M|. A contact
 /// shorter than a step can be missed. The normal is Tᵀ times the closest point.
-Prediction unit_circle(const CollisionCase& asked, double tolerance);
+Prediction2 unit_circle(const CollisionCase& asked, double tolerance);
 
 }  // namespace vitrel::lab

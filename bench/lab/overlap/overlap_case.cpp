@@ -64,7 +64,7 @@ OverlapCase make_overlap_case(const OverlapClass& of, std::uint64_t seed, std::u
   const Vec2 way(std::cos(angle), std::sin(angle));
   const double reach = asked.one.a + asked.two.a;
   if (of.kind == Kind::random) return at_distance(asked, way, reach * std::sqrt(draw.uniform()));
-  const PerramWertheim touching =
+  const PerramWertheim<2> touching =
       perram_wertheim(asked.one, asked.pose1.angle, asked.two, asked.pose2.angle, way);
   const double gap = drawn_gap(of.kind, draw) * asked.gap_unit();
   // Along the line of centres the gap grows by n·way per unit of distance.

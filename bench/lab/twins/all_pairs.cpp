@@ -56,7 +56,7 @@ class AllPairs final : public Engine {
   void set_longest_look();
   double image_lasts(std::size_t i, std::size_t j, const Vec2& d) const;
   double time_to_part(std::size_t i, std::size_t j) const;
-  Prediction predict(std::size_t i, std::size_t j, const Pose2& pose2, double horizon) const;
+  Prediction2 predict(std::size_t i, std::size_t j, const Pose2& pose2, double horizon) const;
   Event ask(std::size_t i, std::size_t j, double horizon, RunCounters& counters) const;
   Event overlap_event(std::size_t i, std::size_t j, const Vec2& d, Event event) const;
   [[noreturn]] void report_overlap(std::size_t i, std::size_t j) const;
@@ -159,7 +159,7 @@ double AllPairs::time_to_part(std::size_t i, std::size_t j) const {
   return speed > 0 ? part * (one.shape.b + two.shape.b) / speed : longest_look_;
 }
 
-Prediction AllPairs::predict(std::size_t i, std::size_t j, const Pose2& pose2,
+Prediction2 AllPairs::predict(std::size_t i, std::size_t j, const Pose2& pose2,
                              double horizon) const {
   const Particle& one = particles_[i];
   const Particle& two = particles_[j];
@@ -179,7 +179,7 @@ AllPairs::Event AllPairs::ask(std::size_t i, std::size_t j, double horizon,
   pose2.position += box_.translation(event.shift);
   const Vec2 d = pose2.position - here;
   const double lasts = image_lasts(i, j, d);
-  const Prediction answer = predict(i, j, pose2, std::min(lasts, horizon));
+  const Prediction2 answer = predict(i, j, pose2, std::min(lasts, horizon));
   ++counters.predictions;
   counters.steps += static_cast<std::uint64_t>(answer.steps);
   event.time = now_ + lasts;

@@ -5,7 +5,7 @@
 namespace vitrel::lab {
 namespace {
 
-bool surfaces_approach(const CollisionCase& asked, const Prediction& contact) {
+bool surfaces_approach(const CollisionCase& asked, const Prediction2& contact) {
   const auto arm = [&](const Flight<GrowingEllipse>& flight) {
     const Vec2 centre = advanced(flight.pose, flight.motion, contact.time).position;
     return cross(contact.point - centre, contact.normal);
@@ -16,8 +16,8 @@ bool surfaces_approach(const CollisionCase& asked, const Prediction& contact) {
 
 }  // namespace
 
-Prediction believed(const Method& method, const CollisionCase& asked) {
-  const Prediction answer = method.predict(asked);
+Prediction2 believed(const Method& method, const CollisionCase& asked) {
+  const Prediction2 answer = method.predict(asked);
   if (answer.outcome == Outcome::contact && !surfaces_approach(asked, answer))
     return {Outcome::not_converged};
   return answer;

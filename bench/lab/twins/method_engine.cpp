@@ -41,14 +41,14 @@ namespace {
 
 // Found by Simulation<JudgedEllipse> in place of the default predictor. An answer that did not come
 // is no contact.
-Prediction first_contact(const Flight<JudgedEllipse>& one, const Flight<JudgedEllipse>& two,
+Prediction2 first_contact(const Flight<JudgedEllipse>& one, const Flight<JudgedEllipse>& two,
                          double horizon, double /*contact_gap*/,
                          const FirstLook<JudgedEllipse>::Memory& /*memory*/) {
   const auto plain = [](const Flight<JudgedEllipse>& flight) {
     return of_constant_size({flight.body, flight.pose, flight.motion});
   };
-  const Prediction answer = believed(*JudgedEllipse::method, {plain(one), plain(two), horizon});
-  return answer.outcome == Outcome::not_converged ? Prediction{} : answer;
+  const Prediction2 answer = believed(*JudgedEllipse::method, {plain(one), plain(two), horizon});
+  return answer.outcome == Outcome::not_converged ? Prediction2{} : answer;
 }
 
 class MethodEngine final : public Engine {

@@ -1,0 +1,190 @@
+#include "core/contact/ellipsoid_eta.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace vitrel {
+namespace {
+
+template <class Real>
+using Vector = Eigen::Matrix<Real, 3, 1>;
+template <class Real>
+using Matrix = Eigen::Matrix<Real, 3, 3>;
+
+/// d ln p/d ln τ and its derivative for p(τ) = Σ a_k τᵏ with no a_k negative: mean and variance of k
+/// with the weights a_k τᵏ.
+template <class Real>
+struct Growth {
+  Real mean = 0, variance = 0;
+
+  Growth(const Real (&a)[5], Real tau) {
+    Real sum = 0, power = 1, weight[5];
+    for (int k = 0; k < 5; ++k, power *= tau) {
+      weight[k] = a[k] * power;
+      sum += weight[k];
+      mean += k * weight[k];
+    }
+    mean /= sum;
+    for (int k = 0; k < 5; ++k) variance += (k - mean) * (k - mean) * weight[k];
+    variance /= sum;
+  }
+};
+
+template <class Real>
+Real aspect_ratio(const EllipsoidAxes<Real>& body) {
+  return body.lengths.maxCoeff() / body.lengths.minCoeff();
+}
+
+/// p̄₁, p̄₂, p̄₃, or what they would be if all their terms were positive.
+template <class Real>
+struct Coefficients {
+  Real p1, p2, p3;
+
+  Real beta1() const { return 1 - 4 * p1 * p3 + 3 * p2 * p2; }
+  Real beta2() const { return p2 * (1 - p2 * p2 + 2 * p1 * p3) - p1 * p1 - p3 * p3; }
+  Real sum1() const { return 1 + 4 * p1 * p3 + 3 * p2 * p2; }
+  Real sum2() const { return p2 * (1 + p2 * p2 + 2 * p1 * p3) + p1 * p1 + p3 * p3; }
+};
+
+/// A bound of the error of η₁ if all e and u are good to `accuracy` in relative terms: β₁ is then good
+/// to 2 `accuracy` times the sum of its terms, β₂ to 3 of it.
+template <class Real>
+Real error_of_eta1(const Coefficients<Real>& p, const Coefficients<Real>& terms, Real accuracy) {
+  const Real blur1 = 2 * accuracy * terms.sum1();
+  const Real blur2 = 3 * accuracy * terms.sum2();
+  const Real beta1 = std::abs(p.beta1()) + blur1;
+  const Real beta2 = std::abs(p.beta2()) + blur2;
+  return 3 * beta1 * beta1 * blur1 + 54 * beta2 * blur2;
+}
+
+}  // namespace
+
+template <class Real>
+Real CharacteristicPolynomial<Real>::operator()(Real tau) const {
+  Real value = 1;
+  for (int k = 3; k >= 0; --k) value = value * tau + coefficient(k);
+  return value;
+}
+
+template <class Real>
+Real CharacteristicPolynomial<Real>::most_open() const {
+  // F is flat there: half the digits of τ give all of F.
+  const Real enough = std::sqrt(std::numeric_limits<Real>::epsilon()) / 64;
+  constexpr int most_steps = 80;
+  Real low = least, high = most;
+  Real tau = std::sqrt(low * high);
+  for (int step = 0; step < most_steps; ++step) {
+    const Growth<Real> up(loss, tau), down(gain, tau);
+    const Real slope = up.mean - down.mean;
+    if (slope == 0) break;
+    (slope > 0 ? low : high) = tau;
+    const Real curvature = up.variance - down.variance;
+    Real next = curvature < 0 ? tau * std::exp(-slope / curvature) : low;
+    if (!(next > low && next < high)) next = std::sqrt(low * high);
+    const bool settled = std::abs(next - tau) <= enough * tau;
+    tau = next;
+    if (settled) break;
+  }
+  return tau;
+}
+
+template <class Real>
+CharacteristicPolynomial<Real> characteristic_polynomial(const EllipsoidAxes<Real>& one,
+                                                         const EllipsoidAxes<Real>& two,
+                                                         const Vector<Real>& d) {
+  const Vector<Real> r = one.directions.transpose() * d;
+  const Matrix<Real> cosines = one.directions.transpose() * two.directions;
+  const Matrix<Real> ratio = one.lengths * two.lengths.cwiseInverse().transpose();
+  const Matrix<Real> squares = cosines.cwiseAbs2();
+  const Real trace1 = squares.cwiseProduct(ratio.cwiseAbs2()).sum();
+  const Real trace2 = squares.cwiseQuotient(ratio.cwiseAbs2()).sum();
+  const Real sigma2 = one.lengths.prod() / two.lengths.prod();
+  const Real sigma = std::sqrt(sigma2);
+
+  const Real quadric1 = r.cwiseQuotient(one.lengths).squaredNorm();
+  const Real quadric2 = (two.directions.transpose() * d).cwiseQuotient(two.lengths).squaredNorm();
+  Real mixed = 0;
+  for (int l = 0; l < 3; ++l) {
+    const Vector<Real> axis = cosines.col(l);
+    mixed += (two.lengths[l] * axis.cross(r).cwiseProduct(one.lengths)).squaredNorm();
+  }
+  const Real volumes = one.lengths.prod() * two.lengths.prod();
+
+  return {sigma,
+          {1, sigma * (1 + trace2), trace1 / sigma2 + sigma2 * trace2, (1 + trace1) / sigma, 1},
+          {0, sigma * quadric1, mixed / volumes, quadric2 / sigma, 0},
+          one.lengths.minCoeff() / two.lengths.maxCoeff() / sigma,
+          one.lengths.maxCoeff() / two.lengths.minCoeff() / sigma};
+}
+
+template <class Real>
+EllipsoidEta<Real> ellipsoid_eta(const EllipsoidAxes<Real>& one, const EllipsoidAxes<Real>& two,
+                                 const Vector<Real>& d) {
+  const CharacteristicPolynomial<Real> q = characteristic_polynomial(one, two, d);
+  const Coefficients<Real> p{-q.coefficient(3) / 4, q.coefficient(2) / 6, -q.coefficient(1) / 4};
+  const Coefficients<Real> terms{(q.gain[3] + q.loss[3]) / 4, (q.gain[2] + q.loss[2]) / 6,
+                                 (q.gain[1] + q.loss[1]) / 4};
+  const Real beta1 = p.beta1();
+  const Real beta2 = p.beta2();
+  const Real delta1 = p.p3 - p.p1 * p.p2;
+  const Real delta2 = 1 - p.p1 * p.p3;
+  const Real delta3 = p.p2 * p.p2 - p.p1 * p.p3;
+
+  EllipsoidEta<Real> eta;
+  eta.p1 = p.p1, eta.p2 = p.p2, eta.p3 = p.p3;
+  eta.eta5 = p.p1 * p.p1 - p.p2;
+  eta.eta4 = -delta2;
+  eta.eta3 = beta1 * delta1 - 3 * p.p1 * beta2;
+  eta.eta2 = -9 * delta1 * delta1 + eta.eta5 * (27 * delta3 - 3 * delta2);
+  eta.eta1 = beta1 * beta1 * beta1 - 27 * beta2 * beta2;
+  // Directions are good to a few ε, so the long semi-axis of one body is off by a few ε times its aspect
+  // ratio in units of the short one.
+  const Real accuracy =
+      16 * std::numeric_limits<Real>::epsilon() * std::max(aspect_ratio(one), aspect_ratio(two));
+  eta.rounding = error_of_eta1(p, terms, accuracy);
+  eta.lowest = eta.decides() || d.isZero(0) ? 1 : q(q.most_open());
+  return eta;
+}
+
+template <class Real>
+EllipsoidTouch<Real> ellipsoid_touch(const EllipsoidAxes<Real>& one, const EllipsoidAxes<Real>& two,
+                                     const Vector<Real>& d) {
+  const CharacteristicPolynomial<Real> q = characteristic_polynomial(one, two, d);
+  const auto shape_matrix = [](const EllipsoidAxes<Real>& body) -> Matrix<Real> {
+    const Matrix<Real> axes = body.directions * body.lengths.asDiagonal();
+    return axes * axes.transpose();
+  };
+  const Matrix<Real> sigma1 = shape_matrix(one);
+  const Matrix<Real> both = sigma1 + q.sigma * q.most_open() * shape_matrix(two);
+  const Vector<Real> y = both.llt().solve(d);
+  return {sigma1 * y, y.normalized()};
+}
+
+EllipsoidEta<double> ellipsoid_eta(const Ellipsoid& one, const Quaternion& orientation1,
+                                   const Ellipsoid& two, const Quaternion& orientation2,
+                                   const Vec3& d) {
+  return ellipsoid_eta<double>({one, orientation1}, {two, orientation2}, d);
+}
+
+template struct CharacteristicPolynomial<double>;
+template struct CharacteristicPolynomial<long double>;
+template EllipsoidEta<double> ellipsoid_eta(const EllipsoidAxes<double>&,
+                                            const EllipsoidAxes<double>&, const Vector<double>&);
+template EllipsoidEta<long double> ellipsoid_eta(const EllipsoidAxes<long double>&,
+                                                 const EllipsoidAxes<long double>&,
+                                                 const Vector<long double>&);
+template CharacteristicPolynomial<double> characteristic_polynomial(const EllipsoidAxes<double>&,
+                                                                    const EllipsoidAxes<double>&,
+                                                                    const Vector<double>&);
+template CharacteristicPolynomial<long double> characteristic_polynomial(
+    const EllipsoidAxes<long double>&, const EllipsoidAxes<long double>&,
+    const Vector<long double>&);
+template EllipsoidTouch<double> ellipsoid_touch(const EllipsoidAxes<double>&,
+                                                const EllipsoidAxes<double>&,
+                                                const Vector<double>&);
+template EllipsoidTouch<long double> ellipsoid_touch(const EllipsoidAxes<long double>&,
+                                                     const EllipsoidAxes<long double>&,
+                                                     const Vector<long double>&);
+
+}  // namespace vitrel

@@ -1,0 +1,125 @@
+#pragma once
+
+#include <limits>
+
+#include "core/geometry/ellipsoid.h"
+
+/// The characteristic polynomial of two ellipsoids and its criterion of overlap by five signs, η₁ … η₅
+/// (Wang, Wang & Kim 2001; Jia et al. 2011; Ghossein & Lévesque 2013), completed.
+///
+/// With the 4 × 4 quadrics A of both bodies (xᵀAx = 0 on the surface, negative inside), det(λA₁ + A₂)
+/// over its leading coefficient is, for λ = στ, over σ⁴, with σ² = (a₁b₁c₁)/(a₂b₂c₂),
+///
+///     q(τ) = τ⁴ − 4p̄₁τ³ + 6p̄₂τ² − 4p̄₃τ + 1 = P(τ) − τU(τ),
+///     P(τ) = τ⁴ + e₃τ³ + e₂τ² + e₁τ + 1,   τU(τ) = u₃τ³ + u₂τ² + u₁τ,
+///
+///     e₃ = (1 + T₁)/σ,  e₂ = T₁/σ² + σ²T₂,  e₁ = σ(1 + T₂),   T₁ = tr(Σ₁A₂), T₂ = tr(Σ₂A₁),
+///     u₃ = dᵀA₂d/σ,   u₁ = σ dᵀA₁d,   u₂ = dᵀMd/(a₁b₁c₁a₂b₂c₂),
+///     M = Σ_kl x_kl x_klᵀ,  x_kl the cross product of semi-axis k of body 1 and semi-axis l of body 2,
+///
+/// Σ and A = Σ⁻¹ the 3 × 3 matrices, d from centre 1 to centre 2: e and u are sums of positive terms and
+/// ratios of lengths, and exchanging the bodies reverses the polynomial. P is (λ + 1) det(λ + Σ₁A₂), and
+/// τU/P = F, the function of Perram and Wertheim at t = λ (perram_wertheim.h), so that
+///
+///     q = P (1 − F).
+///
+/// Two roots of q are always real and negative. Disjoint bodies have two different positive roots
+/// besides, between which F > 1; touching ones a double positive root; overlapping ones neither.
+///
+/// The criterion: with β₁ and β₂ as in the .cpp file, η₁ = β₁³ − 27β₂² the discriminant, η₂ and η₅ the
+/// lower members of the same Sturm sequence: disjoint iff
+///
+///     η₁ > 0, η₂ > 0, η₅ > 0 and (p̄₁ > 0 or p̄₂ < 0 or p̄₃ > 0).
+///
+/// Proof: the first three say that all four roots are real and different. Then by Descartes' rule, exact
+/// when all roots are real, there are positive ones iff some coefficient is negative; they are an even
+/// number as the product of all is 1, and two are negative. The article leaves the last condition out and
+/// so calls crossed bodies, and one inside the other, separate. At a double positive root τ₀ besides −x
+/// and −y the condition holds with a margin: p̄₃ > 0 if τ₀ is below the harmonic mean of x and y, p̄₁ > 0
+/// if it is above the arithmetic mean, and in between 6p̄₂ = τ₀² − 2τ₀(x + y) + xy ≤ −(τ₀² + xy).
+///
+/// Where η₁ says nothing. Two equal roots make it vanish, and the negative pair is equal, whatever the
+/// distance, for two spheres and for parallel ellipsoids of one shape, thus for a particle and its own
+/// image: Σ₁ = sΣ₂ gives q = (τ + s^¼)² × a quadratic polynomial; also for spheroids with a common axis
+/// of symmetry and d along it. Near these, and near touching, the sign of η₁ is below rounding. Then
+/// the sign of q at the τ > 0 where F is largest decides: as P > 0, q < 0 there iff F > 1 somewhere, iff
+/// there are two positive roots. d ln F/d ln τ changes its sign once, as F is concave in λ/(1 + λ), and
+/// the maximum is between the least and the largest possible ratio h₁/h₂ of the support functions.
+///
+/// Rounding: the verdict is right unless the surfaces are closer than about 100 ε (a₁ + a₂), a the
+/// longest semi-axes and ε the unit roundoff of Real. Lengths enter only as ratios.
+/// Sources: wang2001, jia2011, ghossein2013 (completed; its table 1 lacks the last condition).
+namespace vitrel {
+
+/// Semi-axes, and the unit vectors along them as columns.
+template <class Real>
+struct EllipsoidAxes {
+  Eigen::Matrix<Real, 3, 1> lengths;
+  Eigen::Matrix<Real, 3, 3> directions;
+
+  EllipsoidAxes(const Ellipsoid& ellipsoid, const Quaternion& orientation)
+      : lengths(ellipsoid.semi_axes.cast<Real>()),
+        directions(orientation.cast<Real>().normalized().toRotationMatrix()) {}
+};
+
+/// q(τ) of two ellipsoids.
+template <class Real>
+struct CharacteristicPolynomial {
+  Real sigma;        ///< λ = στ
+  Real gain[5];      ///< 1, e₁, e₂, e₃, 1: P(τ) = Σ gain_k τᵏ
+  Real loss[5];      ///< 0, u₁, u₂, u₃, 0: τU(τ)
+  Real least, most;  ///< the bounds of h₁/h₂ in units of τ
+
+  Real coefficient(int k) const { return gain[k] - loss[k]; }
+  Real operator()(Real tau) const;
+  /// Where F is largest (not if the centres coincide, where F = 0).
+  Real most_open() const;
+};
+
+template <class Real>
+CharacteristicPolynomial<Real> characteristic_polynomial(const EllipsoidAxes<Real>& one,
+                                                         const EllipsoidAxes<Real>& two,
+                                                         const Eigen::Matrix<Real, 3, 1>& d);
+
+template <class Real>
+struct EllipsoidEta {
+  Real eta1, eta2, eta3, eta4, eta5;
+  Real p1, p2, p3;  ///< p̄; p̄₄ = 1
+  Real rounding;    ///< of η₁: where |η₁| is not larger its sign is not used
+  Real lowest;      ///< q where F is largest, if that decides
+
+  bool decides() const { return std::abs(eta1) > rounding; }
+  bool disjoint() const { return decides() ? has_separating_signs() : lowest < 0; }
+  /// Touching from outside included.
+  bool disjoint_or_touching() const { return decides() ? has_separating_signs() : lowest <= 0; }
+
+ private:
+  bool has_separating_signs() const {
+    return eta1 > 0 && eta2 > 0 && eta5 > 0 && (p1 > 0 || p2 < 0 || p3 > 0);
+  }
+};
+
+/// All instantiated for double and long double.
+template <class Real>
+EllipsoidEta<Real> ellipsoid_eta(const EllipsoidAxes<Real>& one, const EllipsoidAxes<Real>& two,
+                                 const Eigen::Matrix<Real, 3, 1>& d);
+
+/// Where two ellipsoids that touch from outside do so. With the double root λ of the characteristic
+/// polynomial the point x, relative to centre 1, is the solution of (λA₁ + A₂) x = 0 for the 4 × 4 quadrics
+/// (the article's equation 14 has a minus), in three dimensions
+///     x = Σ₁y,   y = (Σ₁ + λΣ₂)⁻¹d,   normal y/|y|, from 1 to 2.
+/// The double root is where F is largest, and λ is taken there in any case: the normal of disjoint
+/// ellipsoids separates them (F > 1, and the inequality of Cauchy and Schwarz). The centres must differ.
+template <class Real>
+struct EllipsoidTouch {
+  Eigen::Matrix<Real, 3, 1> point, normal;
+};
+template <class Real>
+EllipsoidTouch<Real> ellipsoid_touch(const EllipsoidAxes<Real>& one, const EllipsoidAxes<Real>& two,
+                                     const Eigen::Matrix<Real, 3, 1>& d);
+
+EllipsoidEta<double> ellipsoid_eta(const Ellipsoid& one, const Quaternion& orientation1,
+                                   const Ellipsoid& two, const Quaternion& orientation2,
+                                   const Vec3& d);
+
+}  // namespace vitrel

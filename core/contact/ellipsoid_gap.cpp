@@ -1,0 +1,170 @@
+#include "core/contact/ellipsoid_gap.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vitrel {
+
+namespace {
+
+constexpr int max_lambda_steps = 200;
+constexpr int max_newton_steps = 60;
+
+Axis3 axis_along(const Vec3& w) {
+  return completed(components(w.normalized()));
+}
+
+/// The function of Perram and Wertheim of a pair.
+class PerramWertheimAxis {
+ public:
+  explicit PerramWertheimAxis(const EllipsoidPair& pair)
+      : d_(pair.d.isZero(0) ? Vec3(1, 0, 0) : pair.d),
+        one_(matrix(pair, 0)),
+        two_(matrix(pair, 1)) {}
+
+  /// λ as the radii along d: to 1/rᵢ² = dᵀΣᵢ⁻¹d/d².
+  double circle_like() const {
+    const double r1 = 1 / std::sqrt(inverse_form(one_)), r2 = 1 / std::sqrt(inverse_form(two_));
+    return std::isfinite(r1 + r2) && r1 + r2 > 0 ? r1 / (r1 + r2) : 0.5;
+  }
+
+  /// C⁻¹d up to a factor.
+  Vec3 direction(double lambda) const {
+    const Vec3 w = adjugate((1 - lambda) * one_ + lambda * two_) * d_;
+    return w.isZero(0) || !w.allFinite() ? d_ : w;
+  }
+
+  /// h₁(w)/h₂(w).
+  double heights_ratio(const Vec3& w) const { return std::sqrt(w.dot(one_ * w) / w.dot(two_ * w)); }
+
+ private:
+  static Mat3 matrix(const EllipsoidPair& pair, int lane) {
+    Mat3 g;
+    const auto row = [&](const Vec3Of<Lanes>& v) -> Eigen::RowVector3d {
+      return pair.size[lane] * Vec3(v.x[lane], v.y[lane], v.z[lane]).transpose();
+    };
+    g << row(pair.axes.first), row(pair.axes.second), row(pair.axes.third);
+    return g.transpose() * g;
+  }
+  static Mat3 adjugate(const Mat3& c) {
+    Mat3 a;
+    a.col(0) = c.col(1).cross(c.col(2));
+    a.col(1) = c.col(2).cross(c.col(0));
+    a.col(2) = c.col(0).cross(c.col(1));
+    return a;
+  }
+  double inverse_form(const Mat3& sigma) const {
+    return d_.dot(adjugate(sigma) * d_) / sigma.determinant();
+  }
+
+  Vec3 d_;
+  Mat3 one_, two_;
+};
+
+EllipsoidPair pair_at_rest(const Ellipsoid& one, const Quaternion& orientation1,
+                           const Ellipsoid& two, const Quaternion& orientation2, const Vec3& d) {
+  const Mat3 turn1 = orientation1.toRotationMatrix(), turn2 = orientation2.toRotationMatrix();
+  const auto axis = [&](int k) -> Vec3Of<Lanes> {
+    const Vec3 u = one.semi_axes[k] * turn1.col(k), v = two.semi_axes[k] * turn2.col(k);
+    return {{u.x(), v.x()}, {u.y(), v.y()}, {u.z(), v.z()}};
+  };
+  return {{axis(0), axis(1), axis(2)}, {1, 1}, d};
+}
+
+}  // namespace
+
+namespace detail {
+
+Axis3 likely_axis(const EllipsoidPair& pair) {
+  const PerramWertheimAxis f(pair);
+  return axis_along(f.direction(f.circle_like()));
+}
+
+SoughtAxis3 find_separating_axis(const EllipsoidPair& pair) {
+  const PerramWertheimAxis f(pair);
+  double lambda = f.circle_like();
+  double low = 0, high = 1;
+  Vec3 w;
+  for (int step = 0; step < max_lambda_steps; ++step) {
+    w = f.direction(lambda);
+    const Axis3 n = axis_along(w);
+    if (gap_along(pair, n).gap > 0) return {n, true};
+    const double ratio = f.heights_ratio(w);
+    double next = ratio / (1 + ratio);  // the fixed point is the maximum
+    (next > lambda ? low : high) = lambda;
+    // Now and then the middle, should the iteration creep.
+    if (!(next > low && next < high) || step % 4 == 3) next = 0.5 * (low + high);
+    if (std::abs(next - lambda) <= 1e-15 * lambda) break;
+    lambda = next;
+  }
+  return {axis_along(w), false};
+}
+
+bool climb(const EllipsoidPair& pair, Axis3& n, GapAlongAxis3& here) {
+  // A gain below the rounding of g = n·d − h₁ − h₂ cannot be seen.
+  constexpr double unseen = 1e-17;
+  if (!here.is_concave() || here.gain() < unseen * vector(n.n).dot(pair.d)) return false;
+  Tangent step = here.newton();
+  for (int halving = 0; halving < 30; ++halving, step *= 0.25) {
+    const Axis3 trial = turned(n, step);
+    const GapAlongAxis3 there = gap_along(pair, trial);
+    if (there.gap > here.gap) {
+      n = trial;
+      here = there;
+      return true;
+    }
+  }
+  return false;
+}
+
+void settle(const EllipsoidPair& pair, Axis3& n, const GapAlongAxis3& here) {
+  constexpr int most_steps = 4;
+  constexpr double quadratic = 3e-8;  // such a step leaves less than rounding
+  if (!here.is_concave()) return;
+  Tangent step = here.newton();
+  n = turned(n, step);
+  for (int k = 1; k < most_steps && !(step.norm() < quadratic); ++k) {
+    const GapAlongAxis3 now = gap_along(pair, n);
+    if (!now.is_concave()) return;
+    step = now.newton();
+    n = turned(n, step);
+  }
+}
+
+}  // namespace detail
+
+SupportGap3 support_gap(const Ellipsoid& one, const Quaternion& orientation1, const Ellipsoid& two,
+                        const Quaternion& orientation2, const Vec3& d) {
+  const EllipsoidPair pair = pair_at_rest(one, orientation1, two, orientation2, d);
+  auto [n, separates] = detail::find_separating_axis(pair);
+  GapAlongAxis3 here = gap_along(pair, n);
+  if (!separates) return {std::min(0.0, here.gap), vector(n.n)};
+  for (int step = 0; step < max_newton_steps; ++step)
+    if (!detail::climb(pair, n, here)) break;
+  detail::settle(pair, n, here);
+  return {here.gap, vector(n.n)};
+}
+
+bool separated(const Ellipsoid& one, const Quaternion& orientation1, const Ellipsoid& two,
+               const Quaternion& orientation2, const Vec3& d, double margin) {
+  const double distance_squared = d.squaredNorm();
+  const double outer = one.circumradius() + two.circumradius() + margin;
+  if (distance_squared >= outer * outer) return true;
+  const double inner = one.inradius() + two.inradius() + margin;
+  if (distance_squared < inner * inner) return false;
+
+  const EllipsoidPair pair = pair_at_rest(one, orientation1, two, orientation2, d);
+  auto [n, separates] = detail::find_separating_axis(pair);
+  if (!separates) return false;
+  GapAlongAxis3 here = gap_along(pair, n);
+  for (int step = 0; here.gap < margin && step < max_newton_steps; ++step)
+    if (!detail::climb(pair, n, here)) break;
+  return here.gap >= margin;
+}
+
+Vec3 surface_point(const Ellipsoid& body, const Quaternion& orientation, const Vec3& n) {
+  const Vec3 scaled = body.semi_axes.cwiseProduct(orientation.conjugate() * n);
+  return orientation * body.semi_axes.cwiseProduct(scaled / scaled.norm());
+}
+
+}  // namespace vitrel

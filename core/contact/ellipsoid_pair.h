@@ -1,0 +1,200 @@
+#pragma once
+
+#include "core/contact/lanes.h"
+#include "core/geometry/growing.h"
+
+namespace vitrel {
+
+/// A vector of which every component is a number of several bodies or pairs (lanes.h), or one number.
+template <class T>
+struct Vec3Of {
+  T x, y, z;
+};
+
+template <class T, class U>
+VITREL_INLINE auto dot(const Vec3Of<T>& u, const Vec3Of<U>& v) {
+  using Sum = std::conditional_t<std::is_same_v<T, double>, U, T>;
+  return Sum(u.x * v.x + u.y * v.y + u.z * v.z);
+}
+
+/// A unit vector n with two more that complete it: right-handed, e₁ × e₂ = n.
+template <class T>
+struct AxisOf {
+  Vec3Of<T> n, e1, e2;
+};
+
+/// Completes a unit vector, without a square root and smoothly but for n_z = 0 (Duff et al., 2017).
+template <class T>
+VITREL_INLINE AxisOf<T> completed(const Vec3Of<T>& n) {
+  using detail::signs;
+  const T sign = signs(n.z);
+  const T a = -1. / (sign + n.z);
+  const T b = n.x * n.y * a;
+  return {n, {1. + sign * (n.x * n.x * a), sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}};
+}
+
+/// An ellipsoid at one instant: the rows of G = diag(a, b, c) Rᵀ, its axes with the length of the
+/// semi-axes. The ellipsoid is the set of Gᵀu with |u| ≤ 1.
+template <class T>
+struct AxesOf {
+  Vec3Of<T> first, second, third;
+};
+
+/// The support function h(n) = |G n| of an ellipsoid, with what its change needs. The surface point with
+/// the outward normal n is x = h n + s₁ e₁ + s₂ e₂, and H = Σ/h − x xᵀ/h, the matrix of second
+/// derivatives of h, has in the plane of e₁ and e₂ the radii of curvature where n is the normal.
+template <class T>
+struct SupportOf {
+  T height;         ///< h
+  T s1, s2;         ///< x·e₁, x·e₂
+  T h11, h12, h22;  ///< e_i·H e_j
+};
+
+template <class T, class A>
+VITREL_INLINE SupportOf<T> support_along(const AxesOf<T>& body, const AxisOf<A>& axis) {
+  using std::sqrt;
+  const auto image = [&](const Vec3Of<A>& v) -> Vec3Of<T> {
+    return {dot(body.first, v), dot(body.second, v), dot(body.third, v)};
+  };
+  const Vec3Of<T> m = image(axis.n), w1 = image(axis.e1), w2 = image(axis.e2);
+  SupportOf<T> s;
+  const T square = dot(m, m);
+  s.height = sqrt(square);
+  const T inverse = 1. / s.height;
+  s.s1 = dot(m, w1) * inverse;
+  s.s2 = dot(m, w2) * inverse;
+  s.h11 = (dot(w1, w1) - s.s1 * s.s1) * inverse;
+  s.h12 = (dot(w1, w2) - s.s1 * s.s2) * inverse;
+  s.h22 = (dot(w2, w2) - s.s2 * s.s2) * inverse;
+  return s;
+}
+
+/// An angular velocity along an axis: ω·n, ω·e₁, ω·e₂.
+template <class T>
+struct SpinOf {
+  T on, o1, o2;
+};
+
+template <class T, class A>
+VITREL_INLINE SpinOf<T> spin_along(const Vec3Of<T>& omega, const AxisOf<A>& axis) {
+  return {dot(omega, axis.n), dot(omega, axis.e1), dot(omega, axis.e2)};
+}
+
+/// How the support function at a fixed n changes while the body turns: since turning the body is turning
+/// n the other way, ḣ = −x·(ω × n) and ḧ = (ω × n)·H(ω × n) + (x·ω)(ω·n) − ω² h; with the gradient of
+/// −ḣ in the plane of e₁ and e₂.
+template <class T>
+struct SupportRates {
+  T rate;            ///< ḣ
+  T second;          ///< ḧ
+  T mixed1, mixed2;  ///< −∂ḣ/∂e₁, −∂ḣ/∂e₂
+};
+
+template <class T>
+VITREL_INLINE SupportRates<T> support_rates(const SupportOf<T>& s, const SpinOf<T>& w) {
+  const T hq1 = s.h11 * w.o2 - s.h12 * w.o1;
+  const T hq2 = s.h12 * w.o2 - s.h22 * w.o1;
+  return {s.s2 * w.o1 - s.s1 * w.o2,
+          (hq1 * w.o2 - hq2 * w.o1) + w.on * (s.s1 * w.o1 + s.s2 * w.o2) -
+              s.height * (w.o1 * w.o1 + w.o2 * w.o2),
+          hq1 + (w.on * s.s2 - w.o2 * s.height), hq2 + (w.o1 * s.height - w.on * s.s1)};
+}
+
+/// A bound of ḧ while a body turns for `duration`, which may be negative (then looking back).
+///
+/// In the frame of the body n turns about u = ω/|ω| at an angle α to it that stays. Let S be the shape
+/// matrix in that frame, Δ the difference of its eigenvalues in the plane normal to u, a² − c² at most,
+/// and τ = |S u − u (u·S u)|. With φ = |ω| t
+///     h² = const + sin 2α τ cos(φ − φ₁) + ½ sin²α Δ cos 2(φ − φ₂),
+/// so that, with Q = |sin α cos α| τ + sin²α Δ,
+///     |(h²)''|/2 ≤ ω² Q,   |(h²)'''|/2 ≤ 2 ω³ Q.
+/// ḧ = ((h²)''/2 − ḣ²)/h therefore is at most q/h_least with
+///     q = min(ω² Q, h ḧ + ḣ² + 2 |ω|³ Q t) now,   h_least² = max(c², h² − 2 |h ḣ| t − ω² Q t²),
+/// c the shortest semi-axis and |h ḣ| counted only if h falls. Negative q counts as 0. Of a spheroid that
+/// turns about an axis normal to its own, τ = 0.
+template <class T>
+VITREL_INLINE T bend_bound(const SupportOf<T>& s, const SupportRates<T>& r, const SpinOf<T>& w,
+                           const T& delta, const T& tau, const T& shortest_squared,
+                           const T& duration) {
+  using detail::positive_part;
+  using std::sqrt;
+  const T across = w.o1 * w.o1 + w.o2 * w.o2;  // ω² sin²α
+  const T along = w.on * w.on;
+  const T square = across + along;
+  const T amplitude = sqrt(across * along) * tau + across * delta;
+  const T time = abs(duration);
+  const T now = s.height * r.second + r.rate * r.rate;
+  const T rising = detail::lesser(amplitude, now + 2. * sqrt(square) * amplitude * time);
+  const T slope = 2. * s.height * r.rate;
+  const T least = s.height * s.height - positive_part(-slope * duration) - amplitude * time * time;
+  const T least_squared = -detail::lesser(-least, -shortest_squared);
+  return positive_part(rising) / sqrt(least_squared);
+}
+
+/// A point of the tangent plane, in units of e₁ and e₂.
+using Tangent = Vec2;
+
+/// Two ellipsoids at one instant. Lane 0 is body 1.
+struct EllipsoidPair {
+  AxesOf<Lanes> axes;  ///< at size 1
+  Lanes size;          ///< by which they are multiplied
+  Vec3 d;              ///< from centre 1 to centre 2
+};
+
+/// The support gap g = n·d − σ₁h₁ − σ₂h₂ at a unit vector n, σ the sizes, with its gradient and second
+/// derivatives along the great circles through n: C = Σ σ H + g on the plane of e₁ and e₂.
+struct GapAlongAxis3 : SupportOf<Lanes> {
+  double gap = 0;
+  Tangent slope;
+  double c11 = 1, c12 = 0, c22 = 1;  ///< C = −∇∇g
+
+  double determinant() const { return c11 * c22 - c12 * c12; }
+  bool is_concave() const { return c11 + c22 > 0 && determinant() > 0; }
+  /// (det C) C⁻¹ t
+  Tangent adjugate(const Tangent& t) const {
+    return {c22 * t[0] - c12 * t[1], c11 * t[1] - c12 * t[0]};
+  }
+  /// Newton's step to the maximum; uphill where there is none.
+  Tangent newton() const { return is_concave() ? Tangent(adjugate(slope) / determinant()) : slope; }
+  /// What it would add to g, to second order (only meaningful if concave).
+  double gain() const { return 0.5 * slope.dot(newton()); }
+};
+
+using Axis3 = AxisOf<double>;
+
+/// τ of bend_bound for the unit vector u along ω. `squares` are those of the semi-axes, `inverse` their
+/// inverses; own components of u are those along the axes of the body.
+template <class T>
+VITREL_INLINE T tumbling(const AxesOf<T>& body, const Vec3Of<T>& u, const Vec3Of<T>& squares,
+                         const Vec3Of<T>& inverse) {
+  using std::sqrt;
+  const Vec3Of<T> own{dot(body.first, u) * inverse.x, dot(body.second, u) * inverse.y,
+                      dot(body.third, u) * inverse.z};
+  const T mean = squares.x * own.x * own.x + squares.y * own.y * own.y + squares.z * own.z * own.z;
+  const Vec3Of<T> rest{(squares.x - mean) * own.x, (squares.y - mean) * own.y,
+                       (squares.z - mean) * own.z};
+  return sqrt(dot(rest, rest));
+}
+
+/// Between the two forms of a vector.
+inline Vec3Of<double> components(const Vec3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+inline Vec3 vector(const Vec3Of<double>& v) {
+  return {v.x, v.y, v.z};
+}
+
+VITREL_INLINE GapAlongAxis3 gap_along(const EllipsoidPair& pair, const Axis3& axis) {
+  GapAlongAxis3 g;
+  static_cast<SupportOf<Lanes>&>(g) = support_along<Lanes>(pair.axes, axis);
+  const auto total = [&](const Lanes& of) { return (pair.size * of).sum(); };
+  const Vec3Of<double> d = components(pair.d);
+  g.gap = dot(axis.n, d) - total(g.height);
+  g.slope = {dot(axis.e1, d) - total(g.s1), dot(axis.e2, d) - total(g.s2)};
+  g.c11 = total(g.h11) + g.gap;
+  g.c12 = total(g.h12);
+  g.c22 = total(g.h22) + g.gap;
+  return g;
+}
+
+}  // namespace vitrel

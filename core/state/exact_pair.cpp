@@ -1,0 +1,227 @@
+#include "core/state/exact_pair.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace vitrel::exact {
+namespace {
+
+constexpr Real longest_step = 0.1L;
+
+/// g(n) = n·d − h₁(n) − h₂(n) at a unit vector n, and the step of n along its tangent by which Newton's
+/// method would go to the maximum; where g is not concave, one of the longest length uphill.
+template <int Dim>
+struct Separation {
+  Real gap;
+  Point<Dim> step;
+};
+
+/// The support function of an ellipse about its centre along the unit vector n, with its derivative
+/// along the angle of n and the radius of curvature ρ = h + h'' = a²b²/h³.
+struct EllipseSupport {
+  Real h, slope, radius;
+};
+
+EllipseSupport support_of(const EllipseAxes<Real>& e, const Point<2>& n) {
+  const Real along = n.x() * e.cosine + n.y() * e.sine;
+  const Real across = n.y() * e.cosine - n.x() * e.sine;
+  const Real p = e.a * along;
+  const Real q = e.b * across;
+  const Real h = std::sqrt(p * p + q * q);
+  const Real ab = e.a * e.b;
+  return {h, -(e.a - e.b) * (e.a + e.b) * along * across / h, ab * ab / (h * h * h)};
+}
+
+Separation<2> separation_along(const Particle<2>& one, const Particle<2>& two, const Point<2>& d,
+                               const Point<2>& n) {
+  const EllipseSupport first = support_of(one.axes, n);
+  const EllipseSupport second = support_of(two.axes, n);
+  const Real gap = n.x() * d.x() + n.y() * d.y() - first.h - second.h;
+  const Real slope = n.x() * d.y() - n.y() * d.x() - first.slope - second.slope;
+  const Real curvature = -gap - first.radius - second.radius;
+  const Real turn = curvature < 0 ? std::clamp(-slope / curvature, -longest_step, longest_step)
+                                  : std::copysign(longest_step, slope);
+  return {gap, {-turn * n.y(), turn * n.x()}};
+}
+
+using Matrix = Eigen::Matrix<Real, 3, 3>;
+
+/// h of an ellipsoid with its gradient Σn/h and its matrix of second derivatives Σ/h − Σn(Σn)ᵀ/h³, for
+/// any vector n.
+struct EllipsoidSupport {
+  Real h;
+  Point<3> gradient;
+  Matrix bend;
+
+  EllipsoidSupport(const EllipsoidAxes<Real>& e, const Point<3>& n) {
+    const Matrix axes = e.directions * e.lengths.asDiagonal();
+    const Point<3> along = axes.transpose() * n;
+    h = along.norm();
+    gradient = axes * (along / h);
+    bend = (axes * axes.transpose() - gradient * gradient.transpose()) / h;
+  }
+};
+
+/// Two unit vectors that complete n, as columns.
+Eigen::Matrix<Real, 3, 2> tangents(const Point<3>& n) {
+  Eigen::Matrix<Real, 3, 2> t;
+  t.col(0) = n.unitOrthogonal();
+  t.col(1) = n.cross(t.col(0));
+  return t;
+}
+
+/// On the sphere the second derivatives are those in space less g times the unit matrix, since all terms
+/// of g are homogeneous in n.
+Separation<3> separation_along(const Particle<3>& one, const Particle<3>& two, const Point<3>& d,
+                               const Point<3>& n) {
+  const EllipsoidSupport first(one.axes, n);
+  const EllipsoidSupport second(two.axes, n);
+  const Real gap = n.dot(d) - first.h - second.h;
+  const Eigen::Matrix<Real, 3, 2> t = tangents(n);
+  const Point<2> slope = t.transpose() * (d - first.gradient - second.gradient);
+  Eigen::Matrix<Real, 2, 2> bend = t.transpose() * (first.bend + second.bend) * t;
+  bend.diagonal().array() += gap;
+  const bool concave = bend(0, 0) > 0 && bend.determinant() > 0;
+  Point<2> turn = concave ? Point<2>(bend.llt().solve(slope)) : slope;
+  const Real length = turn.norm();
+  if (length > longest_step || (!concave && length > 0)) turn *= longest_step / length;
+  return {gap, t * turn};
+}
+
+/// The local maximum of g above n: Newton's method, halving every step that would lead down. Where
+/// g > 0 it is strictly concave on the sphere, so that there is one maximum. Ends early with any value
+/// that is `enough`.
+template <int Dim>
+Real climb(const Particle<Dim>& one, const Particle<Dim>& two, const Point<Dim>& d, Point<Dim> n,
+           Real enough) {
+  constexpr Real shortest_step = 1e-10L;  // g is flat there: an error of 1e-20 in relative terms
+  constexpr int most_steps = 200;
+  Separation<Dim> here = separation_along(one, two, d, n);
+  for (int step = 0; step < most_steps && here.gap < enough; ++step) {
+    Point<Dim> turn = here.step;
+    Point<Dim> next = (n + turn).normalized();
+    Separation<Dim> there = separation_along(one, two, d, next);
+    while (there.gap < here.gap && turn.norm() > shortest_step) {
+      turn /= 2;
+      next = (n + turn).normalized();
+      there = separation_along(one, two, d, next);
+    }
+    if (there.gap > here.gap) n = next, here = there;
+    if (turn.norm() <= shortest_step) break;
+  }
+  return here.gap;
+}
+
+/// A direction that separates disjoint ellipses. Between its two positive roots the polynomial p(t)
+/// = t³ + G₁t² + (G₂/q)t + 1/q is negative, and (Σ₁ + tΣ₂)⁻¹d separates for every such t: take the
+/// minimum of p.
+Point<2> separating_direction(const Particle<2>& one, const Particle<2>& two, const Point<2>& d,
+                              const VieillardBaron<Real>& contact) {
+  const EllipseAxes<Real>& e = one.axes;
+  const EllipseAxes<Real>& f = two.axes;
+  const Real ratio = (e.a * e.b) / (f.a * f.b);
+  const Real g = contact.g1;
+  const Real root = std::sqrt(std::max<Real>(0, g * g - 3 * contact.g2 * ratio * ratio));
+  // The larger root of 3t² + 2G₁t + G₂/q, without cancellation for either sign of G₁.
+  const Real t = g < 0 ? (root - g) / 3 : -contact.g2 * ratio * ratio / (g + root);
+  const auto adjugate_times = [](const EllipseAxes<Real>& axes, const Point<2>& x) -> Point<2> {
+    const Real along = (x.x() * axes.cosine + x.y() * axes.sine) * axes.b * axes.b;
+    const Real across = (x.y() * axes.cosine - x.x() * axes.sine) * axes.a * axes.a;
+    return {along * axes.cosine - across * axes.sine, along * axes.sine + across * axes.cosine};
+  };
+  return (adjugate_times(e, d) + t * adjugate_times(f, d)).normalized();
+}
+
+/// Evenly spread over the unit circle, and over the unit sphere (Fibonacci's lattice).
+template <int Dim>
+constexpr int sample_count = Dim == 2 ? 64 : 512;
+
+Point<2> sample_point(int k, Point<2>) {
+  const Real angle = 2 * std::numbers::pi_v<Real> * k / sample_count<2>;
+  return {std::cos(angle), std::sin(angle)};
+}
+
+Point<3> sample_point(int k, Point<3>) {
+  const Real z = 1 - (2 * k + 1) / static_cast<Real>(sample_count<3>);
+  const Real angle = 2 * std::numbers::pi_v<Real> * k / std::numbers::phi_v<Real>;
+  const Real radius = std::sqrt(1 - z * z);
+  return {radius * std::cos(angle), radius * std::sin(angle), z};
+}
+
+template <int Dim>
+const std::array<Point<Dim>, sample_count<Dim>>& sample_points() {
+  static const auto points = [] {
+    std::array<Point<Dim>, sample_count<Dim>> table;
+    for (int k = 0; k < sample_count<Dim>; ++k) table[k] = sample_point(k, Point<Dim>{});
+    return table;
+  }();
+  return points;
+}
+
+/// The normal of a body at the image of the point e of the unit circle or sphere.
+Point<2> normal_at(const EllipseAxes<Real>& body, const Point<2>& e) {
+  const Real along = body.b * e.x();
+  const Real across = body.a * e.y();
+  return Point<2>(along * body.cosine - across * body.sine,
+                  along * body.sine + across * body.cosine)
+      .normalized();
+}
+
+Point<3> normal_at(const EllipsoidAxes<Real>& body, const Point<3>& e) {
+  return (body.directions * e.cwiseQuotient(body.lengths)).normalized();
+}
+
+/// The highest of many normals of both bodies, spread so that sharp tips get their share, then the
+/// maximum next to it. Ends early with any value that is `enough`.
+template <int Dim>
+Real overlap_gap(const Particle<Dim>& one, const Particle<Dim>& two, const Point<Dim>& d,
+                 Real enough) {
+  Point<Dim> best = Point<Dim>::UnitX();
+  Real highest = -std::numeric_limits<Real>::infinity();
+  for (const Particle<Dim>* body : {&one, &two}) {
+    for (const Point<Dim>& point : sample_points<Dim>()) {
+      const Point<Dim> n = normal_at(body->axes, point);
+      const Real gap = separation_along(one, two, d, n).gap;
+      if (gap >= enough) return gap;
+      if (gap > highest) highest = gap, best = n;
+    }
+  }
+  return climb(one, two, d, best, enough);
+}
+
+}  // namespace
+
+Particle<2> particle(const Configuration2& configuration, std::size_t i) {
+  const Ellipse& shape = configuration.shape[i];
+  const Real angle = configuration.angle[i];
+  return {configuration.position[i].cast<Real>(),
+          {shape.a, shape.b, std::cos(angle), std::sin(angle)},
+          shape.a};
+}
+
+Particle<3> particle(const Configuration3& configuration, std::size_t i) {
+  const Ellipsoid& shape = configuration.shape[i];
+  return {configuration.position[i].cast<Real>(),
+          {shape, configuration.orientation[i]},
+          shape.circumradius()};
+}
+
+Finding examine(const Particle<2>& one, const Particle<2>& two, const Point<2>& d, Real enough) {
+  const auto contact = vieillard_baron<Real>(one.axes, two.axes, d.x(), d.y());
+  const bool apart = d.norm() >= one.circumradius + two.circumradius;
+  if (!apart && !contact.disjoint_or_touching()) return {true, overlap_gap(one, two, d, enough)};
+  return {false, climb(one, two, d, separating_direction(one, two, d, contact), enough)};
+}
+
+Finding examine(const Particle<3>& one, const Particle<3>& two, const Point<3>& d, Real enough) {
+  const bool apart = d.norm() >= one.circumradius + two.circumradius;
+  if (!apart && !ellipsoid_eta<Real>(one.axes, two.axes, d).disjoint_or_touching())
+    return {true, overlap_gap(one, two, d, enough)};
+  return {false, climb(one, two, d, ellipsoid_touch<Real>(one.axes, two.axes, d).normal, enough)};
+}
+
+}  // namespace vitrel::exact

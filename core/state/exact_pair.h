@@ -1,0 +1,41 @@
+#pragma once
+
+#include <limits>
+#include <type_traits>
+
+#include "core/contact/ellipsoid_eta.h"
+#include "core/contact/vieillard_baron.h"
+#include "core/state/configuration.h"
+
+/// Two particles in 80-bit arithmetic, as the exact check (check.h) judges and measures them.
+namespace vitrel::exact {
+
+using Real = long double;
+static_assert(std::numeric_limits<Real>::digits >= 64, "the exact check needs 80-bit arithmetic");
+
+template <int Dim>
+using Point = Eigen::Matrix<Real, Dim, 1>;
+
+template <int Dim>
+struct Particle {
+  Point<Dim> centre;
+  std::conditional_t<Dim == 2, EllipseAxes<Real>, EllipsoidAxes<Real>> axes;
+  Real circumradius;
+};
+
+/// Particle i of a configuration, unchanged.
+Particle<2> particle(const Configuration2& configuration, std::size_t i);
+Particle<3> particle(const Configuration3& configuration, std::size_t i);
+
+struct Finding {
+  bool overlap;
+  /// The distance of the surfaces, or minus the depth (check.h); of a pair whose gap is not below what was
+  /// `enough`, any number that is not either.
+  Real gap;
+};
+
+/// d from centre 1 to centre 2.
+Finding examine(const Particle<2>& one, const Particle<2>& two, const Point<2>& d, Real enough);
+Finding examine(const Particle<3>& one, const Particle<3>& two, const Point<3>& d, Real enough);
+
+}  // namespace vitrel::exact

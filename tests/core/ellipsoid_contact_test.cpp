@@ -1,0 +1,242 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "core/contact/ellipsoid_gap.h"
+#include "core/contact/ellipsoid_pair_in_flight.h"
+#include "core/contact/first_contact.h"
+#include "core/tolerances.h"
+#include "tests/support/solids.h"
+
+namespace vitrel {
+namespace {
+
+constexpr double forever = std::numeric_limits<double>::infinity();
+
+double support(const Ellipsoid& body, const Quaternion& orientation, const Vec3& n) {
+  return body.semi_axes.cwiseProduct(orientation.conjugate() * n).norm();
+}
+
+// The largest gap by a search that knows nothing of derivatives: ever smaller random turns.
+double gap_by_trial(const Ellipsoid& one, const Quaternion& q1, const Ellipsoid& two,
+                    const Quaternion& q2, const Vec3& d, Stream& draw) {
+  const auto gap = [&](const Vec3& n) {
+    return n.dot(d) - support(one, q1, n) - support(two, q2, n);
+  };
+  Vec3 best = d.normalized();
+  for (int k = 0; k < 2000; ++k)
+    if (const Vec3 n = random_direction(draw); gap(n) > gap(best)) best = n;
+  for (double width = 0.1; width > 1e-9; width *= 0.9)
+    for (int k = 0; k < 20; ++k)
+      if (const Vec3 n = (best + width * random_direction(draw)).normalized(); gap(n) > gap(best))
+        best = n;
+  return gap(best);
+}
+
+TEST(EllipsoidGap, IsTheLargestOverAllDirections) {
+  Stream draw(1, Purpose::tests);
+  int disjoint = 0;
+  for (int k = 0; k < 300; ++k) {
+    const Ellipsoid one = random_ellipsoid(draw, 10), two = random_ellipsoid(draw, 10);
+    const Quaternion q1 = random_orientation(draw), q2 = random_orientation(draw);
+    const Vec3 d =
+        draw.uniform(0, 1.2) * (one.circumradius() + two.circumradius()) * random_direction(draw);
+    const SupportGap3 found = support_gap(one, q1, two, q2, d);
+    const double sought = gap_by_trial(one, q1, two, q2, d, draw);
+    EXPECT_EQ(found.gap > 0, sought > 0);
+    if (!(sought > 0)) continue;
+    ++disjoint;
+    EXPECT_GE(found.gap, sought - 1e-13);
+    EXPECT_NEAR(found.gap, sought, 1e-8);
+    EXPECT_NEAR(
+        found.normal.dot(d) - support(one, q1, found.normal) - support(two, q2, found.normal),
+        found.gap, 1e-13);
+    EXPECT_TRUE(separated(one, q1, two, q2, d, 0.5 * found.gap));
+    EXPECT_FALSE(separated(one, q1, two, q2, d, found.gap + 1e-9));
+  }
+  EXPECT_GT(disjoint, 50);
+}
+
+TEST(EllipsoidGap, OfSpheresAndAlongAxesInClosedForm) {
+  Stream draw(2, Purpose::tests);
+  const Quaternion none = Quaternion::Identity();
+  for (int k = 0; k < 100; ++k) {
+    const Vec3 d = draw.uniform(1, 5) * random_direction(draw);
+    const Ellipsoid small{Vec3::Constant(0.3)}, large{Vec3::Constant(0.6)};
+    EXPECT_NEAR(
+        support_gap(small, random_orientation(draw), large, random_orientation(draw), d).gap,
+        d.norm() - 0.9, 4e-15);
+  }
+  const Ellipsoid body{Vec3(3, 2, 0.5)};
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 d = 10 * Vec3::Unit(k);
+    EXPECT_NEAR(support_gap(body, none, body, none, d).gap, 10 - 2 * body.semi_axes[k], 1e-14);
+  }
+}
+
+// Along a fixed axis, over a whole turn: the bound is never too low, and not idle.
+TEST(EllipsoidPairInFlight, AccelerationBoundHoldsAndIsTight) {
+  Stream draw(3, Purpose::tests);
+  double tightest = 0;
+  for (int k = 0; k < 400; ++k) {
+    const bool turns_across = k % 2 == 0;
+    const Ellipsoid shape =
+        turns_across ? prolate(draw.uniform(1, 20)) : random_ellipsoid(draw, 20);
+    const auto flight = [&] {
+      const Quaternion q = random_orientation(draw);
+      Vec3 omega = draw.uniform(0, 3) * random_direction(draw);
+      if (turns_across) omega -= (q * Vec3::UnitX()).dot(omega) * (q * Vec3::UnitX());
+      return Flight<GrowingEllipsoid>{{shape, 1, draw.uniform(-0.1, 0.3)},
+                                      {draw.uniform(0, 5) * random_direction(draw), q},
+                                      {random_direction(draw), omega}};
+    };
+    EllipsoidPairInFlight<GrowingEllipsoid> pair(flight(), flight());
+    const Axis3 n = completed(components(random_direction(draw)));
+    pair.go_to(1);
+    const auto then = pair.look(n);
+    const double rate = pair.gap_rate(n, then);
+    for (const double reach : {-1.0, -0.1, 0.01, 0.1, 0.5, 1.0, 3.0}) {
+      pair.go_to(1);
+      const double bound = pair.acceleration_bound(then, reach);
+      EXPECT_LE(bound, reach < 1 ? pair.largest_acceleration() * (1 + 1e-12) : forever);
+      for (int step = 1; step <= 50; ++step) {
+        const double s = reach * step / 50;
+        pair.go_to(1 + s);
+        const double loss = then.gap + rate * s - pair.look(n).gap;
+        EXPECT_LE(loss, 0.5 * bound * s * s + 1e-12);
+        if (bound > 1e-3) tightest = std::max(tightest, loss / (0.5 * bound * s * s));
+      }
+    }
+  }
+  EXPECT_GT(tightest, 0.9);
+}
+
+TEST(EllipsoidPairInFlight, RatesAreDerivatives) {
+  Stream draw(4, Purpose::tests);
+  constexpr double h = 1e-5;
+  for (int k = 0; k < 100; ++k) {
+    const auto flight = [&] {
+      return Flight<GrowingEllipsoid>{
+          {random_ellipsoid(draw, 5), 1, draw.uniform(-0.1, 0.3)},
+          {draw.uniform(0, 5) * random_direction(draw), random_orientation(draw)},
+          {random_direction(draw), 2 * random_direction(draw)}};
+    };
+    EllipsoidPairInFlight<GrowingEllipsoid> pair(flight(), flight());
+    const Axis3 n = completed(components(random_direction(draw)));
+    const auto gap = [&](double time, const Tangent& step) {
+      pair.go_to(time);
+      return pair.look(detail::turned(n, step)).gap;
+    };
+    pair.go_to(0.3);
+    const auto g = pair.look(n);
+    const double rate = pair.gap_rate(n, g), acceleration = pair.acceleration(g);
+    const Tangent mixed = pair.slope_rate(n, g), ex(h, 0), ey(0, h), none(0, 0);
+    EXPECT_NEAR(rate, (gap(0.3 + h, none) - gap(0.3 - h, none)) / (2 * h), 1e-7);
+    EXPECT_NEAR(acceleration, -(gap(0.3 + h, none) - 2 * g.gap + gap(0.3 - h, none)) / (h * h),
+                1e-3);
+    EXPECT_NEAR(g.slope[0], (gap(0.3, ex) - gap(0.3, -ex)) / (2 * h), 1e-7);
+    EXPECT_NEAR(g.slope[1], (gap(0.3, ey) - gap(0.3, -ey)) / (2 * h), 1e-7);
+    EXPECT_NEAR(g.c11, -(gap(0.3, ex) - 2 * g.gap + gap(0.3, -ex)) / (h * h), 1e-3);
+    EXPECT_NEAR(g.c22, -(gap(0.3, ey) - 2 * g.gap + gap(0.3, -ey)) / (h * h), 1e-3);
+    EXPECT_NEAR(g.c12,
+                -(gap(0.3, ex + ey) - gap(0.3, ex - ey) - gap(0.3, ey - ex) + gap(0.3, -ex - ey)) /
+                    (4 * h * h),
+                1e-3);
+    EXPECT_NEAR(
+        mixed[0],
+        (gap(0.3 + h, ex) - gap(0.3 + h, -ex) - gap(0.3 - h, ex) + gap(0.3 - h, -ex)) / (4 * h * h),
+        1e-3);
+    EXPECT_NEAR(
+        mixed[1],
+        (gap(0.3 + h, ey) - gap(0.3 + h, -ey) - gap(0.3 - h, ey) + gap(0.3 - h, -ey)) / (4 * h * h),
+        1e-3);
+  }
+}
+
+template <class B>
+double gap_at(const Flight<B>& one, const Flight<B>& two, double time) {
+  const Pose3 p1 = advanced(one.pose, one.motion, time), p2 = advanced(two.pose, two.motion, time);
+  return support_gap(one.body.at(time), p1.orientation, two.body.at(time), p2.orientation,
+                     p2.position - p1.position)
+      .gap;
+}
+
+// The first contact by small steps in time, refined by halving.
+template <class B>
+double contact_by_steps(const Flight<B>& one, const Flight<B>& two, double horizon) {
+  constexpr int steps = 4000;
+  for (int k = 1; k <= steps; ++k) {
+    double late = horizon * k / steps, early = horizon * (k - 1) / steps;
+    if (gap_at(one, two, late) > 0) continue;
+    for (int halving = 0; halving < 60; ++halving) {
+      const double middle = 0.5 * (early + late);
+      (gap_at(one, two, middle) > 0 ? early : late) = middle;
+    }
+    return early;
+  }
+  return forever;
+}
+
+TEST(EllipsoidFirstContact, IsThatOfAScanInSmallSteps) {
+  constexpr double horizon = 2;
+  int contacts = 0;
+  for (const double aspect : {1.001, 2.0, 10.0, 40.0}) {
+    Stream draw(5, Purpose::tests, static_cast<std::uint64_t>(1000 * aspect));
+    for (int k = 0; k < 200; ++k) {
+      const Ellipsoid shape = k % 3 == 0   ? prolate(aspect)
+                              : k % 3 == 1 ? oblate(aspect)
+                                           : random_ellipsoid(draw, aspect);
+      const double reach = 2 * shape.circumradius();
+      const auto flight = [&](const Vec3& position) {
+        return Flight<GrowingEllipsoid>{
+            {shape, 1, k % 2 == 0 ? 0 : draw.uniform(-0.1, 0.3)},
+            {position, random_orientation(draw)},
+            {0.3 * reach * random_direction(draw), draw.uniform(0, 4) * random_direction(draw)}};
+      };
+      const auto one = flight({0, 0, 0});
+      const auto two = flight(draw.uniform(0.3, 1) * reach * random_direction(draw));
+      const double contact_gap = tolerance::contact_gap(reach);
+      const Prediction3 found = first_contact(one, two, horizon, contact_gap);
+      if (!(gap_at(one, two, 0) > 0)) {
+        EXPECT_EQ(found.outcome, Outcome::overlap);
+        continue;
+      }
+      const double truth = contact_by_steps(one, two, horizon);
+      if (truth == forever) {
+        // A graze between two steps may be found; it must then be one.
+        if (found.outcome == Outcome::contact) {
+          EXPECT_LE(gap_at(one, two, found.time), 2 * contact_gap);
+        }
+        continue;
+      }
+      ++contacts;
+      ASSERT_EQ(found.outcome, Outcome::contact);
+      EXPECT_LE(found.time, truth);
+      EXPECT_NEAR(found.time, truth, 1e-9 * aspect) << aspect << " " << k;
+      EXPECT_NEAR(gap_at(one, two, found.time), contact_gap, 0.6 * contact_gap + 2e-15 * reach);
+      const Vec3 arm = found.point - one.pose.position - one.motion.velocity * found.time;
+      const Pose3 p1 = advanced(one.pose, one.motion, found.time);
+      EXPECT_NEAR(
+          (arm - surface_point(one.body.at(found.time), p1.orientation, found.normal)).norm(), 0,
+          1e-12 * reach);
+    }
+  }
+  EXPECT_GT(contacts, 50);
+}
+
+TEST(EllipsoidFirstContact, SpheresInClosedForm) {
+  const Flight<Sphere> one{{1}, {{0, 0, 0}}, {{0.5, 0, 0}}};
+  const Flight<Sphere> two{{2}, {{7, 0.6, 0.8}}, {{-1.5, 0, 0}}};
+  const Prediction3 touch = first_contact(one, two, forever, 0);
+  ASSERT_EQ(touch.outcome, Outcome::contact);
+  EXPECT_NEAR(touch.time, (7 - std::sqrt(8.0)) / 2, 1e-14);
+  const Flight<Ellipsoid> round1{{Vec3::Constant(1)}, one.pose, {one.motion.velocity, {1, 2, 3}}};
+  const Flight<Ellipsoid> round2{{Vec3::Constant(2)}, two.pose, {two.motion.velocity, {3, 0, 1}}};
+  EXPECT_EQ(first_contact(round1, round2, forever, 0).time, touch.time);
+}
+
+}  // namespace
+}  // namespace vitrel
