@@ -38,7 +38,7 @@ class Voronoi {
  private:
   Vec2 lengths_;
   double reach_;  // within which the neighbours usually are
-  CellGrid<> centres_;
+  CellGrid<2> centres_;
 };
 
 }  // namespace vitrel

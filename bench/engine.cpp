@@ -209,8 +209,8 @@ Json measure_brownian(const Effort& effort) {
       options.engine.threads = threads;
       options.brownian = true;
       options.brownian_step = step;
-      RunState state = begin_run(start, 0);
-      RunPlan plan;
+      RunState2 state = begin_run(start, 0);
+      RunPlan2 plan;
       const auto run_for = [&](double duration) {
         plan.end_time += duration;
         return wall_seconds_of([&] { run(state, options, plan, {}); });
@@ -237,7 +237,7 @@ Json measure_brownian(const Effort& effort) {
 
 // ---- what each device gains -------------------------------------------------------------------------
 
-using MakeEngine = std::function<std::unique_ptr<Engine>()>;
+using MakeEngine = std::function<std::unique_ptr<Engine2>()>;
 
 /// The engine as it is for the scene, and with another one, in alternation.
 Json compare(const Effort& effort, const std::string& name, const FluidScene& scene,
@@ -265,7 +265,7 @@ Json neighbor_counts(const Configuration2& c) {
   for (std::size_t i = 0; i < c.size(); ++i) poses.push_back(c.pose(i));
   const KindOf all_alike;
   Neighborhoods<Ellipse> lists(c.box, {c.shape.data(), 1}, all_alike, poses, wanted);
-  const CellGrid<> cells = make_cells(c);
+  const CellGrid<2> cells = make_cells(c);
   const double reach = 2 * (c.shape[0].a + lists.margin());
   std::size_t shaped = 0, round = 0;
   for (std::size_t i = 0; i < c.size(); ++i) {

@@ -194,7 +194,7 @@ struct Question {
 
 /// The questions that trials in this state ask.
 std::vector<Question> questions(const Configuration2& c, const Steps& steps, int count) {
-  const CellGrid<> cells = make_cells(c);
+  const CellGrid<2> cells = make_cells(c);
   Stream draw(5, Purpose::benchmark_cases);
   std::vector<Question> all;
   const auto plus_minus = [&](double step) { return draw.uniform(-step, step); };

@@ -9,56 +9,77 @@ namespace vitrel {
 
 namespace {
 
-void scale_translation(Configuration2& configuration, double factor) {
-  for (Vec2& v : configuration.velocity) v *= factor;
+template <int Dim>
+void scale_translation(Configuration<Dim>& configuration, double factor) {
+  for (Vec<Dim>& v : configuration.velocity) v *= factor;
 }
 
-void scale_rotation(Configuration2& configuration, double factor) {
-  for (double& omega : configuration.angular_velocity) omega *= factor;
+template <int Dim>
+void scale_rotation(Configuration<Dim>& configuration, double factor) {
+  for (AngularVelocity<Dim>& omega : configuration.angular_velocity) omega *= factor;
 }
 
-void remove_momentum(Configuration2& configuration) {
+template <int Dim>
+void remove_momentum(Configuration<Dim>& configuration) {
   double mass = 0;
   for (double m : configuration.mass) mass += m;
   // Twice: the first pass leaves the rounding of the sum, the second that of a sum near zero.
   for (int pass = 0; pass < 2; ++pass) {
-    const Vec2 drift = mechanics(configuration).momentum / mass;
-    for (Vec2& v : configuration.velocity) v -= drift;
+    const Vec<Dim> drift = mechanics(configuration).momentum / mass;
+    for (Vec<Dim>& v : configuration.velocity) v -= drift;
   }
 }
 
-double translational_target(const Configuration2& configuration, Temperature temperature) {
+double thermal_spin(const Configuration2& configuration, std::size_t i, Stream& draw) {
+  if (configuration.shape[i].is_round()) return 0;
+  return draw.normal() / std::sqrt(configuration.inertia(i));
+}
+
+Vec3 thermal_spin(const Configuration3& configuration, std::size_t i, Stream& draw) {
+  const Ellipsoid& shape = configuration.shape[i];
+  if (shape.is_round()) return Vec3::Zero();
+  const Vec3 inertia = configuration.inertia(i);
+  Vec3 own;
+  for (int k = 0; k < 3; ++k)
+    own[k] = k == shape.symmetry_axis() ? 0 : draw.normal() / std::sqrt(inertia[k]);
+  return configuration.orientation[i] * own;
+}
+
+template <int Dim>
+double translational_target(const Configuration<Dim>& configuration, Temperature temperature) {
   const double n = static_cast<double>(configuration.size());
-  return temperature == Temperature::total || n == 1 ? n : n - 1;
+  return 0.5 * Dim * (temperature == Temperature::total || n == 1 ? n : n - 1);
 }
 
 }  // namespace
 
-void draw_velocities(Configuration2& configuration, std::uint64_t seed, Purpose purpose,
+template <int Dim>
+void draw_velocities(Configuration<Dim>& configuration, std::uint64_t seed, Purpose purpose,
                      std::uint64_t step, Temperature temperature, int threads) {
   in_parallel(configuration.size(), threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       Stream draw(seed, purpose, step, i);
       const double thermal = 1 / std::sqrt(configuration.mass[i]);
-      configuration.velocity[i] = {thermal * draw.normal(), thermal * draw.normal()};
-      const double spin = draw.normal() / std::sqrt(configuration.inertia(i));
-      configuration.angular_velocity[i] = configuration.shape[i].is_round() ? 0 : spin;
+      for (double& v : configuration.velocity[i]) v = thermal * draw.normal();
+      configuration.angular_velocity[i] = thermal_spin(configuration, i, draw);
     }
   });
   if (configuration.size() > 1) remove_momentum(configuration);
-  const Mechanics drawn = mechanics(configuration);
+  const auto drawn = mechanics(configuration);
   scale_translation(configuration, std::sqrt(translational_target(configuration, temperature) /
                                              drawn.translational_energy));
-  const double rotors = static_cast<double>(rotor_count(configuration));
-  if (rotors > 0) scale_rotation(configuration, std::sqrt(0.5 * rotors / drawn.rotational_energy));
+  const double rotations = static_cast<double>(rotation_count(configuration));
+  if (rotations > 0)
+    scale_rotation(configuration, std::sqrt(0.5 * rotations / drawn.rotational_energy));
 }
 
-void set_initial_velocities(Configuration2& configuration, std::uint64_t seed,
+template <int Dim>
+void set_initial_velocities(Configuration<Dim>& configuration, std::uint64_t seed,
                             InitialVelocities kind, Temperature temperature) {
   if (kind == InitialVelocities::keep) return;
   draw_velocities(configuration, seed, Purpose::velocities, 0, temperature);
   if (kind == InitialVelocities::maxwell) return;
-  const Mechanics drawn = mechanics(configuration);
+  const auto drawn = mechanics(configuration);
   const double total = drawn.translational_energy + drawn.rotational_energy;
   if (kind == InitialVelocities::translation) {
     scale_translation(configuration, std::sqrt(total / drawn.translational_energy));
@@ -72,5 +93,14 @@ void set_initial_velocities(Configuration2& configuration, std::uint64_t seed,
   scale_rotation(configuration, std::sqrt(total / drawn.rotational_energy));
   scale_translation(configuration, 0);
 }
+
+template void draw_velocities(Configuration2&, std::uint64_t, Purpose, std::uint64_t, Temperature,
+                              int);
+template void set_initial_velocities(Configuration2&, std::uint64_t, InitialVelocities,
+                                     Temperature);
+template void draw_velocities(Configuration3&, std::uint64_t, Purpose, std::uint64_t, Temperature,
+                              int);
+template void set_initial_velocities(Configuration3&, std::uint64_t, InitialVelocities,
+                                     Temperature);
 
 }  // namespace vitrel

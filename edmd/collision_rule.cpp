@@ -2,20 +2,54 @@
 
 namespace vitrel {
 
-double approach_speed(const Motion2& one, const Motion2& two, const ContactGeometry& contact) {
-  return (one.velocity - two.velocity).dot(contact.normal) + one.angular_velocity * contact.arm1 -
-         two.angular_velocity * contact.arm2 + contact.growth;
+namespace {
+
+double product(double one, double two) {
+  return one * two;
+}
+double product(const Vec3& one, const Vec3& two) {
+  return one.dot(two);
 }
 
-double collide(Motion2& one, const Inertia& inertia1, Motion2& two, const Inertia& inertia2,
-               const ContactGeometry& contact, double restitution) {
-  const double spin1 = inertia1.inverse_moment * contact.arm1;
-  const double spin2 = inertia2.inverse_moment * contact.arm2;
+}  // namespace
+
+Inertia<2> inertia_of(const Ellipse& shape, double mass) {
+  return {1 / mass, shape.is_round() ? 0 : 1 / (mass * shape.inertia_per_mass())};
+}
+
+Inertia<3> inertia_of(const Ellipsoid& shape, double mass) {
+  if (shape.is_round()) return {1 / mass, Mat3::Zero()};
+  return {1 / mass, (mass * shape.inertia_per_mass()).cwiseInverse().asDiagonal()};
+}
+
+Inertia<2> in_space(const Inertia<2>& own, const Pose2&, double size) {
+  return {own.inverse_mass, own.inverse_moment / (size * size)};
+}
+
+Inertia<3> in_space(const Inertia<3>& own, const Pose3& pose, double size) {
+  const Mat3 turn = pose.orientation.toRotationMatrix();
+  return {own.inverse_mass, turn * (own.inverse_moment / (size * size)) * turn.transpose()};
+}
+
+template <int Dim>
+double approach_speed(const Motion<Dim>& one, const Motion<Dim>& two,
+                      const ContactGeometry<Dim>& contact) {
+  return (one.velocity - two.velocity).dot(contact.normal) +
+         product(one.angular_velocity, contact.arm1) - product(two.angular_velocity, contact.arm2) +
+         contact.growth;
+}
+
+template <int Dim>
+double collide(Motion<Dim>& one, const Inertia<Dim>& inertia1, Motion<Dim>& two,
+               const Inertia<Dim>& inertia2, const ContactGeometry<Dim>& contact,
+               double restitution) {
+  const AngularVelocity<Dim> spin1 = inertia1.inverse_moment * contact.arm1;
+  const AngularVelocity<Dim> spin2 = inertia2.inverse_moment * contact.arm2;
   // n is a unit vector to rounding, which always errs to the same side for equal disks: with n² here
   // the energy is conserved all the same.
   const double compliance =
       (inertia1.inverse_mass + inertia2.inverse_mass) * contact.normal.squaredNorm() +
-      spin1 * contact.arm1 + spin2 * contact.arm2;
+      product(spin1, contact.arm1) + product(spin2, contact.arm2);
   const double impulse = (1 + restitution) * approach_speed(one, two, contact) / compliance;
   one.velocity -= impulse * inertia1.inverse_mass * contact.normal;
   two.velocity += impulse * inertia2.inverse_mass * contact.normal;
@@ -24,24 +58,41 @@ double collide(Motion2& one, const Inertia& inertia1, Motion2& two, const Inerti
   return impulse;
 }
 
-double collide_with_own_image(Motion2& motion, const Inertia& inertia,
-                              const ContactGeometry& contact, double restitution) {
-  const double arm = contact.arm1 - contact.arm2;
-  const double speed = motion.angular_velocity * arm + contact.growth;
-  motion.angular_velocity =
-      -restitution * motion.angular_velocity - (1 + restitution) * contact.growth / arm;
-  return (1 + restitution) * speed / (inertia.inverse_moment * arm * arm);
+template <int Dim>
+double collide_with_own_image(Motion<Dim>& motion, const Inertia<Dim>& inertia,
+                              const ContactGeometry<Dim>& contact, double restitution) {
+  const AngularVelocity<Dim> arm = contact.arm1 - contact.arm2;
+  const AngularVelocity<Dim> spin = inertia.inverse_moment * arm;
+  const double speed = product(motion.angular_velocity, arm) + contact.growth;
+  const double impulse = (1 + restitution) * speed / product(spin, arm);
+  motion.angular_velocity -= impulse * spin;
+  return impulse;
 }
 
-void separate(Motion2& one, const Inertia& inertia1, Motion2& two, const Inertia& inertia2,
-              const Vec2& d) {
+template <int Dim>
+void separate(Motion<Dim>& one, const Inertia<Dim>& inertia1, Motion<Dim>& two,
+              const Inertia<Dim>& inertia2, const Vec<Dim>& d) {
   const double m1 = 1 / inertia1.inverse_mass;
   const double m2 = 1 / inertia2.inverse_mass;
-  const Vec2 common = (m1 * one.velocity + m2 * two.velocity) / (m1 + m2);
+  const Vec<Dim> common = (m1 * one.velocity + m2 * two.velocity) / (m1 + m2);
   const double speed = (two.velocity - one.velocity).norm();
-  const Vec2 apart = d.normalized();
+  const Vec<Dim> apart = d.normalized();
   one.velocity = common - m2 / (m1 + m2) * speed * apart;
   two.velocity = common + m1 / (m1 + m2) * speed * apart;
 }
+
+template double approach_speed(const Motion<2>&, const Motion<2>&, const ContactGeometry<2>&);
+template double collide(Motion<2>&, const Inertia<2>&, Motion<2>&, const Inertia<2>&,
+                        const ContactGeometry<2>&, double);
+template double collide_with_own_image(Motion<2>&, const Inertia<2>&, const ContactGeometry<2>&,
+                                       double);
+template void separate(Motion<2>&, const Inertia<2>&, Motion<2>&, const Inertia<2>&, const Vec<2>&);
+
+template double approach_speed(const Motion<3>&, const Motion<3>&, const ContactGeometry<3>&);
+template double collide(Motion<3>&, const Inertia<3>&, Motion<3>&, const Inertia<3>&,
+                        const ContactGeometry<3>&, double);
+template double collide_with_own_image(Motion<3>&, const Inertia<3>&, const ContactGeometry<3>&,
+                                       double);
+template void separate(Motion<3>&, const Inertia<3>&, Motion<3>&, const Inertia<3>&, const Vec<3>&);
 
 }  // namespace vitrel

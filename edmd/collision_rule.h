@@ -1,46 +1,62 @@
 #pragma once
 
-#include "core/geometry/pose.h"
+#include "core/geometry/ellipse.h"
+#include "core/geometry/ellipsoid.h"
 
 /// What an impact does to two bodies: smooth (frictionless) surfaces, coefficient of restitution e.
 ///
-///     k_i = arm_i = (x − r_i) × n,   u_n = (v₁ − v₂)·n + ω₁ k₁ − ω₂ k₂ + s   (> 0: approaching)
-///     J = (1 + e) u_n/(1/m₁ + 1/m₂ + k₁²/I₁ + k₂²/I₂)
-///     v₁ −= J n/m₁, v₂ += J n/m₂, ω₁ −= J k₁/I₁, ω₂ += J k₂/I₂
+///     k_i = arm_i = (x − r_i) × n,   u_n = (v₁ − v₂)·n + ω₁·k₁ − ω₂·k₂ + s   (> 0: approaching)
+///     J = (1 + e) u_n/(1/m₁ + 1/m₂ + k₁·I₁⁻¹k₁ + k₂·I₂⁻¹k₂)
+///     v₁ −= J n/m₁, v₂ += J n/m₂, ω₁ −= J I₁⁻¹k₁, ω₂ += J I₂⁻¹k₂
 ///
 /// n is the unit contact normal from 1 to 2, x the contact point, and s the speed at which growth
-/// moves the surfaces towards each other. Momentum and angular momentum are conserved exactly; the
+/// moves the surfaces towards each other. In two dimensions k, ω and I are numbers. Momentum and angular momentum are conserved exactly; the
 /// energy changes by J (s − u_n (1 − e)/2).
 namespace vitrel {
 
-/// The inertia of a body; an inverse moment of inertia 0 means that rotation is not modelled.
+/// The inertia of a body, in space; an inverse moment of inertia 0 means that rotation is not modelled.
+template <int Dim>
 struct Inertia {
   double inverse_mass = 1;
-  double inverse_moment = 0;
+  std::conditional_t<Dim == 2, double, Mat3> inverse_moment;
 };
 
+/// The same about the own axes, at size 1.
+Inertia<2> inertia_of(const Ellipse& shape, double mass);
+Inertia<3> inertia_of(const Ellipsoid& shape, double mass);
+/// Inertia about the own axes in the directions of space, at a size.
+Inertia<2> in_space(const Inertia<2>& own, const Pose2& pose, double size);
+Inertia<3> in_space(const Inertia<3>& own, const Pose3& pose, double size);
+
+template <int Dim>
 struct ContactGeometry {
-  Vec2 normal;
-  double arm1, arm2;
+  Vec<Dim> normal;
+  AngularVelocity<Dim> arm1, arm2;
   double growth = 0;  ///< s = γ₁ h₁(n) + γ₂ h₂(n)
 };
 
 /// Approach speed u_n of the surfaces.
-double approach_speed(const Motion2& one, const Motion2& two, const ContactGeometry& contact);
+template <int Dim>
+double approach_speed(const Motion<Dim>& one, const Motion<Dim>& two,
+                      const ContactGeometry<Dim>& contact);
 
 /// Changes the motions of two different bodies and returns the impulse J.
-double collide(Motion2& one, const Inertia& inertia1, Motion2& two, const Inertia& inertia2,
-               const ContactGeometry& contact, double restitution);
+template <int Dim>
+double collide(Motion<Dim>& one, const Inertia<Dim>& inertia1, Motion<Dim>& two,
+               const Inertia<Dim>& inertia2, const ContactGeometry<Dim>& contact,
+               double restitution);
 
 /// The impact of a body with its own periodic image: both sides act on the same body, its velocity
-/// stays and u_n = ω (k₁ − k₂) + s; without growth ω becomes −e ω. Returns the impulse J.
-double collide_with_own_image(Motion2& motion, const Inertia& inertia,
-                              const ContactGeometry& contact, double restitution);
+/// stays and u_n = ω·k + s with k = k₁ − k₂; ω −= J I⁻¹k. Returns the impulse J.
+template <int Dim>
+double collide_with_own_image(Motion<Dim>& motion, const Inertia<Dim>& inertia,
+                              const ContactGeometry<Dim>& contact, double restitution);
 
 /// The correction move for a pair found overlapping (on_overlap = "correct"): the relative velocity
 /// is laid along the line of centres so that the bodies separate; angular velocities stay. It
 /// conserves momentum and energy, but not angular momentum. `d` runs from centre 1 to centre 2.
-void separate(Motion2& one, const Inertia& inertia1, Motion2& two, const Inertia& inertia2,
-              const Vec2& d);
+template <int Dim>
+void separate(Motion<Dim>& one, const Inertia<Dim>& inertia1, Motion<Dim>& two,
+              const Inertia<Dim>& inertia2, const Vec<Dim>& d);
 
 }  // namespace vitrel

@@ -4,10 +4,18 @@
 
 namespace vitrel {
 
-std::unique_ptr<Engine> make_engine(const Configuration2& configuration,
-                                    const EngineOptions& options) {
-  if (options.growth_rate != 0) return make_growing_engine(options);
+std::unique_ptr<Engine2> make_engine(const Configuration2& configuration,
+                                     const EngineOptions& options) {
+  if (options.growth_rate != 0) return make_growing_ellipse_engine(options);
   return rotor_count(configuration) == 0 ? make_disk_engine(options) : make_ellipse_engine(options);
+}
+
+std::unique_ptr<Engine3> make_engine(const Configuration3& configuration,
+                                     const EngineOptions& options) {
+  const bool all_round = rotor_count(configuration) == 0;
+  if (options.growth_rate != 0)
+    return all_round ? make_growing_sphere_engine(options) : make_growing_ellipsoid_engine(options);
+  return all_round ? make_sphere_engine(options) : make_ellipsoid_engine(options);
 }
 
 }  // namespace vitrel

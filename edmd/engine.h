@@ -50,6 +50,7 @@ struct RunCounters {
 /// configuration, so that a run continued from a configuration written at a block's end equals the
 /// uninterrupted one bit by bit. Virtual calls are per block, sample or Brownian step, never per
 /// event.
+template <int Dim>
 class Engine {
  public:
   static constexpr double never = std::numeric_limits<double>::infinity();
@@ -58,7 +59,7 @@ class Engine {
 
   /// Begins a block from this configuration. Predictions do not look past `horizon`: no later than
   /// at that simulated time comes another `load`, or `set_velocities`.
-  virtual void load(const Configuration2& configuration, double horizon = never) = 0;
+  virtual void load(const Configuration<Dim>& configuration, double horizon = never) = 0;
 
   enum class Stop { time, block_end };
   /// Processes events up to simulated time `until`, no later than the horizon, or to the end of the
@@ -67,20 +68,25 @@ class Engine {
 
   /// Writes all particles as of now into `configuration` (positions wrapped; shapes, if they grow),
   /// which otherwise must be the one loaded. The engine's own state does not change.
-  virtual void write(Configuration2& configuration) const = 0;
+  virtual void write(Configuration<Dim>& configuration) const = 0;
 
   /// Replaces all velocities, at the present time; `horizon` as for `load`.
-  virtual void set_velocities(const Configuration2& configuration, double horizon,
+  virtual void set_velocities(const Configuration<Dim>& configuration, double horizon,
                               RunCounters& counters) = 0;
 
   /// Which model runs and why it is exact for this scene, in one sentence.
   virtual std::string description() const = 0;
 };
 
-/// The simplest model that is exact for the scene: growing ellipses if there is growth; disks
-/// without orientation if every particle is round; ellipses otherwise (a round pair among them meets
-/// in closed form).
-std::unique_ptr<Engine> make_engine(const Configuration2& configuration,
-                                    const EngineOptions& options);
+using Engine2 = Engine<2>;
+using Engine3 = Engine<3>;
+
+/// The simplest model that is exact for the scene. Growing bodies if there is growth, otherwise static
+/// ones; disks (spheres) without orientation if every particle is round, otherwise ellipses (ellipsoids;
+/// a round pair among them meets in closed form). Growing disks run as growing ellipses.
+std::unique_ptr<Engine2> make_engine(const Configuration2& configuration,
+                                     const EngineOptions& options);
+std::unique_ptr<Engine3> make_engine(const Configuration3& configuration,
+                                     const EngineOptions& options);
 
 }  // namespace vitrel

@@ -29,17 +29,18 @@ double scale_to(double target, double energy) {
   return energy > 0 ? std::sqrt(target / energy) : 1;
 }
 
+template <int Dim>
 class Growth {
  public:
-  Growth(Configuration2& configuration, const GrowthOptions& options, GrowthState& state)
+  Growth(Configuration<Dim>& configuration, const GrowthOptions& options, GrowthState& state)
       : configuration_(configuration),
         options_(options),
         state_(state),
         shapes_(configuration.shape),
         start_time_(configuration.time),
         start_fraction_(vitrel::packing_fraction(configuration)),
-        translations_(static_cast<double>(configuration.size()) - 1),
-        rotations_(0.5 * static_cast<double>(rotor_count(configuration))) {
+        translations_(0.5 * Dim * (static_cast<double>(configuration.size()) - 1)),
+        rotations_(0.5 * static_cast<double>(rotation_count(configuration))) {
     check();
     EngineOptions engine;
     engine.growth_rate = options.growth_rate;
@@ -71,7 +72,7 @@ class Growth {
       throw UserError("growth at the rate " + std::to_string(rate()) +
                       " leads nowhere: the rate must be finite and not 0");
     if (translations_ + rotations_ == 0)
-      throw UserError("growth needs particles that can move; a lone disk cannot");
+      throw UserError("growth needs particles that can move; a lone disk or sphere cannot");
     const bool shrinks = rate() < 0;
     const bool away =
         options_.packing_fraction
@@ -87,7 +88,7 @@ class Growth {
     draw_velocities(configuration_, options_.seed, Purpose::velocities, state_.draws++,
                     Temperature::relative);
     // Alone, a particle would keep its momentum.
-    if (configuration_.size() == 1) configuration_.velocity[0] = Vec2::Zero();
+    if (configuration_.size() == 1) configuration_.velocity[0] = Vec<Dim>::Zero();
     state_.under_way = true;
   }
 
@@ -98,7 +99,7 @@ class Growth {
     const double most = std::min(largest_growth, largest_compression / state_.reduced_pressure);
     const double end = std::min(to_goal, most / std::abs(rate()));
     engine_->load(configuration_, end);
-    const bool at_end = engine_->advance(end, state_.counters) == Engine::Stop::time;
+    const bool at_end = engine_->advance(end, state_.counters) == Engine<Dim>::Stop::time;
     engine_->write(configuration_);
     const double time = configuration_.time;
     stands_still_ = !(time > 0);
@@ -114,20 +115,20 @@ class Growth {
 
   double time_to_goal() const {
     if (!options_.packing_fraction) return std::numeric_limits<double>::infinity();
-    return (std::sqrt(*options_.packing_fraction / packing_fraction()) - 1) / rate();
+    return (std::pow(*options_.packing_fraction / packing_fraction(), 1.0 / Dim) - 1) / rate();
   }
 
   void note_pressure(double virial, double time) {
-    const Mechanics sums = mechanics(configuration_);
+    const auto sums = mechanics(configuration_);
     const double temperature =
         (sums.translational_energy + sums.rotational_energy) / (translations_ + rotations_);
     const double n = static_cast<double>(configuration_.size());
-    state_.reduced_pressure = 1 + virial / (2 * n * mean_of_rise(temperature) * time);
+    state_.reduced_pressure = 1 + virial / (Dim * n * mean_of_rise(temperature) * time);
   }
 
   void divide_lengths(double size) {
     configuration_.shape = shapes_;
-    configuration_.box = PeriodicBox<2>(configuration_.box.lengths() / size);
+    configuration_.box = PeriodicBox<Dim>(configuration_.box.lengths() / size);
     for (std::size_t i = 0; i < configuration_.size(); ++i) {
       configuration_.position[i] /= size;
       configuration_.box.wrap(configuration_.position[i], configuration_.image[i]);
@@ -135,11 +136,11 @@ class Growth {
   }
 
   void rescale_velocities() {
-    const Mechanics sums = mechanics(configuration_);
+    const auto sums = mechanics(configuration_);
     const double translation = scale_to(translations_, sums.translational_energy);
     const double rotation = scale_to(rotations_, sums.rotational_energy);
-    for (Vec2& v : configuration_.velocity) v *= translation;
-    for (double& omega : configuration_.angular_velocity) omega *= rotation;
+    for (Vec<Dim>& v : configuration_.velocity) v *= translation;
+    for (AngularVelocity<Dim>& omega : configuration_.angular_velocity) omega *= rotation;
   }
 
   bool at_packing_fraction() const {
@@ -177,21 +178,25 @@ class Growth {
            std::to_string(state_.reduced_pressure);
   }
 
-  Configuration2& configuration_;
+  Configuration<Dim>& configuration_;
   const GrowthOptions& options_;
   GrowthState& state_;
-  const std::vector<Ellipse> shapes_;
+  const std::vector<Solid<Dim>> shapes_;
   const double start_time_, start_fraction_;
-  const double translations_, rotations_;  // energies at kT = 1: N − 1 and N_rot/2
-  std::unique_ptr<Engine> engine_;
+  const double translations_, rotations_;  // energies at kT = 1, half the degrees of freedom
+  std::unique_ptr<Engine<Dim>> engine_;
   bool stands_still_ = false;
 };
 
 }  // namespace
 
-StageReport grow(Configuration2& configuration, const GrowthOptions& options, GrowthState& state,
-                 const Budget& budget) {
-  return Growth(configuration, options, state).run(budget);
+template <int Dim>
+StageReport grow(Configuration<Dim>& configuration, const GrowthOptions& options,
+                 GrowthState& state, const Budget& budget) {
+  return Growth<Dim>(configuration, options, state).run(budget);
 }
+
+template StageReport grow(Configuration2&, const GrowthOptions&, GrowthState&, const Budget&);
+template StageReport grow(Configuration3&, const GrowthOptions&, GrowthState&, const Budget&);
 
 }  // namespace vitrel

@@ -10,29 +10,30 @@
 /// Growth of hard particles in motion, to a wanted packing fraction or until they jam: Newtonian
 /// dynamics in which all semi-axes of all particles grow alike,
 ///
-///     a_i(t) = (1 + γ t) a_i,   b_i(t) = (1 + γ t) b_i,   φ(t) = (1 + γ t)² φ(0).
+///     a_i(t) = (1 + γ t) a_i,   b_i(t) = (1 + γ t) b_i …,   φ(t) = (1 + γ t)^D φ(0)
 ///
-/// Conventions: masses stay, the moment of inertia is m (a² + b²)/4 of the axes of the moment, and
-/// ω is constant in flight. In an impact the surfaces' own speed s = γ (h₁ + h₂) along the normal
+/// in D dimensions. Conventions: masses stay, the moments of inertia are those of the axes of the moment,
+/// and ω is constant in flight (of scalene ellipsoids, too: ellipsoid.h). In an impact the surfaces' own speed s = γ (h₁ + h₂) along the normal
 /// (h the support functions) adds to the approach speed, so that every impulse J does the work J s
 /// and the particles heat up.
 ///
 /// Velocities are drawn at the start (brownian.h), from the stream (seed, velocities, draws). Steps of one block, which ends after a fixed count
 /// of events, or earlier: when all has grown by 1 %, or kT has risen by some 10 %:
 ///   1. The engine runs with growth rate γ.
-///   2. Reduced pressure Z = βP/ρ = 1 + Σ J n·d/(2 N ⟨kT⟩ t), d from centre to centre. kT = 2E/f,
-///      f = 2(N − 1) + N_rot, rises exponentially at constant Z; ⟨kT⟩ is the mean of such a rise.
+///   2. Reduced pressure Z = βP/ρ = 1 + Σ J n·d/(D N ⟨kT⟩ t), d from centre to centre. kT = 2E/f,
+///      f = D (N − 1) + N_rot, rises exponentially at constant Z; ⟨kT⟩ is the mean of such a rise.
 ///   3. All lengths are divided by 1 + γ t: growing is the same as shrinking the box, and the
 ///      particles have the sizes of their species again.
-///   4. Velocities are rescaled to kT = 1: to N − 1 for the translational and N_rot/2 for the
-///      rotational energy, each by its own factor, as when velocities are drawn. One factor for
+///   4. Velocities are rescaled to kT = 1: to D (N − 1)/2 for the translational and N_rot/2 for
+///      the rotational energy, each by its own factor, as when velocities are drawn. One factor for
 ///      both would let them drift apart where they hardly couple: impacts of nearly round particles
 ///      heat translation only.
 /// So γ is always relative to the present size and in units of √(m a b/kT) of the reference
 /// species.
 ///
 /// Near jamming all gaps shrink together and Z ≈ C/(1 − φ/φ_J), in a true jam with C the number of
-/// degrees of freedom per particle, less the share of rattlers (disks 2, ellipses 3). Collisions per
+/// degrees of freedom per particle, less the share of rattlers (disks 2, ellipses and spheres 3, spheroids 5, scalene
+/// ellipsoids 6). Collisions per
 /// time rise like Z, and from Z to e Z it takes about 1/γ (disks) to 2/γ (ellipses) collisions per
 /// particle whatever Z is: the rate needs no lowering near jamming. It decides how long the liquid
 /// can order before it falls out of equilibrium, and thereby φ_J.
@@ -67,7 +68,8 @@ struct GrowthState {
 /// kT = 1; its time is as given. Throws UserError if there is no goal, if γ leads away from it, or if
 /// nothing can move (a lone disk); InvariantError on an overlap, or if a particle grows into its own image
 /// and cannot turn away.
-StageReport grow(Configuration2& configuration, const GrowthOptions& options, GrowthState& state,
-                 const Budget& budget);
+template <int Dim>
+StageReport grow(Configuration<Dim>& configuration, const GrowthOptions& options,
+                 GrowthState& state, const Budget& budget);
 
 }  // namespace vitrel

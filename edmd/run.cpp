@@ -11,14 +11,17 @@ namespace vitrel {
 
 namespace {
 
-double total_energy(const Configuration2& configuration) {
-  const Mechanics sums = mechanics(configuration);
+template <int Dim>
+double total_energy(const Configuration<Dim>& configuration) {
+  const auto sums = mechanics(configuration);
   return sums.translational_energy + sums.rotational_energy;
 }
 
+template <int Dim>
 class Runner {
  public:
-  Runner(RunState& state, const DynamicsOptions& options, const RunPlan& plan, const Budget& budget)
+  Runner(RunState<Dim>& state, const DynamicsOptions& options, const RunPlan<Dim>& plan,
+         const Budget& budget)
       : state_(state),
         options_(options),
         plan_(plan),
@@ -57,7 +60,7 @@ class Runner {
   bool run_block() {
     while (true) {
       const double stop = next_stop();
-      if (engine_->advance(stop, state_.counters) == Engine::Stop::block_end) return false;
+      if (engine_->advance(stop, state_.counters) == Engine<Dim>::Stop::block_end) return false;
       if (stop == next_sample_time()) observe(plan_.observer, state_.next_sample, stop);
       if (stop == next_tick_time()) observe(plan_.ticks.observer, state_.next_tick, stop);
       if (stop == next_step_time()) redraw_velocities();
@@ -88,7 +91,7 @@ class Runner {
   }
 
   // Shows the observer, if there is one, the frame of this number, and counts it.
-  void observe(Observer<2>* observer, std::uint64_t& number, double time) {
+  void observe(Observer<Dim>* observer, std::uint64_t& number, double time) {
     engine_->write(state_.configuration);
     state_.configuration.time = time;
     const Tally tally{state_.counters.collisions, state_.counters.virial};
@@ -120,18 +123,19 @@ class Runner {
     return whole > 0 ? (state_.configuration.time - state_.start_time) / whole : 1;
   }
 
-  RunState& state_;
+  RunState<Dim>& state_;
   const DynamicsOptions& options_;
-  const RunPlan& plan_;
+  const RunPlan<Dim>& plan_;
   const Budget& budget_;
-  std::unique_ptr<Engine> engine_;
+  std::unique_ptr<Engine<Dim>> engine_;
   const std::uint64_t ticks_;  ///< in the whole run
 };
 
 }  // namespace
 
-RunState begin_run(const Configuration2& configuration, double start_time) {
-  RunState state;
+template <int Dim>
+RunState<Dim> begin_run(const Configuration<Dim>& configuration, double start_time) {
+  RunState<Dim> state;
   state.configuration = configuration;
   state.configuration.time = start_time;
   state.start_time = start_time;
@@ -140,9 +144,15 @@ RunState begin_run(const Configuration2& configuration, double start_time) {
   return state;
 }
 
-StageReport run(RunState& state, const DynamicsOptions& options, const RunPlan& plan,
+template <int Dim>
+StageReport run(RunState<Dim>& state, const DynamicsOptions& options, const RunPlan<Dim>& plan,
                 const Budget& budget) {
-  return Runner(state, options, plan, budget).run();
+  return Runner<Dim>(state, options, plan, budget).run();
 }
+
+template RunState<2> begin_run(const Configuration<2>&, double);
+template StageReport run(RunState<2>&, const DynamicsOptions&, const RunPlan<2>&, const Budget&);
+template RunState<3> begin_run(const Configuration<3>&, double);
+template StageReport run(RunState<3>&, const DynamicsOptions&, const RunPlan<3>&, const Budget&);
 
 }  // namespace vitrel

@@ -22,8 +22,9 @@ struct DynamicsOptions {
 
 /// Everything a run needs to go on, and nothing else: a plain value, written to checkpoints. Only
 /// states handed out at block ends continue bit by bit.
+template <int Dim>
 struct RunState {
-  Configuration2 configuration;  ///< synchronised; its time runs from −equilibration
+  Configuration<Dim> configuration;  ///< synchronised; its time runs from −equilibration
   RunCounters counters;
   std::uint64_t brownian_steps = 0;
   std::uint64_t next_sample = 0;
@@ -35,32 +36,41 @@ struct RunState {
 };
 
 /// The state at the start of a run from a configuration with its velocities set.
-RunState begin_run(const Configuration2& configuration, double start_time);
+template <int Dim>
+RunState<Dim> begin_run(const Configuration<Dim>& configuration, double start_time);
 
 /// A second schedule beside the samples, for an observer that wants many more of them and keeps none:
 /// ticks at 0, interval, 2 interval … ≤ end of the run.
+template <int Dim>
 struct Ticks {
   double interval = 0;
-  Observer<2>* observer = nullptr;  ///< null: no ticks
+  Observer<Dim>* observer = nullptr;  ///< null: no ticks
 };
 
 /// What is to happen: samples at ascending times (in simulated time), the end, and who is told. The
 /// observer sees every sample; `at_block_end` gets a state from which the run continues bit by bit.
 /// Samples and ticks change nothing in the motion, except that a block may end at one of them: from there
 /// on, two runs with different schedules differ in their rounding.
+template <int Dim>
 struct RunPlan {
   std::vector<double> sample_times;
   double end_time = 0;
-  Observer<2>* observer = nullptr;
-  std::function<void(const RunState&)> at_block_end;
-  Ticks ticks = {};
+  Observer<Dim>* observer = nullptr;
+  std::function<void(const RunState<Dim>&)> at_block_end;
+  Ticks<Dim> ticks = {};
 };
 
 /// Runs to the end, or to the end of the block in which the budget asked to stop. A sample or tick that
 /// coincides with a Brownian step is taken before the velocities are redrawn. Throws InvariantError
 /// on an overlap, and if time stands still (inelastic collapse); `state` then holds the moment of
 /// the failure.
-StageReport run(RunState& state, const DynamicsOptions& options, const RunPlan& plan,
+template <int Dim>
+StageReport run(RunState<Dim>& state, const DynamicsOptions& options, const RunPlan<Dim>& plan,
                 const Budget& budget);
+
+using RunState2 = RunState<2>;
+using RunState3 = RunState<3>;
+using RunPlan2 = RunPlan<2>;
+using RunPlan3 = RunPlan<3>;
 
 }  // namespace vitrel

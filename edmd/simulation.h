@@ -8,9 +8,9 @@
 #include <numeric>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <vector>
 
+#include "core/contact/ellipsoid_look.h"
 #include "core/contact/first_look.h"
 #include "core/contact/pair.h"
 #include "core/error.h"
@@ -26,12 +26,51 @@
 namespace vitrel {
 
 /// The shape at size 1 for the semi-axes in a configuration, and the body that it is at a size.
-template <class Shape>
-Shape shape_from(const Ellipse& semi_axes) {
-  return semi_axes;
+template <class Shape, class Axes>
+Shape shape_from(const Axes& semi_axes) {
+  if constexpr (std::is_same_v<Shape, Axes>)
+    return semi_axes;
+  else
+    return {semi_axes.circumradius()};
 }
 template <Body B>
-B body_from(const typename FirstLook<B>::Shape& shape, const CommonSize& common);
+B body_from(const Grown<B>& shape, const CommonSize& common) {
+  if constexpr (grows<B>)
+    return {shape, common.size, common.growth_rate};
+  else
+    return shape;
+}
+
+inline Ellipse solid_from(const Ellipse& shape) {
+  return shape;
+}
+inline Ellipsoid solid_from(const Ellipsoid& shape) {
+  return shape;
+}
+inline Ellipsoid solid_from(const Sphere& shape) {
+  return {Vec3::Constant(shape.radius)};
+}
+
+inline std::vector<double> numbers_of(const Ellipse& shape) {
+  return {shape.a, shape.b};
+}
+inline std::vector<double> numbers_of(const Ellipsoid& shape) {
+  return {shape.semi_axes[0], shape.semi_axes[1], shape.semi_axes[2]};
+}
+
+/// Of an angle that is kept unwrapped, and of one that a quaternion keeps.
+inline double size_of_angle(double angle) {
+  return std::abs(angle);
+}
+inline double size_of_angle(const Quaternion&) {
+  return 1;
+}
+inline double size_of_spin(double angular_velocity) {
+  return std::abs(angular_velocity);
+}
+inline double size_of_spin(const Vec3& angular_velocity) {
+  return angular_velocity.norm();
+}
 
 /// The event loop, written once for every body.
 ///
@@ -49,26 +88,32 @@ B body_from(const typename FirstLook<B>::Shape& shape, const CommonSize& common)
 /// Times are relative to the start of the block, and every particle has its own clock. Particles are
 /// numbered so that neighbours are near in memory.
 template <Body B>
-class Simulation final : public Engine {
+class Simulation final : public Engine<B::dimension> {
+  static constexpr int dimension = B::dimension;
+  using Vector = Vec<dimension>;
+  using Image = NeighborImage<dimension>;
+
  public:
   Simulation(const EngineOptions& options, std::string description)
       : options_(options), description_(std::move(description)) {}
 
-  void load(const Configuration2& configuration, double horizon) override;
+  using Engine<B::dimension>::never;
+  using Stop = typename Engine<B::dimension>::Stop;
+
+  void load(const Configuration<dimension>& configuration, double horizon) override;
   Stop advance(double until, RunCounters& counters) override;
-  void write(Configuration2& configuration) const override;
-  void set_velocities(const Configuration2& configuration, double horizon,
+  void write(Configuration<dimension>& configuration) const override;
+  void set_velocities(const Configuration<dimension>& configuration, double horizon,
                       RunCounters& counters) override;
   std::string description() const override { return description_; }
 
  private:
   using Index = std::uint32_t;
-  using Shape = typename FirstLook<B>::Shape;
-  static constexpr bool grows = std::is_same_v<B, GrowingEllipse>;
+  using Shape = Grown<B>;
 
   /// Mean neighbours per particle. Fewer mean fewer predictions but more renewals of lists; the cost of
   /// a collision is flat around this number.
-  static constexpr double wanted_neighbors = 7;
+  static constexpr double wanted_neighbors = dimension == 2 ? 7 : 14;
   static constexpr std::uint64_t events_per_particle_and_block = 32;
   static constexpr std::uint64_t least_events_per_block = 4096;
   /// Of larger systems the caches do not hold all, and events jump about in them: what an event will read
@@ -77,20 +122,22 @@ class Simulation final : public Engine {
   static constexpr std::size_t cached_particles = 32768;
   static constexpr std::uint64_t steps_ahead = 4, events_per_step = 4;
 
-  /// What predictions read of a particle: one cache line.
+  /// What predictions read of a particle: one cache line, in three dimensions two.
   struct alignas(64) Particle {
-    Vec2 position;
-    Vec2 velocity;
-    double angle, angular_velocity;
-    double time;  // its clock: position and angle are those at this time
+    Vector position, velocity;
+    Orientation<dimension> orientation;
+    AngularVelocity<dimension> angular_velocity;
+    double time;  // its clock: position and orientation are those at this time
     double next;  // the time of its entry in the calendar
 
-    Pose2 pose_at(double t) const {
-      const double since = t - time;
-      return {position + velocity * since, angle + angular_velocity * since};
+    Pose<dimension> pose() const { return {position, orientation}; }
+    Pose<dimension> pose_at(double t) const { return advanced(pose(), motion(), t - time); }
+    Motion<dimension> motion() const { return {velocity, angular_velocity}; }
+    void set_pose(const Pose<dimension>& pose) {
+      position = pose.position;
+      orientation = orientation_of(pose);
     }
-    Motion2 motion() const { return {velocity, angular_velocity}; }
-    void set_motion(const Motion2& motion) {
+    void set_motion(const Motion<dimension>& motion) {
       velocity = motion.velocity;
       angular_velocity = motion.angular_velocity;
     }
@@ -98,15 +145,15 @@ class Simulation final : public Engine {
   /// What all particles of one shape and mass share.
   struct Kind {
     Outline<Shape> outline;
-    Inertia inertia;
+    Inertia<dimension> inertia;  // about its own axes
   };
 
   struct alignas(32) Event {
     enum class What : std::uint8_t { collision, correction, exit, look_again };
     What what = What::look_again;
     Index partner_version = 0;
-    NeighborImage partner;
-    Vec2 normal = Vec2::Zero();  // of a collision, unless the look is exact
+    Image partner;
+    Vector normal = Vector::Zero();  // of a collision, unless the look is exact
   };
   /// An event and its time.
   struct Entry {
@@ -128,23 +175,20 @@ class Simulation final : public Engine {
   const Kind& kind(Index i) const { return kinds_[kind_of_[i]]; }
   const Shape& shape(Index i) const { return shapes_[kind_of_[i]]; }
   CommonSize size_now() const {
-    if constexpr (grows) return {1 + options_.growth_rate * now_, options_.growth_rate};
+    if constexpr (grows<B>) return {1 + options_.growth_rate * now_, options_.growth_rate};
     return {};
   }
-  Inertia inertia_now(Index i) const {
+  Inertia<dimension> inertia_now(Index i) const {
     const double size = size_now().size;
-    const Inertia& loaded = kind(i).inertia;
-    return {loaded.inverse_mass, loaded.inverse_moment / (size * size)};
+    return in_space(kind(i).inertia, particles_[i].pose(), size);
   }
   void bring_to_now(Particle& particle) const {
-    const Pose2 pose = particle.pose_at(now_);
-    particle.position = pose.position;
-    particle.angle = pose.angle;
+    particle.set_pose(particle.pose_at(now_));
     particle.time = now_;
   }
 
-  void load_particles(const Configuration2& configuration);
-  void load_kinds(const Configuration2& configuration);
+  void load_particles(const Configuration<dimension>& configuration);
+  void load_kinds(const Configuration<dimension>& configuration);
   double mean_free_time() const;
   double patience() const;
   void predict_all(double horizon, RunCounters& counters);
@@ -152,21 +196,22 @@ class Simulation final : public Engine {
   template <Scope scope>
   Entry next_entry(Index i, RunCounters& counters);
   template <Scope scope>
-  std::size_t gather(Index i, const Pose2& mine, double latest, std::size_t next, Glance& glance);
-  void search_most_urgent_first(Index i, const Pose2& mine, Glance& glance, Entry& best,
+  std::size_t gather(Index i, const Pose<dimension>& mine, double latest, std::size_t next,
+                     Glance& glance);
+  void search_most_urgent_first(Index i, const Pose<dimension>& mine, Glance& glance, Entry& best,
                                 RunCounters& counters) const;
-  void search(Index i, const Pose2& mine, const Neighbor<B>& neighbor, double horizon, Entry& best,
-              RunCounters& counters) const;
+  void search(Index i, const Pose<dimension>& mine, const Neighbor<B>& neighbor, double horizon,
+              Entry& best, RunCounters& counters) const;
   void read_ahead();
   void read_ahead(Index i, int step) const;
   void process(Index i, RunCounters& counters);
   void leave_neighborhood(Index i);
   void meet(Index i, const Event& event, RunCounters& counters);
-  void impact(Index i, Index j, const Vec2& d, const Vec2& normal, double since,
+  void impact(Index i, Index j, const Vector& d, const Vector& normal, double since,
               RunCounters& counters);
   void watch_haste(Index i, Index j, double way);
-  double overlap_event(Index i, Index j, const Vec2& d, Event& event) const;
-  Event collision(const NeighborImage& with, const Vec2& normal) const {
+  double overlap_event(Index i, Index j, const Vector& d, Event& event) const;
+  Event collision(const Image& with, const Vector& normal) const {
     return {Event::What::collision, version_[with.other], with, normal};
   }
   [[noreturn]] void report_overlap(Index i, Index j) const;
@@ -174,13 +219,13 @@ class Simulation final : public Engine {
 
   EngineOptions options_;
   std::string description_;
-  PeriodicBox<2> box_;
+  PeriodicBox<dimension> box_;
   std::vector<Index> outer_;   // the configuration's numbers of the particles
   std::vector<Shape> shapes_;  // of every kind, at size 1, as loaded
   std::vector<Kind> kinds_;
   KindOf kind_of_;
   std::vector<Particle> particles_;
-  std::vector<Shift<2>> image_;
+  std::vector<Shift<dimension>> image_;
   std::vector<Index> version_;  // counts the changes of a particle's motion and image
   std::optional<Neighborhoods<B>> neighborhoods_;
   Calendar calendar_;
@@ -200,7 +245,7 @@ class Simulation final : public Engine {
 // ---------------------------------------------------------------------------------------------------
 
 template <Body B>
-void Simulation<B>::load(const Configuration2& configuration, double horizon) {
+void Simulation<B>::load(const Configuration<dimension>& configuration, double horizon) {
   box_ = configuration.box;
   base_ = configuration.time;
   now_ = met_ = 0;
@@ -208,15 +253,16 @@ void Simulation<B>::load(const Configuration2& configuration, double horizon) {
   load_particles(configuration);
   load_kinds(configuration);
   double extent = 0.5 * box_.lengths().maxCoeff(), fastest = 0;
-  std::vector<Pose2> poses;
+  std::vector<Pose<dimension>> poses;
   for (Index i = 0; i < particles_.size(); ++i) {
     const Particle& particle = particles_[i];
     const double swing = shape(i).swing();
-    poses.push_back(particle.pose_at(0));
+    poses.push_back(particle.pose());
     // An angle is rounded too, and moves the surface by up to `swing` times its rounding.
-    extent = std::max(extent, swing * std::abs(particle.angle));
-    fastest =
-        std::max(fastest, particle.velocity.norm() + swing * std::abs(particle.angular_velocity));
+    extent =
+        std::max({extent, shape(i).circumradius(), swing * size_of_angle(particle.orientation)});
+    fastest = std::max(fastest,
+                       particle.velocity.norm() + swing * size_of_spin(particle.angular_velocity));
   }
   contact_gap_ = tolerance::contact_gap(extent);
   // Times are rounded too: within a block nothing moves farther than the coordinates reach.
@@ -229,38 +275,40 @@ void Simulation<B>::load(const Configuration2& configuration, double horizon) {
 }
 
 template <Body B>
-void Simulation<B>::load_particles(const Configuration2& configuration) {
-  outer_ = spatial_order(box_, configuration.position);
+void Simulation<B>::load_particles(const Configuration<dimension>& configuration) {
+  outer_ = spatial_order<dimension>(box_, configuration.position);
   particles_.clear();
   image_.clear();
   version_.assign(outer_.size(), 0);
   haste_.assign(outer_.size(), 0);
   for (const Index k : outer_) {
-    Vec2 position = configuration.position[k];
-    Shift<2> image = configuration.image[k];
+    Vector position = configuration.position[k];
+    Shift<dimension> image = configuration.image[k];
     box_.wrap(position, image);
-    particles_.push_back({position, configuration.velocity[k], configuration.angle[k],
-                          configuration.angular_velocity[k], 0, never});
+    particles_.push_back({position, configuration.velocity[k],
+                          orientation_of(configuration.pose(k)), configuration.angular_velocity[k],
+                          0, never});
     image_.push_back(image);
   }
 }
 
 template <Body B>
-void Simulation<B>::load_kinds(const Configuration2& configuration) {
-  std::map<std::tuple<double, double, double>, std::uint32_t> known;
+void Simulation<B>::load_kinds(const Configuration<dimension>& configuration) {
+  std::map<std::vector<double>, std::uint32_t> known;
   shapes_.clear();
   kinds_.clear();
   std::vector<std::uint32_t> kind_of;
   for (const Index k : outer_) {
-    const Ellipse& semi_axes = configuration.shape[k];
+    const Solid<dimension>& semi_axes = configuration.shape[k];
     const double mass = configuration.mass[k];
-    const Shape drawn = shape_from<Shape>(semi_axes);
-    const auto [place, is_new] = known.try_emplace({semi_axes.a, semi_axes.b, mass}, kinds_.size());
+    std::vector<double> numbers = numbers_of(semi_axes);
+    numbers.push_back(mass);
+    const auto [place, is_new] = known.try_emplace(std::move(numbers), kinds_.size());
     kind_of.push_back(place->second);
     if (!is_new) continue;
-    shapes_.push_back(drawn);
-    kinds_.push_back({Outline<Shape>(drawn),
-                      {1 / mass, semi_axes.is_round() ? 0 : 1 / configuration.inertia(k)}});
+    const auto shape = shape_from<Shape>(semi_axes);
+    shapes_.push_back(shape);
+    kinds_.push_back({Outline<Shape>(shape), inertia_of(semi_axes, mass)});
   }
   kind_of_ = KindOf(std::move(kind_of), kinds_.size());
 }
@@ -287,7 +335,7 @@ void Simulation<B>::predict_all(double horizon, RunCounters& counters) {
 }
 
 template <Body B>
-Engine::Stop Simulation<B>::advance(double until, RunCounters& counters) {
+typename Simulation<B>::Stop Simulation<B>::advance(double until, RunCounters& counters) {
   if (!predicted_) predict_all(horizon_, counters);
   const double end = until - base_;
   while (events_left_ > 0 && now_ < longest_block_) {
@@ -326,8 +374,7 @@ void Simulation<B>::read_ahead(Index i, int step) const {
     neighborhoods_->read_ahead(k);
   };
   const auto ask_for_partners = [&](Index k) {
-    for (const NeighborImage& neighbor : neighborhoods_->of(k))
-      ask_memory(&particles_[neighbor.other]);
+    for (const Image& neighbor : neighborhoods_->of(k)) ask_memory(&particles_[neighbor.other]);
   };
   if (step == 0) return ask_for_own(i);
   if (step == 1) neighborhoods_->read_ahead_list(i);
@@ -336,7 +383,7 @@ void Simulation<B>::read_ahead(Index i, int step) const {
   if (event.what == Event::What::exit) {
     const Particle& particle = particles_[i];
     if (particle.next == never) return;
-    const Vec2 there = particle.pose_at(particle.next).position;
+    const Vector there = particle.pose_at(particle.next).position;
     if (step == 1) ask_memory(&image_[i]);
     if (step == 1) neighborhoods_->read_ahead_cells(i, there);
     if (step == 2) neighborhoods_->read_ahead_references(i, there);
@@ -349,30 +396,29 @@ void Simulation<B>::read_ahead(Index i, int step) const {
 }
 
 template <Body B>
-void Simulation<B>::write(Configuration2& configuration) const {
+void Simulation<B>::write(Configuration<dimension>& configuration) const {
   configuration.time = base_ + now_;
   const double size = size_now().size;
   for (Index i = 0; i < particles_.size(); ++i) {
     const Index k = outer_[i];
     const Particle& particle = particles_[i];
-    const Pose2 pose = particle.pose_at(now_);
-    configuration.position[k] = pose.position;
+    const Pose<dimension> pose = particle.pose_at(now_);
+    configuration.set_pose(k, pose);
     configuration.image[k] = image_[i];
     box_.wrap(configuration.position[k], configuration.image[k]);
-    configuration.angle[k] = pose.angle;
     configuration.velocity[k] = particle.velocity;
     configuration.angular_velocity[k] = particle.angular_velocity;
-    if constexpr (grows) configuration.shape[k] = scaled(shape(i), size);
+    if constexpr (grows<B>) configuration.shape[k] = solid_from(scaled(shape(i), size));
   }
 }
 
 template <Body B>
-void Simulation<B>::set_velocities(const Configuration2& configuration, double horizon,
+void Simulation<B>::set_velocities(const Configuration<dimension>& configuration, double horizon,
                                    RunCounters& counters) {
   for (Index i = 0; i < particles_.size(); ++i) {
     bring_to_now(particles_[i]);
-    particles_[i].velocity = configuration.velocity[outer_[i]];
-    particles_[i].angular_velocity = configuration.angular_velocity[outer_[i]];
+    particles_[i].set_motion(
+        {configuration.velocity[outer_[i]], configuration.angular_velocity[outer_[i]]});
   }
   predict_all(horizon - base_, counters);
 }
@@ -389,7 +435,7 @@ template <Body B>
 template <typename Simulation<B>::Scope scope>
 typename Simulation<B>::Entry Simulation<B>::next_entry(Index i, RunCounters& counters) {
   const Particle& particle = particles_[i];
-  const Pose2 mine = particle.pose_at(now_);
+  const Pose<dimension> mine = particle.pose_at(now_);
   const CommonSize size = size_now();
   Entry best{now_ + neighborhoods_->exit_time(i, mine, particle.motion(), size), {}};
   best.event.what = Event::What::exit;
@@ -424,8 +470,8 @@ double Simulation<B>::patience() const {
 // Fills the glance from neighbour number `next` on; returns the number after the last.
 template <Body B>
 template <typename Simulation<B>::Scope scope>
-std::size_t Simulation<B>::gather(Index i, const Pose2& mine, double latest, std::size_t next,
-                                  Glance& glance) {
+std::size_t Simulation<B>::gather(Index i, const Pose<dimension>& mine, double latest,
+                                  std::size_t next, Glance& glance) {
   constexpr double forever = 1e100;
   const std::span<Neighbor<B>> neighbors = neighborhoods_->of(i);
   int k = 0;
@@ -435,7 +481,7 @@ std::size_t Simulation<B>::gather(Index i, const Pose2& mine, double latest, std
     if (scope == Scope::later_numbers && j < i) continue;
     const Particle& partner = particles_[j];
     glance.horizon[k] = scope == Scope::neighborhood ? std::min(latest, partner.next) : latest;
-    Pose2 pose = partner.pose_at(now_);
+    Pose<dimension> pose = partner.pose_at(now_);
     pose.position += box_.translation(neighbor.shift()) - mine.position;
     glance.look.set(k, pose, partner.motion(), kind(j).outline, neighbor.memory,
                     std::min(glance.horizon[k] - now_, forever));
@@ -446,14 +492,14 @@ std::size_t Simulation<B>::gather(Index i, const Pose2& mine, double latest, std
 }
 
 template <Body B>
-void Simulation<B>::search_most_urgent_first(Index i, const Pose2& mine, Glance& glance,
+void Simulation<B>::search_most_urgent_first(Index i, const Pose<dimension>& mine, Glance& glance,
                                              Entry& best, RunCounters& counters) const {
   for (int done = 0; done < glance.count; ++done) {
     const auto [wait, k] = glance.look.most_urgent();
     if (!(now_ + wait < best.time)) return;
     const Neighbor<B>& neighbor = *glance.neighbor[k];
     if (FirstLook<B>::is_exact && wait > 0)
-      best = {now_ + wait, collision(neighbor, Vec2::Zero())};
+      best = {now_ + wait, collision(neighbor, Vector::Zero())};
     else if (wait > patience())
       best = {now_ + wait, {}};  // to look again
     else
@@ -464,16 +510,16 @@ void Simulation<B>::search_most_urgent_first(Index i, const Pose2& mine, Glance&
 
 // Makes the first contact with this neighbour the best entry, if it comes before the horizon.
 template <Body B>
-void Simulation<B>::search(Index i, const Pose2& mine, const Neighbor<B>& neighbor, double horizon,
-                           Entry& best, RunCounters& counters) const {
+void Simulation<B>::search(Index i, const Pose<dimension>& mine, const Neighbor<B>& neighbor,
+                           double horizon, Entry& best, RunCounters& counters) const {
   const Index j = neighbor.other;
-  const auto flight = [&](Index k, const Pose2& pose) {
+  const auto flight = [&](Index k, const Pose<dimension>& pose) {
     return Flight<B>{body_from<B>(shape(k), size_now()), pose, particles_[k].motion()};
   };
-  Pose2 theirs = particles_[j].pose_at(now_);
+  Pose<dimension> theirs = particles_[j].pose_at(now_);
   theirs.position += box_.translation(neighbor.shift());
-  const Prediction2 touch = first_contact(flight(i, mine), flight(j, theirs), horizon - now_,
-                                         contact_gap_, neighbor.memory);
+  const Prediction<dimension> touch = first_contact(flight(i, mine), flight(j, theirs),
+                                                    horizon - now_, contact_gap_, neighbor.memory);
   ++counters.searches;
   counters.steps += static_cast<std::uint64_t>(touch.steps);
   if (touch.outcome == Outcome::none) return;
@@ -488,9 +534,9 @@ void Simulation<B>::search(Index i, const Pose2& mine, const Neighbor<B>& neighb
 // A pair that overlaps: stop, or plan the correction move; once its centres recede it is only
 // watched.
 template <Body B>
-double Simulation<B>::overlap_event(Index i, Index j, const Vec2& d, Event& event) const {
+double Simulation<B>::overlap_event(Index i, Index j, const Vector& d, Event& event) const {
   if (options_.on_overlap == OnOverlap::stop) report_overlap(i, j);
-  const Vec2 relative = particles_[j].velocity - particles_[i].velocity;
+  const Vector relative = particles_[j].velocity - particles_[i].velocity;
   const bool receding = d.dot(relative) > 0;
   event.what = receding ? Event::What::look_again : Event::What::correction;
   constexpr double watch = 0.05;  // of the time in which they move by their own width
@@ -523,11 +569,11 @@ template <Body B>
 void Simulation<B>::leave_neighborhood(Index i) {
   Particle& particle = particles_[i];
   bring_to_now(particle);
-  const Shift<2> image = image_[i];
+  const Shift<dimension> image = image_[i];
   box_.wrap(particle.position, image_[i]);
   // Whoever plans to meet it has its old image in mind.
   if (image_[i] != image) ++version_[i];
-  neighborhoods_->renew(i, particle.pose_at(now_), size_now().size);
+  neighborhoods_->renew(i, particle.pose(), size_now().size);
 }
 
 template <Body B>
@@ -538,15 +584,15 @@ void Simulation<B>::meet(Index i, const Event& event, RunCounters& counters) {
   const double since = now_ - std::max(one.time, two.time);
   bring_to_now(one);
   bring_to_now(two);
-  const Vec2 d = two.position + box_.translation(event.partner.shift()) - one.position;
+  const Vector d = two.position + box_.translation(event.partner.shift()) - one.position;
   if (event.what == Event::What::correction) {
-    Motion2 motion1 = one.motion(), motion2 = two.motion();
+    Motion<dimension> motion1 = one.motion(), motion2 = two.motion();
     separate(motion1, kind(i).inertia, motion2, kind(j).inertia, d);
     one.set_motion(motion1);
     two.set_motion(motion2);
     ++counters.correction_moves;
   } else {
-    const Vec2 normal = FirstLook<B>::is_exact ? d.normalized() : event.normal;
+    const Vector normal = FirstLook<B>::is_exact ? d.normalized() : event.normal;
     impact(i, j, d, normal, since, counters);
     neighborhoods_->remember(i, event.partner, normal);
   }
@@ -558,16 +604,16 @@ void Simulation<B>::meet(Index i, const Event& event, RunCounters& counters) {
 }
 
 template <Body B>
-void Simulation<B>::impact(Index i, Index j, const Vec2& d, const Vec2& n, double since,
+void Simulation<B>::impact(Index i, Index j, const Vector& d, const Vector& n, double since,
                            RunCounters& counters) {
   const CommonSize size = size_now();
-  const auto arm = [&](Index k, const Vec2& outward) {
-    return surface_point(scaled(shape(k), size.size), particles_[k].pose_at(now_), outward);
+  const auto arm = [&](Index k, const Vector& outward) {
+    return surface_point(scaled(shape(k), size.size), particles_[k].pose(), outward);
   };
-  const Vec2 arm1 = arm(i, n), arm2 = arm(j, -n);
+  const Vector arm1 = arm(i, n), arm2 = arm(j, -n);
   const double growth = size.growth_rate / size.size * (arm1 - arm2).dot(n);
-  const ContactGeometry contact{n, cross(arm1, n), cross(arm2, n), growth};
-  Motion2 motion1 = particles_[i].motion(), motion2 = particles_[j].motion();
+  const ContactGeometry<dimension> contact{n, cross(arm1, n), cross(arm2, n), growth};
+  Motion<dimension> motion1 = particles_[i].motion(), motion2 = particles_[j].motion();
   const double speed = approach_speed(motion1, motion2, contact);
   const double impulse =
       i == j ? collide_with_own_image(motion1, inertia_now(i), contact, options_.restitution)

@@ -66,7 +66,7 @@ class Insertion {
 
   Configuration2& configuration_;
   const InsertionOptions& options_;
-  CellGrid<> cells_;
+  CellGrid<2> cells_;
   double largest_, margin_;
 };
 

@@ -160,7 +160,7 @@ class Runner {
   }
 
   TrajectoryWriter open_trajectory() const {
-    const RunState& state = stored_.state;
+    const RunState2& state = stored_.state;
     if (state.next_sample > 0)
       return TrajectoryWriter::append_to(request_.output, state.next_sample);
     const std::string parent = request_.from ? request_.from->string() : "";
@@ -171,7 +171,7 @@ class Runner {
   }
 
   void advance(bool continues) {
-    RunState& state = stored_.state;
+    RunState2& state = stored_.state;
     if (continues) say_(fmt::format("continuing at time {:.6g}", state.configuration.time));
     say_("run of " + make_engine(state.configuration, dynamics().engine)->description());
     TrajectoryWriter writer = open_trajectory();
@@ -179,8 +179,8 @@ class Runner {
     make_correlator();
     const double wall_before = stored_.wall_seconds;
     const Clock::time_point start = Clock::now();
-    RunPlan plan{sample_times(request_.parameters), request_.parameters.dynamics.duration,
-                 &observer, [&](const RunState&) {
+    RunPlan2 plan{sample_times(request_.parameters), request_.parameters.dynamics.duration,
+                 &observer, [&](const RunState2&) {
                    stored_.wall_seconds = wall_before + seconds_since(start);
                    if (seconds_since(saved_) < request_.parameters.output.checkpoint_interval)
                      return;
@@ -204,7 +204,7 @@ class Runner {
     return options;
   }
 
-  StageReport run_or_keep_failed_state(const RunPlan& plan) {
+  StageReport run_or_keep_failed_state(const RunPlan2& plan) {
     try {
       return vitrel::run(stored_.state, dynamics(), plan, budget_);
     } catch (const InvariantError& error) {
@@ -291,7 +291,7 @@ RunOutcome run(const RunRequest& request, const Budget& budget,
 }
 
 nlohmann::ordered_json run_summary(const RunRequest& request, const RunOutcome& outcome) {
-  const RunState& state = outcome.state;
+  const RunState2& state = outcome.state;
   const RunCounters& counters = state.counters;
   StoredTrajectory trajectory(request.output);
   const CompressibilitySeries z = stored_compressibility(

@@ -28,7 +28,7 @@ std::string run_plan(const RunRequest& request);
 struct RunOutcome {
   bool complete = false;      ///< else stopped by the budget; the same request continues
   bool was_complete = false;  ///< nothing was left to do
-  RunState state;
+  RunState2 state;
   double wall_seconds = 0;  ///< of all processes that worked on the run
 };
 

@@ -11,7 +11,7 @@ namespace vitrel {
 
 /// A run as its checkpoint holds it.
 struct StoredRun {
-  RunState state;
+  RunState2 state;
   double wall_seconds = 0;
   bool complete = false;
   std::vector<double> correlations;  ///< state of those measured on the fly; empty: none yet

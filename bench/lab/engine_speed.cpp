@@ -86,7 +86,7 @@ Configuration2 tiled(const Configuration2& tile, int columns, int rows) {
   return c;
 }
 
-TimedRun::TimedRun(std::unique_ptr<Engine> engine, Configuration2 start)
+TimedRun::TimedRun(std::unique_ptr<Engine2> engine, Configuration2 start)
     : engine_(std::move(engine)), now_(std::move(start)) {}
 
 Work TimedRun::blocks(double least_seconds) {
@@ -111,7 +111,7 @@ Work TimedRun::parts(double seconds, double first_collisions, double enough_coll
   do {
     before = work.seconds;
     const double until = now_.time + length;
-    while (engine_->advance(until, work.counters) == Engine::Stop::block_end) {
+    while (engine_->advance(until, work.counters) == Engine2::Stop::block_end) {
       engine_->write(now_);
       engine_->load(now_);
       if (work.counters.collisions > 0 && processor_seconds() - start > seconds) break;

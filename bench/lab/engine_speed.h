@@ -41,7 +41,7 @@ struct Work {
 /// not count.
 class TimedRun {
  public:
-  TimedRun(std::unique_ptr<Engine> engine, Configuration2 start);
+  TimedRun(std::unique_ptr<Engine2> engine, Configuration2 start);
 
   /// Whole blocks, with what their beginning and end takes; at least one, and as many as take so
   /// many seconds.
@@ -54,7 +54,7 @@ class TimedRun {
   const Configuration2& now() const { return now_; }
 
  private:
-  std::unique_ptr<Engine> engine_;
+  std::unique_ptr<Engine2> engine_;
   Configuration2 now_;
 };
 

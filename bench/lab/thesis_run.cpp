@@ -28,7 +28,7 @@ double energy(const Configuration2& c) {
 /// (0: never).
 class Driver {
  public:
-  Driver(std::unique_ptr<Engine> engine, const Configuration2& start, double brownian_step)
+  Driver(std::unique_ptr<Engine2> engine, const Configuration2& start, double brownian_step)
       : engine_(std::move(engine)), now_(start), brownian_step_(brownian_step) {
     engine_->load(now_, next_step());
   }
@@ -36,7 +36,7 @@ class Driver {
   /// False if the engine stands still.
   bool advance(double until) {
     const std::uint64_t last = counters_.events + most_events_per_particle * now_.size();
-    while (engine_->advance(until, counters_) == Engine::Stop::block_end) {
+    while (engine_->advance(until, counters_) == Engine2::Stop::block_end) {
       engine_->write(now_);
       if (counters_.events > last) return false;
       engine_->load(now_, next_step());
@@ -46,7 +46,7 @@ class Driver {
   }
 
   double next_step() const {
-    return brownian_step_ > 0 ? brownian_step_ * static_cast<double>(steps_ + 1) : Engine::never;
+    return brownian_step_ > 0 ? brownian_step_ * static_cast<double>(steps_ + 1) : Engine2::never;
   }
   /// To be called at the time of the next step: `draw` gets the configuration and the step's number.
   template <class Draw>
@@ -60,7 +60,7 @@ class Driver {
   const RunCounters& counters() const { return counters_; }
 
  private:
-  std::unique_ptr<Engine> engine_;
+  std::unique_ptr<Engine2> engine_;
   Configuration2 now_;
   double brownian_step_;
   std::uint64_t steps_ = 0;
@@ -76,7 +76,7 @@ double seconds_of(Work work) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-std::unique_ptr<Engine> make_program(Program program, const Configuration2& start) {
+std::unique_ptr<Engine2> make_program(Program program, const Configuration2& start) {
   if (program == Program::ours) return make_engine(start, {});
   const auto method = [](const char* name) {
     const std::vector<Method> methods = collision_time_methods();

@@ -24,9 +24,9 @@ double energy(const Configuration2& c) {
 }
 
 // Runs the engine to `until`; false if it stands still.
-bool advance(Engine& engine, Configuration2& now, double until, RunCounters& counters) {
+bool advance(Engine2& engine, Configuration2& now, double until, RunCounters& counters) {
   const std::uint64_t events = counters.events;
-  while (engine.advance(until, counters) == Engine::Stop::block_end) {
+  while (engine.advance(until, counters) == Engine2::Stop::block_end) {
     engine.write(now);
     if (counters.events - events > most_events_per_sample) return false;
     engine.load(now);

@@ -50,8 +50,8 @@ struct SupportOf {
   T h11, h12, h22;  ///< e_i·H e_j
 };
 
-template <class T, class A>
-VITREL_INLINE SupportOf<T> support_along(const AxesOf<T>& body, const AxisOf<A>& axis) {
+template <class T, class B, class A>
+VITREL_INLINE SupportOf<T> support_along(const AxesOf<B>& body, const AxisOf<A>& axis) {
   using std::sqrt;
   const auto image = [&](const Vec3Of<A>& v) -> Vec3Of<T> {
     return {dot(body.first, v), dot(body.second, v), dot(body.third, v)};
@@ -75,8 +75,8 @@ struct SpinOf {
   T on, o1, o2;
 };
 
-template <class T, class A>
-VITREL_INLINE SpinOf<T> spin_along(const Vec3Of<T>& omega, const AxisOf<A>& axis) {
+template <class T, class B, class A>
+VITREL_INLINE SpinOf<T> spin_along(const Vec3Of<B>& omega, const AxisOf<A>& axis) {
   return {dot(omega, axis.n), dot(omega, axis.e1), dot(omega, axis.e2)};
 }
 
@@ -162,17 +162,13 @@ struct GapAlongAxis3 : SupportOf<Lanes> {
 
 using Axis3 = AxisOf<double>;
 
-/// τ of bend_bound for the unit vector u along ω. `squares` are those of the semi-axes, `inverse` their
-/// inverses; own components of u are those along the axes of the body.
+/// τ of bend_bound for u = ω/|ω| given along the axes of the body, and the squares of its semi-axes.
 template <class T>
-VITREL_INLINE T tumbling(const AxesOf<T>& body, const Vec3Of<T>& u, const Vec3Of<T>& squares,
-                         const Vec3Of<T>& inverse) {
+VITREL_INLINE T tumbling(const Vec3Of<T>& u, const Vec3Of<T>& squares) {
   using std::sqrt;
-  const Vec3Of<T> own{dot(body.first, u) * inverse.x, dot(body.second, u) * inverse.y,
-                      dot(body.third, u) * inverse.z};
-  const T mean = squares.x * own.x * own.x + squares.y * own.y * own.y + squares.z * own.z * own.z;
-  const Vec3Of<T> rest{(squares.x - mean) * own.x, (squares.y - mean) * own.y,
-                       (squares.z - mean) * own.z};
+  const T mean = squares.x * u.x * u.x + squares.y * u.y * u.y + squares.z * u.z * u.z;
+  const Vec3Of<T> rest{(squares.x - mean) * u.x, (squares.y - mean) * u.y,
+                       (squares.z - mean) * u.z};
   return sqrt(dot(rest, rest));
 }
 

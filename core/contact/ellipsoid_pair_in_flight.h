@@ -16,7 +16,6 @@ namespace vitrel {
 template <class B>
 class EllipsoidPairInFlight {
  public:
-  static constexpr bool grows = !std::is_same_v<B, Ellipsoid>;
   using Axis = Axis3;
   struct Gap : GapAlongAxis3, SupportRates<Lanes> {
     SpinOf<Lanes> spin;
@@ -34,7 +33,7 @@ class EllipsoidPairInFlight {
       return {w.x / by, w.y / by, w.z / by};
     };
     axle_ = divided(omega_);
-    tau_ = tumbling<Lanes>(axes0_, axle_, squares_, inverse_);
+    tau_ = tumbling<Lanes>(divided(own_), squares_);
     part(axes0_.first, 0);
     part(axes0_.second, 1);
     part(axes0_.third, 2);
@@ -58,7 +57,7 @@ class EllipsoidPairInFlight {
   void go_to(double time) {
     time_ = time;
     pair_.d = d0_ + v_ * time;
-    if constexpr (grows) pair_.size = size0_ + growth_ * time;
+    if constexpr (grows<B>) pair_.size = size0_ + growth_ * time;
     Lanes cosine, sine;
     directions<Lanes>(speed_ * time, cosine, sine);
     const auto turned = [&](int k) -> Vec3Of<Lanes> {
@@ -117,7 +116,7 @@ class EllipsoidPairInFlight {
   double acceleration_bound(const Gap& g, double duration) const {
     const Lanes bend = bend_bound<Lanes>(g, g, g.spin, stretch_, tau_, shortest_squared_,
                                          Lanes::Constant(duration));
-    if constexpr (!grows) return bend.sum();
+    if constexpr (!grows<B>) return bend.sum();
     return (pair_.size * bend + growth_.abs() * std::abs(duration) * bend + 2 * growth_ * g.rate)
         .sum();
   }
@@ -157,8 +156,8 @@ class EllipsoidPairInFlight {
     set(axes0_.third, lane, shape.semi_axes[2] * turn.col(2));
     set(omega_, lane, angular_velocity);
     speed_[lane] = angular_velocity.norm();
+    set(own_, lane, turn.transpose() * angular_velocity);
     set(squares_, lane, shape.semi_axes.cwiseAbs2());
-    set(inverse_, lane, shape.semi_axes.cwiseInverse());
     const double longest = shape.circumradius(), shortest = shape.inradius();
     longest_[lane] = longest;
     swing_[lane] = longest - shortest;
@@ -180,7 +179,8 @@ class EllipsoidPairInFlight {
   AxesOf<Lanes> axes0_;
   Vec3Of<Lanes> omega_, axle_;  ///< ω, ω/|ω|
   Lanes speed_;                 ///< |ω|
-  Vec3Of<Lanes> squares_, inverse_;
+  Vec3Of<Lanes> own_;           ///< ω along the axes of the body
+  Vec3Of<Lanes> squares_;       ///< of the semi-axes
   Lanes longest_, swing_, stretch_, shortest_squared_, tau_;
   Parts parts_[3];
   double time_ = 0;

@@ -97,7 +97,7 @@ Round as_round(const Growing<Shape>& body) {
 template <class B>
 Prediction<B::dimension> meet(const Flight<B>& one, const Flight<B>& two, double horizon,
                               double contact_gap, const Vec<B::dimension>* likely_axis) {
-  if constexpr (!std::is_same_v<B, Disk> && !std::is_same_v<B, Sphere>)
+  if constexpr (!std::is_same_v<Grown<B>, Disk> && !std::is_same_v<Grown<B>, Sphere>)
     if (!is_round(one.body) || !is_round(two.body))
       return search(one, two, horizon, contact_gap, likely_axis);
   return meet_round(one, as_round(one.body), two, as_round(two.body), horizon, contact_gap);
@@ -120,6 +120,8 @@ Prediction<B::dimension> first_contact(const Flight<B>& one, const Flight<B>& tw
 template Prediction2 first_contact(const Flight<Disk>&, const Flight<Disk>&, double, double);
 template Prediction2 first_contact(const Flight<Ellipse>&, const Flight<Ellipse>&, double, double);
 template Prediction2 first_contact(const Flight<GrowingEllipse>&, const Flight<GrowingEllipse>&,
+                                   double, double);
+template Prediction3 first_contact(const Flight<GrowingSphere>&, const Flight<GrowingSphere>&,
                                    double, double);
 template Prediction3 first_contact(const Flight<Sphere>&, const Flight<Sphere>&, double, double);
 template Prediction3 first_contact(const Flight<Ellipsoid>&, const Flight<Ellipsoid>&, double,

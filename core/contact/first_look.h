@@ -1,7 +1,7 @@
 #pragma once
 
+#include <concepts>
 #include <limits>
-#include <type_traits>
 
 #include "core/contact/first_contact.h"
 #include "core/contact/several.h"
@@ -54,19 +54,34 @@ class Urgencies {
   Simd<lanes> open_until_;
 };
 
+/// The first root of room + rate s − ½ M s², or infinity if it lies beyond the horizon.
+VITREL_INLINE Many first_root(const Many& room, const Many& rate, const Many& bend,
+                              const Many& horizon) {
+  constexpr double nearly_straight = 1e-300;
+  const Many acceleration = max(bend, Many(nearly_straight));
+  const Many root = sqrt(rate * rate + 2. * acceleration * max(room, Many(0)));
+  Many time = 2. * room / (root - rate);
+  where(rate > 0, time) = (rate + root) / acceleration;
+  const Many end = room + horizon * (rate - 0.5 * acceleration * horizon);
+  where(end > 0, time) = Many(no_contact);
+  where(!(room > 0), time) = Many(0);
+  return time;
+}
+
 }  // namespace detail
 
-/// A look of a body at up to `lanes` partners. The body of a `GrowingEllipse` is `Shape` times the
-/// common size.
-template <class B>
-class FirstLook : public detail::Urgencies<many> {
-  static constexpr bool grows = std::is_same_v<B, GrowingEllipse>;
+/// A look of a body at up to `lanes` partners. A body that grows is `Grown<B>` times the common size.
+template <Body B>
+class FirstLook;
+
+template <Body B>
+requires std::same_as<Grown<B>, Ellipse>
+class FirstLook<B> : public detail::Urgencies<many> {
   /// A gap that stays above this fraction of the contact gap stays open. It lets a pair that has
   /// just collided, and leaves, be settled too.
   static constexpr double open_gap = 0.5;
 
  public:
-  using Shape = Ellipse;
   static constexpr int lanes = many;
   /// Whether open_until is the time of contact if it is not 0.
   static constexpr bool is_exact = false;
@@ -77,7 +92,7 @@ class FirstLook : public detail::Urgencies<many> {
     friend Memory reversed(const Memory& memory) { return {-memory.axis}; }
   };
 
-  FirstLook(const Outline<Shape>& outline, const Pose2& pose, const Motion2& motion,
+  FirstLook(const Outline<Ellipse>& outline, const Pose2& pose, const Motion2& motion,
             const CommonSize& common, double contact_gap)
       : outline_(outline), motion_(motion), common_(common), floor_(open_gap * contact_gap) {
     Lanes x, y;
@@ -89,7 +104,7 @@ class FirstLook : public detail::Urgencies<many> {
   /// Puts a partner into a lane: its pose, relative to this body's centre, and motion now, and how
   /// far to look ahead.
   VITREL_INLINE void set(int k, const Pose2& pose, const Motion2& motion,
-                         const Outline<Shape>& outline, const Memory& memory, double horizon) {
+                         const Outline<Ellipse>& outline, const Memory& memory, double horizon) {
     dx_[k] = pose.position.x();
     dy_[k] = pose.position.y();
     vx_[k] = motion.velocity.x() - motion_.velocity.x();
@@ -124,12 +139,12 @@ class FirstLook : public detail::Urgencies<many> {
     Many bend = bend_bound<Many>(one, outline_.bb, outline_.stretch, omega1,
                                  omega1 * omega1 * outline_.bend, horizon) +
                 bend_bound<Many>(two, bb, stretch, omega2, omega2 * omega2 * bend_.all(), horizon);
-    if constexpr (grows) {
+    if constexpr (grows<B>) {
       const double growth = common_.growth_rate;
       rate -= growth * heights;
       bend = common_.size * bend + std::abs(growth) * horizon * abs(bend) - 2 * growth * spin;
     }
-    open(first_root(gap - floor_, rate, bend, horizon), count);
+    open(detail::first_root(gap - floor_, rate, bend, horizon), count);
     Many turned_nx = nx, turned_ny = ny;
     detail::turn(turned_nx, turned_ny, nx * dy - ny * dx - sized(one.turning + two.turning),
                  gap + sized(one.radius + two.radius));
@@ -139,27 +154,13 @@ class FirstLook : public detail::Urgencies<many> {
 
  private:
   VITREL_INLINE Many sized(const Many& x) const {
-    if constexpr (grows) return common_.size * x;
+    if constexpr (grows<B>) return common_.size * x;
     return x;
-  }
-
-  // The first root of room + rate s − ½ M s², or infinity if it lies beyond the horizon.
-  VITREL_INLINE static Many first_root(const Many& room, const Many& rate, const Many& bend,
-                                       const Many& horizon) {
-    constexpr double nearly_straight = 1e-300;
-    const Many acceleration = max(bend, Many(nearly_straight));
-    const Many root = sqrt(rate * rate + 2. * acceleration * max(room, Many(0)));
-    Many time = 2. * room / (root - rate);
-    where(rate > 0, time) = (rate + root) / acceleration;
-    const Many end = room + horizon * (rate - 0.5 * acceleration * horizon);
-    where(end > 0, time) = Many(detail::no_contact);
-    where(!(room > 0), time) = Many(0);
-    return time;
   }
 
   using Numbers = detail::NumbersOf<many>;
 
-  Outline<Shape> outline_;
+  Outline<Ellipse> outline_;
   Motion2 motion_;
   CommonSize common_;
   double floor_;
@@ -167,29 +168,35 @@ class FirstLook : public detail::Urgencies<many> {
   Numbers dx_, dy_, vx_, vy_, angle_, omega_, bb_, stretch_, aabb_, bend_, nx_, ny_, horizon_;
 };
 
-template <>
-class FirstLook<Disk> : public detail::Urgencies<8> {
+/// Disks and spheres: in closed form.
+template <Body B>
+requires std::same_as<Grown<B>, Disk> || std::same_as<Grown<B>, Sphere>
+class FirstLook<B> : public detail::Urgencies<8> {
+  static constexpr int dimension = B::dimension;
+
  public:
-  using Shape = Disk;
   static constexpr int lanes = 8;
   static constexpr bool is_exact = true;
   struct Memory {
     Memory() = default;
-    explicit(false) Memory(const Vec2& /*axis*/) {}
+    explicit(false) Memory(const Vec<dimension>& /*axis*/) {}
     friend Memory reversed(const Memory& memory) { return memory; }
   };
 
-  FirstLook(const Outline<Disk>& outline, const Pose2& /*pose*/, const Motion2& motion,
-            const CommonSize&, double contact_gap)
-      : reach_(outline.radius + contact_gap), velocity_(motion.velocity) {}
+  FirstLook(const Outline<Grown<B>>& outline, const Pose<dimension>& /*pose*/,
+            const Motion<dimension>& motion, const CommonSize& common, double contact_gap)
+      : radius_(outline.radius),
+        velocity_(motion.velocity),
+        common_(common),
+        contact_gap_(contact_gap) {}
 
-  VITREL_INLINE void set(int k, const Pose2& pose, const Motion2& motion,
-                         const Outline<Disk>& outline, const Memory&, double horizon) {
-    dx_[k] = pose.position.x();
-    dy_[k] = pose.position.y();
-    vx_[k] = motion.velocity.x() - velocity_.x();
-    vy_[k] = motion.velocity.y() - velocity_.y();
-    radius_[k] = outline.radius;
+  VITREL_INLINE void set(int k, const Pose<dimension>& pose, const Motion<dimension>& motion,
+                         const Outline<Grown<B>>& outline, const Memory&, double horizon) {
+    for (int x = 0; x < dimension; ++x) {
+      d_[x][k] = pose.position[x];
+      v_[x][k] = motion.velocity[x] - velocity_[x];
+    }
+    other_radius_[k] = outline.radius;
     horizon_[k] = horizon;
   }
   Memory memory(int) const { return {}; }
@@ -197,13 +204,26 @@ class FirstLook<Disk> : public detail::Urgencies<8> {
   /// Finds the times of contact: infinite without, 0 for approaching pairs that touch or overlap.
   [[gnu::flatten]] void look(int count) {
     using Simd = detail::Simd<lanes>;
-    const Simd dx = dx_.all(), dy = dy_.all(), vx = vx_.all(), vy = vy_.all();
-    const Simd reach = radius_.all() + reach_;
-    const Simd b = dx * vx + dy * vy;
-    const Simd c = dx * dx + dy * dy - reach * reach;
-    const Simd discriminant = b * b - (vx * vx + vy * vy) * c;
-    Simd time = max(c / (sqrt(max(discriminant, Simd(0))) - b), Simd(0));
-    where(!(b < 0) || !(discriminant >= 0) || !(time < horizon_.all()), time) =
+    const Simd radii = other_radius_.all() + radius_;
+    Simd reach = radii + contact_gap_;
+    if constexpr (grows<B>) reach = common_.size * radii + contact_gap_;
+    const Simd c = product(d_, d_) - reach * reach;
+    Simd b = product(d_, v_), a = product(v_, v_);
+    if constexpr (grows<B>) {
+      const Simd growth = common_.growth_rate * radii;
+      b -= reach * growth;
+      a -= growth * growth;
+    }
+    const Simd discriminant = b * b - a * c;
+    const Simd root = sqrt(max(discriminant, Simd(0)));
+    Simd time = max(c / (root - b), Simd(0));
+    auto misses = !(b < 0);
+    if constexpr (grows<B>) {
+      // Moving apart, but growing faster.
+      where(misses && a < 0, time) = max((b + root) / -a, Simd(0));
+      misses = misses && !(a < 0);
+    }
+    where(misses || !(discriminant >= 0) || !(time < horizon_.all()), time) =
         Simd(detail::no_contact);
     open(time, count);
   }
@@ -211,26 +231,29 @@ class FirstLook<Disk> : public detail::Urgencies<8> {
  private:
   using Numbers = detail::NumbersOf<lanes>;
 
-  double reach_;
-  Vec2 velocity_;
-  Numbers dx_, dy_, vx_, vy_, radius_, horizon_;
+  VITREL_INLINE static detail::Simd<lanes> product(const Numbers (&u)[dimension],
+                                                   const Numbers (&v)[dimension]) {
+    detail::Simd<lanes> sum = u[0].all() * v[0].all() + u[1].all() * v[1].all();
+    if constexpr (dimension == 3) sum += u[2].all() * v[2].all();
+    return sum;
+  }
+
+  double radius_;
+  Vec<dimension> velocity_;
+  CommonSize common_;
+  double contact_gap_;
+  Numbers d_[dimension], v_[dimension], other_radius_, horizon_;
 };
 
 /// first_contact, beginning with what a look remembered.
-inline Prediction2 first_contact(const Flight<Ellipse>& one, const Flight<Ellipse>& two,
-                                 double horizon, double contact_gap,
-                                 const FirstLook<Ellipse>::Memory& memory) {
-  return first_contact(one, two, horizon, contact_gap, memory.axis);
-}
-inline Prediction2 first_contact(const Flight<GrowingEllipse>& one,
-                                 const Flight<GrowingEllipse>& two, double horizon,
-                                 double contact_gap,
-                                 const FirstLook<GrowingEllipse>::Memory& memory) {
-  return first_contact(one, two, horizon, contact_gap, memory.axis);
-}
-inline Prediction2 first_contact(const Flight<Disk>& one, const Flight<Disk>& two, double horizon,
-                                 double contact_gap, const FirstLook<Disk>::Memory&) {
-  return first_contact(one, two, horizon, contact_gap);
+template <Body B>
+Prediction<B::dimension> first_contact(const Flight<B>& one, const Flight<B>& two, double horizon,
+                                       double contact_gap,
+                                       const typename FirstLook<B>::Memory& memory) {
+  if constexpr (FirstLook<B>::is_exact)
+    return first_contact(one, two, horizon, contact_gap);
+  else
+    return first_contact(one, two, horizon, contact_gap, memory.axis);
 }
 
 }  // namespace vitrel

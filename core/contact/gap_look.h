@@ -1,5 +1,7 @@
 #pragma once
 
+#include <concepts>
+
 #include "core/contact/several.h"
 
 /// The gaps between one body and several others that stand still: for disks the distances of the
@@ -104,34 +106,38 @@ class GapLook<Ellipse> {
   Numbers dx_, dy_, angle_, bb_, stretch_, aabb_, gap_, nx_, ny_;
 };
 
-template <>
-class GapLook<Disk> {
+/// Disks and spheres.
+template <class Shape>
+requires std::same_as<Shape, Disk> || std::same_as<Shape, Sphere>
+class GapLook<Shape> {
+  static constexpr int dimension = Shape::dimension;
+
  public:
   static constexpr int lanes = 8;
 
-  GapLook(const Disk& shape, double /*angle*/) : radius_(shape.radius) {}
+  GapLook(const Shape& shape, const Orientation<dimension>&) : radius_(shape.radius) {}
 
-  VITREL_INLINE void set(int k, const Disk& shape, double /*angle*/, const Vec2& d) {
-    dx_[k] = d.x();
-    dy_[k] = d.y();
+  VITREL_INLINE void set(int k, const Shape& shape, const Orientation<dimension>&,
+                         const Vec<dimension>& d) {
+    for (int x = 0; x < dimension; ++x) d_[x][k] = d[x];
     radii_[k] = shape.radius;
   }
 
   void look() {
-    using Simd = detail::Simd<lanes>;
-    const Simd dx = dx_.all(), dy = dy_.all();
-    gap_.store(sqrt(dx * dx + dy * dy) - (radii_.all() + radius_));
+    detail::Simd<lanes> square = d_[0].all() * d_[0].all() + d_[1].all() * d_[1].all();
+    if constexpr (dimension == 3) square += d_[2].all() * d_[2].all();
+    gap_.store(sqrt(square) - (radii_.all() + radius_));
   }
 
   double gap(int k) const { return gap_[k]; }
-  /// Disks need none.
-  Vec2 axis(int) const { return Vec2::Zero(); }
+  /// Round bodies need none.
+  Vec<dimension> axis(int) const { return Vec<dimension>::Zero(); }
 
  private:
   using Numbers = detail::NumbersOf<lanes>;
 
   double radius_;
-  Numbers dx_, dy_, radii_, gap_;
+  Numbers d_[dimension], radii_, gap_;
 };
 
 }  // namespace vitrel

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/contact/ellipsoid_gap.h"
 #include "core/contact/first_contact.h"
 #include "core/contact/support_gap.h"
 
@@ -20,9 +21,25 @@ inline bool separated(const Disk& one, const Pose2&, const Disk& two, const Pose
   return d.squaredNorm() >= reach * reach;
 }
 
+inline bool separated(const Ellipsoid& one, const Pose3& pose1, const Ellipsoid& two,
+                      const Pose3& pose2, const Vec3& d, double margin) {
+  return separated(one, pose1.orientation, two, pose2.orientation, d, margin);
+}
+
+inline bool separated(const Sphere& one, const Pose3&, const Sphere& two, const Pose3&,
+                      const Vec3& d, double margin) {
+  const double reach = one.radius + two.radius + margin;
+  return d.squaredNorm() >= reach * reach;
+}
+
 inline SupportGap support_gap(const Ellipse& one, const Pose2& pose1, const Ellipse& two,
                               const Pose2& pose2, const Vec2& d) {
   return support_gap(one, pose1.angle, two, pose2.angle, d);
+}
+
+inline SupportGap3 support_gap(const Ellipsoid& one, const Pose3& pose1, const Ellipsoid& two,
+                               const Pose3& pose2, const Vec3& d) {
+  return support_gap(one, pose1.orientation, two, pose2.orientation, d);
 }
 
 /// The surface point with outward normal n, relative to the centre.
@@ -31,6 +48,14 @@ inline Vec2 surface_point(const Ellipse& body, const Pose2& pose, const Vec2& n)
 }
 
 inline Vec2 surface_point(const Disk& body, const Pose2&, const Vec2& n) {
+  return body.radius * n;
+}
+
+inline Vec3 surface_point(const Ellipsoid& body, const Pose3& pose, const Vec3& n) {
+  return surface_point(body, pose.orientation, n);
+}
+
+inline Vec3 surface_point(const Sphere& body, const Pose3&, const Vec3& n) {
   return body.radius * n;
 }
 

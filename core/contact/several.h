@@ -5,6 +5,8 @@
 
 #include "core/contact/ellipse_pair.h"
 #include "core/geometry/disk.h"
+#include "core/geometry/ellipsoid.h"
+#include "core/geometry/sphere.h"
 
 /// What the looks of one body at several others share (first_look.h, gap_look.h): numbers in lanes,
 /// one lane for each pair.
@@ -18,6 +20,23 @@ template <>
 struct Outline<Disk> {
   double radius = 1;
   explicit Outline(const Disk& disk) : radius(disk.radius) {}
+};
+
+template <>
+struct Outline<Sphere> {
+  double radius = 1;
+  explicit Outline(const Sphere& sphere) : radius(sphere.radius) {}
+};
+
+template <>
+struct Outline<Ellipsoid> {
+  Vec3 semi_axes;
+  double stretch, shortest_squared;  ///< a² − c², c²
+  explicit Outline(const Ellipsoid& ellipsoid)
+      : semi_axes(ellipsoid.semi_axes),
+        stretch((ellipsoid.circumradius() - ellipsoid.inradius()) *
+                (ellipsoid.circumradius() + ellipsoid.inradius())),
+        shortest_squared(ellipsoid.inradius() * ellipsoid.inradius()) {}
 };
 
 template <>

@@ -1,7 +1,9 @@
 #pragma once
 
+#include "core/geometry/disk.h"
 #include "core/geometry/ellipse.h"
 #include "core/geometry/ellipsoid.h"
+#include "core/geometry/sphere.h"
 
 namespace vitrel {
 
@@ -28,7 +30,24 @@ struct Growing {
 
 using GrowingEllipse = Growing<Ellipse>;
 using GrowingEllipsoid = Growing<Ellipsoid>;
+using GrowingSphere = Growing<Sphere>;
 
-static_assert(Body<GrowingEllipse> && Body<GrowingEllipsoid>);
+static_assert(Body<GrowingEllipse> && Body<GrowingEllipsoid> && Body<GrowingSphere>);
+
+template <class B>
+struct ShapeOf {
+  using type = B;
+  static constexpr bool grows = false;
+};
+template <class Shape>
+struct ShapeOf<Growing<Shape>> {
+  using type = Shape;
+  static constexpr bool grows = true;
+};
+/// What grows, or the body itself.
+template <class B>
+using Grown = typename ShapeOf<B>::type;
+template <class B>
+inline constexpr bool grows = ShapeOf<B>::grows;
 
 }  // namespace vitrel

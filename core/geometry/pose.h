@@ -31,6 +31,16 @@ struct Pose<3> {
   Quaternion orientation = Quaternion::Identity();
 };
 
+/// An angle in two dimensions, a quaternion in three.
+template <int Dim>
+using Orientation = std::conditional_t<Dim == 2, double, Quaternion>;
+inline double orientation_of(const Pose<2>& pose) {
+  return pose.angle;
+}
+inline const Quaternion& orientation_of(const Pose<3>& pose) {
+  return pose.orientation;
+}
+
 /// A number in two dimensions, a vector in three.
 template <int Dim>
 using AngularVelocity = std::conditional_t<Dim == 2, double, Vec3>;

@@ -26,6 +26,10 @@ inline double cross(const Vec2& u, const Vec2& v) {
   return u.x() * v.y() - u.y() * v.x();
 }
 
+inline Vec3 cross(const Vec3& u, const Vec3& v) {
+  return u.cross(v);
+}
+
 /// u turned by +90°.
 inline Vec2 perpendicular(const Vec2& u) {
   return {-u.y(), u.x()};

@@ -14,8 +14,9 @@ namespace vitrel {
 
 /// A point of a cell grid. Other types can take its place that know more of a point and have these two:
 /// whoever is near is then known with the one read that finds it.
+template <int Dim>
 struct CellPoint {
-  Vec2 position;           // wrapped into the box
+  Vec<Dim> position;       // wrapped into the box
   std::uint32_t next = 0;  // the grid's own: the next point of the cell
 };
 
@@ -25,18 +26,23 @@ struct CellPoint {
 /// box is the image of one inside, and how many boxes lie between is the shift. So every image (j,
 /// shift) within reach is met exactly once, in boxes of any size, down to a single cell. Insert and
 /// move cost O(1).
-template <class Point = CellPoint>
+template <int Dim, class Point = CellPoint<Dim>>
 class CellGrid {
  public:
   /// For about `particles` points and queries of about `reach`.
-  CellGrid(const PeriodicBox<2>& box, double reach, std::size_t particles) : box_(box) {
-    const auto most = static_cast<std::int64_t>(std::ceil(std::sqrt(4.0 * particles))) + 1;
-    for (int k = 0; k < 2; ++k) {
+  CellGrid(const PeriodicBox<Dim>& box, double reach, std::size_t particles) : box_(box) {
+    constexpr double cells_per_particle = 4;
+    const auto most =
+        static_cast<std::int64_t>(std::ceil(std::pow(cells_per_particle * particles, 1.0 / Dim))) +
+        1;
+    std::int64_t cells = 1;
+    for (int k = 0; k < Dim; ++k) {
       const auto wanted = static_cast<std::int64_t>(box.lengths()[k] / (0.5 * reach));
       count_[k] = std::clamp<std::int64_t>(wanted, 1, most);
       width_[k] = box.lengths()[k] / static_cast<double>(count_[k]);
+      cells *= count_[k];
     }
-    first_.assign(static_cast<std::size_t>(count_[0] * count_[1]), none);
+    first_.assign(static_cast<std::size_t>(cells), none);
     points_.reserve(particles);
   }
 
@@ -64,11 +70,11 @@ class CellGrid {
   /// `position` itself is among them. A visit that returns false ends the query; the result tells
   /// whether all were visited.
   template <class Visit>
-  bool for_each_near(const Vec2& position, double reach, Visit&& visit) const {
-    return for_each_cell(position, reach, [&](std::size_t cell, const Shift<2>& shift) {
-      const Vec2 offset = box_.translation(shift) - position;
+  bool for_each_near(const Vec<Dim>& position, double reach, Visit&& visit) const {
+    return for_each_cell(position, reach, [&](std::size_t cell, const Shift<Dim>& shift) {
+      const Vec<Dim> offset = box_.translation(shift) - position;
       for (Index j = first_[cell]; j != none; j = points_[j].next) {
-        const Vec2 separation = points_[j].position + offset;
+        const Vec<Dim> separation = points_[j].position + offset;
         if (separation.squaredNorm() > reach * reach) continue;
         if (!goes_on(visit, static_cast<std::size_t>(j), shift, separation)) return false;
       }
@@ -78,16 +84,14 @@ class CellGrid {
 
   /// Asks the memory for what a query will read: for the cells, and, when these have had time to come, for
   /// the first point of each.
-  void read_ahead_cells(const Vec2& position, double reach) const {
-    const Range x = covered(position, reach, 0);
-    const Range y = covered(position, reach, 1);
-    for (std::int64_t cx = x.low; cx <= x.high; ++cx)
-      // Those between are in the same line of memory, or the next.
-      for (const std::int64_t cy : {y.low, y.high})
-        ask_memory(&first_[inside(cx, 0) * count_[1] + inside(cy, 1)]);
+  void read_ahead_cells(const Vec<Dim>& position, double reach) const {
+    for_each_cell(position, reach, [&](std::size_t cell, const Shift<Dim>&) {
+      ask_memory(&first_[cell]);
+      return true;
+    });
   }
-  void read_ahead_points(const Vec2& position, double reach) const {
-    for_each_cell(position, reach, [&](std::size_t cell, const Shift<2>&) {
+  void read_ahead_points(const Vec<Dim>& position, double reach) const {
+    for_each_cell(position, reach, [&](std::size_t cell, const Shift<Dim>&) {
       if (first_[cell] != none) ask_memory(&points_[first_[cell]]);
       return true;
     });
@@ -101,9 +105,10 @@ class CellGrid {
   };
 
   template <class Visit>
-  static bool goes_on(Visit& visit, std::size_t j, const Shift<2>& shift, const Vec2& separation) {
+  static bool goes_on(Visit& visit, std::size_t j, const Shift<Dim>& shift,
+                      const Vec<Dim>& separation) {
     if constexpr (std::is_same_v<
-                      std::invoke_result_t<Visit&, std::size_t, const Shift<2>&, const Vec2&>,
+                      std::invoke_result_t<Visit&, std::size_t, const Shift<Dim>&, const Vec<Dim>&>,
                       bool>) {
       return visit(j, shift, separation);
     } else {
@@ -114,15 +119,23 @@ class CellGrid {
 
   // visit(cell, shift) for the cells within reach, until one returns false.
   template <class Visit>
-  bool for_each_cell(const Vec2& position, double reach, Visit&& visit) const {
-    const Range x = covered(position, reach, 0);
-    const Range y = covered(position, reach, 1);
-    for (std::int64_t cx = x.low; cx <= x.high; ++cx) {
-      const std::int32_t boxes_x = boxes_off(cx, 0);
-      const std::int64_t column = (cx - boxes_x * count_[0]) * count_[1];
-      for (std::int64_t cy = y.low; cy <= y.high; ++cy) {
-        const Shift<2> shift(boxes_x, boxes_off(cy, 1));
-        const std::int64_t cell = column + cy - shift.y() * count_[1];
+  bool for_each_cell(const Vec<Dim>& position, double reach, Visit&& visit) const {
+    Range ranges[Dim];
+    for (int k = 0; k < Dim; ++k) ranges[k] = covered(position, reach, k);
+    Shift<Dim> shift;
+    return walk<0>(ranges, 0, shift, visit);
+  }
+
+  // The same over direction k and those after it; `before` is the number of the cell by those before.
+  template <int k, class Visit>
+  bool walk(const Range (&ranges)[Dim], std::int64_t before, Shift<Dim>& shift,
+            Visit& visit) const {
+    for (std::int64_t c = ranges[k].low; c <= ranges[k].high; ++c) {
+      shift[k] = boxes_off(c, k);
+      const std::int64_t cell = before * count_[k] + c - shift[k] * count_[k];
+      if constexpr (k + 1 < Dim) {
+        if (!walk<k + 1>(ranges, cell, shift, visit)) return false;
+      } else {
         if (!visit(static_cast<std::size_t>(cell), shift)) return false;
       }
     }
@@ -137,25 +150,22 @@ class CellGrid {
     return boxes;
   }
 
-  std::int64_t inside(std::int64_t cell, int k) const {
-    return cell - boxes_off(cell, k) * count_[k];
-  }
-
   // Cells that [position − reach, position + reach] covers, with room for rounding at the edges.
-  Range covered(const Vec2& position, double reach, int k) const {
+  Range covered(const Vec<Dim>& position, double reach, int k) const {
     const double centre = position[k] + 0.5 * box_.lengths()[k];
     const double half = reach + 1e-12 * (reach + box_.lengths()[k]);
     return {static_cast<std::int64_t>(std::floor((centre - half) / width_[k])),
             static_cast<std::int64_t>(std::floor((centre + half) / width_[k]))};
   }
 
-  std::size_t cell_of(const Vec2& position) const {
-    std::int64_t at[2];
-    for (int k = 0; k < 2; ++k)
-      at[k] = std::clamp<std::int64_t>(
-          static_cast<std::int64_t>((position[k] + 0.5 * box_.lengths()[k]) / width_[k]), 0,
-          count_[k] - 1);
-    return static_cast<std::size_t>(at[0] * count_[1] + at[1]);
+  std::size_t cell_of(const Vec<Dim>& position) const {
+    std::int64_t cell = 0;
+    for (int k = 0; k < Dim; ++k) {
+      const auto at =
+          static_cast<std::int64_t>((position[k] + 0.5 * box_.lengths()[k]) / width_[k]);
+      cell = cell * count_[k] + std::clamp<std::int64_t>(at, 0, count_[k] - 1);
+    }
+    return static_cast<std::size_t>(cell);
   }
 
   void enter(Index i, std::size_t cell) {
@@ -169,10 +179,10 @@ class CellGrid {
     *link = points_[i].next;
   }
 
-  PeriodicBox<2> box_;
-  std::int64_t count_[2];
-  double width_[2];
-  std::vector<Index> first_;  // of every cell, x-major
+  PeriodicBox<Dim> box_;
+  std::int64_t count_[Dim];
+  double width_[Dim];
+  std::vector<Index> first_;  // of every cell, the last direction fastest
   std::vector<Point> points_;
 };
 

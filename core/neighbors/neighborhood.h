@@ -1,13 +1,14 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <span>
 #include <vector>
 
+#include "core/contact/ellipsoid_look.h"
 #include "core/contact/first_look.h"
 #include "core/contact/gap_look.h"
 #include "core/geometry/periodic_box.h"
@@ -19,28 +20,32 @@
 namespace vitrel {
 
 /// Another particle's image (j, shift), seen at r_j + shift ∘ L.
+template <int Dim>
 struct NeighborImage {
   std::uint32_t other = 0;
-  std::int16_t boxes_x = 0, boxes_y = 0;  // the shift, in short: lists are read all the time
+  std::array<std::int16_t, Dim> boxes{};  // the shift, in short: lists are read all the time
 
   NeighborImage() = default;
-  NeighborImage(std::size_t j, const Shift<2>& shift)
-      : other(static_cast<std::uint32_t>(j)),
-        boxes_x(static_cast<std::int16_t>(shift.x())),
-        boxes_y(static_cast<std::int16_t>(shift.y())) {}
+  NeighborImage(std::size_t j, const Shift<Dim>& shift) : other(static_cast<std::uint32_t>(j)) {
+    for (int k = 0; k < Dim; ++k) boxes[k] = static_cast<std::int16_t>(shift[k]);
+  }
 
-  Shift<2> shift() const { return {boxes_x, boxes_y}; }
+  Shift<Dim> shift() const {
+    Shift<Dim> wide;
+    for (int k = 0; k < Dim; ++k) wide[k] = boxes[k];
+    return wide;
+  }
   /// The image of particle i that the other sees.
   NeighborImage seen_from_there(std::size_t i) const { return {i, -shift()}; }
-  bool operator==(const NeighborImage& image) const {
-    return std::bit_cast<std::uint64_t>(*this) == std::bit_cast<std::uint64_t>(image);
-  }
+  bool operator==(const NeighborImage&) const = default;
 };
 
 /// An image as a neighbour, with what the looks at this pair remember.
 template <Body B>
-struct Neighbor : NeighborImage {
+struct Neighbor : NeighborImage<B::dimension> {
   [[no_unique_address]] typename FirstLook<B>::Memory memory;
+
+  bool is(const NeighborImage<B::dimension>& image) const { return image == *this; }
 };
 
 /// Neighbour lists shaped like the particles (after Donev, Torquato & Stillinger, 2005).
@@ -58,20 +63,25 @@ struct Neighbor : NeighborImage {
 /// hand. A particle's own images are among its neighbours, each unordered pair (i, i, ±shift) once.
 template <Body B>
 class Neighborhoods {
+  static constexpr int dimension = B::dimension;
+  using Vector = Vec<dimension>;
+  using Image = NeighborImage<dimension>;
+
  public:
-  using Shape = typename FirstLook<B>::Shape;
+  using Shape = Grown<B>;
 
   /// `shapes` of every kind, all of size 1, and `kind_of` every particle; both must outlive this
   /// object. `poses` are wrapped into the box.
-  Neighborhoods(const PeriodicBox<2>& box, std::span<const Shape> shapes, const KindOf& kind_of,
-                std::span<const Pose2> poses, double wanted_neighbors)
+  Neighborhoods(const PeriodicBox<dimension>& box, std::span<const Shape> shapes,
+                const KindOf& kind_of, std::span<const Pose<dimension>> poses,
+                double wanted_neighbors)
       : box_(box),
         shapes_(shapes),
         kind_of_(kind_of),
         largest_(largest_circumradius()),
         references_(box, cell_reach(poses.size()), poses.size()) {
     for (std::size_t i = 0; i < poses.size(); ++i)
-      references_.insert(i, {poses[i].position, poses[i].angle});
+      references_.insert(i, {poses[i].position, orientation_of(poses[i])});
     const std::vector<Pair> pairs = pairs_closer_than(widest_gap(wanted_neighbors));
     margin_ = 0.5 * choose_gap(pairs, wanted_neighbors);
     std::vector<std::uint32_t> counts(poses.size());
@@ -88,18 +98,18 @@ class Neighborhoods {
   double margin() const { return margin_; }
 
   /// The axis of a pair is known: `normal` points from i to the other.
-  void remember(std::size_t i, const NeighborImage& with, const Vec2& normal) {
-    const auto note = [&](std::size_t k, const NeighborImage& image, const Vec2& axis) {
+  void remember(std::size_t i, const Image& with, const Vector& normal) {
+    const auto note = [&](std::size_t k, const Image& image, const Vector& axis) {
       for (Neighbor<B>& neighbor : lists_[k])
-        if (neighbor == image) neighbor.memory = {axis};
+        if (neighbor.is(image)) neighbor.memory = {axis};
     };
     note(i, with, normal);
     note(with.other, with.seen_from_there(i), -normal);
   }
 
   /// New reference pose (wrapped into the box), size and list for particle i.
-  void renew(std::size_t i, const Pose2& pose, double size) {
-    references_.move(i, {pose.position, pose.angle, static_cast<float>(size)});
+  void renew(std::size_t i, const Pose<dimension>& pose, double size) {
+    references_.move(i, {pose.position, orientation_of(pose), static_cast<float>(size)});
     near_.clear();
     visit_near(i, 2 * margin_, [&](const Pair& pair) { near_.push_back(pair); });
     // Most neighbours stay: only those that come or go learn of it.
@@ -125,16 +135,16 @@ class Neighborhoods {
   }
   void read_ahead_list(std::size_t i) const { lists_.read_ahead(i); }
   /// The same for a renewal at this position: the cells, and then the references in them.
-  void read_ahead_cells(std::size_t i, const Vec2& position) const {
+  void read_ahead_cells(std::size_t i, const Vector& position) const {
     references_.read_ahead_cells(position, reach_of(i, 2 * margin_));
   }
-  void read_ahead_references(std::size_t i, const Vec2& position) const {
+  void read_ahead_references(std::size_t i, const Vector& position) const {
     references_.read_ahead_points(position, reach_of(i, 2 * margin_));
   }
 
   /// A time until which particle i, now at `pose` and of the common size, stays inside its
   /// neighbourhood: without growth, exactly that of leaving it.
-  double exit_time(std::size_t i, const Pose2& pose, const Motion2& motion,
+  double exit_time(std::size_t i, const Pose<dimension>& pose, const Motion<dimension>& motion,
                    const CommonSize& common) const {
     // While growing by this fraction at most, the swing is bounded by that of the larger size.
     constexpr double growth_at_once = 0.1;
@@ -143,35 +153,56 @@ class Neighborhoods {
     const double most = common.size + (growing > 0 ? growth_at_once : 0);
     const double radius = shape(i).circumradius();
     const double swing = most * shape(i).swing();
-    const Vec2 moved = pose.position - reference.position;
-    const double turned = swing * (pose.angle - reference.angle);
-    const double turning = swing * motion.angular_velocity;
+    const Vector moved = pose.position - reference.position;
     const double room = margin_ - radius * std::max(common.size - reference.size, 0.0);
     const double narrowing = radius * growing;
-    double exit = crossing(moved, motion.velocity, room - turned, -turning - narrowing);
-    if (swing != 0)
-      exit = std::min(exit, crossing(moved, motion.velocity, room + turned, turning - narrowing));
+    const double exit =
+        crossing(moved, motion, swing * turned_since(reference, pose), swing, room, narrowing);
     return growing > 0 ? std::min(exit, growth_at_once / growing) : exit;
   }
 
  private:
-  /// It need not have the very size of the particle when it was made.
+  /// It need not have the very size of the particle when it was made. In two dimensions, half a cache
+  /// line.
   struct alignas(32) Reference {
-    Vec2 position;
-    double angle = 0;
+    Vector position;
+    Orientation<dimension> orientation;
     float size = 1;
     std::uint32_t next = 0;  // the grid's own
   };
-  static_assert(sizeof(Reference) == 32);  // half a cache line
   struct Pair {
     double gap;
-    Vec2 axis;
+    Vector axis;
     std::uint32_t i;
-    NeighborImage image;
+    Image image;
   };
 
+  // The angle by which a body has turned: with its sign, or the smallest that leads there.
+  static double turned_since(const Reference& reference, const Pose2& pose) {
+    return pose.angle - reference.orientation;
+  }
+  static double turned_since(const Reference& reference, const Pose3& pose) {
+    return reference.orientation.angularDistance(pose.orientation);
+  }
+
+  // When the way and the turn together, times the swing, take up the room: turning on in either
+  // direction, or, in three dimensions, away from the reference at the most.
+  static double crossing(const Vector& moved, const Motion2& motion, double turned, double swing,
+                         double room, double narrowing) {
+    const double turning = swing * motion.angular_velocity;
+    const double exit = crossing(moved, motion.velocity, room - turned, -turning - narrowing);
+    return swing == 0 ? exit
+                      : std::min(exit, crossing(moved, motion.velocity, room + turned,
+                                                turning - narrowing));
+  }
+  static double crossing(const Vector& moved, const Motion3& motion, double turned, double swing,
+                         double room, double narrowing) {
+    return crossing(moved, motion.velocity, room - turned,
+                    -swing * motion.angular_velocity.norm() - narrowing);
+  }
+
   // First s ≥ 0 with |r + v s| = room + growth s, for |r| ≤ room; 0 if outside already.
-  static double crossing(const Vec2& r, const Vec2& v, double room, double growth) {
+  static double crossing(const Vector& r, const Vector& v, double room, double growth) {
     const double c = r.squaredNorm() - room * room;
     if (!(room > 0) || c >= 0) return 0;
     const double a = v.squaredNorm() - growth * growth;
@@ -193,14 +224,16 @@ class Neighborhoods {
 
   // The reach that gives cells of half a particle, or with one particle each if these are larger.
   double cell_reach(std::size_t particles) const {
-    const double spacing = std::sqrt(box_.volume() / static_cast<double>(particles));
+    const double spacing =
+        std::pow(box_.volume() / static_cast<double>(particles), 1.0 / dimension);
     return 2 * std::max(largest_, spacing);
   }
 
   // A gap within which, at the mean density, there are surely more neighbours than wanted.
   double widest_gap(double wanted) const {
     const double density = static_cast<double>(references_.size()) / box_.volume();
-    const double reach = std::sqrt(2 * wanted / (std::numbers::pi * density));
+    const double of_unit = dimension == 2 ? std::numbers::pi : 4 * std::numbers::pi / 3;
+    const double reach = std::pow(2 * wanted / (of_unit * density), 1.0 / dimension);
     double smallest = largest_;
     for (const Shape& shape : shapes_) smallest = std::min(smallest, shape.inradius());
     return std::clamp(reach - 2 * smallest, smallest, 4 * largest_);
@@ -231,8 +264,8 @@ class Neighborhoods {
   void visit_near(std::size_t i, double limit, Visit&& visit) const {
     const Reference& mine = references_[i];
     const Shape one = scaled(shape(i), mine.size);
-    GapLook<Shape> look(one, mine.angle);
-    NeighborImage image[GapLook<Shape>::lanes];
+    GapLook<Shape> look(one, mine.orientation);
+    Image image[GapLook<Shape>::lanes];
     int count = 0;
     const auto judge = [&] {
       look.look();
@@ -242,10 +275,10 @@ class Neighborhoods {
       count = 0;
     };
     references_.for_each_near(mine.position, reach_of(i, limit),
-                              [&](std::size_t j, const Shift<2>& shift, const Vec2& d) {
+                              [&](std::size_t j, const Shift<dimension>& shift, const Vector& d) {
                                 if (j == i && !comes_after_zero(shift)) return;
                                 const Reference& other = references_[j];
-                                look.set(count, scaled(shape(j), other.size), other.angle, d);
+                                look.set(count, scaled(shape(j), other.size), other.orientation, d);
                                 image[count++] = {j, shift};
                                 if (count == GapLook<Shape>::lanes) judge();
                               });
@@ -263,7 +296,7 @@ class Neighborhoods {
 
   // Particle i as the neighbour of its neighbour.
   static Neighbor<B> seen_from_there(std::size_t i, const Neighbor<B>& neighbor) {
-    return {neighbor.NeighborImage::seen_from_there(i), reversed(neighbor.memory)};
+    return {neighbor.seen_from_there(i), reversed(neighbor.memory)};
   }
 
   void link(std::size_t i, const Neighbor<B>& neighbor) {
@@ -271,21 +304,21 @@ class Neighborhoods {
     if (i != neighbor.other) lists_.add(neighbor.other, seen_from_there(i, neighbor));
   }
 
-  void forget(std::size_t i, const NeighborImage& image) {
-    const NeighborImage mine = image.seen_from_there(i);
-    lists_.remove_if(image.other, [&](const Neighbor<B>& neighbor) { return neighbor == mine; });
+  void forget(std::size_t i, const Image& image) {
+    const Image mine = image.seen_from_there(i);
+    lists_.remove_if(image.other, [&](const Neighbor<B>& neighbor) { return neighbor.is(mine); });
   }
 
   const Shape& shape(std::size_t i) const { return shapes_[kind_of_[i]]; }
 
-  PeriodicBox<2> box_;
+  PeriodicBox<dimension> box_;
   std::span<const Shape> shapes_;
   const KindOf& kind_of_;
   ListPool<Neighbor<B>> lists_;
   std::vector<Pair> near_;  // of a renewal
   std::vector<Neighbor<B>> before_;
   double largest_;
-  CellGrid<Reference> references_;
+  CellGrid<dimension, Reference> references_;
   double margin_ = 0;
 };
 

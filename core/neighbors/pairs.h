@@ -7,19 +7,20 @@
 namespace vitrel {
 
 /// Cells filled with the positions of a configuration, which must be wrapped.
-CellGrid<> make_cells(const Configuration2& configuration);
+template <int Dim>
+CellGrid<Dim> make_cells(const Configuration<Dim>& configuration);
 
-/// Calls visit(i, j, d) for every pair (i ≤ j, d from i to the image of j) whose circumcircles meet
+/// Calls visit(i, j, d) for every pair (i ≤ j, d from i to the image of j) whose circumcircles (circumspheres) meet
 /// when all are enlarged by `scale`, and perhaps for some more; each pair once, also (i, i,
 /// ±shift).
-template <class Visit>
-void for_each_pair(const Configuration2& configuration, double scale, Visit&& visit) {
-  const CellGrid<> cells = make_cells(configuration);
+template <int Dim, class Visit>
+void for_each_pair(const Configuration<Dim>& configuration, double scale, Visit&& visit) {
+  const CellGrid<Dim> cells = make_cells(configuration);
   const double largest = largest_circumradius(configuration);
   for (std::size_t i = 0; i < configuration.size(); ++i) {
     const double reach = scale * (configuration.shape[i].circumradius() + largest);
     cells.for_each_near(configuration.position[i], reach,
-                        [&](std::size_t j, const Shift<2>& shift, const Vec2& d) {
+                        [&](std::size_t j, const Shift<Dim>& shift, const Vec<Dim>& d) {
                           if (j > i || (j == i && comes_after_zero(shift))) visit(i, j, d);
                         });
   }

@@ -11,7 +11,8 @@ namespace vitrel {
 /// Numbers points so that near ones have near numbers (along Morton's curve through a grid with
 /// about one point in a cell): entry k is the point that comes k-th. Positions wrapped into the box.
 /// What is stored in this order is near in memory too, which a large system needs.
-std::vector<std::uint32_t> spatial_order(const PeriodicBox<2>& box,
-                                         std::span<const Vec2> positions);
+template <int Dim>
+std::vector<std::uint32_t> spatial_order(const PeriodicBox<Dim>& box,
+                                         std::span<const Vec<Dim>> positions);
 
 }  // namespace vitrel

@@ -17,18 +17,18 @@
 namespace vitrel::lab {
 namespace {
 
-std::unique_ptr<Engine> make_eager() {
+std::unique_ptr<Engine2> make_eager() {
   set_patience(std::numeric_limits<double>::infinity());
   return make_engine_of_patience();
 }
-std::unique_ptr<Engine> make_lazier() {
+std::unique_ptr<Engine2> make_lazier() {
   set_patience(0.05);
   return make_engine_of_patience();
 }
 
 struct Variant {
   std::string name;
-  std::function<std::unique_ptr<Engine>()> make;
+  std::function<std::unique_ptr<Engine2>()> make;
 };
 const std::vector<Variant> variants = {
     {"without_look", make_engine_without_look},
@@ -44,13 +44,13 @@ Configuration2 scene() {
 
 /// An engine and where it is.
 struct Moving {
-  Moving(std::unique_ptr<Engine> made, const Configuration2& start)
+  Moving(std::unique_ptr<Engine2> made, const Configuration2& start)
       : engine(std::move(made)), now(start) {
     engine->load(now);
   }
   void advance(double until) { vitrel::advance(*engine, now, until, counters); }
 
-  std::unique_ptr<Engine> engine;
+  std::unique_ptr<Engine2> engine;
   Configuration2 now;
   RunCounters counters;
 };
@@ -83,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(Variants, EngineTwin, testing::ValuesIn(variants),
                          [](const auto& at) { return at.param.name; });
 
 TEST(EngineTwins, DifferInWhatTheyAsk) {
-  const auto counts = [](std::unique_ptr<Engine> engine) {
+  const auto counts = [](std::unique_ptr<Engine2> engine) {
     Moving run(std::move(engine), scene());
     run.advance(2);
     return run.counters;

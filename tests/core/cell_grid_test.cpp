@@ -12,7 +12,7 @@ namespace {
 
 using Found = std::tuple<std::size_t, int, int>;
 
-std::vector<Found> near(const CellGrid<>& grid, const Vec2& position, double reach) {
+std::vector<Found> near(const CellGrid<2>& grid, const Vec2& position, double reach) {
   std::vector<Found> found;
   grid.for_each_near(position, reach, [&](std::size_t j, const Shift<2>& shift, const Vec2&) {
     found.push_back({j, shift.x(), shift.y()});
@@ -29,7 +29,7 @@ TEST(CellGrid, FindsEveryImageOnceInBoxesOfAnySize) {
     const PeriodicBox<2> box(Vec2(side, 1.7 * side));
     const double reach = 1;
     const std::size_t n = 60;
-    CellGrid<> grid(box, reach, n);
+    CellGrid<2> grid(box, reach, n);
     std::vector<Vec2> points(n);
     const auto place = [&] {
       return Vec2(draw.uniform(-0.5, 0.5) * side, draw.uniform(-0.5, 0.5) * 1.7 * side);
@@ -52,7 +52,7 @@ TEST(CellGrid, FindsEveryImageOnceInBoxesOfAnySize) {
 
 TEST(CellGrid, SeparationsBelongToTheImages) {
   const PeriodicBox<2> box(Vec2(3, 3));
-  CellGrid<> grid(box, 1, 1);
+  CellGrid<2> grid(box, 1, 1);
   grid.insert(0, {Vec2(1.4, 0)});
   int visits = 0;
   grid.for_each_near(Vec2(-1.4, 0), 1, [&](std::size_t, const Shift<2>& shift, const Vec2& d) {
@@ -67,7 +67,7 @@ TEST(CellGrid, SeparationsBelongToTheImages) {
 // reaches of whole numbers of spacings and a little more.
 TEST(CellGrid, PointsOnCellFacesAreNotLost) {
   const PeriodicBox<2> box(Vec2(8, 8));
-  CellGrid<> grid(box, 2, 64);
+  CellGrid<2> grid(box, 2, 64);
   std::vector<Vec2> points;
   for (int x = -4; x < 4; ++x)
     for (int y = -4; y < 4; ++y) points.push_back(Vec2(x, y));
@@ -81,7 +81,7 @@ TEST(CellGrid, PointsOnCellFacesAreNotLost) {
 
 TEST(CellGrid, AVisitThatReturnsFalseEndsTheQuery) {
   const PeriodicBox<2> box(Vec2(5, 5));
-  CellGrid<> grid(box, 1, 10);
+  CellGrid<2> grid(box, 1, 10);
   for (std::size_t i = 0; i < 10; ++i) grid.insert(i, {Vec2(0.1 * static_cast<double>(i), 0)});
   int visits = 0;
   const auto stop_at_third = [&](std::size_t, const Shift<2>&, const Vec2&) {

@@ -153,7 +153,7 @@ using Bodies = testing::Types<Disk, Ellipse, GrowingEllipse>;
 TYPED_TEST_SUITE(LookLanes, Bodies);
 
 template <class B>
-typename FirstLook<B>::Shape round_shape(double radius) {
+Grown<B> round_shape(double radius) {
   if constexpr (std::is_same_v<B, Disk>)
     return {radius};
   else
@@ -165,7 +165,7 @@ typename FirstLook<B>::Shape round_shape(double radius) {
 TYPED_TEST(LookLanes, BeyondTheCountNeverWin) {
   constexpr int lanes = FirstLook<TypeParam>::lanes;
   const auto shape = round_shape<TypeParam>(1);
-  const Outline<typename FirstLook<TypeParam>::Shape> outline(shape);
+  const Outline<Grown<TypeParam>> outline(shape);
   for (const bool filled : {true, false})
     for (int count = 0; count <= lanes; ++count) {
       FirstLook<TypeParam> look(outline, {Vec2::Zero(), 0}, {Vec2::Zero(), 0}, {}, 1e-12);

@@ -42,7 +42,7 @@ Ellipse random_shape(Stream& draw, Ellipse) {
 /// Particles at any places, overlapping or not: the lists do not ask.
 template <class B>
 struct Crowd {
-  using Shape = typename FirstLook<B>::Shape;
+  using Shape = Grown<B>;
 
   PeriodicBox<2> box;
   std::vector<Shape> kinds;

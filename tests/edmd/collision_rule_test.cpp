@@ -9,7 +9,7 @@
 namespace vitrel {
 namespace {
 
-Inertia inertia_of(const Ellipse& body, double mass) {
+Inertia<2> inertia_of(const Ellipse& body, double mass) {
   return {1 / mass, 1 / (mass * body.inertia_per_mass())};
 }
 
@@ -17,8 +17,8 @@ struct TwoBodies {
   Flight<Ellipse> one, two;
   double mass1 = 1, mass2 = 1;
 
-  Inertia inertia1() const { return inertia_of(one.body, mass1); }
-  Inertia inertia2() const { return inertia_of(two.body, mass2); }
+  Inertia<2> inertia1() const { return inertia_of(one.body, mass1); }
+  Inertia<2> inertia2() const { return inertia_of(two.body, mass2); }
 
   // Flies to the first contact and applies the rule; false without a contact.
   bool collide_first(double restitution, double* impulse = nullptr, double* speed = nullptr) {
@@ -26,7 +26,7 @@ struct TwoBodies {
     if (touch.outcome != Outcome::contact) return false;
     one.pose = advanced(one.pose, one.motion, touch.time);
     two.pose = advanced(two.pose, two.motion, touch.time);
-    const ContactGeometry contact{touch.normal,
+    const ContactGeometry<2> contact{touch.normal,
                                   cross(touch.point - one.pose.position, touch.normal),
                                   cross(touch.point - two.pose.position, touch.normal)};
     if (speed) *speed = approach_speed(one.motion, two.motion, contact);
@@ -98,8 +98,8 @@ TEST(CollisionRule, ConservesWhatItShould) {
 // the spin turns round.
 TEST(CollisionRule, OwnImageReversesTheSpin) {
   Motion2 motion{{0.3, 0.1}, 2};
-  const Inertia inertia = inertia_of({2, 1}, 1);
-  const ContactGeometry contact{{1, 0}, 0.4, -0.4};
+  const Inertia<2> inertia = inertia_of({2, 1}, 1);
+  const ContactGeometry<2> contact{{1, 0}, 0.4, -0.4};
   const double impulse = collide_with_own_image(motion, inertia, contact, 1);
   EXPECT_EQ(motion.angular_velocity, -2);
   EXPECT_EQ(motion.velocity, Vec2(0.3, 0.1));
@@ -109,7 +109,7 @@ TEST(CollisionRule, OwnImageReversesTheSpin) {
 
 TEST(CollisionRule, CorrectionMoveSeparatesAndKeepsMomentumAndEnergy) {
   Motion2 one{{1, 0.5}, 0.3}, two{{-1, 2}, -0.4};
-  const Inertia light{1, 1}, heavy{0.5, 0.2};
+  const Inertia<2> light{1, 1}, heavy{0.5, 0.2};
   const Vec2 d(0.6, -0.8);
   const Vec2 momentum = one.velocity + 2 * two.velocity;
   const double energy = one.velocity.squaredNorm() + 2 * two.velocity.squaredNorm();

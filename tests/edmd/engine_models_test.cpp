@@ -41,7 +41,7 @@ Configuration2 mixture() {
 // Models round differently, and every collision multiplies what they differ by, 1e-15, several times;
 // the same collisions in the same order keep them together for a while, a single other one parts them
 // by far more than what is allowed here.
-void expect_same_motion(const Configuration2& start, Engine& simple, Engine& general,
+void expect_same_motion(const Configuration2& start, Engine2& simple, Engine2& general,
                         double collisions_of_each,
                         const std::function<void(Configuration2&, double)>& in_frame_of_first) {
   RunCounters of_simple, of_general;
@@ -62,7 +62,7 @@ void expect_same_motion(const Configuration2& start, Engine& simple, Engine& gen
   EXPECT_EQ(of_general.correction_moves, 0u);
 }
 
-void expect_same_motion(const Configuration2& start, Engine& simple, Engine& general) {
+void expect_same_motion(const Configuration2& start, Engine2& simple, Engine2& general) {
   expect_same_motion(start, simple, general, 10, [](Configuration2&, double) {});
 }
 
@@ -137,7 +137,7 @@ TEST_P(Invariance, ADriftChangesNoCollision) {
 TEST_P(Invariance, CrossingTheBoxKeepsFourParticlesHard) {
   const Configuration2 start =
       moving(square_lattice(2, 0.3, std::numbers::pi / 4, GetParam().shape_of), 5);
-  RunState state = begin_run(start, 0);
+  RunState2 state = begin_run(start, 0);
   run(state, {}, {{}, 2000, nullptr, {}}, {});
   EXPECT_GT(state.counters.collisions, 3000u);
   EXPECT_TRUE(exact_check(state.configuration).clean());
@@ -210,7 +210,7 @@ TEST_P(Invariance, ManyCopiesMoveAsOne) {
 
 // Before the end of a Brownian step many particles meet nobody and have no next event.
 TEST_P(Invariance, ManyParticlesStayHardInBrownianSteps) {
-  RunState state = begin_run(repeated(GetParam().scene()), 0);
+  RunState2 state = begin_run(repeated(GetParam().scene()), 0);
   DynamicsOptions options;
   options.brownian = true;
   options.brownian_step = 0.1;
@@ -220,8 +220,8 @@ TEST_P(Invariance, ManyParticlesStayHardInBrownianSteps) {
   EXPECT_TRUE(exact_check(state.configuration).clean());
 }
 
-RunState brownian_run(const Configuration2& start, int threads) {
-  RunState state = begin_run(start, 0);
+RunState2 brownian_run(const Configuration2& start, int threads) {
+  RunState2 state = begin_run(start, 0);
   DynamicsOptions options;
   options.brownian = true;
   options.brownian_step = 0.05;
@@ -234,11 +234,11 @@ RunState brownian_run(const Configuration2& start, int threads) {
 // more threads change no bit.
 TEST_P(Invariance, ThreadsChangeNoBitOfABrownianRun) {
   const Configuration2 start = GetParam().scene();
-  const RunState one = brownian_run(start, 1);
+  const RunState2 one = brownian_run(start, 1);
   EXPECT_EQ(one.brownian_steps, 60u);
   EXPECT_GT(one.counters.collisions, 30u);
   for (const int threads : {2, 3}) {
-    const RunState more = brownian_run(start, threads);
+    const RunState2 more = brownian_run(start, threads);
     EXPECT_EQ(more.configuration.position, one.configuration.position);
     EXPECT_EQ(more.configuration.angle, one.configuration.angle);
     EXPECT_EQ(more.configuration.velocity, one.configuration.velocity);
@@ -277,10 +277,10 @@ Configuration2 stretched_lattice(int side, double packing_fraction, double aspec
 // A million collisions. Every impact rounds the energies of two of the N particles by about ε, at
 // random: √(2·10⁶ N) ε/N of the total, 2e-14, and as much in the momentum.
 TEST(Accuracy, DoesNotDecayOverAMillionCollisions) {
-  RunState state = begin_run(moving(stretched_lattice(16, 0.7, 6)), 0);
+  RunState2 state = begin_run(moving(stretched_lattice(16, 0.7, 6)), 0);
   int blocks = 0;
   bool clean = true;
-  RunPlan plan{{}, 1e9, nullptr, [&](const RunState& now) {
+  RunPlan2 plan{{}, 1e9, nullptr, [&](const RunState2& now) {
                  ++blocks;
                  clean = clean && exact_check(now.configuration).clean();
                }};

@@ -17,7 +17,7 @@
 namespace vitrel {
 namespace {
 
-std::unique_ptr<Engine> growing_engine(const Configuration2& configuration, double rate) {
+std::unique_ptr<Engine2> growing_engine(const Configuration2& configuration, double rate) {
   EngineOptions options;
   options.growth_rate = rate;
   return make_engine(configuration, options);
@@ -25,10 +25,10 @@ std::unique_ptr<Engine> growing_engine(const Configuration2& configuration, doub
 
 /// Advances by `time` in one block; the counters of the flight.
 RunCounters advance(Configuration2& configuration, double rate, double time) {
-  const std::unique_ptr<Engine> engine = growing_engine(configuration, rate);
+  const std::unique_ptr<Engine2> engine = growing_engine(configuration, rate);
   RunCounters counters;
   engine->load(configuration, configuration.time + time);
-  EXPECT_EQ(engine->advance(configuration.time + time, counters), Engine::Stop::time);
+  EXPECT_EQ(engine->advance(configuration.time + time, counters), Engine2::Stop::time);
   engine->write(configuration);
   return counters;
 }

@@ -44,12 +44,12 @@ double smallest_gap(const Configuration2& c) {
   return smallest;
 }
 
-RunPlan plan_until(double end, Observer<2>* observer = nullptr) {
+RunPlan2 plan_until(double end, Observer<2>* observer = nullptr) {
   return {linear_times(0.5, end), end, observer, {}};
 }
 
 void expect_hard_and_conserving(const Configuration2& start, double end) {
-  RunState state = begin_run(start, 0);
+  RunState2 state = begin_run(start, 0);
   Recorder recorder;
   const StageReport report = run(state, {}, plan_until(end, &recorder), {});
   EXPECT_EQ(report.end, StageEnd::reached);
@@ -95,7 +95,7 @@ TEST(Run, ALoneParticleMeetsItsOwnImages) {
   c.box = PeriodicBox<2>(Vec2(5, 2));
   c.velocity = {Vec2(0.1, 0.2)};
   c.angular_velocity = {1.0};
-  RunState state = begin_run(c, 0);
+  RunState2 state = begin_run(c, 0);
   run(state, {}, plan_until(50), {});
   // Swings to and fro between the two angles at which it touches its image above.
   EXPECT_GT(state.counters.collisions, 5u);
@@ -115,29 +115,29 @@ class Clock : public Observer<2> {
 };
 
 struct Interruption {
-  RunState state;
+  RunState2 state;
   std::size_t frames, ticks;
 };
 
 // The state handed out at every block end continues to the same bits.
 void expect_continues_exactly(const DynamicsOptions& options) {
   const double end = 60;
-  RunState state = begin_run(thesis_scene(), -2);
+  RunState2 state = begin_run(thesis_scene(), -2);
   Recorder whole;
   Clock clock;
   std::vector<Interruption> interruptions;
-  RunPlan plan = plan_until(end, &whole);
+  RunPlan2 plan = plan_until(end, &whole);
   plan.ticks = {0.15, &clock};
-  plan.at_block_end = [&](const RunState& s) {
+  plan.at_block_end = [&](const RunState2& s) {
     interruptions.push_back({s, whole.frames.size(), clock.ticks.size()});
   };
   run(state, options, plan, {});
   ASSERT_GT(interruptions.size(), 3u);
   for (const Interruption& at : interruptions) {
-    RunState resumed = at.state;
+    RunState2 resumed = at.state;
     Recorder rest;
     Clock rest_clock;
-    RunPlan rest_plan = plan_until(end, &rest);
+    RunPlan2 rest_plan = plan_until(end, &rest);
     rest_plan.ticks = {0.15, &rest_clock};
     if (at.state.configuration.time < end) run(resumed, options, rest_plan, {});
     ASSERT_EQ(at.frames + rest.frames.size(), whole.frames.size());
@@ -166,7 +166,7 @@ TEST(Run, BrownianContinuesBitByBit) {
   expect_continues_exactly(options);
 }
 
-// Ticks come at their times, those at 0, at the end and with a sample among them. Neither the samples nor
+// Ticks<2> come at their times, those at 0, at the end and with a sample among them. Neither the samples nor
 // the last state notice, to the last bit, as long as no block ends (after 4096 events, or about 3 units
 // of time).
 TEST(Run, TicksComeInTimeAndChangeNothing) {
@@ -174,16 +174,16 @@ TEST(Run, TicksComeInTimeAndChangeNothing) {
   options.brownian = true;
   const double end = 2;
   const auto run_with = [&](Recorder& frames, Clock* clock) {
-    RunState state = begin_run(thesis_scene(), -0.5);
-    RunPlan plan = plan_until(end, &frames);
+    RunState2 state = begin_run(thesis_scene(), -0.5);
+    RunPlan2 plan = plan_until(end, &frames);
     plan.ticks = {0.05, clock};
     run(state, options, plan, {});
     return state;
   };
   Recorder frames_alone, frames;
   Clock clock;
-  const RunState alone = run_with(frames_alone, nullptr);
-  const RunState ticking = run_with(frames, &clock);
+  const RunState2 alone = run_with(frames_alone, nullptr);
+  const RunState2 ticking = run_with(frames, &clock);
   ASSERT_EQ(clock.ticks.size(), 41u);
   for (std::size_t k = 0; k < clock.ticks.size(); ++k) {
     EXPECT_EQ(clock.ticks[k].first, static_cast<std::int64_t>(k));
@@ -201,9 +201,9 @@ TEST(Run, TicksComeInTimeAndChangeNothing) {
 
 // An interval that does not divide the run: the last tick is the last within it.
 TEST(Run, TicksEndWithTheRun) {
-  RunState state = begin_run(thesis_scene(), 0);
+  RunState2 state = begin_run(thesis_scene(), 0);
   Clock clock;
-  RunPlan plan{{}, 2, nullptr, {}, {0.3, &clock}};
+  RunPlan2 plan{{}, 2, nullptr, {}, {0.3, &clock}};
   run(state, {}, plan, {});
   ASSERT_EQ(clock.ticks.size(), 7u);
   EXPECT_DOUBLE_EQ(clock.ticks.back().second, 1.8);
@@ -211,7 +211,7 @@ TEST(Run, TicksEndWithTheRun) {
 }
 
 TEST(Run, BudgetStopsAtABlockEndAndTheRunGoesOn) {
-  RunState state = begin_run(thesis_scene(), 0);
+  RunState2 state = begin_run(thesis_scene(), 0);
   Budget budget;
   budget.should_stop = [] { return true; };
   const StageReport report = run(state, {}, plan_until(50), budget);
@@ -227,12 +227,12 @@ Configuration2 scene_with_an_overlap() {
 }
 
 TEST(Run, AnOverlapStopsAHardRun) {
-  RunState state = begin_run(scene_with_an_overlap(), 0);
+  RunState2 state = begin_run(scene_with_an_overlap(), 0);
   EXPECT_THROW(run(state, {}, plan_until(1), {}), InvariantError);
 }
 
 TEST(Run, CorrectionMovesAreCountedAndResolveTheOverlap) {
-  RunState state = begin_run(scene_with_an_overlap(), 0);
+  RunState2 state = begin_run(scene_with_an_overlap(), 0);
   DynamicsOptions options;
   options.engine.on_overlap = OnOverlap::correct;
   run(state, options, plan_until(20), {});
@@ -242,7 +242,7 @@ TEST(Run, CorrectionMovesAreCountedAndResolveTheOverlap) {
 }
 
 TEST(Run, InelasticCollisionsDissipateWhatTheyCount) {
-  RunState state = begin_run(thesis_scene(), 0);
+  RunState2 state = begin_run(thesis_scene(), 0);
   DynamicsOptions options;
   options.engine.restitution = 0.9;
   run(state, options, plan_until(5), {});

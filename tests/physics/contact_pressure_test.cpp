@@ -36,9 +36,9 @@ Estimate monte_carlo(Configuration2& c, int blocks, int samples) {
 
 Estimate event_driven(Configuration2 c, int blocks, double window) {
   draw_velocities(c, 7, Purpose::velocities, 0, Temperature::relative);
-  RunState state = begin_run(c, -20);
+  RunState2 state = begin_run(c, -20);
   Recorder recorder;
-  RunPlan plan{linear_times(window, window * blocks), window * blocks, &recorder, {}};
+  RunPlan2 plan{linear_times(window, window * blocks), window * blocks, &recorder, {}};
   run(state, {}, plan, {});
   std::vector<double> values;
   for (int k = 0; k < blocks; ++k)

@@ -23,7 +23,7 @@ constexpr int runs = 100;
 constexpr double duration = 200, equilibration = 30, interval = 0.5;
 
 Displacements dense_run(const Configuration2& start, std::uint64_t seed) {
-  RunState state = begin_run(start, -equilibration);
+  RunState2 state = begin_run(start, -equilibration);
   draw_velocities(state.configuration, seed, Purpose::velocities, 0, Temperature::total);
   DynamicsOptions options;
   options.brownian = true;

@@ -55,9 +55,9 @@ TEST(HardDisks, StructureFactorAtSmallWaveNumbersIsTheCompressibility) {
   std::vector<double> values;
   Configuration2 moving = start;
   draw_velocities(moving, 3, Purpose::velocities, 0, Temperature::relative);
-  RunState state = begin_run(moving, -200);
+  RunState2 state = begin_run(moving, -200);
   Recorder recorder;
-  run(state, {}, RunPlan{linear_times(4, 2000), 2000, &recorder, {}}, {});
+  run(state, {}, RunPlan2{linear_times(4, 2000), 2000, &recorder, {}}, {});
   for (std::size_t stretch = 0; stretch < 20; ++stretch) {
     std::vector<double> mean;
     StructureFactor s;

@@ -26,9 +26,9 @@ struct Rates {
 /// the collision time, so that their averages are independent.
 Rates measure(Configuration2 configuration, double relaxation, double window, int blocks) {
   draw_velocities(configuration, 7, Purpose::velocities, 0, Temperature::relative);
-  RunState state = begin_run(configuration, -relaxation);
+  RunState2 state = begin_run(configuration, -relaxation);
   Recorder recorder;
-  RunPlan plan{linear_times(window, window * blocks), window * blocks, &recorder, {}};
+  RunPlan2 plan{linear_times(window, window * blocks), window * blocks, &recorder, {}};
   run(state, {}, plan, {});
   const double n = static_cast<double>(configuration.size());
   std::vector<double> rates, factors;

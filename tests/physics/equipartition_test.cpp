@@ -28,10 +28,10 @@ class WrongSplit : public testing::TestWithParam<InitialVelocities> {};
 TEST_P(WrongSplit, RelaxesToEquipartition) {
   Configuration2 start = scene(10);
   set_initial_velocities(start, 1, GetParam(), Temperature::total);
-  RunState state = begin_run(start, 0);
+  RunState2 state = begin_run(start, 0);
   Recorder recorder;
   const double window = 20;
-  RunPlan plan{linear_times(0.25, 620), 620, &recorder, {}};
+  RunPlan2 plan{linear_times(0.25, 620), 620, &recorder, {}};
   run(state, {}, plan, {});
 
   const double first = mechanics(recorder.frames.front()).translational_energy;
@@ -73,9 +73,9 @@ double kolmogorov_smirnov(std::vector<double> sample) {
 TEST(Velocities, BecomeGaussian) {
   Configuration2 start = scene(16);
   set_initial_velocities(start, 3, InitialVelocities::translation, Temperature::relative);
-  RunState state = begin_run(start, -60);
+  RunState2 state = begin_run(start, -60);
   Recorder recorder;
-  RunPlan plan{linear_times(4, 80), 80, &recorder, {}};
+  RunPlan2 plan{linear_times(4, 80), 80, &recorder, {}};
   run(state, {}, plan, {});
   const double thermal = std::sqrt(kinetic_temperature(start));
   std::vector<double> v, omega;

@@ -22,13 +22,13 @@ constexpr double step = 0.1;
 std::vector<Configuration2> free_run(std::uint64_t seed, double duration) {
   Configuration2 c = square_lattice(4, 1e-9, 0, [](std::size_t) { return of_aspect_ratio(3); });
   draw_velocities(c, seed, Purpose::velocities, 0, Temperature::total);
-  RunState state = begin_run(c, 0);
+  RunState2 state = begin_run(c, 0);
   Recorder recorder;
   DynamicsOptions options;
   options.brownian = true;
   options.brownian_step = step;
   options.seed = seed;
-  RunPlan plan{linear_times(step, duration), duration, &recorder, {}};
+  RunPlan2 plan{linear_times(step, duration), duration, &recorder, {}};
   run(state, options, plan, {});
   EXPECT_EQ(state.counters.collisions, 0u);
   return recorder.frames;

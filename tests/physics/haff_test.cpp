@@ -49,11 +49,11 @@ Cooling cool(std::uint64_t seed, double restitution, double time) {
     return Ellipse{1, 1};
   });
   draw_velocities(disks, seed, Purpose::velocities, 0, Temperature::relative);
-  RunState state = begin_run(disks, -60);
+  RunState2 state = begin_run(disks, -60);
   run(state, {}, {{}, 0, nullptr, {}}, {});
   state.configuration.time = 0;
 
-  RunState cooling = begin_run(state.configuration, 0);
+  RunState2 cooling = begin_run(state.configuration, 0);
   const Mechanics before = mechanics(cooling.configuration);
   const double hot = kinetic_temperature(cooling.configuration);
   DynamicsOptions options;
@@ -129,7 +129,7 @@ TEST_P(InelasticCollapse, IsReportedAndNotLoopedOn) {
   Configuration2 start = square_lattice(at.side, at.packing_fraction, std::numbers::pi / 4,
                                         [&](std::size_t) { return at.shape; });
   set_initial_velocities(start, 5, InitialVelocities::maxwell, Temperature::total);
-  RunState state = begin_run(start, -5);
+  RunState2 state = begin_run(start, -5);
   run(state, {}, {{}, 0, nullptr, {}}, {});
   DynamicsOptions options;
   options.engine.restitution = at.restitution;

@@ -41,7 +41,7 @@ TEST(LowDensity, DisksDiffuseAsEnskogSays) {
   });
   draw_velocities(start, 3, Purpose::velocities, 0, Temperature::relative);
 
-  RunState state = begin_run(start, -10 * tau);
+  RunState2 state = begin_run(start, -10 * tau);
   Recorder recorder;
   constexpr int windows = 40;
   std::vector<double> times;
@@ -90,7 +90,7 @@ Estimate measured_compressibility(double aspect_ratio, double packing_fraction, 
   Configuration2 start = square_lattice(24, packing_fraction, 0.7,
                                         [&](std::size_t) { return of_aspect_ratio(aspect_ratio); });
   draw_velocities(start, 11, Purpose::velocities, 0, Temperature::relative);
-  RunState state = begin_run(start, -3 * window);
+  RunState2 state = begin_run(start, -3 * window);
   Recorder recorder;
   const double end = window * windows;
   run(state, {}, {linear_times(window, end), end, &recorder, {}}, {});

@@ -17,9 +17,9 @@ namespace {
 void expect_hard_and_conserving(Configuration2 start, double packing_fraction) {
   ASSERT_NEAR(vitrel::packing_fraction(start), packing_fraction, 1e-12);
   set_initial_velocities(start, 1, InitialVelocities::maxwell, Temperature::total);
-  RunState state = begin_run(start, 0);
+  RunState2 state = begin_run(start, 0);
   Recorder recorder;
-  RunPlan plan{linear_times(0.1, 100), 100, &recorder, {}};
+  RunPlan2 plan{linear_times(0.1, 100), 100, &recorder, {}};
   run(state, {}, plan, {});
   EXPECT_EQ(recorder.frames.size(), 1001u);
   EXPECT_EQ(state.counters.correction_moves, 0u);

@@ -16,8 +16,8 @@ inline Configuration2 moving(Configuration2 c, std::uint64_t seed = 1) {
 }
 
 /// Runs the engine to `until`, over the ends of blocks, and writes where it is.
-inline void advance(Engine& engine, Configuration2& now, double until, RunCounters& counters) {
-  while (engine.advance(until, counters) == Engine::Stop::block_end) {
+inline void advance(Engine2& engine, Configuration2& now, double until, RunCounters& counters) {
+  while (engine.advance(until, counters) == Engine2::Stop::block_end) {
     engine.write(now);
     engine.load(now);
   }

@@ -14,7 +14,7 @@
 namespace vitrel::lab {
 namespace {
 
-class AllPairs final : public Engine {
+class AllPairs final : public Engine2 {
  public:
   explicit AllPairs(const AllPairsOptions& options) : options_(options) {}
 
@@ -33,7 +33,7 @@ class AllPairs final : public Engine {
     Pose2 pose;  // at `time`, not wrapped since the start of the block
     Motion2 motion;
     double time = 0;
-    Inertia inertia;
+    Inertia<2> inertia;
     Shift<2> image;
   };
   enum class Kind : std::uint8_t { contact, correction, look_again };
@@ -244,7 +244,7 @@ void AllPairs::ask_all_for_table(RunCounters& counters) {
   asked_ = true;
 }
 
-Engine::Stop AllPairs::advance(double until, RunCounters& counters) {
+Engine2::Stop AllPairs::advance(double until, RunCounters& counters) {
   const bool has_table = options_.asking == Asking::changed_pairs;
   if (has_table && !asked_) ask_all_for_table(counters);
   const double end = until - base_;
@@ -294,7 +294,7 @@ void AllPairs::impact(const Event& event, const Vec2& d, RunCounters& counters) 
   Particle& two = particles_[event.j];
   const Vec2& n = event.normal;
   const Vec2 arm1 = event.point - one.pose.position;
-  const ContactGeometry contact{n, cross(arm1, n), cross(arm1 - d, n)};
+  const ContactGeometry<2> contact{n, cross(arm1, n), cross(arm1 - d, n)};
   const double restitution = options_.engine.restitution;
   const double speed = approach_speed(one.motion, two.motion, contact);
   const double impulse =
@@ -346,7 +346,7 @@ void AllPairs::report_overlap(std::size_t i, std::size_t j) const {
 
 }  // namespace
 
-std::unique_ptr<Engine> make_all_pairs_engine(const AllPairsOptions& options) {
+std::unique_ptr<Engine2> make_all_pairs_engine(const AllPairsOptions& options) {
   return std::make_unique<AllPairs>(options);
 }
 

@@ -36,6 +36,6 @@ struct AllPairsOptions {
 /// (section 3.1.3).
 ///
 /// `load` throws UserError if a side of the box is not longer than 2 R, or if particles are to grow.
-std::unique_ptr<Engine> make_all_pairs_engine(const AllPairsOptions& options);
+std::unique_ptr<Engine2> make_all_pairs_engine(const AllPairsOptions& options);
 
 }  // namespace vitrel::lab

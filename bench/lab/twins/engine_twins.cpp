@@ -162,16 +162,16 @@ Prediction2 first_contact(const Flight<PatientEllipse>& one, const Flight<Patien
 
 }  // namespace
 
-std::unique_ptr<Engine> make_engine_without_look() {
+std::unique_ptr<Engine2> make_engine_without_look() {
   return std::make_unique<Simulation<SearchedEllipse>>(EngineOptions{}, "without the first look");
 }
-std::unique_ptr<Engine> make_engine_without_horizon() {
+std::unique_ptr<Engine2> make_engine_without_horizon() {
   return std::make_unique<Simulation<FarSightedEllipse>>(EngineOptions{}, "without the horizon");
 }
-std::unique_ptr<Engine> make_engine_with_round_lists() {
+std::unique_ptr<Engine2> make_engine_with_round_lists() {
   return std::make_unique<Simulation<RoundListedEllipse>>(EngineOptions{}, "with round lists");
 }
-std::unique_ptr<Engine> make_engine_of_patience() {
+std::unique_ptr<Engine2> make_engine_of_patience() {
   return std::make_unique<Simulation<PatientEllipse>>(EngineOptions{}, "of other patience");
 }
 void set_patience(double mean_free_times) {

@@ -9,19 +9,19 @@
 namespace vitrel::lab {
 
 /// Without the first look: every pair is searched.
-std::unique_ptr<Engine> make_engine_without_look();
+std::unique_ptr<Engine2> make_engine_without_look();
 
 /// Without the horizon: predictions for a particle look past the events already known of its
 /// partners, as far as to its own.
-std::unique_ptr<Engine> make_engine_without_horizon();
+std::unique_ptr<Engine2> make_engine_without_horizon();
 
 /// With neighbourhoods shaped like the circumcircle, of the same margin, which a particle leaves by
 /// translation alone.
-std::unique_ptr<Engine> make_engine_with_round_lists();
+std::unique_ptr<Engine2> make_engine_with_round_lists();
 
 /// With another patience: a contact that cannot come within so many mean free times is not searched;
 /// infinity: every one is that could come first. The patience is that of the thread when it predicts.
-std::unique_ptr<Engine> make_engine_of_patience();
+std::unique_ptr<Engine2> make_engine_of_patience();
 void set_patience(double mean_free_times);
 
 }  // namespace vitrel::lab

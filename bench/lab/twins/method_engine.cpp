@@ -51,7 +51,7 @@ Prediction2 first_contact(const Flight<JudgedEllipse>& one, const Flight<JudgedE
   return answer.outcome == Outcome::not_converged ? Prediction2{} : answer;
 }
 
-class MethodEngine final : public Engine {
+class MethodEngine final : public Engine2 {
  public:
   MethodEngine(const Method& method, const EngineOptions& options)
       : simulation_(options, "ellipses, collisions by " + method.name) {
@@ -77,7 +77,7 @@ class MethodEngine final : public Engine {
 
 }  // namespace
 
-std::unique_ptr<Engine> make_method_engine(const Method& method, const EngineOptions& options) {
+std::unique_ptr<Engine2> make_method_engine(const Method& method, const EngineOptions& options) {
   return std::make_unique<MethodEngine>(method, options);
 }
 
@@ -92,11 +92,11 @@ std::vector<CollisionCase> recorded_cases(const Configuration2& start, std::size
   MethodEngine engine(recording, {});
   Configuration2 now = start;
   RunCounters counters;
-  engine.load(now, Engine::never);
+  engine.load(now, Engine2::never);
   while (cases.size() < count) {
     engine.advance(std::numeric_limits<double>::max(), counters);
     engine.write(now);
-    engine.load(now, Engine::never);
+    engine.load(now, Engine2::never);
   }
   return cases;
 }

@@ -14,7 +14,7 @@ namespace vitrel::lab {
 /// collided), count as no contact; the default gives neither. A pair that the method finds, or that
 /// has come to be, overlapping is treated as `options.on_overlap` says. `method` must outlive the
 /// engine; one such engine at a time per thread.
-std::unique_ptr<Engine> make_method_engine(const Method& method, const EngineOptions& options);
+std::unique_ptr<Engine2> make_method_engine(const Method& method, const EngineOptions& options);
 
 /// Every question that the engine asks its predictor on the way from `start`, velocities included,
 /// in the order in which it asks: `count` of them, the horizon as the engine sets it. Pairs whose

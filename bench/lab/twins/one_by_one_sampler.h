@@ -31,7 +31,7 @@ class OneByOneSampler {
   bool clear_of_others(std::size_t i, const Vec2& position, const Vec2& axis);
 
   Configuration2& configuration_;
-  CellGrid<> cells_;
+  CellGrid<2> cells_;
   std::vector<Vec2> axis_;
   double largest_, margin_;
   double translation_ = 0.1, rotation_ = 0.1;

@@ -34,7 +34,7 @@ int main() {
   place_on_lattice(start, {.angle = std::numbers::pi / 4});
   draw_velocities(start, 1, Purpose::velocities, 0, Temperature::total);
 
-  RunState state = begin_run(start, 0);
+  RunState2 state = begin_run(start, 0);
   Energies energies;
   run(state, {}, {linear_times(0.1, 5), 5, &energies, {}}, {});
 
