@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/contact/support_gap.h"
@@ -61,7 +62,7 @@ TEST_P(GapLookAtEllipses, IsALowerBoundAndSeldomALooseOne) {
   for (int trial = 0; trial < 5'000; ++trial) {
     const Ellipse one = random_ellipse(draw, at.largest_aspect_ratio);
     const double angle = draw.uniform(-20, 20);
-    GapLook<Ellipse> look(one, angle);
+    GapLook<Ellipse> look(one, angle, std::numeric_limits<double>::infinity());
     std::array<Other, GapLook<Ellipse>::lanes> others;
     for (int k = 0; k < GapLook<Ellipse>::lanes; ++k) {
       const Ellipse shape = random_ellipse(draw, at.largest_aspect_ratio);
@@ -97,7 +98,7 @@ TEST(GapLookAtDisks, IsTheDistance) {
   Stream draw(52, Purpose::tests);
   for (int trial = 0; trial < 1'000; ++trial) {
     const Disk one{draw.uniform(0.5, 2)};
-    GapLook<Disk> look(one, draw.uniform(0, 7));
+    GapLook<Disk> look(one, draw.uniform(0, 7), std::numeric_limits<double>::infinity());
     double wanted[lanes];
     for (int k = 0; k < lanes; ++k) {
       const Disk other{draw.uniform(0.1, 3)};
