@@ -524,8 +524,8 @@ TEST(EllipsoidContactDistance, ClosedFormsByAllThreeCriteria) {
 }
 
 // B₂ = ½ ⟨excluded volume⟩ = (2π/3) ⟨σ³⟩, σ the contact distance for random orientations. Reference:
-// half the mean of v₁ + v₂ + (s₁m₂ + s₂m₁) with the mean curvatures, by quadrature, six digits. Five
-// standard errors: a false alarm once in 300 000 runs.
+// B₂/V = 1 + S R/V with the surface S and the mean half-width R of the body, to six digits. Five standard
+// errors: a false alarm once in 300 000 runs.
 TEST(EllipsoidContactDistance, SecondVirialCoefficients) {
   const struct {
     Vec3 axes;
