@@ -92,7 +92,7 @@ std::uint64_t pairs_to_compare() {
 }
 
 // The number of pairs can be raised by the environment variable VITREL_CONTACT_PAIRS. Verdicts may differ
-// only if the surfaces are closer than 100 ε (a₁ + a₂), both by the support gap and by Perram and
+// only if the surfaces are closer than 20 ε (a₁ + a₂), both by the support gap and by Perram and
 // Wertheim's function.
 TEST(EllipsoidCriteria, ThreeCriteriaAgreeOnRandomPairs) {
   Stream draw(1, Purpose::tests);
@@ -118,8 +118,8 @@ TEST(EllipsoidCriteria, ThreeCriteriaAgreeOnRandomPairs) {
     if (disjoint == f.disjoint() && disjoint == eta.disjoint()) continue;
     ++blurred;
     largest_blurred = std::max(largest_blurred, distance);
-    ASSERT_LT(distance, 100 * epsilon) << pair;
-    ASSERT_TRUE(closer_than(100 * epsilon * pair.extent(), pair, f.normal)) << pair;
+    ASSERT_LT(distance, 20 * epsilon) << pair;
+    ASSERT_TRUE(closer_than(20 * epsilon * pair.extent(), pair, f.normal)) << pair;
   }
   RecordProperty("blurred", std::to_string(blurred));
   RecordProperty("largest_blurred_gap_over_epsilon", std::to_string(largest_blurred / epsilon));
