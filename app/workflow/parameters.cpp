@@ -16,8 +16,10 @@ namespace {
 
 /// Packing fractions that differ by less are the same; those of states carry rounding errors.
 constexpr double packing_fraction_slack = 1e-9;
-/// Random insertion is quick up to here.
-constexpr double easy_insertion = 0.3;
+/// Random insertion is quick up to here: in three dimensions, where it serves as a start, for all lengths.
+constexpr double easy_insertion = 0.3, easy_insertion_of_solids = 0.01;
+/// Sizes are relative to 1, ratios to one another: a thousandth is as small as they may sensibly be.
+constexpr double least_size = 0.001, least_ratio = 0.001;
 
 using Style = FieldVisitor::TableStyle;
 
@@ -39,14 +41,23 @@ FieldVisitor::Inside section_of(auto& part, auto describe) {
 }
 
 void describe_system(SystemParameters& p, FieldVisitor& visit) {
-  visit.field({"dimension", "", "Space dimensions; only 2 so far."}, p.dimension);
+  visit.field({"dimension", "",
+               "Space dimensions: 2, ellipses, or 3, ellipsoids. In three dimensions there is "
+               "`vitrel prepare` with stages that insert and grow."},
+              p.dimension);
   visit.field({"particles", "", "Number of particles."}, p.particles);
-  visit.field({"packing_fraction", "",
-               "Share of the box covered by particles, the sum of π a b over the area: that of a "
-               "lattice, and at the end of the preparation unless a reduced pressure ends it."},
-              p.packing_fraction);
+  visit.field(
+      {"packing_fraction", "",
+       "Share of the box covered by particles, the sum of π a b over the area (4π/3 a b c over "
+       "the volume): that of a "
+       "lattice, and at the end of the preparation unless a reduced pressure ends it."},
+      p.packing_fraction);
   visit.field({"seed", "", "All random numbers follow from it."}, p.seed);
-  visit.field({"box_aspect", "", "Height over width of the periodic box, L_y/L_x."}, p.box_aspect);
+  visit.when(p.dimension == 2, "dimension = 2", [&](FieldVisitor& in) {
+    in.field({"box_aspect", "",
+              "Height over width of the periodic box, L_y/L_x; in three dimensions it is a cube."},
+             p.box_aspect);
+  });
 }
 
 void describe_distribution(const Field& field, Distribution& d, FieldVisitor& visit) {
@@ -70,6 +81,11 @@ void describe_distribution(const Field& field, Distribution& d, FieldVisitor& vi
   d.kind = static_cast<Distribution::Kind>(is_table ? kind + 1 : 0);
 }
 
+/// A number, or a distribution above a thousandth, as small as a ratio may sensibly be.
+Distribution positive_draws(double example) {
+  return {Distribution::Kind::constant, example, 0.1, least_ratio, example, least_ratio};
+}
+
 void describe_optional_distribution(const Field& field, std::optional<Distribution>& value,
                                     double example, double minimum, FieldVisitor& visit) {
   const Distribution default_value{
@@ -86,19 +102,33 @@ void describe_species(Species& p, FieldVisitor& visit) {
                "remainder."},
               p.fraction);
   describe_optional_distribution(
-      {"aspect_ratio", "", "κ = a/b ≥ 1, major over minor semi-axis: a number or a distribution."},
+      {"aspect_ratio", "",
+       "κ = a/b ≥ 1, major over minor semi-axis: a number or a distribution. In three dimensions a "
+       "prolate spheroid a : a/κ : a/κ."},
       p.aspect_ratio, 2, 1, visit);
+  const Field ratios{"aspect_ratios", "",
+                     "In three dimensions [R_1, R_2] of the semi-axes a : a/R_1 : a/R_2, each a "
+                     "number above 0 or a distribution like that of aspect_ratio, whose place they "
+                     "take."};
+  visit.optional(ratios, p.aspect_ratios, std::array{positive_draws(2), positive_draws(5)},
+                 [&](FieldVisitor& in, std::array<Distribution, 2>& inner) {
+                   in.array(ratios, inner.size(), [&](std::size_t k, FieldVisitor& entry) {
+                     describe_distribution({std::to_string(k), "", ""}, inner[k], entry);
+                   });
+                 });
   describe_optional_distribution({"size", "length",
-                                  "√(a b), 1 for the reference species that sets the unit of "
+                                  "√(a b), in three dimensions (a b c)^(1/3), 1 for the reference "
+                                  "species that sets the unit of "
                                   "length: a number or a distribution; 1 if left out."},
                                  p.size, 1, 0.1, visit);
-  visit.optional(
-      {"semi_axes", "length", "Semi-axes [a, b] with a ≥ b, instead of aspect_ratio and size."},
-      p.semi_axes, std::array<double, 2>{2, 0.5});
-  visit.optional(
-      {"mass", "mass",
-       "Mass of every particle of this species; a b if left out, the same density for all."},
-      p.mass, 1.0);
+  visit.optional({"semi_axes", "length",
+                  "Semi-axes [a, b] with a ≥ b, or in three dimensions [a, b, c] in any order, "
+                  "instead of aspect ratios and size."},
+                 p.semi_axes, std::vector<double>{2, 0.5});
+  visit.optional({"mass", "mass",
+                  "Mass of every particle of this species; a b (a b c) if left out, the same "
+                  "density for all."},
+                 p.mass, 1.0);
 }
 
 void describe_stage(PrepareStage& p, FieldVisitor& visit) {
@@ -125,7 +155,8 @@ void describe_stage(PrepareStage& p, FieldVisitor& visit) {
              [&](FieldVisitor& in) {
                in.optional({"packing_fraction", "",
                             "At the end of the stage. If left out: that of the system, but to "
-                            "insert at most 0.3, and none to compress, or where there is a reduced "
+                            "insert at most 0.3 (0.01 in three dimensions), and none to compress, "
+                            "or where there is a reduced "
                             "pressure."},
                            p.packing_fraction, 0.3);
              });
@@ -331,12 +362,12 @@ class Rules {
   void at_least(std::int64_t value, std::int64_t least, const std::string& key) const {
     require(value >= least, key, fmt::format("is {}, but must be at least {}", value, least));
   }
-  void packing_fraction(double value, const std::string& key) const {
-    // Ellipses of one kind pack no denser than disks: π/√12.
-    const double densest = std::numbers::pi / std::sqrt(12.0);
+  void packing_fraction(double value, const std::string& key, int dimension) const {
+    // Ellipses of one kind pack no denser than disks: π/√12. Of ellipsoids no such bound is known.
+    const double densest = dimension == 2 ? std::numbers::pi / std::sqrt(12.0) : 1;
     require(value > 0 && value < densest, key,
-            fmt::format("is {}, but a packing fraction lies between 0 and π/√12 = 0.9069",
-                        show(value)));
+            fmt::format("is {}, but a packing fraction lies between 0 and {}", show(value),
+                        dimension == 2 ? "π/√12 = 0.9069" : "1"));
   }
 
  private:
@@ -345,12 +376,11 @@ class Rules {
 
 void validate_system(const SystemParameters& p) {
   const Rules rules("system");
-  rules.require(
-      p.dimension == 2, "dimension",
-      fmt::format("is {}, but only two-dimensional systems are implemented; write 2", p.dimension));
+  rules.require(p.dimension == 2 || p.dimension == 3, "dimension",
+                fmt::format("is {}, but must be 2 or 3", p.dimension));
   rules.require(p.particles >= 1 && p.particles <= 100'000'000, "particles",
                 fmt::format("is {}, but must lie between 1 and 100000000", p.particles));
-  rules.packing_fraction(p.packing_fraction, "packing_fraction");
+  rules.packing_fraction(p.packing_fraction, "packing_fraction", p.dimension);
   rules.require(p.box_aspect >= 0.001 && p.box_aspect <= 1000, "box_aspect",
                 fmt::format("is {}, but must lie between 0.001 and 1000", show(p.box_aspect)));
 }
@@ -380,24 +410,43 @@ void validate_distribution(const Distribution& d, double least, const std::strin
       fmt::format("is {}, but must be at least minimum = {}", show(d.mean), show(d.minimum)));
 }
 
-void validate_shape(const Species& p, const std::string& path) {
+void validate_semi_axes(const Species& p, int dimension, const Rules& rules) {
+  rules.require(!p.aspect_ratio && !p.aspect_ratios && !p.size, "semi_axes",
+                "excludes aspect_ratio and size, as well as aspect_ratios; give one or the other");
+  const std::vector<double>& axes = *p.semi_axes;
+  const bool fits = axes.size() == static_cast<std::size_t>(dimension) &&
+                    std::ranges::all_of(axes, [](double axis) { return axis > 0; }) &&
+                    std::ranges::all_of(axes, [](double axis) { return std::isfinite(axis); }) &&
+                    (dimension == 3 || axes[0] >= axes[1]);
+  rules.require(fits, "semi_axes",
+                fmt::format("is {}, but must be {}", to_toml(std::span<const double>(axes)),
+                            dimension == 2 ? "[a, b] with a ≥ b > 0" : "[a, b, c], all above 0"));
+}
+
+void validate_shape(const Species& p, int dimension, const std::string& path) {
   const Rules rules(path);
   if (p.semi_axes) {
-    rules.require(!p.aspect_ratio && !p.size, "semi_axes",
-                  "excludes aspect_ratio and size; give one or the other");
-    const auto [a, b] = *p.semi_axes;
-    rules.require(b > 0 && a >= b && std::isfinite(a), "semi_axes",
-                  fmt::format("is [{}, {}], but must be [a, b] with a ≥ b > 0", show(a), show(b)));
+    validate_semi_axes(p, dimension, rules);
+    return;
+  }
+  if (p.size) validate_distribution(*p.size, least_size, path + ".size");
+  if (p.aspect_ratios) {
+    rules.require(dimension == 3, "aspect_ratios",
+                  "has a meaning only with dimension = 3; give aspect_ratio");
+    rules.require(!p.aspect_ratio, "aspect_ratios", "excludes aspect_ratio; give one or the other");
+    for (int k = 0; k < 2; ++k)
+      validate_distribution((*p.aspect_ratios)[k], least_ratio,
+                            fmt::format("{}.aspect_ratios.{}", path, k));
     return;
   }
   rules.require(p.aspect_ratio.has_value(), "aspect_ratio",
-                "is missing; give aspect_ratio (1 for disks) or semi_axes");
+                dimension == 2
+                    ? "is missing; give aspect_ratio (1 for disks) or semi_axes"
+                    : "is missing; give aspect_ratio (1 for spheres), aspect_ratios or semi_axes");
   validate_distribution(*p.aspect_ratio, 1, path + ".aspect_ratio");
-  // Sizes are relative to 1: a thousandth is as small as a particle may sensibly be.
-  if (p.size) validate_distribution(*p.size, 0.001, path + ".size");
 }
 
-void validate_species(const std::vector<Species>& species) {
+void validate_species(const std::vector<Species>& species, int dimension) {
   if (species.empty())
     throw BadValue("species", "is empty, but there must be at least one [[species]]");
   double sum = 0;
@@ -410,7 +459,7 @@ void validate_species(const std::vector<Species>& species) {
     names.push_back(p.name);
     rules.require(p.fraction > 0 && p.fraction <= 1, "fraction",
                   fmt::format("is {}, but must lie above 0 and not above 1", show(p.fraction)));
-    validate_shape(p, path);
+    validate_shape(p, dimension, path);
     if (p.mass) rules.positive(*p.mass, "mass");
     sum += p.fraction;
   }
@@ -430,6 +479,10 @@ void validate_stages(const std::vector<PrepareStage>& stages, const SystemParame
   for (std::size_t i = 0; i < stages.size(); ++i) {
     const Rules rules(fmt::format("prepare.stage.{}", i));
     const PrepareStage& p = stages[i];
+    rules.require(
+        system.dimension == 2 || p.method == Method::insert || p.method == Method::grow, "method",
+        fmt::format("is \"{}\", but in three dimensions there are \"insert\" and \"grow\"",
+                    method_name(p.method)));
     const bool places = p.method == Method::lattice || p.method == Method::insert;
     rules.require(
         places == (i == 0), "method",
@@ -461,7 +514,8 @@ void validate_stages(const std::vector<PrepareStage>& stages, const SystemParame
                     "reduced_pressure",
                     fmt::format("is {}, but must lie above 1 (an ideal gas) and not above {}",
                                 show(*p.reduced_pressure), show(greatest_reduced_pressure)));
-    if (p.packing_fraction) rules.packing_fraction(*p.packing_fraction, "packing_fraction");
+    if (p.packing_fraction)
+      rules.packing_fraction(*p.packing_fraction, "packing_fraction", system.dimension);
     const double end = end_of_stage(p, system, reached);
     const double goal = p.packing_fraction.value_or(end);
     // A stage without a packing fraction of its own ends at that of the system.
@@ -614,7 +668,9 @@ double end_of_stage(const PrepareStage& stage, const SystemParameters& system, d
     case PrepareStage::Method::lattice:
       return system.packing_fraction;
     case PrepareStage::Method::insert:
-      return stage.packing_fraction.value_or(std::min(easy_insertion, system.packing_fraction));
+      return stage.packing_fraction.value_or(
+          std::min(system.dimension == 2 ? easy_insertion : easy_insertion_of_solids,
+                   system.packing_fraction));
     case PrepareStage::Method::swell:
       return stage.packing_fraction.value_or(system.packing_fraction);
     case PrepareStage::Method::compress:
@@ -692,7 +748,7 @@ FieldVisitor::Inside fields(Parameters& p, const Sections& sections) {
 
 void validate(const Parameters& parameters) {
   validate_system(parameters.system);
-  validate_species(parameters.species);
+  validate_species(parameters.species, parameters.system.dimension);
   validate_stages(parameters.stages, parameters.system);
   validate_dynamics(parameters.dynamics);
   validate_output(parameters);

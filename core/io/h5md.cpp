@@ -17,6 +17,8 @@ namespace {
 const std::string all = "particles/all";
 /// The z edge of the box of a two-dimensional system, which means nothing but must not be 0.
 constexpr double height = 1;
+/// How far norms may be from 1: quaternions kept in single precision, and those of this program.
+constexpr double single_precision = 1e-6, double_precision = 1e-14;
 
 std::string series_path(const std::string& element) {
   return all + '/' + element + "/value";
@@ -39,21 +41,49 @@ void create_position(h5::Group& particles, std::uint64_t n) {
   position.create_series<double>("value", {n, 3}, true);
 }
 
-void create_box(h5::Group& particles) {
+void create_box(h5::Group& particles, int dimension) {
   h5::Group box = particles.create_group("box");
   box.set_attribute("dimension", std::int32_t{3});
-  const std::array<std::string, 3> boundary{"periodic", "periodic", "none"};
+  const std::array<std::string, 3> boundary{"periodic", "periodic",
+                                            dimension == 3 ? "periodic" : "none"};
   box.set_attribute("boundary", boundary, 8);
   create_element<double>(box, "edges", {3, 3}, false);
 }
 
-void create_fixed_arrays(h5::Group& particles, const Configuration2& configuration) {
+/// Adds the components of a vector, as three: in two dimensions the last is 0.
+template <class T, int Dim>
+void append(std::vector<T>& row, const Eigen::Matrix<T, Dim, 1>& vector) {
+  row.insert(row.end(), vector.data(), vector.data() + Dim);
+  row.insert(row.end(), 3 - Dim, T{0});
+}
+void append(std::vector<double>& row, double angular_velocity) {
+  append(row, Vec3(0, 0, angular_velocity));
+}
+void append(std::vector<double>& row, const Ellipse& shape) {
+  append(row, Vec2(shape.a, shape.b));
+}
+void append(std::vector<double>& row, const Ellipsoid& shape) {
+  append(row, shape.semi_axes);
+}
+void append(std::vector<double>& row, const Quaternion& q) {
+  row.insert(row.end(), {q.w(), q.x(), q.y(), q.z()});
+}
+
+Quaternion orientation(const Configuration2& configuration, std::size_t i) {
+  const double half = 0.5 * configuration.angle[i];
+  return {std::cos(half), 0, 0, std::sin(half)};
+}
+Quaternion orientation(const Configuration3& configuration, std::size_t i) {
+  return configuration.orientation[i];
+}
+
+template <int Dim>
+void create_fixed_arrays(h5::Group& particles, const Configuration<Dim>& configuration) {
   const std::uint64_t n = configuration.size();
   std::vector<std::int64_t> id(n);
   std::iota(id.begin(), id.end(), 0);
   std::vector<double> semiaxes;
-  for (const Ellipse& shape : configuration.shape)
-    semiaxes.insert(semiaxes.end(), {shape.a, shape.b, 0.0});
+  for (const Solid<Dim>& shape : configuration.shape) append(semiaxes, shape);
   particles.create_enumeration("species", configuration.species_names, configuration.species);
   particles.create_array<std::int64_t>("id", {n}, id);
   particles.create_array<double>("mass", {n}, configuration.mass);
@@ -71,18 +101,20 @@ void create_h5md_group(h5::Group& root, const Provenance& provenance) {
 }
 
 /// Everything but the frames.
-h5::File create_layout(const fs::path& path, const Configuration2& configuration,
-                       const Provenance& provenance, const TrajectoryOptions& options) {
+template <int Dim>
+h5::File create_layout(const fs::path& path, const Configuration<Dim>& configuration,
+                       Provenance provenance, const TrajectoryOptions& options) {
+  provenance.dimension = Dim;
   const std::uint64_t n = configuration.size();
   h5::File file = h5::File::create(path);
   h5::Group root = file.root();
   create_h5md_group(root, provenance);
   h5::Group particles = root.create_group("particles").create_group("all");
   create_position(particles, n);
-  create_box(particles);
+  create_box(particles, Dim);
   create_element<std::int32_t>(particles, "image", {n, 3}, true);
   create_element<double>(particles, "orientation", {n, 4}, true);
-  create_element<double>(particles, "angle", {n}, true);
+  if (Dim == 2) create_element<double>(particles, "angle", {n}, true);
   if (options.velocities) {
     create_element<double>(particles, "velocity", {n, 3}, true);
     create_element<double>(particles, "angular_velocity", {n, 3}, true);
@@ -116,8 +148,9 @@ std::optional<h5::Dataset> optional_dataset(const h5::File& file, const std::str
 }
 
 /// Positions inside the box stay as they are, bit by bit.
-void wrap_if_outside(const PeriodicBox<2>& box, Vec2& position, Shift<2>& image) {
-  const Vec2 half = 0.5 * box.lengths();
+template <int Dim>
+void wrap_if_outside(const PeriodicBox<Dim>& box, Vec<Dim>& position, Shift<Dim>& image) {
+  const Vec<Dim> half = 0.5 * box.lengths();
   const bool inside =
       (position.array() >= -half.array()).all() && (position.array() < half.array()).all();
   if (!inside) box.wrap(position, image);
@@ -125,7 +158,9 @@ void wrap_if_outside(const PeriodicBox<2>& box, Vec2& position, Shift<2>& image)
 
 }  // namespace
 
-TrajectoryWriter TrajectoryWriter::create(const fs::path& path, const Configuration2& configuration,
+template <int Dim>
+TrajectoryWriter TrajectoryWriter::create(const fs::path& path,
+                                          const Configuration<Dim>& configuration,
                                           const Provenance& provenance,
                                           const TrajectoryOptions& options) {
   refuse_existing(path, options.overwrite);
@@ -155,7 +190,7 @@ TrajectoryWriter::TrajectoryWriter(h5::File file)
       position_(required(file_, series_path("position"))),
       image_(required(file_, series_path("image"))),
       orientation_(required(file_, series_path("orientation"))),
-      angle_(required(file_, series_path("angle"))),
+      angle_(optional_dataset(file_, series_path("angle"))),
       velocity_(optional_dataset(file_, series_path("velocity"))),
       angular_velocity_(optional_dataset(file_, series_path("angular_velocity"))) {
   particles_ = position_.shape().at(1);
@@ -171,8 +206,14 @@ std::vector<std::string> TrajectoryWriter::observable_names() const {
   return names;
 }
 
-void TrajectoryWriter::check(const Configuration2& configuration,
+template <int Dim>
+void TrajectoryWriter::check(const Configuration<Dim>& configuration,
                              const Observables& observables) const {
+  if (angle_.has_value() != (Dim == 2))
+    throw UserError(
+        fmt::format("{}: holds frames of the other dimension than {}, the one of the "
+                    "configuration to be added",
+                    file_.path(), Dim));
   if (configuration.size() != particles_)
     throw UserError(file_.path() + ": holds " + std::to_string(particles_) +
                     " particles, but the configuration to be added has " +
@@ -187,50 +228,49 @@ void TrajectoryWriter::check(const Configuration2& configuration,
 }
 
 void TrajectoryWriter::resize(std::uint64_t frames) {
-  for (h5::Dataset* dataset :
-       {&step_, &time_, &edges_, &position_, &image_, &orientation_, &angle_})
+  for (h5::Dataset* dataset : {&step_, &time_, &edges_, &position_, &image_, &orientation_})
     dataset->resize(frames);
-  if (velocity_) velocity_->resize(frames);
-  if (angular_velocity_) angular_velocity_->resize(frames);
+  for (std::optional<h5::Dataset>* dataset : {&angle_, &velocity_, &angular_velocity_})
+    if (*dataset) (*dataset)->resize(frames);
   for (auto& [name, dataset] : observables_) dataset.resize(frames);
 }
 
-void TrajectoryWriter::write(const Configuration2& configuration, std::int64_t step,
+template <int Dim>
+void TrajectoryWriter::write(const Configuration<Dim>& configuration, std::int64_t step,
                              const Observables& observables) {
   check(configuration, observables);
   resize(frames_ + 1);
   write_particles(configuration);
   step_.write_frame<std::int64_t>(frames_, {&step, 1});
   time_.write_frame<double>(frames_, {&configuration.time, 1});
-  const Vec2& lengths = configuration.box.lengths();
-  const std::array<double, 9> edges{lengths.x(), 0, 0, 0, lengths.y(), 0, 0, 0, height};
+  const Vec<Dim>& lengths = configuration.box.lengths();
+  const double z = Dim == 3 ? lengths[Dim - 1] : height;
+  const std::array<double, 9> edges{lengths.x(), 0, 0, 0, lengths.y(), 0, 0, 0, z};
   edges_.write_frame<double>(frames_, edges);
   for (const auto& [name, value] : observables)
-    observables_.at(name).write_frame<double>(frames_, {&value, 1});
+    observables_.at(name).template write_frame<double>(frames_, {&value, 1});
   file_.flush();
   ++frames_;
 }
 
-void TrajectoryWriter::write_particles(const Configuration2& configuration) {
+template <int Dim>
+void TrajectoryWriter::write_particles(const Configuration<Dim>& configuration) {
   std::vector<double> positions, orientations, velocities, angular_velocities;
   std::vector<std::int32_t> images;
   for (std::size_t i = 0; i < particles_; ++i) {
-    Vec2 position = configuration.position[i];
-    Shift<2> image = configuration.image[i];
+    Vec<Dim> position = configuration.position[i];
+    Shift<Dim> image = configuration.image[i];
     wrap_if_outside(configuration.box, position, image);
-    positions.insert(positions.end(), {position.x(), position.y(), 0.0});
-    images.insert(images.end(), {image.x(), image.y(), 0});
-    const double half = 0.5 * configuration.angle[i];
-    orientations.insert(orientations.end(), {std::cos(half), 0.0, 0.0, std::sin(half)});
-    const Vec2& velocity = configuration.velocity[i];
-    velocities.insert(velocities.end(), {velocity.x(), velocity.y(), 0.0});
-    angular_velocities.insert(angular_velocities.end(),
-                              {0.0, 0.0, configuration.angular_velocity[i]});
+    append(positions, position);
+    append(images, image);
+    append(orientations, orientation(configuration, i));
+    append(velocities, configuration.velocity[i]);
+    append(angular_velocities, configuration.angular_velocity[i]);
   }
   position_.write_frame<double>(frames_, positions);
   image_.write_frame<std::int32_t>(frames_, images);
   orientation_.write_frame<double>(frames_, orientations);
-  angle_.write_frame<double>(frames_, configuration.angle);
+  if constexpr (Dim == 2) angle_->write_frame<double>(frames_, configuration.angle);
   if (velocity_) velocity_->write_frame<double>(frames_, velocities);
   if (angular_velocity_) angular_velocity_->write_frame<double>(frames_, angular_velocities);
 }
@@ -248,11 +288,24 @@ TrajectoryReader::TrajectoryReader(const fs::path& path)
   if (groups.empty()) fail("the group particles is empty: it should hold one group of particles");
   const bool has_all = std::find(groups.begin(), groups.end(), "all") != groups.end();
   group_ = "particles/" + (has_all ? "all" : groups.front());
-  if (provenance().dimension != 2)
-    fail("is three-dimensional: only two-dimensional systems can be read");
   read_shapes();
-  read_masses_and_species();
+  std::visit([this](auto& fixed) { read_masses_and_species(fixed); }, fixed_);
   read_axes();
+}
+
+std::size_t TrajectoryReader::particles() const {
+  return std::visit([](const auto& fixed) { return fixed.size(); }, fixed_);
+}
+
+const std::vector<std::string>& TrajectoryReader::species_names() const {
+  return std::visit(
+      [](const auto& fixed) -> const auto& { return fixed.species_names; }, fixed_);
+}
+
+void TrajectoryReader::require_dimension(int wanted) const {
+  if (dimension() != wanted)
+    fail(fmt::format("is {}-dimensional, but what is asked of it is there for {} dimensions only",
+                     dimension() == 2 ? "two" : "three", wanted == 2 ? "two" : "three"));
 }
 
 void TrajectoryReader::fail(const std::string& what) const {
@@ -313,49 +366,82 @@ void TrajectoryReader::read_shapes() {
   if (shape.size() != 2 || shape[1] < 2 || shape[1] > 3)
     fail("the dataset " + semiaxes.name() + " should have the shape particles × 3");
   const std::vector<double> values = semiaxes.read<double>();
-  fixed_.resize(shape[0]);
+  const bool has_third = shape[1] == 3 && !values.empty() && values[2] != 0;
+  const std::optional<int> stated = stated_dimension();
+  if (stated && *stated != 2 && *stated != 3)
+    fail(fmt::format("is {}-dimensional: only two and three dimensions can be read", *stated));
+  if (stated.value_or(has_third ? 3 : 2) == 2)
+    set_shapes(fixed_.emplace<Configuration2>(), values, shape);
+  else
+    set_shapes(fixed_.emplace<Configuration3>(), values, shape);
+}
+
+std::optional<int> TrajectoryReader::stated_dimension() const {
+  const bool states =
+      root_.has_group("parameters") && root_.group("parameters").has_attribute("dimension");
+  return states ? std::optional<int>(provenance().dimension) : std::nullopt;
+}
+
+void TrajectoryReader::set_shapes(Configuration2& fixed, const std::vector<double>& values,
+                                  const h5::Shape& shape) const {
+  fixed.resize(shape[0]);
   for (std::size_t i = 0; i < shape[0]; ++i) {
     const double a = values[shape[1] * i], b = values[shape[1] * i + 1];
     if (!(std::isfinite(a) && a >= b && b > 0))
       fail("the semi-axes of particle " + std::to_string(i) + " should be a ≥ b > 0");
-    fixed_.shape[i] = {a, b};
+    fixed.shape[i] = {a, b};
   }
 }
 
-void TrajectoryReader::read_masses_and_species() {
-  fixed_.species_names = {"A"};
+void TrajectoryReader::set_shapes(Configuration3& fixed, const std::vector<double>& values,
+                                  const h5::Shape& shape) const {
+  fixed.resize(shape[0]);
+  for (std::size_t i = 0; i < shape[0]; ++i) {
+    const Vec3 axes = shape[1] == 3 ? Vec3(&values[3 * i]) : Vec3(Vec3::Zero());
+    if (!(axes.allFinite() && axes.minCoeff() > 0))
+      fail("particle " + std::to_string(i) + " should have three semi-axes above 0");
+    fixed.shape[i] = {axes};
+  }
+}
+
+template <int Dim>
+void TrajectoryReader::read_masses_and_species(Configuration<Dim>& fixed) const {
+  fixed.species_names = {"A"};
   if (root_.has_dataset(group_ + "/mass"))
-    fixed_.mass = root_.dataset(group_ + "/mass").read<double>();
+    fixed.mass = root_.dataset(group_ + "/mass").read<double>();
   if (root_.has_dataset(group_ + "/species")) {
     const h5::Dataset species = root_.dataset(group_ + "/species");
-    fixed_.species = species.read<std::int32_t>();
-    fixed_.species_names = species.enumeration();
+    fixed.species = species.read<std::int32_t>();
+    fixed.species_names = species.enumeration();
   }
-  if (fixed_.mass.size() != particles() || fixed_.species.size() != particles())
+  if (fixed.mass.size() != fixed.size() || fixed.species.size() != fixed.size())
     fail("the datasets mass and species should have one number per particle, " +
-         std::to_string(particles()));
-  const auto [low, high] = std::minmax_element(fixed_.species.begin(), fixed_.species.end());
-  if (particles() == 0) return;
+         std::to_string(fixed.size()));
+  const auto [low, high] = std::minmax_element(fixed.species.begin(), fixed.species.end());
+  if (fixed.size() == 0) return;
   if (*low < 0) fail("the dataset " + group_ + "/species should count from 0");
-  for (std::size_t k = fixed_.species_names.size(); k <= static_cast<std::size_t>(*high); ++k)
-    fixed_.species_names.push_back(std::to_string(k));
+  for (std::size_t k = fixed.species_names.size(); k <= static_cast<std::size_t>(*high); ++k)
+    fixed.species_names.push_back(std::to_string(k));
 }
 
-Configuration2 TrajectoryReader::read(std::uint64_t frame) const {
-  Configuration2 configuration;
+template <int Dim>
+Configuration<Dim> TrajectoryReader::read(std::uint64_t frame) const {
+  Configuration<Dim> configuration;
   read(frame, configuration);
   return configuration;
 }
 
-void TrajectoryReader::read(std::uint64_t frame, Configuration2& configuration) const {
+template <int Dim>
+void TrajectoryReader::read(std::uint64_t frame, Configuration<Dim>& configuration) const {
+  require_dimension(Dim);
   if (frame >= frames())
     fail("there is no frame " + std::to_string(frame) + ": it has " + std::to_string(frames()) +
          ", counted from 0");
-  configuration = fixed_;
+  configuration = std::get<Configuration<Dim>>(fixed_);
   configuration.time = times_[frame];
   read_box(frame, configuration);
   read_positions(frame, configuration);
-  read_angles(frame, configuration);
+  read_orientations(frame, configuration);
   read_velocities(frame, configuration);
 }
 
@@ -386,48 +472,56 @@ std::vector<double> TrajectoryReader::frame_values(const std::string& element,
   return kept;
 }
 
-void TrajectoryReader::read_box(std::uint64_t frame, Configuration2& configuration) const {
+template <int Dim>
+void TrajectoryReader::read_box(std::uint64_t frame, Configuration<Dim>& configuration) const {
   const std::string path = group_ + "/box/edges";
   const bool fixed = root_.has_dataset(path);
   const h5::Dataset& edges = dataset(fixed ? path : path + "/value", "the box lengths");
   h5::Shape shape = edges.shape();
   if (!fixed && !shape.empty()) shape.erase(shape.begin());
   const std::size_t d = shape.empty() ? 0 : shape[0];
-  if (d < 2 || d > 3 || shape.size() > 2)
-    fail("the dataset " + edges.name() + " should hold 2 or 3 lengths, or as many cell vectors");
+  if (d < Dim || d > 3 || shape.size() > 2)
+    fail("the dataset " + edges.name() + " should hold " + (Dim == 2 ? "2 or 3" : "3") +
+         " lengths, or as many cell vectors");
   std::vector<double> values(shape.size() == 2 ? d * d : d);
   if (fixed)
     values = edges.read<double>();
   else
     edges.read_frame<double>(frame, values);
 
-  const bool vectors = shape.size() == 2;
-  const Vec2 lengths(values[0], values[vectors ? d + 1 : 1]);
-  const bool slanted = vectors && (values[1] != 0 || values[d] != 0);
+  Vec<Dim> lengths;
+  bool slanted = false;
+  for (std::size_t k = 0; k < Dim; ++k) {
+    lengths[k] = values[shape.size() == 2 ? k * d + k : k];
+    for (std::size_t l = 0; shape.size() == 2 && l < Dim; ++l)
+      slanted = slanted || (l != k && values[k * d + l] != 0);
+  }
   if (slanted || !lengths.allFinite() || lengths.minCoeff() <= 0)
     fail("the box of frame " + std::to_string(frame) +
-         " should be a rectangle with sides along x and y");
-  configuration.box = PeriodicBox<2>(lengths);
+         (Dim == 2 ? " should be a rectangle with sides along x and y"
+                   : " should be a cuboid with edges along x, y and z"));
+  configuration.box = PeriodicBox<Dim>(lengths);
 }
 
-void TrajectoryReader::read_positions(std::uint64_t frame, Configuration2& configuration) const {
+template <int Dim>
+void TrajectoryReader::read_positions(std::uint64_t frame,
+                                      Configuration<Dim>& configuration) const {
   const std::string meaning = "the coordinates";
-  const std::size_t d = columns(dataset(group_ + "/position/value", meaning)) > 2 ? 3 : 2;
+  const std::size_t stored = columns(dataset(group_ + "/position/value", meaning));
+  const std::size_t d = Dim == 2 && stored <= 2 ? 2 : 3;
   const std::vector<double> positions = frame_values("position", meaning, frame, d);
-  std::vector<double> images(particles() * 2);
-  if (has("image")) images = frame_values("image", "the box crossings", frame, 2);
+  std::vector<double> images(particles() * Dim);
+  if (has("image")) images = frame_values("image", "the box crossings", frame, Dim);
   for (std::size_t i = 0; i < particles(); ++i) {
-    if (d == 3 && positions[3 * i + 2] != 0)
-      fail("particle " + std::to_string(i) +
-           " has z ≠ 0: only two-dimensional systems can be read");
-    configuration.position[i] = {positions[d * i], positions[d * i + 1]};
-    configuration.image[i] = {static_cast<std::int32_t>(images[2 * i]),
-                              static_cast<std::int32_t>(images[2 * i + 1])};
+    if (Dim == 2 && d == 3 && positions[3 * i + 2] != 0)
+      fail("particle " + std::to_string(i) + " has z ≠ 0, but the system is two-dimensional");
+    configuration.position[i] = Vec<Dim>(&positions[d * i]);
+    configuration.image[i] = Vec<Dim>(&images[Dim * i]).template cast<std::int32_t>();
     wrap_if_outside(configuration.box, configuration.position[i], configuration.image[i]);
   }
 }
 
-void TrajectoryReader::read_angles(std::uint64_t frame, Configuration2& configuration) const {
+void TrajectoryReader::read_orientations(std::uint64_t frame, Configuration2& configuration) const {
   if (has("angle") || !has("orientation")) {
     configuration.angle = frame_values("angle", "the angle of every particle in radians", frame, 1);
     return;
@@ -437,21 +531,40 @@ void TrajectoryReader::read_angles(std::uint64_t frame, Configuration2& configur
     const double* q = &quaternions[4 * i];
     if (q[1] != 0 || q[2] != 0)
       fail("particle " + std::to_string(i) +
-           " is turned out of the plane: only two-dimensional systems can be read");
+           " is turned out of the plane, but the system is two-dimensional");
     configuration.angle[i] = 2 * std::atan2(q[3], q[0]);
   }
 }
 
-void TrajectoryReader::read_velocities(std::uint64_t frame, Configuration2& configuration) const {
+void TrajectoryReader::read_orientations(std::uint64_t frame, Configuration3& configuration) const {
+  const std::vector<double> quaternions = frame_values("orientation", "quaternions", frame, 4);
+  for (std::size_t i = 0; i < particles(); ++i) {
+    const double* q = &quaternions[4 * i];
+    configuration.orientation[i] = Quaternion(q[0], q[1], q[2], q[3]);
+    const double excess = std::abs(configuration.orientation[i].norm() - 1);
+    if (excess > single_precision)
+      fail(fmt::format("the orientation of particle {} has the norm {}, but should have 1", i,
+                       configuration.orientation[i].norm()));
+    if (excess > double_precision) configuration.orientation[i].normalize();
+  }
+}
+
+template <int Dim>
+void TrajectoryReader::read_velocities(std::uint64_t frame,
+                                       Configuration<Dim>& configuration) const {
   if (has("velocity")) {
-    const std::vector<double> v = frame_values("velocity", "the velocities", frame, 2);
-    for (std::size_t i = 0; i < particles(); ++i)
-      configuration.velocity[i] = {v[2 * i], v[2 * i + 1]};
+    const std::vector<double> v = frame_values("velocity", "the velocities", frame, Dim);
+    for (std::size_t i = 0; i < particles(); ++i) configuration.velocity[i] = Vec<Dim>(&v[Dim * i]);
   }
   if (!has("angular_velocity")) return;
   const std::vector<double> w =
       frame_values("angular_velocity", "the angular velocities", frame, 3);
-  for (std::size_t i = 0; i < particles(); ++i) configuration.angular_velocity[i] = w[3 * i + 2];
+  for (std::size_t i = 0; i < particles(); ++i) {
+    if constexpr (Dim == 2)
+      configuration.angular_velocity[i] = w[3 * i + 2];
+    else
+      configuration.angular_velocity[i] = Vec3(&w[3 * i]);
+  }
 }
 
 bool TrajectoryReader::has(const std::string& element) const {
@@ -483,7 +596,8 @@ Provenance TrajectoryReader::provenance() const {
   return root_.has_group("parameters") ? read_provenance(root_.group("parameters")) : Provenance();
 }
 
-void write_state(const fs::path& path, const Configuration2& configuration,
+template <int Dim>
+void write_state(const fs::path& path, const Configuration<Dim>& configuration,
                  const Provenance& provenance, bool overwrite) {
   refuse_existing(path, overwrite);
   PendingFile pending(path);
@@ -494,11 +608,27 @@ void write_state(const fs::path& path, const Configuration2& configuration,
   pending.commit();
 }
 
-Configuration2 read_state(const fs::path& path) {
+template <int Dim>
+Configuration<Dim> read_state(const fs::path& path) {
   const TrajectoryReader reader(path);
   if (reader.frames() == 0)
     throw FileError(path.string() + ": has no frames: a state is the last frame of a trajectory");
-  return reader.read(reader.frames() - 1);
+  return reader.read<Dim>(reader.frames() - 1);
 }
+
+template TrajectoryWriter TrajectoryWriter::create(const fs::path&, const Configuration2&,
+                                                   const Provenance&, const TrajectoryOptions&);
+template TrajectoryWriter TrajectoryWriter::create(const fs::path&, const Configuration3&,
+                                                   const Provenance&, const TrajectoryOptions&);
+template void TrajectoryWriter::write(const Configuration2&, std::int64_t, const Observables&);
+template void TrajectoryWriter::write(const Configuration3&, std::int64_t, const Observables&);
+template Configuration2 TrajectoryReader::read(std::uint64_t) const;
+template Configuration3 TrajectoryReader::read(std::uint64_t) const;
+template void TrajectoryReader::read(std::uint64_t, Configuration2&) const;
+template void TrajectoryReader::read(std::uint64_t, Configuration3&) const;
+template void write_state(const fs::path&, const Configuration2&, const Provenance&, bool);
+template void write_state(const fs::path&, const Configuration3&, const Provenance&, bool);
+template Configuration2 read_state<2>(const fs::path&);
+template Configuration3 read_state<3>(const fs::path&);
 
 }  // namespace vitrel

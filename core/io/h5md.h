@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "core/io/h5.h"
@@ -16,14 +17,14 @@
 /// Trajectories in H5MD 1.1 (de Buyl, Colberg & Höfling, Comput. Phys. Commun. 185, 1546, 2014).
 /// The file is always three-dimensional, because readers of two-dimensional files are rare:
 /// ellipses lie in the plane z = 0, their third semi-axis is stored as 0, and the box is 1 high and
-/// not periodic in z.
+/// not periodic in z. Ellipsoids, in three dimensions, fill all of it. `parameters` tells which.
 ///
 ///   particles/all/
 ///     position, image             wrapped, box centred at the origin;
 ///                                 unwrapped = position + image · edges
 ///     orientation                 quaternion w, x, y, z; in 2-D (cos θ/2, 0, 0, sin θ/2)
-///     angle                       θ, unwrapped, radians
-///     velocity, angular_velocity  if asked for
+///     angle                       θ, unwrapped, radians; in 2-D only
+///     velocity, angular_velocity  if asked for, both in the axes of space
 ///     box/edges                   rows are the cell vectors
 ///     species, id, mass, semiaxes the same in all frames
 ///   observables/<name>            one number per frame
@@ -41,6 +42,11 @@ struct TrajectoryOptions {
   bool overwrite = false;                     ///< replace an existing file instead of refusing
 };
 
+/// One frame with velocities, complete under its name or not there at all.
+template <int Dim>
+void write_state(const std::filesystem::path& path, const Configuration<Dim>& configuration,
+                 const Provenance& provenance, bool overwrite = false);
+
 /// Writes a trajectory frame by frame. A frame is in the file whole or not at all: a process killed
 /// at any moment, or a full disk, leaves the frames before it. Throws FileError if the file cannot
 /// be written.
@@ -49,8 +55,10 @@ class TrajectoryWriter {
   /// A new file without frames; it appears under its name only when it is readable. `configuration`
   /// gives what all frames share: number, shapes, masses and species of the particles.
   /// UserError if the file exists and may not be overwritten.
+  template <int Dim>
   static TrajectoryWriter create(const std::filesystem::path& path,
-                                 const Configuration2& configuration, const Provenance& provenance,
+                                 const Configuration<Dim>& configuration,
+                                 const Provenance& provenance,
                                  const TrajectoryOptions& options = {});
   /// Continues a file after its first `frames_to_keep` frames; later ones are dropped. FileError if
   /// it has fewer.
@@ -59,7 +67,8 @@ class TrajectoryWriter {
 
   /// Adds a frame at time configuration.time. `observables` must have exactly the names of the
   /// file.
-  void write(const Configuration2& configuration, std::int64_t step,
+  template <int Dim>
+  void write(const Configuration<Dim>& configuration, std::int64_t step,
              const Observables& observables = {});
   /// The time spent on this file by all processes so far, for its provenance.
   void record_wall_seconds(double seconds);
@@ -73,17 +82,22 @@ class TrajectoryWriter {
 
  private:
   explicit TrajectoryWriter(h5::File file);
-  friend void write_state(const std::filesystem::path& path, const Configuration2& configuration,
-                          const Provenance& provenance, bool overwrite);
+  template <int Dim>
+  friend void write_state(const std::filesystem::path& path,
+                          const Configuration<Dim>& configuration, const Provenance& provenance,
+                          bool overwrite);
 
-  void check(const Configuration2& configuration, const Observables& observables) const;
+  template <int Dim>
+  void check(const Configuration<Dim>& configuration, const Observables& observables) const;
   void resize(std::uint64_t frames);
-  void write_particles(const Configuration2& configuration);
+  template <int Dim>
+  void write_particles(const Configuration<Dim>& configuration);
 
   h5::File file_;
   std::size_t particles_ = 0;
   std::uint64_t frames_ = 0;
-  h5::Dataset step_, time_, edges_, position_, image_, orientation_, angle_;
+  h5::Dataset step_, time_, edges_, position_, image_, orientation_;
+  std::optional<h5::Dataset> angle_;  ///< of two dimensions
   std::optional<h5::Dataset> velocity_, angular_velocity_;
   std::map<std::string, h5::Dataset> observables_;
 };
@@ -109,21 +123,30 @@ class TrajectoryObserver : public Observer<2> {
 /// is read: image: 0; velocity, angular_velocity: 0; mass: 1; species: one, "A"; angle: taken from
 /// the orientation, then not unwrapped. `require` turns such a lack into an error where it matters.
 ///
+/// The dimension is the one the file states; one that states none is three-dimensional if it has third
+/// semi-axes that are not 0. A frame is read into a configuration of the same dimension; `require_dimension`
+/// says so before any frame is asked for. In three dimensions there must be orientations, of norm 1.
+///
 /// Times must be finite and ascend. FileError names the file, the dataset, and what would be right.
 class TrajectoryReader {
  public:
   explicit TrajectoryReader(const std::filesystem::path& path);
 
   std::uint64_t frames() const { return times_.size(); }
-  std::size_t particles() const { return fixed_.size(); }
+  std::size_t particles() const;
+  int dimension() const { return fixed_.index() == 0 ? 2 : 3; }
+  /// Throws FileError if the file has the other one.
+  void require_dimension(int dimension) const;
   /// One entry per frame.
   const std::vector<double>& times() const { return times_; }
   const std::vector<std::int64_t>& steps() const { return steps_; }
-  const std::vector<std::string>& species_names() const { return fixed_.species_names; }
+  const std::vector<std::string>& species_names() const;
 
-  Configuration2 read(std::uint64_t frame) const;
+  template <int Dim = 2>
+  Configuration<Dim> read(std::uint64_t frame) const;
   /// The same into an existing configuration, whose memory is used again.
-  void read(std::uint64_t frame, Configuration2& configuration) const;
+  template <int Dim>
+  void read(std::uint64_t frame, Configuration<Dim>& configuration) const;
 
   /// Whether the file has the element "velocity", "image", … of the particles.
   bool has(const std::string& element) const;
@@ -143,14 +166,24 @@ class TrajectoryReader {
   [[noreturn]] void fail(const std::string& what) const;
   void read_axes();
   void read_shapes();
-  void read_masses_and_species();
+  std::optional<int> stated_dimension() const;
+  void set_shapes(Configuration2& fixed, const std::vector<double>& values,
+                  const h5::Shape& shape) const;
+  void set_shapes(Configuration3& fixed, const std::vector<double>& values,
+                  const h5::Shape& shape) const;
+  template <int Dim>
+  void read_masses_and_species(Configuration<Dim>& fixed) const;
   std::size_t columns(const h5::Dataset& values) const;
   std::vector<double> frame_values(const std::string& element, const std::string& meaning,
                                    std::uint64_t frame, std::size_t per_particle) const;
-  void read_box(std::uint64_t frame, Configuration2& configuration) const;
-  void read_positions(std::uint64_t frame, Configuration2& configuration) const;
-  void read_angles(std::uint64_t frame, Configuration2& configuration) const;
-  void read_velocities(std::uint64_t frame, Configuration2& configuration) const;
+  template <int Dim>
+  void read_box(std::uint64_t frame, Configuration<Dim>& configuration) const;
+  template <int Dim>
+  void read_positions(std::uint64_t frame, Configuration<Dim>& configuration) const;
+  void read_orientations(std::uint64_t frame, Configuration2& configuration) const;
+  void read_orientations(std::uint64_t frame, Configuration3& configuration) const;
+  template <int Dim>
+  void read_velocities(std::uint64_t frame, Configuration<Dim>& configuration) const;
 
   std::filesystem::path path_;
   h5::File file_;
@@ -158,14 +191,12 @@ class TrajectoryReader {
   std::string group_;  ///< of the particles: "particles/all" in vitrel's files
   std::vector<double> times_;
   std::vector<std::int64_t> steps_;
-  Configuration2 fixed_;                                 ///< what all frames share
+  std::variant<Configuration2, Configuration3> fixed_;   ///< what all frames share
   mutable std::map<std::string, h5::Dataset> datasets_;  ///< those in use stay open
 };
 
-/// One frame with velocities, complete under its name or not there at all.
-void write_state(const std::filesystem::path& path, const Configuration2& configuration,
-                 const Provenance& provenance, bool overwrite = false);
 /// The last frame of a trajectory. FileError if there is none.
-Configuration2 read_state(const std::filesystem::path& path);
+template <int Dim = 2>
+Configuration<Dim> read_state(const std::filesystem::path& path);
 
 }  // namespace vitrel

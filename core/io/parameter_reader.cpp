@@ -169,6 +169,23 @@ class Reader final : public FieldVisitor {
     }
   }
 
+  void array(const Field& field, std::size_t count,
+             const std::function<void(std::size_t, FieldVisitor&)>& describe) override {
+    const TomlNode* node = find(field);
+    if (!node) return;
+    const auto* items = node->get<TomlNode::Array>();
+    if (!items || items->size() != count)
+      throw UserError(fmt::format("{}: key '{}' must be an array of {} entries, not {}",
+                                  node->where, join(path_, field.key), count,
+                                  items ? fmt::format("of {}", items->size()) : called(*node)));
+    TomlNode::Table numbered;
+    for (std::size_t k = 0; k < count; ++k)
+      numbered.push_back({fmt::format("{}", k), (*items)[k].where, (*items)[k]});
+    const TomlNode entries{numbered, node->where};
+    Reader reader(entries, join(path_, field.key));
+    for (std::size_t k = 0; k < count; ++k) describe(k, reader);
+  }
+
   void optional(const Field& field, bool& present, const Inside& inside) override {
     if (!find(field)) return;
     present = true;

@@ -31,16 +31,28 @@ class ValueVisitor : public FieldVisitor {
   void choice(const Field& field, std::size_t& index, std::span<const char* const> names) override {
     put(field, to_toml(std::string_view(names[index])), choices_text(names));
   }
+  void array(const Field& field, std::size_t count,
+             const std::function<void(std::size_t, FieldVisitor&)>& describe) override;
 
  protected:
   /// `choices`: the words a choice may be, else empty.
   virtual void put(const Field& field, const std::string& value, const std::string& choices) = 0;
 };
 
-// The applicable fields of an inline table as "key = value, …".
+// The applicable fields of an inline table as "key = value, …", or their values only.
 class InlineWriter final : public ValueVisitor {
  public:
-  std::string text() const { return fmt::format("{{ {} }}", fmt::join(items_, ", ")); }
+  std::string text() const {
+    std::vector<std::string> items;
+    for (const auto& [key, value] : items_)
+      items.push_back(fmt::format("{} = {}", toml_key(key), value));
+    return fmt::format("{{ {} }}", fmt::join(items, ", "));
+  }
+  std::string values() const {
+    std::vector<std::string> items;
+    for (const auto& [key, value] : items_) items.push_back(value);
+    return fmt::format("[{}]", fmt::join(items, ", "));
+  }
 
   void table(const Field& field, TableStyle, const Inside& inside) override {
     InlineWriter inner;
@@ -78,11 +90,18 @@ class InlineWriter final : public ValueVisitor {
 
  private:
   void put(const Field& field, const std::string& value, const std::string&) override {
-    items_.push_back(fmt::format("{} = {}", toml_key(field.key), value));
+    items_.emplace_back(field.key, value);
   }
 
-  std::vector<std::string> items_;
+  std::vector<std::pair<std::string, std::string>> items_;
 };
+
+void ValueVisitor::array(const Field& field, std::size_t count,
+                         const std::function<void(std::size_t, FieldVisitor&)>& describe) {
+  InlineWriter entries;
+  for (std::size_t k = 0; k < count; ++k) describe(k, entries);
+  put(field, entries.values(), "");
+}
 
 std::string inline_text(const FieldVisitor::Inside& inside) {
   InlineWriter writer;

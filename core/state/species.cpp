@@ -28,11 +28,43 @@ double draw_once(const Distribution& d, Stream& stream) {
   return d.mean;
 }
 
-Ellipse draw_shape(const Species& species, Stream& stream) {
-  if (species.semi_axes) return {(*species.semi_axes)[0], (*species.semi_axes)[1]};
-  const double ratio = species.aspect_ratio ? species.aspect_ratio->draw(stream) : 1;
-  const double size = species.size ? species.size->draw(stream) : 1;
-  return {size * std::sqrt(ratio), size / std::sqrt(ratio)};
+double draw_or_one(const std::optional<Distribution>& distribution, Stream& stream) {
+  return distribution ? distribution->draw(stream) : 1;
+}
+
+void draw_shape(const Species& species, Stream& stream, Ellipse& shape) {
+  if (species.semi_axes) {
+    shape = {species.semi_axes->at(0), species.semi_axes->at(1)};
+    return;
+  }
+  const double ratio = draw_or_one(species.aspect_ratio, stream);
+  const double size = draw_or_one(species.size, stream);
+  shape = {size * std::sqrt(ratio), size / std::sqrt(ratio)};
+}
+
+void draw_shape(const Species& species, Stream& stream, Ellipsoid& shape) {
+  if (species.semi_axes) {
+    const std::vector<double>& axes = *species.semi_axes;
+    shape = {Vec3(axes.at(0), axes.at(1), axes.at(2))};
+    return;
+  }
+  double ratio1 = 1, ratio2 = 1;
+  if (species.aspect_ratios) {
+    ratio1 = (*species.aspect_ratios)[0].draw(stream);
+    ratio2 = (*species.aspect_ratios)[1].draw(stream);
+  } else {
+    ratio1 = ratio2 = draw_or_one(species.aspect_ratio, stream);
+  }
+  const double a = draw_or_one(species.size, stream) * std::cbrt(ratio1 * ratio2);
+  shape = {Vec3(a, a / ratio1, a / ratio2)};
+}
+
+/// The mass at the density of a round particle of radius 1 and mass 1.
+double natural_mass(const Ellipse& shape) {
+  return shape.a * shape.b;
+}
+double natural_mass(const Ellipsoid& shape) {
+  return shape.semi_axes.prod();
 }
 
 // Fisher and Yates.
@@ -71,9 +103,13 @@ std::vector<std::size_t> species_counts(const std::vector<Species>& species,
   return counts;
 }
 
-Configuration2 draw_particles(const std::vector<Species>& species, std::size_t particles,
-                              double packing_fraction, double box_aspect, std::uint64_t seed) {
-  Configuration2 system;
+namespace {
+
+/// Everything but the box.
+template <int Dim>
+Configuration<Dim> draw(const std::vector<Species>& species, std::size_t particles,
+                        std::uint64_t seed) {
+  Configuration<Dim> system;
   system.resize(particles);
   system.species.clear();
   system.species_names.clear();
@@ -83,17 +119,37 @@ Configuration2 draw_particles(const std::vector<Species>& species, std::size_t p
     system.species.insert(system.species.end(), counts[k], static_cast<std::int32_t>(k));
   }
   shuffle(system.species, Stream(seed, Purpose::shapes));
-  double area = 0;
   for (std::size_t i = 0; i < particles; ++i) {
     const Species& kind = species[static_cast<std::size_t>(system.species[i])];
     Stream stream(seed, Purpose::shapes, 1, i);
-    const Ellipse shape = draw_shape(kind, stream);
-    system.shape[i] = shape;
-    system.mass[i] = kind.mass.value_or(shape.a * shape.b);
-    area += shape.volume();
+    draw_shape(kind, stream, system.shape[i]);
+    system.mass[i] = kind.mass.value_or(natural_mass(system.shape[i]));
   }
-  const double width = std::sqrt(area / packing_fraction / box_aspect);
+  return system;
+}
+
+template <int Dim>
+double total_volume(const Configuration<Dim>& system) {
+  double sum = 0;
+  for (const Solid<Dim>& shape : system.shape) sum += shape.volume();
+  return sum;
+}
+
+}  // namespace
+
+Configuration2 draw_particles(const std::vector<Species>& species, std::size_t particles,
+                              double packing_fraction, double box_aspect, std::uint64_t seed) {
+  Configuration2 system = draw<2>(species, particles, seed);
+  const double width = std::sqrt(total_volume(system) / packing_fraction / box_aspect);
   system.box = PeriodicBox<2>(Vec2(width, box_aspect * width));
+  return system;
+}
+
+Configuration3 draw_solids(const std::vector<Species>& species, std::size_t particles,
+                           double packing_fraction, std::uint64_t seed) {
+  Configuration3 system = draw<3>(species, particles, seed);
+  const double edge = std::cbrt(total_volume(system) / packing_fraction);
+  system.box = PeriodicBox<3>(Vec3::Constant(edge));
   return system;
 }
 

@@ -26,14 +26,17 @@ struct Distribution {
 };
 
 /// One species. Its shape is given by the aspect ratio κ = a/b ≥ 1 and the size √(a b), so a = size
-/// √κ and b = size/√κ; or by the semi-axes themselves.
+/// √κ and b = size/√κ; or by the semi-axes themselves. In three dimensions it is given by two aspect
+/// ratios, semi-axes a : a/R_1 : a/R_2, and the size (a b c)^(1/3), so a = size (R_1 R_2)^(1/3); one
+/// aspect ratio means R_1 = R_2 = κ, a prolate spheroid.
 struct Species {
   std::string name = "A";
-  double fraction = 1;                             ///< share of all particles
-  std::optional<Distribution> aspect_ratio;        ///< 1 if neither it nor semi_axes is given
-  std::optional<Distribution> size;                ///< 1 if neither it nor semi_axes is given
-  std::optional<std::array<double, 2>> semi_axes;  ///< a ≥ b; excludes the two above
-  std::optional<double> mass;  ///< of every particle; a b (uniform density) if not given
+  double fraction = 1;                       ///< share of all particles
+  std::optional<Distribution> aspect_ratio;  ///< 1 if neither it nor another shape is given
+  std::optional<std::array<Distribution, 2>> aspect_ratios;  ///< R_1, R_2; in three dimensions only
+  std::optional<Distribution> size;                          ///< 1 if not given
+  std::optional<std::vector<double>> semi_axes;  ///< a ≥ b, or a, b, c; excludes the three above
+  std::optional<double> mass;  ///< of every particle; a b (a b c: uniform density) if not given
 };
 
 /// How many of `particles` belong to each species: the shares rounded down, and the particles left
@@ -47,5 +50,8 @@ std::vector<std::size_t> species_counts(const std::vector<Species>& species, std
 /// the sizes given. At least one species; the fractions add up to 1.
 Configuration2 draw_particles(const std::vector<Species>& species, std::size_t particles,
                               double packing_fraction, double box_aspect, std::uint64_t seed);
+/// The same in three dimensions, in a cube.
+Configuration3 draw_solids(const std::vector<Species>& species, std::size_t particles,
+                           double packing_fraction, std::uint64_t seed);
 
 }  // namespace vitrel

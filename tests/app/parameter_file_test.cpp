@@ -32,7 +32,30 @@ struct BadFile {
 
 // Every rule of `validate`, with the place of the value that breaks it.
 const BadFile bad_files[] = {
-    {"[system]\ndimension = 3", "file.toml:2:13: key 'system.dimension' is 3, but only two-dim"},
+    {"[system]\ndimension = 4", "file.toml:2:13: key 'system.dimension' is 4, but must be 2 or 3"},
+    {"[system]\ndimension = 3\nbox_aspect = 2",
+     "file.toml:3:1: key 'system.box_aspect' has a meaning only with dimension = 2"},
+    {"[system]\ndimension = 3\npacking_fraction = 1.0", "lies between 0 and 1"},
+    {"[system]\ndimension = 3\n[[prepare.stage]]\nmethod = \"lattice\"",
+     "file.toml:4:10: key 'prepare.stage.0.method' is \"lattice\", but in three dimensions there "
+     "are "
+     "\"insert\" and \"grow\""},
+    {"[system]\ndimension = 3\n[[species]]\nsemi_axes = [2, 1]",
+     "file.toml:4:13: key 'species.0.semi_axes' is [2.0, 1.0], but must be [a, b, c], all above 0"},
+    {"[system]\ndimension = 3\n[[species]]\nsemi_axes = [2, 1, 0]", "must be [a, b, c], all above"},
+    {"[system]\ndimension = 3\n[[species]]\nname = \"B\"",
+     "key 'species.0.aspect_ratio' is missing; give aspect_ratio (1 for spheres)"},
+    {"[system]\ndimension = 3\n[[species]]\naspect_ratio = 2\naspect_ratios = [2, 3]",
+     "file.toml:5:17: key 'species.0.aspect_ratios' excludes aspect_ratio"},
+    {"[system]\ndimension = 3\n[[species]]\naspect_ratios = [2, 0]",
+     "file.toml:4:21: key 'species.0.aspect_ratios.1' is 0.0, but must be at least 0.001"},
+    {"[system]\ndimension = 3\n[[species]]\naspect_ratios = [2]",
+     "file.toml:4:17: key 'species.0.aspect_ratios' must be an array of 2 entries, not of 1"},
+    {"[system]\ndimension = 3\n[[species]]\n"
+     "aspect_ratios = [1, { distribution = \"uniform\", low = 2, high = 1 }]",
+     "key 'species.0.aspect_ratios.1.high' is 1.0, but must be above low = 2.0"},
+    {"[[species]]\naspect_ratios = [2, 3]",
+     "key 'species.0.aspect_ratios' has a meaning only with dimension = 3"},
     {"[system]\nparticles = 0", "file.toml:2:13: key 'system.particles' is 0, but must lie"},
     {"[system]\npacking_fraction = 0.95",
      "file.toml:2:20: key 'system.packing_fraction' is 0.95, but"},
@@ -263,6 +286,25 @@ TEST(ParameterFile, TheFilesOfTheProjectAreValid) {
     EXPECT_NO_THROW(sweep_jobs({entry.path(), {}, {}})) << entry.path();
   }
   EXPECT_GE(files, 5);
+}
+
+TEST(ParameterFile, ThreeDimensionsAreReadAndWritten) {
+  const Parameters read = parse_parameters(
+      "[system]\ndimension = 3\npacking_fraction = 0.95\n[[species]]\nsize = 2\n"
+      "aspect_ratios = [4, { distribution = \"uniform\", low = 0.1, high = 2 }]",
+      "file.toml");
+  const auto& [first, second] = read.species[0].aspect_ratios.value();
+  EXPECT_EQ(first.kind, Distribution::Kind::constant);
+  EXPECT_EQ(first.mean, 4);
+  EXPECT_EQ(second.kind, Distribution::Kind::uniform);
+  EXPECT_EQ(second.low, 0.1);
+  EXPECT_LE(second.minimum, 0.1);
+  EXPECT_EQ(end_of_stage(read.stages[0], read.system, 0), 0.01);
+  const std::string text = effective_parameters(read);
+  EXPECT_THAT(text,
+              HasSubstr("aspect_ratios = [4.0, { distribution = \"uniform\", low = 0.1, high ="));
+  EXPECT_THAT(text, testing::Not(HasSubstr("box_aspect")));
+  EXPECT_EQ(effective_parameters(parse_parameters(text, "again")), text);
 }
 
 TEST(ParameterFile, TheReferencePageIsUpToDate) {

@@ -72,18 +72,51 @@ Configuration2 random_configuration(std::size_t n, std::uint64_t step) {
   return configuration;
 }
 
+/// The same in three dimensions, scalene and turned.
+Configuration3 random_solids(std::size_t n, std::uint64_t step) {
+  Stream draw(12, Purpose::tests, step);
+  const auto normal = [&] { return Vec3(draw.normal(), draw.normal(), draw.normal()); };
+  Configuration3 configuration;
+  configuration.box = PeriodicBox<3>(Vec3(5, 6, 7) + 0.1 * normal());
+  configuration.time = 0.1 * static_cast<double>(step);
+  configuration.resize(n);
+  configuration.species_names = {"large", "small"};
+  for (std::size_t i = 0; i < n; ++i) {
+    configuration.position[i] = normal();
+    configuration.box.wrap(configuration.position[i], configuration.image[i]);
+    configuration.image[i] += Shift<3>(2, -1, static_cast<int>(draw.below(9)));
+    configuration.orientation[i].coeffs() << normal(), draw.normal();
+    configuration.orientation[i].normalize();
+    configuration.velocity[i] = normal();
+    configuration.angular_velocity[i] = normal();
+    configuration.shape[i] = {i % 2 ? Vec3(0.3, 1.7, 0.9) : Vec3(2, 1, 0.5)};
+    configuration.mass[i] = i % 2 ? 0.459 : 1;
+    configuration.species[i] = i % 2;
+  }
+  configuration.position[0] = -0.5 * configuration.box.lengths();
+  return configuration;
+}
+
 template <class T>
 bool same_bits(const std::vector<T>& x, const std::vector<T>& y) {
   if (x.size() != y.size()) return false;
   return x.empty() || std::memcmp(x.data(), y.data(), x.size() * sizeof(T)) == 0;
 }
 
-void expect_same_bits(const Configuration2& x, const Configuration2& y) {
+void expect_same_orientations(const Configuration2& x, const Configuration2& y) {
+  EXPECT_TRUE(same_bits(x.angle, y.angle));
+}
+void expect_same_orientations(const Configuration3& x, const Configuration3& y) {
+  EXPECT_TRUE(same_bits(x.orientation, y.orientation));
+}
+
+template <int Dim>
+void expect_same_bits(const Configuration<Dim>& x, const Configuration<Dim>& y) {
   EXPECT_EQ(x.box.lengths(), y.box.lengths());
   EXPECT_EQ(std::bit_cast<std::uint64_t>(x.time), std::bit_cast<std::uint64_t>(y.time));
   EXPECT_TRUE(same_bits(x.position, y.position));
   EXPECT_TRUE(same_bits(x.image, y.image));
-  EXPECT_TRUE(same_bits(x.angle, y.angle));
+  expect_same_orientations(x, y);
   EXPECT_TRUE(same_bits(x.velocity, y.velocity));
   EXPECT_TRUE(same_bits(x.angular_velocity, y.angular_velocity));
   EXPECT_TRUE(same_bits(x.shape, y.shape));
@@ -149,6 +182,33 @@ TEST_F(TrajectoryFile, FramesComeBackBitByBit) {
   EXPECT_EQ(reader.times()[3], 0.1 * 3);
   EXPECT_EQ(reader.observable_names(), (std::vector<std::string>{"collisions", "energy"}));
   expect_frames(file("run.h5"), 5);
+}
+
+TEST_F(TrajectoryFile, FramesOfThreeDimensionsComeBackBitByBit) {
+  auto writer = TrajectoryWriter::create(file("run.h5"), random_solids(9, 0), some_provenance(),
+                                         {.velocities = true});
+  for (int k = 0; k < 3; ++k) writer.write(random_solids(9, k), k);
+  writer.close();
+  TrajectoryWriter::append_to(file("run.h5"), 2).write(random_solids(9, 5), 5);
+  const TrajectoryReader reader(file("run.h5"));
+  EXPECT_EQ(reader.dimension(), 3);
+  EXPECT_EQ(reader.provenance().dimension, 3);
+  EXPECT_EQ(reader.particles(), 9u);
+  EXPECT_EQ(reader.frames(), 3u);
+  for (const int k : {0, 1}) expect_same_bits(reader.read<3>(k), random_solids(9, k));
+  expect_same_bits(read_state<3>(file("run.h5")), random_solids(9, 5));
+  EXPECT_FALSE(reader.has("angle"));
+}
+
+TEST_F(TrajectoryFile, TheOtherDimensionIsRefused) {
+  write_state(file("solids.h5"), random_solids(4, 0), some_provenance());
+  write_state(file("flat.h5"), random_configuration(4, 0), some_provenance());
+  EXPECT_THAT(file_error([&] { read_state(file("solids.h5")); }),
+              HasSubstr("solids.h5: is three-dimensional, but"));
+  EXPECT_THAT(file_error([&] { read_state<3>(file("flat.h5")); }),
+              HasSubstr("flat.h5: is two-dimensional, but"));
+  auto writer = TrajectoryWriter::append_to(file("flat.h5"), 1);
+  EXPECT_THROW(writer.write(random_solids(4, 0), 1), UserError);
 }
 
 TEST_F(TrajectoryFile, ProvenanceComesBack) {
@@ -374,6 +434,36 @@ TEST_F(TrajectoryFile, ReadsWhatOtherProgramsWrite) {
   EXPECT_EQ(frame.shape[0].a, 2);
   EXPECT_EQ(frame.mass[1], 1);
   EXPECT_FALSE(reader.has("image"));
+}
+
+/// A box given by cell vectors, no provenance, orientations in single precision.
+void write_foreign_solid(const fs::path& path, double norm) {
+  h5::File file = h5::File::create(path);
+  h5::Group particles = file.root().create_group("particles").create_group("grains");
+  particles.create_group("box").create_array<double>(
+      "edges", {3, 3}, std::array{4.0, 0.0, 0.0, 0.0, 5.0, 0.0, 0.0, 0.0, 6.0});
+  h5::Group position = particles.create_group("position");
+  position.create_array<double>("value", {1, 1, 3}, std::array{1.0, 2.0, 3.5});
+  position.create_array<std::int64_t>("step", {1}, std::array<std::int64_t, 1>{0});
+  position.create_array<double>("time", {1}, std::array{0.0});
+  const double w = static_cast<float>(norm * std::sqrt(0.5));
+  particles.create_group("orientation")
+      .create_array<double>("value", {1, 1, 4}, std::array{w, 0.0, 0.0, w});
+  particles.create_array<double>("semiaxes", {1, 3}, std::array{3.0, 1.0, 2.0});
+  file.close();
+}
+
+TEST_F(TrajectoryFile, ReadsSolidsThatOtherProgramsWrite) {
+  write_foreign_solid(file("foreign.h5"), 1);
+  const Configuration3 frame = read_state<3>(file("foreign.h5"));
+  EXPECT_EQ(frame.box.lengths(), Vec3(4, 5, 6));
+  EXPECT_EQ(frame.position[0], Vec3(1, 2, -2.5));
+  EXPECT_EQ(frame.image[0], Shift<3>(0, 0, 1));
+  EXPECT_EQ(frame.shape[0].semi_axes, Vec3(3, 1, 2));
+  EXPECT_NEAR(frame.orientation[0].norm(), 1, 4e-16);
+  write_foreign_solid(file("foreign.h5"), 1.001);
+  EXPECT_THAT(file_error([&] { read_state<3>(file("foreign.h5")); }),
+              HasSubstr("the orientation of particle 0 has the norm 1.00099"));
 }
 
 // The first of the frames at fault is named, counted from 0.

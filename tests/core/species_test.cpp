@@ -69,6 +69,50 @@ TEST(DrawParticles, SemiAxesAndMassAreTakenAsGiven) {
   EXPECT_EQ(system.mass[2], 5);
 }
 
+TEST(DrawSolids, TheCubeHasThePackingFractionAndTheShapesTheRatios) {
+  std::vector<Species> species(3);
+  species[0].fraction = species[1].fraction = 0.25;
+  species[2].fraction = 0.5;
+  species[0].aspect_ratio = number(3);
+  species[1].aspect_ratios = {number(4), number(0.5)};
+  species[1].size = number(1.4);
+  species[2].semi_axes = {1.5, 3, 0.7};
+  const Configuration3 system = draw_solids(species, 101, 1e-6, 7);
+  EXPECT_NEAR(packing_fraction(system), 1e-6, 1e-20);
+  const Vec3& box = system.box.lengths();
+  EXPECT_TRUE(box.x() == box.y() && box.y() == box.z());
+  const double sizes[] = {1, 1.4, std::cbrt(1.5 * 3 * 0.7)};
+  for (std::size_t i = 0; i < system.size(); ++i) {
+    const int kind = system.species[i];
+    const Vec3& axes = system.shape[i].semi_axes;
+    if (kind == 2) {
+      EXPECT_EQ(axes, Vec3(1.5, 3, 0.7));
+      continue;
+    }
+    EXPECT_NEAR(axes[0] / axes[1], kind == 0 ? 3 : 4, 1e-14);
+    EXPECT_NEAR(axes[0] / axes[2], kind == 0 ? 3 : 0.5, 1e-14);
+    EXPECT_NEAR(std::cbrt(axes.prod()), sizes[kind], 1e-14);
+    EXPECT_EQ(system.mass[i], axes.prod());
+    EXPECT_EQ(system.shape[i].rotations(), kind == 0 ? 2 : 3);
+  }
+}
+
+TEST(DrawSolids, BothAspectRatiosAreDrawn) {
+  using Kind = Distribution::Kind;
+  std::vector<Species> species(1);
+  species[0].aspect_ratios = {Distribution{Kind::uniform, 0, 0, 1, 5, 1},
+                              Distribution{Kind::uniform, 0, 0, 0.1, 2, 0.1}};
+  const Configuration3 system = draw_solids(species, 1000, 0.3, 7);
+  double sum1 = 0, sum2 = 0;
+  for (const Ellipsoid& shape : system.shape) {
+    sum1 += shape.semi_axes[0] / shape.semi_axes[1];
+    sum2 += shape.semi_axes[0] / shape.semi_axes[2];
+  }
+  // 4.9 standard errors (b − a)/√(12 N), a false alarm in 1e-6 of the seeds each.
+  EXPECT_NEAR(sum1 / 1000, 3, 4.9 * 4 / std::sqrt(12'000));
+  EXPECT_NEAR(sum2 / 1000, 1.05, 4.9 * 1.9 / std::sqrt(12'000));
+}
+
 // Mean and standard deviation of n draws against those asked for, within 4.9 standard errors
 // (two-sided false-alarm rate 1e-6 each): σ/√n for the mean, and for the standard deviation σ √((k
 // − 1)/(4n)) with the kurtosis k = 3 of a Gaussian, 1.8 of a uniform, and that of this
