@@ -180,7 +180,8 @@ class FirstLook<B> : public detail::Urgencies<many> {
   detail::NumbersOf<many> stretch_, shortest_squared_, horizon_;
 };
 
-/// From the line of centres, turned by two steps as far as each improves the gap.
+/// Along (Σ₁ + Σ₂)⁻¹d, of long bodies close to the normal of both, turned by up to two steps as far as
+/// each improves the gap: only as long as some gap is below the limit.
 template <>
 class GapLook<Ellipsoid> {
  public:
@@ -195,7 +196,7 @@ class GapLook<Ellipsoid> {
     partners_.set(k, orientation, shape.semi_axes);
   }
 
-  [[gnu::flatten]] void look() {
+  [[gnu::flatten]] void look(double limit) {
     constexpr int steps = 2;
     const detail::ManyVec3 d = d_.all();
     const AxesOf<Many> partners = detail::scaled(partners_.directions(), partners_.semi_axes.all());
@@ -211,6 +212,7 @@ class GapLook<Ellipsoid> {
       where(better, best.x) = trial.x;
       where(better, best.y) = trial.y;
       where(better, best.z) = trial.z;
+      if (all_of(largest > limit)) break;
       trial = detail::turned(axis, dot(axis.e1, d) - (one.s1 + two.s1),
                              dot(axis.e2, d) - (one.s2 + two.s2), gap + (one.h11 + two.h11),
                              one.h12 + two.h12, gap + (one.h22 + two.h22));

@@ -36,7 +36,7 @@ class GapLook<Ellipse> {
     aabb_[k] = shape.a * shape.a * bb;
   }
 
-  [[gnu::flatten]] void look() {
+  [[gnu::flatten]] void look(double /*limit*/) {
     const Body one{outline_.bb, outline_.stretch, outline_.aabb, ux_, uy_};
     Body two{bb_.all(), stretch_.all(), aabb_.all(), {}, {}};
     directions<Many>(angle_.all(), two.ux, two.uy);
@@ -123,7 +123,7 @@ class GapLook<Shape> {
     radii_[k] = shape.radius;
   }
 
-  void look() {
+  void look(double /*limit*/) {
     detail::Simd<lanes> square = d_[0].all() * d_[0].all() + d_[1].all() * d_[1].all();
     if constexpr (dimension == 3) square += d_[2].all() * d_[2].all();
     gap_.store(sqrt(square) - (radii_.all() + radius_));

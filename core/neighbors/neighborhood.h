@@ -268,7 +268,7 @@ class Neighborhoods {
     Image image[GapLook<Shape>::lanes];
     int count = 0;
     const auto judge = [&] {
-      look.look();
+      look.look(limit);
       for (int k = 0; k < count; ++k)
         if (look.gap(k) < limit)
           visit(Pair{look.gap(k), look.axis(k), static_cast<std::uint32_t>(i), image[k]});

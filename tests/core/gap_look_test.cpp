@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/contact/support_gap.h"
@@ -69,7 +70,7 @@ TEST_P(GapLookAtEllipses, IsALowerBoundAndSeldomALooseOne) {
       others[k] = {shape, draw.uniform(-20, 20), distance * direction(draw.uniform(0, 2 * pi))};
       look.set(k, others[k].shape, others[k].angle, others[k].d);
     }
-    look.look();
+    look.look(std::numeric_limits<double>::infinity());
     for (int k = 0; k < GapLook<Ellipse>::lanes; ++k) {
       const Other& other = others[k];
       const SupportGap best = support_gap(one, angle, other.shape, other.angle, other.d);
@@ -105,7 +106,7 @@ TEST(GapLookAtDisks, IsTheDistance) {
       look.set(k, other, draw.uniform(0, 7), distance * direction(draw.uniform(0, 2 * pi)));
       wanted[k] = distance - one.radius - other.radius;
     }
-    look.look();
+    look.look(std::numeric_limits<double>::infinity());
     for (int k = 0; k < lanes; ++k) EXPECT_NEAR(look.gap(k), wanted[k], 1e-14);
   }
 }
