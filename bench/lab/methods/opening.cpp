@@ -58,13 +58,8 @@ Prediction2 contact_along(const Vec2& outward, double time, const Vec2& point, i
   return {Outcome::contact, time, normal, point, steps};
 }
 
-<<<<<<< HEAD
-Prediction contact_at(const CollisionCase& asked, double time, int steps) {
-  const PerramWertheim<2> touch = perram_wertheim_at(asked, time);
-=======
 Prediction2 contact_at(const CollisionCase& asked, double time, int steps) {
-  const PerramWertheim touch = perram_wertheim_at(asked, time);
->>>>>>> three
+  const PerramWertheim<2> touch = perram_wertheim_at(asked, time);
   const Vec2 centre = asked.one.pose.position + asked.one.motion.velocity * time;
   return {Outcome::contact, time, touch.normal, centre + touch.point, steps};
 }
