@@ -12,18 +12,18 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-Vec2 grid_wave(const WaveVector& q, const Vec2& lengths, const Vec2& spacing) {
-  return Vec2(q.x, q.y).cwiseProduct(spacing).cwiseQuotient(lengths);
+Vec2 grid_wave(const WaveVector<2>& q, const Vec2& lengths, const Vec2& spacing) {
+  return Vec2(q.n[0], q.n[1]).cwiseProduct(spacing).cwiseQuotient(lengths);
 }
 
 // At x = 1/2 the images form Σ 1/(1 + 2m)^p over all whole m: 2 (1 − 2^−12) ζ(12), ζ(12) = 691
 // π^12/638512875.
 TEST(AliasBound, IsASumOverImages) {
   const double half = 2 * (1 - std::pow(2.0, -12)) * 691 * std::pow(pi, 12) / 638512875;
-  EXPECT_NEAR(alias_bound({0.5, 0}), half - 1, 1e-13);
-  EXPECT_NEAR(alias_bound({0, -0.5}), half - 1, 1e-13);
-  EXPECT_NEAR(alias_bound({0.5, 0.5}), half * half - 1, 1e-13);
-  EXPECT_EQ(alias_bound({0, 0}), 0);
+  EXPECT_NEAR(alias_bound(Vec2(0.5, 0)), half - 1, 1e-13);
+  EXPECT_NEAR(alias_bound(Vec2(0, -0.5)), half - 1, 1e-13);
+  EXPECT_NEAR(alias_bound(Vec2(0.5, 0.5)), half * half - 1, 1e-13);
+  EXPECT_EQ(alias_bound(Vec2(0, 0)), 0);
 }
 
 TEST(AliasBound, IsBelowTheToleranceWhereverAGridIsUsed) {
@@ -31,7 +31,7 @@ TEST(AliasBound, IsBelowTheToleranceWhereverAGridIsUsed) {
   for (int k = 0; k <= 90; ++k) {
     const double angle = k * pi / 180;
     for (const double x : {0.1, 0.2, largest_grid_wave})
-      largest = std::max(largest, alias_bound(x * Vec2(std::cos(angle), std::sin(angle))));
+      largest = std::max(largest, alias_bound<2>(x * Vec2(std::cos(angle), std::sin(angle))));
   }
   EXPECT_LT(largest, alias_tolerance);
   EXPECT_GT(largest, 0.9 * alias_tolerance);
@@ -98,9 +98,10 @@ INSTANTIATE_TEST_SUITE_P(Boxes, DensityGridOfAGas,
 TEST(DensityGrid, ListsOneOfEachTwoOppositeWaveVectors) {
   const Vec2 lengths(50, 40);
   const DensityGrid grid(lengths, 2, 5);
-  for (const WaveVector& q : grid.wave_vectors()) {
-    EXPECT_TRUE(q.y > 0 || (q.y == 0 && q.x > 0));
-    EXPECT_NEAR(q.wave_number, 2 * pi * std::hypot(q.x / lengths.x(), q.y / lengths.y()), 1e-12);
+  for (const WaveVector<2>& q : grid.wave_vectors()) {
+    EXPECT_TRUE(q.n[1] > 0 || (q.n[1] == 0 && q.n[0] > 0));
+    EXPECT_NEAR(q.wave_number, 2 * pi * std::hypot(q.n[0] / lengths.x(), q.n[1] / lengths.y()),
+                1e-12);
     EXPECT_TRUE(q.wave_number >= 2 && q.wave_number < 5);
   }
   const double area = lengths.prod() / (4 * pi * pi);
@@ -110,9 +111,9 @@ TEST(DensityGrid, ListsOneOfEachTwoOppositeWaveVectors) {
 
 // ρ at three wave vectors of two points, by hand: L = 4, points at x = ±1 and y = 0, 1.
 TEST(DirectModes, OfTwoPoints) {
-  const std::vector<WaveVector> waves{{1, 0, 0}, {2, 0, 0}, {0, 1, 0}};
+  const std::vector<WaveVector<2>> waves{{{1, 0}, 0}, {{2, 0}, 0}, {{0, 1}, 0}};
   const std::vector<Vec2> positions{{1, 0}, {-1, 1}};
-  const Modes rho = direct_modes({4, 4}, waves, positions, {{1.0, 3.0}})[0];
+  const Modes rho = direct_modes(Vec2(4, 4), waves, positions, {{1.0, 3.0}})[0];
   // exp(−iπ/2) + 3 exp(iπ/2) = 2i; exp(−iπ) + 3 exp(iπ) = −4; 1 + 3 exp(−iπ/2) = 1 − 3i.
   EXPECT_NEAR(std::abs(rho[0] - std::complex<double>(0, 2)), 0, 1e-15);
   EXPECT_NEAR(std::abs(rho[1] - std::complex<double>(-4, 0)), 0, 1e-14);
