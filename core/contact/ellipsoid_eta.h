@@ -26,8 +26,8 @@
 /// Two roots of q are always real and negative. Disjoint bodies have two different positive roots
 /// besides, between which F > 1; touching ones a double positive root; overlapping ones neither.
 ///
-/// The criterion: with β₁ and β₂ as in the .cpp file, η₁ = β₁³ − 27β₂² the discriminant, η₂ and η₅ the
-/// lower members of the same Sturm sequence: disjoint iff
+/// The criterion: with β₁ and β₂ as in the .cpp file, η₁ = β₁³ − 27β₂² the discriminant (over 256), η₂ and
+/// η₅ the subdiscriminants (over 64 and 48): disjoint iff
 ///
 ///     η₁ > 0, η₂ > 0, η₅ > 0 and (p̄₁ > 0 or p̄₂ < 0 or p̄₃ > 0).
 ///

@@ -2,6 +2,7 @@
 
 import contextlib
 import json
+import os
 import pathlib
 import platform
 import re
@@ -29,6 +30,17 @@ def output_of(command, **options):
     words = " ".join(map(str, command))
     expect(done.returncode == 0, f"{words}: exit code {done.returncode}\n{done.stdout}{done.stderr}")
     return done.stdout
+
+
+def properties_of_test(program, test, **variables):
+    """What one test records about itself, run with these variables in its environment."""
+    with tempfile.TemporaryDirectory() as folder:
+        result = pathlib.Path(folder, "result.json")
+        output_of([program, f"--gtest_filter={test}", f"--gtest_output=json:{result}"],
+                  env={**os.environ, **{name: str(value) for name, value in variables.items()}})
+        report = json.loads(result.read_text())
+    expect(report["tests"] == 1, f"{test} was not run")
+    return report["testsuites"][0]["testsuite"][0]
 
 
 def summary_of(build, command, *arguments):

@@ -1,11 +1,6 @@
 """Three overlap criteria that share no helper, on random pairs."""
 
-import json
-import os
-import pathlib
-import tempfile
-
-from validation.common import expect, output_of
+from validation.common import properties_of_test
 
 TITLE = "Overlap: three criteria, ten million pairs"
 PAIRS = 10_000_000
@@ -13,13 +8,7 @@ TEST = "OverlapCriteria.ThreeCriteriaAgreeOnRandomPairs"
 
 
 def measure(build):
-    with tempfile.TemporaryDirectory() as folder:
-        result = pathlib.Path(folder, "result.json")
-        output_of([build / "tests/core/test_contact", f"--gtest_filter={TEST}", f"--gtest_output=json:{result}"],
-                  env={**os.environ, "VITREL_CONTACT_PAIRS": str(PAIRS)})
-        report = json.loads(result.read_text())
-    expect(report["tests"] == 1, f"{TEST} was not run")
-    case = report["testsuites"][0]["testsuite"][0]
+    case = properties_of_test(build / "tests/core/test_contact", TEST, VITREL_CONTACT_PAIRS=PAIRS)
     largest = float(case["largest_blurred_gap_over_1e-12_b"]) * 1e-12
     return f"""The support gap, Perram and Wertheim's function and Vieillard-Baron's function with the complete
 criterion judge 10⁷ random pairs: aspect ratios 1 … 50, size ratios 1 … 100, a third of them at the

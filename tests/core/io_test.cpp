@@ -181,6 +181,8 @@ TEST_F(TrajectoryFile, FramesComeBackBitByBit) {
   EXPECT_EQ(reader.particles(), 12u);
   EXPECT_EQ(reader.times()[3], 0.1 * 3);
   EXPECT_EQ(reader.observable_names(), (std::vector<std::string>{"collisions", "energy"}));
+  EXPECT_TRUE(reader.has_observable("energy"));
+  EXPECT_FALSE(reader.has_observable("virial"));
   expect_frames(file("run.h5"), 5);
 }
 
