@@ -161,7 +161,7 @@ void compare_halves(const HalvesOfCurve& c, double slowest, std::vector<Comparis
 
 std::string shortage(const std::string& name, double time, double duration) {
   if (duration >= fewest_relaxations * time) return "";
-  return fmt::format("the run lasts {:.2g} times {} = {:.4g}; {:g} times are needed",
+  return fmt::format("the run lasts {:.3g} times {} = {:.4g}; {:g} times are needed",
                      duration / time, name, time, fewest_relaxations);
 }
 

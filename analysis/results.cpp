@@ -123,6 +123,12 @@ const Table* Results::find(const std::string& table) const {
   return found == tables.end() ? nullptr : &*found;
 }
 
+std::string Results::text(const std::string& name) const {
+  const auto found = std::find_if(provenance.begin(), provenance.end(),
+                                  [&](const auto& candidate) { return candidate.first == name; });
+  return found == provenance.end() ? "" : found->second;
+}
+
 std::string identifier(const std::string& name) {
   std::string result = name;
   for (char& c : result)

@@ -33,6 +33,8 @@ struct Results {
 
   /// The table of that name; null if there is none.
   const Table* find(const std::string& table) const;
+  /// The text of that name from the provenance; empty if there is none.
+  std::string text(const std::string& name) const;
 };
 
 /// The name of a species or the like as names of tables and columns may be: other characters than

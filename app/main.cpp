@@ -249,8 +249,9 @@ class CommandLine {
         ->required();
     sub.add_option(
            "--to", arguments_.format,
-           "gsd (HOOMD-blue, OVITO), xyz (OVITO, ASE) or csv; of results: gnuplot (a folder of "
-           "data and scripts)")
+           "gsd (HOOMD-blue, OVITO), xyz (OVITO, ASE) or csv; in three dimensions, one period "
+           "with all images: geo (Gmsh), vti (voxels for VTK), vtp (points for VTK) or csv; of "
+           "results: gnuplot (a folder of data and scripts)")
         ->required();
     add_output(
         sub,
@@ -258,7 +259,13 @@ class CommandLine {
         "<results>_gnuplot",
         false);
     sub.add_option("--frames", arguments_.frames,
-                   "Which frames, as Python's slices: 7, -1 (the last), first:end:step (all)");
+                   "Which frames, as Python's slices: 7, -1 (the last), first:end:step (all; in "
+                   "three dimensions one, the last)");
+    sub.add_option("--shrink", arguments_.shrink,
+                   "In three dimensions: all semi-axes times this (1), for room between bodies")
+        ->check(CLI::Range(1e-3, 1.0));
+    sub.add_option("--voxels", arguments_.voxels, "To vti: voxels along the longest edge (100)")
+        ->check(CLI::Range(1, 2000));
     add_quiet_and_json(sub);
   }
   void add_bench() {

@@ -10,20 +10,37 @@
 
 namespace vitrel {
 
-double hard_margin(const Configuration2& configuration) {
+namespace {
+
+/// `orientation` in the form in which it is asked for separation.
+template <int Dim, class Orientation>
+bool own_images_separated(const PeriodicBox<Dim>& box, const Solid<Dim>& shape,
+                          const Orientation& orientation, double margin) {
+  bool clear = true;
+  box.for_each_image(Vec<Dim>::Zero(), 2 * shape.circumradius() + margin,
+                     [&](const Shift<Dim>& shift, const Vec<Dim>& d) {
+                       if (shift.isZero() || !clear) return;
+                       clear = separated(shape, orientation, shape, orientation, d, margin);
+                     });
+  return clear;
+}
+
+}  // namespace
+
+template <int Dim>
+double hard_margin(const Configuration<Dim>& configuration) {
   return tolerance::contact_gap(0.5 * configuration.box.lengths().maxCoeff() +
                                 largest_circumradius(configuration));
 }
 
 bool clear_of_own_images(const PeriodicBox<2>& box, const Ellipse& shape, const Vec2& axis,
                          double margin) {
-  bool clear = true;
-  box.for_each_image(Vec2::Zero(), 2 * shape.circumradius() + margin,
-                     [&](const Shift<2>& shift, const Vec2& d) {
-                       if (shift.isZero() || !clear) return;
-                       clear = separated(shape, axis, shape, axis, d, margin);
-                     });
-  return clear;
+  return own_images_separated<2>(box, shape, axis, margin);
+}
+
+bool clear_of_own_images(const PeriodicBox<3>& box, const Ellipsoid& shape,
+                         const Quaternion& orientation, double margin) {
+  return own_images_separated<3>(box, shape, orientation, margin);
 }
 
 std::optional<std::pair<std::size_t, std::size_t>> find_overlap(
@@ -55,20 +72,33 @@ double shrink_to_contact(const Configuration2& configuration, double lowest) {
   return factor;
 }
 
-void scale_box(Configuration2& configuration, const Vec2& factors) {
-  configuration.box = PeriodicBox<2>(configuration.box.lengths().cwiseProduct(factors));
+template <int Dim>
+void scale_box(Configuration<Dim>& configuration, const Vec<Dim>& factors) {
+  configuration.box = PeriodicBox<Dim>(configuration.box.lengths().cwiseProduct(factors));
   for (std::size_t i = 0; i < configuration.size(); ++i) {
     configuration.position[i] = configuration.position[i].cwiseProduct(factors);
     configuration.box.wrap(configuration.position[i], configuration.image[i]);
   }
 }
 
-void scale_box(Configuration2& configuration, double factor) {
-  scale_box(configuration, Vec2(factor, factor));
+template <int Dim>
+void scale_box(Configuration<Dim>& configuration, double factor) {
+  scale_box(configuration, Vec<Dim>(Vec<Dim>::Constant(factor)));
 }
 
-void scale_to_packing_fraction(Configuration2& configuration, double packing_fraction) {
-  scale_box(configuration, std::sqrt(vitrel::packing_fraction(configuration) / packing_fraction));
+template <int Dim>
+void scale_to_packing_fraction(Configuration<Dim>& configuration, double packing_fraction) {
+  const double ratio = vitrel::packing_fraction(configuration) / packing_fraction;
+  scale_box(configuration, Dim == 2 ? std::sqrt(ratio) : std::cbrt(ratio));
 }
+
+template double hard_margin(const Configuration2&);
+template double hard_margin(const Configuration3&);
+template void scale_box(Configuration2&, const Vec2&);
+template void scale_box(Configuration3&, const Vec3&);
+template void scale_box(Configuration2&, double);
+template void scale_box(Configuration3&, double);
+template void scale_to_packing_fraction(Configuration2&, double);
+template void scale_to_packing_fraction(Configuration3&, double);
 
 }  // namespace vitrel

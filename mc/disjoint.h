@@ -11,11 +11,14 @@ namespace vitrel {
 
 /// The distance that Monte Carlo keeps between surfaces: the contact gap of the box and its longest
 /// particle (tolerances.h), so that rounded coordinates never overlap.
-double hard_margin(const Configuration2& configuration);
+template <int Dim>
+double hard_margin(const Configuration<Dim>& configuration);
 
 /// Whether a particle keeps the margin to its own images, which lie at whole box lengths.
 bool clear_of_own_images(const PeriodicBox<2>& box, const Ellipse& shape, const Vec2& axis,
                          double margin);
+bool clear_of_own_images(const PeriodicBox<3>& box, const Ellipsoid& shape,
+                         const Quaternion& orientation, double margin);
 
 /// The first pair closer than the margin, if any.
 std::optional<std::pair<std::size_t, std::size_t>> find_overlap(
@@ -27,11 +30,14 @@ std::optional<std::pair<std::size_t, std::size_t>> find_overlap(
 double shrink_to_contact(const Configuration2& configuration, double lowest);
 
 /// Scales the sides of the box and all positions by these factors; shapes stay.
-void scale_box(Configuration2& configuration, const Vec2& factors);
-/// The same by one factor for both sides.
-void scale_box(Configuration2& configuration, double factor);
+template <int Dim>
+void scale_box(Configuration<Dim>& configuration, const Vec<Dim>& factors);
+/// The same by one factor for all sides.
+template <int Dim>
+void scale_box(Configuration<Dim>& configuration, double factor);
 
 /// Scales to this packing fraction exactly (to rounding).
-void scale_to_packing_fraction(Configuration2& configuration, double packing_fraction);
+template <int Dim>
+void scale_to_packing_fraction(Configuration<Dim>& configuration, double packing_fraction);
 
 }  // namespace vitrel

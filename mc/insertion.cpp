@@ -1,9 +1,10 @@
 #include "mc/insertion.h"
 
 #include <algorithm>
-#include <cmath>
+#include <iomanip>
 #include <numbers>
 #include <numeric>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,11 @@ namespace vitrel {
 
 namespace {
 
-std::vector<std::size_t> largest_first(const Configuration2& configuration) {
+/// The share of the packing fraction reached at which places are found in no time.
+constexpr double found_fast = 0.9;
+
+template <int Dim>
+std::vector<std::size_t> largest_first(const Configuration<Dim>& configuration) {
   std::vector<std::size_t> order(configuration.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
@@ -25,9 +30,33 @@ std::vector<std::size_t> largest_first(const Configuration2& configuration) {
   return order;
 }
 
+Pose2 random_pose(const PeriodicBox<2>& box, bool aligned, Stream& draw) {
+  const Vec2& lengths = box.lengths();
+  const Vec2 position(draw.uniform(-0.5, 0.5) * lengths.x(), draw.uniform(-0.5, 0.5) * lengths.y());
+  return {position, aligned ? 0 : draw.uniform(0, std::numbers::pi)};
+}
+
+/// The orientation is uniform over all rotations: a direction in four dimensions.
+Pose3 random_pose(const PeriodicBox<3>& box, bool aligned, Stream& draw) {
+  Pose3 pose;
+  for (int k = 0; k < 3; ++k) pose.position[k] = draw.uniform(-0.5, 0.5) * box.lengths()[k];
+  if (aligned) return pose;
+  for (int k = 0; k < 4; ++k) pose.orientation.coeffs()[k] = draw.normal();
+  pose.orientation.normalize();
+  return pose;
+}
+
+Vec2 axes_of(const Pose2& pose) {
+  return direction(pose.angle);
+}
+const Quaternion& axes_of(const Pose3& pose) {
+  return pose.orientation;
+}
+
+template <int Dim>
 class Insertion {
  public:
-  Insertion(Configuration2& configuration, const InsertionOptions& options)
+  Insertion(Configuration<Dim>& configuration, const InsertionOptions& options)
       : configuration_(configuration),
         options_(options),
         cells_(configuration.box, 2 * largest_circumradius(configuration), configuration.size()),
@@ -35,17 +64,13 @@ class Insertion {
         margin_(hard_margin(configuration)) {}
 
   bool insert(std::size_t i, Stream draw) {
-    const Vec2 lengths = configuration_.box.lengths();
     for (std::uint64_t attempt = 0; attempt < options_.attempts; ++attempt) {
       ++places_tried;
-      const Vec2 position(draw.uniform(-0.5, 0.5) * lengths.x(),
-                          draw.uniform(-0.5, 0.5) * lengths.y());
-      const double angle = options_.aligned ? 0 : draw.uniform(0, std::numbers::pi);
-      if (!fits(i, {position, angle})) continue;
-      configuration_.position[i] = position;
-      configuration_.image[i] = Shift<2>::Zero();
-      configuration_.angle[i] = angle;
-      cells_.insert(i, {position});
+      const Pose<Dim> pose = random_pose(configuration_.box, options_.aligned, draw);
+      if (!fits(i, pose)) continue;
+      configuration_.set_pose(i, pose);
+      configuration_.image[i] = Shift<Dim>::Zero();
+      cells_.insert(i, {pose.position});
       return true;
     }
     return false;
@@ -54,36 +79,36 @@ class Insertion {
   std::uint64_t places_tried = 0;
 
  private:
-  bool fits(std::size_t i, const Pose2& pose) const {
-    const Ellipse& shape = configuration_.shape[i];
+  bool fits(std::size_t i, const Pose<Dim>& pose) const {
+    const Solid<Dim>& shape = configuration_.shape[i];
     const double reach = shape.circumradius() + largest_ + margin_;
-    const auto clear_of = [&](std::size_t j, const Shift<2>&, const Vec2& d) {
+    const auto clear_of = [&](std::size_t j, const Shift<Dim>&, const Vec<Dim>& d) {
       return separated(shape, pose, configuration_.shape[j], configuration_.pose(j), d, margin_);
     };
     return cells_.for_each_near(pose.position, reach, clear_of) &&
-           clear_of_own_images(configuration_.box, shape, direction(pose.angle), margin_);
+           clear_of_own_images(configuration_.box, shape, axes_of(pose), margin_);
   }
 
-  Configuration2& configuration_;
+  Configuration<Dim>& configuration_;
   const InsertionOptions& options_;
-  CellGrid<2> cells_;
+  CellGrid<Dim> cells_;
   double largest_, margin_;
 };
 
 std::string hopeless(std::size_t placed, std::size_t particles, double reached,
                      std::uint64_t attempts) {
-  // Nine tenths of what was reached, in whole per cent, is found fast.
-  const int per_cent = static_cast<int>(90 * reached);
-  return "insertion is hopeless: after " + std::to_string(placed) + " of " +
-         std::to_string(particles) + " particles, at a packing fraction of " +
-         std::to_string(reached) + ", " + std::to_string(attempts) +
-         " attempts found no place for the next; insert at " + std::to_string(per_cent) +
-         " % at most and swell from there";
+  std::ostringstream text;
+  text << "insertion is hopeless: after " << placed << " of " << particles
+       << " particles, at a packing fraction of " << reached << ", " << attempts
+       << " attempts found no place for the next; insert at " << std::setprecision(2)
+       << found_fast * reached << " at most, and let the particles swell or grow from there";
+  return text.str();
 }
 
 }  // namespace
 
-InsertionReport insert_particles(Configuration2& configuration, const InsertionOptions& options,
+template <int Dim>
+InsertionReport insert_particles(Configuration<Dim>& configuration, const InsertionOptions& options,
                                  std::uint64_t seed, const Budget& budget) {
   scale_to_packing_fraction(configuration, options.packing_fraction);
   Insertion insertion(configuration, options);
@@ -105,5 +130,10 @@ InsertionReport insert_particles(Configuration2& configuration, const InsertionO
   }
   return ended(StageEnd::reached, "all particles inserted");
 }
+
+template InsertionReport insert_particles(Configuration2&, const InsertionOptions&, std::uint64_t,
+                                          const Budget&);
+template InsertionReport insert_particles(Configuration3&, const InsertionOptions&, std::uint64_t,
+                                          const Budget&);
 
 }  // namespace vitrel

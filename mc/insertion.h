@@ -8,11 +8,11 @@
 namespace vitrel {
 
 /// Random sequential insertion: particles, the largest first, are put one after another at random
-/// places and angles where they meet none of those before, and are never moved.
+/// places and orientations where they meet none of those before, and are never moved.
 struct InsertionOptions {
   double packing_fraction = 0.3;     ///< to insert at; the box is scaled to it
   std::uint64_t attempts = 1000000;  ///< for one particle, before insertion is called hopeless
-  bool aligned = false;              ///< all angles 0 instead of random ones
+  bool aligned = false;              ///< all axes along those of space instead of random ones
 };
 
 /// The end of an insertion. With n places tried the dimensionless time of its kinetics is τ = n A/V, A
@@ -24,8 +24,9 @@ struct InsertionReport : StageReport {
 
 /// `stuck` with a reason if a particle found no place, `stopped` if the budget said so; the
 /// configuration then is not to be used, and the same call makes it anew.
-/// The jamming limit is near φ = 0.547 for disks and 0.583 for ellipses.
-InsertionReport insert_particles(Configuration2& configuration, const InsertionOptions& options,
+/// The jamming limit is near φ = 0.547 for disks, 0.583 for ellipses and 0.382 for spheres.
+template <int Dim>
+InsertionReport insert_particles(Configuration<Dim>& configuration, const InsertionOptions& options,
                                  std::uint64_t seed, const Budget& budget);
 
 }  // namespace vitrel

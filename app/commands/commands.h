@@ -33,11 +33,13 @@ struct Arguments {
   int threads = 1;
   bool quiet = false, json = false;
   bool dry_run = false, status = false, last_only = false, reference = false;
-  std::string template_command;  ///< params: whose template
-  std::string format;            ///< export: of the output
-  std::string frames = ":";      ///< export: which ones
-  std::string job;               ///< sweep: the only one to work off; empty: all
-  std::string export_as;         ///< sweep: what to write it as; empty: work it off
+  std::string template_command;       ///< params: whose template
+  std::string format;                 ///< export: of the output
+  std::optional<std::string> frames;  ///< export: which ones
+  std::optional<double> shrink;       ///< export: of all lengths of the bodies
+  std::optional<std::size_t> voxels;  ///< export: along the longest edge
+  std::string job;                    ///< sweep: the only one to work off; empty: all
+  std::string export_as;              ///< sweep: what to write it as; empty: work it off
   // bench; what is not given is the benchmark's default
   std::vector<std::string> methods, classes;  ///< by name; empty: all
   std::optional<std::uint64_t> pairs;         ///< of each class

@@ -18,8 +18,10 @@ int export_results(const Arguments& arguments) {
     output = arguments.input.parent_path() / (arguments.input.stem().string() + "_gnuplot");
   if (!output.has_filename()) output = output.parent_path();  // a folder given as "folder/"
   require_new(output);
-  if (arguments.frames != ":")
-    throw UserError("--frames: is for trajectories, but --to gnuplot writes tables of results");
+  if (arguments.frames || arguments.shrink || arguments.voxels)
+    throw UserError(
+        "--frames, --shrink, --voxels: are for trajectories and packings, but --to gnuplot writes "
+        "tables of results");
   const std::vector<TextFile> files = gnuplot_files(read_results(arguments.input));
   write_folder(output, files);
   print_summary(arguments,
@@ -34,15 +36,19 @@ int export_frames(const Arguments& arguments) {
   require_new(output);
   Session session(arguments);
   session.say()("export of " + arguments.input.string());
-  const std::optional<ExportedTrajectory> done = export_trajectory(
-      {arguments.input, arguments.format, output, arguments.frames}, session.budget());
+  const std::optional<ExportedTrajectory> done =
+      export_trajectory({arguments.input, arguments.format, output, arguments.frames,
+                         arguments.shrink, arguments.voxels},
+                        session.budget());
   session.clear();
   if (!done) return stopped;
-  print_summary(arguments, {{"output", output.string()},
-                            {"format", arguments.format},
-                            {"frames", done->frames},
-                            {"particles", done->particles},
-                            {"bytes", done->bytes}});
+  nlohmann::ordered_json summary = {{"output", output.string()},
+                                    {"format", arguments.format},
+                                    {"frames", done->frames},
+                                    {"particles", done->particles},
+                                    {"bytes", done->bytes}};
+  if (done->bodies > 0) summary["bodies"] = done->bodies;
+  print_summary(arguments, summary);
   return success;
 }
 

@@ -92,16 +92,41 @@ const Table& order_table(const std::vector<Table>& tables) {
                        [](const Table& table) { return table.name == "order"; });
 }
 
+/// Of a mean squared displacement (dimension 2) or rotation (1).
+DiffusionCoefficient long_time_diffusion(const Displacements& found, const Correlation& square,
+                                         int dimension, const std::vector<double>& times) {
+  const double duration = evenly_spaced(times) ? times.back() - times.front() : 0;
+  return diffusion_coefficient({found.lag, square.value, square.error, duration}, dimension);
+}
+
 DiffusionCoefficient no_diffusion(const char* reason) {
   return {unknown, unknown, unknown, unknown, reason};
 }
 
 /// NaN if the file does not say.
 double collisions_between_frames(const TrajectoryReader& reader) {
-  const std::vector<std::string> names = reader.observable_names();
-  if (std::find(names.begin(), names.end(), "collisions") == names.end()) return unknown;
+  if (!reader.has_observable("collisions")) return unknown;
   const std::vector<double> collisions = reader.observable("collisions");
   return collisions.back() - collisions.front();
+}
+
+/// Judged, if the run can be.
+std::optional<GlassRun> measure_glass(StoredTrajectory& trajectory, const std::string& name,
+                                      const RunAnalysis& run, const DisplacementOptions& options,
+                                      ProgressDisplay& display) {
+  const GlassSource source{.name = name,
+                           .seed = trajectory.reader().provenance().seed,
+                           .packing_fraction = run.packing_fraction,
+                           .rotors = run.rotors,
+                           .displacements = run.dynamics.displacements,
+                           .compressibility = run.compressibility,
+                           .order = order_table(run.structure),
+                           .diffusion = run.diffusion,
+                           .rotational_diffusion = run.rotational_diffusion};
+  display.begin("relaxation and halves");
+  const auto data = glass_run_data(trajectory, source, options, shown_by(display));
+  if (!data) return std::nullopt;
+  return judge_glass_run(*data);
 }
 
 RunAnalysis measure(StoredTrajectory& trajectory, const std::string& name,
@@ -124,14 +149,10 @@ RunAnalysis measure(StoredTrajectory& trajectory, const std::string& name,
   run.compressibility = stored_compressibility(reader, run.energy, run.rotors);
   const Displacements& found = run.dynamics.displacements;
   const DisplacementGroup& all = found.groups.front();
-  run.diffusion = diffusion_coefficient(found, all.translation, 2, times);
-  run.rotational_diffusion = run.rotors > 0 ? diffusion_coefficient(found, all.rotation, 1, times)
+  run.diffusion = long_time_diffusion(found, all.translation, 2, times);
+  run.rotational_diffusion = run.rotors > 0 ? long_time_diffusion(found, all.rotation, 1, times)
                                             : no_diffusion("no particle can turn");
-  const GlassSource source{name,  reader.provenance().seed, run.packing_fraction,      run.rotors,
-                           found, run.compressibility,      order_table(run.structure)};
-  display.begin("halves of the run");
-  if (const auto data = glass_run_data(trajectory, source, parameters.analysis, shown_by(display)))
-    run.glass = judge_glass_run(*data);
+  run.glass = measure_glass(trajectory, name, run, parameters.analysis, display);
   return run;
 }
 
@@ -205,9 +226,8 @@ double AnalysedRun::packing_fraction() const {
 }
 
 std::uint64_t AnalysedRun::seed() const {
-  const auto entry = std::find_if(results.provenance.begin(), results.provenance.end(),
-                                  [](const auto& candidate) { return candidate.first == "seed"; });
-  return entry == results.provenance.end() ? 0 : std::stoull(entry->second);
+  const std::string seed = results.text("seed");
+  return seed.empty() ? 0 : std::stoull(seed);
 }
 
 AnalysedRun analyze_run(const std::filesystem::path& file, const AnalysisChoice& choice) {

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "analysis/blocking.h"
 #include "analysis/director_frame.h"
-#include "analysis/order.h"
 
 namespace vitrel {
 namespace {
@@ -35,33 +33,42 @@ DisplacementOptions of_glass(DisplacementOptions options, const Displacements& f
   return options;
 }
 
-/// L_2, from another pass if the run's own correlations do not have it.
-Decay orientation_of(Trajectory& seen, const Displacements& found,
-                     const DisplacementOptions& options, bool from_director) {
-  const Correlation* l = from_director ? nullptr : l_2(found);
-  if (l) return decay(found, *l);
-  const Displacements again = displacements(seen, options);
-  return decay(again, *l_2(again));
-}
+/// Passes over all particles, told as one piece of work.
+class Passes {
+ public:
+  Passes(std::size_t count, std::size_t particles, const ProgressReport& report)
+      : count_(static_cast<double>(count)),
+        particles_(static_cast<double>(particles)),
+        report_(report) {}
 
-/// Tells of the first (0) or second (1) of two passes over all particles as halves of one.
-ProgressReport half(std::size_t number, std::size_t particles, const ProgressReport& report) {
-  if (!report) return {};
-  return [&report, done = static_cast<double>(number),
-          n = static_cast<double>(particles)](const Progress& pass) {
-    report({0.5 * (done + pass.fraction), done * n + pass.value, pass.quantity});
-  };
+  ProgressReport next() {
+    if (!report_) return {};
+    return [this, before = begun_++](const Progress& pass) {
+      report_({(before + pass.fraction) / count_, before * particles_ + pass.value, pass.quantity});
+    };
+  }
+
+ private:
+  double count_, particles_;
+  double begun_ = 0;
+  const ProgressReport& report_;
+};
+
+/// L_2 from a pass of its own.
+Decay orientation(Trajectory& seen, const DisplacementOptions& options,
+                  const ProgressReport& report) {
+  const Displacements found = displacements(seen, options, report);
+  return decay(found, *l_2(found));
 }
 
 void add_halves(GlassRunData& data, Trajectory& trajectory, const DisplacementOptions& options,
-                const ProgressReport& report) {
+                Passes& passes) {
   const std::size_t middle = trajectory.frames() / 2;
   if (middle < 2) return;
   TrajectoryPart early(trajectory, 0, middle);
   TrajectoryPart late(trajectory, middle, trajectory.frames());
-  const std::size_t particles = trajectory.read(0).size();
-  const Displacements first = displacements(early, options, half(0, particles, report));
-  const Displacements second = displacements(late, options, half(1, particles, report));
+  const Displacements first = displacements(early, options, passes.next());
+  const Displacements second = displacements(late, options, passes.next());
   const DisplacementGroup& before = first.groups.front();
   const DisplacementGroup& after = second.groups.front();
   data.halves = {{"the mean squared displacement", blocked(first, before.translation),
@@ -72,6 +79,26 @@ void add_halves(GlassRunData& data, Trajectory& trajectory, const DisplacementOp
     data.rotation_halves = {{"L_2", blocked(first, *l), blocked(second, *l_2(second))}};
 }
 
+/// What there is without another pass, but for L_2.
+GlassRunData known_data(const GlassSource& run, const std::vector<double>& times) {
+  const Displacements& found = run.displacements;
+  GlassRunData data{};
+  data.name = run.name;
+  data.packing_fraction = run.packing_fraction;
+  data.seed = run.seed;
+  data.rotors = run.rotors;
+  data.duration = times.back() - times.front();
+  data.wave_number = found.wave_numbers.front();
+  data.scattering = decay(found, found.groups.front().self_scattering.front());
+  data.diffusion = run.diffusion;
+  data.rotational_diffusion = run.rotational_diffusion;
+  if (!run.compressibility.value.empty())
+    data.series.push_back({"the compressibility factor", run.compressibility.value});
+  data.series.push_back({"the hexatic order", run.order.find("hexatic")->value});
+  if (run.rotors > 0) data.nematic_order = run.order.find("nematic")->value;
+  return data;
+}
+
 }  // namespace
 
 std::optional<GlassRunData> glass_run_data(Trajectory& trajectory, const GlassSource& run,
@@ -79,41 +106,18 @@ std::optional<GlassRunData> glass_run_data(Trajectory& trajectory, const GlassSo
                                            const ProgressReport& report) {
   if (!evenly_spaced(trajectory.times())) return std::nullopt;
   const Displacements& found = run.displacements;
-  const DisplacementGroup& all = found.groups.front();
   const DisplacementOptions wanted = of_glass(options, found);
-  GlassRunData data{};
-  data.name = run.name;
-  data.packing_fraction = run.packing_fraction;
-  data.seed = run.seed;
-  data.rotors = run.rotors;
-  data.duration = trajectory.times().back() - trajectory.times().front();
-  data.wave_number = found.wave_numbers.front();
-  data.scattering = decay(found, all.self_scattering.front());
-  data.diffusion = diffusion_coefficient(found, all.translation, 2, trajectory.times());
-  if (!run.compressibility.value.empty())
-    data.series.push_back({"the compressibility factor", run.compressibility.value});
-  data.series.push_back({"the hexatic order", run.order.find("hexatic")->value});
-  if (run.rotors == 0) {
-    add_halves(data, trajectory, wanted, report);
-    return data;
-  }
-  data.nematic_order = run.order.find("nematic")->value;
-  data.rotational_diffusion = diffusion_coefficient(found, all.rotation, 1, trajectory.times());
-  const bool nematic = is_nematic(mean_of(data.nematic_order), run.rotors);
+  GlassRunData data = known_data(run, trajectory.times());
   std::optional<DirectorFrame> director;
-  if (nematic) director.emplace(trajectory);
-  Trajectory& seen = nematic ? *director : trajectory;
-  data.orientation = orientation_of(seen, found, wanted, nematic);
-  add_halves(data, seen, wanted, report);
+  if (is_nematic(data)) director.emplace(trajectory);
+  Trajectory& seen = director ? *director : trajectory;
+  const Correlation* measured = director ? nullptr : l_2(found);
+  const bool is_missing = run.rotors > 0 && !measured;
+  Passes passes(is_missing ? 3 : 2, trajectory.read(0).size(), report);
+  if (measured) data.orientation = decay(found, *measured);
+  if (is_missing) data.orientation = orientation(seen, wanted, passes.next());
+  add_halves(data, seen, wanted, passes);
   return data;
-}
-
-DiffusionCoefficient diffusion_coefficient(const Displacements& displacements,
-                                           const Correlation& square, int dimension,
-                                           const std::vector<double>& times) {
-  const double duration = evenly_spaced(times) ? times.back() - times.front() : 0;
-  return diffusion_coefficient({displacements.lag, square.value, square.error, duration},
-                               dimension);
 }
 
 }  // namespace vitrel

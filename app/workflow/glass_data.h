@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "analysis/diffusion.h"
 #include "analysis/displacement.h"
 #include "analysis/energy.h"
 #include "analysis/results.h"
@@ -18,19 +19,16 @@ struct GlassSource {
   const Displacements& displacements;
   const CompressibilitySeries& compressibility;
   const Table& order;  ///< the table `order`
+  const DiffusionCoefficient& diffusion;
+  const DiffusionCoefficient& rotational_diffusion;
 };
 
 /// What the glass study needs of it: F_s at the first of the wave numbers, L_2 (of a nematic seen from its
 /// director), order, diffusion, and these curves once more from each half of the run. No value for runs
-/// that are not evenly sampled: these cannot be judged. `report` hears of the particles, those of both
-/// halves.
+/// that are not evenly sampled: these cannot be judged. `report` hears of the particles, those of all
+/// passes.
 std::optional<GlassRunData> glass_run_data(Trajectory& trajectory, const GlassSource& run,
                                            const DisplacementOptions& options,
                                            const ProgressReport& report = {});
-
-/// Long-time diffusion coefficient of a mean square displacement (dimension 2) or rotation (1).
-DiffusionCoefficient diffusion_coefficient(const Displacements& displacements,
-                                           const Correlation& square, int dimension,
-                                           const std::vector<double>& times);
 
 }  // namespace vitrel

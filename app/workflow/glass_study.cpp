@@ -21,13 +21,6 @@ constexpr double negligible = 0.05;  // rest of a correlation that has decayed
 constexpr const char* reason_key = "verdict_reason";
 constexpr const char* translation_reason_key = "verdict_translation_reason";
 
-/// Empty if the provenance has no such entry.
-std::string text_of(const Results& results, const std::string& name) {
-  for (const auto& [key, text] : results.provenance)
-    if (key == name) return text;
-  return "";
-}
-
 /// Whether nothing is left of a correlation at the longest time, but for what its error explains.
 bool vanishes(const Decay& correlation) {
   const double error = std::isnan(correlation.error.back()) ? 0 : correlation.error.back();
@@ -42,7 +35,7 @@ void judge_orientation(GlassRun& run, const GlassRunData& data) {
   if (data.rotors == 0) return;
   run.nematic_order = slow_average(data.nematic_order);
   const auto& [order, error, blocks] = run.nematic_order;
-  if (!is_nematic(order, data.rotors)) {
+  if (!is_nematic(data)) {
     run.rotation = relaxation_time(data.orientation);
     const bool decays = !std::isnan(run.rotation.value) || !std::isnan(run.rotation.most);
     run.orientation = decays ? Orientation::relaxes : Orientation::lasting;
@@ -78,7 +71,7 @@ Time inverse(const DiffusionCoefficient& d) {
 }
 
 bool nematic(const GlassRun& run) {
-  return run.rotors > 0 && is_nematic(run.nematic_order.mean, run.rotors);
+  return run.plateau > 0;
 }
 
 /// Whether a run can have a time of this kind at all.
@@ -386,6 +379,10 @@ std::string crossed(const StudiedLaw& studied, const std::vector<GlassPoint>& po
 
 }  // namespace
 
+bool is_nematic(const GlassRunData& data) {
+  return data.rotors > 0 && is_nematic(mean_of(data.nematic_order), data.rotors);
+}
+
 GlassRun judge_glass_run(const GlassRunData& data) {
   GlassRun run{};
   run.name = data.name;
@@ -431,7 +428,7 @@ std::optional<GlassRun> stored_glass_run(const std::string& name, const Results&
   const auto verdict = [&](const char* code, const char* tests, const char* reason) {
     return Equilibration{
         static_cast<EquilibrationVerdict>(static_cast<int>(value(*relaxation, code))),
-        text_of(results, reason), static_cast<std::size_t>(value(*relaxation, tests))};
+        results.text(reason), static_cast<std::size_t>(value(*relaxation, tests))};
   };
   const auto time = [&](const char* of) {
     return RelaxationTime{value(*relaxation, of), error(*relaxation, of), unknown, unknown, ""};

@@ -36,6 +36,10 @@ struct GlassRunData {
   DiffusionCoefficient diffusion, rotational_diffusion;
 };
 
+/// Whether the order of a run is that of a nematic (order.h): then L_2 is seen from its director, and
+/// has a plateau. Never without rotors.
+bool is_nematic(const GlassRunData& data);
+
 /// Why orientations are kept, or not.
 enum class Orientation {
   round,    ///< there are none

@@ -35,9 +35,8 @@ std::vector<std::size_t> movie_poses(std::size_t runs) {
 
 /// Of wall time, over the whole run; NaN if not recorded.
 double collisions_per_second(const TrajectoryReader& reader) {
-  const std::vector<std::string> names = reader.observable_names();
   const double seconds = reader.provenance().wall_seconds;
-  if (!(seconds > 0) || std::find(names.begin(), names.end(), "collisions") == names.end())
+  if (!(seconds > 0) || !reader.has_observable("collisions"))
     return std::numeric_limits<double>::quiet_NaN();
   return reader.observable("collisions").back() / seconds;
 }

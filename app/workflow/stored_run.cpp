@@ -1,15 +1,9 @@
 #include "app/workflow/stored_run.h"
 
-#include <algorithm>
 #include <limits>
 
 namespace vitrel {
 namespace {
-
-bool has_observable(const TrajectoryReader& reader, const std::string& name) {
-  const std::vector<std::string> names = reader.observable_names();
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
 
 std::vector<double> per_particle(std::vector<double> totals, std::size_t particles) {
   for (double& value : totals) value /= static_cast<double>(particles);
@@ -31,8 +25,7 @@ Observables measure_run(const Frame<2>& frame) {
 
 EnergySeries stored_energies(StoredTrajectory& trajectory) {
   const TrajectoryReader& reader = trajectory.reader();
-  if (!has_observable(reader, "translational_energy") ||
-      !has_observable(reader, "rotational_energy"))
+  if (!reader.has_observable("translational_energy") || !reader.has_observable("rotational_energy"))
     return reader.has("velocity") ? energies(trajectory) : EnergySeries{};
   EnergySeries series;
   series.time = reader.times();
@@ -47,7 +40,7 @@ EnergySeries stored_energies(StoredTrajectory& trajectory) {
 CompressibilitySeries stored_compressibility(const TrajectoryReader& reader,
                                              const EnergySeries& energy, std::size_t rotors) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  if (energy.time.empty() || !has_observable(reader, "virial"))
+  if (energy.time.empty() || !reader.has_observable("virial"))
     return {{}, {}, {unknown, unknown, 0}};
   return compressibility(energy, reader.observable("virial"), reader.particles(), rotors);
 }

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <functional>
 #include <limits>
+#include <utility>
 
 namespace vitrel::lab {
 
@@ -14,8 +16,12 @@ namespace vitrel::lab {
 /// question that takes more than a millisecond is asked once.
 class TimedBatches {
  public:
-  explicit TimedBatches(double seconds = std::numeric_limits<double>::infinity())
-      : seconds_left_(seconds) {}
+  /// Seconds since some moment.
+  using Clock = std::function<double()>;
+
+  explicit TimedBatches(double seconds = std::numeric_limits<double>::infinity(),
+                        Clock clock = steady_clock)
+      : clock_(std::move(clock)), seconds_left_(seconds) {}
 
   /// How many of the `left` questions to ask next; 0 when the budget is used up.
   std::size_t next(std::size_t left) const {
@@ -33,11 +39,11 @@ class TimedBatches {
     double best = std::numeric_limits<double>::infinity();
     const int times = calls_ == 0 ? 1 : repeats();
     for (int k = 0; k < times; ++k) {
-      const auto start = std::chrono::steady_clock::now();
+      const double start = clock_();
       ask();
-      const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
-      best = std::min(best, spent.count());
-      seconds_left_ -= spent.count();
+      const double spent = clock_() - start;
+      best = std::min(best, spent);
+      seconds_left_ -= spent;
     }
     seconds_ += best;
     calls_ += count;
@@ -47,8 +53,13 @@ class TimedBatches {
   double ns_per_call() const { return 1e9 * seconds_ / static_cast<double>(calls_); }
 
  private:
+  static double steady_clock() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+  }
   int repeats() const { return seconds_ < 1e-3 * static_cast<double>(calls_) ? 3 : 1; }
 
+  Clock clock_;
   double seconds_left_;
   double seconds_ = 0;     // of the best runs
   std::size_t calls_ = 0;  // questions in them

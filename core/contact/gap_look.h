@@ -18,15 +18,16 @@ class GapLook<Ellipse> {
  public:
   static constexpr int lanes = many;
 
-  GapLook(const Ellipse& shape, double angle) : outline_(shape) {
+  GapLook(const Ellipse& shape, double angle, double /*limit*/) : outline_(shape) {
     Lanes x, y;
     directions<Lanes>({angle, angle}, x, y);
     ux_ = x[0];
     uy_ = y[0];
   }
 
-  /// Puts another body into a lane; d runs to its centre.
-  VITREL_INLINE void set(int k, const Ellipse& shape, double angle, const Vec2& d) {
+  /// Puts another body into a lane; d runs to its centre. False, and the lane stays free, if the gap
+  /// surely exceeds the limit.
+  VITREL_INLINE bool set(int k, const Ellipse& shape, double angle, const Vec2& d) {
     dx_[k] = d.x();
     dy_[k] = d.y();
     angle_[k] = angle;
@@ -34,9 +35,10 @@ class GapLook<Ellipse> {
     bb_[k] = bb;
     stretch_[k] = shape.stretch();
     aabb_[k] = shape.a * shape.a * bb;
+    return true;
   }
 
-  [[gnu::flatten]] void look(double /*limit*/) {
+  [[gnu::flatten]] void look() {
     const Body one{outline_.bb, outline_.stretch, outline_.aabb, ux_, uy_};
     Body two{bb_.all(), stretch_.all(), aabb_.all(), {}, {}};
     directions<Many>(angle_.all(), two.ux, two.uy);
@@ -115,15 +117,17 @@ class GapLook<Shape> {
  public:
   static constexpr int lanes = 8;
 
-  GapLook(const Shape& shape, const Orientation<dimension>&) : radius_(shape.radius) {}
+  GapLook(const Shape& shape, const Orientation<dimension>&, double /*limit*/)
+      : radius_(shape.radius) {}
 
-  VITREL_INLINE void set(int k, const Shape& shape, const Orientation<dimension>&,
+  VITREL_INLINE bool set(int k, const Shape& shape, const Orientation<dimension>&,
                          const Vec<dimension>& d) {
     for (int x = 0; x < dimension; ++x) d_[x][k] = d[x];
     radii_[k] = shape.radius;
+    return true;
   }
 
-  void look(double /*limit*/) {
+  void look() {
     detail::Simd<lanes> square = d_[0].all() * d_[0].all() + d_[1].all() * d_[1].all();
     if constexpr (dimension == 3) square += d_[2].all() * d_[2].all();
     gap_.store(sqrt(square) - (radii_.all() + radius_));

@@ -582,6 +582,11 @@ std::vector<std::string> TrajectoryReader::observable_names() const {
                                         : std::vector<std::string>();
 }
 
+bool TrajectoryReader::has_observable(const std::string& name) const {
+  const std::vector<std::string> names = observable_names();
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
 std::vector<double> TrajectoryReader::observable(const std::string& name) const {
   const h5::Dataset& values = dataset("observables/" + name + "/value", "one number per frame");
   std::vector<double> numbers = values.read<double>();

@@ -154,6 +154,7 @@ class TrajectoryReader {
   void require(const std::string& element, const std::string& purpose) const;
 
   std::vector<std::string> observable_names() const;
+  bool has_observable(const std::string& name) const;
   /// One value per frame.
   std::vector<double> observable(const std::string& name) const;
 

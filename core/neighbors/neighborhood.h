@@ -264,24 +264,25 @@ class Neighborhoods {
   void visit_near(std::size_t i, double limit, Visit&& visit) const {
     const Reference& mine = references_[i];
     const Shape one = scaled(shape(i), mine.size);
-    GapLook<Shape> look(one, mine.orientation);
+    GapLook<Shape> look(one, mine.orientation, limit);
     Image image[GapLook<Shape>::lanes];
     int count = 0;
     const auto judge = [&] {
-      look.look(limit);
+      look.look();
       for (int k = 0; k < count; ++k)
         if (look.gap(k) < limit)
           visit(Pair{look.gap(k), look.axis(k), static_cast<std::uint32_t>(i), image[k]});
       count = 0;
     };
-    references_.for_each_near(mine.position, reach_of(i, limit),
-                              [&](std::size_t j, const Shift<dimension>& shift, const Vector& d) {
-                                if (j == i && !comes_after_zero(shift)) return;
-                                const Reference& other = references_[j];
-                                look.set(count, scaled(shape(j), other.size), other.orientation, d);
-                                image[count++] = {j, shift};
-                                if (count == GapLook<Shape>::lanes) judge();
-                              });
+    references_.for_each_near(
+        mine.position, reach_of(i, limit),
+        [&](std::size_t j, const Shift<dimension>& shift, const Vector& d) {
+          if (j == i && !comes_after_zero(shift)) return;
+          const Reference& other = references_[j];
+          if (!look.set(count, scaled(shape(j), other.size), other.orientation, d)) return;
+          image[count++] = {j, shift};
+          if (count == GapLook<Shape>::lanes) judge();
+        });
     if (count > 0) judge();
   }
 

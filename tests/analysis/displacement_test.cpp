@@ -128,15 +128,6 @@ CoverageTable coverage_of_free_runs(std::size_t length, const std::vector<int>& 
   return coverage;
 }
 
-/// Frames 0, 1, 2, 5 and 10 steps after the start of every cycle of 20.
-MemoryTrajectory cycles(MemoryTrajectory& steps) {
-  std::vector<Configuration2> frames;
-  for (std::size_t k = 0; k < steps.frames(); ++k)
-    for (const std::size_t sampled : {0, 1, 2, 5, 10})
-      if (k % 20 == sampled) frames.push_back(steps.read(k));
-  return MemoryTrajectory(std::move(frames));
-}
-
 // All pairs of frames that many steps apart, one after another.
 TEST(Displacement, UnevenTimesAreAveragedOverAllPairsOfEqualDifference) {
   MemoryTrajectory steps = free_brownian(ellipses(20), 161, 8);

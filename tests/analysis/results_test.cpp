@@ -55,6 +55,8 @@ TEST_F(ResultsTest, Hdf5RoundTripKeepsEverythingBitByBit) {
   const Results read = read_results(folder_ / "results.h5");
 
   EXPECT_EQ(read.provenance, written.provenance);
+  EXPECT_EQ(read.text("version"), "0.1.0");
+  EXPECT_EQ(read.text("commit"), "");
   ASSERT_EQ(read.tables.size(), 2u);
   ASSERT_NE(read.find("energy"), nullptr);
   EXPECT_EQ(read.find("energy")->rows(), 0u);

@@ -10,12 +10,6 @@
 namespace vitrel {
 namespace {
 
-std::string note(const Results& results, const std::string& name) {
-  for (const auto& [key, text] : results.provenance)
-    if (key == name) return text;
-  return "";
-}
-
 Configuration2 ellipses_and_disks() {
   Configuration2 configuration = ellipses(150);
   configuration.species_names = {"ellipse", "disk"};
@@ -24,15 +18,6 @@ Configuration2 ellipses_and_disks() {
     configuration.species[i] = 1;
   }
   return configuration;
-}
-
-/// Frames 0, 1, 2, 5 and 10 steps after the start of every cycle of 20.
-MemoryTrajectory cycles(MemoryTrajectory& steps) {
-  std::vector<Configuration2> frames;
-  for (std::size_t k = 0; k < steps.frames(); ++k)
-    for (const std::size_t sampled : {0, 1, 2, 5, 10})
-      if (k % 20 == sampled) frames.push_back(steps.read(k));
-  return MemoryTrajectory(std::move(frames));
 }
 
 /// F_s = exp(−q² MSD/4) and L_n = exp(−n² MSR/2), MSD and MSR proportional to time.
@@ -51,9 +36,9 @@ void expect_closed_forms(Trajectory& trajectory) {
   EXPECT_EQ(table.find("group")->value, (std::vector<double>{0, 0, 0, 0, 1, 1, 1, 1, 2, 2}));
   EXPECT_EQ(table.find("kind")->value, (std::vector<double>{0, 0, 1, 1, 0, 0, 1, 1, 0, 0}));
   EXPECT_EQ(table.find("parameter")->value, (std::vector<double>{2, 3, 2, 4, 2, 3, 2, 4, 2, 3}));
-  EXPECT_EQ(note(results, "group_0"), "all");
-  EXPECT_EQ(note(results, "group_1"), "ellipse");
-  EXPECT_EQ(note(results, "group_2"), "disk");
+  EXPECT_EQ(results.text("group_0"), "all");
+  EXPECT_EQ(results.text("group_1"), "ellipse");
+  EXPECT_EQ(results.text("group_2"), "disk");
   const Column& tau = *table.find("tau");
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const double expected =
@@ -61,7 +46,7 @@ void expect_closed_forms(Trajectory& trajectory) {
     EXPECT_GT(tau.error[row], 0) << row;
     EXPECT_LT(tau.error[row], 0.1 * expected) << row;
     EXPECT_NEAR(tau.value[row], expected, 4 * tau.error[row] + 0.002 * expected) << row;
-    EXPECT_EQ(note(results, "relaxation_times_" + std::to_string(row)), "");
+    EXPECT_EQ(results.text("relaxation_times_" + std::to_string(row)), "");
   }
 }
 
@@ -88,8 +73,8 @@ TEST(RelaxationTables, SayWhyThereIsNoTime) {
   EXPECT_NEAR(table.find("least")->value[0], 5, 1e-12);
   EXPECT_TRUE(std::isnan(table.find("most")->value[0]));
   EXPECT_NEAR(table.find("most")->value[1], 0.1, 1e-12);
-  EXPECT_NE(note(results, "relaxation_times_0").find("still"), std::string::npos);
-  EXPECT_NE(note(results, "relaxation_times_1").find("already"), std::string::npos);
+  EXPECT_NE(results.text("relaxation_times_0").find("still"), std::string::npos);
+  EXPECT_NE(results.text("relaxation_times_1").find("already"), std::string::npos);
 }
 
 }  // namespace

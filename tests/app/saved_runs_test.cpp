@@ -214,9 +214,8 @@ TEST_F(SavedSweep, RunsAreOrderedByDensityThenBySeed) {
   ASSERT_EQ(run(folder.path(), {"analyze", "sweep", "-q"}).code, 0);
   const Results results = read_results(folder / "sweep/results.h5");
   std::vector<std::string> rows;
-  for (const auto& [name, text] : results.provenance)
-    if (name == "row_" + std::to_string(rows.size()))
-      rows.push_back(fs::path(text).parent_path().filename());
+  for (std::string file; !(file = results.text("row_" + std::to_string(rows.size()))).empty();)
+    rows.push_back(fs::path(file).parent_path().filename());
   EXPECT_THAT(rows, ElementsAre("packing_fraction-0.3_seed-2", "packing_fraction-0.3_seed-10",
                                 "packing_fraction-0.4_seed-2", "packing_fraction-0.4_seed-10"));
   const Table& runs = *results.find("runs");

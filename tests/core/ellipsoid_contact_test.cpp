@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/contact/ellipsoid_gap.h"
+#include "core/contact/ellipsoid_look.h"
 #include "core/contact/ellipsoid_pair_in_flight.h"
 #include "core/contact/first_contact.h"
 #include "core/tolerances.h"
@@ -154,6 +155,54 @@ TEST(EllipsoidPairInFlight, RatesAreDerivatives) {
         (gap(0.3 + h, ey) - gap(0.3 + h, -ey) - gap(0.3 - h, ey) + gap(0.3 - h, -ey)) / (4 * h * h),
         1e-3);
   }
+}
+
+// What a look says of several at once: a lower bound of the gap, mostly a good one; and nobody closer than
+// the limit is said to be far.
+TEST(GapLookAtEllipsoids, BoundsTheGapFromBelow) {
+  Stream draw(6, Purpose::tests);
+  constexpr int lanes = GapLook<Ellipsoid>::lanes;
+  int disjoint = 0, loose = 0, far = 0;
+  for (const double aspect : {1.5, 5.0, 30.0})
+    for (int trial = 0; trial < 500; ++trial) {
+      const Ellipsoid one = trial % 2 ? prolate(aspect) : random_ellipsoid(draw, aspect);
+      const Quaternion q1 = random_orientation(draw);
+      const double limit = draw.uniform(0, 0.3) * one.circumradius();
+      GapLook<Ellipsoid> look(one, q1, limit);
+      struct Other {
+        Ellipsoid shape;
+        Quaternion q;
+        Vec3 d;
+      } others[lanes];
+      for (int count = 0; count < lanes;) {
+        Other& other = others[count];
+        other = {trial % 2 ? prolate(aspect) : random_ellipsoid(draw, aspect),
+                 random_orientation(draw),
+                 {}};
+        other.d = draw.uniform(0.1, 1.2) * (one.circumradius() + other.shape.circumradius()) *
+                  random_direction(draw);
+        if (look.set(count, other.shape, other.q, other.d)) {
+          ++count;
+          continue;
+        }
+        ++far;
+        EXPECT_GT(support_gap(one, q1, other.shape, other.q, other.d).gap, limit);
+      }
+      look.look();
+      for (int k = 0; k < lanes; ++k) {
+        const auto& [shape, q, d] = others[k];
+        const double best = support_gap(one, q1, shape, q, d).gap;
+        const Vec3 n = look.axis(k);
+        EXPECT_NEAR(look.gap(k), n.dot(d) - support(one, q1, n) - support(shape, q, n), 1e-13);
+        EXPECT_LE(look.gap(k), std::max(best, 0.0) + 1e-13);
+        if (!(best > 0 && best < limit)) continue;
+        ++disjoint;
+        loose += look.gap(k) < 0.9 * best - 1e-2 * one.inradius();
+      }
+    }
+  EXPECT_GT(disjoint, 200);
+  EXPECT_LT(loose, 0.3 * disjoint);
+  EXPECT_GT(far, 1000);
 }
 
 template <class B>

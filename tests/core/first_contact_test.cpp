@@ -16,7 +16,7 @@ constexpr double pi = std::numbers::pi;
 constexpr double forever = std::numeric_limits<double>::infinity();
 
 Prediction2 predict(const Flight<Ellipse>& one, const Flight<Ellipse>& two,
-                   double horizon = forever) {
+                    double horizon = forever) {
   return first_contact(one, two, horizon, tolerance::contact_gap(one.body.a + two.body.a));
 }
 

@@ -62,7 +62,7 @@ TEST_P(GapLookAtEllipses, IsALowerBoundAndSeldomALooseOne) {
   for (int trial = 0; trial < 5'000; ++trial) {
     const Ellipse one = random_ellipse(draw, at.largest_aspect_ratio);
     const double angle = draw.uniform(-20, 20);
-    GapLook<Ellipse> look(one, angle);
+    GapLook<Ellipse> look(one, angle, std::numeric_limits<double>::infinity());
     std::array<Other, GapLook<Ellipse>::lanes> others;
     for (int k = 0; k < GapLook<Ellipse>::lanes; ++k) {
       const Ellipse shape = random_ellipse(draw, at.largest_aspect_ratio);
@@ -70,7 +70,7 @@ TEST_P(GapLookAtEllipses, IsALowerBoundAndSeldomALooseOne) {
       others[k] = {shape, draw.uniform(-20, 20), distance * direction(draw.uniform(0, 2 * pi))};
       look.set(k, others[k].shape, others[k].angle, others[k].d);
     }
-    look.look(std::numeric_limits<double>::infinity());
+    look.look();
     for (int k = 0; k < GapLook<Ellipse>::lanes; ++k) {
       const Other& other = others[k];
       const SupportGap best = support_gap(one, angle, other.shape, other.angle, other.d);
@@ -98,7 +98,7 @@ TEST(GapLookAtDisks, IsTheDistance) {
   Stream draw(52, Purpose::tests);
   for (int trial = 0; trial < 1'000; ++trial) {
     const Disk one{draw.uniform(0.5, 2)};
-    GapLook<Disk> look(one, draw.uniform(0, 7));
+    GapLook<Disk> look(one, draw.uniform(0, 7), std::numeric_limits<double>::infinity());
     double wanted[lanes];
     for (int k = 0; k < lanes; ++k) {
       const Disk other{draw.uniform(0.1, 3)};
@@ -106,7 +106,7 @@ TEST(GapLookAtDisks, IsTheDistance) {
       look.set(k, other, draw.uniform(0, 7), distance * direction(draw.uniform(0, 2 * pi)));
       wanted[k] = distance - one.radius - other.radius;
     }
-    look.look(std::numeric_limits<double>::infinity());
+    look.look();
     for (int k = 0; k < lanes; ++k) EXPECT_NEAR(look.gap(k), wanted[k], 1e-14);
   }
 }

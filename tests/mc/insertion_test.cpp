@@ -29,6 +29,36 @@ TEST(Insertion, GivesAHardStateAtThePackingFraction) {
   }
 }
 
+Configuration3 solids(std::size_t n, const Ellipsoid& shape, double edge) {
+  Configuration3 c;
+  c.resize(n);
+  for (Ellipsoid& s : c.shape) s = shape;
+  c.box = PeriodicBox<3>(Vec3::Constant(edge));
+  return c;
+}
+
+TEST(Insertion, OfSolidsGivesAHardStateAtThePackingFraction) {
+  for (const Vec3& axes : {Vec3(1, 1, 1), Vec3(2, 1, 0.5), Vec3(0.3, 2, 2)})
+    for (const double fraction : {1e-8, 0.2}) {
+      Configuration3 c = solids(300, {axes}, 40);
+      const InsertionReport report = insert_particles(c, {fraction, 100000, false}, 1, {});
+      EXPECT_EQ(report.end, StageEnd::reached) << report.reason;
+      EXPECT_NEAR(packing_fraction(c), fraction, 1e-12 * fraction);
+      EXPECT_TRUE(exact_check(c).clean());
+      for (const Quaternion& q : c.orientation) EXPECT_NEAR(q.norm(), 1, 1e-15);
+    }
+}
+
+TEST(Insertion, OfSolidsMindsTheirOwnImages) {
+  const Ellipsoid needle{Vec3(3, 0.1, 0.1)};
+  Configuration3 c = solids(3, needle, 5.9);
+  const StageReport report = insert_particles(c, {packing_fraction(c), 100000, false}, 1, {});
+  ASSERT_EQ(report.end, StageEnd::reached);
+  EXPECT_TRUE(exact_check(c).clean());
+  // Aligned, it overlaps its own image.
+  EXPECT_EQ(insert_particles(c, {packing_fraction(c), 1000, true}, 1, {}).end, StageEnd::stuck);
+}
+
 TEST(Insertion, IntoABoxOfOneParticleLengthMindsTheImages) {
   Configuration2 c = particles(3, {3, 0.1});
   c.box = PeriodicBox<2>(Vec2(6.1, 3));
@@ -49,6 +79,25 @@ TEST(Insertion, AlignedMeansAngleZero) {
   Configuration2 c = particles(50, of_aspect_ratio(4));
   insert_particles(c, {0.3, 100000, true}, 1, {});
   for (double angle : c.angle) EXPECT_EQ(angle, 0);
+}
+
+// As of ellipses: B₂ = V + S R of a convex body, S the surface and R the mean support function. Of a
+// prolate spheroid with c² = a² − b²: S = 2π b² + 2π a²b/c asin(c/a), R = (a + b²/c asinh(c/b))/2. Both
+// bodies are turned at random: wrongly turned ones would give another number.
+TEST(Insertion, FirstRejectionOfSpheroidsGivesTheSecondVirialCoefficient) {
+  const double a = 2, b = 0.4, c = std::sqrt(a * a - b * b);
+  const Ellipsoid shape{Vec3(b, a, b)};
+  const double surface = 2 * std::numbers::pi * (b * b + a * a * b / c * std::asin(c / a));
+  const double b2 = shape.volume() + surface * 0.5 * (a + b * b / c * std::asinh(c / b));
+  const int throws = 40'000;
+  int rejected = 0;
+  for (int k = 0; k < throws; ++k) {
+    Configuration3 pair = solids(2, shape, 8);
+    const double fraction = packing_fraction(pair);
+    rejected += insert_particles(pair, {fraction, 1, false}, k, {}).end == StageEnd::stuck;
+  }
+  const double p = 2 * b2 / 512;
+  EXPECT_NEAR(rejected, p * throws, 4 * std::sqrt(throws * p * (1 - p)));
 }
 
 // Two ellipses thrown at random overlap with probability 2 B₂/V, B₂ = A + P²/(4π) exactly: the

@@ -57,6 +57,15 @@ inline MemoryTrajectory free_brownian(Configuration2 configuration, std::size_t 
   return MemoryTrajectory(std::move(saved));
 }
 
+/// Frames 0, 1, 2, 5 and 10 steps after the start of every cycle of 20.
+inline MemoryTrajectory cycles(MemoryTrajectory& steps) {
+  std::vector<Configuration2> frames;
+  for (std::size_t k = 0; k < steps.frames(); ++k)
+    for (const std::size_t sampled : {0, 1, 2, 5, 10})
+      if (k % 20 == sampled) frames.push_back(steps.read(k));
+  return MemoryTrajectory(std::move(frames));
+}
+
 /// Mean squared displacement and rotation of mass 1 after a time of whole steps.
 inline double free_msd(double time) {
   return 2 * brownian_step * time;

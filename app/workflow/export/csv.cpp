@@ -5,17 +5,13 @@
 #include <iterator>
 
 namespace vitrel {
-namespace {
 
-/// A text that holds a comma, a quote or a line break stands in quotes, quotes in it doubled.
-std::string field(const std::string& text) {
+std::string csv_field(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
   return quoted + '"';
 }
-
-}  // namespace
 
 CsvSink::CsvSink(const std::filesystem::path& path, StoredMotion motion)
     : file_(path), motion_(motion) {
@@ -40,7 +36,7 @@ void CsvSink::write(const StoredFrame& frame) {
     const Vec2 unwrapped = configuration.unwrapped(i);
     const Ellipse& shape = configuration.shape[i];
     fmt::format_to(out, "{},{},{},{},{},{},{},{},{},{},{}", start, i,
-                   field(configuration.species_names[configuration.species[i]]), position.x(),
+                   csv_field(configuration.species_names[configuration.species[i]]), position.x(),
                    position.y(), unwrapped.x(), unwrapped.y(), configuration.angle[i], shape.a,
                    shape.b, configuration.mass[i]);
     if (motion_.velocities)

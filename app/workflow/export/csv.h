@@ -1,10 +1,14 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "app/workflow/export/frame_sink.h"
 
 namespace vitrel {
+
+/// A text that holds a comma, a quote or a line break stands in quotes, quotes in it doubled.
+std::string csv_field(const std::string& text);
 
 /// A trajectory as one table: a line per frame and particle, after one line of `name [unit]`, every
 /// number with the digits, 17 at most, that give the same double back.
