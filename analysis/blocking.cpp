@@ -1,5 +1,7 @@
 #include "analysis/blocking.h"
 
+#include <gsl/gsl_cdf.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -142,6 +144,15 @@ Estimate independent_average(std::size_t count, double sum, double sum_of_square
   // Rounding can make the variance of equal values a little negative.
   const double variance = std::max(0.0, (sum_of_squares - n * mean * mean) / (n - 1));
   return {mean, std::sqrt(variance / n) * student_factor(count - 1), count};
+}
+
+ConfidenceInterval confidence_interval(std::span<const double> values, double level) {
+  const double mean = mean_of(values), n = static_cast<double>(values.size());
+  if (values.size() < 2) return {mean, none};
+  double squares = 0;
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  const double quantile = gsl_cdf_tdist_Pinv(0.5 * (1 + level), n - 1);
+  return {mean, quantile * std::sqrt(squares / (n - 1) / n)};
 }
 
 double student_factor(std::size_t degrees_of_freedom) {

@@ -86,6 +86,14 @@ inline constexpr std::size_t fewest_blocks = 8;
 /// error is NaN for fewer than two values.
 Estimate independent_average(std::size_t count, double sum, double sum_of_squares);
 
+/// The mean of n ≥ 2 independent values and the half-width t s/√n of the interval that covers the true one with
+/// probability `level`: s² is their variance, t Student's quantile for n − 1 degrees of freedom, exact for
+/// normal values. NaN for fewer values.
+struct ConfidenceInterval {
+  double mean, half_width;
+};
+ConfidenceInterval confidence_interval(std::span<const double> values, double level = 0.95);
+
 /// Half-width of the central 68.27 % interval of Student's distribution, in units of the standard
 /// error: 1 + 1/(2ν) + 1/(4ν²) + 1/(16ν³) − …, the Cornish–Fisher expansion at one standard
 /// deviation (Abramowitz & Stegun 26.7.5). Relative error below 1e-3 for ν ≥ 3 degrees of freedom.

@@ -47,6 +47,29 @@ double transformed_spline(double x) {
   return x == 0 ? 1 : std::pow(std::sin(pi * x) / (pi * x), spline_order);
 }
 
+/// weight × the splines of the axes from K on, added to the nodes from `grid` on.
+template <std::size_t K, std::size_t Dim>
+void add_splines(double* grid, double weight, const std::array<SplineValues, Dim>& splines,
+                 const std::array<std::size_t, Dim>& pitch) {
+  for (std::size_t k = 0; k < spline_order; ++k) {
+    if constexpr (K + 1 == Dim)
+      grid[k] += weight * splines[K][k];
+    else
+      add_splines<K + 1>(grid + k * pitch[K], weight * splines[K][k], splines, pitch);
+  }
+}
+
+/// Of the axes but the last the next numbers from −most to most, the last of them fastest; false after
+/// the last.
+template <std::size_t Dim>
+bool advance(std::array<int, Dim>& n, const std::array<int, Dim>& most) {
+  for (std::size_t k = Dim - 1; k-- > 0;) {
+    if (n[k]++ < most[k]) return true;
+    n[k] = -most[k];
+  }
+  return false;
+}
+
 int least_nodes(double length, double to) {
   const double least = length * to / (2 * pi * largest_grid_wave);
   return std::max(spline_order, static_cast<int>(std::ceil(least)));
@@ -60,6 +83,18 @@ int fast_size(int n) {
       while (rest % prime == 0) rest /= prime;
     if (rest == 1) return n;
   }
+}
+
+template <std::size_t Dim>
+Vec<static_cast<int>(Dim)> as_vector(const std::array<int, Dim>& n) {
+  Vec<static_cast<int>(Dim)> vector;
+  for (std::size_t k = 0; k < Dim; ++k) vector[static_cast<Eigen::Index>(k)] = n[k];
+  return vector;
+}
+
+/// Written out: the operator's care for infinities takes several times as long.
+std::complex<double> product(const std::complex<double>& p, const std::complex<double>& q) {
+  return {p.real() * q.real() - p.imag() * q.imag(), p.real() * q.imag() + p.imag() * q.real()};
 }
 
 template <class T>
@@ -78,76 +113,127 @@ Array<fftw_complex> complex_array(std::size_t n) {
 
 }  // namespace
 
-double alias_bound(const Vec2& x) {
-  return sum_of_images(x.x()) * sum_of_images(x.y()) - 1;
+template <int Dim>
+double alias_bound(const Vec<Dim>& x) {
+  double product = 1;
+  for (const double component : x) product *= sum_of_images(component);
+  return product - 1;
 }
 
-/// From a grid whose rows and columns go on beyond the period, to n_x × (n_y/2 + 1) modes.
-struct DensityGrid::Transform {
-  Transform(const int (&count)[2], std::size_t row)
-      : reals((count[0] + spline_order) * row), complexes(count[0] * (count[1] / 2 + 1)) {
+/// From a grid that goes on beyond the period in every direction, to n_x × … × (n_last/2 + 1) modes.
+template <int Dim>
+struct DensityGrid<Dim>::Transform {
+  explicit Transform(const std::array<int, Dim>& count) {
+    std::array<int, Dim> in_size;
+    for (std::size_t k = 0; k < Dim; ++k) {
+      in_size[k] = count[k] + spline_order;
+      reals *= static_cast<std::size_t>(in_size[k]);
+      complexes *= static_cast<std::size_t>(k + 1 < Dim ? count[k] : count[k] / 2 + 1);
+    }
     const Array<double> in = real_array(reals);
     const Array<fftw_complex> out = complex_array(complexes);
-    const int in_size[2] = {count[0] + spline_order, static_cast<int>(row)};
-    plan = fftw_plan_many_dft_r2c(2, count, 1, in.get(), in_size, 1, 0, out.get(), nullptr, 1, 0,
-                                  FFTW_ESTIMATE);
+    plan = fftw_plan_many_dft_r2c(Dim, count.data(), 1, in.get(), in_size.data(), 1, 0, out.get(),
+                                  nullptr, 1, 0, FFTW_ESTIMATE);
   }
   ~Transform() { fftw_destroy_plan(plan); }
   Transform(const Transform&) = delete;
   Transform& operator=(const Transform&) = delete;
 
-  std::size_t reals, complexes;
+  std::size_t reals = 1, complexes = 1;
   fftw_plan plan;
 };
 
-DensityGrid::DensityGrid(const Vec2& lengths, double from, double to) : lengths_(lengths) {
-  for (int k = 0; k < 2; ++k) count_[k] = fast_size(least_nodes(lengths[k], to));
-  row_ = static_cast<std::size_t>(count_[1] + spline_order);
-  transform_ = std::make_unique<Transform>(count_, row_);
+template <int Dim>
+DensityGrid<Dim>::DensityGrid(const Vec<Dim>& lengths, double from, double to) : lengths_(lengths) {
+  for (int k = 0; k < Dim; ++k) count_[k] = fast_size(least_nodes(lengths[k], to));
+  std::size_t pitch = 1;
+  for (std::size_t k = Dim; k-- > 0;) {
+    pitch_[k] = pitch;
+    pitch *= static_cast<std::size_t>(count_[k] + spline_order);
+  }
+  transform_ = std::make_unique<Transform>(count_);
   list_wave_vectors(from, to);
 }
 
-DensityGrid::~DensityGrid() = default;
-DensityGrid::DensityGrid(DensityGrid&&) noexcept = default;
+template <int Dim>
+DensityGrid<Dim>::~DensityGrid() = default;
+template <int Dim>
+DensityGrid<Dim>::DensityGrid(DensityGrid&&) noexcept = default;
 
-double DensityGrid::nodes(const Vec2& lengths, double to) {
-  return static_cast<double>(least_nodes(lengths.x(), to)) * least_nodes(lengths.y(), to);
+template <int Dim>
+double DensityGrid<Dim>::nodes(const Vec<Dim>& lengths, double to) {
+  double nodes = 1;
+  for (const double length : lengths) nodes *= least_nodes(length, to);
+  return nodes;
 }
 
-void DensityGrid::list_wave_vectors(double from, double to) {
-  const Vec2 unit = 2 * pi * lengths_.cwiseInverse();
-  const int most_x = static_cast<int>(to / unit.x());
-  const int most_y = static_cast<int>(to / unit.y());
-  for (int x = -most_x; x <= most_x; ++x)
-    for (int y = x > 0 ? 0 : 1; y <= most_y; ++y) {
-      const double q = unit.cwiseProduct(Vec2(x, y)).norm();
-      if (q >= to) break;
-      if (q < from) continue;
-      wave_vectors_.push_back({x, y, q});
-      index_.push_back(static_cast<std::size_t>(x < 0 ? x + count_[0] : x) * (count_[1] / 2 + 1) +
-                       y);
-      const double sign = (x + y) % 2 == 0 ? 1 : -1;
-      gain_.push_back(sign / (transformed_spline(static_cast<double>(x) / count_[0]) *
-                              transformed_spline(static_cast<double>(y) / count_[1])));
-    }
+template <int Dim>
+Vec<Dim> DensityGrid<Dim>::spacing() const {
+  Vec<Dim> spacing = lengths_;
+  for (int k = 0; k < Dim; ++k) spacing[k] /= count_[k];
+  return spacing;
 }
 
-/// Where a point lies: the first of its p nodes in both directions, and how far beyond the middle left
+template <int Dim>
+void DensityGrid<Dim>::list_wave_vectors(double from, double to) {
+  WaveVector<Dim> first{};
+  std::array<int, Dim> most;
+  for (int k = 0; k < Dim; ++k) {
+    most[k] = static_cast<int>(to * lengths_[k] / (2 * pi));
+    first.n[k] = -most[k];
+  }
+  do list_row(first, from, to);
+  while (advance(first.n, most));
+}
+
+/// Those that begin with the same numbers, as far as their last number other than 0 is positive.
+template <int Dim>
+void DensityGrid<Dim>::list_row(WaveVector<Dim> wave, double from, double to) {
+  const Vec<Dim> unit = 2 * pi * lengths_.cwiseInverse();
+  const auto last = std::find_if(wave.n.rbegin() + 1, wave.n.rend(), [](int n) { return n != 0; });
+  for (int& n = wave.n.back() = last != wave.n.rend() && *last > 0 ? 0 : 1;; ++n) {
+    wave.wave_number = unit.cwiseProduct(as_vector(wave.n)).norm();
+    if (wave.wave_number >= to) break;
+    if (wave.wave_number >= from) list(wave);
+  }
+}
+
+template <int Dim>
+void DensityGrid<Dim>::list(const WaveVector<Dim>& wave) {
+  std::size_t index = 0;
+  int sum = 0;
+  double spline = 1;
+  for (std::size_t k = 0; k < Dim; ++k) {
+    const int n = wave.n[k], count = count_[k];
+    index = index * static_cast<std::size_t>(k + 1 < Dim ? count : count / 2 + 1) +
+            static_cast<std::size_t>(n < 0 ? n + count : n);
+    sum += n;
+    spline *= transformed_spline(static_cast<double>(n) / count);
+  }
+  wave_vectors_.push_back(wave);
+  index_.push_back(index);
+  gain_.push_back((sum % 2 == 0 ? 1 : -1) / spline);
+}
+
+/// Where a point lies: the first of its p nodes in every direction, and how far beyond the middle left
 /// one.
-struct DensityGrid::Place {
+template <int Dim>
+struct DensityGrid<Dim>::Place {
   std::size_t point;
-  std::size_t first[2];
-  double fraction[2];
+  std::size_t first[Dim];
+  double fraction[Dim];
 };
 
-// Sorted by rows: points next to each other then write to the same part of the grid, which the cache
-// keeps.
-std::vector<DensityGrid::Place> DensityGrid::places(std::span<const Vec2> positions) const {
+// Sorted along the first axis: points next to each other then write to the same part of the grid, which
+// the cache keeps.
+template <int Dim>
+std::vector<typename DensityGrid<Dim>::Place> DensityGrid<Dim>::places(
+    std::span<const Vec<Dim>> positions) const {
   std::vector<Place> places;
   std::vector<std::size_t> next(static_cast<std::size_t>(count_[0]) + 1, 0);
   for (std::size_t i = 0; i < positions.size(); ++i) {
     Place& place = places.emplace_back(Place{i, {}, {}});
-    for (int k = 0; k < 2; ++k) {
+    for (int k = 0; k < Dim; ++k) {
       double box = positions[i][k] / lengths_[k] + 0.5;
       box -= std::floor(box);
       const double at = box * count_[k];
@@ -164,34 +250,35 @@ std::vector<DensityGrid::Place> DensityGrid::places(std::span<const Vec2> positi
   return sorted;
 }
 
-void DensityGrid::spread(const Place& place, const std::vector<Weights>& fields,
-                         const std::vector<double*>& grids) const {
-  const SplineValues across = spline_values(place.fraction[0]);
-  const SplineValues along = spline_values(place.fraction[1]);
+template <int Dim>
+void DensityGrid<Dim>::spread(const Place& place, const std::vector<Weights>& fields,
+                              const std::vector<double*>& grids) const {
+  std::array<SplineValues, Dim> splines;
+  std::size_t first = 0;
+  for (std::size_t k = 0; k < Dim; ++k) {
+    splines[k] = spline_values(place.fraction[k]);
+    first += place.first[k] * pitch_[k];
+  }
   for (std::size_t f = 0; f < fields.size(); ++f) {
     const double weight = fields[f][place.point];
-    if (weight == 0) continue;
-    double* row = grids[f] + place.first[0] * row_ + place.first[1];
-    for (int k = 0; k < spline_order; ++k, row += row_) {
-      const double factor = weight * across[k];
-      for (int l = 0; l < spline_order; ++l) row[l] += factor * along[l];
-    }
+    if (weight != 0) add_splines<0>(grids[f] + first, weight, splines, pitch_);
   }
 }
 
 // What lies beyond the end of the period belongs to its beginning.
-void DensityGrid::close_period(double* grid) const {
-  const auto rows = static_cast<std::size_t>(count_[0]),
-             columns = static_cast<std::size_t>(count_[1]);
-  for (std::size_t x = 0; x < rows + spline_order; ++x)
-    for (std::size_t y = 0; y < spline_order; ++y)
-      grid[x * row_ + y] += grid[x * row_ + columns + y];
-  for (std::size_t x = 0; x < spline_order; ++x)
-    for (std::size_t y = 0; y < columns; ++y) grid[x * row_ + y] += grid[(rows + x) * row_ + y];
+template <int Dim>
+void DensityGrid<Dim>::close_period(double* grid) const {
+  for (std::size_t k = Dim; k-- > 0;) {
+    const std::size_t period = static_cast<std::size_t>(count_[k]) * pitch_[k];
+    const std::size_t beyond = spline_order * pitch_[k];
+    for (std::size_t line = 0; line < transform_->reals; line += period + beyond)
+      for (std::size_t at = line; at < line + beyond; ++at) grid[at] += grid[at + period];
+  }
 }
 
-std::vector<Modes> DensityGrid::modes(std::span<const Vec2> positions,
-                                      const std::vector<Weights>& fields) const {
+template <int Dim>
+std::vector<Modes> DensityGrid<Dim>::modes(std::span<const Vec<Dim>> positions,
+                                           const std::vector<Weights>& fields) const {
   std::vector<Array<double>> memory;
   std::vector<double*> grids;
   for (std::size_t f = 0; f < fields.size(); ++f) {
@@ -215,33 +302,41 @@ std::vector<Modes> DensityGrid::modes(std::span<const Vec2> positions,
   return result;
 }
 
-std::vector<Modes> direct_modes(const Vec2& lengths, std::span<const WaveVector> wave_vectors,
-                                std::span<const Vec2> positions,
+template <int Dim>
+std::vector<Modes> direct_modes(const Vec<Dim>& lengths,
+                                const std::vector<WaveVector<Dim>>& wave_vectors,
+                                const std::vector<Vec<Dim>>& positions,
                                 const std::vector<Weights>& fields) {
-  int most_x = 0, most_y = 0;
-  for (const WaveVector& q : wave_vectors) {
-    most_x = std::max(most_x, std::abs(q.x));
-    most_y = std::max(most_y, std::abs(q.y));
-  }
-  const auto waves = [](double phase, int most) {
-    Modes wave;
-    for (int n = -most; n <= most; ++n) wave.push_back(std::polar(1.0, -phase * n));
-    return wave;
-  };
+  std::array<int, Dim> most{};
+  for (const WaveVector<Dim>& q : wave_vectors)
+    for (std::size_t k = 0; k < Dim; ++k) most[k] = std::max(most[k], std::abs(q.n[k]));
   std::vector<Modes> result(fields.size(), Modes(wave_vectors.size()));
+  std::array<Modes, Dim> waves;  // exp(−2πi n r/L) from n = −most to most
   for (std::size_t i = 0; i < positions.size(); ++i) {
-    const Modes x = waves(2 * pi * positions[i].x() / lengths.x(), most_x);
-    const Modes y = waves(2 * pi * positions[i].y() / lengths.y(), most_y);
-    for (std::size_t k = 0; k < wave_vectors.size(); ++k) {
-      const std::complex<double>& p = x[wave_vectors[k].x + most_x];
-      const std::complex<double>& q = y[wave_vectors[k].y + most_y];
-      // Written out: the operator's care for infinities takes several times as long.
-      const std::complex<double> wave(p.real() * q.real() - p.imag() * q.imag(),
-                                      p.real() * q.imag() + p.imag() * q.real());
-      for (std::size_t f = 0; f < fields.size(); ++f) result[f][k] += fields[f][i] * wave;
+    for (std::size_t k = 0; k < Dim; ++k) {
+      const double phase = 2 * pi * positions[i][k] / lengths[k];
+      waves[k].clear();
+      for (int n = -most[k]; n <= most[k]; ++n) waves[k].push_back(std::polar(1.0, -phase * n));
+    }
+    for (std::size_t q = 0; q < wave_vectors.size(); ++q) {
+      const std::array<int, Dim>& n = wave_vectors[q].n;
+      std::complex<double> wave = waves[0][n[0] + most[0]];
+      for (std::size_t k = 1; k < Dim; ++k) wave = product(wave, waves[k][n[k] + most[k]]);
+      for (std::size_t f = 0; f < fields.size(); ++f) result[f][q] += fields[f][i] * wave;
     }
   }
   return result;
 }
+
+template double alias_bound<2>(const Vec<2>&);
+template class DensityGrid<2>;
+template std::vector<Modes> direct_modes<2>(const Vec<2>&, const std::vector<WaveVector<2>>&,
+                                            const std::vector<Vec<2>>&,
+                                            const std::vector<Weights>&);
+template double alias_bound<3>(const Vec<3>&);
+template class DensityGrid<3>;
+template std::vector<Modes> direct_modes<3>(const Vec<3>&, const std::vector<WaveVector<3>>&,
+                                            const std::vector<Vec<3>>&,
+                                            const std::vector<Weights>&);
 
 }  // namespace vitrel

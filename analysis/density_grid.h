@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <complex>
 #include <cstddef>
 #include <memory>
@@ -11,9 +12,10 @@
 /// Fourier modes of weighted points in a periodic box, all of them at once.
 namespace vitrel {
 
-/// q = 2π (n_x/L_x, n_y/L_y).
+/// q = 2π (n_x/L_x, n_y/L_y …).
+template <int Dim>
 struct WaveVector {
-  int x, y;            ///< n_x, n_y
+  std::array<int, Dim> n;
   double wave_number;  ///< |q|
 };
 
@@ -28,13 +30,14 @@ inline constexpr int spline_order = 12;
 inline constexpr double largest_grid_wave = 0.24;
 inline constexpr double alias_tolerance = 1e-6;
 
-/// Bound of the aliasing at x = q h/2π, |x_k| < 1/2 (q_k h_k in both directions):
-///   ε = A(x_x) A(x_y) − 1,  A(x) = Σ_m |x/(x + m)|^p over all whole m.
-double alias_bound(const Vec2& x);
+/// Bound of the aliasing at x = q h/2π, |x_k| < 1/2 (q_k h_k in every direction):
+///   ε = Π_k A(x_k) − 1,  A(x) = Σ_m |x/(x + m)|^p over all whole m.
+template <int Dim>
+double alias_bound(const Vec<Dim>& x);
 
 /// ρ(q) by a Fourier transform (essmann1995).
 ///
-/// 1. Every point spreads its weight over the p × p nearest nodes of a grid, with the cardinal
+/// 1. Every point spreads its weight over the p^D nearest nodes of a grid, with the cardinal
 ///    B-spline of order p in each direction.
 /// 2. The discrete Fourier transform of the grid is ρ(q) ŵ(q) and its images ρ(q') ŵ(q'), q' = q +
 ///    2π m/h with whole numbers m, where ŵ(q) = Π_k (sin(q_k h_k/2)/(q_k h_k/2))^p.
@@ -42,52 +45,56 @@ double alias_bound(const Vec2& x);
 /// |ρ(q')| is at most Σ|w_j|, so, rounding apart,
 ///   |error of ρ(q)| ≤ alias_bound(q h/2π) Σ_j |w_j| ≤ alias_tolerance Σ_j |w_j|.
 /// A lattice in step with the grid comes up to it; for points without order the error is about
-/// √N/N of that. Cost p² per point and field, and that of a transform of
-/// L_x L_y (to/(2π · 0.24))² nodes per field.
+/// √N/N of that. Cost p^D per point and field, and that of a transform of
+/// Π_k L_k to/(2π · 0.24) nodes per field.
 ///
 /// To be made and destroyed by one thread at a time (FFTW's planner); `modes` may be called by many.
 /// The plan is one that does not depend on measured times, so equal points give equal modes.
+template <int Dim>
 class DensityGrid {
  public:
   /// For the wave vectors with from ≤ |q| < to, except q = 0.
-  DensityGrid(const Vec2& lengths, double from, double to);
+  DensityGrid(const Vec<Dim>& lengths, double from, double to);
   ~DensityGrid();
   DensityGrid(DensityGrid&&) noexcept;
 
   /// One of each q and −q, since ρ(−q) is the conjugate of ρ(q).
-  const std::vector<WaveVector>& wave_vectors() const { return wave_vectors_; }
-  /// h in both directions.
-  Vec2 spacing() const { return {lengths_.x() / count_[0], lengths_.y() / count_[1]}; }
+  const std::vector<WaveVector<Dim>>& wave_vectors() const { return wave_vectors_; }
+  /// h in every direction.
+  Vec<Dim> spacing() const;
   /// For every field the modes of the wave vectors, in their order. Positions need not be wrapped.
-  std::vector<Modes> modes(std::span<const Vec2> positions,
+  std::vector<Modes> modes(std::span<const Vec<Dim>> positions,
                            const std::vector<Weights>& fields) const;
 
   /// How many nodes a grid takes for wave numbers up to this one, about.
-  static double nodes(const Vec2& lengths, double to);
+  static double nodes(const Vec<Dim>& lengths, double to);
 
  private:
   struct Transform;
-
-  void list_wave_vectors(double from, double to);
   struct Place;
 
-  std::vector<Place> places(std::span<const Vec2> positions) const;
+  void list_wave_vectors(double from, double to);
+  void list_row(WaveVector<Dim> wave, double from, double to);
+  void list(const WaveVector<Dim>& wave);
+  std::vector<Place> places(std::span<const Vec<Dim>> positions) const;
   void spread(const Place& place, const std::vector<Weights>& fields,
               const std::vector<double*>& grids) const;
   void close_period(double* grid) const;
 
-  Vec2 lengths_;
-  int count_[2];     // nodes
-  std::size_t row_;  // numbers in a row of the grid, with those beyond the period
-  std::vector<WaveVector> wave_vectors_;
+  Vec<Dim> lengths_;
+  std::array<int, Dim> count_;          // nodes
+  std::array<std::size_t, Dim> pitch_;  // numbers from node to node, with those beyond the period
+  std::vector<WaveVector<Dim>> wave_vectors_;
   std::vector<std::size_t> index_;  // of each wave vector, in the transformed grid
   std::vector<double> gain_;        // 1/ŵ, and the sign for an origin in the middle of the box
   std::unique_ptr<Transform> transform_;
 };
 
 /// The same by direct sums, exact up to rounding: cost (points) × (wave vectors) per field.
-std::vector<Modes> direct_modes(const Vec2& lengths, std::span<const WaveVector> wave_vectors,
-                                std::span<const Vec2> positions,
+template <int Dim>
+std::vector<Modes> direct_modes(const Vec<Dim>& lengths,
+                                const std::vector<WaveVector<Dim>>& wave_vectors,
+                                const std::vector<Vec<Dim>>& positions,
                                 const std::vector<Weights>& fields);
 
 }  // namespace vitrel

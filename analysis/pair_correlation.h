@@ -13,20 +13,23 @@ struct PairCorrelationOptions {
 };
 
 /// One entry per bin, the k-th from k to k + 1 steps, as far as whole bins fit below distance_max
-/// and half the shorter side of the box, so that the nearest image is the only one.
+/// and half the shortest side of the box, so that the nearest image is the only one.
 struct PairCorrelation {
   std::vector<double> distance;  ///< middle of the bin
-  /// g(r): pairs in the bin over N (N − 1)/2 · π(r₂² − r₁²)/(L_x L_y), those of N particles
-  /// anywhere: 1 on the average at every r in an ideal gas, and far out in a liquid up to O(1/N).
+  /// g(r): pairs in the bin over N (N − 1)/2 · π(r₂² − r₁²)/(L_x L_y), in three dimensions
+  /// N (N − 1)/2 · 4π(r₂³ − r₁³)/(3 L_x L_y L_z), those of N particles anywhere: 1 on the average at
+  /// every r in an ideal gas, and far out in a liquid up to O(1/N).
   std::vector<double> g;
-  /// g_n(r) = ⟨cos n(θ_i − θ_j)⟩ over the pairs of particles that are not round: 1 where all are
-  /// parallel, 0 without order. Without two such particles NaN, as in a bin without such pairs.
+  /// In two dimensions: g_n(r) = ⟨cos n(θ_i − θ_j)⟩ over the pairs of particles that are not round: 1
+  /// where all are parallel, 0 without order. Without two such particles NaN, as in a bin without such
+  /// pairs.
   std::vector<double> g_2, g_4;
   std::vector<double> rotor_pairs;  ///< behind g_2 and g_4
 };
 
 /// Every pair once, found by cells: cost N · (particles within distance_max).
-PairCorrelation pair_correlation(const Configuration2& configuration,
+template <int Dim>
+PairCorrelation pair_correlation(const Configuration<Dim>& configuration,
                                  const PairCorrelationOptions& options = {});
 
 }  // namespace vitrel

@@ -14,25 +14,34 @@ constexpr double most_nodes = 1 << 18;
 
 /// What the modes are made of: the density of every species, and the orientations.
 struct Fields {
-  explicit Fields(const Configuration2& c)
-      : species(std::max<std::size_t>(1, c.species_names.size())),
-        members(species, 0),
-        rotors(rotor_count(c)) {
-    weights.assign(species + (rotors > 0 ? 2 : 0), Weights(c.size(), 0.0));
+  template <int Dim>
+  explicit Fields(const Configuration<Dim>& c)
+      : species(std::max<std::size_t>(1, c.species_names.size())), members(species, 0) {
+    weights.assign(species, Weights(c.size(), 0.0));
     for (std::size_t i = 0; i < c.size(); ++i) {
       const auto kind = static_cast<std::size_t>(c.species[i]);
       weights[kind][i] = 1;
       members[kind] += 1;
+    }
+    if constexpr (Dim == 2) add_orientations(c);
+  }
+
+  std::size_t species;
+  std::vector<double> members;
+  std::size_t rotors = 0;
+  std::vector<Weights> weights;
+
+ private:
+  void add_orientations(const Configuration2& c) {
+    rotors = rotor_count(c);
+    if (rotors == 0) return;
+    weights.resize(species + 2, Weights(c.size(), 0.0));
+    for (std::size_t i = 0; i < c.size(); ++i) {
       if (c.shape[i].is_round()) continue;
       weights[species][i] = std::cos(2 * c.angle[i]);
       weights[species + 1][i] = std::sin(2 * c.angle[i]);
     }
   }
-
-  std::size_t species;
-  std::vector<double> members;
-  std::size_t rotors;
-  std::vector<Weights> weights;
 };
 
 /// Sums over the wave vectors of every shell.
@@ -92,33 +101,36 @@ class ShellSums {
 
 }  // namespace
 
-ScatteringShells::ScatteringShells(const Vec2& lengths, const ShellOptions& options)
+template <int Dim>
+ScatteringShells<Dim>::ScatteringShells(const Vec<Dim>& lengths, const ShellOptions& options)
     : step_(options.wave_number_step) {
   // A quotient that rounding leaves just above a whole number makes no further shell.
   shells_ = static_cast<std::size_t>(std::ceil(options.wave_number_max / step_ * (1 - 1e-12)));
   const auto end_of = [&](std::size_t shell) {
     return std::min(static_cast<double>(shell + 1) * step_, options.wave_number_max);
   };
-  Vec2 folded = lengths;
+  Vec<Dim> folded = lengths;
   for (std::size_t first = 0; first < shells_;) {
-    while (DensityGrid::nodes(folded, end_of(first)) > most_nodes) {
+    while (DensityGrid<Dim>::nodes(folded, end_of(first)) > most_nodes) {
       const double longest = folded.maxCoeff();
-      for (int k = 0; k < 2; ++k)
+      for (int k = 0; k < Dim; ++k)
         if (folded[k] > 0.5 * longest) folded[k] *= 0.5;
     }
     std::size_t end = first + 1;
-    while (end < shells_ && DensityGrid::nodes(folded, end_of(end)) <= most_nodes) ++end;
+    while (end < shells_ && DensityGrid<Dim>::nodes(folded, end_of(end)) <= most_nodes) ++end;
     const double from = static_cast<double>(first) * step_;
-    levels_.push_back({folded, DensityGrid(folded, from, end_of(end - 1)), first, end});
+    levels_.push_back({folded, DensityGrid<Dim>(folded, from, end_of(end - 1)), first, end});
     first = end;
   }
 }
 
-StructureFactor ScatteringShells::averaged(const Configuration2& configuration, bool direct) const {
+template <int Dim>
+StructureFactor ScatteringShells<Dim>::averaged(const Configuration<Dim>& configuration,
+                                                bool direct) const {
   const Fields fields(configuration);
   ShellSums sums(fields, shells_);
   for (const Level& level : levels_) {
-    const std::vector<WaveVector>& waves = level.grid.wave_vectors();
+    const std::vector<WaveVector<Dim>>& waves = level.grid.wave_vectors();
     const std::vector<Modes> modes =
         direct ? direct_modes(level.lengths, waves, configuration.position, fields.weights)
                : level.grid.modes(configuration.position, fields.weights);
@@ -132,19 +144,26 @@ StructureFactor ScatteringShells::averaged(const Configuration2& configuration, 
   return std::move(sums).averages(configuration.size());
 }
 
-StructureFactor ScatteringShells::structure_factor(const Configuration2& configuration) const {
+template <int Dim>
+StructureFactor ScatteringShells<Dim>::structure_factor(
+    const Configuration<Dim>& configuration) const {
   return averaged(configuration, configuration.size() <= most_summed_directly);
 }
 
-StructureFactor ScatteringShells::transformed_structure_factor(
-    const Configuration2& configuration) const {
+template <int Dim>
+StructureFactor ScatteringShells<Dim>::transformed_structure_factor(
+    const Configuration<Dim>& configuration) const {
   return averaged(configuration, false);
 }
 
-StructureFactor ScatteringShells::direct_structure_factor(
-    const Configuration2& configuration) const {
+template <int Dim>
+StructureFactor ScatteringShells<Dim>::direct_structure_factor(
+    const Configuration<Dim>& configuration) const {
   return averaged(configuration, true);
 }
+
+template class ScatteringShells<2>;
+template class ScatteringShells<3>;
 
 std::vector<std::string> pair_names(const std::vector<std::string>& species_names) {
   std::vector<std::string> names;

@@ -28,7 +28,7 @@ struct StructureFactor {
   /// S(q) of the field exp(2iθ) of the R particles that are not round, the mean of q and −q,
   ///   (|Σ_j cos 2θ_j exp(−i q·r_j)|² + |Σ_j sin 2θ_j exp(−i q·r_j)|²)/R:
   /// 1 for independent angles, that of the centres where all are parallel, and the larger at small
-  /// q the farther the nematic order reaches. Empty if all are round.
+  /// q the farther the nematic order reaches. Empty if all are round, and in three dimensions.
   std::vector<double> orientation;
 };
 
@@ -44,29 +44,31 @@ struct StructureFactor {
 ///
 /// Errors: each ρ_α(q) is off by at most ε N_α, ε = alias_tolerance, hence S by 2 ε √(N S) + ε² N; in
 /// liquids about ε √S. To be made and destroyed by one thread at a time; else free of state.
+template <int Dim>
 class ScatteringShells {
  public:
-  ScatteringShells(const Vec2& lengths, const ShellOptions& options);
+  ScatteringShells(const Vec<Dim>& lengths, const ShellOptions& options);
 
   /// Of a configuration in a box of these lengths: the faster way of the two below.
-  StructureFactor structure_factor(const Configuration2& configuration) const;
-  StructureFactor transformed_structure_factor(const Configuration2& configuration) const;
-  StructureFactor direct_structure_factor(const Configuration2& configuration) const;
+  StructureFactor structure_factor(const Configuration<Dim>& configuration) const;
+  StructureFactor transformed_structure_factor(const Configuration<Dim>& configuration) const;
+  StructureFactor direct_structure_factor(const Configuration<Dim>& configuration) const;
 
   /// Up to so many particles direct sums are the faster way, whatever the box: they cost 3 to 5 ns per
   /// particle and wave vector, a transform about the same per node, of which there are
   /// 2/(π 0.24²) = 11 per wave vector, and little per particle. Measured, of packing fractions from
-  /// 0.1 to 0.8: as fast as each other with 8 to 32 disks, 16 to 30 ellipses, one species or two.
-  static constexpr std::size_t most_summed_directly = 16;
+  /// 0.1 to 0.8: as fast as each other with 8 to 32 disks, 16 to 30 ellipses, one species or two. In three
+  /// dimensions there are 3/(2π 0.24³) = 35 nodes per wave vector: 50 to 80 particles, measured.
+  static constexpr std::size_t most_summed_directly = Dim == 2 ? 16 : 64;
 
  private:
   struct Level {
-    Vec2 lengths;  // of the folded box
-    DensityGrid grid;
+    Vec<Dim> lengths;  // of the folded box
+    DensityGrid<Dim> grid;
     std::size_t first_shell, end_shell;
   };
 
-  StructureFactor averaged(const Configuration2& configuration, bool direct) const;
+  StructureFactor averaged(const Configuration<Dim>& configuration, bool direct) const;
 
   double step_;
   std::size_t shells_;

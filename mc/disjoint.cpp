@@ -13,9 +13,9 @@ namespace vitrel {
 namespace {
 
 /// `orientation` in the form in which it is asked for separation.
-template <int Dim, class Orientation>
+template <int Dim, class Axes>
 bool own_images_separated(const PeriodicBox<Dim>& box, const Solid<Dim>& shape,
-                          const Orientation& orientation, double margin) {
+                          const Axes& orientation, double margin) {
   bool clear = true;
   box.for_each_image(Vec<Dim>::Zero(), 2 * shape.circumradius() + margin,
                      [&](const Shift<Dim>& shift, const Vec<Dim>& d) {

@@ -30,7 +30,7 @@ bool vanishes(const Decay& correlation) {
 void judge_orientation(GlassRun& run, const GlassRunData& data) {
   run.nematic_order = {unknown, unknown, 0};
   run.plateau = 0;
-  run.orientation = Orientation::round;
+  run.orientation = OrientationKind::round;
   run.rotation = {unknown, unknown, unknown, unknown, "no particle can turn"};
   if (data.rotors == 0) return;
   run.nematic_order = slow_average(data.nematic_order);
@@ -38,7 +38,7 @@ void judge_orientation(GlassRun& run, const GlassRunData& data) {
   if (!is_nematic(data)) {
     run.rotation = relaxation_time(data.orientation);
     const bool decays = !std::isnan(run.rotation.value) || !std::isnan(run.rotation.most);
-    run.orientation = decays ? Orientation::relaxes : Orientation::lasting;
+    run.orientation = decays ? OrientationKind::relaxes : OrientationKind::lasting;
     return;
   }
   run.plateau = order * order;
@@ -46,7 +46,7 @@ void judge_orientation(GlassRun& run, const GlassRunData& data) {
       connected_part(data.orientation, {run.plateau, 2 * order * error, blocks});
   run.rotation = relaxation_time(connected);
   const bool decays = !std::isnan(run.rotation.value) && vanishes(connected);
-  run.orientation = decays ? Orientation::ordered : Orientation::lasting;
+  run.orientation = decays ? OrientationKind::ordered : OrientationKind::lasting;
 }
 
 void judge(GlassRun& run, const GlassRunData& data) {
@@ -143,7 +143,7 @@ std::string_view name_of(EquilibrationVerdict verdict) {
   return verdict_words[static_cast<std::size_t>(verdict)];
 }
 
-std::string_view name_of(Orientation orientation) {
+std::string_view name_of(OrientationKind orientation) {
   return orientation_words[static_cast<std::size_t>(orientation)];
 }
 
@@ -351,7 +351,8 @@ std::vector<std::string> order_or_glass(const GlassStudy& study) {
   };
   const auto ordered = [&](bool surely) {
     return densities_where(study, [surely](const GlassRun& run) {
-      return run.orientation == Orientation::ordered && equilibrated(run.equilibration) == surely;
+      return run.orientation == OrientationKind::ordered &&
+             equilibrated(run.equilibration) == surely;
     });
   };
   say("Nematic order, not glass, keeps orientations at {}: seen from the director, L_2 decays to "
@@ -361,8 +362,8 @@ std::vector<std::string> order_or_glass(const GlassStudy& study) {
   say("So it seems at {}, where a run was not in equilibrium or too short to tell.",
       ordered(false));
   say("Orientations do not relax within the times measured (beyond what order explains) at {}.",
-      densities_where(study,
-                      [](const GlassRun& run) { return run.orientation == Orientation::lasting; }));
+      densities_where(
+          study, [](const GlassRun& run) { return run.orientation == OrientationKind::lasting; }));
   return sentences;
 }
 
@@ -447,7 +448,8 @@ std::optional<GlassRun> stored_glass_run(const std::string& name, const Results&
   run.wave_number = value(*relaxation, "wave_number");
   run.nematic_order = {value(*relaxation, "nematic_order"), error(*relaxation, "nematic_order"), 0};
   run.plateau = value(*relaxation, "plateau");
-  run.orientation = static_cast<Orientation>(static_cast<int>(value(*relaxation, "orientation")));
+  run.orientation =
+      static_cast<OrientationKind>(static_cast<int>(value(*relaxation, "orientation")));
   run.translation = time("tau_translation");
   run.rotation = time("tau_rotation");
   run.diffusion = diffusion("diffusion");

@@ -41,7 +41,7 @@ struct GlassRunData {
 bool is_nematic(const GlassRunData& data);
 
 /// Why orientations are kept, or not.
-enum class Orientation {
+enum class OrientationKind {
   round,    ///< there are none
   relaxes,  ///< L_2 decays
   ordered,  ///< nematic: L_2 decays to its plateau, and is kept there by order
@@ -57,7 +57,7 @@ struct GlassRun {
   double wave_number;      ///< q of τ_α
   Estimate nematic_order;  ///< S
   double plateau;          ///< of L_2, by order; 0 if not nematic
-  Orientation orientation;
+  OrientationKind orientation;
   RelaxationTime translation;  ///< τ_α: F_s(q, t) = 1/e
   RelaxationTime rotation;     ///< τ_2: L_2 = 1/e, in a nematic its connected part
   DiffusionCoefficient diffusion, rotational_diffusion;

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <cmath>
 #include <span>
+#include <stdexcept>
 
 #include "app/workflow/prepare_checkpoint.h"
 #include "core/error.h"
@@ -47,6 +49,7 @@ Estimate mean_of_second_half(const std::vector<double>& series) {
   return block_average(std::span(series).subspan(series.size() / 2));
 }
 
+template <int Dim>
 class Preparer {
  public:
   Preparer(const PrepareRequest& request, const Budget& budget,
@@ -56,7 +59,7 @@ class Preparer {
     stored_.parameters = effective_parameters(parameters_);
   }
 
-  Preparation run() {
+  Preparation<Dim> run() {
     if (keeps_files() && checkpoint_exists(checkpoint()))
       load();
     else
@@ -79,17 +82,21 @@ class Preparer {
 
  private:
   const PrepareStage& stage() const { return parameters_.stages[done().stages.size()]; }
-  Preparation& done() { return stored_.done; }
-  const Preparation& done() const { return stored_.done; }
+  Preparation<Dim>& done() { return stored_.done; }
+  const Preparation<Dim>& done() const { return stored_.done; }
   std::uint64_t seed() const { return parameters_.system.seed; }
   /// The first stage places the particles; what is not placed is not worth keeping.
   bool has_places() const { return !done().stages.empty(); }
 
   void draw() {
     const SystemParameters& system = parameters_.system;
-    done().configuration =
-        draw_particles(parameters_.species, static_cast<std::size_t>(system.particles),
-                       system.packing_fraction, system.box_aspect, system.seed);
+    const auto particles = static_cast<std::size_t>(system.particles);
+    if constexpr (Dim == 2)
+      done().configuration = draw_particles(parameters_.species, particles, system.packing_fraction,
+                                            system.box_aspect, system.seed);
+    else
+      done().configuration =
+          draw_solids(parameters_.species, particles, system.packing_fraction, system.seed);
   }
 
   // ---- files ----------------------------------------------------------------------------------------
@@ -100,15 +107,15 @@ class Preparer {
   void load() {
     const LoadedCheckpoint loaded = load_checkpoint(checkpoint());
     if (!loaded.warning.empty()) say_(loaded.warning);
-    const std::string now = stored_.parameters;
-    stored_ = preparation_from_checkpoint(loaded.checkpoint, checkpoint());
-    wall_before_ = done().wall_seconds;
-    stage_before_ = stored_.work.wall_seconds;
-    if (const auto change = forbidden_change(stored_.parameters, now, Work::preparation))
+    if (const auto change =
+            forbidden_change(loaded.checkpoint.parameters, stored_.parameters, Work::preparation))
       throw UserError(
           fmt::format("{}: the preparation was begun with {} = {}, but now it is {}; continue it "
                       "with its own parameters, or delete this file",
                       checkpoint().string(), change->key, change->first, change->second));
+    stored_ = preparation_from_checkpoint<Dim>(loaded.checkpoint, checkpoint());
+    wall_before_ = done().wall_seconds;
+    stage_before_ = stored_.work.wall_seconds;
     say_(fmt::format("continuing at stage {} of {}",
                      std::min(done().stages.size() + 1, parameters_.stages.size()),
                      parameters_.stages.size()));
@@ -146,28 +153,36 @@ class Preparer {
   }
 
   StageReport advance() {
+    Configuration<Dim>& configuration = done().configuration;
+    if (stage().method == Method::insert)
+      return insert_particles(configuration, {goal(), stage().attempts, aligned()}, seed(),
+                              budget_);
+    if (stage().method == Method::grow)
+      return at_rest(grow(configuration, growth_options(), stored_.work.growth, budget_));
+    if constexpr (Dim == 2) return advance_ellipses();
+    throw std::logic_error("a stage that three dimensions do not have");
+  }
+
+  /// What there is in two dimensions only.
+  StageReport advance_ellipses() {
     Configuration2& configuration = done().configuration;
     StageWork& work = stored_.work;
     switch (stage().method) {
       case Method::lattice:
         return place_on_lattice(configuration, stage().lattice, seed());
-      case Method::insert:
-        return insert_particles(configuration, {goal(), stage().attempts, aligned()}, seed(),
-                                budget_);
       case Method::swell:
         return swell(configuration, {goal(), stage().most_sweeps, request_.threads}, seed(),
                      work.swelling, budget_);
       case Method::compress:
         return compress(configuration, compression_options(), seed(), work.compression, budget_);
-      case Method::grow:
-        return at_rest(grow(configuration, growth_options(), work.growth, budget_));
       case Method::hybrid:
         return at_rest(hybrid(configuration, hybrid_options(), work.hybrid, budget_));
       case Method::sample:
         return sample(configuration, sampling_options(stage().sweeps), seed(), work.sampling,
                       budget_);
+      default:
+        return {};
     }
-    return {};
   }
 
   double goal() const {
@@ -204,9 +219,9 @@ class Preparer {
   // A stage that is stopped keeps its velocities, to go on with.
   StageReport at_rest(const StageReport& report) {
     if (report.end == StageEnd::stopped) return report;
-    Configuration2& configuration = done().configuration;
-    std::fill(configuration.velocity.begin(), configuration.velocity.end(), Vec2::Zero());
-    std::fill(configuration.angular_velocity.begin(), configuration.angular_velocity.end(), 0.0);
+    Configuration<Dim>& configuration = done().configuration;
+    std::ranges::fill(configuration.velocity, Vec<Dim>::Zero());
+    std::ranges::fill(configuration.angular_velocity, Motion<Dim>().angular_velocity);
     return report;
   }
 
@@ -248,12 +263,13 @@ class Preparer {
   const Parameters& parameters_;
   const std::function<void(const std::string&)>& say_;
   Budget budget_;
-  StoredPreparation stored_;
+  StoredPreparation<Dim> stored_;
   double wall_before_ = 0, stage_before_ = 0;  // seconds that other processes spent
   Clock::time_point start_ = Clock::now(), stage_start_ = start_, saved_ = start_;
 };
 
-void Preparer::refuse_stuck(const StageReport& report) const {
+template <int Dim>
+void Preparer<Dim>::refuse_stuck(const StageReport& report) const {
   std::string kept;
   if (has_places() && keeps_files()) {
     const fs::path path = stuck_state_path(request_.output);
@@ -266,7 +282,8 @@ void Preparer::refuse_stuck(const StageReport& report) const {
   throw UserError(fmt::format("preparation, {}: {}{}", description(), report.reason, kept));
 }
 
-std::string Preparer::description() const {
+template <int Dim>
+std::string Preparer<Dim>::description() const {
   switch (stage().method) {
     case Method::lattice:
       return fmt::format("lattice at packing fraction {:.4g}", goal());
@@ -290,16 +307,26 @@ std::string Preparer::description() const {
 
 }  // namespace
 
-TrialCounts Preparation::trials() const {
+template <int Dim>
+TrialCounts Preparation<Dim>::trials() const {
   TrialCounts all;
   for (const StageRecord& stage : stages) all.add(stage.trials);
   return all;
 }
 
-Preparation prepare(const PrepareRequest& request, const Budget& budget,
-                    const std::function<void(const std::string&)>& say) {
-  return Preparer(request, budget, say).run();
+template <int Dim>
+Preparation<Dim> prepare(const PrepareRequest& request, const Budget& budget,
+                         const std::function<void(const std::string&)>& say) {
+  assert(request.parameters.system.dimension == Dim);
+  return Preparer<Dim>(request, budget, say).run();
 }
+
+template struct Preparation<2>;
+template struct Preparation<3>;
+template Preparation<2> prepare<2>(const PrepareRequest&, const Budget&,
+                                   const std::function<void(const std::string&)>&);
+template Preparation<3> prepare<3>(const PrepareRequest&, const Budget&,
+                                   const std::function<void(const std::string&)>&);
 
 void forget_preparation(const fs::path& output) {
   remove_checkpoint(checkpoint_path(output));

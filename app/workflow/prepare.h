@@ -39,23 +39,25 @@ struct StageRecord {
   double wall_seconds = 0;
 };
 
+template <int Dim>
 struct Preparation {
-  Configuration2 configuration;  ///< at rest, without overlaps
-  bool complete = false;         ///< else stopped by the budget
+  Configuration<Dim> configuration;  ///< at rest, without overlaps
+  bool complete = false;             ///< else stopped by the budget
   std::vector<StageRecord> stages;
-  ExactCheck<2> check;           ///< of the state, if complete; without overlaps
+  ExactCheck<Dim> check;         ///< of the state, if complete; without overlaps
   std::uint64_t next_sweep = 0;  ///< Monte Carlo after it goes on with these numbers
   double wall_seconds = 0;       ///< of all processes that worked on it
 
   TrialCounts trials() const;
 };
 
-/// `say` gets a line at the start of every stage and one about its end. The result is the same, bit by bit,
+/// For parameters of that dimension. `say` gets a line at the start of every stage and one about its end. The result is the same, bit by bit,
 /// however often the preparation was stopped or killed. Throws UserError if a stage cannot reach its goal
 /// (too dense a lattice or insertion, too few sweeps, jammed), or if the checkpoint belongs to other
 /// parameters, and InvariantError if the exact check finds an overlap at the end.
-Preparation prepare(const PrepareRequest& request, const Budget& budget,
-                    const std::function<void(const std::string&)>& say);
+template <int Dim = 2>
+Preparation<Dim> prepare(const PrepareRequest& request, const Budget& budget,
+                         const std::function<void(const std::string&)>& say);
 
 /// Removes the checkpoint, once what comes after the preparation is safely on disk.
 void forget_preparation(const std::filesystem::path& output);

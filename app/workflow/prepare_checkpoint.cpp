@@ -53,7 +53,8 @@ void each_item(Stored& stored, Visit&& visit) {
 
 }  // namespace
 
-Checkpoint to_checkpoint(const StoredPreparation& preparation) {
+template <int Dim>
+Checkpoint to_checkpoint(const StoredPreparation<Dim>& preparation) {
   Checkpoint checkpoint;
   checkpoint.configuration = preparation.done.configuration;
   checkpoint.parameters = preparation.parameters;
@@ -62,11 +63,12 @@ Checkpoint to_checkpoint(const StoredPreparation& preparation) {
   return checkpoint;
 }
 
-StoredPreparation preparation_from_checkpoint(const Checkpoint& checkpoint,
-                                              const std::filesystem::path& file) {
+template <int Dim>
+StoredPreparation<Dim> preparation_from_checkpoint(const Checkpoint& checkpoint,
+                                                   const std::filesystem::path& file) {
   const ItemReader read(checkpoint, file);
-  StoredPreparation preparation;
-  preparation.done.configuration = checkpoint.configuration;
+  StoredPreparation<Dim> preparation;
+  preparation.done.configuration = std::get<Configuration<Dim>>(checkpoint.configuration);
   preparation.parameters = checkpoint.parameters;
   std::uint64_t stages = 0;
   read("stages", stages);
@@ -74,5 +76,12 @@ StoredPreparation preparation_from_checkpoint(const Checkpoint& checkpoint,
   each_item(preparation, read);
   return preparation;
 }
+
+template Checkpoint to_checkpoint(const StoredPreparation<2>&);
+template Checkpoint to_checkpoint(const StoredPreparation<3>&);
+template StoredPreparation<2> preparation_from_checkpoint(const Checkpoint&,
+                                                          const std::filesystem::path&);
+template StoredPreparation<3> preparation_from_checkpoint(const Checkpoint&,
+                                                          const std::filesystem::path&);
 
 }  // namespace vitrel

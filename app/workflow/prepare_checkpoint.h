@@ -30,15 +30,18 @@ struct StageWork {
 };
 
 /// A preparation at work, as its checkpoint holds it.
+template <int Dim>
 struct StoredPreparation {
-  Preparation done;        ///< `stages` are those that have ended
+  Preparation<Dim> done;   ///< `stages` are those that have ended
   StageWork work;          ///< of the stage after them
   std::string parameters;  ///< effective parameters, TOML
 };
 
-Checkpoint to_checkpoint(const StoredPreparation& preparation);
+template <int Dim>
+Checkpoint to_checkpoint(const StoredPreparation<Dim>& preparation);
 /// Throws FileError, naming `file`, if something is missing.
-StoredPreparation preparation_from_checkpoint(const Checkpoint& checkpoint,
-                                              const std::filesystem::path& file);
+template <int Dim>
+StoredPreparation<Dim> preparation_from_checkpoint(const Checkpoint& checkpoint,
+                                                   const std::filesystem::path& file);
 
 }  // namespace vitrel

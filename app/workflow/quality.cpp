@@ -22,11 +22,11 @@ double unit_length(const Configuration2& configuration) {
 }
 
 /// 0 if the last stage was no growth, or too short a one to measure it.
-double pressure_of_growth(const Preparation& preparation) {
+double pressure_of_growth(const Preparation<2>& preparation) {
   return preparation.stages.back().growth.reduced_pressure;
 }
 
-void note_pressure(Quality& quality, const Preparation& preparation) {
+void note_pressure(Quality& quality, const Preparation<2>& preparation) {
   using From = Quality::PressureFrom;
   const double grown = pressure_of_growth(preparation);
   if (quality.probe && grown < least_jammed_pressure) {
@@ -97,8 +97,9 @@ void add_contact_rows(std::vector<QualityRow>& rows, const Quality& quality) {
 
 }  // namespace
 
-std::optional<Quality> measure_quality(const Preparation& preparation, const Parameters& parameters,
-                                       const Budget& budget, int threads) {
+std::optional<Quality> measure_quality(const Preparation<2>& preparation,
+                                       const Parameters& parameters, const Budget& budget,
+                                       int threads) {
   const Configuration2& state = preparation.configuration;
   Quality quality;
   if (parameters.quality_sweeps > 0) {

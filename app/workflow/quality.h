@@ -35,8 +35,9 @@ struct Quality {
 /// Measures a complete preparation; the state stays as it is. The pressure is that of a short sampling on
 /// a copy; without one, or if the last stage was a growth that ended jammed (least_jammed_pressure), that of
 /// the growth. Nothing if the budget asked to stop.
-std::optional<Quality> measure_quality(const Preparation& preparation, const Parameters& parameters,
-                                       const Budget& budget, int threads = 1);
+std::optional<Quality> measure_quality(const Preparation<2>& preparation,
+                                       const Parameters& parameters, const Budget& budget,
+                                       int threads = 1);
 
 /// The properties, in words and rounded numbers.
 std::vector<QualityRow> quality_rows(const Quality& quality);

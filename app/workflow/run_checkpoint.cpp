@@ -34,7 +34,7 @@ Checkpoint to_checkpoint(const StoredRun& run) {
 
 StoredRun from_checkpoint(const Checkpoint& checkpoint, const std::filesystem::path& file) {
   StoredRun run;
-  run.state.configuration = checkpoint.configuration;
+  run.state.configuration = std::get<Configuration2>(checkpoint.configuration);
   run.parameters = checkpoint.parameters;
   each_item(run, ItemReader(checkpoint, file));
   return run;

@@ -22,7 +22,7 @@ constexpr std::size_t frames_at_once = 32;
 /// One frame, and all that is measured in it.
 struct Measured {
   Configuration2 configuration;
-  std::shared_ptr<const ScatteringShells> shells;
+  std::shared_ptr<const ScatteringShells<2>> shells;
 
   StructureFactor scattering;
   PairCorrelation pairs;
@@ -178,7 +178,7 @@ std::vector<Table> structure_tables(Trajectory& trajectory, const StructureOptio
                                     int threads, const ProgressReport& report) {
   StructureAverages averages(options);
   const std::size_t stride = (trajectory.frames() + options.most_frames - 1) / options.most_frames;
-  std::shared_ptr<const ScatteringShells> shells;
+  std::shared_ptr<const ScatteringShells<2>> shells;
   Vec2 lengths = Vec2::Zero();
   for (std::size_t next = 0; next < trajectory.frames();) {
     std::vector<Measured> batch;
@@ -187,7 +187,7 @@ std::vector<Table> structure_tables(Trajectory& trajectory, const StructureOptio
       frame.configuration = trajectory.read(next);
       if (frame.configuration.box.lengths() != lengths) {
         lengths = frame.configuration.box.lengths();
-        shells = std::make_shared<const ScatteringShells>(lengths, options.shells);
+        shells = std::make_shared<const ScatteringShells<2>>(lengths, options.shells);
       }
       frame.shells = shells;
     }

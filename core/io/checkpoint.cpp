@@ -118,13 +118,27 @@ void read_rows(const h5::Group& group, const std::string& name, std::vector<Item
     std::memcpy(static_cast<void*>(items.data()), values.data(), items.size() * sizeof(Item));
 }
 
-void write_configuration(h5::Group group, const Configuration2& configuration) {
-  const Vec2& lengths = configuration.box.lengths();
-  group.create_array<double>("box", {2}, {lengths.data(), 2});
+void write_orientations(h5::Group& group, const Configuration2& configuration) {
+  write_rows<double>(group, "angle", configuration.angle);
+}
+void write_orientations(h5::Group& group, const Configuration3& configuration) {
+  write_rows<double>(group, "orientation", configuration.orientation);
+}
+void read_orientations(const h5::Group& group, Configuration2& configuration) {
+  read_rows<double>(group, "angle", configuration.angle);
+}
+void read_orientations(const h5::Group& group, Configuration3& configuration) {
+  read_rows<double>(group, "orientation", configuration.orientation);
+}
+
+template <int Dim>
+void write_configuration(h5::Group group, const Configuration<Dim>& configuration) {
+  const Vec<Dim>& lengths = configuration.box.lengths();
+  group.create_array<double>("box", {Dim}, {lengths.data(), Dim});
   group.create_array<double>("time", {}, {&configuration.time, 1});
   write_rows<double>(group, "position", configuration.position);
   write_rows<std::int32_t>(group, "image", configuration.image);
-  write_rows<double>(group, "angle", configuration.angle);
+  write_orientations(group, configuration);
   write_rows<double>(group, "velocity", configuration.velocity);
   write_rows<double>(group, "angular_velocity", configuration.angular_velocity);
   write_rows<double>(group, "semiaxes", configuration.shape);
@@ -133,14 +147,14 @@ void write_configuration(h5::Group group, const Configuration2& configuration) {
   write_text(group, "species_names", joined(configuration.species_names));
 }
 
-Configuration2 read_configuration(const h5::Group& group) {
-  Configuration2 configuration;
-  const std::vector<double> lengths = group.dataset("box").read<double>();
-  configuration.box = PeriodicBox<2>(Vec2(lengths.at(0), lengths.at(1)));
+template <int Dim>
+Configuration<Dim> read_configuration(const h5::Group& group, const std::vector<double>& lengths) {
+  Configuration<Dim> configuration;
+  configuration.box = PeriodicBox<Dim>(Vec<Dim>(lengths.data()));
   configuration.time = group.dataset("time").read<double>().at(0);
   read_rows<double>(group, "position", configuration.position);
   read_rows<std::int32_t>(group, "image", configuration.image);
-  read_rows<double>(group, "angle", configuration.angle);
+  read_orientations(group, configuration);
   read_rows<double>(group, "velocity", configuration.velocity);
   read_rows<double>(group, "angular_velocity", configuration.angular_velocity);
   read_rows<double>(group, "semiaxes", configuration.shape);
@@ -148,6 +162,12 @@ Configuration2 read_configuration(const h5::Group& group) {
   read_rows<std::int32_t>(group, "species", configuration.species);
   configuration.species_names = split(read_text(group, "species_names"));
   return configuration;
+}
+
+std::variant<Configuration2, Configuration3> read_configuration(const h5::Group& group) {
+  const std::vector<double> lengths = group.dataset("box").read<double>();
+  if (lengths.size() == 3) return read_configuration<3>(group, lengths);
+  return read_configuration<2>(group, lengths);
 }
 
 Checkpoint read_checkpoint(const fs::path& path) {
@@ -175,7 +195,11 @@ void save_checkpoint(const fs::path& path, const Checkpoint& checkpoint) {
   {
     h5::Group root = file.root();
     root.set_attribute("checkpoint_layout", layout);
-    write_configuration(root.create_group("configuration"), checkpoint.configuration);
+    std::visit(
+        [&](const auto& configuration) {
+          write_configuration(root.create_group("configuration"), configuration);
+        },
+        checkpoint.configuration);
     write_map(root, "reals", checkpoint.reals);
     write_map(root, "counters", checkpoint.counters);
     write_series(root, checkpoint.series);

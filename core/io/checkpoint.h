@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "core/state/configuration.h"
@@ -13,7 +14,7 @@ namespace vitrel {
 /// All that a piece of work needs to go on as if it had never stopped: the state, and what its parts
 /// keep, by name.
 struct Checkpoint {
-  Configuration2 configuration;
+  std::variant<Configuration2, Configuration3> configuration;
   std::map<std::string, double> reals;
   std::map<std::string, std::uint64_t> counters;
   std::map<std::string, std::vector<double>> series;

@@ -14,6 +14,7 @@ enum class Purpose : std::uint64_t {
   brownian_step = 4,
   trial_moves = 5,
   box_trials = 6,
+  isotropic_axes = 7,
   benchmark_cases = 90,
   tests = 100,
 };

@@ -158,5 +158,28 @@ TEST(IndependentAverage, ByHand) {
   EXPECT_TRUE(std::isnan(independent_average(1, 2, 4).error));
 }
 
+// Student's 97.5 % quantile is 2.2622 for 9 degrees of freedom, 12.706 for one (tables).
+TEST(ConfidenceIntervalOfTheMean, ByHand) {
+  const std::vector<double> two = {1, 3};
+  EXPECT_DOUBLE_EQ(confidence_interval(two).mean, 2);
+  EXPECT_NEAR(confidence_interval(two).half_width, 12.706, 1e-3);
+  const std::vector<double> ten = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
+  EXPECT_NEAR(confidence_interval(ten).half_width, 2.26216 * std::sqrt(55.0 / 6 / 10), 1e-5);
+  EXPECT_TRUE(std::isnan(confidence_interval(std::vector<double>{1}).half_width));
+}
+
+// 4000 samples of five: the share covered is 0.95 with a standard error of 0.0034; four of them.
+TEST(ConfidenceIntervalOfTheMean, CoversTheTruthAsOftenAsItSays) {
+  Stream draw(4, Purpose::tests);
+  int covered = 0;
+  for (int sample = 0; sample < 4000; ++sample) {
+    std::vector<double> values(5);
+    for (double& value : values) value = 3 + 2 * draw.normal();
+    const ConfidenceInterval interval = confidence_interval(values);
+    covered += std::abs(interval.mean - 3) < interval.half_width;
+  }
+  EXPECT_NEAR(covered / 4000.0, 0.95, 4 * 0.0034);
+}
+
 }  // namespace
 }  // namespace vitrel

@@ -109,6 +109,84 @@ TEST(PairCorrelation, OfACheckerboard) {
   EXPECT_TRUE(std::isnan(pairs.g_2[2]));
 }
 
+Configuration3 solid_gas(std::size_t n, const Vec3& lengths, std::uint64_t seed) {
+  Configuration3 c;
+  c.resize(n);
+  c.box = PeriodicBox<3>(lengths);
+  Stream draw(seed, Purpose::tests);
+  for (Vec3& position : c.position)
+    for (int k = 0; k < 3; ++k) position[k] = lengths[k] * draw.uniform(-0.5, 0.5);
+  return c;
+}
+
+double shell(double inner, double outer) {
+  return 4 * pi / 3 * (std::pow(outer, 3) - std::pow(inner, 3));
+}
+
+TEST(PairCorrelation, IsThatOfALoopOverAllPairsInThreeDimensions) {
+  for (const Vec3& lengths : {Vec3(12, 12, 12), Vec3(7, 30, 9), Vec3(20, 5, 40)})
+    for (const double range : {1.1, 30.0}) {
+      const Configuration3 c = solid_gas(150, lengths, 2);
+      const PairCorrelation fast = pair_correlation(c, {range, 0.25});
+      const auto bins =
+          static_cast<std::size_t>(std::min(range, 0.5 * lengths.minCoeff()) / 0.25 + 1e-9);
+      ASSERT_EQ(fast.g.size(), bins);
+      std::vector<double> pairs(bins);
+      for (std::size_t i = 0; i < c.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j) {
+          Vec3 d = c.position[j] - c.position[i];
+          d += c.box.translation(c.box.nearest_shift(d));
+          const auto bin = static_cast<std::size_t>(d.norm() / 0.25);
+          if (bin < bins) ++pairs[bin];
+        }
+      for (std::size_t k = 0; k < bins; ++k) {
+        const double r = 0.25 * static_cast<double>(k);
+        EXPECT_NEAR(fast.g[k], pairs[k] * lengths.prod() / (150 * 149 / 2 * shell(r, r + 0.25)),
+                    1e-10);
+        EXPECT_NEAR(fast.distance[k], r + 0.125, 1e-12);
+      }
+      EXPECT_TRUE(fast.g_2.empty() && fast.g_4.empty() && fast.rotor_pairs.empty());
+    }
+}
+
+// As in the plane; the first bin of 0.4 has 2 pairs on the average, too few for χ².
+TEST(PairCorrelation, OfAnIdealGasIsOneInThreeDimensions) {
+  std::vector<std::vector<double>> g(12);
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    const PairCorrelation one = pair_correlation(solid_gas(150, {10, 12, 11}, seed), {5, 0.4});
+    ASSERT_EQ(one.g.size(), g.size());
+    for (std::size_t k = 0; k < g.size(); ++k) g[k].push_back(one.g[k]);
+  }
+  double chi_squared = 0;
+  for (std::size_t k = 1; k < g.size(); ++k) {
+    const Estimate mean = estimate(g[k]);
+    chi_squared += std::pow((mean.mean - 1) / mean.error, 2);
+  }
+  EXPECT_NEAR(chi_squared / 11, 1, 5 * std::sqrt(2.0 / 11));
+}
+
+// 12 neighbours at d, 6 at √2 d, 24 at √3 d, 12 at 2 d, nothing between.
+TEST(PairCorrelation, OfAFaceCentredCubicLattice) {
+  const Configuration3 c = cubic_lattice(5, face_centred_cubic, 0.5, {});
+  const double d = c.box.lengths().x() / 5 / std::sqrt(2.0), step = 0.11 * d;
+  const PairCorrelation pairs = pair_correlation(c, {3 * d, step});
+  const double density = static_cast<double>(c.size() - 1) / c.box.volume();
+  std::vector<double> neighbours(pairs.g.size());
+  for (const auto& [r, count] : {std::pair{1.0, 12},
+                                 {std::sqrt(2.0), 6},
+                                 {std::sqrt(3.0), 24},
+                                 {2.0, 12},
+                                 {std::sqrt(5.0), 24},
+                                 {std::sqrt(6.0), 8},
+                                 {std::sqrt(7.0), 48},
+                                 {std::sqrt(8.0), 6}})
+    neighbours[static_cast<std::size_t>(r * d / step)] += count;
+  for (std::size_t k = 0; k < pairs.g.size(); ++k) {
+    const double inner = static_cast<double>(k) * step;
+    EXPECT_NEAR(pairs.g[k] * density * shell(inner, inner + step), neighbours[k], 1e-9) << k;
+  }
+}
+
 TEST(PairCorrelation, IsEmptyInABoxNarrowerThanTwoBins) {
   EXPECT_TRUE(pair_correlation(gas(5, {1, 8}, 1), {20, 0.6}).g.empty());
 }

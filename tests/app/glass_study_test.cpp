@@ -56,7 +56,7 @@ GlassRunData run_with(double packing_fraction, double tau_t, double tau_r, doubl
 
 TEST(GlassRun, InTheIsotropicLiquidOrientationsRelax) {
   const GlassRun run = judge_glass_run(run_with(0.6, 5, 20, 0.05));
-  EXPECT_EQ(run.orientation, Orientation::relaxes);
+  EXPECT_EQ(run.orientation, OrientationKind::relaxes);
   EXPECT_EQ(run.plateau, 0);
   EXPECT_NEAR(run.translation.value, 5, 0.002 * 5);
   EXPECT_NEAR(run.rotation.value, 20, 0.002 * 20);
@@ -68,7 +68,7 @@ TEST(GlassRun, InTheNematicOrderIsNotTakenForGlass) {
   const GlassRunData data = run_with(0.7, 5, 20, 0.8);
   EXPECT_TRUE(std::isnan(relaxation_time(data.orientation).value));
   const GlassRun run = judge_glass_run(data);
-  EXPECT_EQ(run.orientation, Orientation::ordered);
+  EXPECT_EQ(run.orientation, OrientationKind::ordered);
   EXPECT_NEAR(run.plateau, 0.64, 0.001);
   EXPECT_NEAR(run.rotation.value, 20, 0.2);
   EXPECT_EQ(run.equilibration.verdict, EquilibrationVerdict::equilibrated);
@@ -80,16 +80,16 @@ TEST(GlassRun, NematicOrderMustExplainTheWholePlateau) {
   for (double& value : data.orientation.value) value = 0.64 + 0.036 + 0.9 * (value - 0.64);
   const GlassRun run = judge_glass_run(data);
   EXPECT_FALSE(std::isnan(run.rotation.value));
-  EXPECT_EQ(run.orientation, Orientation::lasting);
+  EXPECT_EQ(run.orientation, OrientationKind::lasting);
   EXPECT_THAT(glass_text(study_glass({run})), testing::Not(HasSubstr("Nematic order, not glass")));
 }
 
 TEST(GlassRun, WhatOrderDoesNotExplainLasts) {
   const GlassRun isotropic = judge_glass_run(run_with(0.75, 5, 1e6, 0.05));
-  EXPECT_EQ(isotropic.orientation, Orientation::lasting);
+  EXPECT_EQ(isotropic.orientation, OrientationKind::lasting);
   EXPECT_EQ(isotropic.equilibration.verdict, EquilibrationVerdict::too_short);
   const GlassRun nematic = judge_glass_run(run_with(0.75, 5, 1e6, 0.8));
-  EXPECT_EQ(nematic.orientation, Orientation::lasting);
+  EXPECT_EQ(nematic.orientation, OrientationKind::lasting);
   EXPECT_EQ(nematic.equilibration.verdict, EquilibrationVerdict::too_short);
   EXPECT_THAT(nematic.equilibration.reason, HasSubstr("tau_2: still"));
 }
@@ -100,9 +100,9 @@ TEST(GlassRun, OrderOfAFewRotorsMayBeChance) {
   data.orientation = decay(20, data.duration);
   data.nematic_order = std::vector<double>(64, 0.59);
   data.rotors = 20;
-  EXPECT_EQ(judge_glass_run(data).orientation, Orientation::relaxes);
+  EXPECT_EQ(judge_glass_run(data).orientation, OrientationKind::relaxes);
   data.rotors = 25;
-  EXPECT_EQ(judge_glass_run(data).orientation, Orientation::ordered);
+  EXPECT_EQ(judge_glass_run(data).orientation, OrientationKind::ordered);
 }
 
 TEST(GlassRun, DriftOfTheOrderIsAgeing) {
@@ -121,7 +121,7 @@ TEST(GlassRun, DisksHaveNoOrientation) {
   data.orientation = {};
   data.nematic_order.clear();
   const GlassRun run = judge_glass_run(data);
-  EXPECT_EQ(run.orientation, Orientation::round);
+  EXPECT_EQ(run.orientation, OrientationKind::round);
   EXPECT_EQ(run.equilibration.verdict, EquilibrationVerdict::equilibrated);
   EXPECT_EQ(study_glass({run}).laws.size(), 4u);  // two laws of translation and of diffusion
 }

@@ -561,8 +561,9 @@ TEST_F(SmallDisk, CreatingWithoutSpaceLeavesNothing) {
 
 Checkpoint some_checkpoint(std::uint64_t step) {
   Checkpoint checkpoint;
-  checkpoint.configuration = random_configuration(9, step);
-  checkpoint.configuration.velocity[0] = {-0.0, std::numeric_limits<double>::denorm_min()};
+  Configuration2 configuration = random_configuration(9, step);
+  configuration.velocity[0] = {-0.0, std::numeric_limits<double>::denorm_min()};
+  checkpoint.configuration = configuration;
   checkpoint.reals = {{"virial", 1.0 / 3}, {"Δ", -0.0}, {"next sample", HUGE_VAL}};
   checkpoint.counters = {{"collisions", step}, {"most", std::numeric_limits<std::uint64_t>::max()}};
   checkpoint.series = {{"φ", {0.1, -0.0, HUGE_VAL}}, {"none", {}}};
@@ -572,7 +573,8 @@ Checkpoint some_checkpoint(std::uint64_t step) {
 }
 
 void expect_same(const Checkpoint& x, const Checkpoint& y) {
-  expect_same_bits(x.configuration, y.configuration);
+  expect_same_bits(std::get<Configuration2>(x.configuration),
+                   std::get<Configuration2>(y.configuration));
   EXPECT_EQ(x.counters, y.counters);
   EXPECT_EQ(x.series, y.series);
   EXPECT_EQ(x.texts, y.texts);
@@ -613,6 +615,14 @@ TEST_F(CheckpointFile, TheOneBeforeIsKeptAndTakenIfTheNewestIsCutShort) {
   EXPECT_THAT(file_error([&] { load_checkpoint(path); }), HasSubstr("unreadable too"));
   fs::remove(file("run.checkpoint.previous"));
   EXPECT_THAT(file_error([&] { load_checkpoint(path); }), HasSubstr("no earlier checkpoint"));
+}
+
+TEST_F(CheckpointFile, OfThreeDimensionsComesBackBitByBit) {
+  Checkpoint checkpoint;
+  checkpoint.configuration = random_solids(9, 1);
+  save_checkpoint(file("c"), checkpoint);
+  expect_same_bits(std::get<Configuration3>(load_checkpoint(file("c")).checkpoint.configuration),
+                   random_solids(9, 1));
 }
 
 TEST_F(CheckpointFile, IsRemovedWithTheOneBefore) {

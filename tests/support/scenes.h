@@ -37,15 +37,41 @@ Configuration2 square_lattice(int side, double packing_fraction, double angle, S
   return c;
 }
 
+/// Cells × cells × cells cubic cells of this lattice, with a particle of that shape at each point of the
+/// basis (in units of the side of a cell); masses 1.
+inline Configuration3 cubic_lattice(int cells, const std::vector<Vec3>& basis,
+                                    double packing_fraction, const Ellipsoid& shape) {
+  Configuration3 c;
+  c.resize(basis.size() * static_cast<std::size_t>(cells * cells * cells));
+  c.species_names = {"A"};
+  c.shape.assign(c.size(), shape);
+  const double side =
+      std::cbrt(shape.volume() * static_cast<double>(basis.size()) / packing_fraction);
+  c.box = PeriodicBox<3>(Vec3::Constant(cells * side));
+  std::size_t i = 0;
+  for (int x = 0; x < cells; ++x)
+    for (int y = 0; y < cells; ++y)
+      for (int z = 0; z < cells; ++z)
+        for (const Vec3& point : basis)
+          c.position[i++] = side * (Vec3(x, y, z) + point) - 0.5 * c.box.lengths();
+  return c;
+}
+
+inline const std::vector<Vec3> simple_cubic = {{0.5, 0.5, 0.5}};
+inline const std::vector<Vec3> face_centred_cubic = {
+    {0.25, 0.25, 0.25}, {0.75, 0.75, 0.25}, {0.75, 0.25, 0.75}, {0.25, 0.75, 0.75}};
+
 /// Keeps every frame.
-class Recorder : public Observer<2> {
+template <int Dim>
+class FrameRecorder : public Observer<Dim> {
  public:
-  void observe(const Frame<2>& frame) override {
+  void observe(const Frame<Dim>& frame) override {
     frames.push_back(frame.configuration);
     tallies.push_back(frame.tally);
   }
-  std::vector<Configuration2> frames;
+  std::vector<Configuration<Dim>> frames;
   std::vector<Tally> tallies;
 };
+using Recorder = FrameRecorder<2>;
 
 }  // namespace vitrel
