@@ -7,7 +7,6 @@
 #include <iterator>
 #include <span>
 
-#include "app/workflow/export/base64.h"
 #include "app/workflow/export/frame_sink.h"
 #include "app/workflow/export/packing.h"
 
