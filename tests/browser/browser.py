@@ -27,7 +27,7 @@ class Browser:
             os.dup2(100, 3), os.dup2(101, 4)
 
         options = ["--headless=new", "--remote-debugging-pipe", "--no-first-run", "--disable-gpu",
-                   "--disable-dev-shm-usage", "--disable-background-networking", "--disable-sync",
+                   "--disable-dev-shm-usage", "--enable-unsafe-swiftshader", "--disable-background-networking", "--disable-sync",
                    "--disable-component-update", "--hide-scrollbars", f"--user-data-dir={self._folder}"]
         if os.geteuid() == 0:
             options.append("--no-sandbox")

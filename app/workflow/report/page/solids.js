@@ -347,7 +347,7 @@ class SolidView extends Picture {
 
   /** Pixels of the page per length. */
   get scale() { return 0.5 * this.canvas.clientWidth / this.reach * this.view.zoom; }
-  get reach() { return 0.54 * Math.hypot(...this.packing.window); }
+  get reach() { return 0.515 * Math.hypot(...this.packing.window); }
 
   look(x, y, zoom) {
     const inside = (value) => Math.min(Math.max(value, -this.reach), this.reach);
@@ -418,7 +418,7 @@ class SolidView extends Picture {
 
   /** Where x, y and z point. */
   drawAxes(ctx) {
-    const { turn } = this.view, length = 26 * devicePixelRatio, middle = 46 * devicePixelRatio;
+    const { turn } = this.view, length = 22 * devicePixelRatio, middle = 38 * devicePixelRatio;
     ctx.font = `600 ${13 * devicePixelRatio}px system-ui, sans-serif`;
     ctx.textAlign = 'center';
     ctx.textBaseline = 'middle';
