@@ -6,32 +6,38 @@
 
 #include "app/commands/common.h"
 #include "core/error.h"
+#include "core/io/h5md.h"
 
 namespace vitrel {
 namespace {
 
-nlohmann::ordered_json summary(const FileCheck& check, const std::filesystem::path& file) {
-  const Mechanics sums = mechanics(check.last);
-  const Vec2& box = check.last.box.lengths();
+template <int Dim>
+std::vector<double> components(const Vec<Dim>& vector) {
+  return {vector.data(), vector.data() + Dim};
+}
+
+template <int Dim>
+nlohmann::ordered_json summary(const FileCheck<Dim>& check, const std::filesystem::path& file) {
+  const Mechanics<Dim> sums = mechanics(check.last);
   return {{"file", file.string()},
           {"frames", check.frames},
           {"particles", check.last.size()},
-          {"box", {box.x(), box.y()}},
+          {"box", components<Dim>(check.last.box.lengths())},
           {"packing_fraction", packing_fraction(check.last)},
           {"overlaps", check.overlaps},
           {"smallest_gap", check.smallest_gap},
           {"smallest_gap_frame", check.smallest_gap_frame},
-          {"momentum", {sums.momentum.x(), sums.momentum.y()}},
+          {"momentum", components<Dim>(sums.momentum)},
           {"translational_energy", sums.translational_energy},
           {"rotational_energy", sums.rotational_energy}};
 }
 
-}  // namespace
-
-int check_command(const Arguments& arguments) {
+template <int Dim>
+int check_and_print(const Arguments& arguments) {
   Session session(arguments);
   session.say()("check of " + arguments.input.string());
-  const FileCheck check = check_file(arguments.input, arguments.last_only, session.budget());
+  const FileCheck<Dim> check =
+      check_file<Dim>(arguments.input, arguments.last_only, session.budget());
   session.clear();
   if (check.frames == 0) return stopped;
   print_summary(arguments, summary(check, arguments.input));
@@ -43,6 +49,13 @@ int check_command(const Arguments& arguments) {
     throw InvariantError(message);
   }
   return session.budget().stop_requested() ? stopped : success;
+}
+
+}  // namespace
+
+int check_command(const Arguments& arguments) {
+  return TrajectoryReader(arguments.input).dimension() == 2 ? check_and_print<2>(arguments)
+                                                            : check_and_print<3>(arguments);
 }
 
 }  // namespace vitrel

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/common.h"
+#include "app/workflow/packing_quality.h"
 #include "app/workflow/quality_file.h"
 #include "core/io/h5md.h"
 
@@ -36,8 +37,16 @@ nlohmann::ordered_json stage_summary(const PrepareStage& stage, const StageRecor
           {"wall_seconds", record.wall_seconds}};
 }
 
+nlohmann::ordered_json stage_summaries(const Parameters& parameters,
+                                       const std::vector<StageRecord>& records) {
+  nlohmann::ordered_json stages;
+  for (std::size_t k = 0; k < records.size(); ++k)
+    stages.push_back(stage_summary(parameters.stages[k], records[k]));
+  return stages;
+}
+
 /// What was done; ratios of no moves at all are NaN.
-nlohmann::ordered_json work_summary(const Preparation& preparation,
+nlohmann::ordered_json work_summary(const Preparation<2>& preparation,
                                     const std::filesystem::path& output) {
   const TrialCounts counts = preparation.trials();
   return {
@@ -53,7 +62,7 @@ nlohmann::ordered_json work_summary(const Preparation& preparation,
 }
 
 /// What was done and what came out, for other programs.
-nlohmann::ordered_json summary(const Preparation& preparation, const Parameters& parameters,
+nlohmann::ordered_json summary(const Preparation<2>& preparation, const Parameters& parameters,
                                const Quality& quality, const std::filesystem::path& output) {
   nlohmann::ordered_json result = work_summary(preparation, output);
   result["packing_fraction"] = quality.packing_fraction;
@@ -61,38 +70,65 @@ nlohmann::ordered_json summary(const Preparation& preparation, const Parameters&
   result["overlaps"] = quality.overlaps;
   result["smallest_gap"] = quality.smallest_gap;
   result["reduced_pressure"] = quality.reduced_pressure.mean;
-  for (std::size_t k = 0; k < preparation.stages.size(); ++k)
-    result["stages"].push_back(stage_summary(parameters.stages[k], preparation.stages[k]));
+  result["stages"] = stage_summaries(parameters, preparation.stages);
   result["quality"] = quality_json(quality);
   return result;
 }
 
+nlohmann::ordered_json summary(const Preparation<3>& preparation, const Parameters& parameters,
+                               const PackingQuality& quality, const std::filesystem::path& output) {
+  nlohmann::ordered_json result = {{"output", output.string()},
+                                   {"quality_report", quality_file(output).string()}};
+  result.update(quality_json(quality));
+  result["collisions_per_second"] = static_cast<double>(quality.collisions) / quality.wall_seconds;
+  result["stages"] = stage_summaries(parameters, preparation.stages);
+  return result;
+}
+
+void print_rows(const std::vector<QualityRow>& rows) {
+  for (const QualityRow& row : rows)
+    fmt::print("{:<26} {:<26} {}\n", row.name, row.value, row.remark);
+  flush_output();
+}
+
 /// The same for a person, who does not need to be told what there was none of.
-void print_summary(const Arguments& arguments, const Preparation& preparation,
+void print_summary(const Arguments& arguments, const Preparation<2>& preparation,
                    const Quality& quality) {
   const nlohmann::ordered_json all = work_summary(preparation, arguments.output);
   nlohmann::ordered_json work;
   for (const auto& [key, value] : all.items())
     if (!value.is_number() || value.get<double>() > 0) work[key] = value;
   print_summary(arguments, work);
-  for (const QualityRow& row : quality_rows(quality))
-    fmt::print("{:<26} {:<26} {}\n", row.name, row.value, row.remark);
-  flush_output();
+  print_rows(quality_rows(quality));
+}
+void print_summary(const Arguments& arguments, const Preparation<3>& preparation,
+                   const PackingQuality& quality) {
+  print_summary(arguments, {{"output", arguments.output.string()},
+                            {"quality_report", quality_file(arguments.output).string()},
+                            {"particles", preparation.configuration.size()}});
+  print_rows(quality_rows(quality));
 }
 
-}  // namespace
+/// Nothing if the budget asked to stop.
+std::optional<Quality> measured(const Preparation<2>& preparation, const Parameters& parameters,
+                                const Session& session, int threads) {
+  return measure_quality(preparation, parameters, session.budget(), threads);
+}
+std::optional<PackingQuality> measured(const Preparation<3>& preparation, const Parameters&,
+                                       const Session&, int) {
+  return measure_quality(preparation);
+}
 
-int prepare_command(const Arguments& arguments) {
-  const Parameters parameters = load_parameters(parameter_source(arguments));
-  require_new(arguments.output);
+template <int Dim>
+int prepare_state(const Arguments& arguments, const Parameters& parameters) {
   Session session(arguments);
-  const Preparation preparation =
-      prepare({parameters, arguments.output, arguments.command_line, arguments.threads},
-              session.budget(), session.say());
-  std::optional<Quality> quality;
+  const Preparation<Dim> preparation =
+      prepare<Dim>({parameters, arguments.output, arguments.command_line, arguments.threads},
+                   session.budget(), session.say());
+  decltype(measured(preparation, parameters, session, 1)) quality;
   if (preparation.complete) {
     session.say()("quality report");
-    quality = measure_quality(preparation, parameters, session.budget(), arguments.threads);
+    quality = measured(preparation, parameters, session, arguments.threads);
   }
   session.clear();
   if (!quality) {
@@ -112,6 +148,15 @@ int prepare_command(const Arguments& arguments) {
     print_summary(arguments, preparation, *quality);
   }
   return success;
+}
+
+}  // namespace
+
+int prepare_command(const Arguments& arguments) {
+  const Parameters parameters = load_parameters(parameter_source(arguments));
+  require_new(arguments.output);
+  return parameters.system.dimension == 2 ? prepare_state<2>(arguments, parameters)
+                                          : prepare_state<3>(arguments, parameters);
 }
 
 }  // namespace vitrel

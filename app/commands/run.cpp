@@ -11,6 +11,7 @@ namespace vitrel {
 int run_command(const Arguments& arguments) {
   RunRequest request{load_parameters(parameter_source(arguments)), arguments.output, std::nullopt,
                      arguments.command_line, arguments.threads};
+  require_two_dimensions(request.parameters, "vitrel run");
   if (!arguments.from.empty()) request.from = arguments.from;
   require_output_file(arguments.output, {arguments.input, arguments.from});
   if (arguments.dry_run) {

@@ -12,17 +12,19 @@
 /// The exact check of files: overlaps and integrity of saved states.
 namespace vitrel {
 
+template <int Dim>
 struct FileCheck {
   std::uint64_t frames = 0;    ///< looked at
   std::uint64_t overlaps = 0;  ///< over all of them
   double smallest_gap = 0;     ///< over all of them; infinity if no two particles are near
   std::uint64_t smallest_gap_frame = 0;
   std::vector<std::string> complaints;  ///< the first few overlaps, with frame, particles and image
-  Configuration2 last;                  ///< the last frame
+  Configuration<Dim> last;              ///< the last frame
 };
 
-/// Every frame of a trajectory or state, or the last only. The budget may stop it between frames.
+/// Every frame of a trajectory or state of that dimension, or the last only. The budget may stop it between frames.
 /// Throws FileError if the file cannot be read, is damaged, or has no frame.
-FileCheck check_file(const std::filesystem::path& file, bool last_only, const Budget& budget);
+template <int Dim>
+FileCheck<Dim> check_file(const std::filesystem::path& file, bool last_only, const Budget& budget);
 
 }  // namespace vitrel

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <cmath>
 #include <span>
@@ -59,9 +60,6 @@ class Preparer {
   }
 
   Preparation<Dim> run() {
-    if (parameters_.system.dimension != Dim)
-      throw UserError(fmt::format("system.dimension is {}, but what is asked for is there for {}",
-                                  parameters_.system.dimension, Dim));
     if (keeps_files() && checkpoint_exists(checkpoint()))
       load();
     else
@@ -319,6 +317,7 @@ TrialCounts Preparation<Dim>::trials() const {
 template <int Dim>
 Preparation<Dim> prepare(const PrepareRequest& request, const Budget& budget,
                          const std::function<void(const std::string&)>& say) {
+  assert(request.parameters.system.dimension == Dim);
   return Preparer<Dim>(request, budget, say).run();
 }
 

@@ -107,6 +107,7 @@ std::vector<SweepJob> sweep_jobs(const ParameterSource& source) {
         job_source.overrides.push_back(key + "=" + value);
       }
     job.parameters = load_parameters(job_source);
+    require_two_dimensions(job.parameters, "vitrel sweep");
     if (!ids.insert(job.id).second)
       throw UserError(
           fmt::format("{}: two jobs of the sweep have the name {}; every value of a key of "
