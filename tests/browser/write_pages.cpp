@@ -40,12 +40,12 @@ Configuration3 two_species() {
   return c;
 }
 
-PackingPage packing(Configuration3 bodies) {
+PackingPage packing(const Configuration3& bodies) {
   PackingPage page;
   page.title = "packing";
   page.subtitle = "60 ellipsoids";
   page.rows = {{"packing fraction", "0.15", ""}};
-  page.scene = packing_scene(bodies);
+  page.scene = packing_scene(bodies, exact_check(bodies));
   std::vector<double> x;
   for (int k = 1; k <= 40; ++k) x.push_back(0.1 * k);
   const auto wave = [](double value) { return 1 + std::sin(9 * value) / (9 * value); };

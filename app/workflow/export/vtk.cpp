@@ -9,6 +9,7 @@
 
 #include "app/workflow/export/frame_sink.h"
 #include "app/workflow/export/packing.h"
+#include "core/io/base64.h"
 
 namespace vitrel {
 namespace {

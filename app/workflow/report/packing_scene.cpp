@@ -10,7 +10,6 @@
 #include "analysis/packing_images.h"
 #include "app/workflow/report/page_parts.h"
 #include "core/io/base64.h"
-#include "core/state/check.h"
 
 namespace vitrel {
 
@@ -51,7 +50,8 @@ void add_particle(PackingScene& scene, const Configuration3& packing, std::size_
 
 }  // namespace
 
-PackingScene packing_scene(const Configuration3& packing, std::size_t most_particles) {
+PackingScene packing_scene(const Configuration3& packing, const ExactCheck<3>& check,
+                           std::size_t most_particles) {
   PackingScene scene;
   scene.particles = packing.size();
   scene.box = packing.box.lengths();
@@ -69,10 +69,10 @@ PackingScene packing_scene(const Configuration3& packing, std::size_t most_parti
     if (!body.shift.isZero()) scene.images.push_back({shown, body.shift});
   }
 
-  const std::vector<PairImage<3>> overlaps = exact_check(packing).overlaps;
-  scene.overlapping_pairs = overlaps.size();
+  scene.overlapping_pairs = check.overlaps.size();
   std::set<std::size_t> overlapping;
-  for (const PairImage<3>& pair : overlaps) overlapping.insert({place[pair.i], place[pair.j]});
+  for (const PairImage<3>& pair : check.overlaps)
+    overlapping.insert({place[pair.i], place[pair.j]});
   overlapping.erase(not_shown);
   scene.overlapping.assign(overlapping.begin(), overlapping.end());
   return scene;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/state/check.h"
 #include "core/state/configuration.h"
 
 /// A packing, packed small enough to travel inside a page.
@@ -31,15 +32,16 @@ struct PackingScene {
   };
   std::vector<Image> images;
 
-  /// By the exact check (core/state/check.h) of the stored doubles, not of the rounded poses: number of
-  /// overlapping pairs in the packing, and the shown particles that are part of one, ascending.
+  /// From the exact check of the stored doubles, not of the rounded poses: number of overlapping pairs in
+  /// the packing, and the shown particles that are part of one, ascending.
   std::size_t overlapping_pairs = 0;
   std::vector<std::size_t> overlapping;
 };
 
 /// Of more than `most_particles` those that meet a part in the middle of the box, of a volume for about
-/// as many.
-PackingScene packing_scene(const Configuration3& packing, std::size_t most_particles = 10'000);
+/// as many. `check` is that of the packing.
+PackingScene packing_scene(const Configuration3& packing, const ExactCheck<3>& check,
+                           std::size_t most_particles = 10'000);
 
 /// For the script of the page.
 nlohmann::json scene_data(const PackingScene& scene);
