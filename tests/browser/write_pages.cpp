@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <numbers>
 
 #include "app/workflow/report/packing_page.h"
 #include "app/workflow/report/state_page.h"
@@ -37,6 +38,17 @@ Configuration3 two_species() {
     c.shape[i] = {i % 2 ? Vec3(1.5, 1.5, 0.4) : Vec3(3.5, 0.6, 0.6)};
   }
   insert_particles(c, {0.15, 1'000'000, false}, 1, {});
+  return c;
+}
+
+/// One body of the semi-axes 3, 1.5 and 0.75 in the middle of a box of 8, turned by 40° about (1, 2, 2).
+Configuration3 one_body() {
+  Configuration3 c;
+  c.resize(1);
+  c.species_names = {"A"};
+  c.box = PeriodicBox<3>(Vec3::Constant(8));
+  c.shape[0] = {Vec3(3, 1.5, 0.75)};
+  c.orientation[0] = Quaternion(Eigen::AngleAxisd(40 * std::numbers::pi / 180, Vec3(1, 2, 2) / 3));
   return c;
 }
 
@@ -93,6 +105,7 @@ void write_pages(const std::filesystem::path& folder) {
   write_text(folder / "run.html", report_page(one_run()));
   write_text(folder / "state.html", state_page(state()));
   write_text(folder / "packing.html", packing_page(packing(two_species())));
+  write_text(folder / "one_body.html", packing_page(packing(one_body())));
   write_text(folder / "overlapping.html", packing_page(packing(overlapping())));
   ReportData large = report_example::sweep(2, 1);
   large.runs = {report_example::run(0.7, report_example::lattice(32, 200))};

@@ -328,7 +328,7 @@ class SolidView extends Picture {
         `of N = ${packing.particles}.`;
     const host = byId('overlaps'), bad = packing.overlappingPairs;
     host.classList.toggle('bad', bad > 0);
-    host.textContent = bad ? `✗ ${bad} overlapping pair(s), in red (exact check of the stored numbers).`
+    host.textContent = bad ? `✗ ${bad} overlapping pair(s), in red${packing.whole ? '' : ' where they are shown'} (exact check of the stored numbers).`
       : '✓ No overlap (exact check of the stored numbers).';
   }
 
