@@ -314,7 +314,7 @@ Json lazy_refinement(const Effort& effort, const FluidScene& scene) {
 Json measure_devices(const Effort& effort) {
   const auto disks = [] { return make_disk_engine({}); };
   const auto ellipses = [] { return make_ellipse_engine({}); };
-  const auto growing = [] { return make_growing_engine({}); };
+  const auto growing = [] { return make_growing_ellipse_engine({}); };
   Json rows = Json::array();
   rows.push_back(compare(effort, "disks", {effort.disks, 1, 0.5}, disks, ellipses));
   for (const double kappa : {2., 6.}) {

@@ -28,7 +28,7 @@ namespace vitrel {
 /// The shape at size 1 for the semi-axes in a configuration, and the body that it is at a size.
 template <class Shape, class Axes>
 Shape shape_from(const Axes& semi_axes) {
-  if constexpr (std::is_same_v<Shape, Axes>)
+  if constexpr (std::is_convertible_v<Axes, Shape>)
     return semi_axes;
   else
     return {semi_axes.circumradius()};
@@ -38,7 +38,7 @@ B body_from(const Grown<B>& shape, const CommonSize& common) {
   if constexpr (grows<B>)
     return {shape, common.size, common.growth_rate};
   else
-    return shape;
+    return {shape};
 }
 
 inline Ellipse solid_from(const Ellipse& shape) {

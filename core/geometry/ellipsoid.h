@@ -13,8 +13,9 @@ namespace vitrel {
 /// special: smooth collisions exert no torque about its axis of symmetry, and its shape, free, turns
 /// uniformly about the angular momentum L with ω = L/I⊥. That ω is the angular velocity which vitrel
 /// keeps; with it the spheroid moves like a body of the three equal moments I⊥, which is exact, and
-/// L = I⊥ ω. Of a scalene body the angular velocity is the common one, and its being constant in flight
-/// is a model for packing (after the article): then neither L nor the energy is constant in flight.
+/// L = I⊥ ω. Of a scalene body ω is constant in flight, too, which is a model (after the article on packing)
+/// and not Euler's equations: L then is not constant in flight, but ω along the axes of the body is, and with
+/// it the energy; the volume of phase space is kept, so that all static averages are those of equilibrium.
 struct Ellipsoid {
   static constexpr int dimension = 3;
   Vec3 semi_axes = Vec3::Ones();

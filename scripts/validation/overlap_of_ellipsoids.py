@@ -14,7 +14,7 @@ def measure(build):
     overlooked = int(case["overlooked_by_the_article"]) / overlaps
     return f"""The support gap, Perram and Wertheim's function and the completed criterion of η₁ … η₅ judge 10⁷ random
 pairs of scalene ellipsoids: aspect ratios 1 … 100, size ratios 1 … 1000, a third of them at the contact
-distance times 1 ± 10⁻¹ … 10⁻¹⁵. Verdicts may differ only where the surfaces are closer than 100 ε (a₁ + a₂),
+distance times 1 ± 10⁻¹ … 10⁻¹⁵. Verdicts may differ only where the surfaces are closer than 20 ε (a₁ + a₂),
 a the longest semi-axes and ε = 2.2 · 10⁻¹⁶.
 
 Pairs with different verdicts: {case["blurred"]}; the largest distance of surfaces among them:

@@ -27,8 +27,8 @@ struct TwoBodies {
     one.pose = advanced(one.pose, one.motion, touch.time);
     two.pose = advanced(two.pose, two.motion, touch.time);
     const ContactGeometry<2> contact{touch.normal,
-                                  cross(touch.point - one.pose.position, touch.normal),
-                                  cross(touch.point - two.pose.position, touch.normal)};
+                                     cross(touch.point - one.pose.position, touch.normal),
+                                     cross(touch.point - two.pose.position, touch.normal)};
     if (speed) *speed = approach_speed(one.motion, two.motion, contact);
     const double j = collide(one.motion, inertia1(), two.motion, inertia2(), contact, restitution);
     if (impulse) *impulse = j;

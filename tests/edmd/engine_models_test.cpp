@@ -71,15 +71,15 @@ TEST(Models, DisksMoveAsRoundEllipses) {
 }
 
 TEST(Models, DisksMoveAsEllipsesThatDoNotGrow) {
-  expect_same_motion(disks(), *make_disk_engine({}), *make_growing_engine({}));
+  expect_same_motion(disks(), *make_disk_engine({}), *make_growing_ellipse_engine({}));
 }
 
 TEST(Models, EllipsesMoveAsThoseThatDoNotGrow) {
-  expect_same_motion(ellipses(), *make_ellipse_engine({}), *make_growing_engine({}));
+  expect_same_motion(ellipses(), *make_ellipse_engine({}), *make_growing_ellipse_engine({}));
 }
 
 TEST(Models, AMixtureMovesAsOneThatDoesNotGrow) {
-  expect_same_motion(mixture(), *make_ellipse_engine({}), *make_growing_engine({}));
+  expect_same_motion(mixture(), *make_ellipse_engine({}), *make_growing_ellipse_engine({}));
 }
 
 TEST(Models, InelasticDisksMoveAsInelasticEllipses) {
@@ -95,7 +95,7 @@ TEST(Models, TheSimplestThatHoldsIsMade) {
   EXPECT_EQ(make_engine(disks(), {})->description(), make_disk_engine({})->description());
   EXPECT_EQ(make_engine(mixture(), {})->description(), make_ellipse_engine({})->description());
   EXPECT_EQ(make_engine(disks(), growing)->description(),
-            make_growing_engine(growing)->description());
+            make_growing_ellipse_engine(growing)->description());
 }
 
 // ---- What must not matter ----
@@ -281,9 +281,9 @@ TEST(Accuracy, DoesNotDecayOverAMillionCollisions) {
   int blocks = 0;
   bool clean = true;
   RunPlan2 plan{{}, 1e9, nullptr, [&](const RunState2& now) {
-                 ++blocks;
-                 clean = clean && exact_check(now.configuration).clean();
-               }};
+                  ++blocks;
+                  clean = clean && exact_check(now.configuration).clean();
+                }};
   Budget budget;
   budget.should_stop = [&] { return state.counters.collisions > 1'000'000; };
   run(state, {}, plan, budget);

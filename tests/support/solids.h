@@ -5,6 +5,7 @@
 
 #include "core/geometry/ellipsoid.h"
 #include "core/random/stream.h"
+#include "core/state/configuration.h"
 
 /// Random bodies and directions in three dimensions.
 namespace vitrel {
@@ -27,6 +28,31 @@ inline Ellipsoid random_ellipsoid(Stream& draw, double aspect) {
   Vec3 axes;
   for (double& a : axes) a = std::pow(aspect, draw.uniform(-0.5, 0.5));
   return {axes / std::cbrt(axes.prod())};
+}
+
+/// Particles on a simple cubic lattice, n³ of them, in random orientations.
+template <class ShapeOf>
+Configuration3 cubic_lattice(int n, double packing_fraction, ShapeOf shape_of,
+                             std::uint64_t seed = 1) {
+  Configuration3 c;
+  c.resize(static_cast<std::size_t>(n * n * n));
+  c.species_names = {"A"};
+  double volume = 0;
+  for (std::size_t i = 0; i < c.size(); ++i) {
+    c.shape[i] = shape_of(i);
+    c.mass[i] = c.shape[i].semi_axes.prod();
+    volume += c.shape[i].volume();
+  }
+  const double length = std::cbrt(volume / packing_fraction);
+  c.box = PeriodicBox<3>(Vec3::Constant(length));
+  Stream draw(seed, Purpose::tests, 999);
+  for (std::size_t i = 0; i < c.size(); ++i) {
+    const int k = static_cast<int>(i);
+    c.position[i] = (Vec3(k % n, k / n % n, k / n / n) + Vec3::Constant(0.5)) * (length / n) -
+                    Vec3::Constant(0.5 * length);
+    c.orientation[i] = random_orientation(draw);
+  }
+  return c;
 }
 
 inline Ellipsoid prolate(double aspect) {

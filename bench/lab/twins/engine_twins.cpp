@@ -24,6 +24,13 @@ struct RoundListedEllipse : Ellipse {
 namespace vitrel {
 
 template <>
+struct ShapeOf<lab::SearchedEllipse> : ShapeOf<Ellipse> {};
+template <>
+struct ShapeOf<lab::FarSightedEllipse> : ShapeOf<Ellipse> {};
+template <>
+struct ShapeOf<lab::PatientEllipse> : ShapeOf<Ellipse> {};
+
+template <>
 class FirstLook<lab::SearchedEllipse> : public lab::NoLook {
  public:
   using NoLook::NoLook;
@@ -44,7 +51,6 @@ class FirstLook<lab::PatientEllipse> : public FirstLook<Ellipse> {
 template <>
 class FirstLook<lab::RoundListedEllipse> : public FirstLook<Ellipse> {
  public:
-  using Shape = lab::RoundListedEllipse;
   using FirstLook<Ellipse>::FirstLook;
 };
 
@@ -57,10 +63,11 @@ struct Outline<lab::RoundListedEllipse> : Outline<Ellipse> {
 template <>
 class GapLook<lab::RoundListedEllipse> : public GapLook<Ellipse> {
  public:
-  GapLook(const Ellipse& shape, double angle) : GapLook<Ellipse>(shape, angle), radius_(shape.a) {}
-  void set(int k, const Ellipse& shape, double angle, const Vec2& d) {
-    GapLook<Ellipse>::set(k, shape, angle, d);
+  GapLook(const Ellipse& shape, double angle, double limit)
+      : GapLook<Ellipse>(shape, angle, limit), radius_(shape.a) {}
+  bool set(int k, const Ellipse& shape, double angle, const Vec2& d) {
     round_gap_[k] = d.norm() - radius_ - shape.a;
+    return GapLook<Ellipse>::set(k, shape, angle, d);
   }
   double gap(int k) const { return round_gap_[k]; }
 
@@ -75,26 +82,8 @@ double Neighborhoods<lab::RoundListedEllipse>::choose_gap(std::vector<Pair>, dou
   const std::vector<Ellipse> shapes(shapes_.begin(), shapes_.end());
   std::vector<Pose2> poses;
   for (std::size_t i = 0; i < references_.size(); ++i)
-    poses.push_back({references_[i].position, references_[i].angle});
+    poses.push_back({references_[i].position, references_[i].orientation});
   return 2 * Neighborhoods<Ellipse>(box_, shapes, kind_of_, poses, wanted).margin();
-}
-
-template <>
-lab::SearchedEllipse body_from<lab::SearchedEllipse>(const Ellipse& shape, const CommonSize&) {
-  return {shape};
-}
-template <>
-lab::FarSightedEllipse body_from<lab::FarSightedEllipse>(const Ellipse& shape, const CommonSize&) {
-  return {shape};
-}
-template <>
-lab::PatientEllipse body_from<lab::PatientEllipse>(const Ellipse& shape, const CommonSize&) {
-  return {shape};
-}
-template <>
-lab::RoundListedEllipse body_from<lab::RoundListedEllipse>(const lab::RoundListedEllipse& shape,
-                                                           const CommonSize&) {
-  return shape;
 }
 
 // As for every body, but the partner's entry is no limit.
