@@ -6,6 +6,7 @@ import json
 import math
 import re
 import struct
+import sys
 import unittest
 
 from pages import FOLDER, PIXELS, SHIFT, WIDTHS, PageTest
