@@ -159,13 +159,8 @@ TEST(Survey, KeepsTheFirstFailureOfEachMethodThatAppliesAtAll) {
 TEST(Survey, ASlowMethodAnswersWhatItsTimeAllows) {
   Method slow = that_always_says("slow", Outcome::none);
   slow.predict = [](const CollisionCase&) {
-<<<<<<< HEAD
-    spin(5e-3);
-    return Prediction2{};
-=======
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    return Prediction{};
->>>>>>> main
+    return Prediction2{};
   };
   const SurveyRequest request{
       {{that_always_says("fast", Outcome::none)}, {slow, 0.1}}, {generic()}, 500, 5, {}};
