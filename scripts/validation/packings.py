@@ -29,8 +29,8 @@ EXAMPLES = (
     ("oblate 20", "[20, 1]", 50, 0.15),
     ("scalene 2, 5", "[2, 5]", 100, 0.30),
     ("scalene 4, 0.5", "[4, 0.5]", 1000, 0.20),
-    ("1 ≤ R ≤ 5", "[{ uniform = [1, 5] }, { uniform = [1, 5] }]", 50, 0.30),
-    ("0.1 ≤ R ≤ 2", "[{ uniform = [0.1, 2] }, { uniform = [0.1, 2] }]", 125, 0.20),
+    ("1 ≤ R ≤ 5", "[{ distribution = \"uniform\", low = 1, high = 5 }, { distribution = \"uniform\", low = 1, high = 5 }]", 50, 0.30),
+    ("0.1 ≤ R ≤ 2", "[{ distribution = \"uniform\", low = 0.1, high = 2 }, { distribution = \"uniform\", low = 0.1, high = 2 }]", 125, 0.20),
 )
 EXTREMES = (("prolate 100", "[100, 100]", 500, 0.05), ("prolate 2", "[2, 2]", 100000, 0.40))
 
