@@ -10,35 +10,86 @@
 namespace vitrel {
 namespace {
 
-/// What follows the bodies. A body keeps its number through these operations, the matrix takes that of the
-/// box.
-constexpr const char* assembly = R"(
-parts() = BooleanFragments{ Volume{box}; Delete; }{ Volume{1:box-1}; Delete; };
-matrix() = parts();
-matrix() -= {1:box-1};
-Physical Volume("matrix") = matrix();
+/// Before the bodies. Ellipsoids are dilated spheres, whose seam and poles the kernel sometimes fails to cut
+/// through: then another attempt turns the sphere before. All slices of a particle have the same seam, so
+/// that their faces on opposite sides are bounded by the same curves.
+constexpr const char* macros = R"(
+Macro MakeParticle
+  made = 0;
+  For attempt In {0:9}
+    If (!made)
+      For i In {0:#tags()-1}
+        Sphere(tags(i)) = {0, 0, 0, 1};
+        Rotate{ {1, 2, 3}, {0, 0, 0}, attempt }{ Volume{tags(i)}; }
+        Dilate{ {0, 0, 0}, {a, b, c} }{ Volume{tags(i)}; }
+        Rotate{ {ux, uy, uz}, {0, 0, 0}, angle }{ Volume{tags(i)}; }
+        Translate{ x(i), y(i), z(i) }{ Volume{tags(i)}; }
+      EndFor
+      slices() = tags();
+      If (cut)
+        slices() = BooleanIntersection{ Volume{tags()}; Delete; }{ Volume{box}; };
+      EndIf
+      whole = 0;
+      For i In {0:#slices()-1}
+        part = Mass Volume{slices(i)};
+        whole += part;
+      EndFor
+      made = Fabs(whole/(4*Pi/3*a*b*c) - 1) < 0.01;
+      If (!made)
+        Recursive Delete{ Volume{slices()}; }
+      EndIf
+    EndIf
+  EndFor
+  If (!made)
+    Error("The volume %g could not be cut by the box", tags(0));
+  EndIf
+  bodies() += slices();
+  inclusions() += slices();
+Return
 
-// Each face on a lower side and its twin, one box further, have equal bounding boxes.
+// A face on a lower side and its twin, one box further, have nearly equal bounding boxes: the kernel
+// approximates the curves along which it cuts.
 Macro PairFaces
   For i In {0:#low()-1}
     one() = BoundingBox Surface{ low(i) };
-    near() = Surface In BoundingBox{ one(0) + tx - e, one(1) + ty - e, one(2) + tz - e,
-                                     one(3) + tx + e, one(4) + ty + e, one(5) + tz + e };
-    twins = 0;
+    near() = Surface In BoundingBox{ one(0) + tx - m, one(1) + ty - m, one(2) + tz - m,
+                                     one(3) + tx + m, one(4) + ty + m, one(5) + tz + m };
+    twin = 0;
+    least = 6*m;
     For j In {0:#near()-1}
       two() = BoundingBox Surface{ near(j) };
       off = Fabs(two(0) - tx - one(0)) + Fabs(two(1) - ty - one(1)) + Fabs(two(2) - tz - one(2)) +
             Fabs(two(3) - tx - one(3)) + Fabs(two(4) - ty - one(4)) + Fabs(two(5) - tz - one(5));
-      If (off < e)
-        Periodic Surface{ near(j) } = { low(i) } Translate{ tx, ty, tz };
-        twins += 1;
+      If (off < least)
+        twin = near(j);
+        least = off;
       EndIf
     EndFor
-    If (twins != 1)
-      Error("Surface %g has %g twins on the opposite side, not 1", low(i), twins);
+    If (twin)
+      Periodic Surface{ twin } = { low(i) } Translate{ tx, ty, tz };
+      area = Mass Surface{ low(i) };
+      curves() = Abs(Boundary{ Surface{low(i)}; });
+      perimeter = 0;
+      For j In {0:#curves()-1}
+        length = Mass Curve{ curves(j) };
+        perimeter += length;
+      EndFor
+      faces() += { low(i), twin };
+      sizes() += { area/perimeter, area/perimeter };
+    Else
+      Error("Surface %g has no twin on the opposite side", low(i));
     EndIf
   EndFor
 Return
+)";
+
+/// After the bodies, which keep their numbers.
+constexpr const char* assembly = R"(
+matrix() = BooleanFragments{ Volume{box}; Delete; }{ Volume{bodies()}; Delete; };
+matrix() -= bodies();
+Physical Volume("matrix") = matrix();
+faces() = {};
+sizes() = {};
 
 low() = Surface In BoundingBox{ -hx - e, -hy - e, -hz - e, -hx + e, hy + e, hz + e };
 tx = 2*hx; ty = 0; tz = 0;
@@ -57,28 +108,66 @@ tx = 0; ty = 0; tz = 2*hz;
 Call PairFaces;
 Physical Surface("zmin") = low();
 Physical Surface("zmax") = Surface In BoundingBox{ -hx - e, -hy - e, hz - e, hx + e, hy + e, hz + e };
+
+// A thin slice needs elements small enough to see its curvature. Points that faces share get the size of
+// the smallest, by halves.
+level = h;
+For k In {1:12}
+  level /= 2;
+  For i In {0:#faces()-1}
+    If (sizes(i) <= level)
+      MeshSize{ PointsOf{ Surface{faces(i)}; } } = level;
+    EndIf
+  EndFor
+EndFor
+
 )";
 
-/// Differences of faces and their twins, over the thinnest body: above the tolerances of the kernel, and
-/// below all that a mesh resolves.
-constexpr double face_tolerance = 1e-3;
+/// How thick a side is in the eyes of the kernel, over the length of the box, and how well faces and their
+/// twins agree, over the thinnest body.
+constexpr double side_tolerance = 1e-6, twin_tolerance = 0.02;
 
-void append_body(fmt::memory_buffer& text, std::size_t tag, const Ellipsoid& shape,
-                 const Quaternion& orientation, const Vec3& centre) {
-  const auto out = std::back_inserter(text);
-  const Vec3& axes = shape.semi_axes;
-  const Eigen::AngleAxisd turn(orientation);
-  if (shape.is_round()) {
-    fmt::format_to(out, "Sphere({}) = {{0, 0, 0, {}}};", tag, axes[0]);
-  } else {
-    fmt::format_to(out, "Sphere({0}) = {{0, 0, 0, 1}}; ", tag);
-    fmt::format_to(out, "Dilate{{{{0, 0, 0}}, {{{}, {}, {}}}}}{{ Volume{{{}}}; }} ", axes[0],
-                   axes[1], axes[2], tag);
-    fmt::format_to(out, "Rotate{{{{{}, {}, {}}}, {{0, 0, 0}}, {}}}{{ Volume{{{}}}; }}",
-                   turn.axis().x(), turn.axis().y(), turn.axis().z(), turn.angle(), tag);
+using Bodies = std::vector<BodyInBox>::const_iterator;
+
+/// The bodies of one particle.
+struct Slices {
+  Bodies begin, end;
+  std::size_t first_tag;
+
+  std::string tags() const {
+    return fmt::format("tags() = {{{}:{}}};", first_tag, first_tag + (end - begin) - 1);
   }
-  fmt::format_to(out, " Translate{{{}, {}, {}}}{{ Volume{{{}}}; }}\n", centre.x(), centre.y(),
-                 centre.z(), tag);
+};
+
+std::vector<Slices> slices_of(const Packing& packing) {
+  std::vector<Slices> particles;
+  for (Bodies begin = packing.bodies.begin(); begin != packing.bodies.end();) {
+    const Bodies end = std::find_if(begin, packing.bodies.end(), [&](const BodyInBox& body) {
+      return body.particle != begin->particle;
+    });
+    particles.push_back({begin, end, static_cast<std::size_t>(begin - packing.bodies.begin()) + 1});
+    begin = end;
+  }
+  return particles;
+}
+
+std::string coordinates(const Packing& packing, const Slices& slices, int k) {
+  std::vector<double> values;
+  for (Bodies body = slices.begin; body != slices.end; ++body)
+    values.push_back(packing.centre(*body)[k]);
+  return fmt::format("{}() = {{{}}};", "xyz"[k], fmt::join(values, ", "));
+}
+
+std::string particle(const Packing& packing, const Slices& slices) {
+  const std::size_t i = slices.begin->particle;
+  const Vec3& axes = packing.configuration.shape[i].semi_axes;
+  const Eigen::AngleAxisd turn(packing.configuration.orientation[i]);
+  return fmt::format(
+      "{} cut = {};\n{}\n{}\n{}\na = {}; b = {}; c = {}; ux = {}; uy = {}; uz = {}; angle = {};\n"
+      "Call MakeParticle;\n",
+      slices.tags(), slices.begin->is_cut ? 1 : 0, coordinates(packing, slices, 0),
+      coordinates(packing, slices, 1), coordinates(packing, slices, 2), axes[0], axes[1], axes[2],
+      turn.axis().x(), turn.axis().y(), turn.axis().z(), turn.angle());
 }
 
 double shortest_semi_axis(const Configuration3& configuration) {
@@ -86,6 +175,21 @@ double shortest_semi_axis(const Configuration3& configuration) {
   for (const Ellipsoid& shape : configuration.shape)
     shortest = std::min(shortest, shape.inradius());
   return shortest;
+}
+
+std::string head(const Configuration3& configuration) {
+  const Vec3 half = 0.5 * configuration.box.lengths();
+  const double shortest = shortest_semi_axis(configuration);
+  return fmt::format(
+      "// One period of a packing of {} ellipsoids, by vitrel.\n"
+      "// gmsh -3 -setnumber h 0.1 <this file> makes a mesh with elements of that size.\n"
+      "SetFactory(\"OpenCASCADE\");\n"
+      "DefineConstant[ h = {{{}, Name \"Mesh size\"}} ];\n"
+      "Mesh.MeshSizeMax = h;\n"
+      "hx = {}; hy = {}; hz = {};\n"
+      "e = {}; m = {};\n",
+      configuration.size(), 0.5 * shortest, half.x(), half.y(), half.z(),
+      side_tolerance * half.maxCoeff(), twin_tolerance * shortest);
 }
 
 /// A name in quotes, which the language cannot have inside.
@@ -98,45 +202,25 @@ std::string quoted(std::string name) {
 
 void write_geo(const std::filesystem::path& path, const Packing& packing) {
   const Configuration3& configuration = packing.configuration;
-  const Vec3 half = 0.5 * configuration.box.lengths();
-  const double shortest = shortest_semi_axis(configuration);
-  fmt::memory_buffer text;
-  const auto out = std::back_inserter(text);
-  fmt::format_to(
-      out,
-      "// One period of a packing of {} ellipsoids, by vitrel.\n"
-      "// gmsh -3 -setnumber h 0.1 <this file> makes a mesh with elements of that size.\n"
-      "SetFactory(\"OpenCASCADE\");\n"
-      "DefineConstant[ h = {{{}, Name \"Mesh size\"}} ];\n"
-      "Mesh.MeshSizeMax = h;\n"
-      "hx = {}; hy = {}; hz = {};\n"
-      "e = {};\n\n",
-      configuration.size(), 0.5 * shortest, half.x(), half.y(), half.z(),
-      face_tolerance * shortest);
-  std::vector<std::size_t> cut;
-  std::vector<std::vector<std::size_t>> of_species(configuration.species_names.size());
-  for (std::size_t k = 0; k < packing.bodies.size(); ++k) {
-    const BodyInBox& body = packing.bodies[k];
-    const std::size_t tag = k + 1;
-    append_body(text, tag, configuration.shape[body.particle],
-                configuration.orientation[body.particle], packing.centre(body));
-    if (body.is_cut) cut.push_back(tag);
-    of_species[configuration.species[body.particle]].push_back(tag);
-  }
-  fmt::format_to(out, "\nbox = {};\nBox(box) = {{-hx, -hy, -hz, 2*hx, 2*hy, 2*hz}};\n",
-                 packing.bodies.size() + 1);
-  if (!cut.empty())
-    fmt::format_to(out,
-                   "cut() = BooleanIntersection{{ Volume{{{}}}; Delete; }}{{ Volume{{box}}; }};\n",
-                   fmt::join(cut, ", "));
-  fmt::format_to(out, "{}\n", assembly);
-  for (std::size_t k = 0; k < of_species.size(); ++k)
-    if (!of_species[k].empty())
-      fmt::format_to(out, "Physical Volume({}) = {{{}}};\n",
-                     quoted("inclusions " + configuration.species_names[k]),
-                     fmt::join(of_species[k], ", "));
+  const std::vector<Slices> particles = slices_of(packing);
   OutputFile file(path);
-  file.write({text.data(), text.size()});
+  file.write(head(configuration));
+  file.write(macros);
+  file.write(
+      fmt::format("\nbox = {};\nBox(box) = {{-hx, -hy, -hz, 2*hx, 2*hy, 2*hz}};\n"
+                  "bodies() = {{}};\n",
+                  packing.bodies.size() + 1));
+  for (std::size_t k = 0; k < configuration.species_names.size(); ++k) {
+    file.write("\ninclusions() = {};\n");
+    for (const Slices& slices : particles)
+      if (configuration.species[slices.begin->particle] == static_cast<std::int32_t>(k))
+        file.write(particle(packing, slices));
+    file.write(fmt::format("inclusions_{}() = inclusions();\n", k));
+  }
+  file.write(assembly);
+  for (std::size_t k = 0; k < configuration.species_names.size(); ++k)
+    file.write(fmt::format("Physical Volume({}) = inclusions_{}();\n",
+                           quoted("inclusions " + configuration.species_names[k]), k));
   file.close();
 }
 
