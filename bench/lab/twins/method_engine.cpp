@@ -22,17 +22,15 @@ thread_local const Method* JudgedEllipse::method = nullptr;
 
 namespace vitrel {
 
+template <>
+struct ShapeOf<lab::JudgedEllipse> : ShapeOf<Ellipse> {};
+
 /// Every pair is the method's to judge.
 template <>
 class FirstLook<lab::JudgedEllipse> : public lab::NoLook {
  public:
   using NoLook::NoLook;
 };
-
-template <>
-lab::JudgedEllipse body_from<lab::JudgedEllipse>(const Ellipse& shape, const CommonSize&) {
-  return {shape};
-}
 
 }  // namespace vitrel
 
