@@ -125,12 +125,14 @@ class SortedPoints {
 
   // The points behind i in this row.
   template <class Visit>
-  void visit_row(std::size_t i, const Cells& cells, std::int64_t start, Vec<Dim> offset,
+  void visit_row(std::size_t i, const Cells& cells, std::int64_t start, const Vec<Dim>& row,
                  Visit& visit) const {
     const Point<Dim>& here = points_[i];
     for (std::int64_t right = boxes_off(cells.low, 0); right <= boxes_off(cells.high, 0); ++right) {
       const std::int64_t low = std::max<std::int64_t>(cells.low - right * count_[0], 0);
       const std::int64_t high = std::min(cells.high - right * count_[0], count_[0] - 1);
+      // A copy of its own: the loop then keeps it in registers.
+      Vec<Dim> offset = row;
       offset[0] = static_cast<double>(right) * lengths_[0] - here.position[0];
       const std::size_t end = first_[static_cast<std::size_t>(start + high) + 1];
       for (std::size_t j = std::max(first_[static_cast<std::size_t>(start + low)], i + 1); j < end;

@@ -79,7 +79,9 @@ std::string filled(std::string_view page,
 
 std::string whole_page(PageParts parts) {
   const auto text = [](std::string_view path) { return std::string(asset(path)); };
-  parts.texts.emplace_back("movie", text("page/movie.html"));
+  const std::string stage = text("page/stage.html");
+  parts.texts.emplace_back("stage", stage);
+  parts.texts.emplace_back("movie", filled(asset("page/movie.html"), {{"stage", stage}}));
   return filled(asset("page/page.html"), {{"title", escaped(parts.title)},
                                           {"subtitle", escaped(parts.subtitle)},
                                           {"uplot_style", text("vendor/uplot/uPlot.min.css")},
