@@ -160,7 +160,7 @@ double AllPairs::time_to_part(std::size_t i, std::size_t j) const {
 }
 
 Prediction2 AllPairs::predict(std::size_t i, std::size_t j, const Pose2& pose2,
-                             double horizon) const {
+                              double horizon) const {
   const Particle& one = particles_[i];
   const Particle& two = particles_[j];
   const Flight<Ellipse> mine{one.shape, pose_now(one), one.motion};

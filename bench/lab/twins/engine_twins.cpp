@@ -126,26 +126,26 @@ Flight<Ellipse> plain(const Flight<B>& flight) {
 
 // The event loop finds these in place of the predictor for ellipses.
 Prediction2 first_contact(const Flight<SearchedEllipse>& one, const Flight<SearchedEllipse>& two,
-                         double horizon, double contact_gap,
-                         const FirstLook<SearchedEllipse>::Memory& /*memory*/) {
+                          double horizon, double contact_gap,
+                          const FirstLook<SearchedEllipse>::Memory& /*memory*/) {
   return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap);
 }
 
-Prediction2 first_contact(const Flight<FarSightedEllipse>& one, const Flight<FarSightedEllipse>& two,
-                         double horizon, double contact_gap,
-                         const FirstLook<Ellipse>::Memory& memory) {
+Prediction2 first_contact(const Flight<FarSightedEllipse>& one,
+                          const Flight<FarSightedEllipse>& two, double horizon, double contact_gap,
+                          const FirstLook<Ellipse>::Memory& memory) {
   return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, memory);
 }
 
 Prediction2 first_contact(const Flight<RoundListedEllipse>& one,
-                         const Flight<RoundListedEllipse>& two, double horizon, double contact_gap,
-                         const FirstLook<Ellipse>::Memory& memory) {
+                          const Flight<RoundListedEllipse>& two, double horizon, double contact_gap,
+                          const FirstLook<Ellipse>::Memory& memory) {
   return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, memory);
 }
 
 Prediction2 first_contact(const Flight<PatientEllipse>& one, const Flight<PatientEllipse>& two,
-                         double horizon, double contact_gap,
-                         const FirstLook<Ellipse>::Memory& memory) {
+                          double horizon, double contact_gap,
+                          const FirstLook<Ellipse>::Memory& memory) {
   return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, memory);
 }
 

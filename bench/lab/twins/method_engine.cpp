@@ -40,8 +40,8 @@ namespace {
 // Found by Simulation<JudgedEllipse> in place of the default predictor. An answer that did not come
 // is no contact.
 Prediction2 first_contact(const Flight<JudgedEllipse>& one, const Flight<JudgedEllipse>& two,
-                         double horizon, double /*contact_gap*/,
-                         const FirstLook<JudgedEllipse>::Memory& /*memory*/) {
+                          double horizon, double /*contact_gap*/,
+                          const FirstLook<JudgedEllipse>::Memory& /*memory*/) {
   const auto plain = [](const Flight<JudgedEllipse>& flight) {
     return of_constant_size({flight.body, flight.pose, flight.motion});
   };
