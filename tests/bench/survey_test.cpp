@@ -53,17 +53,17 @@ struct Watch {
 
 TEST(TimedBatches, GrowAsFarAsTheBudgetGoes) {
   Watch watch;
-  TimedBatches timer(0.05, watch.clock());
+  constexpr double question = 0x1p-9;  // sums of it are exact
+  TimedBatches timer(25 * question, watch.clock());
   std::vector<std::size_t> batches;
   std::size_t asked = 0;
   while (const std::size_t batch = timer.next(1000000 - asked)) {
-    timer.run(batch, [&] { watch.now += 2e-3 * static_cast<double>(batch); });
+    timer.run(batch, [&] { watch.now += question * static_cast<double>(batch); });
     batches.push_back(batch);
     asked += batch;
   }
-  // 2 ms each: 25 fit into 50 ms.
   EXPECT_EQ(batches, (std::vector<std::size_t>{1, 2, 4, 8, 10}));
-  EXPECT_NEAR(timer.ns_per_call(), 2e6, 1);
+  EXPECT_EQ(timer.ns_per_call(), 1e9 * question);
 }
 
 TEST(TimedBatches, AskOneQuestionWhateverItCosts) {
