@@ -102,10 +102,10 @@ TEST(PairInFlight, AccelerationBoundHoldsAndIsTight) {
     const Flight<GrowingEllipse> one = flight(), two = flight();
     const Vec2 n = direction(draw.uniform(0, 2 * pi));
     const double now = 1, duration = draw.uniform(0, 1);
-    PairInFlight pair(one, two);
+    EllipsePairInFlight pair(one, two);
     const auto gap = [&](double time) {
       pair.start_at(time);
-      return gap_along(pair.now(), n);
+      return pair.look(n);
     };
     const double smallest =
         std::min({one.body.size_at(now - duration), one.body.size_at(now + duration),
@@ -132,12 +132,12 @@ TEST(PairInFlight, AccelerationBoundHoldsAndIsTight) {
 TEST(PairInFlight, RatesAreDerivatives) {
   const Flight<GrowingEllipse> one{{{2, 1}, 0.8, 0.1}, {{0.1, 0}, 0.3}, {{0.2, -0.1}, 1.5}};
   const Flight<GrowingEllipse> two{{{3, 0.5}, 1.1, -0.2}, {{4, 2.5}, -0.4}, {{-0.5, -0.6}, -0.8}};
-  PairInFlight pair(one, two);
+  EllipsePairInFlight pair(one, two);
   const Vec2 n = direction(0.4);
   const double step = 1e-4;
   const auto along = [&](double time) {
     pair.go_to(time);
-    return gap_along(pair.now(), n);
+    return pair.look(n);
   };
   pair.start_at(0);
   const GapAlongAxis before = along(0.5 - step), after = along(0.5 + step), here = along(0.5);

@@ -234,9 +234,9 @@ TYPED_TEST_SUITE(Memories, Ellipses);
 TYPED_TEST(Memories, OfAPairStayWithIt) {
   Stream draw(64, Purpose::tests);
   Crowd<TypeParam> crowd(draw, Vec2(12, 9), 20, 7);
-  const auto axis_of = [&](std::size_t i, const NeighborImage& image) {
+  const auto axis_of = [&](std::size_t i, const NeighborImage<2>& image) {
     for (const Neighbor<TypeParam>& neighbor : crowd.lists.of(i))
-      if (neighbor == image) return neighbor.memory.axis;
+      if (neighbor.is(image)) return neighbor.memory.axis;
     ADD_FAILURE() << "no such neighbour";
     return Vec2(0, 0);
   };
@@ -444,10 +444,10 @@ TEST(SpatialOrder, NamesEveryPointOnce) {
     std::vector<Vec2> points;
     for (std::size_t k = 0; k < count; ++k)
       points.push_back({draw.uniform(-1.5, 1.5), draw.uniform(-100, 100)});
-    EXPECT_TRUE(is_permutation_of_all(spatial_order(box, points), count));
+    EXPECT_TRUE(is_permutation_of_all(spatial_order<2>(box, points), count));
   }
   const std::vector<Vec2> at_one_place(7, Vec2(-1.5, 100));
-  EXPECT_TRUE(is_permutation_of_all(spatial_order(box, at_one_place), 7));
+  EXPECT_TRUE(is_permutation_of_all(spatial_order<2>(box, at_one_place), 7));
 }
 
 // Along Morton's curve every aligned run of 4^m sites of a lattice with 2^k × 2^k fills a square of
@@ -460,7 +460,7 @@ TEST(SpatialOrder, FillsSquareAfterSquare) {
     for (int y = 0; y < side; ++y) sites.push_back(Vec2(x + 0.5, y + 0.5) - Vec2(16, 16));
   Stream draw(72, Purpose::tests);
   for (std::size_t k = sites.size() - 1; k > 0; --k) std::swap(sites[k], sites[draw.below(k + 1)]);
-  const std::vector<std::uint32_t> order = spatial_order(box, sites);
+  const std::vector<std::uint32_t> order = spatial_order<2>(box, sites);
   for (int length = 2; length <= side; length *= 2)
     for (std::size_t first = 0; first < order.size(); first += length * length) {
       Vec2 low = sites[order[first]], high = low;

@@ -9,10 +9,6 @@
 namespace vitrel {
 namespace {
 
-Inertia<2> inertia_of(const Ellipse& body, double mass) {
-  return {1 / mass, 1 / (mass * body.inertia_per_mass())};
-}
-
 struct TwoBodies {
   Flight<Ellipse> one, two;
   double mass1 = 1, mass2 = 1;
