@@ -22,6 +22,10 @@ thread_local const Method* JudgedEllipse::method = nullptr;
 
 namespace vitrel {
 
+/// For all but its collisions it is an ellipse.
+template <>
+struct ShapeOf<lab::JudgedEllipse> : ShapeOf<Ellipse> {};
+
 /// Every pair is the method's to judge.
 template <>
 class FirstLook<lab::JudgedEllipse> : public lab::NoLook {
@@ -42,8 +46,8 @@ namespace {
 // Found by Simulation<JudgedEllipse> in place of the default predictor. An answer that did not come
 // is no contact.
 Prediction2 first_contact(const Flight<JudgedEllipse>& one, const Flight<JudgedEllipse>& two,
-                         double horizon, double /*contact_gap*/,
-                         const FirstLook<JudgedEllipse>::Memory& /*memory*/) {
+                          double horizon, double /*contact_gap*/,
+                          const FirstLook<JudgedEllipse>::Memory& /*memory*/) {
   const auto plain = [](const Flight<JudgedEllipse>& flight) {
     return of_constant_size({flight.body, flight.pose, flight.motion});
   };
