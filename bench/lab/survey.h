@@ -84,7 +84,7 @@ using Survey = SurveyOf<2>;
 /// the methods, the reference's time apart. Of a method's failures the first of the gravest kind is
 /// kept: late or missed, then early or false, these if the pair is degenerate, and last no answer,
 /// unless the method does not apply.
-template <int Dim>
+template <int Dim = 2>
 SurveyOf<Dim> survey(const SurveyRequestOf<Dim>& request, const Budget& budget);
 
 }  // namespace vitrel::lab

@@ -22,7 +22,6 @@ thread_local const Method* JudgedEllipse::method = nullptr;
 
 namespace vitrel {
 
-/// For all but its collisions it is an ellipse.
 template <>
 struct ShapeOf<lab::JudgedEllipse> : ShapeOf<Ellipse> {};
 
@@ -33,11 +32,6 @@ class FirstLook<lab::JudgedEllipse> : public lab::NoLook {
   using NoLook::NoLook;
 };
 
-template <>
-lab::JudgedEllipse body_from<lab::JudgedEllipse>(const Ellipse& shape, const CommonSize&) {
-  return {shape};
-}
-
 }  // namespace vitrel
 
 namespace vitrel::lab {
@@ -46,8 +40,8 @@ namespace {
 // Found by Simulation<JudgedEllipse> in place of the default predictor. An answer that did not come
 // is no contact.
 Prediction2 first_contact(const Flight<JudgedEllipse>& one, const Flight<JudgedEllipse>& two,
-                          double horizon, double /*contact_gap*/,
-                          const FirstLook<JudgedEllipse>::Memory& /*memory*/) {
+                         double horizon, double /*contact_gap*/,
+                         const FirstLook<JudgedEllipse>::Memory& /*memory*/) {
   const auto plain = [](const Flight<JudgedEllipse>& flight) {
     return of_constant_size({flight.body, flight.pose, flight.motion});
   };
