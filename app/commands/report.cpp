@@ -6,8 +6,10 @@
 
 #include "app/commands/common.h"
 #include "app/workflow/analyze.h"
+#include "app/workflow/packing_report.h"
 #include "app/workflow/quality_file.h"
 #include "app/workflow/run_report.h"
+#include "app/workflow/stored_run.h"
 #include "app/workflow/sweep_results.h"
 #include "app/workflow/text_file.h"
 #include "core/error.h"
@@ -58,6 +60,14 @@ int report_state(const Arguments& arguments) {
                     {{"states", 1}});
 }
 
+int report_packing(const Arguments& arguments, const fs::path& packing) {
+  const fs::path output = output_of(arguments, packing);
+  const AnalysisChoice choice = analysis_choice(arguments);
+  require_place(output, {packing, arguments.parameters});
+  return write_page(arguments, output, packing_page(packing_page_data(packing, choice)),
+                    {{"packings", 1}});
+}
+
 int report_run(const Arguments& arguments, const fs::path& run) {
   const fs::path output = output_of(arguments, run);
   const AnalysisChoice choice = analysis_choice(arguments);
@@ -85,6 +95,7 @@ int report_sweep(const Arguments& arguments, const fs::path& folder) {
 int report_command(const Arguments& arguments) {
   const fs::path input = run_or_sweep(arguments.input);
   if (fs::is_directory(input)) return report_sweep(arguments, input);
+  if (is_packing(input)) return report_packing(arguments, input);
   return is_single_state(input) ? report_state(arguments) : report_run(arguments, input);
 }
 

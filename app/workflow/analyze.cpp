@@ -11,6 +11,7 @@
 #include "app/workflow/correlations_file.h"
 #include "app/workflow/dynamics_tables.h"
 #include "app/workflow/glass_data.h"
+#include "app/workflow/packing_tables.h"
 #include "app/workflow/parameters.h"
 #include "app/workflow/relaxation_tables.h"
 #include "app/workflow/species_names.h"
@@ -213,6 +214,18 @@ std::filesystem::path csv_file(const std::filesystem::path& results, const std::
   return results.parent_path() / fmt::format("{}_{}.csv", results.stem().string(), table);
 }
 
+AnalysedRun analyze_packing(const std::filesystem::path& file, const AnalysisChoice& choice) {
+  const TrajectoryReader reader(file);
+  require_own_names(reader);
+  const Parameters parameters = analysis_parameters(reader, choice);
+  ProgressDisplay(choice.progress, choice.job).begin("structure");
+  AnalysedRun analysed{file, {}};
+  analysed.results.tables = packing_tables(read_packing(file), parameters.structure);
+  analysed.results.provenance = provenance_rows(reader.provenance());
+  analysed.results.provenance.emplace_back("source", file.string());
+  return analysed;
+}
+
 }  // namespace
 
 std::string AnalysedRun::name() const {
@@ -231,6 +244,7 @@ std::uint64_t AnalysedRun::seed() const {
 }
 
 AnalysedRun analyze_run(const std::filesystem::path& file, const AnalysisChoice& choice) {
+  if (is_packing(file)) return analyze_packing(file, choice);
   StoredTrajectory trajectory(file);
   const TrajectoryReader& reader = trajectory.reader();
   if (trajectory.frames() < 2)

@@ -20,14 +20,18 @@ struct PackingQuality {
   double orientation_ratio = 0;  ///< ρ = λ_max/λ_min of the orientation tensor; NaN without axes
   std::size_t overlaps = 0;
   double smallest_gap = 0;       ///< infinity beyond the longest semi-axis
-  std::uint64_t collisions = 0;  ///< of all stages
-  double wall_seconds = 0;
+  std::uint64_t collisions = 0;  ///< of all stages; 0 if not known
+  double wall_seconds = 0;       ///< 0 if not known
 };
 
 /// Of a complete preparation.
 PackingQuality measure_quality(const Preparation<3>& preparation);
+/// Of a packing and its exact check: without pressure, collisions and wall time.
+PackingQuality measure_quality(const Configuration3& packing, const ExactCheck<3>& check);
+/// Adds these, from what write_quality wrote. FileError if that is no report of the same packing.
+void add_preparation(PackingQuality& quality, const std::filesystem::path& file);
 
-/// The properties, in words and rounded numbers.
+/// The properties that are known, in words and rounded numbers.
 std::vector<QualityRow> quality_rows(const PackingQuality& quality);
 
 /// JSON has neither NaN nor infinity: null stands for both.

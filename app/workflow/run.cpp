@@ -180,14 +180,14 @@ class Runner {
     const double wall_before = stored_.wall_seconds;
     const Clock::time_point start = Clock::now();
     RunPlan2 plan{sample_times(request_.parameters), request_.parameters.dynamics.duration,
-                 &observer, [&](const RunState2&) {
-                   stored_.wall_seconds = wall_before + seconds_since(start);
-                   if (seconds_since(saved_) < request_.parameters.output.checkpoint_interval)
-                     return;
-                   // The disk has the frames before a checkpoint counts them.
-                   writer.synchronize();
-                   save();
-                 }};
+                  &observer, [&](const RunState2&) {
+                    stored_.wall_seconds = wall_before + seconds_since(start);
+                    if (seconds_since(saved_) < request_.parameters.output.checkpoint_interval)
+                      return;
+                    // The disk has the frames before a checkpoint counts them.
+                    writer.synchronize();
+                    save();
+                  }};
     if (correlator_) plan.ticks = {correlator_->options().interval, &*correlator_};
     const StageReport report = run_or_keep_failed_state(plan);
     stored_.wall_seconds = wall_before + seconds_since(start);

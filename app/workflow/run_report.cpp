@@ -55,19 +55,35 @@ ReportRun report_run(const AnalysedRun& run, StoredTrajectory& trajectory,
           film(trajectory, limits)};
 }
 
-}  // namespace
-
-std::string particles_text(const Configuration2& state) {
-  if (state.species_names.size() > 1) {
-    std::string names;
-    for (const std::string& name : state.species_names) names += (names.empty() ? "" : ", ") + name;
-    return "particles of species " + names;
-  }
-  const double ratio = state.shape.front().aspect_ratio();
-  for (const Ellipse& shape : state.shape)
+std::string shapes_text(const std::vector<Ellipse>& shapes) {
+  const double ratio = shapes.front().aspect_ratio();
+  for (const Ellipse& shape : shapes)
     if (std::abs(shape.aspect_ratio() - ratio) > 1e-9 * ratio) return "ellipses of several shapes";
   return ratio == 1 ? "disks" : fmt::format("ellipses, κ = {:.4g}", ratio);
 }
+
+std::string shapes_text(const std::vector<Ellipsoid>& shapes) {
+  const Vec3 ratios = shapes.front().semi_axes / shapes.front().inradius();
+  for (const Ellipsoid& shape : shapes)
+    if (!ratios.isApprox(shape.semi_axes / shape.inradius(), 1e-9))
+      return "ellipsoids of several shapes";
+  return shapes.front().is_round()
+             ? "spheres"
+             : fmt::format("ellipsoids, {:.4g} : {:.4g} : {:.4g}", ratios[0], ratios[1], ratios[2]);
+}
+
+}  // namespace
+
+template <int Dim>
+std::string particles_text(const Configuration<Dim>& state) {
+  if (state.species_names.size() < 2) return shapes_text(state.shape);
+  std::string names;
+  for (const std::string& name : state.species_names) names += (names.empty() ? "" : ", ") + name;
+  return "particles of species " + names;
+}
+
+template std::string particles_text(const Configuration2&);
+template std::string particles_text(const Configuration3&);
 
 ReportData report_data(const std::vector<AnalysedRun>& runs, const std::string& title) {
   ReportData data;

@@ -9,8 +9,9 @@
 
 namespace vitrel {
 
-/// "ellipses, κ = 2" for equal particles, else "particles of species A, B".
-std::string particles_text(const Configuration2& state);
+/// "ellipses, κ = 2" or "ellipsoids, 5 : 1 : 1" for equal particles, else "particles of species A, B".
+template <int Dim>
+std::string particles_text(const Configuration<Dim>& state);
 
 /// The report's view of these runs, in their order. Reads the files again, for the movies: one run has
 /// 200 000 poses in its movie; of several, six spread evenly over them share half as many, and the

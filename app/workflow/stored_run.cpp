@@ -1,6 +1,10 @@
 #include "app/workflow/stored_run.h"
 
+#include <fmt/format.h>
+
 #include <limits>
+
+#include "core/error.h"
 
 namespace vitrel {
 namespace {
@@ -21,6 +25,20 @@ Observables measure_run(const Frame<2>& frame) {
           {"rotational_energy", sums.rotational_energy},
           {"translational_energy", sums.translational_energy},
           {"virial", frame.tally.virial}};
+}
+
+bool is_packing(const std::filesystem::path& file) {
+  return TrajectoryReader(file).dimension() == 3;
+}
+
+Configuration3 read_packing(const std::filesystem::path& file) {
+  const TrajectoryReader reader(file);
+  if (reader.frames() != 1)
+    throw UserError(
+        fmt::format("{}: has {} frames, but in three dimensions a single packing is analysed, as "
+                    "vitrel prepare writes it",
+                    file.string(), reader.frames()));
+  return reader.read<3>(0);
 }
 
 EnergySeries stored_energies(StoredTrajectory& trajectory) {

@@ -1,9 +1,13 @@
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <numbers>
 
+#include "app/workflow/report/packing_page.h"
 #include "app/workflow/report/state_page.h"
 #include "app/workflow/text_file.h"
+#include "mc/insertion.h"
 #include "tests/support/report_example.h"
 
 // write_pages <folder>: the pages that the browser opens, from made-up results.
@@ -22,6 +26,58 @@ StatePage state() {
   page.orientation = {0.9, 0.8, 0.7};
   page.displacement = {0.1, 0.2, 0.3};
   return page;
+}
+
+/// Two species, prolate and oblate, in a box that the prolate ones nearly span.
+Configuration3 two_species() {
+  Configuration3 c;
+  c.resize(60);
+  c.species_names = {"rods", "plates"};
+  for (std::size_t i = 0; i < c.size(); ++i) {
+    c.species[i] = static_cast<std::int32_t>(i % 2);
+    c.shape[i] = {i % 2 ? Vec3(1.5, 1.5, 0.4) : Vec3(3.5, 0.6, 0.6)};
+  }
+  insert_particles(c, {0.15, 1'000'000, false}, 1, {});
+  return c;
+}
+
+/// One body of the semi-axes 3, 1.5 and 0.75 in the middle of a box of 8, turned by 40° about (1, 2, 2).
+Configuration3 one_body() {
+  Configuration3 c;
+  c.resize(1);
+  c.species_names = {"A"};
+  c.box = PeriodicBox<3>(Vec3::Constant(8));
+  c.shape[0] = {Vec3(3, 1.5, 0.75)};
+  c.orientation[0] = Quaternion(Eigen::AngleAxisd(40 * std::numbers::pi / 180, Vec3(1, 2, 2) / 3));
+  return c;
+}
+
+PackingPage packing(const Configuration3& bodies) {
+  PackingPage page;
+  page.title = "packing";
+  page.subtitle = "60 ellipsoids";
+  page.rows = {{"packing fraction", "0.15", ""}};
+  page.scene = packing_scene(bodies, exact_check(bodies));
+  std::vector<double> x;
+  for (int k = 1; k <= 40; ++k) x.push_back(0.1 * k);
+  const auto wave = [](double value) { return 1 + std::sin(9 * value) / (9 * value); };
+  page.results.tables = {
+      {"pair_correlation",
+       "",
+       {report_example::plain("r", "length", x), report_example::column("g", "1", x, wave)}},
+      {"structure_factor",
+       "",
+       {report_example::plain("q", "1/length", x), report_example::column("s", "1", x, wave),
+        report_example::column("s_rods_plates", "1", x, wave)}}};
+  return page;
+}
+
+/// Particle 1 on particle 0.
+Configuration3 overlapping() {
+  Configuration3 bodies = two_species();
+  bodies.position[1] = bodies.position[0] + Vec3(0.5, 0, 0);
+  bodies.box.wrap(bodies.position[1], bodies.image[1]);
+  return bodies;
 }
 
 ReportData one_run() {
@@ -48,6 +104,9 @@ void write_pages(const std::filesystem::path& folder) {
   write_text(folder / "sweep.html", report_page(sweep));
   write_text(folder / "run.html", report_page(one_run()));
   write_text(folder / "state.html", state_page(state()));
+  write_text(folder / "packing.html", packing_page(packing(two_species())));
+  write_text(folder / "one_body.html", packing_page(packing(one_body())));
+  write_text(folder / "overlapping.html", packing_page(packing(overlapping())));
   ReportData large = report_example::sweep(2, 1);
   large.runs = {report_example::run(0.7, report_example::lattice(32, 200))};
   write_text(folder / "large.html", report_page(large));

@@ -7,9 +7,9 @@
 #include <iterator>
 #include <span>
 
-#include "app/workflow/export/base64.h"
 #include "app/workflow/export/frame_sink.h"
 #include "app/workflow/export/packing.h"
+#include "core/io/base64.h"
 
 namespace vitrel {
 namespace {

@@ -27,4 +27,12 @@ std::string provenance_entries(const PageProvenance& provenance) {
   return list;
 }
 
+std::string table_rows(const std::vector<QualityRow>& rows) {
+  std::string text;
+  for (const QualityRow& row : rows)
+    text += "<tr><th scope=\"row\">" + escaped(row.name) + "</th><td>" + escaped(row.value) +
+            "</td><td>" + escaped(row.remark) + "</td></tr>\n";
+  return text;
+}
+
 }  // namespace vitrel

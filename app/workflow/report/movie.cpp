@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <string_view>
-#include <utility>
+#include <span>
 
 #include "app/workflow/report/page_parts.h"
+#include "core/io/base64.h"
 #include "core/parallel.h"
 #include "core/state/check.h"
 
@@ -139,38 +138,6 @@ bool fits(const Movie& movie, const MovieLimits& limits) {
          11 * limits.poses * characters_per_pose;
 }
 
-/// Base64 of the numbers, low byte first.
-std::string base64(const std::vector<std::uint16_t>& numbers) {
-  constexpr std::string_view digits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  const auto byte = [&](std::size_t at) -> std::uint32_t {
-    return at < 2 * numbers.size() ? (numbers[at / 2] >> (at % 2 ? 8 : 0)) & 0xffu : 0u;
-  };
-  std::string text;
-  for (std::size_t at = 0; at < 2 * numbers.size(); at += 3) {
-    const std::uint32_t three = byte(at) << 16 | byte(at + 1) << 8 | byte(at + 2);
-    const std::size_t present = 2 * numbers.size() - at;
-    text += digits[three >> 18];
-    text += digits[three >> 12 & 63];
-    text += present > 1 ? digits[three >> 6 & 63] : '=';
-    text += present > 2 ? digits[three & 63] : '=';
-  }
-  return text;
-}
-
-/// Every shape once, and for every particle which of them it has.
-void add_shapes(json& data, const Movie& movie) {
-  std::map<std::pair<double, double>, std::size_t> known;
-  json shapes = json::array(), shape = json::array();
-  for (const Ellipse& ellipse : movie.shape) {
-    const auto [place, added] = known.emplace(std::pair(ellipse.a, ellipse.b), known.size());
-    if (added) shapes.push_back({page_number(ellipse.a), page_number(ellipse.b)});
-    shape.push_back(place->second);
-  }
-  data["shapes"] = std::move(shapes);
-  data["shape"] = std::move(shape);
-}
-
 }  // namespace
 
 Movie film(Trajectory& trajectory, const MovieLimits& limits) {
@@ -197,11 +164,13 @@ json movie_data(const Movie& movie) {
                {"time", std::move(times)},
                {"box", std::move(boxes)},
                {"speciesNames", movie.species_names},
-               {"poses", base64(movie.poses)},
+               {"poses", base64(std::as_bytes(std::span(movie.poses)))},
                {"jumps", std::move(jumps)},
                {"overlappingPairs", movie.overlapping_pairs},
                {"overlapping", movie.overlapping}};
-  add_shapes(data, movie);
+  std::vector<std::vector<double>> shapes;
+  for (const Ellipse& shape : movie.shape) shapes.push_back({shape.a, shape.b});
+  add_shapes(data, shapes);
   if (movie.species_names.size() > 1) data["species"] = movie.species;
   return data;
 }

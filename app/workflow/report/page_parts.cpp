@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "app/workflow/report/assets.h"
 
@@ -13,6 +14,21 @@ using nlohmann::json;
 json page_number(double value, int digits) {
   if (!std::isfinite(value)) return nullptr;
   return std::stod(fmt::format("{:.{}g}", value, digits));
+}
+
+void add_shapes(json& data, const std::vector<std::vector<double>>& semi_axes) {
+  std::map<std::vector<double>, std::size_t> known;
+  json shapes = json::array(), shape = json::array();
+  for (const std::vector<double>& axes : semi_axes) {
+    const auto [place, added] = known.emplace(axes, known.size());
+    if (added) {
+      json& numbers = shapes.emplace_back(json::array());
+      for (const double axis : axes) numbers.push_back(page_number(axis));
+    }
+    shape.push_back(place->second);
+  }
+  data["shapes"] = std::move(shapes);
+  data["shape"] = std::move(shape);
 }
 
 std::string grouped(std::uint64_t number) {
@@ -70,13 +86,15 @@ std::string whole_page(PageParts parts) {
                                           {"style", text("page/report.css")},
                                           {"sections", filled(asset(parts.sections), parts.texts)},
                                           {"parameters", escaped(parts.parameters)},
+                                          {"unit_of_length", std::string(parts.unit_of_length)},
                                           {"provenance", provenance_entries(parts.provenance)},
                                           {"data", script_safe(parts.data)},
                                           {"uplot_licence", text("vendor/uplot/LICENSE")},
                                           {"uplot", text("vendor/uplot/uPlot.iife.min.js")},
                                           {"common", text("page/common.js")},
                                           {"charts", text("page/charts.js")},
-                                          {"movie_script", text("page/movie.js")},
+                                          {"picture", text("page/picture.js")},
+                                          {"picture_script", text(parts.picture)},
                                           {"script", text(parts.script)}});
 }
 

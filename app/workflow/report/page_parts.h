@@ -25,6 +25,9 @@ nlohmann::json page_numbers(const Values& values, const Rows& rows, int digits =
   return array;
 }
 
+/// Adds "shapes": every list of semi-axes once, and "shape": for every particle which of them it has.
+void add_shapes(nlohmann::json& data, const std::vector<std::vector<double>>& semi_axes);
+
 /// 1234567 with thin spaces between groups of three digits.
 std::string grouped(std::uint64_t number);
 
@@ -36,11 +39,14 @@ std::string with_error(double value, double error);
 /// sections.
 struct PageParts {
   std::string title, subtitle;
-  std::string_view sections, script;
+  std::string_view sections;
+  std::string_view picture;  ///< the script of the picture
+  std::string_view script;
   std::vector<std::pair<std::string_view, std::string>> texts;
   nlohmann::json data;     ///< for the script
   std::string parameters;  ///< TOML
   PageProvenance provenance;
+  std::string_view unit_of_length = "a b";  ///< the product of the reference semi-axes that is 1
 };
 std::string whole_page(PageParts parts);
 

@@ -86,6 +86,7 @@ std::string page_with(const ReportData& data, const Thinning& thinning) {
   return whole_page({data.title,
                      data.subtitle,
                      "page/runs_sections.html",
+                     "page/movie.js",
                      "page/report.js",
                      {{"table_rows", rows},
                       {"relaxation_rows", relaxation_rows(data.study)},

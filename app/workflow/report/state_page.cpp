@@ -34,16 +34,9 @@ json correlation(const NematicCorrelation& correlation) {
           {"error", page_numbers(error, rows)}};
 }
 
-std::string table_row(const QualityRow& row) {
-  return "<tr><th scope=\"row\">" + escaped(row.name) + "</th><td>" + escaped(row.value) +
-         "</td><td>" + escaped(row.remark) + "</td></tr>\n";
-}
-
 }  // namespace
 
 std::string state_page(const StatePage& page) {
-  std::string rows;
-  for (const QualityRow& row : page.rows) rows += table_row(row);
   MemoryTrajectory state({page.state});
   const json data = {{"label", page.title},
                      {"movie", movie_data(film(state))},
@@ -54,8 +47,9 @@ std::string state_page(const StatePage& page) {
   return whole_page({page.title,
                      page.subtitle,
                      "page/state_sections.html",
+                     "page/movie.js",
                      "page/state.js",
-                     {{"rows", rows}},
+                     {{"rows", table_rows(page.rows)}},
                      data,
                      page.parameters,
                      page.provenance});

@@ -10,13 +10,6 @@
 /// The report of one prepared state: one HTML page that needs nothing beside it.
 namespace vitrel {
 
-/// One property of a state, for a person.
-struct QualityRow {
-  std::string name;
-  std::string value;
-  std::string remark;  ///< how it was found, or what to compare it with; may be empty
-};
-
 struct StatePage {
   std::string title;
   std::string subtitle;  ///< one line below it: what was prepared

@@ -1,13 +1,5 @@
 const timeUnit = '√(m ab/kT)', lengthUnit = '√(ab)';
 const margin = 0.03;  // of the box, shown beyond its edges
-const overlapRed = '#f2003c';
-const roundGrey = '#9aa3ad';
-
-/** Numbers of 16 bits from base64, low byte first. */
-function numbersFrom(base64) {
-  const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
-  return Uint16Array.from({ length: bytes.length / 2 }, (_, k) => bytes[2 * k] + 256 * bytes[2 * k + 1]);
-}
 
 /** What the page carries of a run, ready to be asked for poses. Lengths in units of the box side are fractions. */
 class Film {
@@ -60,28 +52,6 @@ class Film {
 const orientationPalette = Array.from({ length: 180 }, (_, k) => orientationColour(k * Math.PI / 180));
 const displacementPalette = Array.from({ length: 256 }, (_, k) => sequential(k / 255));
 
-const colourings = {
-  orientation: {
-    name: 'orientation', offered: (film) => film.rotors,
-    of: (film, k, i, angle) => {
-      const [a, b] = film.shapes[film.shape[i]];
-      return a === b ? roundGrey : orientationPalette[Math.floor(angle * 180 / Math.PI) % 180];
-    },
-    text: (film) => 'angle of the major axis' + (film.shapes.some(([a, b]) => a === b) ? '; round particles are grey' : ''),
-  },
-  displacement: {
-    name: 'displacement', offered: (film) => film.frames > 1,
-    of: (film, k, i) =>
-      displacementPalette[Math.min(255, Math.floor(255 * film.displacements[k * film.particles + i] / film.largestDisplacement))],
-    text: (film) => `displacement from t = ${shortNumber(film.time[0], 4)}, in units of ${lengthUnit}`,
-  },
-  species: {
-    name: 'species', offered: (film) => film.species || !film.rotors && film.frames === 1,
-    of: (film, k, i) => curveColour(film.species?.[i] ?? 0),
-    text: () => 'species',
-  },
-};
-
 function drawOrientationKey(ctx) {
   for (let k = 0; k <= 8; ++k) {
     ctx.beginPath();
@@ -101,47 +71,47 @@ function drawDisplacementKey(ctx, film) {
     keyLabel(ctx, 14 + 228 * part, (part === 1 ? '≥ ' : '') + shortNumber(part * film.largestDisplacement, 2));
 }
 
-function drawSpeciesKey(ctx, film) {
-  const names = film.speciesNames;
-  names.forEach((name, k) => {
-    ctx.fillStyle = curveColour(k);
-    ctx.fillRect(10 + k * 250 / names.length, 6, 16, 16);
-    keyLabel(ctx, 18 + k * 250 / names.length, name);
-  });
-}
-
-function keyLabel(ctx, x, text) {
-  ctx.fillStyle = cssColour('--quiet');
-  ctx.font = font;
-  ctx.textAlign = 'center';
-  ctx.fillText(text, x, 41);
-}
+const colourings = {
+  orientation: {
+    name: 'orientation', offered: (film) => film.rotors,
+    of: (film, k, i, angle) => {
+      const [a, b] = film.shapes[film.shape[i]];
+      return a === b ? roundGrey : orientationPalette[Math.floor(angle * 180 / Math.PI) % 180];
+    },
+    key: drawOrientationKey,
+    text: (film) => 'angle of the major axis' + (film.shapes.some(([a, b]) => a === b) ? '; round particles are grey' : ''),
+  },
+  displacement: {
+    name: 'displacement', offered: (film) => film.frames > 1,
+    of: (film, k, i) =>
+      displacementPalette[Math.min(255, Math.floor(255 * film.displacements[k * film.particles + i] / film.largestDisplacement))],
+    key: drawDisplacementKey,
+    text: (film) => `displacement from t = ${shortNumber(film.time[0], 4)}, in units of ${lengthUnit}`,
+  },
+  species: {
+    name: 'species', offered: (film) => film.species || !film.rotors && film.frames === 1,
+    of: (film, k, i) => curveColour(film.species?.[i] ?? 0),
+    key: drawSpeciesKey,
+    text: () => 'species',
+  },
+};
 
 // The player
-
-/** Makes a canvas sharp; returns its context, in pixels of the screen. */
-function prepareCanvas(canvas, width, height) {
-  canvas.width = Math.round(width * devicePixelRatio);
-  canvas.height = Math.round(height * devicePixelRatio);
-  canvas.style.height = height + 'px';
-  return canvas.getContext('2d');
-}
 
 /** Frames per second. */
 const speeds = [1, 3, 10, 30, 60];
 
-class Player {
+class Player extends Picture {
   constructor() {
-    this.canvas = byId('scene');
+    super(colourings);
     this.playing = false;
     this.k = 0;
-    this.colouring = null;
     this.speed = matchMedia('(prefers-reduced-motion: reduce)').matches ? 1 : 10;
     this.view = { x: 0, y: 0, zoom: 1 };
-    this.pointers = new Map();
     this.listen();
-    this.watch();
   }
+
+  get subject() { return this.film; }
 
   /** Shows this film, or says that there is nothing to show; `texts`: label, note. */
   load(data, texts) {
@@ -168,37 +138,6 @@ class Player {
     const frames = film.frames === film.runFrames ? `all ${film.frames} frames`
       : `${film.frames} of ${film.runFrames} frames, evenly thinned`;
     return `${shown}. ${film.runFrames > 1 && film.frames > 1 ? `The page holds ${frames}. ` : ''}${this.texts.note}`;
-  }
-
-  // Colours
-
-  offerColours() {
-    const { film } = this;
-    const offered = Object.entries(colourings).filter(([, colouring]) => colouring.offered(film));
-    if (!offered.some(([key]) => key === this.colouring)) this.colouring = offered[0][0];
-    const host = byId('colour');
-    host.hidden = offered.length < 2;
-    host.querySelectorAll('label').forEach((label) => label.remove());
-    offered.forEach(([key, { name }]) => {
-      const label = element('label');
-      const input = element('input', { type: 'radio', name: 'colour', value: key });
-      input.checked = key === this.colouring;
-      input.addEventListener('change', () => { this.colouring = key; this.draw(); this.drawKey(); });
-      label.append(input, name);
-      host.append(label);
-    });
-    this.drawKey();
-  }
-
-  drawKey() {
-    const { film } = this;
-    const canvas = byId('key');
-    const ctx = prepareCanvas(canvas, 260, 44);
-    ctx.scale(devicePixelRatio, devicePixelRatio);
-    const drawings = { orientation: drawOrientationKey, displacement: drawDisplacementKey, species: drawSpeciesKey };
-    drawings[this.colouring](ctx, film);
-    byId('key-text').textContent = colourings[this.colouring].text(film);
-    canvas.setAttribute('aria-label', `Colours: ${colourings[this.colouring].text(film)}`);
   }
 
   // Time
@@ -266,9 +205,7 @@ class Player {
     this.look(this.view.x + dx * grown, this.view.y + dy * grown, zoom);
   }
 
-  zoomBy(factor) { this.zoomAt(this.canvas.clientWidth / 2, this.canvas.clientHeight / 2, factor); }
-
-  pan(px, py) {
+  drag(px, py) {
     const { box, scale } = this.geometry();
     this.look(this.view.x - px * devicePixelRatio / scale / box[0], this.view.y + py * devicePixelRatio / scale / box[1],
       this.view.zoom);
@@ -282,69 +219,14 @@ class Player {
     byId('speed').addEventListener('change', () => { this.speed = Number(byId('speed').value); });
     byId('play').addEventListener('click', () => this.toggle());
     byId('scrub').addEventListener('input', () => { this.pause(); this.go(Number(byId('scrub').value)); });
-    byId('zoom-in').addEventListener('click', () => this.zoomBy(1.5));
-    byId('zoom-out').addEventListener('click', () => this.zoomBy(1 / 1.5));
-    byId('zoom-reset').addEventListener('click', () => this.reset());
-    this.canvas.addEventListener('keydown', (event) => this.press(event));
-    this.canvas.addEventListener('wheel', (event) => this.wheel(event), { passive: false });
-    for (const kind of ['pointerdown', 'pointermove', 'pointerup', 'pointercancel'])
-      this.canvas.addEventListener(kind, (event) => this.point(event));
   }
 
-  press(event) {
-    if (event.ctrlKey || event.metaKey || event.altKey || !this.film) return;
+  keys(shift) {
     const step = (frames) => () => { this.pause(); this.go(this.k + frames); };
-    const slide = (x, y) => () => this.pan(-x * 40, -y * 40);
-    const keys = event.shiftKey
+    const slide = (x, y) => () => this.drag(-x * 40, -y * 40);
+    return shift
       ? { ArrowLeft: slide(-1, 0), ArrowRight: slide(1, 0), ArrowUp: slide(0, -1), ArrowDown: slide(0, 1) }
       : { ' ': () => this.toggle(), ArrowLeft: step(-1), ArrowRight: step(1), Home: step(-Infinity), End: step(Infinity) };
-    const both = { '+': () => this.zoomBy(1.5), '=': () => this.zoomBy(1.5), '-': () => this.zoomBy(1 / 1.5), 0: () => this.reset() };
-    const action = keys[event.key] ?? both[event.key];
-    if (!action) return;
-    event.preventDefault();
-    action();
-  }
-
-  /** The wheel scrolls the page until the picture has the focus. */
-  wheel(event) {
-    if (!this.film || (document.activeElement !== this.canvas && !event.ctrlKey)) return;
-    event.preventDefault();
-    this.zoomAt(event.offsetX, event.offsetY, Math.exp(-event.deltaY * (event.ctrlKey ? 0.01 : 0.002)));
-  }
-
-  /** One finger or the mouse moves the view, two fingers zoom it. */
-  point(event) {
-    const spread = () => {
-      const [p, q] = [...this.pointers.values()];
-      return Math.hypot(p.x - q.x, p.y - q.y);
-    };
-    const here = { x: event.offsetX, y: event.offsetY };
-    const before = this.pointers.get(event.pointerId);
-    if (event.type === 'pointerdown') {
-      this.pointers.set(event.pointerId, here);
-      return this.canvas.setPointerCapture(event.pointerId);
-    }
-    if (event.type !== 'pointermove') return this.pointers.delete(event.pointerId);
-    if (!before || !this.film) return;
-    if (this.pointers.size === 1) {
-      this.pointers.set(event.pointerId, here);
-      return this.pan(here.x - before.x, here.y - before.y);
-    }
-    const old = spread();
-    this.pointers.set(event.pointerId, here);
-    const [p, q] = [...this.pointers.values()];
-    if (old > 0) this.zoomAt((p.x + q.x) / 2, (p.y + q.y) / 2, spread() / old);
-  }
-
-  /** Draws anew when the picture has another width, or the page other colours. */
-  watch() {
-    let width = this.canvas.parentElement.clientWidth;
-    new ResizeObserver(() => {
-      if (this.canvas.parentElement.clientWidth === width || !this.film) return;
-      width = this.canvas.parentElement.clientWidth;
-      this.draw();
-    }).observe(this.canvas.parentElement);
-    recoloured.push(() => { if (this.film) { this.draw(); this.drawKey(); } });
   }
 
   // Drawing

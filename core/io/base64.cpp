@@ -1,4 +1,4 @@
-#include "app/workflow/export/base64.h"
+#include "core/io/base64.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,0 +1,31 @@
+#include "app/workflow/packing_report.h"
+
+#include <fmt/format.h>
+
+#include "app/workflow/packing_quality.h"
+#include "app/workflow/quality_file.h"
+#include "app/workflow/run_report.h"
+#include "app/workflow/stored_run.h"
+
+namespace vitrel {
+
+PackingPage packing_page_data(const std::filesystem::path& file, const AnalysisChoice& choice) {
+  const Configuration3 packing = read_packing(file);
+  const ExactCheck<3> check = exact_check(packing);
+  PackingQuality quality = measure_quality(packing, check);
+  const std::filesystem::path report = quality_file(file);
+  if (std::filesystem::exists(report)) add_preparation(quality, report);
+  const Provenance provenance = TrajectoryReader(file).provenance();
+  PackingPage page;
+  page.title = file.stem().string();
+  page.subtitle = fmt::format("{} {} at φ = {:.6g}", packing.size(), particles_text(packing),
+                              quality.packing_fraction);
+  page.rows = quality_rows(quality);
+  page.scene = packing_scene(packing, check);
+  page.results = analyze_run(file, choice).results;
+  page.parameters = provenance.parameters;
+  page.provenance = provenance_rows(provenance);
+  return page;
+}
+
+}  // namespace vitrel

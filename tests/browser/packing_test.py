@@ -1,0 +1,224 @@
+"""packing_test.py <chromium> <folder with the pages of write_pages>: the page of a packing in a browser."""
+
+import itertools
+import math
+import unittest
+
+from pages import PIXELS, SHIFT, WIDTHS, PageTest
+
+# Of the picture: [count of different colours, checksum, pixels with a colour, pixels with the red of overlaps]. Background,
+# edges of the box and letters have none.
+LOOK = f"(() => {{ {PIXELS}" + """
+  const { data } = pixels(document.getElementById('scene'));
+  const colours = new Set();
+  let sum = 0, coloured = 0, red = 0;
+  for (let at = 0; at < data.length; at += 4) {
+    const [r, g, b] = data.subarray(at, at + 3);
+    colours.add(r << 16 | g << 8 | b);
+    sum = (sum * 31 + (r << 16 | g << 8 | b)) % 2147483647;
+    coloured += Math.max(r, g, b) - Math.min(r, g, b) > 12;
+    red += r > 80 && g < 0.32 * r && b < 0.5 * r;
+  }
+  return [colours.size, sum, coloured, red];
+})()"""
+
+ROOT = math.sqrt
+
+
+def times(p, q):
+    return [[sum(p[i][k] * q[k][j] for k in range(3)) for j in range(3)] for i in range(3)]
+
+
+def rotation(axis, angle):
+    """By Rodrigues; `axis` has length 1."""
+    c, s = math.cos(angle), math.sin(angle)
+    x, y, z = axis
+    cross = [[0, -z, y], [z, 0, -x], [-y, x, 0]]
+    return [[(i == j) * c + s * cross[i][j] + (1 - c) * axis[i] * axis[j] for j in range(3)] for i in range(3)]
+
+
+class Packing(PageTest):
+    def look(self):
+        self.browser.settle()
+        return self.browser.evaluate(LOOK)
+
+    def slide(self, value, axis="x"):
+        self.browser.evaluate(f"""(() => {{ document.getElementById('slice-axis').value = '{axis}';
+          const input = document.getElementById('slice');
+          input.value = {value}; input.dispatchEvent(new Event('input', {{ bubbles: true }})); }})()""")
+
+    def test_fits_every_width_in_both_schemes(self):
+        for width, scheme in itertools.product(WIDTHS, ("light", "dark")):
+            with self.subTest(width=width, scheme=scheme):
+                self.open("packing.html", width, scheme)
+                self.assertLessEqual(self.browser.evaluate("document.documentElement.scrollWidth"), width)
+                colours, _, coloured, _ = self.look()
+                side = self.browser.evaluate("document.getElementById('scene').width")
+                self.assertGreater(colours, 1000)
+                self.assertGreater(coloured, 0.1 * side**2)
+
+    def test_dark_and_light(self):
+        self.open("packing.html")
+        light = self.look()[1]
+        self.click("#theme")
+        self.assertNotEqual(self.look()[1], light)
+        self.click("#theme")
+        self.assertEqual(self.look()[1], light)
+
+    def test_controls_have_names_and_are_reached_by_tab(self):
+        self.open("packing.html")
+        nameless = self.browser.evaluate("""[...document.querySelectorAll('button, select, input, [tabindex]')]
+          .filter((node) => node.checkVisibility() && !node.textContent.trim() && !node.getAttribute('aria-label') &&
+            !node.labels?.length).map((node) => node.outerHTML)""")
+        self.assertEqual(nameless, [])
+        met = set()
+        for _ in range(40):
+            self.browser.press("Tab", 9)
+            met.add(self.browser.evaluate("document.activeElement.id"))
+        self.assertLessEqual({"scene", "zoom-in", "slice-axis", "slice", "images", "cut", "theme"}, met)
+
+    def test_says_what_is_shown(self):
+        self.open("packing.html")
+        self.assertIn("N = 60 in a periodic box of", self.text("movie-note"))
+        self.assertEqual(self.text("overlaps"), "✓ No overlap (exact check of the stored numbers).")
+        self.assertEqual(self.browser.evaluate("document.querySelectorAll('.chart:not([hidden]) canvas').length"), 2)
+
+    # The box of 8 has a diagonal of 13.86; 0.515 of it are half of the picture. The first view has z upwards, then turned by
+    # -0.6 about the vertical and by 0.42 about the horizontal. A body of the shape matrix S casts π √det of the block S_xy.
+    def test_a_body_casts_its_shadow(self):
+        self.open("one_body.html")
+        side = self.browser.evaluate("document.getElementById('scene').width")
+        scale = side / (2 * 0.515 * ROOT(3) * 8)
+        view = times(rotation((1, 0, 0), 0.42), times(rotation((0, 1, 0), -0.6), [[1, 0, 0], [0, 0, 1], [0, -1, 0]]))
+        turned = times(view, rotation((1 / 3, 2 / 3, 2 / 3), math.radians(40)))
+        squares = (9, 2.25, 0.5625)
+        xx, xy, yy = (sum(turned[i][k] * turned[j][k] * squares[k] for k in range(3)) for i, j in ((0, 0), (0, 1), (1, 1)))
+        shadow = math.pi * ROOT(xx * yy - xy * xy) * scale**2
+        self.assertAlmostEqual(self.look()[2] / shadow, 1, delta=0.02)
+        self.focus("#scene")
+        self.browser.press("-", 189, "-")
+        self.assertAlmostEqual(self.look()[2] * 1.5**2 / shadow, 1, delta=0.03)
+
+    def test_turns_by_keys_and_comes_back(self):
+        self.open("packing.html")
+        first = self.look()[1]
+        self.focus("#scene")
+        pictures = {first}
+        for key, code in (("ArrowLeft", 37), ("ArrowUp", 38), ("ArrowRight", 39), ("ArrowDown", 40)):
+            self.browser.press(key, code)
+            pictures.add(self.look()[1])
+        self.assertGreaterEqual(len(pictures), 4)
+        self.browser.press("0", 48, "0")
+        self.assertEqual(self.look()[1], first)
+        self.browser.press("ArrowRight", 39, modifiers=SHIFT)
+        self.assertNotIn(self.look()[1], pictures)
+        self.browser.press("ArrowLeft", 37, modifiers=SHIFT)
+        self.assertEqual(self.look()[1], first)
+        self.browser.press("+", 187, "+")
+        self.assertGreater(self.look()[2], 0)
+        self.click("#zoom-reset")
+        self.assertEqual(self.look()[1], first)
+
+    def drag(self, from_x, to_x):
+        for kind, x in (("mousePressed", from_x), ("mouseMoved", (from_x + to_x) / 2), ("mouseMoved", to_x), ("mouseReleased", to_x)):
+            self.browser.call("Input.dispatchMouseEvent", type=kind, x=x, y=500, button="left", buttons=1, clickCount=1)
+
+    def test_turns_by_the_mouse(self):
+        self.open("packing.html")
+        first = self.look()[1]
+        self.drag(300, 420)
+        self.assertNotEqual(self.look()[1], first)
+
+    def touch(self, *gestures):
+        self.browser.call("Emulation.setTouchEmulationEnabled", enabled=True, maxTouchPoints=2)
+        for k, points in enumerate(gestures):
+            self.browser.call("Input.dispatchTouchEvent", type="touchMove" if k else "touchStart",
+                              touchPoints=[{"x": x, "y": 400, "id": n} for n, x in enumerate(points)])
+        self.browser.call("Input.dispatchTouchEvent", type="touchEnd", touchPoints=[])
+        self.browser.call("Emulation.setTouchEmulationEnabled", enabled=False)
+
+    def test_one_finger_turns_and_two_zoom(self):
+        self.open("one_body.html", 390)
+        _, first, area, _ = self.look()
+        self.touch([180], [200], [240])
+        _, turned, _, _ = self.look()
+        self.assertNotEqual(turned, first)
+        self.click("#zoom-reset")
+        self.touch([165, 225], [160, 230], [150, 240])
+        # The fingers are 90 apart instead of 60, about the middle.
+        self.assertAlmostEqual(self.look()[2] / area, 2.25, delta=0.15)
+
+    def test_wheel_zooms_only_a_picture_in_focus(self):
+        self.open("one_body.html")
+        area = self.look()[2]
+        self.focus("#scene")
+        self.browser.evaluate("window.scrollTo(0, 0)")
+        self.browser.wheel(430, 500, -200)
+        self.browser.evaluate("new Promise((done) => setTimeout(done, 200))")
+        self.assertGreater(self.look()[2], 1.5 * area)
+
+    def test_slices_take_away_more_and_more(self):
+        self.open("packing.html")
+        whole = self.look()[2]
+        for axis in ("x", "y", "z", "view"):
+            with self.subTest(axis=axis):
+                seen = []
+                for place in (1, 0.5, 0.1, 0):
+                    self.slide(place, axis)
+                    seen.append(self.look()[2])
+                self.assertEqual(seen[0], whole)
+                self.assertGreater(seen[1], seen[2])
+                self.assertGreater(seen[2], 0)
+                # What the last face of the box cuts, if it is a face.
+                self.assertLess(seen[3], 0.12 * whole if axis != "view" else 100)
+        self.slide(1, "x")
+        self.assertEqual(self.look()[2], whole)
+
+    def test_images_and_cuts(self):
+        self.open("packing.html")
+        cut = self.look()[2]
+        self.click("#images")
+        without_images = self.look()[2]
+        self.assertLess(without_images, 0.95 * cut)
+        self.click("#cut")
+        whole_bodies = self.look()[2]
+        self.assertGreater(whole_bodies, without_images)
+        self.click("#images")
+        self.assertGreater(self.look()[2], 1.1 * whole_bodies)
+        self.click("#cut")
+        self.assertEqual(self.look()[2], cut)
+
+    def test_colours(self):
+        self.open("packing.html")
+        orientation = self.look()[1]
+        self.assertIn("axis of symmetry", self.text("key-text"))
+        self.click("#colour input[value=species]")
+        self.assertNotEqual(self.look()[1], orientation)
+        self.assertEqual(self.text("key-text"), "species")
+        self.click("#colour input[value=orientation]")
+        self.assertEqual(self.look()[1], orientation)
+        self.open("one_body.html")
+        self.assertTrue(self.browser.evaluate("document.getElementById('colour').hidden"))
+
+    def test_overlaps_are_red_where_the_flags_say_so(self):
+        self.open("packing.html")
+        self.assertEqual(self.look()[3], 0)
+        self.open("overlapping.html")
+        self.assertGreater(self.look()[3], 500)
+        self.assertIn("✗ 1 overlapping pair(s), in red", self.text("overlaps"))
+
+    def test_without_webgl_the_rest_is_there(self):
+        script = self.browser.call("Page.addScriptToEvaluateOnNewDocument", source="""
+          const original = HTMLCanvasElement.prototype.getContext;
+          HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+            return kind === 'webgl2' ? null : original.call(this, kind, ...rest);
+          };""")
+        self.open("packing.html")
+        self.browser.call("Page.removeScriptToEvaluateOnNewDocument", identifier=script["identifier"])
+        self.assertIn("needs WebGL 2", self.text("movie-note"))
+        self.assertFalse(self.browser.evaluate("document.getElementById('scene').checkVisibility()"))
+        self.assertEqual(self.browser.evaluate("document.querySelectorAll('.chart:not([hidden]) canvas').length"), 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
