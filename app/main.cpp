@@ -278,14 +278,16 @@ class CommandLine {
     add_benchmark(time);
     add_pairs(time, "Pairs of each class (2000); slow methods answer what their time allows",
               "Seconds that a method other than the default may predict (4)");
-    time.add_option("--tolerance", arguments_.tolerance,
-                    "How far off still counts as correct (1e-8): of the horizon for times, of the "
-                    "semi-minor axis for gaps")
-        ->check(positive);
-    time.add_option("--gap-tolerance", arguments_.gap_tolerance,
-                    "The same for gaps, if they have another one")
-        ->check(positive);
+    add_judging_tolerance(time);
     add_duration(time, "Simulated time of the whole runs on the page (20)");
+    CLI::App& solids =
+        add(bench, "collision-time-of-solids",
+            "The same in three dimensions: ways to predict a collision of ellipsoids.",
+            bench_collision_time_of_solids_command);
+    add_benchmark(solids, "Folder for the charts and the data as JSON");
+    add_pairs(solids, "Pairs of each class (2000); slow methods answer what their time allows",
+              "Seconds that a method other than the default may predict (4)");
+    add_judging_tolerance(solids);
     CLI::App& overlap = add(bench, "overlap", "Speed and accuracy of every criterion of overlap.",
                             bench_overlap_command);
     add_benchmark(overlap);
@@ -309,8 +311,18 @@ class CommandLine {
     add_benchmark(run);
     add_duration(run, "Simulated time of each run (100)");
   }
-  void add_benchmark(CLI::App& sub) {
-    add_measured(sub, "Folder for the page, its pictures and the rows as JSON");
+  void add_judging_tolerance(CLI::App& sub) {
+    sub.add_option("--tolerance", arguments_.tolerance,
+                   "How far off still counts as correct (1e-8): of the horizon for times, of the "
+                   "shortest semi-axis for gaps")
+        ->check(positive);
+    sub.add_option("--gap-tolerance", arguments_.gap_tolerance,
+                   "The same for gaps, if they have another one")
+        ->check(positive);
+  }
+  void add_benchmark(CLI::App& sub, const std::string& folder =
+                                        "Folder for the page, its pictures and the rows as JSON") {
+    add_measured(sub, folder);
     sub.add_option("--method", arguments_.methods, "Only these methods, by name");
   }
   void add_measured(CLI::App& sub, const std::string& folder) {

@@ -5,12 +5,14 @@
 #include "app/commands/common.h"
 #include "app/workflow/bench/bench_page.h"
 #include "app/workflow/bench/overlap.h"
+#include "app/workflow/bench/passing_pair.h"
 #include "app/workflow/bench/picture.h"
 #include "app/workflow/bench/scene.h"
 #include "app/workflow/bench/thesis.h"
 #include "app/workflow/bench/whole_run.h"
 #include "app/workflow/text_file.h"
 #include "bench/lab/recorded_class.h"
+#include "bench/lab/solids/suite.h"
 #include "core/io/provenance.h"
 
 namespace vitrel {
@@ -58,9 +60,29 @@ int stopped_early(const Arguments& arguments) {
   return stopped;
 }
 
-Json classes_json() {
+CollisionTimeRequest collision_time_request(const Arguments& arguments) {
+  CollisionTimeRequest request;
+  request.pairs = arguments.pairs.value_or(request.pairs);
+  request.seconds = arguments.seconds.value_or(request.seconds);
+  request.seed = arguments.seed.value_or(request.seed);
+  if (arguments.tolerance) request.tolerance = {*arguments.tolerance, *arguments.tolerance};
+  if (arguments.gap_tolerance) request.tolerance.gap = *arguments.gap_tolerance;
+  request.methods = arguments.methods;
+  request.classes = arguments.classes;
+  request.with_chart = !arguments.output.empty();
+  return request;
+}
+
+PageProvenance collision_time_provenance(const CollisionTimeRequest& request) {
+  return {
+      {"pairs", pairs_text(request.pairs, request.seed)},
+      {"time limit", fmt::format("{:g} s for a method that is not the default", request.seconds)}};
+}
+
+template <class CaseClass>
+Json classes_json(const std::vector<CaseClass>& classes) {
   Json list = Json::array();
-  for (const lab::CaseClass& of : lab::all_classes())
+  for (const CaseClass& of : classes)
     list.push_back(
         {{"class", of.name}, {"aspect_ratio", of.aspect_ratio}, {"meaning", of.meaning}});
   return list;
@@ -88,7 +110,7 @@ void write_collision_time(const fs::path& folder, const CollisionTimeBench& benc
                           const PageProvenance& provenance) {
   make_folder(folder);
   const Json data = {{"rows", collision_time_json(bench.survey.rows)},
-                     {"classes", classes_json()},
+                     {"classes", classes_json(lab::all_classes())},
                      {"tolerances", collision_time_json(bench.tolerances)},
                      {"tolerances_judged_by", charted_tolerance},
                      {"scene", scene_json(scene_answers())},
@@ -124,15 +146,7 @@ void write_files(const fs::path& folder, const std::string& name, const Json& ro
 }  // namespace
 
 int bench_collision_time_command(const Arguments& arguments) {
-  CollisionTimeRequest request;
-  request.pairs = arguments.pairs.value_or(request.pairs);
-  request.seconds = arguments.seconds.value_or(request.seconds);
-  request.seed = arguments.seed.value_or(request.seed);
-  if (arguments.tolerance) request.tolerance = {*arguments.tolerance, *arguments.tolerance};
-  if (arguments.gap_tolerance) request.tolerance.gap = *arguments.gap_tolerance;
-  request.methods = arguments.methods;
-  request.classes = arguments.classes;
-  request.with_chart = !arguments.output.empty();
+  const CollisionTimeRequest request = collision_time_request(arguments);
   if (!arguments.output.empty()) require_output_folder(arguments.output);
   Session session(arguments);
   const CollisionTimeBench bench = bench_collision_time(request, session.budget(), session.say());
@@ -151,13 +165,36 @@ int bench_collision_time_command(const Arguments& arguments) {
   scene.seed = request.seed;
   const WholeRunBench runs = bench_whole_run(scene, session.budget());
   if (runs.stopped) return stopped_early(arguments);
-  const PageProvenance how = provenance(
-      arguments,
-      {{"pairs", pairs_text(request.pairs, request.seed)},
-       {"time limit", fmt::format("{:g} s for a method that is not the default", request.seconds)},
-       {"whole runs", fmt::format("{:g} units of time", scene.duration)}},
-      session);
-  write_collision_time(arguments.output, bench, overlap.rows, runs.rows, how);
+  PageProvenance what = collision_time_provenance(request);
+  what.push_back({"whole runs", fmt::format("{:g} units of time", scene.duration)});
+  write_collision_time(arguments.output, bench, overlap.rows, runs.rows,
+                       provenance(arguments, what, session));
+  return success;
+}
+
+int bench_collision_time_of_solids_command(const Arguments& arguments) {
+  const CollisionTimeRequest request = collision_time_request(arguments);
+  if (!arguments.output.empty()) require_output_folder(arguments.output);
+  Session session(arguments);
+  const auto bench = bench_collision_time_of_solids(request, session.budget(), session.say());
+  print_rows(arguments, session, collision_time_json(bench.survey.rows),
+             collision_time_text(bench.survey.rows));
+  if (bench.stopped) return stopped_early(arguments);
+  if (arguments.output.empty()) return success;
+  const Json data = {
+      {"rows", collision_time_json(bench.survey.rows)},
+      {"classes", classes_json(lab::solid_suite())},
+      {"tolerances", collision_time_json(bench.tolerances)},
+      {"tolerances_judged_by", charted_tolerance},
+      {"passing_pair", passing_pair_json()},
+      {"provenance", as_json(provenance(arguments, collision_time_provenance(request), session))}};
+  make_folder(arguments.output);
+  write_text(arguments.output / "collision-time.json", data.dump(2) + "\n");
+  for (const auto& [file, chart] :
+       {std::pair("median.svg", speed_chart(bench.tolerances, ChartedError::median)),
+        std::pair("largest.svg", speed_chart(bench.tolerances, ChartedError::largest)),
+        std::pair("passing_pair.svg", passing_pair_chart())})
+    write_text(arguments.output / file, chart_svg(chart));
   return success;
 }
 

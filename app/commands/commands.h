@@ -60,6 +60,7 @@ int export_command(const Arguments& arguments);
 int report_command(const Arguments& arguments);
 int params_command(const Arguments& arguments);
 int bench_collision_time_command(const Arguments& arguments);
+int bench_collision_time_of_solids_command(const Arguments& arguments);
 int bench_overlap_command(const Arguments& arguments);
 int bench_thesis_command(const Arguments& arguments);
 int bench_whole_run_command(const Arguments& arguments);

@@ -4,25 +4,29 @@
 #include <limits>
 
 #include "bench/lab/reference/true_gap.h"
+#include "bench/lab/solids/truth.h"
 
 namespace vitrel::lab {
 
 namespace {
 
-bool answers_contact(const Prediction2& answer) {
+template <int Dim>
+bool answers_contact(const Prediction<Dim>& answer) {
   return answer.outcome == Outcome::contact || answer.outcome == Outcome::overlap;
 }
 
 // An overlap found at the start is a contact at time 0.
-double time_of(const Prediction2& answer) {
+template <int Dim>
+double time_of(const Prediction<Dim>& answer) {
   return answer.outcome == Outcome::overlap ? 0 : answer.time;
 }
 
-bool is_degenerate(const CollisionCase& asked, const TrueContact& truth) {
-  if (truth.outcome == TrueContact::Outcome::undecided) return true;
-  if (truth.outcome != TrueContact::Outcome::contact) return false;
-  const double reach = asked.one.body.shape.a + asked.two.body.shape.a;
-  return truth.approach_speed < 0.02 * reach / asked.horizon;
+template <int Dim>
+bool is_degenerate(const CollisionCaseOf<Dim>& asked, const TrueContactOf<Dim>& truth) {
+  using Truth = typename TrueContactOf<Dim>::Outcome;
+  if (truth.outcome == Truth::undecided) return true;
+  if (truth.outcome != Truth::contact) return false;
+  return truth.approach_speed < 0.02 * asked.reach() / asked.horizon;
 }
 
 // A contact answered where a true one exists; `off` is the time error.
@@ -34,9 +38,10 @@ Verdict timing(double off, double allowed, bool degenerate, bool at_rounding) {
 
 }  // namespace
 
-Judgement judge(const CollisionCase& asked, const TrueContact& truth, const Prediction2& answer,
-                const JudgingTolerance& tolerance) {
-  using Truth = TrueContact::Outcome;
+template <int Dim>
+Judgement judge(const CollisionCaseOf<Dim>& asked, const TrueContactOf<Dim>& truth,
+                const Prediction<Dim>& answer, const JudgingTolerance& tolerance) {
+  using Truth = typename TrueContactOf<Dim>::Outcome;
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   // The truth itself is no better known than that.
   const double allowed = tolerance.time * asked.horizon + static_cast<double>(truth.uncertainty);
@@ -70,5 +75,10 @@ Judgement judge(const CollisionCase& asked, const TrueContact& truth, const Pred
     judgement.verdict = timing(off, allowed, judgement.degenerate, at_rounding);
   return judgement;
 }
+
+template Judgement judge(const CollisionCase&, const TrueContact&, const Prediction2&,
+                         const JudgingTolerance&);
+template Judgement judge(const SolidCase&, const TrueSolidContact&, const Prediction3&,
+                         const JudgingTolerance&);
 
 }  // namespace vitrel::lab

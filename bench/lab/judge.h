@@ -46,7 +46,8 @@ struct Judgement {
   double gap_error = 0;
 };
 
-Judgement judge(const CollisionCase& asked, const TrueContact& truth, const Prediction2& answer,
-                const JudgingTolerance& tolerance);
+template <int Dim>
+Judgement judge(const CollisionCaseOf<Dim>& asked, const TrueContactOf<Dim>& truth,
+                const Prediction<Dim>& answer, const JudgingTolerance& tolerance);
 
 }  // namespace vitrel::lab

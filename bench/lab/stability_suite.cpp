@@ -3,28 +3,21 @@
 #include <cmath>
 #include <numbers>
 
+#include "bench/lab/drawn_class.h"
 #include "bench/lab/reference/true_gap.h"
 #include "core/contact/vieillard_baron.h"
-#include "core/random/stream.h"
 
 namespace vitrel::lab {
 
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double usual_horizon = 2;
 
 Vec2 unit(double angle) {
   return {std::cos(angle), std::sin(angle)};
 }
 double any_angle(Stream& draw) {
   return draw.uniform(-pi, pi);
-}
-double sign(Stream& draw) {
-  return draw.uniform() < 0.5 ? -1 : 1;
-}
-double log_uniform(Stream& draw, double low, double high) {
-  return low * std::pow(high / low, draw.uniform());
 }
 
 // kT = 1 and mass 1.
@@ -117,12 +110,6 @@ void bring_together(CollisionCase& pair, double normal_angle, double gap, double
       -pair.one.motion.angular_velocity * s1.slope - pair.two.motion.angular_velocity * s2.slope;
   const double relative = (pair.two.motion.velocity - pair.one.motion.velocity).dot(n);
   pair.two.motion.velocity += (advance - approach - relative) * n;
-}
-
-/// Lets what stands at time 0 happen at `time` instead.
-void happen_at(CollisionCase& pair, double time) {
-  for (Flight<GrowingEllipse>* flight : {&pair.one, &pair.two})
-    flight->pose = advanced(flight->pose, flight->motion, -time);
 }
 
 double approach_speed(const CollisionCase& pair, double normal_angle) {
@@ -294,73 +281,49 @@ CollisionCase large_coordinates(Stream& draw, double kappa) {
 
 CollisionCase growth(Stream& draw, double kappa) {
   CollisionCase pair = thermal_pair(draw, of_unit_area(kappa), of_unit_area(kappa));
-  for (GrowingEllipse* body : {&pair.one.body, &pair.two.body}) {
-    const bool from_a_point = draw.uniform() < 0.3;
-    body->size = from_a_point ? 0 : 1;
-    body->growth_rate = from_a_point ? draw.uniform(0.1, 0.6) : draw.uniform(-0.4, 0.4);
-  }
+  let_grow(draw, pair);
   return placed_apart(draw, pair, 0.2, 1.4);
-}
-
-using Maker = CollisionCase (*)(Stream&, double kappa);
-
-/// FNV-1a, so that a class keeps its cases whatever classes stand beside it.
-std::uint64_t key_of(const CaseClass& of) {
-  std::uint64_t key = 0xcbf29ce484222325U;
-  for (const char c : of.name + std::to_string(of.aspect_ratio)) {
-    key ^= static_cast<unsigned char>(c);
-    key *= 0x100000001b3U;
-  }
-  return key;
-}
-
-CaseClass drawn_by(Maker make, const char* name, const char* meaning, double kappa) {
-  CaseClass of{name, meaning, kappa, {}};
-  of.make = [make, kappa, key = key_of(of)](std::uint64_t seed, std::uint64_t index) {
-    Stream draw(seed, Purpose::benchmark_cases, key, index);
-    return make(draw, kappa);
-  };
-  return of;
 }
 
 }  // namespace
 
 std::vector<CaseClass> stability_suite() {
-  std::vector<CaseClass> list;
-  const auto add = [&](const char* name, const char* meaning, Maker make,
-                       std::initializer_list<double> aspect_ratios_of) {
-    for (const double kappa : aspect_ratios_of)
-      list.push_back(drawn_by(make, name, meaning, kappa));
-  };
-  add("generic", "random close pairs with thermal velocities", generic, {2, 6});
-  add("grazing",
+  DrawnClasses<2> classes;
+  classes.add("generic", "random close pairs with thermal velocities", generic, {2, 6});
+  classes.add(
+      "grazing",
       "the gap has a least value between ±1e-12 and ±1e-3 semi-minor axes within the horizon",
       grazing, {2, 6});
-  add("fast_rotation",
-      "angular velocities of 10 to 60, so that the gap has many minima within the horizon",
-      fast_rotation, {2, 6});
-  add("aspect_ratios", "aspect ratios log-uniform from 1 to 100, drawn for each body",
-      aspect_ratios, {100});
-  add("sizes", "size ratios log-uniform from 1 to 1000, aspect ratios from 1 to 100", sizes, {100});
-  add("crossed_at_start", "crossed at the start, with four intersections: Ψ > 0 all the same",
-      crossed_at_start, {2, 6});
-  add("touching_leaving",
-      "apart at the start by 1/4 to 5/4 of the gap of a declared contact, and leaving",
-      touching_leaving, {2, 6});
-  add("touching_approaching",
-      "apart at the start by 1/4 to 5/4 of the gap of a declared contact, and approaching",
-      touching_approaching, {2, 6});
-  add("slow", "relative velocities and angular velocities of 1e-8, gaps to match", slow, {2, 6});
-  add("nearly_circular", "aspect ratios 1 + 1e-12", nearly_circular, {1});
-  add("round", "circles that are given as ellipses", round, {1});
-  add("parallel_sides",
+  classes.add("fast_rotation",
+              "angular velocities of 10 to 60, so that the gap has many minima within the horizon",
+              fast_rotation, {2, 6});
+  classes.add("aspect_ratios", "aspect ratios log-uniform from 1 to 100, drawn for each body",
+              aspect_ratios, {100});
+  classes.add("sizes", "size ratios log-uniform from 1 to 1000, aspect ratios from 1 to 100", sizes,
+              {100});
+  classes.add("crossed_at_start",
+              "crossed at the start, with four intersections: Ψ > 0 all the same", crossed_at_start,
+              {2, 6});
+  classes.add("touching_leaving",
+              "apart at the start by 1/4 to 5/4 of the gap of a declared contact, and leaving",
+              touching_leaving, {2, 6});
+  classes.add("touching_approaching",
+              "apart at the start by 1/4 to 5/4 of the gap of a declared contact, and approaching",
+              touching_approaching, {2, 6});
+  classes.add("slow", "relative velocities and angular velocities of 1e-8, gaps to match", slow,
+              {2, 6});
+  classes.add("nearly_circular", "aspect ratios 1 + 1e-12", nearly_circular, {1});
+  classes.add("round", "circles that are given as ellipses", round, {1});
+  classes.add(
+      "parallel_sides",
       "flat sides, parallel to within 1e-6 or exactly, meet before or just after the horizon",
       parallel_sides, {2, 6});
-  add("tip", "the tip of one body meets the other before or just after the horizon", tip, {2, 6});
-  add("large_coordinates", "close pairs at a million semi-major axes from the origin",
-      large_coordinates, {2, 6});
-  add("growth", "bodies grow or shrink while they turn, some from a point", growth, {2, 6});
-  return list;
+  classes.add("tip", "the tip of one body meets the other before or just after the horizon", tip,
+              {2, 6});
+  classes.add("large_coordinates", "close pairs at a million semi-major axes from the origin",
+              large_coordinates, {2, 6});
+  classes.add("growth", "bodies grow or shrink while they turn, some from a point", growth, {2, 6});
+  return classes.list();
 }
 
 }  // namespace vitrel::lab

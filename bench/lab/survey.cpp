@@ -8,6 +8,7 @@
 #include <span>
 #include <thread>
 
+#include "bench/lab/solids/truth.h"
 #include "bench/lab/timed_batches.h"
 
 namespace vitrel::lab {
@@ -28,17 +29,20 @@ void in_parallel(std::size_t count, const std::function<void(std::size_t)>& work
 }
 
 /// Some consecutive cases of a class with their true answers.
+template <int Dim>
 struct Block {
   std::uint64_t first = 0;
-  std::vector<CollisionCase> cases;
-  std::vector<TrueContact> truths;
+  std::vector<CollisionCaseOf<Dim>> cases;
+  std::vector<TrueContactOf<Dim>> truths;
 };
 
-Block make_block(const SurveyRequest& request, const CaseClass& of, std::uint64_t first,
-                 std::size_t count) {
-  Block block{first, std::vector<CollisionCase>(count), std::vector<TrueContact>(count)};
+template <int Dim>
+Block<Dim> make_block(const SurveyRequestOf<Dim>& request, const CaseClassOf<Dim>& of,
+                      std::uint64_t first, std::size_t count) {
+  Block<Dim> block{first, std::vector<CollisionCaseOf<Dim>>(count),
+                   std::vector<TrueContactOf<Dim>>(count)};
   in_parallel(count, [&](std::size_t k) {
-    const CollisionCase& asked = block.cases[k] = make_case(of, request.seed, first + k);
+    const CollisionCaseOf<Dim>& asked = block.cases[k] = make_case(of, request.seed, first + k);
     block.truths[k] = true_first_contact(asked.one, asked.two, asked.horizon);
   });
   return block;
@@ -83,9 +87,11 @@ int gravity(const Judgement& failure) {
 }
 
 /// One method at work on one class.
+template <int Dim>
 class Examination {
  public:
-  Examination(const Method& method, const CaseClass& of, double seconds, JudgingTolerance tolerance)
+  Examination(const MethodOf<Dim>& method, const CaseClassOf<Dim>& of, double seconds,
+              JudgingTolerance tolerance)
       : method_(&method), of_(&of), tolerance_(tolerance), timer_(seconds) {
     row_.method = method.name;
     row_.tolerance = method.tolerance;
@@ -97,7 +103,8 @@ class Examination {
 
   bool is_over() const { return over_; }
 
-  void take(const Block& block, const Budget& budget, std::optional<FailingCase>& failure) {
+  void take(const Block<Dim>& block, const Budget& budget,
+            std::optional<FailingCaseOf<Dim>>& failure) {
     std::size_t done = 0;
     while (done < block.cases.size() && !budget.stop_requested()) {
       const std::size_t batch = timer_.next(block.cases.size() - done);
@@ -118,14 +125,15 @@ class Examination {
   std::uint64_t pairs() const { return row_.pairs; }
 
  private:
-  void answer(std::span<const CollisionCase> cases) {
+  void answer(std::span<const CollisionCaseOf<Dim>> cases) {
     answers_.resize(cases.size());
     timer_.run(cases.size(), [&] {
       for (std::size_t k = 0; k < cases.size(); ++k) answers_[k] = method_->predict(cases[k]);
     });
   }
 
-  void judge_answers(const Block& block, std::size_t first, std::optional<FailingCase>& failure) {
+  void judge_answers(const Block<Dim>& block, std::size_t first,
+                     std::optional<FailingCaseOf<Dim>>& failure) {
     judgements_.resize(answers_.size());
     in_parallel(answers_.size(), [&](std::size_t k) {
       judgements_[k] =
@@ -134,20 +142,21 @@ class Examination {
     for (std::size_t k = 0; k < answers_.size(); ++k) {
       record(judgements_[k], block.cases[first + k], block.truths[first + k]);
       if (is_better_failure(judgements_[k], failure))
-        failure = FailingCase{
+        failure = FailingCaseOf<Dim>{
             method_->name,           *of_,        block.first + first + k, block.cases[first + k],
             block.truths[first + k], answers_[k], judgements_[k]};
     }
   }
 
   static bool is_better_failure(const Judgement& judgement,
-                                const std::optional<FailingCase>& known) {
+                                const std::optional<FailingCaseOf<Dim>>& known) {
     return judgement.verdict != Verdict::correct &&
            (!known || gravity(judgement) > gravity(known->judgement));
   }
 
-  void record(const Judgement& judgement, const CollisionCase& asked, const TrueContact& truth) {
-    const bool contact = truth.outcome == TrueContact::Outcome::contact;
+  void record(const Judgement& judgement, const CollisionCaseOf<Dim>& asked,
+              const TrueContactOf<Dim>& truth) {
+    const bool contact = truth.outcome == TrueContactOf<Dim>::Outcome::contact;
     const double gap = std::abs(judgement.gap_error);
     count(row_, judgement.verdict);
     row_.degenerate += judgement.degenerate;
@@ -162,30 +171,32 @@ class Examination {
       row_.largest_moot_gap = std::fmax(row_.largest_moot_gap, gap / asked.contact_gap());
   }
 
-  const Method* method_;
-  const CaseClass* of_;
+  const MethodOf<Dim>* method_;
+  const CaseClassOf<Dim>* of_;
   JudgingTolerance tolerance_;
   TimedBatches timer_;
   SurveyRow row_;
   std::vector<double> errors_;
-  std::vector<Prediction2> answers_;
+  std::vector<Prediction<Dim>> answers_;
   std::vector<Judgement> judgements_;
   bool over_ = false;
 };
 
-void examine_class(const SurveyRequest& request, std::size_t class_index, const Budget& budget,
-                   std::vector<std::optional<FailingCase>>& failures, Survey& result) {
-  const CaseClass& of = request.classes[class_index];
+template <int Dim>
+void examine_class(const SurveyRequestOf<Dim>& request, std::size_t class_index,
+                   const Budget& budget, std::vector<std::optional<FailingCaseOf<Dim>>>& failures,
+                   SurveyOf<Dim>& result) {
+  const CaseClassOf<Dim>& of = request.classes[class_index];
   const auto classes = static_cast<double>(request.classes.size());
   std::vector<bool> failed_before;
   for (const auto& failure : failures) failed_before.push_back(failure.has_value());
-  std::vector<Examination> examinations;
-  for (const Entrant& entrant : request.entrants)
+  std::vector<Examination<Dim>> examinations;
+  for (const EntrantOf<Dim>& entrant : request.entrants)
     examinations.emplace_back(entrant.method, of, entrant.seconds / classes, request.tolerance);
   std::size_t size = first_block;
   for (std::uint64_t done = 0; done < request.pairs && !budget.stop_requested();) {
-    if (std::ranges::all_of(examinations, &Examination::is_over)) break;
-    const Block block = make_block(request, of, done, std::min(size, request.pairs - done));
+    if (std::ranges::all_of(examinations, &Examination<Dim>::is_over)) break;
+    const Block<Dim> block = make_block(request, of, done, std::min(size, request.pairs - done));
     for (std::size_t k = 0; k < examinations.size(); ++k)
       if (!examinations[k].is_over()) examinations[k].take(block, budget, failures[k]);
     done += block.cases.size();
@@ -203,9 +214,10 @@ void examine_class(const SurveyRequest& request, std::size_t class_index, const 
 
 }  // namespace
 
-Survey survey(const SurveyRequest& request, const Budget& budget) {
-  Survey result;
-  std::vector<std::optional<FailingCase>> failures(request.entrants.size());
+template <int Dim>
+SurveyOf<Dim> survey(const SurveyRequestOf<Dim>& request, const Budget& budget) {
+  SurveyOf<Dim> result;
+  std::vector<std::optional<FailingCaseOf<Dim>>> failures(request.entrants.size());
   for (std::size_t k = 0; k < request.classes.size() && !budget.stop_requested(); ++k)
     examine_class(request, k, budget, failures, result);
   for (const auto& failure : failures)
@@ -213,5 +225,8 @@ Survey survey(const SurveyRequest& request, const Budget& budget) {
   result.stopped = budget.stop_requested();
   return result;
 }
+
+template Survey survey(const SurveyRequest&, const Budget&);
+template SurveyOf<3> survey(const SurveyRequestOf<3>&, const Budget&);
 
 }  // namespace vitrel::lab

@@ -14,14 +14,16 @@ namespace vitrel::lab {
 
 /// A method and how long it may predict, all classes together; what it answers in that time is what
 /// its rows are about. Without a limit it answers every pair.
-struct Entrant {
-  Method method;
+template <int Dim>
+struct EntrantOf {
+  MethodOf<Dim> method;
   double seconds = std::numeric_limits<double>::infinity();
 };
 
-struct SurveyRequest {
-  std::vector<Entrant> entrants;
-  std::vector<CaseClass> classes;
+template <int Dim>
+struct SurveyRequestOf {
+  std::vector<EntrantOf<Dim>> entrants;
+  std::vector<CaseClassOf<Dim>> classes;
   std::uint64_t pairs = 1000;  ///< of each class
   std::uint64_t seed = 1;
   JudgingTolerance tolerance;
@@ -41,7 +43,7 @@ struct SurveyRow {
   /// |reported − true time| as a fraction of the horizon, of the pairs that are not degenerate and
   /// for which both report a contact.
   double largest_error = 0, median_error = 0;
-  /// |true gap at the reported time| in units of the smaller semi-minor axis, of all pairs with a
+  /// |true gap at the reported time| in units of the smallest semi-axis, of all pairs with a
   /// contact.
   double largest_gap_error = 0;
   /// |true gap at the reported time| in units of the contact gap (collision_case.h), of all pairs
@@ -55,26 +57,34 @@ struct SurveyRow {
 };
 
 /// A pair that a method failed on, for a picture.
-struct FailingCase {
+template <int Dim>
+struct FailingCaseOf {
   std::string method;
-  CaseClass case_class;
+  CaseClassOf<Dim> case_class;
   std::uint64_t index = 0;
-  CollisionCase asked;
-  TrueContact truth;
-  Prediction2 answer;
+  CollisionCaseOf<Dim> asked;
+  TrueContactOf<Dim> truth;
+  Prediction<Dim> answer;
   Judgement judgement;
 };
 
-struct Survey {
-  std::vector<SurveyRow> rows;        ///< class by class, methods in the order of the request
-  std::vector<FailingCase> failures;  ///< at most one per method
-  bool stopped = false;               ///< before all pairs were done
+template <int Dim>
+struct SurveyOf {
+  std::vector<SurveyRow> rows;  ///< class by class, methods in the order of the request
+  std::vector<FailingCaseOf<Dim>> failures;  ///< at most one per method
+  bool stopped = false;                      ///< before all pairs were done
 };
+
+using Entrant = EntrantOf<2>;
+using SurveyRequest = SurveyRequestOf<2>;
+using FailingCase = FailingCaseOf<2>;
+using Survey = SurveyOf<2>;
 
 /// Asks every method about the same pairs, judges the answers by the guaranteed reference and times
 /// the methods, the reference's time apart. Of a method's failures the first of the gravest kind is
 /// kept: late or missed, then early or false, these if the pair is degenerate, and last no answer,
 /// unless the method does not apply.
-Survey survey(const SurveyRequest& request, const Budget& budget);
+template <int Dim = 2>
+SurveyOf<Dim> survey(const SurveyRequestOf<Dim>& request, const Budget& budget);
 
 }  // namespace vitrel::lab

@@ -10,23 +10,33 @@
 #include "app/workflow/bench/choice.h"
 #include "app/workflow/bench/figures.h"
 #include "bench/lab/recorded_class.h"
+#include "bench/lab/solids/methods.h"
+#include "bench/lab/solids/suite.h"
 
 namespace vitrel {
 namespace {
 
-using lab::CaseClass;
-using lab::Entrant;
-using lab::Method;
-using lab::SurveyRequest;
+using lab::CaseClassOf;
+using lab::EntrantOf;
+using lab::MethodOf;
 using lab::SurveyRow;
 
+/// What there is to choose from.
+template <int Dim>
+struct Laboratory {
+  std::vector<MethodOf<Dim>> methods;  ///< the default first
+  std::vector<MethodOf<Dim>> methods_by_tolerance;
+  std::vector<CaseClassOf<Dim>> classes;
+};
+
 /// The default method answers all pairs, the others what their time allows.
-std::vector<Entrant> entrants(const CollisionTimeRequest& request) {
-  const std::vector<Method> all = lab::collision_time_methods();
-  const std::string default_method = all.front().name;
-  std::vector<Entrant> result;
-  for (const Method& method : chosen(all, request.methods, "method")) {
-    Entrant entrant{method};
+template <int Dim>
+std::vector<EntrantOf<Dim>> entrants(const Laboratory<Dim>& lab,
+                                     const CollisionTimeRequest& request) {
+  const std::string default_method = lab.methods.front().name;
+  std::vector<EntrantOf<Dim>> result;
+  for (const MethodOf<Dim>& method : chosen(lab.methods, request.methods, "method")) {
+    EntrantOf<Dim> entrant{method};
     if (method.name != default_method) entrant.seconds = request.seconds;
     result.push_back(entrant);
   }
@@ -34,21 +44,45 @@ std::vector<Entrant> entrants(const CollisionTimeRequest& request) {
 }
 
 /// Every method at every tolerance; those of one method share its time.
-std::vector<Entrant> entrants_by_tolerance(const CollisionTimeRequest& request) {
-  const std::vector<Method> methods =
-      chosen(lab::collision_time_methods_by_tolerance(), request.methods, "method");
+template <int Dim>
+std::vector<EntrantOf<Dim>> entrants_by_tolerance(const Laboratory<Dim>& lab,
+                                                  const CollisionTimeRequest& request) {
+  const std::vector<MethodOf<Dim>> methods =
+      chosen(lab.methods_by_tolerance, request.methods, "method");
   std::map<std::string, int> tolerances;
-  for (const Method& method : methods) ++tolerances[method.name];
-  std::vector<Entrant> result;
-  for (const Method& method : methods)
+  for (const MethodOf<Dim>& method : methods) ++tolerances[method.name];
+  std::vector<EntrantOf<Dim>> result;
+  for (const MethodOf<Dim>& method : methods)
     result.push_back({method, request.seconds / tolerances[method.name]});
   return result;
 }
 
-std::vector<CaseClass> generic_class() {
-  std::vector<CaseClass> classes = chosen(lab::stability_suite(), {"generic"}, "class");
+template <int Dim>
+std::vector<CaseClassOf<Dim>> generic_class(const Laboratory<Dim>& lab) {
+  std::vector<CaseClassOf<Dim>> classes = chosen(lab.classes, {"generic"}, "class");
   classes.resize(1);
   return classes;
+}
+
+template <int Dim>
+CollisionTimeBenchOf<Dim> bench_in(const Laboratory<Dim>& lab, const CollisionTimeRequest& request,
+                                   const Budget& budget, const Say& say) {
+  lab::SurveyRequestOf<Dim> asked{entrants(lab, request),
+                                  chosen(lab.classes, request.classes, "class"), request.pairs,
+                                  request.seed, request.tolerance};
+  CollisionTimeBenchOf<Dim> bench;
+  say(fmt::format("stability of {} methods on {} classes", asked.entrants.size(),
+                  asked.classes.size()));
+  bench.survey = lab::survey(asked, budget);
+  if (request.with_chart && !bench.survey.stopped) {
+    asked.entrants = entrants_by_tolerance(lab, request);
+    asked.classes = generic_class(lab);
+    asked.tolerance = {charted_tolerance, charted_tolerance};
+    say(fmt::format("accuracy of {} methods and tolerances", asked.entrants.size()));
+    bench.tolerances = lab::survey(asked, budget).rows;
+  }
+  bench.stopped = budget.stop_requested();
+  return bench;
 }
 
 // 98 columns.
@@ -78,21 +112,16 @@ double charted(const SurveyRow& row, ChartedError error) {
 
 CollisionTimeBench bench_collision_time(const CollisionTimeRequest& request, const Budget& budget,
                                         const Say& say) {
-  SurveyRequest asked{entrants(request), chosen(lab::all_classes(), request.classes, "class"),
-                      request.pairs, request.seed, request.tolerance};
-  CollisionTimeBench bench;
-  say(fmt::format("stability of {} methods on {} classes", asked.entrants.size(),
-                  asked.classes.size()));
-  bench.survey = lab::survey(asked, budget);
-  if (request.with_chart && !bench.survey.stopped) {
-    asked.entrants = entrants_by_tolerance(request);
-    asked.classes = generic_class();
-    asked.tolerance = {charted_tolerance, charted_tolerance};
-    say(fmt::format("accuracy of {} methods and tolerances", asked.entrants.size()));
-    bench.tolerances = lab::survey(asked, budget).rows;
-  }
-  bench.stopped = budget.stop_requested();
-  return bench;
+  const Laboratory<2> lab{lab::collision_time_methods(), lab::collision_time_methods_by_tolerance(),
+                          lab::all_classes()};
+  return bench_in(lab, request, budget, say);
+}
+
+CollisionTimeBenchOf<3> bench_collision_time_of_solids(const CollisionTimeRequest& request,
+                                                       const Budget& budget, const Say& say) {
+  const Laboratory<3> lab{lab::solid_methods(), lab::solid_methods_by_tolerance(),
+                          lab::solid_suite()};
+  return bench_in(lab, request, budget, say);
 }
 
 nlohmann::ordered_json collision_time_json(const std::vector<SurveyRow>& rows) {

@@ -8,7 +8,8 @@
 #include "app/workflow/bench/chart.h"
 #include "bench/lab/survey.h"
 
-/// `vitrel bench collision-time`: every method of predicting a collision, asked about the same pairs.
+/// `vitrel bench collision-time` and `collision-time-of-solids`: every method of predicting a collision of
+/// ellipses or ellipsoids, asked about the same pairs.
 namespace vitrel {
 
 struct CollisionTimeRequest {
@@ -24,18 +25,22 @@ struct CollisionTimeRequest {
 /// In the chart a coarse answer counts as correct if it is off by no more than this.
 inline constexpr double charted_tolerance = 1e-2;
 
-struct CollisionTimeBench {
-  lab::Survey survey;  ///< every method at its usual tolerance
+template <int Dim>
+struct CollisionTimeBenchOf {
+  lab::SurveyOf<Dim> survey;  ///< every method at its usual tolerance
   /// Every tolerance, on the generic class, judged by `charted_tolerance`.
   std::vector<lab::SurveyRow> tolerances;
   bool stopped = false;
 };
+using CollisionTimeBench = CollisionTimeBenchOf<2>;
 
 using Say = std::function<void(const std::string&)>;
 
 /// Throws UserError for an unknown method or class.
 CollisionTimeBench bench_collision_time(const CollisionTimeRequest& request, const Budget& budget,
                                         const Say& say);
+CollisionTimeBenchOf<3> bench_collision_time_of_solids(const CollisionTimeRequest& request,
+                                                       const Budget& budget, const Say& say);
 
 nlohmann::ordered_json collision_time_json(const std::vector<lab::SurveyRow>& rows);
 

@@ -6,7 +6,19 @@
 
 namespace vitrel::lab {
 
-std::optional<CircleOverlap> circle_overlap(const Vec2& d, const Vec2& v, double radius,
+namespace {
+
+double square(double x) {
+  return x * x;
+}
+double square(const Vec3& v) {
+  return v.squaredNorm();
+}
+
+}  // namespace
+
+template <int Dim>
+std::optional<CircleOverlap> circle_overlap(const Vec<Dim>& d, const Vec<Dim>& v, double radius,
                                             double growth, double horizon) {
   // α t² + 2 β t + γ = 0
   const double speed = v.norm();
@@ -14,8 +26,7 @@ std::optional<CircleOverlap> circle_overlap(const Vec2& d, const Vec2& v, double
   const double alpha = (speed - growth) * (speed + growth);
   const double beta = d.dot(v) - radius * growth;
   const double gamma = (distance - radius) * (distance + radius);
-  const double area = cross(d, v);
-  const double discriminant = (radius * v - growth * d).squaredNorm() - area * area;
+  const double discriminant = (radius * v - growth * d).squaredNorm() - square(cross(d, v));
 
   double begin = 0;
   if (gamma > 0) {
@@ -42,23 +53,31 @@ std::optional<CircleOverlap> circle_overlap(const Vec2& d, const Vec2& v, double
   return CircleOverlap{begin, std::clamp(end, begin, horizon)};
 }
 
-std::optional<Bracket> bracket_contact(const CollisionCase& asked) {
-  const GrowingEllipse& one = asked.one.body;
-  const GrowingEllipse& two = asked.two.body;
-  const Vec2 d = asked.two.pose.position - asked.one.pose.position;
-  const Vec2 v = asked.two.motion.velocity - asked.one.motion.velocity;
+template <int Dim>
+std::optional<Bracket> bracket_contact(const CollisionCaseOf<Dim>& asked) {
+  const GrowingBody<Dim>& one = asked.one.body;
+  const GrowingBody<Dim>& two = asked.two.body;
+  const Vec<Dim> d = asked.two.pose.position - asked.one.pose.position;
+  const Vec<Dim> v = asked.two.motion.velocity - asked.one.motion.velocity;
 
-  const double outer_growth = one.growth_rate * one.shape.a + two.growth_rate * two.shape.a;
-  const auto outer =
-      circle_overlap(d, v, one.circumradius() + two.circumradius(), outer_growth, asked.horizon);
+  const double outer_growth =
+      one.growth_rate * one.shape.circumradius() + two.growth_rate * two.shape.circumradius();
+  const auto outer = circle_overlap<Dim>(d, v, one.circumradius() + two.circumradius(),
+                                         outer_growth, asked.horizon);
   if (!outer) return {};
 
-  const double inner_growth = one.growth_rate * one.shape.b + two.growth_rate * two.shape.b;
+  const double inner_growth =
+      one.growth_rate * one.shape.inradius() + two.growth_rate * two.shape.inradius();
   const auto inner =
-      circle_overlap(d, v, one.inradius() + two.inradius(), inner_growth, asked.horizon);
+      circle_overlap<Dim>(d, v, one.inradius() + two.inradius(), inner_growth, asked.horizon);
   if (!inner) return Bracket{outer->begin, outer->end, false};
   // Rounding may put the inner time of a round pair before the outer one.
   return Bracket{std::min(outer->begin, inner->begin), inner->begin, true};
 }
+
+template std::optional<CircleOverlap> circle_overlap(const Vec2&, const Vec2&, double, double,
+                                                     double);
+template std::optional<Bracket> bracket_contact(const CollisionCase&);
+template std::optional<Bracket> bracket_contact(const SolidCase&);
 
 }  // namespace vitrel::lab

@@ -6,7 +6,7 @@
 
 namespace vitrel::lab {
 
-/// Between which times the first contact must lie, from circles alone.
+/// Between which times the first contact must lie, from circles (in three dimensions spheres) alone.
 ///
 /// Ellipses can touch only once their circumcircles do, and must once their incircles do. Circles of
 /// radii Rᵢ + Γᵢt touch where |d + v t| = R + Γ t, with d, v, R, Γ the differences of the centres and
@@ -21,16 +21,22 @@ struct Bracket {
   bool certain = false;  ///< the incircles touch at `latest`: there is a contact
 
   double duration() const { return latest - earliest; }
+  /// The end of step number `step` of equal ones.
+  double sample(int step, int steps) const {
+    return step == steps ? latest : earliest + duration() * step / steps;
+  }
 };
 
 /// Nothing if no contact is possible before the horizon.
-std::optional<Bracket> bracket_contact(const CollisionCase& asked);
+template <int Dim>
+std::optional<Bracket> bracket_contact(const CollisionCaseOf<Dim>& asked);
 
 /// The interval of overlap of two growing circles within [0, horizon], if any.
 struct CircleOverlap {
   double begin, end;
 };
-std::optional<CircleOverlap> circle_overlap(const Vec2& d, const Vec2& v, double radius,
+template <int Dim>
+std::optional<CircleOverlap> circle_overlap(const Vec<Dim>& d, const Vec<Dim>& v, double radius,
                                             double growth, double horizon);
 
 }  // namespace vitrel::lab

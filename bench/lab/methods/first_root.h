@@ -27,6 +27,12 @@ double root_between(Function&& f, double low, double f_low, double high, double 
   return 0.5 * (a + b);
 }
 
+/// The number of steps, each `fraction` of the whole.
+inline int scan_steps_of(double fraction) {
+  constexpr double most_steps = 1e6;
+  return static_cast<int>(std::clamp(std::ceil(1 / fraction), 1.0, most_steps));
+}
+
 struct RootSearch {
   std::optional<double> time;  ///< of the first change of sign that the scan saw
   int evaluations = 0;
@@ -38,8 +44,7 @@ struct RootSearch {
 /// positive, and refines within that step. What happens between two positive samples stays unseen.
 template <class Function>
 RootSearch first_root(Function&& f, const Bracket& bracket, double fraction) {
-  constexpr double most_steps = 1e6;
-  const int steps = static_cast<int>(std::clamp(std::ceil(1 / fraction), 1.0, most_steps));
+  const int steps = scan_steps_of(fraction);
   RootSearch search;
   const auto counted = [&](double time) {
     ++search.evaluations;
@@ -52,8 +57,7 @@ RootSearch first_root(Function&& f, const Bracket& bracket, double fraction) {
     return search;
   }
   for (int step = 1; step <= steps; ++step) {
-    const double time =
-        step == steps ? bracket.latest : bracket.earliest + bracket.duration() * step / steps;
+    const double time = bracket.sample(step, steps);
     const double f_time = counted(time);
     if (!(f_time > 0)) {
       search.time = root_between(counted, before, f_before, time, f_time);

@@ -9,15 +9,17 @@
 
 namespace vitrel::lab {
 
-/// A way to predict the first contact of two ellipses, at one setting of its accuracy.
+/// A way to predict the first contact of two bodies, at one setting of its accuracy.
 ///
 /// `predict` answers contact (time, normal from 1 to 2, point), none, not_converged, or overlap if
 /// it finds the pair overlapping at the start.
-struct Method {
+template <int Dim>
+struct MethodOf {
   std::string name;      ///< "slsqp"
   double tolerance = 0;  ///< the method's own: what it means is said in its header
-  std::function<Prediction2(const CollisionCase&)> predict;
+  std::function<Prediction<Dim>(const CollisionCaseOf<Dim>&)> predict;
 };
+using Method = MethodOf<2>;
 
 /// Every method at its usual tolerance, the default first.
 std::vector<Method> collision_time_methods();

@@ -65,12 +65,11 @@ class Search {
   explicit Search(const CollisionCase& asked) : asked_(asked) {}
 
   std::optional<double> run(const Bracket& bracket, double fraction) {
-    const int steps = static_cast<int>(std::clamp(std::ceil(1 / fraction), 1.0, 1e6));
+    const int steps = scan_steps_of(fraction);
     Sample before = sample(bracket.earliest);
     if (!(before.f.value >= 1)) return before.time;
     for (int step = 1; step <= steps; ++step) {
-      const Sample after = sample(
-          step == steps ? bracket.latest : bracket.earliest + bracket.duration() * step / steps);
+      const Sample after = sample(bracket.sample(step, steps));
       if (const auto root = first_between(before, after)) return root;
       before = after;
     }

@@ -3,15 +3,24 @@
 #include "bench/lab/methods/opening.h"
 
 namespace vitrel::lab {
+namespace {
 
-Prediction2 separating_axis(const CollisionCase& asked, double tolerance) {
+template <class Shape>
+Flight<Shape> constant(const Flight<Growing<Shape>>& flight) {
+  return {flight.body.at(0), flight.pose, flight.motion};
+}
+
+}  // namespace
+
+template <int Dim>
+Prediction<Dim> separating_axis(const CollisionCaseOf<Dim>& asked, double tolerance) {
   if (!is_sound(asked)) return {Outcome::not_converged};
-  const double contact_gap = tolerance * (asked.one.body.shape.a + asked.two.body.shape.a);
+  const double contact_gap = tolerance * asked.reach();
   if (asked.grows()) return first_contact(asked.one, asked.two, asked.horizon, contact_gap);
-  const auto constant = [](const Flight<GrowingEllipse>& flight) {
-    return Flight<Ellipse>{flight.body.at(0), flight.pose, flight.motion};
-  };
   return first_contact(constant(asked.one), constant(asked.two), asked.horizon, contact_gap);
 }
+
+template Prediction2 separating_axis(const CollisionCase&, double);
+template Prediction3 separating_axis(const SolidCase&, double);
 
 }  // namespace vitrel::lab

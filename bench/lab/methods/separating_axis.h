@@ -6,7 +6,8 @@
 namespace vitrel::lab {
 
 /// The default of the engine: advance along a separating axis (core/contact/first_contact.h).
-/// `tolerance` is the contact gap in units of a₁ + a₂ (usual 32 ε).
-Prediction2 separating_axis(const CollisionCase& asked, double tolerance);
+/// `tolerance` is the contact gap in units of the sum of the largest semi-axes (usual 32 ε).
+template <int Dim>
+Prediction<Dim> separating_axis(const CollisionCaseOf<Dim>& asked, double tolerance);
 
 }  // namespace vitrel::lab

@@ -37,7 +37,8 @@ namespace vitrel::lab {
 /// each other by less than about the rounding of Real, without crossing. `time` then is where.
 ///
 /// Sizes must not become negative within the horizon. Real is long double or Float128.
-struct TrueContact {
+template <int Dim>
+struct TrueContactOf {
   enum class Outcome { contact, none, undecided, overlap_at_start };
   Outcome outcome = Outcome::none;
   long double time = 0;
@@ -45,9 +46,10 @@ struct TrueContact {
   int pieces = 0;               ///< pieces of the horizon looked at
   /// At the contact, or where it is undecided: the unit vector from 1 to 2 normal to the surfaces,
   /// and the speed at which the surfaces approach along it, growth included.
-  Vec2 normal = Vec2::Zero();
+  Vec<Dim> normal = Vec<Dim>::Zero();
   double approach_speed = 0;
 };
+using TrueContact = TrueContactOf<2>;
 
 using Float128 = boost::multiprecision::float128;
 
