@@ -37,4 +37,15 @@ struct BodyInBox {
 /// among them. Positions must be wrapped into the box.
 std::vector<BodyInBox> bodies_in_box(const Configuration3& packing);
 
+/// Whole packings can be moved in their periodic box at will. This is the translation of the box after which
+/// no body grazes it: meshes of thin slices, and between a body and a side that it all but touches, are poor.
+///
+/// How far a body is from grazing is the least |√(d_Cᵀ Σ_CC⁻¹ d_C) − 1| over all planes, edges and corners C
+/// of the lattice of boxes: 0 if it touches one of them. Tried are translations in whose every coordinate
+/// the planes lie amid one of the widest gaps between their positions x_k = r_k ± √Σ_kk that touch a body.
+Vec3 clean_cut(const Configuration3& packing);
+
+/// The least of these distances with the box moved by `translation`; 1 if no body is near a plane.
+double grazing_distance(const Configuration3& packing, const Vec3& translation);
+
 }  // namespace vitrel

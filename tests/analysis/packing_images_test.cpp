@@ -177,5 +177,33 @@ TEST(BodiesInBox, ABodyAcrossOppositeFaces) {
   }
 }
 
+// A sphere of radius 1 in a box of 10: seen from a face, an edge or a corner it is as far from touching as
+// its distance says.
+TEST(GrazingDistance, OfASphereFollowsFromItsPlace) {
+  Configuration3 packing;
+  packing.box = PeriodicBox<3>(Vec3(10, 10, 10));
+  packing.resize(1);
+  packing.position[0] = {4.7, 0, 0};
+  EXPECT_NEAR(grazing_distance(packing, Vec3::Zero()), 0.7, 1e-14);
+  EXPECT_NEAR(grazing_distance(packing, Vec3(0.8, 0, 0)), 0.1, 1e-14);
+  packing.position[0] = {4.4, -4.2, 0};
+  EXPECT_NEAR(grazing_distance(packing, Vec3::Zero()), 0, 1e-14) << "0.6² + 0.8² = 1";
+  packing.position[0] = {4.9, 4.2, -4.7};
+  // Faces: 0.9, 0.2, 0.7; edges and the corner: √0.65, √0.10, √0.73 and √0.74.
+  EXPECT_NEAR(grazing_distance(packing, Vec3::Zero()), 1 - std::sqrt(0.74), 1e-14);
+  packing.position[0].setZero();
+  EXPECT_EQ(grazing_distance(packing, Vec3::Zero()), 1);
+}
+
+TEST(CleanCut, IsFartherFromGrazingThanRandomTranslations) {
+  Configuration3 packing = random_solids(20, 0.5);
+  const double chosen = grazing_distance(packing, clean_cut(packing));
+  Stream draw(11, Purpose::tests);
+  std::vector<double> random;
+  for (int k = 0; k < 100; ++k)
+    random.push_back(grazing_distance(packing, 10 * random_vector(draw)));
+  EXPECT_GT(chosen, *std::ranges::max_element(random));
+}
+
 }  // namespace
 }  // namespace vitrel

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
+#include <utility>
 
 #include "app/workflow/export/frame_sink.h"
 #include "app/workflow/export/packing.h"
@@ -177,19 +178,20 @@ double shortest_semi_axis(const Configuration3& configuration) {
   return shortest;
 }
 
-std::string head(const Configuration3& configuration) {
+std::string head(const Configuration3& configuration, const Vec3& translation) {
   const Vec3 half = 0.5 * configuration.box.lengths();
   const double shortest = shortest_semi_axis(configuration);
   return fmt::format(
       "// One period of a packing of {} ellipsoids, by vitrel.\n"
+      "// Coordinates are those of the packing less ({}, {}, {}), so that no body grazes the box.\n"
       "// gmsh -3 -setnumber h 0.1 <this file> makes a mesh with elements of that size.\n"
       "SetFactory(\"OpenCASCADE\");\n"
       "DefineConstant[ h = {{{}, Name \"Mesh size\"}} ];\n"
       "Mesh.MeshSizeMax = h;\n"
       "hx = {}; hy = {}; hz = {};\n"
       "e = {}; m = {};\n",
-      configuration.size(), 0.5 * shortest, half.x(), half.y(), half.z(),
-      side_tolerance * half.maxCoeff(), twin_tolerance * shortest);
+      configuration.size(), translation.x(), translation.y(), translation.z(), 0.5 * shortest,
+      half.x(), half.y(), half.z(), side_tolerance * half.maxCoeff(), twin_tolerance * shortest);
 }
 
 /// A name in quotes, which the language cannot have inside.
@@ -198,13 +200,23 @@ std::string quoted(std::string name) {
   return '"' + name + '"';
 }
 
+Packing moved(Configuration3 configuration, const Vec3& translation) {
+  for (std::size_t i = 0; i < configuration.size(); ++i) {
+    configuration.position[i] -= translation;
+    configuration.box.wrap(configuration.position[i], configuration.image[i]);
+  }
+  return {std::move(configuration), 1};
+}
+
 }  // namespace
 
-void write_geo(const std::filesystem::path& path, const Packing& packing) {
+void write_geo(const std::filesystem::path& path, const Packing& given) {
+  const Vec3 translation = clean_cut(given.configuration);
+  const Packing packing = moved(given.configuration, translation);
   const Configuration3& configuration = packing.configuration;
   const std::vector<Slices> particles = slices_of(packing);
   OutputFile file(path);
-  file.write(head(configuration));
+  file.write(head(configuration, translation));
   file.write(macros);
   file.write(
       fmt::format("\nbox = {};\nBox(box) = {{-hx, -hy, -hz, 2*hx, 2*hy, 2*hz}};\n"
