@@ -193,7 +193,7 @@ SolidCase passing_pair(double depth) {
     return {{{semi_axes}, 1, 0}, {position, Quaternion::Identity()}, {velocity, Vec3::Zero()}};
   };
   return {solid({2, 1, 1.2}, {0, 0, 0}, {0, 0, 0}),
-          solid({1.5, 1, 0.8}, {3, 2 - depth, 0}, {-1, 0, 0}), 5.21};
+          solid({1.5, 1, 0.8}, {3, 2 - depth, 0}, {-1, 0, 0}), 5.12};
 }
 
 }  // namespace vitrel::lab
