@@ -285,7 +285,9 @@ TEST(ParameterFile, TheFilesOfTheProjectAreValid) {
     int dimension = 0;
     EXPECT_NO_THROW(dimension = load_parameters({entry.path(), {}, {}}).system.dimension)
         << entry.path();
-    if (dimension == 2) EXPECT_NO_THROW(sweep_jobs({entry.path(), {}, {}})) << entry.path();
+    if (dimension == 2) {
+      EXPECT_NO_THROW(sweep_jobs({entry.path(), {}, {}})) << entry.path();
+    }
   }
   EXPECT_GE(files, 5);
 }
