@@ -15,10 +15,10 @@ namespace vitrel {
 namespace {
 
 /// Growth of all lengths in one block, at most: neighbour lists are made for the sizes at its start.
-constexpr double largest_growth = 0.1;
-/// Growth between two rescalings, at most, so that the unit of length changes little; and that growth times
-/// Z, so that kT does (it rises by twice as much) and Z, too.
-constexpr double largest_step = 0.01, largest_compression = 0.05;
+constexpr double largest_growth = 0.2;
+/// Growth between two rescalings times Z, at most, so that kT changes little (it rises by twice as much), and
+/// Z, too.
+constexpr double largest_compression = 0.05;
 
 /// The time average of a temperature that rises exponentially from 1 to `end`.
 double mean_of_rise(double end) {
@@ -128,8 +128,7 @@ class Growth {
   }
 
   double longest_step(double size) const {
-    const double most = std::min(largest_step, largest_compression / state_.reduced_pressure);
-    return most * size / std::abs(rate());
+    return largest_compression / std::max(state_.reduced_pressure, 1.0) * size / std::abs(rate());
   }
 
   double time_to_goal() const {

@@ -18,9 +18,9 @@
 /// and the particles heat up.
 ///
 /// Velocities are drawn at the start (brownian.h), from the stream (seed, velocities, draws). Blocks end after
-/// a fixed count of events, or when all has grown by 10 %. In them
-///   1. the engine runs with growth rate γ, in steps that end when all has grown by 1 %, or kT has risen
-///      by some 10 %;
+/// a fixed count of events, or when all has grown by 20 %. In them
+///   1. the engine runs with growth rate γ, in steps that end when kT has risen by some 10 %, or, in a dilute
+///      gas, all has grown by 5 %;
 ///   2. after each, reduced pressure Z = βP/ρ = 1 + Σ J n·d/(D N ⟨kT⟩ t), d from centre to centre. kT = 2E/f,
 ///      f = D (N − 1) + N_rot, rises exponentially at constant Z; ⟨kT⟩ is the mean of such a rise;
 ///   3. velocities are rescaled to kT = 1: to D (N − 1)/2 for the translational and N_rot/2 for
