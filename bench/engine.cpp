@@ -17,6 +17,7 @@
 #include "bench/lab/twins/all_pairs.h"
 #include "bench/lab/twins/engine_twins.h"
 #include "bench/parts.h"
+#include "bench/repeats.h"
 #include "core/neighbors/neighborhood.h"
 #include "core/neighbors/pairs.h"
 #include "edmd/brownian.h"
@@ -40,46 +41,6 @@ struct Effort {
   int largest = 1'000'000;
 };
 const Effort quick{2, 0.01, 100, 64, 64, {{1, 1}, {2, 2}}, {10, 30}, 30, 30, 0.02};
-
-/// Work that was done several times, here and there in alternation with other work.
-class Repeats {
- public:
-  void add(const Work& work) { works_.push_back(work); }
-  double last_seconds() const { return works_.back().seconds; }
-
-  /// The best time, the median, and counts per collision over all.
-  Json json() const {
-    std::vector<double> times;
-    Work sum;
-    for (const Work& work : works_) {
-      times.push_back(work.ns_per_collision());
-      sum.simulated_time += work.simulated_time;
-      sum.counters.events += work.counters.events;
-      sum.counters.collisions += work.counters.collisions;
-      sum.counters.renewals += work.counters.renewals;
-      sum.counters.virial += work.counters.virial;
-      sum.counters.add_predictions(work.counters);
-    }
-    std::ranges::sort(times);
-    const RunCounters& of = sum.counters;
-    const auto per_collision = [&](std::uint64_t count) {
-      return static_cast<double>(count) / static_cast<double>(of.collisions);
-    };
-    return {{"ns_per_collision", times.front()},
-            {"median_ns_per_collision", times[times.size() / 2]},
-            {"collisions", of.collisions},
-            {"collision_rate", static_cast<double>(of.collisions) / sum.simulated_time},
-            {"virial_rate", of.virial / sum.simulated_time},
-            {"events", per_collision(of.events)},
-            {"predictions", per_collision(of.predictions)},
-            {"searches", per_collision(of.searches)},
-            {"steps", per_collision(of.steps)},
-            {"renewals", per_collision(of.renewals)}};
-  }
-
- private:
-  std::vector<Work> works_;
-};
 
 /// A liquid that has also moved by event-driven dynamics.
 Configuration2 relaxed(const FluidScene& scene, double seconds) {
@@ -286,7 +247,7 @@ Json lazy_refinement(const Effort& effort, const FluidScene& scene) {
   say("device: lazy refinement");
   struct Patient {
     double patience;
-    TimedRun run;
+    TimedRun<2> run;
     Repeats repeats;
   };
   const Configuration2 start = relaxed(scene, 0.3 * effort.stretch);

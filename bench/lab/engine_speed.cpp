@@ -86,10 +86,12 @@ Configuration2 tiled(const Configuration2& tile, int columns, int rows) {
   return c;
 }
 
-TimedRun::TimedRun(std::unique_ptr<Engine2> engine, Configuration2 start)
+template <int Dim>
+TimedRun<Dim>::TimedRun(std::unique_ptr<Engine<Dim>> engine, Configuration<Dim> start)
     : engine_(std::move(engine)), now_(std::move(start)) {}
 
-Work TimedRun::blocks(double least_seconds) {
+template <int Dim>
+Work TimedRun<Dim>::blocks(double least_seconds) {
   Work work;
   const double start_time = now_.time, start = processor_seconds();
   do {
@@ -102,7 +104,9 @@ Work TimedRun::blocks(double least_seconds) {
   return work;
 }
 
-Work TimedRun::parts(double seconds, double first_collisions, double enough_collisions) {
+template <int Dim>
+Work TimedRun<Dim>::parts(double seconds, double first_collisions,
+                          double enough_collisions) requires(Dim == 2) {
   Work work;
   const double start_time = now_.time, start = processor_seconds();
   double length = first_collisions / expected_collision_rate(now_);
@@ -125,6 +129,9 @@ Work TimedRun::parts(double seconds, double first_collisions, double enough_coll
   work.simulated_time = now_.time - start_time;
   return work;
 }
+
+template class TimedRun<2>;
+template class TimedRun<3>;
 
 double expected_collision_rate(const Configuration2& c) {
   // N/2 · 4 (Z − 1)/σ · √(kT/(π m)) with σ = 2, and Z − 1 = 2 φ g(σ).

@@ -39,9 +39,10 @@ struct Work {
 
 /// An engine at work, for as long as one wants. The time is that of this process, so that others do
 /// not count.
+template <int Dim>
 class TimedRun {
  public:
-  TimedRun(std::unique_ptr<Engine2> engine, Configuration2 start);
+  TimedRun(std::unique_ptr<Engine<Dim>> engine, Configuration<Dim> start);
 
   /// Whole blocks, with what their beginning and end takes; at least one, and as many as take so
   /// many seconds.
@@ -49,13 +50,13 @@ class TimedRun {
 
   /// For an engine whose blocks take long: ever longer parts of them, the first of about so many
   /// collisions, until there were enough or the next would take more than the seconds.
-  Work parts(double seconds, double first_collisions, double enough_collisions);
+  Work parts(double seconds, double first_collisions, double enough_collisions) requires(Dim == 2);
 
-  const Configuration2& now() const { return now_; }
+  const Configuration<Dim>& now() const { return now_; }
 
  private:
-  std::unique_ptr<Engine2> engine_;
-  Configuration2 now_;
+  std::unique_ptr<Engine<Dim>> engine_;
+  Configuration<Dim> now_;
 };
 
 /// Collisions per unit of time in a fluid of these, roughly: those of disks by Enskog's theory.
