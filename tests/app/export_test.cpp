@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/results.h"
+#include "app/workflow/export/base64.h"
 #include "app/workflow/export/frame_range.h"
 #include "app/workflow/export/gsd.h"
 #include "app/workflow/export/trajectory_export.h"
@@ -166,6 +167,71 @@ TEST(Export, GsdRefusesTooManyShapes) {
     EXPECT_THAT(error.what(), HasSubstr("20001 different shapes"));
   }
   EXPECT_NO_THROW(to("csv"));
+}
+
+/// A frame per time, of one sphere that grows with it.
+void write_packing(const std::filesystem::path& path, int frames) {
+  Configuration3 packing;
+  packing.box = PeriodicBox<3>(Vec3(4, 4, 4));
+  packing.resize(1);
+  packing.species_names = {"A"};
+  packing.position[0] = {1.5, 0, 0};
+  auto writer = TrajectoryWriter::create(path, packing, current_provenance("", "", 1));
+  for (int k = 0; k < frames; ++k) {
+    packing.time = k;
+    packing.position[0].y() = 0.1 * k;
+    writer.write(packing, k);
+  }
+  writer.close();
+}
+
+TEST(ExportOfAPacking, IsOfOneFrameTheLastUnlessTold) {
+  const Folder folder("packing_frames");
+  write_packing(folder / "run.h5", 3);
+  const auto lines = [&](std::vector<std::string> options, const std::string& file) {
+    options.insert(options.begin(), {"export", "run.h5", "--to", "csv", "-q", "-o", file});
+    EXPECT_EQ(run(folder.path(), options).code, 0);
+    const std::string text = folder.read(file);
+    return text.substr(text.find('\n') + 1);
+  };
+  // The body reaches beyond x = 2, and its image from there.
+  const std::string last = lines({}, "last.csv");
+  EXPECT_EQ(last,
+            "0,A,-1,0,0,-2.5,0.2,0,1,1,1,1,0,0,0,4,4,4\n"
+            "0,A,0,0,0,1.5,0.2,0,1,1,1,1,0,0,0,4,4,4\n");
+  EXPECT_EQ(lines({"--frames", "-1"}, "a.csv"), last);
+  EXPECT_THAT(lines({"--frames", "0"}, "b.csv"), HasSubstr("1.5,0,0"));
+  EXPECT_THAT(lines({"--shrink", "0.4"}, "c.csv"),
+              "0,A,0,0,0,1.5,0.2,0,0.4,0.4,0.4,1,0,0,0,4,4,4\n");
+}
+
+TEST(ExportOfAPacking, RefusesWhatDoesNotFit) {
+  const Folder folder("packing_refused");
+  write_packing(folder / "run.h5", 3);
+  write_run(folder / "flat.h5", 2, 1);
+  const auto message = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), "export");
+    const Outcome outcome = run(folder.path(), words);
+    EXPECT_EQ(outcome.code, 2);
+    return outcome.errors;
+  };
+  EXPECT_THAT(message({"run.h5", "--to", "csv", "--frames", ":"}), HasSubstr("selects 3 frames"));
+  EXPECT_THAT(message({"run.h5", "--to", "csv", "--voxels", "7"}), HasSubstr("is for --to vti"));
+  EXPECT_THAT(message({"run.h5", "--to", "geo", "--shrink", "1.5"}), HasSubstr("--shrink"));
+  EXPECT_THAT(message({"flat.h5", "--to", "csv", "--shrink", "0.5"}),
+              HasSubstr("three dimensions"));
+  EXPECT_THAT(message({"flat.h5", "--to", "vti"}), HasSubstr("no such format, but gsd, xyz, csv"));
+}
+
+// The examples of RFC 4648, section 10.
+TEST(Base64, OfTheExamples) {
+  const auto encoded = [](std::string_view text) { return base64(std::as_bytes(std::span(text))); };
+  EXPECT_EQ(encoded(""), "");
+  EXPECT_EQ(encoded("f"), "Zg==");
+  EXPECT_EQ(encoded("fo"), "Zm8=");
+  EXPECT_EQ(encoded("foo"), "Zm9v");
+  EXPECT_EQ(encoded("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(encoded("\xff\xfe\xfd"), "//79");
 }
 
 }  // namespace

@@ -124,9 +124,9 @@ EndFor
 
 )";
 
-/// How thick a side is in the eyes of the kernel, over the length of the box, and how well faces and their
-/// twins agree, over the thinnest body.
-constexpr double side_tolerance = 1e-6, twin_tolerance = 0.02;
+/// Over the thinnest body: how thick a side is in the eyes of the kernel, and how well faces and their twins
+/// agree.
+constexpr double side_tolerance = 1e-3, twin_tolerance = 0.02;
 
 using Bodies = std::vector<BodyInBox>::const_iterator;
 
@@ -191,7 +191,7 @@ std::string head(const Configuration3& configuration, const Vec3& translation) {
       "hx = {}; hy = {}; hz = {};\n"
       "e = {}; m = {};\n",
       configuration.size(), translation.x(), translation.y(), translation.z(), 0.5 * shortest,
-      half.x(), half.y(), half.z(), side_tolerance * half.maxCoeff(), twin_tolerance * shortest);
+      half.x(), half.y(), half.z(), side_tolerance * shortest, twin_tolerance * shortest);
 }
 
 /// A name in quotes, which the language cannot have inside.
