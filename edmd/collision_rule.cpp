@@ -58,13 +58,22 @@ double collide(Motion<Dim>& one, const Inertia<Dim>& inertia1, Motion<Dim>& two,
   return impulse;
 }
 
-template <int Dim>
-double collide_with_own_image(Motion<Dim>& motion, const Inertia<Dim>& inertia,
-                              const ContactGeometry<Dim>& contact, double restitution) {
-  const AngularVelocity<Dim> arm = contact.arm1 - contact.arm2;
-  const AngularVelocity<Dim> spin = inertia.inverse_moment * arm;
-  const double speed = product(motion.angular_velocity, arm) + contact.growth;
-  const double impulse = (1 + restitution) * speed / product(spin, arm);
+// Without growth ω becomes −e ω exactly.
+double collide_with_own_image(Motion2& motion, const Inertia<2>& inertia,
+                              const ContactGeometry<2>& contact, double restitution) {
+  const double arm = contact.arm1 - contact.arm2;
+  const double speed = motion.angular_velocity * arm + contact.growth;
+  motion.angular_velocity =
+      -restitution * motion.angular_velocity - (1 + restitution) * contact.growth / arm;
+  return (1 + restitution) * speed / (inertia.inverse_moment * arm * arm);
+}
+
+double collide_with_own_image(Motion3& motion, const Inertia<3>& inertia,
+                              const ContactGeometry<3>& contact, double restitution) {
+  const Vec3 arm = contact.arm1 - contact.arm2;
+  const Vec3 spin = inertia.inverse_moment * arm;
+  const double speed = motion.angular_velocity.dot(arm) + contact.growth;
+  const double impulse = (1 + restitution) * speed / spin.dot(arm);
   motion.angular_velocity -= impulse * spin;
   return impulse;
 }
@@ -84,15 +93,11 @@ void separate(Motion<Dim>& one, const Inertia<Dim>& inertia1, Motion<Dim>& two,
 template double approach_speed(const Motion<2>&, const Motion<2>&, const ContactGeometry<2>&);
 template double collide(Motion<2>&, const Inertia<2>&, Motion<2>&, const Inertia<2>&,
                         const ContactGeometry<2>&, double);
-template double collide_with_own_image(Motion<2>&, const Inertia<2>&, const ContactGeometry<2>&,
-                                       double);
 template void separate(Motion<2>&, const Inertia<2>&, Motion<2>&, const Inertia<2>&, const Vec<2>&);
 
 template double approach_speed(const Motion<3>&, const Motion<3>&, const ContactGeometry<3>&);
 template double collide(Motion<3>&, const Inertia<3>&, Motion<3>&, const Inertia<3>&,
                         const ContactGeometry<3>&, double);
-template double collide_with_own_image(Motion<3>&, const Inertia<3>&, const ContactGeometry<3>&,
-                                       double);
 template void separate(Motion<3>&, const Inertia<3>&, Motion<3>&, const Inertia<3>&, const Vec<3>&);
 
 }  // namespace vitrel

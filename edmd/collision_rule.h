@@ -48,9 +48,10 @@ double collide(Motion<Dim>& one, const Inertia<Dim>& inertia1, Motion<Dim>& two,
 
 /// The impact of a body with its own periodic image: both sides act on the same body, its velocity
 /// stays and u_n = ω·k + s with k = k₁ − k₂; ω −= J I⁻¹k. Returns the impulse J.
-template <int Dim>
-double collide_with_own_image(Motion<Dim>& motion, const Inertia<Dim>& inertia,
-                              const ContactGeometry<Dim>& contact, double restitution);
+double collide_with_own_image(Motion2& motion, const Inertia<2>& inertia,
+                              const ContactGeometry<2>& contact, double restitution);
+double collide_with_own_image(Motion3& motion, const Inertia<3>& inertia,
+                              const ContactGeometry<3>& contact, double restitution);
 
 /// The correction move for a pair found overlapping (on_overlap = "correct"): the relative velocity
 /// is laid along the line of centres so that the bodies separate; angular velocities stay. It

@@ -15,11 +15,8 @@ namespace vitrel {
 namespace {
 
 /// Growth of all lengths in one block, at most, so that the unit of length changes little; and that
-/// growth times Z, so that kT does (it rises by twice as much) and Z, too. But a block begins with a look
-/// at all neighbours of all particles: fast growth may take as long as this many collisions per particle,
-/// up to so much growth.
+/// growth times Z, so that kT does (it rises by twice as much) and Z, too.
 constexpr double largest_growth = 0.01, largest_compression = 0.05;
-constexpr double least_collisions = 5, largest_fast_growth = 0.1;
 
 /// The time average of a temperature that rises exponentially from 1 to `end`.
 double mean_of_rise(double end) {
@@ -98,9 +95,8 @@ class Growth {
   void block() {
     configuration_.time = 0;
     const double virial = state_.counters.virial;
-    const std::uint64_t collisions = state_.counters.collisions;
     const double to_goal = time_to_goal();
-    const double most = growth_of_a_block();
+    const double most = std::min(largest_growth, largest_compression / state_.reduced_pressure);
     const double end = std::min(to_goal, most / std::abs(rate()));
     engine_->load(configuration_, end);
     const bool at_end = engine_->advance(end, state_.counters) == Engine<Dim>::Stop::time;
@@ -110,22 +106,11 @@ class Growth {
     // The last block may be cut so short that it holds hardly any collisions.
     const bool short_block =
         at_end && time * std::abs(rate()) < 0.5 * most && state_.reduced_pressure > 0;
-    if (!stands_still_ && !short_block) {
-      note_pressure(state_.counters.virial - virial, time);
-      state_.collision_rate = 2 * static_cast<double>(state_.counters.collisions - collisions) /
-                              (static_cast<double>(configuration_.size()) * time);
-    }
+    if (!stands_still_ && !short_block) note_pressure(state_.counters.virial - virial, time);
     state_.time += time;
     divide_lengths(1 + rate() * time);
     rescale_velocities();
     configuration_.time = start_time_;
-  }
-
-  double growth_of_a_block() const {
-    const double slow = std::min(largest_growth, largest_compression / state_.reduced_pressure);
-    if (state_.reduced_pressure == 0) return slow;
-    const double fast = std::abs(rate()) * least_collisions / state_.collision_rate;
-    return std::max(slow, std::min(fast, largest_fast_growth));
   }
 
   double time_to_goal() const {

@@ -19,7 +19,7 @@
 ///
 /// Velocities are drawn at the start (brownian.h), from the stream (seed, velocities, draws). Steps of one
 /// block, which ends after a fixed count of events, or earlier: when all has grown by 1 %, or kT has risen by
-/// some 10 %; in fast growth, when particles have collided five times or all has grown by 10 %:
+/// some 10 %:
 ///   1. The engine runs with growth rate γ.
 ///   2. Reduced pressure Z = βP/ρ = 1 + Σ J n·d/(D N ⟨kT⟩ t), d from centre to centre. kT = 2E/f,
 ///      f = D (N − 1) + N_rot, rises exponentially at constant Z; ⟨kT⟩ is the mean of such a rise.
@@ -59,7 +59,6 @@ struct GrowthState {
   std::uint64_t draws = 0;      ///< of velocities, of which the next one bears this number
   bool under_way = false;       ///< else velocities are drawn first
   double reduced_pressure = 0;  ///< of the last block that ran to its end; 0 if there was none
-  double collision_rate = 0;    ///< per particle and time, of the last block
   double time = 0;              ///< all blocks, each in its own unit of time
   RunCounters counters;
 };

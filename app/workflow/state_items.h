@@ -29,7 +29,6 @@ void each_item_of_growth(Growth& growth, const std::string& path, Visit&& visit)
   visit(path + "draws", growth.draws);
   visit(path + "under_way", growth.under_way);
   visit(path + "reduced_pressure", growth.reduced_pressure);
-  visit(path + "collision_rate", growth.collision_rate);
   visit(path + "time", growth.time);
   each_item_of_counters(growth.counters, path, visit);
 }
