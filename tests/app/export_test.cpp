@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/results.h"
-#include "app/workflow/export/base64.h"
 #include "app/workflow/export/frame_range.h"
 #include "app/workflow/export/gsd.h"
 #include "app/workflow/export/trajectory_export.h"
@@ -221,17 +220,6 @@ TEST(ExportOfAPacking, RefusesWhatDoesNotFit) {
   EXPECT_THAT(message({"flat.h5", "--to", "csv", "--shrink", "0.5"}),
               HasSubstr("three dimensions"));
   EXPECT_THAT(message({"flat.h5", "--to", "vti"}), HasSubstr("no such format, but gsd, xyz, csv"));
-}
-
-// The examples of RFC 4648, section 10.
-TEST(Base64, OfTheExamples) {
-  const auto encoded = [](std::string_view text) { return base64(std::as_bytes(std::span(text))); };
-  EXPECT_EQ(encoded(""), "");
-  EXPECT_EQ(encoded("f"), "Zg==");
-  EXPECT_EQ(encoded("fo"), "Zm8=");
-  EXPECT_EQ(encoded("foo"), "Zm9v");
-  EXPECT_EQ(encoded("foobar"), "Zm9vYmFy");
-  EXPECT_EQ(encoded("\xff\xfe\xfd"), "//79");
 }
 
 }  // namespace

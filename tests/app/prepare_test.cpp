@@ -274,9 +274,10 @@ Parameters solids() {
   parameters.system.particles = 40;
   parameters.system.packing_fraction = 0.3;
   parameters.species.resize(2);
-  parameters.species[0] = {
-      .name = "flat", .fraction = 0.5, .aspect_ratios = {{number(3), number(1)}}};
-  parameters.species[1] = {.name = "scalene", .fraction = 0.5, .semi_axes = {{2, 1, 0.5}}};
+  parameters.species[0].aspect_ratios = {number(3), number(1)};
+  parameters.species[1].name = "scalene";
+  parameters.species[1].semi_axes = {2, 1, 0.5};
+  for (Species& species : parameters.species) species.fraction = 0.5;
   parameters.stages[1].growth_rate = 0.05;
   validate(parameters);
   return parameters;
