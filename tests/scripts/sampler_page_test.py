@@ -35,7 +35,8 @@ class SamplerPage(unittest.TestCase):
                 self.assertEqual(row["alone"], 0)
             else:
                 self.assertGreater(row["alone"], 0)
-                self.assertLess(row["alone"], 0.5)
+                # The groups settle at least four of five pairs.
+                self.assertLess(5 * row["alone"], row["plain"]["decisions"])
                 self.assertGreater(row["plain"]["decisions"], 1)
 
     def test_twin_accepts_the_same(self):
