@@ -11,24 +11,42 @@
 namespace vitrel {
 namespace {
 
-/// Before the bodies. Ellipsoids are dilated spheres, whose seam and poles the kernel sometimes fails to cut
-/// through: then another attempt turns the sphere before. All slices of a particle have the same seam, so
-/// that their faces on opposite sides are bounded by the same curves.
+/// Before the bodies. They are affine images of a ball in four faces. The kernel's own has one, with a seam
+/// and poles: dilated, Gmsh often fails to mesh it. Should a cut fail, another attempt turns the ball before.
+/// All slices of a particle have the same faces, so that those on opposite sides are bounded by the same
+/// curves.
 constexpr const char* macros = R"(
+box = 1;
+Box(box) = {-hx, -hy, -hz, 2*hx, 2*hy, 2*hz};
+
+// A ball of a belt of two halves and of two caps, whose poles and seams are cut off.
+Geometry.OCCUnionUnify = 0;
+Sphere(2) = {0, 0, 0, 1, -Pi/4, Pi/4, Pi};
+Sphere(3) = {0, 0, 0, 1, -Pi/4, Pi/4, Pi};
+Rotate{ {0, 0, 1}, {0, 0, 0}, Pi }{ Volume{3}; }
+Sphere(4) = {0, 0, 0, 1};
+Rotate{ {0, 1, 0}, {0, 0, 0}, Pi/2 }{ Volume{4}; }
+Box(5) = {-1, -1, Sin(Pi/4), 2, 2, 1};
+cap() = BooleanIntersection{ Volume{4}; Delete; }{ Volume{5}; Delete; };
+opposite() = Rotate{ {1, 0, 0}, {0, 0, 0}, Pi }{ Duplicata{ Volume{cap()}; } };
+ball() = BooleanUnion{ Volume{2}; Delete; }{ Volume{3, cap(), opposite()}; Delete; };
+
+bodies() = {};
 Macro MakeParticle
   made = 0;
   For attempt In {0:9}
     If (!made)
-      For i In {0:#tags()-1}
-        Sphere(tags(i)) = {0, 0, 0, 1};
-        Rotate{ {1, 2, 3}, {0, 0, 0}, attempt }{ Volume{tags(i)}; }
-        Dilate{ {0, 0, 0}, {a, b, c} }{ Volume{tags(i)}; }
-        Rotate{ {ux, uy, uz}, {0, 0, 0}, angle }{ Volume{tags(i)}; }
-        Translate{ x(i), y(i), z(i) }{ Volume{tags(i)}; }
+      slices() = {};
+      For i In {0:#x()-1}
+        copy() = Duplicata{ Volume{ball()}; };
+        Rotate{ {1, 2, 3}, {0, 0, 0}, attempt }{ Volume{copy()}; }
+        Dilate{ {0, 0, 0}, {a, b, c} }{ Volume{copy()}; }
+        Rotate{ {ux, uy, uz}, {0, 0, 0}, angle }{ Volume{copy()}; }
+        Translate{ x(i), y(i), z(i) }{ Volume{copy()}; }
+        slices() += copy();
       EndFor
-      slices() = tags();
       If (cut)
-        slices() = BooleanIntersection{ Volume{tags()}; Delete; }{ Volume{box}; };
+        slices() = BooleanIntersection{ Volume{slices()}; Delete; }{ Volume{box}; };
       EndIf
       whole = 0;
       For i In {0:#slices()-1}
@@ -42,7 +60,7 @@ Macro MakeParticle
     EndIf
   EndFor
   If (!made)
-    Error("The volume %g could not be cut by the box", tags(0));
+    Error("Particle %g could not be cut by the box", particle);
   EndIf
   bodies() += slices();
   inclusions() += slices();
@@ -86,6 +104,7 @@ Return
 
 /// After the bodies, which keep their numbers.
 constexpr const char* assembly = R"(
+Recursive Delete{ Volume{ball()}; }
 matrix() = BooleanFragments{ Volume{box}; Delete; }{ Volume{bodies()}; Delete; };
 matrix() -= bodies();
 Physical Volume("matrix") = matrix();
@@ -133,11 +152,6 @@ using Bodies = std::vector<BodyInBox>::const_iterator;
 /// The bodies of one particle.
 struct Slices {
   Bodies begin, end;
-  std::size_t first_tag;
-
-  std::string tags() const {
-    return fmt::format("tags() = {{{}:{}}};", first_tag, first_tag + (end - begin) - 1);
-  }
 };
 
 std::vector<Slices> slices_of(const Packing& packing) {
@@ -146,7 +160,7 @@ std::vector<Slices> slices_of(const Packing& packing) {
     const Bodies end = std::find_if(begin, packing.bodies.end(), [&](const BodyInBox& body) {
       return body.particle != begin->particle;
     });
-    particles.push_back({begin, end, static_cast<std::size_t>(begin - packing.bodies.begin()) + 1});
+    particles.push_back({begin, end});
     begin = end;
   }
   return particles;
@@ -164,9 +178,10 @@ std::string particle(const Packing& packing, const Slices& slices) {
   const Vec3& axes = packing.configuration.shape[i].semi_axes;
   const Eigen::AngleAxisd turn(packing.configuration.orientation[i]);
   return fmt::format(
-      "{} cut = {};\n{}\n{}\n{}\na = {}; b = {}; c = {}; ux = {}; uy = {}; uz = {}; angle = {};\n"
+      "particle = {}; cut = {};\n{}\n{}\n{}\na = {}; b = {}; c = {}; ux = {}; uy = {}; uz = {}; "
+      "angle = {};\n"
       "Call MakeParticle;\n",
-      slices.tags(), slices.begin->is_cut ? 1 : 0, coordinates(packing, slices, 0),
+      i, slices.begin->is_cut ? 1 : 0, coordinates(packing, slices, 0),
       coordinates(packing, slices, 1), coordinates(packing, slices, 2), axes[0], axes[1], axes[2],
       turn.axis().x(), turn.axis().y(), turn.axis().z(), turn.angle());
 }
@@ -218,10 +233,6 @@ void write_geo(const std::filesystem::path& path, const Packing& given) {
   OutputFile file(path);
   file.write(head(configuration, translation));
   file.write(macros);
-  file.write(
-      fmt::format("\nbox = {};\nBox(box) = {{-hx, -hy, -hz, 2*hx, 2*hy, 2*hz}};\n"
-                  "bodies() = {{}};\n",
-                  packing.bodies.size() + 1));
   for (std::size_t k = 0; k < configuration.species_names.size(); ++k) {
     file.write("\ninclusions() = {};\n");
     for (const Slices& slices : particles)
