@@ -50,8 +50,12 @@ class Packing:
 
 
 def export(suffix, *options):
-    """The packing of the command line (program, file), and the path that it was exported to."""
+    """The packing of the command line (program, state or parameter file), and the path that it was exported to."""
     program, source = sys.argv[1:3]
+    if source.endswith(".toml"):
+        state = os.path.join(folder.name, "prepared.h5")
+        subprocess.run([program, "prepare", source, "-o", state, "-q"], check=True)
+        source = state
     path = os.path.join(folder.name, "exported." + suffix)
     subprocess.run([program, "export", source, "--to", suffix, "-o", path, "-q", *options], check=True)
     return Packing(source), path

@@ -11,10 +11,9 @@
 namespace vitrel {
 namespace {
 
-/// Before the bodies. They are affine images of a ball in four faces. The kernel's own has one, with a seam
-/// and poles: dilated, Gmsh often fails to mesh it. Should a cut fail, another attempt turns the ball before.
-/// All slices of a particle have the same faces, so that those on opposite sides are bounded by the same
-/// curves.
+/// Before the bodies. They are affine images of a ball in four faces. The kernel's own ball has one face, with
+/// a seam and poles: dilated, Gmsh often fails to mesh it. All slices of a particle have the same faces, so
+/// that those on opposite sides are bounded by the same curves.
 constexpr const char* macros = R"(
 box = 1;
 Box(box) = {-hx, -hy, -hz, 2*hx, 2*hy, 2*hz};
@@ -33,33 +32,23 @@ ball() = BooleanUnion{ Volume{2}; Delete; }{ Volume{3, cap(), opposite()}; Delet
 
 bodies() = {};
 Macro MakeParticle
-  made = 0;
-  For attempt In {0:9}
-    If (!made)
-      slices() = {};
-      For i In {0:#x()-1}
-        copy() = Duplicata{ Volume{ball()}; };
-        Rotate{ {1, 2, 3}, {0, 0, 0}, attempt }{ Volume{copy()}; }
-        Dilate{ {0, 0, 0}, {a, b, c} }{ Volume{copy()}; }
-        Rotate{ {ux, uy, uz}, {0, 0, 0}, angle }{ Volume{copy()}; }
-        Translate{ x(i), y(i), z(i) }{ Volume{copy()}; }
-        slices() += copy();
-      EndFor
-      If (cut)
-        slices() = BooleanIntersection{ Volume{slices()}; Delete; }{ Volume{box}; };
-      EndIf
-      whole = 0;
-      For i In {0:#slices()-1}
-        part = Mass Volume{slices(i)};
-        whole += part;
-      EndFor
-      made = Fabs(whole/(4*Pi/3*a*b*c) - 1) < 0.01;
-      If (!made)
-        Recursive Delete{ Volume{slices()}; }
-      EndIf
-    EndIf
+  slices() = {};
+  For i In {0:#x()-1}
+    copy() = Duplicata{ Volume{ball()}; };
+    Dilate{ {0, 0, 0}, {a, b, c} }{ Volume{copy()}; }
+    Rotate{ {ux, uy, uz}, {0, 0, 0}, angle }{ Volume{copy()}; }
+    Translate{ x(i), y(i), z(i) }{ Volume{copy()}; }
+    slices() += copy();
   EndFor
-  If (!made)
+  If (cut)
+    slices() = BooleanIntersection{ Volume{slices()}; Delete; }{ Volume{box}; };
+  EndIf
+  whole = 0;
+  For i In {0:#slices()-1}
+    part = Mass Volume{slices(i)};
+    whole += part;
+  EndFor
+  If (Fabs(whole/(4*Pi/3*a*b*c) - 1) > 0.01)
     Error("Particle %g could not be cut by the box", particle);
   EndIf
   bodies() += slices();
