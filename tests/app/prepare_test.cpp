@@ -273,7 +273,7 @@ Parameters solids() {
   parameters.system.dimension = 3;
   parameters.system.particles = 40;
   parameters.system.packing_fraction = 0.3;
-  parameters.species.resize(2);
+  parameters.species.assign(2, Species());
   parameters.species[0].aspect_ratios = {number(3), number(1)};
   parameters.species[1].name = "scalene";
   parameters.species[1].semi_axes = {2, 1, 0.5};
