@@ -14,9 +14,11 @@ namespace vitrel {
 
 namespace {
 
-/// Growth of all lengths in one block, at most, so that the unit of length changes little; and that
-/// growth times Z, so that kT does (it rises by twice as much) and Z, too.
-constexpr double largest_growth = 0.01, largest_compression = 0.05;
+/// Growth of all lengths in one block, at most: neighbour lists are made for the sizes at its start.
+constexpr double largest_growth = 0.2;
+/// Growth between two rescalings times Z, at most, so that kT changes little (it rises by twice as much), and
+/// Z, too.
+constexpr double largest_compression = 0.05;
 
 /// The time average of a temperature that rises exponentially from 1 to `end`.
 double mean_of_rise(double end) {
@@ -94,23 +96,39 @@ class Growth {
 
   void block() {
     configuration_.time = 0;
-    const double virial = state_.counters.virial;
-    const double to_goal = time_to_goal();
-    const double most = std::min(largest_growth, largest_compression / state_.reduced_pressure);
-    const double end = std::min(to_goal, most / std::abs(rate()));
-    engine_->load(configuration_, end);
-    const bool at_end = engine_->advance(end, state_.counters) == Engine<Dim>::Stop::time;
-    engine_->write(configuration_);
-    const double time = configuration_.time;
-    stands_still_ = !(time > 0);
-    // The last block may be cut so short that it holds hardly any collisions.
-    const bool short_block =
-        at_end && time * std::abs(rate()) < 0.5 * most && state_.reduced_pressure > 0;
-    if (!stands_still_ && !short_block) note_pressure(state_.counters.virial - virial, time);
-    state_.time += time;
-    divide_lengths(1 + rate() * time);
+    const double end = std::min(time_to_goal(), largest_growth / std::abs(rate()));
+    double step_end = std::min(end, longest_step(1));
+    engine_->load(configuration_, step_end);
+    while (step(step_end) == Engine<Dim>::Stop::time && configuration_.time < end &&
+           !at_pressure()) {
+      const double size = 1 + rate() * configuration_.time;
+      step_end = std::min(end, configuration_.time + longest_step(size));
+      engine_->set_velocities(configuration_, step_end, state_.counters);
+    }
+    stands_still_ = !(configuration_.time > 0);
+    divide_lengths(1 + rate() * configuration_.time);
     rescale_velocities();
     configuration_.time = start_time_;
+  }
+
+  /// Runs to `end` or the block's end, notes the pressure and rescales.
+  typename Engine<Dim>::Stop step(double end) {
+    const double start = configuration_.time, virial = state_.counters.virial;
+    const double size = 1 + rate() * start, longest = longest_step(size);
+    const auto stop = engine_->advance(end, state_.counters);
+    engine_->write(configuration_);
+    const double time = configuration_.time - start;
+    // The last step may be cut so short that it holds hardly any collisions.
+    const bool is_short =
+        time < 0.5 * longest && state_.reduced_pressure > 0 && stop == Engine<Dim>::Stop::time;
+    if (time > 0 && !is_short) note_pressure(state_.counters.virial - virial, time);
+    state_.time += time / size;
+    rescale_velocities();
+    return stop;
+  }
+
+  double longest_step(double size) const {
+    return largest_compression / std::max(state_.reduced_pressure, 1.0) * size / std::abs(rate());
   }
 
   double time_to_goal() const {

@@ -17,20 +17,20 @@
 /// (h the support functions) adds to the approach speed, so that every impulse J does the work J s
 /// and the particles heat up.
 ///
-/// Velocities are drawn at the start (brownian.h), from the stream (seed, velocities, draws). Steps of one
-/// block, which ends after a fixed count of events, or earlier: when all has grown by 1 %, or kT has risen by
-/// some 10 %:
-///   1. The engine runs with growth rate γ.
-///   2. Reduced pressure Z = βP/ρ = 1 + Σ J n·d/(D N ⟨kT⟩ t), d from centre to centre. kT = 2E/f,
-///      f = D (N − 1) + N_rot, rises exponentially at constant Z; ⟨kT⟩ is the mean of such a rise.
-///   3. All lengths are divided by 1 + γ t: growing is the same as shrinking the box, and the
-///      particles have the sizes of their species again.
-///   4. Velocities are rescaled to kT = 1: to D (N − 1)/2 for the translational and N_rot/2 for
+/// Velocities are drawn at the start (brownian.h), from the stream (seed, velocities, draws). Blocks end after
+/// a fixed count of events, or when all has grown by 20 %. In them
+///   1. the engine runs with growth rate γ, in steps that end when kT has risen by some 10 %, or, in a dilute
+///      gas, all has grown by 5 %;
+///   2. after each, reduced pressure Z = βP/ρ = 1 + Σ J n·d/(D N ⟨kT⟩ t), d from centre to centre. kT = 2E/f,
+///      f = D (N − 1) + N_rot, rises exponentially at constant Z; ⟨kT⟩ is the mean of such a rise;
+///   3. velocities are rescaled to kT = 1: to D (N − 1)/2 for the translational and N_rot/2 for
 ///      the rotational energy, each by its own factor, as when velocities are drawn. One factor for
 ///      both would let them drift apart where they hardly couple: impacts of nearly round particles
 ///      heat translation only.
-/// So γ is always relative to the present size and in units of √(m a b/kT) of the reference
-/// species.
+/// At a block's end all lengths are divided by 1 + γ t: growing is the same as shrinking the box, and the
+/// particles have the sizes of their species again. Lengths a(t) and kT = 1 give the same motion in the unit
+/// of time √(m a b/kT) whatever t is, so γ is always relative to the present size and in this unit for the
+/// reference species.
 ///
 /// Near jamming all gaps shrink together and Z ≈ C/(1 − φ/φ_J), in a true jam with C the number of
 /// degrees of freedom per particle, less the share of rattlers (disks 2, ellipses and spheres 3, spheroids 5, scalene
@@ -59,7 +59,7 @@ struct GrowthState {
   std::uint64_t draws = 0;      ///< of velocities, of which the next one bears this number
   bool under_way = false;       ///< else velocities are drawn first
   double reduced_pressure = 0;  ///< of the last block that ran to its end; 0 if there was none
-  double time = 0;              ///< all blocks, each in its own unit of time
+  double time = 0;              ///< all steps, each in its own unit of time
   RunCounters counters;
 };
 

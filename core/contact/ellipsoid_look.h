@@ -188,16 +188,12 @@ class GapLook<Ellipsoid> {
   static constexpr int lanes = many;
 
   GapLook(const Ellipsoid& shape, const Quaternion& orientation, double limit)
-      : axes_(detail::axes_of(orientation, shape.semi_axes)),
-        limit_(limit),
-        long_(shape, orientation) {}
+      : axes_(detail::axes_of(orientation, shape.semi_axes)), limit_(limit) {}
 
-  VITREL_INLINE bool set(int k, const Ellipsoid& shape, const Quaternion& orientation,
+  VITREL_INLINE void set(int k, const Ellipsoid& shape, const Quaternion& orientation,
                          const Vec3& d) {
-    if (is_far({shape, orientation}, d)) return false;
     d_.set(k, d);
     partners_.set(k, orientation, shape.semi_axes);
-    return true;
   }
 
   [[gnu::flatten]] void look() {
@@ -229,28 +225,6 @@ class GapLook<Ellipsoid> {
   Vec3 axis(int k) const { return n_[k]; }
 
  private:
-  /// The direction of the longest semi-axis, and the middle one.
-  struct LongAxis {
-    Vec3 direction;
-    double middle;
-    LongAxis(const Ellipsoid& shape, const Quaternion& orientation) {
-      int longest;
-      const double most = shape.semi_axes.maxCoeff(&longest);
-      direction = orientation * Vec3::Unit(longest);
-      middle = shape.semi_axes.sum() - most - shape.semi_axes.minCoeff();
-    }
-  };
-
-  // Along the normal of both long axes no support function exceeds the middle semi-axis: of thin rods the
-  // lines are mostly too far apart. Not if they are so nearly parallel that rounding turns the normal.
-  bool is_far(const LongAxis& other, const Vec3& d) const {
-    constexpr double nearly_parallel = 1e-6, more = 1 + 1e-9;
-    const Vec3 normal = long_.direction.cross(other.direction);
-    const double square = normal.squaredNorm(), along = normal.dot(d);
-    const double reach = (long_.middle + other.middle + limit_) * more;
-    return square > nearly_parallel && along * along > reach * reach * square;
-  }
-
   // (Σ₁ + Σ₂)⁻¹d: the best axis of congruent parallel ellipsoids, and better than d for others.
   VITREL_INLINE detail::ManyVec3 likely_axes(const AxesOf<Many>& partners,
                                              const detail::ManyVec3& d) const {
@@ -275,7 +249,6 @@ class GapLook<Ellipsoid> {
 
   AxesOf<double> axes_;
   double limit_;
-  LongAxis long_;
   detail::VectorsOf d_, n_;
   detail::EllipsoidsOf partners_;
   detail::NumbersOf<many> gap_;

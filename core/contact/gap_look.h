@@ -25,9 +25,8 @@ class GapLook<Ellipse> {
     uy_ = y[0];
   }
 
-  /// Puts another body into a lane; d runs to its centre. False, and the lane stays free, if the gap
-  /// surely exceeds the limit.
-  VITREL_INLINE bool set(int k, const Ellipse& shape, double angle, const Vec2& d) {
+  /// Puts another body into a lane; d runs to its centre.
+  VITREL_INLINE void set(int k, const Ellipse& shape, double angle, const Vec2& d) {
     dx_[k] = d.x();
     dy_[k] = d.y();
     angle_[k] = angle;
@@ -35,7 +34,6 @@ class GapLook<Ellipse> {
     bb_[k] = bb;
     stretch_[k] = shape.stretch();
     aabb_[k] = shape.a * shape.a * bb;
-    return true;
   }
 
   [[gnu::flatten]] void look() {
@@ -120,11 +118,10 @@ class GapLook<Shape> {
   GapLook(const Shape& shape, const Orientation<dimension>&, double /*limit*/)
       : radius_(shape.radius) {}
 
-  VITREL_INLINE bool set(int k, const Shape& shape, const Orientation<dimension>&,
+  VITREL_INLINE void set(int k, const Shape& shape, const Orientation<dimension>&,
                          const Vec<dimension>& d) {
     for (int x = 0; x < dimension; ++x) d_[x][k] = d[x];
     radii_[k] = shape.radius;
-    return true;
   }
 
   void look() {

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <concepts>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <span>
 #include <vector>
@@ -11,6 +13,7 @@
 #include "core/contact/ellipsoid_look.h"
 #include "core/contact/first_look.h"
 #include "core/contact/gap_look.h"
+#include "core/geometry/capsule.h"
 #include "core/geometry/periodic_box.h"
 #include "core/neighbors/ask_memory.h"
 #include "core/neighbors/cell_grid.h"
@@ -56,8 +59,12 @@ struct Neighbor : NeighborImage<B::dimension> {
 /// turned by Δθ and grown by Δσ is inside its neighbourhood if
 ///     |Δr| + σ swing |Δθ| + max(Δσ, 0) circumradius ≤ margin,
 /// since its support function has grown by no more than that in any direction. Two neighbourhoods
-/// are disjoint if the bodies at their reference poses are 2 margin apart. Cells only find
-/// candidates.
+/// are disjoint if the bodies at their reference poses are 2 margin apart.
+///
+/// Cells find candidates, and capsules (capsule.h) tell most of them apart. A long body still has a great
+/// many, as its circumsphere holds most of the others. Then wider neighbourhoods come between, which
+/// are left more rarely: particles whose neighbourhoods meet are among those whose wider ones meet, since
+/// these contain them.
 ///
 /// The margin is the one that gives a wanted mean number of neighbours in the configuration at
 /// hand. A particle's own images are among its neighbours, each unordered pair (i, i, ±shift) once.
@@ -80,9 +87,10 @@ class Neighborhoods {
         kind_of_(kind_of),
         largest_(largest_circumradius()),
         references_(box, cell_reach(poses.size()), poses.size()) {
-    for (std::size_t i = 0; i < poses.size(); ++i)
-      references_.insert(i, {poses[i].position, orientation_of(poses[i])});
-    const std::vector<Pair> pairs = pairs_closer_than(widest_gap(wanted_neighbors));
+    if constexpr (has_capsule) capsules_ = std::vector<CapsuleOf>(shapes.begin(), shapes.end());
+    for (std::size_t i = 0; i < poses.size(); ++i) references_.insert(i, reference(i, poses[i], 1));
+    const double widest = widest_gap(wanted_neighbors);
+    const std::vector<Pair> pairs = pairs_closer_than(widest);
     margin_ = 0.5 * choose_gap(pairs, wanted_neighbors);
     std::vector<std::uint32_t> counts(poses.size());
     const auto near = [&](const Pair& pair) { return pair.gap < 2 * margin_; };
@@ -91,11 +99,14 @@ class Neighborhoods {
     lists_.reserve(counts);
     for (const Pair& pair : pairs)
       if (near(pair)) link(pair.i, {pair.image, {pair.axis}});
+    if (wider_pays()) wider_ = std::make_unique<Wider>(*this, pairs, widest);
   }
 
   std::span<Neighbor<B>> of(std::size_t i) { return lists_[i]; }
   std::span<const Neighbor<B>> of(std::size_t i) const { return lists_[i]; }
   double margin() const { return margin_; }
+  /// Whether there are wider neighbourhoods.
+  bool is_layered() const { return wider_ != nullptr; }
 
   /// The axis of a pair is known: `normal` points from i to the other.
   void remember(std::size_t i, const Image& with, const Vector& normal) {
@@ -109,9 +120,10 @@ class Neighborhoods {
 
   /// New reference pose (wrapped into the box), size and list for particle i.
   void renew(std::size_t i, const Pose<dimension>& pose, double size) {
-    references_.move(i, {pose.position, orientation_of(pose), static_cast<float>(size)});
+    references_.move(i, reference(i, pose, static_cast<float>(size)));
+    if (wider_) wider_->follow(i);
     near_.clear();
-    visit_near(i, 2 * margin_, [&](const Pair& pair) { near_.push_back(pair); });
+    visit_near(i, 2 * margin_, 0, [&](const Pair& pair) { near_.push_back(pair); });
     // Most neighbours stay: only those that come or go learn of it.
     before_.assign(lists_[i].begin(), lists_[i].end());
     lists_.clear(i);
@@ -136,10 +148,10 @@ class Neighborhoods {
   void read_ahead_list(std::size_t i) const { lists_.read_ahead(i); }
   /// The same for a renewal at this position: the cells, and then the references in them.
   void read_ahead_cells(std::size_t i, const Vector& position) const {
-    references_.read_ahead_cells(position, reach_of(i, 2 * margin_));
+    references_.read_ahead_cells(position, reach_of(references_, i, 2 * margin_));
   }
   void read_ahead_references(std::size_t i, const Vector& position) const {
-    references_.read_ahead_points(position, reach_of(i, 2 * margin_));
+    references_.read_ahead_points(position, reach_of(references_, i, 2 * margin_));
   }
 
   /// A time until which particle i, now at `pose` and of the common size, stays inside its
@@ -157,19 +169,25 @@ class Neighborhoods {
     const double room = margin_ - radius * std::max(common.size - reference.size, 0.0);
     const double narrowing = radius * growing;
     const double exit =
-        crossing(moved, motion, swing * turned_since(reference, pose), swing, room, narrowing);
+        crossing(moved, motion, swing * turn(reference.orientation, orientation_of(pose)), swing,
+                 room, narrowing);
     return growing > 0 ? std::min(exit, growth_at_once / growing) : exit;
   }
 
  private:
+  static constexpr bool has_capsule = std::same_as<Shape, Ellipsoid>;
+  struct Nothing {};
+
   /// It need not have the very size of the particle when it was made. In two dimensions, half a cache
   /// line.
   struct alignas(32) Reference {
     Vector position;
-    Orientation<dimension> orientation;
-    float size = 1;
+    [[no_unique_address]] std::conditional_t<has_capsule, Capsule, Nothing> capsule;
     std::uint32_t next = 0;  // the grid's own
+    float size = 1;
+    Orientation<dimension> orientation;
   };
+  using References = CellGrid<dimension, Reference>;
   struct Pair {
     double gap;
     Vector axis;
@@ -177,12 +195,79 @@ class Neighborhoods {
     Image image;
   };
 
-  // The angle by which a body has turned: with its sign, or the smallest that leads there.
-  static double turned_since(const Reference& reference, const Pose2& pose) {
-    return pose.angle - reference.orientation;
+  /// The wider neighbourhoods, with what may touch in them.
+  class Wider {
+   public:
+    /// `pairs` are those of the inner neighbourhoods, so far as they are closer than `reach`.
+    Wider(const Neighborhoods& inner, std::span<const Pair> pairs, double reach)
+        : inner_(inner),
+          margin_(std::min(times * inner.margin_, 0.5 * reach)),
+          references_(inner.references_),
+          lists_(references_.size()) {
+      for (const Pair& pair : pairs)
+        if (pair.gap < 2 * margin_) link(pair.i, pair.image);
+    }
+
+    /// Times the margin of the inner ones.
+    static constexpr double times = 4;
+
+    std::span<const Image> of(std::size_t i) const { return lists_[i]; }
+
+    /// The inner neighbourhood of i is a new one.
+    void follow(std::size_t i) {
+      if (holds(i, inner_.references_[i])) return;
+      references_.move(i, inner_.references_[i]);
+      for (const Image& image : lists_[i])
+        if (image.other != i) forget(image.other, image.seen_from_there(i));
+      lists_.clear(i);
+      for_each_near(i, [&](const Image& image) { link(i, image); });
+    }
+
+   private:
+    // A body that has been wrapped to the other side of the box is not held.
+    bool holds(std::size_t i, const Reference& body) const {
+      const Reference& mine = references_[i];
+      const auto& shape = inner_.shape(i);
+      const double size = std::max(body.size, mine.size);
+      const double moved =
+          (body.position - mine.position).norm() +
+          size * shape.swing() * std::abs(turn(mine.orientation, body.orientation)) +
+          std::max(body.size - mine.size, 0.f) * shape.circumradius();
+      return moved <= margin_ - inner_.margin_;
+    }
+
+    template <class Visit>
+    void for_each_near(std::size_t i, Visit&& visit) const {
+      inner_.for_each_near(references_, i, 2 * margin_, 0,
+                           [&](std::size_t j, const Shift<dimension>& shift, const Vector&) {
+                             visit(Image(j, shift));
+                           });
+    }
+
+    void link(std::size_t i, const Image& image) {
+      lists_.add(i, image);
+      if (i != image.other) lists_.add(image.other, image.seen_from_there(i));
+    }
+    void forget(std::size_t i, const Image& image) {
+      lists_.remove_if(i, [&](const Image& known) { return known == image; });
+    }
+
+    const Neighborhoods& inner_;
+    double margin_;
+    References references_;
+    ListPool<Image> lists_;
+  };
+
+  Reference reference(std::size_t i, const Pose<dimension>& pose, float size) const {
+    Reference made{pose.position, {}, 0, size, orientation_of(pose)};
+    if constexpr (has_capsule) made.capsule = capsules_[kind_of_[i]].at(made.orientation, size);
+    return made;
   }
-  static double turned_since(const Reference& reference, const Pose3& pose) {
-    return reference.orientation.angularDistance(pose.orientation);
+
+  // The angle by which a body has turned: with its sign, or the smallest that leads there.
+  static double turn(double from, double to) { return to - from; }
+  static double turn(const Quaternion& from, const Quaternion& to) {
+    return from.angularDistance(to);
   }
 
   // When the way and the turn together, times the swing, take up the room: turning on in either
@@ -222,11 +307,11 @@ class Neighborhoods {
     return largest;
   }
 
-  // The reach that gives cells of half a particle, or with one particle each if these are larger.
+  // The reach that gives cells of a quarter of a particle, or with one particle each if these are larger.
   double cell_reach(std::size_t particles) const {
     const double spacing =
         std::pow(box_.volume() / static_cast<double>(particles), 1.0 / dimension);
-    return 2 * std::max(largest_, spacing);
+    return 2 * std::max(0.5 * largest_, spacing);
   }
 
   // A gap within which, at the mean density, there are surely more neighbours than wanted.
@@ -251,17 +336,25 @@ class Neighborhoods {
     return std::max(nth->gap, narrowest);
   }
 
+  // Whether cells find so many candidates that wider neighbourhoods pay, in a box that is wide enough.
+  bool wider_pays() const {
+    constexpr double many_candidates = 400;
+    const double density = static_cast<double>(references_.size()) / box_.volume();
+    return density * std::pow(4 * (largest_ + margin_), dimension) > many_candidates &&
+           Wider::times * margin_ < 0.25 * box_.lengths().minCoeff();
+  }
+
   // How far off the images can be that are closer to particle i than `limit`. The other references are
   // older, of a size between 1 and its own.
-  double reach_of(std::size_t i, double limit) const {
-    const double size = references_[i].size;
+  double reach_of(const References& references, std::size_t i, double limit) const {
+    const double size = references[i].size;
     return size * shape(i).circumradius() + std::max(size, 1.0) * largest_ + limit;
   }
 
-  // visit(pair) for the images closer to particle i than `limit`, at their reference poses; own
-  // images once per unordered pair.
+  // visit(pair) for the images of particle `first` and all after it that are closer to particle i than
+  // `limit`, at their reference poses; own images once per unordered pair.
   template <class Visit>
-  void visit_near(std::size_t i, double limit, Visit&& visit) const {
+  void visit_near(std::size_t i, double limit, std::size_t first, Visit&& visit) const {
     const Reference& mine = references_[i];
     const Shape one = scaled(shape(i), mine.size);
     GapLook<Shape> look(one, mine.orientation, limit);
@@ -274,24 +367,56 @@ class Neighborhoods {
           visit(Pair{look.gap(k), look.axis(k), static_cast<std::uint32_t>(i), image[k]});
       count = 0;
     };
-    references_.for_each_near(
-        mine.position, reach_of(i, limit),
-        [&](std::size_t j, const Shift<dimension>& shift, const Vector& d) {
-          if (j == i && !comes_after_zero(shift)) return;
-          const Reference& other = references_[j];
-          if (!look.set(count, scaled(shape(j), other.size), other.orientation, d)) return;
-          image[count++] = {j, shift};
-          if (count == GapLook<Shape>::lanes) judge();
-        });
+    const auto consider = [&](std::size_t j, const Shift<dimension>& shift, const Vector& d) {
+      const Reference& other = references_[j];
+      look.set(count, scaled(shape(j), other.size), other.orientation, d);
+      image[count++] = {j, shift};
+      if (count == GapLook<Shape>::lanes) judge();
+    };
+    if (wider_)
+      for_each_in_wider(i, limit, consider);
+    else
+      for_each_near(references_, i, limit, first, consider);
     if (count > 0) judge();
+  }
+
+  // visit(j, shift, separation) for the images that circumspheres and capsules do not show to be `limit`
+  // apart from particle i: own images once per unordered pair.
+  template <class Visit>
+  void for_each_near(const References& references, std::size_t i, double limit, std::size_t first,
+                     Visit&& visit) const {
+    const Reference& mine = references[i];
+    references.for_each_near(mine.position, reach_of(references, i, limit),
+                             [&](std::size_t j, const Shift<dimension>& shift, const Vector& d) {
+                               if (j >= first && (j != i || comes_after_zero(shift)) &&
+                                   !are_far(mine, references[j], d, limit))
+                                 visit(j, shift, d);
+                             });
+  }
+
+  // The same among those in the wider neighbourhood, for a limit of two margins.
+  template <class Visit>
+  void for_each_in_wider(std::size_t i, double limit, Visit&& visit) const {
+    const Reference& mine = references_[i];
+    for (const Image& image : wider_->of(i)) {
+      const Shift<dimension> shift = image.shift();
+      const Vector d =
+          references_[image.other].position + box_.translation(shift) - references_[i].position;
+      if (!are_far(mine, references_[image.other], d, limit)) visit(image.other, shift, d);
+    }
+  }
+
+  static bool are_far(const Reference& one, const Reference& two, const Vector& d, double limit) {
+    if constexpr (has_capsule)
+      return farther_apart(one.capsule, two.capsule, d, limit);
+    else
+      return false;
   }
 
   std::vector<Pair> pairs_closer_than(double limit) const {
     std::vector<Pair> pairs;
     for (std::size_t i = 0; i < references_.size(); ++i)
-      visit_near(i, limit, [&](const Pair& pair) {
-        if (pair.image.other >= i) pairs.push_back(pair);
-      });
+      visit_near(i, limit, i, [&](const Pair& pair) { pairs.push_back(pair); });
     return pairs;
   }
 
@@ -316,11 +441,13 @@ class Neighborhoods {
   std::span<const Shape> shapes_;
   const KindOf& kind_of_;
   ListPool<Neighbor<B>> lists_;
-  std::vector<Pair> near_;  // of a renewal
+  std::vector<CapsuleOf> capsules_;  // of every kind
+  std::vector<Pair> near_;           // of a renewal
   std::vector<Neighbor<B>> before_;
   double largest_;
-  CellGrid<dimension, Reference> references_;
+  References references_;
   double margin_ = 0;
+  std::unique_ptr<Wider> wider_;
 };
 
 }  // namespace vitrel

@@ -65,9 +65,9 @@ class GapLook<lab::RoundListedEllipse> : public GapLook<Ellipse> {
  public:
   GapLook(const Ellipse& shape, double angle, double limit)
       : GapLook<Ellipse>(shape, angle, limit), radius_(shape.a) {}
-  bool set(int k, const Ellipse& shape, double angle, const Vec2& d) {
+  void set(int k, const Ellipse& shape, double angle, const Vec2& d) {
     round_gap_[k] = d.norm() - radius_ - shape.a;
-    return GapLook<Ellipse>::set(k, shape, angle, d);
+    GapLook<Ellipse>::set(k, shape, angle, d);
   }
   double gap(int k) const { return round_gap_[k]; }
 

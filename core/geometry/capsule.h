@@ -1,0 +1,61 @@
+#pragma once
+
+#include <algorithm>
+
+#include "core/geometry/ellipsoid.h"
+
+/// Capsules around ellipsoids, to tell long bodies apart at little cost.
+///
+/// With semi-axes a ≥ b ≥ c, the ellipsoid lies within b of the segment of half-length (a² − b²)/a along
+/// its longest axis: the balls about t on the axis with the squared radius b² (1 − t²/(a² − b²)) cover the
+/// spheroid a, b, b, and the last of them touches its tip.
+namespace vitrel {
+
+/// A capsule about its centre: all points within `radius` of the segment −half … half.
+struct Capsule {
+  Vec3 half = Vec3::Zero();
+  double radius = 0;
+};
+
+/// The capsule of a body, to be placed with it.
+class CapsuleOf {
+ public:
+  explicit CapsuleOf(const Ellipsoid& shape) {
+    const double a = shape.semi_axes.maxCoeff(&axis_);
+    radius_ = shape.semi_axes.sum() - a - shape.semi_axes.minCoeff();
+    half_length_ = (a * a - radius_ * radius_) / a;
+  }
+
+  Capsule at(const Quaternion& orientation, double size) const {
+    return {size * half_length_ * (orientation * Vec3::Unit(axis_)), size * radius_};
+  }
+
+ private:
+  int axis_ = 0;
+  double half_length_, radius_;
+};
+
+/// Whether two capsules, the second one at d, are surely farther apart than `limit`. Mostly already the lines
+/// of their axes are. The nearest points of the segments are s h₁ and d + t h₂ with −1 ≤ s, t ≤ 1; of nearly
+/// parallel ones any s is nearly as good.
+inline bool farther_apart(const Capsule& one, const Capsule& two, const Vec3& d, double limit) {
+  constexpr double parallel = 1e-14;
+  const double a = one.half.squaredNorm(), b = one.half.dot(two.half), c = two.half.squaredNorm();
+  const double det = a * c - b * b;
+  const double reach = one.radius + two.radius + limit;
+  // With what a poor s adds to the distance of nearly parallel ones, 2√parallel of their lengths, and rounding.
+  const double least = reach * reach * (1 + 1e-5) + 1e-8 * (a + c);
+  const double along_normal = d.dot(one.half.cross(two.half));
+  if (det > 1e-6 * a * c && along_normal * along_normal > least * det) return true;
+
+  const auto nearest = [](double position, double length) {
+    return length > 0 ? std::clamp(position / length, -1., 1.) : 0;
+  };
+  const double along1 = one.half.dot(d), along2 = two.half.dot(d);
+  const double first = det > parallel * a * c ? nearest(along1 * c - b * along2, det) : 0;
+  const double t = nearest(first * b - along2, c);
+  const double s = nearest(along1 + t * b, a);
+  return (d + t * two.half - s * one.half).squaredNorm() > least;
+}
+
+}  // namespace vitrel
