@@ -278,7 +278,7 @@ Parameters solids() {
   parameters.species[1].name = "scalene";
   parameters.species[1].semi_axes = {2, 1, 0.5};
   for (Species& species : parameters.species) species.fraction = 0.5;
-  parameters.stages[1].growth_rate = 0.05;
+  parameters.stages[1].growth_rate = 0.01;
   validate(parameters);
   return parameters;
 }
