@@ -168,5 +168,59 @@ TEST(Export, GsdRefusesTooManyShapes) {
   EXPECT_NO_THROW(to("csv"));
 }
 
+/// A frame per time, of one sphere that grows with it.
+void write_packing(const std::filesystem::path& path, int frames) {
+  Configuration3 packing;
+  packing.box = PeriodicBox<3>(Vec3(4, 4, 4));
+  packing.resize(1);
+  packing.species_names = {"A"};
+  packing.position[0] = {1.5, 0, 0};
+  auto writer = TrajectoryWriter::create(path, packing, current_provenance("", "", 1));
+  for (int k = 0; k < frames; ++k) {
+    packing.time = k;
+    packing.position[0].y() = 0.1 * k;
+    writer.write(packing, k);
+  }
+  writer.close();
+}
+
+TEST(ExportOfAPacking, IsOfOneFrameTheLastUnlessTold) {
+  const Folder folder("packing_frames");
+  write_packing(folder / "run.h5", 3);
+  const auto lines = [&](std::vector<std::string> options, const std::string& file) {
+    options.insert(options.begin(), {"export", "run.h5", "--to", "csv", "-q", "-o", file});
+    EXPECT_EQ(run(folder.path(), options).code, 0);
+    const std::string text = folder.read(file);
+    return text.substr(text.find('\n') + 1);
+  };
+  // The body reaches beyond x = 2, and its image from there.
+  const std::string last = lines({}, "last.csv");
+  EXPECT_EQ(last,
+            "0,A,-1,0,0,-2.5,0.2,0,1,1,1,1,0,0,0,4,4,4\n"
+            "0,A,0,0,0,1.5,0.2,0,1,1,1,1,0,0,0,4,4,4\n");
+  EXPECT_EQ(lines({"--frames", "-1"}, "a.csv"), last);
+  EXPECT_THAT(lines({"--frames", "0"}, "b.csv"), HasSubstr("1.5,0,0"));
+  EXPECT_THAT(lines({"--shrink", "0.4"}, "c.csv"),
+              "0,A,0,0,0,1.5,0.2,0,0.4,0.4,0.4,1,0,0,0,4,4,4\n");
+}
+
+TEST(ExportOfAPacking, RefusesWhatDoesNotFit) {
+  const Folder folder("packing_refused");
+  write_packing(folder / "run.h5", 3);
+  write_run(folder / "flat.h5", 2, 1);
+  const auto message = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), "export");
+    const Outcome outcome = run(folder.path(), words);
+    EXPECT_EQ(outcome.code, 2);
+    return outcome.errors;
+  };
+  EXPECT_THAT(message({"run.h5", "--to", "csv", "--frames", ":"}), HasSubstr("selects 3 frames"));
+  EXPECT_THAT(message({"run.h5", "--to", "csv", "--voxels", "7"}), HasSubstr("is for --to vti"));
+  EXPECT_THAT(message({"run.h5", "--to", "geo", "--shrink", "1.5"}), HasSubstr("--shrink"));
+  EXPECT_THAT(message({"flat.h5", "--to", "csv", "--shrink", "0.5"}),
+              HasSubstr("three dimensions"));
+  EXPECT_THAT(message({"flat.h5", "--to", "vti"}), HasSubstr("no such format, but gsd, xyz, csv"));
+}
+
 }  // namespace
 }  // namespace vitrel

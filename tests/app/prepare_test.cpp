@@ -264,6 +264,68 @@ INSTANTIATE_TEST_SUITE_P(
              std::string(at.param.second == Moves::chains ? "_chains" : "");
     });
 
+/// Ellipsoids of two species, grown to 30 %.
+Parameters solids() {
+  const auto number = [](double value) {
+    return Distribution{Distribution::Kind::constant, value, 0, 0, 0, 0};
+  };
+  Parameters parameters;
+  parameters.system.dimension = 3;
+  parameters.system.particles = 40;
+  parameters.system.packing_fraction = 0.3;
+  parameters.species.assign(2, Species());
+  parameters.species[0].aspect_ratios = {number(3), number(1)};
+  parameters.species[1].name = "scalene";
+  parameters.species[1].semi_axes = {2, 1, 0.5};
+  for (Species& species : parameters.species) species.fraction = 0.5;
+  parameters.stages[1].growth_rate = 0.01;
+  validate(parameters);
+  return parameters;
+}
+
+void expect_same_state(const Preparation<3>& one, const Preparation<3>& other) {
+  EXPECT_EQ(one.configuration.position, other.configuration.position);
+  for (std::size_t i = 0; i < one.configuration.size(); ++i)
+    EXPECT_EQ(one.configuration.orientation[i].coeffs(),
+              other.configuration.orientation[i].coeffs());
+  EXPECT_EQ(one.configuration.box.lengths(), other.configuration.box.lengths());
+  EXPECT_EQ(one.stages.back().growth.counters.collisions,
+            other.stages.back().growth.counters.collisions);
+}
+
+TEST(PrepareSolids, GrowToThePackingFractionWithoutOverlap) {
+  const Preparation<3> result = prepare<3>({solids()}, {}, say_nothing);
+  EXPECT_TRUE(result.complete);
+  EXPECT_NEAR(packing_fraction(result.configuration), 0.3, 1e-12);
+  const Vec3& box = result.configuration.box.lengths();
+  EXPECT_TRUE(box.x() == box.y() && box.y() == box.z());
+  EXPECT_TRUE(exact_check(result.configuration).clean());
+  EXPECT_GT(result.stages[1].growth.counters.collisions, 40u);
+  EXPECT_EQ(mechanics(result.configuration).translational_energy, 0);
+  EXPECT_EQ(mechanics(result.configuration).rotational_energy, 0);
+  expect_same_state(prepare<3>({solids()}, {}, say_nothing), result);
+}
+
+TEST(PrepareSolids, StoppedTheyGoOnBitByBit) {
+  const Folder folder("stopped_solids");
+  const Preparation<3> whole = prepare<3>({solids()}, {}, say_nothing);
+  const PrepareRequest request{solids(), folder / "state.h5"};
+  std::uint64_t asked = 0, stops = 0;
+  const Budget budget{[&] { return ++asked > 50; }, {}, {}};
+  Preparation<3> parts = prepare<3>(request, budget, say_nothing);
+  for (; !parts.complete; parts = prepare<3>(request, budget, say_nothing), ++stops) asked = 0;
+  EXPECT_GT(stops, 1u);
+  expect_same_state(parts, whole);
+  // In the other dimension the checkpoint is of no use.
+  Parameters flat = small(0.3);
+  try {
+    prepare({flat, request.output}, {}, say_nothing);
+    FAIL();
+  } catch (const UserError& error) {
+    EXPECT_NE(std::string(error.what()).find("begun with "), std::string::npos) << error.what();
+  }
+}
+
 TEST(Prepare, AStuckStateIsKept) {
   Parameters parameters = small(0.88);
   parameters.stages[1].most_sweeps = 50;

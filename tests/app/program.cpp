@@ -120,6 +120,11 @@ void Folder::write(const std::string& name, const std::string& text) const {
   std::ofstream(path_ / name) << text;
 }
 
+std::string Folder::read(const std::string& name) const {
+  std::ifstream stream(path_ / name);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
 std::vector<std::string> differing_datasets(const fs::path& first, const fs::path& second) {
   const auto left = all_datasets(first), right = all_datasets(second);
   std::vector<std::string> different;

@@ -39,6 +39,8 @@ class Folder {
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
   void write(const std::string& name, const std::string& text) const;
+  /// The whole file.
+  std::string read(const std::string& name) const;
 
  private:
   std::filesystem::path path_;

@@ -321,6 +321,53 @@ TEST(Program, ATruncatedFileExitsWithThree) {
                  "run.h5.checkpoint");
 }
 
+constexpr const char* small_packing =
+    "[system]\ndimension = 3\nparticles = 20\npacking_fraction = 0.2\n[[species]]\naspect_ratio = "
+    "3\n"
+    "[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"grow\"\ngrowth_rate = 0.1\n";
+
+TEST(Program, PreparesAndChecksAPackingOfThreeDimensions) {
+  const Folder folder("packing");
+  folder.write("p.toml", small_packing);
+  const Outcome prepared =
+      run(folder.path(), {"prepare", "p.toml", "-o", "state.h5", "-q", "--json"});
+  ASSERT_EQ(prepared.code, 0) << prepared.errors;
+  const Json summary = Json::parse(prepared.output);
+  EXPECT_NEAR(summary["packing_fraction"].get<double>(), 0.2, 1e-12);
+  EXPECT_EQ(summary["overlaps"], 0);
+  EXPECT_GT(summary["reduced_pressure"], 1);
+  EXPECT_GT(summary["collisions"], 20);
+  EXPECT_GE(summary["orientation_ratio"], 1);
+  EXPECT_EQ(summary["stages"].size(), 2u);
+  EXPECT_EQ(Json::parse(folder.read("state.quality.json"))["dimension"], 3);
+  const Outcome checked = run(folder.path(), {"check", "state.h5", "-q", "--json"});
+  ASSERT_EQ(checked.code, 0) << checked.errors;
+  EXPECT_EQ(Json::parse(checked.output)["box"].size(), 3u);
+
+  Configuration3 state = read_state<3>(folder / "state.h5");
+  state.position[7] = state.position[3] + Vec3(0.1, 0.05, 0);
+  state.box.wrap(state.position[7], state.image[7]);
+  write_state(folder / "overlap.h5", state, Provenance{});
+  const Outcome overlapping = run(folder.path(), {"check", "overlap.h5", "-q"});
+  EXPECT_EQ(overlapping.code, 4);
+  EXPECT_THAT(overlapping.errors, HasSubstr("particles 3 and 7, image (0, 0, 0)"));
+}
+
+TEST(Program, SaysWhatThreeDimensionsDoNotHave) {
+  const Folder folder("three_dimensions");
+  folder.write("p.toml", small_packing);
+  for (const char* command : {"run", "sweep"})
+    expect_refusal(run(folder.path(), {command, "p.toml", "-o", "out", "-q"}), 2,
+                   std::string("key 'system.dimension' is 3, but vitrel ") + command +
+                       " is there for two dimensions only");
+  ASSERT_EQ(run(folder.path(), {"prepare", "p.toml", "-o", "state.h5", "-q"}).code, 0);
+  folder.write("flat.toml", small_system);
+  expect_refusal(run(folder.path(), {"run", "flat.toml", "-o", "a.h5", "--from", "state.h5", "-q"}),
+                 3, "state.h5: is three-dimensional");
+  expect_refusal(run(folder.path(), {"export", "state.h5", "--to", "gsd", "-q"}), 2,
+                 "--to gsd: there is no such format, but geo, vti, vtp, csv");
+}
+
 // Two particles on top of each other: both ways to look must see it.
 TEST(Program, AnOverlapExitsWithFourUnlessItIsToBeCorrected) {
   const Folder folder("overlap");

@@ -11,38 +11,45 @@
 namespace vitrel {
 namespace {
 
-/// Before the bodies. Ellipsoids are dilated spheres, whose seam and poles the kernel sometimes fails to cut
-/// through: then another attempt turns the sphere before. All slices of a particle have the same seam, so
-/// that their faces on opposite sides are bounded by the same curves.
+/// Before the bodies. They are affine images of a ball in four faces. The kernel's own ball has one face, with
+/// a seam and poles: dilated, Gmsh often fails to mesh it. All slices of a particle have the same faces, so
+/// that those on opposite sides are bounded by the same curves.
 constexpr const char* macros = R"(
+box = 1;
+Box(box) = {-hx, -hy, -hz, 2*hx, 2*hy, 2*hz};
+
+// A ball of a belt of two halves and of two caps, whose poles and seams are cut off.
+Geometry.OCCUnionUnify = 0;
+Sphere(2) = {0, 0, 0, 1, -Pi/4, Pi/4, Pi};
+Sphere(3) = {0, 0, 0, 1, -Pi/4, Pi/4, Pi};
+Rotate{ {0, 0, 1}, {0, 0, 0}, Pi }{ Volume{3}; }
+Sphere(4) = {0, 0, 0, 1};
+Rotate{ {0, 1, 0}, {0, 0, 0}, Pi/2 }{ Volume{4}; }
+Box(5) = {-1, -1, Sin(Pi/4), 2, 2, 1};
+cap() = BooleanIntersection{ Volume{4}; Delete; }{ Volume{5}; Delete; };
+opposite() = Rotate{ {1, 0, 0}, {0, 0, 0}, Pi }{ Duplicata{ Volume{cap()}; } };
+ball() = BooleanUnion{ Volume{2}; Delete; }{ Volume{3, cap(), opposite()}; Delete; };
+
+bodies() = {};
 Macro MakeParticle
-  made = 0;
-  For attempt In {0:9}
-    If (!made)
-      For i In {0:#tags()-1}
-        Sphere(tags(i)) = {0, 0, 0, 1};
-        Rotate{ {1, 2, 3}, {0, 0, 0}, attempt }{ Volume{tags(i)}; }
-        Dilate{ {0, 0, 0}, {a, b, c} }{ Volume{tags(i)}; }
-        Rotate{ {ux, uy, uz}, {0, 0, 0}, angle }{ Volume{tags(i)}; }
-        Translate{ x(i), y(i), z(i) }{ Volume{tags(i)}; }
-      EndFor
-      slices() = tags();
-      If (cut)
-        slices() = BooleanIntersection{ Volume{tags()}; Delete; }{ Volume{box}; };
-      EndIf
-      whole = 0;
-      For i In {0:#slices()-1}
-        part = Mass Volume{slices(i)};
-        whole += part;
-      EndFor
-      made = Fabs(whole/(4*Pi/3*a*b*c) - 1) < 0.01;
-      If (!made)
-        Recursive Delete{ Volume{slices()}; }
-      EndIf
-    EndIf
+  slices() = {};
+  For i In {0:#x()-1}
+    copy() = Duplicata{ Volume{ball()}; };
+    Dilate{ {0, 0, 0}, {a, b, c} }{ Volume{copy()}; }
+    Rotate{ {ux, uy, uz}, {0, 0, 0}, angle }{ Volume{copy()}; }
+    Translate{ x(i), y(i), z(i) }{ Volume{copy()}; }
+    slices() += copy();
   EndFor
-  If (!made)
-    Error("The volume %g could not be cut by the box", tags(0));
+  If (cut)
+    slices() = BooleanIntersection{ Volume{slices()}; Delete; }{ Volume{box}; };
+  EndIf
+  whole = 0;
+  For i In {0:#slices()-1}
+    part = Mass Volume{slices(i)};
+    whole += part;
+  EndFor
+  If (Fabs(whole/(4*Pi/3*a*b*c) - 1) > 0.01)
+    Error("Particle %g could not be cut by the box", particle);
   EndIf
   bodies() += slices();
   inclusions() += slices();
@@ -86,6 +93,7 @@ Return
 
 /// After the bodies, which keep their numbers.
 constexpr const char* assembly = R"(
+Recursive Delete{ Volume{ball()}; }
 matrix() = BooleanFragments{ Volume{box}; Delete; }{ Volume{bodies()}; Delete; };
 matrix() -= bodies();
 Physical Volume("matrix") = matrix();
@@ -124,20 +132,15 @@ EndFor
 
 )";
 
-/// How thick a side is in the eyes of the kernel, over the length of the box, and how well faces and their
-/// twins agree, over the thinnest body.
-constexpr double side_tolerance = 1e-6, twin_tolerance = 0.02;
+/// Over the thinnest body: how thick a side is in the eyes of the kernel, and how well faces and their twins
+/// agree.
+constexpr double side_tolerance = 1e-3, twin_tolerance = 0.02;
 
 using Bodies = std::vector<BodyInBox>::const_iterator;
 
 /// The bodies of one particle.
 struct Slices {
   Bodies begin, end;
-  std::size_t first_tag;
-
-  std::string tags() const {
-    return fmt::format("tags() = {{{}:{}}};", first_tag, first_tag + (end - begin) - 1);
-  }
 };
 
 std::vector<Slices> slices_of(const Packing& packing) {
@@ -146,7 +149,7 @@ std::vector<Slices> slices_of(const Packing& packing) {
     const Bodies end = std::find_if(begin, packing.bodies.end(), [&](const BodyInBox& body) {
       return body.particle != begin->particle;
     });
-    particles.push_back({begin, end, static_cast<std::size_t>(begin - packing.bodies.begin()) + 1});
+    particles.push_back({begin, end});
     begin = end;
   }
   return particles;
@@ -164,9 +167,10 @@ std::string particle(const Packing& packing, const Slices& slices) {
   const Vec3& axes = packing.configuration.shape[i].semi_axes;
   const Eigen::AngleAxisd turn(packing.configuration.orientation[i]);
   return fmt::format(
-      "{} cut = {};\n{}\n{}\n{}\na = {}; b = {}; c = {}; ux = {}; uy = {}; uz = {}; angle = {};\n"
+      "particle = {}; cut = {};\n{}\n{}\n{}\na = {}; b = {}; c = {}; ux = {}; uy = {}; uz = {}; "
+      "angle = {};\n"
       "Call MakeParticle;\n",
-      slices.tags(), slices.begin->is_cut ? 1 : 0, coordinates(packing, slices, 0),
+      i, slices.begin->is_cut ? 1 : 0, coordinates(packing, slices, 0),
       coordinates(packing, slices, 1), coordinates(packing, slices, 2), axes[0], axes[1], axes[2],
       turn.axis().x(), turn.axis().y(), turn.axis().z(), turn.angle());
 }
@@ -191,7 +195,7 @@ std::string head(const Configuration3& configuration, const Vec3& translation) {
       "hx = {}; hy = {}; hz = {};\n"
       "e = {}; m = {};\n",
       configuration.size(), translation.x(), translation.y(), translation.z(), 0.5 * shortest,
-      half.x(), half.y(), half.z(), side_tolerance * half.maxCoeff(), twin_tolerance * shortest);
+      half.x(), half.y(), half.z(), side_tolerance * shortest, twin_tolerance * shortest);
 }
 
 /// A name in quotes, which the language cannot have inside.
@@ -218,10 +222,6 @@ void write_geo(const std::filesystem::path& path, const Packing& given) {
   OutputFile file(path);
   file.write(head(configuration, translation));
   file.write(macros);
-  file.write(
-      fmt::format("\nbox = {};\nBox(box) = {{-hx, -hy, -hz, 2*hx, 2*hy, 2*hz}};\n"
-                  "bodies() = {{}};\n",
-                  packing.bodies.size() + 1));
   for (std::size_t k = 0; k < configuration.species_names.size(); ++k) {
     file.write("\ninclusions() = {};\n");
     for (const Slices& slices : particles)

@@ -22,9 +22,9 @@ struct Packing {
 };
 
 /// A Gmsh script for its OpenCASCADE kernel: the bodies cut by the box, the matrix around them, opposite
-/// faces meshed alike. The box is moved by clean_cut; the script says by how much. Physical volumes: "matrix", and "inclusions A" for a species A. Physical surfaces:
-/// "xmin" … "zmax".
-/// `gmsh -3 packing.geo -setnumber h 0.2` chooses the mesh size h; else it is half the shortest semi-axis.
+/// faces meshed alike. The box is moved by clean_cut; the script says by how much. Physical volumes: "matrix",
+/// and "inclusions A" for a species A. Physical surfaces: "xmin" … "zmax". The mesh size h is half the
+/// shortest semi-axis, or chosen by `gmsh -3 packing.geo -setnumber h 0.2`.
 void write_geo(const std::filesystem::path& path, const Packing& packing);
 
 /// VTK image data (.vti), `voxels` along the longest edge and cubic up to rounding; cell data "particle":

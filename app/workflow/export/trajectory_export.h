@@ -18,10 +18,10 @@ struct ExportRequest {
   std::filesystem::path input;   ///< trajectory or state
   std::string format;            ///< one of the formats of its dimension
   std::filesystem::path output;  ///< must not exist
-  std::optional<std::string>
-      frames;                    ///< which ones, as FrameRange reads it; all, of packings the last
-  std::optional<double> shrink;  ///< of packings: all semi-axes times this, up to 1; 1
-  std::optional<std::size_t> voxels;  ///< of vti: along the longest edge; 100
+  std::optional<std::string> frames =
+      {};  ///< which ones, as FrameRange reads it; all, of packings the last
+  std::optional<double> shrink = {};       ///< of packings: all semi-axes times this, up to 1; 1
+  std::optional<std::size_t> voxels = {};  ///< of vti: along the longest edge; 100
 };
 
 struct ExportedTrajectory {
