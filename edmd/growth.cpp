@@ -19,6 +19,8 @@ constexpr double largest_growth = 0.2;
 /// Growth between two rescalings times Z, at most, so that kT changes little (it rises by twice as much), and
 /// Z, too.
 constexpr double largest_compression = 0.05;
+/// Growth that holds enough collisions to tell the pressure, even of a gas.
+constexpr double telling_growth = 0.005;
 
 /// The time average of a temperature that rises exponentially from 1 to `end`.
 double mean_of_rise(double end) {
@@ -97,14 +99,10 @@ class Growth {
   void block() {
     configuration_.time = 0;
     const double end = std::min(time_to_goal(), largest_growth / std::abs(rate()));
-    double step_end = std::min(end, longest_step(1));
-    engine_->load(configuration_, step_end);
-    while (step(step_end) == Engine<Dim>::Stop::time && configuration_.time < end &&
-           !at_pressure()) {
-      const double size = 1 + rate() * configuration_.time;
-      step_end = std::min(end, configuration_.time + longest_step(size));
-      engine_->set_velocities(configuration_, step_end, state_.counters);
-    }
+    engine_->load(configuration_, step_end(0, end));
+    while (step(step_end(configuration_.time, end)) == Engine<Dim>::Stop::time &&
+           configuration_.time < end && !at_pressure())
+      engine_->set_velocities(configuration_, step_end(configuration_.time, end), state_.counters);
     stands_still_ = !(configuration_.time > 0);
     divide_lengths(1 + rate() * configuration_.time);
     rescale_velocities();
@@ -114,21 +112,28 @@ class Growth {
   /// Runs to `end` or the block's end, notes the pressure and rescales.
   typename Engine<Dim>::Stop step(double end) {
     const double start = configuration_.time, virial = state_.counters.virial;
-    const double size = 1 + rate() * start, longest = longest_step(size);
+    const double size = 1 + rate() * start;
     const auto stop = engine_->advance(end, state_.counters);
     engine_->write(configuration_);
     const double time = configuration_.time - start;
     // The last step may be cut so short that it holds hardly any collisions.
-    const bool is_short =
-        time < 0.5 * longest && state_.reduced_pressure > 0 && stop == Engine<Dim>::Stop::time;
-    if (time > 0 && !is_short) note_pressure(state_.counters.virial - virial, time);
-    state_.time += time / size;
+    const double grown = std::abs(rate()) * time / size;
+    const bool tells = stop == Engine<Dim>::Stop::block_end || state_.reduced_pressure == 0 ||
+                       grown >= std::min(0.5 * longest_growth(), telling_growth);
+    if (time > 0 && tells) note_pressure(state_.counters.virial - virial, time);
+    state_.time += std::log1p(rate() * time / size) / rate();
     rescale_velocities();
     return stop;
   }
 
-  double longest_step(double size) const {
-    return largest_compression / std::max(state_.reduced_pressure, 1.0) * size / std::abs(rate());
+  /// Of all lengths, in one step.
+  double longest_growth() const {
+    return largest_compression / std::max(state_.reduced_pressure, 1.0);
+  }
+
+  double step_end(double start, double end) const {
+    const double size = 1 + rate() * start;
+    return std::min(end, start + longest_growth() * size / std::abs(rate()));
   }
 
   double time_to_goal() const {

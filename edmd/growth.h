@@ -59,7 +59,7 @@ struct GrowthState {
   std::uint64_t draws = 0;      ///< of velocities, of which the next one bears this number
   bool under_way = false;       ///< else velocities are drawn first
   double reduced_pressure = 0;  ///< of the last block that ran to its end; 0 if there was none
-  double time = 0;              ///< all steps, each in its own unit of time
+  double time = 0;              ///< of all steps, in the unit of the moment
   RunCounters counters;
 };
 

@@ -161,7 +161,7 @@ TEST(Prepare, TheBudgetStopsIt) {
 Parameters by(PrepareStage::Method method, Moves moves) {
   Parameters parameters = small(0.6);
   parameters.stages[1] = stage(method);
-  parameters.stages[1].growth_rate = 0.02;
+  parameters.stages[1].growth_rate = method == PrepareStage::Method::grow ? 0.001 : 0.02;
   parameters.stages[1].stretch_sweeps = 5;
   parameters.stages[1].moves = moves;
   if (method == PrepareStage::Method::compress) {
