@@ -118,28 +118,52 @@ class Simulation final : public Engine<B::dimension> {
   static constexpr std::uint64_t least_events_per_block = 4096;
   /// Of larger systems the caches do not hold all, and events jump about in them: what an event will read
   /// is asked for beforehand, in steps so many events apart. Of smaller ones it would cost more than
-  /// it gains.
-  static constexpr std::size_t cached_particles = 32768;
+  /// it gains. In three dimensions a particle has twice the neighbours.
+  static constexpr std::size_t cached_particles = dimension == 2 ? 32768 : 2048;
   static constexpr std::uint64_t steps_ahead = 4, events_per_step = 4;
 
-  /// What predictions read of a particle: one cache line, in three dimensions two.
-  struct alignas(64) Particle {
-    Vector position, velocity;
+  struct Nothing {};  // in place of what a body does without
+
+  struct Turn {
     Orientation<dimension> orientation;
     AngularVelocity<dimension> angular_velocity;
+  };
+  /// Spheres turn on and on, and no event depends on it: no prediction need read it.
+  static constexpr bool turns_apart = dimension == 3 && FirstLook<B>::is_exact;
+  /// What predictions read of a particle: one cache line, of ellipsoids two.
+  struct alignas(64) Particle {
+    Vector position, velocity;
     double time;  // its clock: position and orientation are those at this time
     double next;  // the time of its entry in the calendar
+    [[no_unique_address]] std::conditional_t<turns_apart, Nothing, Turn> turn;
 
-    Pose<dimension> pose() const { return {position, orientation}; }
-    Pose<dimension> pose_at(double t) const { return advanced(pose(), motion(), t - time); }
-    Motion<dimension> motion() const { return {velocity, angular_velocity}; }
+    Orientation<dimension> orientation() const {
+      if constexpr (turns_apart)
+        return Orientation<dimension>::Identity();
+      else
+        return turn.orientation;
+    }
+    AngularVelocity<dimension> angular_velocity() const {
+      if constexpr (turns_apart)
+        return AngularVelocity<dimension>::Zero();
+      else
+        return turn.angular_velocity;
+    }
+    Pose<dimension> pose() const { return {position, orientation()}; }
+    Pose<dimension> pose_at(double t) const {
+      if constexpr (turns_apart)
+        return {position + (t - time) * velocity, orientation()};
+      else
+        return advanced(pose(), motion(), t - time);
+    }
+    Motion<dimension> motion() const { return {velocity, angular_velocity()}; }
     void set_pose(const Pose<dimension>& pose) {
       position = pose.position;
-      orientation = orientation_of(pose);
+      if constexpr (!turns_apart) turn.orientation = orientation_of(pose);
     }
     void set_motion(const Motion<dimension>& motion) {
       velocity = motion.velocity;
-      angular_velocity = motion.angular_velocity;
+      if constexpr (!turns_apart) turn.angular_velocity = motion.angular_velocity;
     }
   };
   /// What all particles of one shape and mass share.
@@ -148,12 +172,18 @@ class Simulation final : public Engine<B::dimension> {
     Inertia<dimension> inertia;  // about its own axes
   };
 
+  /// Of a collision, unless the look is exact: then it is that of the centres.
+  struct FoundNormal {
+    Vector found = Vector::Zero();
+  };
+  using Normal = std::conditional_t<FirstLook<B>::is_exact, Nothing, FoundNormal>;
+
   struct alignas(32) Event {
     enum class What : std::uint8_t { collision, correction, exit, look_again };
     What what = What::look_again;
     Index partner_version = 0;
     Image partner;
-    Vector normal = Vector::Zero();  // of a collision, unless the look is exact
+    [[no_unique_address]] Normal normal;
   };
   /// An event and its time.
   struct Entry {
@@ -181,6 +211,17 @@ class Simulation final : public Engine<B::dimension> {
   Inertia<dimension> inertia_now(Index i) const {
     const double size = size_now().size;
     return in_space(kind(i).inertia, particles_[i].pose(), size);
+  }
+  Turn turn_now(Index i) const {
+    if constexpr (turns_apart) {
+      const auto& [orientation, angular_velocity] = turns_[i];
+      const Pose<dimension> pose{Vector::Zero(), orientation};
+      return {advanced(pose, {Vector::Zero(), angular_velocity}, now_ - turn_time_).orientation,
+              angular_velocity};
+    } else {
+      const Particle& particle = particles_[i];
+      return {orientation_of(particle.pose_at(now_)), particle.angular_velocity()};
+    }
   }
   void bring_to_now(Particle& particle) const {
     particle.set_pose(particle.pose_at(now_));
@@ -212,7 +253,15 @@ class Simulation final : public Engine<B::dimension> {
   void watch_haste(Index i, Index j, double way);
   double overlap_event(Index i, Index j, const Vector& d, Event& event) const;
   Event collision(const Image& with, const Vector& normal) const {
-    return {Event::What::collision, version_[with.other], with, normal};
+    Event event{Event::What::collision, version_[with.other], with, {}};
+    if constexpr (!FirstLook<B>::is_exact) event.normal.found = normal;
+    return event;
+  }
+  static Vector normal_of(const Event& event, const Vector& d) {
+    if constexpr (FirstLook<B>::is_exact)
+      return d.normalized();
+    else
+      return event.normal.found;
   }
   [[noreturn]] void report_overlap(Index i, Index j) const;
   [[noreturn]] void report_wedge(Index i) const;
@@ -225,6 +274,8 @@ class Simulation final : public Engine<B::dimension> {
   std::vector<Kind> kinds_;
   KindOf kind_of_;
   std::vector<Particle> particles_;
+  std::vector<Turn> turns_;  // of spheres, at this time
+  double turn_time_ = 0;
   std::vector<Shift<dimension>> image_;
   std::vector<Index> version_;  // counts the changes of a particle's motion and image
   std::optional<Neighborhoods<B>> neighborhoods_;
@@ -260,9 +311,9 @@ void Simulation<B>::load(const Configuration<dimension>& configuration, double h
     poses.push_back(particle.pose());
     // An angle is rounded too, and moves the surface by up to `swing` times its rounding.
     extent =
-        std::max({extent, shape(i).circumradius(), swing * size_of_angle(particle.orientation)});
-    fastest = std::max(fastest,
-                       particle.velocity.norm() + swing * size_of_spin(particle.angular_velocity));
+        std::max({extent, shape(i).circumradius(), swing * size_of_angle(particle.orientation())});
+    fastest = std::max(
+        fastest, particle.velocity.norm() + swing * size_of_spin(particle.angular_velocity()));
   }
   contact_gap_ = tolerance::contact_gap(extent);
   // Times are rounded too: within a block nothing moves farther than the coordinates reach.
@@ -278,6 +329,8 @@ template <Body B>
 void Simulation<B>::load_particles(const Configuration<dimension>& configuration) {
   outer_ = spatial_order<dimension>(box_, configuration.position);
   particles_.clear();
+  turns_.clear();
+  turn_time_ = 0;
   image_.clear();
   version_.assign(outer_.size(), 0);
   haste_.assign(outer_.size(), 0);
@@ -285,9 +338,14 @@ void Simulation<B>::load_particles(const Configuration<dimension>& configuration
     Vector position = configuration.position[k];
     Shift<dimension> image = configuration.image[k];
     box_.wrap(position, image);
-    particles_.push_back({position, configuration.velocity[k],
-                          orientation_of(configuration.pose(k)), configuration.angular_velocity[k],
-                          0, never});
+    const Turn turn{orientation_of(configuration.pose(k)), configuration.angular_velocity[k]};
+    const Vector& velocity = configuration.velocity[k];
+    if constexpr (turns_apart) {
+      particles_.push_back({position, velocity, 0, never, {}});
+      turns_.push_back(turn);
+    } else {
+      particles_.push_back({position, velocity, 0, never, turn});
+    }
     image_.push_back(image);
   }
 }
@@ -402,12 +460,14 @@ void Simulation<B>::write(Configuration<dimension>& configuration) const {
   for (Index i = 0; i < particles_.size(); ++i) {
     const Index k = outer_[i];
     const Particle& particle = particles_[i];
-    const Pose<dimension> pose = particle.pose_at(now_);
+    Pose<dimension> pose = particle.pose_at(now_);
+    const Turn turn = turn_now(i);
+    if constexpr (turns_apart) pose.orientation = turn.orientation;
     configuration.set_pose(k, pose);
     configuration.image[k] = image_[i];
     box_.wrap(configuration.position[k], configuration.image[k]);
     configuration.velocity[k] = particle.velocity;
-    configuration.angular_velocity[k] = particle.angular_velocity;
+    configuration.angular_velocity[k] = turn.angular_velocity;
     if constexpr (grows<B>) configuration.shape[k] = solid_from(scaled(shape(i), size));
   }
 }
@@ -416,10 +476,13 @@ template <Body B>
 void Simulation<B>::set_velocities(const Configuration<dimension>& configuration, double horizon,
                                    RunCounters& counters) {
   for (Index i = 0; i < particles_.size(); ++i) {
+    const Motion<dimension> motion{configuration.velocity[outer_[i]],
+                                   configuration.angular_velocity[outer_[i]]};
+    if constexpr (turns_apart) turns_[i] = {turn_now(i).orientation, motion.angular_velocity};
     bring_to_now(particles_[i]);
-    particles_[i].set_motion(
-        {configuration.velocity[outer_[i]], configuration.angular_velocity[outer_[i]]});
+    particles_[i].set_motion(motion);
   }
+  turn_time_ = now_;
   predict_all(horizon - base_, counters);
 }
 
@@ -592,7 +655,7 @@ void Simulation<B>::meet(Index i, const Event& event, RunCounters& counters) {
     two.set_motion(motion2);
     ++counters.correction_moves;
   } else {
-    const Vector normal = FirstLook<B>::is_exact ? d.normalized() : event.normal;
+    const Vector normal = normal_of(event, d);
     impact(i, j, d, normal, since, counters);
     neighborhoods_->remember(i, event.partner, normal);
   }

@@ -40,7 +40,11 @@ struct NeighborImage {
   }
   /// The image of particle i that the other sees.
   NeighborImage seen_from_there(std::size_t i) const { return {i, -shift()}; }
-  bool operator==(const NeighborImage&) const = default;
+  bool operator==(const NeighborImage& image) const {
+    bool same = other == image.other;
+    for (int k = 0; k < Dim; ++k) same = same && boxes[k] == image.boxes[k];
+    return same;
+  }
 };
 
 /// An image as a neighbour, with what the looks at this pair remember.
@@ -169,23 +173,31 @@ class Neighborhoods {
     const double room = margin_ - radius * std::max(common.size - reference.size, 0.0);
     const double narrowing = radius * growing;
     const double exit =
-        crossing(moved, motion, swing * turn(reference.orientation, orientation_of(pose)), swing,
+        crossing(moved, motion, swing * turn(reference.orientation(), orientation_of(pose)), swing,
                  room, narrowing);
     return growing > 0 ? std::min(exit, growth_at_once / growing) : exit;
   }
 
  private:
   static constexpr bool has_capsule = std::same_as<Shape, Ellipsoid>;
+  static constexpr bool is_sphere = std::same_as<Shape, Sphere>;
   struct Nothing {};
 
-  /// It need not have the very size of the particle when it was made. In two dimensions, half a cache
-  /// line.
+  /// It need not have the very size of the particle when it was made. In two dimensions, and of spheres, half
+  /// a cache line.
   struct alignas(32) Reference {
     Vector position;
     [[no_unique_address]] std::conditional_t<has_capsule, Capsule, Nothing> capsule;
     std::uint32_t next = 0;  // the grid's own
     float size = 1;
-    Orientation<dimension> orientation;
+    [[no_unique_address]] std::conditional_t<is_sphere, Nothing, Orientation<dimension>> turned;
+
+    Orientation<dimension> orientation() const {
+      if constexpr (is_sphere)
+        return Orientation<dimension>::Identity();
+      else
+        return turned;
+    }
   };
   using References = CellGrid<dimension, Reference>;
   struct Pair {
@@ -231,7 +243,7 @@ class Neighborhoods {
       const double size = std::max(body.size, mine.size);
       const double moved =
           (body.position - mine.position).norm() +
-          size * shape.swing() * std::abs(turn(mine.orientation, body.orientation)) +
+          size * shape.swing() * std::abs(turn(mine.orientation(), body.orientation())) +
           std::max(body.size - mine.size, 0.f) * shape.circumradius();
       return moved <= margin_ - inner_.margin_;
     }
@@ -259,8 +271,9 @@ class Neighborhoods {
   };
 
   Reference reference(std::size_t i, const Pose<dimension>& pose, float size) const {
-    Reference made{pose.position, {}, 0, size, orientation_of(pose)};
-    if constexpr (has_capsule) made.capsule = capsules_[kind_of_[i]].at(made.orientation, size);
+    Reference made{pose.position, {}, 0, size, {}};
+    if constexpr (!is_sphere) made.turned = orientation_of(pose);
+    if constexpr (has_capsule) made.capsule = capsules_[kind_of_[i]].at(made.turned, size);
     return made;
   }
 
@@ -357,7 +370,7 @@ class Neighborhoods {
   void visit_near(std::size_t i, double limit, std::size_t first, Visit&& visit) const {
     const Reference& mine = references_[i];
     const Shape one = scaled(shape(i), mine.size);
-    GapLook<Shape> look(one, mine.orientation, limit);
+    GapLook<Shape> look(one, mine.orientation(), limit);
     Image image[GapLook<Shape>::lanes];
     int count = 0;
     const auto judge = [&] {
@@ -369,7 +382,7 @@ class Neighborhoods {
     };
     const auto consider = [&](std::size_t j, const Shift<dimension>& shift, const Vector& d) {
       const Reference& other = references_[j];
-      look.set(count, scaled(shape(j), other.size), other.orientation, d);
+      look.set(count, scaled(shape(j), other.size), other.orientation(), d);
       image[count++] = {j, shift};
       if (count == GapLook<Shape>::lanes) judge();
     };
