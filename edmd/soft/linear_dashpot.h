@@ -28,18 +28,10 @@ struct LinearDashpot {
     return {time, speed * time, damping * time / pair.mass};
   }
 
-  template <class Real>
-  static Real profile(Real) {
-    return 1;
-  }
-  template <class Real>
-  static Real rest(Real s) {
-    return s * s;
-  }
-  template <class Real>
-  static Real rest_slope(Real s) {
-    return 2 * s;
-  }
+  static double profile(double) { return 1; }
+  static double rest(double s) { return s * s; }
+  static double rest_slope(double s) { return 2 * s; }
+  static double rest_inverse(double rest) { return std::sqrt(rest); }
 };
 
 static_assert(ContactForce<LinearDashpot>);

@@ -62,4 +62,18 @@ ScaledImpact scaled_impact(const Force& force, const ContactPair& pair, double n
 template <ContactForce Force>
 Restitution integrate_contact(const ScaledImpact& impact);
 
+/// What of a force remains once its material and scales are taken out.
+struct ForceForm {
+  std::string_view name;
+  double length_exponent, damping_exponent;
+  Restitution (*integrate)(const ScaledImpact&);
+  double (*rest_inverse)(double);
+};
+
+template <ContactForce Force>
+ForceForm form_of() {
+  return {Force::name, Force::length_exponent, Force::damping_exponent, &integrate_contact<Force>,
+          &Force::rest_inverse};
+}
+
 }  // namespace vitrel

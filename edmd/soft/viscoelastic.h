@@ -37,18 +37,10 @@ struct Viscoelastic {
     return {time, speed * time, 1.5 * dissipative_time / time};
   }
 
-  template <class Real>
-  static Real profile(Real s) {
-    return s;
-  }
-  template <class Real>
-  static Real rest(Real s) {
-    return s * s;
-  }
-  template <class Real>
-  static Real rest_slope(Real s) {
-    return 2 * s;
-  }
+  static double profile(double s) { return s; }
+  static double rest(double s) { return s * s; }
+  static double rest_slope(double s) { return 2 * s; }
+  static double rest_inverse(double rest) { return std::sqrt(rest); }
 };
 
 static_assert(ContactForce<Viscoelastic>);

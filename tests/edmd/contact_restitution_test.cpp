@@ -123,6 +123,7 @@ TYPED_TEST(EveryForce, ScalesMakeTheForceDimensionless) {
                       scaled, 1e-12);
       expect_relative((TypeParam::rest(s * 1.001) - TypeParam::rest(s * 0.999)) / (0.002 * s),
                       TypeParam::rest_slope(s), 1e-5);
+      expect_relative(TypeParam::rest_inverse(TypeParam::rest(s)), s, 1e-15);
     }
   const ContactScales faster = force.scales(10 * speed, pair);
   expect_relative(scales.length / faster.length, std::pow(10, -2 * TypeParam::length_exponent),
@@ -297,6 +298,7 @@ struct Tsuji {
   static double profile(double s) { return std::sqrt(std::abs(s)); }
   static double rest(double s) { return s * s * std::sqrt(std::abs(s)); }
   static double rest_slope(double s) { return 2.5 * s * std::sqrt(std::abs(s)); }
+  static double rest_inverse(double rest) { return std::pow(rest, 0.4); }
 };
 static_assert(ContactForce<Tsuji>);
 
