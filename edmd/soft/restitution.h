@@ -16,9 +16,9 @@
 ///
 ///     ε_r = r(τ)/l,   ε_φ = φ(τ),   ε_t = τ,   ε_ṙ = r'(τ)/r'(0) < 0
 ///
-/// and φ'(τ)/φ'(0) = 1/ε_r². Elastic (c_dis = 0): ε_r = 1 and ε_ṙ = −1 exactly; then, and nearly so if
-/// damping is weak, particles softer than l ≈ 1 may pass through each other, which the model has no
-/// objection to. A head-on impact is the limit c_φ → 0: ε_φ = 0, or π if they pass through each other.
+/// and φ'(τ)/φ'(0) = 1/ε_r². Elastic (c_dis = 0): ε_r = 1 and ε_ṙ = −1 exactly. Particles softer than
+/// l ≈ 1 may pass through each other, which the model has no objection to. A head-on impact is the limit
+/// c_φ → 0: ε_φ = 0, or π if they pass through each other.
 ///
 /// Steps of the integration, in the variables s = √(l − r), ρ = r/l, φ, t and v:
 ///   1. dt = 2sρ dσ makes the motion smooth at first contact and, ρ, also where the centres nearly meet.
@@ -27,8 +27,8 @@
 ///   3. Adaptive steps of Runge, Kutta and Fehlberg's order 8, of a relative error of 10⁻¹⁴ each.
 ///   4. The end is a root of the length of the last step.
 ///
-/// Accuracy: 10⁻¹² relative of each coefficient (docs/validation.md), except where two limits meet
-/// (soft, elastic and head-on at l = 1: there ε_φ jumps from 0 to π). About 20 µs.
+/// Accuracy: 10⁻¹² relative of each coefficient (docs/validation.md), except next to the jump of ε_φ
+/// from 0 to π: head-on and soft, at l = 1 if elastic. About 20 µs.
 /// Source: mueller2013; for the end of contact schwager2007.
 namespace vitrel {
 
@@ -43,8 +43,7 @@ struct Restitution {
   double distance;  ///< ε_r, at most 1
   double angle;     ///< ε_φ ≥ 0, rad, in the sense of the orbital motion
   double duration;  ///< ε_t, in units of T
-  double
-      rate;  ///< ε_ṙ, from −1 to 0 if c_φ = 0; centrifugal forces let −ε_ṙ exceed that of c_φ = 0
+  double rate;      ///< ε_ṙ, −1 ≤ ε_ṙ < 0
 };
 
 /// `normal_speed` > 0 and `tangential_speed` ≥ 0 are those of the relative velocity of the centres at

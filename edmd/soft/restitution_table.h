@@ -34,28 +34,29 @@
 /// large. Measured: docs/validation.md. Source: mueller2013.
 namespace vitrel {
 
-struct Interval {
+struct ValueRange {
   double low, high;
 
-  bool operator==(const Interval&) const = default;
+  bool operator==(const ValueRange&) const = default;
 };
 
-/// `damping.low == damping.high`: that d only; see `elastic`.
+/// `d.low == d.high`: that d only; see `elastic_damping`.
 struct RestitutionDomain {
-  Interval g, m, d;
+  ValueRange g, m, d;
 
   bool operator==(const RestitutionDomain&) const = default;
 };
 
 /// d of elastic contacts.
-inline constexpr Interval elastic{-std::numeric_limits<double>::infinity(),
-                                  -std::numeric_limits<double>::infinity()};
+inline constexpr ValueRange elastic_damping{-std::numeric_limits<double>::infinity(),
+                                            -std::numeric_limits<double>::infinity()};
 
 /// Eccentricities between, as g = ln(e/√(1 − e²)). Outside are 10⁻⁴ of the impacts of a gas in three
 /// dimensions, 10⁻³ in two.
-inline constexpr Interval usual_obliqueness{-6.9, 4.6};
+inline constexpr ValueRange usual_obliqueness{-6.9, 4.6};
 
-/// The domain of the impacts of these pairs at relative speeds from `slowest` to `fastest` > 0, m/s.
+/// The domain of the impacts of these pairs at relative speeds from `slowest` to `fastest` > 0, m/s. Of radii
+/// from a range: pairs of a grid of them, as m and d need not be largest at the ends.
 template <ContactForce Force>
 RestitutionDomain restitution_domain(const Force& force, std::span<const ContactPair> pairs,
                                      double slowest, double fastest);
@@ -142,7 +143,7 @@ RestitutionDomain restitution_domain(const Force& force, std::span<const Contact
                                      double slowest, double fastest) {
   constexpr double none = std::numeric_limits<double>::infinity();
   RestitutionDomain domain{usual_obliqueness, {none, -none}, {none, -none}};
-  const auto extend = [](Interval& interval, double value) {
+  const auto extend = [](ValueRange& interval, double value) {
     interval = {std::min(interval.low, value), std::max(interval.high, value)};
   };
   for (const ContactPair& pair : pairs) {

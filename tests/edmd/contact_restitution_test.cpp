@@ -1,10 +1,9 @@
 #include <gtest/gtest.h>
 
-#include <boost/numeric/odeint/stepper/bulirsch_stoer.hpp>
 #include <cmath>
 #include <numbers>
-#include <vector>
 
+#include "bench/lab/twins/plain_contact.h"
 #include "core/random/stream.h"
 #include "edmd/soft/contact_integration.h"
 #include "edmd/soft/linear_dashpot.h"
@@ -132,60 +131,6 @@ TYPED_TEST(EveryForce, ScalesMakeTheForceDimensionless) {
                   std::pow(scales.length / faster.length, -TypeParam::damping_exponent), 1e-12);
 }
 
-// The plain equations of motion in r and t, in extended precision, by the method of Bulirsch and Stoer:
-// neither variables nor method nor the search for the end are those of the library.
-template <class Force>
-class PlainContact {
- public:
-  explicit PlainContact(const ScaledImpact& of)
-      : l_(of.distance), swirl_(of.angular_momentum), damping_(of.damping) {}
-
-  Restitution operator()() const {
-    State x{0, 1, 0};  // l − r, −r', φ
-    long double t = 0, step = 1e-3L / (1 + damping_);
-    namespace odeint = boost::numeric::odeint;
-    odeint::bulirsch_stoer<State, long double> stepper(1e-17L, 1e-17L);
-    const auto motion = [this](const State& y, State& slope, long double) { move(y, slope); };
-    long double last_step = step;
-    while (true) {
-      const State before = x;
-      const long double begin = t;
-      if (stepper.try_step(motion, x, t, step) == odeint::fail) continue;
-      last_step = t - begin;
-      // Beyond the end the force is continued smoothly for the linear dashpot and is none for the other.
-      if (x[1] < 0 && force(x) <= 0) {
-        x = before;
-        t = begin;
-        if (last_step < 1e-16L) break;
-        step = last_step / 4;
-      } else {
-        step = std::min(step, 2 * last_step);
-      }
-    }
-    return {static_cast<double>(1 - x[0] / l_), static_cast<double>(x[2]), static_cast<double>(t),
-            static_cast<double>(x[1])};
-  }
-
- private:
-  using State = std::vector<long double>;
-
-  long double force(const State& x) const {
-    if constexpr (std::is_same_v<Force, LinearDashpot>)
-      return x[0] + damping_ * x[1];
-    else
-      return x[0] <= 0 ? 0 : std::sqrt(x[0]) * (x[0] + damping_ * x[1]);
-  }
-  void move(const State& x, State& slope) const {
-    const long double r = l_ - x[0];
-    slope.resize(3);
-    slope[0] = x[1];
-    slope[1] = -swirl_ * swirl_ / (r * r * r) - force(x);
-    slope[2] = swirl_ / (r * r);
-  }
-
-  long double l_, swirl_, damping_;
-};
-
 TYPED_TEST(EveryForce, AgreesWithAnIndependentIntegration) {
   Stream draw(4, Purpose::tests);
   for (int trial = 0; trial < 20; ++trial) {
@@ -194,7 +139,7 @@ TYPED_TEST(EveryForce, AgreesWithAnIndependentIntegration) {
     SCOPED_TRACE(testing::Message() << "l = " << of.distance << ", c_φ = " << of.angular_momentum
                                     << ", c_dis = " << of.damping);
     const Restitution found = integrate_contact<TypeParam>(of);
-    const Restitution expected = PlainContact<TypeParam>(of)();
+    const Restitution expected = lab::PlainContact<TypeParam>(of)();
     expect_relative(found.distance, expected.distance, 1e-13);
     expect_relative(found.angle, expected.angle, 1e-12);
     expect_relative(found.duration, expected.duration, 1e-12);

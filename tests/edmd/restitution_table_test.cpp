@@ -26,7 +26,7 @@ class EveryForce : public testing::Test {};
 using Forces = testing::Types<LinearDashpot, Viscoelastic>;
 TYPED_TEST_SUITE(EveryForce, Forces);
 
-double uniform(const Interval& interval, Stream& draw) {
+double uniform(const ValueRange& interval, Stream& draw) {
   return draw.uniform(interval.low, interval.high);
 }
 
@@ -67,7 +67,7 @@ void expect_within_tolerance(const RestitutionDomain& domain) {
 }
 
 TYPED_TEST(EveryForce, ElasticTable) {
-  expect_within_tolerance<TypeParam>({usual_obliqueness, {1, 8}, elastic});
+  expect_within_tolerance<TypeParam>({usual_obliqueness, {1, 8}, elastic_damping});
 }
 
 TYPED_TEST(EveryForce, TableOfOnePair) {
@@ -104,7 +104,8 @@ TYPED_TEST(EveryForce, IntegratesAndCountsWhatIsOutside) {
 }
 
 TEST(ElasticTable, LosesNothing) {
-  const RestitutionTable table(form_of<LinearDashpot>(), {{-1, 1}, {2, 3}, elastic}, coarse, 1);
+  const RestitutionTable table(form_of<LinearDashpot>(), {{-1, 1}, {2, 3}, elastic_damping}, coarse,
+                               1);
   const auto found = table({15, 10, 0});
   ASSERT_TRUE(found);
   EXPECT_EQ(found->distance, 1);
