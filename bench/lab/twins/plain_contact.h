@@ -6,6 +6,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "core/error.h"
 #include "edmd/soft/linear_dashpot.h"
 #include "edmd/soft/restitution.h"
 #include "edmd/soft/viscoelastic.h"
@@ -29,7 +30,8 @@ class PlainContact {
     const auto motion = [this](const State& x, State& slope, long double) { move(x, slope); };
     State x{0, 1, 0};
     long double time = 0, step = 1e-3L / (1 + damping_), taken = 1;
-    while (taken > 1e-18L) {
+    for (int trial = 0; taken > 1e-18L && step > 1e-19L; ++trial) {
+      if (trial == most_trials) throw InvariantError("the plain contact does not end");
       const State before = x;
       const long double begin = time;
       if (stepper.try_step(motion, x, time, step) == odeint::fail) continue;
@@ -46,6 +48,7 @@ class PlainContact {
 
  private:
   using State = std::vector<long double>;  // l − r, −r', φ
+  static constexpr int most_trials = 1'000'000;
 
   // The dashpot's is smooth beyond r = l, where a step that is tried may go; the other one is none there.
   long double force(const State& x) const {
