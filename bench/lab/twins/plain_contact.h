@@ -30,7 +30,7 @@ class PlainContact {
     const auto motion = [this](const State& x, State& slope, long double) { move(x, slope); };
     State x{0, 1, 0};
     long double time = 0, step = 1e-3L / (1 + damping_), taken = 1;
-    for (int trial = 0; taken > 1e-18L && step > 1e-19L; ++trial) {
+    for (int trial = 0; taken > 1e-17L && step > 1e-18L; ++trial) {
       if (trial == most_trials) throw InvariantError("the plain contact does not end");
       const State before = x;
       const long double begin = time;
