@@ -1,0 +1,300 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <numbers>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/parallel.h"
+
+/// A smooth function on a box, as polynomials on panels that are halved until a tolerance is met.
+///
+/// On a panel, with every variable scaled to −1 … 1, the function is Σ c_ijk T_i(x) T_j(y) T_k(z), i, j,
+/// k < Nodes, which interpolates it at the zeros of T_Nodes. Steps of the construction, level by level:
+///   1. Interpolate on each panel, and compare with the function at points of the grid where
+///      |T_Nodes| = 1 in every variable: there the error is largest where the series converges.
+///   2. Where all values are within the tolerance, keep the panel. Else halve it in the variable whose
+///      highest coefficients are the largest, unless that would make it narrower than is allowed.
+///   3. What then is not within the tolerance has no value.
+/// The panels depend on the function and the options, not on the number of threads.
+///
+/// Validity: between the points of comparison the error is not known; measure it (docs/validation.md).
+namespace vitrel {
+
+template <int Dim>
+struct Box {
+  std::array<double, Dim> low, high;
+
+  bool contains(const std::array<double, Dim>& x) const {
+    for (int axis = 0; axis < Dim; ++axis)
+      if (!(x[axis] >= low[axis] && x[axis] <= high[axis])) return false;
+    return true;
+  }
+};
+
+struct PanelOptions {
+  double tolerance = 1e-8;  ///< absolute, of each value
+  double least_width = 0.02;
+
+  bool operator==(const PanelOptions&) const = default;
+};
+
+template <int Dim, int Nodes, int Values>
+class ChebyshevPanels {
+ public:
+  using Bounds = Box<Dim>;
+  using Point = std::array<double, Dim>;
+  using Value = std::array<double, Values>;
+  using Function = std::function<Value(const Point&)>;
+
+  /// An inner node of the tree has its lower half at `next` and the upper one behind; a leaf has
+  /// panel `next`, or none.
+  struct Node {
+    double middle = 0;
+    std::int32_t axis = -1;
+    std::int32_t next = -1;
+  };
+  /// What is kept in files: the tree, the root first, and of every panel the middle and 2/width of each
+  /// side and the coefficients, those of one polynomial's all values side by side.
+  struct Content {
+    std::vector<Node> nodes;
+    std::vector<double> panels;
+  };
+
+  ChebyshevPanels(const Box<Dim>& box, const Function& function, const PanelOptions& options,
+                  int threads);
+  ChebyshevPanels(const Box<Dim>& box, Content content) : box_(box), content_(std::move(content)) {}
+
+  /// Nothing outside the box, and where the tolerance is not met.
+  std::optional<Value> operator()(const Point& x) const;
+
+  const Content& content() const { return content_; }
+  std::size_t size() const { return content_.panels.size() / panel_size; }
+  std::size_t bytes() const {
+    return content_.panels.size() * sizeof(double) + content_.nodes.size() * sizeof(Node);
+  }
+  /// Whether a tree like this can be walked: what is read from a file may be anything.
+  static bool sound(const Content& content);
+
+ private:
+  static constexpr int power(int base, int exponent) {
+    return exponent == 0 ? 1 : base * power(base, exponent - 1);
+  }
+  static constexpr int terms = power(Nodes, Dim);
+  static constexpr int panel_size = 2 * Dim + terms * Values;
+  static constexpr int comparisons = 16 * Dim * Dim;
+
+  struct Trial {
+    std::vector<double> panel;
+    bool accepted = false;
+    int axis = 0;  // to halve
+  };
+  struct Open {
+    std::int32_t node;
+    Box<Dim> box;
+  };
+
+  static std::array<double, Nodes> chebyshev(double x);
+  static Value sum(const double* panel, const Point& x);
+  static Point at(const Box<Dim>& box, const Point& scaled);
+  static Trial interpolate(const Box<Dim>& box, const Function& function, double tolerance);
+  static std::vector<double> sample(const Box<Dim>& box, const Function& function);
+  static void transform(double* values, int stride);
+  static double tail(const std::vector<double>& coefficients, int stride);
+  static bool agrees(const Box<Dim>& box, const Function& function, const double* panel,
+                     double tolerance);
+  void settle(const Open& open, const Trial& trial, const PanelOptions& options,
+              std::vector<Open>& next);
+
+  Box<Dim> box_;
+  Content content_;
+};
+
+template <int Dim, int Nodes, int Values>
+ChebyshevPanels<Dim, Nodes, Values>::ChebyshevPanels(const Box<Dim>& box, const Function& function,
+                                                     const PanelOptions& options, int threads)
+    : box_(box), content_{{Node{}}, {}} {
+  std::vector<Open> level{{0, box}};
+  while (!level.empty()) {
+    std::vector<Trial> trials(level.size());
+    in_parallel(level.size(), threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k)
+        trials[k] = interpolate(level[k].box, function, options.tolerance);
+    });
+    std::vector<Open> next;
+    for (std::size_t k = 0; k < level.size(); ++k) settle(level[k], trials[k], options, next);
+    level = std::move(next);
+  }
+}
+
+template <int Dim, int Nodes, int Values>
+void ChebyshevPanels<Dim, Nodes, Values>::settle(const Open& open, const Trial& trial,
+                                                 const PanelOptions& options,
+                                                 std::vector<Open>& next) {
+  auto& [nodes, panels] = content_;
+  if (trial.accepted) {
+    nodes[open.node].next = static_cast<std::int32_t>(size());
+    panels.insert(panels.end(), trial.panel.begin(), trial.panel.end());
+    return;
+  }
+  const double low = open.box.low[trial.axis], high = open.box.high[trial.axis];
+  if (high - low < 2 * options.least_width) return;
+  const auto child = static_cast<std::int32_t>(nodes.size());
+  nodes[open.node] = {(low + high) / 2, trial.axis, child};
+  nodes.resize(nodes.size() + 2);
+  next.insert(next.end(), {{child, open.box}, {child + 1, open.box}});
+  next[next.size() - 2].box.high[trial.axis] = (low + high) / 2;
+  next[next.size() - 1].box.low[trial.axis] = (low + high) / 2;
+}
+
+template <int Dim, int Nodes, int Values>
+std::array<double, Nodes> ChebyshevPanels<Dim, Nodes, Values>::chebyshev(double x) {
+  std::array<double, Nodes> t;
+  t[0] = 1;
+  t[1] = x;
+  for (int k = 2; k < Nodes; ++k) t[k] = 2 * x * t[k - 1] - t[k - 2];
+  return t;
+}
+
+template <int Dim, int Nodes, int Values>
+auto ChebyshevPanels<Dim, Nodes, Values>::sum(const double* panel, const Point& x) -> Value {
+  std::array<std::array<double, Nodes>, Dim> t;
+  for (int axis = 0; axis < Dim; ++axis)
+    t[axis] = chebyshev((x[axis] - panel[axis]) * panel[Dim + axis]);
+  // Along the last variable all powers and values at once.
+  using Row = Eigen::Matrix<double, Nodes * Values, 1>;
+  const double* row = panel + 2 * Dim;
+  Row rows = Row::Zero();
+  for (int i = 0; i < terms / Nodes; ++i, row += Nodes * Values) {
+    double weight = t[Dim - 2][i % Nodes];
+    if constexpr (Dim == 3) weight *= t[0][i / Nodes];
+    rows += weight * Eigen::Map<const Row>(row);
+  }
+  Value value{};
+  for (int k = 0; k < Nodes; ++k)
+    for (int v = 0; v < Values; ++v) value[v] += t[Dim - 1][k] * rows[k * Values + v];
+  return value;
+}
+
+template <int Dim, int Nodes, int Values>
+auto ChebyshevPanels<Dim, Nodes, Values>::operator()(const Point& x) const -> std::optional<Value> {
+  if (!box_.contains(x)) return {};
+  const Node* node = content_.nodes.data();
+  while (node->axis >= 0)
+    node = &content_.nodes[node->next + (x[node->axis] > node->middle ? 1 : 0)];
+  if (node->next < 0) return {};
+  return sum(&content_.panels[static_cast<std::size_t>(node->next) * panel_size], x);
+}
+
+template <int Dim, int Nodes, int Values>
+auto ChebyshevPanels<Dim, Nodes, Values>::at(const Box<Dim>& box, const Point& scaled) -> Point {
+  Point x;
+  for (int axis = 0; axis < Dim; ++axis) {
+    const double middle = (box.low[axis] + box.high[axis]) / 2;
+    x[axis] = middle + scaled[axis] * (box.high[axis] - middle);
+  }
+  return x;
+}
+
+template <int Dim, int Nodes, int Values>
+std::vector<double> ChebyshevPanels<Dim, Nodes, Values>::sample(const Box<Dim>& box,
+                                                                const Function& function) {
+  std::vector<double> values;
+  values.reserve(terms * Values);
+  for (int term = 0; term < terms; ++term) {
+    Point scaled;
+    for (int axis = Dim - 1, rest = term; axis >= 0; --axis, rest /= Nodes)
+      scaled[axis] = std::cos(std::numbers::pi * (rest % Nodes + 0.5) / Nodes);
+    const Value value = function(at(box, scaled));
+    values.insert(values.end(), value.begin(), value.end());
+  }
+  return values;
+}
+
+// Values at the zeros of T_Nodes, `stride` apart, become coefficients.
+template <int Dim, int Nodes, int Values>
+void ChebyshevPanels<Dim, Nodes, Values>::transform(double* values, int stride) {
+  std::array<double, Nodes> coefficients{};
+  for (int j = 0; j < Nodes; ++j)
+    for (int i = 0; i < Nodes; ++i)
+      coefficients[j] += (j == 0 ? 1.0 : 2.0) / Nodes * values[i * stride] *
+                         std::cos(std::numbers::pi * j * (i + 0.5) / Nodes);
+  for (int j = 0; j < Nodes; ++j) values[j * stride] = coefficients[j];
+}
+
+// The largest coefficient of the two highest powers of the variable whose powers are `stride` apart.
+template <int Dim, int Nodes, int Values>
+double ChebyshevPanels<Dim, Nodes, Values>::tail(const std::vector<double>& coefficients,
+                                                 int stride) {
+  double largest = 0;
+  for (int k = 0; k < terms * Values; ++k)
+    if (k / stride % Nodes >= Nodes - 2) largest = std::max(largest, std::abs(coefficients[k]));
+  return largest;
+}
+
+template <int Dim, int Nodes, int Values>
+bool ChebyshevPanels<Dim, Nodes, Values>::agrees(const Box<Dim>& box, const Function& function,
+                                                 const double* panel, double tolerance) {
+  // Points of a lattice without short periods (Roberts's generalised golden ratio), moved to the grid.
+  const double ratio = Dim == 2 ? 1.32471795724474602596 : 1.22074408460575947536;
+  for (int k = 1; k <= comparisons; ++k) {
+    Point scaled;
+    for (int axis = 0; axis < Dim; ++axis) {
+      const double along = k * std::pow(ratio, -1 - axis);
+      scaled[axis] = std::cos(std::numbers::pi *
+                              std::floor((along - std::floor(along)) * (Nodes + 1)) / Nodes);
+    }
+    const Point x = at(box, scaled);
+    const Value expected = function(x), found = sum(panel, x);
+    for (int v = 0; v < Values; ++v)
+      if (!(std::abs(found[v] - expected[v]) <= tolerance)) return false;
+  }
+  return true;
+}
+
+template <int Dim, int Nodes, int Values>
+auto ChebyshevPanels<Dim, Nodes, Values>::interpolate(const Box<Dim>& box, const Function& function,
+                                                      double tolerance) -> Trial {
+  std::vector<double> coefficients = sample(box, function);
+  Trial trial;
+  double largest_tail = 0;
+  for (int stride = Values; stride < terms * Values; stride *= Nodes)
+    for (int k = 0; k < terms * Values; ++k)
+      if (k / stride % Nodes == 0) transform(&coefficients[k], stride);
+  for (int axis = Dim - 1, stride = Values; axis >= 0; --axis, stride *= Nodes)
+    if (const double of_axis = tail(coefficients, stride); of_axis > largest_tail) {
+      largest_tail = of_axis;
+      trial.axis = axis;
+    }
+  for (int axis = 0; axis < Dim; ++axis)
+    trial.panel.push_back((box.low[axis] + box.high[axis]) / 2);
+  for (int axis = 0; axis < Dim; ++axis)
+    trial.panel.push_back(2 / (box.high[axis] - box.low[axis]));
+  trial.panel.insert(trial.panel.end(), coefficients.begin(), coefficients.end());
+  trial.accepted = agrees(box, function, trial.panel.data(), tolerance);
+  return trial;
+}
+
+template <int Dim, int Nodes, int Values>
+bool ChebyshevPanels<Dim, Nodes, Values>::sound(const Content& content) {
+  const auto count = static_cast<std::int64_t>(content.nodes.size());
+  const auto panels = static_cast<std::int64_t>(content.panels.size() / panel_size);
+  if (count == 0 || content.panels.size() % panel_size != 0) return false;
+  for (std::int64_t k = 0; k < count; ++k) {
+    const Node& node = content.nodes[k];
+    const bool leaf = node.axis == -1 && node.next >= -1 && node.next < panels;
+    // Children come after their parent: a walk ends.
+    const bool inner = node.axis >= 0 && node.axis < Dim && node.next > k && node.next + 1 < count;
+    if (!leaf && !inner) return false;
+  }
+  return true;
+}
+
+}  // namespace vitrel

@@ -1,0 +1,121 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <boost/math/tools/roots.hpp>
+#include <boost/numeric/odeint/algebra/array_algebra.hpp>
+#include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
+#include <boost/numeric/odeint/stepper/generation.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "core/error.h"
+#include "edmd/soft/restitution.h"
+
+/// The integration that restitution.h describes; included where a force is instantiated.
+namespace vitrel {
+
+template <ContactForce Force>
+class ContactIntegration {
+ public:
+  explicit ContactIntegration(const ScaledImpact& impact)
+      : impact_(impact),
+        swirl_(std::max(impact.angular_momentum, smallest_offset * impact.distance)),
+        kappa_(impact.damping >= 1 ? 1 / impact.damping : 0) {}
+
+  Restitution operator()() const {
+    auto stepper = boost::numeric::odeint::make_controlled(smallest_error, step_error, blank);
+    const auto motion = [this](const State& x, State& slope, double) { set_slope(x, slope); };
+    State x{0, 1, 1, 0, 0};
+    double at = 0, step = 0.1 / (1 + std::sqrt(centrifugal(1)) + impact_.damping);
+    for (int trial = 0; trial < most_trials; ++trial) {
+      const State before = x;
+      const double begin = at;
+      if (stepper.try_step(motion, x, at, step) == boost::numeric::odeint::fail) continue;
+      if (excess(x) <= 0) return coefficients(end_of_contact(before, x, at - begin));
+    }
+    throw InvariantError("a contact does not end");
+  }
+
+ private:
+  // s, v, ρ, φ, t of restitution.h as functions of σ.
+  using State = std::array<double, 5>;
+  using Stepper =
+      boost::numeric::odeint::runge_kutta_fehlberg78<State, double, State, double,
+                                                     boost::numeric::odeint::array_algebra>;
+
+  // Steppers are copied, scratch memory included: static memory is not uninitialised.
+  static inline const Stepper blank{};
+  static constexpr double step_error = 1e-14;
+  // Errors count relative to what is integrated; this only keeps 0/0 away.
+  static constexpr double smallest_error = 1e-100;
+  // Some 100 are usual, 1000 when particles meet centre to centre.
+  static constexpr int most_trials = 100000;
+  // An impact parameter below rounding is head-on.
+  static constexpr double smallest_offset = 1e-15;
+
+  double centrifugal(double rho) const {
+    const double tangent = swirl_ / impact_.distance;
+    return tangent * tangent / (impact_.distance * rho * rho * rho);
+  }
+  double approach_rate(const State& x) const { return x[1] - kappa_ * Force::rest(x[0]); }
+  // E + c_dis u: what the force is proportional to.
+  double excess(const State& x) const {
+    if (kappa_ > 0) return impact_.damping * x[1];
+    return std::copysign(Force::rest(std::abs(x[0])), x[0]) + impact_.damping * x[1];
+  }
+
+  void set_slope(const State& x, State& slope) const {
+    const auto [s, v, rho, angle, time] = x;
+    const double u = approach_rate(x);
+    const double slow = 2 * s * rho;
+    const double push = Force::profile(s) *
+                        (kappa_ > 0 ? impact_.damping * v : Force::rest(s) + impact_.damping * v);
+    slope[0] = rho * u;
+    slope[1] = kappa_ * Force::rest_slope(s) * rho * u - slow * (centrifugal(rho) + push);
+    slope[2] = -slow * u / impact_.distance;
+    slope[3] = 2 * s * swirl_ / (impact_.distance * impact_.distance * rho);
+    slope[4] = slow;
+  }
+
+  // In the step from `before`, whose end `after` is beyond.
+  State end_of_contact(const State& before, const State& after, double step) const {
+    Stepper stepper;
+    State x;
+    const auto motion = [this](const State& y, State& slope, double) { set_slope(y, slope); };
+    const auto excess_after = [&](double length) {
+      stepper.do_step(motion, before, 0, x, length);
+      return excess(x);
+    };
+    std::uintmax_t trials = 100;
+    const auto bracket =
+        boost::math::tools::toms748_solve(excess_after, 0.0, step, excess(before), excess(after),
+                                          boost::math::tools::eps_tolerance<double>(), trials);
+    excess_after(bracket.second);
+    return x;
+  }
+
+  Restitution coefficients(const State& end) const {
+    const auto [s, v, rho, swept, time] = end;
+    const double angle = impact_.angular_momentum > 0   ? swept
+                         : swept < std::numbers::pi / 2 ? 0
+                                                        : std::numbers::pi;
+    if (impact_.damping == 0) return {1, angle, time, -1};
+    // The more exact of two that are equal.
+    const double compression = s * s / impact_.distance;
+    return {compression < 0.5 ? 1 - compression : rho, angle, time, approach_rate(end)};
+  }
+
+  ScaledImpact impact_;
+  double swirl_;  // c_φ
+  double kappa_;
+};
+
+template <ContactForce Force>
+Restitution integrate_contact(const ScaledImpact& impact) {
+  return ContactIntegration<Force>(impact)();
+}
+
+}  // namespace vitrel

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cmath>
+
+#include "edmd/soft/contact_force.h"
+
+namespace vitrel {
+
+/// F_n = k ξ + γ ξ̇, a spring and a dashpot.
+///
+///     T = 1/ω,  X = speed/ω,  ω = √(k/m_eff),   F̃ = ξ̃ + c_dis dξ̃/dt̃,  c_dis = γ T/m_eff
+///
+/// In the limit of hard spheres the coefficient of restitution depends on c_dis only, not on the speed.
+/// Ranges in the source: k 10³ … 10⁶ N/m, γ 0.01 … 1.25 kg/s. Source: mueller2013, section V.1.
+struct LinearDashpot {
+  static constexpr std::string_view name = "linear_dashpot";
+  static constexpr double length_exponent = 0.5;
+  static constexpr double damping_exponent = 0;
+
+  double stiffness;    ///< k > 0, N/m
+  double damping = 0;  ///< γ ≥ 0, kg/s
+
+  double force(double compression, double rate, const ContactPair&) const {
+    return stiffness * compression + damping * rate;
+  }
+  ContactScales scales(double speed, const ContactPair& pair) const {
+    const double time = std::sqrt(pair.mass / stiffness);
+    return {time, speed * time, damping * time / pair.mass};
+  }
+
+  static double profile(double) { return 1; }
+  static double rest(double s) { return s * s; }
+  static double rest_slope(double s) { return 2 * s; }
+  static double rest_inverse(double rest) { return std::sqrt(rest); }
+};
+
+static_assert(ContactForce<LinearDashpot>);
+
+}  // namespace vitrel

@@ -1,0 +1,159 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "edmd/soft/chebyshev_panels.h"
+#include "edmd/soft/restitution.h"
+
+/// The matrix of restitution from a table, in a small part of the time of an integration.
+///
+/// Variables: those of the source, in which the impacts of all materials, radii and speeds of given
+/// ranges fill a rectangle, and instead of ln c_dis what of it does not depend on the impact,
+///
+///     g = ln(c_φ/l) = ln(tangential speed/normal speed)     (source: ln c_φ/c_φ^min + g^min)
+///     m = ln l − p ln(1 + (c_φ/l)²) = ln(l/X) at full speed    (source: ln l/l^min + m^min)
+///     d = ln c_dis + q ln l                                      (of the pair alone)
+///
+/// with p and q of the force (contact_force.h): dashpot 1/2, 0; viscoelastic 2/5, 1/4. So particles of
+/// a few species need, for each pair of species, two dimensions only, d being given; elastic ones need
+/// two, d = −∞, whatever their radii; damped ones with any radii from a range need three, of which d has
+/// a narrow range.
+///
+/// Tabulated are ln(−ε_ṙ), ln ε_t and ln(ε_φ l²/c_φ), by polynomials (chebyshev_panels.h: Nodes 8 in two
+/// dimensions, 6 in three); then E(l (1 − ε_r)) = −c_dis ε_ṙ gives ε_r. Elastic: ε_r = 1 and ε_ṙ = −1.
+/// The tolerance is the relative error of ε_ṙ and ε_t; that of ε_φ and of 1 − ε_r is at most twice as
+/// large. Measured: docs/validation.md. Source: mueller2013.
+namespace vitrel {
+
+struct ValueRange {
+  double low, high;
+
+  bool operator==(const ValueRange&) const = default;
+};
+
+/// `d.low == d.high`: that d only; see `elastic_damping`.
+struct RestitutionDomain {
+  ValueRange g, m, d;
+
+  bool operator==(const RestitutionDomain&) const = default;
+};
+
+/// d of elastic contacts.
+inline constexpr ValueRange elastic_damping{-std::numeric_limits<double>::infinity(),
+                                            -std::numeric_limits<double>::infinity()};
+
+/// Eccentricities between, as g = ln(e/√(1 − e²)). Outside are 10⁻⁴ of the impacts of a gas in three
+/// dimensions, 10⁻³ in two.
+inline constexpr ValueRange usual_obliqueness{-6.9, 4.6};
+
+/// The domain of the impacts of these pairs at relative speeds from `slowest` to `fastest` > 0, m/s. Of radii
+/// from a range: pairs of a grid of them, as m and d need not be largest at the ends.
+template <ContactForce Force>
+RestitutionDomain restitution_domain(const Force& force, std::span<const ContactPair> pairs,
+                                     double slowest, double fastest);
+
+class RestitutionTable {
+ public:
+  /// Integrates in parallel. Ranges must be finite and not empty, but for d.
+  RestitutionTable(const ForceForm& form, const RestitutionDomain& domain,
+                   const PanelOptions& options, int threads);
+
+  /// Nothing outside the domain, or where the tolerance is not met.
+  std::optional<Restitution> operator()(const ScaledImpact& impact) const;
+
+  std::size_t panels() const;
+  std::size_t bytes() const;
+
+  /// Throws FileError.
+  void save(const std::filesystem::path& file) const;
+  /// Nothing if the file is not there, damaged, or of another table or another version of the program.
+  static std::optional<RestitutionTable> load(const std::filesystem::path& file,
+                                              const ForceForm& form,
+                                              const RestitutionDomain& domain,
+                                              const PanelOptions& options);
+
+ private:
+  using Slice = ChebyshevPanels<2, 8, 3>;
+  using Range = ChebyshevPanels<3, 6, 3>;
+  using Panels = std::variant<Slice, Range>;
+
+  RestitutionTable(const ForceForm& form, const RestitutionDomain& domain,
+                   const PanelOptions& options, Panels panels);
+
+  ForceForm form_;
+  RestitutionDomain domain_;
+  PanelOptions options_;
+  Panels panels_;
+};
+
+/// From the file if it has this table, else built and saved to it. If saving fails the table is as
+/// good; `trouble` then says why.
+struct KeptTable {
+  RestitutionTable table;
+  bool loaded;
+  std::string trouble;
+};
+KeptTable kept_table(const std::filesystem::path& file, const ForceForm& form,
+                     const RestitutionDomain& domain, const PanelOptions& options, int threads);
+
+/// The slow twin of TabulatedRestitution.
+class IntegratedRestitution {
+ public:
+  explicit IntegratedRestitution(const ForceForm& form) : form_(form) {}
+
+  Restitution operator()(const ScaledImpact& impact) {
+    ++integrated_;
+    return form_.integrate(impact);
+  }
+  std::uint64_t integrated() const { return integrated_; }
+
+ private:
+  ForceForm form_;
+  std::uint64_t integrated_ = 0;
+};
+
+/// From the table where it has a value, else integrated, and counted.
+class TabulatedRestitution {
+ public:
+  TabulatedRestitution(const ForceForm& form, RestitutionTable table)
+      : table_(std::move(table)), outside_(form) {}
+
+  Restitution operator()(const ScaledImpact& impact) {
+    const std::optional<Restitution> found = table_(impact);
+    return found ? *found : outside_(impact);
+  }
+  std::uint64_t integrated() const { return outside_.integrated(); }
+
+ private:
+  RestitutionTable table_;
+  IntegratedRestitution outside_;
+};
+
+template <ContactForce Force>
+RestitutionDomain restitution_domain(const Force& force, std::span<const ContactPair> pairs,
+                                     double slowest, double fastest) {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  RestitutionDomain domain{usual_obliqueness, {none, -none}, {none, -none}};
+  const auto extend = [](ValueRange& interval, double value) {
+    interval = {std::min(interval.low, value), std::max(interval.high, value)};
+  };
+  for (const ContactPair& pair : pairs) {
+    for (const double speed : {slowest, fastest})
+      extend(domain.m, std::log(pair.distance / force.scales(speed, pair).length));
+    const ScaledImpact impact = scaled_impact(force, pair, fastest, 0);
+    extend(domain.d,
+           std::log(impact.damping) + Force::damping_exponent * std::log(impact.distance));
+  }
+  return domain;
+}
+
+}  // namespace vitrel

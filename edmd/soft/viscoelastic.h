@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cmath>
+
+#include "edmd/soft/contact_force.h"
+
+namespace vitrel {
+
+/// Viscoelastic spheres: Hertz's elastic force with the dissipation of quasistatic motion,
+///
+///     F_n = ρ ξ^(3/2) + (3/2) A ρ ξ̇ ξ^(1/2),   ρ = 2 Y √R_eff/(3 (1 − ν²))
+///     T = κ^(−2/5) speed^(−1/5),  X = κ^(−2/5) speed^(4/5),  κ = ρ/m_eff
+///     F̃ = ξ̃^(1/2) (ξ̃ + c_dis dξ̃/dt̃),  c_dis = 3A/(2T)
+///
+/// Of two disks it is a model, as if they were spheres. Validity: ξ well below R_eff.
+/// Ranges in the source: Y 0.01 … 100 GPa, ν 0.2 … 0.5, A 10⁻⁶ … 1 s. Sources: mueller2013,
+/// section V.2; brilliantov1996.
+struct Viscoelastic {
+  static constexpr std::string_view name = "viscoelastic";
+  static constexpr double length_exponent = 0.4;
+  static constexpr double damping_exponent = 0.25;
+
+  double youngs_modulus;        ///< Y > 0, N/m²
+  double poissons_ratio;        ///< ν, −1 < ν ≤ 1/2
+  double dissipative_time = 0;  ///< A ≥ 0, s
+
+  /// ρ, N/m^(3/2)
+  double stiffness(const ContactPair& pair) const {
+    return 2 * youngs_modulus * std::sqrt(pair.radius) /
+           (3 * (1 - poissons_ratio * poissons_ratio));
+  }
+  double force(double compression, double rate, const ContactPair& pair) const {
+    return stiffness(pair) * std::sqrt(compression) * (compression + 1.5 * dissipative_time * rate);
+  }
+  ContactScales scales(double speed, const ContactPair& pair) const {
+    const double time = std::pow(stiffness(pair) / pair.mass, -0.4) * std::pow(speed, -0.2);
+    return {time, speed * time, 1.5 * dissipative_time / time};
+  }
+
+  static double profile(double s) { return s; }
+  static double rest(double s) { return s * s; }
+  static double rest_slope(double s) { return 2 * s; }
+  static double rest_inverse(double rest) { return std::sqrt(rest); }
+};
+
+static_assert(ContactForce<Viscoelastic>);
+
+}  // namespace vitrel
