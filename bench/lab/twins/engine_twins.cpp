@@ -82,7 +82,7 @@ double Neighborhoods<lab::RoundListedEllipse>::choose_gap(std::vector<Pair>, dou
   const std::vector<Ellipse> shapes(shapes_.begin(), shapes_.end());
   std::vector<Pose2> poses;
   for (std::size_t i = 0; i < references_.size(); ++i)
-    poses.push_back({references_[i].position, references_[i].orientation});
+    poses.push_back({references_[i].position, references_[i].orientation()});
   return 2 * Neighborhoods<Ellipse>(box_, shapes, kind_of_, poses, wanted).margin();
 }
 
