@@ -9,9 +9,15 @@
 
 namespace vitrel {
 
+class SoftContact;
+
 /// What to do with a pair found overlapping: a hard run never produces one, so `stop` throws
 /// InvariantError; `correct` applies the thesis's correction move (collision_rule.h) and counts it.
 enum class OnOverlap { stop, correct };
+
+/// Whether a soft particle that is hit while in contact is released from it alone, or together with its
+/// partner (soft/soft_contact.h).
+enum class EarlyRelease { alone, together };
 
 struct EngineOptions {
   double restitution = 1;
@@ -19,6 +25,9 @@ struct EngineOptions {
   /// From `load` on all semi-axes are those loaded times 1 + growth_rate · time. Masses are constant,
   /// moments of inertia those of the axes at the time, angular velocities constant in flight.
   double growth_rate = 0;
+  /// If given, the particles are soft: round, not growing. `restitution` is then of no effect.
+  std::shared_ptr<SoftContact> soft_contact;
+  EarlyRelease early_release = EarlyRelease::alone;
   /// For predictions that are made all at once; results do not depend on it.
   int threads = 1;
 };
@@ -32,6 +41,8 @@ struct RunCounters {
   std::uint64_t steps = 0;        ///< steps along separating axes, over all searches
   std::uint64_t renewals = 0;     ///< neighbour lists renewed because a particle left its own
   std::uint64_t correction_moves = 0;
+  std::uint64_t refused_turns = 0;   ///< soft collisions as of hard particles, for want of room to turn
+  std::uint64_t early_releases = 0;  ///< soft particles hit while in contact
   double virial = 0;      ///< Σ J n·d over collisions, d from centre to centre
   double dissipated = 0;  ///< energy lost in inelastic collisions
 
@@ -43,7 +54,7 @@ struct RunCounters {
   }
 };
 
-/// Event-driven dynamics of N hard bodies in a periodic box: the run-time face of Simulation<Body>.
+/// Event-driven dynamics of N hard bodies, or soft round ones, in a periodic box: the run-time face of Simulation<Body>.
 ///
 /// Events run in blocks of a fixed count, or of the time in which the fastest particle crosses half
 /// the box. `load` begins a block: everything the engine knows is derived anew from the

@@ -104,6 +104,7 @@ class Runner {
     engine_->write(state_.configuration);
     note_conservation();
     ++state_.brownian_steps;
+    state_.configuration.releases.clear();  // to velocities of before
     draw_velocities(state_.configuration, options_.seed, Purpose::brownian_step,
                     state_.brownian_steps, options_.temperature, options_.engine.threads);
     engine_->set_velocities(state_.configuration, horizon(), state_.counters);

@@ -22,6 +22,7 @@
 #include "edmd/calendar.h"
 #include "edmd/collision_rule.h"
 #include "edmd/engine.h"
+#include "edmd/soft/soft_contact.h"
 
 namespace vitrel {
 
@@ -122,6 +123,9 @@ class Simulation final : public Engine<B::dimension> {
   static constexpr std::size_t cached_particles = dimension == 2 ? 32768 : 2048;
   static constexpr std::uint64_t steps_ahead = 4, events_per_step = 4;
 
+  /// Soft particles that approach by less than this fraction of their speed only pass.
+  static constexpr double grazing = 1e-12;
+
   struct Nothing {};  // in place of what a body does without
 
   struct Turn {
@@ -179,7 +183,7 @@ class Simulation final : public Engine<B::dimension> {
   using Normal = std::conditional_t<FirstLook<B>::is_exact, Nothing, FoundNormal>;
 
   struct alignas(32) Event {
-    enum class What : std::uint8_t { collision, correction, exit, look_again };
+    enum class What : std::uint8_t { collision, correction, exit, look_again, release };
     What what = What::look_again;
     Index partner_version = 0;
     Image partner;
@@ -200,6 +204,39 @@ class Simulation final : public Engine<B::dimension> {
   /// Which neighbours a prediction asks about: all of them, as far as their own entries do not come
   /// first; or, when all entries are made anew, every pair once and from whatever thread.
   enum class Scope { neighborhood, later_numbers };
+
+  /// What a soft particle in contact waits for.
+  struct Release {
+    double time = never;
+    Index partner = 0;
+    Vector velocity;
+  };
+  /// A pair, whatever images its particles are in: `lag` is the shift between their unwrapped positions.
+  struct Images {
+    Index i, j;
+    Shift<dimension> lag;
+
+    Images reversed() const { return {j, i, -lag}; }
+    friend bool operator==(const Images& one, const Images& two) {
+      return (one.i == two.i && one.j == two.j && one.lag == two.lag) ||
+             (one.i == two.j && one.j == two.i && one.lag == -two.lag);
+    }
+  };
+  /// A soft pair that lost energy in a contact, until it is apart.
+  struct Close {
+    Images pair;
+    double distance;
+  };
+
+  static constexpr bool may_be_soft = std::same_as<B, Disk> || std::same_as<B, Sphere>;
+  bool is_soft() const {
+    if constexpr (may_be_soft) return options_.soft_contact != nullptr;
+    return false;
+  }
+  bool in_contact(Index i) const { return releases_[i].time < never; }
+  Images images(Index i, const Image& partner) const {
+    return {i, partner.other, partner.shift() + image_[i] - image_[partner.other]};
+  }
 
   bool reads_ahead() const { return particles_.size() > cached_particles; }
   const Kind& kind(Index i) const { return kinds_[kind_of_[i]]; }
@@ -249,9 +286,21 @@ class Simulation final : public Engine<B::dimension> {
   void leave_neighborhood(Index i);
   void meet(Index i, const Event& event, RunCounters& counters);
   void impact(Index i, Index j, const Vector& d, const Vector& normal, double since,
-              RunCounters& counters);
+              double restitution, RunCounters& counters);
+  void meet_softly(Index i, const Event& event, RunCounters& counters);
+  void soft_impact(Index i, const Image& partner, double since, RunCounters& counters);
+  bool turn(const Images& pair, const Vector& way1, const Vector& way2);
+  void shift_by(Index i, const Vector& way);
+  bool has_room(Index i, const Vector& way, const Images& pair) const;
+  void release(Index i);
+  void release_early(Index i, Index j, RunCounters& counters);
+  void note_close(const Images& pair, double distance);
+  bool is_close(const Images& pair) const;
+  bool may_be_close(const Images& pair) const;
+  void load_contacts(const Configuration<dimension>& configuration);
+  void write_contacts(Configuration<dimension>& configuration) const;
   void watch_haste(Index i, Index j, double way);
-  double overlap_event(Index i, Index j, const Vector& d, Event& event) const;
+  double overlap_event(Index i, const Vector& d, Event& event) const;
   Event collision(const Image& with, const Vector& normal) const {
     Event event{Event::What::collision, version_[with.other], with, {}};
     if constexpr (!FirstLook<B>::is_exact) event.normal.found = normal;
@@ -281,6 +330,9 @@ class Simulation final : public Engine<B::dimension> {
   std::optional<Neighborhoods<B>> neighborhoods_;
   Calendar calendar_;
   std::vector<Event> events_;
+  std::vector<Release> releases_;  // of soft particles
+  std::vector<Close> close_;       // of these, some may be apart already
+  std::size_t most_close_ = 0;     // more are looked through first
   std::vector<std::uint8_t> haste_;  // how many collisions in a row took a particle nowhere
   double contact_gap_ = 0;
   double base_ = 0;                // simulated time at the start of the block
@@ -303,6 +355,7 @@ void Simulation<B>::load(const Configuration<dimension>& configuration, double h
   horizon_ = horizon - base_;
   load_particles(configuration);
   load_kinds(configuration);
+  if (is_soft()) load_contacts(configuration);
   double extent = 0.5 * box_.lengths().maxCoeff(), fastest = 0;
   std::vector<Pose<dimension>> poses;
   for (Index i = 0; i < particles_.size(); ++i) {
@@ -315,6 +368,8 @@ void Simulation<B>::load(const Configuration<dimension>& configuration, double h
     fastest = std::max(
         fastest, particle.velocity.norm() + swing * size_of_spin(particle.angular_velocity()));
   }
+  for (const Release& release : releases_)
+    if (release.time < never) fastest = std::max(fastest, release.velocity.norm());
   contact_gap_ = tolerance::contact_gap(extent);
   // Times are rounded too: within a block nothing moves farther than the coordinates reach.
   longest_block_ = fastest > 0 ? extent / fastest : never;
@@ -470,6 +525,7 @@ void Simulation<B>::write(Configuration<dimension>& configuration) const {
     configuration.angular_velocity[k] = turn.angular_velocity;
     if constexpr (grows<B>) configuration.shape[k] = solid_from(scaled(shape(i), size));
   }
+  if (is_soft()) write_contacts(configuration);
 }
 
 template <Body B>
@@ -483,6 +539,7 @@ void Simulation<B>::set_velocities(const Configuration<dimension>& configuration
     particles_[i].set_motion(motion);
   }
   turn_time_ = now_;
+  if (is_soft()) load_contacts(configuration);
   predict_all(horizon - base_, counters);
 }
 
@@ -502,6 +559,8 @@ typename Simulation<B>::Entry Simulation<B>::next_entry(Index i, RunCounters& co
   const CommonSize size = size_now();
   Entry best{now_ + neighborhoods_->exit_time(i, mine, particle.motion(), size), {}};
   best.event.what = Event::What::exit;
+  if (is_soft() && releases_[i].time < best.time)
+    best = {releases_[i].time, {Event::What::release, 0, {}, {}}};
   if (best.time > horizon_) best.time = never;
 
   Glance glance{FirstLook<B>(kind(i).outline, mine, particle.motion(), size, contact_gap_)};
@@ -590,14 +649,16 @@ void Simulation<B>::search(Index i, const Pose<dimension>& mine, const Neighbor<
   double wait = touch.time;
   if (touch.outcome == Outcome::not_converged) event.what = Event::What::look_again;
   if (touch.outcome == Outcome::overlap)
-    wait = overlap_event(i, j, theirs.position - mine.position, event);
+    wait = overlap_event(i, theirs.position - mine.position, event);
   if (now_ + wait < best.time) best = {now_ + wait, event};
 }
 
 // A pair that overlaps: stop, or plan the correction move; once its centres recede it is only
-// watched.
+// watched. A soft pair that a third particle has turned back meets again.
 template <Body B>
-double Simulation<B>::overlap_event(Index i, Index j, const Vector& d, Event& event) const {
+double Simulation<B>::overlap_event(Index i, const Vector& d, Event& event) const {
+  const Index j = event.partner.other;
+  if (is_soft() && may_be_close(images(i, event.partner))) return 0;
   if (options_.on_overlap == OnOverlap::stop) report_overlap(i, j);
   const Vector relative = particles_[j].velocity - particles_[i].velocity;
   const bool receding = d.dot(relative) > 0;
@@ -616,6 +677,10 @@ void Simulation<B>::process(Index i, RunCounters& counters) {
       predict(i, counters);
       return;
     case Event::What::look_again:
+      predict(i, counters);
+      return;
+    case Event::What::release:
+      release(i);
       predict(i, counters);
       return;
     case Event::What::collision:
@@ -641,6 +706,7 @@ void Simulation<B>::leave_neighborhood(Index i) {
 
 template <Body B>
 void Simulation<B>::meet(Index i, const Event& event, RunCounters& counters) {
+  if (is_soft()) return meet_softly(i, event, counters);
   const Index j = event.partner.other;
   Particle& one = particles_[i];
   Particle& two = particles_[j];
@@ -656,7 +722,7 @@ void Simulation<B>::meet(Index i, const Event& event, RunCounters& counters) {
     ++counters.correction_moves;
   } else {
     const Vector normal = normal_of(event, d);
-    impact(i, j, d, normal, since, counters);
+    impact(i, j, d, normal, since, options_.restitution, counters);
     neighborhoods_->remember(i, event.partner, normal);
   }
   ++version_[i];
@@ -668,7 +734,7 @@ void Simulation<B>::meet(Index i, const Event& event, RunCounters& counters) {
 
 template <Body B>
 void Simulation<B>::impact(Index i, Index j, const Vector& d, const Vector& n, double since,
-                           RunCounters& counters) {
+                           double restitution, RunCounters& counters) {
   const CommonSize size = size_now();
   const auto arm = [&](Index k, const Vector& outward) {
     return surface_point(scaled(shape(k), size.size), particles_[k].pose(), outward);
@@ -679,17 +745,17 @@ void Simulation<B>::impact(Index i, Index j, const Vector& d, const Vector& n, d
   Motion<dimension> motion1 = particles_[i].motion(), motion2 = particles_[j].motion();
   const double speed = approach_speed(motion1, motion2, contact);
   const double impulse =
-      i == j ? collide_with_own_image(motion1, inertia_now(i), contact, options_.restitution)
+      i == j ? collide_with_own_image(motion1, inertia_now(i), contact, restitution)
              : collide(motion1, inertia_now(i), motion2, inertia_now(j), contact,
-                       options_.restitution);
+                       restitution);
   if (!std::isfinite(impulse)) report_wedge(i);
   particles_[i].set_motion(motion1);
   if (i != j) particles_[j].set_motion(motion2);
-  if (options_.restitution < 1) watch_haste(i, j, speed * since);
+  if (restitution < 1) watch_haste(i, j, speed * since);
   ++met_;
   ++counters.collisions;
   counters.virial += impulse * n.dot(d);
-  counters.dissipated += 0.5 * impulse * speed * (1 - options_.restitution);
+  counters.dissipated += 0.5 * impulse * speed * (1 - restitution);
 }
 
 // Inelastic collapse: infinitely many collisions of a few particles in a finite time; or of one pair, as
@@ -724,3 +790,5 @@ void Simulation<B>::report_wedge(Index i) const {
 }
 
 }  // namespace vitrel
+
+#include "edmd/soft_events.h"

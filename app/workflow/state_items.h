@@ -22,6 +22,8 @@ void each_item_of_counters(Counters& counters, const std::string& path, Visit&& 
   visit(path + "steps", counters.steps);
   visit(path + "renewals", counters.renewals);
   visit(path + "correction_moves", counters.correction_moves);
+  visit(path + "refused_turns", counters.refused_turns);
+  visit(path + "early_releases", counters.early_releases);
 }
 
 template <class Growth, class Visit>

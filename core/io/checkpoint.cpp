@@ -1,5 +1,7 @@
 #include "core/io/checkpoint.h"
 
+#include <algorithm>
+#include <array>
 #include <cstring>
 #include <vector>
 
@@ -12,7 +14,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Raised whenever the layout changes; a checkpoint serves to continue a run, not to keep data.
-constexpr std::int32_t layout = 2;
+constexpr std::int32_t layout = 3;
 
 fs::path previous_of(const fs::path& path) {
   fs::path previous = path;
@@ -131,6 +133,40 @@ void read_orientations(const h5::Group& group, Configuration3& configuration) {
   read_rows<double>(group, "orientation", configuration.orientation);
 }
 
+/// What goes on between soft particles, as rows of doubles: they hold every number of a particle.
+template <int Dim>
+void write_contacts(h5::Group& group, const Configuration<Dim>& configuration) {
+  std::vector<std::array<double, 3 + Dim>> releases, close_pairs;
+  for (const auto& [particle, partner, time, velocity] : configuration.releases) {
+    auto& row = releases.emplace_back();
+    row = {static_cast<double>(particle), static_cast<double>(partner), time};
+    std::ranges::copy(velocity, row.begin() + 3);
+  }
+  for (const auto& [pair, distance] : configuration.close_pairs) {
+    auto& row = close_pairs.emplace_back();
+    row = {static_cast<double>(pair.i), static_cast<double>(pair.j), distance};
+    std::ranges::copy(pair.shift, row.begin() + 3);
+  }
+  write_rows<double>(group, "releases", releases);
+  write_rows<double>(group, "close_pairs", close_pairs);
+}
+
+template <int Dim>
+void read_contacts(const h5::Group& group, Configuration<Dim>& configuration) {
+  std::vector<std::array<double, 3 + Dim>> releases, close_pairs;
+  read_rows<double>(group, "releases", releases);
+  read_rows<double>(group, "close_pairs", close_pairs);
+  const auto number = [](double x) { return static_cast<std::size_t>(x); };
+  for (const auto& row : releases)
+    configuration.releases.push_back(
+        {number(row[0]), number(row[1]), row[2], Vec<Dim>(row.data() + 3)});
+  for (const auto& row : close_pairs)
+    configuration.close_pairs.push_back(
+        {{number(row[0]), number(row[1]),
+          Vec<Dim>(row.data() + 3).template cast<std::int32_t>()},
+         row[2]});
+}
+
 template <int Dim>
 void write_configuration(h5::Group group, const Configuration<Dim>& configuration) {
   const Vec<Dim>& lengths = configuration.box.lengths();
@@ -145,6 +181,7 @@ void write_configuration(h5::Group group, const Configuration<Dim>& configuratio
   write_rows<double>(group, "mass", configuration.mass);
   write_rows<std::int32_t>(group, "species", configuration.species);
   write_text(group, "species_names", joined(configuration.species_names));
+  write_contacts(group, configuration);
 }
 
 template <int Dim>
@@ -161,6 +198,7 @@ Configuration<Dim> read_configuration(const h5::Group& group, const std::vector<
   read_rows<double>(group, "mass", configuration.mass);
   read_rows<std::int32_t>(group, "species", configuration.species);
   configuration.species_names = split(read_text(group, "species_names"));
+  read_contacts(group, configuration);
   return configuration;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <string>
 #include <tuple>
 
@@ -75,8 +76,13 @@ class Examination {
   using Boxes = std::array<std::int32_t, Dim>;
 
  public:
-  Examination(std::vector<Particle<Dim>> particles, const Vec<Dim>& lengths)
-      : particles_(std::move(particles)), lengths_(lengths.template cast<Real>()) {
+  explicit Examination(const Configuration<Dim>& configuration)
+      : particles_(in_extended_precision(configuration)),
+        lengths_(configuration.box.lengths().template cast<Real>()) {
+    for (const auto& [pair, distance] : configuration.close_pairs) {
+      if (pair.i > pair.j) throw InvariantError("exact check: a close pair must have i ≤ j");
+      closest_[place(pair)] = distance;
+    }
     for (const Particle<Dim>& particle : particles_)
       nearness_ = std::max(nearness_, particle.circumradius);
     smallest_gap_ = nearness_;
@@ -100,11 +106,6 @@ class Examination {
   }
 
   ExactCheck<Dim> result() && {
-    const auto place = [](const PairImage<Dim>& pair) {
-      Boxes shift;
-      std::copy(pair.shift.begin(), pair.shift.end(), shift.begin());
-      return std::tuple(pair.i, pair.j, shift);
-    };
     std::ranges::sort(overlaps_, {}, place);
     const double gap = smallest_gap_ < nearness_ ? static_cast<double>(smallest_gap_)
                                                  : std::numeric_limits<double>::infinity();
@@ -112,6 +113,18 @@ class Examination {
   }
 
  private:
+  using Place = std::tuple<std::size_t, std::size_t, Boxes>;
+  static Place place(const PairImage<Dim>& pair) {
+    Boxes shift;
+    std::copy(pair.shift.begin(), pair.shift.end(), shift.begin());
+    return {pair.i, pair.j, shift};
+  }
+
+  bool may_overlap(const Place& pair, const Point<Dim>& d) const {
+    const auto found = closest_.find(pair);
+    return found != closest_.end() && d.norm() >= found->second;
+  }
+
   /// Quick and sufficient for |d| ≤ L: then d itself and one image are the nearest.
   static bool beyond(Real reach, Real d, Real length) {
     const Real away = std::abs(d);
@@ -140,6 +153,7 @@ class Examination {
     const Real circles = d.norm() - (one.circumradius + two.circumradius);
     if (circles >= std::max<Real>(0, smallest_gap_)) return;
     if (circles < 0) ++pairs_examined_;
+    if (circles < 0 && may_overlap({i, j, shift}, d)) return;
     const exact::Finding finding = exact::examine(one, two, d, smallest_gap_);
     if (finding.overlap) overlaps_.push_back({i, j, Shift<Dim>(shift.data())});
     smallest_gap_ = std::min(smallest_gap_, finding.gap);
@@ -147,6 +161,7 @@ class Examination {
 
   std::vector<Particle<Dim>> particles_;
   Point<Dim> lengths_;
+  std::map<Place, double> closest_;  // of close pairs
   Real nearness_ = 0;
   Real smallest_gap_ = 0;
   std::vector<PairImage<Dim>> overlaps_;
@@ -237,7 +252,7 @@ ExactCheck<Dim> exact_check(const Configuration<Dim>& configuration,
                             std::size_t brute_force_limit) {
   validate(configuration);
   const Vec<Dim>& lengths = configuration.box.lengths();
-  Examination<Dim> examination(in_extended_precision(configuration), lengths);
+  Examination<Dim> examination(configuration);
   if (examination.size() <= brute_force_limit)
     examine_all_pairs(examination);
   else

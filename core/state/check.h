@@ -23,16 +23,11 @@
 /// touch exactly usually cannot be stored. Where long double has no 64-bit mantissa the check does
 /// not compile.
 ///
+/// The close pairs that the configuration names, soft particles just after a damped collision, may overlap: as
+/// long as their centres are no closer than stated there. They do not count for the smallest gap.
+///
 /// Cost: N²/2 cheap rejections up to `brute_force_limit` particles, cells beyond.
 namespace vitrel {
-
-/// Particles i ≤ j, j seen at r_j + shift ∘ L. If i = j, shift and −shift are the same pair, and
-/// the one whose first non-zero component is positive is given.
-template <int Dim>
-struct PairImage {
-  std::size_t i, j;
-  Shift<Dim> shift;
-};
 
 template <int Dim>
 struct ExactCheck {

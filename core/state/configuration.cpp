@@ -65,6 +65,12 @@ Mechanics<Dim> mechanics(const Configuration<Dim>& configuration) {
     if (!configuration.shape[i].is_round())
       sums.rotational_energy += rotational_energy(configuration, i);
   }
+  for (const Release<Dim>& release : configuration.releases) {
+    const double mass = configuration.mass[release.particle];
+    const Vec<Dim>& now = configuration.velocity[release.particle];
+    sums.momentum += mass * (release.velocity - now);
+    sums.translational_energy += 0.5 * mass * (release.velocity.squaredNorm() - now.squaredNorm());
+  }
   return sums;
 }
 

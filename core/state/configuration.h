@@ -24,6 +24,31 @@ struct Configuration;
 template <int Dim>
 using Solid = std::conditional_t<Dim == 2, Ellipse, Ellipsoid>;
 
+/// Particles i ≤ j, j seen at r_j + shift ∘ L. If i = j, shift and −shift are the same pair, and
+/// the one whose first non-zero component is positive is given.
+template <int Dim>
+struct PairImage {
+  std::size_t i, j;
+  Shift<Dim> shift;
+};
+
+/// A soft particle in contact (edmd/soft/soft_contact.h): it moves with the centre of mass of the pair
+/// until `time`, and then on with `velocity`.
+template <int Dim>
+struct Release {
+  std::size_t particle, partner;
+  double time;
+  Vec<Dim> velocity;
+};
+
+/// A pair of soft particles that has lost energy in a contact and is not yet apart by the sum of its radii:
+/// its centres may be as close as `distance`.
+template <int Dim>
+struct ClosePair {
+  PairImage<Dim> pair;
+  double distance;
+};
+
 /// What does not depend on how an orientation is given.
 template <int Dim>
 struct Particles {
@@ -39,6 +64,9 @@ struct Particles {
   std::vector<double> mass;
   std::vector<std::int32_t> species;  ///< index into species_names
   std::vector<std::string> species_names;
+
+  std::vector<Release<Dim>> releases;      ///< in ascending order of the particles; none if hard
+  std::vector<ClosePair<Dim>> close_pairs;  ///< in ascending order of (i, j); none if hard
 
   std::size_t size() const { return position.size(); }
   Vec<Dim> unwrapped(std::size_t i) const { return position[i] + box.translation(image[i]); }
@@ -83,7 +111,8 @@ template <int Dim>
 double largest_circumradius(const Configuration<Dim>& configuration);
 
 /// Sums over all particles. Rotations that smooth collisions cannot see are not modelled and count
-/// nowhere: that of round particles, and that of spheroids about their axes.
+/// nowhere: that of round particles, and that of spheroids about their axes. A soft particle in contact
+/// counts with the velocity with which it will be released.
 template <int Dim>
 struct Mechanics {
   Vec<Dim> momentum = Vec<Dim>::Zero();

@@ -47,13 +47,16 @@ struct Restitution {
 };
 
 /// `normal_speed` > 0 and `tangential_speed` ≥ 0 are those of the relative velocity of the centres at
-/// first contact, m/s.
+/// first contact, m/s; the scales are those of the normal speed.
+inline ScaledImpact scaled_impact(const ContactScales& scales, const ContactPair& pair,
+                                  double normal_speed, double tangential_speed) {
+  const double distance = pair.distance / scales.length;
+  return {distance, distance * tangential_speed / normal_speed, scales.damping};
+}
 template <ContactForce Force>
 ScaledImpact scaled_impact(const Force& force, const ContactPair& pair, double normal_speed,
                            double tangential_speed) {
-  const ContactScales scales = force.scales(normal_speed, pair);
-  const double distance = pair.distance / scales.length;
-  return {distance, distance * tangential_speed / normal_speed, scales.damping};
+  return scaled_impact(force.scales(normal_speed, pair), pair, normal_speed, tangential_speed);
 }
 
 /// Integrates the contact, as above. Depends on the form of the force only, not on its material. Throws

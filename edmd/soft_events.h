@@ -1,0 +1,191 @@
+#pragma once
+
+/// The events of soft particles (soft/soft_contact.h), a part of the loop: included at the end of
+/// simulation.h.
+
+namespace vitrel {
+
+// A third particle that comes to one of a pair in contact meets it as if the contact was over. Whether they
+// then still approach, the predictions say.
+template <Body B>
+void Simulation<B>::meet_softly(Index i, const Event& event, RunCounters& counters) {
+  const Index j = event.partner.other;
+  if (in_contact(i) || in_contact(j)) return release_early(i, j, counters);
+  const double since = now_ - std::max(particles_[i].time, particles_[j].time);
+  bring_to_now(particles_[i]);
+  bring_to_now(particles_[j]);
+  soft_impact(i, event.partner, since, counters);
+  for (const Index k : {i, j}) {
+    ++version_[k];
+    particles_[k].next = never;
+  }
+  predict(i, counters);
+  predict(j, counters);
+}
+
+template <Body B>
+void Simulation<B>::soft_impact(Index i, const Image& partner, double since,
+                                RunCounters& counters) {
+  const Index j = partner.other;
+  Particle& one = particles_[i];
+  Particle& two = particles_[j];
+  const Vector d = two.position + box_.translation(partner.shift()) - one.position;
+  const Vector v = two.velocity - one.velocity;
+  const Vector normal = d.normalized();
+  const double speed = -v.dot(normal);
+  if (!(speed > grazing * v.norm())) return impact(i, j, d, normal, since, 1, counters);
+
+  const double mass1 = 1 / kind(i).inertia.inverse_mass, mass2 = 1 / kind(j).inertia.inverse_mass;
+  const double share1 = mass2 / (mass1 + mass2), share2 = mass1 / (mass1 + mass2);
+  ContactPair pair = contact_pair(shape(i).circumradius(), mass1, shape(j).circumradius(), mass2);
+  const double touch = pair.distance;
+  pair.distance = std::min(touch, d.norm());
+  const Restitution restitution =
+      options_.soft_contact->collide(pair, speed, (v + speed * normal).norm());
+  const RelativeMotion<dimension> after = after_contact<dimension>({d, v}, restitution);
+  const Shift<dimension> lag = partner.shift() + image_[i] - image_[j];
+  if (!turn({i, j, lag}, share1 * (d - after.position), -share2 * (d - after.position))) {
+    ++counters.refused_turns;
+    return impact(i, j, d, normal, since, -restitution.rate, counters);
+  }
+
+  const Vector common = share2 * one.velocity + share1 * two.velocity;
+  const double end = now_ + restitution.duration;
+  releases_[i] = {end, j, common - share1 * after.velocity};
+  releases_[j] = {end, i, common + share2 * after.velocity};
+  one.velocity = two.velocity = common;
+  haste_[i] = haste_[j] = 0;
+  if (const double distance = after.position.norm(); distance < touch)
+    note_close({i, j, lag}, distance);
+  ++met_;
+  ++counters.collisions;
+  counters.virial += pair.mass * (after.position.dot(after.velocity) - d.dot(v));
+  counters.dissipated += 0.5 * pair.mass * (v.squaredNorm() - after.velocity.squaredNorm());
+}
+
+// Moves both, unless one would be too close to a third particle.
+template <Body B>
+bool Simulation<B>::turn(const Images& pair, const Vector& way1, const Vector& way2) {
+  shift_by(pair.i, way1);
+  shift_by(pair.j, way2);
+  if (has_room(pair.i, way1, pair) && has_room(pair.j, way2, pair)) return true;
+  shift_by(pair.i, -way1);
+  shift_by(pair.j, -way2);
+  return false;
+}
+
+template <Body B>
+void Simulation<B>::shift_by(Index i, const Vector& way) {
+  Particle& particle = particles_[i];
+  particle.position += way;
+  const double exit = neighborhoods_->exit_time(i, particle.pose(), particle.motion(), {});
+  if (!(exit > 0)) leave_neighborhood(i);
+}
+
+// Nothing but its partner is nearer than contact, or not nearer than it was before the way there.
+template <Body B>
+bool Simulation<B>::has_room(Index i, const Vector& way, const Images& pair) const {
+  const Particle& particle = particles_[i];
+  for (const Image& neighbor : neighborhoods_->of(i)) {
+    if (images(i, neighbor) == pair) continue;
+    const Vector d = particles_[neighbor.other].pose_at(now_).position +
+                     box_.translation(neighbor.shift()) - particle.position;
+    const double reach = shape(i).circumradius() + shape(neighbor.other).circumradius() + contact_gap_;
+    if (d.norm() < std::min(reach, (d + way).norm())) return false;
+  }
+  return true;
+}
+
+template <Body B>
+void Simulation<B>::release(Index i) {
+  bring_to_now(particles_[i]);
+  particles_[i].velocity = releases_[i].velocity;
+  particles_[i].next = never;
+  releases_[i].time = never;
+  ++version_[i];
+}
+
+template <Body B>
+void Simulation<B>::release_early(Index i, Index j, RunCounters& counters) {
+  std::vector<Index> moved{i};
+  for (const Index k : {i, j}) {
+    if (!in_contact(k)) continue;
+    const Index partner = releases_[k].partner;
+    release(k);
+    moved.push_back(k);
+    ++counters.early_releases;
+    if (options_.early_release == EarlyRelease::alone || !in_contact(partner) ||
+        releases_[partner].partner != k)
+      continue;
+    release(partner);
+    moved.push_back(partner);
+  }
+  for (const Index k : moved) predict(k, counters);
+}
+
+template <Body B>
+void Simulation<B>::note_close(const Images& pair, double distance) {
+  if (close_.size() >= most_close_) {
+    std::erase_if(close_, [&](const Close& known) { return !is_close(known.pair); });
+    most_close_ = std::max<std::size_t>(2 * close_.size(), 64);
+  }
+  const auto known = std::ranges::find(close_, pair, &Close::pair);
+  if (known == close_.end())
+    close_.push_back({pair, distance});
+  else
+    known->distance = distance;
+}
+
+template <Body B>
+bool Simulation<B>::is_close(const Images& pair) const {
+  const auto unwrapped = [&](Index i) {
+    return Vector(particles_[i].pose_at(now_).position + box_.translation(image_[i]));
+  };
+  const Vector d = unwrapped(pair.j) - unwrapped(pair.i) + box_.translation(pair.lag);
+  return d.norm() < shape(pair.i).circumradius() + shape(pair.j).circumradius() + contact_gap_;
+}
+
+template <Body B>
+bool Simulation<B>::may_be_close(const Images& pair) const {
+  return std::ranges::find(close_, pair, &Close::pair) != close_.end();
+}
+
+template <Body B>
+void Simulation<B>::load_contacts(const Configuration<dimension>& configuration) {
+  close_.clear();
+  releases_.assign(particles_.size(), {});
+  std::vector<Index> inner(outer_.size());
+  for (Index i = 0; i < outer_.size(); ++i) inner[outer_[i]] = i;
+  for (const auto& [particle, partner, time, velocity] : configuration.releases)
+    releases_[inner[particle]] = {std::max(time - base_, now_), inner[partner], velocity};
+  for (const auto& [pair, distance] : configuration.close_pairs) {
+    const Index i = inner[pair.i], j = inner[pair.j];
+    const Shift<dimension> lag =
+        pair.shift + configuration.image[pair.i] - configuration.image[pair.j];
+    close_.push_back({{i, j, lag}, distance});
+  }
+}
+
+template <Body B>
+void Simulation<B>::write_contacts(Configuration<dimension>& configuration) const {
+  configuration.releases.clear();
+  configuration.close_pairs.clear();
+  for (Index i = 0; i < particles_.size(); ++i)
+    if (const Release& release = releases_[i]; release.time < never)
+      configuration.releases.push_back(
+          {outer_[i], outer_[release.partner], base_ + release.time, release.velocity});
+  for (const Close& known : close_)
+    if (is_close(known.pair)) {
+      const bool ascends = outer_[known.pair.i] < outer_[known.pair.j];
+      const Images pair = ascends ? known.pair : known.pair.reversed();
+      const std::size_t i = outer_[pair.i], j = outer_[pair.j];
+      configuration.close_pairs.push_back(
+          {{i, j, pair.lag - configuration.image[i] + configuration.image[j]}, known.distance});
+    }
+  std::ranges::sort(configuration.releases, {}, &vitrel::Release<dimension>::particle);
+  std::ranges::sort(configuration.close_pairs, {}, [](const ClosePair<dimension>& close) {
+    return std::pair(close.pair.i, close.pair.j);
+  });
+}
+
+}  // namespace vitrel
