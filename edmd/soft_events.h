@@ -43,8 +43,8 @@ void Simulation<B>::soft_impact(Index i, const Image& partner, double since,
   const Restitution restitution =
       options_.soft_contact->collide(pair, speed, (v + speed * normal).norm());
   const RelativeMotion<dimension> after = after_contact<dimension>({d, v}, restitution);
-  const Shift<dimension> lag = partner.shift() + image_[i] - image_[j];
-  if (!turn({i, j, lag}, share1 * (d - after.position), -share2 * (d - after.position))) {
+  const Images both = images(i, partner);
+  if (!turn(both, share1 * (d - after.position), -share2 * (d - after.position))) {
     ++counters.refused_turns;
     return impact(i, j, d, normal, since, -restitution.rate, counters);
   }
@@ -56,7 +56,7 @@ void Simulation<B>::soft_impact(Index i, const Image& partner, double since,
   one.velocity = two.velocity = common;
   haste_[i] = haste_[j] = 0;
   if (const double distance = after.position.norm(); distance < touch)
-    note_close({i, j, lag}, distance);
+    note_close(both, distance - contact_gap_);
   ++met_;
   ++counters.collisions;
   counters.virial += pair.mass * (after.position.dot(after.velocity) - d.dot(v));
