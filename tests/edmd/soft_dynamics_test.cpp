@@ -2,10 +2,12 @@
 
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <numbers>
 
 #include "core/error.h"
+#include "core/io/checkpoint.h"
 #include "core/random/stream.h"
 #include "core/state/check.h"
 #include "edmd/run.h"
@@ -365,6 +367,72 @@ TEST(SoftGas, HardLimitIsTheHardEngine) {
     std::printf("%g vs %g; virial ratio %g energy ratio %g\n", met, (double)soft_long.counters.collisions,
        soft_long.counters.virial / hard_long.counters.virial, energy(soft_long.configuration) / energy(hard_long.configuration));
   }
+}
+
+/// Disks of unit mass that are in contact half of the time.
+Configuration2 soft_disks() {
+  Configuration2 c = square_lattice(12, 0.3, 0, [](std::size_t i) {
+    return round<2>(i % 2 == 0 ? 1 : 0.7);
+  });
+  Stream draw(9, Purpose::tests);
+  for (Vec2& velocity : c.velocity) velocity = {draw.normal(), draw.normal()};
+  c.mass.assign(c.size(), 1);
+  return c;
+}
+
+/// The same, by way of a checkpoint's file.
+Configuration2 kept(const Configuration2& configuration) {
+  const std::filesystem::path file =
+      std::filesystem::path(testing::TempDir()) / "soft_dynamics.checkpoint";
+  Checkpoint checkpoint;
+  checkpoint.configuration = configuration;
+  save_checkpoint(file, checkpoint);
+  return std::get<Configuration2>(load_checkpoint(file).checkpoint.configuration);
+}
+
+TEST(SoftGas, ContinuesBitByBit) {
+  const DynamicsOptions options = soft(LinearDashpot{200, 1});
+  RunState2 whole = begin_run(soft_disks(), 0);
+  std::vector<RunState2> interruptions;
+  RunPlan2 plan;
+  plan.end_time = 60;
+  plan.at_block_end = [&](const RunState2& state) { interruptions.push_back(state); };
+  run(whole, options, plan, {});
+  plan.at_block_end = nullptr;
+  ASSERT_GT(interruptions.size(), 2u);
+  interruptions.pop_back();
+  std::size_t releases = 0, close_pairs = 0;
+  for (RunState2& state : interruptions) {
+    releases += state.configuration.releases.size();
+    close_pairs += state.configuration.close_pairs.size();
+    EXPECT_TRUE(exact_check(state.configuration).clean());
+    state.configuration = kept(state.configuration);
+    run(state, options, plan, {});
+    EXPECT_EQ(state.configuration.position, whole.configuration.position);
+    EXPECT_EQ(state.configuration.velocity, whole.configuration.velocity);
+    EXPECT_EQ(state.counters.collisions, whole.counters.collisions);
+    EXPECT_EQ(state.counters.early_releases, whole.counters.early_releases);
+    EXPECT_EQ(state.counters.dissipated, whole.counters.dissipated);
+  }
+  EXPECT_GT(releases, 0u);
+  EXPECT_GT(close_pairs, 0u);
+}
+
+// New velocities replace those of after a contact, too.
+TEST(SoftGas, RedrawnVelocitiesEndContacts) {
+  DynamicsOptions options = soft(LinearDashpot{200, 1});
+  options.brownian = true;
+  options.brownian_step = 0.1;
+  const RunState2 state = run_until(soft_disks(), 10, options);
+  EXPECT_GT(state.counters.collisions, 100u);
+  EXPECT_LT(state.energy_drift, 1e-12);
+  EXPECT_TRUE(exact_check(state.configuration).clean());
+}
+
+TEST(SoftParticles, AreRound) {
+  Configuration2 c = soft_disks();
+  c.shape[3] = of_aspect_ratio(2);
+  EXPECT_THROW(make_engine(c, soft(LinearDashpot{200}).engine), UserError);
 }
 
 }  // namespace
