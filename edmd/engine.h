@@ -41,10 +41,11 @@ struct RunCounters {
   std::uint64_t steps = 0;        ///< steps along separating axes, over all searches
   std::uint64_t renewals = 0;     ///< neighbour lists renewed because a particle left its own
   std::uint64_t correction_moves = 0;
-  std::uint64_t refused_turns = 0;   ///< soft collisions as of hard particles, for want of room to turn
+  std::uint64_t refused_turns =
+      0;  ///< soft collisions as of hard particles, for want of room to turn
   std::uint64_t early_releases = 0;  ///< soft particles hit while in contact
-  double virial = 0;      ///< Σ J n·d over collisions, d from centre to centre
-  double dissipated = 0;  ///< energy lost in inelastic collisions
+  double virial = 0;                 ///< Σ J n·d over collisions, d from centre to centre
+  double dissipated = 0;             ///< energy lost in inelastic collisions
 
   /// Adds the counts that predictions make.
   void add_predictions(const RunCounters& other) {

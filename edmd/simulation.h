@@ -86,6 +86,8 @@ inline double size_of_spin(const Vec3& angular_velocity) {
 /// could come first, the most urgent first. A contact that is far off by that look is not searched: most
 /// are overtaken by other events. The particle is looked at again when it could have come.
 ///
+/// Soft particles in contact have an entry for their release, too (soft_events.h).
+///
 /// Times are relative to the start of the block, and every particle has its own clock. Particles are
 /// numbered so that neighbours are near in memory.
 template <Body B>
@@ -330,9 +332,9 @@ class Simulation final : public Engine<B::dimension> {
   std::optional<Neighborhoods<B>> neighborhoods_;
   Calendar calendar_;
   std::vector<Event> events_;
-  std::vector<Release> releases_;  // of soft particles
-  std::vector<Close> close_;       // of these, some may be apart already
-  std::size_t most_close_ = 0;     // more are looked through first
+  std::vector<Release> releases_;    // of soft particles
+  std::vector<Close> close_;         // of these, some may be apart already
+  std::size_t most_close_ = 0;       // more are looked through first
   std::vector<std::uint8_t> haste_;  // how many collisions in a row took a particle nowhere
   double contact_gap_ = 0;
   double base_ = 0;                // simulated time at the start of the block
@@ -746,8 +748,7 @@ void Simulation<B>::impact(Index i, Index j, const Vector& d, const Vector& n, d
   const double speed = approach_speed(motion1, motion2, contact);
   const double impulse =
       i == j ? collide_with_own_image(motion1, inertia_now(i), contact, restitution)
-             : collide(motion1, inertia_now(i), motion2, inertia_now(j), contact,
-                       restitution);
+             : collide(motion1, inertia_now(i), motion2, inertia_now(j), contact, restitution);
   if (!std::isfinite(impulse)) report_wedge(i);
   particles_[i].set_motion(motion1);
   if (i != j) particles_[j].set_motion(motion2);

@@ -1,5 +1,11 @@
 #pragma once
 
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "edmd/simulation.h"
+
 /// The events of soft particles (soft/soft_contact.h), a part of the loop: included at the end of
 /// simulation.h.
 
@@ -90,7 +96,8 @@ bool Simulation<B>::has_room(Index i, const Vector& way, const Images& pair) con
     if (images(i, neighbor) == pair) continue;
     const Vector d = particles_[neighbor.other].pose_at(now_).position +
                      box_.translation(neighbor.shift()) - particle.position;
-    const double reach = shape(i).circumradius() + shape(neighbor.other).circumradius() + contact_gap_;
+    const double reach =
+        shape(i).circumradius() + shape(neighbor.other).circumradius() + contact_gap_;
     if (d.norm() < std::min(reach, (d + way).norm())) return false;
   }
   return true;

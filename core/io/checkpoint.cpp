@@ -162,8 +162,7 @@ void read_contacts(const h5::Group& group, Configuration<Dim>& configuration) {
         {number(row[0]), number(row[1]), row[2], Vec<Dim>(row.data() + 3)});
   for (const auto& row : close_pairs)
     configuration.close_pairs.push_back(
-        {{number(row[0]), number(row[1]),
-          Vec<Dim>(row.data() + 3).template cast<std::int32_t>()},
+        {{number(row[0]), number(row[1]), Vec<Dim>(row.data() + 3).template cast<std::int32_t>()},
          row[2]});
 }
 

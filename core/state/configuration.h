@@ -65,7 +65,7 @@ struct Particles {
   std::vector<std::int32_t> species;  ///< index into species_names
   std::vector<std::string> species_names;
 
-  std::vector<Release<Dim>> releases;      ///< in ascending order of the particles; none if hard
+  std::vector<Release<Dim>> releases;       ///< in ascending order of the particles; none if hard
   std::vector<ClosePair<Dim>> close_pairs;  ///< in ascending order of (i, j); none if hard
 
   std::size_t size() const { return position.size(); }
