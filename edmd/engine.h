@@ -44,7 +44,9 @@ struct RunCounters {
   std::uint64_t refused_turns =
       0;  ///< soft collisions as of hard particles, for want of room to turn
   std::uint64_t early_releases = 0;  ///< soft particles hit while in contact
-  double virial = 0;                 ///< Σ J n·d over collisions, d from centre to centre
+  /// Σ J n·d over collisions, d from centre to centre; of soft ones the change of m_eff d·v, v the relative
+  /// velocity, from their beginning to their end.
+  double virial = 0;
   double dissipated = 0;             ///< energy lost in inelastic collisions
 
   /// Adds the counts that predictions make.

@@ -114,7 +114,8 @@ void Simulation<B>::release(Index i) {
 
 template <Body B>
 void Simulation<B>::release_early(Index i, Index j, RunCounters& counters) {
-  std::vector<Index> moved{i};
+  std::vector<Index> moved;
+  if (!in_contact(i)) moved.push_back(i);
   for (const Index k : {i, j}) {
     if (!in_contact(k)) continue;
     const Index partner = releases_[k].partner;
@@ -145,10 +146,9 @@ void Simulation<B>::note_close(const Images& pair, double distance) {
 
 template <Body B>
 bool Simulation<B>::is_close(const Images& pair) const {
-  const auto unwrapped = [&](Index i) {
-    return Vector(particles_[i].pose_at(now_).position + box_.translation(image_[i]));
-  };
-  const Vector d = unwrapped(pair.j) - unwrapped(pair.i) + box_.translation(pair.lag);
+  const auto position = [&](Index i) { return Vector(particles_[i].pose_at(now_).position); };
+  const Shift<dimension> shift = pair.lag - image_[pair.i] + image_[pair.j];
+  const Vector d = position(pair.j) + box_.translation(shift) - position(pair.i);
   return d.norm() < shape(pair.i).circumradius() + shape(pair.j).circumradius() + contact_gap_;
 }
 

@@ -247,6 +247,35 @@ TEST(SoftException, APairThatIsHitIsReleased) {
   EXPECT_LT(together.lost_angular_momentum, 1e-13);
 }
 
+// A hot cluster in free space, which flies apart: only lone releases cost angular momentum, and little of it.
+TEST(SoftException, OnlyLoneReleasesCostAngularMomentum) {
+  std::vector<Vec2> positions, velocities;
+  Stream draw(6, Purpose::tests);
+  for (int k = 0; k < 64; ++k) {
+    positions.push_back({0.23 * (k % 8 - 3.5), 0.23 * (k / 8 - 3.5)});
+    velocities.push_back({draw.normal(), draw.normal()});
+  }
+  const Configuration2 start = few<2>(std::vector<double>(64, 0.1), positions, velocities);
+  double scale = 0;  // Σ m |r × v|
+  for (std::size_t i = 0; i < start.size(); ++i)
+    scale += start.mass[i] * std::abs(cross(start.position[i], start.velocity[i]));
+  for (const EarlyRelease early : {EarlyRelease::alone, EarlyRelease::together}) {
+    const RunState2 state = run_until(start, 2, soft(Viscoelastic{1e8, 0.4}, early));
+    const Configuration2& c = state.configuration;
+    EXPECT_TRUE(c.releases.empty());
+    EXPECT_GT(state.counters.early_releases, 5u);
+    EXPECT_GT(state.counters.refused_turns, 0u);
+    const double lost = std::abs(angular_momentum(c) - angular_momentum(start)) / scale;
+    if (early == EarlyRelease::alone)
+      EXPECT_GT(lost, 1e-6);
+    else
+      EXPECT_LT(lost, 1e-14 * static_cast<double>(state.counters.collisions));
+    EXPECT_LT(lost, 0.02);
+    EXPECT_NEAR(energy(c) / energy(start), 1, 1e-13);
+    printf("%llu %llu %llu %g\n", (unsigned long long)state.counters.collisions, (unsigned long long)state.counters.refused_turns, (unsigned long long)state.counters.early_releases, lost);
+  }
+}
+
 // Of two particles just out of a damped contact and still close, the one is driven back by a third.
 TEST(SoftPair, MeetsAgainIfTurnedBackWhileClose) {
   Configuration2 start =
