@@ -47,7 +47,7 @@ struct RunCounters {
   /// Σ J n·d over collisions, d from centre to centre; of soft ones the change of m_eff d·v, v the relative
   /// velocity, from their beginning to their end.
   double virial = 0;
-  double dissipated = 0;             ///< energy lost in inelastic collisions
+  double dissipated = 0;  ///< energy lost in inelastic collisions
 
   /// Adds the counts that predictions make.
   void add_predictions(const RunCounters& other) {

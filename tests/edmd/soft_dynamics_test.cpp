@@ -272,7 +272,6 @@ TEST(SoftException, OnlyLoneReleasesCostAngularMomentum) {
       EXPECT_LT(lost, 1e-14 * static_cast<double>(state.counters.collisions));
     EXPECT_LT(lost, 0.02);
     EXPECT_NEAR(energy(c) / energy(start), 1, 1e-13);
-    printf("%llu %llu %llu %g\n", (unsigned long long)state.counters.collisions, (unsigned long long)state.counters.refused_turns, (unsigned long long)state.counters.early_releases, lost);
   }
 }
 
