@@ -180,7 +180,7 @@ def draw(orientation, timed):
     import matplotlib  # only here: a test imports all validations
 
     matplotlib.use("svg")
-    from matplotlib import pyplot
+    from matplotlib import pyplot, ticker
 
     matplotlib.rcParams.update({"svg.hashsalt": "vitrel", "svg.fonttype": "none", "font.size": 11})
     FIGURES.mkdir(parents=True, exist_ok=True)
@@ -204,6 +204,11 @@ def draw(orientation, timed):
     for axes, (name, points) in zip(panels, timed.items()):
         x, y = zip(*points)
         axes.loglog(x, y, "o-")
+        if x[-1] < 100 * x[0]:
+            axes.set_xticks(x, [f"{value:g}" for value in x])
+            axes.minorticks_off()
+            axes.yaxis.set_major_locator(ticker.LogLocator(subs=(1, 2, 5)))
+        axes.yaxis.set_major_formatter(ticker.FuncFormatter(lambda value, _: f"{value:g}"))
         axes.set(xlabel=name, ylabel="seconds")
         axes.grid(alpha=0.3)
     saved(figure, "times.svg")
