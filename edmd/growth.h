@@ -58,7 +58,7 @@ struct GrowthOptions {
 struct GrowthState {
   std::uint64_t draws = 0;      ///< of velocities, of which the next one bears this number
   bool under_way = false;       ///< else velocities are drawn first
-  double reduced_pressure = 0;  ///< of the last block that ran to its end; 0 if there was none
+  double reduced_pressure = 0;  ///< of the last step that could tell; 0 if there was none
   double time = 0;              ///< of all steps, in the unit of the moment
   RunCounters counters;
 };

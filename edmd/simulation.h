@@ -251,16 +251,12 @@ class Simulation final : public Engine<B::dimension> {
     const double size = size_now().size;
     return in_space(kind(i).inertia, particles_[i].pose(), size);
   }
+  /// Of a sphere.
   Turn turn_now(Index i) const {
-    if constexpr (turns_apart) {
-      const auto& [orientation, angular_velocity] = turns_[i];
-      const Pose<dimension> pose{Vector::Zero(), orientation};
-      return {advanced(pose, {Vector::Zero(), angular_velocity}, now_ - turn_time_).orientation,
-              angular_velocity};
-    } else {
-      const Particle& particle = particles_[i];
-      return {orientation_of(particle.pose_at(now_)), particle.angular_velocity()};
-    }
+    const auto& [orientation, angular_velocity] = turns_[i];
+    const Pose<dimension> pose{Vector::Zero(), orientation};
+    const Motion<dimension> motion{Vector::Zero(), angular_velocity};
+    return {orientation_of(advanced(pose, motion, now_ - turn_time_)), angular_velocity};
   }
   void bring_to_now(Particle& particle) const {
     particle.set_pose(particle.pose_at(now_));
@@ -518,13 +514,16 @@ void Simulation<B>::write(Configuration<dimension>& configuration) const {
     const Index k = outer_[i];
     const Particle& particle = particles_[i];
     Pose<dimension> pose = particle.pose_at(now_);
-    const Turn turn = turn_now(i);
-    if constexpr (turns_apart) pose.orientation = turn.orientation;
+    configuration.angular_velocity[k] = particle.angular_velocity();
+    if constexpr (turns_apart) {
+      const Turn turn = turn_now(i);
+      pose.orientation = turn.orientation;
+      configuration.angular_velocity[k] = turn.angular_velocity;
+    }
     configuration.set_pose(k, pose);
     configuration.image[k] = image_[i];
     box_.wrap(configuration.position[k], configuration.image[k]);
     configuration.velocity[k] = particle.velocity;
-    configuration.angular_velocity[k] = turn.angular_velocity;
     if constexpr (grows<B>) configuration.shape[k] = solid_from(scaled(shape(i), size));
   }
   if (is_soft()) write_contacts(configuration);

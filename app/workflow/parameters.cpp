@@ -504,9 +504,9 @@ void validate_stages(const std::vector<PrepareStage>& stages, const SystemParame
                     show(p.exchanges)));
     rules.require(p.stretch_sweeps >= 1, "stretch_sweeps",
                   "is 0, but must be at least 1; without sweeps the method is \"grow\"");
-    rules.require(p.growth_rate > 0 && p.growth_rate <= 0.1, "growth_rate",
-                  fmt::format("is {}, but must lie above 0 and not above 0.1, where the surfaces "
-                              "grow at a tenth of the thermal speed",
+    rules.require(p.growth_rate > 0 && p.growth_rate <= 1, "growth_rate",
+                  fmt::format("is {}, but must lie above 0 and not above 1, where the surfaces "
+                              "are as fast as the particles",
                               show(p.growth_rate)));
     rules.positive(p.pressure, "pressure");
     if (p.reduced_pressure)

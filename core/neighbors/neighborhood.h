@@ -102,7 +102,7 @@ class Neighborhoods {
       if (near(pair)) ++counts[pair.i], ++counts[pair.image.other];
     lists_.reserve(counts);
     for (const Pair& pair : pairs)
-      if (near(pair)) link(pair.i, {pair.image, {pair.axis}});
+      if (near(pair)) link(lists_, pair.i, Neighbor<B>{pair.image, {pair.axis}});
     if (wider_pays()) wider_ = std::make_unique<Wider>(*this, pairs, widest);
   }
 
@@ -138,10 +138,10 @@ class Neighborhoods {
         *known = before_.back();
         before_.pop_back();
       } else {
-        link(i, {pair.image, {pair.axis}});
+        link(lists_, i, Neighbor<B>{pair.image, {pair.axis}});
       }
     for (const Neighbor<B>& gone : before_)
-      if (gone.other != i) forget(i, gone);
+      if (gone.other != i) forget(lists_, i, gone);
   }
 
   /// Asks the memory for what a prediction for particle i will read: where its list is, and then the list.
@@ -217,7 +217,7 @@ class Neighborhoods {
           references_(inner.references_),
           lists_(references_.size()) {
       for (const Pair& pair : pairs)
-        if (pair.gap < 2 * margin_) link(pair.i, pair.image);
+        if (pair.gap < 2 * margin_) link(lists_, pair.i, pair.image);
     }
 
     /// Times the margin of the inner ones.
@@ -230,9 +230,9 @@ class Neighborhoods {
       if (holds(i, inner_.references_[i])) return;
       references_.move(i, inner_.references_[i]);
       for (const Image& image : lists_[i])
-        if (image.other != i) forget(image.other, image.seen_from_there(i));
+        if (image.other != i) forget(lists_, i, image);
       lists_.clear(i);
-      for_each_near(i, [&](const Image& image) { link(i, image); });
+      for_each_near(i, [&](const Image& image) { link(lists_, i, image); });
     }
 
    private:
@@ -254,14 +254,6 @@ class Neighborhoods {
                            [&](std::size_t j, const Shift<dimension>& shift, const Vector&) {
                              visit(Image(j, shift));
                            });
-    }
-
-    void link(std::size_t i, const Image& image) {
-      lists_.add(i, image);
-      if (i != image.other) lists_.add(image.other, image.seen_from_there(i));
-    }
-    void forget(std::size_t i, const Image& image) {
-      lists_.remove_if(i, [&](const Image& known) { return known == image; });
     }
 
     const Neighborhoods& inner_;
@@ -437,15 +429,20 @@ class Neighborhoods {
   static Neighbor<B> seen_from_there(std::size_t i, const Neighbor<B>& neighbor) {
     return {neighbor.seen_from_there(i), reversed(neighbor.memory)};
   }
-
-  void link(std::size_t i, const Neighbor<B>& neighbor) {
-    lists_.add(i, neighbor);
-    if (i != neighbor.other) lists_.add(neighbor.other, seen_from_there(i, neighbor));
+  static Image seen_from_there(std::size_t i, const Image& image) {
+    return image.seen_from_there(i);
   }
 
-  void forget(std::size_t i, const Image& image) {
-    const Image mine = image.seen_from_there(i);
-    lists_.remove_if(image.other, [&](const Neighbor<B>& neighbor) { return neighbor.is(mine); });
+  // Notes of either layer: i and the other in each other's lists, or i no more in that of the other.
+  template <class Entry>
+  static void link(ListPool<Entry>& lists, std::size_t i, const Entry& entry) {
+    lists.add(i, entry);
+    if (i != entry.other) lists.add(entry.other, seen_from_there(i, entry));
+  }
+  template <class Entry>
+  static void forget(ListPool<Entry>& lists, std::size_t i, const Entry& entry) {
+    const Image mine = entry.seen_from_there(i);
+    lists.remove_if(entry.other, [&](const Image& known) { return known == mine; });
   }
 
   const Shape& shape(std::size_t i) const { return shapes_[kind_of_[i]]; }
