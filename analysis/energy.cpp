@@ -27,7 +27,7 @@ Estimate time_average(const std::vector<double>& time, const std::vector<double>
 }
 
 CompressibilitySeries compressibility(const EnergySeries& energy, const std::vector<double>& virial,
-                                      std::size_t particles, std::size_t rotors) {
+                                      std::size_t particles, std::size_t rotations, int dimension) {
   assert(virial.size() == energy.time.size());
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const std::size_t frames = virial.size();
@@ -36,10 +36,11 @@ CompressibilitySeries compressibility(const EnergySeries& energy, const std::vec
   const double n = static_cast<double>(particles);
   const double mean_energy = n * std::accumulate(energy.total.begin(), energy.total.end(), 0.0) /
                              static_cast<double>(frames);
-  const double temperature = 2 * mean_energy / (2 * n - 2 + static_cast<double>(rotors));
+  const double temperature =
+      2 * mean_energy / (dimension * (n - 1) + static_cast<double>(rotations));
   const auto between = [&](std::size_t from, std::size_t to) {
     const double time = energy.time[to] - energy.time[from];
-    return 1 + (virial[to] - virial[from]) / (2 * n * temperature * time);
+    return 1 + (virial[to] - virial[from]) / (dimension * n * temperature * time);
   };
 
   CompressibilitySeries series;

@@ -8,8 +8,9 @@
 /// Energies and pressure of a saved run.
 ///
 /// Convention: every energy is divided by N, the number of all particles, and given in units of kT;
-/// so translational + rotational = total. Equipartition gives 1 for the first and R/(2N) for the
-/// second, R the number of rotors (particles that are not round).
+/// so translational + rotational = total. Equipartition gives d/2 in d dimensions for the first and
+/// R/(2N) for the second, R the number of ways to rotate (in two dimensions, of the particles that are
+/// not round).
 namespace vitrel {
 
 struct EnergySeries {
@@ -32,12 +33,13 @@ struct CompressibilitySeries {
 };
 
 /// Compressibility factor Z = βP/ρ from the virial Σ J n·d, d from centre to centre, summed over
-/// the collisions since the start (two dimensions):
-///   Z = 1 + Δ(Σ J n·d)/(2 N kT Δt).
-/// kT is the mean temperature of the run, 2 E/(2N − 2 + R) with E = N ⟨total⟩: exact for zero net
+/// the collisions since the start:
+///   Z = 1 + Δ(Σ J n·d)/(d N kT Δt).
+/// kT is the mean temperature of the run, 2 E/(dN − d + R) with E = N ⟨total⟩: exact for zero net
 /// momentum, where the virial rate depends on ⟨(v_1 − v_2)²⟩ only and the centre of mass takes none
 /// of the energy. `virial` belongs to the times of `energy`; fewer than two of them give NaN.
 CompressibilitySeries compressibility(const EnergySeries& energy, const std::vector<double>& virial,
-                                      std::size_t particles, std::size_t rotors);
+                                      std::size_t particles, std::size_t rotations,
+                                      int dimension = 2);
 
 }  // namespace vitrel

@@ -8,6 +8,9 @@ find_package(nlohmann_json 3.11 REQUIRED)
 find_package(NLopt 2.7 REQUIRED)
 find_package(CLI11 2.1 REQUIRED)
 find_package(TBB 2021 REQUIRED)
+# UDUNITS-2 has no CMake package.
+find_library(UDUNITS2_LIBRARY udunits2 REQUIRED)
+find_path(UDUNITS2_INCLUDE_DIR udunits2.h REQUIRED)
 # Debian's FFTW has no usable CMake package; it is linked by its name.
 find_library(FFTW_LIBRARY fftw3 REQUIRED)
 find_path(FFTW_INCLUDE_DIR fftw3.h REQUIRED)

@@ -41,11 +41,11 @@ struct RunCounters {
   std::uint64_t steps = 0;        ///< steps along separating axes, over all searches
   std::uint64_t renewals = 0;     ///< neighbour lists renewed because a particle left its own
   std::uint64_t correction_moves = 0;
-  std::uint64_t refused_turns =
-      0;  ///< soft collisions as of hard particles, for want of room to turn
+  std::uint64_t refused_turns = 0;   ///< soft collisions as of hard particles, without room to turn
   std::uint64_t early_releases = 0;  ///< soft particles hit while in contact
-  /// Σ J n·d over collisions, d from centre to centre; of soft ones the change of m_eff d·v, v the relative
-  /// velocity, from their beginning to their end.
+  std::uint64_t integrations = 0;    ///< contacts that no table had, or where there is none
+  /// Σ J n·d over collisions, d from centre to centre; of soft contacts what takes its place
+  /// (soft/soft_contact.h).
   double virial = 0;
   double dissipated = 0;  ///< energy lost in inelastic collisions
 
@@ -57,7 +57,8 @@ struct RunCounters {
   }
 };
 
-/// Event-driven dynamics of N hard bodies, or soft round ones, in a periodic box: the run-time face of Simulation<Body>.
+/// Event-driven dynamics of N hard bodies, or soft round ones, in a periodic box: the run-time face
+/// of Simulation<Body>.
 ///
 /// Events run in blocks of a fixed count, or of the time in which the fastest particle crosses half
 /// the box. `load` begins a block: everything the engine knows is derived anew from the

@@ -47,7 +47,7 @@ void Simulation<B>::soft_impact(Index i, const Image& partner, double since,
   const double touch = pair.distance;
   pair.distance = std::min(touch, d.norm());
   const Restitution restitution =
-      options_.soft_contact->collide(pair, speed, (v + speed * normal).norm());
+      options_.soft_contact->collide(pair, speed, (v + speed * normal).norm(), counters);
   const RelativeMotion<dimension> after = after_contact<dimension>({d, v}, restitution);
   const Images both = images(i, partner);
   if (!turn(both, share1 * (d - after.position), -share2 * (d - after.position))) {
@@ -65,7 +65,8 @@ void Simulation<B>::soft_impact(Index i, const Image& partner, double since,
     note_close(both, distance - contact_gap_);
   ++met_;
   ++counters.collisions;
-  counters.virial += pair.mass * (after.position.dot(after.velocity) - d.dot(v));
+  counters.virial += pair.mass * (after.position.dot(after.velocity) - d.dot(v) -
+                                  restitution.duration * after.velocity.squaredNorm());
   counters.dissipated += 0.5 * pair.mass * (v.squaredNorm() - after.velocity.squaredNorm());
 }
 

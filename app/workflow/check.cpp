@@ -37,6 +37,7 @@ FileCheck<Dim> check_file(const std::filesystem::path& file, bool last_only, con
     reader.read(frame, result.last);
     const ExactCheck<Dim> check = exact_check(result.last);
     ++result.frames;
+    result.close_pairs += result.last.close_pairs.size();
     note_overlaps(result, check, frame, result.last.time);
     if (check.smallest_gap < result.smallest_gap) {
       result.smallest_gap = check.smallest_gap;

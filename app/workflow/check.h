@@ -14,9 +14,10 @@ namespace vitrel {
 
 template <int Dim>
 struct FileCheck {
-  std::uint64_t frames = 0;    ///< looked at
-  std::uint64_t overlaps = 0;  ///< over all of them
-  double smallest_gap = 0;     ///< over all of them; infinity if no two particles are near
+  std::uint64_t frames = 0;       ///< looked at
+  std::uint64_t overlaps = 0;     ///< over all of them
+  std::uint64_t close_pairs = 0;  ///< of soft particles, over all of them; no overlaps
+  double smallest_gap = 0;        ///< over all of them; infinity if no two particles are near
   std::uint64_t smallest_gap_frame = 0;
   std::vector<std::string> complaints;  ///< the first few overlaps, with frame, particles and image
   Configuration<Dim> last;              ///< the last frame

@@ -34,6 +34,9 @@ constexpr const char* kind_names[] = {"newtonian", "brownian"};
 constexpr const char* on_overlap_names[] = {"stop", "correct"};
 constexpr const char* temperature_names[] = {"total", "relative"};
 constexpr const char* velocity_names[] = {"maxwell", "translation", "rotation", "keep"};
+constexpr const char* law_names[] = {"linear_dashpot", "viscoelastic"};
+constexpr const char* coefficients_names[] = {"tabulated", "integrated"};
+constexpr const char* early_release_names[] = {"alone", "together"};
 constexpr const char* spacing_names[] = {"linear", "logarithmic"};
 
 FieldVisitor::Inside section_of(auto& part, auto describe) {
@@ -42,8 +45,8 @@ FieldVisitor::Inside section_of(auto& part, auto describe) {
 
 void describe_system(SystemParameters& p, FieldVisitor& visit) {
   visit.field({"dimension", "",
-               "Space dimensions: 2, ellipses, or 3, ellipsoids. In three dimensions there is "
-               "`vitrel prepare` with stages that insert and grow."},
+               "Space dimensions: 2, ellipses, or 3, ellipsoids. In three dimensions there are "
+               "`vitrel prepare` with stages that insert and grow, and `vitrel run`."},
               p.dimension);
   visit.field({"particles", "", "Number of particles."}, p.particles);
   visit.field(
@@ -222,6 +225,41 @@ void describe_stage(PrepareStage& p, FieldVisitor& visit) {
   });
 }
 
+void describe_contact(ContactParameters& p, FieldVisitor& visit) {
+  using Law = ContactParameters::Law;
+  visit.quantity({"radius", "m", "Of a particle of size 1."}, p.radius);
+  visit.quantity(
+      {"density", "kg/m^3", "It has mass 1 and weighs as much as a sphere of this density."},
+      p.density);
+  visit.quantity({"thermal_speed", "m/s", "Its √(kT/m) at kT = 1."}, p.thermal_speed);
+  visit.field(
+      {"law", "",
+       "Force in contact: spring and dashpot, k ξ + γ dξ/dt, or that of viscoelastic spheres, "
+       "ρ (ξ + (3/2) A dξ/dt) √ξ with ρ = 2 Y √R_eff/(3 (1 − ν²)), where ξ is the compression."},
+      p.law, law_names);
+  visit.when(p.law == Law::linear_dashpot, "law = \"linear_dashpot\"", [&](FieldVisitor& in) {
+    in.quantity({"stiffness", "N/m", "k, of the spring."}, p.linear_dashpot.stiffness);
+    in.quantity({"damping", "kg/s", "γ, of the dashpot; \"0 kg/s\" for elastic particles."},
+                p.linear_dashpot.damping);
+  });
+  visit.when(p.law == Law::viscoelastic, "law = \"viscoelastic\"", [&](FieldVisitor& in) {
+    in.quantity({"youngs_modulus", "Pa", "Y."}, p.viscoelastic.youngs_modulus);
+    in.field({"poissons_ratio", "", "ν."}, p.viscoelastic.poissons_ratio);
+    in.quantity({"dissipative_time", "s", "A; \"0 s\" for elastic particles."},
+                p.viscoelastic.dissipative_time);
+  });
+  visit.field(
+      {"coefficients", "",
+       "What a contact does to a pair, from a table that is made once and kept in the user's "
+       "cache folder, or integrated anew for every contact, many times slower."},
+      p.coefficients, coefficients_names);
+  visit.field(
+      {"early_release", "",
+       "A particle that is hit while in contact is released from it alone, as published, or "
+       "together with its partner, which keeps the angular momentum."},
+      p.early_release, early_release_names);
+}
+
 void describe_dynamics(DynamicsParameters& p, FieldVisitor& visit) {
   visit.field({"kind", "",
                "Free flight and collisions (newtonian), or the same with all velocities redrawn "
@@ -250,6 +288,14 @@ void describe_dynamics(DynamicsParameters& p, FieldVisitor& visit) {
                "Equilibrium at kT = 1 (maxwell), the same energy all in translation or all in "
                "rotation, or those of the state started from (keep)."},
               p.initial_velocities, velocity_names);
+  const Field contact{
+      "contact", "",
+      "Soft particles, which must be round: what happens in their contacts. Without this "
+      "section particles are hard."};
+  visit.optional(contact, p.contact, ContactParameters(),
+                 [&](FieldVisitor& in, ContactParameters& inner) {
+                   in.table(contact, Style::section, section_of(inner, describe_contact));
+                 });
 }
 
 void describe_samples(OutputParameters& p, FieldVisitor& visit) {
@@ -545,6 +591,41 @@ void validate_dynamics(const DynamicsParameters& p) {
       fmt::format("is {}, but must lie above 0 and not above 1 (elastic)", show(p.restitution)));
 }
 
+bool is_round(const Species& p) {
+  const auto is_one = [](const Distribution& d) {
+    return d.kind == Distribution::Kind::constant && d.mean == 1;
+  };
+  if (p.semi_axes)
+    return std::ranges::adjacent_find(*p.semi_axes, std::not_equal_to()) == p.semi_axes->end();
+  if (p.aspect_ratios) return std::ranges::all_of(*p.aspect_ratios, is_one);
+  return is_one(*p.aspect_ratio);
+}
+
+void validate_contact(const Parameters& parameters) {
+  const ContactParameters& p = *parameters.dynamics.contact;
+  const Rules rules("dynamics.contact");
+  rules.positive(p.radius, "radius");
+  rules.positive(p.density, "density");
+  rules.positive(p.thermal_speed, "thermal_speed");
+  rules.positive(p.linear_dashpot.stiffness, "stiffness");
+  rules.not_negative(p.linear_dashpot.damping, "damping");
+  rules.positive(p.viscoelastic.youngs_modulus, "youngs_modulus");
+  const double ratio = p.viscoelastic.poissons_ratio;
+  rules.require(ratio > -1 && ratio <= 0.5, "poissons_ratio",
+                fmt::format("is {}, but must lie above -1 and not above 0.5", show(ratio)));
+  rules.not_negative(p.viscoelastic.dissipative_time, "dissipative_time");
+  for (std::size_t k = 0; k < parameters.species.size(); ++k)
+    if (!is_round(parameters.species[k]))
+      throw BadValue(fmt::format("species.{}", k),
+                     "is not round, but soft particles ([dynamics.contact]) must be; set "
+                     "aspect_ratio = 1");
+  const Rules dynamics("dynamics");
+  const std::string hard_only =
+      "is for hard particles, but [dynamics.contact] makes them soft; leave it out";
+  dynamics.require(parameters.dynamics.restitution == 1, "restitution", hard_only);
+  dynamics.require(parameters.dynamics.on_overlap == OnOverlap::stop, "on_overlap", hard_only);
+}
+
 void validate_correlations(const CorrelationParameters& p, double duration) {
   const Rules rules("output.correlations");
   rules.positive(p.interval, "interval");
@@ -575,7 +656,11 @@ void validate_output(const Parameters& parameters) {
     within(p.first, "first");
     samples.at_least(p.per_decade, 1, "per_decade");
   }
-  if (p.correlations) validate_correlations(*p.correlations, duration);
+  if (p.correlations) {
+    if (parameters.system.dimension != 2)
+      throw BadValue("output.correlations", "is for two dimensions only; leave it out");
+    validate_correlations(*p.correlations, duration);
+  }
   Rules("output").not_negative(p.checkpoint_interval, "checkpoint_interval");
 }
 
@@ -661,6 +746,10 @@ Parameters::Parameters() : species{default_species()}, stages(default_stages()) 
 
 const char* method_name(PrepareStage::Method method) {
   return method_names[static_cast<std::size_t>(method)];
+}
+
+const char* law_name(ContactParameters::Law law) {
+  return law_names[static_cast<std::size_t>(law)];
 }
 
 double end_of_stage(const PrepareStage& stage, const SystemParameters& system, double before) {
@@ -751,6 +840,7 @@ void validate(const Parameters& parameters) {
   validate_species(parameters.species, parameters.system.dimension);
   validate_stages(parameters.stages, parameters.system);
   validate_dynamics(parameters.dynamics);
+  if (parameters.dynamics.contact) validate_contact(parameters);
   validate_output(parameters);
   validate_analysis(parameters.analysis);
   validate_structure(parameters.structure);
@@ -761,7 +851,7 @@ void require_two_dimensions(const Parameters& parameters, const std::string& wha
   if (parameters.system.dimension != 2)
     throw BadValue("system.dimension",
                    fmt::format("is {}, but {} is there for two dimensions only; in three there are "
-                               "vitrel prepare, check, export and report",
+                               "vitrel prepare, run, check, export and report",
                                parameters.system.dimension, what));
 }
 

@@ -13,6 +13,8 @@
 #include "core/state/species.h"
 #include "edmd/growth.h"
 #include "edmd/run.h"
+#include "edmd/soft/linear_dashpot.h"
+#include "edmd/soft/viscoelastic.h"
 #include "mc/compression.h"
 #include "mc/insertion.h"
 #include "mc/lattice.h"
@@ -61,6 +63,24 @@ double end_of_stage(const PrepareStage& stage, const SystemParameters& system, d
 /// Whether a pressure decides at which packing fraction the preparation ends.
 bool ends_at_pressure(const std::vector<PrepareStage>& stages);
 
+/// Soft particles: a law of contact and what gives the units of the run their size, all in SI units.
+struct ContactParameters {
+  enum class Law { linear_dashpot, viscoelastic };
+  enum class Coefficients { tabulated, integrated };
+
+  double radius = 0.1;       ///< m, of a particle of size 1
+  double density = 1140;     ///< kg/m³, of it as a sphere
+  double thermal_speed = 2;  ///< m/s, its √(kT/m)
+  Law law = Law::viscoelastic;
+  LinearDashpot linear_dashpot{1e6, 0};
+  Viscoelastic viscoelastic{1e9, 0.4, 0};
+  Coefficients coefficients = Coefficients::tabulated;
+  EarlyRelease early_release = EarlyRelease::alone;
+};
+
+/// As the parameter file calls it.
+const char* law_name(ContactParameters::Law law);
+
 struct DynamicsParameters {
   enum class Kind { newtonian, brownian };
 
@@ -72,6 +92,7 @@ struct DynamicsParameters {
   OnOverlap on_overlap = OnOverlap::stop;
   Temperature temperature = Temperature::total;
   InitialVelocities initial_velocities = InitialVelocities::maxwell;
+  std::optional<ContactParameters> contact;  ///< none: hard particles
 };
 
 /// Of correlations on the fly.
@@ -153,7 +174,8 @@ enum class Work { preparation, run };
 std::optional<ParameterDifference> forbidden_change(const std::string& before,
                                                     const std::string& after, Work work);
 
-/// The same parameters in the form the engine takes them.
+/// The same parameters in the form the engine takes them, without the contact of soft particles
+/// (soft_particles.h).
 DynamicsOptions dynamics_options(const Parameters& parameters);
 /// Sample times, from 0 to the duration.
 std::vector<double> sample_times(const Parameters& parameters);

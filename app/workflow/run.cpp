@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cassert>
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -9,6 +10,7 @@
 #include "app/workflow/correlations_file.h"
 #include "app/workflow/prepare.h"
 #include "app/workflow/run_checkpoint.h"
+#include "app/workflow/soft_particles.h"
 #include "app/workflow/stored_run.h"
 #include "core/error.h"
 #include "core/io/h5md.h"
@@ -31,7 +33,9 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-void require_fit(const Configuration2& state, const Parameters& parameters, const fs::path& file) {
+template <int Dim>
+void require_fit(const Configuration<Dim>& state, const Parameters& parameters,
+                 const fs::path& file) {
   const auto wanted = static_cast<std::size_t>(parameters.system.particles);
   if (state.size() != wanted)
     throw UserError(
@@ -47,6 +51,7 @@ void require_fit(const Configuration2& state, const Parameters& parameters, cons
 }
 
 // One request at work.
+template <int Dim>
 class Runner {
  public:
   Runner(const RunRequest& request, const Budget& budget,
@@ -58,7 +63,7 @@ class Runner {
     stored_.parameters = effective_parameters(request.parameters);
   }
 
-  RunOutcome run() {
+  RunOutcome<Dim> run() {
     const bool continues = checkpoint_exists(checkpoint_);
     if (continues) {
       load();
@@ -76,6 +81,7 @@ class Runner {
   }
 
  private:
+  bool is_soft() const { return request_.parameters.dynamics.contact.has_value(); }
   bool stops_on_overlap() const {
     return request_.parameters.dynamics.on_overlap == OnOverlap::stop;
   }
@@ -91,25 +97,26 @@ class Runner {
   void load() {
     const LoadedCheckpoint loaded = load_checkpoint(checkpoint_);
     if (!loaded.warning.empty()) say_(loaded.warning);
-    const std::string now = stored_.parameters;
-    stored_ = from_checkpoint(loaded.checkpoint, checkpoint_);
-    if (const auto change = forbidden_change(stored_.parameters, now, Work::run))
+    const std::string& now = stored_.parameters;
+    if (const auto change = forbidden_change(loaded.checkpoint.parameters, now, Work::run))
       throw UserError(
           fmt::format("{}: the run was begun with {} = {}, but now it is {}; continue it "
                       "with its own parameters, or choose another output",
                       request_.output.string(), change->key, change->first, change->second));
+    stored_ = run_from_checkpoint<Dim>(loaded.checkpoint, checkpoint_);
   }
 
   // False if the preparation was stopped.
   bool begin() {
-    Configuration2 configuration;
+    Configuration<Dim> configuration;
     if (request_.from) {
-      configuration = read_state(*request_.from);
+      configuration = read_state<Dim>(*request_.from);
+      if (!is_soft()) configuration.close_pairs.clear();
       require_fit(configuration, request_.parameters, *request_.from);
     } else {
-      Preparation preparation =
-          prepare({request_.parameters, request_.output, request_.command_line, request_.threads},
-                  budget_, say_);
+      Preparation<Dim> preparation = prepare<Dim>(
+          {request_.parameters, request_.output, request_.command_line, request_.threads}, budget_,
+          say_);
       if (!preparation.complete) return false;
       configuration = std::move(preparation.configuration);
     }
@@ -123,22 +130,22 @@ class Runner {
     return true;
   }
 
-  void refuse_overlaps(const Configuration2& configuration) const {
-    const ExactCheck<2> check = exact_check(configuration);
+  void refuse_overlaps(const Configuration<Dim>& configuration) const {
+    const ExactCheck<Dim> check = exact_check(configuration);
     if (check.clean()) return;
-    const PairImage<2>& pair = check.overlaps.front();
+    const PairImage<Dim>& pair = check.overlaps.front();
     throw InvariantError(
         fmt::format("the state to start from has {} overlapping pair(s), the first of particles {} "
-                    "and {}; start "
-                    "from a state without, or set dynamics.on_overlap = \"correct\"",
-                    check.overlaps.size(), pair.i, pair.j));
+                    "and {}; start from a state without{}",
+                    check.overlaps.size(), pair.i, pair.j,
+                    is_soft() ? "" : ", or set dynamics.on_overlap = \"correct\""));
   }
 
-  void set_velocities(Configuration2& configuration) const {
+  void set_velocities(Configuration<Dim>& configuration) const {
     const DynamicsParameters& dynamics = request_.parameters.dynamics;
     set_initial_velocities(configuration, request_.parameters.system.seed,
                            dynamics.initial_velocities, dynamics.temperature);
-    const Mechanics sums = mechanics(configuration);
+    const Mechanics<Dim> sums = mechanics(configuration);
     if (!(sums.translational_energy + sums.rotational_energy > 0))
       throw UserError(
           "dynamics.initial_velocities = \"keep\", but the state to start from is at rest; "
@@ -146,8 +153,10 @@ class Runner {
   }
 
   void make_correlator() {
-    correlator_ = correlator(request_.parameters, stored_.state.configuration);
-    if (correlator_ && !stored_.correlations.empty()) correlator_->restore(stored_.correlations);
+    if constexpr (Dim == 2) {
+      correlator_ = correlator(request_.parameters, stored_.state.configuration);
+      if (correlator_ && !stored_.correlations.empty()) correlator_->restore(stored_.correlations);
+    }
   }
 
   void save() {
@@ -160,36 +169,41 @@ class Runner {
   }
 
   TrajectoryWriter open_trajectory() const {
-    const RunState2& state = stored_.state;
+    const RunState<Dim>& state = stored_.state;
     if (state.next_sample > 0)
       return TrajectoryWriter::append_to(request_.output, state.next_sample);
     const std::string parent = request_.from ? request_.from->string() : "";
     const Provenance provenance = current_provenance(request_.command_line, stored_.parameters,
                                                      request_.parameters.system.seed, parent);
     return TrajectoryWriter::create(request_.output, state.configuration, provenance,
-                                    {request_.parameters.output.velocities, run_observables, true});
+                                    {.velocities = request_.parameters.output.velocities,
+                                     .close_pairs = is_soft(),
+                                     .observables = run_observables,
+                                     .overwrite = true});
   }
 
   void advance(bool continues) {
-    RunState2& state = stored_.state;
+    RunState<Dim>& state = stored_.state;
     if (continues) say_(fmt::format("continuing at time {:.6g}", state.configuration.time));
-    say_("run of " + make_engine(state.configuration, dynamics().engine)->description());
+    const DynamicsOptions options = dynamics();
+    say_("run of " + make_engine(state.configuration, options.engine)->description());
     TrajectoryWriter writer = open_trajectory();
-    TrajectoryObserver observer(writer, measure_run);
+    TrajectoryObserver<Dim> observer(writer, measure_run<Dim>);
     make_correlator();
     const double wall_before = stored_.wall_seconds;
     const Clock::time_point start = Clock::now();
-    RunPlan2 plan{sample_times(request_.parameters), request_.parameters.dynamics.duration,
-                  &observer, [&](const RunState2&) {
-                    stored_.wall_seconds = wall_before + seconds_since(start);
-                    if (seconds_since(saved_) < request_.parameters.output.checkpoint_interval)
-                      return;
-                    // The disk has the frames before a checkpoint counts them.
-                    writer.synchronize();
-                    save();
-                  }};
-    if (correlator_) plan.ticks = {correlator_->options().interval, &*correlator_};
-    const StageReport report = run_or_keep_failed_state(plan);
+    RunPlan<Dim> plan{sample_times(request_.parameters), request_.parameters.dynamics.duration,
+                      &observer, [&](const RunState<Dim>&) {
+                        stored_.wall_seconds = wall_before + seconds_since(start);
+                        if (seconds_since(saved_) < request_.parameters.output.checkpoint_interval)
+                          return;
+                        // The disk has the frames before a checkpoint counts them.
+                        writer.synchronize();
+                        save();
+                      }};
+    if constexpr (Dim == 2)
+      if (correlator_) plan.ticks = {correlator_->options().interval, &*correlator_};
+    const StageReport report = run_or_keep_failed_state(options, plan);
     stored_.wall_seconds = wall_before + seconds_since(start);
     stored_.complete = report.end == StageEnd::reached;
     writer.record_wall_seconds(stored_.wall_seconds);
@@ -201,12 +215,17 @@ class Runner {
   DynamicsOptions dynamics() const {
     DynamicsOptions options = dynamics_options(request_.parameters);
     options.engine.threads = request_.threads;
+    if (const auto& contact = request_.parameters.dynamics.contact) {
+      options.engine.soft_contact =
+          soft_contact(*contact, stored_.state.configuration, request_.threads, say_);
+      options.engine.early_release = contact->early_release;
+    }
     return options;
   }
 
-  StageReport run_or_keep_failed_state(const RunPlan2& plan) {
+  StageReport run_or_keep_failed_state(const DynamicsOptions& options, const RunPlan<Dim>& plan) {
     try {
-      return vitrel::run(stored_.state, dynamics(), plan, budget_);
+      return vitrel::run(stored_.state, options, plan, budget_);
     } catch (const InvariantError& error) {
       keep_failed_state();
       throw InvariantError(fmt::format("{}; the state is in {}", error.what(),
@@ -223,7 +242,7 @@ class Runner {
 
   void check_last_state() const {
     if (!stops_on_overlap()) return;
-    const ExactCheck<2> check = exact_check(stored_.state.configuration);
+    const ExactCheck<Dim> check = exact_check(stored_.state.configuration);
     if (check.clean()) return;
     keep_failed_state();
     throw InvariantError(fmt::format(
@@ -236,7 +255,7 @@ class Runner {
   const Budget& budget_;
   const std::function<void(const std::string&)>& say_;
   fs::path checkpoint_;
-  StoredRun stored_;
+  StoredRun<Dim> stored_;
   std::optional<MultipleTau> correlator_;  ///< on the fly, if the parameters ask for it
   Clock::time_point saved_ = Clock::now();
 };
@@ -244,15 +263,25 @@ class Runner {
 std::string start_text(const RunRequest& request) {
   const fs::path checkpoint = checkpoint_path(request.output);
   if (checkpoint_exists(checkpoint)) {
-    const StoredRun stored = from_checkpoint(load_checkpoint(checkpoint).checkpoint, checkpoint);
-    return stored.complete ? "nothing: the run is complete"
-                           : fmt::format("the checkpoint at time {:.6g}, {} frames",
-                                         stored.state.configuration.time, stored.state.next_sample);
+    const Checkpoint stored = load_checkpoint(checkpoint).checkpoint;
+    return std::visit(
+        [&]<int Dim>(const Configuration<Dim>& configuration) {
+          const StoredRun<Dim> run = run_from_checkpoint<Dim>(stored, checkpoint);
+          return run.complete ? "nothing: the run is complete"
+                              : fmt::format("the checkpoint at time {:.6g}, {} frames",
+                                            configuration.time, run.state.next_sample);
+        },
+        stored.configuration);
   }
   if (request.from) return "the state in " + request.from->string();
-  std::string stages =
-      fmt::format("a preparation in {} stage(s)", request.parameters.stages.size());
-  return stages;
+  return fmt::format("a preparation in {} stage(s)", request.parameters.stages.size());
+}
+
+std::string contact_text(const ContactParameters& contact) {
+  const UnitsOfRun unit = units_of_run(contact);
+  return fmt::format(
+      "contact      {}\nunits        length {:.6g} m, mass {:.6g} kg, time {:.6g} s\n",
+      law_name(contact.law), unit.length, unit.mass, unit.time);
 }
 
 }  // namespace
@@ -274,6 +303,7 @@ std::string run_plan(const RunRequest& request) {
   text += p.dynamics.kind == DynamicsParameters::Kind::brownian
               ? fmt::format("dynamics     brownian, step {}\n", p.dynamics.brownian_step)
               : std::string("dynamics     newtonian\n");
+  if (p.dynamics.contact) text += contact_text(*p.dynamics.contact);
   text += fmt::format("time         {} to equilibrate, then {}\n", p.dynamics.equilibration,
                       p.dynamics.duration);
   text += fmt::format("writes       {}, {} frames, at most {:.3g} MB; checkpoint every {} s\n",
@@ -285,17 +315,20 @@ std::string run_plan(const RunRequest& request) {
   return text;
 }
 
-RunOutcome run(const RunRequest& request, const Budget& budget,
-               const std::function<void(const std::string&)>& say) {
-  return Runner(request, budget, say).run();
+template <int Dim>
+RunOutcome<Dim> run(const RunRequest& request, const Budget& budget,
+                    const std::function<void(const std::string&)>& say) {
+  assert(request.parameters.system.dimension == Dim);
+  return Runner<Dim>(request, budget, say).run();
 }
 
-nlohmann::ordered_json run_summary(const RunRequest& request, const RunOutcome& outcome) {
-  const RunState2& state = outcome.state;
+template <int Dim>
+nlohmann::ordered_json run_summary(const RunRequest& request, const RunOutcome<Dim>& outcome) {
+  const RunState<Dim>& state = outcome.state;
   const RunCounters& counters = state.counters;
-  StoredTrajectory trajectory(request.output);
-  const CompressibilitySeries z = stored_compressibility(
-      trajectory.reader(), stored_energies(trajectory), rotor_count(state.configuration));
+  const TrajectoryReader trajectory(request.output);
+  const CompressibilitySeries z = stored_compressibility(trajectory, observed_energies(trajectory),
+                                                         rotation_count(state.configuration));
   const double simulated = state.configuration.time - state.start_time;
   const auto collisions = static_cast<double>(counters.collisions);
   nlohmann::ordered_json summary = {
@@ -317,9 +350,22 @@ nlohmann::ordered_json run_summary(const RunRequest& request, const RunOutcome& 
       {"overlaps", exact_check(state.configuration).overlaps.size()},
       {"wall_seconds", outcome.wall_seconds},
       {"collisions_per_second", collisions / outcome.wall_seconds}};
+  if (request.parameters.dynamics.contact) {
+    summary["refused_turns"] = counters.refused_turns;
+    summary["early_releases"] = counters.early_releases;
+    summary["integrated_contacts"] = counters.integrations;
+    summary["dissipated_energy"] = counters.dissipated;
+  }
   if (request.parameters.output.correlations)
     summary["correlations"] = correlations_path(request.output).string();
   return summary;
 }
+
+template RunOutcome<2> run<2>(const RunRequest&, const Budget&,
+                              const std::function<void(const std::string&)>&);
+template RunOutcome<3> run<3>(const RunRequest&, const Budget&,
+                              const std::function<void(const std::string&)>&);
+template nlohmann::ordered_json run_summary(const RunRequest&, const RunOutcome<2>&);
+template nlohmann::ordered_json run_summary(const RunRequest&, const RunOutcome<3>&);
 
 }  // namespace vitrel

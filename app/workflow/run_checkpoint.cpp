@@ -1,7 +1,10 @@
 #include "app/workflow/run_checkpoint.h"
 
+#include <fmt/format.h>
+
 #include "app/workflow/checkpoint_items.h"
 #include "app/workflow/state_items.h"
+#include "core/error.h"
 
 namespace vitrel {
 namespace {
@@ -24,7 +27,8 @@ void each_item(Run& run, Visit&& visit) {
 
 }  // namespace
 
-Checkpoint to_checkpoint(const StoredRun& run) {
+template <int Dim>
+Checkpoint to_checkpoint(const StoredRun<Dim>& run) {
   Checkpoint checkpoint;
   checkpoint.configuration = run.state.configuration;
   checkpoint.parameters = run.parameters;
@@ -32,12 +36,22 @@ Checkpoint to_checkpoint(const StoredRun& run) {
   return checkpoint;
 }
 
-StoredRun from_checkpoint(const Checkpoint& checkpoint, const std::filesystem::path& file) {
-  StoredRun run;
-  run.state.configuration = std::get<Configuration2>(checkpoint.configuration);
+template <int Dim>
+StoredRun<Dim> run_from_checkpoint(const Checkpoint& checkpoint,
+                                   const std::filesystem::path& file) {
+  const auto* configuration = std::get_if<Configuration<Dim>>(&checkpoint.configuration);
+  if (!configuration)
+    throw FileError(fmt::format("{}: is not of a run in {} dimensions", file.string(), Dim));
+  StoredRun<Dim> run;
+  run.state.configuration = *configuration;
   run.parameters = checkpoint.parameters;
   each_item(run, ItemReader(checkpoint, file));
   return run;
 }
+
+template Checkpoint to_checkpoint(const StoredRun<2>&);
+template Checkpoint to_checkpoint(const StoredRun<3>&);
+template StoredRun<2> run_from_checkpoint(const Checkpoint&, const std::filesystem::path&);
+template StoredRun<3> run_from_checkpoint(const Checkpoint&, const std::filesystem::path&);
 
 }  // namespace vitrel

@@ -10,16 +10,19 @@
 namespace vitrel {
 
 /// A run as its checkpoint holds it.
+template <int Dim>
 struct StoredRun {
-  RunState2 state;
+  RunState<Dim> state;
   double wall_seconds = 0;
   bool complete = false;
   std::vector<double> correlations;  ///< state of those measured on the fly; empty: none yet
   std::string parameters;            ///< effective parameters, TOML
 };
 
-Checkpoint to_checkpoint(const StoredRun& run);
-/// Throws FileError, naming `file`, if a number is missing.
-StoredRun from_checkpoint(const Checkpoint& checkpoint, const std::filesystem::path& file);
+template <int Dim>
+Checkpoint to_checkpoint(const StoredRun<Dim>& run);
+/// Throws FileError, naming `file`, if a number is missing, or it is of the other dimension.
+template <int Dim>
+StoredRun<Dim> run_from_checkpoint(const Checkpoint& checkpoint, const std::filesystem::path& file);
 
 }  // namespace vitrel

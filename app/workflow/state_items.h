@@ -24,6 +24,7 @@ void each_item_of_counters(Counters& counters, const std::string& path, Visit&& 
   visit(path + "correction_moves", counters.correction_moves);
   visit(path + "refused_turns", counters.refused_turns);
   visit(path + "early_releases", counters.early_releases);
+  visit(path + "integrations", counters.integrations);
 }
 
 template <class Growth, class Visit>

@@ -19,13 +19,17 @@ std::vector<double> per_particle(std::vector<double> totals, std::size_t particl
 const std::vector<std::string> run_observables = {"collisions", "rotational_energy",
                                                   "translational_energy", "virial"};
 
-Observables measure_run(const Frame<2>& frame) {
-  const Mechanics sums = mechanics(frame.configuration);
+template <int Dim>
+Observables measure_run(const Frame<Dim>& frame) {
+  const Mechanics<Dim> sums = mechanics(frame.configuration);
   return {{"collisions", static_cast<double>(frame.tally.collisions)},
           {"rotational_energy", sums.rotational_energy},
           {"translational_energy", sums.translational_energy},
           {"virial", frame.tally.virial}};
 }
+
+template Observables measure_run(const Frame<2>&);
+template Observables measure_run(const Frame<3>&);
 
 bool is_packing(const std::filesystem::path& file) {
   return TrajectoryReader(file).dimension() == 3;
@@ -43,8 +47,14 @@ Configuration3 read_packing(const std::filesystem::path& file) {
 
 EnergySeries stored_energies(StoredTrajectory& trajectory) {
   const TrajectoryReader& reader = trajectory.reader();
+  EnergySeries observed = observed_energies(reader);
+  if (observed.time.empty() && reader.has("velocity")) return energies(trajectory);
+  return observed;
+}
+
+EnergySeries observed_energies(const TrajectoryReader& reader) {
   if (!reader.has_observable("translational_energy") || !reader.has_observable("rotational_energy"))
-    return reader.has("velocity") ? energies(trajectory) : EnergySeries{};
+    return {};
   EnergySeries series;
   series.time = reader.times();
   series.translational =
@@ -56,11 +66,12 @@ EnergySeries stored_energies(StoredTrajectory& trajectory) {
 }
 
 CompressibilitySeries stored_compressibility(const TrajectoryReader& reader,
-                                             const EnergySeries& energy, std::size_t rotors) {
+                                             const EnergySeries& energy, std::size_t rotations) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   if (energy.time.empty() || !reader.has_observable("virial"))
     return {{}, {}, {unknown, unknown, 0}};
-  return compressibility(energy, reader.observable("virial"), reader.particles(), rotors);
+  return compressibility(energy, reader.observable("virial"), reader.particles(), rotations,
+                         reader.dimension());
 }
 
 }  // namespace vitrel

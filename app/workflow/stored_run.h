@@ -15,7 +15,8 @@ namespace vitrel {
 /// The observables that `run` stores with every frame: totals over all particles, and totals since
 /// the start of the run.
 extern const std::vector<std::string> run_observables;
-Observables measure_run(const Frame<2>& frame);
+template <int Dim>
+Observables measure_run(const Frame<Dim>& frame);
 
 /// Whether a file is of three dimensions, of which single packings are analysed. Throws FileError.
 bool is_packing(const std::filesystem::path& file);
@@ -40,9 +41,11 @@ class StoredTrajectory final : public Trajectory {
 
 /// From the observables if the file has them, else from the velocities; empty if it has neither.
 EnergySeries stored_energies(StoredTrajectory& trajectory);
+/// From the observables; empty if the file has none.
+EnergySeries observed_energies(const TrajectoryReader& reader);
 
 /// Without values if there is no energy, or the file has no virial.
 CompressibilitySeries stored_compressibility(const TrajectoryReader& reader,
-                                             const EnergySeries& energy, std::size_t rotors);
+                                             const EnergySeries& energy, std::size_t rotations);
 
 }  // namespace vitrel

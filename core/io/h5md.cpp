@@ -77,6 +77,14 @@ Quaternion orientation(const Configuration3& configuration, std::size_t i) {
   return configuration.orientation[i];
 }
 
+void create_close_pairs(h5::Group& particles) {
+  h5::Group pairs = particles.create_group("close_pairs");
+  pairs.create_series<std::int64_t>("end", {}, false);
+  pairs.create_series<std::int64_t>("pair", {2}, false);
+  pairs.create_series<std::int32_t>("lag", {3}, false);
+  pairs.create_series<double>("distance", {}, false);
+}
+
 template <int Dim>
 void create_fixed_arrays(h5::Group& particles, const Configuration<Dim>& configuration) {
   const std::uint64_t n = configuration.size();
@@ -119,6 +127,7 @@ h5::File create_layout(const fs::path& path, const Configuration<Dim>& configura
     create_element<double>(particles, "velocity", {n, 3}, true);
     create_element<double>(particles, "angular_velocity", {n, 3}, true);
   }
+  if (options.close_pairs) create_close_pairs(particles);
   create_fixed_arrays(particles, configuration);
   h5::Group observables = root.create_group("observables");
   for (const std::string& name : options.observables)
@@ -177,6 +186,7 @@ TrajectoryWriter TrajectoryWriter::append_to(const fs::path& path, std::uint64_t
                     " frames where " + std::to_string(frames_to_keep) +
                     " were expected: it is not the file that the checkpoint belongs to");
   writer.resize(frames_to_keep);
+  writer.drop_close_pairs(frames_to_keep);
   writer.file_.flush();
   writer.frames_ = frames_to_keep;
   return writer;
@@ -192,7 +202,11 @@ TrajectoryWriter::TrajectoryWriter(h5::File file)
       orientation_(required(file_, series_path("orientation"))),
       angle_(optional_dataset(file_, series_path("angle"))),
       velocity_(optional_dataset(file_, series_path("velocity"))),
-      angular_velocity_(optional_dataset(file_, series_path("angular_velocity"))) {
+      angular_velocity_(optional_dataset(file_, series_path("angular_velocity"))),
+      close_end_(optional_dataset(file_, all + "/close_pairs/end")),
+      close_pair_(optional_dataset(file_, all + "/close_pairs/pair")),
+      close_lag_(optional_dataset(file_, all + "/close_pairs/lag")),
+      close_distance_(optional_dataset(file_, all + "/close_pairs/distance")) {
   particles_ = position_.shape().at(1);
   frames_ = step_.shape().at(0);
   if (!file_.root().has_group("observables")) return;
@@ -230,9 +244,17 @@ void TrajectoryWriter::check(const Configuration<Dim>& configuration,
 void TrajectoryWriter::resize(std::uint64_t frames) {
   for (h5::Dataset* dataset : {&step_, &time_, &edges_, &position_, &image_, &orientation_})
     dataset->resize(frames);
-  for (std::optional<h5::Dataset>* dataset : {&angle_, &velocity_, &angular_velocity_})
+  for (std::optional<h5::Dataset>* dataset : {&angle_, &velocity_, &angular_velocity_, &close_end_})
     if (*dataset) (*dataset)->resize(frames);
   for (auto& [name, dataset] : observables_) dataset.resize(frames);
+}
+
+void TrajectoryWriter::drop_close_pairs(std::uint64_t frames_to_keep) {
+  if (!close_end_) return;
+  if (frames_to_keep > 0)
+    close_end_->read_frame<std::int64_t>(frames_to_keep - 1, {&close_rows_, 1});
+  for (std::optional<h5::Dataset>* dataset : {&close_pair_, &close_lag_, &close_distance_})
+    (*dataset)->resize(static_cast<std::uint64_t>(close_rows_));
 }
 
 template <int Dim>
@@ -241,6 +263,7 @@ void TrajectoryWriter::write(const Configuration<Dim>& configuration, std::int64
   check(configuration, observables);
   resize(frames_ + 1);
   write_particles(configuration);
+  if (close_end_) write_close_pairs(configuration);
   step_.write_frame<std::int64_t>(frames_, {&step, 1});
   time_.write_frame<double>(frames_, {&configuration.time, 1});
   const Vec<Dim>& lengths = configuration.box.lengths();
@@ -257,6 +280,7 @@ template <int Dim>
 void TrajectoryWriter::write_particles(const Configuration<Dim>& configuration) {
   std::vector<double> positions, orientations, velocities, angular_velocities;
   std::vector<std::int32_t> images;
+  const std::vector<Vec<Dim>> velocities_after = velocities_after_contact(configuration);
   for (std::size_t i = 0; i < particles_; ++i) {
     Vec<Dim> position = configuration.position[i];
     Shift<Dim> image = configuration.image[i];
@@ -264,7 +288,7 @@ void TrajectoryWriter::write_particles(const Configuration<Dim>& configuration) 
     append(positions, position);
     append(images, image);
     append(orientations, orientation(configuration, i));
-    append(velocities, configuration.velocity[i]);
+    append(velocities, velocities_after[i]);
     append(angular_velocities, configuration.angular_velocity[i]);
   }
   position_.write_frame<double>(frames_, positions);
@@ -273,6 +297,25 @@ void TrajectoryWriter::write_particles(const Configuration<Dim>& configuration) 
   if constexpr (Dim == 2) angle_->write_frame<double>(frames_, configuration.angle);
   if (velocity_) velocity_->write_frame<double>(frames_, velocities);
   if (angular_velocity_) angular_velocity_->write_frame<double>(frames_, angular_velocities);
+}
+
+template <int Dim>
+void TrajectoryWriter::write_close_pairs(const Configuration<Dim>& configuration) {
+  auto row = static_cast<std::uint64_t>(close_rows_);
+  close_rows_ += static_cast<std::int64_t>(configuration.close_pairs.size());
+  for (std::optional<h5::Dataset>* dataset : {&close_pair_, &close_lag_, &close_distance_})
+    (*dataset)->resize(static_cast<std::uint64_t>(close_rows_));
+  for (const auto& [pair, distance] : configuration.close_pairs) {
+    const std::array ends{static_cast<std::int64_t>(pair.i), static_cast<std::int64_t>(pair.j)};
+    std::vector<std::int32_t> lag;
+    append<std::int32_t, Dim>(
+        lag, pair.shift + configuration.image[pair.i] - configuration.image[pair.j]);
+    close_pair_->write_frame<std::int64_t>(row, ends);
+    close_lag_->write_frame<std::int32_t>(row, lag);
+    close_distance_->write_frame<double>(row, {&distance, 1});
+    ++row;
+  }
+  close_end_->write_frame<std::int64_t>(frames_, {&close_rows_, 1});
 }
 
 void TrajectoryWriter::record_wall_seconds(double seconds) {
@@ -443,6 +486,7 @@ void TrajectoryReader::read(std::uint64_t frame, Configuration<Dim>& configurati
   read_positions(frame, configuration);
   read_orientations(frame, configuration);
   read_velocities(frame, configuration);
+  read_close_pairs(frame, configuration);
 }
 
 /// Numbers per particle in a frame of a series.
@@ -567,6 +611,39 @@ void TrajectoryReader::read_velocities(std::uint64_t frame,
   }
 }
 
+template <int Dim>
+void TrajectoryReader::read_close_pairs(std::uint64_t frame,
+                                        Configuration<Dim>& configuration) const {
+  const std::string group = group_ + "/close_pairs/";
+  if (!root_.has_dataset(group + "end")) return;
+  const auto column = [&](const char* name) -> const h5::Dataset& {
+    return dataset(group + name, "the close pairs of every frame");
+  };
+  const h5::Dataset &end = column("end"), &pairs = column("pair"), &lags = column("lag"),
+                    &distances = column("distance");
+  std::int64_t row = 0, last = 0;
+  if (frame > 0) end.read_frame<std::int64_t>(frame - 1, {&row, 1});
+  end.read_frame<std::int64_t>(frame, {&last, 1});
+  for (; row < last; ++row) {
+    const auto k = static_cast<std::uint64_t>(row);
+    std::array<std::int64_t, 2> pair;
+    std::array<std::int32_t, 3> lag;
+    double distance;
+    pairs.read_frame<std::int64_t>(k, pair);
+    lags.read_frame<std::int32_t>(k, lag);
+    distances.read_frame<double>(k, {&distance, 1});
+    const auto n = static_cast<std::int64_t>(particles());
+    if (pair[0] < 0 || pair[0] > pair[1] || pair[1] >= n || !(distance > 0))
+      fail(
+          fmt::format("row {} of {}pair should be two particles, i ≤ j < {}, at a distance above 0",
+                      row, group, n));
+    const auto i = static_cast<std::size_t>(pair[0]), j = static_cast<std::size_t>(pair[1]);
+    const Shift<Dim> shift =
+        Shift<Dim>(lag.data()) - configuration.image[i] + configuration.image[j];
+    configuration.close_pairs.push_back({{i, j, shift}, distance});
+  }
+}
+
 bool TrajectoryReader::has(const std::string& element) const {
   return root_.has_dataset(group_ + '/' + element + "/value");
 }
@@ -607,7 +684,8 @@ void write_state(const fs::path& path, const Configuration<Dim>& configuration,
   refuse_existing(path, overwrite);
   PendingFile pending(path);
   TrajectoryWriter writer(
-      create_layout(pending.partial(), configuration, provenance, {.velocities = true}));
+      create_layout(pending.partial(), configuration, provenance,
+                    {.velocities = true, .close_pairs = !configuration.close_pairs.empty()}));
   writer.write(configuration, 0);
   writer.close();
   pending.commit();

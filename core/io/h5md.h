@@ -28,7 +28,14 @@
 ///     box/edges                   rows are the cell vectors
 ///     species, id, mass, semiaxes the same in all frames
 ///   observables/<name>            one number per frame
+///   particles/all/close_pairs/    of soft particles, if asked for; those of frame k are the rows from
+///                                 end[k − 1], or 0, to end[k]:
+///     pair, lag, distance         (i, j); the shift of j's image, between unwrapped positions; how
+///                                 close they may be
 ///   parameters                    provenance
+///
+/// Velocities of soft particles in contact are those of after it: a run that starts from a frame finds
+/// no contacts under way, but the pairs that are still close.
 ///
 /// Every {step, time} is one dataset under many names. All numbers are stored as they are in
 /// memory, so a wrapped configuration read back is the same bit by bit.
@@ -38,6 +45,7 @@ using Observables = std::map<std::string, double>;
 
 struct TrajectoryOptions {
   bool velocities = false;                    ///< store velocity and angular velocity
+  bool close_pairs = false;                   ///< of soft particles
   std::vector<std::string> observables = {};  ///< names of the numbers that come with every frame
   bool overwrite = false;                     ///< replace an existing file instead of refusing
 };
@@ -90,8 +98,11 @@ class TrajectoryWriter {
   template <int Dim>
   void check(const Configuration<Dim>& configuration, const Observables& observables) const;
   void resize(std::uint64_t frames);
+  void drop_close_pairs(std::uint64_t frames_to_keep);
   template <int Dim>
   void write_particles(const Configuration<Dim>& configuration);
+  template <int Dim>
+  void write_close_pairs(const Configuration<Dim>& configuration);
 
   h5::File file_;
   std::size_t particles_ = 0;
@@ -99,16 +110,19 @@ class TrajectoryWriter {
   h5::Dataset step_, time_, edges_, position_, image_, orientation_;
   std::optional<h5::Dataset> angle_;  ///< of two dimensions
   std::optional<h5::Dataset> velocity_, angular_velocity_;
+  std::optional<h5::Dataset> close_end_, close_pair_, close_lag_, close_distance_;
+  std::int64_t close_rows_ = 0;
   std::map<std::string, h5::Dataset> observables_;
 };
 
 /// Writes every frame it is shown, with the observables that `measure` gives for it.
-class TrajectoryObserver : public Observer<2> {
+template <int Dim>
+class TrajectoryObserver : public Observer<Dim> {
  public:
-  using Measure = std::function<Observables(const Frame<2>&)>;
+  using Measure = std::function<Observables(const Frame<Dim>&)>;
   explicit TrajectoryObserver(TrajectoryWriter& writer, Measure measure = {})
       : writer_(writer), measure_(std::move(measure)) {}
-  void observe(const Frame<2>& frame) override {
+  void observe(const Frame<Dim>& frame) override {
     writer_.write(frame.configuration, frame.index, measure_ ? measure_(frame) : Observables{});
   }
 
@@ -185,6 +199,8 @@ class TrajectoryReader {
   void read_orientations(std::uint64_t frame, Configuration3& configuration) const;
   template <int Dim>
   void read_velocities(std::uint64_t frame, Configuration<Dim>& configuration) const;
+  template <int Dim>
+  void read_close_pairs(std::uint64_t frame, Configuration<Dim>& configuration) const;
 
   std::filesystem::path path_;
   h5::File file_;

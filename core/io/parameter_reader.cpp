@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/io/parameters.h"
+#include "core/io/quantity.h"
 
 namespace vitrel {
 namespace {
@@ -76,6 +77,18 @@ class Reader final : public FieldVisitor {
     if (!node) return;
     const std::string* read = node->get<std::string>();
     if (!read) wrong_type(*node, field, "a string", to_toml(std::string_view(value)));
+    value = *read;
+  }
+
+  void quantity(const Field& field, double& value) override {
+    const TomlNode* node = find(field);
+    if (!node) return;
+    const std::string* text = node->get<std::string>();
+    const std::optional<double> read = text ? vitrel::quantity(*text, field.unit) : std::nullopt;
+    if (!read)
+      wrong_type(*node, field,
+                 fmt::format("a string with a number and a unit that converts to {}", field.unit),
+                 to_toml(std::string_view(quantity_text(value, field.unit))));
     value = *read;
   }
 

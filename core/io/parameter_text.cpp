@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include "core/io/parameters.h"
+#include "core/io/quantity.h"
 
 namespace vitrel {
 namespace {
@@ -18,6 +19,9 @@ class ValueVisitor : public FieldVisitor {
   void field(const Field& field, double& value) override { put(field, to_toml(value), ""); }
   void field(const Field& field, std::string& value) override {
     put(field, to_toml(std::string_view(value)), "");
+  }
+  void quantity(const Field& field, double& value) override {
+    put(field, to_toml(std::string_view(quantity_text(value, field.unit))), "");
   }
   void numbers(const Field& field, std::span<double> values) override {
     put(field, to_toml(values), "");
@@ -200,12 +204,14 @@ class DocumentWriter final : public ValueVisitor {
 
   void section(const Field& field, const Inside& inside) {
     DocumentWriter section(comments_, joined(field.key));
+    section.out_ = out_;
     inside(section);
     if (section.text().empty()) return;
     blank_line();
     comment(field, "");
     // A section that holds only sections of its own needs no heading.
-    if (section.text().front() != '[') text_ += fmt::format("[{}]\n", joined(field.key));
+    if (section.text().front() != '[')
+      text_ += fmt::format("{}[{}]\n", out_ ? "# " : "", joined(field.key));
     text_ += section.text();
   }
 

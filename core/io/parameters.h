@@ -49,6 +49,8 @@ class FieldVisitor {
   virtual void field(const Field&, bool&) = 0;
   virtual void field(const Field&, double&) = 0;
   virtual void field(const Field&, std::string&) = 0;
+  /// A number with a unit, given as a string in any unit that converts to the field's own.
+  virtual void quantity(const Field&, double&) = 0;
   /// As many numbers as `values` has room for.
   virtual void numbers(const Field&, std::span<double> values) = 0;
   /// Any number of numbers.

@@ -56,20 +56,23 @@ double largest_circumradius(const Configuration<Dim>& configuration) {
 }
 
 template <int Dim>
+std::vector<Vec<Dim>> velocities_after_contact(const Configuration<Dim>& configuration) {
+  std::vector<Vec<Dim>> velocities = configuration.velocity;
+  for (const Release<Dim>& release : configuration.releases)
+    velocities[release.particle] = release.velocity;
+  return velocities;
+}
+
+template <int Dim>
 Mechanics<Dim> mechanics(const Configuration<Dim>& configuration) {
   Mechanics<Dim> sums;
+  const std::vector<Vec<Dim>> velocities = velocities_after_contact(configuration);
   for (std::size_t i = 0; i < configuration.size(); ++i) {
-    const Vec<Dim>& v = configuration.velocity[i];
+    const Vec<Dim>& v = velocities[i];
     sums.momentum += configuration.mass[i] * v;
     sums.translational_energy += 0.5 * configuration.mass[i] * v.squaredNorm();
     if (!configuration.shape[i].is_round())
       sums.rotational_energy += rotational_energy(configuration, i);
-  }
-  for (const Release<Dim>& release : configuration.releases) {
-    const double mass = configuration.mass[release.particle];
-    const Vec<Dim>& now = configuration.velocity[release.particle];
-    sums.momentum += mass * (release.velocity - now);
-    sums.translational_energy += 0.5 * mass * (release.velocity.squaredNorm() - now.squaredNorm());
   }
   return sums;
 }
@@ -92,6 +95,8 @@ template double packing_fraction(const Configuration2&);
 template double packing_fraction(const Configuration3&);
 template double largest_circumradius(const Configuration2&);
 template double largest_circumradius(const Configuration3&);
+template std::vector<Vec2> velocities_after_contact(const Configuration2&);
+template std::vector<Vec3> velocities_after_contact(const Configuration3&);
 template Mechanics<2> mechanics(const Configuration2&);
 template Mechanics<3> mechanics(const Configuration3&);
 template std::size_t rotor_count(const Configuration2&);

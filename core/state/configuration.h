@@ -110,9 +110,13 @@ double packing_fraction(const Configuration<Dim>& configuration);
 template <int Dim>
 double largest_circumradius(const Configuration<Dim>& configuration);
 
+/// The velocities with which particles count: those in contact with the one they will be released with.
+template <int Dim>
+std::vector<Vec<Dim>> velocities_after_contact(const Configuration<Dim>& configuration);
+
 /// Sums over all particles. Rotations that smooth collisions cannot see are not modelled and count
-/// nowhere: that of round particles, and that of spheroids about their axes. A soft particle in contact
-/// counts with the velocity with which it will be released.
+/// nowhere: that of round particles, and that of spheroids about their axes. Velocities are those after
+/// contact.
 template <int Dim>
 struct Mechanics {
   Vec<Dim> momentum = Vec<Dim>::Zero();

@@ -27,25 +27,38 @@ const std::string system_text =
     "[system]\nparticles = 30\n[dynamics]\nequilibration = 5\nduration = 300\n"
     "[output]\nsamples = { spacing = \"linear\", interval = 0.5 }\ncheckpoint_interval = 0\n";
 
-std::vector<std::string> run_arguments(const std::string& output, const std::string& kind) {
-  return {"run", "p.toml", "-o", output, "-q", "--set", "dynamics.kind=" + kind};
+// Disks so soft that some are in contact, and some close, at any time.
+const std::string soft_text =
+    "[[species]]\naspect_ratio = 1\n[dynamics.contact]\nlaw = \"linear_dashpot\"\n"
+    "stiffness = \"1e5 N/m\"\ndamping = \"200 kg/s\"\n";
+
+struct Kind {
+  const char* name;
+  std::string dynamics;
+  std::string more = {};  ///< of the parameter file
+};
+const Kind newtonian{"newtonian", "newtonian"}, brownian{"brownian", "brownian"},
+    soft{"soft", "brownian", soft_text};
+
+std::vector<std::string> run_arguments(const std::string& output, const Kind& kind) {
+  return {"run", "p.toml", "-o", output, "-q", "--set", "dynamics.kind=" + kind.dynamics};
 }
 
 /// Runs to the end without interruption and returns how long that took.
-milliseconds run_uninterrupted(const Folder& folder, const std::string& kind) {
+milliseconds run_uninterrupted(const Folder& folder, const Kind& kind) {
   const auto start = std::chrono::steady_clock::now();
   EXPECT_EQ(run(folder.path(), run_arguments("whole.h5", kind)).code, 0);
   return std::chrono::duration_cast<milliseconds>(std::chrono::steady_clock::now() - start);
 }
 
-class Interruption : public testing::TestWithParam<const char*> {};
+class Interruption : public testing::TestWithParam<Kind> {};
 
 /// Starts the same run once for each signal, which comes after a share between `earliest` and `latest`
 /// of an uninterrupted run's time; then lets it end. How long a run takes depends on what else the
 /// machine does, so one that ends before its signal counts as a run of its own, and the next begins.
-void expect_same_datasets_despite(const std::vector<int>& signals, const std::string& kind,
+void expect_same_datasets_despite(const std::vector<int>& signals, const Kind& kind,
                                   const Folder& folder, double earliest, double latest) {
-  folder.write("p.toml", system_text + "correlations = { interval = 0.05 }\n");
+  folder.write("p.toml", system_text + "correlations = { interval = 0.05 }\n" + kind.more);
   const milliseconds whole = run_uninterrupted(folder, kind);
   Stream moments(11, Purpose::tests);
   int round = 0;
@@ -80,12 +93,12 @@ void expect_same_datasets_despite(const std::vector<int>& signals, const std::st
 // Ten kills at moments spread over the run, so that preparation, checkpoints and frames all get their
 // share.
 TEST_P(Interruption, KilledAtTenRandomMomentsTheDatasetsAreTheSame) {
-  const Folder folder(std::string("kill_") + GetParam());
+  const Folder folder(std::string("kill_") + GetParam().name);
   expect_same_datasets_despite(std::vector<int>(10, SIGKILL), GetParam(), folder, 0, 0.2);
 }
 
 TEST_P(Interruption, StoppedBySignalItExitsWithFiveAndContinues) {
-  const Folder folder(std::string("stop_") + GetParam());
+  const Folder folder(std::string("stop_") + GetParam().name);
   expect_same_datasets_despite({SIGTERM, SIGINT, SIGUSR1}, GetParam(), folder, 0.2, 0.3);
 }
 
@@ -128,8 +141,8 @@ TEST(InterruptedPreparation, KilledAndStoppedItsStateIsTheSame) {
   EXPECT_THAT(differing_datasets(folder / "whole.h5", folder / "parts.h5"), IsEmpty());
 }
 
-INSTANTIATE_TEST_SUITE_P(Dynamics, Interruption, testing::Values("newtonian", "brownian"),
-                         [](const auto& kind) { return std::string(kind.param); });
+INSTANTIATE_TEST_SUITE_P(Dynamics, Interruption, testing::Values(newtonian, brownian, soft),
+                         [](const auto& kind) { return std::string(kind.param.name); });
 
 TEST(DifferingDatasets, SeesASingleChangedSeed) {
   const Folder folder("different");
@@ -200,15 +213,15 @@ TEST(FullDisk, ExitsWithThreeLosesNothingAndContinues) {
   std::filesystem::create_directory(folder / "disk");
   if (mount("tmpfs", (folder / "disk").c_str(), "tmpfs", 0, "size=400k") != 0)
     GTEST_SKIP() << "mounting a tmpfs needs root";
-  run_uninterrupted(folder, "newtonian");
-  const Outcome full = run(folder.path(), run_arguments("disk/run.h5", "newtonian"));
+  run_uninterrupted(folder, newtonian);
+  const Outcome full = run(folder.path(), run_arguments("disk/run.h5", newtonian));
   EXPECT_EQ(full.code, 3);
   EXPECT_THAT(full.errors, testing::HasSubstr("disk/run.h5"));
   const Outcome checked = run(folder.path(), {"check", "disk/run.h5", "--json", "-q"});
   EXPECT_EQ(checked.code, 0) << checked.errors;
   EXPECT_GT(nlohmann::json::parse(checked.output, nullptr, false).value("frames", 0), 10);
   EXPECT_EQ(mount("tmpfs", (folder / "disk").c_str(), "tmpfs", MS_REMOUNT, "size=100m"), 0);
-  const Outcome continued = run(folder.path(), run_arguments("disk/run.h5", "newtonian"));
+  const Outcome continued = run(folder.path(), run_arguments("disk/run.h5", newtonian));
   EXPECT_EQ(continued.code, 0) << continued.errors;
   EXPECT_THAT(differing_datasets(folder / "whole.h5", folder / "disk/run.h5"), IsEmpty());
   umount((folder / "disk").c_str());

@@ -56,6 +56,33 @@ const BadFile bad_files[] = {
      "key 'species.0.aspect_ratios.1.high' is 1.0, but must be above low = 2.0"},
     {"[[species]]\naspect_ratios = [2, 3]",
      "key 'species.0.aspect_ratios' has a meaning only with dimension = 3"},
+    {"[dynamics.contact]\n", "key 'species.0' is not round, but soft particles"},
+    {"[[species]]\nsemi_axes = [2, 1]\n[dynamics.contact]\n", "key 'species.0' is not round"},
+    {"[[species]]\naspect_ratio = { distribution = \"uniform\", low = 1, high = 2 }\n"
+     "[dynamics.contact]\n",
+     "key 'species.0' is not round"},
+    {"[dynamics.contact]\nradius = \"0 m\"",
+     "file.toml:2:10: key 'dynamics.contact.radius' is 0.0, but must be positive"},
+    {"[dynamics.contact]\ndensity = \"-1 kg/m^3\"", "'dynamics.contact.density' is -1.0"},
+    {"[dynamics.contact]\nthermal_speed = \"0 m/s\"", "'dynamics.contact.thermal_speed' is 0.0"},
+    {"[dynamics.contact]\nlaw = \"linear_dashpot\"\nstiffness = \"0 N/m\"",
+     "'dynamics.contact.stiffness' is 0.0, but must be positive"},
+    {"[dynamics.contact]\nlaw = \"linear_dashpot\"\ndamping = \"-1 kg/s\"",
+     "'dynamics.contact.damping' is -1.0, but must be 0 or more"},
+    {"[dynamics.contact]\nyoungs_modulus = \"0 Pa\"", "'dynamics.contact.youngs_modulus' is 0.0"},
+    {"[dynamics.contact]\nyoungs_modulus = \"1 N/m\"",
+     "must be a string with a number and a unit that converts to Pa"},
+    {"[dynamics.contact]\npoissons_ratio = 0.6",
+     "'dynamics.contact.poissons_ratio' is 0.6, but must lie above -1 and not above 0.5"},
+    {"[dynamics.contact]\ndissipative_time = \"-1 s\"", "'dynamics.contact.dissipative_time' is"},
+    {"[dynamics.contact]\nstiffness = \"1 N/m\"",
+     "has a meaning only with law = \"linear_dashpot\""},
+    {"[[species]]\naspect_ratio = 1\n[dynamics]\nrestitution = 0.9\n[dynamics.contact]\n",
+     "file.toml:4:15: key 'dynamics.restitution' is for hard particles"},
+    {"[[species]]\naspect_ratio = 1\n[dynamics]\non_overlap = \"correct\"\n[dynamics.contact]\n",
+     "file.toml:4:14: key 'dynamics.on_overlap' is for hard particles"},
+    {"[system]\ndimension = 3\n[output]\ncorrelations = { interval = 1 }",
+     "file.toml:4:16: key 'output.correlations' is for two dimensions only"},
     {"[system]\nparticles = 0", "file.toml:2:13: key 'system.particles' is 0, but must lie"},
     {"[system]\npacking_fraction = 0.95",
      "file.toml:2:20: key 'system.packing_fraction' is 0.95, but"},
@@ -309,6 +336,27 @@ TEST(ParameterFile, ThreeDimensionsAreReadAndWritten) {
               HasSubstr("aspect_ratios = [4.0, { distribution = \"uniform\", low = 0.1, high ="));
   EXPECT_THAT(text, testing::Not(HasSubstr("box_aspect")));
   EXPECT_EQ(effective_parameters(parse_parameters(text, "again")), text);
+}
+
+TEST(ParameterFile, ContactsAreReadInAnyUnitAndWrittenInSi) {
+  const std::string file =
+      "[[species]]\nsemi_axes = [2, 2]\n[dynamics.contact]\nradius = \"10 cm\"\n"
+      "density = \"1.14 g/cm^3\"\nthermal_speed = \"7.2 km/h\"\nyoungs_modulus = \"10 MPa\"\n"
+      "dissipative_time = \"20 µs\"\nearly_release = \"together\"\n";
+  const Parameters read = parse_parameters(file, "file.toml");
+  const ContactParameters& contact = read.dynamics.contact.value();
+  EXPECT_DOUBLE_EQ(contact.radius, 0.1);
+  EXPECT_DOUBLE_EQ(contact.density, 1140);
+  EXPECT_DOUBLE_EQ(contact.thermal_speed, 2);
+  EXPECT_DOUBLE_EQ(contact.viscoelastic.youngs_modulus, 1e7);
+  EXPECT_DOUBLE_EQ(contact.viscoelastic.dissipative_time, 2e-5);
+  EXPECT_EQ(contact.early_release, EarlyRelease::together);
+  const std::string text = effective_parameters(read);
+  EXPECT_EQ(effective_parameters(parse_parameters(text, "again")), text);
+  EXPECT_THAT(text, HasSubstr("[dynamics.contact]\n"));
+  EXPECT_THAT(text, testing::Not(HasSubstr("stiffness")));
+  EXPECT_THAT(command_template("run"), HasSubstr("# [dynamics.contact]\n"));
+  EXPECT_THAT(command_template("run"), HasSubstr("# youngs_modulus = \"1000000000 Pa\""));
 }
 
 TEST(ParameterFile, TheReferencePageIsUpToDate) {

@@ -353,13 +353,70 @@ TEST(Program, PreparesAndChecksAPackingOfThreeDimensions) {
   EXPECT_THAT(overlapping.errors, HasSubstr("particles 3 and 7, image (0, 0, 0)"));
 }
 
+// Spheroids at φ = 0.2: Z of the run and that of the preparation's report are both near that of spheres, 2.4.
+TEST(Program, RunsInThreeDimensions) {
+  const Folder folder("run_in_three");
+  folder.write("p.toml", std::string(small_packing) + "[dynamics]\nduration = 100\n");
+  const Outcome outcome = run(folder.path(), {"run", "p.toml", "-o", "run.h5", "-q", "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.errors;
+  const Json summary = Json::parse(outcome.output);
+  EXPECT_EQ(summary["overlaps"], 0);
+  EXPECT_EQ(summary["frames"], 1001);
+  EXPECT_GT(summary["collisions"], 1000);
+  EXPECT_LT(summary["energy_drift"], 1e-11);
+  EXPECT_NEAR(summary["compressibility"].get<double>(), 2.7, 0.4);
+  const TrajectoryReader reader(folder / "run.h5");
+  EXPECT_EQ(reader.dimension(), 3);
+  EXPECT_NEAR(reader.observable("translational_energy").back() +
+                  reader.observable("rotational_energy").back(),
+              1.5 * 20 + 20, 1e-9);
+  EXPECT_EQ(run(folder.path(), {"check", "run.h5", "-q"}).code, 0);
+}
+
+constexpr const char* soft_system =
+    "[system]\nparticles = 60\npacking_fraction = 0.3\n[[species]]\naspect_ratio = 1\n"
+    "[[prepare.stage]]\nmethod = \"insert\"\n[dynamics]\nduration = 20\nequilibration = 0\n"
+    "[dynamics.contact]\nlaw = \"linear_dashpot\"\nstiffness = \"1e5 N/m\"\ndamping = \"100 "
+    "kg/s\"\n";
+
+// Damped disks, close to one another after contact: the file says which, and the check knows.
+TEST(Program, RunsSoftParticles) {
+  const Folder folder("soft");
+  setenv("XDG_CACHE_HOME", folder.path().c_str(), 1);
+  folder.write("p.toml", soft_system);
+  const Outcome outcome = run(folder.path(), {"run", "p.toml", "-o", "run.h5", "-q", "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.errors;
+  const Json summary = Json::parse(outcome.output);
+  EXPECT_EQ(summary["overlaps"], 0);
+  EXPECT_GT(summary["collisions"], 100);
+  EXPECT_GT(summary["early_releases"], 0);
+  EXPECT_GT(summary["dissipated_energy"], 1);
+  EXPECT_LT(summary["energy_drift"], 1e-11);
+  const Outcome checked = run(folder.path(), {"check", "run.h5", "-q", "--json"});
+  ASSERT_EQ(checked.code, 0) << checked.errors;
+  EXPECT_GT(Json::parse(checked.output)["close_pairs"], 0);
+  Configuration2 close;
+  const TrajectoryReader reader(folder / "run.h5");
+  for (std::uint64_t k = 0; k < reader.frames() && close.close_pairs.empty(); ++k)
+    close = reader.read(k);
+  ASSERT_FALSE(close.close_pairs.empty());
+  write_state(folder / "close.h5", close, Provenance{});
+  const auto from_close = [&](const std::string& output) {
+    return std::vector<std::string>{
+        "run", "p.toml", "-o", output, "--from", "close.h5", "-q", "--set", "dynamics.duration=1"};
+  };
+  EXPECT_EQ(run(folder.path(), from_close("on.h5")).code, 0);
+  // For hard particles it is no state.
+  std::string hard = soft_system;
+  folder.write("p.toml", hard.substr(0, hard.find("[dynamics.contact]")));
+  expect_refusal(run(folder.path(), from_close("hard.h5")), 4, "overlapping pair(s)");
+}
+
 TEST(Program, SaysWhatThreeDimensionsDoNotHave) {
   const Folder folder("three_dimensions");
   folder.write("p.toml", small_packing);
-  for (const char* command : {"run", "sweep"})
-    expect_refusal(run(folder.path(), {command, "p.toml", "-o", "out", "-q"}), 2,
-                   std::string("key 'system.dimension' is 3, but vitrel ") + command +
-                       " is there for two dimensions only");
+  expect_refusal(run(folder.path(), {"sweep", "p.toml", "-o", "out", "-q"}), 2,
+                 "key 'system.dimension' is 3, but vitrel sweep is there for two dimensions only");
   ASSERT_EQ(run(folder.path(), {"prepare", "p.toml", "-o", "state.h5", "-q"}).code, 0);
   folder.write("flat.toml", small_system);
   expect_refusal(run(folder.path(), {"run", "flat.toml", "-o", "a.h5", "--from", "state.h5", "-q"}),

@@ -156,6 +156,27 @@ void expect_frames(const fs::path& path, std::uint64_t frames, std::size_t parti
   }
 }
 
+/// With one close pair more in every frame, from none, between images.
+template <int Dim>
+Configuration<Dim> with_close_pairs(Configuration<Dim> configuration, std::size_t count) {
+  for (std::size_t k = 0; k < count; ++k) {
+    const Shift<Dim> shift = Shift<Dim>::Unit(static_cast<int>(k) % Dim) * (k % 2 ? 1 : -1);
+    configuration.close_pairs.push_back({{k, k + 1, shift}, 0.1 + static_cast<double>(k)});
+  }
+  return configuration;
+}
+
+template <int Dim>
+void expect_same_close_pairs(const Configuration<Dim>& x, const Configuration<Dim>& y) {
+  ASSERT_EQ(x.close_pairs.size(), y.close_pairs.size());
+  for (std::size_t k = 0; k < x.close_pairs.size(); ++k) {
+    EXPECT_EQ(x.close_pairs[k].pair.i, y.close_pairs[k].pair.i);
+    EXPECT_EQ(x.close_pairs[k].pair.j, y.close_pairs[k].pair.j);
+    EXPECT_EQ(x.close_pairs[k].pair.shift, y.close_pairs[k].pair.shift);
+    EXPECT_EQ(x.close_pairs[k].distance, y.close_pairs[k].distance);
+  }
+}
+
 void write_run(const fs::path& path, std::uint64_t frames, std::size_t particles = 12) {
   auto writer = TrajectoryWriter::create(path, random_configuration(particles, 0),
                                          some_provenance(), with_everything);
@@ -582,6 +603,41 @@ void expect_same(const Checkpoint& x, const Checkpoint& y) {
   ASSERT_EQ(x.reals.size(), y.reals.size());
   for (const auto& [name, value] : x.reals)
     EXPECT_EQ(std::bit_cast<std::uint64_t>(value), std::bit_cast<std::uint64_t>(y.reals.at(name)));
+}
+
+TEST_F(TrajectoryFile, KeepsTheClosePairsOfEveryFrame) {
+  const auto flat = [](std::uint64_t k) {
+    return with_close_pairs(random_configuration(12, k), k);
+  };
+  const TrajectoryOptions soft{.velocities = true, .close_pairs = true};
+  auto writer = TrajectoryWriter::create(file("soft.h5"), flat(0), some_provenance(), soft);
+  for (std::uint64_t k = 0; k < 4; ++k) writer.write(flat(k), static_cast<std::int64_t>(k));
+  writer.close();
+  // Continued after two frames, with others than before.
+  auto again = TrajectoryWriter::append_to(file("soft.h5"), 2);
+  again.write(with_close_pairs(random_configuration(12, 2), 0), 2);
+  again.write(flat(3), 3);
+  again.close();
+  const TrajectoryReader reader(file("soft.h5"));
+  for (const std::uint64_t k : {0, 1, 3}) {
+    expect_same_bits(reader.read(k), flat(k));
+    expect_same_close_pairs(reader.read(k), flat(k));
+  }
+  EXPECT_TRUE(reader.read(2).close_pairs.empty());
+  const Configuration3 solids = with_close_pairs(random_solids(12, 0), 5);
+  write_state(file("state.h5"), solids, some_provenance());
+  expect_same_close_pairs(read_state<3>(file("state.h5")), solids);
+}
+
+// The file has what a particle in contact will do after it.
+TEST_F(TrajectoryFile, VelocitiesAreThoseAfterContact) {
+  Configuration2 c = random_configuration(12, 0);
+  c.releases = {{3, 4, 1.5, {7, 8}}};
+  write_state(file("state.h5"), c, some_provenance());
+  const Configuration2 read = read_state(file("state.h5"));
+  EXPECT_EQ(read.velocity[3], Vec2(7, 8));
+  EXPECT_EQ(read.velocity[4], c.velocity[4]);
+  EXPECT_EQ(mechanics(read).momentum, mechanics(c).momentum);
 }
 
 TEST_F(CheckpointFile, ComesBackBitByBit) {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <fstream>
 
+#include "core/io/quantity.h"
+
 namespace vitrel {
 namespace {
 
@@ -32,6 +34,7 @@ struct Everything {
   bool spread_is_table = false;
   double low = 0, high = 1;
   double interval = 0.1;
+  double stiffness = 2000;
   std::vector<Part> parts = std::vector<Part>(1);
   ParameterGrid grid;
 };
@@ -59,6 +62,7 @@ void describe(Everything& p, FieldVisitor& visit) {
                                      t.field({"low", "", "Low."}, p.low);
                                      t.field({"high", "", "High."}, p.high);
                                    });
+                in.quantity({"stiffness", "N/m", "Stiffness."}, p.stiffness);
                 in.table({"samples", "", "Samples."}, FieldVisitor::TableStyle::inline_table,
                          [&](FieldVisitor& t) {
                            t.field({"interval", "time", "Interval."}, p.interval);
@@ -122,6 +126,7 @@ atoms_per_cell = 2
 axes = [3, 0.5]
 spread = { low = -1, high = 2.5 }
 samples = { interval = 4.0 }
+stiffness = "12.5 mN/cm"
 [[part]]
 name = "B"
 mass = 3
@@ -142,6 +147,7 @@ system.kind = ["gas"]
   EXPECT_EQ(p.low, -1);
   EXPECT_EQ(p.high, 2.5);
   EXPECT_EQ(p.interval, 4);
+  EXPECT_DOUBLE_EQ(p.stiffness, 1.25);
   ASSERT_EQ(p.parts.size(), 2u);
   EXPECT_EQ(p.parts[0].name, "B");
   EXPECT_EQ(p.parts[0].mass, 3);
@@ -188,6 +194,15 @@ TEST(Parameters, WrongTypeNamesThePlaceOfTheValueAndShowsARightOne) {
   EXPECT_THAT(refusal("[system]\nkind = 1\n"),
               HasSubstr("one of the strings \"gas\", \"crystal\""));
   EXPECT_THAT(refusal("[system]\nkind = \"gass\"\n"), HasSubstr("did you mean 'gas'?"));
+  for (const char* stiffness : {"2000.0", "\"2000\"", "\"2 kN\"", "\"kN/m\"", "\"2 kN/n\"",
+                                "\"nan N/m\"", "\"2,0 N/m\"", "\"\""})
+    EXPECT_THAT(
+        refusal(std::string("[system]\nstiffness = ") + stiffness + "\n"),
+        HasSubstr("file.toml:2:13: key 'system.stiffness' must be a string with a number and "
+                  "a unit that converts to N/m, not "))
+        << stiffness;
+  EXPECT_THAT(refusal("[system]\nstiffness = \"2 kN\"\n"),
+              HasSubstr("not the string \"2 kN\"; for example stiffness = \"2000 N/m\""));
   EXPECT_THAT(refusal("[system]\naxes = 1\n"),
               HasSubstr("an array of 2 numbers, not the number 1"));
   EXPECT_THAT(refusal("[system]\naxes = [1, \"x\"]\n"), HasSubstr("file.toml:2:12: "));
@@ -210,6 +225,20 @@ TEST(Parameters, ImpossibleValueNamesItsPlace) {
               HasSubstr("file.toml:3:11: key 'system.density' is -1.0, but must be positive"));
   EXPECT_THAT(refusal("[[part]]\n[[part]]\nmass = 0\n"),
               HasSubstr("file.toml:3:8: key 'part.1.mass'"));
+}
+
+TEST(Quantity, ConvertsWhatIsOfTheSameKind) {
+  EXPECT_DOUBLE_EQ(*quantity("1 GPa", "Pa"), 1e9);
+  EXPECT_DOUBLE_EQ(*quantity("1.14 g/cm^3", "kg/m^3"), 1140);
+  EXPECT_DOUBLE_EQ(*quantity("1140kg m-3", "kg/m^3"), 1140);
+  EXPECT_DOUBLE_EQ(*quantity("-3 ms ", "s"), -3e-3);
+  EXPECT_EQ(*quantity("0 s", "s"), 0);
+  EXPECT_DOUBLE_EQ(*quantity("7.2 km/h", "m/s"), 2);
+  EXPECT_DOUBLE_EQ(*quantity("2 µm", "m"), 2e-6);
+  EXPECT_FALSE(quantity("1 s", "m"));
+  EXPECT_FALSE(quantity("1", "m"));
+  const double odd = 0.1 + 0.2;
+  EXPECT_EQ(quantity(quantity_text(odd, "N/m"), "N/m"), odd);
 }
 
 TEST(Parameters, OverridesReplaceAndExtend) {
@@ -281,7 +310,8 @@ TEST(Parameters, TheReferenceTablesHaveEveryField) {
   for (const char* row :
        {"## `[system]`", "| `particles` | `100` |  | Number of particles. |",
         "With `kind = \"crystal\"`: Atoms.", "| `samples.interval` | `0.1` | time |",
-        "## `[[part]]`", "| `mass` | none | mass |", "## `[grid]`"})
+        "| `stiffness` | `\"2000 N/m\"` | N/m |", "## `[[part]]`", "| `mass` | none | mass |",
+        "## `[grid]`"})
     EXPECT_THAT(text, HasSubstr(row));
 }
 

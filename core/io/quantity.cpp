@@ -1,0 +1,51 @@
+#include "core/io/quantity.h"
+
+#include <fmt/format.h>
+#include <udunits2.h>
+
+#include <charconv>
+#include <cmath>
+#include <memory>
+
+#include "core/error.h"
+
+namespace vitrel {
+namespace {
+
+using Unit = std::unique_ptr<ut_unit, decltype(&ut_free)>;
+using Converter = std::unique_ptr<cv_converter, decltype(&cv_free)>;
+
+class Units {
+ public:
+  Units()
+      : system_((ut_set_error_message_handler(ut_ignore), ut_read_xml(nullptr)), ut_free_system) {
+    if (!system_)
+      throw UserError("the list of units of UDUNITS-2 cannot be read; install libudunits2-data");
+  }
+  Unit parse(std::string text) const {
+    return {ut_parse(system_.get(), ut_trim(text.data(), UT_UTF8), UT_UTF8), ut_free};
+  }
+
+ private:
+  std::unique_ptr<ut_system, decltype(&ut_free_system)> system_;
+};
+
+}  // namespace
+
+std::optional<double> quantity(const std::string& text, const std::string& unit) {
+  static const Units units;
+  double number = 0;
+  const auto [end, trouble] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (trouble != std::errc() || !std::isfinite(number)) return std::nullopt;
+  const Unit given = units.parse({end, text.data() + text.size()});
+  const Unit wanted = units.parse(unit);
+  if (!given || !ut_are_convertible(given.get(), wanted.get())) return std::nullopt;
+  const Converter converter(ut_get_converter(given.get(), wanted.get()), cv_free);
+  return cv_convert_double(converter.get(), number);
+}
+
+std::string quantity_text(double number, const std::string& unit) {
+  return fmt::format("{} {}", number, unit);
+}
+
+}  // namespace vitrel
