@@ -22,13 +22,19 @@ class Units {
     if (!system_)
       throw UserError("the list of units of UDUNITS-2 cannot be read; install libudunits2-data");
   }
-  Unit parse(std::string text) const {
-    return {ut_parse(system_.get(), ut_trim(text.data(), UT_UTF8), UT_UTF8), ut_free};
+  Unit parse(const std::string& text) const {
+    return {ut_parse(system_.get(), text.c_str(), UT_UTF8), ut_free};
   }
 
  private:
   std::unique_ptr<ut_system, decltype(&ut_free_system)> system_;
 };
+
+std::string trimmed(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(' ');
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(' ') + 1 - first);
+}
 
 }  // namespace
 
@@ -37,7 +43,7 @@ std::optional<double> quantity(const std::string& text, const std::string& unit)
   double number = 0;
   const auto [end, trouble] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (trouble != std::errc() || !std::isfinite(number)) return std::nullopt;
-  const Unit given = units.parse({end, text.data() + text.size()});
+  const Unit given = units.parse(trimmed({end, text.data() + text.size()}));
   const Unit wanted = units.parse(unit);
   if (!given || !ut_are_convertible(given.get(), wanted.get())) return std::nullopt;
   const Converter converter(ut_get_converter(given.get(), wanted.get()), cv_free);

@@ -1,5 +1,5 @@
 // The pressure of a dilute gas of elastic viscoelastic (Hertz) spheres against its second virial
-// coefficient, by a law of contact so soft that hard spheres would be wrong by a tenth.
+// coefficient, by a law of contact so soft that hard spheres have a Z − 1 larger by two fifths.
 
 #include <gtest/gtest.h>
 
@@ -54,7 +54,7 @@ double temperature_of(const Viscoelastic& force, double energy, double density) 
 }
 
 // P V/(N kT*) − 1 with kT* = 2E/(3N). The table's error is 1e-8; early releases, 1 % of the contacts,
-// change the virial of a contact by a part of it; fluctuations are M^(−1/2) = 0.2 % for M collisions.
+// change the virial of a contact by a part of it; fluctuations are M^(−1/2) = 0.3 % for M collisions.
 TEST(SoftPressure, FollowsTheSecondVirialCoefficient) {
   const double packing_fraction = 0.001, density = packing_fraction * 3 / (4 * pi);
   const Viscoelastic force{300, 0.3};
@@ -70,7 +70,7 @@ TEST(SoftPressure, FollowsTheSecondVirialCoefficient) {
   RunState3 settled = begin_run(start, 0);
   run(settled, options, {{}, 2'000, nullptr, {}}, {});
   RunState3 state = begin_run(settled.configuration, 0);
-  const double duration = 50'000;
+  const double duration = 30'000;
   run(state, options, {{}, duration, nullptr, {}}, {});
 
   const auto met = static_cast<double>(state.counters.collisions);
@@ -85,8 +85,8 @@ TEST(SoftPressure, FollowsTheSecondVirialCoefficient) {
   RecordProperty("hard spheres", std::to_string(hard / wanted));
   RecordProperty("collisions", std::to_string(met));
   RecordProperty("early releases", std::to_string(state.counters.early_releases));
-  EXPECT_GT(met, 100'000);
-  EXPECT_GT(hard / wanted, 1.1);
+  EXPECT_GT(met, 80'000);
+  EXPECT_GT(hard / wanted, 1.3);
   EXPECT_NEAR(found / wanted, 1, 0.01);
 }
 
