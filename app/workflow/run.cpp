@@ -277,13 +277,6 @@ std::string start_text(const RunRequest& request) {
   return fmt::format("a preparation in {} stage(s)", request.parameters.stages.size());
 }
 
-std::string contact_text(const ContactParameters& contact) {
-  const UnitsOfRun unit = units_of_run(contact);
-  return fmt::format(
-      "contact      {}\nunits        length {:.6g} m, mass {:.6g} kg, time {:.6g} s\n",
-      law_name(contact.law), unit.length, unit.mass, unit.time);
-}
-
 }  // namespace
 
 std::string run_plan(const RunRequest& request) {

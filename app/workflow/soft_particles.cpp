@@ -101,6 +101,24 @@ UnitsOfRun units_of_run(const ContactParameters& p) {
           p.radius / p.thermal_speed};
 }
 
+std::string contact_text(const ContactParameters& p) {
+  const UnitsOfRun unit = units_of_run(p);
+  const ContactPair pair = contact_pair(unit.length, unit.mass, unit.length, unit.mass);
+  const auto impact = [&]<ContactForce Force>(const Force& force) {
+    Restitution found = integrate_contact<Force>(scaled_impact(force, pair, p.thermal_speed, 0));
+    found.duration *= force.scales(p.thermal_speed, pair).time;
+    return found;
+  };
+  const Restitution head_on = p.law == ContactParameters::Law::linear_dashpot
+                                  ? impact(p.linear_dashpot)
+                                  : impact(p.viscoelastic);
+  return fmt::format(
+      "contact      {}; head-on at {:.4g} m/s it lasts {:.3g} s and leaves {:.4g} of the speed\n"
+      "units        length {:.4g} m, mass {:.4g} kg, time {:.4g} s\n",
+      law_name(p.law), p.thermal_speed, head_on.duration, -head_on.rate, unit.length, unit.mass,
+      unit.time);
+}
+
 template <int Dim>
 std::shared_ptr<SoftContact> soft_contact(const ContactParameters& parameters,
                                           const Configuration<Dim>& configuration, int threads,

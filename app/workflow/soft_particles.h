@@ -19,6 +19,10 @@ struct UnitsOfRun {
 };
 UnitsOfRun units_of_run(const ContactParameters& parameters);
 
+/// The law, the units, and what becomes of two particles of size 1 that meet head-on at the thermal
+/// speed, in lines for a person.
+std::string contact_text(const ContactParameters& parameters);
+
 /// For particles of these radii and masses. A table covers relative speeds from 1e-5 to 20 thermal
 /// speeds, is kept in $XDG_CACHE_HOME/vitrel (~/.cache/vitrel) and made if it is not there; `say` gets a
 /// line if so. Its tolerance is 1e-8, or 1e-6 if pairs damp differently and there is one more variable.

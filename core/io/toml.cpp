@@ -79,9 +79,12 @@ std::optional<std::size_t> as_index(const std::string& part) {
   return index;
 }
 
-bool is_bare_word(std::string_view text) {
-  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) || std::string_view("_-+./").find(c) < 5;
+/// A word, or a number with a unit; beyond ASCII may be any letter.
+bool is_bare_text(std::string_view text) {
+  constexpr std::string_view marks = "_-+./^ ";
+  return !text.empty() && std::all_of(text.begin(), text.end(), [&](char c) {
+    const auto code = static_cast<unsigned char>(c);
+    return std::isalnum(code) || code >= 0x80 || marks.find(c) < marks.size();
   });
 }
 
@@ -100,7 +103,7 @@ TomlNode override_value(const std::string& text, const std::string& option) {
     if (document.get<TomlNode::Table>()->size() != 1) throw UserError("more than one key");
     value = std::move(document.get<TomlNode::Table>()->front().node);
   } catch (const UserError&) {
-    if (!is_bare_word(text))
+    if (!is_bare_text(text))
       throw UserError(
           fmt::format("{}: '{}' is not a TOML value; write a number, true, false, a word, "
                       "\"text\", [1, 2] or {{ key = 1 }}",

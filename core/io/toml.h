@@ -48,7 +48,7 @@ TomlNode parse_toml(std::string_view text, const std::string& name);
 TomlNode read_toml_file(const std::filesystem::path& path);
 
 /// Applies "key=value" to a document: the key is dotted and counts entries of arrays from 0
-/// (species.0.aspect_ratio); the value is TOML, or a bare word, which is taken as a string. Missing
+/// (species.0.aspect_ratio); the value is TOML, or a bare word or number with a unit, taken as a string. Missing
 /// tables and the next entry of an array are made. Throws UserError naming `option`, the text that
 /// carried the assignment ("--set dynamics.duration=10").
 void apply_override(TomlNode& root, std::string_view assignment, const std::string& option);

@@ -58,6 +58,7 @@ class Interruption : public testing::TestWithParam<Kind> {};
 /// machine does, so one that ends before its signal counts as a run of its own, and the next begins.
 void expect_same_datasets_despite(const std::vector<int>& signals, const Kind& kind,
                                   const Folder& folder, double earliest, double latest) {
+  setenv("XDG_CACHE_HOME", folder.path().c_str(), 1);  // of tables of contacts
   folder.write("p.toml", system_text + "correlations = { interval = 0.05 }\n" + kind.more);
   const milliseconds whole = run_uninterrupted(folder, kind);
   Stream moments(11, Purpose::tests);

@@ -258,6 +258,10 @@ TEST(Parameters, OverridesReplaceAndExtend) {
   EXPECT_EQ(p.interval, 3);
   EXPECT_EQ(p.axes, (std::array<double, 2>{4, 2}));
   EXPECT_EQ(p.high, 3);
+  for (const char* assignment : {"system.stiffness=3 kN/m", "system.stiffness=\"3 kN/m\""}) {
+    apply_override(root, assignment, std::string("--set ") + assignment);
+    EXPECT_EQ(read(root).stiffness, 3000);
+  }
 }
 
 TEST(Parameters, ErrorsOfOverridesNameTheOption) {
