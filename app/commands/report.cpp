@@ -9,10 +9,10 @@
 #include "app/workflow/packing_report.h"
 #include "app/workflow/quality_file.h"
 #include "app/workflow/run_report.h"
-#include "app/workflow/stored_run.h"
 #include "app/workflow/sweep_results.h"
 #include "app/workflow/text_file.h"
 #include "core/error.h"
+#include "core/io/h5md.h"
 
 namespace vitrel {
 namespace {
@@ -95,7 +95,7 @@ int report_sweep(const Arguments& arguments, const fs::path& folder) {
 int report_command(const Arguments& arguments) {
   const fs::path input = run_or_sweep(arguments.input);
   if (fs::is_directory(input)) return report_sweep(arguments, input);
-  if (is_packing(input)) return report_packing(arguments, input);
+  if (TrajectoryReader(input).dimension() == 3) return report_packing(arguments, input);
   return is_single_state(input) ? report_state(arguments) : report_run(arguments, input);
 }
 

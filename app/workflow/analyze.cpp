@@ -199,13 +199,17 @@ std::vector<Column> summary_columns(const RunAnalysis& run) {
           {"rotational_diffusion_to", "time", {run.rotational_diffusion.to}, {}}};
 }
 
+void add_tables(const EnergySeries& energy, const CompressibilitySeries& compressibility,
+                std::vector<Table>& tables) {
+  if (!energy.time.empty()) tables.push_back(energy_table(energy));
+  if (!compressibility.value.empty()) tables.push_back(compressibility_table(compressibility));
+}
+
 Results results_of(const RunAnalysis& run) {
   Results results;
   results.tables.push_back({"summary", "Averages over the run.", summary_columns(run)});
   for (Table& table : dynamics_tables(run.dynamics)) results.tables.push_back(std::move(table));
-  if (!run.energy.time.empty()) results.tables.push_back(energy_table(run.energy));
-  if (!run.compressibility.value.empty())
-    results.tables.push_back(compressibility_table(run.compressibility));
+  add_tables(run.energy, run.compressibility, results.tables);
   results.tables.insert(results.tables.end(), run.structure.begin(), run.structure.end());
   return results;
 }
@@ -214,13 +218,18 @@ std::filesystem::path csv_file(const std::filesystem::path& results, const std::
   return results.parent_path() / fmt::format("{}_{}.csv", results.stem().string(), table);
 }
 
-AnalysedRun analyze_packing(const std::filesystem::path& file, const AnalysisChoice& choice) {
+// In three dimensions: the structure of the last frame, and what the file says of all frames.
+AnalysedRun analyze_solids(const std::filesystem::path& file, const AnalysisChoice& choice) {
   const TrajectoryReader reader(file);
   require_own_names(reader);
   const Parameters parameters = analysis_parameters(reader, choice);
   ProgressDisplay(choice.progress, choice.job).begin("structure");
   AnalysedRun analysed{file, {}};
-  analysed.results.tables = packing_tables(read_packing(file), parameters.structure);
+  const Configuration3 last = read_state<3>(file);
+  analysed.results.tables = packing_tables(last, parameters.structure);
+  const EnergySeries energy = observed_energies(reader);
+  add_tables(energy, stored_compressibility(reader, energy, rotation_count(last)),
+             analysed.results.tables);
   analysed.results.provenance = provenance_rows(reader.provenance());
   analysed.results.provenance.emplace_back("source", file.string());
   return analysed;
@@ -244,7 +253,7 @@ std::uint64_t AnalysedRun::seed() const {
 }
 
 AnalysedRun analyze_run(const std::filesystem::path& file, const AnalysisChoice& choice) {
-  if (is_packing(file)) return analyze_packing(file, choice);
+  if (TrajectoryReader(file).dimension() == 3) return analyze_solids(file, choice);
   StoredTrajectory trajectory(file);
   const TrajectoryReader& reader = trajectory.reader();
   if (trajectory.frames() < 2)

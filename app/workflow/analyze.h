@@ -40,7 +40,8 @@ struct AnalysedRun {
 /// Tables: a summary of one row, time correlations (dynamics_tables.h), relaxation times
 /// (relaxation_tables.h), energies, compressibility, structure (structure_tables.h), correlations measured
 /// on the fly (correlations_file.h), and if the run can be judged (glass_data.h) its relaxation times and
-/// verdict. Of a packing in three dimensions those of packing_tables.h. Throws FileError or UserError, naming the file.
+/// verdict. In three dimensions those of packing_tables.h of the last frame, and of a run its energies
+/// and compressibility. Throws FileError or UserError, naming the file.
 AnalysedRun analyze_run(const std::filesystem::path& file, const AnalysisChoice& choice);
 
 /// The tables of the results in this file, if there is one. Throws UserError if it holds anything but

@@ -5,12 +5,12 @@
 #include "app/workflow/packing_quality.h"
 #include "app/workflow/quality_file.h"
 #include "app/workflow/run_report.h"
-#include "app/workflow/stored_run.h"
+#include "core/io/h5md.h"
 
 namespace vitrel {
 
 PackingPage packing_page_data(const std::filesystem::path& file, const AnalysisChoice& choice) {
-  const Configuration3 packing = read_packing(file);
+  const Configuration3 packing = read_state<3>(file);
   const ExactCheck<3> check = exact_check(packing);
   PackingQuality quality = measure_quality(packing, check);
   const std::filesystem::path report = quality_file(file);

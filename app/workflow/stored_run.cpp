@@ -31,20 +31,6 @@ Observables measure_run(const Frame<Dim>& frame) {
 template Observables measure_run(const Frame<2>&);
 template Observables measure_run(const Frame<3>&);
 
-bool is_packing(const std::filesystem::path& file) {
-  return TrajectoryReader(file).dimension() == 3;
-}
-
-Configuration3 read_packing(const std::filesystem::path& file) {
-  const TrajectoryReader reader(file);
-  if (reader.frames() != 1)
-    throw UserError(
-        fmt::format("{}: has {} frames, but in three dimensions a single packing is analysed, as "
-                    "vitrel prepare writes it",
-                    file.string(), reader.frames()));
-  return reader.read<3>(0);
-}
-
 EnergySeries stored_energies(StoredTrajectory& trajectory) {
   const TrajectoryReader& reader = trajectory.reader();
   EnergySeries observed = observed_energies(reader);

@@ -18,11 +18,6 @@ extern const std::vector<std::string> run_observables;
 template <int Dim>
 Observables measure_run(const Frame<Dim>& frame);
 
-/// Whether a file is of three dimensions, of which single packings are analysed. Throws FileError.
-bool is_packing(const std::filesystem::path& file);
-/// Its only frame. Throws UserError if it has more.
-Configuration3 read_packing(const std::filesystem::path& file);
-
 /// A trajectory file as the analysis takes it.
 class StoredTrajectory final : public Trajectory {
  public:

@@ -371,6 +371,11 @@ TEST(Program, RunsInThreeDimensions) {
                   reader.observable("rotational_energy").back(),
               1.5 * 20 + 20, 1e-9);
   EXPECT_EQ(run(folder.path(), {"check", "run.h5", "-q"}).code, 0);
+  ASSERT_EQ(run(folder.path(), {"analyze", "run.h5", "-q"}).code, 0);
+  EXPECT_THAT(folder.read("run_results_energies.csv"), HasSubstr("translational"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "run_results_compressibility.csv"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "run_results_structure_factor.csv"));
+  EXPECT_EQ(run(folder.path(), {"report", "run.h5", "-q"}).code, 0);
 }
 
 constexpr const char* soft_system =
