@@ -218,16 +218,14 @@ class Simulation final : public Engine<B::dimension> {
     Index i, j;
     Shift<dimension> lag;
 
-    Images reversed() const { return {j, i, -lag}; }
-    friend bool operator==(const Images& one, const Images& two) {
-      return (one.i == two.i && one.j == two.j && one.lag == two.lag) ||
-             (one.i == two.j && one.j == two.i && one.lag == -two.lag);
+    /// The same for either order of the two, which are distinct.
+    Images ascending() const { return i < j ? *this : Images{j, i, -lag}; }
+    friend bool operator==(const Images&, const Images&) = default;
+    friend bool operator<(const Images& one, const Images& two) {
+      if (one.i != two.i || one.j != two.j)
+        return std::pair(one.i, one.j) < std::pair(two.i, two.j);
+      return std::ranges::lexicographical_compare(one.lag, two.lag);
     }
-  };
-  /// A soft pair that lost energy in a contact, until it is apart.
-  struct Close {
-    Images pair;
-    double distance;
   };
 
   static constexpr bool may_be_soft = std::same_as<B, Disk> || std::same_as<B, Sphere>;
@@ -329,7 +327,7 @@ class Simulation final : public Engine<B::dimension> {
   Calendar calendar_;
   std::vector<Event> events_;
   std::vector<Release> releases_;    // of soft particles
-  std::vector<Close> close_;         // of these, some may be apart already
+  std::map<Images, double> close_;   // of these, how close pairs may be; some may be apart already
   std::size_t most_close_ = 0;       // more are looked through first
   std::vector<std::uint8_t> haste_;  // how many collisions in a row took a particle nowhere
   double contact_gap_ = 0;

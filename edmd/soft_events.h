@@ -49,7 +49,7 @@ void Simulation<B>::soft_impact(Index i, const Image& partner, double since,
   const Restitution restitution =
       options_.soft_contact->collide(pair, speed, (v + speed * normal).norm(), counters);
   const RelativeMotion<dimension> after = after_contact<dimension>({d, v}, restitution);
-  const Images both = images(i, partner);
+  const Images both = images(i, partner);  // in this order
   if (!turn(both, share1 * (d - after.position), -share2 * (d - after.position))) {
     ++counters.refused_turns;
     return impact(i, j, d, normal, since, -restitution.rate, counters);
@@ -94,7 +94,7 @@ template <Body B>
 bool Simulation<B>::has_room(Index i, const Vector& way, const Images& pair) const {
   const Particle& particle = particles_[i];
   for (const Image& neighbor : neighborhoods_->of(i)) {
-    if (images(i, neighbor) == pair) continue;
+    if (images(i, neighbor).ascending() == pair.ascending()) continue;
     const Vector d = particles_[neighbor.other].pose_at(now_).position +
                      box_.translation(neighbor.shift()) - particle.position;
     const double reach =
@@ -135,14 +135,10 @@ void Simulation<B>::release_early(Index i, Index j, RunCounters& counters) {
 template <Body B>
 void Simulation<B>::note_close(const Images& pair, double distance) {
   if (close_.size() >= most_close_) {
-    std::erase_if(close_, [&](const Close& known) { return !is_close(known.pair); });
+    std::erase_if(close_, [&](const auto& known) { return !is_close(known.first); });
     most_close_ = std::max<std::size_t>(2 * close_.size(), 64);
   }
-  const auto known = std::ranges::find(close_, pair, &Close::pair);
-  if (known == close_.end())
-    close_.push_back({pair, distance});
-  else
-    known->distance = distance;
+  close_.insert_or_assign(pair.ascending(), distance);
 }
 
 template <Body B>
@@ -155,7 +151,7 @@ bool Simulation<B>::is_close(const Images& pair) const {
 
 template <Body B>
 bool Simulation<B>::may_be_close(const Images& pair) const {
-  return std::ranges::find(close_, pair, &Close::pair) != close_.end();
+  return close_.contains(pair.ascending());
 }
 
 template <Body B>
@@ -170,7 +166,7 @@ void Simulation<B>::load_contacts(const Configuration<dimension>& configuration)
     const Index i = inner[pair.i], j = inner[pair.j];
     const Shift<dimension> lag =
         pair.shift + configuration.image[pair.i] - configuration.image[pair.j];
-    close_.push_back({{i, j, lag}, distance});
+    close_.emplace(Images{i, j, lag}.ascending(), distance);
   }
 }
 
@@ -182,13 +178,13 @@ void Simulation<B>::write_contacts(Configuration<dimension>& configuration) cons
     if (const Release& release = releases_[i]; release.time < never)
       configuration.releases.push_back(
           {outer_[i], outer_[release.partner], base_ + release.time, release.velocity});
-  for (const Close& known : close_)
-    if (is_close(known.pair)) {
-      const bool ascends = outer_[known.pair.i] < outer_[known.pair.j];
-      const Images pair = ascends ? known.pair : known.pair.reversed();
-      const std::size_t i = outer_[pair.i], j = outer_[pair.j];
+  for (const auto& [pair, distance] : close_)
+    if (is_close(pair)) {
+      const bool ascends = outer_[pair.i] < outer_[pair.j];
+      const auto [i, j] = std::minmax(outer_[pair.i], outer_[pair.j]);
+      const Shift<dimension> lag = ascends ? pair.lag : Shift<dimension>(-pair.lag);
       configuration.close_pairs.push_back(
-          {{i, j, pair.lag - configuration.image[i] + configuration.image[j]}, known.distance});
+          {{i, j, lag - configuration.image[i] + configuration.image[j]}, distance});
     }
   std::ranges::sort(configuration.releases, {}, &vitrel::Release<dimension>::particle);
   std::ranges::sort(configuration.close_pairs, {}, [](const ClosePair<dimension>& close) {
