@@ -186,7 +186,8 @@ class Runner {
     RunState<Dim>& state = stored_.state;
     if (continues) say_(fmt::format("continuing at time {:.6g}", state.configuration.time));
     const DynamicsOptions options = dynamics();
-    say_("run of " + make_engine(state.configuration, options.engine)->description());
+    say_((is_soft() ? "run of soft " : "run of ") +
+         make_engine(state.configuration, options.engine)->description());
     TrajectoryWriter writer = open_trajectory();
     TrajectoryObserver<Dim> observer(writer, measure_run<Dim>);
     make_correlator();

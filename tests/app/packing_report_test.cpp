@@ -114,16 +114,34 @@ TEST_F(PackingFile, TakesFromTheQualityReportWhatOnlyThePreparationKnows) {
   EXPECT_THROW(packing_page_data(file(), {}), FileError);
 }
 
-TEST_F(PackingFile, OfSeveralFramesIsRefused) {
-  TrajectoryWriter writer =
-      TrajectoryWriter::create(file(), lattice(), Provenance{}, {.overwrite = true});
+// A run: the structure is that of its last frame, and what was measured on the way comes with it.
+TEST_F(PackingFile, OfSeveralFramesTheLastIsShown) {
+  const std::vector<std::string> observables = {"rotational_energy", "translational_energy",
+                                                "virial"};
+  TrajectoryWriter writer = TrajectoryWriter::create(
+      file(), lattice(), Provenance{}, {.observables = observables, .overwrite = true});
   Configuration3 c = lattice();
-  for (int k = 0; k < 2; ++k) {
+  const double n = static_cast<double>(c.size());
+  for (int k = 0; k < 3; ++k) {
     c.time = k;
-    writer.write(c, k);
+    if (k == 2) c.position[0].x() += 0.01;
+    writer.write(
+        c, k,
+        {{"rotational_energy", n}, {"translational_energy", 1.5 * (n - 1)}, {"virial", 6 * n * k}});
   }
   writer.close();
-  EXPECT_THROW(analyze_run(file(), {}), UserError);
+  const PackingPage page = packing_page_data(file(), {});
+  EXPECT_THAT(page.subtitle, HasSubstr("; the last of 3 frames, at time 2"));
+  write_state(file(), c, Provenance{}, true);
+  const PackingPage last = packing_page_data(file(), {});
+  EXPECT_EQ(page.results.find("pair_correlation")->find("g")->value,
+            last.results.find("pair_correlation")->find("g")->value);
+  EXPECT_EQ(last.results.find("energies"), nullptr);
+  const Table* energies = page.results.find("energies");
+  ASSERT_NE(energies, nullptr);
+  EXPECT_EQ(energies->find("translational")->value.size(), 3u);
+  // E = (3 (N − 1) + 2 N) kT/2 at kT = 1, and Z = 1 + 6/3.
+  EXPECT_NEAR(page.results.find("compressibility")->find("z")->value[0], 3, 1e-12);
 }
 
 }  // namespace

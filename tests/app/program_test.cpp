@@ -414,7 +414,8 @@ TEST(Program, RunsSoftParticles) {
   // In closed form, with m_eff = 2.3876 kg: β = γ/(2 m_eff), ω = √(k/m_eff − β²),
   // ω τ = π − atan(2βω/(ω² − β²)), exp(−β τ).
   const Outcome plan = run(folder.path(), {"run", "p.toml", "-o", "new.h5", "--dry-run"});
-  EXPECT_THAT(plan.output, HasSubstr("linear_dashpot; head-on at 2 m/s it lasts 0.0144 s and leaves 0.7393"));
+  EXPECT_THAT(plan.output,
+              HasSubstr("linear_dashpot; head-on at 2 m/s it lasts 0.0144 s and leaves 0.7393"));
   EXPECT_THAT(plan.output, HasSubstr("time 0.05 s"));
   // For hard particles it is no state.
   std::string hard = soft_system;
