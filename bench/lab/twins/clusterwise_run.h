@@ -131,10 +131,9 @@ class ClusterwiseRun {
       part(x, n + k) = c_.velocity[cluster.members[k]];
     }
     const auto motion = [&](const State& at, State& slope, double) { move(cluster, at, slope); };
-    odeint::integrate_adaptive(
-        odeint::make_controlled(tolerance_, tolerance_, longest_step_,
-                                odeint::runge_kutta_dopri5<State>()),
-        motion, x, 0.0, duration, std::min(duration, longest_step_));
+    odeint::integrate_adaptive(odeint::make_controlled(tolerance_, tolerance_, longest_step_,
+                                                       odeint::runge_kutta_dopri5<State>()),
+                               motion, x, 0.0, duration, std::min(duration, longest_step_));
     for (std::size_t k = 0; k < n; ++k) {
       c_.position[cluster.members[k]] = origin + part(x, k);
       c_.velocity[cluster.members[k]] = part(x, n + k);
