@@ -201,111 +201,121 @@ const Viscoelastic granular{usual_modulus, poissons_ratio, 4e-5};
 /// impact of this normal speed.
 class ClassicalRestitution {
  public:
-  explicit ClassicalRestitution(RestitutionTable table) : table_(std::move(table)) {}
+  explicit ClassicalRestitution(RestitutionTable table)
+      : head_on_(form_of<Viscoelastic>(), std::move(table)) {}
 
   Restitution operator()(const ScaledImpact& impact) {
-    const double head_on = impact.distance * std::exp(usual_obliqueness.low);
-    const auto found = table_({impact.distance, head_on, impact.damping});
-    const double rate =
-        found ? found->rate
-              : integrate_contact<Viscoelastic>({impact.distance, head_on, impact.damping}).rate;
-    return {1, 0, 0, rate};
+    const double least = impact.distance * std::exp(usual_obliqueness.low);
+    return {1, 0, 0, head_on_({impact.distance, least, impact.damping}).rate};
   }
 
  private:
-  RestitutionTable table_;
+  TabulatedRestitution head_on_;
 };
 
-Json errors_json(const Configuration3& start, const Configuration3& exact,
+/// A granular gas for one mean free time, and where its particles really are then.
+struct Race {
+  Configuration3 start, exact;
+  double duration, contact;  ///< s; of a head-on contact at the thermal speed
+};
+
+Configuration3 clusterwise(const Race& race, double tolerance) {
+  ClusterwiseRun<3, Viscoelastic> run(race.start, granular, tolerance, 0.05 * race.contact);
+  run.advance(race.duration);
+  return run.state();
+}
+
+Race race(const Effort& effort) {
+  say("accuracy: reference");
+  constexpr double collisions = 20, tolerance = 1e-14;
+  const Configuration3 start = gas(effort.few_sites, dilute, collisions, 1);
+  const ScaledImpact head_on = scaled_impact(granular, pair, thermal_speed, 0);
+  const double contact =
+      integrate_contact<Viscoelastic>(head_on).duration * granular.scales(thermal_speed, pair).time;
+  Race race{start, {}, mean_free_time(start), contact};
+  race.exact = clusterwise(race, tolerance);
+  return race;
+}
+
+/// Of the particles that have collided, in radii.
+Json result_json(const Race& race, const std::string& way, double seconds,
                  const Configuration3& found) {
   std::vector<double> errors;
-  for (std::size_t i = 0; i < start.size(); ++i)
-    if (exact.velocity[i] != start.velocity[i])
-      errors.push_back((found.unwrapped(i) - exact.unwrapped(i)).norm() / radius);
+  for (std::size_t i = 0; i < found.size(); ++i)
+    if (race.exact.velocity[i] != race.start.velocity[i])
+      errors.push_back((found.unwrapped(i) - race.exact.unwrapped(i)).norm() / radius);
   std::ranges::sort(errors);
   const auto quantile = [&](double share) {
     return errors[static_cast<std::size_t>(share * static_cast<double>(errors.size() - 1))];
   };
-  return {{"particles", errors.size()},
+  return {{"way", way},
+          {"seconds", seconds},
+          {"particles", errors.size()},
           {"median", quantile(0.5)},
           {"ninth_decile", quantile(0.9)},
           {"largest", errors.back()}};
 }
 
 /// Again and again from the same start, with everything that takes; the best time.
-RunState3 timed_run(const Configuration3& start, const EngineOptions& options, double duration,
-                    double least_seconds, double& best) {
+Json event_driven(const Race& race, const char* name, const EngineOptions& options,
+                  const Effort& effort) {
+  say(fmt::format("accuracy: {}", name));
+  constexpr int runs = 10;
   RunState3 state;
-  best = std::numeric_limits<double>::infinity();
-  for (const double begin = processor_seconds(); processor_seconds() - begin < least_seconds;) {
+  double best = std::numeric_limits<double>::infinity();
+  for (const double begin = processor_seconds(); processor_seconds() - begin < effort.timed;) {
     const double before = processor_seconds();
-    for (int k = 0; k < 10; ++k) {
-      state = begin_run(start, 0);
-      run_on(state, options, duration);
+    for (int k = 0; k < runs; ++k) {
+      state = begin_run(race.start, 0);
+      run_on(state, options, race.duration);
     }
-    best = std::min(best, (processor_seconds() - before) / 10);
+    best = std::min(best, (processor_seconds() - before) / runs);
   }
-  return state;
+  Json row = result_json(race, name, best, state.configuration);
+  row["collisions"] = state.counters.collisions;
+  row["refused_turns"] = state.counters.refused_turns;
+  row["early_releases"] = state.counters.early_releases;
+  return row;
+}
+
+Json force_based(const Race& race, double steps_per_contact) {
+  say(fmt::format("accuracy: force-based, {} steps per contact", steps_per_contact));
+  const auto steps = static_cast<std::uint64_t>(race.duration / race.contact * steps_per_contact);
+  const double began = processor_seconds();
+  ForceBasedRun<3, Viscoelastic> run(race.start, granular);
+  run.advance(race.duration, steps);
+  Json row = result_json(race, "force-based", processor_seconds() - began, run.state());
+  row["steps_per_contact"] = steps_per_contact;
+  return row;
+}
+
+Json adaptive(const Race& race) {
+  say("accuracy: clusterwise");
+  constexpr double tolerance = 1e-13;
+  const double began = processor_seconds();
+  const Configuration3 found = clusterwise(race, tolerance);
+  return result_json(race, "clusterwise", processor_seconds() - began, found);
 }
 
 Json measure_accuracy(const Effort& effort) {
-  const Configuration3 start = gas(effort.few_sites, dilute, 20, 1);
-  const double duration = mean_free_time(start);
-  const double contact =
-      integrate_contact<Viscoelastic>(scaled_impact(granular, pair, thermal_speed, 0)).duration *
-      granular.scales(thermal_speed, pair).time;
-
-  say("accuracy: reference");
-  const auto clusterwise = [&](double tolerance) {
-    ClusterwiseRun<3, Viscoelastic> run(start, granular, tolerance, 0.05 * contact);
-    run.advance(duration);
-    return run.state();
-  };
-  const Configuration3 exact = clusterwise(1e-14);
-  Json result = {{"particles", start.size()},
-                 {"packing_fraction", dilute},
-                 {"duration", duration},
-                 {"contact", contact},
-                 {"reference", errors_json(start, exact, clusterwise(1e-13))}};
-
-  double began = processor_seconds();
+  const Race all = race(effort);
+  const double began = processor_seconds();
   const RestitutionTable table = table_of(granular);
-  result["table"] = {{"seconds", processor_seconds() - began},
-                     {"megabytes", 1e-6 * static_cast<double>(table.bytes())}};
-  Json rows = Json::array();
-  const auto add_event_driven = [&](const char* name, const EngineOptions& options) {
-    say(fmt::format("accuracy: {}", name));
-    double seconds = 0;
-    const RunState3 state = timed_run(start, options, duration, effort.timed, seconds);
-    Json row = {{"way", name}, {"seconds", seconds}};
-    row.update(errors_json(start, exact, state.configuration));
-    row["collisions"] = state.counters.collisions;
-    row["refused_turns"] = state.counters.refused_turns;
-    row["early_releases"] = state.counters.early_releases;
-    rows.push_back(row);
-  };
-  const auto add_all_event_driven = [&] {
-    add_event_driven("tables",
-                     soft(granular, TabulatedRestitution(form_of<Viscoelastic>(), table)));
-    add_event_driven("integration", integrated(granular));
-    add_event_driven("classical", soft(granular, ClassicalRestitution(table)));
-  };
-  add_all_event_driven();
-  for (const double steps_per_contact : effort.steps_per_contact) {
-    say(fmt::format("accuracy: force-based, {} steps per contact", steps_per_contact));
-    const auto steps = static_cast<std::uint64_t>(duration / contact * steps_per_contact);
-    began = processor_seconds();
-    ForceBasedRun<3, Viscoelastic> run(start, granular);
-    run.advance(duration, steps);
-    Json row = {{"way", "force-based"},
-                {"steps_per_contact", steps_per_contact},
-                {"steps", steps},
-                {"seconds", processor_seconds() - began}};
-    row.update(errors_json(start, exact, run.state()));
-    rows.push_back(row);
-  }
-  result["rows"] = rows;
-  return result;
+  const Json built = {{"seconds", processor_seconds() - began},
+                      {"megabytes", 1e-6 * static_cast<double>(table.bytes())}};
+  const EngineOptions tables = soft(granular, TabulatedRestitution(form_of<Viscoelastic>(), table));
+  Json rows = {event_driven(all, "tables", tables, effort),
+               event_driven(all, "integration", integrated(granular), effort),
+               event_driven(all, "classical", soft(granular, ClassicalRestitution(table)), effort)};
+  for (const double steps_per_contact : effort.steps_per_contact)
+    rows.push_back(force_based(all, steps_per_contact));
+  rows.push_back(adaptive(all));
+  return {{"particles", all.start.size()},
+          {"packing_fraction", dilute},
+          {"duration", all.duration},
+          {"contact", all.contact},
+          {"table", built},
+          {"rows", rows}};
 }
 
 // ---- cooling ------------------------------------------------------------------------------------------------
