@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ctime>
 #include <limits>
 #include <memory>
 #include <numbers>
@@ -47,10 +46,6 @@ struct Effort {
   double stretch = 0.5;  // seconds of a repeat, at least
 };
 const Effort quick{{5, 5, 5}, 1, 4, 1, {4, 4, 4}, {10}, 0.01, {4, 4, 4}, 2, 3e2, 10, 2, 2, 0.01};
-
-double processor_seconds() {
-  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
 
 // ---- the gas of the source's figure 7 -------------------------------------------------------------------
 
