@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <ctime>
 #include <functional>
 #include <memory>
 #include <numbers>
@@ -49,13 +48,6 @@ struct State {
   double seconds;  ///< of either method
   double tick;     ///< seconds between looks at the state, about
 };
-
-/// Of this process, so that others do not count.
-double processor_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 double ratio(std::uint64_t part, std::uint64_t whole) {
   return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0;

@@ -24,10 +24,6 @@
 namespace vitrel::lab {
 namespace {
 
-double processor_seconds() {
-  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
-
 void must_reach(const StageReport& report) {
   if (report.end != StageEnd::reached)
     throw InvariantError("no state to measure: " + report.reason);
@@ -43,6 +39,10 @@ std::vector<std::size_t> random_order(std::size_t n) {
 }
 
 }  // namespace
+
+double processor_seconds() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
 
 Configuration2 fluid(const FluidScene& scene) {
   constexpr double dilute = 0.2;

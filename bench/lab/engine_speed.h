@@ -26,6 +26,9 @@ Configuration2 fluid(const FluidScene& scene);
 /// their own. No more a periodic one after some collisions of each.
 Configuration2 tiled(const Configuration2& tile, int columns, int rows);
 
+/// Of this process, so that others do not count.
+double processor_seconds();
+
 /// What some work of an engine took.
 struct Work {
   double seconds = 0;

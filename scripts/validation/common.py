@@ -80,6 +80,25 @@ def table(head, rows):
     return "\n".join("| " + " | ".join(map(str, line)) + " |" for line in lines)
 
 
+def pyplot():
+    """Matplotlib set up for pictures that depend on nothing but what they show."""
+    import matplotlib  # only here: a test imports all validations
+
+    matplotlib.use("svg")
+    from matplotlib import pyplot as plots
+
+    matplotlib.rcParams.update({"svg.hashsalt": "vitrel", "svg.fonttype": "none", "font.size": 10})
+    return plots
+
+
+def save_figure(figure, folder, name):
+    """As docs/<folder>/<name>.svg; the figure is closed."""
+    file = ROOT / "docs" / folder / f"{name}.svg"
+    file.parent.mkdir(parents=True, exist_ok=True)
+    figure.savefig(file, metadata={"Date": None}, dpi=100)
+    pyplot().close(figure)
+
+
 def clock_rate():
     found = re.search(r"^cpu MHz\s*: (.+)$", pathlib.Path("/proc/cpuinfo").read_text(), re.MULTILINE)
     return f", {float(found[1]) / 1000:.2f} GHz" if found else ""

@@ -2,7 +2,7 @@
 
 import math
 
-from validation.common import ROOT, expect, measured, table
+from validation.common import expect, measured, pyplot, save_figure, table
 
 TITLE = "Matrix of restitution of soft spheres"
 PROGRAM = "bench_restitution"
@@ -117,23 +117,6 @@ def check_pair(pair, ways):
 
 # Pictures
 
-def pyplot():
-    import matplotlib  # only here: a test imports all validations
-
-    matplotlib.use("svg")
-    from matplotlib import pyplot as plots
-
-    matplotlib.rcParams.update({"svg.hashsalt": "vitrel", "svg.fonttype": "none", "font.size": 10})
-    return plots
-
-
-def save(plots, figure, name):
-    file = ROOT / "docs" / FIGURES / f"{name}.svg"
-    file.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(file, metadata={"Date": None}, dpi=100)
-    plots.close(figure)
-
-
 def damping_label(force, of):
     if "damping" not in of:
         return "elastic"
@@ -154,7 +137,7 @@ def draw_maps(force, maps):
     for panel in axes[-1]:
         panel.set_xlabel("ln c_φ/c_φ,min")
     figure.tight_layout()
-    save(plots, figure, force)
+    save_figure(figure, FIGURES, force)
 
 
 def middles(interval, count):
@@ -172,7 +155,7 @@ def draw_elastic_angle(of):
     figure.colorbar(mesh, ax=axes, label="ε_φ")
     axes.set(xlabel="ln c_φ", ylabel="ln l/X")
     figure.tight_layout()
-    save(plots, figure, "elastic_angle")
+    save_figure(figure, FIGURES, "elastic_angle")
 
 
 def draw_pair(pair, ways):
@@ -192,7 +175,7 @@ def draw_pair(pair, ways):
         panel.legend(frameon=False)
     panels[0].set_ylabel("y (m)")
     figure.tight_layout()
-    save(plots, figure, "pair")
+    save_figure(figure, FIGURES, "pair")
 
 
 # The page

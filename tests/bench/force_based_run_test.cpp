@@ -5,6 +5,7 @@
 #include <numbers>
 #include <set>
 
+#include "bench/lab/twins/clusterwise_run.h"
 #include "bench/lab/twins/force_based_run.h"
 #include "core/random/stream.h"
 #include "edmd/run.h"
@@ -81,6 +82,20 @@ TEST(ForceBasedRun, HasTheTrajectoriesOfTheMatrixOfRestitution) {
     EXPECT_LT(quantile(of_fine, 0.9), 1e-2);
     EXPECT_GT(quantile(of_hard, 0.5), 0.1);
   }
+}
+
+// In a wide box the event-driven run is exact, and so is the judge.
+TEST(ClusterwiseRun, HasTheTrajectoriesOfTheMatrixOfRestitution) {
+  const Viscoelastic force{1e8, 0.4, 2e-4};
+  EngineOptions soft;
+  soft.soft_contact = std::make_shared<SoftContactOf<Viscoelastic, IntegratedRestitution>>(
+      force, IntegratedRestitution(form_of<Viscoelastic>()));
+  const RunState3 state = event_driven(soft);
+  lab::ClusterwiseRun<3, Viscoelastic> run(gas(), force, 1e-13, 2e-4);
+  run.advance(until);
+  const auto off = differences(state.configuration, run.state());
+  EXPECT_LT(quantile(off, 0.5), 1e-9);
+  EXPECT_LT(quantile(off, 0.8), 1e-6);
 }
 
 }  // namespace

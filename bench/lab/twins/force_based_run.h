@@ -15,12 +15,17 @@ namespace vitrel::lab {
 ///     v* = v + a h/2,  r' = r + v* h,  a' = F(r', v* + a h/2)/m,  v' = v* + a' h/2.
 /// A pair repels as long as it is closer than contact and its force is not negative. Errors ∝ h², near
 /// the ends of contacts with damping ∝ h. Neighbours are found by cells, and anew when somebody has moved by half
-/// of the skin of 0.3 of the largest radius.
+/// of the skin, which is as thick as lets one more neighbour of a particle in: so wide in a thin gas that the
+/// search costs nothing.
 template <int Dim, ContactForce Force>
 class ForceBasedRun {
  public:
   ForceBasedRun(const Configuration<Dim>& start, const Force& force)
-      : c_(start), force_(force), acceleration_(start.size(), Vec<Dim>::Zero()) {
+      : c_(start),
+        force_(force),
+        skin_(skin(start)),
+        acceleration_(start.size(), Vec<Dim>::Zero()),
+        before_(acceleration_) {
     find_neighbors();
     accelerate();
   }
@@ -29,16 +34,19 @@ class ForceBasedRun {
   void advance(double duration, std::uint64_t steps) {
     const double h = duration / static_cast<double>(steps);
     for (std::uint64_t step = 0; step < steps; ++step) {
+      bool somebody_left = false;
       for (std::size_t i = 0; i < c_.size(); ++i) {
-        c_.velocity[i] += 0.5 * h * acceleration_[i];
+        const Vec<Dim> kick = 0.5 * h * acceleration_[i];
+        c_.velocity[i] += kick;
         c_.position[i] += h * c_.velocity[i];
-        c_.velocity[i] += 0.5 * h * acceleration_[i];
+        c_.velocity[i] += kick;
+        somebody_left |= (c_.position[i] - there_[i]).squaredNorm() > 0.25 * skin_ * skin_;
       }
-      if (somebody_left()) find_neighbors();
-      const std::vector<Vec<Dim>> before = acceleration_;
+      if (somebody_left) find_neighbors();
+      acceleration_.swap(before_);
       accelerate();
       for (std::size_t i = 0; i < c_.size(); ++i)
-        c_.velocity[i] += 0.5 * h * (acceleration_[i] - before[i]);
+        c_.velocity[i] += 0.5 * h * (acceleration_[i] - before_[i]);
     }
     c_.time += duration;
   }
@@ -53,12 +61,10 @@ class ForceBasedRun {
     ContactPair contact;
   };
 
-  double skin() const { return 0.3 * largest_circumradius(c_); }
-
-  bool somebody_left() const {
-    for (std::size_t i = 0; i < c_.size(); ++i)
-      if ((c_.position[i] - there_[i]).norm() > 0.5 * skin()) return true;
-    return false;
+  // A shell of this thickness around a sphere of two radii has the volume of the box per particle.
+  static double skin(const Configuration<Dim>& c) {
+    const double radius = largest_circumradius(c);
+    return radius * (std::pow(std::pow(2, Dim) + 1 / packing_fraction(c), 1.0 / Dim) - 2);
   }
 
   void find_neighbors() {
@@ -66,11 +72,11 @@ class ForceBasedRun {
     there_ = c_.position;
     pairs_.clear();
     // (R₁ + R) scale ≥ R₁ + R₂ + skin, R the largest radius
-    for_each_pair(c_, 1 + skin() / largest_circumradius(c_),
+    for_each_pair(c_, 1 + skin_ / largest_circumradius(c_),
                   [&](std::size_t i, std::size_t j, const Vec<Dim>& d) {
                     const double radius1 = c_.shape[i].circumradius(),
                                  radius2 = c_.shape[j].circumradius();
-                    if (d.norm() > radius1 + radius2 + skin()) return;
+                    if (d.norm() > radius1 + radius2 + skin_) return;
                     pairs_.push_back({i, j, d - (c_.position[j] - c_.position[i]),
                                       contact_pair(radius1, c_.mass[i], radius2, c_.mass[j])});
                   });
@@ -92,7 +98,8 @@ class ForceBasedRun {
 
   Configuration<Dim> c_;
   Force force_;
-  std::vector<Vec<Dim>> acceleration_, there_;
+  double skin_;
+  std::vector<Vec<Dim>> acceleration_, before_, there_;
   std::vector<Pair> pairs_;
 };
 

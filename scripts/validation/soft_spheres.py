@@ -1,0 +1,311 @@
+"""Soft spheres in motion: exceptions, accuracy against time, cooling, collisions per second, conservation."""
+
+import math
+
+from validation.common import commit_of, expect, measured, processor, pyplot, save_figure, table
+
+TITLE = "Soft spheres in motion"
+PROGRAM = "bench_soft_spheres"
+FIGURES = "figures/soft_spheres"
+
+USUAL_MODULUS, DILUTE = 1e9, 1e-3
+MOST_EXCEPTIONS = 2e-3  # at the usual modulus, dilute
+VANISHED = 2e-4  # at the most dilute and the hardest
+MOST_SIGMAS = 4
+# After a particle was hit in contact and released, its former partner is in the way of its turn with the third
+# one with this probability: velocities by Maxwell, at all places where a third one can hit, integrated at random.
+REFUSED_AFTER_HIT = 0.276
+LEAST_FACTOR = 100
+LEAST_SPEED = 0.4
+LATE = 1.5  # decades of time
+SLOPES = {"viscoelastic": -5 / 3, "linear_dashpot": -2}
+SLOPE_ERROR = 0.03
+MOST_DRIFT, MOST_ANGULAR_DRIFT = 1e-11, 1e-12
+
+NAMES = {"viscoelastic": "viscoelastic", "linear_dashpot": "linear dashpot"}
+EXCEPTIONS = {"early_releases": "hit in contact", "refused_turns": "no room to turn"}
+WAYS = {"tables": "event-driven, tables", "integration": "event-driven, integration",
+        "classical": "classical rule", "force-based": "force-based", "clusterwise": "force-based, adaptive"}
+
+
+# Exceptions
+
+def expected_exceptions(packing_fraction, modulus):
+    """Per collision, by kinetic theory in a thin gas of nearly hard particles."""
+    radius, density, poisson, speed = 0.1, 1140, 0.4, 2
+    mass = density * 4 * math.pi / 3 * radius**3
+    stiffness = 2 * modulus * math.sqrt(radius / 2) / (3 * (1 - poisson**2)) / (mass / 2)
+    contact = 3.2180654597 * stiffness**-0.4 * (math.sqrt(2) * speed) ** -0.2 * math.gamma(0.9)
+    number_density = packing_fraction / (4 * math.pi / 3 * radius**3)
+    free = 1 / (number_density * math.pi * (2 * radius) ** 2 * 4 * speed / math.sqrt(2 * math.pi))
+    hit, in_the_way = 3 * math.sqrt(3) / 4, math.pi / 6 + math.sqrt(3) / 16
+    return {"early_releases": hit * contact / free,
+            "refused_turns": (in_the_way + REFUSED_AFTER_HIT * hit) * contact / free}
+
+
+def exceptions_of(rows, key, fixed, value):
+    return sorted((row for row in rows if row[fixed] == value), key=lambda row: row[key])
+
+
+def check_exceptions(rows):
+    for row in rows:
+        where = f"η = {row['packing_fraction']:g}, Y = {row['modulus']:g} Pa"
+        expected = expected_exceptions(row["packing_fraction"], row["modulus"])
+        for name in EXCEPTIONS:
+            found = row[name]["mean"]
+            if row["packing_fraction"] <= DILUTE and row["modulus"] >= USUAL_MODULUS:
+                expect(found <= MOST_EXCEPTIONS, f"{where}: {name} is {found}")
+                error = math.sqrt(expected[name] / row["collisions"])
+                expect(abs(found - expected[name]) <= MOST_SIGMAS * error + 0.1 * expected[name],
+                       f"{where}: {name} is {found}, expected {expected[name]}")
+    for key, fixed, value, last in (("packing_fraction", "modulus", USUAL_MODULUS, 0),
+                                    ("modulus", "packing_fraction", DILUTE, -1)):
+        for name in EXCEPTIONS:
+            found = exceptions_of(rows, key, fixed, value)[last][name]["mean"]
+            expect(found <= VANISHED, f"at the end of {key}, {name} is {found}")
+
+
+def draw_exceptions(rows):
+    plots = pyplot()
+    figure, panels = plots.subplots(1, 2, figsize=(9, 4), sharey=True)
+    for axes, key, fixed, value, label, scale in (
+            (panels[0], "packing_fraction", "modulus", USUAL_MODULUS, "packing fraction η at Y = 1 GPa", 1),
+            (panels[1], "modulus", "packing_fraction", DILUTE, "Y (GPa) at η = 0.001", 1e-9)):
+        chosen = exceptions_of(rows, key, fixed, value)
+        x = [row[key] * scale for row in chosen]
+        for (name, legend), colour, marker in zip(EXCEPTIONS.items(), ("C0", "C3"), "os"):
+            axes.errorbar(x, [1e3 * row[name]["mean"] for row in chosen],
+                          [1e3 * row[name]["error"] for row in chosen], fmt=marker, color=colour, capsize=3,
+                          markersize=5, label=legend)
+            axes.plot(x, [1e3 * expected_exceptions(row["packing_fraction"], row["modulus"])[name] for row in chosen],
+                      "--", color=colour, linewidth=1)
+        axes.set(xscale="log", yscale="log", xlabel=label)
+        axes.axhline(1, color="gray", linewidth=0.8)
+        axes.grid(alpha=0.3)
+    panels[0].set_ylabel("exceptions in 1000 collisions")
+    panels[0].legend(frameon=False)
+    figure.tight_layout()
+    save_figure(figure, FIGURES, "exceptions")
+
+
+def per_thousand(of):
+    return f"{1e3 * of['mean']:.3f} ± {1e3 * of['error']:.3f}"
+
+
+def exception_rows(rows):
+    for row in sorted(rows, key=lambda row: (row["packing_fraction"], row["modulus"])):
+        expected = expected_exceptions(row["packing_fraction"], row["modulus"])
+        yield [f"{row['packing_fraction']:g}", f"{row['modulus'] / 1e9:g}", row["collisions"],
+               *(cell for name in EXCEPTIONS for cell in (per_thousand(row[name]), f"{1e3 * expected[name]:.3f}"))]
+
+
+# Accuracy and time
+
+def ways_of(of, way):
+    return [row for row in of["rows"] if row["way"] == way]
+
+
+def draw_accuracy(of):
+    plots = pyplot()
+    figure, axes = plots.subplots(figsize=(6.4, 4.4))
+    for (way, legend), marker, colour in zip(WAYS.items(), "osX^D", ("C2", "C0", "C3", "k", "gray")):
+        rows = ways_of(of, way)
+        x = [row["seconds"] / of["duration"] for row in rows]
+        axes.plot(x, [row["median"] for row in rows], marker + "-", color=colour, label=legend)
+        axes.plot(x, [row["ninth_decile"] for row in rows], marker + ":", color=colour, markerfacecolor="white")
+        if way == "force-based":
+            for time, row in zip(x, rows):
+                axes.annotate(f"{row['steps_per_contact']:g}", (time, row["median"]), xytext=(5, 4),
+                              textcoords="offset points")
+    axes.set(xscale="log", yscale="log", xlabel="time per simulated second (s)", ylabel="error of positions (radii)")
+    axes.margins(x=0.1)
+    axes.legend(frameon=False, loc="lower right")
+    axes.grid(alpha=0.3)
+    figure.tight_layout()
+    save_figure(figure, FIGURES, "accuracy")
+
+
+def accuracy_rows(of):
+    fastest = ways_of(of, "tables")[0]["seconds"]
+    for row in of["rows"]:
+        steps = f", {row['steps_per_contact']:g} steps in a contact" if "steps_per_contact" in row else ""
+        yield [WAYS[row["way"]] + steps, f"{row['seconds'] / of['duration']:.2g} s", f"{row['seconds'] / fastest:.3g}",
+               f"{row['median']:.1e}", f"{row['ninth_decile']:.1e}", f"{row['largest']:.1e}"]
+
+
+def check_accuracy(of):
+    """Beside tables: how much slower and how much less exact the finest force-based run is, and how much slower the
+    adaptive one."""
+    tables, = ways_of(of, "tables")
+    finest, adaptive = ways_of(of, "force-based")[-1], ways_of(of, "clusterwise")[0]
+    factor, inexact = finest["seconds"] / tables["seconds"], finest["median"] / tables["median"]
+    expect(inexact >= 1, "a force-based run is more exact than tables: none is of equal accuracy")
+    expect(factor >= LEAST_FACTOR, f"the force-based run takes only {factor} times as long")
+    expect(ways_of(of, "integration")[0]["median"] <= tables["median"] * 2, "integration is less exact than tables")
+    return factor, inexact, adaptive["seconds"] / tables["seconds"]
+
+
+# Cooling
+
+def mean_and_error(values):
+    mean = sum(values) / len(values)
+    return mean, math.sqrt(sum((value - mean) ** 2 for value in values) / (len(values) * (len(values) - 1)))
+
+
+def late_slope(times, temperatures):
+    """Of ln T against ln t, by least squares over the last decades."""
+    points = [(math.log(t), math.log(value)) for t, value in zip(times, temperatures)
+              if t >= times[-1] / 10**LATE]
+    x0, y0 = (sum(values) / len(points) for values in zip(*points))
+    return sum((x - x0) * (y - y0) for x, y in points) / sum((x - x0) ** 2 for x, _ in points)
+
+
+def slope_of(of):
+    slope, error = mean_and_error([late_slope(of["times"], run) for run in of["temperatures"]])
+    wanted = SLOPES[of["force"]]
+    expect(abs(slope - wanted) <= SLOPE_ERROR, f"{of['force']}: late slope {slope} ± {error}, by Haff's law {wanted}")
+    return slope, error
+
+
+def draw_cooling(cooling):
+    plots = pyplot()
+    figure, axes = plots.subplots(figsize=(6.4, 4.4))
+    for of, colour, marker, law, shift in zip(cooling, ("C0", "C3"), "os", ("−5/3", "−2"), (4, 0.25)):
+        times = of["times"]
+        mean = [sum(values) / len(values) for values in zip(*of["temperatures"])]
+        axes.plot(times, [value / mean[0] for value in mean], marker, color=colour, markersize=4,
+                  label=NAMES[of["force"]])
+        late = [(t, shift * mean[-1] / mean[0] * (t / times[-1]) ** SLOPES[of["force"]]) for t in times
+                if t >= times[-1] / 10 ** (LATE + 1.5)]
+        axes.plot(*zip(*late), "--", color=colour, linewidth=1.5, label=f"∝ t^({law})")
+    axes.set(xscale="log", yscale="log", xlabel="t (s)", ylabel="T/T(0)")
+    axes.legend(frameon=False)
+    axes.grid(alpha=0.3)
+    figure.tight_layout()
+    save_figure(figure, FIGURES, "cooling")
+
+
+def cooling_rows(cooling):
+    laws = {"viscoelastic": "−5/3 = −1.6667", "linear_dashpot": "−2"}
+    for of in cooling:
+        slope, error = slope_of(of)
+        yield [NAMES[of["force"]], f"{of['restitution']:.3f}", of["collisions"],
+               f"{of['temperatures'][0][-1] / of['temperatures'][0][0]:.1e}", f"{slope:.4f} ± {error:.4f}",
+               laws[of["force"]]]
+
+
+# Speed
+
+def speed_rows(rows):
+    for row in rows:
+        share = {way: row["hard"]["ns_per_collision"] / row[way]["ns_per_collision"] for way in ("tables", "integration")}
+        expect(share["tables"] >= LEAST_SPEED, f"η = {row['packing_fraction']}: only {share['tables']:.0%} with tables")
+        yield [f"{row['packing_fraction']:g}", *(f"{1e6 / row[way]['ns_per_collision']:.3g}" for way in ("hard", *share)),
+               *(f"{value:.0%}" for value in share.values()), f"{row['hard']['renewals']:.3g}"]
+
+
+# Conservation
+
+def drift(value):
+    return f"{value:.0e}"
+
+
+def counts(row):
+    return [row["collisions"], row["refused_turns"], row["early_releases"]]
+
+
+def gas_rows(gases):
+    for row in gases:
+        for key in ("momentum", "energy"):
+            expect(row[key] <= MOST_DRIFT, f"{row['gas']}: {key} drifts by {row[key]}")
+        yield [row["gas"], *counts(row), drift(row["momentum"]), drift(row["energy"])]
+
+
+def cluster_rows(clusters):
+    for row in clusters:
+        expect(row["momentum"] <= MOST_DRIFT and row["energy"] <= MOST_DRIFT, f"clusters: {row}")
+        if row["early_release"] == "together":
+            expect(row["largest_angular_momentum"] <= MOST_ANGULAR_DRIFT, f"angular momentum is lost: {row}")
+        lost = row["angular_momentum"]
+        yield [row["early_release"], *counts(row), drift(row["momentum"]), drift(row["energy"]),
+               f"{lost['mean']:.1e} ± {lost['error']:.0e}"]
+
+
+# The page
+
+def measure(_build):
+    data = measured(PROGRAM, "release")
+    exceptions, accuracy, cooling = data["exceptions"]["rows"], data["accuracy"], data["cooling"]
+    check_exceptions(exceptions)
+    factor, inexact, adaptive = check_accuracy(accuracy)
+    draw_exceptions(exceptions)
+    draw_accuracy(accuracy)
+    draw_cooling(cooling)
+    usual, = (row for row in exceptions if row["modulus"] == USUAL_MODULUS and row["packing_fraction"] == DILUTE)
+    tables, = ways_of(accuracy, "tables")
+    count_head = ["collisions", "no room to turn", "hit in contact"]
+    return f"""Spheres as in figure 7 of Müller and Pöschel (2013): R = 0.1 m, 1140 kg/m³, ν = 0.4, Y = 1 GPa and a thermal
+speed √(2kT/m) of 2 m/s where nothing else is said; periodic boxes. One core of {processor()}, build {commit_of(data)};
+times are those of the processor.
+
+### Exceptions (figure 7)
+
+{data['exceptions']['particles']} elastic spheres released from a crystal; errors from blocks of the run. Dashed: what kinetic theory lets expect of a
+thin gas of nearly hard spheres, with τ the mean duration of a contact and τ_f the mean free time: a third particle
+hits one of the pair in (3√3/4) τ/τ_f of the collisions, and is in the way of the turn in (π/6 + √3/16) τ/τ_f; then there are
+those in which the partner of a particle that was hit in contact is in the way of its turn with the third one,
+{REFUSED_AFTER_HIT} of these hits. At Y = 1 GPa and η = 0.001 there are {1e3 * usual['early_releases']['mean']:.2f} and {1e3 * usual['refused_turns']['mean']:.2f} in 1000 collisions; both vanish in the dilute and in the hard limit.
+
+![Exceptions against packing fraction and Young's modulus]({FIGURES}/exceptions.svg)
+
+{table(["η", "Y (GPa)", "collisions", "hit in contact, ‰", "expected", "no room to turn, ‰", "expected"], list(exception_rows(exceptions)))}
+
+### Accuracy against time
+
+{accuracy['particles']} spheres at η = 0.001 with A = 4·10⁻⁵ s (a head-on coefficient of restitution of {data['cooling'][0]['restitution']:.2f} at 2 m/s), all from the same
+state of the gas, for one mean free time, {accuracy['duration']:.1f} s, in which a contact takes {1e3 * accuracy['contact']:.2f} ms. Errors are distances in radii from
+the places of a reference, of the {tables['particles']} particles that have collided; each earlier collision among their ancestors multiplies
+an error by a hundred and more. The reference integrates Newton's equations cluster by cluster, with adaptive
+steps in the clusters and none in free flight (`bench/lab/twins/clusterwise_run.h`); the last row is the same with ten times the
+tolerance, its error so a bound for that of the reference. The force-based runs are of velocity Verlet steps with neighbour lists
+(`bench/lab/twins/force_based_run.h`). The classical rule has the coefficient of restitution of a head-on impact of the same
+normal speed.
+
+{table(["way", "per simulated second", "times as long", "median error", "ninth decile", "largest"], list(accuracy_rows(accuracy)))}
+
+The finest force-based run takes {factor:.0f} times as long as the event-driven one with tables, and its error is still {inexact:.0f} times as
+large. Wanted: at least {LEAST_FACTOR} times as long at equal accuracy. The adaptive one, which is no usual force-based run as it
+leaves out the free flight, is as exact as the events and takes {adaptive:.0f} times as long{"" if adaptive >= LEAST_FACTOR else ", less than wanted"}. The table takes {accuracy['table']['seconds']:.2f} s to build, once, and {accuracy['table']['megabytes']:.2g} MB.
+
+![Error against time; full marks: median, open marks: ninth decile; numbers: steps in a contact]({FIGURES}/accuracy.svg)
+
+### Cooling
+
+Granular gases of {cooling[0]['particles']} spheres at η = {cooling[0]['packing_fraction']:g}, {len(cooling[0]['temperatures'])} runs of each; Haff's law: T ∝ t^(−5/3) late if viscoelastic, as
+collisions become more elastic, and t^(−2) with the one coefficient of restitution of the dashpot. The viscoelastic gas is that of before, the
+other one has k = 10⁷ N/m and γ = 327 kg/s. Slopes of ln T against ln t over the
+last {LATE:g} decades of time; wanted: within {SLOPE_ERROR:g}. Haff's law has the first order of 1 − ε in v^(1/5) only: the next one makes the slope of the
+viscoelastic gas steeper by an amount ∝ t^(−1/6), which is slow to vanish.
+
+{table(["force", "restitution at 2 m/s", "collisions", "T/T(0) at the end", "late slope", "Haff's law"], list(cooling_rows(cooling)))}
+
+![Temperature against time]({FIGURES}/cooling.svg)
+
+### Collisions per second
+
+{data['speed'][0]['particles']} elastic spheres beside the same as hard spheres in the same engine, from the same state, in alternation; best of the repeats.
+Wanted: at least {LEAST_SPEED:.0%} of the hard ones' with tables. In thin gases the time goes into the renewal of neighbour lists.
+
+{table(["η", "hard, 10³/s", "tables, 10³/s", "integration, 10³/s", "tables/hard", "integration/hard", "renewals per collision"], list(speed_rows(data["speed"])))}
+
+### Conservation
+
+Gases of {accuracy['particles']} spheres at η = 0.01. Momentum is in units of Σ m |v| at the start; the energy is the one with what was dissipated.
+
+{table(["gas", *count_head, "momentum", "energy"], list(gas_rows(data["conservation"]["gases"])))}
+
+{data['conservation']['clusters'][0]['clusters']} hot clusters of {data['conservation']['clusters'][0]['particles']} elastic spheres at η = 0.3 that fly apart in empty space: a particle that is hit while in contact is
+released alone, or its partner with it. The change of angular momentum is in units of Σ m |r × v| at the start.
+
+{table(["released", *count_head, "momentum", "energy", "angular momentum"], list(cluster_rows(data["conservation"]["clusters"])))}
+"""
