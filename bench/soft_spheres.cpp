@@ -203,6 +203,7 @@ class ClassicalRestitution {
     const double least = impact.distance * std::exp(usual_obliqueness.low);
     return {1, 0, 0, head_on_({impact.distance, least, impact.damping}).rate};
   }
+  std::uint64_t integrated() const { return head_on_.integrated(); }
 
  private:
   TabulatedRestitution head_on_;

@@ -47,7 +47,8 @@ class SoftContact {
                               RunCounters& counters) = 0;
 };
 
-/// By a force and its coefficients, tabulated or integrated (restitution_table.h).
+/// By a force and its coefficients, tabulated or integrated (restitution_table.h): they give the Restitution of
+/// a ScaledImpact, and how many they have integrated.
 template <ContactForce Force, class Coefficients>
 class SoftContactOf final : public SoftContact {
  public:
