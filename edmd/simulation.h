@@ -768,8 +768,11 @@ void Simulation<B>::watch_haste(Index i, Index j, double way) {
   throw InvariantError(
       "inelastic collapse at time " + std::to_string(base_ + now_) + ": particles " +
       std::to_string(outer_[i]) + " and " + std::to_string(outer_[j]) +
-      " collide again and again in no time; a coefficient of restitution closer to 1 "
-      "or fewer collisions would avoid it");
+      " collide again and again in no time; " +
+      (is_soft()
+           ? "without room for their contacts soft particles cannot be run by events: lower the "
+             "packing fraction, or the damping"
+           : "a coefficient of restitution closer to 1 or fewer collisions would avoid it"));
 }
 
 template <Body B>

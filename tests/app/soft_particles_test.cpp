@@ -17,7 +17,9 @@ namespace {
 /// Tables go to a folder of the test's own.
 class SoftParticles : public testing::Test {
  protected:
-  SoftParticles() : folder_(std::filesystem::path(testing::TempDir()) / "soft_particles") {
+  SoftParticles()
+      : folder_(std::filesystem::path(testing::TempDir()) /
+                testing::UnitTest::GetInstance()->current_test_info()->name()) {
     std::filesystem::remove_all(folder_);
     setenv("XDG_CACHE_HOME", folder_.c_str(), 1);
   }

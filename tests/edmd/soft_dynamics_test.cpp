@@ -447,6 +447,20 @@ TEST(SoftGas, RedrawnVelocitiesEndContacts) {
   EXPECT_TRUE(exact_check(state.configuration).clean());
 }
 
+// Where contacts find no room they are hard and lossy, and the cluster collapses like one of hard particles.
+TEST(SoftGas, TooDenseItStopsAndSaysSo) {
+  Configuration2 start = square_lattice(12, 0.6, 0, [](std::size_t) { return round<2>(1); });
+  Stream draw(9, Purpose::tests);
+  for (Vec2& velocity : start.velocity) velocity = {draw.normal(), draw.normal()};
+  start.mass.assign(start.size(), 1);
+  try {
+    run_until(start, 1e4, soft(LinearDashpot{200, 10}));
+    FAIL() << "nothing happened";
+  } catch (const InvariantError& error) {
+    EXPECT_NE(std::string(error.what()).find("without room for their contacts"), std::string::npos);
+  }
+}
+
 TEST(SoftParticles, AreRound) {
   Configuration2 c = soft_disks();
   c.shape[3] = of_aspect_ratio(2);
