@@ -233,6 +233,15 @@ class Simulation final : public Engine<B::dimension> {
     if constexpr (may_be_soft) return options_.soft_contact != nullptr;
     return false;
   }
+  ContactPair contact_pair_of(Index i, Index j) const {
+    return contact_pair(shape(i).circumradius(), 1 / kind(i).inertia.inverse_mass,
+                        shape(j).circumradius(), 1 / kind(j).inertia.inverse_mass);
+  }
+  /// Of i in a relative motion of the two: the reduced mass over its own.
+  double share(Index i, Index j) const {
+    const double mine = kind(i).inertia.inverse_mass;
+    return mine / (mine + kind(j).inertia.inverse_mass);
+  }
   bool in_contact(Index i) const { return releases_[i].time < never; }
   Images images(Index i, const Image& partner) const {
     return {i, partner.other, partner.shift() + image_[i] - image_[partner.other]};
@@ -285,6 +294,7 @@ class Simulation final : public Engine<B::dimension> {
               double restitution, RunCounters& counters);
   void meet_softly(Index i, const Event& event, RunCounters& counters);
   void soft_impact(Index i, const Image& partner, double since, RunCounters& counters);
+  void begin_contact(const Images& pair, const RelativeMotion<dimension>& after, double end);
   bool turn(const Images& pair, const Vector& way1, const Vector& way2);
   void shift_by(Index i, const Vector& way);
   bool has_room(Index i, const Vector& way, const Images& pair) const;

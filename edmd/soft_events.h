@@ -33,41 +33,45 @@ template <Body B>
 void Simulation<B>::soft_impact(Index i, const Image& partner, double since,
                                 RunCounters& counters) {
   const Index j = partner.other;
-  Particle& one = particles_[i];
-  Particle& two = particles_[j];
+  const Particle &one = particles_[i], &two = particles_[j];
   const Vector d = two.position + box_.translation(partner.shift()) - one.position;
   const Vector v = two.velocity - one.velocity;
   const Vector normal = d.normalized();
   const double speed = -v.dot(normal);
   if (!(speed > grazing * v.norm())) return impact(i, j, d, normal, since, 1, counters);
 
-  const double mass1 = 1 / kind(i).inertia.inverse_mass, mass2 = 1 / kind(j).inertia.inverse_mass;
-  const double share1 = mass2 / (mass1 + mass2), share2 = mass1 / (mass1 + mass2);
-  ContactPair pair = contact_pair(shape(i).circumradius(), mass1, shape(j).circumradius(), mass2);
-  const double touch = pair.distance;
-  pair.distance = std::min(touch, d.norm());
+  ContactPair pair = contact_pair_of(i, j);
+  pair.distance = std::min(pair.distance, d.norm());
   const Restitution restitution =
       options_.soft_contact->collide(pair, speed, (v + speed * normal).norm(), counters);
   const RelativeMotion<dimension> after = after_contact<dimension>({d, v}, restitution);
   const Images both = images(i, partner);  // in this order
-  if (!turn(both, share1 * (d - after.position), -share2 * (d - after.position))) {
+  const Vector shortening = d - after.position;
+  if (!turn(both, share(i, j) * shortening, -share(j, i) * shortening)) {
     ++counters.refused_turns;
     return impact(i, j, d, normal, since, -restitution.rate, counters);
   }
-
-  const Vector common = share2 * one.velocity + share1 * two.velocity;
-  const double end = now_ + restitution.duration;
-  releases_[i] = {end, j, common - share1 * after.velocity};
-  releases_[j] = {end, i, common + share2 * after.velocity};
-  one.velocity = two.velocity = common;
-  haste_[i] = haste_[j] = 0;
-  if (const double distance = after.position.norm(); distance < touch)
-    note_close(both, distance - contact_gap_);
-  ++met_;
-  ++counters.collisions;
   counters.virial += pair.mass * (after.position.dot(after.velocity) - d.dot(v) -
                                   restitution.duration * after.velocity.squaredNorm());
   counters.dissipated += 0.5 * pair.mass * (v.squaredNorm() - after.velocity.squaredNorm());
+  ++counters.collisions;
+  begin_contact(both, after, now_ + restitution.duration);
+}
+
+// They have their places of the end, and go on with their centre of mass.
+template <Body B>
+void Simulation<B>::begin_contact(const Images& pair, const RelativeMotion<dimension>& after,
+                                  double end) {
+  const auto [i, j, lag] = pair;
+  const double share1 = share(i, j), share2 = share(j, i);
+  const Vector common = share2 * particles_[i].velocity + share1 * particles_[j].velocity;
+  releases_[i] = {end, j, common - share1 * after.velocity};
+  releases_[j] = {end, i, common + share2 * after.velocity};
+  particles_[i].velocity = particles_[j].velocity = common;
+  haste_[i] = haste_[j] = 0;
+  ++met_;
+  const double distance = after.position.norm();
+  if (distance < contact_pair_of(i, j).distance) note_close(pair, distance - contact_gap_);
 }
 
 // Moves both, unless one would be too close to a third particle.

@@ -227,25 +227,29 @@ void describe_stage(PrepareStage& p, FieldVisitor& visit) {
 
 void describe_contact(ContactParameters& p, FieldVisitor& visit) {
   using Law = ContactParameters::Law;
-  visit.quantity({"radius", "m", "Of a particle of size 1."}, p.radius);
+  visit.quantity({"radius", "m", "Radius of a particle of size 1."}, p.radius);
   visit.quantity(
-      {"density", "kg/m^3", "It has mass 1 and weighs as much as a sphere of this density."},
+      {"density", "kg/m^3",
+       "Density. A particle of mass 1 weighs as much as a sphere of this radius and density."},
       p.density);
-  visit.quantity({"thermal_speed", "m/s", "Its √(kT/m) at kT = 1."}, p.thermal_speed);
+  visit.quantity(
+      {"thermal_speed", "m/s", "Thermal speed √(kT/m) of a particle of mass 1 at kT = 1."},
+      p.thermal_speed);
   visit.field(
       {"law", "",
        "Force in contact: spring and dashpot, k ξ + γ dξ/dt, or that of viscoelastic spheres, "
        "ρ (ξ + (3/2) A dξ/dt) √ξ with ρ = 2 Y √R_eff/(3 (1 − ν²)), where ξ is the compression."},
       p.law, law_names);
   visit.when(p.law == Law::linear_dashpot, "law = \"linear_dashpot\"", [&](FieldVisitor& in) {
-    in.quantity({"stiffness", "N/m", "k, of the spring."}, p.linear_dashpot.stiffness);
-    in.quantity({"damping", "kg/s", "γ, of the dashpot; \"0 kg/s\" for elastic particles."},
+    in.quantity({"stiffness", "N/m", "Spring constant k."}, p.linear_dashpot.stiffness);
+    in.quantity({"damping", "kg/s", "Damping γ of the dashpot; \"0 kg/s\" for elastic particles."},
                 p.linear_dashpot.damping);
   });
   visit.when(p.law == Law::viscoelastic, "law = \"viscoelastic\"", [&](FieldVisitor& in) {
-    in.quantity({"youngs_modulus", "Pa", "Y."}, p.viscoelastic.youngs_modulus);
-    in.field({"poissons_ratio", "", "ν."}, p.viscoelastic.poissons_ratio);
-    in.quantity({"dissipative_time", "s", "A; \"0 s\" for elastic particles."},
+    in.quantity({"youngs_modulus", "Pa", "Young's modulus Y."}, p.viscoelastic.youngs_modulus);
+    in.field({"poissons_ratio", "", "Poisson's ratio ν."}, p.viscoelastic.poissons_ratio);
+    in.quantity({"dissipative_time", "s",
+                 "Dissipative time A of the material; \"0 s\" for elastic particles."},
                 p.viscoelastic.dissipative_time);
   });
   visit.field(
