@@ -48,7 +48,10 @@ class Runner {
       note_conservation();
       if (!finished && !(state_.configuration.time > block_start))
         throw InvariantError("time stands still at " + std::to_string(block_start) +
-                             ": a block of events passed in no time (inelastic collapse?)");
+                             ": a block of events passed in no time (" +
+                             (options_.engine.soft_contact
+                                  ? "too dense, or too much damped, for contacts to be events?)"
+                                  : "inelastic collapse?)"));
       if (plan_.at_block_end) plan_.at_block_end(state_);
       budget_.tell({progress(), state_.configuration.time, "time"});
       if (finished) return {StageEnd::reached, "the end of the run was reached"};

@@ -125,8 +125,9 @@ class Simulation final : public Engine<B::dimension> {
   static constexpr std::size_t cached_particles = dimension == 2 ? 32768 : 2048;
   static constexpr std::uint64_t steps_ahead = 4, events_per_step = 4;
 
-  /// Soft particles that approach by less than this fraction of their speed only pass.
-  static constexpr double grazing = 1e-12;
+  /// Soft particles that approach by less than the first fraction of the largest speed only pass, and then
+  /// separate by the second: far above the rounding of velocities, far below what matters.
+  static constexpr double grazing = 1e-12, parting = 1e-13;
 
   struct Nothing {};  // in place of what a body does without
 
@@ -295,9 +296,10 @@ class Simulation final : public Engine<B::dimension> {
   void meet_softly(Index i, const Event& event, RunCounters& counters);
   void soft_impact(Index i, const Image& partner, double since, RunCounters& counters);
   void begin_contact(const Images& pair, const RelativeMotion<dimension>& after, double end);
+  void pass(Index i, Index j, const Vector& change);
   bool turn(const Images& pair, const Vector& way1, const Vector& way2);
   void shift_by(Index i, const Vector& way);
-  bool has_room(Index i, const Vector& way, const Images& pair) const;
+  bool has_room(Index i, const Images& pair, const Vector& way1, const Vector& way2) const;
   void release(Index i);
   void release_early(Index i, Index j, RunCounters& counters);
   void note_close(const Images& pair, double distance);
@@ -341,6 +343,7 @@ class Simulation final : public Engine<B::dimension> {
   std::size_t most_close_ = 0;       // more are looked through first
   std::vector<std::uint8_t> haste_;  // how many collisions in a row took a particle nowhere
   double contact_gap_ = 0;
+  double fastest_ = 0;             // of soft particles, at the start of the block
   double base_ = 0;                // simulated time at the start of the block
   double now_ = 0;                 // since then
   double horizon_ = never;         // since then
@@ -376,6 +379,7 @@ void Simulation<B>::load(const Configuration<dimension>& configuration, double h
   }
   for (const Release& release : releases_)
     if (release.time < never) fastest = std::max(fastest, release.velocity.norm());
+  fastest_ = fastest;
   contact_gap_ = tolerance::contact_gap(extent);
   // Times are rounded too: within a block nothing moves farther than the coordinates reach.
   longest_block_ = fastest > 0 ? extent / fastest : never;
@@ -546,6 +550,7 @@ void Simulation<B>::set_velocities(const Configuration<dimension>& configuration
     if constexpr (turns_apart) turns_[i] = {turn_now(i).orientation, motion.angular_velocity};
     bring_to_now(particles_[i]);
     particles_[i].set_motion(motion);
+    fastest_ = std::max(fastest_, motion.velocity.norm());
   }
   turn_time_ = now_;
   if (is_soft()) load_contacts(configuration);
@@ -759,7 +764,7 @@ void Simulation<B>::impact(Index i, Index j, const Vector& d, const Vector& n, d
   if (!std::isfinite(impulse)) report_wedge(i);
   particles_[i].set_motion(motion1);
   if (i != j) particles_[j].set_motion(motion2);
-  if (restitution < 1) watch_haste(i, j, speed * since);
+  if (restitution < 1 && !is_soft()) watch_haste(i, j, speed * since);
   ++met_;
   ++counters.collisions;
   counters.virial += impulse * n.dot(d);
@@ -778,11 +783,8 @@ void Simulation<B>::watch_haste(Index i, Index j, double way) {
   throw InvariantError(
       "inelastic collapse at time " + std::to_string(base_ + now_) + ": particles " +
       std::to_string(outer_[i]) + " and " + std::to_string(outer_[j]) +
-      " collide again and again in no time; " +
-      (is_soft()
-           ? "without room for their contacts soft particles cannot be run by events: lower the "
-             "packing fraction, or the damping"
-           : "a coefficient of restitution closer to 1 or fewer collisions would avoid it"));
+      " collide again and again in no time; a coefficient of restitution closer to 1 "
+      "or fewer collisions would avoid it");
 }
 
 template <Body B>
@@ -790,7 +792,7 @@ void Simulation<B>::report_overlap(Index i, Index j) const {
   throw InvariantError("particles " + std::to_string(outer_[i]) + " and " +
                        std::to_string(outer_[j]) + " overlap at time " +
                        std::to_string(base_ + now_) +
-                       ": a hard run must start from, and keeps, a state without overlaps");
+                       ": a run must start from, and keeps, a state without overlaps");
 }
 
 template <Body B>

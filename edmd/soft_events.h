@@ -38,14 +38,15 @@ void Simulation<B>::soft_impact(Index i, const Image& partner, double since,
   const Vector v = two.velocity - one.velocity;
   const Vector normal = d.normalized();
   const double speed = -v.dot(normal);
-  if (!(speed > grazing * v.norm())) return impact(i, j, d, normal, since, 1, counters);
+  if (!(speed > grazing * fastest_)) return pass(i, j, (speed + parting * fastest_) * normal);
 
   ContactPair pair = contact_pair_of(i, j);
+  const Images both = images(i, partner);  // in this order
+  if (d.norm() >= pair.distance) close_.erase(both.ascending());
   pair.distance = std::min(pair.distance, d.norm());
   const Restitution restitution =
       options_.soft_contact->collide(pair, speed, (v + speed * normal).norm(), counters);
   const RelativeMotion<dimension> after = after_contact<dimension>({d, v}, restitution);
-  const Images both = images(i, partner);  // in this order
   const Vector shortening = d - after.position;
   if (!turn(both, share(i, j) * shortening, -share(j, i) * shortening)) {
     ++counters.refused_turns;
@@ -56,6 +57,15 @@ void Simulation<B>::soft_impact(Index i, const Image& partner, double since,
   counters.dissipated += 0.5 * pair.mass * (v.squaredNorm() - after.velocity.squaredNorm());
   ++counters.collisions;
   begin_contact(both, after, now_ + restitution.duration);
+}
+
+// Slower than velocities are exact, they are let go apart, or they would meet for ever. Each time this brings
+// a cluster that has lost all of its speed nearer to one in which all pairs separate, by steps of a fixed
+// size: so it ends.
+template <Body B>
+void Simulation<B>::pass(Index i, Index j, const Vector& change) {
+  particles_[i].velocity -= share(i, j) * change;
+  particles_[j].velocity += share(j, i) * change;
 }
 
 // They have their places of the end, and go on with their centre of mass.
@@ -79,7 +89,7 @@ template <Body B>
 bool Simulation<B>::turn(const Images& pair, const Vector& way1, const Vector& way2) {
   shift_by(pair.i, way1);
   shift_by(pair.j, way2);
-  if (has_room(pair.i, way1, pair) && has_room(pair.j, way2, pair)) return true;
+  if (has_room(pair.i, pair, way1, way2) && has_room(pair.j, pair, way1, way2)) return true;
   shift_by(pair.i, -way1);
   shift_by(pair.j, -way2);
   return false;
@@ -93,17 +103,24 @@ void Simulation<B>::shift_by(Index i, const Vector& way) {
   if (!(exit > 0)) leave_neighborhood(i);
 }
 
-// Nothing but its partner is nearer than contact, or not nearer than it was before the way there.
+// Nothing but its partner is nearer than contact, or not nearer than it was before the pair's ways there. In
+// a small box another image of the partner, or its own, may be.
 template <Body B>
-bool Simulation<B>::has_room(Index i, const Vector& way, const Images& pair) const {
-  const Particle& particle = particles_[i];
+bool Simulation<B>::has_room(Index i, const Images& pair, const Vector& way1,
+                             const Vector& way2) const {
+  const auto way_of = [&](Index k) -> Vector {
+    if (k == pair.i) return way1;
+    if (k == pair.j) return way2;
+    return Vector::Zero();
+  };
   for (const Image& neighbor : neighborhoods_->of(i)) {
+    const Index k = neighbor.other;
     if (images(i, neighbor).ascending() == pair.ascending()) continue;
-    const Vector d = particles_[neighbor.other].pose_at(now_).position +
-                     box_.translation(neighbor.shift()) - particle.position;
-    const double reach =
-        shape(i).circumradius() + shape(neighbor.other).circumradius() + contact_gap_;
-    if (d.norm() < std::min(reach, (d + way).norm())) return false;
+    const Vector d = particles_[k].pose_at(now_).position + box_.translation(neighbor.shift()) -
+                     particles_[i].position;
+    const Vector before = d + way_of(i) - way_of(k);
+    const double reach = shape(i).circumradius() + shape(k).circumradius() + contact_gap_;
+    if (d.norm() < std::min(reach, before.norm())) return false;
   }
   return true;
 }

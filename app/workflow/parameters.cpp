@@ -8,6 +8,7 @@
 #include <numbers>
 #include <set>
 
+#include "app/workflow/soft_particles.h"
 #include "app/workflow/species_names.h"
 #include "edmd/sampling.h"
 
@@ -255,7 +256,7 @@ void describe_contact(ContactParameters& p, FieldVisitor& visit) {
   visit.field(
       {"coefficients", "",
        "What a contact does to a pair, from a table that is made once and kept in the user's "
-       "cache folder, or integrated anew for every contact, many times slower."},
+       "cache folder, or integrated anew for every contact, which takes longer."},
       p.coefficients, coefficients_names);
   visit.field(
       {"early_release", "",
@@ -605,6 +606,23 @@ bool is_round(const Species& p) {
   return is_one(*p.aspect_ratio);
 }
 
+/// Whether contacts at the thermal speed are such that coefficients can be had.
+void validate_impact(const ContactParameters& p, const Rules& rules) {
+  constexpr double most_damping = 1e5, least_distance = 0.01;
+  const bool is_dashpot = p.law == ContactParameters::Law::linear_dashpot;
+  const ContactScales scales = thermal_scales(p);
+  rules.require(
+      scales.damping <= most_damping, is_dashpot ? "damping" : "dissipative_time",
+      fmt::format("is so large that nothing is left of the thermal speed (c_dis = {:.3g}, at "
+                  "most {:g}, with this radius, density and stiffness); lower it",
+                  scales.damping, most_damping));
+  rules.require(
+      2 * p.radius >= least_distance * scales.length, is_dashpot ? "stiffness" : "youngs_modulus",
+      fmt::format("is so small that particles pass through each other at the thermal speed "
+                  "(2 R/X = {:.3g}, at least {:g}); raise it",
+                  2 * p.radius / scales.length, least_distance));
+}
+
 void validate_contact(const Parameters& parameters) {
   const ContactParameters& p = *parameters.dynamics.contact;
   const Rules rules("dynamics.contact");
@@ -618,6 +636,7 @@ void validate_contact(const Parameters& parameters) {
   rules.require(ratio > -1 && ratio <= 0.5, "poissons_ratio",
                 fmt::format("is {}, but must lie above -1 and not above 0.5", show(ratio)));
   rules.not_negative(p.viscoelastic.dissipative_time, "dissipative_time");
+  validate_impact(p, rules);
   for (std::size_t k = 0; k < parameters.species.size(); ++k)
     if (!is_round(parameters.species[k]))
       throw BadValue(fmt::format("species.{}", k),

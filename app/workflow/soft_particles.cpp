@@ -94,6 +94,11 @@ std::shared_ptr<SoftContact> contact_by(const Force& force, const ContactParamet
       force, TabulatedRestitution(form, table_for(form, domain, threads, say)));
 }
 
+ContactPair reference_pair(const ContactParameters& p) {
+  const UnitsOfRun unit = units_of_run(p);
+  return contact_pair(unit.length, unit.mass, unit.length, unit.mass);
+}
+
 }  // namespace
 
 UnitsOfRun units_of_run(const ContactParameters& p) {
@@ -101,9 +106,16 @@ UnitsOfRun units_of_run(const ContactParameters& p) {
           p.radius / p.thermal_speed};
 }
 
+ContactScales thermal_scales(const ContactParameters& p) {
+  const ContactPair pair = reference_pair(p);
+  return p.law == ContactParameters::Law::linear_dashpot
+             ? p.linear_dashpot.scales(p.thermal_speed, pair)
+             : p.viscoelastic.scales(p.thermal_speed, pair);
+}
+
 std::string contact_text(const ContactParameters& p) {
   const UnitsOfRun unit = units_of_run(p);
-  const ContactPair pair = contact_pair(unit.length, unit.mass, unit.length, unit.mass);
+  const ContactPair pair = reference_pair(p);
   const auto impact = [&]<ContactForce Force>(const Force& force) {
     Restitution found = integrate_contact<Force>(scaled_impact(force, pair, p.thermal_speed, 0));
     found.duration *= force.scales(p.thermal_speed, pair).time;

@@ -19,6 +19,9 @@ struct UnitsOfRun {
 };
 UnitsOfRun units_of_run(const ContactParameters& parameters);
 
+/// The scales of an impact of two particles of size 1 that meet head-on at the thermal speed.
+ContactScales thermal_scales(const ContactParameters& parameters);
+
 /// The law, the units, and what becomes of two particles of size 1 that meet head-on at the thermal
 /// speed, in lines for a person.
 std::string contact_text(const ContactParameters& parameters);

@@ -47,7 +47,11 @@ std::optional<double> quantity(const std::string& text, const std::string& unit)
   const Unit wanted = units.parse(unit);
   if (!given || !ut_are_convertible(given.get(), wanted.get())) return std::nullopt;
   const Converter converter(ut_get_converter(given.get(), wanted.get()), cv_free);
-  return cv_convert_double(converter.get(), number);
+  const auto convert = [&](double x) { return cv_convert_double(converter.get(), x); };
+  // A scale with an origin of its own, or a logarithmic one, is no quantity.
+  const bool is_proportional = convert(0) == 0 && std::abs(convert(2) / convert(1) - 2) < 1e-12;
+  return is_proportional && std::isfinite(convert(number)) ? std::optional(convert(number))
+                                                           : std::nullopt;
 }
 
 std::string quantity_text(double number, const std::string& unit) {

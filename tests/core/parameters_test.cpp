@@ -237,6 +237,8 @@ TEST(Quantity, ConvertsWhatIsOfTheSameKind) {
   EXPECT_DOUBLE_EQ(*quantity("2 µm", "m"), 2e-6);
   EXPECT_FALSE(quantity("1 s", "m"));
   EXPECT_FALSE(quantity("1", "m"));
+  for (const char* text : {"10 cm since 2000", "1 m @ 3", "10 lg(re 1 m)", "1e308 km"})
+    EXPECT_FALSE(quantity(text, "m")) << text;
   const double odd = 0.1 + 0.2;
   EXPECT_EQ(quantity(quantity_text(odd, "N/m"), "N/m"), odd);
 }

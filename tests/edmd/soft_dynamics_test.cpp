@@ -447,17 +447,63 @@ TEST(SoftGas, RedrawnVelocitiesEndContacts) {
   EXPECT_TRUE(exact_check(state.configuration).clean());
 }
 
-// Where contacts find no room they are hard and lossy, and the cluster collapses like one of hard particles.
-TEST(SoftGas, TooDenseItStopsAndSaysSo) {
-  Configuration2 start = square_lattice(12, 0.6, 0, [](std::size_t) { return round<2>(1); });
-  Stream draw(9, Purpose::tests);
-  for (Vec2& velocity : start.velocity) velocity = {draw.normal(), draw.normal()};
-  start.mass.assign(start.size(), 1);
+/// Disks of unit mass on a square lattice.
+Configuration2 disks(int side, double packing_fraction, std::uint64_t seed) {
+  Configuration2 c =
+      square_lattice(side, packing_fraction, 0, [](std::size_t) { return round<2>(1); });
+  Stream draw(seed, Purpose::tests);
+  for (Vec2& velocity : c.velocity) velocity = {draw.normal(), draw.normal()};
+  c.mass.assign(c.size(), 1);
+  return c;
+}
+
+// Contacts that leave a four-hundredth of the speed, some of them without room: clusters lose all of it, down
+// to the rounding of velocities, but nobody meets for ever.
+TEST(SoftGas, NearlyPlasticItsClustersComeToAnEnd) {
+  for (const double packing_fraction : {0.05, 0.1})
+    for (const std::uint64_t seed : {1, 2, 3}) {
+      const Configuration2 start = disks(8, packing_fraction, seed);
+      const RunState2 state = run_until(start, 1000, soft(LinearDashpot{200, 200}));
+      EXPECT_GT(state.counters.refused_turns, 0u);
+      EXPECT_LT(energy(state.configuration), 0.2 * energy(start));
+      EXPECT_LT(state.energy_drift, 1e-9);
+      EXPECT_TRUE(exact_check(state.configuration).clean());
+    }
+}
+
+TEST(SoftGas, TooDenseAndTooMuchDampedItStopsAndSaysSo) {
   try {
-    run_until(start, 1e4, soft(LinearDashpot{200, 10}));
+    run_until(disks(8, 0.6, 9), 1000, soft(LinearDashpot{200, 20}));
     FAIL() << "nothing happened";
   } catch (const InvariantError& error) {
-    EXPECT_NE(std::string(error.what()).find("without room for their contacts"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("for contacts to be events"), std::string::npos);
+  }
+}
+
+// A pair that touches and approaches by less than its velocities are exact to.
+TEST(SoftPair, PassesIfItHardlyApproaches) {
+  const double drift = 1e-17;
+  const Configuration2 start =
+      few<2>({0.1, 0.1}, {{0, 0}, {0.2, 0}}, {{1 + drift, 1}, {1 - drift, -1}});
+  const RunState2 state = run_until(start, 1, soft(LinearDashpot{2000}));
+  EXPECT_EQ(state.counters.collisions, 0u);
+  EXPECT_LT((state.configuration.velocity[0] - start.velocity[0]).norm(), 1e-11);
+  EXPECT_TRUE(exact_check(state.configuration).clean());
+}
+
+// In a box hardly longer than two diameters a pair meets itself through its images, which turn with it.
+TEST(SoftGas, InASmallBoxImagesOfThePartnerFindRoom) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    Configuration3 c = few<3>({1, 1, 1}, {{-1.1, 0, 0}, {1.1, 0, 0}, {0, 1.9, 0.2}}, {});
+    c.box = PeriodicBox<3>(Vec3(4.5, 3.9, 3.7));
+    c.mass = {1, 1, 1};
+    Stream draw(seed, Purpose::tests);
+    for (int i = 0; i < 3; ++i) c.velocity.push_back({draw.normal(), draw.normal(), draw.normal()});
+    ASSERT_TRUE(exact_check(c).clean());
+    const RunState3 state = run_until(c, 200, soft(LinearDashpot{100}));
+    EXPECT_GT(state.counters.collisions, 100u);
+    EXPECT_GT(state.counters.refused_turns, 0u);
+    EXPECT_TRUE(exact_check(state.configuration).clean());
   }
 }
 
