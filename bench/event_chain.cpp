@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "bench/lab/engine_speed.h"
+#include "bench/mean.h"
 #include "bench/parts.h"
 #include "core/error.h"
 #include "core/neighbors/pairs.h"
@@ -71,17 +72,6 @@ Configuration2 disks_of_two_sizes(const State& state) {
 }
 
 // ---- what is measured ---------------------------------------------------------------------------------
-
-struct Mean {
-  double value, error;
-};
-Mean mean_of(const std::vector<double>& values) {
-  const double n = static_cast<double>(values.size());
-  double sum = 0, square = 0;
-  for (const double x : values) sum += x;
-  for (const double x : values) square += (x - sum / n) * (x - sum / n);
-  return {sum / n, std::sqrt(square / std::max(1., n - 1) / n)};
-}
 
 /// A complex quantity of mean zero, of several components that are independent and alike, at every tick.
 class Series {

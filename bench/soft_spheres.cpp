@@ -16,6 +16,7 @@
 #include "bench/lab/engine_speed.h"
 #include "bench/lab/twins/clusterwise_run.h"
 #include "bench/lab/twins/force_based_run.h"
+#include "bench/mean.h"
 #include "bench/parts.h"
 #include "bench/repeats.h"
 #include "core/random/stream.h"
@@ -126,18 +127,6 @@ EngineOptions tabulated(const Force& force, const ValueRange& speeds = usual_spe
 }
 
 // ---- exceptions, the source's figure 7 --------------------------------------------------------------------
-
-struct Mean {
-  double value, error;
-};
-
-Mean mean_of(const std::vector<double>& values) {
-  double sum = 0, squares = 0;
-  const auto n = static_cast<double>(values.size());
-  for (const double value : values) sum += value;
-  for (const double value : values) squares += (value - sum / n) * (value - sum / n);
-  return {sum / n, std::sqrt(squares / (n * (n - 1)))};
-}
 
 Json mean_json(const std::vector<double>& values) {
   const auto [value, error] = mean_of(values);

@@ -291,10 +291,10 @@ class Simulation final : public Engine<B::dimension> {
   void process(Index i, RunCounters& counters);
   void leave_neighborhood(Index i);
   void meet(Index i, const Event& event, RunCounters& counters);
-  void impact(Index i, Index j, const Vector& d, const Vector& normal, double since,
-              double restitution, RunCounters& counters);
+  double impact(Index i, Index j, const Vector& d, const Vector& normal, double restitution,
+                RunCounters& counters);
   void meet_softly(Index i, const Event& event, RunCounters& counters);
-  void soft_impact(Index i, const Image& partner, double since, RunCounters& counters);
+  void soft_impact(Index i, const Image& partner, RunCounters& counters);
   void begin_contact(const Images& pair, const RelativeMotion<dimension>& after, double end);
   void pass(Index i, Index j, const Vector& change);
   bool turn(const Images& pair, const Vector& way1, const Vector& way2);
@@ -343,7 +343,7 @@ class Simulation final : public Engine<B::dimension> {
   std::size_t most_close_ = 0;       // more are looked through first
   std::vector<std::uint8_t> haste_;  // how many collisions in a row took a particle nowhere
   double contact_gap_ = 0;
-  double fastest_ = 0;             // of soft particles, at the start of the block
+  double fastest_ = 0;             // speed of a surface, at the start of the block
   double base_ = 0;                // simulated time at the start of the block
   double now_ = 0;                 // since then
   double horizon_ = never;         // since then
@@ -365,7 +365,8 @@ void Simulation<B>::load(const Configuration<dimension>& configuration, double h
   load_particles(configuration);
   load_kinds(configuration);
   if (is_soft()) load_contacts(configuration);
-  double extent = 0.5 * box_.lengths().maxCoeff(), fastest = 0;
+  double extent = 0.5 * box_.lengths().maxCoeff();
+  fastest_ = 0;
   std::vector<Pose<dimension>> poses;
   for (Index i = 0; i < particles_.size(); ++i) {
     const Particle& particle = particles_[i];
@@ -374,15 +375,14 @@ void Simulation<B>::load(const Configuration<dimension>& configuration, double h
     // An angle is rounded too, and moves the surface by up to `swing` times its rounding.
     extent =
         std::max({extent, shape(i).circumradius(), swing * size_of_angle(particle.orientation())});
-    fastest = std::max(
-        fastest, particle.velocity.norm() + swing * size_of_spin(particle.angular_velocity()));
+    fastest_ = std::max(
+        fastest_, particle.velocity.norm() + swing * size_of_spin(particle.angular_velocity()));
   }
   for (const Release& release : releases_)
-    if (release.time < never) fastest = std::max(fastest, release.velocity.norm());
-  fastest_ = fastest;
+    if (release.time < never) fastest_ = std::max(fastest_, release.velocity.norm());
   contact_gap_ = tolerance::contact_gap(extent);
   // Times are rounded too: within a block nothing moves farther than the coordinates reach.
-  longest_block_ = fastest > 0 ? extent / fastest : never;
+  longest_block_ = fastest_ > 0 ? extent / fastest_ : never;
   neighborhoods_.emplace(box_, shapes_, kind_of_, poses, wanted_neighbors);
   events_.assign(particles_.size(), {});
   events_left_ =
@@ -736,7 +736,8 @@ void Simulation<B>::meet(Index i, const Event& event, RunCounters& counters) {
     ++counters.correction_moves;
   } else {
     const Vector normal = normal_of(event, d);
-    impact(i, j, d, normal, since, options_.restitution, counters);
+    const double speed = impact(i, j, d, normal, options_.restitution, counters);
+    if (options_.restitution < 1) watch_haste(i, j, speed * since);
     neighborhoods_->remember(i, event.partner, normal);
   }
   ++version_[i];
@@ -746,9 +747,10 @@ void Simulation<B>::meet(Index i, const Event& event, RunCounters& counters) {
   if (i != j) predict(j, counters);
 }
 
+// At once. Returns the speed at which the surfaces approached.
 template <Body B>
-void Simulation<B>::impact(Index i, Index j, const Vector& d, const Vector& n, double since,
-                           double restitution, RunCounters& counters) {
+double Simulation<B>::impact(Index i, Index j, const Vector& d, const Vector& n, double restitution,
+                             RunCounters& counters) {
   const CommonSize size = size_now();
   const auto arm = [&](Index k, const Vector& outward) {
     return surface_point(scaled(shape(k), size.size), particles_[k].pose(), outward);
@@ -764,11 +766,11 @@ void Simulation<B>::impact(Index i, Index j, const Vector& d, const Vector& n, d
   if (!std::isfinite(impulse)) report_wedge(i);
   particles_[i].set_motion(motion1);
   if (i != j) particles_[j].set_motion(motion2);
-  if (restitution < 1 && !is_soft()) watch_haste(i, j, speed * since);
   ++met_;
   ++counters.collisions;
   counters.virial += impulse * n.dot(d);
   counters.dissipated += 0.5 * impulse * speed * (1 - restitution);
+  return speed;
 }
 
 // Inelastic collapse: infinitely many collisions of a few particles in a finite time; or of one pair, as

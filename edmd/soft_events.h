@@ -17,10 +17,9 @@ template <Body B>
 void Simulation<B>::meet_softly(Index i, const Event& event, RunCounters& counters) {
   const Index j = event.partner.other;
   if (in_contact(i) || in_contact(j)) return release_early(i, j, counters);
-  const double since = now_ - std::max(particles_[i].time, particles_[j].time);
   bring_to_now(particles_[i]);
   bring_to_now(particles_[j]);
-  soft_impact(i, event.partner, since, counters);
+  soft_impact(i, event.partner, counters);
   for (const Index k : {i, j}) {
     ++version_[k];
     particles_[k].next = never;
@@ -30,8 +29,7 @@ void Simulation<B>::meet_softly(Index i, const Event& event, RunCounters& counte
 }
 
 template <Body B>
-void Simulation<B>::soft_impact(Index i, const Image& partner, double since,
-                                RunCounters& counters) {
+void Simulation<B>::soft_impact(Index i, const Image& partner, RunCounters& counters) {
   const Index j = partner.other;
   const Particle &one = particles_[i], &two = particles_[j];
   const Vector d = two.position + box_.translation(partner.shift()) - one.position;
@@ -50,7 +48,8 @@ void Simulation<B>::soft_impact(Index i, const Image& partner, double since,
   const Vector shortening = d - after.position;
   if (!turn(both, share(i, j) * shortening, -share(j, i) * shortening)) {
     ++counters.refused_turns;
-    return impact(i, j, d, normal, since, -restitution.rate, counters);
+    impact(i, j, d, normal, -restitution.rate, counters);
+    return;
   }
   counters.virial += pair.mass * (after.position.dot(after.velocity) - d.dot(v) -
                                   restitution.duration * after.velocity.squaredNorm());
@@ -78,7 +77,6 @@ void Simulation<B>::begin_contact(const Images& pair, const RelativeMotion<dimen
   releases_[i] = {end, j, common - share1 * after.velocity};
   releases_[j] = {end, i, common + share2 * after.velocity};
   particles_[i].velocity = particles_[j].velocity = common;
-  haste_[i] = haste_[j] = 0;
   ++met_;
   const double distance = after.position.norm();
   if (distance < contact_pair_of(i, j).distance) note_close(pair, distance - contact_gap_);

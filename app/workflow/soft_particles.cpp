@@ -94,6 +94,13 @@ std::shared_ptr<SoftContact> contact_by(const Force& force, const ContactParamet
       force, TabulatedRestitution(form, table_for(form, domain, threads, say)));
 }
 
+/// `use(force)` for the force of the law.
+template <class Use>
+auto with_force(const ContactParameters& p, Use&& use) {
+  return p.law == ContactParameters::Law::linear_dashpot ? use(p.linear_dashpot)
+                                                         : use(p.viscoelastic);
+}
+
 ContactPair reference_pair(const ContactParameters& p) {
   const UnitsOfRun unit = units_of_run(p);
   return contact_pair(unit.length, unit.mass, unit.length, unit.mass);
@@ -108,27 +115,21 @@ UnitsOfRun units_of_run(const ContactParameters& p) {
 
 ContactScales thermal_scales(const ContactParameters& p) {
   const ContactPair pair = reference_pair(p);
-  return p.law == ContactParameters::Law::linear_dashpot
-             ? p.linear_dashpot.scales(p.thermal_speed, pair)
-             : p.viscoelastic.scales(p.thermal_speed, pair);
+  return with_force(p, [&](const auto& force) { return force.scales(p.thermal_speed, pair); });
 }
 
 std::string contact_text(const ContactParameters& p) {
   const UnitsOfRun unit = units_of_run(p);
   const ContactPair pair = reference_pair(p);
-  const auto impact = [&]<ContactForce Force>(const Force& force) {
-    Restitution found = integrate_contact<Force>(scaled_impact(force, pair, p.thermal_speed, 0));
-    found.duration *= force.scales(p.thermal_speed, pair).time;
-    return found;
-  };
-  const Restitution head_on = p.law == ContactParameters::Law::linear_dashpot
-                                  ? impact(p.linear_dashpot)
-                                  : impact(p.viscoelastic);
+  const ContactScales scales = thermal_scales(p);
+  const Restitution head_on = with_force(p, [&]<ContactForce Force>(const Force&) {
+    return integrate_contact<Force>(scaled_impact(scales, pair, p.thermal_speed, 0));
+  });
   return fmt::format(
       "contact      {}; head-on at {:.4g} m/s it lasts {:.3g} s and leaves {:.4g} of the speed\n"
       "units        length {:.4g} m, mass {:.4g} kg, time {:.4g} s\n",
-      law_name(p.law), p.thermal_speed, head_on.duration, -head_on.rate, unit.length, unit.mass,
-      unit.time);
+      law_name(p.law), p.thermal_speed, head_on.duration * scales.time, -head_on.rate, unit.length,
+      unit.mass, unit.time);
 }
 
 template <int Dim>
@@ -136,11 +137,9 @@ std::shared_ptr<SoftContact> soft_contact(const ContactParameters& parameters,
                                           const Configuration<Dim>& configuration, int threads,
                                           const Say& say) {
   const UnitsOfRun unit = units_of_run(parameters);
-  return parameters.law == ContactParameters::Law::linear_dashpot
-             ? contact_by(in_units(parameters.linear_dashpot, unit), parameters, configuration,
-                          threads, say)
-             : contact_by(in_units(parameters.viscoelastic, unit), parameters, configuration,
-                          threads, say);
+  return with_force(parameters, [&](const auto& force) {
+    return contact_by(in_units(force, unit), parameters, configuration, threads, say);
+  });
 }
 
 template std::shared_ptr<SoftContact> soft_contact(const ContactParameters&, const Configuration2&,

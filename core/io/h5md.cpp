@@ -186,7 +186,7 @@ TrajectoryWriter TrajectoryWriter::append_to(const fs::path& path, std::uint64_t
                     " frames where " + std::to_string(frames_to_keep) +
                     " were expected: it is not the file that the checkpoint belongs to");
   writer.resize(frames_to_keep);
-  writer.drop_close_pairs(frames_to_keep);
+  if (writer.close_pairs_) writer.close_pairs_->keep(frames_to_keep);
   writer.file_.flush();
   writer.frames_ = frames_to_keep;
   return writer;
@@ -202,13 +202,12 @@ TrajectoryWriter::TrajectoryWriter(h5::File file)
       orientation_(required(file_, series_path("orientation"))),
       angle_(optional_dataset(file_, series_path("angle"))),
       velocity_(optional_dataset(file_, series_path("velocity"))),
-      angular_velocity_(optional_dataset(file_, series_path("angular_velocity"))),
-      close_end_(optional_dataset(file_, all + "/close_pairs/end")),
-      close_pair_(optional_dataset(file_, all + "/close_pairs/pair")),
-      close_lag_(optional_dataset(file_, all + "/close_pairs/lag")),
-      close_distance_(optional_dataset(file_, all + "/close_pairs/distance")) {
+      angular_velocity_(optional_dataset(file_, series_path("angular_velocity"))) {
   particles_ = position_.shape().at(1);
   frames_ = step_.shape().at(0);
+  if (const std::string pairs = all + "/close_pairs"; file_.root().has_group(pairs))
+    close_pairs_ = {required(file_, pairs + "/end"), required(file_, pairs + "/pair"),
+                    required(file_, pairs + "/lag"), required(file_, pairs + "/distance")};
   if (!file_.root().has_group("observables")) return;
   for (const std::string& name : file_.root().group("observables").members())
     observables_.emplace(name, required(file_, "observables/" + name + "/value"));
@@ -244,17 +243,22 @@ void TrajectoryWriter::check(const Configuration<Dim>& configuration,
 void TrajectoryWriter::resize(std::uint64_t frames) {
   for (h5::Dataset* dataset : {&step_, &time_, &edges_, &position_, &image_, &orientation_})
     dataset->resize(frames);
-  for (std::optional<h5::Dataset>* dataset : {&angle_, &velocity_, &angular_velocity_, &close_end_})
+  for (std::optional<h5::Dataset>* dataset : {&angle_, &velocity_, &angular_velocity_})
     if (*dataset) (*dataset)->resize(frames);
   for (auto& [name, dataset] : observables_) dataset.resize(frames);
+  if (close_pairs_) close_pairs_->end.resize(frames);
 }
 
-void TrajectoryWriter::drop_close_pairs(std::uint64_t frames_to_keep) {
-  if (!close_end_) return;
-  if (frames_to_keep > 0)
-    close_end_->read_frame<std::int64_t>(frames_to_keep - 1, {&close_rows_, 1});
-  for (std::optional<h5::Dataset>* dataset : {&close_pair_, &close_lag_, &close_distance_})
-    (*dataset)->resize(static_cast<std::uint64_t>(close_rows_));
+void TrajectoryWriter::ClosePairs::resize(std::int64_t new_rows) {
+  rows = new_rows;
+  for (h5::Dataset* dataset : {&pair, &lag, &distance})
+    dataset->resize(static_cast<std::uint64_t>(rows));
+}
+
+void TrajectoryWriter::ClosePairs::keep(std::uint64_t frames) {
+  std::int64_t last = 0;
+  if (frames > 0) end.read_frame<std::int64_t>(frames - 1, {&last, 1});
+  resize(last);
 }
 
 template <int Dim>
@@ -263,7 +267,7 @@ void TrajectoryWriter::write(const Configuration<Dim>& configuration, std::int64
   check(configuration, observables);
   resize(frames_ + 1);
   write_particles(configuration);
-  if (close_end_) write_close_pairs(configuration);
+  if (close_pairs_) close_pairs_->write(frames_, configuration);
   step_.write_frame<std::int64_t>(frames_, {&step, 1});
   time_.write_frame<double>(frames_, {&configuration.time, 1});
   const Vec<Dim>& lengths = configuration.box.lengths();
@@ -300,22 +304,21 @@ void TrajectoryWriter::write_particles(const Configuration<Dim>& configuration) 
 }
 
 template <int Dim>
-void TrajectoryWriter::write_close_pairs(const Configuration<Dim>& configuration) {
-  auto row = static_cast<std::uint64_t>(close_rows_);
-  close_rows_ += static_cast<std::int64_t>(configuration.close_pairs.size());
-  for (std::optional<h5::Dataset>* dataset : {&close_pair_, &close_lag_, &close_distance_})
-    (*dataset)->resize(static_cast<std::uint64_t>(close_rows_));
-  for (const auto& [pair, distance] : configuration.close_pairs) {
-    const std::array ends{static_cast<std::int64_t>(pair.i), static_cast<std::int64_t>(pair.j)};
-    std::vector<std::int32_t> lag;
-    append<std::int32_t, Dim>(
-        lag, pair.shift + configuration.image[pair.i] - configuration.image[pair.j]);
-    close_pair_->write_frame<std::int64_t>(row, ends);
-    close_lag_->write_frame<std::int32_t>(row, lag);
-    close_distance_->write_frame<double>(row, {&distance, 1});
+void TrajectoryWriter::ClosePairs::write(std::uint64_t frame,
+                                         const Configuration<Dim>& configuration) {
+  auto row = static_cast<std::uint64_t>(rows);
+  resize(rows + static_cast<std::int64_t>(configuration.close_pairs.size()));
+  for (const auto& [images, closest] : configuration.close_pairs) {
+    const auto& [i, j, shift] = images;
+    const std::array particles{static_cast<std::int64_t>(i), static_cast<std::int64_t>(j)};
+    std::vector<std::int32_t> between;
+    append<std::int32_t, Dim>(between, shift + configuration.image[i] - configuration.image[j]);
+    pair.write_frame<std::int64_t>(row, particles);
+    lag.write_frame<std::int32_t>(row, between);
+    distance.write_frame<double>(row, {&closest, 1});
     ++row;
   }
-  close_end_->write_frame<std::int64_t>(frames_, {&close_rows_, 1});
+  end.write_frame<std::int64_t>(frame, {&rows, 1});
 }
 
 void TrajectoryWriter::record_wall_seconds(double seconds) {

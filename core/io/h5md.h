@@ -98,11 +98,20 @@ class TrajectoryWriter {
   template <int Dim>
   void check(const Configuration<Dim>& configuration, const Observables& observables) const;
   void resize(std::uint64_t frames);
-  void drop_close_pairs(std::uint64_t frames_to_keep);
   template <int Dim>
   void write_particles(const Configuration<Dim>& configuration);
-  template <int Dim>
-  void write_close_pairs(const Configuration<Dim>& configuration);
+
+  /// Of a frame as many rows as it has close pairs, after those of the frames before.
+  struct ClosePairs {
+    h5::Dataset end, pair, lag, distance;
+    std::int64_t rows = 0;
+
+    void resize(std::int64_t new_rows);
+    /// Those of the first frames.
+    void keep(std::uint64_t frames);
+    template <int Dim>
+    void write(std::uint64_t frame, const Configuration<Dim>& configuration);
+  };
 
   h5::File file_;
   std::size_t particles_ = 0;
@@ -110,8 +119,7 @@ class TrajectoryWriter {
   h5::Dataset step_, time_, edges_, position_, image_, orientation_;
   std::optional<h5::Dataset> angle_;  ///< of two dimensions
   std::optional<h5::Dataset> velocity_, angular_velocity_;
-  std::optional<h5::Dataset> close_end_, close_pair_, close_lag_, close_distance_;
-  std::int64_t close_rows_ = 0;
+  std::optional<ClosePairs> close_pairs_;
   std::map<std::string, h5::Dataset> observables_;
 };
 

@@ -388,14 +388,19 @@ TEST(SoftGas, HardLimitIsTheHardEngine) {
   }
 }
 
-/// Disks of unit mass that are in contact half of the time.
-Configuration2 soft_disks() {
-  Configuration2 c =
-      square_lattice(12, 0.3, 0, [](std::size_t i) { return round<2>(i % 2 == 0 ? 1 : 0.7); });
-  Stream draw(9, Purpose::tests);
+/// Disks of unit mass on a square lattice, every second one of radius 1.
+Configuration2 disks(int side, double packing_fraction, std::uint64_t seed, double radius = 1) {
+  Configuration2 c = square_lattice(
+      side, packing_fraction, 0, [&](std::size_t i) { return round<2>(i % 2 == 0 ? 1 : radius); });
+  Stream draw(seed, Purpose::tests);
   for (Vec2& velocity : c.velocity) velocity = {draw.normal(), draw.normal()};
   c.mass.assign(c.size(), 1);
   return c;
+}
+
+/// So soft that they are in contact half of the time.
+Configuration2 soft_disks() {
+  return disks(12, 0.3, 9, 0.7);
 }
 
 /// The same, by way of a checkpoint's file.
@@ -445,16 +450,6 @@ TEST(SoftGas, RedrawnVelocitiesEndContacts) {
   EXPECT_GT(state.counters.collisions, 100u);
   EXPECT_LT(state.energy_drift, 1e-12);
   EXPECT_TRUE(exact_check(state.configuration).clean());
-}
-
-/// Disks of unit mass on a square lattice.
-Configuration2 disks(int side, double packing_fraction, std::uint64_t seed) {
-  Configuration2 c =
-      square_lattice(side, packing_fraction, 0, [](std::size_t) { return round<2>(1); });
-  Stream draw(seed, Purpose::tests);
-  for (Vec2& velocity : c.velocity) velocity = {draw.normal(), draw.normal()};
-  c.mass.assign(c.size(), 1);
-  return c;
 }
 
 // Contacts that leave a four-hundredth of the speed, some of them without room: clusters lose all of it, down
