@@ -9,9 +9,10 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "app/workflow/report/page_parts.h"
-#include "app/workflow/stop.h"
 #include "core/error.h"
+#include "core/io/number_text.h"
+#include "workflow/report/page_parts.h"
+#include "workflow/sweep/stop_signals.h"
 
 namespace vitrel {
 namespace {
