@@ -6,31 +6,11 @@
 #include <string>
 
 #include "core/state/configuration.h"
+#include "edmd/options.h"
 
 namespace vitrel {
 
 class SoftContact;
-
-/// What to do with a pair found overlapping: a hard run never produces one, so `stop` throws
-/// InvariantError; `correct` applies the thesis's correction move (collision_rule.h) and counts it.
-enum class OnOverlap { stop, correct };
-
-/// Whether a soft particle that is hit while in contact is released from it alone, or together with its
-/// partner (soft/soft_contact.h).
-enum class EarlyRelease { alone, together };
-
-struct EngineOptions {
-  double restitution = 1;
-  OnOverlap on_overlap = OnOverlap::stop;
-  /// From `load` on all semi-axes are those loaded times 1 + growth_rate · time. Masses are constant,
-  /// moments of inertia those of the axes at the time, angular velocities constant in flight.
-  double growth_rate = 0;
-  /// If given, the particles are soft: round, not growing. `restitution` is then of no effect.
-  std::shared_ptr<SoftContact> soft_contact;
-  EarlyRelease early_release = EarlyRelease::alone;
-  /// For predictions that are made all at once; results do not depend on it.
-  int threads = 1;
-};
 
 /// Counts and sums over everything since the start of a run.
 struct RunCounters {

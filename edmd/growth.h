@@ -6,6 +6,7 @@
 #include "core/state/configuration.h"
 #include "core/state/stage.h"
 #include "edmd/engine.h"
+#include "edmd/options.h"
 
 /// Growth of hard particles in motion, to a wanted packing fraction or until they jam: Newtonian
 /// dynamics in which all semi-axes of all particles grow alike,
@@ -43,16 +44,6 @@
 /// the particles, and Z means nothing), Z up to `greatest_reduced_pressure`.
 /// Sources: lubachevsky1990, donev2005.
 namespace vitrel {
-
-/// Beyond, gaps come near to the rounding of the coordinates, and particles count as jammed.
-inline constexpr double greatest_reduced_pressure = 1e9;
-
-struct GrowthOptions {
-  double growth_rate = 1e-3;               ///< γ, relative, per unit of time; negative to shrink
-  std::optional<double> packing_fraction;  ///< ends there, exactly (tolerance::given_fraction)
-  std::optional<double> reduced_pressure;  ///< ends with the first block of such a pressure
-  std::uint64_t seed = 1;
-};
 
 /// Where a growth stands, at a block's end.
 struct GrowthState {

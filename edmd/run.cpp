@@ -18,10 +18,10 @@ double total_energy(const Configuration<Dim>& configuration) {
 }
 
 template <int Dim>
-class Runner {
+class EventDrivenRun {
  public:
-  Runner(RunState<Dim>& state, const DynamicsOptions& options, const RunPlan<Dim>& plan,
-         const Budget& budget)
+  EventDrivenRun(RunState<Dim>& state, const DynamicsOptions& options, const RunPlan<Dim>& plan,
+                 const Budget& budget)
       : state_(state),
         options_(options),
         plan_(plan),
@@ -151,7 +151,7 @@ RunState<Dim> begin_run(const Configuration<Dim>& configuration, double start_ti
 template <int Dim>
 StageReport run(RunState<Dim>& state, const DynamicsOptions& options, const RunPlan<Dim>& plan,
                 const Budget& budget) {
-  return Runner<Dim>(state, options, plan, budget).run();
+  return EventDrivenRun<Dim>(state, options, plan, budget).run();
 }
 
 template RunState<2> begin_run(const Configuration<2>&, double);

@@ -8,17 +8,9 @@
 #include "core/state/stage.h"
 #include "edmd/brownian.h"
 #include "edmd/engine.h"
+#include "edmd/options.h"
 
 namespace vitrel {
-
-/// Newtonian dynamics, or Brownian: the same with all velocities redrawn every `brownian_step`.
-struct DynamicsOptions {
-  EngineOptions engine;
-  bool brownian = false;
-  double brownian_step = 0.1;  ///< τ_B
-  Temperature temperature = Temperature::total;
-  std::uint64_t seed = 1;
-};
 
 /// Everything a run needs to go on, and nothing else: a plain value, written to checkpoints. Only
 /// states handed out at block ends continue bit by bit.

@@ -6,13 +6,11 @@
 
 #include "core/state/configuration.h"
 #include "core/state/stage.h"
+#include "mc/options.h"
 #include "mc/sampler.h"
 #include "mc/sweep_state.h"
 
 namespace vitrel {
-
-/// How the box changes: both sides by one factor, or one side at a time.
-enum class BoxChange { isotropic, anisotropic };
 
 /// Where the trials of the box stand.
 struct BoxState {
@@ -63,15 +61,6 @@ class PressureSampler {
   std::uint64_t seed_;
   BoxState box_;
   Sampler moves_;
-};
-
-/// Compression at constant pressure.
-struct CompressionOptions {
-  double pressure = 10;  ///< βP
-  BoxChange change = BoxChange::isotropic;
-  std::optional<double> packing_fraction = {};  ///< ends there, exactly
-  std::uint64_t sweeps = 1000;                  ///< ends then; with a packing fraction: gives up
-  int threads = 1;
 };
 
 struct CompressionState {

@@ -4,16 +4,9 @@
 
 #include "core/state/configuration.h"
 #include "core/state/stage.h"
+#include "mc/options.h"
 
 namespace vitrel {
-
-/// Random sequential insertion: particles, the largest first, are put one after another at random
-/// places and orientations where they meet none of those before, and are never moved.
-struct InsertionOptions {
-  double packing_fraction = 0.3;     ///< to insert at; the box is scaled to it
-  std::uint64_t attempts = 1000000;  ///< for one particle, before insertion is called hopeless
-  bool aligned = false;              ///< all axes along those of space instead of random ones
-};
 
 /// The end of an insertion. With n places tried the dimensionless time of its kinetics is τ = n A/V, A
 /// the area of a particle; close to saturation φ∞ − φ ∝ τ^(−1/2) for disks and τ^(−1/3) for
@@ -22,6 +15,9 @@ struct InsertionReport : StageReport {
   std::uint64_t places_tried = 0;
 };
 
+/// Random sequential insertion: particles, the largest first, are put one after another at random
+/// places and orientations where they meet none of those before, and are never moved.
+///
 /// `stuck` with a reason if a particle found no place, `stopped` if the budget said so; the
 /// configuration then is not to be used, and the same call makes it anew.
 /// The jamming limit is near φ = 0.547 for disks, 0.583 for ellipses and 0.382 for spheres.

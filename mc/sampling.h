@@ -5,20 +5,10 @@
 #include "core/state/configuration.h"
 #include "core/state/stage.h"
 #include "mc/event_chain.h"
+#include "mc/options.h"
 #include "mc/sweep_state.h"
 
 namespace vitrel {
-
-/// How particles move: by event chains (event_chain.h), which forget density and places many times sooner
-/// and orientations about as fast, or by local trial moves (sampler.h), which can use several threads.
-enum class Moves { chains, local };
-
-struct SamplingOptions {
-  std::uint64_t sweeps = 1000;
-  Moves moves = Moves::chains;
-  double exchanges = 0;  ///< share of the local moves (sampler.h)
-  int threads = 1;       ///< of local moves; the result does not depend on it
-};
 
 /// Where a sampling stands; each kind of moves uses its own.
 struct SamplingState {
@@ -26,6 +16,8 @@ struct SamplingState {
   SweepState local;
 
   std::uint64_t sweeps() const { return chains.sweeps + local.sweeps; }
+  /// The sweep that comes next draws by this number, whichever kind of moves it is of.
+  void number_sweeps(std::uint64_t next) { chains.next_sweep = local.next_sweep = next; }
 };
 
 /// Monte Carlo at constant packing fraction, as a stage that brings a state to equilibrium: chains and

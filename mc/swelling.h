@@ -4,9 +4,19 @@
 
 #include "core/state/configuration.h"
 #include "core/state/stage.h"
+#include "mc/options.h"
 #include "mc/sweep_state.h"
 
 namespace vitrel {
+
+/// Where a swelling stands, at the end of a round.
+struct SwellingState {
+  SweepState moves;
+  double growth = 0.02;  ///< g − 1 of the next round
+  // The last look at whether the particles are jammed.
+  std::uint64_t watched_sweeps = 0;
+  double watched_packing_fraction = 0;
+};
 
 /// Swelling to a wanted packing fraction, by Monte Carlo.
 ///
@@ -19,21 +29,7 @@ namespace vitrel {
 /// No particle waits for the closest pair of the whole system, so the sweeps needed grow slowly with
 /// N. A round that ends without success (jammed, or stopped) shrinks the box as far as the closest
 /// pair allows (shrink_to_contact). The wanted packing fraction is met to rounding.
-struct SwellingOptions {
-  double packing_fraction = 0.7;   ///< to be reached, exactly
-  std::uint64_t sweeps = 1000000;  ///< at most
-  int threads = 1;                 ///< the result does not depend on it
-};
-
-/// Where a swelling stands, at the end of a round.
-struct SwellingState {
-  SweepState moves;
-  double growth = 0.02;  ///< g − 1 of the next round
-  // The last look at whether the particles are jammed.
-  std::uint64_t watched_sweeps = 0;
-  double watched_packing_fraction = 0;
-};
-
+///
 /// `reached` at the wanted packing fraction; `stuck` if the sweeps were used up, or if the
 /// particles are jammed: the packing fraction rises by less than 1e-4 of itself in 5000 sweeps;
 /// `stopped` by the budget, at the end of the round before: the same call then goes on bit by bit. In any

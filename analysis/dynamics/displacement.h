@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "analysis/dynamics/correlation.h"
+#include "analysis/dynamics/displacement_options.h"
 #include "analysis/dynamics/time_axis.h"
 #include "analysis/trajectory.h"
 #include "core/parallel.h"
@@ -13,16 +14,6 @@
 /// positions and angles. Δr = r(t) − r(0), Δθ = θ(t) − θ(0); lengths in units where a b = 1, angles
 /// in radians.
 namespace vitrel {
-
-struct DisplacementOptions {
-  TimeAxisOptions axis = {};
-  /// q of F_s and F; empty: that of main_wave_number alone.
-  std::vector<double> wave_numbers = {};
-  std::vector<double> orders = {2, 4};        ///< n of L_n
-  double overlap_distance = 0.3;              ///< a of the overlap Q
-  std::size_t memory = std::size_t{1} << 30;  ///< bytes for particle tracks
-  int threads = all_cores;                    ///< at most; the result does not depend on it
-};
 
 struct DisplacementGroup {
   std::string name;  ///< "all", or the name of a species

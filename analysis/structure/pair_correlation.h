@@ -2,15 +2,11 @@
 
 #include <vector>
 
+#include "analysis/structure/structure_options.h"
 #include "core/state/configuration.h"
 
 /// Pair correlations of one configuration by the distance r of the centres.
 namespace vitrel {
-
-struct PairCorrelationOptions {
-  double distance_max = 20;
-  double distance_step = 0.05;  ///< width of a bin
-};
 
 /// One entry per bin, the k-th from k to k + 1 steps, as far as whole bins fit below distance_max
 /// and half the shortest side of the box, so that the nearest image is the only one.

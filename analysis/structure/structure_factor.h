@@ -5,15 +5,11 @@
 #include <vector>
 
 #include "analysis/structure/density_grid.h"
+#include "analysis/structure/structure_options.h"
 #include "core/state/configuration.h"
 
 /// Static structure factors of one configuration, averaged over wave vectors of about the same length.
 namespace vitrel {
-
-struct ShellOptions {
-  double wave_number_max = 12;
-  double wave_number_step = 0.1;  ///< width of a shell
-};
 
 /// One entry per shell of wave numbers, the k-th from k to k + 1 steps. Convention, with ρ_α(q) =
 /// Σ_j exp(−i q·r_j) over the particles of species α, and N_α their number:

@@ -21,8 +21,8 @@ nlohmann::ordered_json if_positive(double value) {
   return value > 0 ? nlohmann::ordered_json(value) : nullptr;
 }
 
-nlohmann::ordered_json stage_summary(const PrepareStage& stage, const StageRecord& record) {
-  return {{"method", method_name(stage.method)},
+nlohmann::ordered_json stage_summary(const Stage& stage, const StageRecord& record) {
+  return {{"method", method_name(stage)},
           {"end", record.report.reason},
           {"packing_fraction", record.packing_fraction},
           {"mean_packing_fraction", if_positive(record.mean_packing_fraction.mean)},

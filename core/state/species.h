@@ -6,11 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "core/random/stream.h"
-#include "core/state/configuration.h"
-
 /// What particles a system is made of, and how their shapes are drawn.
 namespace vitrel {
+
+class Stream;
+template <int Dim>
+struct Configuration;
 
 /// One number, or a distribution of numbers.
 struct Distribution {
@@ -48,10 +49,10 @@ std::vector<std::size_t> species_counts(const std::vector<Species>& species, std
 /// with L_y/L_x = `box_aspect`. The order comes from the stream (seed, shapes, 0, 0) and the shape
 /// of particle i from (seed, shapes, 1, i). Shapes are not rescaled: the unit of length is that of
 /// the sizes given. At least one species; the fractions add up to 1.
-Configuration2 draw_particles(const std::vector<Species>& species, std::size_t particles,
-                              double packing_fraction, double box_aspect, std::uint64_t seed);
+Configuration<2> draw_particles(const std::vector<Species>& species, std::size_t particles,
+                                double packing_fraction, double box_aspect, std::uint64_t seed);
 /// The same in three dimensions, in a cube.
-Configuration3 draw_solids(const std::vector<Species>& species, std::size_t particles,
-                           double packing_fraction, std::uint64_t seed);
+Configuration<3> draw_solids(const std::vector<Species>& species, std::size_t particles,
+                             double packing_fraction, std::uint64_t seed);
 
 }  // namespace vitrel

@@ -6,6 +6,8 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "core/random/stream.h"
+#include "core/state/configuration.h"
 
 namespace vitrel {
 namespace {

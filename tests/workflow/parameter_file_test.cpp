@@ -292,7 +292,7 @@ TEST(ParameterFile, OverridesReachSpeciesAndStages) {
   EXPECT_EQ(parameters.dynamics.duration, 10);
   EXPECT_EQ(parameters.species[0].aspect_ratio->mean, 3);
   ASSERT_EQ(parameters.stages.size(), 2u);
-  EXPECT_EQ(parameters.stages[1].method, PrepareStage::Method::swell);
+  EXPECT_TRUE(std::holds_alternative<SwellStage>(parameters.stages[1]));
   EXPECT_EQ(parameters.output.spacing, OutputParameters::Spacing::logarithmic);
 }
 

@@ -18,25 +18,20 @@ using testing_program::Folder;
 
 const auto say_nothing = [](const std::string&) {};
 
-PrepareStage stage(PrepareStage::Method method) {
-  PrepareStage result;
-  result.method = method;
-  return result;
-}
-
 /// Inserted and swollen.
 Parameters small(double packing_fraction) {
   Parameters parameters;
   parameters.system.particles = 49;
   parameters.system.packing_fraction = packing_fraction;
-  parameters.stages[1] = stage(PrepareStage::Method::swell);
+  parameters.stages[1] = SwellStage();
   return parameters;
 }
 
 TEST(Prepare, StagesInARowReachThePackingFractionWithoutOverlap) {
   Parameters parameters = small(0.6);
-  parameters.stages.push_back(stage(PrepareStage::Method::sample));
-  parameters.stages.back().sweeps = 50;
+  SampleStage sampling;
+  sampling.sweeps = 50;
+  parameters.stages.push_back(sampling);
   std::vector<std::string> announced;
   const Preparation result =
       prepare({parameters}, {}, [&](const std::string& line) { announced.push_back(line); });
@@ -78,15 +73,16 @@ TEST(Prepare, ThreadsChangeNothing) {
 
 TEST(Prepare, ALatticeHasAllParticlesAtItsAngle) {
   Parameters parameters = small(0.5);
-  parameters.stages = {stage(PrepareStage::Method::lattice)};
-  parameters.stages[0].lattice.angle = std::numbers::pi / 4;
+  LatticeStage lattice;
+  lattice.angle = std::numbers::pi / 4;
+  parameters.stages = {lattice};
   const Preparation result = prepare({parameters}, {}, say_nothing);
   EXPECT_NEAR(nematic_order(result.configuration), 1, 1e-14);
   for (const double angle : result.configuration.angle) EXPECT_EQ(angle, std::numbers::pi / 4);
 }
 
-PrepareStage growth(std::optional<double> packing_fraction, std::optional<double> pressure) {
-  PrepareStage result = stage(PrepareStage::Method::grow);
+GrowStage growth(std::optional<double> packing_fraction, std::optional<double> pressure) {
+  GrowStage result;
   result.packing_fraction = packing_fraction;
   result.reduced_pressure = pressure;
   result.growth_rate = 0.02;
@@ -126,22 +122,24 @@ TEST(Prepare, GrowsToAPressureStageByStage) {
 
 TEST(Prepare, GrowthBeyondJammingIsTheUsersToChange) {
   Parameters parameters = small(0.9);
-  parameters.stages[1] = growth(0.9, {});
-  parameters.stages[1].growth_rate = 0.1;
+  GrowStage fast = growth(0.9, {});
+  fast.growth_rate = 0.1;
+  parameters.stages[1] = fast;
   EXPECT_THROW(prepare({parameters}, {}, say_nothing), UserError);
 }
 
 TEST(Prepare, AnUnreachableGoalIsTheUsersToChange) {
   Parameters parameters = small(0.88);
-  parameters.stages[1].most_sweeps = 20;
+  std::get<SwellStage>(parameters.stages[1]).most_sweeps = 20;
   EXPECT_THROW(prepare({parameters}, {}, say_nothing), UserError);
 }
 
 TEST(Prepare, CompressionAtAPressureTellsItsMeanPackingFraction) {
   Parameters parameters = small(0.5);
-  parameters.stages[1] = stage(PrepareStage::Method::compress);
-  parameters.stages[1].pressure = 1;
-  parameters.stages[1].sweeps = 2000;
+  CompressStage at_pressure;
+  at_pressure.pressure = 1;
+  at_pressure.sweeps = 2000;
+  parameters.stages[1] = at_pressure;
   validate(parameters);
   const Preparation result = prepare({parameters}, {}, say_nothing);
   const StageRecord& compression = result.stages[1];
@@ -157,32 +155,47 @@ TEST(Prepare, TheBudgetStopsIt) {
   EXPECT_FALSE(prepare({parameters}, budget, say_nothing).complete);
 }
 
-/// Insertion and one stage of this method.
-Parameters by(PrepareStage::Method method, Moves moves) {
+/// Insertion and this stage.
+Parameters with(const Stage& stage) {
   Parameters parameters = small(0.6);
-  parameters.stages[1] = stage(method);
-  parameters.stages[1].growth_rate = method == PrepareStage::Method::grow ? 0.001 : 0.02;
-  parameters.stages[1].stretch_sweeps = 5;
-  parameters.stages[1].moves = moves;
-  if (method == PrepareStage::Method::compress) {
-    parameters.stages[1].packing_fraction = 0.6;
-    parameters.stages[1].pressure = 20;
-  }
-  if (method == PrepareStage::Method::sample) parameters.system.packing_fraction = 0.3;
+  parameters.stages[1] = stage;
+  if (std::holds_alternative<SampleStage>(stage)) parameters.system.packing_fraction = 0.3;
   validate(parameters);
   return parameters;
 }
 
-using Way = std::pair<PrepareStage::Method, Moves>;
+CompressStage compression() {
+  CompressStage stage;
+  stage.packing_fraction = 0.6;
+  stage.pressure = 20;
+  return stage;
+}
 
-class StoppedPreparation : public testing::TestWithParam<Way> {
+HybridStage by_both(Moves moves) {
+  HybridStage stage;
+  stage.growth_rate = 0.02;
+  stage.stretch_sweeps = 5;
+  stage.moves = moves;
+  return stage;
+}
+
+SampleStage sampling(Moves moves) {
+  SampleStage stage;
+  stage.moves = moves;
+  return stage;
+}
+
+/// The name of a test, and its stage.
+using NamedStage = std::pair<std::string, Stage>;
+
+class StoppedPreparation : public testing::TestWithParam<NamedStage> {
  protected:
   const Folder folder_{"stopped_preparation"};
 };
 
 // Every process stops a little later than the one before, so that each gets somewhere.
-TEST_P(StoppedPreparation, GoesOnBitByBitFromItsFile) {
-  const Parameters parameters = by(GetParam().first, GetParam().second);
+TEST_P(StoppedPreparation, ContinuesBitIdenticalFromItsFile) {
+  const Parameters parameters = with(GetParam().second);
   const Preparation whole = prepare({parameters}, {}, say_nothing);
   const PrepareRequest request{parameters, folder_ / "state.h5"};
   std::uint64_t asked = 0, patience = 10, stops = 0;
@@ -211,8 +224,8 @@ TEST_P(StoppedPreparation, GoesOnBitByBitFromItsFile) {
 }
 
 // A checkpoint at every moment at which there may be one, and a copy of one in the middle.
-TEST_P(StoppedPreparation, GoesOnBitByBitFromAnyCheckpoint) {
-  Parameters parameters = by(GetParam().first, GetParam().second);
+TEST_P(StoppedPreparation, ContinuesBitIdenticalFromAnyCheckpoint) {
+  Parameters parameters = with(GetParam().second);
   parameters.output.checkpoint_interval = 0;
   const PrepareRequest request{parameters, folder_ / "state.h5"};
   const std::filesystem::path checkpoint = folder_ / "state.h5.preparation";
@@ -235,7 +248,7 @@ TEST_P(StoppedPreparation, GoesOnBitByBitFromAnyCheckpoint) {
 }
 
 TEST_P(StoppedPreparation, RefusesOtherParameters) {
-  Parameters parameters = by(GetParam().first, GetParam().second);
+  Parameters parameters = with(GetParam().second);
   const PrepareRequest request{parameters, folder_ / "state.h5"};
   std::uint64_t asked = 0;
   const std::uint64_t during_insertion = 49;
@@ -252,17 +265,15 @@ TEST_P(StoppedPreparation, RefusesOtherParameters) {
   }
 }
 
-using Method = PrepareStage::Method;
-INSTANTIATE_TEST_SUITE_P(
-    Methods, StoppedPreparation,
-    testing::Values(Way{Method::swell, Moves::local}, Way{Method::compress, Moves::local},
-                    Way{Method::grow, Moves::local}, Way{Method::hybrid, Moves::local},
-                    Way{Method::hybrid, Moves::chains}, Way{Method::sample, Moves::local},
-                    Way{Method::sample, Moves::chains}),
-    [](const auto& at) {
-      return method_name(at.param.first) +
-             std::string(at.param.second == Moves::chains ? "_chains" : "");
-    });
+INSTANTIATE_TEST_SUITE_P(Methods, StoppedPreparation,
+                         testing::Values(NamedStage{"swell", SwellStage()},
+                                         NamedStage{"compress", compression()},
+                                         NamedStage{"grow", GrowStage()},
+                                         NamedStage{"hybrid", by_both(Moves::local)},
+                                         NamedStage{"hybrid_chains", by_both(Moves::chains)},
+                                         NamedStage{"sample", sampling(Moves::local)},
+                                         NamedStage{"sample_chains", sampling(Moves::chains)}),
+                         [](const auto& at) { return at.param.first; });
 
 /// Ellipsoids of two species, grown to 30 %.
 Parameters solids() {
@@ -278,7 +289,7 @@ Parameters solids() {
   parameters.species[1].name = "scalene";
   parameters.species[1].semi_axes = {2, 1, 0.5};
   for (Species& species : parameters.species) species.fraction = 0.5;
-  parameters.stages[1].growth_rate = 0.01;
+  std::get<GrowStage>(parameters.stages[1]).growth_rate = 0.01;
   validate(parameters);
   return parameters;
 }
@@ -328,7 +339,7 @@ TEST(PrepareSolids, StoppedTheyGoOnBitByBit) {
 
 TEST(Prepare, AStuckStateIsKept) {
   Parameters parameters = small(0.88);
-  parameters.stages[1].most_sweeps = 50;
+  std::get<SwellStage>(parameters.stages[1]).most_sweeps = 50;
   parameters.output.checkpoint_interval = 0;
   const Folder folder("stuck");
   EXPECT_THROW(prepare({parameters, folder / "state.h5"}, {}, say_nothing), UserError);

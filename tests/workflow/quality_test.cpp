@@ -23,12 +23,6 @@ const auto say_nothing = [](const std::string&) {};
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-PrepareStage stage(PrepareStage::Method method) {
-  PrepareStage result;
-  result.method = method;
-  return result;
-}
-
 Parameters small() {
   Parameters parameters;
   parameters.system.particles = 64;
@@ -71,7 +65,7 @@ Quality example() {
 TEST(MeasureQuality, OfASquareLatticeOfParallelEllipses) {
   Parameters parameters = small();
   parameters.system.packing_fraction = 0.3;
-  parameters.stages = {stage(PrepareStage::Method::lattice)};
+  parameters.stages = {LatticeStage()};
   const Quality quality = measured(parameters);
   EXPECT_EQ(quality.particles, 64u);
   EXPECT_EQ(quality.rotors, 64u);
@@ -97,9 +91,10 @@ TEST(MeasureQuality, LeavesTheStateAsItIs) {
 
 TEST(MeasureQuality, TakesThePressureOfAGrowthThatEndedJammed) {
   Parameters parameters = small();
-  parameters.stages[1] = stage(PrepareStage::Method::grow);
-  parameters.stages[1].reduced_pressure = 1e6;
-  parameters.stages[1].growth_rate = 0.02;
+  GrowStage growth;
+  growth.reduced_pressure = 1e6;
+  growth.growth_rate = 0.02;
+  parameters.stages[1] = growth;
   parameters.species[0].aspect_ratio->mean = 1.4;
   const Preparation grown = prepare({parameters}, {}, say_nothing);
   const Quality jammed = *measure_quality(grown, parameters, {});
@@ -110,7 +105,7 @@ TEST(MeasureQuality, TakesThePressureOfAGrowthThatEndedJammed) {
   EXPECT_LT(jammed.backbone->contact_number, 6.2);
   EXPECT_FALSE(jammed.probe->place_lost);
 
-  parameters.stages[1].reduced_pressure = 20;
+  std::get<GrowStage>(parameters.stages[1]).reduced_pressure = 20;
   const Quality sampled = measured(parameters);
   EXPECT_EQ(sampled.pressure_from, Quality::PressureFrom::sampling);
   EXPECT_FALSE(sampled.backbone);
@@ -126,7 +121,7 @@ TEST(MeasureQuality, WithoutSweepsThePressureIsThatOfTheGrowth) {
 
 TEST(MeasureQuality, WithoutSweepsAndGrowthThereIsNeitherPressureNorTime) {
   Parameters parameters = small();
-  parameters.stages[1] = stage(PrepareStage::Method::swell);
+  parameters.stages[1] = SwellStage();
   parameters.quality_sweeps = 0;
   const Quality quality = measured(parameters);
   EXPECT_EQ(quality.pressure_from, Quality::PressureFrom::nothing);

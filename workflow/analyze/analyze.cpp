@@ -17,7 +17,7 @@
 #include "workflow/configuration/parameters.h"
 #include "workflow/configuration/species_names.h"
 #include "workflow/run/correlations_file.h"
-#include "workflow/storage/stored_trajectory.h"
+#include "workflow/storage/trajectory_file.h"
 
 namespace vitrel {
 namespace {
@@ -75,7 +75,7 @@ ProgressReport shown_by(ProgressDisplay& display) {
 }
 
 /// The short part first: it refuses wave numbers that do not fit into the box.
-RunDynamics measure_dynamics(StoredTrajectory& trajectory, DisplacementOptions options,
+RunDynamics measure_dynamics(TrajectoryFile& trajectory, DisplacementOptions options,
                              ProgressDisplay& display) {
   const ProgressReport report = shown_by(display);
   options.wave_numbers = wave_numbers_or_main(std::move(options.wave_numbers), trajectory.read(0));
@@ -112,7 +112,7 @@ double collisions_between_frames(const TrajectoryReader& reader) {
 }
 
 /// Judged, if the run can be.
-std::optional<GlassRun> measure_glass(StoredTrajectory& trajectory, const std::string& name,
+std::optional<GlassRun> measure_glass(TrajectoryFile& trajectory, const std::string& name,
                                       const RunAnalysis& run, const DisplacementOptions& options,
                                       ProgressDisplay& display) {
   const GlassSource source{.name = name,
@@ -130,7 +130,7 @@ std::optional<GlassRun> measure_glass(StoredTrajectory& trajectory, const std::s
   return judge_glass_run(*data);
 }
 
-RunAnalysis measure(StoredTrajectory& trajectory, const std::string& name,
+RunAnalysis measure(TrajectoryFile& trajectory, const std::string& name,
                     const Parameters& parameters, ProgressDisplay& display) {
   const TrajectoryReader& reader = trajectory.reader();
   const std::vector<double>& times = trajectory.times();
@@ -254,7 +254,7 @@ std::uint64_t AnalysedRun::seed() const {
 
 AnalysedRun analyze_run(const std::filesystem::path& file, const AnalysisChoice& choice) {
   if (TrajectoryReader(file).dimension() == 3) return analyze_solids(file, choice);
-  StoredTrajectory trajectory(file);
+  TrajectoryFile trajectory(file);
   const TrajectoryReader& reader = trajectory.reader();
   if (trajectory.frames() < 2)
     throw UserError(

@@ -6,62 +6,19 @@
 #include <string>
 #include <vector>
 
-#include "analysis/dynamics/displacement.h"
+#include "analysis/dynamics/displacement_options.h"
+#include "analysis/structure/structure_options.h"
 #include "core/io/parameters.h"
 #include "core/state/species.h"
-#include "edmd/growth.h"
-#include "edmd/run.h"
+#include "edmd/options.h"
 #include "edmd/soft/linear_dashpot.h"
 #include "edmd/soft/viscoelastic.h"
-#include "mc/compression.h"
-#include "mc/insertion.h"
-#include "mc/lattice.h"
-#include "mc/sampling.h"
-#include "mc/swelling.h"
-#include "workflow/analyze/structure_tables.h"
-#include "workflow/prepare/hybrid.h"
+#include "workflow/configuration/system_parameters.h"
+#include "workflow/prepare/stages/stage.h"
 
 /// The parameter file: what it holds, how it is read, and the texts that describe it. All commands
 /// read the same file; each uses the sections it needs.
 namespace vitrel {
-
-struct SystemParameters {
-  int dimension = 2;
-  std::int64_t particles = 1000;
-  double packing_fraction = 0.5;
-  std::uint64_t seed = 1;
-  double box_aspect = 1;
-};
-
-/// One stage of the preparation; every method uses its own fields only.
-struct PrepareStage {
-  enum class Method { lattice, insert, swell, compress, grow, hybrid, sample };
-  enum class Orientations { random, aligned };
-
-  Method method = Method::insert;
-  LatticeOptions lattice;
-  std::uint64_t attempts = InsertionOptions().attempts;
-  Orientations orientations = Orientations::random;
-  std::optional<double> packing_fraction;  ///< of all but lattice and sample; see end_of_stage
-  std::optional<double> reduced_pressure;  ///< of grow and hybrid
-  double growth_rate = GrowthOptions().growth_rate;
-  double pressure = CompressionOptions().pressure;
-  BoxChange box = CompressionOptions().change;
-  std::uint64_t most_sweeps = SwellingOptions().sweeps;
-  std::uint64_t stretch_sweeps = HybridOptions().stretch.sweeps;
-  Moves moves = SamplingOptions().moves;
-  double exchanges = SamplingOptions().exchanges;
-  std::uint64_t sweeps = SamplingOptions().sweeps;
-};
-
-/// As the parameter file calls it.
-const char* method_name(PrepareStage::Method method);
-
-/// The packing fraction at which a stage ends, for one that begins at `before`; of one that a pressure
-/// ends, the one it begins at, since it ends in an unknown place.
-double end_of_stage(const PrepareStage& stage, const SystemParameters& system, double before);
-/// Whether a pressure decides at which packing fraction the preparation ends.
-bool ends_at_pressure(const std::vector<PrepareStage>& stages);
 
 /// Soft particles: a law of contact and what gives the units of the run their size, all in SI units.
 struct ContactParameters {
@@ -123,7 +80,7 @@ struct Parameters {
   SystemParameters system;
   std::vector<Species> species;
   std::uint64_t quality_sweeps = 1000;
-  std::vector<PrepareStage> stages;
+  std::vector<Stage> stages;
   DynamicsParameters dynamics;
   OutputParameters output;
   DisplacementOptions analysis;

@@ -16,7 +16,6 @@ namespace vitrel {
 namespace {
 
 namespace fs = std::filesystem;
-using Say = std::function<void(const std::string&)>;
 
 /// In thermal speeds: beyond are 10⁻⁹ of the impacts of a gas, and those of one that has cooled for long.
 constexpr double slowest = 1e-5, fastest = 20;
@@ -69,21 +68,21 @@ fs::path table_file(const ForceForm& form, const RestitutionDomain& domain) {
 }
 
 RestitutionTable table_for(const ForceForm& form, const RestitutionDomain& domain, int threads,
-                           const Say& say) {
+                           const Log& log) {
   const bool one_damping = domain.d.low == domain.d.high;
   const PanelOptions options{one_damping ? 1e-8 : 1e-6};
   const fs::path file = table_file(form, domain);
   if (auto loaded = RestitutionTable::load(file, form, domain, options)) return std::move(*loaded);
-  say("making a table of what contacts do");
+  log_line(log, "making the table of restitution coefficients");
   KeptTable kept = kept_table(file, form, domain, options, threads);
-  if (!kept.trouble.empty()) say("the table is not kept: " + kept.trouble);
+  if (!kept.trouble.empty()) log_line(log, "the table is not kept: " + kept.trouble);
   return std::move(kept.table);
 }
 
 template <ContactForce Force, int Dim>
 std::shared_ptr<SoftContact> contact_by(const Force& force, const ContactParameters& parameters,
                                         const Configuration<Dim>& configuration, int threads,
-                                        const Say& say) {
+                                        const Log& log) {
   const ForceForm form = form_of<Force>();
   if (parameters.coefficients == ContactParameters::Coefficients::integrated)
     return std::make_shared<SoftContactOf<Force, IntegratedRestitution>>(
@@ -91,7 +90,7 @@ std::shared_ptr<SoftContact> contact_by(const Force& force, const ContactParamet
   const RestitutionDomain domain =
       restitution_domain(force, pairs_of(configuration), slowest, fastest);
   return std::make_shared<SoftContactOf<Force, TabulatedRestitution>>(
-      force, TabulatedRestitution(form, table_for(form, domain, threads, say)));
+      force, TabulatedRestitution(form, table_for(form, domain, threads, log)));
 }
 
 /// `use(force)` for the force of the law.
@@ -135,16 +134,16 @@ std::string contact_text(const ContactParameters& p) {
 template <int Dim>
 std::shared_ptr<SoftContact> soft_contact(const ContactParameters& parameters,
                                           const Configuration<Dim>& configuration, int threads,
-                                          const Say& say) {
+                                          const Log& log) {
   const UnitsOfRun unit = units_of_run(parameters);
   return with_force(parameters, [&](const auto& force) {
-    return contact_by(in_units(force, unit), parameters, configuration, threads, say);
+    return contact_by(in_units(force, unit), parameters, configuration, threads, log);
   });
 }
 
 template std::shared_ptr<SoftContact> soft_contact(const ContactParameters&, const Configuration2&,
-                                                   int, const Say&);
+                                                   int, const Log&);
 template std::shared_ptr<SoftContact> soft_contact(const ContactParameters&, const Configuration3&,
-                                                   int, const Say&);
+                                                   int, const Log&);
 
 }  // namespace vitrel

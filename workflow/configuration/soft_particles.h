@@ -1,12 +1,12 @@
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <string>
 
 #include "core/state/configuration.h"
 #include "edmd/soft/soft_contact.h"
 #include "workflow/configuration/parameters.h"
+#include "workflow/log.h"
 
 /// From the parameters of soft particles to their contacts in a run.
 namespace vitrel {
@@ -27,11 +27,11 @@ ContactScales thermal_scales(const ContactParameters& parameters);
 std::string contact_text(const ContactParameters& parameters);
 
 /// For particles of these radii and masses. A table covers relative speeds from 1e-5 to 20 thermal
-/// speeds, is kept in $XDG_CACHE_HOME/vitrel (~/.cache/vitrel) and made if it is not there; `say` gets a
+/// speeds, is kept in $XDG_CACHE_HOME/vitrel (~/.cache/vitrel) and made if it is not there; `log` gets a
 /// line if so. Its tolerance is 1e-8, or 1e-6 if pairs damp differently and there is one more variable.
 template <int Dim>
 std::shared_ptr<SoftContact> soft_contact(const ContactParameters& parameters,
                                           const Configuration<Dim>& configuration, int threads,
-                                          const std::function<void(const std::string&)>& say);
+                                          const Log& log);
 
 }  // namespace vitrel

@@ -2,46 +2,29 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "core/io/checkpoint.h"
-#include "mc/compression.h"
-#include "mc/swelling.h"
-#include "workflow/prepare/hybrid.h"
 #include "workflow/prepare/prepare.h"
+#include "workflow/prepare/stages/stage_state.h"
 
 namespace vitrel {
 
-/// Where the stage at work stands; every method uses its own field.
-struct StageWork {
-  SamplingState sampling;
-  SwellingState swelling;
-  CompressionState compression;
-  GrowthState growth;
-  HybridState hybrid;
-  double wall_seconds = 0;
-
-  StageWork() = default;
-  explicit StageWork(std::uint64_t next_sweep) {
-    for (SweepState* moves :
-         {&sampling.local, &swelling.moves, &compression.moves, &hybrid.sampling.local})
-      moves->next_sweep = next_sweep;
-    sampling.chains.next_sweep = hybrid.sampling.chains.next_sweep = next_sweep;
-  }
-};
-
-/// A preparation at work, as its checkpoint holds it.
+/// What the checkpoint of a preparation holds.
 template <int Dim>
-struct StoredPreparation {
-  Preparation<Dim> done;   ///< `stages` are those that have ended
-  StageWork work;          ///< of the stage after them
-  std::string parameters;  ///< effective parameters, TOML
+struct PrepareCheckpoint {
+  Preparation<Dim> done;     ///< `stages` are those that have ended
+  StageState state;          ///< of the stage after them, if there is one
+  double stage_seconds = 0;  ///< wall time spent on that stage
+  std::string parameters;    ///< effective parameters, TOML
 };
 
 template <int Dim>
-Checkpoint to_checkpoint(const StoredPreparation<Dim>& preparation);
-/// Throws FileError, naming `file`, if something is missing.
+Checkpoint to_checkpoint(const PrepareCheckpoint<Dim>& preparation);
+/// `stages`: of the whole preparation. Throws FileError, naming `file`, if something is missing.
 template <int Dim>
-StoredPreparation<Dim> preparation_from_checkpoint(const Checkpoint& checkpoint,
+PrepareCheckpoint<Dim> preparation_from_checkpoint(const Checkpoint& checkpoint,
+                                                   const std::vector<Stage>& stages,
                                                    const std::filesystem::path& file);
 
 }  // namespace vitrel

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cassert>
-#include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -14,23 +13,19 @@
 #include "workflow/prepare/prepare.h"
 #include "workflow/run/correlations_file.h"
 #include "workflow/run/run_checkpoint.h"
-#include "workflow/storage/stored_trajectory.h"
+#include "workflow/storage/checkpoint_file.h"
+#include "workflow/storage/trajectory_file.h"
 
 namespace vitrel {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
 
 fs::path checkpoint_path(const fs::path& output) {
   return output.string() + ".checkpoint";
 }
 fs::path failed_state_path(const fs::path& output) {
   return output.string() + ".failed.h5";
-}
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
 template <int Dim>
@@ -50,21 +45,21 @@ void require_fit(const Configuration<Dim>& state, const Parameters& parameters,
                     file.string(), fraction, parameters.system.packing_fraction));
 }
 
-// One request at work.
+/// One request at work.
 template <int Dim>
-class Runner {
+class RunJob {
  public:
-  Runner(const RunRequest& request, const Budget& budget,
-         const std::function<void(const std::string&)>& say)
+  RunJob(const RunRequest& request, const Budget& budget, const Log& log)
       : request_(request),
         budget_(budget),
-        say_(say),
-        checkpoint_(checkpoint_path(request.output)) {
+        log_(log),
+        checkpoint_(checkpoint_path(request.output),
+                    request.parameters.output.checkpoint_interval) {
     stored_.parameters = effective_parameters(request.parameters);
   }
 
   RunOutcome<Dim> run() {
-    const bool continues = checkpoint_exists(checkpoint_);
+    const bool continues = checkpoint_.exists();
     if (continues) {
       load();
     } else {
@@ -73,7 +68,7 @@ class Runner {
     }
     const bool was_complete = stored_.complete;
     if (was_complete)
-      say_(request_.output.string() + ": the run is complete already");
+      log_line(log_, request_.output.string() + ": the run is complete already");
     else
       advance(continues);
     check_last_state();
@@ -95,15 +90,14 @@ class Runner {
   }
 
   void load() {
-    const LoadedCheckpoint loaded = load_checkpoint(checkpoint_);
-    if (!loaded.warning.empty()) say_(loaded.warning);
+    const Checkpoint loaded = checkpoint_.load(log_);
     const std::string& now = stored_.parameters;
-    if (const auto change = forbidden_change(loaded.checkpoint.parameters, now, Work::run))
+    if (const auto change = forbidden_change(loaded.parameters, now, Work::run))
       throw UserError(
           fmt::format("{}: the run was begun with {} = {}, but now it is {}; continue it "
                       "with its own parameters, or choose another output",
                       request_.output.string(), change->key, change->first, change->second));
-    stored_ = run_from_checkpoint<Dim>(loaded.checkpoint, checkpoint_);
+    stored_ = run_from_checkpoint<Dim>(loaded, checkpoint_.path());
   }
 
   // False if the preparation was stopped.
@@ -116,7 +110,7 @@ class Runner {
     } else {
       Preparation<Dim> preparation = prepare<Dim>(
           {request_.parameters, request_.output, request_.command_line, request_.threads}, budget_,
-          say_);
+          log_);
       if (!preparation.complete) return false;
       configuration = std::move(preparation.configuration);
     }
@@ -164,8 +158,7 @@ class Runner {
       stored_.correlations = correlator_->state();
       write_correlations(request_.output, request_.parameters, *correlator_);
     }
-    save_checkpoint(checkpoint_, to_checkpoint(stored_));
-    saved_ = Clock::now();
+    checkpoint_.save(to_checkpoint(stored_));
   }
 
   TrajectoryWriter open_trajectory() const {
@@ -184,20 +177,19 @@ class Runner {
 
   void advance(bool continues) {
     RunState<Dim>& state = stored_.state;
-    if (continues) say_(fmt::format("continuing at time {:.6g}", state.configuration.time));
+    if (continues)
+      log_line(log_, fmt::format("continuing at time {:.6g}", state.configuration.time));
     const DynamicsOptions options = dynamics();
-    say_((is_soft() ? "run of soft " : "run of ") +
-         make_engine(state.configuration, options.engine)->description());
+    log_line(log_, (is_soft() ? "run of soft " : "run of ") +
+                       make_engine(state.configuration, options.engine)->description());
     TrajectoryWriter writer = open_trajectory();
     TrajectoryObserver<Dim> observer(writer, measure_run<Dim>);
     make_correlator();
-    const double wall_before = stored_.wall_seconds;
-    const Clock::time_point start = Clock::now();
+    const WorkTimer timer(stored_.wall_seconds);
     RunPlan<Dim> plan{sample_times(request_.parameters), request_.parameters.dynamics.duration,
                       &observer, [&](const RunState<Dim>&) {
-                        stored_.wall_seconds = wall_before + seconds_since(start);
-                        if (seconds_since(saved_) < request_.parameters.output.checkpoint_interval)
-                          return;
+                        stored_.wall_seconds = timer.seconds();
+                        if (!checkpoint_.is_due()) return;
                         // The disk has the frames before a checkpoint counts them.
                         writer.synchronize();
                         save();
@@ -205,7 +197,7 @@ class Runner {
     if constexpr (Dim == 2)
       if (correlator_) plan.ticks = {correlator_->options().interval, &*correlator_};
     const StageReport report = run_or_keep_failed_state(options, plan);
-    stored_.wall_seconds = wall_before + seconds_since(start);
+    stored_.wall_seconds = timer.seconds();
     stored_.complete = report.end == StageEnd::reached;
     writer.record_wall_seconds(stored_.wall_seconds);
     writer.synchronize();
@@ -218,7 +210,7 @@ class Runner {
     options.engine.threads = request_.threads;
     if (const auto& contact = request_.parameters.dynamics.contact) {
       options.engine.soft_contact =
-          soft_contact(*contact, stored_.state.configuration, request_.threads, say_);
+          soft_contact(*contact, stored_.state.configuration, request_.threads, log_);
       options.engine.early_release = contact->early_release;
     }
     return options;
@@ -254,11 +246,10 @@ class Runner {
 
   const RunRequest& request_;
   const Budget& budget_;
-  const std::function<void(const std::string&)>& say_;
-  fs::path checkpoint_;
-  StoredRun<Dim> stored_;
+  const Log& log_;
+  CheckpointFile checkpoint_;
+  RunCheckpoint<Dim> stored_;
   std::optional<MultipleTau> correlator_;  ///< on the fly, if the parameters ask for it
-  Clock::time_point saved_ = Clock::now();
 };
 
 std::string start_text(const RunRequest& request) {
@@ -267,7 +258,7 @@ std::string start_text(const RunRequest& request) {
     const Checkpoint stored = load_checkpoint(checkpoint).checkpoint;
     return std::visit(
         [&]<int Dim>(const Configuration<Dim>& configuration) {
-          const StoredRun<Dim> run = run_from_checkpoint<Dim>(stored, checkpoint);
+          const RunCheckpoint<Dim> run = run_from_checkpoint<Dim>(stored, checkpoint);
           return run.complete ? "nothing: the run is complete"
                               : fmt::format("the checkpoint at time {:.6g}, {} frames",
                                             configuration.time, run.state.next_sample);
@@ -310,10 +301,9 @@ std::string run_plan(const RunRequest& request) {
 }
 
 template <int Dim>
-RunOutcome<Dim> run(const RunRequest& request, const Budget& budget,
-                    const std::function<void(const std::string&)>& say) {
+RunOutcome<Dim> run_simulation(const RunRequest& request, const Budget& budget, const Log& log) {
   assert(request.parameters.system.dimension == Dim);
-  return Runner<Dim>(request, budget, say).run();
+  return RunJob<Dim>(request, budget, log).run();
 }
 
 template <int Dim>
@@ -355,10 +345,8 @@ nlohmann::ordered_json run_summary(const RunRequest& request, const RunOutcome<D
   return summary;
 }
 
-template RunOutcome<2> run<2>(const RunRequest&, const Budget&,
-                              const std::function<void(const std::string&)>&);
-template RunOutcome<3> run<3>(const RunRequest&, const Budget&,
-                              const std::function<void(const std::string&)>&);
+template RunOutcome<2> run_simulation<2>(const RunRequest&, const Budget&, const Log&);
+template RunOutcome<3> run_simulation<3>(const RunRequest&, const Budget&, const Log&);
 template nlohmann::ordered_json run_summary(const RunRequest&, const RunOutcome<2>&);
 template nlohmann::ordered_json run_summary(const RunRequest&, const RunOutcome<3>&);
 

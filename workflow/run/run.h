@@ -1,26 +1,29 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
 #include "core/state/stage.h"
+#include "edmd/run.h"
 #include "workflow/configuration/parameters.h"
+#include "workflow/log.h"
 
 /// The event-driven run with its files. The trajectory run.h5 has a checkpoint run.h5.checkpoint
 /// beside it, and run.h5.correlations.h5 if the run correlates on the fly; the same request starts the
-/// run, continues it, or finds it complete. A run that was killed at any moment and continued has the
-/// same datasets, bit by bit, as one that was not.
+/// run, continues it, or finds it complete. The datasets of a run that was killed at any moment and continued
+/// are bit-identical to those of one that was not.
+///
+///   const RunOutcome<2> outcome = run_simulation<2>({parameters, "run.h5"}, {}, {});
 namespace vitrel {
 
 struct RunRequest {
   Parameters parameters;
   std::filesystem::path output;
-  std::optional<std::filesystem::path> from;  ///< state to start from; none: prepare
-  std::string command_line;                   ///< for the provenance
-  int threads = 1;                            ///< the results do not depend on it
+  std::optional<std::filesystem::path> from = {};  ///< state to start from; none: prepare
+  std::string command_line = {};                   ///< for the provenance
+  int threads = 1;                                 ///< the results do not depend on it
 };
 
 /// What the request would do, in lines for a person. Nothing is written.
@@ -34,17 +37,16 @@ struct RunOutcome {
   double wall_seconds = 0;  ///< of all processes that worked on the run
 };
 
-/// For parameters of that dimension. `say` gets a line about every step. Throws
+/// For parameters of that dimension, which must be valid. `log` gets a line about every step. Throws
 /// - UserError if the output exists but is no run that can be continued, belongs to other
 ///   parameters, or the state to start from does not fit them;
 /// - FileError; the run continues from its last checkpoint once the cause is removed;
 /// - InvariantError on an overlap or a standstill; the state is then in <output>.failed.h5.
 template <int Dim>
-RunOutcome<Dim> run(const RunRequest& request, const Budget& budget,
-                    const std::function<void(const std::string&)>& say);
+RunOutcome<Dim> run_simulation(const RunRequest& request, const Budget& budget, const Log& log);
 
-/// The figures of a run, read from its trajectory and its last state: those of the architecture's
-/// --json list and a few more. `overlaps` counts pairs of the last state.
+/// The figures of a run, from its trajectory and its last state: what `vitrel run --json` prints.
+/// `overlaps` counts pairs of the last state. Throws FileError if the trajectory cannot be read.
 template <int Dim>
 nlohmann::ordered_json run_summary(const RunRequest& request, const RunOutcome<Dim>& outcome);
 

@@ -28,7 +28,7 @@ void each_item(Run& run, Visit&& visit) {
 }  // namespace
 
 template <int Dim>
-Checkpoint to_checkpoint(const StoredRun<Dim>& run) {
+Checkpoint to_checkpoint(const RunCheckpoint<Dim>& run) {
   Checkpoint checkpoint;
   checkpoint.configuration = run.state.configuration;
   checkpoint.parameters = run.parameters;
@@ -37,21 +37,21 @@ Checkpoint to_checkpoint(const StoredRun<Dim>& run) {
 }
 
 template <int Dim>
-StoredRun<Dim> run_from_checkpoint(const Checkpoint& checkpoint,
-                                   const std::filesystem::path& file) {
+RunCheckpoint<Dim> run_from_checkpoint(const Checkpoint& checkpoint,
+                                       const std::filesystem::path& file) {
   const auto* configuration = std::get_if<Configuration<Dim>>(&checkpoint.configuration);
   if (!configuration)
     throw FileError(fmt::format("{}: is not of a run in {} dimensions", file.string(), Dim));
-  StoredRun<Dim> run;
+  RunCheckpoint<Dim> run;
   run.state.configuration = *configuration;
   run.parameters = checkpoint.parameters;
   each_item(run, ItemReader(checkpoint, file));
   return run;
 }
 
-template Checkpoint to_checkpoint(const StoredRun<2>&);
-template Checkpoint to_checkpoint(const StoredRun<3>&);
-template StoredRun<2> run_from_checkpoint(const Checkpoint&, const std::filesystem::path&);
-template StoredRun<3> run_from_checkpoint(const Checkpoint&, const std::filesystem::path&);
+template Checkpoint to_checkpoint(const RunCheckpoint<2>&);
+template Checkpoint to_checkpoint(const RunCheckpoint<3>&);
+template RunCheckpoint<2> run_from_checkpoint(const Checkpoint&, const std::filesystem::path&);
+template RunCheckpoint<3> run_from_checkpoint(const Checkpoint&, const std::filesystem::path&);
 
 }  // namespace vitrel

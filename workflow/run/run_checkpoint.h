@@ -9,9 +9,9 @@
 
 namespace vitrel {
 
-/// A run as its checkpoint holds it.
+/// What the checkpoint of a run holds.
 template <int Dim>
-struct StoredRun {
+struct RunCheckpoint {
   RunState<Dim> state;
   double wall_seconds = 0;
   bool complete = false;
@@ -20,9 +20,10 @@ struct StoredRun {
 };
 
 template <int Dim>
-Checkpoint to_checkpoint(const StoredRun<Dim>& run);
+Checkpoint to_checkpoint(const RunCheckpoint<Dim>& run);
 /// Throws FileError, naming `file`, if a number is missing, or it is of the other dimension.
 template <int Dim>
-StoredRun<Dim> run_from_checkpoint(const Checkpoint& checkpoint, const std::filesystem::path& file);
+RunCheckpoint<Dim> run_from_checkpoint(const Checkpoint& checkpoint,
+                                       const std::filesystem::path& file);
 
 }  // namespace vitrel

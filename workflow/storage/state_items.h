@@ -2,13 +2,8 @@
 
 #include <string>
 
-#include "edmd/growth.h"
-#include "mc/compression.h"
-#include "mc/sampling.h"
-#include "mc/swelling.h"
-
-/// The items of what checkpoints hold of runs and stages; `visit` is an ItemWriter or an ItemReader
-/// (checkpoint_items.h), and `path` goes before every name.
+/// The items that runs and stages have in common in their checkpoints. `visit` is an ItemWriter or an
+/// ItemReader (checkpoint_items.h), and every name begins with `path`.
 namespace vitrel {
 
 template <class Counters, class Visit>

@@ -1,4 +1,4 @@
-#include "workflow/storage/stored_trajectory.h"
+#include "workflow/storage/trajectory_file.h"
 
 #include <fmt/format.h>
 
@@ -31,7 +31,7 @@ Observables measure_run(const Frame<Dim>& frame) {
 template Observables measure_run(const Frame<2>&);
 template Observables measure_run(const Frame<3>&);
 
-EnergySeries stored_energies(StoredTrajectory& trajectory) {
+EnergySeries stored_energies(TrajectoryFile& trajectory) {
   const TrajectoryReader& reader = trajectory.reader();
   EnergySeries observed = observed_energies(reader);
   if (observed.time.empty() && reader.has("velocity")) return energies(trajectory);

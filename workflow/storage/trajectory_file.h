@@ -19,9 +19,9 @@ template <int Dim>
 Observables measure_run(const Frame<Dim>& frame);
 
 /// A trajectory file as the analysis takes it.
-class StoredTrajectory final : public Trajectory {
+class TrajectoryFile final : public Trajectory {
  public:
-  explicit StoredTrajectory(const std::filesystem::path& path) : reader_(path) {}
+  explicit TrajectoryFile(const std::filesystem::path& path) : reader_(path) {}
   const std::vector<double>& times() const override { return reader_.times(); }
   const Configuration2& read(std::size_t k) override {
     reader_.read(k, frame_);
@@ -35,7 +35,7 @@ class StoredTrajectory final : public Trajectory {
 };
 
 /// From the observables if the file has them, else from the velocities; empty if it has neither.
-EnergySeries stored_energies(StoredTrajectory& trajectory);
+EnergySeries stored_energies(TrajectoryFile& trajectory);
 /// From the observables; empty if the file has none.
 EnergySeries observed_energies(const TrajectoryReader& reader);
 

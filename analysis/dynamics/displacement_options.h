@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "analysis/dynamics/time_axis.h"
+#include "core/parallel.h"
+
+namespace vitrel {
+
+struct DisplacementOptions {
+  TimeAxisOptions axis = {};
+  /// q of F_s and F; empty: that of main_wave_number alone.
+  std::vector<double> wave_numbers = {};
+  std::vector<double> orders = {2, 4};        ///< n of L_n
+  double overlap_distance = 0.3;              ///< a of the overlap Q
+  std::size_t memory = std::size_t{1} << 30;  ///< bytes for particle tracks
+  int threads = all_cores;                    ///< at most; the result does not depend on it
+};
+
+}  // namespace vitrel

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstddef>
+
+namespace vitrel {
+
+/// Wave numbers of structure factors (structure_factor.h).
+struct ShellOptions {
+  double wave_number_max = 12;
+  double wave_number_step = 0.1;  ///< width of a shell
+};
+
+/// Distances of pair correlations (pair_correlation.h).
+struct PairCorrelationOptions {
+  double distance_max = 20;
+  double distance_step = 0.05;  ///< width of a bin
+};
+
+struct StructureOptions {
+  std::size_t most_frames = 1000;  ///< evenly thinned beyond
+  ShellOptions shells;
+  PairCorrelationOptions pairs;
+};
+
+}  // namespace vitrel

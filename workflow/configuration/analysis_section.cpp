@@ -1,0 +1,106 @@
+#include "workflow/configuration/sections.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <set>
+#include <utility>
+
+namespace vitrel {
+
+void describe_analysis(DisplacementOptions& p, FieldVisitor& visit) {
+  visit.field(
+      {"longest_lag", "",
+       "Longest time difference, as a fraction of an evenly sampled run; those of others go "
+       "to the end."},
+      p.axis.longest_lag);
+  visit.field(
+      {"every_lag_up_to", "sample intervals",
+       "Up to here every time difference is evaluated, beyond they are spaced logarithmically; of "
+       "runs that are not evenly sampled all are."},
+      p.axis.every_lag_up_to);
+  visit.field(
+      {"lags_per_decade", "", "Time differences per factor of ten in the logarithmic part."},
+      p.axis.lags_per_decade);
+  visit.field({"most_origins", "", "Time origins per time difference; evenly thinned beyond."},
+              p.axis.most_origins);
+  visit.field({"wave_numbers", "1/length",
+               "Wave numbers q of the intermediate scattering functions; if empty one, about that "
+               "of the main peak of the structure factor: 2π√(2ρ/√3) of the number density ρ."},
+              p.wave_numbers);
+  visit.field({"orders", "", "Orders n of the orientational correlations ⟨cos n(θ(t) − θ(0))⟩."},
+              p.orders);
+  visit.field({"overlap_distance", "length",
+               "A particle counts as being where it was, in overlap and four-point susceptibility, "
+               "if it has moved by less: somewhat more than it rattles in its cage."},
+              p.overlap_distance);
+  visit.field({"memory", "bytes", "Memory for particle tracks."}, p.memory);
+}
+
+void describe_structure(StructureOptions& p, FieldVisitor& visit) {
+  visit.field({"frames", "", "Frames averaged over; evenly thinned beyond."}, p.most_frames);
+  visit.field({"wave_number_max", "1/length", "Largest wave number q of structure factors."},
+              p.shells.wave_number_max);
+  visit.field({"wave_number_step", "1/length", "Width of the shells of q averaged over."},
+              p.shells.wave_number_step);
+  visit.field({"distance_max", "length",
+               "Largest distance of pair correlations, but at most half the shorter side of the "
+               "box."},
+              p.pairs.distance_max);
+  visit.field({"distance_step", "length", "Width of the bins of distance."}, p.pairs.distance_step);
+}
+
+void validate_analysis(const DisplacementOptions& p) {
+  const Rules rules("analysis");
+  rules.require(
+      p.axis.longest_lag > 0 && p.axis.longest_lag <= 1, "longest_lag",
+      fmt::format("is {}, but must lie above 0 and not above 1", show(p.axis.longest_lag)));
+  rules.at_least(static_cast<std::int64_t>(p.axis.every_lag_up_to), 1, "every_lag_up_to");
+  rules.at_least(static_cast<std::int64_t>(p.axis.lags_per_decade), 1, "lags_per_decade");
+  rules.at_least(static_cast<std::int64_t>(p.axis.most_origins), 1, "most_origins");
+  for (const double q : p.wave_numbers) rules.positive(q, "wave_numbers");
+  for (const double n : p.orders)
+    rules.require(n >= 1 && n <= 100 && n == std::floor(n), "orders",
+                  fmt::format("has {}, but must hold whole numbers from 1 to 100", show(n)));
+  for (std::size_t k = 1; k < p.orders.size(); ++k)
+    rules.require(p.orders[k] > p.orders[k - 1], "orders", "must hold increasing numbers");
+  rules.positive(p.overlap_distance, "overlap_distance");
+  rules.at_least(static_cast<std::int64_t>(p.memory), 1 << 20, "memory");
+}
+
+void validate_structure(const StructureOptions& p) {
+  const Rules rules("analysis.structure");
+  rules.at_least(static_cast<std::int64_t>(p.most_frames), 1, "frames");
+  const auto steps = [&](double longest, double step, const char* longest_key,
+                         const char* step_key) {
+    rules.positive(longest, longest_key);
+    rules.positive(step, step_key);
+    rules.require(step <= longest && longest / step <= 1e4, step_key,
+                  fmt::format("is {}, but must lie between {} and {} = {}, a ten-thousandth of it "
+                              "and all of it",
+                              show(step), show(longest / 1e4), longest_key, show(longest)));
+  };
+  steps(p.shells.wave_number_max, p.shells.wave_number_step, "wave_number_max", "wave_number_step");
+  steps(p.pairs.distance_max, p.pairs.distance_step, "distance_max", "distance_step");
+}
+
+void validate_sweep(const SweepParameters& p) {
+  std::set<std::string> keys;
+  for (const auto& [table, grid] :
+       {std::pair("sweep.together.", &p.together), {"sweep.grid.", &p.grid}})
+    for (const auto& [key, values] : *grid)
+      if (!keys.insert(key).second)
+        throw BadValue(table + key,
+                       "stands twice in [sweep.grid] and [sweep.together]; leave one out");
+  for (const auto& [key, values] : p.together) {
+    const auto& [first, wanted] = p.together.front();
+    if (values.size() != wanted.size())
+      throw BadValue(
+          "sweep.together." + key,
+          fmt::format("has {} value(s), but '{}' has {}; the keys of [sweep.together] advance "
+                      "together and need as many values each",
+                      values.size(), first, wanted.size()));
+  }
+}
+
+}  // namespace vitrel

@@ -1,0 +1,156 @@
+#include "workflow/configuration/sections.h"
+
+#include <fmt/format.h>
+
+#include "workflow/configuration/soft_particles.h"
+
+namespace vitrel {
+namespace {
+
+using Style = FieldVisitor::TableStyle;
+
+constexpr const char* kind_names[] = {"newtonian", "brownian"};
+constexpr const char* on_overlap_names[] = {"stop", "correct"};
+constexpr const char* temperature_names[] = {"total", "relative"};
+constexpr const char* velocity_names[] = {"maxwell", "translation", "rotation", "keep"};
+constexpr const char* law_names[] = {"linear_dashpot", "viscoelastic"};
+constexpr const char* coefficients_names[] = {"tabulated", "integrated"};
+constexpr const char* early_release_names[] = {"alone", "together"};
+
+void describe_contact(ContactParameters& p, FieldVisitor& visit) {
+  using Law = ContactParameters::Law;
+  visit.quantity({"radius", "m", "Radius of a particle of size 1."}, p.radius);
+  visit.quantity(
+      {"density", "kg/m^3",
+       "Density. A particle of mass 1 weighs as much as a sphere of this radius and density."},
+      p.density);
+  visit.quantity(
+      {"thermal_speed", "m/s", "Thermal speed √(kT/m) of a particle of mass 1 at kT = 1."},
+      p.thermal_speed);
+  visit.field(
+      {"law", "",
+       "Force in contact: spring and dashpot, k ξ + γ dξ/dt, or that of viscoelastic spheres, "
+       "ρ (ξ + (3/2) A dξ/dt) √ξ with ρ = 2 Y √R_eff/(3 (1 − ν²)), where ξ is the compression."},
+      p.law, law_names);
+  visit.when(p.law == Law::linear_dashpot, "law = \"linear_dashpot\"", [&](FieldVisitor& in) {
+    in.quantity({"stiffness", "N/m", "Spring constant k."}, p.linear_dashpot.stiffness);
+    in.quantity({"damping", "kg/s", "Damping γ of the dashpot; \"0 kg/s\" for elastic particles."},
+                p.linear_dashpot.damping);
+  });
+  visit.when(p.law == Law::viscoelastic, "law = \"viscoelastic\"", [&](FieldVisitor& in) {
+    in.quantity({"youngs_modulus", "Pa", "Young's modulus Y."}, p.viscoelastic.youngs_modulus);
+    in.field({"poissons_ratio", "", "Poisson's ratio ν."}, p.viscoelastic.poissons_ratio);
+    in.quantity({"dissipative_time", "s",
+                 "Dissipative time A of the material; \"0 s\" for elastic particles."},
+                p.viscoelastic.dissipative_time);
+  });
+  visit.field(
+      {"coefficients", "",
+       "What a contact does to a pair, from a table that is made once and kept in the user's "
+       "cache folder, or integrated anew for every contact, which takes longer."},
+      p.coefficients, coefficients_names);
+  visit.field(
+      {"early_release", "",
+       "A particle that is hit while in contact is released from it alone, as published, or "
+       "together with its partner, which keeps the angular momentum."},
+      p.early_release, early_release_names);
+}
+
+/// Whether contacts at the thermal speed are such that coefficients can be had.
+void validate_impact(const ContactParameters& p, const Rules& rules) {
+  constexpr double most_damping = 1e5, least_distance = 0.01;
+  const bool is_dashpot = p.law == ContactParameters::Law::linear_dashpot;
+  const ContactScales scales = thermal_scales(p);
+  rules.require(
+      scales.damping <= most_damping, is_dashpot ? "damping" : "dissipative_time",
+      fmt::format("is so large that nothing is left of the thermal speed (c_dis = {:.3g}, at "
+                  "most {:g}, with this radius, density and stiffness); lower it",
+                  scales.damping, most_damping));
+  rules.require(
+      2 * p.radius >= least_distance * scales.length, is_dashpot ? "stiffness" : "youngs_modulus",
+      fmt::format("is so small that particles pass through each other at the thermal speed "
+                  "(2 R/X = {:.3g}, at least {:g}); raise it",
+                  2 * p.radius / scales.length, least_distance));
+}
+
+}  // namespace
+
+const char* law_name(ContactParameters::Law law) {
+  return law_names[static_cast<std::size_t>(law)];
+}
+
+void describe_dynamics(DynamicsParameters& p, FieldVisitor& visit) {
+  visit.field({"kind", "",
+               "Free flight and collisions (newtonian), or the same with all velocities redrawn "
+               "every brownian_step (brownian)."},
+              p.kind, kind_names);
+  visit.field({"brownian_step", "time",
+               "Time τ_B between redrawings; a free particle then diffuses with D = kT τ_B/(2 m). "
+               "Brownian dynamics only."},
+              p.brownian_step);
+  visit.field(
+      {"equilibration", "time", "Length of the run before sampling starts; time 0 is its end."},
+      p.equilibration);
+  visit.field({"duration", "time", "Length of the sampled part of the run."}, p.duration);
+  visit.field({"restitution", "", "Coefficient of restitution, 1 for elastic collisions."},
+              p.restitution);
+  visit.field({"on_overlap", "",
+               "What to do if two particles are found overlapping: stop with exit code 4, or the "
+               "thesis's correction move, counted."},
+              p.on_overlap, on_overlap_names);
+  visit.field({"temperature", "",
+               "Which energy means kT = 1 when velocities are drawn: a translational energy of N "
+               "kT (total) or of (N − 1) kT (relative, the degrees of freedom left once the net "
+               "momentum is removed)."},
+              p.temperature, temperature_names);
+  visit.field({"initial_velocities", "",
+               "Equilibrium at kT = 1 (maxwell), the same energy all in translation or all in "
+               "rotation, or those of the state started from (keep)."},
+              p.initial_velocities, velocity_names);
+  const Field contact{
+      "contact", "",
+      "Soft particles, which must be round: what happens in their contacts. Without this "
+      "section particles are hard."};
+  visit.optional(contact, p.contact, ContactParameters(),
+                 [&](FieldVisitor& in, ContactParameters& inner) {
+                   in.table(contact, Style::section, section_of(inner, describe_contact));
+                 });
+}
+
+void validate_dynamics(const DynamicsParameters& p) {
+  const Rules rules("dynamics");
+  rules.positive(p.brownian_step, "brownian_step");
+  rules.not_negative(p.equilibration, "equilibration");
+  rules.positive(p.duration, "duration");
+  rules.require(
+      p.restitution > 0 && p.restitution <= 1, "restitution",
+      fmt::format("is {}, but must lie above 0 and not above 1 (elastic)", show(p.restitution)));
+}
+
+void validate_contact(const Parameters& parameters) {
+  const ContactParameters& p = *parameters.dynamics.contact;
+  const Rules rules("dynamics.contact");
+  rules.positive(p.radius, "radius");
+  rules.positive(p.density, "density");
+  rules.positive(p.thermal_speed, "thermal_speed");
+  rules.positive(p.linear_dashpot.stiffness, "stiffness");
+  rules.not_negative(p.linear_dashpot.damping, "damping");
+  rules.positive(p.viscoelastic.youngs_modulus, "youngs_modulus");
+  const double ratio = p.viscoelastic.poissons_ratio;
+  rules.require(ratio > -1 && ratio <= 0.5, "poissons_ratio",
+                fmt::format("is {}, but must lie above -1 and not above 0.5", show(ratio)));
+  rules.not_negative(p.viscoelastic.dissipative_time, "dissipative_time");
+  validate_impact(p, rules);
+  for (std::size_t k = 0; k < parameters.species.size(); ++k)
+    if (!is_round(parameters.species[k]))
+      throw BadValue(fmt::format("species.{}", k),
+                     "is not round, but soft particles ([dynamics.contact]) must be; set "
+                     "aspect_ratio = 1");
+  const Rules dynamics("dynamics");
+  const std::string hard_only =
+      "is for hard particles, but [dynamics.contact] makes them soft; leave it out";
+  dynamics.require(parameters.dynamics.restitution == 1, "restitution", hard_only);
+  dynamics.require(parameters.dynamics.on_overlap == OnOverlap::stop, "on_overlap", hard_only);
+}
+
+}  // namespace vitrel

@@ -1,0 +1,97 @@
+#include "workflow/configuration/sections.h"
+
+#include <fmt/format.h>
+
+namespace vitrel {
+namespace {
+
+using Style = FieldVisitor::TableStyle;
+
+constexpr const char* spacing_names[] = {"linear", "logarithmic"};
+
+void describe_samples(OutputParameters& p, FieldVisitor& visit) {
+  using Spacing = OutputParameters::Spacing;
+  visit.field({"spacing", "", "How the sample times follow each other."}, p.spacing, spacing_names);
+  visit.when(p.spacing == Spacing::linear, "spacing = \"linear\"", [&](FieldVisitor& in) {
+    in.field({"interval", "time", "Time between samples."}, p.interval);
+  });
+  visit.when(p.spacing == Spacing::logarithmic, "spacing = \"logarithmic\"", [&](FieldVisitor& in) {
+    in.field({"first", "time", "First sample after the one at time 0."}, p.first);
+    in.field({"per_decade", "", "Samples per factor of ten in time."}, p.per_decade);
+  });
+}
+
+void describe_correlations(CorrelationParameters& p, FieldVisitor& visit) {
+  visit.field({"interval", "time",
+               "Time between the states that are correlated, the shortest time difference."},
+              p.interval);
+  visit.field({"wave_numbers", "1/length",
+               "Wave numbers q of the self scattering functions F_s(q, t); none: about that of the "
+               "main peak of the structure factor, 2π √(2ρ/√3) with ρ the number density."},
+              p.wave_numbers);
+}
+
+void validate_correlations(const CorrelationParameters& p, double duration) {
+  const Rules rules("output.correlations");
+  rules.positive(p.interval, "interval");
+  rules.require(p.interval <= duration && duration / p.interval <= 1e12, "interval",
+                fmt::format("is {}, but must lie between 1e-12 of dynamics.duration = {} and all "
+                            "of it",
+                            show(p.interval), show(duration)));
+  for (std::size_t k = 0; k < p.wave_numbers.size(); ++k)
+    rules.positive(p.wave_numbers[k], fmt::format("wave_numbers.{}", k));
+}
+
+}  // namespace
+
+void describe_output(OutputParameters& p, FieldVisitor& visit) {
+  visit.table({"samples", "", "When the state is written to the trajectory."}, Style::inline_table,
+              [&](FieldVisitor& in) { describe_samples(p, in); });
+  visit.field({"velocities", "",
+               "Whether the velocities of all particles are written, too. Energies and the "
+               "pressure are measured without."},
+              p.velocities);
+  const Field correlations{"correlations", "",
+                           "Correlations measured while the run goes on, from states that need not "
+                           "be written: displacement, rotation, self scattering and orientation "
+                           "over times from the interval to half the run, in a file of the "
+                           "run's name with .correlations.h5 behind it. None if left out."};
+  visit.optional(correlations, p.correlations, CorrelationParameters(),
+                 [&](FieldVisitor& in, CorrelationParameters& inner) {
+                   in.table(correlations, Style::inline_table,
+                            section_of(inner, describe_correlations));
+                 });
+  visit.field(
+      {"checkpoint_interval", "seconds of wall time",
+       "Time between checkpoints, from which a preparation or a run that was killed continues."},
+      p.checkpoint_interval);
+}
+
+void validate_output(const Parameters& parameters) {
+  const OutputParameters& p = parameters.output;
+  const Rules samples("output.samples");
+  const double duration = parameters.dynamics.duration;
+  const auto within = [&](double value, const char* key) {
+    samples.positive(value, key);
+    samples.require(value <= duration, key,
+                    fmt::format("is {}, but must not exceed dynamics.duration = {}", show(value),
+                                show(duration)));
+  };
+  if (p.spacing == OutputParameters::Spacing::linear) {
+    within(p.interval, "interval");
+    samples.require(duration / p.interval <= 1e8, "interval",
+                    fmt::format("is {}, which makes {:.3g} samples; at most 1e8 are possible",
+                                show(p.interval), duration / p.interval));
+  } else {
+    within(p.first, "first");
+    samples.at_least(p.per_decade, 1, "per_decade");
+  }
+  if (p.correlations) {
+    if (parameters.system.dimension != 2)
+      throw BadValue("output.correlations", "is for two dimensions only; leave it out");
+    validate_correlations(*p.correlations, duration);
+  }
+  Rules("output").not_negative(p.checkpoint_interval, "checkpoint_interval");
+}
+
+}  // namespace vitrel

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace vitrel {
+
+/// The value as the parameter file would hold it.
+std::string show(double value);
+
+/// The rules that the values of one table must obey. Each function throws BadValue, which says what is
+/// wrong and what would be right, if its rule does not hold.
+class Rules {
+ public:
+  /// `path`: dotted key of the table.
+  explicit Rules(std::string path) : path_(std::move(path)) {}
+
+  void require(bool holds, const std::string& key, const std::string& complaint) const;
+  void positive(double value, const std::string& key) const;
+  void not_negative(double value, const std::string& key) const;
+  void at_least(std::int64_t value, std::int64_t least, const std::string& key) const;
+  /// Above 0 and below the densest packing that is known to bound all shapes.
+  void packing_fraction(double value, const std::string& key, int dimension) const;
+
+ private:
+  std::string path_;
+};
+
+}  // namespace vitrel

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "workflow/configuration/parameters.h"
+#include "workflow/configuration/rules.h"
+
+/// The sections of the parameter file. For each there is a function that names its fields and one that throws
+/// BadValue for the first impossible value.
+namespace vitrel {
+
+/// The fields of `part`, as `describe` names them.
+FieldVisitor::Inside section_of(auto& part, auto describe) {
+  return [&part, describe](FieldVisitor& visit) { describe(part, visit); };
+}
+
+void describe_system(SystemParameters& system, FieldVisitor& visit);
+void validate_system(const SystemParameters& system);
+
+void describe_species(Species& species, FieldVisitor& visit);
+void validate_species(const std::vector<Species>& species, int dimension);
+Species default_species();
+/// Whether all its particles are disks or spheres.
+bool is_round(const Species& species);
+
+void describe_dynamics(DynamicsParameters& dynamics, FieldVisitor& visit);
+void validate_dynamics(const DynamicsParameters& dynamics);
+/// Of soft particles, which the species and the dynamics must fit.
+void validate_contact(const Parameters& parameters);
+
+void describe_output(OutputParameters& output, FieldVisitor& visit);
+void validate_output(const Parameters& parameters);
+
+void describe_analysis(DisplacementOptions& analysis, FieldVisitor& visit);
+void validate_analysis(const DisplacementOptions& analysis);
+
+void describe_structure(StructureOptions& structure, FieldVisitor& visit);
+void validate_structure(const StructureOptions& structure);
+
+void validate_sweep(const SweepParameters& sweep);
+
+}  // namespace vitrel

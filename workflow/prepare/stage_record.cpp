@@ -1,0 +1,21 @@
+#include "workflow/prepare/stage_record.h"
+
+#include "mc/sampling.h"
+
+namespace vitrel {
+
+void StageRecord::add(const SweepState& moves) {
+  sweeps += moves.sweeps;
+  trials.add(moves.counts);
+}
+
+void StageRecord::add(const SamplingState& sampling) {
+  add(sampling.local);
+  const ChainState& chains = sampling.chains;
+  sweeps += chains.sweeps;
+  chain_contacts += chains.counts.contacts;
+  trials.rotations_tried += chains.counts.rotations_tried;
+  trials.rotations_accepted += chains.counts.rotations_accepted;
+}
+
+}  // namespace vitrel

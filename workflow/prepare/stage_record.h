@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+
+#include "analysis/statistics/blocking.h"
+#include "core/state/stage.h"
+#include "edmd/growth.h"
+#include "mc/sweep_state.h"
+
+namespace vitrel {
+
+struct SamplingState;
+
+/// What one stage did.
+struct StageRecord {
+  StageReport report;
+  double packing_fraction = 0;                 ///< at its end
+  Estimate mean_packing_fraction = {0, 0, 0};  ///< second half of a compression without such a goal
+  std::uint64_t sweeps = 0;
+  std::uint64_t chain_contacts = 0;  ///< of event chains
+  TrialCounts trials;
+  GrowthState growth;  ///< of growth and hybrid; its counters are 0 elsewhere
+  double wall_seconds = 0;
+
+  void add(const SweepState& moves);
+  void add(const SamplingState& sampling);
+};
+
+}  // namespace vitrel

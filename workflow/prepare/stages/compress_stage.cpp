@@ -1,0 +1,77 @@
+#include "workflow/prepare/stages/compress_stage.h"
+
+#include <fmt/format.h>
+
+#include <span>
+
+#include "mc/compression.h"
+#include "workflow/prepare/stage_record.h"
+#include "workflow/prepare/stages/stage_fields.h"
+
+namespace vitrel {
+namespace {
+
+void describe_pressure(CompressStage& stage, FieldVisitor& visit) {
+  visit.field({"pressure", "kT/area", "βP, in units of one over the unit of area."},
+              stage.pressure);
+}
+
+void describe_box(CompressStage& stage, FieldVisitor& visit) {
+  static constexpr const char* names[] = {"isotropic", "anisotropic"};
+  visit.field({"box", "",
+               "Both sides of the box change by one factor, or one at a time, within a factor 2 of "
+               "their ratio at the start."},
+              stage.box, names);
+}
+
+Estimate mean_of_second_half(const std::vector<double>& series) {
+  return block_average(std::span(series).subspan(series.size() / 2));
+}
+
+}  // namespace
+
+std::vector<StageField<CompressStage>> CompressStage::fields() {
+  return {{"packing_fraction", describe_packing_fraction},
+          {"most_sweeps", describe_most_sweeps},
+          {"pressure", describe_pressure},
+          {"box", describe_box},
+          {"sweeps", describe_sweeps}};
+}
+
+void CompressStage::validate(const Rules& rules) const {
+  rules.require(most_sweeps >= 1, "most_sweeps", "is 0, but must be at least 1");
+  rules.require(sweeps >= 1, "sweeps", "is 0, but must be at least 1");
+  rules.positive(pressure, "pressure");
+}
+
+StageEnding CompressStage::ending() const {
+  return packing_fraction ? StageEnding::packing_fraction : StageEnding::pressure;
+}
+
+double CompressStage::end(const SystemParameters&, double before) const {
+  return packing_fraction.value_or(before);
+}
+
+std::string CompressStage::description(double) const {
+  return packing_fraction
+             ? fmt::format("compress to packing fraction {:.4g}", *packing_fraction)
+             : fmt::format("compress at pressure {:.4g} for {} sweeps", pressure, sweeps);
+}
+
+StageReport CompressStage::advance(Configuration<2>& configuration, CompressionState& state,
+                                   const StageContext& context, const Budget& budget) const {
+  const CompressionOptions options{pressure, box, packing_fraction,
+                                   packing_fraction ? most_sweeps : sweeps, context.threads};
+  return compress(configuration, options, context.seed, state, budget);
+}
+
+void CompressStage::record(const CompressionState& state, StageRecord& record) const {
+  record.add(state.moves);
+  if (!packing_fraction) record.mean_packing_fraction = mean_of_second_half(state.packing_fraction);
+}
+
+void CompressStage::number_sweeps(CompressionState& state, std::uint64_t next_sweep) {
+  state.moves.next_sweep = next_sweep;
+}
+
+}  // namespace vitrel

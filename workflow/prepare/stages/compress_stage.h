@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+
+#include "mc/options.h"
+#include "workflow/prepare/stages/stage_interface.h"
+#include "workflow/storage/state_items.h"
+
+namespace vitrel {
+
+struct CompressionState;
+
+/// Monte Carlo at constant pressure (mc/compression.h): to a packing fraction, or without one for a number
+/// of sweeps.
+struct CompressStage : StageDefaults {
+  using State = CompressionState;
+  static constexpr const char* method = "compress";
+  static constexpr const char* summary = "Monte Carlo at constant pressure, in a box that changes";
+
+  std::optional<double> packing_fraction;
+  std::uint64_t most_sweeps = SwellingOptions().sweeps;  ///< with a packing fraction
+  double pressure = CompressionOptions().pressure;
+  BoxChange box = CompressionOptions().change;
+  std::uint64_t sweeps = CompressionOptions().sweeps;  ///< without one
+
+  static std::vector<StageField<CompressStage>> fields();
+  void validate(const Rules& rules) const;
+  StageEnding ending() const;
+  double end(const SystemParameters& system, double before) const;
+  std::string description(double packing_fraction) const;
+  StageReport advance(Configuration<2>& configuration, CompressionState& state,
+                      const StageContext& context, const Budget& budget) const;
+  void record(const CompressionState& state, StageRecord& record) const;
+  static void number_sweeps(CompressionState& state, std::uint64_t next_sweep);
+
+  template <class AnyState, class Visit>
+  static void each_item(AnyState& state, Visit&& visit) {
+    each_item_of_moves(state.moves, "compression.", visit);
+    each_item_of_step(state.box.step, "compression.box.", visit);
+    visit("compression.box.aspect_at_start", state.box.aspect_at_start);
+    visit("compression.box.all_tried", state.box.tried);
+    visit("compression.box.all_accepted", state.box.accepted);
+    visit("compression.packing_fraction", state.packing_fraction);
+  }
+};
+
+}  // namespace vitrel

@@ -1,0 +1,66 @@
+#include "workflow/prepare/stages/hybrid_stage.h"
+
+#include "workflow/prepare/hybrid.h"
+#include "workflow/prepare/stage_record.h"
+#include "workflow/prepare/stages/growth_goal.h"
+#include "workflow/prepare/stages/stage_fields.h"
+
+namespace vitrel {
+namespace {
+
+void describe_stretch_sweeps(HybridStage& stage, FieldVisitor& visit) {
+  visit.field(
+      {"stretch_sweeps", "",
+       "Sweeps of Monte Carlo after every stretch of growth, which lasts until all lengths have "
+       "grown by 1 %, or less at high pressure."},
+      stage.stretch_sweeps);
+}
+
+}  // namespace
+
+std::vector<StageField<HybridStage>> HybridStage::fields() {
+  return {{"packing_fraction", describe_packing_fraction},
+          {"reduced_pressure", describe_reduced_pressure},
+          {"growth_rate", describe_growth_rate},
+          {"stretch_sweeps", describe_stretch_sweeps},
+          {"moves", describe_moves}};
+}
+
+void HybridStage::validate(const Rules& rules) const {
+  validate_exchanges(exchanges, rules);
+  rules.require(stretch_sweeps >= 1, "stretch_sweeps",
+                "is 0, but must be at least 1; without sweeps the method is \"grow\"");
+  validate_growth_rate(growth_rate, rules);
+  validate_reduced_pressure(reduced_pressure, rules);
+}
+
+StageEnding HybridStage::ending() const {
+  return growth_ending(*this);
+}
+
+double HybridStage::end(const SystemParameters& system, double before) const {
+  return end_of_growth(*this, system, before);
+}
+
+std::string HybridStage::description(double packing_fraction) const {
+  return growth_description(*this, packing_fraction);
+}
+
+StageReport HybridStage::advance(Configuration<2>& configuration, HybridState& state,
+                                 const StageContext& context, const Budget& budget) const {
+  const HybridOptions options{
+      growth_rate, packing_fraction_goal(*this, context.packing_fraction), reduced_pressure,
+      SamplingOptions{stretch_sweeps, moves, exchanges, context.threads}, context.seed};
+  return hybrid(configuration, options, state, budget);
+}
+
+void HybridStage::record(const HybridState& state, StageRecord& record) const {
+  record.add(state.sampling);
+  record.growth = state.growth;
+}
+
+void HybridStage::number_sweeps(HybridState& state, std::uint64_t next_sweep) {
+  state.sampling.number_sweeps(next_sweep);
+}
+
+}  // namespace vitrel

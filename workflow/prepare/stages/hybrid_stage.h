@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+
+#include "edmd/options.h"
+#include "workflow/prepare/hybrid_options.h"
+#include "workflow/prepare/stages/stage_interface.h"
+#include "workflow/storage/state_items.h"
+
+namespace vitrel {
+
+struct HybridState;
+
+/// Growth and Monte Carlo in turn (hybrid.h).
+struct HybridStage : StageDefaults {
+  using State = HybridState;
+  static constexpr const char* method = "hybrid";
+  static constexpr const char* summary =
+      "short stretches of such growth and of Monte Carlo in turn";
+
+  std::optional<double> packing_fraction;
+  std::optional<double> reduced_pressure;
+  double growth_rate = GrowthOptions().growth_rate;
+  std::uint64_t stretch_sweeps = HybridOptions().stretch.sweeps;
+  Moves moves = SamplingOptions().moves;
+  double exchanges = SamplingOptions().exchanges;
+
+  static std::vector<StageField<HybridStage>> fields();
+  void validate(const Rules& rules) const;
+  StageEnding ending() const;
+  double end(const SystemParameters& system, double before) const;
+  std::string description(double packing_fraction) const;
+  StageReport advance(Configuration<2>& configuration, HybridState& state,
+                      const StageContext& context, const Budget& budget) const;
+  void record(const HybridState& state, StageRecord& record) const;
+  static void number_sweeps(HybridState& state, std::uint64_t next_sweep);
+
+  template <class AnyState, class Visit>
+  static void each_item(AnyState& state, Visit&& visit) {
+    each_item_of_growth(state.growth, "hybrid.growth.", visit);
+    each_item_of_sampling(state.sampling, "hybrid.", visit);
+    visit("hybrid.stretches", state.stretches);
+    visit("hybrid.stretch_end", state.stretch_end);
+  }
+};
+
+}  // namespace vitrel

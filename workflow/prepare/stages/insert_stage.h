@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+
+#include "mc/options.h"
+#include "workflow/prepare/stages/stage_interface.h"
+
+namespace vitrel {
+
+/// Random sequential insertion (mc/insertion.h).
+struct InsertStage : StageDefaults {
+  static constexpr const char* method = "insert";
+  static constexpr const char* summary = "random places without overlap, as a start at low density";
+  static constexpr bool places_particles = true;
+
+  enum class Orientations { random, aligned };
+
+  std::optional<double> packing_fraction;
+  std::uint64_t attempts = InsertionOptions().attempts;
+  Orientations orientations = Orientations::random;
+
+  static std::vector<StageField<InsertStage>> fields();
+  void validate(const Rules& rules) const;
+  double end(const SystemParameters& system, double before) const;
+  std::string description(double packing_fraction) const;
+  template <int Dim>
+  StageReport advance(Configuration<Dim>& configuration, NoState& state,
+                      const StageContext& context, const Budget& budget) const;
+};
+
+}  // namespace vitrel

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "mc/options.h"
+#include "workflow/prepare/stages/stage_interface.h"
+
+namespace vitrel {
+
+/// Regular positions (mc/lattice.h).
+struct LatticeStage : StageDefaults {
+  static constexpr const char* method = "lattice";
+  static constexpr const char* summary = "regular positions";
+  static constexpr bool places_particles = true;
+
+  Arrangement arrangement = LatticeOptions().arrangement;
+  double angle = LatticeOptions().angle;
+
+  static std::vector<StageField<LatticeStage>> fields();
+  void validate(const Rules& rules) const;
+  double end(const SystemParameters& system, double before) const;
+  std::string description(double packing_fraction) const;
+  StageReport advance(Configuration<2>& configuration, NoState& state, const StageContext& context,
+                      const Budget& budget) const;
+};
+
+}  // namespace vitrel

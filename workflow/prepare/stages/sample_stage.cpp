@@ -1,0 +1,42 @@
+#include "workflow/prepare/stages/sample_stage.h"
+
+#include <fmt/format.h>
+
+#include "mc/sampling.h"
+#include "workflow/prepare/stage_record.h"
+#include "workflow/prepare/stages/stage_fields.h"
+
+namespace vitrel {
+
+std::vector<StageField<SampleStage>> SampleStage::fields() {
+  return {{"moves", describe_moves}, {"sweeps", describe_sweeps}};
+}
+
+void SampleStage::validate(const Rules& rules) const {
+  rules.require(sweeps >= 1, "sweeps", "is 0, but must be at least 1");
+  validate_exchanges(exchanges, rules);
+}
+
+double SampleStage::end(const SystemParameters&, double before) const {
+  return before;
+}
+
+std::string SampleStage::description(double) const {
+  return fmt::format("sample for {} sweeps", sweeps);
+}
+
+StageReport SampleStage::advance(Configuration<2>& configuration, SamplingState& state,
+                                 const StageContext& context, const Budget& budget) const {
+  return sample(configuration, {sweeps, moves, exchanges, context.threads}, context.seed, state,
+                budget);
+}
+
+void SampleStage::record(const SamplingState& state, StageRecord& record) const {
+  record.add(state);
+}
+
+void SampleStage::number_sweeps(SamplingState& state, std::uint64_t next_sweep) {
+  state.number_sweeps(next_sweep);
+}
+
+}  // namespace vitrel

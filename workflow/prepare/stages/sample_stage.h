@@ -1,0 +1,37 @@
+#pragma once
+
+#include "mc/options.h"
+#include "workflow/prepare/stages/stage_interface.h"
+#include "workflow/storage/state_items.h"
+
+namespace vitrel {
+
+struct SamplingState;
+
+/// Monte Carlo at constant packing fraction (mc/sampling.h).
+struct SampleStage : StageDefaults {
+  using State = SamplingState;
+  static constexpr const char* method = "sample";
+  static constexpr const char* summary = "Monte Carlo at constant packing fraction";
+
+  Moves moves = SamplingOptions().moves;
+  double exchanges = SamplingOptions().exchanges;
+  std::uint64_t sweeps = SamplingOptions().sweeps;
+
+  static std::vector<StageField<SampleStage>> fields();
+  void validate(const Rules& rules) const;
+  StageEnding ending() const { return StageEnding::unchanged; }
+  double end(const SystemParameters& system, double before) const;
+  std::string description(double packing_fraction) const;
+  StageReport advance(Configuration<2>& configuration, SamplingState& state,
+                      const StageContext& context, const Budget& budget) const;
+  void record(const SamplingState& state, StageRecord& record) const;
+  static void number_sweeps(SamplingState& state, std::uint64_t next_sweep);
+
+  template <class AnyState, class Visit>
+  static void each_item(AnyState& state, Visit&& visit) {
+    each_item_of_sampling(state, "sampling.", visit);
+  }
+};
+
+}  // namespace vitrel

@@ -1,0 +1,210 @@
+#include "workflow/prepare/stages/stage.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "core/io/parameters.h"
+
+namespace vitrel {
+namespace {
+
+/// Packing fractions that differ by less are the same; those of states carry rounding errors.
+constexpr double packing_fraction_slack = 1e-9;
+
+/// `use(stage)` for every kind of stage, with its defaults.
+template <class Use>
+void each_kind(Use&& use) {
+  [&]<std::size_t... k>(std::index_sequence<k...>) {
+    (use(std::variant_alternative_t<k, Stage>()), ...);
+  }
+  (std::make_index_sequence<std::variant_size_v<Stage>>());
+}
+
+template <class S>
+constexpr bool is_there_in_space = requires(const S& stage, Configuration<3>& configuration,
+                                            typename S::State& state, const StageContext& context,
+                                            const Budget& budget) {
+  stage.advance(configuration, state, context, budget);
+};
+
+/// The names of all methods for which `applies(stage)`.
+template <class Applies>
+std::vector<const char*> methods(Applies&& applies) {
+  std::vector<const char*> names;
+  each_kind([&]<class S>(const S& stage) {
+    if (applies(stage)) names.push_back(S::method);
+  });
+  return names;
+}
+
+/// "a", "b" or "c", with the last two joined by `conjunction`.
+std::string listed(const std::vector<const char*>& names, const std::string& conjunction) {
+  std::string text;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    if (k > 0) text += k + 1 < names.size() ? ", " : " " + conjunction + " ";
+    text += fmt::format("\"{}\"", names[k]);
+  }
+  return text;
+}
+
+std::string summaries() {
+  std::string text = "What the stage does. ";
+  each_kind([&]<class S>(const S&) {
+    text += fmt::format("{}{}: {}", text.ends_with(". ") ? "" : "; ", S::method, S::summary);
+  });
+  return text + ".";
+}
+
+Stage stage_of_kind(std::size_t index) {
+  Stage found;
+  each_kind([&, k = std::size_t{0}](const auto& stage) mutable {
+    if (k++ == index) found = stage;
+  });
+  return found;
+}
+
+template <class S>
+bool has_key(const std::string& key) {
+  return std::ranges::any_of(S::fields(), [&](const auto& field) { return field.key == key; });
+}
+
+/// The keys of all stages, each once.
+std::vector<std::string> all_keys() {
+  std::vector<std::string> keys;
+  each_kind([&]<class S>(const S&) {
+    for (const StageField<S>& field : S::fields())
+      if (std::ranges::find(keys, field.key) == keys.end()) keys.push_back(field.key);
+  });
+  return keys;
+}
+
+/// Names one key of the stage; nothing if it does not have it.
+void describe_key(Stage& stage, const std::string& key, FieldVisitor& visit) {
+  std::visit(
+      [&]<class S>(S& options) {
+        for (const StageField<S>& field : S::fields())
+          if (field.key == key) field.describe(options, visit);
+      },
+      stage);
+}
+
+/// The first kind of stage that has the key.
+Stage owner_of(const std::string& key) {
+  std::optional<Stage> owner;
+  each_kind([&]<class S>(const S& stage) {
+    if (!owner && has_key<S>(key)) owner = stage;
+  });
+  return *owner;
+}
+
+std::optional<double> own_packing_fraction(const Stage& stage) {
+  return std::visit(
+      [](const auto& options) -> std::optional<double> {
+        if constexpr (requires { options.packing_fraction; })
+          return options.packing_fraction;
+        else
+          return std::nullopt;
+      },
+      stage);
+}
+
+StageEnding ending(const Stage& stage) {
+  return std::visit([](const auto& options) { return options.ending(); }, stage);
+}
+
+/// Whether the stage is there in that dimension and belongs into this place of the sequence.
+template <class S>
+void validate_place(const S&, bool is_first, int dimension, const Rules& rules) {
+  const auto space = []<class T>(const T&) { return is_there_in_space<T>; };
+  rules.require(dimension == 2 || is_there_in_space<S>, "method",
+                fmt::format("is \"{}\", but in three dimensions there are {}", S::method,
+                            listed(methods(space), "and")));
+  const auto places = []<class T>(const T&) { return T::places_particles; };
+  const auto moves = []<class T>(const T&) { return !T::places_particles; };
+  rules.require(S::places_particles == is_first, "method",
+                is_first
+                    ? fmt::format("of the first stage must be {}, which place the particles",
+                                  listed(methods(places), "or"))
+                    : fmt::format("of a later stage must be {}: the particles have their places",
+                                  listed(methods(moves), "or")));
+}
+
+void validate_packing_fraction(const Stage& stage, const SystemParameters& system, double before,
+                               const Rules& rules) {
+  const std::optional<double> own = own_packing_fraction(stage);
+  if (own) rules.packing_fraction(*own, "packing_fraction", system.dimension);
+  const double goal = own.value_or(end_of_stage(stage, system, before));
+  // A stage without a packing fraction of its own ends at that of the system.
+  (own ? rules : Rules("system"))
+      .require(goal >= before * (1 - packing_fraction_slack), "packing_fraction",
+               fmt::format("is {}, but the stage before ends at {}, and no stage shrinks",
+                           show(goal), show(before)));
+}
+
+}  // namespace
+
+const char* method_name(const Stage& stage) {
+  return std::visit([]<class S>(const S&) { return S::method; }, stage);
+}
+
+void describe_stage(Stage& stage, FieldVisitor& visit) {
+  const auto any = [](const auto&) { return true; };
+  std::size_t kind = stage.index();
+  visit.choice({"method", "", summaries()}, kind, methods(any));
+  if (kind != stage.index()) stage = stage_of_kind(kind);
+  for (const std::string& key : all_keys()) {
+    const auto has = [&]<class S>(const S&) { return has_key<S>(key); };
+    const bool applies = std::visit(has, stage);
+    visit.when(applies, "method = " + listed(methods(has), "or"), [&](FieldVisitor& in) {
+      Stage other = owner_of(key);
+      describe_key(applies ? stage : other, key, in);
+    });
+  }
+}
+
+void validate_stages(const std::vector<Stage>& stages, const SystemParameters& system) {
+  if (stages.empty())
+    throw BadValue("prepare.stage", "is empty, but there must be at least one [[prepare.stage]]");
+  double reached = 0;
+  for (std::size_t k = 0; k < stages.size(); ++k) {
+    const Rules rules(fmt::format("prepare.stage.{}", k));
+    std::visit(
+        [&](const auto& options) {
+          validate_place(options, k == 0, system.dimension, rules);
+          options.validate(rules);
+        },
+        stages[k]);
+    validate_packing_fraction(stages[k], system, reached, rules);
+    reached = end_of_stage(stages[k], system, reached);
+  }
+  if (!ends_at_pressure(stages) &&
+      std::abs(reached - system.packing_fraction) > packing_fraction_slack)
+    throw BadValue(
+        fmt::format("prepare.stage.{}", stages.size() - 1),
+        fmt::format("ends at the packing fraction {}, but system.packing_fraction is {}; let the "
+                    "last stage that is not \"sample\" end there (insert: packing_fraction = {}, "
+                    "or a stage that swells, compresses or grows)",
+                    show(reached), show(system.packing_fraction), show(system.packing_fraction)));
+}
+
+double end_of_stage(const Stage& stage, const SystemParameters& system, double before) {
+  return std::visit([&](const auto& options) { return options.end(system, before); }, stage);
+}
+
+bool ends_at_pressure(const std::vector<Stage>& stages) {
+  const auto last = std::find_if(stages.rbegin(), stages.rend(), [](const Stage& stage) {
+    return ending(stage) != StageEnding::unchanged;
+  });
+  return last != stages.rend() && ending(*last) == StageEnding::pressure;
+}
+
+std::string stage_description(const Stage& stage, double packing_fraction) {
+  return std::visit([&](const auto& options) { return options.description(packing_fraction); },
+                    stage);
+}
+
+}  // namespace vitrel

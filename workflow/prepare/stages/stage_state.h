@@ -1,0 +1,51 @@
+#pragma once
+
+#include <type_traits>
+#include <variant>
+
+#include "mc/compression.h"
+#include "mc/sampling.h"
+#include "mc/swelling.h"
+#include "workflow/prepare/hybrid.h"
+#include "workflow/prepare/stage_record.h"
+#include "workflow/prepare/stages/stage.h"
+
+/// Stages at work.
+namespace vitrel {
+
+template <class S>
+struct StateOf {
+  using Kind = S;
+  typename S::State value = {};
+};
+
+template <class Variant>
+struct StatesOf;
+template <class... S>
+struct StatesOf<std::variant<S...>> {
+  using Type = std::variant<StateOf<S>...>;
+};
+
+/// Where a stage stands, of the same index as the stage.
+using StageState = StatesOf<Stage>::Type;
+
+/// Of a stage that has not begun; its sweeps of Monte Carlo bear the numbers from `next_sweep` on.
+StageState first_state(const Stage& stage, std::uint64_t next_sweep);
+
+/// Does the stage, or continues it from `state`. `reached` at its end, `stuck` if it cannot get there,
+/// `stopped` by the budget. Throws std::logic_error for a stage that this dimension does not have.
+template <int Dim>
+StageReport advance_stage(const Stage& stage, StageState& state, Configuration<Dim>& configuration,
+                          const StageContext& context, const Budget& budget);
+
+/// What the stage did, as far as its state tells.
+StageRecord record_of(const Stage& stage, const StageState& state);
+
+/// The items of the state in a checkpoint; `state` may be constant.
+template <class State, class Visit>
+void each_item_of_stage(State& state, Visit&& visit) {
+  std::visit([&](auto& one) { std::decay_t<decltype(one)>::Kind::each_item(one.value, visit); },
+             state);
+}
+
+}  // namespace vitrel

@@ -1,0 +1,41 @@
+#include "workflow/prepare/stages/swell_stage.h"
+
+#include <fmt/format.h>
+
+#include "mc/swelling.h"
+#include "workflow/prepare/stage_record.h"
+#include "workflow/prepare/stages/stage_fields.h"
+
+namespace vitrel {
+
+std::vector<StageField<SwellStage>> SwellStage::fields() {
+  return {{"packing_fraction", describe_packing_fraction}, {"most_sweeps", describe_most_sweeps}};
+}
+
+void SwellStage::validate(const Rules& rules) const {
+  rules.require(most_sweeps >= 1, "most_sweeps", "is 0, but must be at least 1");
+}
+
+double SwellStage::end(const SystemParameters& system, double) const {
+  return packing_fraction.value_or(system.packing_fraction);
+}
+
+std::string SwellStage::description(double packing_fraction) const {
+  return fmt::format("swell to packing fraction {:.4g}", packing_fraction);
+}
+
+StageReport SwellStage::advance(Configuration<2>& configuration, SwellingState& state,
+                                const StageContext& context, const Budget& budget) const {
+  return swell(configuration, {context.packing_fraction, most_sweeps, context.threads},
+               context.seed, state, budget);
+}
+
+void SwellStage::record(const SwellingState& state, StageRecord& record) const {
+  record.add(state.moves);
+}
+
+void SwellStage::number_sweeps(SwellingState& state, std::uint64_t next_sweep) {
+  state.moves.next_sweep = next_sweep;
+}
+
+}  // namespace vitrel

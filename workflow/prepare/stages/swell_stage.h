@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+
+#include "mc/options.h"
+#include "workflow/prepare/stages/stage_interface.h"
+#include "workflow/storage/state_items.h"
+
+namespace vitrel {
+
+struct SwellingState;
+
+/// Swelling by Monte Carlo (mc/swelling.h).
+struct SwellStage : StageDefaults {
+  using State = SwellingState;
+  static constexpr const char* method = "swell";
+  static constexpr const char* summary =
+      "Monte Carlo while the particles grow to the wanted packing fraction";
+
+  std::optional<double> packing_fraction;
+  std::uint64_t most_sweeps = SwellingOptions().sweeps;
+
+  static std::vector<StageField<SwellStage>> fields();
+  void validate(const Rules& rules) const;
+  double end(const SystemParameters& system, double before) const;
+  std::string description(double packing_fraction) const;
+  StageReport advance(Configuration<2>& configuration, SwellingState& state,
+                      const StageContext& context, const Budget& budget) const;
+  void record(const SwellingState& state, StageRecord& record) const;
+  static void number_sweeps(SwellingState& state, std::uint64_t next_sweep);
+
+  template <class AnyState, class Visit>
+  static void each_item(AnyState& state, Visit&& visit) {
+    each_item_of_moves(state.moves, "swelling.", visit);
+    visit("swelling.growth", state.growth);
+    visit("swelling.watched_sweeps", state.watched_sweeps);
+    visit("swelling.watched_packing_fraction", state.watched_packing_fraction);
+  }
+};
+
+}  // namespace vitrel

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+
+#include "core/io/checkpoint.h"
+#include "workflow/log.h"
+#include "workflow/storage/work_timer.h"
+
+namespace vitrel {
+
+/// The checkpoint of a piece of work, beside its output. Functions throw FileError.
+class CheckpointFile {
+ public:
+  /// `interval`: seconds of wall time between two checkpoints.
+  CheckpointFile(std::filesystem::path path, double interval)
+      : path_(std::move(path)), interval_(interval) {}
+
+  const std::filesystem::path& path() const { return path_; }
+  bool exists() const { return checkpoint_exists(path_); }
+  /// `log` gets a line if the checkpoint is not the newest that was written.
+  Checkpoint load(const Log& log) const;
+  void save(const Checkpoint& checkpoint);
+  /// Whether the interval has passed since the last one.
+  bool is_due() const { return since_last_.seconds() >= interval_; }
+
+ private:
+  std::filesystem::path path_;
+  double interval_;
+  WorkTimer since_last_;
+};
+
+}  // namespace vitrel
