@@ -152,22 +152,19 @@ Real gap_of_two(const Configuration<Dim>& state) {
   return exact::examine(one, two, two.centre - one.centre, infinity).gap;
 }
 
-/// Moves the second of two particles along the line of centres until the pair touches but for the spacing
-/// of the doubles, and then by a few of these spacings.
+/// Moves the second of two particles towards the first until the pair touches but for the spacing of the
+/// doubles, and then by a few of these spacings. A step as long as the gap cannot lead to an overlap.
 template <int Dim>
 void almost_touch(Stream& draw, Configuration<Dim>& state) {
-  const Vec<Dim> start = state.position[0];
-  const Vec<Dim> direction = (state.position[1] - start).normalized();
-  double inside = 0;
-  double outside = 1.1 * (state.shape[0].circumradius() + state.shape[1].circumradius());
-  for (int k = 0; k < 60; ++k) {
-    const double middle = 0.5 * (inside + outside);
-    state.position[1] = start + middle * direction;
-    (gap_of_two(state) < 0 ? inside : outside) = middle;
+  const Vec<Dim> direction = (state.position[1] - state.position[0]).normalized();
+  double distance = state.shape[0].circumradius() + state.shape[1].circumradius();
+  for (Real gap = 1; gap > 4e-15L;) {
+    state.position[1] = state.position[0] + distance * direction;
+    gap = gap_of_two(state);
+    distance -= static_cast<double>(gap);
   }
-  state.position[1] = start + outside * direction;
   for (double& x : state.position[1])
-    x += std::round(draw.uniform(-3, 3)) * (std::nextafter(x, infinity) - x);
+    x += std::round(draw.uniform(-4, 4)) * (std::nextafter(x, infinity) - x);
 }
 
 /// Returns how many pairs of 300 overlap. Pairs closer than what long double resolves are left out.
