@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <string>
 #include <tuple>
 
@@ -69,7 +70,21 @@ std::vector<Particle<Dim>> in_extended_precision(const Configuration<Dim>& confi
   return particles;
 }
 
-/// Walks over pairs of particles and keeps the findings.
+/// The circumcircle (sphere) of a particle in double precision, in units of the longest box length.
+template <int Dim>
+struct Circumsphere {
+  Vec<Dim> centre;  // wrapped, from 0 to L
+  double radius;
+  std::size_t particle;
+};
+
+/// Judges pairs of particles and keeps the findings.
+///
+/// Pairs far apart are rejected in double precision, with the longest box length as the unit and u = 2⁻⁵³.
+/// Wrapped centres are rounded by u. A component of the distance to the nearest image takes two of them, a
+/// box length rounded by u, and two subtractions: it is good to 5u, the distance to 9u. Squares, sums of
+/// radii and their comparison add 8u of the sum of radii. The margin 2⁻⁴⁰ (1 + a), a the longest semi-axis,
+/// is more than 2⁸ times as much.
 template <int Dim>
 class Examination {
   /// Compares component by component.
@@ -85,24 +100,37 @@ class Examination {
     }
     for (const Particle<Dim>& particle : particles_)
       nearness_ = std::max(nearness_, particle.circumradius);
-    smallest_gap_ = nearness_;
+    scale_ = 1 / lengths_.maxCoeff();
+    box_ = (scale_ * lengths_).template cast<double>();
+    margin_ = 0x1p-40 * (1 + scaled(nearness_));
+    set_smallest_gap(nearness_);
   }
 
-  std::size_t size() const { return particles_.size(); }
-  const Particle<Dim>& particle(std::size_t i) const { return particles_[i]; }
   /// No two centres farther apart than this have a surface distance that matters.
-  Real reach() const { return 3 * nearness_; }
+  double reach() const { return 3 * scaled(nearness_) + margin_; }
+  const Vec<Dim>& box() const { return box_; }
 
-  /// All images of the pair i ≤ j.
-  void examine(std::size_t i, std::size_t j) {
-    const Particle<Dim>& one = particles_[i];
-    const Particle<Dim>& two = particles_[j];
-    const Point<Dim> d = two.centre - one.centre;
-    const Real reach = one.circumradius + two.circumradius + std::max<Real>(0, smallest_gap_);
-    for (int k = 0; k < Dim; ++k)
-      if (beyond(reach, d[k], lengths_[k])) return;
+  std::vector<Circumsphere<Dim>> circumspheres() const {
+    std::vector<Circumsphere<Dim>> spheres;
+    spheres.reserve(particles_.size());
+    for (const Particle<Dim>& particle : particles_) {
+      Point<Dim> centre = particle.centre;
+      for (int k = 0; k < Dim; ++k)
+        centre[k] -= std::floor(static_cast<double>(centre[k] / lengths_[k])) * lengths_[k];
+      spheres.push_back({(scale_ * centre).template cast<double>(), scaled(particle.circumradius),
+                         spheres.size()});
+    }
+    return spheres;
+  }
+
+  /// All images of a pair, or of a particle and itself.
+  void examine(const Circumsphere<Dim>& one, const Circumsphere<Dim>& two) {
+    if (far_apart(one, two)) return;
+    const auto [i, j] = std::minmax(one.particle, two.particle);
+    const Real reach =
+        particles_[i].circumradius + particles_[j].circumradius + clearance_ / scale_;
     Boxes shift{};
-    examine_images<0>(i, j, shift, d, reach);
+    examine_images<0>(i, j, shift, particles_[j].centre - particles_[i].centre, reach);
   }
 
   ExactCheck<Dim> result() && {
@@ -125,21 +153,36 @@ class Examination {
     return found != closest_.end() && d.norm() >= found->second;
   }
 
-  /// Quick and sufficient for |d| ≤ L: then d itself and one image are the nearest.
-  static bool beyond(Real reach, Real d, Real length) {
-    const Real away = std::abs(d);
-    return away > reach && length - away > reach;
+  double scaled(Real length) const { return static_cast<double>(scale_ * length); }
+
+  /// Pairs with a larger gap change nothing.
+  Real relevant_gap() const { return std::max<Real>(0, smallest_gap_); }
+
+  void set_smallest_gap(Real gap) {
+    smallest_gap_ = gap;
+    clearance_ = scaled(relevant_gap()) + margin_;
   }
 
-  /// Images whose components before k of the shift are given and contained in d.
+  bool far_apart(const Circumsphere<Dim>& one, const Circumsphere<Dim>& two) const {
+    double square = 0;
+    for (int k = 0; k < Dim; ++k) {
+      const double away = std::abs(two.centre[k] - one.centre[k]);
+      const double nearest = std::min(away, box_[k] - away);
+      square += nearest * nearest;
+    }
+    const double reach = one.radius + two.radius + clearance_;
+    return square > reach * reach;
+  }
+
+  /// Images whose components before k of the shift are given and contained in d. Truncation may add some
+  /// that are out of reach.
   template <int k>
   void examine_images(std::size_t i, std::size_t j, Boxes& shift, const Point<Dim>& d, Real reach) {
     if constexpr (k == Dim) {
       if (i != j || shift > Boxes{}) examine_image(i, j, shift, d);
     } else {
-      const int last = static_cast<int>(std::floor((reach - d[k]) / lengths_[k]));
-      shift[k] = static_cast<int>(std::ceil((-reach - d[k]) / lengths_[k]));
-      for (; shift[k] <= last; ++shift[k]) {
+      const int last = truncated((reach - d[k]) / lengths_[k]);
+      for (shift[k] = truncated((-reach - d[k]) / lengths_[k]); shift[k] <= last; ++shift[k]) {
         Point<Dim> shifted = d;
         shifted[k] += shift[k] * lengths_[k];
         examine_images<k + 1>(i, j, shift, shifted, reach);
@@ -147,103 +190,104 @@ class Examination {
     }
   }
 
+  /// By way of double, which is much faster. Below 2¹¹ that rounds by 2⁻⁴², less than the margin.
+  static int truncated(Real boxes) { return static_cast<int>(static_cast<double>(boxes)); }
+
   void examine_image(std::size_t i, std::size_t j, const Boxes& shift, const Point<Dim>& d) {
     const Particle<Dim>& one = particles_[i];
     const Particle<Dim>& two = particles_[j];
     const Real circles = d.norm() - (one.circumradius + two.circumradius);
-    if (circles >= std::max<Real>(0, smallest_gap_)) return;
+    if (circles >= relevant_gap()) return;
     if (circles < 0) ++pairs_examined_;
     if (circles < 0 && may_overlap({i, j, shift}, d)) return;
     const exact::Finding finding = exact::examine(one, two, d, smallest_gap_);
     if (finding.overlap) overlaps_.push_back({i, j, Shift<Dim>(shift.data())});
-    smallest_gap_ = std::min(smallest_gap_, finding.gap);
+    if (finding.gap < smallest_gap_) set_smallest_gap(finding.gap);
   }
 
   std::vector<Particle<Dim>> particles_;
   Point<Dim> lengths_;
   std::map<Place, double> closest_;  // of close pairs
-  Real nearness_ = 0;
+  Real nearness_ = 0;                // the longest semi-axis
+  Real scale_ = 0;                   // one over the longest box length
+  double margin_ = 0;
+  Vec<Dim> box_;  // scaled
   Real smallest_gap_ = 0;
+  double clearance_ = 0;  // the relevant gap, scaled, and the margin
   std::vector<PairImage<Dim>> overlaps_;
   std::uint64_t pairs_examined_ = 0;
 };
 
-template <int Dim>
-void examine_all_pairs(Examination<Dim>& examination) {
-  for (std::size_t i = 0; i < examination.size(); ++i)
-    for (std::size_t j = i; j < examination.size(); ++j) examination.examine(i, j);
-}
-
-/// Cells at least `reach` wide, periodic: what lies within reach of a particle is in its cell or
-/// in one next to it. They only name the candidates; images are found pair by pair.
+/// Periodic cells at least `reach` wide: what lies within reach of a particle is in its cell or in one
+/// next to it. They only name the candidates; images are found pair by pair.
 template <int Dim>
 class Cells {
  public:
-  Cells(const Examination<Dim>& examination, const Vec<Dim>& lengths) : lengths_(lengths) {
+  /// At most `most` cells along each axis.
+  Cells(const Examination<Dim>& examination, double most) : box_(examination.box()) {
     // A little wider than needed, so that rounding cannot move a particle out of reach.
-    const double width = static_cast<double>(examination.reach()) * (1 + 1e-6);
-    const double most = std::pow(static_cast<double>(examination.size()), 1.0 / Dim);
+    const double width = examination.reach() * (1 + 1e-6);
     std::size_t cells = 1;
     for (int k = 0; k < Dim; ++k) {
-      count_[k] =
-          static_cast<int>(std::clamp(std::floor(lengths[k] / width), 1.0, std::ceil(most)));
+      count_[k] = static_cast<int>(std::clamp(std::floor(box_[k] / width), 1.0, most));
       cells *= count_[k];
     }
-    members_.resize(cells);
-    for (std::size_t i = 0; i < examination.size(); ++i) {
-      std::size_t index = 0;
-      for (int k = 0; k < Dim; ++k)
-        index = index * count_[k] + cell_of(examination.particle(i).centre[k], k);
-      members_[index].push_back(i);
-    }
+    own_images_ = box_.minCoeff() <= width;
+    sort(examination.circumspheres(), cells);
   }
 
-  /// Calls visit(j) once for every particle in the cell of `centre` and its neighbours.
+  /// Calls visit once for every pair in the same or neighbouring cells, and, in a small box, for every
+  /// particle and itself.
   template <class Visit>
-  void for_each_near(const Point<Dim>& centre, Visit&& visit) const {
-    visit_near<0>(centre, 0, visit);
+  void for_each_pair(Visit&& visit) const {
+    for (std::size_t s = 0; s < members_.size(); ++s) {
+      const std::size_t first = own_images_ ? s : s + 1;
+      for_each_near_cell<0>(members_[s].centre, 0, [&](std::size_t cell) {
+        for (std::size_t t = std::max(first, begin_[cell]); t < begin_[cell + 1]; ++t)
+          visit(members_[s], members_[t]);
+      });
+    }
   }
 
  private:
-  /// `index` is that of the cell's first k coordinates.
+  void sort(const std::vector<Circumsphere<Dim>>& spheres, std::size_t cells) {
+    begin_.assign(cells + 1, 0);
+    for (const auto& sphere : spheres) ++begin_[cell_of(sphere.centre) + 1];
+    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+    members_.resize(spheres.size());
+    std::vector<std::size_t> next = begin_;
+    for (const auto& sphere : spheres) members_[next[cell_of(sphere.centre)]++] = sphere;
+  }
+
+  /// `index` is that of the cell's first k coordinates. Each cell once, even if there are fewer than three.
   template <int k, class Visit>
-  void visit_near(const Point<Dim>& centre, std::size_t index, Visit& visit) const {
+  void for_each_near_cell(const Vec<Dim>& centre, std::size_t index, Visit&& visit) const {
     if constexpr (k == Dim) {
-      for (std::size_t j : members_[index]) visit(j);
+      visit(index);
     } else {
-      for (int cell : neighbours(cell_of(centre[k], k), k))
-        visit_near<k + 1>(centre, index * count_[k] + cell, visit);
+      const int n = count_[k];
+      const int before = coordinate_of(centre[k], k) + n - 1;
+      for (int step = 0; step < std::min(n, 3); ++step)
+        for_each_near_cell<k + 1>(centre, index * n + (before + step) % n, visit);
     }
   }
 
-  int cell_of(Real coordinate, int k) const {
-    const Real fraction = coordinate / lengths_[k];
-    const Real within = fraction - std::floor(fraction);
-    return std::min(static_cast<int>(within * count_[k]), count_[k] - 1);
+  std::size_t cell_of(const Vec<Dim>& centre) const {
+    std::size_t index = 0;
+    for (int k = 0; k < Dim; ++k) index = index * count_[k] + coordinate_of(centre[k], k);
+    return index;
   }
 
-  /// The cell and those beside it, each once even if there are fewer than three.
-  std::vector<int> neighbours(int cell, int k) const {
-    const int n = count_[k];
-    std::vector<int> cells{cell};
-    if (n > 1) cells.push_back((cell + 1) % n);
-    if (n > 2) cells.push_back((cell + n - 1) % n);
-    return cells;
+  int coordinate_of(double centre, int k) const {
+    return std::clamp(static_cast<int>(centre / box_[k] * count_[k]), 0, count_[k] - 1);
   }
 
-  Vec<Dim> lengths_;
+  Vec<Dim> box_;
   std::array<int, Dim> count_{};
-  std::vector<std::vector<std::size_t>> members_;
+  bool own_images_;
+  std::vector<Circumsphere<Dim>> members_;  // cell by cell
+  std::vector<std::size_t> begin_;          // of each cell in members_, and the end
 };
-
-template <int Dim>
-void examine_by_cells(Examination<Dim>& examination, const Vec<Dim>& lengths) {
-  const Cells<Dim> cells(examination, lengths);
-  for (std::size_t i = 0; i < examination.size(); ++i)
-    cells.for_each_near(examination.particle(i).centre, [&](std::size_t j) {
-      if (j >= i) examination.examine(i, j);
-    });
-}
 
 }  // namespace
 
@@ -251,12 +295,12 @@ template <int Dim>
 ExactCheck<Dim> exact_check(const Configuration<Dim>& configuration,
                             std::size_t brute_force_limit) {
   validate(configuration);
-  const Vec<Dim>& lengths = configuration.box.lengths();
+  const std::size_t size = configuration.size();
   Examination<Dim> examination(configuration);
-  if (examination.size() <= brute_force_limit)
-    examine_all_pairs(examination);
-  else
-    examine_by_cells(examination, lengths);
+  const double cells = size <= brute_force_limit ? 1 : std::ceil(std::pow(size, 1.0 / Dim));
+  Cells<Dim>(examination, cells).for_each_pair([&](const auto& one, const auto& two) {
+    examination.examine(one, two);
+  });
   return std::move(examination).result();
 }
 

@@ -29,12 +29,13 @@ Particle<3> particle(const Configuration3& configuration, std::size_t i);
 
 struct Finding {
   bool overlap;
-  /// The distance of the surfaces, or minus the depth (check.h); of a pair whose gap is not below what was
-  /// `enough`, any number that is not either.
+  /// The distance of the surfaces, or minus the depth (check.h). If that is not below `enough`, any number
+  /// that is not below it either.
   Real gap;
 };
 
-/// d from centre 1 to centre 2.
+/// d from centre 1 to centre 2. Fast for round bodies, and for bodies that a separating axis in double
+/// precision proves to be more than `enough` apart.
 Finding examine(const Particle<2>& one, const Particle<2>& two, const Point<2>& d, Real enough);
 Finding examine(const Particle<3>& one, const Particle<3>& two, const Point<3>& d, Real enough);
 

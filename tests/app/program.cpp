@@ -8,7 +8,6 @@
 
 #include <cstring>
 #include <fstream>
-#include <map>
 #include <sstream>
 #include <thread>
 
@@ -50,10 +49,7 @@ int exit_code(int status) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-using Bytes = std::vector<double>;
-
-void collect(const h5::Group& group, const std::string& path,
-             std::map<std::string, Bytes>& datasets) {
+void collect(const h5::Group& group, const std::string& path, Datasets& datasets) {
   for (const std::string& name : group.members()) {
     const std::string full = path + "/" + name;
     if (full == "/parameters" || full == "/provenance") continue;
@@ -64,13 +60,7 @@ void collect(const h5::Group& group, const std::string& path,
   }
 }
 
-std::map<std::string, Bytes> all_datasets(const fs::path& file) {
-  std::map<std::string, Bytes> datasets;
-  collect(h5::File::open(file, h5::Access::read).root(), "", datasets);
-  return datasets;
-}
-
-bool same_bits(const Bytes& x, const Bytes& y) {
+bool same_bits(const std::vector<double>& x, const std::vector<double>& y) {
   return x.size() == y.size() && std::memcmp(x.data(), y.data(), x.size() * sizeof(double)) == 0;
 }
 
@@ -123,6 +113,12 @@ void Folder::write(const std::string& name, const std::string& text) const {
 std::string Folder::read(const std::string& name) const {
   std::ifstream stream(path_ / name);
   return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+Datasets all_datasets(const fs::path& file) {
+  Datasets datasets;
+  collect(h5::File::open(file, h5::Access::read).root(), "", datasets);
+  return datasets;
 }
 
 std::vector<std::string> differing_datasets(const fs::path& first, const fs::path& second) {

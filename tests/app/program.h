@@ -3,6 +3,7 @@
 #include <chrono>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,12 @@ class Folder {
  private:
   std::filesystem::path path_;
 };
+
+/// The values of datasets by their names.
+using Datasets = std::map<std::string, std::vector<double>>;
+
+/// All datasets of an HDF5 file outside /parameters and /provenance; names like /particles/all/mass.
+Datasets all_datasets(const std::filesystem::path& file);
 
 /// The names of all datasets of an HDF5 file, outside /parameters and /provenance, whose shapes or bits differ from those of
 /// another file, or which only one of them has.
