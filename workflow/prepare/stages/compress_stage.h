@@ -27,7 +27,7 @@ struct CompressStage : StageDefaults {
   void validate(const Rules& rules) const;
   StageEnding ending() const;
   double end(const SystemParameters& system, double before) const;
-  std::string description(double packing_fraction) const;
+  std::string description(double goal) const;
   StageReport advance(Configuration<2>& configuration, CompressionState& state,
                       const StageContext& context, const Budget& budget) const;
   void record(const CompressionState& state, StageRecord& record) const;

@@ -27,8 +27,8 @@ double GrowStage::end(const SystemParameters& system, double before) const {
   return end_of_growth(*this, system, before);
 }
 
-std::string GrowStage::description(double packing_fraction) const {
-  return growth_description(*this, packing_fraction);
+std::string GrowStage::description(double goal) const {
+  return growth_description(*this, goal);
 }
 
 template <int Dim>

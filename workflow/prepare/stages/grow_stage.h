@@ -25,7 +25,7 @@ struct GrowStage : StageDefaults {
   void validate(const Rules& rules) const;
   StageEnding ending() const;
   double end(const SystemParameters& system, double before) const;
-  std::string description(double packing_fraction) const;
+  std::string description(double goal) const;
   template <int Dim>
   StageReport advance(Configuration<Dim>& configuration, GrowthState& state,
                       const StageContext& context, const Budget& budget) const;

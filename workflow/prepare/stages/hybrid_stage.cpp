@@ -42,8 +42,8 @@ double HybridStage::end(const SystemParameters& system, double before) const {
   return end_of_growth(*this, system, before);
 }
 
-std::string HybridStage::description(double packing_fraction) const {
-  return growth_description(*this, packing_fraction);
+std::string HybridStage::description(double goal) const {
+  return growth_description(*this, goal);
 }
 
 StageReport HybridStage::advance(Configuration<2>& configuration, HybridState& state,

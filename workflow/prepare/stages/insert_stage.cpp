@@ -41,8 +41,8 @@ double InsertStage::end(const SystemParameters& system, double) const {
   return packing_fraction.value_or(std::min(easy, system.packing_fraction));
 }
 
-std::string InsertStage::description(double packing_fraction) const {
-  return fmt::format("insert at packing fraction {:.4g}", packing_fraction);
+std::string InsertStage::description(double goal) const {
+  return fmt::format("insert at packing fraction {:.4g}", goal);
 }
 
 template <int Dim>

@@ -22,7 +22,7 @@ struct InsertStage : StageDefaults {
   static std::vector<StageField<InsertStage>> fields();
   void validate(const Rules& rules) const;
   double end(const SystemParameters& system, double before) const;
-  std::string description(double packing_fraction) const;
+  std::string description(double goal) const;
   template <int Dim>
   StageReport advance(Configuration<Dim>& configuration, NoState& state,
                       const StageContext& context, const Budget& budget) const;

@@ -39,8 +39,8 @@ double LatticeStage::end(const SystemParameters& system, double) const {
   return system.packing_fraction;
 }
 
-std::string LatticeStage::description(double packing_fraction) const {
-  return fmt::format("lattice at packing fraction {:.4g}", packing_fraction);
+std::string LatticeStage::description(double goal) const {
+  return fmt::format("lattice at packing fraction {:.4g}", goal);
 }
 
 StageReport LatticeStage::advance(Configuration<2>& configuration, NoState&,

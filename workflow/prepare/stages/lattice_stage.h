@@ -17,7 +17,7 @@ struct LatticeStage : StageDefaults {
   static std::vector<StageField<LatticeStage>> fields();
   void validate(const Rules& rules) const;
   double end(const SystemParameters& system, double before) const;
-  std::string description(double packing_fraction) const;
+  std::string description(double goal) const;
   StageReport advance(Configuration<2>& configuration, NoState& state, const StageContext& context,
                       const Budget& budget) const;
 };

@@ -22,7 +22,7 @@ struct SampleStage : StageDefaults {
   void validate(const Rules& rules) const;
   StageEnding ending() const { return StageEnding::unchanged; }
   double end(const SystemParameters& system, double before) const;
-  std::string description(double packing_fraction) const;
+  std::string description(double goal) const;
   StageReport advance(Configuration<2>& configuration, SamplingState& state,
                       const StageContext& context, const Budget& budget) const;
   void record(const SamplingState& state, StageRecord& record) const;

@@ -20,8 +20,8 @@ double SwellStage::end(const SystemParameters& system, double) const {
   return packing_fraction.value_or(system.packing_fraction);
 }
 
-std::string SwellStage::description(double packing_fraction) const {
-  return fmt::format("swell to packing fraction {:.4g}", packing_fraction);
+std::string SwellStage::description(double goal) const {
+  return fmt::format("swell to packing fraction {:.4g}", goal);
 }
 
 StageReport SwellStage::advance(Configuration<2>& configuration, SwellingState& state,

@@ -23,7 +23,7 @@ struct SwellStage : StageDefaults {
   static std::vector<StageField<SwellStage>> fields();
   void validate(const Rules& rules) const;
   double end(const SystemParameters& system, double before) const;
-  std::string description(double packing_fraction) const;
+  std::string description(double goal) const;
   StageReport advance(Configuration<2>& configuration, SwellingState& state,
                       const StageContext& context, const Budget& budget) const;
   void record(const SwellingState& state, StageRecord& record) const;
