@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/dynamics/displacement.h"
 #include "core/error.h"
 
 namespace vitrel {

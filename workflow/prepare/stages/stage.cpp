@@ -82,6 +82,10 @@ std::vector<std::string> all_keys() {
   return keys;
 }
 
+std::vector<const char*> methods_with(const std::string& key) {
+  return methods([&]<class S>(const S&) { return has_key<S>(key); });
+}
+
 /// Names one key of the stage; nothing if it does not have it.
 void describe_key(Stage& stage, const std::string& key, FieldVisitor& visit) {
   std::visit(
@@ -156,12 +160,15 @@ void describe_stage(Stage& stage, FieldVisitor& visit) {
   std::size_t kind = stage.index();
   visit.choice({"method", "", summaries()}, kind, methods(any));
   if (kind != stage.index()) stage = stage_of_kind(kind);
-  for (const std::string& key : all_keys()) {
-    const auto has = [&]<class S>(const S&) { return has_key<S>(key); };
+  const std::vector<std::string> keys = all_keys();
+  for (std::size_t k = 0, next; k < keys.size(); k = next) {
+    const auto has = [&]<class S>(const S&) { return has_key<S>(keys[k]); };
+    next = k + 1;
+    while (next < keys.size() && methods_with(keys[next]) == methods_with(keys[k])) ++next;
     const bool applies = std::visit(has, stage);
-    visit.when(applies, "method = " + listed(methods(has), "or"), [&](FieldVisitor& in) {
-      Stage other = owner_of(key);
-      describe_key(applies ? stage : other, key, in);
+    visit.when(applies, "method = " + listed(methods_with(keys[k]), "or"), [&](FieldVisitor& in) {
+      Stage owner = owner_of(keys[k]);
+      for (std::size_t i = k; i < next; ++i) describe_key(applies ? stage : owner, keys[i], in);
     });
   }
 }
