@@ -74,8 +74,8 @@ RestitutionTable table_for(const ForceForm& form, const RestitutionDomain& domai
   const fs::path file = table_file(form, domain);
   if (auto loaded = RestitutionTable::load(file, form, domain, options)) return std::move(*loaded);
   log_line(log, "making the table of restitution coefficients");
-  KeptTable kept = kept_table(file, form, domain, options, threads);
-  if (!kept.trouble.empty()) log_line(log, "the table is not kept: " + kept.trouble);
+  CachedTable kept = load_or_build_table(file, form, domain, options, threads);
+  if (!kept.save_error.empty()) log_line(log, "the table is not kept: " + kept.save_error);
   return std::move(kept.table);
 }
 

@@ -25,8 +25,8 @@ struct HybridState {
 /// drawn anew after every stretch of Monte Carlo. Goals are met within growth, which ends the stage.
 ///
 /// `reached` at the wanted packing fraction or pressure, `stuck` if the particles are jammed before,
-/// `stopped` by the budget: the same call then continues and its result is bit-identical. Else as `grow`.
+/// `stopped` by the run control: the same call then continues and its result is bit-identical. Else as `grow`.
 StageReport hybrid(Configuration2& configuration, const HybridOptions& options, HybridState& state,
-                   const Budget& budget);
+                   const RunControl& control);
 
 }  // namespace vitrel

@@ -46,13 +46,13 @@ void bring_to_rest(Configuration<Dim>& configuration) {
 template <int Dim>
 class PrepareJob {
  public:
-  PrepareJob(const PrepareRequest& request, const Budget& budget, const Log& log)
+  PrepareJob(const PrepareRequest& request, const RunControl& control, const Log& log)
       : request_(request),
         parameters_(request.parameters),
         log_(log),
-        budget_(budget),
+        control_(control),
         checkpoint_(checkpoint_path(request.output), parameters_.output.checkpoint_interval) {
-    budget_.resumable = [this] { save_if_due(); };
+    control_.on_resumable = [this] { save_if_due(); };
     stored_.parameters = effective_parameters(parameters_);
   }
 
@@ -128,15 +128,15 @@ class PrepareJob {
     if (keeps_files() && checkpoint_.is_due()) save();
   }
 
-  /// False if the budget asked to stop. A stage that is stopped keeps its velocities, to go on with.
+  /// False if the run control asked to stop. A stage that is stopped keeps its velocities, to go on with.
   bool run_stage() {
     const StageReport report = advance_stage(
         stage(), stored_.state, done().configuration,
-        {end_of_stage(stage(), parameters_.system, reached()), seed(), request_.threads}, budget_);
+        {end_of_stage(stage(), parameters_.system, reached()), seed(), request_.threads}, control_);
     note_time();
     if (report.end == StageEnd::stopped) return false;
     bring_to_rest(done().configuration);
-    if (report.end == StageEnd::stuck) refuse_stuck(report);
+    if (report.end == StageEnd::stalled) refuse_stuck(report);
     note_stage(report);
     begin_next_stage();
     save_if_due();
@@ -182,7 +182,7 @@ class PrepareJob {
   const PrepareRequest& request_;
   const Parameters& parameters_;
   const Log& log_;
-  Budget budget_;
+  RunControl control_;
   CheckpointFile checkpoint_;
   PrepareCheckpoint<Dim> stored_;
   WorkTimer timer_, stage_timer_;
@@ -198,15 +198,15 @@ TrialCounts Preparation<Dim>::trials() const {
 }
 
 template <int Dim>
-Preparation<Dim> prepare(const PrepareRequest& request, const Budget& budget, const Log& log) {
+Preparation<Dim> prepare(const PrepareRequest& request, const RunControl& control, const Log& log) {
   assert(request.parameters.system.dimension == Dim);
-  return PrepareJob<Dim>(request, budget, log).run();
+  return PrepareJob<Dim>(request, control, log).run();
 }
 
 template struct Preparation<2>;
 template struct Preparation<3>;
-template Preparation<2> prepare<2>(const PrepareRequest&, const Budget&, const Log&);
-template Preparation<3> prepare<3>(const PrepareRequest&, const Budget&, const Log&);
+template Preparation<2> prepare<2>(const PrepareRequest&, const RunControl&, const Log&);
+template Preparation<3> prepare<3>(const PrepareRequest&, const RunControl&, const Log&);
 
 void forget_preparation(const fs::path& output) {
   remove_checkpoint(checkpoint_path(output));

@@ -31,7 +31,7 @@ struct PrepareRequest {
 template <int Dim>
 struct Preparation {
   Configuration<Dim> configuration;  ///< at rest, without overlaps
-  bool complete = false;             ///< else stopped by the budget
+  bool complete = false;             ///< else stopped by the run control
   std::vector<StageRecord> stages;   ///< those that have ended
   ExactCheck<Dim> check;             ///< of the state, if complete; without overlaps
   std::uint64_t next_sweep = 0;      ///< Monte Carlo after it goes on with these numbers
@@ -48,7 +48,7 @@ struct Preparation {
 /// - FileError if the checkpoint cannot be read or written;
 /// - InvariantError if the exact check finds an overlap at the end.
 template <int Dim = 2>
-Preparation<Dim> prepare(const PrepareRequest& request, const Budget& budget, const Log& log);
+Preparation<Dim> prepare(const PrepareRequest& request, const RunControl& control, const Log& log);
 
 /// Removes the checkpoint, once what comes after the preparation is safely on disk.
 void forget_preparation(const std::filesystem::path& output);

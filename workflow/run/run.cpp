@@ -49,9 +49,9 @@ void require_fit(const Configuration<Dim>& state, const Parameters& parameters,
 template <int Dim>
 class RunJob {
  public:
-  RunJob(const RunRequest& request, const Budget& budget, const Log& log)
+  RunJob(const RunRequest& request, const RunControl& control, const Log& log)
       : request_(request),
-        budget_(budget),
+        control_(control),
         log_(log),
         checkpoint_(checkpoint_path(request.output),
                     request.parameters.output.checkpoint_interval) {
@@ -109,7 +109,7 @@ class RunJob {
       require_fit(configuration, request_.parameters, *request_.from);
     } else {
       Preparation<Dim> preparation = prepare<Dim>(
-          {request_.parameters, request_.output, request_.command_line, request_.threads}, budget_,
+          {request_.parameters, request_.output, request_.command_line, request_.threads}, control_,
           log_);
       if (!preparation.complete) return false;
       configuration = std::move(preparation.configuration);
@@ -218,7 +218,7 @@ class RunJob {
 
   StageReport run_or_keep_failed_state(const DynamicsOptions& options, const RunPlan<Dim>& plan) {
     try {
-      return vitrel::run(stored_.state, options, plan, budget_);
+      return vitrel::run(stored_.state, options, plan, control_);
     } catch (const InvariantError& error) {
       keep_failed_state();
       throw InvariantError(fmt::format("{}; the state is in {}", error.what(),
@@ -245,7 +245,7 @@ class RunJob {
   }
 
   const RunRequest& request_;
-  const Budget& budget_;
+  const RunControl& control_;
   const Log& log_;
   CheckpointFile checkpoint_;
   RunCheckpoint<Dim> stored_;
@@ -301,9 +301,10 @@ std::string run_plan(const RunRequest& request) {
 }
 
 template <int Dim>
-RunOutcome<Dim> run_simulation(const RunRequest& request, const Budget& budget, const Log& log) {
+RunOutcome<Dim> run_simulation(const RunRequest& request, const RunControl& control,
+                               const Log& log) {
   assert(request.parameters.system.dimension == Dim);
-  return RunJob<Dim>(request, budget, log).run();
+  return RunJob<Dim>(request, control, log).run();
 }
 
 template <int Dim>
@@ -335,7 +336,7 @@ nlohmann::ordered_json run_summary(const RunRequest& request, const RunOutcome<D
       {"wall_seconds", outcome.wall_seconds},
       {"collisions_per_second", collisions / outcome.wall_seconds}};
   if (request.parameters.dynamics.contact) {
-    summary["refused_turns"] = counters.refused_turns;
+    summary["refused_turns"] = counters.blocked_rotations;
     summary["early_releases"] = counters.early_releases;
     summary["integrated_contacts"] = counters.integrations;
     summary["dissipated_energy"] = counters.dissipated;
@@ -345,8 +346,8 @@ nlohmann::ordered_json run_summary(const RunRequest& request, const RunOutcome<D
   return summary;
 }
 
-template RunOutcome<2> run_simulation<2>(const RunRequest&, const Budget&, const Log&);
-template RunOutcome<3> run_simulation<3>(const RunRequest&, const Budget&, const Log&);
+template RunOutcome<2> run_simulation<2>(const RunRequest&, const RunControl&, const Log&);
+template RunOutcome<3> run_simulation<3>(const RunRequest&, const RunControl&, const Log&);
 template nlohmann::ordered_json run_summary(const RunRequest&, const RunOutcome<2>&);
 template nlohmann::ordered_json run_summary(const RunRequest&, const RunOutcome<3>&);
 

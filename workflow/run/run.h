@@ -31,7 +31,7 @@ std::string run_plan(const RunRequest& request);
 
 template <int Dim>
 struct RunOutcome {
-  bool complete = false;      ///< else stopped by the budget; the same request continues
+  bool complete = false;      ///< else stopped by the run control; the same request continues
   bool was_complete = false;  ///< nothing was left to do
   RunState<Dim> state;
   double wall_seconds = 0;  ///< of all processes that worked on the run
@@ -43,7 +43,8 @@ struct RunOutcome {
 /// - FileError; the run continues from its last checkpoint once the cause is removed;
 /// - InvariantError on an overlap or a standstill; the state is then in <output>.failed.h5.
 template <int Dim>
-RunOutcome<Dim> run_simulation(const RunRequest& request, const Budget& budget, const Log& log);
+RunOutcome<Dim> run_simulation(const RunRequest& request, const RunControl& control,
+                               const Log& log);
 
 /// The figures of a run, from its trajectory and its last state: what `vitrel run --json` prints.
 /// `overlaps` counts pairs of the last state. Throws FileError if the trajectory cannot be read.

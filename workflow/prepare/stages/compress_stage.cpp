@@ -59,10 +59,10 @@ std::string CompressStage::description(double) const {
 }
 
 StageReport CompressStage::advance(Configuration<2>& configuration, CompressionState& state,
-                                   const StageContext& context, const Budget& budget) const {
+                                   const StageContext& context, const RunControl& control) const {
   const CompressionOptions options{pressure, box, packing_fraction,
                                    packing_fraction ? most_sweeps : sweeps, context.threads};
-  return compress(configuration, options, context.seed, state, budget);
+  return compress(configuration, options, context.seed, state, control);
 }
 
 void CompressStage::record(const CompressionState& state, StageRecord& record) const {

@@ -29,7 +29,7 @@ struct CompressStage : StageDefaults {
   double end(const SystemParameters& system, double before) const;
   std::string description(double goal) const;
   StageReport advance(Configuration<2>& configuration, CompressionState& state,
-                      const StageContext& context, const Budget& budget) const;
+                      const StageContext& context, const RunControl& control) const;
   void record(const CompressionState& state, StageRecord& record) const;
   static void number_sweeps(CompressionState& state, std::uint64_t next_sweep);
 

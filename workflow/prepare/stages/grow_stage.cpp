@@ -33,16 +33,16 @@ std::string GrowStage::description(double goal) const {
 
 template <int Dim>
 StageReport GrowStage::advance(Configuration<Dim>& configuration, GrowthState& state,
-                               const StageContext& context, const Budget& budget) const {
+                               const StageContext& context, const RunControl& control) const {
   const GrowthOptions options{growth_rate, packing_fraction_goal(*this, context.packing_fraction),
                               reduced_pressure, context.seed};
-  return grow(configuration, options, state, budget);
+  return grow(configuration, options, state, control);
 }
 
 template StageReport GrowStage::advance(Configuration2&, GrowthState&, const StageContext&,
-                                        const Budget&) const;
+                                        const RunControl&) const;
 template StageReport GrowStage::advance(Configuration3&, GrowthState&, const StageContext&,
-                                        const Budget&) const;
+                                        const RunControl&) const;
 
 void GrowStage::record(const GrowthState& state, StageRecord& record) const {
   record.growth = state;

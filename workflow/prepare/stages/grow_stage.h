@@ -28,7 +28,7 @@ struct GrowStage : StageDefaults {
   std::string description(double goal) const;
   template <int Dim>
   StageReport advance(Configuration<Dim>& configuration, GrowthState& state,
-                      const StageContext& context, const Budget& budget) const;
+                      const StageContext& context, const RunControl& control) const;
   void record(const GrowthState& state, StageRecord& record) const;
 
   template <class AnyState, class Visit>

@@ -47,11 +47,11 @@ std::string HybridStage::description(double goal) const {
 }
 
 StageReport HybridStage::advance(Configuration<2>& configuration, HybridState& state,
-                                 const StageContext& context, const Budget& budget) const {
+                                 const StageContext& context, const RunControl& control) const {
   const HybridOptions options{
       growth_rate, packing_fraction_goal(*this, context.packing_fraction), reduced_pressure,
       SamplingOptions{stretch_sweeps, moves, exchanges, context.threads}, context.seed};
-  return hybrid(configuration, options, state, budget);
+  return hybrid(configuration, options, state, control);
 }
 
 void HybridStage::record(const HybridState& state, StageRecord& record) const {

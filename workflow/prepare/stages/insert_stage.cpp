@@ -47,15 +47,15 @@ std::string InsertStage::description(double goal) const {
 
 template <int Dim>
 StageReport InsertStage::advance(Configuration<Dim>& configuration, NoState&,
-                                 const StageContext& context, const Budget& budget) const {
+                                 const StageContext& context, const RunControl& control) const {
   const bool aligned = orientations == Orientations::aligned;
   return insert_particles(configuration, {context.packing_fraction, attempts, aligned},
-                          context.seed, budget);
+                          context.seed, control);
 }
 
 template StageReport InsertStage::advance(Configuration2&, NoState&, const StageContext&,
-                                          const Budget&) const;
+                                          const RunControl&) const;
 template StageReport InsertStage::advance(Configuration3&, NoState&, const StageContext&,
-                                          const Budget&) const;
+                                          const RunControl&) const;
 
 }  // namespace vitrel

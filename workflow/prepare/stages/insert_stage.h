@@ -25,7 +25,7 @@ struct InsertStage : StageDefaults {
   std::string description(double goal) const;
   template <int Dim>
   StageReport advance(Configuration<Dim>& configuration, NoState& state,
-                      const StageContext& context, const Budget& budget) const;
+                      const StageContext& context, const RunControl& control) const;
 };
 
 }  // namespace vitrel

@@ -44,7 +44,7 @@ std::string LatticeStage::description(double goal) const {
 }
 
 StageReport LatticeStage::advance(Configuration<2>& configuration, NoState&,
-                                  const StageContext& context, const Budget&) const {
+                                  const StageContext& context, const RunControl&) const {
   return place_on_lattice(configuration, {arrangement, angle}, context.seed);
 }
 

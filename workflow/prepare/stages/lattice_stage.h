@@ -19,7 +19,7 @@ struct LatticeStage : StageDefaults {
   double end(const SystemParameters& system, double before) const;
   std::string description(double goal) const;
   StageReport advance(Configuration<2>& configuration, NoState& state, const StageContext& context,
-                      const Budget& budget) const;
+                      const RunControl& control) const;
 };
 
 }  // namespace vitrel

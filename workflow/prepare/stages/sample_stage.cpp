@@ -26,9 +26,9 @@ std::string SampleStage::description(double) const {
 }
 
 StageReport SampleStage::advance(Configuration<2>& configuration, SamplingState& state,
-                                 const StageContext& context, const Budget& budget) const {
+                                 const StageContext& context, const RunControl& control) const {
   return sample(configuration, {sweeps, moves, exchanges, context.threads}, context.seed, state,
-                budget);
+                control);
 }
 
 void SampleStage::record(const SamplingState& state, StageRecord& record) const {

@@ -24,7 +24,7 @@ struct SampleStage : StageDefaults {
   double end(const SystemParameters& system, double before) const;
   std::string description(double goal) const;
   StageReport advance(Configuration<2>& configuration, SamplingState& state,
-                      const StageContext& context, const Budget& budget) const;
+                      const StageContext& context, const RunControl& control) const;
   void record(const SamplingState& state, StageRecord& record) const;
   static void number_sweeps(SamplingState& state, std::uint64_t next_sweep);
 

@@ -27,8 +27,8 @@ void each_kind(Use&& use) {
 template <class S>
 constexpr bool is_there_in_space = requires(const S& stage, Configuration<3>& configuration,
                                             typename S::State& state, const StageContext& context,
-                                            const Budget& budget) {
-  stage.advance(configuration, state, context, budget);
+                                            const RunControl& control) {
+  stage.advance(configuration, state, context, control);
 };
 
 /// The names of all methods for which `applies(stage)`.

@@ -16,10 +16,10 @@ void validate_growth_rate(double growth_rate, const Rules& rules) {
 
 void validate_reduced_pressure(const std::optional<double>& reduced_pressure, const Rules& rules) {
   if (!reduced_pressure) return;
-  rules.require(*reduced_pressure > 1 && *reduced_pressure <= greatest_reduced_pressure,
+  rules.require(*reduced_pressure > 1 && *reduced_pressure <= max_reduced_pressure,
                 "reduced_pressure",
                 fmt::format("is {}, but must lie above 1 (an ideal gas) and not above {}",
-                            show(*reduced_pressure), show(greatest_reduced_pressure)));
+                            show(*reduced_pressure), show(max_reduced_pressure)));
 }
 
 void validate_exchanges(double exchanges, const Rules& rules) {

@@ -16,12 +16,12 @@ StageState first_state(const Stage& stage, std::uint64_t next_sweep) {
 
 template <int Dim>
 StageReport advance_stage(const Stage& stage, StageState& state, Configuration<Dim>& configuration,
-                          const StageContext& context, const Budget& budget) {
+                          const StageContext& context, const RunControl& control) {
   return std::visit(
       [&]<class S>(const S& options) -> StageReport {
         typename S::State& own = std::get<StateOf<S>>(state).value;
-        if constexpr (requires { options.advance(configuration, own, context, budget); })
-          return options.advance(configuration, own, context, budget);
+        if constexpr (requires { options.advance(configuration, own, context, control); })
+          return options.advance(configuration, own, context, control);
         else
           throw std::logic_error("a stage that this dimension does not have");
       },
@@ -29,9 +29,9 @@ StageReport advance_stage(const Stage& stage, StageState& state, Configuration<D
 }
 
 template StageReport advance_stage(const Stage&, StageState&, Configuration2&, const StageContext&,
-                                   const Budget&);
+                                   const RunControl&);
 template StageReport advance_stage(const Stage&, StageState&, Configuration3&, const StageContext&,
-                                   const Budget&);
+                                   const RunControl&);
 
 StageRecord record_of(const Stage& stage, const StageState& state) {
   StageRecord record;

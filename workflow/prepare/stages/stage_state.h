@@ -33,10 +33,10 @@ using StageState = StatesOf<Stage>::Type;
 StageState first_state(const Stage& stage, std::uint64_t next_sweep);
 
 /// Does the stage, or continues it from `state`. `reached` at its end, `stuck` if it cannot get there,
-/// `stopped` by the budget. Throws std::logic_error for a stage that this dimension does not have.
+/// `stopped` by the run control. Throws std::logic_error for a stage that this dimension does not have.
 template <int Dim>
 StageReport advance_stage(const Stage& stage, StageState& state, Configuration<Dim>& configuration,
-                          const StageContext& context, const Budget& budget);
+                          const StageContext& context, const RunControl& control);
 
 /// What the stage did, as far as its state tells.
 StageRecord record_of(const Stage& stage, const StageState& state);

@@ -25,9 +25,9 @@ std::string SwellStage::description(double goal) const {
 }
 
 StageReport SwellStage::advance(Configuration<2>& configuration, SwellingState& state,
-                                const StageContext& context, const Budget& budget) const {
+                                const StageContext& context, const RunControl& control) const {
   return swell(configuration, {context.packing_fraction, most_sweeps, context.threads},
-               context.seed, state, budget);
+               context.seed, state, control);
 }
 
 void SwellStage::record(const SwellingState& state, StageRecord& record) const {

@@ -25,7 +25,7 @@ struct SwellStage : StageDefaults {
   double end(const SystemParameters& system, double before) const;
   std::string description(double goal) const;
   StageReport advance(Configuration<2>& configuration, SwellingState& state,
-                      const StageContext& context, const Budget& budget) const;
+                      const StageContext& context, const RunControl& control) const;
   void record(const SwellingState& state, StageRecord& record) const;
   static void number_sweeps(SwellingState& state, std::uint64_t next_sweep);
 
