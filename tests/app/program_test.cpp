@@ -215,6 +215,35 @@ TEST(Program, AStateMustFitTheParameters) {
   expect_refusal(run_with("dynamics.initial_velocities=keep"), 2, "is at rest");
 }
 
+// What a run records is what ran, whatever the parameter file says or leaves out.
+TEST(Program, TheSpeciesOfAStateWin) {
+  const Folder folder("species_of_state");
+  folder.write("k14.toml", small_system + "[[species]]\naspect_ratio = 1.4\n");
+  ASSERT_EQ(run(folder.path(), {"prepare", "k14.toml", "-o", "k14.h5", "-q"}).code, 0);
+  folder.write("none.toml", small_system);
+  folder.write("other.toml", small_system + "[[species]]\naspect_ratio = 2.0\n");
+  const std::string contradiction =
+      "other.toml:8:16: key 'species.0.aspect_ratio' is 2, but particle 0 has 1.4";
+  for (const char* how : {"--quiet", "--dry-run"})
+    expect_refusal(
+        run(folder.path(), {"run", "other.toml", "-o", "run.h5", "--from", "k14.h5", how}), 2,
+        contradiction);
+  EXPECT_FALSE(std::filesystem::exists(folder / "run.h5.checkpoint"));
+  const std::vector<std::string> from_none = {"run",    "none.toml", "-o",
+                                              "run.h5", "--from",    "k14.h5"};
+  const Outcome ran = run(folder.path(), from_none);
+  ASSERT_EQ(ran.code, 0) << ran.errors;
+  EXPECT_THAT(ran.errors, HasSubstr("species as in k14.h5"));
+  EXPECT_THAT(TrajectoryReader(folder / "run.h5").provenance().parameters,
+              HasSubstr("aspect_ratio = 1.4\n"));
+  // The same command finds it complete, also without the state.
+  std::filesystem::remove(folder / "k14.h5");
+  EXPECT_EQ(run(folder.path(), from_none).code, 0);
+  expect_refusal(
+      run(folder.path(), {"run", "other.toml", "-o", "run.h5", "--from", "k14.h5", "-q"}), 2,
+      contradiction);
+}
+
 TEST(Program, ADryRunWritesNothing) {
   const Folder folder("dry_run");
   folder.write("p.toml", small_system);
