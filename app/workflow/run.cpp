@@ -69,6 +69,17 @@ void refuse_changes(const Parameters& parameters, const std::string& begun_with,
                     output.string(), change->key, change->first, change->second));
 }
 
+/// Frames that a checkpoint counts must be in the trajectory; one that counts none may come before it.
+template <int Dim>
+void require_trajectory(const StoredRun<Dim>& run, const fs::path& output) {
+  if (run.state.next_sample == 0 || fs::exists(output)) return;
+  throw FileError(fmt::format(
+      "{}: is missing, but {} is there, the checkpoint of the run that wrote {} frame(s) to it; "
+      "restore the file, delete the checkpoint (and its .previous, if there) to start anew, or "
+      "choose another output",
+      output.string(), checkpoint_path(output).string(), run.state.next_sample));
+}
+
 /// The run to continue, also if its file to start from is no longer there.
 template <int Dim>
 StoredRun<Dim> stored_run(RunRequest& request, const Checkpoint& checkpoint) {
@@ -77,7 +88,9 @@ StoredRun<Dim> stored_run(RunRequest& request, const Checkpoint& checkpoint) {
   if (request.from && state)
     take_species(request.parameters, *state, {file.string(), checkpoint.parameters});
   refuse_changes(request.parameters, checkpoint.parameters, request.output);
-  return run_from_checkpoint<Dim>(checkpoint, file);
+  StoredRun<Dim> run = run_from_checkpoint<Dim>(checkpoint, file);
+  require_trajectory(run, request.output);
+  return run;
 }
 
 // One request at work.
