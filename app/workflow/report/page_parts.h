@@ -35,6 +35,14 @@ std::string grouped(std::uint64_t number);
 /// a finite error the value has four significant digits; "–" if it is not finite either.
 std::string with_error(double value, double error);
 
+/// JSON or ordered JSON inside a script element: no "<" is left that could end it.
+template <class AnyJson>
+std::string script_safe(const AnyJson& data);
+
+/// Replaces every {{name}} of the template by its text, in one pass, so that no text is looked into.
+std::string filled(std::string_view page,
+                   const std::vector<std::pair<std::string_view, std::string>>& texts);
+
 /// A whole page. `sections` and `script` are names of files of the folder page; the texts fill the
 /// sections.
 struct PageParts {
