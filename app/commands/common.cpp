@@ -6,8 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "app/workflow/report/page_parts.h"
 #include "core/error.h"
+#include "core/io/number_text.h"
+#include "workflow/report/page_parts.h"
 
 namespace vitrel {
 namespace {

@@ -7,9 +7,9 @@
 
 #include "app/commands/commands.h"
 #include "app/terminal/session.h"
-#include "app/workflow/analyze.h"
-#include "app/workflow/parameters.h"
-#include "app/workflow/sweep.h"
+#include "workflow/analyze/analyze.h"
+#include "workflow/configuration/parameters.h"
+#include "workflow/sweep/sweep.h"
 
 namespace vitrel {
 

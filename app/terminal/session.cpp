@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <cstring>
 
-#include "app/workflow/stop.h"
+#include "workflow/sweep/stop_signals.h"
 #include "core/error.h"
 
 namespace vitrel {

@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "app/workflow/progress.h"
+#include "app/terminal/progress.h"
 #include "core/state/stage.h"
 
 namespace vitrel {

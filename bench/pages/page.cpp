@@ -2,8 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/workflow/report/assets.h"
-#include "app/workflow/report/page_parts.h"
+#include "workflow/report/assets.h"
+#include "workflow/report/page_parts.h"
 #include "bench/pages/assets.h"
 
 namespace vitrel::bench {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/terminal/exit_codes.h"
-#include "app/workflow/text_file.h"
+#include "workflow/storage/text_file.h"
 #include "bench/pages/page.h"
 #include "core/io/provenance.h"
 

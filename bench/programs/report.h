@@ -5,7 +5,7 @@
 #include <string>
 
 #include "app/terminal/session.h"
-#include "app/workflow/report/html.h"
+#include "workflow/report/html.h"
 
 /// What the comparisons of methods do with what they have measured.
 namespace vitrel::bench {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <ctime>
 
-#include "analysis/structure_factor.h"
+#include "analysis/structure/structure_factor.h"
 #include "bench/programs/parts.h"
 #include "mc/insertion.h"
 

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+/// Numbers as people read them.
+namespace vitrel {
+
+/// 1234567 with thin spaces between groups of three digits.
+std::string grouped(std::uint64_t number);
+
+/// "1.234 ± 0.012": the error with two significant digits, the value with as many decimals. Without
+/// a finite error the value has four significant digits; "–" if it is not finite either.
+std::string with_error(double value, double error);
+
+}  // namespace vitrel

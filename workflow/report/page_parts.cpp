@@ -1,0 +1,82 @@
+#include "workflow/report/page_parts.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "workflow/report/assets.h"
+
+namespace vitrel {
+
+using nlohmann::json;
+
+json page_number(double value, int digits) {
+  if (!std::isfinite(value)) return nullptr;
+  return std::stod(fmt::format("{:.{}g}", value, digits));
+}
+
+void add_shapes(json& data, const std::vector<std::vector<double>>& semi_axes) {
+  std::map<std::vector<double>, std::size_t> known;
+  json shapes = json::array(), shape = json::array();
+  for (const std::vector<double>& axes : semi_axes) {
+    const auto [place, added] = known.emplace(axes, known.size());
+    if (added) {
+      json& numbers = shapes.emplace_back(json::array());
+      for (const double axis : axes) numbers.push_back(page_number(axis));
+    }
+    shape.push_back(place->second);
+  }
+  data["shapes"] = std::move(shapes);
+  data["shape"] = std::move(shape);
+}
+
+template <class AnyJson>
+std::string script_safe(const AnyJson& data) {
+  std::string text = data.dump(-1, ' ', false, AnyJson::error_handler_t::replace);
+  for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;)
+    text.replace(at, 1, "\\u003c");
+  return text;
+}
+template std::string script_safe(const json&);
+template std::string script_safe(const nlohmann::ordered_json&);
+
+std::string filled(std::string_view page,
+                   const std::vector<std::pair<std::string_view, std::string>>& texts) {
+  std::string result;
+  while (!page.empty()) {
+    const std::size_t open = page.find("{{");
+    result += page.substr(0, open);
+    if (open == std::string_view::npos) break;
+    const std::size_t close = page.find("}}", open);
+    const std::string_view name = page.substr(open + 2, close - open - 2);
+    for (const auto& [key, text] : texts)
+      if (key == name) result += text;
+    page.remove_prefix(close + 2);
+  }
+  return result;
+}
+
+std::string whole_page(PageParts parts) {
+  const auto text = [](std::string_view path) { return std::string(asset(path)); };
+  const std::string stage = text("page/stage.html");
+  parts.texts.emplace_back("stage", stage);
+  parts.texts.emplace_back("movie", filled(asset("page/movie.html"), {{"stage", stage}}));
+  return filled(asset("page/page.html"), {{"title", escaped(parts.title)},
+                                          {"subtitle", escaped(parts.subtitle)},
+                                          {"uplot_style", text("vendor/uplot/uPlot.min.css")},
+                                          {"style", text("page/report.css")},
+                                          {"sections", filled(asset(parts.sections), parts.texts)},
+                                          {"parameters", escaped(parts.parameters)},
+                                          {"unit_of_length", std::string(parts.unit_of_length)},
+                                          {"provenance", provenance_entries(parts.provenance)},
+                                          {"data", script_safe(parts.data)},
+                                          {"uplot_licence", text("vendor/uplot/LICENSE")},
+                                          {"uplot", text("vendor/uplot/uPlot.iife.min.js")},
+                                          {"common", text("page/common.js")},
+                                          {"charts", text("page/charts.js")},
+                                          {"picture", text("page/picture.js")},
+                                          {"picture_script", text(parts.picture)},
+                                          {"script", text(parts.script)}});
+}
+
+}  // namespace vitrel
