@@ -6,7 +6,7 @@ from validation.common import (ROOT, clock_rate, commit_of, expect, measured, mi
                                table)
 
 TITLE = "Speed of Monte Carlo"
-PROGRAM = "bench_sampler"
+PROGRAM = "sampler"
 PAGE = ROOT / "bench" / "sampler.md"
 
 # (κ, φ): trials per second wanted on one core of such a machine.
@@ -90,7 +90,7 @@ def page(native, release):
     return f"""# How fast is Monte Carlo?
 
     scripts/validate sampler                         # builds, measures and writes this page
-    build/native/bench/bench_sampler speed threads   # parts of it, as JSON
+    build/native/bench/vitrel-bench sampler speed threads   # parts of it, as JSON
 
 Measured on {datetime.date.today()}, commit {commit_of(native)}, {processor()}{clock_rate()}, {native["compiler"]}, `{native["flags"]}`.
 Calibration: {psi} ns per Ψ (the function of Vieillard-Baron of two ellipses, from their angles; at the

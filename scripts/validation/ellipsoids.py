@@ -46,7 +46,7 @@ def pressures(rows):
 
 
 def measure(_):
-    data = measured("bench_solids", "release")
+    data = measured("ellipsoids", "release")
     rows = data["speed"]
     return f"""Newtonian dynamics, one core of {processor()}, build {commit_of(data)}; Z by the virial of the collisions.
 Spheres beside the same spheres as ellipsoids, and beside what the code of Smallenburg (2022) reaches on a machine of this kind.

@@ -1,19 +1,14 @@
 """Collision times of ellipsoids: the default method beside the article's and the root of Perram and Wertheim."""
 
-import json
-import pathlib
-import shutil
-import tempfile
-
 from validation.collision_time_page import FAILURES, SPACE, Rows, class_name, count_text, error_text, time_text
-from validation.common import HERE, expect, output_of, table
+from validation.common import compared, expect, save_figure, table
+from validation.figures import passing_pair_figure, speed_figure
 
 TITLE = "Collision time of ellipsoids: three methods"
 PAIRS = 5_000  # of each class, for the default method
 SECONDS = 10  # for each of the others
 TOLERANCE = 1e-12  # of the horizon
-DOCS = HERE.parents[1] / "docs"
-FIGURES = "figures/collision-time-of-solids"
+FIGURES = "figures/collision-time-of-ellipsoids"
 
 DEFAULT = "separating_axis"
 NAMES = {DEFAULT: "separating axis (default)", "eta_root": "root of η₁", "perram_wertheim_root": "root of Perram–Wertheim"}
@@ -66,21 +61,26 @@ def passing(data):
     return pair, table(["method", "contact at"], lines)
 
 
+def figures(data):
+    return {"largest": speed_figure(data["tolerances"], "largest_error"),
+            "median": speed_figure(data["tolerances"], "median_error"),
+            "passing_pair": passing_pair_figure(data["passing_pair"])}
+
+
 def measure(build):
-    with tempfile.TemporaryDirectory() as folder:
-        output_of([build / "app/vitrel", "bench", "collision-time-of-solids", "--pairs", str(PAIRS), "--seconds",
-                   str(SECONDS), "--tolerance", str(TOLERANCE), "--gap-tolerance", "1e-8", "-q", "-o", folder])
-        data = json.loads(pathlib.Path(folder, "collision-time.json").read_text(encoding="utf-8"))
-        rows = Rows(data["rows"])
-        check(rows)
-        pair, answers = passing(data)
-        shutil.copytree(folder, DOCS / FIGURES, dirs_exist_ok=True, ignore=shutil.ignore_patterns("*.json"))
+    data = compared(build, "collision-time-of-ellipsoids", "collision-time.json", "--pairs", PAIRS, "--seconds", SECONDS,
+                    "--tolerance", TOLERANCE, "--gap-tolerance", 1e-8)
+    rows = Rows(data["rows"])
+    check(rows)
+    pair, answers = passing(data)
+    for name, figure in figures(data).items():
+        save_figure(figure, FIGURES, name)
     grazing = [rows.of("eta_root", of) for of in rows.classes if of[0] == "grazing"]
     missed, contacts = (sum(row[key] for row in grazing) for key in ("missed", "contacts"))
-    return f"""`vitrel bench collision-time-of-solids` asks three methods about the same pairs of ellipsoids, growing or not: the
+    return f"""`vitrel-bench collision-time-of-ellipsoids` asks three methods about the same pairs of ellipsoids, growing or not: the
 default; the article's, which follows the root of η₁(t) at which the signs of η₂, η₃ and η₅ are those of external
 contact; and the first root of F(t) − 1, F the function of Perram and Wertheim. Both roots are looked for in 100 equal steps
-of the time during which the circumscribed spheres overlap, and refined by algorithm 748, Brent's successor. The judge
+of the time during which the circumscribed spheres overlap, and refined by algorithm 748, Brent's successor. The reference
 follows a separating axis in 80-bit arithmetic with a bound that lets no contact pass, up to where the completed criterion
 of η₁ … η₅ finds the overlap. Answers count as correct within {TOLERANCE:g} of the horizon, early ones of surfaces that cross
 at less than 0.02 (a₁ + a₂)/horizon within a gap of 10⁻⁸ of the shortest semi-axis.
