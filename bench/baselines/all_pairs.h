@@ -6,7 +6,7 @@
 #include "edmd/engine.h"
 
 /// The event loop without any of its devices: no calendar, no neighbour lists, no cells, as in the
-/// program of the thesis (chapters 3.1 and 4.1). The slow twin of the engine.
+/// program of the thesis (thesis-elliptic-disks, chapters 3.1 and 4.1). The baseline of the engine.
 namespace vitrel::bench {
 
 /// Which pairs are asked for their next collision after an event.

@@ -13,7 +13,7 @@
 
 namespace vitrel::bench {
 
-/// Soft spheres or disks as exactly as Newton's equations can be integrated, as the judge of the other ways:
+/// Soft spheres or disks as exactly as Newton's equations can be integrated, as the reference for the other ways:
 /// it knows neither events nor the matrix of restitution, and contacts of three are right, too.
 ///
 /// Steps, each as long as nobody moves by more than half of a margin:

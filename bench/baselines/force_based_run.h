@@ -10,7 +10,7 @@
 
 namespace vitrel::bench {
 
-/// Soft spheres or disks the plain way, as the twin of the event-driven run: Newton's equations with the force itself
+/// Soft spheres or disks the plain way, as the baseline of the event-driven run: Newton's equations with the force itself
 /// in steps of time, by the velocity Verlet method,
 ///     v* = v + a h/2,  r' = r + v* h,  a' = F(r', v* + a h/2)/m,  v' = v* + a' h/2.
 /// A pair repels as long as it is closer than contact and its force is not negative. Errors ∝ h², near

@@ -12,10 +12,10 @@ namespace vitrel::bench {
 namespace {
 
 /// An ellipse whose collisions are predicted by whatever method the engine at work was given.
-struct JudgedEllipse : Ellipse {
+struct PredictedEllipse : Ellipse {
   static thread_local const Method* method;
 };
-thread_local const Method* JudgedEllipse::method = nullptr;
+thread_local const Method* PredictedEllipse::method = nullptr;
 
 }  // namespace
 }  // namespace vitrel::bench
@@ -23,11 +23,11 @@ thread_local const Method* JudgedEllipse::method = nullptr;
 namespace vitrel {
 
 template <>
-struct ShapeOf<bench::JudgedEllipse> : ShapeOf<Ellipse> {};
+struct ShapeOf<bench::PredictedEllipse> : ShapeOf<Ellipse> {};
 
-/// Every pair is the method's to judge.
+/// Every pair is the method's to answer.
 template <>
-class FirstLook<bench::JudgedEllipse> : public bench::NoLowerBound {
+class FirstLook<bench::PredictedEllipse> : public bench::NoLowerBound {
  public:
   using NoLowerBound::NoLowerBound;
 };
@@ -37,16 +37,16 @@ class FirstLook<bench::JudgedEllipse> : public bench::NoLowerBound {
 namespace vitrel::bench {
 namespace {
 
-// Found by Simulation<JudgedEllipse> in place of the default predictor. An answer that did not come
+// Found by Simulation<PredictedEllipse> in place of the default predictor. An answer that did not come
 // is no contact.
-Prediction2 first_contact(const Flight<JudgedEllipse>& one, const Flight<JudgedEllipse>& two,
+Prediction2 first_contact(const Flight<PredictedEllipse>& one, const Flight<PredictedEllipse>& two,
                           double horizon, double /*contact_gap*/,
-                          const FirstLook<JudgedEllipse>::Memory& /*memory*/) {
-  const auto plain = [](const Flight<JudgedEllipse>& flight) {
+                          const FirstLook<PredictedEllipse>::Memory& /*memory*/) {
+  const auto plain = [](const Flight<PredictedEllipse>& flight) {
     return of_constant_size({flight.body, flight.pose, flight.motion});
   };
   const Prediction2 answer =
-      unchecked_answer(*JudgedEllipse::method, {plain(one), plain(two), horizon});
+      unchecked_answer(*PredictedEllipse::method, {plain(one), plain(two), horizon});
   return answer.outcome == Outcome::not_converged ? Prediction2{} : answer;
 }
 
@@ -54,7 +54,7 @@ class MethodEngine final : public Engine2 {
  public:
   MethodEngine(const Method& method, const EngineOptions& options)
       : simulation_(options, "ellipses, collisions by " + method.name) {
-    JudgedEllipse::method = &method;
+    PredictedEllipse::method = &method;
   }
 
   void load(const Configuration2& configuration, double horizon) override {
@@ -71,7 +71,7 @@ class MethodEngine final : public Engine2 {
   std::string description() const override { return simulation_.description(); }
 
  private:
-  Simulation<JudgedEllipse> simulation_;
+  Simulation<PredictedEllipse> simulation_;
 };
 
 }  // namespace

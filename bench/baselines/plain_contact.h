@@ -13,7 +13,7 @@
 
 namespace vitrel::bench {
 
-/// The slow twin of integrate_contact: the equations of motion as they stand, in l − r, φ and t, in
+/// The baseline of integrate_contact: the equations of motion as they stand, in l − r, φ and t, in
 /// extended precision by the method of Bulirsch and Stoer, up to the last step that does not pass the
 /// end of the contact. Neither variables nor method nor the search for the end are those of edmd. Its errors
 /// are some 10⁻¹⁶, absolute: damping beyond c_dis = 20 leaves too little of ε_t and ε_ṙ.

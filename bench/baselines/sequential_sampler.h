@@ -10,7 +10,7 @@
 
 namespace vitrel::bench {
 
-/// The sampler's Markov chain done the plain way, as its slow twin: one trial after another among all
+/// The sampler's Markov chain done the plain way, as its baseline: one trial after another among all
 /// particles, every trial with a stream of its own, and everybody whose circumcircle is met decided
 /// alone (support_gap.h). No domains, no lanes, one thread.
 class SequentialSampler {

@@ -8,7 +8,7 @@
 
 namespace vitrel::bench {
 
-/// The slow twin of Calendar, right at a glance: a sorted set of (time, particle).
+/// The baseline of Calendar: a sorted set of (time, particle).
 class SortedCalendar {
  public:
   explicit SortedCalendar(std::size_t particles)

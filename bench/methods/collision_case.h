@@ -19,7 +19,7 @@ struct CollisionCaseOf {
   double horizon = 0;
 
   bool grows() const { return one.body.growth_rate != 0 || two.body.growth_rate != 0; }
-  /// Gaps are judged in units of the smallest semi-axis (at size 1).
+  /// Gaps are given in units of the smallest semi-axis (at size 1).
   double gap_unit() const { return std::min(one.body.shape.inradius(), two.body.shape.inradius()); }
   /// The sum of the largest semi-axes (at size 1).
   double reach() const { return one.body.shape.circumradius() + two.body.shape.circumradius(); }

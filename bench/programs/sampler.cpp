@@ -121,23 +121,23 @@ Json measure_speed(const Effort& effort) {
     say(fmt::format("speed: kappa = {}, phi = {}", scene.aspect_ratio, scene.packing_fraction));
     Configuration2 ours = fluid(scene), plain = ours;
     Sampler sampler(ours, 1);
-    SequentialSampler twin(plain, 1);
+    SequentialSampler baseline(plain, 1);
     const Steps steps = fitting_steps(sampler, 20);
-    twin.set_steps(steps.translation, steps.rotation);
-    const TrialCounts before = sampler.counts(), twin_before = twin.counts();
+    baseline.set_steps(steps.translation, steps.rotation);
+    const TrialCounts before = sampler.counts(), baseline_before = baseline.counts();
     const Looks looks = sampler.looks();
-    const std::uint64_t decisions = twin.decisions();
-    Stretches of_ours, of_twin;
+    const std::uint64_t decisions = baseline.decisions();
+    Stretches of_ours, of_baseline;
     for (int k = 0; k < effort.stretches; ++k) {
       of_ours.add(sampler, ours.size(), effort.stretch);
-      of_twin.add(twin, plain.size(), effort.stretch);
+      of_baseline.add(baseline, plain.size(), effort.stretch);
     }
     const auto trials = [](const TrialCounts& from, const TrialCounts& to) {
       return to.tried() - from.tried();
     };
     const std::uint64_t tried = trials(before, sampler.counts());
     const Acceptance accepted = acceptance(before, sampler.counts());
-    const Acceptance twin_accepted = acceptance(twin_before, twin.counts());
+    const Acceptance baseline_accepted = acceptance(baseline_before, baseline.counts());
     Json row = scene_json(scene);
     row.update(of_ours.json());
     row["translation_step"] = steps.translation;
@@ -146,11 +146,11 @@ Json measure_speed(const Effort& effort) {
     row["rotations_accepted"] = accepted.rotation;
     row["groups"] = ratio(sampler.looks().groups - looks.groups, tried);
     row["alone"] = ratio(sampler.looks().alone - looks.alone, tried);
-    row["plain"] = of_twin.json();
-    row["plain"]["translations_accepted"] = twin_accepted.translation;
-    row["plain"]["rotations_accepted"] = twin_accepted.rotation;
+    row["plain"] = of_baseline.json();
+    row["plain"]["translations_accepted"] = baseline_accepted.translation;
+    row["plain"]["rotations_accepted"] = baseline_accepted.rotation;
     row["plain"]["decisions"] =
-        ratio(twin.decisions() - decisions, trials(twin_before, twin.counts()));
+        ratio(baseline.decisions() - decisions, trials(baseline_before, baseline.counts()));
     rows.push_back(row);
   }
   return rows;

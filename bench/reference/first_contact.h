@@ -7,7 +7,7 @@
 namespace vitrel::bench {
 
 /// The true first contact of two ellipses in free flight, growing or not, slowly but with a
-/// guarantee; it shares no code with the methods it judges.
+/// guarantee; it shares no code with the methods compared with it.
 ///
 /// Criterion, free of any division by a size. With semi-axes aᵢ, bᵢ at size 1, sizes σᵢ(t), sᵢ =
 /// σᵢ², shape matrices Σᵢ at size 1, Dᵢ = det Σᵢ = (aᵢbᵢ)², Eᵢ = dᵀ adj(Σᵢ) d, W = tr(Σ₁ adj Σ₂),

@@ -111,7 +111,7 @@ class Examination {
       over_ = batch == 0;
       if (over_) return;
       answer(std::span(block.cases).subspan(done, batch));
-      judge_answers(block, done, failure);
+      assess_answers(block, done, failure);
       done += batch;
     }
   }
@@ -132,19 +132,19 @@ class Examination {
     });
   }
 
-  void judge_answers(const Block<Dim>& block, std::size_t first,
-                     std::optional<FailingCaseOf<Dim>>& failure) {
-    judgements_.resize(answers_.size());
+  void assess_answers(const Block<Dim>& block, std::size_t first,
+                      std::optional<FailingCaseOf<Dim>>& failure) {
+    assessments_.resize(answers_.size());
     in_parallel(answers_.size(), [&](std::size_t k) {
-      judgements_[k] =
+      assessments_[k] =
           assess(block.cases[first + k], block.truths[first + k], answers_[k], tolerance_);
     });
     for (std::size_t k = 0; k < answers_.size(); ++k) {
-      record(judgements_[k], block.cases[first + k], block.truths[first + k]);
-      if (is_better_failure(judgements_[k], failure))
+      record(assessments_[k], block.cases[first + k], block.truths[first + k]);
+      if (is_better_failure(assessments_[k], failure))
         failure = FailingCaseOf<Dim>{
             method_->name,           *of_,        block.first + first + k, block.cases[first + k],
-            block.truths[first + k], answers_[k], judgements_[k]};
+            block.truths[first + k], answers_[k], assessments_[k]};
     }
   }
 
@@ -178,7 +178,7 @@ class Examination {
   SurveyRow row_;
   std::vector<double> errors_;
   std::vector<Prediction<Dim>> answers_;
-  std::vector<Assessment> judgements_;
+  std::vector<Assessment> assessments_;
   bool over_ = false;
 };
 

@@ -9,7 +9,7 @@
 #include "core/state/stage.h"
 #include "edmd/engine.h"
 
-/// The simulations of chapter 4 of the thesis, with its program and with this one.
+/// The simulations of chapter 4 of the thesis (thesis-elliptic-disks), with its program and with this one.
 namespace vitrel::bench {
 
 /// N equal particles with a b = 1 in a square box.

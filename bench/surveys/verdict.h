@@ -36,7 +36,7 @@ enum class Verdict {
 struct Assessment {
   Verdict verdict = Verdict::correct;
   /// The surfaces cross so slowly that a gap of the size of rounding is a long time: then an early
-  /// answer is judged by the true gap at the reported time. A pair is degenerate if the speed of
+  /// answer counts by the true gap at the reported time. A pair is degenerate if the speed of
   /// its surfaces at the true contact is below 0.02 (a₁ + a₂)/horizon, or if it is undecided
   /// whether they touch.
   bool degenerate = false;

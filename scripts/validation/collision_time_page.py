@@ -237,10 +237,10 @@ def with_part(page, name, text):
 def figures(data):
     tolerances, curves = data["tolerances"], data["scene_curves"]
     return {"collision-time": speed_figure(tolerances, "median_error"),
-               "collision-time-largest": speed_figure(tolerances, "largest_error"),
-               "scene_gap": scene_figure(curves, "distance", "d(t)"), "scene_psi": scene_figure(curves, "psi", "Ψ(t)"),
-               "overlap": overlap_figure(data["overlap"]), "whole-run": whole_run_figure(data["whole_runs"]),
-               **{f"failure_{failure['method']}": failing_pair_figure(failure) for failure in data["failures"]}}
+            "collision-time-largest": speed_figure(tolerances, "largest_error"),
+            "scene_gap": scene_figure(curves, "distance", "d(t)"), "scene_psi": scene_figure(curves, "psi", "Ψ(t)"),
+            "overlap": overlap_figure(data["overlap"]), "whole-run": whole_run_figure(data["whole_runs"]),
+            **{f"failure_{failure['method']}": failing_pair_figure(failure) for failure in data["failures"]}}
 
 
 def write_page(data, rows):

@@ -31,10 +31,9 @@ def points(axes, name, k, shown):
 
 
 def legend(figure, axes, notes=()):
-    """Beside the chart; `notes` stand at its foot."""
-    title = "\n".join(notes)
-    figure.legend(loc="outside right upper", frameon=False, fontsize="small", title=title, title_fontsize="small",
-                  alignment="left", handles=axes.get_legend_handles_labels()[0])
+    """Beside the chart, below the notes."""
+    axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1), borderaxespad=0, frameon=False, fontsize="small",
+                title="\n".join(notes), title_fontsize="small", alignment="left")
     return figure
 
 

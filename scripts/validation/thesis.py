@@ -1,7 +1,7 @@
 """Chapter 4 of the thesis: its figures again, with a program like its own and with this one."""
 
 from validation.common import compared, expect, save_figure, table
-from validation.thesis_figures import thesis_figures
+from validation.thesis_figures import IMPROVED, NAMES, OURS, THESIS, thesis_figures
 
 TITLE = "The figures of the thesis"
 SECONDS = 2  # of work, after which a run of the thesis's program is cut short
@@ -10,8 +10,6 @@ LARGEST = 400
 RUNS = 32  # averaged in figure 4.7
 FIGURES = "figures/thesis"
 
-OURS, THESIS, IMPROVED = "vitrel", "thesis", "improved"
-NAMES = {OURS: "vitrel", THESIS: "all pairs", IMPROVED: "all pairs, improved"}
 ELLIPSES, CIRCLES = 2, 1
 # Between what the powers of N must lie with which the cost grows: linear with lists and calendar. With all pairs, N
 # events times N optimisations of ellipses; where only dismissals in closed form are left, N events times N² pairs.

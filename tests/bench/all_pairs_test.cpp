@@ -1,4 +1,4 @@
-// The slow twin of the event loop: without calendar, lists and cells, the same collisions.
+// The baseline of the event loop: without calendar, lists and cells, the same collisions.
 
 #include "bench/baselines/all_pairs.h"
 

@@ -107,7 +107,7 @@ TEST(ForceBasedRun, HasTheTrajectoriesOfTheMatrixOfRestitution) {
 }
 
 template <int Dim>
-void expect_trajectories_of_the_judge(const Configuration<Dim>& start) {
+void expect_trajectories_of_the_reference(const Configuration<Dim>& start) {
   const Viscoelastic force{1e8, 0.4, 2e-4};
   const RunState<Dim> state = event_driven(start, soft(force));
   EXPECT_GT(state.counters.collisions, start.size() / 3);
@@ -118,12 +118,12 @@ void expect_trajectories_of_the_judge(const Configuration<Dim>& start) {
   EXPECT_LT(quantile(off, 0.8), 1e-6);
 }
 
-// But for contacts of three the event-driven run is exact, and so is the judge.
+// But for contacts of three the event-driven run is exact, and so is the reference.
 TEST(ClusterwiseRun, HasTheTrajectoriesOfTheMatrixOfRestitution) {
-  expect_trajectories_of_the_judge(gas());
+  expect_trajectories_of_the_reference(gas());
 }
 TEST(ClusterwiseRun, HasThemForDisksOfUnlikeSize) {
-  expect_trajectories_of_the_judge(gas_of_disks());
+  expect_trajectories_of_the_reference(gas_of_disks());
 }
 
 }  // namespace

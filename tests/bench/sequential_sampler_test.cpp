@@ -1,4 +1,4 @@
-// The sampler and its plain twin: two orders of trials and two ways to decide, one distribution.
+// The sampler and its plain baseline: two orders of trials and two ways to decide, one distribution.
 
 #include <gtest/gtest.h>
 

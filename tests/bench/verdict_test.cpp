@@ -30,7 +30,7 @@ const Prediction2 nothing{};
 const Prediction2 gave_up{Outcome::not_converged, 0, {0, 0}, {0, 0}, 1};
 const Prediction2 overlapping{Outcome::overlap, 0, {0, 0}, {0, 0}, 1};
 
-TEST(Judge, ContactAtOne) {
+TEST(Verdict, ContactAtOne) {
   const CollisionCase asked = head_on(2, 10);
   EXPECT_EQ(verdict(asked, contact_at(1)), Verdict::correct);
   EXPECT_EQ(verdict(asked, contact_at(1 + 9e-8)), Verdict::correct);
@@ -43,7 +43,7 @@ TEST(Judge, ContactAtOne) {
   EXPECT_EQ(verdict(asked, overlapping), Verdict::false_contact);
 }
 
-TEST(Judge, ErrorsAreThoseOfTheAnswer) {
+TEST(Verdict, ErrorsAreThoseOfTheAnswer) {
   const CollisionCase asked = head_on(2, 10);
   const TrueContact truth = true_first_contact(asked.one, asked.two, asked.horizon);
   const Assessment of = assess(asked, truth, contact_at(0.75), {});
@@ -54,7 +54,7 @@ TEST(Judge, ErrorsAreThoseOfTheAnswer) {
 }
 
 // Speed 1e-3 is below 0.02 · 2/horizon: early by 1e-5 is a gap of 1e-8, and that is what counts.
-TEST(Judge, DegenerateContactIsJudgedByItsGap) {
+TEST(Verdict, DegenerateContactCountsByItsGap) {
   const CollisionCase asked = head_on(1e-3, 4);
   const CollisionCase there{asked.one, {asked.two.body, {{2 + 1e-3, 0}, 0}, asked.two.motion}, 4};
   const TrueContact truth = true_first_contact(there.one, there.two, there.horizon);
@@ -66,7 +66,7 @@ TEST(Judge, DegenerateContactIsJudgedByItsGap) {
   EXPECT_EQ(verdict(there, contact_at(time + 5e-6)), Verdict::late);
 }
 
-TEST(Judge, NoContact) {
+TEST(Verdict, NoContact) {
   const CollisionCase apart = head_on(-1, 2);
   EXPECT_EQ(verdict(apart, nothing), Verdict::correct);
   EXPECT_EQ(verdict(apart, contact_at(1)), Verdict::false_contact);
@@ -80,7 +80,7 @@ TEST(Judge, NoContact) {
   EXPECT_EQ(verdict(pass, contact_at(2), {1e-8, 1e-10}), Verdict::false_contact);
 }
 
-TEST(Judge, OverlapAtTheStart) {
+TEST(Verdict, OverlapAtTheStart) {
   CollisionCase asked = head_on(1, 2);
   asked.two.pose.position = {1.5, 0};
   EXPECT_EQ(verdict(asked, overlapping), Verdict::correct);
@@ -91,7 +91,7 @@ TEST(Judge, OverlapAtTheStart) {
 }
 
 // Disks that touch at the closest approach, exactly: either answer will do there, none elsewhere.
-TEST(Judge, Undecided) {
+TEST(Verdict, Undecided) {
   CollisionCase asked = head_on(1, 8);
   asked.two.pose.position.y() = 2;
   const TrueContact truth = true_first_contact(asked.one, asked.two, asked.horizon);

@@ -13,7 +13,7 @@ namespace vitrel::bench {
 ///   3. Stop: relative change of the variables below `tolerance` (usual 1e-10); constraints to 1e-10.
 ///   4. A time at an end of the bracket with a constraint violated by more than 1e-8 means no contact;
 ///      a time below 1e-8 of an overlapping pair means overlap (here by the complete criterion).
-/// What the optimiser returns besides is believed, as the thesis does. If it gives up, its last
+/// What the optimiser returns besides counts, as in the thesis. If it gives up, its last
 /// point counts if the constraints hold there. It is local: nothing makes its contact the first one.
 Prediction2 slsqp(const CollisionCase& asked, double tolerance);
 
