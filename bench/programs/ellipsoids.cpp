@@ -2,14 +2,16 @@
 //
 // Prints JSON. scripts/validate solids builds and runs this and compares with Carnahan and Starling.
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>
 
 #include "bench/programs/parts.h"
+#include "bench/programs/repeats.h"
 #include "bench/surveys/engine_speed.h"
-#include "bench/surveys/repeats.h"
 #include "core/error.h"
 #include "edmd/brownian.h"
 #include "edmd/growth.h"

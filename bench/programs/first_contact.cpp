@@ -85,7 +85,7 @@ void measure(const FirstContactOptions& options, const std::vector<CollisionCase
 }  // namespace
 
 int first_contact_time(const FirstContactOptions& options) {
-  const CaseClass of = class_of(request);
+  const CaseClass of = class_of(options);
   constexpr std::uint64_t seed = 1;
   std::vector<CollisionCase> cases;
   bool grows = false;

@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "app/terminal/exit_codes.h"
-#include "workflow/storage/text_file.h"
 #include "bench/pages/page.h"
 #include "core/io/provenance.h"
+#include "workflow/storage/text_file.h"
 
 namespace vitrel::bench {
 

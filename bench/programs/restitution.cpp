@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "bench/baselines/plain_contact.h"
+#include "bench/programs/parts.h"
 #include "core/io/provenance.h"
 #include "core/parallel.h"
 #include "core/random/stream.h"
@@ -27,7 +28,6 @@
 namespace vitrel::bench {
 namespace {
 
-using Json = nlohmann::ordered_json;
 constexpr double pi = std::numbers::pi;
 
 struct Effort {

@@ -4,6 +4,8 @@
 // Prints JSON. scripts/validate soft_spheres builds and runs this, compares with what is wanted, and writes
 // its section of docs/validation.md.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,9 +18,9 @@
 #include "bench/baselines/clusterwise_run.h"
 #include "bench/baselines/force_based_run.h"
 #include "bench/programs/parts.h"
+#include "bench/programs/repeats.h"
 #include "bench/surveys/engine_speed.h"
 #include "bench/surveys/mean.h"
-#include "bench/surveys/repeats.h"
 #include "core/random/stream.h"
 #include "edmd/brownian.h"
 #include "edmd/run.h"

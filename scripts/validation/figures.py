@@ -40,7 +40,7 @@ def legend(figure, axes, notes=()):
 def floor(axes, value, label):
     """Marks the lower end at which smaller values are drawn, if there are any."""
     axes.axhline(value, color="black", linewidth=0.6, linestyle=":")
-    axes.annotate(label, (1, value), xycoords=("axes fraction", "data"), ha="right", va="bottom", fontsize="small")
+    axes.annotate(label, (0.5, value), xycoords=("axes fraction", "data"), ha="center", va="bottom", fontsize="small")
 
 
 def by_method(rows):

@@ -27,8 +27,8 @@ std::string content(const std::filesystem::path& file) {
 TEST(BenchThesis, PrintsAndWrites) {
   const Folder folder("bench_thesis");
   const Outcome outcome =
-      run(folder.path(), {"thesis", "--duration", "0.5", "--seconds", "0.1", "--largest",
-                          "25", "--runs", "2", "--json", "-q", "-o", "out"});
+      run(folder.path(), {"thesis", "--duration", "0.5", "--seconds", "0.1", "--largest", "25",
+                          "--runs", "2", "--json", "-q", "-o", "out"});
   ASSERT_EQ(outcome.code, 0) << outcome.errors;
   const Json rows = Json::parse(outcome.output)["rows"];
   ASSERT_EQ(rows.size(), 24u);  // N = 16 and 25; ellipses and circles; three programs; two dynamics
