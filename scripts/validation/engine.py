@@ -7,7 +7,7 @@ from validation.common import (ROOT, clock_rate, commit_of, expect, measured, mi
                                table)
 
 TITLE = "Speed of the engine"
-PROGRAM = "bench_engine"
+PROGRAM = "engine"
 PAGE = ROOT / "bench" / "engine.md"
 FIGURE = ROOT / "bench" / "engine.svg"
 
@@ -185,7 +185,7 @@ def page(native, portable):
     return f"""# How fast is the engine?
 
     scripts/validate engine                       # builds, measures and writes this page
-    build/release/bench/bench_engine speed sizes   # parts of it, as JSON
+    build/release/bench/vitrel-bench engine speed sizes   # parts of it, as JSON
 
 Measured on {datetime.date.today()}, commit {commit_of(native)}, {processor()}{clock_rate()}, {native["compiler"]}, `{native["flags"]}`.
 Calibration: {psi} ns per Ψ (the function of Vieillard-Baron of two ellipses, from their angles; at the

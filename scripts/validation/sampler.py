@@ -6,7 +6,7 @@ from validation.common import (ROOT, clock_rate, commit_of, expect, measured, mi
                                table)
 
 TITLE = "Speed of Monte Carlo"
-PROGRAM = "bench_sampler"
+PROGRAM = "sampler"
 PAGE = ROOT / "bench" / "sampler.md"
 
 # (κ, φ): trials per second wanted on one core of such a machine.
@@ -38,7 +38,7 @@ def speed(native, portable):
         lines.append([shape(row["aspect_ratio"]), row["packing_fraction"], f"**{millions(rate(row))}**",
                       millions(1e9 / row["median_ns_per_trial"]), millions(rate(portable_rows[scene(row)])), goal_text(row),
                       millions(rate(plain)), f"{plain['ns_per_trial'] / row['ns_per_trial']:.2f}"])
-    return table(["", "φ", "millions per second", "median", "portable build", "goal", "plain twin", "times as fast"],
+    return table(["", "φ", "millions per second", "median", "portable build", "goal", "plain baseline", "times as fast"],
                  lines)
 
 
@@ -56,7 +56,7 @@ def work(native):
                       f"{rotations(row, row['rotations_accepted'])} / {rotations(row, plain['rotations_accepted'])}",
                       f"{row['groups']:.2f}", f"{row['alone']:.3f}", f"{plain['decisions']:.2f}"])
     return table(["", "φ", "translation", "rotation", "translations accepted", "rotations accepted", "groups", "alone",
-                  "decisions of the twin"], lines)
+                  "decisions of the baseline"], lines)
 
 
 def gain(row):
@@ -90,7 +90,7 @@ def page(native, portable):
     return f"""# How fast is Monte Carlo?
 
     scripts/validate sampler                         # builds, measures and writes this page
-    build/release/bench/bench_sampler speed threads   # parts of it, as JSON
+    build/release/bench/vitrel-bench sampler speed threads   # parts of it, as JSON
 
 Measured on {datetime.date.today()}, commit {commit_of(native)}, {processor()}{clock_rate()}, {native["compiler"]}, `{native["flags"]}`.
 Calibration: {psi} ns per Ψ (the function of Vieillard-Baron of two ellipses, from their angles; at the
@@ -102,14 +102,14 @@ of the moves of each kind are accepted, but a turn is π at most, which more tha
 
 ## Trials per second
 
-N = {native["speed"][0]["particles"]}, one thread, in millions of trials per second. The plain twin makes one trial after another among all
+N = {native["speed"][0]["particles"]}, one thread, in millions of trials per second. The baseline makes one trial after another among all
 particles and decides every pair within the circumcircles alone.
 
 {speed(native, portable)}
 
-The steps, the shares that are accepted (sampler / twin, at the same steps: a sampler's moves across a border between
+The steps, the shares that are accepted (sampler / baseline, at the same steps: a sampler's moves across a border between
 domains are rejected), *groups* of up to four others looked at per trial, pairs of these that were decided *alone*, and
-pairs that the twin decided.
+pairs that the baseline decided.
 
 {work(native)}
 
