@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "core/error.h"
-#include "core/io/pending_file.h"
+#include "core/io/atomic_file.h"
 #include "workflow/storage/text_file.h"
 #include "workflow/sweep/folder_lock.h"
 #include "workflow/sweep/process.h"
@@ -80,7 +80,7 @@ class JobWorker {
     } else if (*code != 0) {
       state_ = State::failed;
     } else {
-      PendingFile(summary(steps_[next_++])).commit();
+      AtomicFile(summary(steps_[next_++])).commit();
       start_next();
     }
   }
