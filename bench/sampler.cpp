@@ -16,12 +16,12 @@
 #include "bench/lab/engine_speed.h"
 #include "bench/lab/twins/one_by_one_sampler.h"
 #include "bench/parts.h"
-#include "core/contact/overlap_look.h"
-#include "core/contact/support_gap.h"
+#include "core/contact/ellipse_gap.h"
+#include "core/contact/ellipse_overlap_batch.h"
 #include "core/error.h"
 #include "core/neighbors/pairs.h"
 #include "core/random/stream.h"
-#include "mc/disjoint.h"
+#include "mc/hard_core.h"
 #include "mc/sampler.h"
 
 namespace vitrel::lab {
@@ -125,7 +125,7 @@ Json measure_speed(const Effort& effort) {
     const Steps steps = fitting_steps(sampler, 20);
     twin.set_steps(steps.translation, steps.rotation);
     const TrialCounts before = sampler.counts(), twin_before = twin.counts();
-    const Looks looks = sampler.looks();
+    const OverlapTestCounts looks = sampler.overlap_tests();
     const std::uint64_t decisions = twin.decisions();
     Stretches of_ours, of_twin;
     for (int k = 0; k < effort.stretches; ++k) {
@@ -144,8 +144,8 @@ Json measure_speed(const Effort& effort) {
     row["rotation_step"] = steps.rotation;
     row["translations_accepted"] = accepted.translation;
     row["rotations_accepted"] = accepted.rotation;
-    row["groups"] = ratio(sampler.looks().groups - looks.groups, tried);
-    row["alone"] = ratio(sampler.looks().alone - looks.alone, tried);
+    row["groups"] = ratio(sampler.overlap_tests().batches - tests.batches, tried);
+    row["alone"] = ratio(sampler.overlap_tests().scalar_pairs - tests.scalar_pairs, tried);
     row["plain"] = of_twin.json();
     row["plain"]["translations_accepted"] = twin_accepted.translation;
     row["plain"]["rotations_accepted"] = twin_accepted.rotation;
@@ -188,7 +188,7 @@ Json measure_threads(const Effort& effort) {
 struct Question {
   Ellipse shape;
   Vec2 axis;
-  std::vector<EllipseGroup> groups;
+  std::vector<EllipseBatch> groups;
   int others = 0;
 };
 
@@ -208,7 +208,7 @@ std::vector<Question> questions(const Configuration2& c, const Steps& steps, int
     const double reach = 2 * c.shape[i].circumradius();
     cells.for_each_near(position, reach, [&](std::size_t j, const Shift<2>&, const Vec2& d) {
       if (j == i) return;
-      const int lane = question.others++ % many;
+      const int lane = question.others++ % simd_width;
       if (lane == 0) question.groups.emplace_back();
       question.groups.back().set(lane, c.shape[j], d, direction(c.angle[j]));
     });
@@ -218,17 +218,17 @@ std::vector<Question> questions(const Configuration2& c, const Steps& steps, int
 }
 
 bool clear_in_lanes(const Question& asked, double margin) {
-  const OverlapLook look(asked.shape, asked.axis, margin);
+  const OverlapBatch look(asked.shape, asked.axis, margin);
   std::uint64_t alone = 0;
-  return std::ranges::all_of(asked.groups, [&](const EllipseGroup& group) {
-    return look.clear_of(group, Vec2::Zero(), OverlapLook::Asked(true), alone);
+  return std::ranges::all_of(asked.groups, [&](const EllipseBatch& group) {
+    return look.clear_of(group, Vec2::Zero(), OverlapBatch::Mask(true), alone);
   });
 }
 
 bool clear_one_by_one(const Question& asked, double margin) {
   for (int k = 0; k < asked.others; ++k) {
-    const EllipseGroup& group = asked.groups[static_cast<std::size_t>(k / many)];
-    const int lane = k % many;
+    const EllipseBatch& group = asked.groups[static_cast<std::size_t>(k / simd_width)];
+    const int lane = k % simd_width;
     if (!separated(asked.shape, asked.axis, group.shape(lane), group.axis(lane),
                    group.position(lane), margin))
       return false;
@@ -236,7 +236,7 @@ bool clear_one_by_one(const Question& asked, double margin) {
   return true;
 }
 
-/// The best time of one question, and how many are answered by clear.
+/// The best time of one question, and how simd_width are answered by clear.
 template <class Decide>
 std::pair<double, int> timed(const Effort& effort, const std::vector<Question>& asked,
                              Decide&& decide) {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/neighbors/ask_memory.h"
+#include "core/neighbors/prefetch.h"
 
 namespace vitrel {
 
@@ -22,7 +22,7 @@ namespace vitrel {
 ///    the particles that are planned in it; who is planned later or never is noted nowhere. Nothing
 ///    is struck out: a particle knows in which slot it waits, and all other notes of it are void.
 /// 2. The particles of the slots opened so far are in a small heap, ordered by (time, particle). When
-///    it holds fewer than `foresight` the next slot is opened, and its particles are announced.
+///    it holds fewer than `lookahead` the next slot is opened, and its particles are upcoming.
 /// 3. After the last slot the window is renewed: it begins at the earliest time, and a slot is as wide
 ///    as it takes, by a sample of the nearest eighth of the particles, to find a few of them in each.
 ///    So is a window that has served for very many changes, because events now come much faster.
@@ -35,10 +35,10 @@ namespace vitrel {
 /// set to and fro.
 class Calendar {
  public:
-  /// Nothing is planned: all times are +∞. At least `foresight` particles, 1 or more, are announced
+  /// Nothing is planned: all times are +∞. At least `lookahead` particles, 1 or more, are upcoming
   /// before their events, as far as the window reaches and as these were planned by then.
-  explicit Calendar(std::size_t particles = 0, std::size_t foresight = 1)
-      : foresight_(foresight),
+  explicit Calendar(std::size_t particles = 0, std::size_t lookahead = 1)
+      : foresight_(lookahead),
         places_(particles),
         slots_(particles / particles_per_line + 1),
         opened_(end()) {
@@ -54,12 +54,12 @@ class Calendar {
     return due_.empty() ? 0 : due_.front().particle;
   }
 
-  /// How many particles have been announced, and one of the last 64 of these: number k, counted from 0.
-  std::uint64_t announcements() const { return announcements_; }
-  std::size_t announced(std::uint64_t k) const { return announced_[k % remembered]; }
+  /// How many particles have been upcoming, and one of the last 64 of these: number k, counted from 0.
+  std::uint64_t upcoming_count() const { return announcements_; }
+  std::size_t upcoming(std::uint64_t k) const { return announced_[k % remembered]; }
 
   /// Asks the memory for what a change of this particle's time will read.
-  void read_ahead(std::size_t particle) const { ask_memory(&places_[particle]); }
+  void prefetch(std::size_t particle) const { prefetch_line(&places_[particle]); }
 
   void set(std::size_t particle, double time) {
     assert(time > -never);
@@ -91,7 +91,7 @@ class Calendar {
   static constexpr std::size_t least_counted = 8;
   static constexpr std::int64_t changes_per_particle = 64;
   static constexpr std::size_t arity = 4;
-  static constexpr std::size_t remembered = 64;  // announcements
+  static constexpr std::size_t remembered = 64;  // upcoming_count
   static constexpr double narrowest = 1e-300;    // of one slot: its inverse stays finite
   // How many slots before their opening these are asked for, and then their particles.
   static constexpr Index slot_ahead = 6, particles_ahead = 3;
@@ -132,7 +132,7 @@ class Calendar {
   void wait(Index particle, Index slot) {
     places_[particle].slot = slot;
     if (slot == end()) return;
-    ask_memory(&slots_[slot]);
+    prefetch_line(&slots_[slot]);
     const Note due = std::exchange(notes_[noted_++ % notes_.size()], {particle, slot});
     if (places_[due.particle].slot == due.slot) take(due);
   }
@@ -193,10 +193,10 @@ class Calendar {
   }
 
   void read_ahead_of(Index slot) const {
-    if (slot + slot_ahead < end()) ask_memory(&slots_[slot + slot_ahead]);
+    if (slot + slot_ahead < end()) prefetch_line(&slots_[slot + slot_ahead]);
     if (slot + particles_ahead >= end()) return;
     const Line& notes = slots_[slot + particles_ahead];
-    for (Index k = 0; k < notes.count; ++k) read_ahead(notes.particle[k]);
+    for (Index k = 0; k < notes.count; ++k) prefetch(notes.particle[k]);
   }
 
   void renew_window() {

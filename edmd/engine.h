@@ -2,8 +2,8 @@
 
 #include <cstdint>
 #include <limits>
-#include <memory>
 #include <string>
+#include <memory>
 
 #include "core/state/configuration.h"
 
@@ -36,12 +36,13 @@ struct EngineOptions {
 struct RunCounters {
   std::uint64_t events = 0;  ///< everything taken from the calendar
   std::uint64_t collisions = 0;
-  std::uint64_t predictions = 0;  ///< pairs asked about
-  std::uint64_t searches = 0;     ///< of these, pairs that the first look did not settle
-  std::uint64_t steps = 0;        ///< steps along separating axes, over all searches
-  std::uint64_t renewals = 0;     ///< neighbour lists renewed because a particle left its own
+  std::uint64_t predictions = 0;   ///< pairs asked about
+  std::uint64_t searches = 0;      ///< of these, pairs that the first look did not settle
+  std::uint64_t steps = 0;         ///< steps along separating axes, over all searches
+  std::uint64_t list_updates = 0;  ///< neighbour lists renewed because a particle left its own
   std::uint64_t correction_moves = 0;
-  std::uint64_t refused_turns = 0;   ///< soft collisions as of hard particles, without room to turn
+  std::uint64_t blocked_rotations =
+      0;                             ///< soft collisions as of hard particles, without room to turn
   std::uint64_t early_releases = 0;  ///< soft particles hit while in contact
   std::uint64_t integrations = 0;    ///< contacts that no table had, or where there is none
   /// Σ J n·d over collisions, d from centre to centre; of soft contacts what takes its place

@@ -40,12 +40,12 @@
 /// can order before it falls out of equilibrium, and thereby φ_J.
 ///
 /// Growth always ends, since φ < 1. Validity: |γ| well below 1 (beyond, the surfaces are faster than
-/// the particles, and Z means nothing), Z up to `greatest_reduced_pressure`.
+/// the particles, and Z means nothing), Z up to `max_reduced_pressure`.
 /// Sources: lubachevsky1990, donev2005.
 namespace vitrel {
 
 /// Beyond, gaps come near to the rounding of the coordinates, and particles count as jammed.
-inline constexpr double greatest_reduced_pressure = 1e9;
+inline constexpr double max_reduced_pressure = 1e9;
 
 struct GrowthOptions {
   double growth_rate = 1e-3;               ///< γ, relative, per unit of time; negative to shrink
@@ -64,13 +64,13 @@ struct GrowthState {
 };
 
 /// `reached` at the wanted packing fraction or pressure, whichever comes first; `stuck` if the particles
-/// are jammed before; `stopped` by the budget, at a block end: the same call then goes on bit by bit. In
+/// are jammed before; `stopped` by the run control, at a block end: the same call then goes on bit by bit. In
 /// any case the state is hard, with shapes as given and a smaller (γ < 0: larger) box, net momentum 0 and
 /// kT = 1; its time is as given. Throws UserError if there is no goal, if γ leads away from it, or if
 /// nothing can move (a lone disk); InvariantError on an overlap, or if a particle grows into its own image
 /// and cannot turn away.
 template <int Dim>
 StageReport grow(Configuration<Dim>& configuration, const GrowthOptions& options,
-                 GrowthState& state, const Budget& budget);
+                 GrowthState& state, const RunControl& control);
 
 }  // namespace vitrel

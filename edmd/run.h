@@ -60,13 +60,13 @@ struct RunPlan {
   Ticks<Dim> ticks = {};
 };
 
-/// Runs to the end, or to the end of the block in which the budget asked to stop. A sample or tick that
+/// Runs to the end, or to the end of the block in which the control asked to stop. A sample or tick that
 /// coincides with a Brownian step is taken before the velocities are redrawn. Throws InvariantError
 /// on an overlap, and if time stands still (inelastic collapse); `state` then holds the moment of
 /// the failure.
 template <int Dim>
 StageReport run(RunState<Dim>& state, const DynamicsOptions& options, const RunPlan<Dim>& plan,
-                const Budget& budget);
+                const RunControl& control);
 
 using RunState2 = RunState<2>;
 using RunState3 = RunState<3>;

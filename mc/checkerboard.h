@@ -41,15 +41,15 @@ class Checkerboard {
   }
 
   /// A column or a row that is near another, seen in an image of the box.
-  struct Near {
+  struct NearLine {
     int cell;
     double translation;
     double begin;  ///< of this column or row, from the beginning of the other
   };
   /// Columns near a column, and rows near a row, the nearest first: every image that can be within
   /// reach, once.
-  std::span<const Near> near_column(int x) const { return lines_[0].near(x); }
-  std::span<const Near> near_row(int y) const { return lines_[1].near(y); }
+  std::span<const NearLine> near_columns(int x) const { return lines_[0].near(x); }
+  std::span<const NearLine> near_rows(int y) const { return lines_[1].near(y); }
   /// Where the column and the row of a cell begin, and how wide they are.
   Vec2 corner(const Cell& cell) const {
     return {lines_[0].begin_of(cell.x), lines_[1].begin_of(cell.y)};
@@ -79,14 +79,14 @@ class Checkerboard {
    public:
     Line(double length, double reach, std::size_t particles);
     // Domains begin there.
-    void put_origin(std::size_t first);
+    void set_origin(std::size_t first);
 
     std::size_t cells() const { return domain_of_.size(); }
     int cell_of(double x) const {
       const int cell = static_cast<int>((x + half_) * cells_per_length_);
       return cell < last_ ? cell : last_;  // by rounding, at the border of the box
     }
-    std::span<const Near> near(int cell) const {
+    std::span<const NearLine> near(int cell) const {
       return {near_.data() + static_cast<std::size_t>(cell) * images_, images_};
     }
     double width() const { return 1 / cells_per_length_; }
@@ -101,7 +101,7 @@ class Checkerboard {
     double half_, cells_per_length_;
     int last_;
     std::size_t images_, domains_, origin_;
-    std::vector<Near> near_;
+    std::vector<NearLine> near_;
     std::vector<std::size_t> domain_of_;
   };
 

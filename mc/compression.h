@@ -28,7 +28,7 @@ struct BoxState {
 /// it, shapes and angles not. Without overlaps it is accepted with probability
 ///     min(1, exp(−βP (V' − V) + (N + 1) ln(V'/V))),
 /// the cheap factor first. anisotropic: by one of the two sides, each with probability 1/2; a liquid
-/// does not resist shear, so L_y/L_x is kept within a factor `widest_change` of that at the start. The
+/// does not resist shear, so L_y/L_x is kept within a factor `max_aspect_change` of that at the start. The
 /// trial k of sweep s draws from the stream (seed, box_trials, s, k): results do not depend on the number
 /// of threads. Detailed balance holds for fixed step sizes; they change only in `tune`.
 ///
@@ -36,7 +36,7 @@ struct BoxState {
 /// Source: wood1968.
 class PressureSampler {
  public:
-  static constexpr double widest_change = 2;
+  static constexpr double max_aspect_change = 2;
   static constexpr std::uint64_t box_trials = 2;
 
   /// For the configuration see Sampler.
@@ -83,10 +83,10 @@ struct CompressionState {
 /// `reached` at the wanted packing fraction or, without one, after all sweeps; `stuck` if the sweeps
 /// did not suffice or if the packing fraction no longer rises: by less than a thousandth from the
 /// third to the last quarter of what has been done, and that 4000 sweeps or more; `stopped` by the
-/// budget between two sweeps: the same call then goes on bit by bit. Step sizes adapt all the way; without
+/// control between two sweeps: the same call then goes on bit by bit. Step sizes adapt all the way; without
 /// a packing fraction only in the first half of the sweeps, so that the second samples equilibrium. In
 /// any case the state is hard. A configuration denser than wanted is expanded.
 StageReport compress(Configuration2& configuration, const CompressionOptions& options,
-                     std::uint64_t seed, CompressionState& state, const Budget& budget);
+                     std::uint64_t seed, CompressionState& state, const RunControl& control);
 
 }  // namespace vitrel

@@ -11,7 +11,7 @@ namespace vitrel {
 
 namespace {
 
-constexpr double widest_window = 0.75;
+constexpr double max_window = 0.75;
 constexpr double pairs_per_particle = 1.5;
 
 // F − 1 of all pairs with F − 1 < window.
@@ -32,10 +32,10 @@ std::vector<double> contact_excesses(const Configuration2& configuration, double
 
 // The window with the wanted number of pairs.
 double choose_window(const Configuration2& configuration) {
-  std::vector<double> excesses = contact_excesses(configuration, widest_window);
+  std::vector<double> excesses = contact_excesses(configuration, max_window);
   const auto wanted =
       static_cast<std::size_t>(pairs_per_particle * static_cast<double>(configuration.size()));
-  if (excesses.size() <= wanted) return widest_window;
+  if (excesses.size() <= wanted) return max_window;
   std::nth_element(excesses.begin(), excesses.begin() + static_cast<std::ptrdiff_t>(wanted),
                    excesses.end());
   return excesses[wanted];

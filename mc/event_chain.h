@@ -4,11 +4,11 @@
 #include <optional>
 #include <vector>
 
-#include "core/contact/path_look.h"
+#include "core/contact/ellipse_free_path_batch.h"
 #include "core/random/stream.h"
 #include "core/state/configuration.h"
 #include "mc/checkerboard.h"
-#include "mc/lane_cells.h"
+#include "mc/simd_cells.h"
 #include "mc/sweep_state.h"
 #include "mc/trial.h"
 
@@ -24,7 +24,7 @@ struct EventChainOptions {
 struct ChainCounts {
   std::uint64_t chains = 0, contacts = 0;
   std::uint64_t cut_short = 0;  ///< chains
-  std::uint64_t looks = 0;      ///< for the next contact; a path ends at every border of cells too
+  std::uint64_t searches = 0;   ///< for the next contact; a path ends at every border of cells too
   std::uint64_t rotations_tried = 0, rotations_accepted = 0;
   double length = 0;  ///< Σ l
   double ahead = 0;   ///< Σ (r_j − r_i)·e over the contacts
@@ -73,7 +73,7 @@ struct ChainState {
 /// the sum over the contacts of a chain along e.
 ///
 /// In a row of particles that is jammed across the whole box a chain would have contacts without end: a
-/// chain of 1000 times as many as wanted is cut short, against the balance, and counted.
+/// chain of 1000 times as simd_width as wanted is cut short, against the balance, and counted.
 ///
 /// Contact is at 1.25 hard margins (disjoint.h), or a little more (path_look.h), and rotations keep one, so
 /// that the margin holds always. A particle's own images move along; those of others are others.
@@ -81,7 +81,7 @@ struct ChainState {
 class EventChain {
  public:
   /// The configuration must be hard, with wrapped positions, and outlive the chains; nobody else may
-  /// move or turn particles meanwhile.
+  /// move or rotation particles meanwhile.
   EventChain(Configuration2& configuration, const EventChainOptions& options, std::uint64_t seed,
              const ChainState& state = {});
 
@@ -111,13 +111,13 @@ class EventChain {
  private:
   void arrange();
   void run_chain(std::size_t first, bool along_x);
-  template <int direction, template <int> class Look>
+  template <int direction, template <int> class PathBatch>
   void run(std::size_t first);
-  template <int direction, template <int> class Look>
-  PathEnd next_contact(std::size_t i, double remaining) const;
+  template <int direction, template <int> class PathBatch>
+  FreePath next_contact(std::size_t i, double remaining) const;
   template <int direction>
   void advance(std::size_t i, double length);
-  void rotate(std::size_t i, double turn);
+  void rotate(std::size_t i, double rotation);
 
   Configuration2& configuration_;
   double largest_, margin_;
@@ -125,10 +125,10 @@ class EventChain {
   double rounding_;  // more than that of any position
   EventChainOptions options_;
   std::vector<Vec2> axis_;                // unit major axes
-  std::vector<LaneCells::Index> rotors_;  // the particles that are not round
+  std::vector<SimdCells::Index> rotors_;  // the particles that are not round
   std::optional<Checkerboard> board_;
-  LaneCells cells_;
-  LaneCells::Spare spare_;
+  SimdCells cells_;
+  SimdCells::FreeList free_list_;
   std::uint64_t seed_;
   ChainState state_;
 };

@@ -19,14 +19,14 @@ struct InsertionOptions {
 /// the area of a particle; close to saturation φ∞ − φ ∝ τ^(−1/2) for disks and τ^(−1/3) for
 /// other shapes. Sources: swendsen1981, talbot1989.
 struct InsertionReport : StageReport {
-  std::uint64_t places_tried = 0;
+  std::uint64_t trials = 0;
 };
 
-/// `stuck` with a reason if a particle found no place, `stopped` if the budget said so; the
+/// `stuck` with a reason if a particle found no place, `stopped` if the control said so; the
 /// configuration then is not to be used, and the same call makes it anew.
 /// The jamming limit is near φ = 0.547 for disks, 0.583 for ellipses and 0.382 for spheres.
 template <int Dim>
 InsertionReport insert_particles(Configuration<Dim>& configuration, const InsertionOptions& options,
-                                 std::uint64_t seed, const Budget& budget);
+                                 std::uint64_t seed, const RunControl& control);
 
 }  // namespace vitrel

@@ -9,7 +9,7 @@
 #include "core/contact/perram_wertheim.h"
 #include "core/error.h"
 #include "core/random/stream.h"
-#include "mc/disjoint.h"
+#include "mc/hard_core.h"
 
 namespace vitrel {
 

@@ -7,7 +7,7 @@
 #include "core/random/stream.h"
 #include "core/state/configuration.h"
 #include "mc/checkerboard.h"
-#include "mc/lane_cells.h"
+#include "mc/simd_cells.h"
 #include "mc/sweep_state.h"
 #include "mc/trial.h"
 
@@ -37,7 +37,7 @@ namespace vitrel {
 /// that a trial depends on stays as it is while a domain has its turn: which particles it has, how many,
 /// and all outside. Among these states a trial and its reverse are proposed with the same probability (to
 /// 1e-14: the pick of one of n by a number of 53 bits), and accepted or not by the hard states
-/// alone; so each trial is in detailed balance with the uniform distribution, and so is, the order being
+/// scalar_pairs; so each trial is in detailed balance with the uniform distribution, and so is, the order being
 /// random, the sweep. Borders and order are drawn without regard to the state. There is no other
 /// rejection: cells have no largest number of particles. Every border moves, so that no two states are
 /// cut off from each other by it. Accepted is decided by proofs (overlap_look.h) whose answer depends
@@ -75,14 +75,14 @@ class Sampler {
   const TrialCounts& counts() const { return state_.counts; }
 
   /// What the decisions took since construction.
-  const Looks& looks() const { return looks_; }
+  const OverlapTestCounts& overlap_tests() const { return overlap_tests_; }
 
  private:
   struct Tally {
     TrialCounts counts;
-    Looks looks;
+    OverlapTestCounts overlap_tests;
   };
-  struct Turn;
+  struct DomainContext;
   using Words = Stream::Block;  // one trial's
 
   void fit_box();
@@ -90,17 +90,17 @@ class Sampler {
   bool is_hard();
   void arrange();
   void fill_domain(std::size_t domain);
-  void take_turns(const std::vector<std::size_t>& domains);
-  void take_turn(std::size_t domain, Tally& tally);
-  void translate(std::size_t i, const Words& words, Turn& turn);
-  void rotate(std::size_t i, const Words& words, Turn& turn);
-  void exchange(std::size_t i, std::size_t j, Turn& turn);
+  void sweep_domains(const std::vector<std::size_t>& domains);
+  void sweep_domain(std::size_t domain, Tally& tally);
+  void translate(std::size_t i, const Words& words, DomainContext& context);
+  void rotate(std::size_t i, const Words& words, DomainContext& context);
+  void exchange(std::size_t i, std::size_t j, DomainContext& context);
   bool is_exchange(std::uint64_t word) const {
     return static_cast<double>(word >> 11) * 0x1p-53 < exchanges_;
   }
-  bool has_room(std::size_t i, Looks& looks) const;
-  bool clear_of_others(std::size_t i, const OverlapLook& look, const Vec2& position,
-                       const Checkerboard::Cell& cell, Looks& looks) const;
+  bool fits(std::size_t i, OverlapTestCounts& tests) const;
+  bool clear_of_others(std::size_t i, const OverlapBatch& batch, const Vec2& position,
+                       const Checkerboard::Cell& cell, OverlapTestCounts& tests) const;
   bool clear_of_itself(const Ellipse& shape, const Vec2& axis, double margin) const;
   void add(const Tally& tally);
 
@@ -111,16 +111,16 @@ class Sampler {
   int threads_;
   std::vector<Vec2> axis_;  // unit major axes
   std::optional<Checkerboard> board_;
-  LaneCells cells_;
-  std::vector<LaneCells::Index> order_;    // particles, domain by domain and cell by cell
-  std::vector<LaneCells::Index> cell_of_;  // of every particle, while sorting
-  std::vector<LaneCells::Index> begin_;    // of every cell in order_, while sorting
-  std::vector<std::size_t> domain_begin_;  // of every domain in order_
-  std::vector<LaneCells::Spare> spare_;    // of every domain
+  SimdCells cells_;
+  std::vector<SimdCells::Index> order_;          // particles, domain by domain and cell by cell
+  std::vector<SimdCells::Index> cell_of_;        // of every particle, while sorting
+  std::vector<SimdCells::Index> begin_;          // of every cell in order_, while sorting
+  std::vector<std::size_t> domain_begin_;        // of every domain in order_
+  std::vector<SimdCells::FreeList> free_lists_;  // of every domain
   double exchanges_ = 0;
   std::uint64_t seed_;
   SweepState state_;
-  Looks looks_;
+  OverlapTestCounts overlap_tests_;
 };
 
 }  // namespace vitrel

@@ -29,9 +29,9 @@ struct SamplingState {
 };
 
 /// Monte Carlo at constant packing fraction, as a stage that brings a state to equilibrium: chains and
-/// steps adapt all the way. `reached` when `state` counts the wanted sweeps, `stopped` by the budget
+/// steps adapt all the way. `reached` when `state` counts the wanted sweeps, `stopped` by the run control
 /// between two sweeps; the same call then goes on bit by bit. The reason tells if chains were cut short.
 StageReport sample(Configuration2& configuration, const SamplingOptions& options,
-                   std::uint64_t seed, SamplingState& state, const Budget& budget);
+                   std::uint64_t seed, SamplingState& state, const RunControl& control);
 
 }  // namespace vitrel

@@ -149,7 +149,7 @@ int bench_collision_time_command(const Arguments& arguments) {
   const CollisionTimeRequest request = collision_time_request(arguments);
   if (!arguments.output.empty()) require_output_folder(arguments.output);
   Session session(arguments);
-  const CollisionTimeBench bench = bench_collision_time(request, session.budget(), session.say());
+  const CollisionTimeBench bench = bench_collision_time(request, session.control(), session.say());
   print_rows(arguments, session, collision_time_json(bench.survey.rows),
              collision_time_text(bench.survey.rows));
   if (bench.stopped) return stopped_early(arguments);
@@ -157,13 +157,13 @@ int bench_collision_time_command(const Arguments& arguments) {
   session.say()("overlap criteria");
   OverlapRequest criteria;
   criteria.seed = request.seed;
-  const lab::OverlapSurvey overlap = bench_overlap(criteria, session.budget());
+  const lab::OverlapSurvey overlap = bench_overlap(criteria, session.control());
   if (overlap.stopped) return stopped_early(arguments);
   session.say()("whole runs");
   WholeRunRequest scene;
   scene.duration = arguments.duration.value_or(20);
   scene.seed = request.seed;
-  const WholeRunBench runs = bench_whole_run(scene, session.budget());
+  const WholeRunBench runs = bench_whole_run(scene, session.control());
   if (runs.stopped) return stopped_early(arguments);
   PageProvenance what = collision_time_provenance(request);
   what.push_back({"whole runs", fmt::format("{:g} units of time", scene.duration)});
@@ -176,7 +176,7 @@ int bench_collision_time_of_solids_command(const Arguments& arguments) {
   const CollisionTimeRequest request = collision_time_request(arguments);
   if (!arguments.output.empty()) require_output_folder(arguments.output);
   Session session(arguments);
-  const auto bench = bench_collision_time_of_solids(request, session.budget(), session.say());
+  const auto bench = bench_collision_time_of_solids(request, session.control(), session.say());
   print_rows(arguments, session, collision_time_json(bench.survey.rows),
              collision_time_text(bench.survey.rows));
   if (bench.stopped) return stopped_early(arguments);
@@ -208,7 +208,7 @@ int bench_overlap_command(const Arguments& arguments) {
   if (!arguments.output.empty()) require_output_folder(arguments.output);
   Session session(arguments);
   session.say()("overlap criteria");
-  const lab::OverlapSurvey survey = bench_overlap(request, session.budget());
+  const lab::OverlapSurvey survey = bench_overlap(request, session.control());
   print_rows(arguments, session, overlap_json(survey.rows), overlap_text(survey.rows));
   if (survey.stopped) return stopped_early(arguments);
   if (arguments.output.empty()) return success;
@@ -231,7 +231,7 @@ int bench_thesis_command(const Arguments& arguments) {
   request.seed = arguments.seed.value_or(request.seed);
   if (!arguments.output.empty()) require_output_folder(arguments.output);
   Session session(arguments);
-  const ThesisBench bench = bench_thesis(request, session.budget(), session.say());
+  const ThesisBench bench = bench_thesis(request, session.control(), session.say());
   print_rows(arguments, session, thesis_rows_json(bench.by_size), thesis_text(bench));
   if (bench.stopped) return stopped_early(arguments);
   if (arguments.output.empty()) return success;
@@ -257,7 +257,7 @@ int bench_whole_run_command(const Arguments& arguments) {
   if (!arguments.output.empty()) require_output_folder(arguments.output);
   Session session(arguments);
   session.say()("whole runs");
-  const WholeRunBench bench = bench_whole_run(request, session.budget());
+  const WholeRunBench bench = bench_whole_run(request, session.control());
   print_rows(arguments, session, whole_run_json(bench.rows), whole_run_text(bench.rows));
   if (bench.stopped) return stopped_early(arguments);
   if (arguments.output.empty()) return success;

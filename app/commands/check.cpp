@@ -39,7 +39,7 @@ int check_and_print(const Arguments& arguments) {
   Session session(arguments);
   session.say()("check of " + arguments.input.string());
   const FileCheck<Dim> check =
-      check_file<Dim>(arguments.input, arguments.last_only, session.budget());
+      check_file<Dim>(arguments.input, arguments.last_only, session.control());
   session.clear();
   if (check.frames == 0) return stopped;
   print_summary(arguments, summary(check, arguments.input));
@@ -50,7 +50,7 @@ int check_and_print(const Arguments& arguments) {
     for (const std::string& complaint : check.complaints) message += "\n  " + complaint;
     throw InvariantError(message);
   }
-  return session.budget().stop_requested() ? stopped : success;
+  return session.control().stop_requested() ? stopped : success;
 }
 
 }  // namespace

@@ -59,10 +59,10 @@ std::string value_text(const nlohmann::ordered_json& summary, const std::string&
 Session::Session(const Arguments& arguments)
     : display_(ProgressDisplay::mode(arguments.quiet)), wall_time_(arguments.wall_time) {
   catch_stop_signals();
-  budget_.should_stop = [this] {
+  control_.should_stop = [this] {
     return stop_signalled() || (wall_time_ > 0 && seconds() > wall_time_);
   };
-  budget_.report = [this](const Progress& progress) { display_.show(progress); };
+  control_.on_progress = [this](const Progress& progress) { display_.show(progress); };
   say_ = [this](const std::string& line) {
     display_.say(line);
     display_.begin(line.substr(0, line.find(' ')));

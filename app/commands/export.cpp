@@ -39,7 +39,7 @@ int export_frames(const Arguments& arguments) {
   const std::optional<ExportedTrajectory> done =
       export_trajectory({arguments.input, arguments.format, output, arguments.frames,
                          arguments.shrink, arguments.voxels},
-                        session.budget());
+                        session.control());
   session.clear();
   if (!done) return stopped;
   nlohmann::ordered_json summary = {{"output", output.string()},

@@ -109,10 +109,10 @@ void print_summary(const Arguments& arguments, const Preparation<3>& preparation
   print_rows(quality_rows(quality));
 }
 
-/// Nothing if the budget asked to stop.
+/// Nothing if the run control asked to stop.
 std::optional<Quality> measured(const Preparation<2>& preparation, const Parameters& parameters,
                                 const Session& session, int threads) {
-  return measure_quality(preparation, parameters, session.budget(), threads);
+  return measure_quality(preparation, parameters, session.control(), threads);
 }
 std::optional<PackingQuality> measured(const Preparation<3>& preparation, const Parameters&,
                                        const Session&, int) {
@@ -124,7 +124,7 @@ int prepare_state(const Arguments& arguments, const Parameters& parameters) {
   Session session(arguments);
   const Preparation<Dim> preparation =
       prepare<Dim>({parameters, arguments.output, arguments.command_line, arguments.threads},
-                   session.budget(), session.say());
+                   session.control(), session.say());
   decltype(measured(preparation, parameters, session, 1)) quality;
   if (preparation.complete) {
     session.say()("quality report");

@@ -13,7 +13,7 @@ namespace {
 template <int Dim>
 int run_and_print(const Arguments& arguments, const RunRequest& request) {
   Session session(arguments);
-  const RunOutcome<Dim> outcome = run<Dim>(request, session.budget(), session.say());
+  const RunOutcome<Dim> outcome = run<Dim>(request, session.control(), session.say());
   session.clear();
   const bool has_begun = outcome.state.configuration.size() > 0;
   if (has_begun) print_summary(arguments, run_summary(request, outcome));

@@ -16,7 +16,7 @@
 #include "app/workflow/stop.h"
 #include "app/workflow/text_file.h"
 #include "core/error.h"
-#include "core/io/pending_file.h"
+#include "core/io/atomic_file.h"
 
 namespace vitrel {
 namespace {
@@ -80,7 +80,7 @@ class JobWorker {
     } else if (*code != 0) {
       state_ = State::failed;
     } else {
-      PendingFile(summary(steps_[next_++])).commit();
+      AtomicFile(summary(steps_[next_++])).commit();
       start_next();
     }
   }

@@ -5,7 +5,7 @@
 
 #include "bench/lab/drawn_class.h"
 #include "bench/lab/reference/true_gap.h"
-#include "core/contact/vieillard_baron.h"
+#include "core/contact/ellipse_vieillard_baron.h"
 
 namespace vitrel::lab {
 

@@ -1,24 +1,24 @@
 #pragma once
 
-#include "core/contact/lanes.h"
+#include "core/contact/simd.h"
 #include "core/geometry/growing.h"
 
 namespace vitrel {
 
 /// Two ellipses at one instant, in the form that the support gap computes with. Lane 0 is body 1.
 struct EllipsePair {
-  Lanes bb;       ///< b²
-  Lanes stretch;  ///< a² − b²
-  Lanes aabb;     ///< a²b²
-  Lanes size;     ///< by which a and b are multiplied
-  Lanes ux, uy;   ///< unit vectors along the major axes
-  Vec2 d;         ///< from centre 1 to centre 2
+  PairArray bb;           ///< b²
+  PairArray aa_minus_bb;  ///< a² − b²
+  PairArray aabb;         ///< a²b²
+  PairArray size;         ///< by which a and b are multiplied
+  PairArray ux, uy;       ///< unit vectors along the major axes
+  Vec2 d;                 ///< from centre 1 to centre 2
 
   EllipsePair() = default;
   EllipsePair(const Ellipse& one, const Vec2& u1, const Ellipse& two, const Vec2& u2,
               const Vec2& centre_to_centre)
       : bb(one.b * one.b, two.b * two.b),
-        stretch(one.stretch(), two.stretch()),
+        aa_minus_bb(one.aa_minus_bb(), two.aa_minus_bb()),
         aabb(one.a * one.a * bb[0], two.a * two.a * bb[1]),
         size(1, 1),
         ux(u1.x(), u2.x()),
@@ -39,16 +39,16 @@ struct SupportAlong {
 };
 
 template <class T>
-VITREL_INLINE SupportAlong<T> support_along(const T& bb, const T& stretch, const T& aabb,
+VITREL_INLINE SupportAlong<T> support_along(const T& bb, const T& aa_minus_bb, const T& aabb,
                                             const T& ux, const T& uy, const T& nx, const T& ny) {
   SupportAlong<T> s;
   s.along = nx * ux + ny * uy;
   s.across = nx * uy - ny * ux;
-  const T hh = bb + stretch * (s.along * s.along);
+  const T hh = bb + aa_minus_bb * (s.along * s.along);
   s.height = sqrt(hh);
   s.inverse_square = 1. / hh;  // beside the root, not after it
   const T inverse = s.height * s.inverse_square;
-  s.turning = stretch * s.along * s.across * inverse;
+  s.turning = aa_minus_bb * s.along * s.across * inverse;
   s.radius = aabb * s.inverse_square * inverse;
   return s;
 }
@@ -64,22 +64,23 @@ VITREL_INLINE SupportAlong<T> support_along(const T& bb, const T& stretch, const
 ///     h'' ≤ K = min(ρ/q² − q h, (a² − b²)/b),
 /// the latter its largest value at all. K may be negative.
 template <class T>
-VITREL_INLINE T bend_bound(const SupportAlong<T>& s, const T& bb, const T& stretch, const T& omega,
-                           const T& largest, const T& duration) {
+VITREL_INLINE T support_acceleration_bound(const SupportAlong<T>& s, const T& bb,
+                                           const T& aa_minus_bb, const T& omega, const T& largest,
+                                           const T& duration) {
   const T present = abs(s.along);
   const T slope = -omega * s.across * detail::signs(s.along);
-  const T turned = omega * duration;
+  const T rotation = omega * duration;
   const T falling = detail::positive_part(-slope * duration);
-  const T least_along =
-      detail::positive_part((present - present * (0.5 * turned * turned)) - falling);
-  const T q = (bb + stretch * (least_along * least_along)) * s.inverse_square;
+  const T min_along =
+      detail::positive_part((present - present * (0.5 * rotation * rotation)) - falling);
+  const T q = (bb + aa_minus_bb * (min_along * min_along)) * s.inverse_square;
   const T rise = 1. / q;
-  return detail::lesser(omega * omega * (s.radius * (rise * rise) - s.height * q), largest);
+  return detail::minimum(omega * omega * (s.radius * (rise * rise) - s.height * q), largest);
 }
 
 /// The support gap g = n·d − σ₁h₁ − σ₂h₂ at a unit vector n, σ the sizes. φ is the angle of n; h, h'
 /// and ρ are those at size 1.
-struct GapAlongAxis : SupportAlong<Lanes> {
+struct GapAlongAxis : SupportAlong<PairArray> {
   double gap = 0;
   double slope = 0;      ///< dg/dφ
   double curvature = 0;  ///< −d²g/dφ² = g + σ₁ρ₁ + σ₂ρ₂
@@ -97,14 +98,14 @@ struct GapAlongAxis : SupportAlong<Lanes> {
 /// `sized`: whether the sizes may differ from 1.
 template <bool sized = true>
 VITREL_INLINE GapAlongAxis gap_along(const EllipsePair& pair, const Vec2& n) {
-  const auto total = [&](const Lanes& of) {
+  const auto total = [&](const PairArray& of) {
     if constexpr (sized) return (pair.size * of).sum();
     return of.sum();
   };
   GapAlongAxis g;
-  static_cast<SupportAlong<Lanes>&>(g) =
-      support_along<Lanes>(pair.bb, pair.stretch, pair.aabb, pair.ux, pair.uy,
-                           Lanes::Constant(n.x()), Lanes::Constant(n.y()));
+  static_cast<SupportAlong<PairArray>&>(g) =
+      support_along<PairArray>(pair.bb, pair.aa_minus_bb, pair.aabb, pair.ux, pair.uy,
+                               PairArray::Constant(n.x()), PairArray::Constant(n.y()));
   g.gap = n.dot(pair.d) - total(g.height);
   g.slope = cross(n, pair.d) - total(g.turning);
   g.curvature = g.gap + total(g.radius);

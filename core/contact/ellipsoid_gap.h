@@ -48,23 +48,23 @@ inline Tangent clamped(const Tangent& step, double longest) {
 }
 
 /// C(λ)⁻¹d at λ : 1 − λ as the radii along d.
-Axis3 likely_axis(const EllipsoidPair& pair);
+Axis3 initial_axis(const EllipsoidPair& pair);
 
 /// C(λ)⁻¹d on the ascent of F(λ) from there: the first that separates, or, of an overlapping pair, that
 /// of the largest F: the common normal of the ellipsoids scaled to touch.
-struct SoughtAxis3 {
+struct SeparatingAxis3 {
   Axis3 n;
   bool separates;
 };
-SoughtAxis3 find_separating_axis(const EllipsoidPair& pair);
+SeparatingAxis3 find_separating_axis(const EllipsoidPair& pair);
 
 /// One damped Newton step of n towards the maximum of g; `here` is gap_along at n on entry and at the
 /// new n on return. False (and nothing changed) if no step improves g.
-bool climb(const EllipsoidPair& pair, Axis3& n, GapAlongAxis3& here);
+bool improve_axis(const EllipsoidPair& pair, Axis3& n, GapAlongAxis3& here);
 
 /// Newton's method on ∇g = 0 from an axis that is optimal as far as g can tell, which is good to √ε
 /// only; the slope makes it good to ε.
-void settle(const EllipsoidPair& pair, Axis3& n, const GapAlongAxis3& here);
+void polish_axis(const EllipsoidPair& pair, Axis3& n, const GapAlongAxis3& here);
 
 }  // namespace detail
 }  // namespace vitrel

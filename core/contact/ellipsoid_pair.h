@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/contact/lanes.h"
+#include "core/contact/simd.h"
 #include "core/geometry/growing.h"
 
 namespace vitrel {
@@ -113,9 +113,9 @@ VITREL_INLINE SupportRates<T> support_rates(const SupportOf<T>& s, const SpinOf<
 /// c the shortest semi-axis and |h ḣ| counted only if h falls. Negative q counts as 0. Of a spheroid that
 /// turns about an axis normal to its own, τ = 0.
 template <class T>
-VITREL_INLINE T bend_bound(const SupportOf<T>& s, const SupportRates<T>& r, const SpinOf<T>& w,
-                           const T& delta, const T& tau, const T& shortest_squared,
-                           const T& duration) {
+VITREL_INLINE T support_acceleration_bound(const SupportOf<T>& s, const SupportRates<T>& r,
+                                           const SpinOf<T>& w, const T& delta, const T& tau,
+                                           const T& cc, const T& duration) {
   using detail::positive_part;
   using std::sqrt;
   const T across = w.o1 * w.o1 + w.o2 * w.o2;  // ω² sin²α
@@ -124,10 +124,10 @@ VITREL_INLINE T bend_bound(const SupportOf<T>& s, const SupportRates<T>& r, cons
   const T amplitude = sqrt(across * along) * tau + across * delta;
   const T time = abs(duration);
   const T now = s.height * r.second + r.rate * r.rate;
-  const T rising = detail::lesser(amplitude, now + 2. * sqrt(square) * amplitude * time);
+  const T rising = detail::minimum(amplitude, now + 2. * sqrt(square) * amplitude * time);
   const T slope = 2. * s.height * r.rate;
   const T least = s.height * s.height - positive_part(-slope * duration) - amplitude * time * time;
-  const T least_squared = -detail::lesser(-least, -shortest_squared);
+  const T least_squared = -detail::minimum(-least, -cc);
   return positive_part(rising) / sqrt(least_squared);
 }
 
@@ -136,14 +136,14 @@ using Tangent = Vec2;
 
 /// Two ellipsoids at one instant. Lane 0 is body 1.
 struct EllipsoidPair {
-  AxesOf<Lanes> axes;  ///< at size 1
-  Lanes size;          ///< by which they are multiplied
-  Vec3 d;              ///< from centre 1 to centre 2
+  AxesOf<PairArray> axes;  ///< at size 1
+  PairArray size;          ///< by which they are multiplied
+  Vec3 d;                  ///< from centre 1 to centre 2
 };
 
 /// The support gap g = n·d − σ₁h₁ − σ₂h₂ at a unit vector n, σ the sizes, with its gradient and second
 /// derivatives along the great circles through n: C = Σ σ H + g on the plane of e₁ and e₂.
-struct GapAlongAxis3 : SupportOf<Lanes> {
+struct GapAlongAxis3 : SupportOf<PairArray> {
   double gap = 0;
   Tangent slope;
   double c11 = 1, c12 = 0, c22 = 1;  ///< C = −∇∇g
@@ -162,7 +162,7 @@ struct GapAlongAxis3 : SupportOf<Lanes> {
 
 using Axis3 = AxisOf<double>;
 
-/// τ of bend_bound for u = ω/|ω| given along the axes of the body, and the squares of its semi-axes.
+/// τ of support_acceleration_bound for u = ω/|ω| given along the axes of the body, and the squares of its semi-axes.
 template <class T>
 VITREL_INLINE T tumbling(const Vec3Of<T>& u, const Vec3Of<T>& squares) {
   using std::sqrt;
@@ -182,8 +182,8 @@ inline Vec3 vector(const Vec3Of<double>& v) {
 
 VITREL_INLINE GapAlongAxis3 gap_along(const EllipsoidPair& pair, const Axis3& axis) {
   GapAlongAxis3 g;
-  static_cast<SupportOf<Lanes>&>(g) = support_along<Lanes>(pair.axes, axis);
-  const auto total = [&](const Lanes& of) { return (pair.size * of).sum(); };
+  static_cast<SupportOf<PairArray>&>(g) = support_along<PairArray>(pair.axes, axis);
+  const auto total = [&](const PairArray& of) { return (pair.size * of).sum(); };
   const Vec3Of<double> d = components(pair.d);
   g.gap = dot(axis.n, d) - total(g.height);
   g.slope = {dot(axis.e1, d) - total(g.s1), dot(axis.e2, d) - total(g.s2)};

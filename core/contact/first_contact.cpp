@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/contact/axis_search.h"
+#include "core/contact/ellipse_pair_in_flight.h"
 #include "core/contact/ellipsoid_pair_in_flight.h"
-#include "core/contact/pair_in_flight.h"
 
 namespace vitrel {
 
@@ -30,12 +30,12 @@ using PairInFlight =
 
 template <class B>
 Prediction<B::dimension> search(const Flight<B>& one, const Flight<B>& two, double horizon,
-                                double contact_gap, const Vec<B::dimension>* likely_axis) {
+                                double contact_gap, const Vec<B::dimension>* initial_axis) {
   using Pair = PairInFlight<B>;
   AxisSearch<Pair> pair(one, two, contact_gap);
   typename Pair::Axis likely;
-  if (likely_axis) likely = axis_from(*likely_axis);
-  const auto [outcome, steps] = pair.run(horizon, likely_axis ? &likely : nullptr);
+  if (initial_axis) likely = axis_from(*initial_axis);
+  const auto [outcome, steps] = pair.run(horizon, initial_axis ? &likely : nullptr);
   if (steps == 0) return {};
   Prediction<B::dimension> found{outcome, pair.time(), direction_of(pair.axis()),
                                  Vec<B::dimension>::Zero(), steps};
@@ -96,10 +96,10 @@ Round as_round(const Growing<Shape>& body) {
 
 template <class B>
 Prediction<B::dimension> meet(const Flight<B>& one, const Flight<B>& two, double horizon,
-                              double contact_gap, const Vec<B::dimension>* likely_axis) {
-  if constexpr (!std::is_same_v<Grown<B>, Disk> && !std::is_same_v<Grown<B>, Sphere>)
+                              double contact_gap, const Vec<B::dimension>* initial_axis) {
+  if constexpr (!std::is_same_v<BaseShape<B>, Disk> && !std::is_same_v<BaseShape<B>, Sphere>)
     if (!is_round(one.body) || !is_round(two.body))
-      return search(one, two, horizon, contact_gap, likely_axis);
+      return search(one, two, horizon, contact_gap, initial_axis);
   return meet_round(one, as_round(one.body), two, as_round(two.body), horizon, contact_gap);
 }
 
@@ -113,8 +113,8 @@ Prediction<B::dimension> first_contact(const Flight<B>& one, const Flight<B>& tw
 
 template <Body B>
 Prediction<B::dimension> first_contact(const Flight<B>& one, const Flight<B>& two, double horizon,
-                                       double contact_gap, const Vec<B::dimension>& likely_axis) {
-  return meet(one, two, horizon, contact_gap, &likely_axis);
+                                       double contact_gap, const Vec<B::dimension>& initial_axis) {
+  return meet(one, two, horizon, contact_gap, &initial_axis);
 }
 
 template Prediction2 first_contact(const Flight<Disk>&, const Flight<Disk>&, double, double);

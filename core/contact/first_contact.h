@@ -37,7 +37,7 @@ namespace vitrel {
 enum class Outcome {
   contact,        ///< first touch at `time`, with `normal` and `point`
   none,           ///< no contact before the horizon
-  not_converged,  ///< no contact up to `time`; ask again from there (only after very many steps)
+  not_converged,  ///< no contact up to `time`; ask again from there (only after very simd_width steps)
   overlap,        ///< the bodies overlap at the start
 };
 
@@ -60,6 +60,6 @@ Prediction<B::dimension> first_contact(const Flight<B>& one, const Flight<B>& tw
 /// The same, not for round bodies, beginning with an axis that is likely to separate them at the start.
 template <Body B>
 Prediction<B::dimension> first_contact(const Flight<B>& one, const Flight<B>& two, double horizon,
-                                       double contact_gap, const Vec<B::dimension>& likely_axis);
+                                       double contact_gap, const Vec<B::dimension>& initial_axis);
 
 }  // namespace vitrel

@@ -94,12 +94,12 @@ Mat3 semi_axes(const Ellipsoid& ellipsoid, const Quaternion& orientation) {
 
 /// The root of the slope in [low, high], where it falls from positive to negative.
 template <class Function>
-double maximiser(const Function& f, double low, double high) {
+double maximizer(const Function& f, double low, double high) {
   // The slope is a sum of four terms of order 1: below this it is rounding.
   constexpr double negligible = 4 * std::numeric_limits<double>::epsilon();
-  constexpr int most_steps = 60;  // as many bisections exhaust a double
+  constexpr int max_steps = 60;  // as simd_width bisections exhaust a double
   double t = std::sqrt(low * high);
-  for (int step = 0; step < most_steps; ++step) {
+  for (int step = 0; step < max_steps; ++step) {
     const auto [slope, curvature] = f.derivatives(t);
     if (std::abs(slope) <= negligible) break;
     (slope > 0 ? low : high) = t;
@@ -124,7 +124,7 @@ PerramWertheim<2> perram_wertheim(const Ellipse& one, double angle1, const Ellip
 
   const ContactFunction f{first.adjugate_form(e), second.adjugate_form(e), first.determinant(),
                           second.determinant(), mixed_determinant(first, second)};
-  const double t = maximiser(f, one.b / two.a, one.a / two.b);
+  const double t = maximizer(f, one.b / two.a, one.a / two.b);
   const Vec2 normal = (first.adjugate_times(e) + t * second.adjugate_times(e)).normalized();
   // The surface of ellipse 1 has normal n at Σ₁n/h₁(n); scaled by μ it is the common point.
   const Vec2 sigma_n = first.shape_times(normal);
@@ -146,7 +146,7 @@ PerramWertheim<3> perram_wertheim(const Ellipsoid& one, const Quaternion& orient
   const EllipsoidPair pair{semi_axes(one, orientation1), semi_axes(two, orientation2),
                            d / distance};
   const double t =
-      maximiser(pair, one.inradius() / two.circumradius(), one.circumradius() / two.inradius());
+      maximizer(pair, one.inradius() / two.circumradius(), one.circumradius() / two.inradius());
   const Vec3 n = pair.direction(t).normalized();
   const double h1 = pair.height1(n);
   const double mu = distance * n.dot(pair.d) / (h1 + pair.height2(n));

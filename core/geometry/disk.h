@@ -14,7 +14,7 @@ struct Disk {
   double circumradius() const { return radius; }
   double inradius() const { return radius; }
   double volume() const { return std::numbers::pi * radius * radius; }
-  double swing() const { return 0; }
+  double max_support_rate() const { return 0; }
 };
 
 static_assert(Body<Disk>);

@@ -23,7 +23,7 @@ struct Ellipsoid {
   double circumradius() const { return semi_axes.maxCoeff(); }
   double inradius() const { return semi_axes.minCoeff(); }
   double volume() const { return 4 * std::numbers::pi / 3 * semi_axes.prod(); }
-  double swing() const { return circumradius() - inradius(); }
+  double max_support_rate() const { return circumradius() - inradius(); }
 
   bool is_round() const { return semi_axes[0] == semi_axes[1] && semi_axes[1] == semi_axes[2]; }
   /// The axis of symmetry of a spheroid: 0, 1 or 2; none if all three semi-axes differ, or none does.

@@ -25,7 +25,7 @@ struct Growing {
   double circumradius() const { return size * shape.circumradius(); }
   double inradius() const { return size * shape.inradius(); }
   double volume() const { return scaled(shape, size).volume(); }
-  double swing() const { return size * shape.swing(); }
+  double max_support_rate() const { return size * shape.max_support_rate(); }
 };
 
 using GrowingEllipse = Growing<Ellipse>;
@@ -46,7 +46,7 @@ struct ShapeOf<Growing<Shape>> {
 };
 /// What grows, or the body itself.
 template <class B>
-using Grown = typename ShapeOf<B>::type;
+using BaseShape = typename ShapeOf<B>::type;
 template <class B>
 inline constexpr bool grows = ShapeOf<B>::grows;
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/io/atomic_file.h"
 #include "core/io/h5.h"
-#include "core/io/pending_file.h"
 
 namespace vitrel {
 namespace fs = std::filesystem;
@@ -227,7 +227,7 @@ Checkpoint read_checkpoint(const fs::path& path) {
 }  // namespace
 
 void save_checkpoint(const fs::path& path, const Checkpoint& checkpoint) {
-  PendingFile pending(path);
+  AtomicFile pending(path);
   h5::File file = h5::File::create(pending.partial());
   {
     h5::Group root = file.root();

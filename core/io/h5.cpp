@@ -307,8 +307,9 @@ std::string Dataset::read_text() const {
   if (elements(shape()) != 1)
     throw_file_error(file_->path(), "read", name_, "it is not one string");
   return read_string(type.id(), [&](Id memory, void* out) {
-    file_->run("read", name_,
-               [&] { return H5Dread(handle_.id(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, out); });
+    file_->run("read", name_, [&] {
+      return H5Dread(handle_.id(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, out);
+    });
   });
 }
 

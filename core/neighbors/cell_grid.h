@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/geometry/periodic_box.h"
-#include "core/neighbors/ask_memory.h"
+#include "core/neighbors/prefetch.h"
 
 namespace vitrel {
 
@@ -84,15 +84,15 @@ class CellGrid {
 
   /// Asks the memory for what a query will read: for the cells, and, when these have had time to come, for
   /// the first point of each.
-  void read_ahead_cells(const Vec<Dim>& position, double reach) const {
+  void prefetch_cells(const Vec<Dim>& position, double reach) const {
     for_each_cell(position, reach, [&](std::size_t cell, const Shift<Dim>&) {
-      ask_memory(&first_[cell]);
+      prefetch_line(&first_[cell]);
       return true;
     });
   }
-  void read_ahead_points(const Vec<Dim>& position, double reach) const {
+  void prefetch_points(const Vec<Dim>& position, double reach) const {
     for_each_cell(position, reach, [&](std::size_t cell, const Shift<Dim>&) {
-      if (first_[cell] != none) ask_memory(&points_[first_[cell]]);
+      if (first_[cell] != none) prefetch_line(&points_[first_[cell]]);
       return true;
     });
   }
@@ -150,7 +150,7 @@ class CellGrid {
     return boxes;
   }
 
-  // Cells that [position − reach, position + reach] covers, with room for rounding at the edges.
+  // Cells that [position − reach, position + reach] covers, with slot for rounding at the edges.
   Range covered(const Vec<Dim>& position, double reach, int k) const {
     const double centre = position[k] + 0.5 * box_.lengths()[k];
     const double half = reach + 1e-12 * (reach + box_.lengths()[k]);

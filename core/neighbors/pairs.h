@@ -21,7 +21,7 @@ void for_each_pair(const Configuration<Dim>& configuration, double scale, Visit&
     const double reach = scale * (configuration.shape[i].circumradius() + largest);
     cells.for_each_near(configuration.position[i], reach,
                         [&](std::size_t j, const Shift<Dim>& shift, const Vec<Dim>& d) {
-                          if (j > i || (j == i && comes_after_zero(shift))) visit(i, j, d);
+                          if (j > i || (j == i && is_positive_shift(shift))) visit(i, j, d);
                         });
   }
 }

@@ -12,27 +12,27 @@ struct Progress {
   const char* quantity;  ///< its name
 };
 
-/// What a stage may use, and whom it tells; an empty function means: never stop, tell nobody.
-struct Budget {
+/// What a stage may use, and whom it tells; an empty function means: never stop, report_progress nobody.
+struct RunControl {
   std::function<bool()> should_stop;
-  std::function<void(const Progress&)> report;
+  std::function<void(const Progress&)> on_progress;
   /// Called at moments in which the configuration and the state of the stage, together, are such that
   /// the stage goes on from copies of them bit by bit.
-  std::function<void()> resumable;
+  std::function<void()> on_resumable;
 
   bool stop_requested() const { return should_stop && should_stop(); }
-  void tell(const Progress& progress) const {
-    if (report) report(progress);
+  void report_progress(const Progress& progress) const {
+    if (on_progress) on_progress(progress);
   }
-  void mark_resumable() const {
-    if (resumable) resumable();
+  void notify_resumable() const {
+    if (on_resumable) on_resumable();
   }
 };
 
 enum class StageEnd {
   reached,  ///< the goal of the stage was reached
-  stuck,    ///< no further progress is possible; `reason` says why
-  stopped,  ///< the budget asked to stop; the stage can be resumed
+  stalled,  ///< no further progress is possible; `reason` says why
+  stopped,  ///< the control asked to stop; the stage can be resumed
 };
 
 struct StageReport {

@@ -41,7 +41,7 @@ struct Box {
 
 struct PanelOptions {
   double tolerance = 1e-8;  ///< absolute, of each value
-  double least_width = 0.02;
+  double min_width = 0.02;
 
   bool operator==(const PanelOptions&) const = default;
 };
@@ -81,7 +81,7 @@ class ChebyshevPanels {
     return content_.panels.size() * sizeof(double) + content_.nodes.size() * sizeof(Node);
   }
   /// Whether a tree like this can be walked: what is read from a file may be anything.
-  static bool sound(const Content& content);
+  static bool is_valid(const Content& content);
 
  private:
   static constexpr int power(int base, int exponent) {
@@ -89,7 +89,7 @@ class ChebyshevPanels {
   }
   static constexpr int terms = power(Nodes, Dim);
   static constexpr int panel_size = 2 * Dim + terms * Values;
-  static constexpr int comparisons = 16 * Dim * Dim;
+  static constexpr int test_points = 16 * Dim * Dim;
 
   struct Trial {
     std::vector<double> panel;
@@ -145,7 +145,7 @@ void ChebyshevPanels<Dim, Nodes, Values>::settle(const Open& open, const Trial& 
     return;
   }
   const double low = open.box.low[trial.axis], high = open.box.high[trial.axis];
-  if (high - low < 2 * options.least_width) return;
+  if (high - low < 2 * options.min_width) return;
   const auto child = static_cast<std::int32_t>(nodes.size());
   nodes[open.node] = {(low + high) / 2, trial.axis, child};
   nodes.resize(nodes.size() + 2);
@@ -244,7 +244,7 @@ bool ChebyshevPanels<Dim, Nodes, Values>::agrees(const Box<Dim>& box, const Func
                                                  const double* panel, double tolerance) {
   // Points of a lattice without short periods (Roberts's generalised golden ratio), moved to the grid.
   const double ratio = Dim == 2 ? 1.32471795724474602596 : 1.22074408460575947536;
-  for (int k = 1; k <= comparisons; ++k) {
+  for (int k = 1; k <= test_points; ++k) {
     Point scaled;
     for (int axis = 0; axis < Dim; ++axis) {
       const double along = k * std::pow(ratio, -1 - axis);
@@ -283,7 +283,7 @@ auto ChebyshevPanels<Dim, Nodes, Values>::interpolate(const Box<Dim>& box, const
 }
 
 template <int Dim, int Nodes, int Values>
-bool ChebyshevPanels<Dim, Nodes, Values>::sound(const Content& content) {
+bool ChebyshevPanels<Dim, Nodes, Values>::is_valid(const Content& content) {
   const auto count = static_cast<std::int64_t>(content.nodes.size());
   const auto panels = static_cast<std::int64_t>(content.panels.size() / panel_size);
   if (count == 0 || content.panels.size() % panel_size != 0) return false;

@@ -69,13 +69,13 @@ struct ForceForm {
   std::string_view name;
   double length_exponent, damping_exponent;
   Restitution (*integrate)(const ScaledImpact&);
-  double (*rest_inverse)(double);
+  double (*elastic_inverse)(double);
 };
 
 template <ContactForce Force>
 ForceForm form_of() {
   return {Force::name, Force::length_exponent, Force::damping_exponent, &integrate_contact<Force>,
-          &Force::rest_inverse};
+          &Force::elastic_inverse};
 }
 
 }  // namespace vitrel

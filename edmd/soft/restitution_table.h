@@ -53,7 +53,7 @@ inline constexpr ValueRange elastic_damping{-std::numeric_limits<double>::infini
 
 /// Eccentricities between, as g = ln(e/√(1 − e²)). Outside are 10⁻⁴ of the impacts of a gas in three
 /// dimensions, 10⁻³ in two.
-inline constexpr ValueRange usual_obliqueness{-6.9, 4.6};
+inline constexpr ValueRange typical_obliqueness{-6.9, 4.6};
 
 /// The domain of the impacts of these pairs at relative speeds from `slowest` to `fastest` > 0, m/s. Of radii
 /// from a range: pairs of a grid of them, as m and d need not be largest at the ends.
@@ -96,14 +96,15 @@ class RestitutionTable {
 };
 
 /// From the file if it has this table, else built and saved to it. If saving fails the table is as
-/// good; `trouble` then says why.
-struct KeptTable {
+/// good; `save_error` then says why.
+struct CachedTable {
   RestitutionTable table;
   bool loaded;
-  std::string trouble;
+  std::string save_error;
 };
-KeptTable kept_table(const std::filesystem::path& file, const ForceForm& form,
-                     const RestitutionDomain& domain, const PanelOptions& options, int threads);
+CachedTable load_or_build_table(const std::filesystem::path& file, const ForceForm& form,
+                                const RestitutionDomain& domain, const PanelOptions& options,
+                                int threads);
 
 /// The slow twin of TabulatedRestitution.
 class IntegratedRestitution {
@@ -125,24 +126,24 @@ class IntegratedRestitution {
 class TabulatedRestitution {
  public:
   TabulatedRestitution(const ForceForm& form, RestitutionTable table)
-      : table_(std::move(table)), outside_(form) {}
+      : table_(std::move(table)), fallback_(form) {}
 
   Restitution operator()(const ScaledImpact& impact) {
     const std::optional<Restitution> found = table_(impact);
-    return found ? *found : outside_(impact);
+    return found ? *found : fallback_(impact);
   }
-  std::uint64_t integrated() const { return outside_.integrated(); }
+  std::uint64_t integrated() const { return fallback_.integrated(); }
 
  private:
   RestitutionTable table_;
-  IntegratedRestitution outside_;
+  IntegratedRestitution fallback_;
 };
 
 template <ContactForce Force>
 RestitutionDomain restitution_domain(const Force& force, std::span<const ContactPair> pairs,
                                      double slowest, double fastest) {
   constexpr double none = std::numeric_limits<double>::infinity();
-  RestitutionDomain domain{usual_obliqueness, {none, -none}, {none, -none}};
+  RestitutionDomain domain{typical_obliqueness, {none, -none}, {none, -none}};
   const auto extend = [](ValueRange& interval, double value) {
     interval = {std::min(interval.low, value), std::max(interval.high, value)};
   };

@@ -9,7 +9,7 @@
 
 #include "bench/lab/reference/first_contact.h"
 #include "bench/lab/reference/true_gap.h"
-#include "core/contact/vieillard_baron.h"
+#include "core/contact/ellipse_vieillard_baron.h"
 
 namespace vitrel::lab {
 namespace {

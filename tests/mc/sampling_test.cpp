@@ -53,8 +53,8 @@ TEST(Sampling, GoesOnBitByBitAfterStops) {
     SamplingState undisturbed, state;
     sample(whole, {150, moves}, 3, undisturbed, {});
     int asked = 0, stops = 0;
-    const Budget budget{[&] { return ++asked % 13 == 0; }, {}, {}};
-    for (; sample(parts, {150, moves}, 3, state, budget).end == StageEnd::stopped; ++stops) {
+    const RunControl control{[&] { return ++asked % 13 == 0; }, {}, {}};
+    for (; sample(parts, {150, moves}, 3, state, control).end == StageEnd::stopped; ++stops) {
     }
     EXPECT_GT(stops, 5);
     EXPECT_EQ(parts.position, whole.position);

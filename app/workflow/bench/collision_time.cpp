@@ -66,22 +66,22 @@ std::vector<CaseClassOf<Dim>> generic_class(const Laboratory<Dim>& lab) {
 
 template <int Dim>
 CollisionTimeBenchOf<Dim> bench_in(const Laboratory<Dim>& lab, const CollisionTimeRequest& request,
-                                   const Budget& budget, const Say& say) {
+                                   const RunControl& control, const Say& say) {
   lab::SurveyRequestOf<Dim> asked{entrants(lab, request),
                                   chosen(lab.classes, request.classes, "class"), request.pairs,
                                   request.seed, request.tolerance};
   CollisionTimeBenchOf<Dim> bench;
   say(fmt::format("stability of {} methods on {} classes", asked.entrants.size(),
                   asked.classes.size()));
-  bench.survey = lab::survey(asked, budget);
+  bench.survey = lab::survey(asked, control);
   if (request.with_chart && !bench.survey.stopped) {
     asked.entrants = entrants_by_tolerance(lab, request);
     asked.classes = generic_class(lab);
     asked.tolerance = {charted_tolerance, charted_tolerance};
     say(fmt::format("accuracy of {} methods and tolerances", asked.entrants.size()));
-    bench.tolerances = lab::survey(asked, budget).rows;
+    bench.tolerances = lab::survey(asked, control).rows;
   }
-  bench.stopped = budget.stop_requested();
+  bench.stopped = control.stop_requested();
   return bench;
 }
 
@@ -110,18 +110,18 @@ double charted(const SurveyRow& row, ChartedError error) {
 
 }  // namespace
 
-CollisionTimeBench bench_collision_time(const CollisionTimeRequest& request, const Budget& budget,
-                                        const Say& say) {
+CollisionTimeBench bench_collision_time(const CollisionTimeRequest& request,
+                                        const RunControl& control, const Say& say) {
   const Laboratory<2> lab{lab::collision_time_methods(), lab::collision_time_methods_by_tolerance(),
                           lab::all_classes()};
-  return bench_in(lab, request, budget, say);
+  return bench_in(lab, request, control, say);
 }
 
 CollisionTimeBenchOf<3> bench_collision_time_of_solids(const CollisionTimeRequest& request,
-                                                       const Budget& budget, const Say& say) {
+                                                       const RunControl& control, const Say& say) {
   const Laboratory<3> lab{lab::solid_methods(), lab::solid_methods_by_tolerance(),
                           lab::solid_suite()};
-  return bench_in(lab, request, budget, say);
+  return bench_in(lab, request, control, say);
 }
 
 nlohmann::ordered_json collision_time_json(const std::vector<SurveyRow>& rows) {

@@ -37,10 +37,10 @@ using CollisionTimeBench = CollisionTimeBenchOf<2>;
 using Say = std::function<void(const std::string&)>;
 
 /// Throws UserError for an unknown method or class.
-CollisionTimeBench bench_collision_time(const CollisionTimeRequest& request, const Budget& budget,
-                                        const Say& say);
+CollisionTimeBench bench_collision_time(const CollisionTimeRequest& request,
+                                        const RunControl& control, const Say& say);
 CollisionTimeBenchOf<3> bench_collision_time_of_solids(const CollisionTimeRequest& request,
-                                                       const Budget& budget, const Say& say);
+                                                       const RunControl& control, const Say& say);
 
 nlohmann::ordered_json collision_time_json(const std::vector<lab::SurveyRow>& rows);
 

@@ -44,11 +44,11 @@ std::string note(const Charted& point) {
 
 }  // namespace
 
-lab::OverlapSurvey bench_overlap(const OverlapRequest& request, const Budget& budget) {
+lab::OverlapSurvey bench_overlap(const OverlapRequest& request, const RunControl& control) {
   return lab::survey_overlap({chosen(lab::overlap_criteria(), request.methods, "method"),
                               chosen(lab::overlap_classes(), request.classes, "class"),
                               request.pairs, request.seconds, request.seed},
-                             budget);
+                             control);
 }
 
 nlohmann::ordered_json overlap_json(const std::vector<OverlapRow>& rows) {

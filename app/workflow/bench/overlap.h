@@ -19,7 +19,7 @@ struct OverlapRequest {
 };
 
 /// Throws UserError for an unknown method or class.
-lab::OverlapSurvey bench_overlap(const OverlapRequest& request, const Budget& budget);
+lab::OverlapSurvey bench_overlap(const OverlapRequest& request, const RunControl& control);
 
 nlohmann::ordered_json overlap_json(const std::vector<lab::OverlapRow>& rows);
 

@@ -30,16 +30,16 @@ constexpr std::array aspect_ratios{1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0}
 /// The runs of the benchmark, one after the other.
 class Runs {
  public:
-  Runs(const ThesisRequest& request, const Budget& budget,
+  Runs(const ThesisRequest& request, const RunControl& control,
        const std::function<void(const std::string&)>& say)
-      : request_(request), budget_(budget), say_(say) {}
+      : request_(request), control_(control), say_(say) {}
 
   ThesisBench all() {
     by_size();
     by_aspect_ratio();
     energies();
     relaxations();
-    bench_.stopped = budget_.stop_requested();
+    bench_.stopped = control_.stop_requested();
     return bench_;
   }
 
@@ -50,7 +50,7 @@ class Runs {
 
   void run(std::vector<ThesisRow>& rows, Program program, const lab::ThesisScene& scene, double tau,
            const Configuration2& start) {
-    if (budget_.stop_requested()) return;
+    if (control_.stop_requested()) return;
     lab::RunLimits limits{request_.duration, 1e9, tau, request_.seed};
     // Small systems run longer, so that all have as much to do.
     if (program == Program::ours)
@@ -58,8 +58,8 @@ class Runs {
           1.0, static_cast<double>(side_lengths.back() * side_lengths.back()) / scene.particles);
     else
       limits.seconds = request_.seconds;
-    const lab::ThesisRun run = lab::run_thesis(program, start, limits, budget_);
-    if (!budget_.stop_requested()) rows.push_back({program, scene, tau, run});
+    const lab::ThesisRun run = lab::run_thesis(program, start, limits, control_);
+    if (!control_.stop_requested()) rows.push_back({program, scene, tau, run});
   }
 
   void by_size() {
@@ -73,15 +73,15 @@ class Runs {
           for (const double tau : {0.0, brownian_step})
             run(bench_.by_size, program, of, tau, start);
       }
-      budget_.tell({static_cast<double>(side * side) / request_.largest,
-                    static_cast<double>(side * side), "particles"});
+      control_.report_progress({static_cast<double>(side * side) / request_.largest,
+                                static_cast<double>(side * side), "particles"});
     }
   }
 
   void by_aspect_ratio() {
     say_("figure 4.3: aspect ratios");
     for (const double kappa : aspect_ratios) {
-      if (budget_.stop_requested()) return;
+      if (control_.stop_requested()) return;
       const lab::ThesisScene of = scene(100, kappa);
       const Configuration2 start = lab::equilibrated(of, 5 * warm_up);
       for (const double tau : {0.0, brownian_step})
@@ -100,7 +100,7 @@ class Runs {
     const Configuration2 start = lab::equilibrated(scene(100, aspect_ratio), warm_up);
     note(start);
     const lab::ThesisRun run =
-        lab::run_thesis(Program::ours, start, {request_.duration}, budget_, note);
+        lab::run_thesis(Program::ours, start, {request_.duration}, control_, note);
     bench_.energy_drift = run.energy_drift;
   }
 
@@ -113,14 +113,14 @@ class Runs {
                                                          {dense, 1.0, tau, 1e2},
                                                          {dense, 0.0, tau, 1e2},
                                                          {dilute, 1.0, tau, 1e2}}) {
-      if (budget_.stop_requested()) return;
+      if (control_.stop_requested()) return;
       bench_.relaxations.push_back(lab::relax(
-          {density, share, step, duration, request_.relaxations, request_.seed}, budget_));
+          {density, share, step, duration, request_.relaxations, request_.seed}, control_));
     }
   }
 
   const ThesisRequest& request_;
-  const Budget& budget_;
+  const RunControl& control_;
   const std::function<void(const std::string&)>& say_;
   ThesisBench bench_;
 };
@@ -404,9 +404,9 @@ Json exponents_json(const std::vector<ThesisRow>& rows) {
 
 }  // namespace
 
-ThesisBench bench_thesis(const ThesisRequest& request, const Budget& budget,
+ThesisBench bench_thesis(const ThesisRequest& request, const RunControl& control,
                          const std::function<void(const std::string&)>& say) {
-  return Runs(request, budget, say).all();
+  return Runs(request, control, say).all();
 }
 
 double growth_exponent(const std::vector<ThesisRow>& rows, Program program, double kappa) {

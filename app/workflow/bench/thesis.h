@@ -51,7 +51,7 @@ struct ThesisBench {
   bool stopped = false;
 };
 
-ThesisBench bench_thesis(const ThesisRequest& request, const Budget& budget,
+ThesisBench bench_thesis(const ThesisRequest& request, const RunControl& control,
                          const std::function<void(const std::string&)>& say);
 
 /// How the time per unit of simulated time grows with N: the slope of a straight line through the

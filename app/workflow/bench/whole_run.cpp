@@ -52,15 +52,15 @@ double chart_floor(const std::vector<WholeRun>& rows) {
 
 }  // namespace
 
-WholeRunBench bench_whole_run(const WholeRunRequest& request, const Budget& budget) {
+WholeRunBench bench_whole_run(const WholeRunRequest& request, const RunControl& control) {
   const std::vector<Method> methods =
       chosen(lab::methods_for_whole_runs(), request.methods, "method");
   WholeRunBench bench;
   for (const Method& method : methods) {
     const auto done = static_cast<double>(bench.rows.size());
-    budget.tell({done / static_cast<double>(methods.size()), done, "runs"});
-    const WholeRun run = lab::thesis_scene_with(method, request.duration, request.seed, budget);
-    bench.stopped = budget.stop_requested();
+    control.report_progress({done / static_cast<double>(methods.size()), done, "runs"});
+    const WholeRun run = lab::thesis_scene_with(method, request.duration, request.seed, control);
+    bench.stopped = control.stop_requested();
     if (bench.stopped) return bench;
     bench.rows.push_back(run);
   }

@@ -24,7 +24,7 @@ struct WholeRunBench {
 };
 
 /// Throws UserError for an unknown method.
-WholeRunBench bench_whole_run(const WholeRunRequest& request, const Budget& budget);
+WholeRunBench bench_whole_run(const WholeRunRequest& request, const RunControl& control);
 
 nlohmann::ordered_json whole_run_json(const std::vector<lab::WholeRun>& rows);
 

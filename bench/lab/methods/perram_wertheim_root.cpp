@@ -7,7 +7,7 @@
 
 #include "bench/lab/methods/first_root.h"
 #include "bench/lab/methods/opening.h"
-#include "core/contact/support_gap.h"
+#include "core/contact/ellipse_gap.h"
 
 namespace vitrel::lab {
 namespace {

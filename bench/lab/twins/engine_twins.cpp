@@ -15,7 +15,7 @@ thread_local double free_times_of_patience = 1;
 struct RoundListedEllipse : Ellipse {
   RoundListedEllipse() = default;
   explicit(false) RoundListedEllipse(const Ellipse& ellipse) : Ellipse(ellipse) {}
-  double swing() const { return 0; }  // of its neighbourhood
+  double max_support_rate() const { return 0; }  // of its neighbourhood
 };
 
 }  // namespace
@@ -31,43 +31,43 @@ template <>
 struct ShapeOf<lab::PatientEllipse> : ShapeOf<Ellipse> {};
 
 template <>
-class FirstLook<lab::SearchedEllipse> : public lab::NoLook {
+class ContactScreen<lab::SearchedEllipse> : public lab::NoLook {
  public:
   using NoLook::NoLook;
 };
 
 template <>
-class FirstLook<lab::FarSightedEllipse> : public FirstLook<Ellipse> {
+class ContactScreen<lab::FarSightedEllipse> : public ContactScreen<Ellipse> {
  public:
-  using FirstLook<Ellipse>::FirstLook;
+  using ContactScreen<Ellipse>::ContactScreen;
 };
 
 template <>
-class FirstLook<lab::PatientEllipse> : public FirstLook<Ellipse> {
+class ContactScreen<lab::PatientEllipse> : public ContactScreen<Ellipse> {
  public:
-  using FirstLook<Ellipse>::FirstLook;
+  using ContactScreen<Ellipse>::ContactScreen;
 };
 
 template <>
-class FirstLook<lab::RoundListedEllipse> : public FirstLook<Ellipse> {
+class ContactScreen<lab::RoundListedEllipse> : public ContactScreen<Ellipse> {
  public:
-  using FirstLook<Ellipse>::FirstLook;
+  using ContactScreen<Ellipse>::ContactScreen;
 };
 
 template <>
-struct Outline<lab::RoundListedEllipse> : Outline<Ellipse> {
-  using Outline<Ellipse>::Outline;
+struct ShapeCoefficients<lab::RoundListedEllipse> : ShapeCoefficients<Ellipse> {
+  using ShapeCoefficients<Ellipse>::ShapeCoefficients;
 };
 
 /// The axis is that of the ellipses, the gap that of their circumcircles.
 template <>
-class GapLook<lab::RoundListedEllipse> : public GapLook<Ellipse> {
+class GapBatch<lab::RoundListedEllipse> : public GapBatch<Ellipse> {
  public:
-  GapLook(const Ellipse& shape, double angle, double limit)
-      : GapLook<Ellipse>(shape, angle, limit), radius_(shape.a) {}
+  GapBatch(const Ellipse& shape, double angle, double limit)
+      : GapBatch<Ellipse>(shape, angle, limit), radius_(shape.a) {}
   void set(int k, const Ellipse& shape, double angle, const Vec2& d) {
     round_gap_[k] = d.norm() - radius_ - shape.a;
-    GapLook<Ellipse>::set(k, shape, angle, d);
+    GapBatch<Ellipse>::set(k, shape, angle, d);
   }
   double gap(int k) const { return round_gap_[k]; }
 
@@ -83,29 +83,30 @@ double Neighborhoods<lab::RoundListedEllipse>::choose_gap(std::vector<Pair>, dou
   std::vector<Pose2> poses;
   for (std::size_t i = 0; i < references_.size(); ++i)
     poses.push_back({references_[i].position, references_[i].orientation()});
-  return 2 * Neighborhoods<Ellipse>(box_, shapes, kind_of_, poses, wanted).margin();
+  return 2 * Neighborhoods<Ellipse>(box_, shapes, type_index_, poses, wanted).margin();
 }
 
 // As for every body, but the partner's entry is no limit.
 template <>
 template <>
-std::size_t
-Simulation<lab::FarSightedEllipse>::gather<Simulation<lab::FarSightedEllipse>::Scope::neighborhood>(
-    Index i, const Pose2& mine, double latest, std::size_t next, Glance& glance) {
+std::size_t Simulation<lab::FarSightedEllipse>::gather<
+    Simulation<lab::FarSightedEllipse>::Scope::all_neighbors>(Index i, const Pose2& mine,
+                                                              double latest, std::size_t next,
+                                                              ScreenBatch& batch) {
   constexpr double forever = 1e100;
   const auto neighbors = neighborhoods_->of(i);
   int k = 0;
-  for (; next < neighbors.size() && k < FirstLook<Ellipse>::lanes; ++next, ++k) {
+  for (; next < neighbors.size() && k < ContactScreen<Ellipse>::lanes; ++next, ++k) {
     auto& neighbor = neighbors[next];
     const Particle& partner = particles_[neighbor.other];
-    glance.horizon[k] = latest;
+    batch.horizon[k] = latest;
     Pose2 pose = partner.pose_at(now_);
     pose.position += box_.translation(neighbor.shift()) - mine.position;
-    glance.look.set(k, pose, partner.motion(), kind(neighbor.other).outline, neighbor.memory,
-                    std::min(latest - now_, forever));
-    glance.neighbor[k] = &neighbor;
+    batch.screen.set(k, pose, partner.motion(), type(neighbor.other).coefficients,
+                     neighbor.warm_start, std::min(latest - now_, forever));
+    batch.neighbor[k] = &neighbor;
   }
-  glance.count = k;
+  batch.count = k;
   return next;
 }
 
@@ -127,26 +128,26 @@ Flight<Ellipse> plain(const Flight<B>& flight) {
 // The event loop finds these in place of the predictor for ellipses.
 Prediction2 first_contact(const Flight<SearchedEllipse>& one, const Flight<SearchedEllipse>& two,
                           double horizon, double contact_gap,
-                          const FirstLook<SearchedEllipse>::Memory& /*memory*/) {
+                          const ContactScreen<SearchedEllipse>::WarmStart& /*warm_start*/) {
   return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap);
 }
 
 Prediction2 first_contact(const Flight<FarSightedEllipse>& one,
                           const Flight<FarSightedEllipse>& two, double horizon, double contact_gap,
-                          const FirstLook<Ellipse>::Memory& memory) {
-  return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, memory);
+                          const ContactScreen<Ellipse>::WarmStart& warm_start) {
+  return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, warm_start);
 }
 
 Prediction2 first_contact(const Flight<RoundListedEllipse>& one,
                           const Flight<RoundListedEllipse>& two, double horizon, double contact_gap,
-                          const FirstLook<Ellipse>::Memory& memory) {
-  return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, memory);
+                          const ContactScreen<Ellipse>::WarmStart& warm_start) {
+  return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, warm_start);
 }
 
 Prediction2 first_contact(const Flight<PatientEllipse>& one, const Flight<PatientEllipse>& two,
                           double horizon, double contact_gap,
-                          const FirstLook<Ellipse>::Memory& memory) {
-  return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, memory);
+                          const ContactScreen<Ellipse>::WarmStart& warm_start) {
+  return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, warm_start);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include "bench/lab/methods/bracket.h"
 #include "bench/lab/twins/believed.h"
 #include "bench/lab/twins/no_look.h"
-#include "core/contact/pair.h"
+#include "core/contact/contact_queries.h"
 #include "edmd/simulation.h"
 
 namespace vitrel::lab {
@@ -27,7 +27,7 @@ struct ShapeOf<lab::JudgedEllipse> : ShapeOf<Ellipse> {};
 
 /// Every pair is the method's to judge.
 template <>
-class FirstLook<lab::JudgedEllipse> : public lab::NoLook {
+class ContactScreen<lab::JudgedEllipse> : public lab::NoLook {
  public:
   using NoLook::NoLook;
 };
@@ -41,7 +41,7 @@ namespace {
 // is no contact.
 Prediction2 first_contact(const Flight<JudgedEllipse>& one, const Flight<JudgedEllipse>& two,
                           double horizon, double /*contact_gap*/,
-                          const FirstLook<JudgedEllipse>::Memory& /*memory*/) {
+                          const ContactScreen<JudgedEllipse>::WarmStart& /*warm_start*/) {
   const auto plain = [](const Flight<JudgedEllipse>& flight) {
     return of_constant_size({flight.body, flight.pose, flight.motion});
   };

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <vector>
+#include <memory>
 
 #include "bench/lab/methods/method.h"
 #include "edmd/engine.h"

@@ -3,7 +3,7 @@
 namespace vitrel {
 
 /// Has the line of memory at this address brought into the cache, while the work goes on.
-inline void ask_memory(const void* address) {
+inline void prefetch_line(const void* address) {
   // Into the second level: the first would not hold it all until it is needed.
   constexpr int read = 0, second_level = 2;
   __builtin_prefetch(address, read, second_level);

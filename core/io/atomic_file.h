@@ -6,12 +6,12 @@ namespace vitrel {
 
 /// A file that appears under its name only when it is complete: it is written as `<path>.partial`
 /// in the same folder, and `commit` renames it. Without a commit the partial file is removed.
-class PendingFile {
+class AtomicFile {
  public:
-  explicit PendingFile(std::filesystem::path path);
-  ~PendingFile();
-  PendingFile(const PendingFile&) = delete;
-  PendingFile& operator=(const PendingFile&) = delete;
+  explicit AtomicFile(std::filesystem::path path);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
 
   /// Where to write.
   const std::filesystem::path& partial() const { return partial_; }

@@ -1,9 +1,9 @@
-#include "mc/disjoint.h"
+#include "mc/hard_core.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/contact/pair.h"
+#include "core/contact/contact_queries.h"
 #include "core/contact/perram_wertheim.h"
 #include "core/neighbors/pairs.h"
 #include "core/tolerances.h"
@@ -33,13 +33,13 @@ double hard_margin(const Configuration<Dim>& configuration) {
                                 largest_circumradius(configuration));
 }
 
-bool clear_of_own_images(const PeriodicBox<2>& box, const Ellipse& shape, const Vec2& axis,
-                         double margin) {
+bool clear_of_periodic_images(const PeriodicBox<2>& box, const Ellipse& shape, const Vec2& axis,
+                              double margin) {
   return own_images_separated<2>(box, shape, axis, margin);
 }
 
-bool clear_of_own_images(const PeriodicBox<3>& box, const Ellipsoid& shape,
-                         const Quaternion& orientation, double margin) {
+bool clear_of_periodic_images(const PeriodicBox<3>& box, const Ellipsoid& shape,
+                              const Quaternion& orientation, double margin) {
   return own_images_separated<3>(box, shape, orientation, margin);
 }
 

@@ -15,10 +15,10 @@ template <int Dim>
 double hard_margin(const Configuration<Dim>& configuration);
 
 /// Whether a particle keeps the margin to its own images, which lie at whole box lengths.
-bool clear_of_own_images(const PeriodicBox<2>& box, const Ellipse& shape, const Vec2& axis,
-                         double margin);
-bool clear_of_own_images(const PeriodicBox<3>& box, const Ellipsoid& shape,
-                         const Quaternion& orientation, double margin);
+bool clear_of_periodic_images(const PeriodicBox<2>& box, const Ellipse& shape, const Vec2& axis,
+                              double margin);
+bool clear_of_periodic_images(const PeriodicBox<3>& box, const Ellipsoid& shape,
+                              const Quaternion& orientation, double margin);
 
 /// The first pair closer than the margin, if any.
 std::optional<std::pair<std::size_t, std::size_t>> find_overlap(

@@ -20,7 +20,7 @@ namespace vitrel {
 /// C₂ is 1 at first and 0 when all orientations are forgotten; in a nematic it stays near S². With
 /// steps that fit the density, a sweep is a natural unit of time, as long as states are compared at
 /// equal acceptance.
-struct Probe {
+struct Decorrelation {
   std::vector<double> sweeps;       ///< t, about 30 to a decade
   std::vector<double> orientation;  ///< C₂(t); empty if all are round
   std::vector<double> displacement;
@@ -28,16 +28,17 @@ struct Probe {
 
   std::uint64_t measured = 0;  ///< the longest t
   /// The first t at which C₂ < 1/e; none if there was no such, or no such particle.
-  std::optional<std::uint64_t> orientation_lost;
+  std::optional<std::uint64_t> orientation_time;
   /// The first t at which the displacement exceeds 1.
-  std::optional<std::uint64_t> place_lost;
+  std::optional<std::uint64_t> displacement_time;
 };
 
 /// `sweeps` ≥ 1 are numbered from `first_sweep`, with the streams of the sampler, on any number of
 /// threads. Nothing if the
-/// budget asked to stop.
-std::optional<Probe> probe(const Configuration2& configuration, std::uint64_t sweeps,
-                           std::uint64_t seed, std::uint64_t first_sweep, const Budget& budget,
-                           int threads = 1);
+/// control asked to stop.
+std::optional<Decorrelation> measure_decorrelation(const Configuration2& configuration,
+                                                   std::uint64_t sweeps, std::uint64_t seed,
+                                                   std::uint64_t first_sweep,
+                                                   const RunControl& control, int threads = 1);
 
 }  // namespace vitrel

@@ -61,29 +61,29 @@ inline double clamped(double turn, double most) {
 
 /// C(λ)⁻¹d at λ : 1 − λ as the radii along d: the best axis for circles, and a good one while the
 /// bodies are not close. It need not separate.
-Vec2 likely_axis(const EllipsePair& pair);
+Vec2 initial_axis(const EllipsePair& pair);
 
 /// C(λ)⁻¹d on the ascent of F(λ) from there: the first that separates, or, of an overlapping pair,
 /// that of the largest F: the common normal of the ellipses scaled to touch.
-struct SoughtAxis {
+struct SeparatingAxis {
   Vec2 n;
   bool separates;
 };
-SoughtAxis find_separating_axis(const EllipsePair& pair);
+SeparatingAxis find_separating_axis(const EllipsePair& pair);
 
 /// One damped Newton step of n towards the maximum of g; `here` is gap_along at n on entry and at
 /// the new n on return. False (and nothing changed) if no step improves g.
-bool climb(const EllipsePair& pair, Vec2& n, GapAlongAxis& here);
+bool improve_axis(const EllipsePair& pair, Vec2& n, GapAlongAxis& here);
 
 /// Newton's method on dg/dφ = 0 from an axis that is optimal as far as g can tell. Since g is flat
 /// at its maximum, such an axis is good to √ε only; the slope makes it good to ε.
-inline void settle(const EllipsePair& pair, Vec2& n, const GapAlongAxis& here) {
-  constexpr int most_steps = 4;
+inline void polish_axis(const EllipsePair& pair, Vec2& n, const GapAlongAxis& here) {
+  constexpr int max_steps = 4;
   constexpr double quadratic = 3e-8;  // such a step leaves less than rounding
   if (!(here.curvature > 0)) return;
   double turn = here.slope / here.curvature;
   n = turned(n, turn);
-  for (int step = 1; step < most_steps && !(std::abs(turn) < quadratic); ++step) {
+  for (int step = 1; step < max_steps && !(std::abs(turn) < quadratic); ++step) {
     const GapAlongAxis now = gap_along(pair, n);
     if (!(now.curvature > 0)) return;
     turn = now.slope / now.curvature;

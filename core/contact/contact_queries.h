@@ -1,8 +1,8 @@
 #pragma once
 
+#include "core/contact/ellipse_gap.h"
 #include "core/contact/ellipsoid_gap.h"
 #include "core/contact/first_contact.h"
-#include "core/contact/support_gap.h"
 
 /// The contact questions asked of poses, in one form for every body, so that neighbour lists and
 /// the event loop are written once. d runs from centre 1 to centre 2, the image shift included.

@@ -1,0 +1,255 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "core/contact/ellipse_overlap_batch.h"
+
+/// One ellipse that moves straight along x or y, at a fixed angle, beside several others at rest, `simd_width`
+/// at a time: how far does it come before it touches the first of them? The question of an event chain.
+///
+/// Let x point along the path and y across it. An ellipse has the height h = √Σ_yy, the shear k =
+/// Σ_xy/h and the half_chord w = a b/h, so that its support function along n = (c, s) is
+///     η(n) = √(w²c² + (h s + k c)²).
+/// With d from centre 1 to centre 2 and any n with c > 0, the gap along n stays positive up to the path
+///     f(n) = (n·d − η₁(n) − η₂(n))/c:
+/// every n proves a path to be free_length. f is concave in s/c, and its maximum is the contact.
+///
+/// Steps:
+///   1. Whoever is |d_y| ≥ H = h₁ + h₂ aside is never met. With t = d_y/H the point (t (k₁ + k₂), d_y)
+///      belongs to the sum of the two bodies; so of two that do not overlap the other is offset_at_contact if d_x is
+///      larger, and behind if not.
+///   2. The ellipse Q = Σ₁/q + Σ₂/(1 − q) contains that sum, for 0 < q < 1; it is met at
+///          d_x − (Q_xy d_y + √(det Q (Q_yy − d_y²)))/Q_yy,
+///      which is a free_length path. It is exact for q : 1 − q = η₁ : η₂ at the contact, here guessed as w + (h − w) t².
+///      The contact comes at d_x − t (k₁ + k₂) − (w₁ + w₂) √(1 − t²) at the upper. Those whose free_length path is
+///      longer than another's upper contact, or than mask for, are out.
+///   3. The others four by four: with n = (c, (W v − B c)/G), c = √(1 − v²), G = √Q_yy, B = Q_xy/G and
+///      W = √(det Q)/G, the slope of f is a smooth function of v on −1 … 1, that of Q is d_y − G v. Newton's
+///      method from v = d_y/G, between bounds that close in, needs 2 to 4 steps.
+///
+/// Disks of any sizes are exact at step 2; if all are round, `RoundFreePathBatch` does with one root.
+///
+/// Contact is declared with the surfaces between `gap` and (a₁/b₁ + ¼) `gap` apart, to the rounding of
+/// coordinates: as in overlap_look.h the first body is enlarged by the factor 1 + gap/b₁. A pair
+/// that is closer already, and approaching, touches at once.
+namespace vitrel {
+
+/// What ends a path.
+struct FreePath {
+  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  double length;
+  std::uint32_t partner;     ///< the id of the other, or none
+  double offset_at_contact;  ///< how far its centre is then offset_at_contact along the path
+};
+
+namespace detail {
+
+/// An ellipse seen along a path; ux is along it.
+template <class T>
+struct PathProfile {
+  T height, shear, half_chord;
+
+  VITREL_INLINE PathProfile(const T& a, const T& b, const T& ux, const T& uy) {
+    using std::sqrt;
+    const T aa_minus_bb = (a - b) * (a + b);
+    height = sqrt(b * b + aa_minus_bb * (uy * uy));
+    const T inverse = 1. / height;
+    shear = aa_minus_bb * (ux * uy) * inverse;
+    half_chord = a * b * inverse;
+  }
+};
+
+/// The component along x (`direction` 0) or y (1).
+template <int direction>
+VITREL_INLINE SimdBatch component(const BatchBuffer<simd_width>& x,
+                                  const BatchBuffer<simd_width>& y) {
+  return direction == 0 ? x.load() : y.load();
+}
+
+}  // namespace detail
+
+/// Looks along x (`direction` 0) or y (1).
+template <int direction>
+class FreePathBatch {
+ public:
+  using Mask = SimdBatch::mask_type;
+
+  /// `axis` is the unit vector along the major axis. Paths end at `max_length` > 0, if not before.
+  FreePathBatch(const Ellipse& shape, const Vec2& axis, double gap, double max_length)
+      : upper_bound_(max_length), tolerance_(0.25 * gap), end_{max_length, FreePath::none, 0} {
+    const double enlarged = 1 + gap / shape.b;
+    const detail::PathProfile<double> mine(shape.a, shape.b, axis[direction], axis[across]);
+    circumradius_ = enlarged * shape.a;
+    height_ = enlarged * mine.height;
+    shear_ = enlarged * mine.shear;
+    half_chord_ = enlarged * mine.half_chord;
+  }
+
+  /// How far behind, aside and offset_at_contact the centres can be of those that end the path, if their semi-axes
+  /// are `largest` at most.
+  double reach_behind(double largest) const { return std::abs(shear_) + largest; }
+  double reach_aside(double largest) const { return height_ + largest; }
+  double reach_ahead(double largest) const { return upper_bound_ + circumradius_ + largest; }
+
+  /// Looks at those in the group that are mask about; `offset` + their positions are the separations
+  /// d, `first_id` + lane is what to call them.
+  VITREL_INLINE void add(const EllipseBatch& group, std::uint32_t first_id, const Vec2& offset,
+                         Mask mask) {
+    using detail::component;
+    const SimdBatch dx = component<direction>(group.x, group.y) + offset[direction];
+    const SimdBatch dy = component<across>(group.x, group.y) + offset[across];
+    const SimdBatch a = group.a.load(), reach = a + circumradius_;
+    Mask candidates = mask && abs(dy) < reach && dx > -reach && dx < upper_bound_ + reach;
+    if (none_of(candidates)) return;
+
+    const detail::PathProfile<SimdBatch> other(a, group.b.load(),
+                                               component<direction>(group.ux, group.uy),
+                                               component<across>(group.ux, group.uy));
+    const SimdBatch t = dy / (height_ + other.height), tt = t * t;
+    const SimdBatch past_middle = dx - t * (shear_ + other.shear);
+    candidates = candidates && tt < 1. && past_middle > 0.;
+    if (none_of(candidates)) return;
+
+    const SimdBatch share1 = half_chord_ + (height_ - half_chord_) * tt;
+    const SimdBatch share2 = other.half_chord + (other.height - other.half_chord) * tt;
+    const SimdBatch sum = share1 + share2, weight1 = sum / share1, weight2 = sum / share2;
+    const SimdBatch xx =
+        weight1 * (shear_ * shear_ + half_chord_ * half_chord_) +
+        weight2 * (other.shear * other.shear + other.half_chord * other.half_chord);
+    const SimdBatch xy = weight1 * (shear_ * height_) + weight2 * (other.shear * other.height);
+    const SimdBatch yy = weight1 * (height_ * height_) + weight2 * (other.height * other.height);
+    const SimdBatch det = max(xx * yy - xy * xy, SimdBatch(0));
+    const SimdBatch lower = dx - (xy * dy + sqrt(det * max(yy - dy * dy, SimdBatch(0)))) / yy;
+    candidates = candidates && lower < upper_bound_;
+    if (none_of(candidates)) return;
+
+    const SimdBatch upper =
+        past_middle - (half_chord_ + other.half_chord) * sqrt(max(1. - tt, SimdBatch(0)));
+    for (int lane = 0; lane < simd_width; ++lane) {
+      if (!candidates[lane] || !(lower[lane] < upper_bound_)) continue;
+      if (pending_ == simd_width) solve_pending();
+      push(pending_++, lane, first_id + static_cast<std::uint32_t>(lane), dx, dy, other, xy, yy,
+           det, lower);
+      if (const double then = upper[lane] + tolerance_; then < upper_bound_) upper_bound_ = then;
+    }
+  }
+
+  /// The end of the path, of all that were looked at.
+  FreePath end() {
+    if (pending_ > 0) solve_pending();
+    return end_;
+  }
+
+ private:
+  static constexpr int across = 1 - direction;
+
+  VITREL_INLINE void push(int k, int lane, std::uint32_t id, const SimdBatch& dx,
+                          const SimdBatch& dy, const detail::PathProfile<SimdBatch>& other,
+                          const SimdBatch& xy, const SimdBatch& yy, const SimdBatch& det,
+                          const SimdBatch& lower) {
+    id_[k] = id;
+    dx_[k] = dx[lane], dy_[k] = dy[lane];
+    other_height_[k] = other.height[lane];
+    other_shear_[k] = other.shear[lane];
+    other_half_chord_[k] = other.half_chord[lane];
+    xy_[k] = xy[lane], yy_[k] = yy[lane], det_[k] = det[lane];
+    earliest_[k] = lower[lane];
+  }
+
+  // Step 3 for those that wait.
+  [[gnu::noinline]] void solve_pending() {
+    constexpr int max_steps = 64;  // halving alone comes to the last digit
+    const SimdBatch dx = dx_.load(), dy = dy_.load();
+    const SimdBatch height = other_height_.load(), shear = other_shear_.load(),
+                    half_chord = other_half_chord_.load();
+    const SimdBatch inverse = 1. / sqrt(yy_.load());
+    const SimdBatch middle = xy_.load() * inverse, width = sqrt(det_.load()) * inverse;
+    const SimdBatch curvature1(height_ * half_chord_ * (height_ * half_chord_));
+    const SimdBatch curvature2 = height * half_chord * (height * half_chord);
+    SimdBatch v = dy * inverse, low(-1), high(1);
+    SimdBatch free_length(-std::numeric_limits<double>::infinity());
+    const Mask mask =
+        detail::lane_indices<simd_width> < pending_ && earliest_.load() < upper_bound_;
+    for (int step = 0; step < max_steps; ++step) {
+      const SimdBatch c = sqrt(max(1. - v * v, SimdBatch(0)));
+      const SimdBatch s = (width * v - middle * c) * inverse;
+      const SimdBatch along1 = height_ * s + shear_ * c, along2 = height * s + shear * c;
+      const SimdBatch across1 = half_chord_ * c, across2 = half_chord * c;
+      const SimdBatch support1 = sqrt(across1 * across1 + along1 * along1);
+      const SimdBatch support2 = sqrt(across2 * across2 + along2 * along2);
+      const SimdBatch inverse1 = 1. / support1, inverse2 = 1. / support2;
+      const SimdBatch now = dx + (s * dy - support1 - support2) / c;
+      where(now > free_length, free_length) = now;
+      // Of f by s/c, and of that slope.
+      const SimdBatch slope = dy - height_ * along1 * inverse1 - height * along2 * inverse2;
+      const SimdBatch curvature = curvature1 * (inverse1 * inverse1 * inverse1) +
+                                  curvature2 * (inverse2 * inverse2 * inverse2);
+      const Mask converged = slope * slope <= 2 * tolerance_ * curvature * (c * c * c);
+      if (none_of(mask && !converged && free_length < end_.length)) break;
+      where(slope > 0., low) = v;
+      where(!(slope > 0.), high) = v;
+      SimdBatch next = v + slope / (curvature * width * inverse);
+      where(!(next > low && next < high), next) = 0.5 * (low + high);
+      v = next;
+    }
+    for (int lane = 0; lane < pending_; ++lane) {
+      const double length = std::max<double>(free_length[lane], 0);
+      if (mask[lane] && length < end_.length) end_ = {length, id_[lane], dx_[lane] - length};
+    }
+    if (end_.length < upper_bound_) upper_bound_ = end_.length;
+    pending_ = 0;
+  }
+
+  double circumradius_, height_, shear_, half_chord_;  // enlarged by the gap
+  double upper_bound_;                                 // nothing later is of interest
+  double tolerance_;
+  FreePath end_;
+  int pending_ = 0;
+  std::uint32_t id_[simd_width];
+  detail::BatchBuffer<simd_width> dx_, dy_, other_height_, other_shear_, other_half_chord_;
+  detail::BatchBuffer<simd_width> xy_, yy_, det_, earliest_;
+};
+
+/// The same among round particles.
+template <int direction>
+class RoundFreePathBatch {
+ public:
+  using Mask = SimdBatch::mask_type;
+
+  RoundFreePathBatch(const Ellipse& shape, const Vec2& /*axis*/, double gap, double max_length)
+      : radius_(shape.a + gap), max_length_(max_length), length_(max_length) {}
+
+  double reach_behind(double /*largest*/) const { return 0; }
+  double reach_aside(double largest) const { return radius_ + largest; }
+  double reach_ahead(double largest) const { return max_length_ + radius_ + largest; }
+
+  VITREL_INLINE void add(const EllipseBatch& group, std::uint32_t first_id, const Vec2& offset,
+                         Mask mask) {
+    using detail::component;
+    const SimdBatch dx = component<direction>(group.x, group.y) + offset[direction];
+    const SimdBatch dy = component<1 - direction>(group.x, group.y) + offset[1 - direction];
+    const SimdBatch reach = group.a.load() + radius_;
+    const SimdBatch chord_squared = reach * reach - dy * dy;
+    const SimdBatch free_length = dx - sqrt(max(chord_squared, SimdBatch(0)));
+    const Mask sooner = mask && chord_squared > 0. && dx > 0. && free_length < length_;
+    where(sooner, length_) = free_length;
+    where(sooner, dx_) = dx;
+    where(sooner, id_) = detail::lane_indices<simd_width> + static_cast<double>(first_id);
+  }
+
+  FreePath end() const {
+    const double shortest = hmin(length_), length = std::max(shortest, 0.);
+    const int lane = find_first_set(length_ == shortest);
+    if (id_[lane] < 0) return {length, FreePath::none, 0};
+    return {length, static_cast<std::uint32_t>(static_cast<double>(id_[lane])), dx_[lane] - length};
+  }
+
+ private:
+  double radius_, max_length_;
+  SimdBatch length_, dx_{0}, id_{-1};
+};
+
+}  // namespace vitrel

@@ -1,0 +1,164 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/contact/ellipse_gap.h"
+#include "core/contact/simd_batch.h"
+
+/// One ellipse beside several others at rest, `simd_width` at a time: is it clear of them all, that is, are
+/// the surfaces at least a margin apart? The question of a trial move, decided by proofs for either
+/// answer, the cheapest first.
+///
+///   1. Circumcircles a margin apart prove the pair clear; incircles that meet prove an overlap.
+///   2. For weights w₁, w₂ > 0 let C = w₁Σ₁ + w₂Σ₂, n = C⁻¹d, hᵢ = √(nᵀΣᵢn), d from centre 1 to 2.
+///      Clear if n·d > h₁ + h₂ + margin |n|: n separates (support_gap.h), whatever n is.
+///      Overlap if w₁h₁ ≤ 1 and w₂h₂ ≤ 1: w₁Σ₁n = d − w₂Σ₂n is a point of both ellipses.
+///      First w₁ = w₂, which settles most.
+///   3. Once more with w₁ : w₂ = h₂ : h₁, towards the maximum of the function of Perram and Wertheim
+///      (there one of the two proofs holds, or the pair is between touching and a margin apart).
+///      1 to 3 % of all within the circumcircles are left.
+///   4. These go to separated() one by one.
+///
+/// |n| ≤ hᵢ/bᵢ, so margin |n| is replaced by margin h₁/b₁: one root less, and clear is still proved. The
+/// proof of an overlap must hold with a reserve of 1e-10, far above the rounding of C⁻¹ up to aspect
+/// ratios of 1000: every pair that gets this answer has a common point. C⁻¹ det C and det C are sums
+/// of positive matrices and numbers, without cancellation.
+///
+/// So whichever step answers, the answer is that of separated(): the largest support gap is at least
+/// the margin, to the rounding of the gap. It depends on the pair scalar_tests, not on the other lanes, and
+/// changes if the bodies change places only where the gap is the margin to rounding.
+/// Source: perram1985.
+namespace vitrel {
+
+/// Up to `simd_width` ellipses at rest. A lane that holds none is out of everybody's reach.
+struct EllipseBatch {
+  static constexpr double far_away = 1e150;  // its square is finite
+
+  detail::BatchBuffer<simd_width> x, y, a, b, ux, uy;
+
+  EllipseBatch() {
+    for (int lane = 0; lane < simd_width; ++lane) clear(lane);
+  }
+  void clear(int lane) { set(lane, {0, 0}, Vec2(far_away, far_away), Vec2(1, 0)); }
+  void set(int lane, const Ellipse& shape, const Vec2& position, const Vec2& axis) {
+    x[lane] = position.x(), y[lane] = position.y();
+    a[lane] = shape.a, b[lane] = shape.b;
+    ux[lane] = axis.x(), uy[lane] = axis.y();
+  }
+
+  Ellipse shape(int lane) const { return {a[lane], b[lane]}; }
+  Vec2 position(int lane) const { return {x[lane], y[lane]}; }
+  Vec2 axis(int lane) const { return {ux[lane], uy[lane]}; }
+};
+
+class OverlapBatch {
+ public:
+  /// PairArray of a group.
+  using Mask = SimdBatch::mask_type;
+
+  /// `axis` is the unit vector along the major axis; margin ≥ 0.
+  OverlapBatch(const Ellipse& shape, const Vec2& axis, double margin)
+      : shape_(shape),
+        axis_(axis),
+        margin_(margin),
+        bb_(shape.b * shape.b),
+        aa_minus_bb_(shape.aa_minus_bb()),
+        enlargement_(1 + margin / shape.b) {}
+
+  /// Whether the body is clear of all in the group that are mask about; `offset` + their positions
+  /// are the separations d. Adds the number of pairs that step 4 decided to `scalar_tests`.
+  VITREL_INLINE bool clear_of(const EllipseBatch& group, const Vec2& offset, Mask mask,
+                              std::uint64_t& scalar_tests) const {
+    const SimdBatch dx = group.x.load() + offset.x(), dy = group.y.load() + offset.y();
+    const SimdBatch distance_squared = dx * dx + dy * dy;
+    const SimdBatch a = group.a.load();
+    const SimdBatch outer = a + (shape_.a + margin_);
+    Mask undecided = mask && distance_squared < outer * outer;
+    if (none_of(undecided)) return true;
+    const SimdBatch b = group.b.load();
+    const SimdBatch inner = b + shape_.b;
+    if (any_of(undecided && distance_squared < inner * inner)) return false;
+
+    const SimdBatch bb = b * b, aa_minus_bb = (a - b) * (a + b);
+    const Pairs pairs(*this, group.ux.load(), group.uy.load(), bb, aa_minus_bb, dx, dy);
+    Heights heights;
+    if (!pairs.decide(SimdBatch(1), SimdBatch(1), heights, undecided)) return false;
+    if (none_of(undecided)) return true;
+    const SimdBatch weight1 = heights.two, weight2 = heights.one;
+    if (!pairs.decide(weight1, weight2, heights, undecided)) return false;
+    return none_of(undecided) || clear_by_scalar_tests(group, offset, undecided, scalar_tests);
+  }
+
+ private:
+  static constexpr double overlap_safety = 1 - 1e-10;
+
+  struct Heights {
+    SimdBatch one, two;
+  };
+
+  // The body and those of a group, with what does not depend on the weights.
+  struct Pairs {
+    const OverlapBatch& body;
+    SimdBatch ux, uy, bb, aa_minus_bb, dx, dy;
+    SimdBatch across1, across2;  // of d to the axes
+    SimdBatch sine_squared;      // of the angle between the axes
+
+    VITREL_INLINE Pairs(const OverlapBatch& one, const SimdBatch& group_ux,
+                        const SimdBatch& group_uy, const SimdBatch& group_bb,
+                        const SimdBatch& group_stretch, const SimdBatch& group_dx,
+                        const SimdBatch& group_dy)
+        : body(one),
+          ux(group_ux),
+          uy(group_uy),
+          bb(group_bb),
+          aa_minus_bb(group_stretch),
+          dx(group_dx),
+          dy(group_dy),
+          across1(one.axis_.x() * dy - one.axis_.y() * dx),
+          across2(ux * dy - uy * dx) {
+      const SimdBatch sine = one.axis_.x() * uy - one.axis_.y() * ux;
+      sine_squared = sine * sine;
+    }
+
+    // False if one of the undecided pairs is proved to overlap; closes those that are proved clear.
+    VITREL_INLINE bool decide(const SimdBatch& weight1, const SimdBatch& weight2, Heights& heights,
+                              Mask& undecided) const {
+      const SimdBatch beta = weight1 * body.bb_ + weight2 * bb;
+      const SimdBatch along1 = weight1 * body.aa_minus_bb_, along2 = weight2 * aa_minus_bb;
+      const SimdBatch det = beta * (beta + along1 + along2) + along1 * along2 * sine_squared;
+      // det C times C⁻¹d
+      const SimdBatch turned1 = along1 * across1, turned2 = along2 * across2;
+      const SimdBatch nx = beta * dx - turned1 * body.axis_.y() - turned2 * uy;
+      const SimdBatch ny = beta * dy + turned1 * body.axis_.x() + turned2 * ux;
+      const SimdBatch square = nx * nx + ny * ny;
+      const SimdBatch n1 = nx * body.axis_.x() + ny * body.axis_.y(), n2 = nx * ux + ny * uy;
+      heights.one = sqrt(body.bb_ * square + body.aa_minus_bb_ * (n1 * n1));
+      heights.two = sqrt(bb * square + aa_minus_bb * (n2 * n2));
+      const SimdBatch limit = overlap_safety * det;
+      if (any_of(undecided && weight1 * heights.one <= limit && weight2 * heights.two <= limit))
+        return false;
+      undecided = undecided && !(nx * dx + ny * dy > body.enlargement_ * heights.one + heights.two);
+      return true;
+    }
+  };
+
+  [[gnu::noinline]] bool clear_by_scalar_tests(const EllipseBatch& group, const Vec2& offset,
+                                               Mask undecided, std::uint64_t& scalar_tests) const {
+    for (int lane = 0; lane < simd_width; ++lane) {
+      if (!undecided[lane]) continue;
+      ++scalar_tests;
+      if (!separated(shape_, axis_, group.shape(lane), group.axis(lane),
+                     group.position(lane) + offset, margin_))
+        return false;
+    }
+    return true;
+  }
+
+  Ellipse shape_;
+  Vec2 axis_;
+  double margin_;
+  double bb_, aa_minus_bb_;  // b², a² − b²
+  double enlargement_;       // 1 + margin/b
+};
+
+}  // namespace vitrel

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <experimental/simd>
+#include <limits>
+
+#include "core/contact/ellipse_pair.h"
+#include "core/geometry/disk.h"
+#include "core/geometry/ellipsoid.h"
+#include "core/geometry/sphere.h"
+
+/// What the looks of one body at several others share (first_look.h, gap_look.h): numbers in lanes,
+/// one lane for each pair.
+namespace vitrel {
+
+/// What a look needs to know of a shape (at size 1).
+template <class Shape>
+struct ShapeCoefficients;
+
+template <>
+struct ShapeCoefficients<Disk> {
+  double radius = 1;
+  explicit ShapeCoefficients(const Disk& disk) : radius(disk.radius) {}
+};
+
+template <>
+struct ShapeCoefficients<Sphere> {
+  double radius = 1;
+  explicit ShapeCoefficients(const Sphere& sphere) : radius(sphere.radius) {}
+};
+
+template <>
+struct ShapeCoefficients<Ellipsoid> {
+  Vec3 semi_axes;
+  double aa_minus_bb, cc;  ///< a² − c², c²
+  explicit ShapeCoefficients(const Ellipsoid& ellipsoid)
+      : semi_axes(ellipsoid.semi_axes),
+        aa_minus_bb((ellipsoid.circumradius() - ellipsoid.inradius()) *
+                    (ellipsoid.circumradius() + ellipsoid.inradius())),
+        cc(ellipsoid.inradius() * ellipsoid.inradius()) {}
+};
+
+template <>
+struct ShapeCoefficients<Ellipse> {
+  double bb, aa_minus_bb, aabb;  ///< b², a² − b², a² b²
+  double max_second_derivative;  ///< (a² − b²)/b, the largest h''
+  explicit ShapeCoefficients(const Ellipse& ellipse)
+      : bb(ellipse.b * ellipse.b),
+        aa_minus_bb(ellipse.aa_minus_bb()),
+        aabb(ellipse.a * ellipse.a * bb),
+        max_second_derivative(aa_minus_bb / ellipse.b) {}
+};
+
+namespace detail {
+
+template <int lanes>
+using Simd = std::experimental::fixed_size_simd<double, lanes>;
+
+/// One number of each of several pairs, filled one by one.
+template <int lanes>
+struct BatchBuffer {
+  alignas(std::experimental::memory_alignment_v<Simd<lanes>>) double lane[lanes] = {};
+  double& operator[](int k) { return lane[k]; }
+  double operator[](int k) const { return lane[k]; }
+  Simd<lanes> load() const { return {lane, std::experimental::vector_aligned}; }
+  void store(const Simd<lanes>& x) { x.copy_to(lane, std::experimental::vector_aligned); }
+};
+
+/// 0, 1, 2 …
+template <int lanes>
+const Simd<lanes> lane_indices([](int k) { return k; });
+
+/// Unit vectors, turned by one step of Newton's method in the angle, as far as it can be trusted.
+VITREL_INLINE void newton_rotate(SimdBatch& nx, SimdBatch& ny, const SimdBatch& slope,
+                        const SimdBatch& curvature) {
+  const SimdBatch angle = min(max(slope / curvature, SimdBatch(-0.5)), SimdBatch(0.5));
+  const SimdBatch q = 0.5 * angle;
+  const SimdBatch scale = 1. / (1. + q * q);
+  const SimdBatch cosine = (1. - q * q) * scale, sine = angle * scale;
+  const SimdBatch old_nx = nx;
+  nx = cosine * nx - sine * ny;
+  ny = cosine * ny + sine * old_nx;
+}
+
+}  // namespace detail
+}  // namespace vitrel
