@@ -11,18 +11,17 @@ namespace vitrel {
 template <Body B>
 requires std::same_as<BaseShape<B>, Ellipse>
 class ContactScreen<B> : public detail::CandidateTimes<simd_width> {
-  /// A gap that stays above this fraction of the contact gap stays set_times. It lets a pair that has
-  /// just collided, and leaves, be settled too.
+  /// A pair counts as open while its gap stays above this fraction of the contact gap, so that a pair that
+  /// has just collided and now separates is settled too.
   static constexpr double min_gap_fraction = 0.5;
 
  public:
   static constexpr int lanes = simd_width;
-  /// Whether open_until is the time of contact if it is not 0.
   static constexpr bool is_exact = false;
-  /// What is remembered of a pair from one evaluate to the next.
+  /// The axis of the last evaluation.
   struct WarmStart {
     Vec2 axis;
-    /// Of the same pair, seen from the other body.
+    /// The same seen from the other body.
     friend WarmStart reversed(const WarmStart& warm_start) { return {-warm_start.axis}; }
   };
 
@@ -38,8 +37,6 @@ class ContactScreen<B> : public detail::CandidateTimes<simd_width> {
     uy_ = y[0];
   }
 
-  /// Puts a partner into a lane: its pose, relative to this body's centre, and motion now, and how
-  /// far to evaluate ahead.
   VITREL_INLINE void set(int k, const Pose2& pose, const Motion2& motion,
                          const ShapeCoefficients<Ellipse>& coefficients,
                          const WarmStart& warm_start, double horizon) {
@@ -59,8 +56,6 @@ class ContactScreen<B> : public detail::CandidateTimes<simd_width> {
   }
   WarmStart warm_start(int k) const { return {{nx_[k], ny_[k]}}; }
 
-  /// Finds, for each of the first `count` lanes, a time before which there can be no contact:
-  /// infinite if there is none up to the horizon, 0 if the axis separates nothing. Turns the axes.
   [[gnu::flatten]] void evaluate(int count) {
     const SimdBatch nx = nx_.load(), ny = ny_.load(), dx = dx_.load(), dy = dy_.load();
     const SimdBatch bb = bb_.load(), aa_minus_bb = aa_minus_bb_.load(), omega2 = omega_.load();
@@ -88,8 +83,9 @@ class ContactScreen<B> : public detail::CandidateTimes<simd_width> {
     }
     set_times(detail::first_root(gap - min_gap_, rate, acceleration, horizon), count);
     SimdBatch turned_nx = nx, turned_ny = ny;
-    detail::newton_rotate(turned_nx, turned_ny, nx * dy - ny * dx - sized(one.turning + two.turning),
-                 gap + sized(one.radius + two.radius));
+    detail::newton_rotate(turned_nx, turned_ny,
+                          nx * dy - ny * dx - sized(one.turning + two.turning),
+                          gap + sized(one.radius + two.radius));
     nx_.store(turned_nx);
     ny_.store(turned_ny);
   }

@@ -19,7 +19,6 @@ class GapBatch<Ellipse> {
     uy_ = y[0];
   }
 
-  /// Puts another body into a lane; d runs to its centre.
   VITREL_INLINE void set(int k, const Ellipse& shape, double angle, const Vec2& d) {
     dx_[k] = d.x();
     dy_[k] = d.y();

@@ -10,7 +10,7 @@ namespace detail {
 
 using BatchVec3 = Vec3Of<SimdBatch>;
 
-/// A vector for each of several pairs, filled one by one.
+/// One vector per lane.
 struct Vec3Buffer {
   BatchBuffer<simd_width> x, y, z;
   void set(int k, const Vec3& v) { x[k] = v.x(), y[k] = v.y(), z[k] = v.z(); }
@@ -19,9 +19,9 @@ struct Vec3Buffer {
   void store(const BatchVec3& v) { x.store(v.x), y.store(v.y), z.store(v.z); }
 };
 
-/// Ellipsoids of several pairs, filled one by one.
+/// One ellipsoid per lane.
 struct EllipsoidBuffer {
-  BatchBuffer<simd_width> w;  ///< of the quaternions, and
+  BatchBuffer<simd_width> w;  ///< of the quaternions; xyz is their vector part
   Vec3Buffer xyz, semi_axes;
   void set(int k, const Quaternion& q, const Vec3& axes) {
     w[k] = q.w();
@@ -59,8 +59,8 @@ inline AxesOf<double> axes_of(const Quaternion& orientation, const Vec3& semi_ax
           components(semi_axes[2] * turn.col(2))};
 }
 
-/// Unit vectors, turned by one step of Newton's method on the sphere, as far as it can be trusted: the
-/// step C⁻¹ s in the plane of e₁ and e₂, or uphill where C is not positive.
+/// Rotates unit vectors by one Newton step on the sphere, at most 1/2: C⁻¹ s in the plane of e₁ and e₂, or
+/// along the gradient s where C is not positive definite.
 VITREL_INLINE BatchVec3 turned(const AxisOf<SimdBatch>& axis, const SimdBatch& s1,
                                const SimdBatch& s2, const SimdBatch& c11, const SimdBatch& c12,
                                const SimdBatch& c22) {

@@ -11,7 +11,7 @@ namespace vitrel {
 template <Body B>
 requires std::same_as<BaseShape<B>, Ellipsoid>
 class ContactScreen<B> : public detail::CandidateTimes<simd_width> {
-  /// As for ellipses.
+  /// As for ellipses (ellipse_contact_screen.h).
   static constexpr double min_gap_fraction = 0.5;
 
  public:
@@ -41,7 +41,7 @@ class ContactScreen<B> : public detail::CandidateTimes<simd_width> {
     v_.set(k, motion.velocity - motion_.velocity);
     partners_.set(k, pose.orientation, coefficients.semi_axes);
     omega_.set(k, motion.angular_velocity);
-    stretch_[k] = coefficients.stretch;
+    aa_minus_cc_[k] = coefficients.aa_minus_cc;
     cc_[k] = coefficients.cc;
     n_.set(k, warm_start.axis);
     horizon_[k] = horizon;
@@ -64,9 +64,9 @@ class ContactScreen<B> : public detail::CandidateTimes<simd_width> {
     const SimdBatch gap = dot(axis.n, d) - sized(heights);
     SimdBatch rate = dot(axis.n, v_.load()) - sized(turning);
     SimdBatch acceleration =
-        support_acceleration_bound<SimdBatch>(one, rates1, spin1, coefficients_.stretch, tau_,
+        support_acceleration_bound<SimdBatch>(one, rates1, spin1, coefficients_.aa_minus_cc, tau_,
                                               coefficients_.cc, horizon) +
-        support_acceleration_bound<SimdBatch>(two, rates2, spin2, stretch_.load(),
+        support_acceleration_bound<SimdBatch>(two, rates2, spin2, aa_minus_cc_.load(),
                                               tau_of(directions, omega, lengths), cc_.load(),
                                               horizon);
     if constexpr (grows<B>) {
@@ -106,7 +106,7 @@ class ContactScreen<B> : public detail::CandidateTimes<simd_width> {
   double tau_;
   detail::Vec3Buffer d_, v_, omega_, n_;
   detail::EllipsoidBuffer partners_;
-  detail::BatchBuffer<simd_width> stretch_, cc_, horizon_;
+  detail::BatchBuffer<simd_width> aa_minus_cc_, cc_, horizon_;
 };
 
 }  // namespace vitrel

@@ -39,7 +39,7 @@ class GapBatch<Shape> {
   }
 
   double gap(int k) const { return gap_[k]; }
-  /// Round bodies need none.
+  /// Round bodies need no axis.
   Vec<dimension> axis(int) const { return Vec<dimension>::Zero(); }
 
  private:

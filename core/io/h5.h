@@ -2,11 +2,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
-#include <memory>
 
 /// A thin, owning layer over the HDF5 C library: files, groups, datasets and attributes that close
 /// themselves. HDF5's own messages are silenced; every failure becomes one FileError that names the

@@ -111,8 +111,11 @@ std::size_t Simulation<lab::FarSightedEllipse>::gather<
 }
 
 template <>
-double Simulation<lab::PatientEllipse>::patience() const {
-  return lab::free_times_of_patience * mean_free_time();
+double Simulation<lab::PatientEllipse>::mean_free_time() const {
+  const auto particles = static_cast<double>(particles_.size());
+  return collisions_ < particles
+             ? never
+             : lab::free_times_of_patience * (0.5 * particles * now_ / collisions_);
 }
 
 }  // namespace vitrel
