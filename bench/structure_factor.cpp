@@ -10,7 +10,7 @@
 #include <ctime>
 #include <nlohmann/json.hpp>
 
-#include "analysis/structure_factor.h"
+#include "analysis/structure/structure_factor.h"
 #include "mc/insertion.h"
 
 namespace vitrel {

@@ -124,7 +124,7 @@ class Simulation final : public Engine<B::dimension> {
   static constexpr std::size_t cached_particles = dimension == 2 ? 32768 : 2048;
   static constexpr std::uint64_t prefetch_stages = 4, events_per_stage = 4;
 
-  /// A grazing contact: soft particles that approach by less than the first fraction of the largest speed are not
+  /// A grazing_speed contact: soft particles that approach by less than the first fraction of the largest speed are not
   /// collided, but made to separate at the second fraction. Both are far above the rounding of velocities and far
   /// below physical relevance.
   static constexpr double grazing_speed = 1e-12, separation_speed = 1e-13;
@@ -672,7 +672,7 @@ void Simulation<B>::search(Index i, const Pose<dimension>& mine, const Neighbor<
 }
 
 // An overlapping pair: stop, or schedule the correction move; once the centres recede, only check again. A soft
-// pair that a third particle has turned back collides again.
+// pair that a third particle has rotated back collides again.
 template <Body B>
 double Simulation<B>::overlap_event(Index i, const Vector& d, Event& event) const {
   const Index j = event.partner.other;
@@ -746,7 +746,7 @@ void Simulation<B>::execute_collision(Index i, const Event& event, RunCounters& 
   }
   ++version_[i];
   if (i != j) ++version_[j];
-  one.next = two.next = never;  // both entries are invalid
+  one.next = two.next = never;  // pair_images entries are invalid
   predict(i, counters);
   if (i != j) predict(j, counters);
 }

@@ -1,10 +1,10 @@
-#include "app/workflow/analyze.h"
+#include "workflow/analyze/analyze.h"
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "app/commands/common.h"
-#include "app/workflow/sweep_results.h"
+#include "workflow/sweep/sweep_results.h"
 
 namespace vitrel {
 namespace {

@@ -10,10 +10,10 @@
 #include "app/workflow/bench/scene.h"
 #include "app/workflow/bench/thesis.h"
 #include "app/workflow/bench/whole_run.h"
-#include "app/workflow/text_file.h"
 #include "bench/lab/recorded_class.h"
 #include "bench/lab/solids/suite.h"
 #include "core/io/provenance.h"
+#include "workflow/storage/text_file.h"
 
 namespace vitrel {
 namespace {

@@ -1,4 +1,4 @@
-#include "app/workflow/check.h"
+#include "workflow/storage/check.h"
 
 #include <fmt/format.h>
 

@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "app/workflow/report/page_parts.h"
-#include "app/workflow/stop.h"
 #include "core/error.h"
+#include "workflow/report/page_parts.h"
+#include "workflow/sweep/stop_signals.h"
 
 namespace vitrel {
 namespace {

@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "app/commands/commands.h"
-#include "app/workflow/analyze.h"
-#include "app/workflow/parameters.h"
-#include "app/workflow/progress.h"
-#include "app/workflow/sweep.h"
+#include "app/terminal/progress.h"
 #include "core/state/stage.h"
+#include "workflow/analyze/analyze.h"
+#include "workflow/configuration/parameters.h"
+#include "workflow/sweep/sweep.h"
 
 namespace vitrel {
 

@@ -3,9 +3,9 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/common.h"
-#include "app/workflow/export/gnuplot.h"
-#include "app/workflow/export/trajectory_export.h"
 #include "core/error.h"
+#include "workflow/export/gnuplot.h"
+#include "workflow/export/trajectory_export.h"
 
 namespace vitrel {
 namespace {

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include "app/commands/common.h"
-#include "app/workflow/parameters.h"
 #include "core/error.h"
+#include "workflow/configuration/parameters.h"
 
 namespace vitrel {
 

@@ -1,13 +1,13 @@
-#include "app/workflow/prepare.h"
+#include "workflow/prepare/prepare.h"
 
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
 #include "app/commands/common.h"
-#include "app/workflow/packing_quality.h"
-#include "app/workflow/quality_file.h"
 #include "core/io/h5md.h"
+#include "workflow/prepare/packing_quality.h"
+#include "workflow/prepare/quality_file.h"
 
 namespace vitrel {
 namespace {

@@ -5,14 +5,14 @@
 #include <string_view>
 
 #include "app/commands/common.h"
-#include "app/workflow/analyze.h"
-#include "app/workflow/packing_report.h"
-#include "app/workflow/quality_file.h"
-#include "app/workflow/run_report.h"
-#include "app/workflow/sweep_results.h"
-#include "app/workflow/text_file.h"
 #include "core/error.h"
 #include "core/io/h5md.h"
+#include "workflow/analyze/analyze.h"
+#include "workflow/prepare/quality_file.h"
+#include "workflow/report/packing_report.h"
+#include "workflow/report/run_report.h"
+#include "workflow/storage/text_file.h"
+#include "workflow/sweep/sweep_results.h"
 
 namespace vitrel {
 namespace {

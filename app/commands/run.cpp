@@ -1,4 +1,4 @@
-#include "app/workflow/run.h"
+#include "workflow/run/run.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "app/workflow/sweep.h"
+#include "workflow/sweep/sweep.h"
 
 #include <fmt/format.h>
 

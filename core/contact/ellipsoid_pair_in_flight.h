@@ -142,7 +142,7 @@ class EllipsoidPairInFlight {
   static double growth_of(const Ellipsoid&) { return 0; }
   static double growth_of(const GrowingEllipsoid& body) { return body.growth_rate; }
 
-  /// An axis that rotates about ω: its constant part along ω, the rest at time 0, and the rest a quarter
+  /// An axis that rotates about ω: its constant decompose along ω, the rest at time 0, and the rest a quarter
   /// rotation later.
   struct RotationParts {
     Vec3Of<PairArray> along, across, ahead;

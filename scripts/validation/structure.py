@@ -15,7 +15,7 @@ def measure(_build):
     head = ["N", "wave vectors", "transform, ms", "direct, ms", "times as fast", "largest error of S", "of its bound"]
     return f"""Ellipses of κ = 4 at φ = 0.3 in a square box; structure factors of centres and orientations in shells up to
 q = 12, in processor time of one core, by a B-spline grid of order 12 and by direct sums over the same wave vectors. The
-bound of an error is 2 ε √(N S) + ε² N with ε = 10⁻⁶ (analysis/density_grid.h). Of 16 particles or fewer
+bound of an error is 2 ε √(N S) + ε² N with ε = 10⁻⁶ (analysis/structure/density_grid.h). Of 16 particles or fewer
 the analysis takes direct sums.
 
 {table(head, lines)}

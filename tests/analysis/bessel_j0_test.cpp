@@ -1,4 +1,4 @@
-#include "analysis/bessel_j0.h"
+#include "analysis/dynamics/bessel_j0.h"
 
 #include <gtest/gtest.h>
 

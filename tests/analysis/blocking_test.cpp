@@ -1,4 +1,4 @@
-#include "analysis/blocking.h"
+#include "analysis/statistics/blocking.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "analysis/collective_scattering.h"
+#include "analysis/dynamics/collective_scattering.h"
 
 #include <gtest/gtest.h>
 

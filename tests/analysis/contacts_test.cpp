@@ -1,4 +1,4 @@
-#include "analysis/contacts.h"
+#include "analysis/structure/contacts.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "analysis/density_grid.h"
+#include "analysis/structure/density_grid.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "analysis/diffusion.h"
+#include "analysis/dynamics/diffusion.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "analysis/blocking.h"
+#include "analysis/statistics/blocking.h"
 #include "core/error.h"
 #include "core/random/stream.h"
 

@@ -1,4 +1,4 @@
-#include "analysis/director_frame.h"
+#include "analysis/dynamics/director_frame.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "analysis/displacement.h"
+#include "analysis/dynamics/displacement.h"
 
 #include <gtest/gtest.h>
 

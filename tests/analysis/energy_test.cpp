@@ -1,4 +1,4 @@
-#include "analysis/energy.h"
+#include "analysis/dynamics/energy.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "analysis/equilibration.h"
+#include "analysis/dynamics/equilibration.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "analysis/blocking.h"
+#include "analysis/statistics/blocking.h"
 #include "core/random/stream.h"
 #include "tests/support/series.h"
 

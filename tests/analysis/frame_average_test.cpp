@@ -1,11 +1,11 @@
-#include "analysis/frame_average.h"
+#include "analysis/structure/frame_average.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "analysis/blocking.h"
+#include "analysis/statistics/blocking.h"
 #include "core/random/stream.h"
 
 namespace vitrel {

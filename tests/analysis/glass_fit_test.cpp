@@ -1,4 +1,4 @@
-#include "analysis/glass_fit.h"
+#include "analysis/glass/glass_fit.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "analysis/least_squares.h"
+#include "analysis/statistics/least_squares.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "analysis/mean_square_fft.h"
+#include "analysis/dynamics/mean_square_fft.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/displacement.h"
+#include "analysis/dynamics/displacement.h"
 #include "tests/support/free_brownian.h"
 
 namespace vitrel {

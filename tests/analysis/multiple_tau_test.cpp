@@ -1,4 +1,4 @@
-#include "analysis/multiple_tau.h"
+#include "analysis/dynamics/multiple_tau.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <map>
 #include <vector>
 
-#include "analysis/displacement.h"
+#include "analysis/dynamics/displacement.h"
 #include "core/error.h"
 #include "core/random/stream.h"
 

@@ -1,4 +1,4 @@
-#include "analysis/order.h"
+#include "analysis/structure/order.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "analysis/orientation_tensor.h"
+#include "analysis/structure/orientation_tensor.h"
 
 #include <gtest/gtest.h>
 

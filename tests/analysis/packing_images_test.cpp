@@ -1,4 +1,4 @@
-#include "analysis/packing_images.h"
+#include "analysis/structure/packing_images.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "analysis/pair_correlation.h"
+#include "analysis/structure/pair_correlation.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "analysis/relaxation.h"
+#include "analysis/dynamics/relaxation.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "analysis/blocking.h"
+#include "analysis/statistics/blocking.h"
 #include "core/error.h"
 #include "core/random/stream.h"
 

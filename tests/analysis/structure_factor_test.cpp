@@ -1,4 +1,4 @@
-#include "analysis/structure_factor.h"
+#include "analysis/structure/structure_factor.h"
 
 #include <gtest/gtest.h>
 

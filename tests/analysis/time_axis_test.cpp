@@ -1,4 +1,4 @@
-#include "analysis/time_axis.h"
+#include "analysis/dynamics/time_axis.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "analysis/voronoi.h"
+#include "analysis/structure/voronoi.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "app/workflow/progress.h"
+#include "app/terminal/progress.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "analysis/displacement.h"
-#include "analysis/relaxation.h"
+#include "analysis/dynamics/displacement.h"
+#include "analysis/dynamics/relaxation.h"
 #include "analysis/trajectory.h"
 #include "edmd/run.h"
 #include "edmd/sampling.h"

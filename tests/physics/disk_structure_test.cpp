@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "analysis/structure_factor.h"
+#include "analysis/structure/structure_factor.h"
 #include "edmd/run.h"
 #include "edmd/sampling.h"
 #include "tests/support/scenes.h"

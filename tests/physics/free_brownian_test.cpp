@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "analysis/displacement.h"
+#include "analysis/dynamics/displacement.h"
 #include "analysis/trajectory.h"
 #include "edmd/run.h"
 #include "edmd/sampling.h"

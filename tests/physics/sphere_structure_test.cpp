@@ -8,8 +8,8 @@
 #include <cmath>
 #include <vector>
 
-#include "analysis/pair_correlation.h"
-#include "analysis/structure_factor.h"
+#include "analysis/structure/pair_correlation.h"
+#include "analysis/structure/structure_factor.h"
 #include "edmd/run.h"
 #include "edmd/sampling.h"
 #include "tests/support/scenes.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "analysis/trajectory.h"
-#include "app/workflow/report/report_page.h"
+#include "workflow/report/report_page.h"
 
 /// Made-up runs for the report page: every table that it knows, and particles whose motion and overlaps
 /// are known.

@@ -12,9 +12,9 @@
 #include "app/workflow/bench/scene.h"
 #include "app/workflow/bench/svg.h"
 #include "app/workflow/bench/whole_run.h"
-#include "app/workflow/report/assets.h"
-#include "app/workflow/report/html.h"
 #include "bench/lab/recorded_class.h"
+#include "workflow/report/assets.h"
+#include "workflow/report/html.h"
 
 namespace vitrel {
 namespace {

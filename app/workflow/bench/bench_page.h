@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "app/workflow/bench/collision_time.h"
-#include "app/workflow/report/html.h"
 #include "bench/lab/overlap/overlap_survey.h"
 #include "bench/lab/whole_run.h"
+#include "workflow/report/html.h"
 
 /// The pages of the benchmarks: each one HTML file that needs nothing beside it and runs no script.
 namespace vitrel {

@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "app/workflow/bench/svg.h"
-#include "app/workflow/report/html.h"
+#include "workflow/report/html.h"
 
 namespace vitrel {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "app/workflow/report/html.h"
+#include "workflow/report/html.h"
 
 namespace vitrel {
 namespace {

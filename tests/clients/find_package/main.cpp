@@ -5,7 +5,7 @@
 #include <iostream>
 #include <numbers>
 
-#include "analysis/blocking.h"
+#include "analysis/statistics/blocking.h"
 #include "core/io/h5md.h"
 #include "core/state/check.h"
 #include "core/state/species.h"

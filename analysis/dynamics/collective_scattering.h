@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "analysis/dynamics/correlation.h"
+#include "analysis/dynamics/time_axis.h"
+#include "analysis/trajectory.h"
+
+namespace vitrel {
+
+/// Wave vectors q = 2π (n_x/L_x, n_y/L_y) of a box whose lengths are about the same; of q and −q one.
+struct WaveVectorShell {
+  std::vector<std::array<int, 2>> n;  ///< n_x ≥ 0
+  double wave_number;                 ///< mean |q|
+};
+
+/// The wave vectors with |q| nearest to a wave number, 32 at most, and none farther from it than half
+/// the distance π/L of wave vectors along the longer side. Throws UserError if there is none: below π/L.
+WaveVectorShell wave_vector_shell(const PeriodicBox<2>& box, double wave_number);
+
+struct CollectiveScattering {
+  std::vector<double> lag;           ///< time differences t, from 0
+  std::vector<std::size_t> origins;  ///< time origins averaged over, for every lag
+  std::vector<WaveVectorShell> shells;
+  std::vector<Correlation> scattering;  ///< F(q, t), one for every shell
+};
+
+/// Collective (coherent) intermediate scattering function of all particles,
+///   F(q, t) = N⁻¹ ⟨Re ρ_q(t) ρ_q(0)*⟩,  ρ_q = Σ_j exp(i q·r_j),
+/// averaged over the wave vectors of a shell and over time origins; not normalised: F(q, 0) = S(q).
+///
+/// 1. One pass over the frames gives ρ_q(t) of every wave vector; powers of exp(2πi x/L) by
+///    multiplication, error below 1e-13 N. Threads share the frames. 16 bytes per frame and wave
+///    vector are kept.
+/// 2. Lags and origins are those of the time axis. Errors are those of CorrelationSum with wave
+///    vectors in the place of particles: their modes are independent of each other up to O(1/N). Of few wave vectors (small q) the errors
+///    have Student's wide tails.
+///
+/// The box must be the same in all frames, else UserError. Cost about N × (32 + q L/π) per frame and
+/// wave number.
+CollectiveScattering collective_scattering(Trajectory& trajectory,
+                                           std::span<const double> wave_numbers,
+                                           const TimeAxisOptions& axis = {},
+                                           const ProgressReport& report = {},
+                                           int threads = std::numeric_limits<int>::max());
+
+}  // namespace vitrel

@@ -1,0 +1,141 @@
+#include "analysis/dynamics/correlation.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace vitrel {
+
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+/// In eight partial sums, which processors add at once.
+double sum_of(std::span<const double> values) {
+  std::array<double, 8> parts{};
+  std::size_t k = 0;
+  for (; k + parts.size() <= values.size(); k += parts.size())
+    for (std::size_t p = 0; p < parts.size(); ++p) parts[p] += values[k + p];
+  for (; k < values.size(); ++k) parts[0] += values[k];
+  return ((parts[0] + parts[1]) + (parts[2] + parts[3])) +
+         ((parts[4] + parts[5]) + (parts[6] + parts[7]));
+}
+
+std::vector<double> means(const CorrelationSum& sum, std::size_t particles) {
+  std::vector<double> series(sum.per_origin().begin(), sum.per_origin().end());
+  for (double& value : series) value /= static_cast<double>(particles);
+  return series;
+}
+
+/// Of a series of origins that forget within four time differences.
+Estimate over_origins(std::span<const double> series, const Lag& lag) {
+  const Estimate plateau = block_average(series, lag.shortest_block());
+  const auto block = static_cast<std::size_t>(std::ceil(lag.shortest_block()));
+  return plateau.blocks > 0 || block == 1 ? plateau : known_block_average(series, block);
+}
+
+/// Points at the long end that tell how many particles move together.
+constexpr std::size_t last_points = 16;
+
+}  // namespace
+
+void Correlation::push_back(const Estimate& estimate) {
+  value.push_back(estimate.mean);
+  error.push_back(estimate.error);
+  blocks.push_back(estimate.blocks);
+}
+
+void Correlation::push_back(const PointEstimate& point) {
+  push_back(point.by_blocks);
+  const double quotient = point.by_blocks.error / point.spread;
+  if (blocks.back() == 0)
+    error.back() = point.spread * cooperation();
+  else if (std::isfinite(quotient))
+    squared_quotients_.push_back(quotient * quotient);
+}
+
+double Correlation::cooperation() const {
+  if (squared_quotients_.empty()) return 1;
+  const std::size_t count = std::min(last_points, squared_quotients_.size());
+  return std::max(1.0, std::sqrt(mean_of(std::span(squared_quotients_).last(count))));
+}
+
+void CorrelationSum::add(std::size_t first_origin, std::span<const double> values) {
+  double* const sums = per_origin_.data() + first_origin;
+  for (std::size_t k = 0; k < values.size(); ++k) sums[k] += values[k];
+  particle_ += sum_of(values);
+}
+
+double CorrelationSum::finish_particle() {
+  const double mean = particle_ / static_cast<double>(per_origin_.size());
+  sum_ += mean;
+  squares_ += mean * mean;
+  particle_ = 0;
+  return mean;
+}
+
+void CorrelationSum::add(const CorrelationSum& other) {
+  for (std::size_t k = 0; k < per_origin_.size(); ++k) per_origin_[k] += other.per_origin_[k];
+  sum_ += other.sum_;
+  squares_ += other.squares_;
+}
+
+PointEstimate CorrelationSum::estimate(const Lag& lag, std::size_t particles) const {
+  return {over_origins(means(*this, particles), lag), spread(particles)};
+}
+
+PointEstimate CorrelationSum::estimate_with_plateau(const Lag& lag, std::size_t particles) const {
+  return {block_average(means(*this, particles), lag.shortest_block()), spread(particles)};
+}
+
+double CorrelationSum::spread(std::size_t particles) const {
+  return independent_average(particles, sum_, squares_).error;
+}
+
+void MomentSum::add(std::size_t first_origin, std::span<const double> squares,
+                    std::span<const double> fourth_powers) {
+  square.add(first_origin, squares);
+  quartic.add(first_origin, fourth_powers);
+}
+
+void MomentSum::finish_particle() {
+  const double mean = square.finish_particle();
+  mixed_ += mean * quartic.finish_particle();
+}
+
+void MomentSum::add(const MomentSum& other) {
+  square.add(other.square);
+  quartic.add(other.quartic);
+  mixed_ += other.mixed_;
+}
+
+PointEstimate MomentSum::non_gaussian(double c, const Lag& lag, std::size_t particles) const {
+  const std::vector<double> squares = means(square, particles);
+  std::vector<double> line = means(quartic, particles);
+  const double origins = static_cast<double>(line.size());
+  const double m2 = sum_of(squares) / origins, m4 = sum_of(line) / origins;
+  if (!(m2 > 0)) return {{none, none, 0}, none};
+  const double by_m4 = c / (m2 * m2), by_m2 = -2 * c * m4 / (m2 * m2 * m2);
+  for (std::size_t k = 0; k < line.size(); ++k) line[k] = by_m4 * line[k] + by_m2 * squares[k];
+  Estimate estimate = over_origins(line, lag);
+  estimate.mean = c * m4 / (m2 * m2) - 1;
+  const Estimate particles_alone =
+      independent_average(particles, by_m4 * quartic.sum_ + by_m2 * square.sum_,
+                          by_m4 * by_m4 * quartic.squares_ + 2 * by_m4 * by_m2 * mixed_ +
+                              by_m2 * by_m2 * square.squares_);
+  return {estimate, particles_alone.error};
+}
+
+Estimate susceptibility(const CorrelationSum& sum, const Lag& lag, std::size_t particles) {
+  std::vector<double> series = means(sum, particles);
+  const Estimate overlap = over_origins(series, lag);
+  const double n = static_cast<double>(particles);
+  for (double& q : series) q = n * (q - overlap.mean) * (q - overlap.mean);
+  const Estimate variance = over_origins(series, lag);
+  if (overlap.blocks == 0 || variance.blocks == 0) return {none, none, 0};
+  const double uncertainty = overlap.error / student_factor(overlap.blocks - 1);
+  return {variance.mean + n * uncertainty * uncertainty, variance.error, variance.blocks};
+}
+
+}  // namespace vitrel

@@ -1,0 +1,190 @@
+#include "analysis/dynamics/diffusion.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <utility>
+
+#include "core/error.h"
+
+namespace vitrel {
+
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double shortest_window = 9;  // longest time over shortest, of what must be straight
+constexpr double margin = 3;           // the fit begins that much later than the straight part
+constexpr double chance = 3;           // standard errors within which two slopes agree
+constexpr double tolerance = 0.1;  // change of the slope that a coefficient may have as its error
+
+void check(const MeanSquareCurve& m) {
+  if (m.value.size() != m.time.size() || m.error.size() != m.time.size())
+    throw UserError(
+        fmt::format("diffusion: {} times, {} values and {} errors; a mean square has equally many",
+                    m.time.size(), m.value.size(), m.error.size()));
+  if (!std::is_sorted(m.time.begin(), m.time.end(), std::less_equal<>()) ||
+      (!m.time.empty() && m.time.front() <= 0))
+    throw UserError("diffusion: the times of a mean square must be above 0 and ascend");
+}
+
+MeanSquareCurve points_with_error(const MeanSquareCurve& m) {
+  MeanSquareCurve points;
+  points.duration = m.duration;
+  for (std::size_t k = 0; k < m.time.size(); ++k) {
+    if (!(m.error[k] > 0)) continue;
+    points.time.push_back(m.time[k]);
+    points.value.push_back(m.value[k]);
+    points.error.push_back(m.error[k]);
+  }
+  return points;
+}
+
+/// ∫ w(d) overlap(d)² dd for lags s ≤ t of a run, d = b − a; w counts the pairs of origins a in
+/// [0, run − s], b in [0, run − t]. The integrand is a cubic between the bounds, where Simpson's
+/// rule is exact.
+double squared_overlap(double s, double t, double run) {
+  const auto integrand = [&](double d) {
+    const double overlap = std::min(s, d + t) - std::max(0.0, d);
+    const double pairs = std::min(run - s, run - t - d) - std::max(0.0, -d);
+    return pairs * overlap * overlap;
+  };
+  const double bounds[] = {std::max(-t, s - run), s - t, 0, std::min(s, run - t)};
+  double sum = 0;
+  for (int k = 0; k < 3; ++k) {
+    const double from = bounds[k], to = bounds[k + 1];
+    sum += (to - from) / 6 * (integrand(from) + 4 * integrand((from + to) / 2) + integrand(to));
+  }
+  return sum;
+}
+
+/// The covariance of the mean squares at two times, but for a factor, if all motion is diffusion.
+double diffusive_covariance(double s, double t, double run) {
+  return run > t ? squared_overlap(s, t, run) / (run - s) / (run - t) : s * s;
+}
+
+/// The covariance of the points: correlations of diffusion, and their own errors.
+Eigen::MatrixXd covariance(const MeanSquareCurve& m, const Eigen::VectorXd& variance) {
+  const auto n = static_cast<Eigen::Index>(m.time.size());
+  Eigen::MatrixXd result(n, n);
+  for (Eigen::Index k = 0; k < n; ++k)
+    for (Eigen::Index l = k; l < n; ++l)
+      result(k, l) = result(l, k) = m.error[k] * m.error[l] *
+                                    diffusive_covariance(m.time[k], m.time[l], m.duration) /
+                                    std::sqrt(variance[k] * variance[l]);
+  return result;
+}
+
+/// A straight line fitted to part of the curve has the slope Σ c_k m_k.
+class Slopes {
+ public:
+  explicit Slopes(MeanSquareCurve curve) : m_(std::move(curve)), variance_(m_.time.size()) {
+    for (Eigen::Index k = 0; k < variance_.size(); ++k)
+      variance_[k] = diffusive_covariance(m_.time[k], m_.time[k], m_.duration);
+    covariance_ = covariance(m_, variance_);
+  }
+
+  const MeanSquareCurve& curve() const { return m_; }
+
+  /// The coefficients c for the points [begin, end), 0 elsewhere.
+  Eigen::VectorXd coefficients(std::size_t begin, std::size_t end) const {
+    double sum = 0, mean = 0;
+    for (std::size_t k = begin; k < end; ++k) sum += weight(k), mean += weight(k) * m_.time[k];
+    mean /= sum;
+    Eigen::VectorXd c = Eigen::VectorXd::Zero(covariance_.rows());
+    double scale = 0;
+    for (std::size_t k = begin; k < end; ++k) {
+      c[static_cast<Eigen::Index>(k)] = weight(k) * (m_.time[k] - mean);
+      scale += weight(k) * (m_.time[k] - mean) * (m_.time[k] - mean);
+    }
+    return c / scale;
+  }
+  double value(const Eigen::VectorXd& c) const {
+    return c.dot(Eigen::Map<const Eigen::VectorXd>(m_.value.data(), c.size()));
+  }
+  double error(const Eigen::VectorXd& c) const { return std::sqrt(c.dot(covariance_ * c)); }
+
+  /// The first point at or after a time, but for rounding.
+  std::size_t index(double time) const {
+    const auto at = std::lower_bound(m_.time.begin(), m_.time.end(), time * (1 - 1e-9));
+    return static_cast<std::size_t>(at - m_.time.begin());
+  }
+
+ private:
+  double weight(std::size_t k) const { return 1 / variance_[static_cast<Eigen::Index>(k)]; }
+
+  MeanSquareCurve m_;
+  Eigen::VectorXd variance_;  // of diffusion, but for a factor
+  Eigen::MatrixXd covariance_;
+};
+
+/// The slopes of both halves of a window, from a point to the end.
+struct Halves {
+  double change;  ///< later slope − earlier slope
+  double error;   ///< of the change
+  double later;
+};
+
+Halves halves(const Slopes& slopes, std::size_t begin) {
+  const std::vector<double>& time = slopes.curve().time;
+  const std::size_t middle = slopes.index(std::sqrt(time[begin] * time.back()));
+  const Eigen::VectorXd earlier = slopes.coefficients(begin, middle);
+  const Eigen::VectorXd later = slopes.coefficients(middle, time.size());
+  const Eigen::VectorXd difference = later - earlier;
+  return {slopes.value(difference), slopes.error(difference), slopes.value(later)};
+}
+
+bool straight(const Halves& h) {
+  return std::abs(h.change) <= chance * h.error;
+}
+
+DiffusionCoefficient without(const std::string& reason) {
+  return {none, none, none, none, reason};
+}
+
+/// Both halves of the shortest window have two points, which a slope needs.
+bool enough_points(const Slopes& slopes) {
+  const std::vector<double>& time = slopes.curve().time;
+  if (time.size() < 4 || time.back() < shortest_window * time.front() * (1 - 1e-9)) return false;
+  const std::size_t begin = slopes.index(time.back() / shortest_window);
+  const std::size_t middle = slopes.index(std::sqrt(time[begin] * time.back()));
+  return middle >= begin + 2 && time.size() >= middle + 2;
+}
+
+}  // namespace
+
+DiffusionCoefficient diffusion_coefficient(const MeanSquareCurve& curve, int dimension) {
+  check(curve);
+  const Slopes slopes(points_with_error(curve));
+  const MeanSquareCurve& m = slopes.curve();
+  if (!enough_points(slopes))
+    return without("the times with known errors are too few, or span less than a factor of nine");
+  if (!(m.value.back() >= 1))
+    return without(fmt::format("the mean square is only {:.3g} at the longest time {:.4g}",
+                               m.value.back(), m.time.back()));
+
+  const double longest = m.time.back();
+  std::size_t begin = slopes.index(longest / shortest_window);
+  const Halves shortest = halves(slopes, begin);
+  double change = 0;
+  if (straight(shortest)) {
+    while (begin > 0 && straight(halves(slopes, begin - 1))) --begin;
+  } else {
+    change = std::abs(shortest.change);
+    if (!(change <= tolerance * shortest.later))
+      return without(
+          fmt::format("not diffusive yet: the slope still changes by {:.0f} % between the "
+                      "halves of [{:.4g}, {:.4g}]",
+                      100 * shortest.change / shortest.later, m.time[begin], longest));
+  }
+  const std::size_t from = slopes.index(std::min(margin * m.time[begin], longest / margin));
+  const Eigen::VectorXd c = slopes.coefficients(from, m.time.size());
+  const double scale = 1.0 / (2 * dimension);
+  return {scale * slopes.value(c), scale * std::max(slopes.error(c), change), m.time[from], longest,
+          ""};
+}
+
+}  // namespace vitrel

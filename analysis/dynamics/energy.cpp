@@ -1,0 +1,57 @@
+#include "analysis/dynamics/energy.h"
+
+#include <cassert>
+#include <limits>
+#include <numeric>
+
+namespace vitrel {
+
+EnergySeries energies(Trajectory& trajectory) {
+  EnergySeries series;
+  series.time = trajectory.times();
+  for (std::size_t k = 0; k < trajectory.frames(); ++k) {
+    const Configuration2& frame = trajectory.read(k);
+    const Mechanics sums = mechanics(frame);
+    const double n = static_cast<double>(frame.size());
+    series.translational.push_back(sums.translational_energy / n);
+    series.rotational.push_back(sums.rotational_energy / n);
+    series.total.push_back((sums.translational_energy + sums.rotational_energy) / n);
+  }
+  return series;
+}
+
+Estimate time_average(const std::vector<double>& time, const std::vector<double>& series) {
+  Estimate estimate = block_average(series);
+  if (!evenly_spaced(time)) estimate = {estimate.mean, std::numeric_limits<double>::quiet_NaN(), 0};
+  return estimate;
+}
+
+CompressibilitySeries compressibility(const EnergySeries& energy, const std::vector<double>& virial,
+                                      std::size_t particles, std::size_t rotations, int dimension) {
+  assert(virial.size() == energy.time.size());
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const std::size_t frames = virial.size();
+  if (frames < 2 || particles < 2) return {{}, {}, {none, none, 0}};
+
+  const double n = static_cast<double>(particles);
+  const double mean_energy = n * std::accumulate(energy.total.begin(), energy.total.end(), 0.0) /
+                             static_cast<double>(frames);
+  const double temperature =
+      2 * mean_energy / (dimension * (n - 1) + static_cast<double>(rotations));
+  const auto between = [&](std::size_t from, std::size_t to) {
+    const double time = energy.time[to] - energy.time[from];
+    return 1 + (virial[to] - virial[from]) / (dimension * n * temperature * time);
+  };
+
+  CompressibilitySeries series;
+  for (std::size_t k = 1; k < frames; ++k) {
+    series.time.push_back(0.5 * (energy.time[k - 1] + energy.time[k]));
+    series.value.push_back(between(k - 1, k));
+  }
+  // The mean over a run of uneven intervals is not that of the intervals' values.
+  series.mean = time_average(energy.time, series.value);
+  series.mean.mean = between(0, frames - 1);
+  return series;
+}
+
+}  // namespace vitrel

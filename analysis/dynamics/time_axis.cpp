@@ -1,0 +1,173 @@
+#include "analysis/dynamics/time_axis.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/trajectory.h"
+
+namespace vitrel {
+
+namespace {
+
+constexpr std::size_t most_pairs = std::size_t{1} << 22;
+/// Of single precision, relative.
+constexpr double rounding = 0x1p-24;
+/// The most that time differences taken as equal may differ by, relative.
+constexpr double widest = 1e-3;
+
+std::size_t stride_to(std::size_t most, std::size_t available) {
+  return (available + most - 1) / most;
+}
+
+Lag even_lag(std::size_t frames, double time, std::size_t samples, std::size_t most_origins) {
+  const std::size_t available = samples - frames;
+  const std::size_t stride = stride_to(most_origins, available);
+  return {frames, stride, (available - 1) / stride + 1, time};
+}
+
+std::vector<Lag> even_lags(std::span<const double> times, const TimeAxisOptions& options) {
+  const double intervals = static_cast<double>(times.size() - 1);
+  const auto longest =
+      std::max<std::size_t>(1, static_cast<std::size_t>(options.longest_lag * intervals));
+  const double growth = std::pow(10, 1 / static_cast<double>(options.lags_per_decade));
+  std::vector<Lag> lags;
+  double next = 1;
+  for (std::size_t frames = 1; frames <= longest;) {
+    const double time = (times.back() - times.front()) * static_cast<double>(frames) / intervals;
+    lags.push_back(even_lag(frames, time, times.size(), options.most_origins));
+    if (frames < options.every_lag_up_to) {
+      next = static_cast<double>(++frames);
+    } else {
+      next = std::max(next * growth, static_cast<double>(frames + 1));
+      frames = static_cast<std::size_t>(next);
+    }
+  }
+  return lags;
+}
+
+/// A time difference between two frames, and by how much rounding may have changed it.
+struct Difference {
+  Difference(std::span<const double> times, std::size_t from, std::size_t to)
+      : time(times[to] - times[from]),
+        uncertainty(rounding * (std::abs(times[from]) + std::abs(times[to]))),
+        is_from_first(from == 0) {}
+
+  double time, uncertainty;
+  bool is_from_first;
+};
+
+/// How far another difference may be from this one and yet be taken as equal.
+double tolerance(const Difference& one, const Difference& other) {
+  return std::min(one.uncertainty + other.uncertainty, widest * one.time);
+}
+
+std::vector<Difference> first_differences(std::span<const double> times) {
+  std::vector<Difference> found;
+  for (std::size_t from = 0; from + 1 < times.size(); ++from) {
+    if (from > 0 && found.size() + times.size() - 1 - from > most_pairs) break;
+    for (std::size_t to = from + 1; to < times.size(); ++to) found.emplace_back(times, from, to);
+  }
+  std::sort(found.begin(), found.end(), [](const Difference& a, const Difference& b) {
+    return std::pair(a.time, a.uncertainty) < std::pair(b.time, b.uncertainty);
+  });
+  return found;
+}
+
+/// Of every step of time the difference that most pairs have, ascending.
+std::vector<Difference> common_differences(const std::vector<Difference>& sorted,
+                                           std::size_t steps_per_decade) {
+  std::vector<Difference> chosen;
+  double chosen_step = -1;
+  std::size_t chosen_pairs = 0;
+  for (std::size_t begin = 0, end = 0; begin < sorted.size(); begin = end) {
+    const Difference& first = sorted[begin];
+    bool is_from_first = false;
+    for (; end < sorted.size() && sorted[end].time - first.time <= tolerance(first, sorted[end]);
+         ++end)
+      is_from_first = is_from_first || sorted[end].is_from_first;
+    const std::size_t pairs = end - begin;
+    if (pairs == 1 && !is_from_first) continue;
+    const double shortest = chosen.empty() ? first.time : chosen.front().time;
+    const double step =
+        std::floor(std::log10(first.time / shortest) * static_cast<double>(steps_per_decade));
+    if (step > chosen_step)
+      chosen.push_back(first);
+    else if (pairs > chosen_pairs)
+      chosen.back() = first;
+    else
+      continue;
+    chosen_step = step;
+    chosen_pairs = pairs;
+  }
+  return chosen;
+}
+
+/// All pairs of frames that far apart.
+std::vector<FramePair> pairs_of(const Difference& wanted, std::span<const double> times) {
+  std::vector<FramePair> pairs;
+  for (std::size_t from = 0, to = 0; from < times.size(); ++from) {
+    const auto away = [&](const Difference& d) { return d.time - wanted.time; };
+    for (; to < times.size(); ++to) {
+      const Difference difference(times, from, to);
+      if (away(difference) < -tolerance(wanted, difference)) continue;
+      if (away(difference) <= tolerance(wanted, difference))
+        pairs.push_back({static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(to)});
+      break;
+    }
+  }
+  return pairs;
+}
+
+/// The most origins that begin within some window of this duration.
+std::size_t most_within(double duration, const std::vector<FramePair>& pairs,
+                        std::span<const double> times) {
+  std::size_t most = 0;
+  for (std::size_t begin = 0, end = 0; begin < pairs.size(); ++begin) {
+    while (end < pairs.size() && times[pairs[end].from] - times[pairs[begin].from] < duration)
+      ++end;
+    most = std::max(most, end - begin);
+  }
+  return most;
+}
+
+Lag lag_of(const Difference& wanted, std::span<const double> times, std::size_t most_origins) {
+  std::vector<FramePair> pairs;
+  const std::vector<FramePair> all = pairs_of(wanted, times);
+  const std::size_t stride = stride_to(most_origins, all.size());
+  double excess = 0;
+  for (std::size_t k = 0; k < all.size(); k += stride) {
+    pairs.push_back(all[k]);
+    excess += times[all[k].to] - times[all[k].from] - wanted.time;
+  }
+  const std::size_t origins = pairs.size();
+  const bool share = most_within((1 - widest) * wanted.time, pairs, times) > 1;
+  const std::size_t block = share ? most_within(4 * wanted.time, pairs, times) : 1;
+  const double time = wanted.time + excess / static_cast<double>(origins);
+  return {0, 0, origins, time, std::move(pairs), block};
+}
+
+std::vector<Lag> uneven_lags(std::span<const double> times, const TimeAxisOptions& options) {
+  std::vector<Lag> lags;
+  double least = 0;  // so far apart that no pair of frames belongs to two lags
+  for (const Difference& wanted :
+       common_differences(first_differences(times), options.lags_per_decade)) {
+    if (wanted.time < least) continue;
+    lags.push_back(lag_of(wanted, times, options.most_origins));
+    least = wanted.time * (1 + 3 * widest);
+  }
+  return lags;
+}
+
+}  // namespace
+
+double Lag::shortest_block() const {
+  if (!pairs.empty()) return static_cast<double>(pairs_per_block);
+  return stride < frames ? 4 * static_cast<double>(frames) / static_cast<double>(stride) : 1;
+}
+
+std::vector<Lag> time_axis(std::span<const double> times, const TimeAxisOptions& options) {
+  if (times.size() < 2) return {};
+  return evenly_spaced(times) ? even_lags(times, options) : uneven_lags(times, options);
+}
+
+}  // namespace vitrel

@@ -1,0 +1,123 @@
+#include "analysis/glass/glass_data.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "analysis/dynamics/director_frame.h"
+
+namespace vitrel {
+namespace {
+
+constexpr double nematic_order_of_l = 2;  // the n of L_n that is judged
+
+/// Null if it was not measured.
+const Correlation* l_2(const Displacements& found) {
+  const auto order = std::find(found.orders.begin(), found.orders.end(), nematic_order_of_l);
+  const std::vector<Correlation>& orientation = found.groups.front().orientation;
+  const auto index = static_cast<std::size_t>(order - found.orders.begin());
+  return index < orientation.size() ? &orientation[index] : nullptr;
+}
+
+Decay decay(const Displacements& found, const Correlation& correlation) {
+  return {found.lag, correlation.value, correlation.error};
+}
+
+BlockedCurve blocked(const Displacements& found, const Correlation& correlation) {
+  return {found.lag, correlation.value, correlation.error, correlation.blocks};
+}
+
+/// L_2 alone, and F_s at the first of the wave numbers.
+DisplacementOptions of_glass(DisplacementOptions options, const Displacements& found) {
+  options.wave_numbers = {found.wave_numbers.front()};
+  options.orders = {nematic_order_of_l};
+  return options;
+}
+
+/// Passes over all particles, told as one piece of work.
+class Passes {
+ public:
+  Passes(std::size_t count, std::size_t particles, const ProgressReport& report)
+      : count_(static_cast<double>(count)),
+        particles_(static_cast<double>(particles)),
+        report_(report) {}
+
+  ProgressReport next() {
+    if (!report_) return {};
+    return [this, before = begun_++](const Progress& pass) {
+      report_({(before + pass.fraction) / count_, before * particles_ + pass.value, pass.quantity});
+    };
+  }
+
+ private:
+  double count_, particles_;
+  double begun_ = 0;
+  const ProgressReport& report_;
+};
+
+/// L_2 from a pass of its own.
+Decay orientation(Trajectory& seen, const DisplacementOptions& options,
+                  const ProgressReport& report) {
+  const Displacements found = displacements(seen, options, report);
+  return decay(found, *l_2(found));
+}
+
+void add_halves(GlassRunData& data, Trajectory& trajectory, const DisplacementOptions& options,
+                Passes& passes) {
+  const std::size_t middle = trajectory.frames() / 2;
+  if (middle < 2) return;
+  TrajectoryPart early(trajectory, 0, middle);
+  TrajectoryPart late(trajectory, middle, trajectory.frames());
+  const Displacements first = displacements(early, options, passes.next());
+  const Displacements second = displacements(late, options, passes.next());
+  const DisplacementGroup& before = first.groups.front();
+  const DisplacementGroup& after = second.groups.front();
+  data.halves = {{"the mean squared displacement", blocked(first, before.translation),
+                  blocked(second, after.translation)},
+                 {"F_s", blocked(first, before.self_scattering.front()),
+                  blocked(second, after.self_scattering.front())}};
+  if (const Correlation* l = l_2(first))
+    data.rotation_halves = {{"L_2", blocked(first, *l), blocked(second, *l_2(second))}};
+}
+
+/// What there is without another pass, but for L_2.
+GlassRunData known_data(const GlassSource& run, const std::vector<double>& times) {
+  const Displacements& found = run.displacements;
+  GlassRunData data{};
+  data.name = run.name;
+  data.packing_fraction = run.packing_fraction;
+  data.seed = run.seed;
+  data.rotors = run.rotors;
+  data.duration = times.back() - times.front();
+  data.wave_number = found.wave_numbers.front();
+  data.scattering = decay(found, found.groups.front().self_scattering.front());
+  data.diffusion = run.diffusion;
+  data.rotational_diffusion = run.rotational_diffusion;
+  if (!run.compressibility.value.empty())
+    data.series.push_back({"the compressibility factor", run.compressibility.value});
+  data.series.push_back({"the hexatic order", run.order.find("hexatic")->value});
+  if (run.rotors > 0) data.nematic_order = run.order.find("nematic")->value;
+  return data;
+}
+
+}  // namespace
+
+std::optional<GlassRunData> glass_run_data(Trajectory& trajectory, const GlassSource& run,
+                                           const DisplacementOptions& options,
+                                           const ProgressReport& report) {
+  if (!evenly_spaced(trajectory.times())) return std::nullopt;
+  const Displacements& found = run.displacements;
+  const DisplacementOptions wanted = of_glass(options, found);
+  GlassRunData data = known_data(run, trajectory.times());
+  std::optional<DirectorFrame> director;
+  if (is_nematic(data)) director.emplace(trajectory);
+  Trajectory& seen = director ? *director : trajectory;
+  const Correlation* measured = director ? nullptr : l_2(found);
+  const bool is_missing = run.rotors > 0 && !measured;
+  Passes passes(is_missing ? 3 : 2, trajectory.read(0).size(), report);
+  if (measured) data.orientation = decay(found, *measured);
+  if (is_missing) data.orientation = orientation(seen, wanted, passes.next());
+  add_halves(data, seen, wanted, passes);
+  return data;
+}
+
+}  // namespace vitrel

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+
+#include "analysis/dynamics/diffusion.h"
+#include "analysis/dynamics/displacement.h"
+#include "analysis/dynamics/energy.h"
+#include "analysis/glass/glass_study.h"
+#include "analysis/results.h"
+
+namespace vitrel {
+
+/// What the analysis has found out about a run.
+struct GlassSource {
+  std::string name;
+  std::uint64_t seed;
+  double packing_fraction;
+  std::size_t rotors;
+  const Displacements& displacements;
+  const CompressibilitySeries& compressibility;
+  const Table& order;  ///< the table `order`
+  const DiffusionCoefficient& diffusion;
+  const DiffusionCoefficient& rotational_diffusion;
+};
+
+/// What the glass study needs of it: F_s at the first of the wave numbers, L_2 (of a nematic seen from its
+/// director), order, diffusion, and these curves once more from each half of the run. No value for runs
+/// that are not evenly sampled: these cannot be judged. `report` hears of the particles, those of all
+/// passes.
+std::optional<GlassRunData> glass_run_data(Trajectory& trajectory, const GlassSource& run,
+                                           const DisplacementOptions& options,
+                                           const ProgressReport& report = {});
+
+}  // namespace vitrel

@@ -1,0 +1,163 @@
+#include "analysis/statistics/blocking.h"
+
+#include <gsl/gsl_cdf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+
+namespace vitrel {
+
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double rounding = 1e-9;  // of a mean: below it nothing fluctuates
+
+/// Variance of the mean of values taken as independent.
+double squared_error(double count, double squares) {
+  return squares / (count * (count - 1));
+}
+
+}  // namespace
+
+double mean_of(std::span<const double> values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+Estimate block_average(std::span<const double> series, double shortest_block) {
+  BlockSums sums;
+  for (const double value : series) sums.add(value);
+  return sums.estimate(shortest_block);
+}
+
+Estimate known_block_average(std::span<const double> series, std::size_t block,
+                             double correlation) {
+  const std::size_t blocks = series.size() / block;
+  double sum = 0, squares = 0;
+  for (std::size_t b = 0; b < blocks; ++b) {
+    const double mean = mean_of(series.subspan(b * block, block));
+    sum += mean;
+    squares += mean * mean;
+  }
+  if (blocks < fewest_blocks) return {mean_of(series), none, 0};
+  const double ratio = static_cast<double>(block) / correlation;
+  const double seen = correlation > 0 ? 1 + std::expm1(-ratio) / ratio : 1;
+  return {mean_of(series), independent_average(blocks, sum, squares).error / std::sqrt(seen),
+          blocks};
+}
+
+std::size_t correlation_steps(std::span<const double> series) {
+  const double mean = mean_of(series);
+  const auto correlation = [&](std::size_t lag) {
+    double sum = 0;
+    for (std::size_t k = lag; k < series.size(); ++k)
+      sum += (series[k] - mean) * (series[k - lag] - mean);
+    return sum / static_cast<double>(series.size() - lag);
+  };
+  const double variance = correlation(0);
+  if (std::sqrt(variance) <= rounding * std::abs(mean)) return 0;
+  const auto lasts = [&](std::size_t lag) {
+    const double bias = 2 * static_cast<double>(lag) / static_cast<double>(series.size());
+    return correlation(lag) / variance + bias > (1 + bias) / std::numbers::e;
+  };
+  std::size_t lag = 0;
+  while (lag + 1 < series.size() && lasts(lag)) ++lag;
+  return lag;
+}
+
+Estimate slow_average(std::span<const double> series) {
+  const Estimate plateau = block_average(series);
+  if (plateau.blocks > 0) return plateau;
+  const std::size_t steps = correlation_steps(series);
+  return known_block_average(series, std::max<std::size_t>(1, 2 * steps),
+                             static_cast<double>(steps));
+}
+
+void BlockSums::add(double value) {
+  for (std::size_t k = 0;; ++k) {
+    if (k == levels_.size()) levels_.emplace_back();
+    Level& level = levels_[k];
+    const double step = value - level.mean;
+    level.count += 1;
+    level.mean += step / level.count;
+    level.squares += step * (value - level.mean);
+    const bool is_odd = static_cast<std::uint64_t>(level.count) % 2 == 1;
+    if (is_odd) {
+      level.waiting = value;
+      return;
+    }
+    value = 0.5 * (level.waiting + value);
+  }
+}
+
+std::size_t BlockSums::count() const {
+  return levels_.empty() ? 0 : static_cast<std::size_t>(levels_.front().count);
+}
+
+Estimate BlockSums::estimate(double shortest_block) const {
+  if (levels_.empty()) return {none, none, 0};
+  const double n = levels_.front().count;
+  const double mean = levels_.front().mean;
+  if (n < fewest_blocks) return {mean, none, 0};
+  const double naive = squared_error(n, levels_.front().squares);
+  if (naive == 0) return {mean, 0, count()};
+
+  double length = 1;
+  for (const Level& level : levels_) {
+    if (level.count < fewest_blocks) break;
+    const double squared = squared_error(level.count, level.squares);
+    const double correlation = std::max(1.0, squared / naive);
+    if (length >= shortest_block && length * length * length >= 2 * n * correlation * correlation) {
+      const auto blocks = static_cast<std::size_t>(level.count);
+      return {mean, std::sqrt(squared) * student_factor(blocks - 1), blocks};
+    }
+    length *= 2;
+  }
+  return {mean, none, 0};
+}
+
+void BlockSums::store(std::vector<double>& numbers) const {
+  numbers.push_back(static_cast<double>(levels_.size()));
+  for (const Level& level : levels_)
+    numbers.insert(numbers.end(), {level.count, level.mean, level.squares, level.waiting});
+}
+
+std::span<const double> BlockSums::restore(std::span<const double> numbers) {
+  levels_.resize(static_cast<std::size_t>(numbers.front()));
+  numbers = numbers.subspan(1);
+  for (Level& level : levels_) {
+    level = {numbers[0], numbers[1], numbers[2], numbers[3]};
+    numbers = numbers.subspan(4);
+  }
+  return numbers;
+}
+
+Estimate independent_average(std::size_t count, double sum, double sum_of_squares) {
+  if (count == 0) return {none, none, 0};
+  const double n = static_cast<double>(count);
+  const double mean = sum / n;
+  if (count == 1) return {mean, none, 0};
+  // Rounding can make the variance of equal values a little negative.
+  const double variance = std::max(0.0, (sum_of_squares - n * mean * mean) / (n - 1));
+  return {mean, std::sqrt(variance / n) * student_factor(count - 1), count};
+}
+
+ConfidenceInterval confidence_interval(std::span<const double> values, double level) {
+  const double mean = mean_of(values), n = static_cast<double>(values.size());
+  if (values.size() < 2) return {mean, none};
+  double squares = 0;
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  const double quantile = gsl_cdf_tdist_Pinv(0.5 * (1 + level), n - 1);
+  return {mean, quantile * std::sqrt(squares / (n - 1) / n)};
+}
+
+double student_factor(std::size_t degrees_of_freedom) {
+  const double x = 1 / static_cast<double>(degrees_of_freedom);
+  return 1 + x * (1.0 / 2 + x * (1.0 / 4 + x / 16));
+}
+
+}  // namespace vitrel

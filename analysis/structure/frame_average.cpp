@@ -1,0 +1,66 @@
+#include "analysis/structure/frame_average.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "analysis/statistics/blocking.h"
+
+namespace vitrel {
+
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+/// The weighted mean of one number; `value` is 0 where there is no weight.
+Estimate weighted_average(const std::vector<double>& value, const std::vector<double>& weight) {
+  const double frames = static_cast<double>(value.size());
+  double sum = 0, weights = 0;
+  for (std::size_t k = 0; k < value.size(); ++k) {
+    sum += weight[k] * value[k];
+    weights += weight[k];
+  }
+  if (weights == 0) return {none, none, 0};
+  const double mean = sum / weights;
+  std::vector<double> deviation;
+  for (std::size_t k = 0; k < value.size(); ++k)
+    deviation.push_back(weight[k] * (value[k] - mean) * frames / weights);
+  Estimate estimate = block_average(deviation);
+  estimate.mean = mean;
+  return estimate;
+}
+
+}  // namespace
+
+void FrameAverage::add(std::span<const double> row, std::span<const double> weights) {
+  assert(row.size() == weights.size());
+  std::vector<double>& kept = rows_.emplace_back(row.begin(), row.end());
+  std::vector<double>& kept_weights = weights_.emplace_back(weights.begin(), weights.end());
+  for (std::size_t place = 0; place < kept.size(); ++place)
+    if (std::isnan(kept[place])) kept[place] = kept_weights[place] = 0;
+}
+
+void FrameAverage::add(std::span<const double> row) {
+  add(row, std::vector<double>(row.size(), 1.0));
+}
+
+Averages FrameAverage::averages(bool even) const {
+  std::size_t places = 0;
+  for (const std::vector<double>& row : rows_) places = std::max(places, row.size());
+  Averages result;
+  for (std::size_t place = 0; place < places; ++place) {
+    std::vector<double> value, weight;
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+      const bool missing = place >= rows_[k].size();
+      value.push_back(missing ? 0 : rows_[k][place]);
+      weight.push_back(missing ? 0 : weights_[k][place]);
+    }
+    const Estimate estimate = weighted_average(value, weight);
+    result.mean.push_back(estimate.mean);
+    result.error.push_back(even ? estimate.error : none);
+  }
+  return result;
+}
+
+}  // namespace vitrel

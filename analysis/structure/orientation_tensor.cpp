@@ -1,0 +1,92 @@
+#include "analysis/structure/orientation_tensor.h"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/random/stream.h"
+
+namespace vitrel {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t most_drawn = 1000, packings_drawn = 2000;
+// The least numbers of axes for which ⟨ρ⟩ and ⟨ρ²⟩ are finite.
+constexpr std::size_t least_for_mean = 5, least_for_deviation = 7;
+
+Vec3 isotropic_axis(Stream& draw) {
+  const double z = draw.uniform(-1, 1), angle = draw.uniform(0, 2 * std::numbers::pi);
+  const double radius = std::sqrt(1 - z * z);
+  return {radius * std::cos(angle), radius * std::sin(angle), z};
+}
+
+OrientationTensor isotropic_tensor(std::size_t axes, Stream& draw) {
+  OrientationTensor tensor{Mat3::Zero(), axes};
+  for (std::size_t i = 0; i < axes; ++i) {
+    const Vec3 w = isotropic_axis(draw);
+    tensor.matrix += w * w.transpose() / static_cast<double>(axes);
+  }
+  return tensor;
+}
+
+IsotropicRatio drawn_ratio(std::size_t axes) {
+  double sum = 0, squares = 0;
+  for (std::size_t packing = 0; packing < packings_drawn; ++packing) {
+    Stream draw(0, Purpose::isotropic_axes, packing);
+    const double ratio = isotropic_tensor(axes, draw).ratio();
+    sum += ratio;
+    squares += ratio * ratio;
+  }
+  const double mean = sum / packings_drawn;
+  if (axes < least_for_deviation) return {mean, infinity};
+  return {mean, std::sqrt(squares / packings_drawn - mean * mean)};
+}
+
+IsotropicRatio expanded_ratio(double axes) {
+  using std::numbers::pi;
+  const double s = std::sqrt(2 / (15 * axes));
+  const double g = 3 * std::sqrt(3 / pi) * s, g_2 = 9.5 * s * s;
+  const double g_3 = (27 * std::sqrt(3.0) + 4 * pi) / std::sqrt(pi) * s * s * s;
+  const double variance = 9 * (g_2 - g * g) + 27 * (g_3 - g * g_2);
+  return {1 + 3 * g + 4.5 * g_2, std::sqrt(variance)};
+}
+
+}  // namespace
+
+Vec3 figure_axis(const Ellipsoid& body, const Quaternion& orientation) {
+  int axis = body.symmetry_axis();
+  if (axis == Ellipsoid::none) body.semi_axes.maxCoeff(&axis);
+  return orientation * Vec3::Unit(axis);
+}
+
+Vec3 OrientationTensor::eigenvalues() const {
+  return Eigen::SelfAdjointEigenSolver<Mat3>(matrix, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
+double OrientationTensor::ratio() const {
+  if (axes == 0) return std::numeric_limits<double>::quiet_NaN();
+  const Vec3 values = eigenvalues();
+  // Below, the least eigenvalue is rounding.
+  return axes < 3 || values[0] <= 1e-15 ? infinity : values[2] / values[0];
+}
+
+OrientationTensor orientation_tensor(const Configuration3& packing) {
+  OrientationTensor tensor;
+  for (std::size_t i = 0; i < packing.size(); ++i) {
+    if (packing.shape[i].is_round()) continue;
+    const Vec3 w = figure_axis(packing.shape[i], packing.orientation[i]);
+    tensor.matrix += w * w.transpose();
+    ++tensor.axes;
+  }
+  if (tensor.axes > 0) tensor.matrix /= static_cast<double>(tensor.axes);
+  return tensor;
+}
+
+IsotropicRatio isotropic_ratio(std::size_t axes) {
+  if (axes < least_for_mean) return {infinity, infinity};
+  return axes <= most_drawn ? drawn_ratio(axes) : expanded_ratio(static_cast<double>(axes));
+}
+
+}  // namespace vitrel

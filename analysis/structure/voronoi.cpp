@@ -1,0 +1,90 @@
+#include "analysis/structure/voronoi.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vitrel {
+
+namespace {
+
+/// A corner of a convex polygon about the origin, and the neighbour beyond the edge that begins
+/// there.
+struct Corner {
+  Vec2 at;
+  Vec2 to;
+};
+using Polygon = std::vector<Corner>;
+
+Polygon rectangle(const Vec2& lengths) {
+  const double x = 0.5 * lengths.x(), y = 0.5 * lengths.y();
+  return {
+      {{-x, -y}, {0, -2 * y}}, {{x, -y}, {2 * x, 0}}, {{x, y}, {0, 2 * y}}, {{-x, y}, {-2 * x, 0}}};
+}
+
+/// What of a polygon is nearer to the origin than to `to`.
+Polygon cut(const Polygon& corners, const Vec2& to) {
+  const auto excess = [&](const Corner& corner) {
+    return corner.at.dot(to) - 0.5 * to.squaredNorm();
+  };
+  Polygon left;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Corner& here = corners[k];
+    const Corner& next = corners[(k + 1) % corners.size()];
+    const double a = excess(here), b = excess(next);
+    if (a <= 0) left.push_back(here);
+    if ((a <= 0) == (b <= 0)) continue;
+    const Vec2 crossing = here.at + a / (a - b) * (next.at - here.at);
+    left.push_back({crossing, a <= 0 ? to : here.to});
+  }
+  return left;
+}
+
+double farthest(const Polygon& corners) {
+  double squared = 0;
+  for (const Corner& corner : corners) squared = std::max(squared, corner.at.squaredNorm());
+  return std::sqrt(squared);
+}
+
+VoronoiCell as_cell(const Polygon& corners) {
+  VoronoiCell cell{0, {}};
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Vec2& here = corners[k].at;
+    const Vec2& next = corners[(k + 1) % corners.size()].at;
+    cell.area += 0.5 * cross(here, next);
+    cell.edges.push_back({corners[k].to, (next - here).norm()});
+  }
+  return cell;
+}
+
+}  // namespace
+
+Voronoi::Voronoi(const Configuration2& configuration)
+    : lengths_(configuration.box.lengths()),
+      reach_(3 * std::sqrt(configuration.box.volume() / static_cast<double>(configuration.size()))),
+      centres_(configuration.box, reach_, configuration.size()) {
+  for (std::size_t i = 0; i < configuration.size(); ++i)
+    centres_.insert(i, {configuration.position[i]});
+}
+
+VoronoiCell Voronoi::cell(std::size_t i) const {
+  Polygon corners;
+  std::vector<Vec2> near;
+  for (double reach = 0, next = reach_; reach < next; next = 2 * farthest(corners)) {
+    corners = rectangle(lengths_);
+    near.clear();
+    centres_.for_each_near(centres_[i].position, reach = next,
+                           [&](std::size_t j, const Shift<2>& shift, const Vec2& d) {
+                             // The four nearest own images are the sides of the box.
+                             if (j != i || shift.squaredNorm() > 1) near.push_back(d);
+                           });
+    std::sort(near.begin(), near.end(),
+              [](const Vec2& p, const Vec2& q) { return p.squaredNorm() < q.squaredNorm(); });
+    for (const Vec2& d : near) {
+      if (d.norm() >= 2 * farthest(corners)) break;
+      corners = cut(corners, d);
+    }
+  }
+  return as_cell(corners);
+}
+
+}  // namespace vitrel

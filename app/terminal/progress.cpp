@@ -1,0 +1,80 @@
+#include "app/terminal/progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+
+namespace vitrel {
+namespace {
+
+double seconds_between(auto from, auto to) {
+  return std::chrono::duration<double>(to - from).count();
+}
+
+}  // namespace
+
+ProgressDisplay::Mode ProgressDisplay::mode(bool quiet) {
+  if (quiet) return Mode::silent;
+  return isatty(STDERR_FILENO) ? Mode::terminal : Mode::lines;
+}
+
+void ProgressDisplay::begin(const std::string& label) {
+  clear();
+  label_ = prefix_ + label;
+  first_.reset();
+}
+
+void ProgressDisplay::show(const Progress& progress) {
+  if (mode_ == Mode::silent) return;
+  const Clock::time_point now = Clock::now();
+  if (!first_) {
+    // Rates count from here: a continued run has done its first part long ago.
+    first_ = progress;
+    started_ = shown_ = now;
+    return;
+  }
+  if (seconds_between(shown_, now) < (mode_ == Mode::terminal ? 0.2 : 10)) return;
+  shown_ = now;
+  const double elapsed = seconds_between(started_, now);
+  const double rate = (progress.value - first_->value) / elapsed;
+  const double advance = progress.fraction - first_->fraction;
+  const std::string left =
+      advance > 0 ? ", " + duration_text(elapsed * (1 - progress.fraction) / advance) + " left"
+                  : "";
+  const std::string line =
+      fmt::format("{} {:.1f} %, {} {:.5g} ({:.3g}/s){}", label_, 100 * progress.fraction,
+                  progress.quantity, progress.value, rate, left);
+  if (mode_ == Mode::terminal) {
+    // Return to the start of the line, write, erase what is left of the line before.
+    fmt::print(stderr, "\r{}\033[K", line);
+    std::fflush(stderr);
+    line_is_open_ = true;
+  } else {
+    fmt::print(stderr, "{}\n", line);
+  }
+}
+
+void ProgressDisplay::say(const std::string& line) {
+  if (mode_ == Mode::silent) return;
+  clear();
+  fmt::print(stderr, "{}\n", line);
+}
+
+void ProgressDisplay::clear() {
+  if (line_is_open_) fmt::print(stderr, "\r\033[K");
+  line_is_open_ = false;
+}
+
+std::string duration_text(double seconds) {
+  if (!(seconds >= 0 && seconds < 1e9)) return "?";
+  const auto total = static_cast<long>(std::lround(seconds));
+  const long days = total / 86400, hours = total / 3600 % 24, minutes = total / 60 % 60;
+  const long rest = total % 60;
+  if (days > 0) return fmt::format("{}:{:02}:{:02}:{:02}", days, hours, minutes, rest);
+  if (hours > 0) return fmt::format("{}:{:02}:{:02}", hours, minutes, rest);
+  return fmt::format("{}:{:02}", minutes, rest);
+}
+
+}  // namespace vitrel

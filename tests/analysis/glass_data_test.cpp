@@ -1,0 +1,63 @@
+#include "analysis/glass/glass_data.h"
+
+#include <gtest/gtest.h>
+
+#include "analysis/dynamics/director_frame.h"
+#include "tests/support/free_brownian.h"
+
+namespace vitrel {
+namespace {
+
+const DiffusionCoefficient diffusion{1, 0.1, 2, 3, ""}, rotational_diffusion{4, 0.4, 5, 6, ""};
+
+/// The data of 30 particles whose nematic order is said to be S, and what is told meanwhile.
+struct Told {
+  Told(MemoryTrajectory& trajectory, double order) {
+    const Displacements found = displacements(trajectory);
+    const Table orders{"order", "", {{"nematic", "1", {order}, {}}, {"hexatic", "1", {0.1}, {}}}};
+    const CompressibilitySeries no_pressure{};
+    const GlassSource run{
+        "run", 1, 0.5, 30, found, no_pressure, orders, diffusion, rotational_diffusion};
+    data = glass_run_data(trajectory, run, {},
+                          [&](const Progress& progress) { progresses.push_back(progress); });
+  }
+
+  std::optional<GlassRunData> data;
+  std::vector<Progress> progresses;
+};
+
+/// So many passes over 30 particles, together one piece of work.
+void expect_one_piece(const std::vector<Progress>& told, int passes) {
+  ASSERT_FALSE(told.empty());
+  for (std::size_t k = 0; k < told.size(); ++k) {
+    EXPECT_NEAR(told[k].value, 30 * passes * told[k].fraction, 1e-12);
+    EXPECT_TRUE(k == 0 || told[k].fraction >= told[k - 1].fraction);
+  }
+  EXPECT_LT(told.front().fraction, 0.1);
+  EXPECT_GT(told.back().fraction, 0.8);
+  EXPECT_LE(told.back().fraction, 1);
+}
+
+TEST(GlassRunData, TellsOfBothHalvesAsOne) {
+  MemoryTrajectory trajectory = free_brownian(ellipses(30), 80, 1);
+  const auto [data, told] = Told(trajectory, 0.1);
+  ASSERT_TRUE(data);
+  EXPECT_EQ(data->halves.size(), 2u);
+  EXPECT_EQ(data->diffusion.value, diffusion.value);
+  EXPECT_EQ(data->rotational_diffusion.value, rotational_diffusion.value);
+  EXPECT_EQ(data->orientation.value,
+            displacements(trajectory).groups.front().orientation.front().value);
+  expect_one_piece(told, 2);
+}
+
+TEST(GlassRunData, OfANematicTellsOfThePassFromTheDirectorToo) {
+  MemoryTrajectory trajectory = free_brownian(ellipses(30), 80, 1);
+  const auto [data, told] = Told(trajectory, 0.9);
+  ASSERT_TRUE(data);
+  DirectorFrame seen(trajectory);
+  EXPECT_EQ(data->orientation.value, displacements(seen).groups.front().orientation.front().value);
+  expect_one_piece(told, 3);
+}
+
+}  // namespace
+}  // namespace vitrel

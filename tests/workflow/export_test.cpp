@@ -1,0 +1,226 @@
+// Exports: which frames, and what is refused. The content is compared in tests/clients.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "analysis/results.h"
+#include "core/error.h"
+#include "core/io/h5md.h"
+#include "tests/app/program.h"
+#include "workflow/export/frame_range.h"
+#include "workflow/export/gsd.h"
+#include "workflow/export/trajectory_export.h"
+
+namespace vitrel {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing_program::Folder;
+using testing_program::Outcome;
+using testing_program::run;
+
+std::vector<std::uint64_t> chosen(const std::string& text, std::uint64_t frames) {
+  return FrameRange(text).of(frames, "run.h5");
+}
+
+std::string refusal(const std::string& text, std::uint64_t frames) {
+  try {
+    chosen(text, frames);
+  } catch (const UserError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// Disks on a line, in `frames` frames.
+void write_run(const std::filesystem::path& path, std::size_t particles, int frames) {
+  Configuration2 configuration;
+  configuration.box = PeriodicBox<2>(Vec2(3.0 * static_cast<double>(particles), 10));
+  configuration.resize(particles);
+  configuration.species_names = {"A"};
+  for (std::size_t i = 0; i < particles; ++i) {
+    configuration.position[i].x() = 3.0 * static_cast<double>(i);
+    configuration.shape[i].b = 1 / (1 + 1e-5 * static_cast<double>(i));
+  }
+  auto writer = TrajectoryWriter::create(path, configuration, current_provenance("", "", 1));
+  for (int k = 0; k < frames; ++k) {
+    configuration.time = k;
+    writer.write(configuration, k);
+  }
+  writer.close();
+}
+
+// The right side is what Python gives for list(range(n))[text].
+TEST(FrameRange, ReadsTheNotationOfPython) {
+  EXPECT_THAT(chosen(":", 3), ElementsAre(0, 1, 2));
+  EXPECT_THAT(chosen("1", 3), ElementsAre(1));
+  EXPECT_THAT(chosen("-1", 3), ElementsAre(2));
+  EXPECT_THAT(chosen("-3", 3), ElementsAre(0));
+  EXPECT_THAT(chosen("2:5", 7), ElementsAre(2, 3, 4));
+  EXPECT_THAT(chosen("1:6:2", 7), ElementsAre(1, 3, 5));
+  EXPECT_THAT(chosen("::3", 7), ElementsAre(0, 3, 6));
+  EXPECT_THAT(chosen("-2:", 7), ElementsAre(5, 6));
+  EXPECT_THAT(chosen(":-5", 7), ElementsAre(0, 1));
+  EXPECT_THAT(chosen("-100:100", 2), ElementsAre(0, 1));
+  EXPECT_THAT(chosen("::9223372036854775807", 3), ElementsAre(0));
+}
+
+TEST(FrameRange, SaysWhyItSelectsNothing) {
+  const std::string none = "selects nothing: run.h5 has 3 frame(s), counted from 0";
+  for (const std::string text :
+       {"3", "-4", "9223372036854775807", "2:2", "2:1", "3:", ":-3", "-9223372036854775808"})
+    EXPECT_EQ(refusal(text, 3), "--frames " + text + ": " + none);
+  EXPECT_THAT(refusal(":", 0), HasSubstr("has 0 frame(s)"));
+}
+
+TEST(FrameRange, RefusesWhatIsNoRange) {
+  for (const std::string text :
+       {"", "x", "1-3", "1:2:3:4", "1.5", " 1", "0:9:x", "99999999999999999999"})
+    EXPECT_THAT(refusal(text, 3), HasSubstr("one frame or first:end:step")) << text;
+  for (const std::string text : {"::0", "5:0:-1"})
+    EXPECT_THAT(refusal(text, 9), HasSubstr("a step below 1"));
+}
+
+TEST(Export, NamesTheFileAfterTheInputAndSaysWhatItDid) {
+  const Folder folder("export_summary");
+  write_run(folder / "run.h5", 5, 4);
+  const Outcome outcome =
+      run(folder.path(), {"export", "run.h5", "--to", "csv", "--frames", "1:", "--json", "-q"});
+  ASSERT_EQ(outcome.code, 0) << outcome.errors;
+  const auto summary = nlohmann::json::parse(outcome.output);
+  EXPECT_EQ(summary["output"], "run.csv");
+  EXPECT_EQ(summary["frames"], 3);
+  EXPECT_EQ(summary["particles"], 5);
+  EXPECT_EQ(summary["bytes"], std::filesystem::file_size(folder / "run.csv"));
+}
+
+TEST(Export, RefusesWithOneMessageAndLeavesNothing) {
+  const Folder folder("export_refusals");
+  write_run(folder / "run.h5", 5, 4);
+  write_results(folder / "results.h5", {{{"t", "", {{"time", "time", {1, 2}, {}}}}}, {}});
+  folder.write("there.xyz", "kept");
+  const auto expect = [&](std::vector<std::string> arguments, int code, const std::string& part) {
+    arguments.insert(arguments.begin(), "export");
+    arguments.push_back("-q");
+    const Outcome outcome = run(folder.path(), arguments);
+    EXPECT_EQ(outcome.code, code) << part;
+    EXPECT_THAT(outcome.errors, HasSubstr(part));
+    EXPECT_EQ(outcome.output, "");
+  };
+  expect({"run.h5", "--to", "pdf"}, 2, "gsd, xyz, csv for trajectories and gnuplot for results");
+  expect({"run.h5", "--to", "xyz", "-o", "there.xyz"}, 2, "exists already");
+  expect({"run.h5", "--to", "xyz", "--frames", "4"}, 2, "has 4 frame(s)");
+  expect({"there.xyz", "--to", "gsd"}, 3, "not an HDF5 file");
+  expect({"nowhere.h5", "--to", "gsd"}, 3, "nowhere.h5");
+  expect({"run.h5", "--to", "gsd", "-o", "nowhere/run.gsd"}, 3, "nowhere/run.gsd");
+  expect({"run.h5", "--to", "gnuplot"}, 3, "holds no results");
+  expect({"results.h5", "--to", "gnuplot", "-o", "there.xyz"}, 2, "exists already");
+  expect({"results.h5", "--to", "gnuplot", "-o", "nowhere/plots"}, 3, "nowhere/plots");
+  expect({"results.h5", "--to", "gnuplot", "--frames", "1"}, 2, "--frames");
+  expect({"results.h5", "--to", "csv"}, 3, "not an H5MD file");
+  std::vector<std::string> left;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+    left.push_back(entry.path().filename().string());
+  EXPECT_THAT(left, testing::UnorderedElementsAre("results.h5", "run.h5", "standard_error",
+                                                  "standard_output", "there.xyz"));
+}
+
+TEST(Export, ReplacesTheFolderThatAKilledOneLeft) {
+  const Folder folder("export_folder");
+  std::filesystem::create_directory(folder / "plots.partial");
+  folder.write("plots.partial/old.dat", "old");
+  write_results(folder / "results.h5", {{{"t", "", {{"time", "time", {1, 2}, {}}}}}, {}});
+  const Outcome outcome = run(
+      folder.path(), {"export", "results.h5", "--to", "gnuplot", "-o", "plots", "--json", "-q"});
+  ASSERT_EQ(outcome.code, 0) << outcome.errors;
+  // A table of one column has no curve.
+  EXPECT_EQ(nlohmann::json::parse(outcome.output)["files"], 1);
+  EXPECT_TRUE(std::filesystem::exists(folder / "plots/t.dat"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "plots/old.dat"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "plots.partial"));
+}
+
+TEST(Export, LeavesNothingIfStopped) {
+  const Folder folder("export_stopped");
+  write_run(folder / "run.h5", 5, 4);
+  int frames = 0;
+  const RunControl control{[&] { return frames == 2; }, [&](const Progress&) { ++frames; }, {}};
+  EXPECT_FALSE(export_trajectory({folder / "run.h5", "gsd", folder / "run.gsd"}, control));
+  EXPECT_EQ(frames, 2);
+  EXPECT_FALSE(std::filesystem::exists(folder / "run.gsd"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "run.gsd.partial"));
+}
+
+TEST(Export, GsdRefusesTooManyShapes) {
+  const Folder folder("export_shapes");
+  write_run(folder / "run.h5", GsdSink::most_types + 1, 1);
+  const auto to = [&](const std::string& format) {
+    export_trajectory({folder / "run.h5", format, folder / ("run." + format)}, {});
+  };
+  try {
+    to("gsd");
+    FAIL();
+  } catch (const UserError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("20001 different shapes"));
+  }
+  EXPECT_NO_THROW(to("csv"));
+}
+
+/// A frame per time, of one sphere that grows with it.
+void write_packing(const std::filesystem::path& path, int frames) {
+  Configuration3 packing;
+  packing.box = PeriodicBox<3>(Vec3(4, 4, 4));
+  packing.resize(1);
+  packing.species_names = {"A"};
+  packing.position[0] = {1.5, 0, 0};
+  auto writer = TrajectoryWriter::create(path, packing, current_provenance("", "", 1));
+  for (int k = 0; k < frames; ++k) {
+    packing.time = k;
+    packing.position[0].y() = 0.1 * k;
+    writer.write(packing, k);
+  }
+  writer.close();
+}
+
+TEST(ExportOfAPacking, IsOfOneFrameTheLastUnlessTold) {
+  const Folder folder("packing_frames");
+  write_packing(folder / "run.h5", 3);
+  const auto lines = [&](std::vector<std::string> options, const std::string& file) {
+    options.insert(options.begin(), {"export", "run.h5", "--to", "csv", "-q", "-o", file});
+    EXPECT_EQ(run(folder.path(), options).code, 0);
+    const std::string text = folder.read(file);
+    return text.substr(text.find('\n') + 1);
+  };
+  // The body reaches beyond x = 2, and its image from there.
+  const std::string last = lines({}, "last.csv");
+  EXPECT_EQ(last,
+            "0,A,-1,0,0,-2.5,0.2,0,1,1,1,1,0,0,0,4,4,4\n"
+            "0,A,0,0,0,1.5,0.2,0,1,1,1,1,0,0,0,4,4,4\n");
+  EXPECT_EQ(lines({"--frames", "-1"}, "a.csv"), last);
+  EXPECT_THAT(lines({"--frames", "0"}, "b.csv"), HasSubstr("1.5,0,0"));
+  EXPECT_THAT(lines({"--shrink", "0.4"}, "c.csv"),
+              "0,A,0,0,0,1.5,0.2,0,0.4,0.4,0.4,1,0,0,0,4,4,4\n");
+}
+
+TEST(ExportOfAPacking, RefusesWhatDoesNotFit) {
+  const Folder folder("packing_refused");
+  write_packing(folder / "run.h5", 3);
+  write_run(folder / "flat.h5", 2, 1);
+  const auto message = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), "export");
+    const Outcome outcome = run(folder.path(), words);
+    EXPECT_EQ(outcome.code, 2);
+    return outcome.errors;
+  };
+  EXPECT_THAT(message({"run.h5", "--to", "csv", "--frames", ":"}), HasSubstr("selects 3 frames"));
+  EXPECT_THAT(message({"run.h5", "--to", "csv", "--voxels", "7"}), HasSubstr("is for --to vti"));
+  EXPECT_THAT(message({"run.h5", "--to", "geo", "--shrink", "1.5"}), HasSubstr("--shrink"));
+  EXPECT_THAT(message({"flat.h5", "--to", "csv", "--shrink", "0.5"}),
+              HasSubstr("three dimensions"));
+  EXPECT_THAT(message({"flat.h5", "--to", "vti"}), HasSubstr("no such format, but gsd, xyz, csv"));
+}
+
+}  // namespace
+}  // namespace vitrel

@@ -1,0 +1,148 @@
+#include "workflow/report/packing_report.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "analysis/structure/orientation_tensor.h"
+#include "core/error.h"
+#include "core/io/h5md.h"
+#include "tests/support/scenes.h"
+#include "workflow/prepare/packing_quality.h"
+#include "workflow/prepare/quality_file.h"
+
+namespace vitrel {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+/// A cubic lattice of spheroids along x, those of every third particle along z.
+Configuration3 lattice() {
+  Configuration3 c = cubic_lattice(6, simple_cubic, 0.1, {Vec3(2, 1, 1)});
+  for (std::size_t i = 0; i < c.size(); i += 3)
+    c.orientation[i] = Quaternion(std::sqrt(0.5), 0, -std::sqrt(0.5), 0);
+  return c;
+}
+
+class PackingFile : public testing::Test {
+ protected:
+  PackingFile()
+      : folder_(fs::temp_directory_path() /
+                (std::string("vitrel_packing_") +
+                 testing::UnitTest::GetInstance()->current_test_info()->name())) {
+    fs::remove_all(folder_);
+    fs::create_directory(folder_);
+    write_state(file(), lattice(), Provenance{});
+  }
+  ~PackingFile() override { fs::remove_all(folder_); }
+
+  fs::path file() const { return folder_ / "packing.h5"; }
+
+ private:
+  fs::path folder_;
+};
+
+double summary(const Results& results, const char* column) {
+  return results.find("summary")->find(column)->value.at(0);
+}
+
+// T = diag(2/3, 0, 1/3).
+TEST_F(PackingFile, IsAnalysed) {
+  const Results results = analyze_run(file(), {}).results;
+  EXPECT_EQ(summary(results, "particles"), 216);
+  EXPECT_EQ(summary(results, "rotors"), 216);
+  EXPECT_NEAR(summary(results, "packing_fraction"), 0.1, 1e-12);
+  EXPECT_TRUE(std::isinf(summary(results, "orientation_ratio")));
+  EXPECT_EQ(summary(results, "isotropic_ratio"), isotropic_ratio(216).mean);
+  const Table* tensor = results.find("orientation_tensor");
+  ASSERT_TRUE(tensor);
+  EXPECT_NEAR(tensor->find("t_x")->value[0], 2.0 / 3, 1e-14);
+  EXPECT_NEAR(tensor->find("t_z")->value[2], 1.0 / 3, 1e-14);
+  EXPECT_NEAR(tensor->find("eigenvalue")->value[2], 2.0 / 3, 1e-14);
+  EXPECT_NEAR(std::abs(tensor->find("eigenvector_x")->value[2]), 1, 1e-14);
+  EXPECT_NEAR(std::abs(tensor->find("eigenvector_y")->value[0]), 1, 1e-14);
+  // Shells without wave vectors are left out; the first peak of the lattice is at 2π/side.
+  const Table* scattering = results.find("structure_factor");
+  ASSERT_TRUE(scattering);
+  double largest = 0, at = 0;
+  for (std::size_t k = 0; k < scattering->rows(); ++k) {
+    EXPECT_GT(scattering->find("modes")->value[k], 0);
+    const double q = scattering->find("q")->value[k], s = scattering->find("s")->value[k];
+    if (q < 2 && s > largest) largest = s, at = q;
+  }
+  EXPECT_NEAR(at, 2 * M_PI * 6 / lattice().box.lengths().x(), 0.1);
+  EXPECT_GT(results.find("pair_correlation")->rows(), 10u);
+}
+
+TEST_F(PackingFile, IsAnalysedAsTheCommandLineSays) {
+  AnalysisChoice choice;
+  choice.overrides = {"analysis.structure.wave_number_max=3"};
+  const Results results = analyze_run(file(), choice).results;
+  EXPECT_LT(results.find("structure_factor")->find("q")->value.back(), 3);
+}
+
+TEST_F(PackingFile, HasAPage) {
+  const PackingPage page = packing_page_data(file(), {});
+  EXPECT_EQ(page.title, "packing");
+  EXPECT_EQ(page.subtitle, "216 ellipsoids, 2 : 1 : 1 at φ = 0.1");
+  EXPECT_EQ(page.scene.particles, 216u);
+  EXPECT_EQ(page.scene.overlapping_pairs, 0u);
+  EXPECT_EQ(page.rows.size(), 3u);
+  const std::string text = packing_page(page);
+  EXPECT_THAT(text, HasSubstr("<h1>packing</h1>"));
+  EXPECT_THAT(text, HasSubstr("a b c = 1"));
+  EXPECT_THAT(text, testing::Not(HasSubstr("{{")));
+  EXPECT_LT(text.size(), 150'000u);
+}
+
+TEST_F(PackingFile, TakesFromTheQualityReportWhatOnlyThePreparationKnows) {
+  PackingQuality quality = measure_quality(lattice(), exact_check(lattice()));
+  quality.reduced_pressure = 17;
+  quality.collisions = 4321;
+  quality.wall_seconds = 2.5;
+  write_quality(quality_file(file()), quality);
+  const std::string text = packing_page(packing_page_data(file(), {}));
+  EXPECT_THAT(text, HasSubstr("<td>17</td>"));
+  EXPECT_THAT(text, HasSubstr("<td>4321</td>"));
+  EXPECT_THAT(text, HasSubstr("<td>2.5 s</td>"));
+
+  quality.particles = 7;
+  write_quality(quality_file(file()), quality);
+  EXPECT_THROW(packing_page_data(file(), {}), FileError);
+}
+
+// A run: the structure is that of its last frame, and what was measured on the way comes with it.
+TEST_F(PackingFile, OfSeveralFramesTheLastIsShown) {
+  const std::vector<std::string> observables = {"rotational_energy", "translational_energy",
+                                                "virial"};
+  TrajectoryWriter writer = TrajectoryWriter::create(
+      file(), lattice(), Provenance{}, {.observables = observables, .overwrite = true});
+  Configuration3 c = lattice();
+  const double n = static_cast<double>(c.size());
+  for (int k = 0; k < 3; ++k) {
+    c.time = k;
+    if (k == 2) c.position[0].x() += 0.01;
+    writer.write(
+        c, k,
+        {{"rotational_energy", n}, {"translational_energy", 1.5 * (n - 1)}, {"virial", 6 * n * k}});
+  }
+  writer.close();
+  const PackingPage page = packing_page_data(file(), {});
+  EXPECT_THAT(page.subtitle, HasSubstr("; the last of 3 frames, at time 2"));
+  write_state(file(), c, Provenance{}, true);
+  const PackingPage last = packing_page_data(file(), {});
+  EXPECT_EQ(page.results.find("pair_correlation")->find("g")->value,
+            last.results.find("pair_correlation")->find("g")->value);
+  EXPECT_EQ(last.results.find("energies"), nullptr);
+  const Table* energies = page.results.find("energies");
+  ASSERT_NE(energies, nullptr);
+  EXPECT_EQ(energies->find("translational")->value.size(), 3u);
+  // E = (3 (N − 1) + 2 N) kT/2 at kT = 1, and Z = 1 + 6/3.
+  EXPECT_NEAR(page.results.find("compressibility")->find("z")->value[0], 3, 1e-12);
+}
+
+}  // namespace
+}  // namespace vitrel

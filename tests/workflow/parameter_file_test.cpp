@@ -1,0 +1,437 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "core/error.h"
+#include "workflow/configuration/parameters.h"
+#include "workflow/storage/text_file.h"
+#include "workflow/sweep/sweep.h"
+
+namespace vitrel {
+namespace {
+
+using testing::HasSubstr;
+
+const std::filesystem::path source_folder = VITREL_SOURCE_FOLDER;
+
+std::string refusal(const std::string& text) {
+  try {
+    parse_parameters(text, "file.toml");
+  } catch (const UserError& error) {
+    return error.what();
+  }
+  return "nothing was refused";
+}
+
+struct BadFile {
+  const char* text;
+  const char* message;
+};
+
+// Every rule of `validate`, with the place of the value that breaks it.
+const BadFile bad_files[] = {
+    {"[system]\ndimension = 4", "file.toml:2:13: key 'system.dimension' is 4, but must be 2 or 3"},
+    {"[system]\ndimension = 3\nbox_aspect = 2",
+     "file.toml:3:1: key 'system.box_aspect' has a meaning only with dimension = 2"},
+    {"[system]\ndimension = 3\npacking_fraction = 1.0", "lies between 0 and 1"},
+    {"[system]\ndimension = 3\n[[prepare.stage]]\nmethod = \"lattice\"",
+     "file.toml:4:10: key 'prepare.stage.0.method' is \"lattice\", but in three dimensions there "
+     "are "
+     "\"insert\" and \"grow\""},
+    {"[system]\ndimension = 3\n[[species]]\nsemi_axes = [2, 1]",
+     "file.toml:4:13: key 'species.0.semi_axes' is [2.0, 1.0], but must be [a, b, c], all above 0"},
+    {"[system]\ndimension = 3\n[[species]]\nsemi_axes = [2, 1, 0]", "must be [a, b, c], all above"},
+    {"[system]\ndimension = 3\n[[species]]\nname = \"B\"",
+     "key 'species.0.aspect_ratio' is missing; give aspect_ratio (1 for spheres)"},
+    {"[system]\ndimension = 3\n[[species]]\naspect_ratio = 2\naspect_ratios = [2, 3]",
+     "file.toml:5:17: key 'species.0.aspect_ratios' excludes aspect_ratio"},
+    {"[system]\ndimension = 3\n[[species]]\naspect_ratios = [2, 0]",
+     "file.toml:4:21: key 'species.0.aspect_ratios.1' is 0.0, but must be at least 0.001"},
+    {"[system]\ndimension = 3\n[[species]]\naspect_ratios = [2]",
+     "file.toml:4:17: key 'species.0.aspect_ratios' must be an array of 2 entries, not of 1"},
+    {"[system]\ndimension = 3\n[[species]]\n"
+     "aspect_ratios = [1, { distribution = \"uniform\", low = 2, high = 1 }]",
+     "key 'species.0.aspect_ratios.1.high' is 1.0, but must be above low = 2.0"},
+    {"[[species]]\naspect_ratios = [2, 3]",
+     "key 'species.0.aspect_ratios' has a meaning only with dimension = 3"},
+    {"[dynamics.contact]\n", "key 'species.0' is not round, but soft particles"},
+    {"[[species]]\nsemi_axes = [2, 1]\n[dynamics.contact]\n", "key 'species.0' is not round"},
+    {"[[species]]\naspect_ratio = { distribution = \"uniform\", low = 1, high = 2 }\n"
+     "[dynamics.contact]\n",
+     "key 'species.0' is not round"},
+    {"[dynamics.contact]\nradius = \"0 m\"",
+     "file.toml:2:10: key 'dynamics.contact.radius' is 0.0, but must be positive"},
+    {"[dynamics.contact]\ndensity = \"-1 kg/m^3\"", "'dynamics.contact.density' is -1.0"},
+    {"[dynamics.contact]\nthermal_speed = \"0 m/s\"", "'dynamics.contact.thermal_speed' is 0.0"},
+    {"[dynamics.contact]\nlaw = \"linear_dashpot\"\nstiffness = \"0 N/m\"",
+     "'dynamics.contact.stiffness' is 0.0, but must be positive"},
+    {"[dynamics.contact]\nlaw = \"linear_dashpot\"\ndamping = \"-1 kg/s\"",
+     "'dynamics.contact.damping' is -1.0, but must be 0 or more"},
+    {"[dynamics.contact]\nyoungs_modulus = \"0 Pa\"", "'dynamics.contact.youngs_modulus' is 0.0"},
+    {"[dynamics.contact]\nyoungs_modulus = \"1 N/m\"",
+     "must be a string with a number and a unit that converts to Pa"},
+    {"[dynamics.contact]\ndissipative_time = \"1e6 s\"",
+     "file.toml:2:20: key 'dynamics.contact.dissipative_time' is so large that nothing is left"},
+    {"[dynamics.contact]\nradius = \"1e-200 m\"", "nothing is left of the thermal speed (c_dis = "},
+    {"[dynamics.contact]\nyoungs_modulus = \"1e-6 Pa\"",
+     "'dynamics.contact.youngs_modulus' is so small that particles pass through each other"},
+    {"[dynamics.contact]\nlaw = \"linear_dashpot\"\ndamping = \"1e12 kg/s\"",
+     "'dynamics.contact.damping' is so large that nothing is left"},
+    {"[dynamics.contact]\nlaw = \"linear_dashpot\"\nstiffness = \"1e-3 N/m\"",
+     "'dynamics.contact.stiffness' is so small that particles pass"},
+    {"[dynamics.contact]\npoissons_ratio = 0.6",
+     "'dynamics.contact.poissons_ratio' is 0.6, but must lie above -1 and not above 0.5"},
+    {"[dynamics.contact]\ndissipative_time = \"-1 s\"", "'dynamics.contact.dissipative_time' is"},
+    {"[dynamics.contact]\nstiffness = \"1 N/m\"",
+     "has a meaning only with law = \"linear_dashpot\""},
+    {"[[species]]\naspect_ratio = 1\n[dynamics]\nrestitution = 0.9\n[dynamics.contact]\n",
+     "file.toml:4:15: key 'dynamics.restitution' is for hard particles"},
+    {"[[species]]\naspect_ratio = 1\n[dynamics]\non_overlap = \"correct\"\n[dynamics.contact]\n",
+     "file.toml:4:14: key 'dynamics.on_overlap' is for hard particles"},
+    {"[system]\ndimension = 3\n[output]\ncorrelations = { interval = 1 }",
+     "file.toml:4:16: key 'output.correlations' is for two dimensions only"},
+    {"[system]\nparticles = 0", "file.toml:2:13: key 'system.particles' is 0, but must lie"},
+    {"[system]\npacking_fraction = 0.95",
+     "file.toml:2:20: key 'system.packing_fraction' is 0.95, but"},
+    {"[system]\npacking_fraction = 0.0", "lies between 0 and π/√12 = 0.9069"},
+    {"[system]\nbox_aspect = -1", "file.toml:2:14: key 'system.box_aspect'"},
+    {"species = []", "file.toml:1:11: key 'species' is empty"},
+    {"[[species]]\nfraction = 0.5\naspect_ratio = 1",
+     "file.toml:1:1: key 'species' has fractions that add up to 0.5"},
+    {"[[species]]\nfraction = 1.5", "file.toml:2:12: key 'species.0.fraction' is 1.5"},
+    {"[[species]]\nname = \"B\"", "file.toml:1:1: key 'species.0.aspect_ratio' is missing"},
+    {"[[species]]\nname = \"\"", "file.toml:2:8: key 'species.0.name' is empty"},
+    {"[[species]]\nfraction = 0.5\naspect_ratio = 1\n[[species]]\nfraction = 0.5\naspect_ratio = 1",
+     "key 'species.1.name' is \"A\" like that of an earlier species"},
+    {"[[species]]\nname = \"all\"\naspect_ratio = 1",
+     "file.toml:2:8: key 'species.0.name' is \"all\", which results have in their table "
+     "displacements_all"},
+    {"[[species]]\nname = \"wave numbers\"\naspect_ratio = 1",
+     "is \"wave numbers\", which results have in their table on_the_fly_wave_numbers"},
+    {"[[species]]\nname = \"a-1\"\nfraction = 0.5\naspect_ratio = 1\n"
+     "[[species]]\nname = \"a 1\"\nfraction = 0.5\naspect_ratio = 1",
+     "file.toml:6:8: key 'species.1.name' is \"a 1\", which tables of results call a_1 like the "
+     "earlier \"a-1\"; choose names"},
+    {"[[species]]\naspect_ratio = 0.5",
+     "file.toml:2:16: key 'species.0.aspect_ratio' is 0.5, but must "
+     "be at least 1.0"},
+    {"[[species]]\naspect_ratio = 2\nsize = 0", "file.toml:3:8: key 'species.0.size' is 0.0"},
+    {"[[species]]\naspect_ratio = 2\nmass = 0", "file.toml:3:8: key 'species.0.mass' is 0.0"},
+    {"[[species]]\naspect_ratio = 2\nsemi_axes = [2, 1]",
+     "file.toml:3:13: key 'species.0.semi_axes' "
+     "excludes aspect_ratio and size"},
+    {"[[species]]\nsemi_axes = [1, 2]", "file.toml:2:13: key 'species.0.semi_axes' is [1.0, 2.0]"},
+    {"[[species]]\naspect_ratio = { distribution = \"uniform\", low = 3, high = 2 }",
+     "file.toml:2:60: key 'species.0.aspect_ratio.high' is 2.0, but must be above low = 3.0"},
+    {"[[species]]\naspect_ratio = { distribution = \"gaussian\", mean = 2, standard_deviation = 0 "
+     "}",
+     "key 'species.0.aspect_ratio.standard_deviation' is 0.0, but must be positive"},
+    {"[[species]]\naspect_ratio = { distribution = \"gaussian\", mean = 2, low = 1 }",
+     "file.toml:2:55: key 'species.0.aspect_ratio.low' has a meaning only with distribution = "
+     "\"uniform\""},
+    {"[[species]]\naspect_ratio = { distribution = \"gaussian\", mean = 2, minimum = 0.5 }",
+     "key 'species.0.aspect_ratio.minimum' is 0.5, but must be at least 1.0"},
+    {"[[species]]\naspect_ratio = { distribution = \"lognormal\", mean = 2, minimum = 3 }",
+     "key 'species.0.aspect_ratio.mean' is 2.0, but must be at least minimum = 3.0"},
+    {"[prepare]\nstage = []", "key 'prepare.stage' is empty"},
+    {"[[prepare.stage]]\nmethod = \"swell\"",
+     "file.toml:2:10: key 'prepare.stage.0.method' of the first"},
+    {"[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"lattice\"",
+     "file.toml:3:10: key "
+     "'prepare.stage.1.method' of a later"},
+    {"[[prepare.stage]]\nmethod = \"lattice\"\narrangement = \"triangular\"\nangle = 1",
+     "file.toml:4:9: key 'prepare.stage.0.angle' is 1.0, but must be 0"},
+    {"[[prepare.stage]]\nmethod = \"insert\"\nattempts = 0", "file.toml:3:12: key"},
+    {"[[prepare.stage]]\nmethod = \"insert\"\npacking_fraction = 1.2", "file.toml:3:20: key"},
+    {"[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"swell\"\nmost_sweeps = 0",
+     "file.toml:4:15: key"},
+    {"[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"sample\"\nsweeps = 0",
+     "file.toml:4:10: key"},
+    {"[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"swell\"\npacking_fraction = 0.2",
+     "file.toml:4:20: key 'prepare.stage.1.packing_fraction' is 0.2, but the stage before ends at "
+     "0.3"},
+    {"[[prepare.stage]]\nmethod = \"insert\"",
+     "file.toml:1:1: key 'prepare.stage.0' ends at the packing "
+     "fraction 0.3, but system.packing_fraction is 0.5"},
+    {"[[prepare.stage]]\nmethod = \"lattice\"\nattempts = 3",
+     "has a meaning only with method = \"insert\""},
+    {"[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"sample\"\nmoves = \"local\"\nexchanges = 1",
+     "file.toml:5:13: key 'prepare.stage.1.exchanges' is 1.0, but a share of the moves lies"},
+    {"[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"sample\"\nexchanges = 0.1",
+     "file.toml:4:1: key 'prepare.stage.1.exchanges' has a meaning only with moves = \"local\""},
+    {"[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"hybrid\"\nstretch_sweeps = 0",
+     "file.toml:4:18: key 'prepare.stage.1.stretch_sweeps' is 0, but must be at least 1"},
+    {"[system]\npacking_fraction = 0.3\n[[prepare.stage]]\nmethod = \"insert\"\npacking_fraction = "
+     "0.4\n"
+     "[[prepare.stage]]\nmethod = \"swell\"",
+     "file.toml:2:20: key 'system.packing_fraction' is 0.3, but the stage before ends at 0.4"},
+    {"[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"grow\"\ngrowth_rate = 0",
+     "file.toml:4:15: key 'prepare.stage.1.growth_rate' is 0.0, but must lie above 0"},
+    {"[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"grow\"\ngrowth_rate = 1.2",
+     "growth_rate' is 1.2, but must lie above 0 and not above 1,"},
+    {"[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"grow\"\nreduced_pressure = 1",
+     "file.toml:4:20: key 'prepare.stage.1.reduced_pressure' is 1.0, but must lie above 1"},
+    {"[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"grow\"\nreduced_pressure = 1e10",
+     "reduced_pressure' is 10000000000.0, but must lie above 1"},
+    {"[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"grow\"\npacking_fraction = 0.2",
+     "file.toml:4:20: key 'prepare.stage.1.packing_fraction' is 0.2, but the stage before ends at "
+     "0.3"},
+    {"[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"grow\"\npacking_fraction = 0.2\n"
+     "reduced_pressure = 1e6",
+     "file.toml:4:20: key 'prepare.stage.1.packing_fraction' is 0.2, but the stage before ends at "
+     "0.3"},
+    {"[[prepare.stage]]\nmethod = \"grow\"", "key 'prepare.stage.0.method' of the first"},
+    {"[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"swell\"\nreduced_pressure = 1e6",
+     "file.toml:4:1: key 'prepare.stage.1.reduced_pressure' has a meaning only with method = "
+     "\"grow\""},
+    {"[dynamics]\nbrownian_step = 0", "file.toml:2:17: key 'dynamics.brownian_step' is 0.0"},
+    {"[dynamics]\nequilibration = -1", "file.toml:2:17: key 'dynamics.equilibration' is -1.0"},
+    {"[dynamics]\nduration = inf", "file.toml:2:12: key 'dynamics.duration' is inf"},
+    {"[dynamics]\nrestitution = 1.1", "file.toml:2:15: key 'dynamics.restitution' is 1.1"},
+    {"[dynamics]\nkind = \"brownan\"",
+     "file.toml:2:8: key 'dynamics.kind' is \"brownan\", but must be one of "
+     "\"newtonian\", \"brownian\"; did you mean 'brownian'?"},
+    {"[output]\nsamples = { interval = 0 }",
+     "file.toml:2:24: key 'output.samples.interval' is 0.0"},
+    {"[output]\nsamples = { interval = 200 }", "must not exceed dynamics.duration = 100.0"},
+    {"[output]\nsamples = { interval = 1e-9 }", "at most 1e8 are possible"},
+    {"[output]\nsamples = { spacing = \"logarithmic\", per_decade = 0 }",
+     "file.toml:2:51: key 'output.samples.per_decade' is 0"},
+    {"[output]\nsamples = { spacing = \"logarithmic\", interval = 1 }",
+     "has a meaning only with spacing = \"linear\""},
+    {"[output]\ncorrelations = { interval = 0 }",
+     "file.toml:2:29: key 'output.correlations.interval' is 0.0"},
+    {"[output]\ncorrelations = { interval = 101 }",
+     "is 101.0, but must lie between 1e-12 of dynamics.duration = 100.0 and all of it"},
+    {"[output]\ncorrelations = { wave_numbers = 3 }",
+     "file.toml:2:33: key 'output.correlations.wave_numbers' must be an array of numbers, not the "
+     "number 3; for example wave_numbers = [1.0, 2.0]"},
+    {"[output]\ncorrelations = { wave_numbers = [3, -1] }",
+     "key 'output.correlations.wave_numbers.1' is -1.0, but must be positive"},
+    {"[output]\ncheckpoint_interval = -1", "file.toml:2:23: key 'output.checkpoint_interval'"},
+    {"[analysis]\nlongest_lag = 2", "file.toml:2:15: key 'analysis.longest_lag' is 2.0"},
+    {"[analysis]\nmost_origins = 0", "file.toml:2:16: key 'analysis.most_origins' is 0"},
+    {"[analysis]\nstructure = { frames = 0 }",
+     "file.toml:2:24: key 'analysis.structure.frames' is 0"},
+    {"[analysis]\nstructure = { wave_number_step = 0 }",
+     "file.toml:2:34: key 'analysis.structure.wave_number_step' is 0.0, but must be positive"},
+    {"[analysis]\nstructure = { distance_step = 21 }",
+     "key 'analysis.structure.distance_step' is 21.0, but must lie between 0.002 and distance_max "
+     "= 20.0"},
+    {"[analysis]\nstructure = { wave_number_max = 2000 }",
+     "key 'analysis.structure.wave_number_step' is 0.1, but must lie between 0.2 and "},
+    {"[sweep.together]\n\"system.seed\" = [1, 2]\n\"dynamics.duration\" = [50]",
+     "file.toml:3:23: key 'sweep.together.dynamics.duration' has 1 value(s), but 'system.seed' has "
+     "2"},
+    {"[sweep.grid]\nsystem.seed = [1]\n[sweep.together]\n\"system.seed\" = [2]",
+     "file.toml:2:15: key 'sweep.grid.system.seed' stands twice in [sweep.grid] and "
+     "[sweep.together]"},
+    {"[sweep.grid]\nsystem.seed = [1]\n\"system.seed\" = [2]",
+     "key 'sweep.grid.system.seed' stands twice"},
+    {"[sweep.together]\n\"system.seed\" = []",
+     "file.toml:2:17: key 'sweep.together.system.seed' must hold arrays of values to run through, "
+     "not an "
+     "empty array"},
+};
+
+TEST(ParameterFile, EveryImpossibleValueIsRefusedWithItsPlace) {
+  for (const BadFile& bad : bad_files)
+    EXPECT_THAT(refusal(bad.text), HasSubstr(bad.message)) << bad.text;
+}
+
+TEST(ParameterFile, TheDefaultsAreValidAndTheTemplatesAreTheDefaults) {
+  const std::string defaults = effective_parameters(Parameters());
+  for (const char* command : {"prepare", "run", "analyze", "sweep"}) {
+    const std::string text = command_template(command);
+    EXPECT_EQ(effective_parameters(parse_parameters(text, "template")), defaults) << command;
+  }
+  EXPECT_THAT(command_template("prepare"), testing::Not(HasSubstr("[dynamics]")));
+  EXPECT_THAT(command_template("analyze"), testing::Not(HasSubstr("[system]")));
+  EXPECT_THAT(command_template("sweep"), HasSubstr("[sweep.grid]"));
+  EXPECT_THROW(command_template("check"), UserError);
+}
+
+TEST(ParameterFile, EffectiveParametersReadBackBitByBit) {
+  Parameters parameters = parse_parameters(R"(
+[system]
+packing_fraction = 0.7123456789012345
+[[species]]
+name = "A"
+fraction = 0.3333333333333333
+semi_axes = [2, 0.1]
+[[species]]
+name = "B"
+fraction = 0.6666666666666667
+aspect_ratio = { distribution = "lognormal", mean = 2.5, standard_deviation = 0.3 }
+size = { distribution = "uniform", low = 0.7, high = 1.3 }
+mass = 3.3
+[[prepare.stage]]
+[[prepare.stage]]
+method = "swell"
+[[prepare.stage]]
+method = "sample"
+sweeps = 12
+[output]
+samples = { spacing = "logarithmic", first = 0.3, per_decade = 7 }
+correlations = { interval = 0.05, wave_numbers = [1, 2.7] }
+)",
+                                           "file.toml");
+  const std::string text = effective_parameters(parameters);
+  EXPECT_EQ(effective_parameters(parse_parameters(text, "again")), text);
+  EXPECT_THAT(text, HasSubstr("packing_fraction = 0.7123456789012345"));
+  EXPECT_THAT(text, HasSubstr("per_decade = 7"));
+}
+
+TEST(ParameterFile, OverridesReachSpeciesAndStages) {
+  const Parameters parameters = parse_parameters(
+      "[[species]]\naspect_ratio = 2\n[[prepare.stage]]\nmethod = \"insert\"\n", "file.toml",
+      {"dynamics.duration=10", "species.0.aspect_ratio=3", "prepare.stage.1.method=swell",
+       "output.samples.spacing=logarithmic"});
+  EXPECT_EQ(parameters.dynamics.duration, 10);
+  EXPECT_EQ(parameters.species[0].aspect_ratio->mean, 3);
+  ASSERT_EQ(parameters.stages.size(), 2u);
+  EXPECT_EQ(parameters.stages[1].method, PrepareStage::Method::swell);
+  EXPECT_EQ(parameters.output.spacing, OutputParameters::Spacing::logarithmic);
+}
+
+TEST(ParameterFile, OnlyHarmlessChangesAreAllowedWhenContinuing) {
+  Parameters before, after;
+  after.output.checkpoint_interval = 1;
+  after.analysis.axis.longest_lag = 0.25;
+  const auto forbidden = [&](Work work) {
+    return forbidden_change(effective_parameters(before), effective_parameters(after), work);
+  };
+  EXPECT_FALSE(forbidden(Work::run));
+  after.dynamics.brownian_step = 0.2;
+  EXPECT_FALSE(forbidden(Work::preparation));
+  const auto change = forbidden(Work::run);
+  ASSERT_TRUE(change);
+  EXPECT_EQ(change->key, "dynamics.brownian_step");
+  EXPECT_EQ(change->first, "0.1");
+  EXPECT_EQ(change->second, "0.2");
+}
+
+TEST(ParameterFile, TheFilesOfTheProjectAreValid) {
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(source_folder / "params")) {
+    if (entry.path().extension() != ".toml") continue;
+    ++files;
+    int dimension = 0;
+    EXPECT_NO_THROW(dimension = load_parameters({entry.path(), {}, {}}).system.dimension)
+        << entry.path();
+    if (dimension == 2) {
+      EXPECT_NO_THROW(sweep_jobs({entry.path(), {}, {}})) << entry.path();
+    }
+  }
+  EXPECT_GE(files, 5);
+}
+
+TEST(ParameterFile, ThreeDimensionsAreReadAndWritten) {
+  const Parameters read = parse_parameters(
+      "[system]\ndimension = 3\npacking_fraction = 0.95\n[[species]]\nsize = 2\n"
+      "aspect_ratios = [4, { distribution = \"uniform\", low = 0.1, high = 2 }]",
+      "file.toml");
+  const auto& [first, second] = read.species[0].aspect_ratios.value();
+  EXPECT_EQ(first.kind, Distribution::Kind::constant);
+  EXPECT_EQ(first.mean, 4);
+  EXPECT_EQ(second.kind, Distribution::Kind::uniform);
+  EXPECT_EQ(second.low, 0.1);
+  EXPECT_LE(second.minimum, 0.1);
+  EXPECT_EQ(end_of_stage(read.stages[0], read.system, 0), 0.01);
+  const std::string text = effective_parameters(read);
+  EXPECT_THAT(text,
+              HasSubstr("aspect_ratios = [4.0, { distribution = \"uniform\", low = 0.1, high ="));
+  EXPECT_THAT(text, testing::Not(HasSubstr("box_aspect")));
+  EXPECT_EQ(effective_parameters(parse_parameters(text, "again")), text);
+}
+
+TEST(ParameterFile, ContactsAreReadInAnyUnitAndWrittenInSi) {
+  const std::string file =
+      "[[species]]\nsemi_axes = [2, 2]\n[dynamics.contact]\nradius = \"10 cm\"\n"
+      "density = \"1.14 g/cm^3\"\nthermal_speed = \"7.2 km/h\"\nyoungs_modulus = \"10 MPa\"\n"
+      "dissipative_time = \"20 µs\"\nearly_release = \"together\"\n";
+  const Parameters read = parse_parameters(file, "file.toml");
+  const ContactParameters& contact = read.dynamics.contact.value();
+  EXPECT_DOUBLE_EQ(contact.radius, 0.1);
+  EXPECT_DOUBLE_EQ(contact.density, 1140);
+  EXPECT_DOUBLE_EQ(contact.thermal_speed, 2);
+  EXPECT_DOUBLE_EQ(contact.viscoelastic.youngs_modulus, 1e7);
+  EXPECT_DOUBLE_EQ(contact.viscoelastic.dissipative_time, 2e-5);
+  EXPECT_EQ(contact.early_release, EarlyRelease::together);
+  const std::string text = effective_parameters(read);
+  EXPECT_EQ(effective_parameters(parse_parameters(text, "again")), text);
+  EXPECT_THAT(text, HasSubstr("[dynamics.contact]\n"));
+  EXPECT_THAT(text, testing::Not(HasSubstr("stiffness")));
+  EXPECT_THAT(command_template("run"), HasSubstr("# [dynamics.contact]\n"));
+  EXPECT_THAT(command_template("run"), HasSubstr("# youngs_modulus = \"1000000000 Pa\""));
+}
+
+TEST(ParameterFile, TheReferencePageIsUpToDate) {
+  EXPECT_EQ(read_text(source_folder / "docs/parameters.md"), parameter_page())
+      << "make it anew: vitrel params --reference > docs/parameters.md";
+}
+
+TEST(SweepJobs, EveryCombinationIsAJobOfItsOwn) {
+  const std::filesystem::path file = testing::TempDir() + "vitrel_sweep_jobs.toml";
+  std::ofstream(file)
+      << "[sweep.grid]\n\"system.packing_fraction\" = [0.4, 0.5]\nsystem.seed = [1, 2, 3]\n"
+      << "\"dynamics.kind\" = [\"brownian\"]\n";
+  const std::vector<SweepJob> jobs = sweep_jobs({file, {"system.particles=7"}, {}});
+  ASSERT_EQ(jobs.size(), 6u);
+  EXPECT_EQ(jobs[1].id, "packing_fraction-0.4_seed-2_kind-brownian");
+  EXPECT_EQ(jobs[1].parameters.system.packing_fraction, 0.4);
+  EXPECT_EQ(jobs[1].parameters.system.seed, 2u);
+  EXPECT_EQ(jobs[1].parameters.system.particles, 7);
+  EXPECT_EQ(jobs[5].parameters.system.packing_fraction, 0.5);
+  EXPECT_EQ(jobs[5].parameters.dynamics.kind, DynamicsParameters::Kind::brownian);
+  std::ofstream(file) << "[sweep.grid]\n\"system.seed\" = [1, 1]\n";
+  EXPECT_THROW(sweep_jobs({file, {}, {}}), UserError);
+  std::ofstream(file) << "[sweep.grid]\n\"system.sed\" = [1, 2]\n";
+  EXPECT_THROW(sweep_jobs({file, {}, {}}), UserError);
+  std::filesystem::remove(file);
+}
+
+// Three densities with durations and sample intervals of their own, each with both seeds; of the keys that
+// advance together only the first is in the names.
+TEST(SweepJobs, KeysAdvanceTogether) {
+  const std::filesystem::path file = testing::TempDir() + "vitrel_sweep_together.toml";
+  std::ofstream(file) << "[sweep.grid]\n\"system.seed\" = [1, 2]\n[sweep.together]\n"
+                         "\"system.packing_fraction\" = [0.4, 0.5, 0.6]\n"
+                         "\"dynamics.duration\" = [10, 20, 40]\n"
+                         "\"output.samples.interval\" = [0.1, 0.2, 0.5]\n";
+  const std::vector<SweepJob> jobs = sweep_jobs({file, {}, {}});
+  ASSERT_EQ(jobs.size(), 6u);
+  const char* ids[] = {"packing_fraction-0.4_seed-1", "packing_fraction-0.4_seed-2",
+                       "packing_fraction-0.5_seed-1", "packing_fraction-0.5_seed-2",
+                       "packing_fraction-0.6_seed-1", "packing_fraction-0.6_seed-2"};
+  const double fractions[] = {0.4, 0.5, 0.6}, durations[] = {10, 20, 40},
+               intervals[] = {0.1, 0.2, 0.5};
+  for (std::size_t k = 0; k < 6; ++k) {
+    const Parameters& p = jobs[k].parameters;
+    EXPECT_EQ(jobs[k].id, ids[k]);
+    EXPECT_EQ(p.system.packing_fraction, fractions[k / 2]);
+    EXPECT_EQ(p.dynamics.duration, durations[k / 2]);
+    EXPECT_EQ(p.output.interval, intervals[k / 2]);
+    EXPECT_EQ(p.system.seed, 1 + k % 2);
+    EXPECT_EQ(jobs[k].values.size(), 4u);
+  }
+  EXPECT_EQ(&job_named(jobs, ids[3]), &jobs[3]);
+  EXPECT_THROW(job_named(jobs, "packing_fraction-0.7_seed-1"), UserError);
+  std::filesystem::remove(file);
+}
+
+TEST(SweepJobs, WhatTheCommandLineWouldSetInVainIsRefused) {
+  const std::filesystem::path file = testing::TempDir() + "vitrel_sweep_in_vain.toml";
+  std::ofstream(file) << "[sweep.grid]\n\"system.seed\" = [1, 2]\n"
+                         "[sweep.together]\n\"system.particles\" = [10, 20]\n";
+  EXPECT_THROW(sweep_jobs({file, {}, 7}), UserError);
+  EXPECT_THROW(sweep_jobs({file, {"system.seed=7"}, {}}), UserError);
+  EXPECT_THROW(sweep_jobs({file, {"system.particles=7"}, {}}), UserError);
+  EXPECT_EQ(sweep_jobs({file, {"dynamics.duration=7"}, {}}).size(), 4u);
+  std::filesystem::remove(file);
+}
+
+}  // namespace
+}  // namespace vitrel

@@ -1,0 +1,343 @@
+#include "workflow/prepare/prepare.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <numbers>
+
+#include "analysis/structure/order.h"
+#include "core/error.h"
+#include "core/io/h5md.h"
+#include "core/state/check.h"
+#include "tests/app/program.h"
+
+namespace vitrel {
+namespace {
+
+using testing_program::Folder;
+
+const auto say_nothing = [](const std::string&) {};
+
+PrepareStage stage(PrepareStage::Method method) {
+  PrepareStage result;
+  result.method = method;
+  return result;
+}
+
+/// Inserted and swollen.
+Parameters small(double packing_fraction) {
+  Parameters parameters;
+  parameters.system.particles = 49;
+  parameters.system.packing_fraction = packing_fraction;
+  parameters.stages[1] = stage(PrepareStage::Method::swell);
+  return parameters;
+}
+
+TEST(Prepare, StagesInARowReachThePackingFractionWithoutOverlap) {
+  Parameters parameters = small(0.6);
+  parameters.stages.push_back(stage(PrepareStage::Method::sample));
+  parameters.stages.back().sweeps = 50;
+  std::vector<std::string> announced;
+  const Preparation result =
+      prepare({parameters}, {}, [&](const std::string& line) { announced.push_back(line); });
+  EXPECT_TRUE(result.complete);
+  EXPECT_NEAR(packing_fraction(result.configuration), 0.6, 1e-12);
+  EXPECT_TRUE(exact_check(result.configuration).clean());
+  EXPECT_EQ(announced.size(), 6u);
+  EXPECT_EQ(announced[5], "  all sweeps were made; packing fraction 0.6");
+  ASSERT_EQ(result.stages.size(), 3u);
+  EXPECT_EQ(result.stages[0].sweeps, 0u);
+  EXPECT_GT(result.stages[1].sweeps, 0u);
+  EXPECT_EQ(result.stages[2].sweeps, 50u);
+  EXPECT_GT(result.stages[2].chain_contacts, 1000u);
+  EXPECT_EQ(result.next_sweep, result.stages[1].sweeps + 50);
+  EXPECT_EQ(result.trials().tried(),
+            result.stages[1].trials.tried() + result.stages[2].trials.tried());
+}
+
+TEST(Prepare, TheSeedDecidesEveryBit) {
+  const auto positions = [](std::uint64_t seed) {
+    Parameters parameters = small(0.5);
+    parameters.system.seed = seed;
+    return prepare({parameters}, {}, say_nothing).configuration.position;
+  };
+  EXPECT_EQ(positions(3), positions(3));
+  EXPECT_NE(positions(3), positions(4));
+}
+
+// Enough particles for domains of several colours.
+TEST(Prepare, ThreadsChangeNothing) {
+  Parameters parameters = small(0.5);
+  parameters.system.particles = 400;
+  const Preparation one = prepare({parameters}, {}, say_nothing);
+  const Preparation two = prepare({.parameters = parameters, .threads = 2}, {}, say_nothing);
+  EXPECT_EQ(one.configuration.position, two.configuration.position);
+  EXPECT_EQ(one.configuration.angle, two.configuration.angle);
+  EXPECT_EQ(one.trials().translations_accepted, two.trials().translations_accepted);
+}
+
+TEST(Prepare, ALatticeHasAllParticlesAtItsAngle) {
+  Parameters parameters = small(0.5);
+  parameters.stages = {stage(PrepareStage::Method::lattice)};
+  parameters.stages[0].lattice.angle = std::numbers::pi / 4;
+  const Preparation result = prepare({parameters}, {}, say_nothing);
+  EXPECT_NEAR(nematic_order(result.configuration), 1, 1e-14);
+  for (const double angle : result.configuration.angle) EXPECT_EQ(angle, std::numbers::pi / 4);
+}
+
+PrepareStage growth(std::optional<double> packing_fraction, std::optional<double> pressure) {
+  PrepareStage result = stage(PrepareStage::Method::grow);
+  result.packing_fraction = packing_fraction;
+  result.reduced_pressure = pressure;
+  result.growth_rate = 0.02;
+  return result;
+}
+
+TEST(Prepare, GrowsToThePackingFractionOfTheSystem) {
+  Parameters parameters = small(0.7);
+  parameters.stages[1] = growth({}, {});
+  validate(parameters);
+  const Preparation result = prepare({parameters}, {}, say_nothing);
+  EXPECT_NEAR(packing_fraction(result.configuration), 0.7, 1e-12);
+  ASSERT_EQ(result.stages.size(), 2u);
+  EXPECT_GT(result.stages[1].growth.counters.collisions, 0u);
+  EXPECT_EQ(mechanics(result.configuration).translational_energy, 0);
+  EXPECT_EQ(mechanics(result.configuration).rotational_energy, 0);
+}
+
+// Beyond the packing fraction of the system, which such a preparation does not end at.
+TEST(Prepare, GrowsToAPressureStageByStage) {
+  Parameters parameters = small(0.5);
+  parameters.stages[1] = growth({}, 1e2);
+  parameters.stages.push_back(growth({}, 1e3));
+  validate(parameters);
+  std::vector<std::string> announced;
+  const Preparation result =
+      prepare({parameters}, {}, [&](const std::string& line) { announced.push_back(line); });
+  EXPECT_EQ(announced[announced.size() - 2], "grow to reduced pressure 1000");
+  ASSERT_EQ(result.stages.size(), 3u);
+  const StageRecord &first = result.stages[1], &second = result.stages[2];
+  EXPECT_GE(first.growth.reduced_pressure, 1e2);
+  EXPECT_GE(second.growth.reduced_pressure, 1e3);
+  EXPECT_GT(second.packing_fraction, first.packing_fraction);
+  EXPECT_EQ(second.packing_fraction, packing_fraction(result.configuration));
+  EXPECT_GT(packing_fraction(result.configuration), 0.75);
+}
+
+TEST(Prepare, GrowthBeyondJammingIsTheUsersToChange) {
+  Parameters parameters = small(0.9);
+  parameters.stages[1] = growth(0.9, {});
+  parameters.stages[1].growth_rate = 0.1;
+  EXPECT_THROW(prepare({parameters}, {}, say_nothing), UserError);
+}
+
+TEST(Prepare, AnUnreachableGoalIsTheUsersToChange) {
+  Parameters parameters = small(0.88);
+  parameters.stages[1].most_sweeps = 20;
+  EXPECT_THROW(prepare({parameters}, {}, say_nothing), UserError);
+}
+
+TEST(Prepare, CompressionAtAPressureTellsItsMeanPackingFraction) {
+  Parameters parameters = small(0.5);
+  parameters.stages[1] = stage(PrepareStage::Method::compress);
+  parameters.stages[1].pressure = 1;
+  parameters.stages[1].sweeps = 2000;
+  validate(parameters);
+  const Preparation result = prepare({parameters}, {}, say_nothing);
+  const StageRecord& compression = result.stages[1];
+  EXPECT_EQ(compression.sweeps, 2000u);
+  EXPECT_GT(compression.mean_packing_fraction.mean, 0.3);
+  EXPECT_NEAR(compression.mean_packing_fraction.mean, compression.packing_fraction, 0.1);
+}
+
+TEST(Prepare, TheBudgetStopsIt) {
+  Parameters parameters = small(0.7);
+  RunControl control;
+  control.should_stop = [] { return true; };
+  EXPECT_FALSE(prepare({parameters}, control, say_nothing).complete);
+}
+
+/// Insertion and one stage of this method.
+Parameters by(PrepareStage::Method method, Moves moves) {
+  Parameters parameters = small(0.6);
+  parameters.stages[1] = stage(method);
+  parameters.stages[1].growth_rate = method == PrepareStage::Method::grow ? 0.001 : 0.02;
+  parameters.stages[1].stretch_sweeps = 5;
+  parameters.stages[1].moves = moves;
+  if (method == PrepareStage::Method::compress) {
+    parameters.stages[1].packing_fraction = 0.6;
+    parameters.stages[1].pressure = 20;
+  }
+  if (method == PrepareStage::Method::sample) parameters.system.packing_fraction = 0.3;
+  validate(parameters);
+  return parameters;
+}
+
+using Way = std::pair<PrepareStage::Method, Moves>;
+
+class StoppedPreparation : public testing::TestWithParam<Way> {
+ protected:
+  const Folder folder_{"stopped_preparation"};
+};
+
+// Every process stops a little later than the one before, so that each gets somewhere.
+TEST_P(StoppedPreparation, GoesOnBitByBitFromItsFile) {
+  const Parameters parameters = by(GetParam().first, GetParam().second);
+  const Preparation whole = prepare({parameters}, {}, say_nothing);
+  const PrepareRequest request{parameters, folder_ / "state.h5"};
+  std::uint64_t asked = 0, patience = 10, stops = 0;
+  const RunControl control{[&] { return ++asked > patience; }, {}, {}};
+  Preparation parts = prepare(request, control, say_nothing);
+  for (; !parts.complete; parts = prepare(request, control, say_nothing)) {
+    patience = 10 + 5 * ++stops;
+    asked = 0;
+    ASSERT_LT(stops, 1000u);
+  }
+  EXPECT_GT(stops, 2u);
+  EXPECT_EQ(parts.configuration.position, whole.configuration.position);
+  EXPECT_EQ(parts.configuration.angle, whole.configuration.angle);
+  EXPECT_EQ(parts.configuration.box.lengths(), whole.configuration.box.lengths());
+  EXPECT_EQ(parts.next_sweep, whole.next_sweep);
+  ASSERT_EQ(parts.stages.size(), whole.stages.size());
+  for (std::size_t k = 0; k < whole.stages.size(); ++k) {
+    const StageRecord &one = parts.stages[k], &other = whole.stages[k];
+    EXPECT_EQ(one.report.reason, other.report.reason);
+    EXPECT_EQ(one.packing_fraction, other.packing_fraction);
+    EXPECT_EQ(one.trials.tried(), other.trials.tried());
+    EXPECT_EQ(one.growth.counters.collisions, other.growth.counters.collisions);
+  }
+  forget_preparation(request.output);
+  EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
+}
+
+// A checkpoint at every moment at which there may be one, and a copy of one in the middle.
+TEST_P(StoppedPreparation, GoesOnBitByBitFromAnyCheckpoint) {
+  Parameters parameters = by(GetParam().first, GetParam().second);
+  parameters.output.checkpoint_interval = 0;
+  const PrepareRequest request{parameters, folder_ / "state.h5"};
+  const std::filesystem::path checkpoint = folder_ / "state.h5.preparation";
+  const Preparation whole = prepare({parameters}, {}, say_nothing);
+  std::uint64_t reports = 0;
+  const RunControl control{{},
+                           [&](const Progress&) {
+                             reports += std::filesystem::exists(checkpoint);
+                             if (reports == 5)
+                               std::filesystem::copy_file(checkpoint, folder_ / "copy");
+                           },
+                           {}};
+  prepare(request, control, say_nothing);
+  ASSERT_GE(reports, 5u);
+  forget_preparation(request.output);
+  std::filesystem::rename(folder_ / "copy", checkpoint);
+  const Preparation rest = prepare(request, {}, say_nothing);
+  EXPECT_EQ(rest.configuration.position, whole.configuration.position);
+  EXPECT_EQ(rest.configuration.angle, whole.configuration.angle);
+  EXPECT_EQ(rest.trials().tried(), whole.trials().tried());
+}
+
+TEST_P(StoppedPreparation, RefusesOtherParameters) {
+  Parameters parameters = by(GetParam().first, GetParam().second);
+  const PrepareRequest request{parameters, folder_ / "state.h5"};
+  std::uint64_t asked = 0;
+  const std::uint64_t during_insertion = 49;
+  prepare(request, {[&] { return ++asked > during_insertion + 15; }, {}, {}}, say_nothing);
+  parameters.dynamics.duration = 17;  // of no concern
+  parameters.system.seed = 2;
+  try {
+    prepare({parameters, request.output}, {}, say_nothing);
+    FAIL();
+  } catch (const UserError& error) {
+    const std::string message = error.what();
+    EXPECT_NE(message.find("begun with system.seed = 1, but now it is 2"), std::string::npos)
+        << message;
+  }
+}
+
+using Method = PrepareStage::Method;
+INSTANTIATE_TEST_SUITE_P(
+    Methods, StoppedPreparation,
+    testing::Values(Way{Method::swell, Moves::local}, Way{Method::compress, Moves::local},
+                    Way{Method::grow, Moves::local}, Way{Method::hybrid, Moves::local},
+                    Way{Method::hybrid, Moves::chains}, Way{Method::sample, Moves::local},
+                    Way{Method::sample, Moves::chains}),
+    [](const auto& at) {
+      return method_name(at.param.first) +
+             std::string(at.param.second == Moves::chains ? "_chains" : "");
+    });
+
+/// Ellipsoids of two species, grown to 30 %.
+Parameters solids() {
+  const auto number = [](double value) {
+    return Distribution{Distribution::Kind::constant, value, 0, 0, 0, 0};
+  };
+  Parameters parameters;
+  parameters.system.dimension = 3;
+  parameters.system.particles = 40;
+  parameters.system.packing_fraction = 0.3;
+  parameters.species.assign(2, Species());
+  parameters.species[0].aspect_ratios = {number(3), number(1)};
+  parameters.species[1].name = "scalene";
+  parameters.species[1].semi_axes = {2, 1, 0.5};
+  for (Species& species : parameters.species) species.fraction = 0.5;
+  parameters.stages[1].growth_rate = 0.01;
+  validate(parameters);
+  return parameters;
+}
+
+void expect_same_state(const Preparation<3>& one, const Preparation<3>& other) {
+  EXPECT_EQ(one.configuration.position, other.configuration.position);
+  for (std::size_t i = 0; i < one.configuration.size(); ++i)
+    EXPECT_EQ(one.configuration.orientation[i].coeffs(),
+              other.configuration.orientation[i].coeffs());
+  EXPECT_EQ(one.configuration.box.lengths(), other.configuration.box.lengths());
+  EXPECT_EQ(one.stages.back().growth.counters.collisions,
+            other.stages.back().growth.counters.collisions);
+}
+
+TEST(PrepareSolids, GrowToThePackingFractionWithoutOverlap) {
+  const Preparation<3> result = prepare<3>({solids()}, {}, say_nothing);
+  EXPECT_TRUE(result.complete);
+  EXPECT_NEAR(packing_fraction(result.configuration), 0.3, 1e-12);
+  const Vec3& box = result.configuration.box.lengths();
+  EXPECT_TRUE(box.x() == box.y() && box.y() == box.z());
+  EXPECT_TRUE(exact_check(result.configuration).clean());
+  EXPECT_GT(result.stages[1].growth.counters.collisions, 40u);
+  EXPECT_EQ(mechanics(result.configuration).translational_energy, 0);
+  EXPECT_EQ(mechanics(result.configuration).rotational_energy, 0);
+  expect_same_state(prepare<3>({solids()}, {}, say_nothing), result);
+}
+
+TEST(PrepareSolids, StoppedTheyGoOnBitByBit) {
+  const Folder folder("stopped_solids");
+  const Preparation<3> whole = prepare<3>({solids()}, {}, say_nothing);
+  const PrepareRequest request{solids(), folder / "state.h5"};
+  std::uint64_t asked = 0, stops = 0;
+  const RunControl control{[&] { return ++asked > 50; }, {}, {}};
+  Preparation<3> parts = prepare<3>(request, control, say_nothing);
+  for (; !parts.complete; parts = prepare<3>(request, control, say_nothing), ++stops) asked = 0;
+  EXPECT_GT(stops, 1u);
+  expect_same_state(parts, whole);
+  // In the other dimension the checkpoint is of no use.
+  Parameters flat = small(0.3);
+  try {
+    prepare({flat, request.output}, {}, say_nothing);
+    FAIL();
+  } catch (const UserError& error) {
+    EXPECT_NE(std::string(error.what()).find("begun with "), std::string::npos) << error.what();
+  }
+}
+
+TEST(Prepare, AStuckStateIsKept) {
+  Parameters parameters = small(0.88);
+  parameters.stages[1].most_sweeps = 50;
+  parameters.output.checkpoint_interval = 0;
+  const Folder folder("stuck");
+  EXPECT_THROW(prepare({parameters, folder / "state.h5"}, {}, say_nothing), UserError);
+  const Configuration2 kept = read_state(folder / "state.h5.stuck.h5");
+  EXPECT_FALSE(std::filesystem::exists(folder / "state.h5.preparation"));
+  EXPECT_GT(packing_fraction(kept), 0.3);
+  EXPECT_TRUE(exact_check(kept).clean());
+}
+
+}  // namespace
+}  // namespace vitrel

@@ -1,0 +1,228 @@
+#include "workflow/prepare/quality_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/io/h5md.h"
+#include "tests/app/program.h"
+#include "workflow/storage/text_file.h"
+
+namespace vitrel {
+namespace {
+
+using testing::HasSubstr;
+using testing_program::Folder;
+
+const auto say_nothing = [](const std::string&) {};
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+PrepareStage stage(PrepareStage::Method method) {
+  PrepareStage result;
+  result.method = method;
+  return result;
+}
+
+Parameters small() {
+  Parameters parameters;
+  parameters.system.particles = 64;
+  parameters.quality_sweeps = 100;
+  return parameters;
+}
+
+Quality measured(const Parameters& parameters) {
+  return *measure_quality(prepare({parameters}, {}, say_nothing), parameters, {});
+}
+
+std::string text(const Quality& quality) {
+  return quality_json(quality).dump();
+}
+
+// The value of the row of that name.
+std::string row(const Quality& quality, const std::string& name) {
+  for (const QualityRow& row : quality_rows(quality))
+    if (row.name == name) return row.value;
+  return "no such row";
+}
+
+/// Every field with a value of its own.
+Quality example() {
+  Quality quality;
+  quality.particles = 500;
+  quality.rotors = 400;
+  quality.packing_fraction = 0.1 + 0.2;
+  quality.pressure_from = Quality::PressureFrom::growth;
+  quality.reduced_pressure = {1e6, none, 0};
+  quality.nematic_order = 0.25;
+  quality.nematic_correlation = {{0.5, 1.5, 2.5}, {none, 0.9, 0.1}, {0, 3, 7}};
+  quality.hexatic_order = {0.3, 0.7};
+  quality.smallest_gap = 1e-12;
+  quality.backbone = JammedBackbone{{20, 1400, 5.83, 5.6}, 2e-3};
+  quality.decorrelation = Decorrelation{{1, 2}, {0.9, 0.8}, {0.1, 0.2}, {16.5, 16.7}, 800, 12, {}};
+  return quality;
+}
+
+TEST(MeasureQuality, OfASquareLatticeOfParallelEllipses) {
+  Parameters parameters = small();
+  parameters.system.packing_fraction = 0.3;
+  parameters.stages = {stage(PrepareStage::Method::lattice)};
+  const Quality quality = measured(parameters);
+  EXPECT_EQ(quality.particles, 64u);
+  EXPECT_EQ(quality.rotors, 64u);
+  EXPECT_NEAR(quality.packing_fraction, 0.3, 1e-12);
+  EXPECT_NEAR(quality.nematic_order, 1, 1e-12);
+  EXPECT_EQ(correlation_length(quality.nematic_correlation), infinity);
+  EXPECT_EQ(quality.overlaps, 0u);
+  EXPECT_GT(quality.smallest_gap, 0);
+  EXPECT_EQ(quality.pressure_from, Quality::PressureFrom::sampling);
+  EXPECT_NEAR(quality.reduced_pressure.mean, 2.2, 0.5);
+  EXPECT_FALSE(quality.backbone);
+}
+
+TEST(MeasureQuality, LeavesTheStateAsItIs) {
+  const Parameters parameters = small();
+  const Preparation preparation = prepare({parameters}, {}, say_nothing);
+  const std::vector<Vec2> before = preparation.configuration.position;
+  const auto one = measure_quality(preparation, parameters, {});
+  EXPECT_EQ(preparation.configuration.position, before);
+  // And it measures the same again.
+  EXPECT_EQ(text(*one), text(*measure_quality(preparation, parameters, {})));
+}
+
+TEST(MeasureQuality, TakesThePressureOfAGrowthThatEndedJammed) {
+  Parameters parameters = small();
+  parameters.stages[1] = stage(PrepareStage::Method::grow);
+  parameters.stages[1].reduced_pressure = 1e6;
+  parameters.stages[1].growth_rate = 0.02;
+  parameters.species[0].aspect_ratio->mean = 1.4;
+  const Preparation grown = prepare({parameters}, {}, say_nothing);
+  const Quality jammed = *measure_quality(grown, parameters, {});
+  EXPECT_EQ(jammed.pressure_from, Quality::PressureFrom::growth);
+  EXPECT_EQ(jammed.reduced_pressure.mean, grown.stages.back().growth.reduced_pressure);
+  ASSERT_TRUE(jammed.backbone);
+  EXPECT_GT(jammed.backbone->contact_number, 4);
+  EXPECT_LT(jammed.backbone->contact_number, 6.2);
+  EXPECT_FALSE(jammed.decorrelation->displacement_time);
+
+  parameters.stages[1].reduced_pressure = 20;
+  const Quality sampled = measured(parameters);
+  EXPECT_EQ(sampled.pressure_from, Quality::PressureFrom::sampling);
+  EXPECT_FALSE(sampled.backbone);
+}
+
+TEST(MeasureQuality, WithoutSweepsThePressureIsThatOfTheGrowth) {
+  Parameters parameters = small();
+  parameters.quality_sweeps = 0;
+  const Quality quality = measured(parameters);
+  EXPECT_EQ(quality.pressure_from, Quality::PressureFrom::growth);
+  EXPECT_NEAR(quality.reduced_pressure.mean, 4.5, 0.5);
+}
+
+TEST(MeasureQuality, WithoutSweepsAndGrowthThereIsNeitherPressureNorTime) {
+  Parameters parameters = small();
+  parameters.stages[1] = stage(PrepareStage::Method::swell);
+  parameters.quality_sweeps = 0;
+  const Quality quality = measured(parameters);
+  EXPECT_EQ(quality.pressure_from, Quality::PressureFrom::nothing);
+  EXPECT_TRUE(std::isnan(quality.reduced_pressure.mean));
+  EXPECT_FALSE(quality.decorrelation);
+  EXPECT_EQ(row(quality, "reduced pressure βP/ρ"), "–");
+  EXPECT_EQ(row(quality, "displacement time"), "no such row");
+}
+
+TEST(MeasureQuality, TheBudgetStopsIt) {
+  RunControl control;
+  control.should_stop = [] { return true; };
+  const Parameters parameters = small();
+  EXPECT_FALSE(measure_quality(prepare({parameters}, {}, say_nothing), parameters, control));
+}
+
+TEST(QualityRows, SayWhatWasNotReached) {
+  Quality quality = example();
+  EXPECT_EQ(row(quality, "orientation time"), "12 sweeps");
+  EXPECT_EQ(row(quality, "displacement time"), "longer than 800 sweeps");
+  EXPECT_EQ(row(quality, "nematic correlation"), "up to r = 2");
+  EXPECT_EQ(row(quality, "contacts per particle"), "5.830");
+  EXPECT_EQ(row(quality, "rattlers"), "20 of 500");
+  quality.nematic_correlation.value[2] = 0.5;
+  EXPECT_EQ(row(quality, "nematic correlation"), "longer than 3");
+  quality.rotors = 0;
+  EXPECT_EQ(row(quality, "nematic order S"), "no such row");
+  EXPECT_EQ(row(quality, "orientation time"), "no such row");
+}
+
+TEST(QualityFile, LiesBesideTheState) {
+  EXPECT_EQ(quality_file("folder/a.b.h5"), "folder/a.b.quality.json");
+  EXPECT_EQ(quality_file("state"), "state.quality.json");
+}
+
+/// A state that the file belongs to, as far as the reader can tell.
+Configuration2 fitting_state(Quality& quality) {
+  Configuration2 state;
+  state.box = PeriodicBox<2>(Vec2(9, 7));
+  state.resize(3);
+  state.shape = {{1.5, 0.5}, {1.2, 1}, {1, 1}};
+  state.angle = {0.1, 0.7, 0};
+  state.species_names = {"A"};
+  quality.particles = 3;
+  quality.packing_fraction = packing_fraction(state);
+  quality.nematic_order = nematic_order(state);
+  return state;
+}
+
+TEST(QualityFile, ReadsBackWhatItWrote) {
+  const Folder folder("quality_file");
+  Quality quality = example();
+  const Configuration2 state = fitting_state(quality);
+  write_quality(folder / "a.quality.json", quality);
+  const Quality back = read_quality(folder / "a.quality.json", state);
+  EXPECT_EQ(text(back), text(quality));
+  EXPECT_TRUE(std::isnan(back.nematic_correlation.value[0]));
+  EXPECT_EQ(back.pressure_from, quality.pressure_from);
+  EXPECT_EQ(back.decorrelation->orientation_time, 12u);
+  EXPECT_FALSE(back.decorrelation->displacement_time);
+  EXPECT_EQ(back.backbone->rattlers, 20u);
+
+  quality.pressure_from = Quality::PressureFrom::sampling;
+  quality.smallest_gap = infinity;
+  quality.nematic_correlation = {};
+  quality.backbone.reset();
+  quality.decorrelation.reset();
+  write_quality(folder / "a.quality.json", quality);
+  const Quality bare = read_quality(folder / "a.quality.json", state);
+  EXPECT_EQ(text(bare), text(quality));
+  EXPECT_EQ(bare.smallest_gap, infinity);
+  EXPECT_EQ(bare.pressure_from, Quality::PressureFrom::sampling);
+  EXPECT_FALSE(bare.decorrelation);
+}
+
+TEST(QualityFile, SaysWhatIsWrongWithIt) {
+  const Folder folder("quality_errors");
+  Quality quality = example();
+  const Configuration2 state = fitting_state(quality);
+  const auto complaint = [&]() -> std::string {
+    try {
+      read_quality(folder / "a.quality.json", state);
+    } catch (const FileError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(complaint(), HasSubstr("a.quality.json: is missing"));
+  folder.write("a.quality.json", "{\"particles\": 3}");
+  EXPECT_THAT(complaint(), HasSubstr("a.quality.json: is not a quality report"));
+  folder.write("a.quality.json", "{\"parti");
+  EXPECT_THAT(complaint(), HasSubstr("is not a quality report"));
+  quality.nematic_order *= 1 + 1e-15;
+  write_quality(folder / "a.quality.json", quality);
+  EXPECT_THAT(complaint(), HasSubstr("is the quality report of another state"));
+}
+
+}  // namespace
+}  // namespace vitrel

@@ -1,0 +1,81 @@
+#include "workflow/analyze/relaxation_tables.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "tests/support/free_brownian.h"
+
+namespace vitrel {
+namespace {
+
+Configuration2 ellipses_and_disks() {
+  Configuration2 configuration = ellipses(150);
+  configuration.species_names = {"ellipse", "disk"};
+  for (std::size_t i = 100; i < 150; ++i) {
+    configuration.shape[i] = {1, 1};
+    configuration.species[i] = 1;
+  }
+  return configuration;
+}
+
+/// F_s = exp(−q² MSD/4) and L_n = exp(−n² MSR/2), MSD and MSR proportional to time.
+double truth(double kind, double parameter) {
+  const double per_time = kind == 0 ? free_msd(1) / 4 : free_msr(1, ellipses(1).inertia(0)) / 2;
+  return 1 / (parameter * parameter * per_time);
+}
+
+// Four standard errors, and the 0.2 % by which a straight line may be wrong (relaxation.h): false-alarm rate
+// 0.06 per mille for each of 20 rows.
+void expect_closed_forms(Trajectory& trajectory) {
+  Results results;
+  store_relaxation_times(displacements(trajectory, {.wave_numbers = {2, 3}}), results);
+  const Table& table = *results.find("relaxation_times");
+  // Both quantities twice in "all" and "ellipse", F_s in "disk".
+  EXPECT_EQ(table.find("group")->value, (std::vector<double>{0, 0, 0, 0, 1, 1, 1, 1, 2, 2}));
+  EXPECT_EQ(table.find("kind")->value, (std::vector<double>{0, 0, 1, 1, 0, 0, 1, 1, 0, 0}));
+  EXPECT_EQ(table.find("parameter")->value, (std::vector<double>{2, 3, 2, 4, 2, 3, 2, 4, 2, 3}));
+  EXPECT_EQ(results.text("group_0"), "all");
+  EXPECT_EQ(results.text("group_1"), "ellipse");
+  EXPECT_EQ(results.text("group_2"), "disk");
+  const Column& tau = *table.find("tau");
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const double expected =
+        truth(table.find("kind")->value[row], table.find("parameter")->value[row]);
+    EXPECT_GT(tau.error[row], 0) << row;
+    EXPECT_LT(tau.error[row], 0.1 * expected) << row;
+    EXPECT_NEAR(tau.value[row], expected, 4 * tau.error[row] + 0.002 * expected) << row;
+    EXPECT_EQ(results.text("relaxation_times_" + std::to_string(row)), "");
+  }
+}
+
+TEST(RelaxationTables, FreeBrownianParticlesFollowTheClosedForms) {
+  MemoryTrajectory trajectory = free_brownian(ellipses_and_disks(), 801, 1);
+  expect_closed_forms(trajectory);
+}
+
+TEST(RelaxationTables, SoTheyDoSampledInCycles) {
+  MemoryTrajectory steps = free_brownian(ellipses_and_disks(), 1601, 2);
+  MemoryTrajectory trajectory = cycles(steps);
+  expect_closed_forms(trajectory);
+}
+
+// τ of F_s is 20/q²: 8000 of a run of 10, and 0.0125 between frames 0.1 apart.
+TEST(RelaxationTables, SayWhyThereIsNoTime) {
+  MemoryTrajectory trajectory = free_brownian(ellipses(20), 101, 3);
+  const Displacements found = displacements(trajectory, {.wave_numbers = {0.05, 40}, .orders = {}});
+  Results results;
+  store_relaxation_times(found, results);
+  const Table& table = *results.find("relaxation_times");
+  ASSERT_EQ(table.rows(), 2u);
+  for (std::size_t row = 0; row < 2; ++row) EXPECT_TRUE(std::isnan(table.find("tau")->value[row]));
+  EXPECT_NEAR(table.find("least")->value[0], 5, 1e-12);
+  EXPECT_TRUE(std::isnan(table.find("most")->value[0]));
+  EXPECT_NEAR(table.find("most")->value[1], 0.1, 1e-12);
+  EXPECT_NE(results.text("relaxation_times_0").find("still"), std::string::npos);
+  EXPECT_NE(results.text("relaxation_times_1").find("already"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace vitrel

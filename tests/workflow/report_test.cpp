@@ -1,0 +1,264 @@
+#include "workflow/report/report_page.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/report_example.h"
+#include "workflow/report/page_parts.h"
+
+namespace vitrel {
+namespace {
+
+using report_example::none;
+using report_example::sweep;
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t times = 0;
+  for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size())
+    ++times;
+  return times;
+}
+
+nlohmann::json embedded_data(const std::string& page) {
+  const std::string open = "<script type=\"application/json\" id=\"data\">";
+  const std::size_t begin = page.find(open) + open.size();
+  return nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+}
+
+TEST(ReportPage, NeedsNothingBesideIt) {
+  const std::string page = report_page(sweep(3, 4));
+  EXPECT_EQ(count(page, " src="), 0u);
+  EXPECT_EQ(count(page, "<link"), 0u);
+  EXPECT_EQ(count(page, "@import"), 0u);
+  EXPECT_EQ(count(page, "url("), 0u);
+  EXPECT_EQ(count(page, "fetch("), 0u);
+  EXPECT_NE(page.find("default-src 'none'"), std::string::npos);
+  // The one address is the home page of uPlot in its licence comment.
+  EXPECT_EQ(count(page, "https://"), 1u);
+  EXPECT_EQ(count(page, "http://"), 0u);
+  EXPECT_NE(page.find("Copyright (c) 2022 Leon Sorokin"), std::string::npos);
+  EXPECT_EQ(count(page, "{{"), 0u);
+}
+
+TEST(ReportPage, TwoHundredFramesOfAThousandParticlesTakeTwoMegabytes) {
+  ReportData data = sweep(2, 1);
+  data.runs = {report_example::run(0.7, report_example::lattice(32, 300))};
+  data.runs.front().movie = {};
+  const std::size_t without = report_page(data).size();
+  MemoryTrajectory trajectory = report_example::lattice(32, 300);
+  data.runs.front().movie = film(trajectory);
+  const Movie& movie = data.runs.front().movie;
+  EXPECT_EQ(movie.particles(), 1024u);
+  EXPECT_EQ(movie.frames(), 195u);
+  const std::size_t size = report_page(data).size();
+  EXPECT_LT(size, 2'000'000u);
+  // Eight characters a pose, and little else.
+  EXPECT_NEAR(static_cast<double>(size - without), 8.0 * 1024 * 195, 30'000);
+}
+
+TEST(ReportPage, TextFromOutsideStaysText) {
+  const std::string page = report_page(sweep(2, 1));
+  EXPECT_NE(page.find("<h1>Ellipses &amp; &lt;disks&gt;</h1>"), std::string::npos);
+  EXPECT_NE(page.find("name = &quot;&lt;/script&gt;&lt;b&gt;&quot;"), std::string::npos);
+  EXPECT_NE(page.find("vitrel run &quot;a&quot; &gt; b"), std::string::npos);
+  EXPECT_EQ(count(page, "run <1>"), 0u);
+  // Two scripts, and the data; a text of ours never ends one.
+  EXPECT_EQ(count(page, "</script>"), 3u);
+}
+
+TEST(ReportPage, TableHasOneRowPerRunInTheirOrder) {
+  ReportData data = sweep(2, 1);
+  std::swap(data.runs.front(), data.runs.back());
+  const std::string page = report_page(data);
+  const std::size_t table = page.find("Table of runs</h2>");
+  const std::size_t low = page.find("<th scope=\"row\">0.50</th>", table);
+  const std::size_t high = page.find("<th scope=\"row\">0.70</th>", table);
+  ASSERT_NE(low, std::string::npos);
+  ASSERT_NE(high, std::string::npos);
+  EXPECT_LT(high, low);
+  EXPECT_EQ(count(page, "<td>4.492 ± 0.031</td>"), 3u);
+  EXPECT_EQ(count(page, "<td>0.5000 ± 0.0010</td>"), 3u);
+  EXPECT_EQ(count(page, "<td>123\u202f456</td>"), 3u);
+  EXPECT_EQ(count(page, "<td>300\u202f000</td>"), 3u);
+  // The rotational diffusion coefficients are not known.
+  EXPECT_EQ(count(page.substr(table), "<td>–</td>"), 3u);
+}
+
+TEST(ReportPage, TableOfFitsGivesValuesBoundsAndDashes) {
+  const std::string page = report_page(sweep(2, 1));
+  const auto row = [&page](const std::string& cells) {
+    return count(page, "<tr>" + cells + "</tr>");
+  };
+  EXPECT_EQ(row("<th scope=\"row\">translation, τ<sub>α</sub></th><td>power law</td>"
+                "<td>0.8000 ± 0.0050</td><td>0.003</td><td>0.004</td><td>2.00 ± 0.10</td>"
+                "<td>0.62 … 0.72</td><td>1.20</td><td>1</td>"),
+            1u);
+  EXPECT_EQ(row("<th scope=\"row\">rotation, τ<sub>2</sub></th><td>power law</td>"
+                "<td>&gt; 0.795</td><td>–</td><td>–</td><td>–</td>"
+                "<td>0.6 … 0.66</td><td>1.00</td><td>1.5</td>"),
+            1u);
+  EXPECT_EQ(row("<th scope=\"row\">rotation, τ<sub>2</sub></th><td>Vogel–Fulcher</td>"
+                "<td>–</td><td>–</td><td>–</td><td>–</td>"
+                "<td>0.6 … 0.66</td><td>20.00</td><td>1.5</td>"),
+            1u);
+  EXPECT_EQ(count(page, "<th scope=\"row\">rotation in the nematic, τ<sub>2</sub></th>"), 1u);
+  EXPECT_EQ(count(page, "<th scope=\"row\">diffusion, 1/D</th>"), 1u);
+}
+
+TEST(ReportPage, LawsThatNoDataCouldBeFittedToHaveNoWindow) {
+  ReportData data = sweep(2, 1);
+  Table& fits = data.study.tables[1];
+  for (Column& column : fits.columns) {
+    const bool told = column.name == "kind" || column.name == "law" || column.name == "scatter";
+    column.value = {told ? 1 : column.name == "verdict" ? 2 : none};
+    if (!column.error.empty()) column.error = {none};
+  }
+  EXPECT_EQ(
+      count(report_page(data),
+            "<tr><th scope=\"row\">rotation, τ<sub>2</sub></th><td>Vogel–Fulcher</td><td>–</td>"
+            "<td>–</td><td>–</td><td>–</td><td>–</td><td>–</td><td>–</td></tr>"),
+      1u);
+}
+
+TEST(ReportPage, TableOfRunsOfTheStudyNamesVerdictsAndOrientations) {
+  const std::string page = report_page(sweep(2, 1));
+  // τ_α = 0.1 (0.8 − 0.6)^−2 and τ_2 = 4 (0.81 − 0.6)^−2.5, errors 5 %.
+  EXPECT_EQ(count(page,
+                  "<tr><th "
+                  "scope=\"row\">0.60</th><td>1</td><td>equilibrated</td><td>equilibrated</"
+                  "td><td>relaxes</td>"
+                  "<td>2.50 ± 0.12</td><td>197.9 ± 9.9</td><td>0.1000 ± 0.0050</td><td>0.04</td>"
+                  "<td>–</td><td>2500</td></tr>"),
+            1u);
+  EXPECT_EQ(count(page, "<td>equilibrated</td><td>nematic order</td>"), 6u);
+  EXPECT_EQ(count(page, "<td>ageing</td><td>nematic order</td>"), 2u);
+  EXPECT_EQ(count(page,
+                  "<td>not enough time</td><td>does not relax</td><td>62.5 ± 3.1</td><td>–</td>"
+                  "<td>0.690 ± 0.034</td><td>0.04</td><td>0.4</td><td>2500</td></tr>"),
+            2u);
+}
+
+TEST(ReportPage, NotesOfTheStudyAreAList) {
+  ReportData data = sweep(2, 1);
+  const std::string page = report_page(data);
+  EXPECT_EQ(count(page,
+                  "<ul class=\"note\">\n<li>phi-0.74 (density 0.74, seed 1) stays out of the fits, "
+                  "ageing: S drifts</li>\n<li>rotation, tau_2, Vogel-Fulcher: no phi_c, chi^2 "
+                  "&lt;is&gt; too large</li>\n</ul>"),
+            1u);
+  EXPECT_EQ(count(page, "phi-0.6/run.h5"), 0u);
+  data.study.provenance.clear();
+  EXPECT_EQ(count(report_page(data), "<ul"), 0u);
+}
+
+TEST(ReportPage, CarriesTheTables) {
+  const nlohmann::json data = embedded_data(report_page(sweep(3, 4)));
+  ASSERT_EQ(data["runs"].size(), 3u);
+  const nlohmann::json& first = data["runs"][0];
+  EXPECT_EQ(first["label"], "φ = 0.50");
+  EXPECT_EQ(first["dynamics"], "Brownian, step 0.1");
+  EXPECT_EQ(first["collisionsPerSecond"], 300'000);
+  // 500 times over 2.7 decades at 20 a decade: the first ones all, then thinned.
+  const nlohmann::json& decay = first["tables"]["susceptibility"]["columns"];
+  EXPECT_EQ(decay["time"]["value"][1], 1);
+  EXPECT_EQ(decay["time"]["unit"], "time");
+  EXPECT_GT(decay["time"]["value"].size(), 35u);
+  EXPECT_LT(decay["time"]["value"].size(), 55u);
+  EXPECT_NEAR(decay["overlap"]["value"][0], std::exp(-0.5 * 0.09 / 0.1), 1e-5);
+  EXPECT_EQ(decay["overlap"]["error"].size(), decay["time"]["value"].size());
+  // 1000 rows: every third.
+  const nlohmann::json& energies = first["tables"]["energies"];
+  EXPECT_EQ(energies["stride"], 3);
+  EXPECT_EQ(energies["columns"]["time"]["value"].size(), 334u);
+  EXPECT_FALSE(energies["columns"]["total"].contains("error"));
+  EXPECT_EQ(first["tables"]["pair_correlation"]["columns"]["r"]["value"].size(), 100u);
+  EXPECT_TRUE(first["tables"]["summary"]["columns"]["rotational_diffusion"]["value"][0].is_null());
+  EXPECT_EQ(data["study"]["relaxation"]["columns"]["verdict"]["value"].size(), 18u);
+  EXPECT_EQ(first["movie"]["particles"], 9);
+}
+
+/// Runs of 484 particles in seven groups, with twelve frames each in the page.
+ReportData many_runs(std::size_t runs) {
+  ReportData data = sweep(2, 1);
+  ReportRun run = report_example::run(0.7, report_example::lattice(22, 12));
+  for (const char* group : {"C", "D", "E", "F"})
+    for (Table& table : report_example::correlations(10, group))
+      run.results.tables.push_back(std::move(table));
+  data.runs.assign(runs, run);
+  return data;
+}
+
+std::size_t rows_of(const nlohmann::json& page, const char* table, const char* column) {
+  return page["runs"][0]["tables"][table]["columns"][column]["value"].size();
+}
+
+TEST(ReportPage, TablesOfManyRunsAreThinnedUntilThePageHasTwoMegabytes) {
+  const std::string few = report_page(many_runs(4)), many = report_page(many_runs(20));
+  const nlohmann::json all = embedded_data(few), thinned = embedded_data(many);
+  EXPECT_LT(few.size(), 2'000'000u);
+  EXPECT_EQ(rows_of(all, "energies", "time"), 334u);
+  EXPECT_LT(many.size(), 2'000'000u);
+  // Not more than is needed: a step takes a quarter.
+  EXPECT_GT(many.size(), 1'600'000u);
+  EXPECT_LT(rows_of(thinned, "energies", "time"), rows_of(all, "energies", "time"));
+  EXPECT_LT(rows_of(thinned, "displacements_A", "time"), rows_of(all, "displacements_A", "time"));
+  // The study is not thinned.
+  EXPECT_EQ(thinned["study"], all["study"]);
+}
+
+TEST(ReportPage, TablesOfManyRunsKeepFiveRowsADecade) {
+  const nlohmann::json data = embedded_data(report_page(many_runs(100)));
+  // Times 0.5 … 250 at 20 · 0.75⁵ a decade; 1000 rows by strides of 11, as 400 · 0.75⁵ rounds to 94.
+  EXPECT_EQ(data["runs"][0]["tables"]["energies"]["stride"], 11);
+  EXPECT_GE(rows_of(data, "displacements_A", "time"), 10u);
+  EXPECT_LE(rows_of(data, "displacements_A", "time"), 14u);
+}
+
+TEST(ReportPage, TablesThatItDoesNotShowStayOut) {
+  ReportData data = sweep(2, 1);
+  const std::size_t size = report_page(data).size();
+  for (const char* name : {"relaxation_times", "glass_fit_windows", "runs"}) {
+    const Table table{name, "", {report_example::plain("time", "time", {1, 2, 3})}};
+    data.study.tables.push_back(table);
+    data.runs[0].results.tables.push_back(table);
+  }
+  EXPECT_EQ(report_page(data).size(), size);
+}
+
+TEST(ReportPage, RunsOfEqualDensityAreToldApartByWhatDiffersInTheirNames) {
+  ReportData data = sweep(2, 1);
+  for (ReportRun& run : data.runs) run.packing_fraction = 0.5;
+  data.runs[0].name = "packing_fraction-0.5_seed-1";
+  data.runs[1].name = "packing_fraction-0.5_seed-12";
+  nlohmann::json runs = embedded_data(report_page(data))["runs"];
+  EXPECT_EQ(runs[0]["label"], "φ = 0.50 (packing_fraction-0.5_seed-1)");
+  EXPECT_EQ(runs[2]["label"], "φ = 0.50 (run <1>)");
+  data.runs.pop_back();
+  runs = embedded_data(report_page(data))["runs"];
+  EXPECT_EQ(runs[0]["label"], "φ = 0.50 (seed-1)");
+  EXPECT_EQ(runs[1]["label"], "φ = 0.50 (seed-12)");
+}
+
+TEST(ReportPage, WhatIsNotKnownIsADash) {
+  ReportData data;
+  data.runs.resize(1);
+  data.runs[0].name = "empty";
+  const std::string page = report_page(data);
+  EXPECT_EQ(count(page, "<td>–</td>"), 9u);
+  EXPECT_TRUE(embedded_data(page)["runs"][0]["tables"].empty());
+  EXPECT_TRUE(embedded_data(page)["runs"][0]["movie"].is_null());
+}
+
+TEST(WithError, TwoDigitsOfTheError) {
+  EXPECT_EQ(with_error(4.49213, 0.03121), "4.492 ± 0.031");
+  EXPECT_EQ(with_error(1234.5, 41.7), "1234 ± 42");
+  EXPECT_EQ(with_error(1.00004, 0.0999), "1.00 ± 0.10");
+  EXPECT_EQ(with_error(1.5, 0), "1.5");
+  EXPECT_EQ(with_error(2.71828, none), "2.718");
+  EXPECT_EQ(with_error(none, 1), "–");
+}
+
+}  // namespace
+}  // namespace vitrel

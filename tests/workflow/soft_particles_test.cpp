@@ -1,0 +1,128 @@
+// From the parameter file's SI units to contacts in the units of a run.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <numbers>
+
+#include "edmd/soft/restitution.h"
+#include "workflow/configuration/soft_particles.h"
+
+namespace vitrel {
+namespace {
+
+/// Tables go to a folder of the test's own.
+class SoftParticles : public testing::Test {
+ protected:
+  SoftParticles()
+      : folder_(std::filesystem::path(testing::TempDir()) /
+                testing::UnitTest::GetInstance()->current_test_info()->name()) {
+    std::filesystem::remove_all(folder_);
+    setenv("XDG_CACHE_HOME", folder_.c_str(), 1);
+  }
+  ~SoftParticles() override { std::filesystem::remove_all(folder_); }
+
+  std::filesystem::path folder_;
+  std::vector<std::string> said_;
+  const std::function<void(const std::string&)> say_ = [this](const std::string& line) {
+    said_.push_back(line);
+  };
+};
+
+/// Of radii in units of the first.
+Configuration3 spheres(const std::vector<double>& radii) {
+  Configuration3 c;
+  c.resize(radii.size());
+  for (std::size_t i = 0; i < c.size(); ++i) {
+    c.shape[i] = {Vec3::Constant(radii[i])};
+    c.mass[i] = std::pow(radii[i], 3);
+  }
+  return c;
+}
+
+ContactParameters figure_6() {
+  ContactParameters p;
+  p.law = ContactParameters::Law::linear_dashpot;
+  p.linear_dashpot = {2000, 3};
+  p.viscoelastic = {1e7, 0.3, 1e-3};
+  p.thermal_speed = 5;
+  return p;
+}
+
+template <ContactForce Force>
+void expect_contact_in_si(const Force& force, const ContactParameters& p, SoftContact& contact,
+                          double radius2, double tolerance) {
+  const UnitsOfRun unit = units_of_run(p);
+  const double mass2 = unit.mass * std::pow(radius2, 3);
+  const ContactPair in_si = contact_pair(unit.length, unit.mass, radius2 * unit.length, mass2);
+  const ContactPair in_run = contact_pair(1, 1, radius2, std::pow(radius2, 3));
+  for (const double speed : {0.01, 1., 4.})
+    for (const double across : {0.2, 3.}) {
+      RunCounters counters;
+      const Restitution found = contact.collide(in_run, speed, across, counters);
+      const double to_si = unit.length / unit.time;
+      const Restitution wanted =
+          integrate_contact<Force>(scaled_impact(force, in_si, speed * to_si, across * to_si));
+      const double duration = wanted.duration * force.scales(speed * to_si, in_si).time / unit.time;
+      EXPECT_NEAR(found.distance, wanted.distance, tolerance);
+      EXPECT_NEAR(found.angle / wanted.angle, 1, tolerance);
+      EXPECT_NEAR(found.duration / duration, 1, tolerance);
+      EXPECT_NEAR(found.rate, wanted.rate, tolerance);
+    }
+}
+
+// Figure 6 of mueller2013: 0.1 m, 1140 kg/m³, 5 m/s.
+TEST_F(SoftParticles, TheUnitsAreThoseOfTheReferenceParticle) {
+  const UnitsOfRun unit = units_of_run(figure_6());
+  EXPECT_DOUBLE_EQ(unit.length, 0.1);
+  EXPECT_DOUBLE_EQ(unit.time, 0.02);
+  EXPECT_NEAR(unit.mass, 1140 * 4 * std::numbers::pi / 3 * 1e-3, 1e-14);
+}
+
+TEST_F(SoftParticles, ContactsAreThoseOfTheMaterialInSiUnits) {
+  ContactParameters p = figure_6();
+  for (const auto coefficients :
+       {ContactParameters::Coefficients::integrated, ContactParameters::Coefficients::tabulated}) {
+    p.coefficients = coefficients;
+    const bool exact = coefficients == ContactParameters::Coefficients::integrated;
+    p.law = ContactParameters::Law::linear_dashpot;
+    expect_contact_in_si(p.linear_dashpot, p, *soft_contact(p, spheres({1, 1}), 2, say_), 1,
+                         exact ? 1e-11 : 3e-8);
+    p.law = ContactParameters::Law::viscoelastic;
+    expect_contact_in_si(p.viscoelastic, p, *soft_contact(p, spheres({1, 1}), 2, say_), 1,
+                         exact ? 1e-11 : 3e-8);
+  }
+  // Unlike radii damp differently: one variable more.
+  const auto contact = soft_contact(p, spheres({1, 0.9}), 2, say_);
+  for (const double radius : {1., 0.9})
+    expect_contact_in_si(p.viscoelastic, p, *contact, radius, 3e-6);
+}
+
+TEST_F(SoftParticles, TheTableIsMadeOnceAndUsedWherePossible) {
+  const ContactParameters p = figure_6();
+  RunCounters counters;
+  const ContactPair pair = contact_pair(1, 1, 1, 1);
+  for (int k = 0; k < 2; ++k) {
+    const auto contact = soft_contact(p, spheres({1, 1}), 2, say_);
+    contact->collide(pair, 1, 1, counters);
+    EXPECT_EQ(counters.integrations, 0u);
+  }
+  EXPECT_EQ(said_.size(), 1u);
+  const auto contact = soft_contact(p, spheres({1, 1}), 2, say_);
+  contact->collide(pair, 1e-7, 1e-7, counters);
+  contact->collide(contact_pair(1, 1, 2, 8), 1, 1, counters);
+  EXPECT_EQ(counters.integrations, 2u);
+}
+
+TEST_F(SoftParticles, WithoutAFolderTheTableIsNotKept) {
+  setenv("XDG_CACHE_HOME", "/dev/null", 1);
+  const auto contact = soft_contact(figure_6(), spheres({1, 1}), 2, say_);
+  ASSERT_EQ(said_.size(), 2u);
+  EXPECT_THAT(said_[1], testing::HasSubstr("the table is not kept"));
+}
+
+}  // namespace
+}  // namespace vitrel

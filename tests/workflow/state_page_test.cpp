@@ -1,0 +1,89 @@
+#include "workflow/report/state_page.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace vitrel {
+namespace {
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t times = 0;
+  for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size())
+    ++times;
+  return times;
+}
+
+StatePage example(std::size_t particles) {
+  StatePage page;
+  page.title = "dense <1>";
+  page.subtitle = "ellipses & disks";
+  page.rows = {{"packing fraction", "0.7", ""}, {"pressure", "16.6 ± 0.2", "a < b"}};
+  page.state.box = PeriodicBox<2>(Vec2(100, 50));
+  page.state.resize(particles);
+  page.state.shape[0] = {2, 0.5};
+  page.state.angle[0] = 7;
+  page.nematic_correlation = {{0.5, 1.5, 2.5}, {NAN, 0.25, 0.125}, {0, 2, 50}};
+  page.nematic_order = 0.3;
+  page.sweeps = {1, 2, 4};
+  page.orientation = {0.9, 0.8, 0.7};
+  page.displacement = {0.1, 0.2, 0.3};
+  page.parameters = "name = \"</script>\"\n";
+  page.provenance = {{"seed", "1"}};
+  return page;
+}
+
+nlohmann::json embedded_data(const std::string& page) {
+  const std::string open = "<script type=\"application/json\" id=\"data\">";
+  const std::size_t begin = page.find(open) + open.size();
+  return nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+}
+
+TEST(StatePage, NeedsNothingBesideItAndIsSmall) {
+  const std::string page = state_page(example(1000));
+  EXPECT_EQ(count(page, " src="), 0u);
+  EXPECT_EQ(count(page, "<link"), 0u);
+  EXPECT_EQ(count(page, "url("), 0u);
+  EXPECT_EQ(count(page, "{{"), 0u);
+  EXPECT_NE(page.find("default-src 'none'"), std::string::npos);
+  EXPECT_LT(page.size(), 150'000u);
+}
+
+TEST(StatePage, HasARowForEveryPropertyAndKeepsTextAsText) {
+  const std::string page = state_page(example(2));
+  EXPECT_NE(page.find("<h1>dense &lt;1&gt;</h1>"), std::string::npos);
+  EXPECT_NE(page.find("ellipses &amp; disks"), std::string::npos);
+  EXPECT_NE(
+      page.find("<tr><th scope=\"row\">pressure</th><td>16.6 ± 0.2</td><td>a &lt; b</td></tr>"),
+      std::string::npos);
+  EXPECT_EQ(count(page, "<tr>"), 2u);
+  EXPECT_EQ(count(page, "</script>"), 3u);
+}
+
+TEST(StatePage, CarriesThePictureAndTheCurves) {
+  const nlohmann::json data = embedded_data(state_page(example(2)));
+  EXPECT_EQ(data["movie"]["particles"], 2);
+  EXPECT_EQ(data["movie"]["shapes"], nlohmann::json({{2, 0.5}, {1, 1}}));
+  // The second particle, a disk of radius 1, lies on the first.
+  EXPECT_EQ(data["movie"]["overlapping"], nlohmann::json({{0, 1}}));
+  // Bins with pairs only; independent angles scatter by 1/√(2 pairs).
+  EXPECT_EQ(data["correlation"]["time"], nlohmann::json({1.5, 2.5}));
+  EXPECT_EQ(data["correlation"]["value"], nlohmann::json({0.25, 0.125}));
+  EXPECT_EQ(data["correlation"]["error"], nlohmann::json({0.5, 0.1}));
+  EXPECT_EQ(data["order"], 0.3);
+  EXPECT_EQ(data["orientation"]["value"], nlohmann::json({0.9, 0.8, 0.7}));
+  EXPECT_EQ(data["displacement"]["time"], nlohmann::json({1, 2, 4}));
+}
+
+TEST(StatePage, WhatIsUnknownIsNotThere) {
+  StatePage page = example(2);
+  page.nematic_correlation = {};
+  page.sweeps = page.orientation = page.displacement = {};
+  const nlohmann::json data = embedded_data(state_page(page));
+  for (const char* curve : {"correlation", "orientation", "displacement"})
+    EXPECT_TRUE(data[curve].is_null()) << curve;
+}
+
+}  // namespace
+}  // namespace vitrel

@@ -1,0 +1,340 @@
+#include "workflow/analyze/analyze.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "analysis/glass/glass_data.h"
+#include "core/error.h"
+#include "workflow/analyze/dynamics_tables.h"
+#include "workflow/analyze/packing_tables.h"
+#include "workflow/analyze/relaxation_tables.h"
+#include "workflow/analyze/structure_tables.h"
+#include "workflow/configuration/parameters.h"
+#include "workflow/configuration/species_names.h"
+#include "workflow/run/correlations_file.h"
+#include "workflow/storage/stored_trajectory.h"
+
+namespace vitrel {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+/// All that is measured, before it is put into tables.
+struct RunAnalysis {
+  std::size_t particles, rotors, frames;
+  double packing_fraction, duration, collisions;
+  RunDynamics dynamics;
+  EnergySeries energy;
+  CompressibilitySeries compressibility;
+  DiffusionCoefficient diffusion, rotational_diffusion;  ///< of all particles
+  std::vector<Table> structure;
+  std::optional<GlassRun> glass;
+};
+
+Parameters analysis_parameters(const TrajectoryReader& reader, const AnalysisChoice& choice) {
+  if (choice.parameters)
+    return load_parameters({*choice.parameters, choice.overrides, std::nullopt});
+  return parse_parameters(reader.provenance().parameters, reader.path().string(), choice.overrides);
+}
+
+/// What displacements need of a file; those of round particles need no angles.
+void require_tracks(const TrajectoryReader& reader, std::size_t rotors) {
+  reader.require("image",
+                 "displacements: positions in the box do not tell how often it was crossed");
+  if (rotors > 0)
+    reader.require("angle", "rotations: orientations do not tell the number of turns");
+}
+
+/// Tables of files with one species are not called after it.
+void require_own_names(const TrajectoryReader& reader) {
+  if (reader.species_names().size() < 2) return;
+  if (const auto conflict = species_name_conflict(reader.species_names()))
+    throw FileError(fmt::format("{}: the name of species {} {}", reader.path().string(),
+                                conflict->species, conflict->complaint));
+}
+
+/// The file becomes part of the message where it cannot be analysed as it was asked for.
+template <class Work>
+auto naming(const std::filesystem::path& file, Work&& work) {
+  try {
+    return work();
+  } catch (const UserError& error) {
+    throw UserError(fmt::format("{}: {}", file.string(), error.what()));
+  }
+}
+
+ProgressReport shown_by(ProgressDisplay& display) {
+  return [&display](const Progress& state) { display.show(state); };
+}
+
+/// The short part first: it refuses wave numbers that do not fit into the box.
+RunDynamics measure_dynamics(StoredTrajectory& trajectory, DisplacementOptions options,
+                             ProgressDisplay& display) {
+  const ProgressReport report = shown_by(display);
+  options.wave_numbers = wave_numbers_or_main(std::move(options.wave_numbers), trajectory.read(0));
+  RunDynamics dynamics;
+  display.begin("collective scattering");
+  dynamics.collective = collective_scattering(trajectory, options.wave_numbers, options.axis,
+                                              report, options.threads);
+  display.begin("displacements");
+  dynamics.displacements = displacements(trajectory, options, report);
+  return dynamics;
+}
+
+const Table& order_table(const std::vector<Table>& tables) {
+  return *std::find_if(tables.begin(), tables.end(),
+                       [](const Table& table) { return table.name == "order"; });
+}
+
+/// Of a mean squared displacement (dimension 2) or rotation (1).
+DiffusionCoefficient long_time_diffusion(const Displacements& found, const Correlation& square,
+                                         int dimension, const std::vector<double>& times) {
+  const double duration = evenly_spaced(times) ? times.back() - times.front() : 0;
+  return diffusion_coefficient({found.lag, square.value, square.error, duration}, dimension);
+}
+
+DiffusionCoefficient no_diffusion(const char* reason) {
+  return {unknown, unknown, unknown, unknown, reason};
+}
+
+/// NaN if the file does not say.
+double collisions_between_frames(const TrajectoryReader& reader) {
+  if (!reader.has_observable("collisions")) return unknown;
+  const std::vector<double> collisions = reader.observable("collisions");
+  return collisions.back() - collisions.front();
+}
+
+/// Judged, if the run can be.
+std::optional<GlassRun> measure_glass(StoredTrajectory& trajectory, const std::string& name,
+                                      const RunAnalysis& run, const DisplacementOptions& options,
+                                      ProgressDisplay& display) {
+  const GlassSource source{.name = name,
+                           .seed = trajectory.reader().provenance().seed,
+                           .packing_fraction = run.packing_fraction,
+                           .rotors = run.rotors,
+                           .displacements = run.dynamics.displacements,
+                           .compressibility = run.compressibility,
+                           .order = order_table(run.structure),
+                           .diffusion = run.diffusion,
+                           .rotational_diffusion = run.rotational_diffusion};
+  display.begin("relaxation and halves");
+  const auto data = glass_run_data(trajectory, source, options, shown_by(display));
+  if (!data) return std::nullopt;
+  return judge_glass_run(*data);
+}
+
+RunAnalysis measure(StoredTrajectory& trajectory, const std::string& name,
+                    const Parameters& parameters, ProgressDisplay& display) {
+  const TrajectoryReader& reader = trajectory.reader();
+  const std::vector<double>& times = trajectory.times();
+  RunAnalysis run{};
+  const Configuration2& state = trajectory.read(trajectory.frames() - 1);
+  run.particles = state.size();
+  run.rotors = rotor_count(state);
+  run.packing_fraction = packing_fraction(state);
+  run.frames = trajectory.frames();
+  run.duration = times.back() - times.front();
+  run.collisions = collisions_between_frames(reader);
+  require_tracks(reader, run.rotors);
+  run.dynamics = measure_dynamics(trajectory, parameters.analysis, display);
+  display.begin("structure");
+  run.structure = structure_tables(trajectory, parameters.structure, all_cores, shown_by(display));
+  run.energy = stored_energies(trajectory);
+  run.compressibility = stored_compressibility(reader, run.energy, run.rotors);
+  const Displacements& found = run.dynamics.displacements;
+  const DisplacementGroup& all = found.groups.front();
+  run.diffusion = long_time_diffusion(found, all.translation, 2, times);
+  run.rotational_diffusion = run.rotors > 0 ? long_time_diffusion(found, all.rotation, 1, times)
+                                            : no_diffusion("no particle can turn");
+  run.glass = measure_glass(trajectory, name, run, parameters.analysis, display);
+  return run;
+}
+
+Table energy_table(const EnergySeries& energy) {
+  return {"energies",
+          "Energies per particle at the sample times, in kT; translational + rotational = total.",
+          {{"time", "time", energy.time, {}},
+           {"translational", "kT", energy.translational, {}},
+           {"rotational", "kT", energy.rotational, {}},
+           {"total", "kT", energy.total, {}}}};
+}
+
+Table compressibility_table(const CompressibilitySeries& series) {
+  return {"compressibility",
+          "Compressibility factor Z = P/(rho kT) from the virial of the collisions between two "
+          "samples.",
+          {{"time", "time", series.time, {}}, {"z", "1", series.value, {}}}};
+}
+
+Column single(const char* name, const char* unit, double value, double error) {
+  return {name, unit, {value}, {error}};
+}
+
+std::vector<Column> summary_columns(const RunAnalysis& run) {
+  const Estimate translational = time_average(run.energy.time, run.energy.translational);
+  const Estimate rotational = time_average(run.energy.time, run.energy.rotational);
+  const Estimate& z = run.compressibility.mean;
+  return {{"packing_fraction", "1", {run.packing_fraction}, {}},
+          {"particles", "1", {static_cast<double>(run.particles)}, {}},
+          {"rotors", "1", {static_cast<double>(run.rotors)}, {}},
+          {"frames", "1", {static_cast<double>(run.frames)}, {}},
+          {"collisions", "1", {run.collisions}, {}},
+          {"duration", "time", {run.duration}, {}},
+          single("compressibility", "1", z.mean, z.error),
+          single("translational_energy", "kT", translational.mean, translational.error),
+          single("rotational_energy", "kT", rotational.mean, rotational.error),
+          single("diffusion", "length^2/time", run.diffusion.value, run.diffusion.error),
+          {"diffusion_from", "time", {run.diffusion.from}, {}},
+          {"diffusion_to", "time", {run.diffusion.to}, {}},
+          single("rotational_diffusion", "rad^2/time", run.rotational_diffusion.value,
+                 run.rotational_diffusion.error),
+          {"rotational_diffusion_from", "time", {run.rotational_diffusion.from}, {}},
+          {"rotational_diffusion_to", "time", {run.rotational_diffusion.to}, {}}};
+}
+
+void add_tables(const EnergySeries& energy, const CompressibilitySeries& compressibility,
+                std::vector<Table>& tables) {
+  if (!energy.time.empty()) tables.push_back(energy_table(energy));
+  if (!compressibility.value.empty()) tables.push_back(compressibility_table(compressibility));
+}
+
+Results results_of(const RunAnalysis& run) {
+  Results results;
+  results.tables.push_back({"summary", "Averages over the run.", summary_columns(run)});
+  for (Table& table : dynamics_tables(run.dynamics)) results.tables.push_back(std::move(table));
+  add_tables(run.energy, run.compressibility, results.tables);
+  results.tables.insert(results.tables.end(), run.structure.begin(), run.structure.end());
+  return results;
+}
+
+std::filesystem::path csv_file(const std::filesystem::path& results, const std::string& table) {
+  return results.parent_path() / fmt::format("{}_{}.csv", results.stem().string(), table);
+}
+
+// In three dimensions: the structure of the last frame, and what the file says of all frames.
+AnalysedRun analyze_solids(const std::filesystem::path& file, const AnalysisChoice& choice) {
+  const TrajectoryReader reader(file);
+  require_own_names(reader);
+  const Parameters parameters = analysis_parameters(reader, choice);
+  ProgressDisplay(choice.progress, choice.job).begin("structure");
+  AnalysedRun analysed{file, {}};
+  const Configuration3 last = read_state<3>(file);
+  analysed.results.tables = packing_tables(last, parameters.structure);
+  const EnergySeries energy = observed_energies(reader);
+  add_tables(energy, stored_compressibility(reader, energy, rotation_count(last)),
+             analysed.results.tables);
+  analysed.results.provenance = provenance_rows(reader.provenance());
+  analysed.results.provenance.emplace_back("source", file.string());
+  return analysed;
+}
+
+}  // namespace
+
+std::string AnalysedRun::name() const {
+  const bool in_job_folder = file.filename() == "run.h5" && file.has_parent_path();
+  if (!in_job_folder) return file.stem().string();
+  return std::filesystem::absolute(file).lexically_normal().parent_path().filename().string();
+}
+
+double AnalysedRun::packing_fraction() const {
+  return results.find("summary")->find("packing_fraction")->value.front();
+}
+
+std::uint64_t AnalysedRun::seed() const {
+  const std::string seed = results.text("seed");
+  return seed.empty() ? 0 : std::stoull(seed);
+}
+
+AnalysedRun analyze_run(const std::filesystem::path& file, const AnalysisChoice& choice) {
+  if (TrajectoryReader(file).dimension() == 3) return analyze_solids(file, choice);
+  StoredTrajectory trajectory(file);
+  const TrajectoryReader& reader = trajectory.reader();
+  if (trajectory.frames() < 2)
+    throw UserError(
+        fmt::format("{}: has {} frame(s), but an analysis needs two or more; continue the "
+                    "run, or sample more often ([output] samples)",
+                    file.string(), trajectory.frames()));
+  require_own_names(reader);
+  AnalysedRun analysed{file, {}};
+  const Parameters parameters = analysis_parameters(reader, choice);
+  ProgressDisplay display(choice.progress, choice.job);
+  const RunAnalysis run =
+      naming(file, [&] { return measure(trajectory, analysed.name(), parameters, display); });
+  Results& results = analysed.results;
+  results = results_of(run);
+  for (Table& table : on_the_fly_tables(file)) results.tables.push_back(std::move(table));
+  results.provenance = provenance_rows(reader.provenance());
+  results.provenance.emplace_back("source", file.string());
+  results.provenance.emplace_back("time_axis",
+                                  time_axis_text(trajectory.times(), run.dynamics.displacements));
+  store_relaxation_times(run.dynamics.displacements, results);
+  if (run.energy.time.empty())
+    results.provenance.emplace_back("left_out",
+                                    "energies: the file has neither velocities nor the observables "
+                                    "translational_energy and rotational_energy");
+  if (run.glass)
+    store_glass_run(*run.glass, results);
+  else
+    results.provenance.emplace_back(
+        "not_judged", "equilibration and relaxation: the samples are not evenly spaced in time");
+  return analysed;
+}
+
+std::vector<std::string> former_tables(const std::filesystem::path& file) {
+  if (!std::filesystem::exists(file)) return {};
+  std::vector<std::string> tables;
+  try {
+    tables = stored_tables(file);
+  } catch (const FileError&) {
+    // no file of ours
+  }
+  // Correlations on the fly are tables in such a file, too, but nothing can make them again.
+  const bool is_analysis = std::any_of(tables.begin(), tables.end(), [](const std::string& name) {
+    return name == "summary" || name == "runs";
+  });
+  if (!is_analysis)
+    throw UserError(file.string() +
+                    ": exists and holds no results of vitrel analyze, which are all that it "
+                    "overwrites; choose another output, or delete it");
+  return tables;
+}
+
+void write_all(const std::filesystem::path& file, const Results& results) {
+  for (const std::string& table : former_tables(file))
+    if (!results.find(table)) std::filesystem::remove(csv_file(file, table));
+  write_results(file, results);
+  for (const Table& table : results.tables) write_csv(csv_file(file, table.name), table);
+}
+
+Json analysis_summary(const AnalysedRun& run) {
+  Json summary = {{"file", run.file.string()}};
+  for (const Column& column : run.results.find("summary")->columns) {
+    const double value = column.value.front();
+    const bool is_count = column.error.empty() && column.unit == "1" && value == std::floor(value);
+    summary[column.name] = is_count ? Json(static_cast<std::uint64_t>(value)) : Json(value);
+    if (!column.error.empty()) summary[column.name + "_error"] = column.error.front();
+  }
+  if (const auto glass = stored_glass_run(run.name(), run.results))
+    summary.update(glass_summary(*glass));
+  return summary;
+}
+
+PageProvenance provenance_rows(const Provenance& provenance) {
+  return {{"version", provenance.version},
+          {"commit", provenance.commit},
+          {"command_line", provenance.command_line},
+          {"host", provenance.host},
+          {"seed", std::to_string(provenance.seed)},
+          {"parent", provenance.parent},
+          {"started", provenance.started},
+          {"wall_seconds", fmt::format("{:.1f}", provenance.wall_seconds)}};
+}
+
+}  // namespace vitrel

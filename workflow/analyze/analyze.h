@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/results.h"
+#include "app/terminal/progress.h"
+#include "core/io/provenance.h"
+#include "workflow/report/html.h"
+
+/// The analysis of one saved run.
+namespace vitrel {
+
+/// What the command line says; without a file of its own the parameters stored in the run are used.
+struct AnalysisChoice {
+  std::optional<std::filesystem::path> parameters;
+  std::vector<std::string> overrides;
+  ProgressDisplay::Mode progress = ProgressDisplay::Mode::silent;
+  std::string job = {};  ///< which of many, before the phases of the progress: "job 3 of 18: "
+
+  /// Whether it says anything about the analysis.
+  bool given() const { return parameters || !overrides.empty(); }
+};
+
+/// A run and what was found out about it.
+struct AnalysedRun {
+  std::filesystem::path file;
+  Results results;
+
+  /// That of the job's folder, or of the file.
+  std::string name() const;
+  double packing_fraction() const;
+  std::uint64_t seed() const;
+};
+
+/// Tables: a summary of one row, time correlations (dynamics_tables.h), relaxation times
+/// (relaxation_tables.h), energies, compressibility, structure (structure_tables.h), correlations measured
+/// on the fly (correlations_file.h), and if the run can be judged (glass_data.h) its relaxation times and
+/// verdict. In three dimensions those of packing_tables.h of the last frame, and of a run its energies
+/// and compressibility. Throws FileError or UserError, naming the file.
+AnalysedRun analyze_run(const std::filesystem::path& file, const AnalysisChoice& choice);
+
+/// The tables of the results in this file, if there is one. Throws UserError if it holds anything but
+/// the results of an analysis, for which these must not take its place.
+std::vector<std::string> former_tables(const std::filesystem::path& file);
+
+/// Writes the HDF5 file and beside it one CSV file per table, <name>_<table>.csv; those of tables that
+/// only the former results in this file had are removed. Throws FileError, and UserError like
+/// former_tables.
+void write_all(const std::filesystem::path& file, const Results& results);
+
+/// All numbers of the summary, and the verdict.
+nlohmann::ordered_json analysis_summary(const AnalysedRun& run);
+
+/// Where a file comes from, as tables and pages give it.
+PageProvenance provenance_rows(const Provenance& provenance);
+
+}  // namespace vitrel

@@ -1,0 +1,72 @@
+#include "workflow/analyze/relaxation_tables.h"
+
+#include <fmt/format.h>
+
+#include "analysis/dynamics/relaxation.h"
+
+namespace vitrel {
+namespace {
+
+enum class Kind { self_scattering, orientation };
+
+Table empty_table() {
+  return {
+      "relaxation_times",
+      "Relaxation times tau, when a correlation has fallen to 1/e. group: as in the provenance. "
+      "kind: 0 F_s(q, t), 1 L_n(t); parameter: its q or n. Without tau: a time that it outlives "
+      "(least) or by which it has decayed (most), and the reason in the provenance.",
+      {{"group", "1", {}, {}},
+       {"kind", "1", {}, {}},
+       {"parameter", "1/length or 1", {}, {}},
+       {"tau", "time", {}, {}},
+       {"least", "time", {}, {}},
+       {"most", "time", {}, {}}}};
+}
+
+/// Appends rows and reasons.
+class RelaxationRows {
+ public:
+  RelaxationRows(const Displacements& found, Results& results) : found_(found), results_(results) {}
+
+  void add_group(std::size_t number) {
+    const DisplacementGroup& group = found_.groups[number];
+    results_.provenance.emplace_back(fmt::format("group_{}", number), group.name);
+    for (std::size_t k = 0; k < group.self_scattering.size(); ++k)
+      add(number, Kind::self_scattering, found_.wave_numbers[k], group.self_scattering[k]);
+    for (std::size_t k = 0; k < group.orientation.size(); ++k)
+      add(number, Kind::orientation, found_.orders[k], group.orientation[k]);
+  }
+  Table table() && { return std::move(table_); }
+
+ private:
+  void add(std::size_t group, Kind kind, double parameter, const Correlation& correlation) {
+    const RelaxationTime time = relaxation_time({found_.lag, correlation.value, correlation.error});
+    if (!time.reason.empty())
+      results_.provenance.emplace_back(fmt::format("relaxation_times_{}", table_.rows()),
+                                       time.reason);
+    const double row[] = {static_cast<double>(group),
+                          static_cast<double>(kind),
+                          parameter,
+                          time.value,
+                          time.least,
+                          time.most};
+    for (std::size_t k = 0; k < table_.columns.size(); ++k)
+      table_.columns[k].value.push_back(row[k]);
+    table_.columns[tau_].error.push_back(time.error);
+  }
+
+  static constexpr std::size_t tau_ = 3;
+  const Displacements& found_;
+  Results& results_;
+  Table table_ = empty_table();
+};
+
+}  // namespace
+
+void store_relaxation_times(const Displacements& found, Results& results) {
+  RelaxationRows rows(found, results);
+  for (std::size_t k = 0; k < found.groups.size(); ++k) rows.add_group(k);
+  results.tables.push_back(std::move(rows).table());
+}
+
+}  // namespace vitrel

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "analysis/results.h"
+#include "analysis/structure/pair_correlation.h"
+#include "analysis/structure/structure_factor.h"
+#include "analysis/trajectory.h"
+#include "core/parallel.h"
+
+/// The structure of a run, averaged over its frames.
+namespace vitrel {
+
+struct StructureOptions {
+  std::size_t most_frames = 1000;  ///< evenly thinned beyond
+  ShellOptions shells;
+  PairCorrelationOptions pairs;
+};
+
+/// The tables structure_factor, pair_correlation, orientation_distribution (unless all particles are
+/// round) and order. Errors are those of averages over frames (frame_average.h). Frames are read
+/// one after another and measured on up to `threads` threads, some at a time; the results do not
+/// depend on it. `report` hears of the frames.
+std::vector<Table> structure_tables(Trajectory& trajectory, const StructureOptions& options,
+                                    int threads = all_cores, const ProgressReport& report = {});
+
+}  // namespace vitrel

@@ -1,0 +1,183 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/dynamics/displacement.h"
+#include "core/io/parameters.h"
+#include "core/state/species.h"
+#include "edmd/growth.h"
+#include "edmd/run.h"
+#include "edmd/soft/linear_dashpot.h"
+#include "edmd/soft/viscoelastic.h"
+#include "mc/compression.h"
+#include "mc/insertion.h"
+#include "mc/lattice.h"
+#include "mc/sampling.h"
+#include "mc/swelling.h"
+#include "workflow/analyze/structure_tables.h"
+#include "workflow/prepare/hybrid.h"
+
+/// The parameter file: what it holds, how it is read, and the texts that describe it. All commands
+/// read the same file; each uses the sections it needs.
+namespace vitrel {
+
+struct SystemParameters {
+  int dimension = 2;
+  std::int64_t particles = 1000;
+  double packing_fraction = 0.5;
+  std::uint64_t seed = 1;
+  double box_aspect = 1;
+};
+
+/// One stage of the preparation; every method uses its own fields only.
+struct PrepareStage {
+  enum class Method { lattice, insert, swell, compress, grow, hybrid, sample };
+  enum class Orientations { random, aligned };
+
+  Method method = Method::insert;
+  LatticeOptions lattice;
+  std::uint64_t attempts = InsertionOptions().attempts;
+  Orientations orientations = Orientations::random;
+  std::optional<double> packing_fraction;  ///< of all but lattice and sample; see end_of_stage
+  std::optional<double> reduced_pressure;  ///< of grow and hybrid
+  double growth_rate = GrowthOptions().growth_rate;
+  double pressure = CompressionOptions().pressure;
+  BoxChange box = CompressionOptions().change;
+  std::uint64_t most_sweeps = SwellingOptions().sweeps;
+  std::uint64_t stretch_sweeps = HybridOptions().stretch.sweeps;
+  Moves moves = SamplingOptions().moves;
+  double exchanges = SamplingOptions().exchanges;
+  std::uint64_t sweeps = SamplingOptions().sweeps;
+};
+
+/// As the parameter file calls it.
+const char* method_name(PrepareStage::Method method);
+
+/// The packing fraction at which a stage ends, for one that begins at `before`; of one that a pressure
+/// ends, the one it begins at, since it ends in an unknown place.
+double end_of_stage(const PrepareStage& stage, const SystemParameters& system, double before);
+/// Whether a pressure decides at which packing fraction the preparation ends.
+bool ends_at_pressure(const std::vector<PrepareStage>& stages);
+
+/// Soft particles: a law of contact and what gives the units of the run their size, all in SI units.
+struct ContactParameters {
+  enum class Law { linear_dashpot, viscoelastic };
+  enum class Coefficients { tabulated, integrated };
+
+  double radius = 0.1;       ///< m, of a particle of size 1
+  double density = 1140;     ///< kg/m³, of it as a sphere
+  double thermal_speed = 2;  ///< m/s, its √(kT/m)
+  Law law = Law::viscoelastic;
+  LinearDashpot linear_dashpot{1e6, 0};
+  Viscoelastic viscoelastic{1e9, 0.4, 0};
+  Coefficients coefficients = Coefficients::tabulated;
+  EarlyRelease early_release = EarlyRelease::alone;
+};
+
+/// As the parameter file calls it.
+const char* law_name(ContactParameters::Law law);
+
+struct DynamicsParameters {
+  enum class Kind { newtonian, brownian };
+
+  Kind kind = Kind::newtonian;
+  double brownian_step = 0.1;
+  double equilibration = 10;
+  double duration = 100;
+  double restitution = 1;
+  OnOverlap on_overlap = OnOverlap::stop;
+  Temperature temperature = Temperature::total;
+  InitialVelocities initial_velocities = InitialVelocities::maxwell;
+  std::optional<ContactParameters> contact;  ///< none: hard particles
+};
+
+/// Of correlations on the fly.
+struct CorrelationParameters {
+  double interval = 0.1;
+  std::vector<double> wave_numbers;  ///< empty: main_wave_number
+};
+
+struct OutputParameters {
+  enum class Spacing { linear, logarithmic };
+
+  Spacing spacing = Spacing::linear;
+  double interval = 0.1;
+  double first = 0.01;
+  int per_decade = 20;
+  bool velocities = true;
+  std::optional<CorrelationParameters> correlations;
+  double checkpoint_interval = 30;
+};
+
+/// The values that keys of the file run through in a sweep.
+struct SweepParameters {
+  ParameterGrid grid;      ///< every value of a key with every value of the others
+  ParameterGrid together;  ///< the k-th values of all keys together
+};
+
+struct Parameters {
+  SystemParameters system;
+  std::vector<Species> species;
+  std::uint64_t quality_sweeps = 1000;
+  std::vector<PrepareStage> stages;
+  DynamicsParameters dynamics;
+  OutputParameters output;
+  DisplacementOptions analysis;
+  StructureOptions structure;
+  SweepParameters sweep;
+
+  Parameters();
+};
+
+/// Parts of the file, for the templates of single commands.
+struct Sections {
+  bool system = true, prepare = true, run = true, analysis = true, sweep = true;
+};
+
+/// Names all fields of the given sections.
+FieldVisitor::Inside fields(Parameters& parameters, const Sections& sections = {});
+
+/// Throws BadValue for the first impossible value.
+void validate(const Parameters& parameters);
+
+/// Throws BadValue unless the system is two-dimensional; `what` is not there for three.
+void require_two_dimensions(const Parameters& parameters, const std::string& what);
+
+/// A file and what the command line puts over it.
+struct ParameterSource {
+  std::filesystem::path file;
+  std::vector<std::string> overrides;  ///< each "key=value"
+  std::optional<std::uint64_t> seed;
+};
+/// Reads, overrides and validates. Throws UserError or FileError.
+Parameters load_parameters(const ParameterSource& source);
+/// Parses parameters stored in a file; `name` stands for it in messages.
+Parameters parse_parameters(const std::string& text, const std::string& name,
+                            const std::vector<std::string>& overrides = {});
+
+/// All values in force as TOML text, without [sweep]; equal parameters give equal text.
+std::string effective_parameters(const Parameters& parameters);
+
+/// The commented template of one command's parameters; UserError if the command takes none.
+std::string command_template(const std::string& command);
+/// The page docs/parameters.md.
+std::string parameter_page();
+
+enum class Work { preparation, run };
+/// The first key that differs and may not, when a piece of work is continued with changed parameters.
+/// Changes of what it does not use do not matter, nor those of the checkpoint interval and the quality
+/// sweeps.
+std::optional<ParameterDifference> forbidden_change(const std::string& before,
+                                                    const std::string& after, Work work);
+
+/// The same parameters in the form the engine takes them, without the contact of soft particles
+/// (soft_particles.h).
+DynamicsOptions dynamics_options(const Parameters& parameters);
+/// Sample times, from 0 to the duration.
+std::vector<double> sample_times(const Parameters& parameters);
+
+}  // namespace vitrel

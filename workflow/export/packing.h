@@ -1,0 +1,50 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "analysis/structure/packing_images.h"
+#include "core/state/configuration.h"
+
+/// One period of a packing of ellipsoids in the formats of mesh generators, solvers on grids and viewers.
+/// All of them get the bodies that meet the box, images included; the box is centred at the origin.
+/// Throws FileError.
+namespace vitrel {
+
+struct Packing {
+  Configuration3 configuration;
+  std::vector<BodyInBox> bodies;  ///< bodies_in_box of it
+
+  /// All semi-axes times `shrink`, which leaves room between bodies that touch.
+  Packing(Configuration3 state, double shrink);
+
+  Vec3 centre(const BodyInBox& body) const;
+};
+
+/// A Gmsh script for its OpenCASCADE kernel: the bodies cut by the box, the matrix around them, opposite
+/// faces meshed alike. The box is moved by clean_cut; the script says by how much. Physical volumes: "matrix",
+/// and "inclusions A" for a species A. Physical surfaces: "xmin" … "zmax". The mesh size h is half the
+/// shortest semi-axis, or chosen by `gmsh -3 packing.geo -setnumber h 0.2`.
+void write_geo(const std::filesystem::path& path, const Packing& packing);
+
+/// VTK image data (.vti), `voxels` along the longest edge and cubic up to rounding; cell data "particle":
+/// the number of the particle, from 0, that holds the centre of the voxel, −1 in the matrix.
+void write_vti(const std::filesystem::path& path, const Packing& packing, std::size_t voxels);
+
+/// VTK poly data (.vtp), a point for every body. Point data: "particle", "species", "image" (3, the shift),
+/// "semi-axes" (3), "orientation" (quaternion w, x, y, z), "tensor" (R diag(a, b, c) Rᵀ: tensor glyphs of
+/// a sphere of radius 1 are the bodies).
+void write_vtp(const std::filesystem::path& path, const Packing& packing);
+
+/// A table with a line for every body, after one line of `name [unit]`, every number with the digits, 17 at
+/// most, that give the same double back:
+///
+///   particle, species                from 0; the name
+///   image_x, image_y, image_z        centre = position of the particle + image ∘ box
+///   x, y, z                          centre
+///   a, b, c                          semi-axes along the own x, y and z axes
+///   qw, qx, qy, qz                   quaternion that turns the own axes into those of space
+///   box_x, box_y, box_z
+void write_packing_csv(const std::filesystem::path& path, const Packing& packing);
+
+}  // namespace vitrel

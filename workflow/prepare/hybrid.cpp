@@ -1,0 +1,95 @@
+#include "workflow/prepare/hybrid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace vitrel {
+namespace {
+
+/// Growth of all lengths in one stretch, and the same times Z.
+constexpr double largest_growth = 0.01, largest_compression = 0.2;
+
+class Hybrid {
+ public:
+  Hybrid(Configuration2& configuration, const HybridOptions& options, HybridState& state,
+         const RunControl& control)
+      : configuration_(configuration),
+        options_(options),
+        state_(state),
+        control_(control),
+        start_(packing_fraction(configuration)),
+        silent_{control.should_stop, {}, control.on_resumable} {}
+
+  StageReport run() {
+    while (true) {
+      const bool grows = state_.stretches % 2 == 0;
+      const StageReport report = grows ? growth() : sampling();
+      if (report.end != StageEnd::reached || (grows && at_goal())) return report;
+      ++state_.stretches;
+      state_.stretch_end = 0;
+      control_.report_progress({progress(), packing_fraction(configuration_), "packing fraction"});
+      control_.notify_resumable();
+    }
+  }
+
+ private:
+  StageReport growth() {
+    if (state_.stretch_end == 0) state_.stretch_end = next_end();
+    GrowthOptions growth;
+    growth.growth_rate = options_.growth_rate;
+    growth.packing_fraction = state_.stretch_end;
+    growth.reduced_pressure = options_.reduced_pressure;
+    growth.seed = options_.seed;
+    return grow(configuration_, growth, state_.growth, silent_);
+  }
+
+  double next_end() const {
+    const double z = std::max(1.0, state_.growth.reduced_pressure);
+    const double size = 1 + std::min(largest_growth, largest_compression / z);
+    const double end = packing_fraction(configuration_) * size * size;
+    return std::min(end, goal());
+  }
+
+  double goal() const {
+    return options_.packing_fraction.value_or(std::numeric_limits<double>::infinity());
+  }
+
+  bool at_goal() const {
+    const double z = state_.growth.reduced_pressure;
+    return state_.stretch_end == goal() ||
+           (options_.reduced_pressure && z >= *options_.reduced_pressure);
+  }
+
+  StageReport sampling() {
+    SamplingOptions sampling = options_.stretch;
+    sampling.sweeps *= (state_.stretches + 1) / 2;  // all so far
+    return sample(configuration_, sampling, options_.seed, state_.sampling, silent_);
+  }
+
+  double progress() const {
+    double done = 0;
+    if (options_.packing_fraction)
+      done = std::log(packing_fraction(configuration_) / start_) / std::log(goal() / start_);
+    if (options_.reduced_pressure)
+      done = std::max(done, std::log(std::max(1.0, state_.growth.reduced_pressure)) /
+                                std::log(*options_.reduced_pressure));
+    return std::clamp(done, 0.0, 1.0);
+  }
+
+  Configuration2& configuration_;
+  const HybridOptions& options_;
+  HybridState& state_;
+  const RunControl& control_;
+  const double start_;
+  const RunControl silent_;  // progress is that of the whole stage
+};
+
+}  // namespace
+
+StageReport hybrid(Configuration2& configuration, const HybridOptions& options, HybridState& state,
+                   const RunControl& control) {
+  return Hybrid(configuration, options, state, control).run();
+}
+
+}  // namespace vitrel

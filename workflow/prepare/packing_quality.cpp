@@ -1,0 +1,116 @@
+#include "workflow/prepare/packing_quality.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "workflow/storage/text_file.h"
+
+namespace vitrel {
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+/// Of the last stage that grew for long enough to measure it.
+double pressure_of_growth(const Preparation<3>& preparation) {
+  double pressure = unknown;
+  for (const StageRecord& stage : preparation.stages)
+    if (stage.growth.reduced_pressure > 0) pressure = stage.growth.reduced_pressure;
+  return pressure;
+}
+
+QualityRow orientation_row(const PackingQuality& quality) {
+  const IsotropicRatio chance = isotropic_ratio(quality.axes);
+  return {"orientation ratio ρ", fmt::format("{:.4f}", quality.orientation_ratio),
+          fmt::format("λ_max/λ_min; isotropic: {:.4f} ± {:.4f}", chance.mean,
+                      chance.standard_deviation)};
+}
+
+}  // namespace
+
+PackingQuality measure_quality(const Configuration3& packing, const ExactCheck<3>& check) {
+  const OrientationTensor tensor = orientation_tensor(packing);
+  PackingQuality quality;
+  quality.particles = packing.size();
+  quality.packing_fraction = packing_fraction(packing);
+  quality.reduced_pressure = unknown;
+  quality.axes = tensor.axes;
+  quality.orientation_ratio = tensor.ratio();
+  quality.overlaps = check.overlaps.size();
+  quality.smallest_gap = check.smallest_gap;
+  return quality;
+}
+
+PackingQuality measure_quality(const Preparation<3>& preparation) {
+  PackingQuality quality = measure_quality(preparation.configuration, preparation.check);
+  quality.reduced_pressure = pressure_of_growth(preparation);
+  for (const StageRecord& stage : preparation.stages)
+    quality.collisions += stage.growth.counters.collisions;
+  quality.wall_seconds = preparation.wall_seconds;
+  return quality;
+}
+
+void add_preparation(PackingQuality& quality, const std::filesystem::path& file) {
+  try {
+    const nlohmann::json report = nlohmann::json::parse(read_text(file));
+    if (report.at("particles") != quality.particles ||
+        report.at("packing_fraction") != quality.packing_fraction)
+      throw FileError(
+          fmt::format("{}: is the quality report of another packing; vitrel prepare "
+                      "writes both files together",
+                      file.string()));
+    const nlohmann::json& pressure = report.at("reduced_pressure");
+    if (!pressure.is_null()) quality.reduced_pressure = pressure;
+    quality.collisions = report.at("collisions");
+    quality.wall_seconds = report.at("wall_seconds");
+  } catch (const nlohmann::json::exception& error) {
+    throw FileError(fmt::format("{}: is not a quality report of vitrel prepare: {}", file.string(),
+                                error.what()));
+  }
+}
+
+std::vector<QualityRow> quality_rows(const PackingQuality& quality) {
+  std::vector<QualityRow> rows = {
+      {"packing fraction φ", fmt::format("{:.6g}", quality.packing_fraction), ""}};
+  if (std::isfinite(quality.reduced_pressure))
+    rows.push_back({"reduced pressure βP/ρ", fmt::format("{:.4g}", quality.reduced_pressure),
+                    "at the end of the growth"});
+  if (quality.axes > 0) rows.push_back(orientation_row(quality));
+  rows.push_back({"smallest gap",
+                  std::isfinite(quality.smallest_gap) ? fmt::format("{:.3g}", quality.smallest_gap)
+                                                      : "beyond the longest semi-axis",
+                  fmt::format("exact check: {} overlaps", quality.overlaps)});
+  if (quality.collisions > 0)
+    rows.push_back(
+        {"collisions", fmt::format("{}", quality.collisions),
+         fmt::format("{:.3g} per particle", static_cast<double>(quality.collisions) /
+                                                static_cast<double>(quality.particles))});
+  if (quality.wall_seconds > 0)
+    rows.push_back({"wall time", fmt::format("{:.4g} s", quality.wall_seconds), ""});
+  return rows;
+}
+
+nlohmann::ordered_json quality_json(const PackingQuality& quality) {
+  const IsotropicRatio chance = isotropic_ratio(quality.axes);
+  return {{"dimension", 3},
+          {"particles", quality.particles},
+          {"packing_fraction", quality.packing_fraction},
+          {"reduced_pressure", quality.reduced_pressure},
+          {"axes", quality.axes},
+          {"orientation_ratio", quality.orientation_ratio},
+          {"isotropic_ratio", chance.mean},
+          {"isotropic_ratio_deviation", chance.standard_deviation},
+          {"overlaps", quality.overlaps},
+          {"smallest_gap", quality.smallest_gap},
+          {"collisions", quality.collisions},
+          {"wall_seconds", quality.wall_seconds}};
+}
+
+void write_quality(const std::filesystem::path& file, const PackingQuality& quality) {
+  write_text(file, quality_json(quality).dump(1) + "\n");
+}
+
+}  // namespace vitrel

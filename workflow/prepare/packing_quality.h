@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <vector>
+
+#include "analysis/structure/orientation_tensor.h"
+#include "workflow/prepare/prepare.h"
+#include "workflow/report/state_page.h"
+
+/// How good a prepared state of three dimensions is.
+namespace vitrel {
+
+struct PackingQuality {
+  std::size_t particles = 0;
+  double packing_fraction = 0;
+  double reduced_pressure = 0;   ///< βP/ρ at the end of the growth; NaN without one
+  std::size_t axes = 0;          ///< bodies that are not round
+  double orientation_ratio = 0;  ///< ρ = λ_max/λ_min of the orientation tensor; NaN without axes
+  std::size_t overlaps = 0;
+  double smallest_gap = 0;       ///< infinity beyond the longest semi-axis
+  std::uint64_t collisions = 0;  ///< of all stages; 0 if not known
+  double wall_seconds = 0;       ///< 0 if not known
+};
+
+/// Of a complete preparation.
+PackingQuality measure_quality(const Preparation<3>& preparation);
+/// Of a packing and its exact check: without pressure, collisions and wall time.
+PackingQuality measure_quality(const Configuration3& packing, const ExactCheck<3>& check);
+/// Adds these, from what write_quality wrote. FileError if that is no report of the same packing.
+void add_preparation(PackingQuality& quality, const std::filesystem::path& file);
+
+/// The properties that are known, in words and rounded numbers.
+std::vector<QualityRow> quality_rows(const PackingQuality& quality);
+
+/// JSON has neither NaN nor infinity: null stands for both.
+nlohmann::ordered_json quality_json(const PackingQuality& quality);
+
+/// Written whole or not at all. Throws FileError.
+void write_quality(const std::filesystem::path& file, const PackingQuality& quality);
+
+}  // namespace vitrel

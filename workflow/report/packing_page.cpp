@@ -1,0 +1,23 @@
+#include "workflow/report/packing_page.h"
+
+#include "workflow/report/page_parts.h"
+#include "workflow/report/page_tables.h"
+
+namespace vitrel {
+
+std::string packing_page(const PackingPage& page) {
+  return whole_page({page.title,
+                     page.subtitle,
+                     "page/packing_sections.html",
+                     "page/solids.js",
+                     "page/packing.js",
+                     {{"rows", table_rows(page.rows)}},
+                     {{"label", page.title},
+                      {"scene", scene_data(page.scene)},
+                      {"tables", tables_data(page.results, {})}},
+                     page.parameters,
+                     page.provenance,
+                     "a b c"});
+}
+
+}  // namespace vitrel

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "analysis/results.h"
+#include "workflow/report/html.h"
+#include "workflow/report/packing_scene.h"
+
+/// The report of one packing of ellipsoids: one HTML page that needs nothing beside it.
+namespace vitrel {
+
+struct PackingPage {
+  std::string title;
+  std::string subtitle;  ///< one line below it: what was packed
+  std::vector<QualityRow> rows;
+  PackingScene scene;
+  Results results;            ///< of which pair_correlation and structure_factor are shown
+  std::string parameters;     ///< TOML text
+  PageProvenance provenance;  ///< shown if not empty
+};
+
+/// The page as HTML: the bodies, to be turned and cut, table of the rows, g(r) and S(q).
+std::string packing_page(const PackingPage& page);
+
+}  // namespace vitrel

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "workflow/report/html.h"
+
+/// What the pages are put together from.
+namespace vitrel {
+
+/// Six significant digits are more than any pixel shows; JSON has no NaN, null stands for it.
+nlohmann::json page_number(double value, int digits = 6);
+
+/// These rows of a column.
+template <class Values, class Rows>
+nlohmann::json page_numbers(const Values& values, const Rows& rows, int digits = 6) {
+  nlohmann::json array = nlohmann::json::array();
+  for (const std::size_t row : rows)
+    array.push_back(page_number(static_cast<double>(values[row]), digits));
+  return array;
+}
+
+/// Adds "shapes": every list of semi-axes once, and "shape": for every particle which of them it has.
+void add_shapes(nlohmann::json& data, const std::vector<std::vector<double>>& semi_axes);
+
+/// 1234567 with thin spaces between groups of three digits.
+std::string grouped(std::uint64_t number);
+
+/// "1.234 ± 0.012": the error with two significant digits, the value with as many decimals. Without
+/// a finite error the value has four significant digits; "–" if it is not finite either.
+std::string with_error(double value, double error);
+
+/// A whole page. `sections` and `script` are names of files of the folder page; the texts fill the
+/// sections.
+struct PageParts {
+  std::string title, subtitle;
+  std::string_view sections;
+  std::string_view picture;  ///< the script of the picture
+  std::string_view script;
+  std::vector<std::pair<std::string_view, std::string>> texts;
+  nlohmann::json data;     ///< for the script
+  std::string parameters;  ///< TOML
+  PageProvenance provenance;
+  std::string_view unit_of_length = "a b";  ///< the product of the reference semi-axes that is 1
+};
+std::string whole_page(PageParts parts);
+
+}  // namespace vitrel

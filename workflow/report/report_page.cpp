@@ -1,0 +1,113 @@
+#include "workflow/report/report_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "workflow/report/glass_rows.h"
+#include "workflow/report/page_parts.h"
+#include "workflow/report/page_tables.h"
+
+namespace vitrel {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t most_bytes = 2'000'000;
+constexpr double fewest_rows_per_decade = 5;
+
+/// What comes after the beginning that all these names share, cut behind an underscore.
+std::string distinction(const std::string& name, const std::vector<std::string>& names) {
+  std::size_t shared = name.size();
+  for (const std::string& other : names) {
+    const auto apart = std::mismatch(name.begin(), name.end(), other.begin(), other.end());
+    if (other != name)
+      shared = std::min(shared, static_cast<std::size_t>(apart.first - name.begin()));
+  }
+  const std::size_t underscore = name.substr(0, shared).rfind('_');
+  return underscore == std::string::npos ? name : name.substr(underscore + 1);
+}
+
+/// "φ = 0.5", with the name of the run where another one has the same density.
+std::string label(const ReportRun& run, const std::vector<ReportRun>& runs) {
+  std::vector<std::string> equals;
+  for (const ReportRun& other : runs)
+    if (density_text(other.packing_fraction) == density_text(run.packing_fraction))
+      equals.push_back(other.name);
+  return "φ = " + density_text(run.packing_fraction) +
+         (equals.size() > 1 ? " (" + distinction(run.name, equals) + ")" : "");
+}
+
+json run_data(const ReportRun& run, const std::vector<ReportRun>& runs, const Thinning& thinning) {
+  return {{"label", label(run, runs)},
+          {"name", run.name},
+          {"dynamics", run.dynamics},
+          {"packingFraction", page_number(run.packing_fraction)},
+          {"collisionsPerSecond", page_number(run.collisions_per_second)},
+          {"tables", tables_data(run.results, thinning)},
+          {"movie", movie_data(run.movie)}};
+}
+
+std::string cell(const std::string& text) {
+  return "<td>" + text + "</td>";
+}
+
+std::string count_cell(double count) {
+  return cell(std::isfinite(count) ? grouped(static_cast<std::uint64_t>(count)) : "–");
+}
+
+std::string table_row(const ReportRun& run) {
+  const auto text = [&](const char* column) {
+    return cell(table_text(run.results, "summary", column));
+  };
+  const auto value = [&](const char* column) {
+    return table_value(run.results, "summary", column);
+  };
+  const double duration = value("duration");
+  return "<tr><th scope=\"row\">" + density_text(run.packing_fraction) + "</th>" +
+         text("compressibility") + text("diffusion") + text("rotational_diffusion") +
+         text("translational_energy") +
+         (value("rotors") == 0 ? cell("–") : text("rotational_energy")) +
+         count_cell(value("collisions")) + count_cell(run.collisions_per_second) +
+         cell(std::isfinite(duration) ? fmt::format("{:.6g}", duration) : "–") +
+         count_cell(value("particles")) + cell(escaped(run.name)) + "</tr>\n";
+}
+
+std::string page_with(const ReportData& data, const Thinning& thinning) {
+  json runs = json::array();
+  std::string rows;
+  for (const ReportRun& run : data.runs) {
+    runs.push_back(run_data(run, data.runs, thinning));
+    rows += table_row(run);
+  }
+  return whole_page({data.title,
+                     data.subtitle,
+                     "page/runs_sections.html",
+                     "page/movie.js",
+                     "page/report.js",
+                     {{"table_rows", rows},
+                      {"relaxation_rows", relaxation_rows(data.study)},
+                      {"fit_rows", fit_rows(data.study)},
+                      {"study_notes", study_notes(data.study)}},
+                     {{"runs", std::move(runs)}, {"study", tables_data(data.study, {})}},
+                     data.parameters,
+                     data.provenance});
+}
+
+}  // namespace
+
+std::string report_page(const ReportData& data) {
+  Thinning thinning;
+  std::string page = page_with(data, thinning);
+  while (page.size() > most_bytes && thinning.rows_per_decade > fewest_rows_per_decade) {
+    thinning.rows_per_decade *= 0.75;
+    thinning.most_rows = thinning.most_rows * 3 / 4;
+    page = page_with(data, thinning);
+  }
+  return page;
+}
+
+}  // namespace vitrel

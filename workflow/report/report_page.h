@@ -1,0 +1,45 @@
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "analysis/results.h"
+#include "workflow/report/html.h"
+#include "workflow/report/movie.h"
+
+/// The report: one HTML page that needs nothing beside it, neither files nor a network.
+namespace vitrel {
+
+/// One run, as the page shows it. What is not known stays empty or NaN and is not shown, or as "–".
+struct ReportRun {
+  std::string name;      ///< of its file or folder, to tell runs of equal density apart
+  std::string dynamics;  ///< "Brownian, step 0.1"
+  double packing_fraction = 0;
+  double collisions_per_second = std::numeric_limits<double>::quiet_NaN();
+  Results results;  ///< tables by name: summary, displacements_all, energies …
+  Movie movie;
+};
+
+struct ReportData {
+  std::string title;
+  std::string subtitle;         ///< one line below it: what was simulated
+  std::vector<ReportRun> runs;  ///< shown in this order
+  Results study = {};           ///< tables over all runs: relaxation, glass_fit; notes
+  std::string parameters;       ///< TOML text
+  PageProvenance provenance;    ///< shown if not empty
+};
+
+/// The page as HTML: the moving particles of a run, its series over time, the correlations and the
+/// structure of all runs, what depends on the packing fraction, a table of the runs, parameters,
+/// provenance. A chart is there if its table is: displacements_<group>, self_scattering_<group> with
+/// wave_numbers, orientation_<group>, susceptibility, collective_scattering, structure_factor,
+/// pair_correlation, orientation_distribution, order, energies, compressibility, summary; of the
+/// study, relaxation and glass_fit (glass_rows.h).
+///
+/// To stay small, tables are thinned (page_tables.h), and movies are what film (movie.h) made of
+/// them; the page says where it shows a part only. If the page has more than 2 MB, which many runs
+/// can do, all tables of runs are thinned in steps of a quarter, down to about 5 rows a decade and 100 rows evenly.
+std::string report_page(const ReportData& data);
+
+}  // namespace vitrel

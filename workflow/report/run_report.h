@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/state/configuration.h"
+#include "workflow/analyze/analyze.h"
+#include "workflow/report/report_page.h"
+
+namespace vitrel {
+
+/// "ellipses, κ = 2" or "ellipsoids, 5 : 1 : 1" for equal particles, else "particles of species A, B".
+template <int Dim>
+std::string particles_text(const Configuration<Dim>& state);
+
+/// The report's view of these runs, in their order. Reads the files again, for the movies: one run has
+/// 200 000 poses in its movie; of several, six spread evenly over them share half as many, and the
+/// others show their final state.
+ReportData report_data(const std::vector<AnalysedRun>& runs, const std::string& title);
+
+}  // namespace vitrel

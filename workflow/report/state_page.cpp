@@ -1,0 +1,58 @@
+#include "workflow/report/state_page.h"
+
+#include <cmath>
+#include <numeric>
+
+#include "workflow/report/movie.h"
+#include "workflow/report/page_parts.h"
+
+namespace vitrel {
+
+namespace {
+
+using nlohmann::json;
+
+/// Null without values.
+json curve(const std::vector<double>& abscissa, const std::vector<double>& value) {
+  if (value.empty()) return nullptr;
+  std::vector<std::size_t> rows(value.size());
+  std::iota(rows.begin(), rows.end(), 0);
+  return {{"time", page_numbers(abscissa, rows)}, {"value", page_numbers(value, rows)}};
+}
+
+/// Bins with pairs only.
+json correlation(const NematicCorrelation& correlation) {
+  std::vector<std::size_t> rows;
+  std::vector<double> error;
+  for (std::size_t k = 0; k < correlation.pairs.size(); ++k) {
+    error.push_back(1 / std::sqrt(2 * static_cast<double>(correlation.pairs[k])));
+    if (correlation.pairs[k] > 0) rows.push_back(k);
+  }
+  if (rows.empty()) return nullptr;
+  return {{"time", page_numbers(correlation.distance, rows)},
+          {"value", page_numbers(correlation.value, rows)},
+          {"error", page_numbers(error, rows)}};
+}
+
+}  // namespace
+
+std::string state_page(const StatePage& page) {
+  MemoryTrajectory state({page.state});
+  const json data = {{"label", page.title},
+                     {"movie", movie_data(film(state))},
+                     {"correlation", correlation(page.nematic_correlation)},
+                     {"order", page_number(page.nematic_order)},
+                     {"orientation", curve(page.sweeps, page.orientation)},
+                     {"displacement", curve(page.sweeps, page.displacement)}};
+  return whole_page({page.title,
+                     page.subtitle,
+                     "page/state_sections.html",
+                     "page/movie.js",
+                     "page/state.js",
+                     {{"rows", table_rows(page.rows)}},
+                     data,
+                     page.parameters,
+                     page.provenance});
+}
+
+}  // namespace vitrel

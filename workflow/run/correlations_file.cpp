@@ -1,0 +1,85 @@
+#include "workflow/run/correlations_file.h"
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+
+namespace vitrel {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string prefix = "correlations_";
+
+MultipleTauOptions correlator_options(const Parameters& parameters) {
+  const CorrelationParameters& p = *parameters.output.correlations;
+  return {p.interval, 0.5 * parameters.dynamics.duration, p.wave_numbers};
+}
+
+Table correlation_table(CorrelatedGroup group) {
+  return {prefix + identifier(group.name),
+          fmt::format("Correlations of {} particles ({}) against the time difference, measured "
+                      "while the run went on: mean squared displacement and rotation, self "
+                      "scattering F_s(q_k, t), orientation L_n(t) = <cos n(theta(t) - theta(0))>; "
+                      "origins of time are thinned for long times.",
+                      group.particles, group.name),
+          std::move(group.columns)};
+}
+
+Table wave_number_table(const std::vector<double>& wave_numbers) {
+  std::vector<double> index;
+  for (std::size_t k = 1; k <= wave_numbers.size(); ++k) index.push_back(static_cast<double>(k));
+  return {"wave_numbers",
+          "Wave numbers q_k of the self scattering functions fs_k.",
+          {{"index", "1", std::move(index), {}}, {"q", "1/length", wave_numbers, {}}}};
+}
+
+}  // namespace
+
+fs::path correlations_path(const fs::path& run) {
+  return run.string() + ".correlations.h5";
+}
+
+std::optional<MultipleTau> correlator(const Parameters& parameters,
+                                      const Configuration2& configuration) {
+  if (!parameters.output.correlations) return std::nullopt;
+  MultipleTauOptions options = correlator_options(parameters);
+  options.wave_numbers = wave_numbers_or_main(std::move(options.wave_numbers), configuration);
+  return MultipleTau(configuration, std::move(options));
+}
+
+double correlator_bytes(const Parameters& parameters) {
+  return MultipleTau::sample_bytes(static_cast<std::size_t>(parameters.system.particles),
+                                   correlator_options(parameters));
+}
+
+void write_correlations(const fs::path& run, const Parameters& parameters,
+                        const MultipleTau& correlator) {
+  std::vector<CorrelatedGroup> groups = correlator.correlations();
+  Results results;
+  for (CorrelatedGroup& group : groups)
+    results.tables.push_back(correlation_table(std::move(group)));
+  results.tables.push_back(wave_number_table(correlator.options().wave_numbers));
+  results.provenance.emplace_back("parameters", effective_parameters(parameters));
+  write_results(correlations_path(run), results);
+}
+
+void forget_correlations(const fs::path& run) {
+  std::error_code error;
+  fs::remove(correlations_path(run), error);
+  if (error)
+    throw FileError(
+        fmt::format("{}: cannot be removed: {}", correlations_path(run).string(), error.message()));
+}
+
+std::vector<Table> on_the_fly_tables(const fs::path& run) {
+  if (!fs::exists(correlations_path(run))) return {};
+  Results results = read_results(correlations_path(run));
+  for (Table& table : results.tables) {
+    if (table.name.starts_with(prefix)) table.name.erase(0, prefix.size());
+    table.name = "on_the_fly_" + table.name;
+  }
+  return std::move(results.tables);
+}
+
+}  // namespace vitrel

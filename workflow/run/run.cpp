@@ -1,0 +1,365 @@
+#include "workflow/run/run.h"
+
+#include <fmt/format.h>
+
+#include <cassert>
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/io/h5md.h"
+#include "core/state/check.h"
+#include "workflow/configuration/soft_particles.h"
+#include "workflow/prepare/prepare.h"
+#include "workflow/run/correlations_file.h"
+#include "workflow/run/run_checkpoint.h"
+#include "workflow/storage/stored_trajectory.h"
+
+namespace vitrel {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+fs::path checkpoint_path(const fs::path& output) {
+  return output.string() + ".checkpoint";
+}
+fs::path failed_state_path(const fs::path& output) {
+  return output.string() + ".failed.h5";
+}
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+template <int Dim>
+void require_fit(const Configuration<Dim>& state, const Parameters& parameters,
+                 const fs::path& file) {
+  const auto wanted = static_cast<std::size_t>(parameters.system.particles);
+  if (state.size() != wanted)
+    throw UserError(
+        fmt::format("{}: holds {} particles, but system.particles is {}; make them equal",
+                    file.string(), state.size(), wanted));
+  if (ends_at_pressure(parameters.stages)) return;
+  const double fraction = packing_fraction(state);
+  if (std::abs(fraction - parameters.system.packing_fraction) > 1e-9)
+    throw UserError(
+        fmt::format("{}: has the packing fraction {}, but system.packing_fraction is {}; "
+                    "make them equal",
+                    file.string(), fraction, parameters.system.packing_fraction));
+}
+
+// One request at work.
+template <int Dim>
+class Runner {
+ public:
+  Runner(const RunRequest& request, const RunControl& control,
+         const std::function<void(const std::string&)>& say)
+      : request_(request),
+        control_(control),
+        say_(say),
+        checkpoint_(checkpoint_path(request.output)) {
+    stored_.parameters = effective_parameters(request.parameters);
+  }
+
+  RunOutcome<Dim> run() {
+    const bool continues = checkpoint_exists(checkpoint_);
+    if (continues) {
+      load();
+    } else {
+      refuse_foreign_output();
+      if (!begin()) return {};
+    }
+    const bool was_complete = stored_.complete;
+    if (was_complete)
+      say_(request_.output.string() + ": the run is complete already");
+    else
+      advance(continues);
+    check_last_state();
+    return {stored_.complete, was_complete, std::move(stored_.state), stored_.wall_seconds};
+  }
+
+ private:
+  bool is_soft() const { return request_.parameters.dynamics.contact.has_value(); }
+  bool stops_on_overlap() const {
+    return request_.parameters.dynamics.on_overlap == OnOverlap::stop;
+  }
+
+  void refuse_foreign_output() const {
+    if (fs::exists(request_.output))
+      throw UserError(
+          request_.output.string() +
+          ": exists, but has no checkpoint beside it, so it cannot be continued; choose "
+          "another output, or delete it");
+  }
+
+  void load() {
+    const LoadedCheckpoint loaded = load_checkpoint(checkpoint_);
+    if (!loaded.warning.empty()) say_(loaded.warning);
+    const std::string& now = stored_.parameters;
+    if (const auto change = forbidden_change(loaded.checkpoint.parameters, now, Work::run))
+      throw UserError(
+          fmt::format("{}: the run was begun with {} = {}, but now it is {}; continue it "
+                      "with its own parameters, or choose another output",
+                      request_.output.string(), change->key, change->first, change->second));
+    stored_ = run_from_checkpoint<Dim>(loaded.checkpoint, checkpoint_);
+  }
+
+  // False if the preparation was stopped.
+  bool begin() {
+    Configuration<Dim> configuration;
+    if (request_.from) {
+      configuration = read_state<Dim>(*request_.from);
+      if (!is_soft()) configuration.close_pairs.clear();
+      require_fit(configuration, request_.parameters, *request_.from);
+    } else {
+      Preparation<Dim> preparation = prepare<Dim>(
+          {request_.parameters, request_.output, request_.command_line, request_.threads}, control_,
+          say_);
+      if (!preparation.complete) return false;
+      configuration = std::move(preparation.configuration);
+    }
+    if (stops_on_overlap()) refuse_overlaps(configuration);
+    set_velocities(configuration);
+    stored_.state = begin_run(configuration, -request_.parameters.dynamics.equilibration);
+    forget_correlations(request_.output);
+    // Before the trajectory: one without a checkpoint is never this run's.
+    save();
+    if (!request_.from) forget_preparation(request_.output);
+    return true;
+  }
+
+  void refuse_overlaps(const Configuration<Dim>& configuration) const {
+    const ExactCheck<Dim> check = exact_check(configuration);
+    if (check.clean()) return;
+    const PairImage<Dim>& pair = check.overlaps.front();
+    throw InvariantError(
+        fmt::format("the state to start from has {} overlapping pair(s), the first of particles {} "
+                    "and {}; start from a state without{}",
+                    check.overlaps.size(), pair.i, pair.j,
+                    is_soft() ? "" : ", or set dynamics.on_overlap = \"correct\""));
+  }
+
+  void set_velocities(Configuration<Dim>& configuration) const {
+    const DynamicsParameters& dynamics = request_.parameters.dynamics;
+    set_initial_velocities(configuration, request_.parameters.system.seed,
+                           dynamics.initial_velocities, dynamics.temperature);
+    const Mechanics<Dim> sums = mechanics(configuration);
+    if (!(sums.translational_energy + sums.rotational_energy > 0))
+      throw UserError(
+          "dynamics.initial_velocities = \"keep\", but the state to start from is at rest; "
+          "use \"maxwell\", or start (--from) from a run with velocities");
+  }
+
+  void make_correlator() {
+    if constexpr (Dim == 2) {
+      correlator_ = correlator(request_.parameters, stored_.state.configuration);
+      if (correlator_ && !stored_.correlations.empty()) correlator_->restore(stored_.correlations);
+    }
+  }
+
+  void save() {
+    if (correlator_) {
+      stored_.correlations = correlator_->state();
+      write_correlations(request_.output, request_.parameters, *correlator_);
+    }
+    save_checkpoint(checkpoint_, to_checkpoint(stored_));
+    saved_ = Clock::now();
+  }
+
+  TrajectoryWriter open_trajectory() const {
+    const RunState<Dim>& state = stored_.state;
+    if (state.next_sample > 0)
+      return TrajectoryWriter::append_to(request_.output, state.next_sample);
+    const std::string parent = request_.from ? request_.from->string() : "";
+    const Provenance provenance = current_provenance(request_.command_line, stored_.parameters,
+                                                     request_.parameters.system.seed, parent);
+    return TrajectoryWriter::create(request_.output, state.configuration, provenance,
+                                    {.velocities = request_.parameters.output.velocities,
+                                     .close_pairs = is_soft(),
+                                     .observables = run_observables,
+                                     .overwrite = true});
+  }
+
+  void advance(bool continues) {
+    RunState<Dim>& state = stored_.state;
+    if (continues) say_(fmt::format("continuing at time {:.6g}", state.configuration.time));
+    const DynamicsOptions options = dynamics();
+    say_((is_soft() ? "run of soft " : "run of ") +
+         make_engine(state.configuration, options.engine)->description());
+    TrajectoryWriter writer = open_trajectory();
+    TrajectoryObserver<Dim> observer(writer, measure_run<Dim>);
+    make_correlator();
+    const double wall_before = stored_.wall_seconds;
+    const Clock::time_point start = Clock::now();
+    RunPlan<Dim> plan{sample_times(request_.parameters), request_.parameters.dynamics.duration,
+                      &observer, [&](const RunState<Dim>&) {
+                        stored_.wall_seconds = wall_before + seconds_since(start);
+                        if (seconds_since(saved_) < request_.parameters.output.checkpoint_interval)
+                          return;
+                        // The disk has the frames before a checkpoint counts them.
+                        writer.synchronize();
+                        save();
+                      }};
+    if constexpr (Dim == 2)
+      if (correlator_) plan.ticks = {correlator_->options().interval, &*correlator_};
+    const StageReport report = run_or_keep_failed_state(options, plan);
+    stored_.wall_seconds = wall_before + seconds_since(start);
+    stored_.complete = report.end == StageEnd::reached;
+    writer.record_wall_seconds(stored_.wall_seconds);
+    writer.synchronize();
+    writer.close();
+    save();
+  }
+
+  DynamicsOptions dynamics() const {
+    DynamicsOptions options = dynamics_options(request_.parameters);
+    options.engine.threads = request_.threads;
+    if (const auto& contact = request_.parameters.dynamics.contact) {
+      options.engine.soft_contact =
+          soft_contact(*contact, stored_.state.configuration, request_.threads, say_);
+      options.engine.early_release = contact->early_release;
+    }
+    return options;
+  }
+
+  StageReport run_or_keep_failed_state(const DynamicsOptions& options, const RunPlan<Dim>& plan) {
+    try {
+      return vitrel::run(stored_.state, options, plan, control_);
+    } catch (const InvariantError& error) {
+      keep_failed_state();
+      throw InvariantError(fmt::format("{}; the state is in {}", error.what(),
+                                       failed_state_path(request_.output).string()));
+    }
+  }
+
+  void keep_failed_state() const {
+    write_state(failed_state_path(request_.output), stored_.state.configuration,
+                current_provenance(request_.command_line, stored_.parameters,
+                                   request_.parameters.system.seed, request_.output.string()),
+                true);
+  }
+
+  void check_last_state() const {
+    if (!stops_on_overlap()) return;
+    const ExactCheck<Dim> check = exact_check(stored_.state.configuration);
+    if (check.clean()) return;
+    keep_failed_state();
+    throw InvariantError(fmt::format(
+        "the last state has {} overlapping pair(s), which the run did not notice: a defect of the "
+        "program; the state is in {}",
+        check.overlaps.size(), failed_state_path(request_.output).string()));
+  }
+
+  const RunRequest& request_;
+  const RunControl& control_;
+  const std::function<void(const std::string&)>& say_;
+  fs::path checkpoint_;
+  StoredRun<Dim> stored_;
+  std::optional<MultipleTau> correlator_;  ///< on the fly, if the parameters ask for it
+  Clock::time_point saved_ = Clock::now();
+};
+
+std::string start_text(const RunRequest& request) {
+  const fs::path checkpoint = checkpoint_path(request.output);
+  if (checkpoint_exists(checkpoint)) {
+    const Checkpoint stored = load_checkpoint(checkpoint).checkpoint;
+    return std::visit(
+        [&]<int Dim>(const Configuration<Dim>& configuration) {
+          const StoredRun<Dim> run = run_from_checkpoint<Dim>(stored, checkpoint);
+          return run.complete ? "nothing: the run is complete"
+                              : fmt::format("the checkpoint at time {:.6g}, {} frames",
+                                            configuration.time, run.state.next_sample);
+        },
+        stored.configuration);
+  }
+  if (request.from) return "the state in " + request.from->string();
+  return fmt::format("a preparation in {} stage(s)", request.parameters.stages.size());
+}
+
+}  // namespace
+
+std::string run_plan(const RunRequest& request) {
+  const Parameters& p = request.parameters;
+  const std::size_t frames = sample_times(p).size();
+  // Position, image, orientation, angle, and the velocities if asked for, before compression.
+  const double bytes_per_particle = 24 + 12 + 32 + 8 + (p.output.velocities ? 32 : 0);
+  const double size =
+      bytes_per_particle * static_cast<double>(p.system.particles) * static_cast<double>(frames);
+  std::string text = fmt::format("starts from  {}\n", start_text(request));
+  const std::string fraction =
+      ends_at_pressure(p.stages) ? "as prepared" : fmt::format("{}", p.system.packing_fraction);
+  text += fmt::format("system       {} particles, packing fraction {}, seed {}\n",
+                      p.system.particles, fraction, p.system.seed);
+  for (const Species& species : p.species)
+    text += fmt::format("species      {}, fraction {:.4g}\n", species.name, species.fraction);
+  text += p.dynamics.kind == DynamicsParameters::Kind::brownian
+              ? fmt::format("dynamics     brownian, step {}\n", p.dynamics.brownian_step)
+              : std::string("dynamics     newtonian\n");
+  if (p.dynamics.contact) text += contact_text(*p.dynamics.contact);
+  text += fmt::format("time         {} to equilibrate, then {}\n", p.dynamics.equilibration,
+                      p.dynamics.duration);
+  text += fmt::format("writes       {}, {} frames, at most {:.3g} MB; checkpoint every {} s\n",
+                      request.output.string(), frames, size / 1e6, p.output.checkpoint_interval);
+  if (p.output.correlations)
+    text += fmt::format("correlates   every {}, into {}; {:.3g} MB of memory\n",
+                        p.output.correlations->interval, correlations_path(request.output).string(),
+                        correlator_bytes(p) / 1e6);
+  return text;
+}
+
+template <int Dim>
+RunOutcome<Dim> run(const RunRequest& request, const RunControl& control,
+                    const std::function<void(const std::string&)>& say) {
+  assert(request.parameters.system.dimension == Dim);
+  return Runner<Dim>(request, control, say).run();
+}
+
+template <int Dim>
+nlohmann::ordered_json run_summary(const RunRequest& request, const RunOutcome<Dim>& outcome) {
+  const RunState<Dim>& state = outcome.state;
+  const RunCounters& counters = state.counters;
+  const TrajectoryReader trajectory(request.output);
+  const CompressibilitySeries z = stored_compressibility(trajectory, observed_energies(trajectory),
+                                                         rotation_count(state.configuration));
+  const double simulated = state.configuration.time - state.start_time;
+  const auto collisions = static_cast<double>(counters.collisions);
+  nlohmann::ordered_json summary = {
+      {"output", request.output.string()},
+      {"complete", outcome.complete},
+      {"particles", state.configuration.size()},
+      {"packing_fraction", packing_fraction(state.configuration)},
+      {"simulated_time", simulated},
+      {"frames", trajectory.frames()},
+      {"collisions", counters.collisions},
+      {"events", counters.events},
+      {"predictions_per_collision", static_cast<double>(counters.predictions) / collisions},
+      {"searches_per_collision", static_cast<double>(counters.searches) / collisions},
+      {"correction_moves", counters.correction_moves},
+      {"energy_drift", state.energy_drift},
+      {"largest_momentum", state.largest_momentum},
+      {"compressibility", z.mean.mean},
+      {"compressibility_error", z.mean.error},
+      {"overlaps", exact_check(state.configuration).overlaps.size()},
+      {"wall_seconds", outcome.wall_seconds},
+      {"collisions_per_second", collisions / outcome.wall_seconds}};
+  if (request.parameters.dynamics.contact) {
+    summary["refused_turns"] = counters.blocked_rotations;
+    summary["early_releases"] = counters.early_releases;
+    summary["integrated_contacts"] = counters.integrations;
+    summary["dissipated_energy"] = counters.dissipated;
+  }
+  if (request.parameters.output.correlations)
+    summary["correlations"] = correlations_path(request.output).string();
+  return summary;
+}
+
+template RunOutcome<2> run<2>(const RunRequest&, const RunControl&,
+                              const std::function<void(const std::string&)>&);
+template RunOutcome<3> run<3>(const RunRequest&, const RunControl&,
+                              const std::function<void(const std::string&)>&);
+template nlohmann::ordered_json run_summary(const RunRequest&, const RunOutcome<2>&);
+template nlohmann::ordered_json run_summary(const RunRequest&, const RunOutcome<3>&);
+
+}  // namespace vitrel

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+
+#include "core/state/stage.h"
+#include "workflow/configuration/parameters.h"
+
+/// The event-driven run with its files. The trajectory run.h5 has a checkpoint run.h5.checkpoint
+/// beside it, and run.h5.correlations.h5 if the run correlates on the fly; the same request starts the
+/// run, continues it, or finds it complete. A run that was killed at any moment and continued has the
+/// same datasets, bit by bit, as one that was not.
+namespace vitrel {
+
+struct RunRequest {
+  Parameters parameters;
+  std::filesystem::path output;
+  std::optional<std::filesystem::path> from;  ///< state to start from; none: prepare
+  std::string command_line;                   ///< for the provenance
+  int threads = 1;                            ///< the results do not depend on it
+};
+
+/// What the request would do, in lines for a person. Nothing is written.
+std::string run_plan(const RunRequest& request);
+
+template <int Dim>
+struct RunOutcome {
+  bool complete = false;      ///< else stopped by the run control; the same request continues
+  bool was_complete = false;  ///< nothing was left to do
+  RunState<Dim> state;
+  double wall_seconds = 0;  ///< of all processes that worked on the run
+};
+
+/// For parameters of that dimension. `say` gets a line about every step. Throws
+/// - UserError if the output exists but is no run that can be continued, belongs to other
+///   parameters, or the state to start from does not fit them;
+/// - FileError; the run continues from its last checkpoint once the cause is removed;
+/// - InvariantError on an overlap or a standstill; the state is then in <output>.failed.h5.
+template <int Dim>
+RunOutcome<Dim> run(const RunRequest& request, const RunControl& control,
+                    const std::function<void(const std::string&)>& say);
+
+/// The figures of a run, read from its trajectory and its last state: those of the architecture's
+/// --json list and a few more. `overlaps` counts pairs of the last state.
+template <int Dim>
+nlohmann::ordered_json run_summary(const RunRequest& request, const RunOutcome<Dim>& outcome);
+
+}  // namespace vitrel

@@ -1,0 +1,56 @@
+#include "workflow/storage/check.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "core/error.h"
+#include "core/io/h5md.h"
+
+namespace vitrel {
+namespace {
+
+constexpr std::size_t most_complaints = 5;
+
+template <int Dim>
+void note_overlaps(FileCheck<Dim>& result, const ExactCheck<Dim>& check, std::uint64_t frame,
+                   double time) {
+  result.overlaps += check.overlaps.size();
+  for (const PairImage<Dim>& pair : check.overlaps) {
+    if (result.complaints.size() == most_complaints) return;
+    result.complaints.push_back(
+        fmt::format("frame {} (time {:.6g}): particles {} and {}, image ({})", frame, time, pair.i,
+                    pair.j, fmt::join(pair.shift.data(), pair.shift.data() + Dim, ", ")));
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+FileCheck<Dim> check_file(const std::filesystem::path& file, bool last_only,
+                          const RunControl& control) {
+  const TrajectoryReader reader(file);
+  if (reader.frames() == 0) throw FileError(file.string() + ": has no frame to check");
+  FileCheck<Dim> result;
+  result.smallest_gap = std::numeric_limits<double>::infinity();
+  const std::uint64_t first = last_only ? reader.frames() - 1 : 0;
+  for (std::uint64_t frame = first; frame < reader.frames() && !control.stop_requested(); ++frame) {
+    reader.read(frame, result.last);
+    const ExactCheck<Dim> check = exact_check(result.last);
+    ++result.frames;
+    result.close_pairs += result.last.close_pairs.size();
+    note_overlaps(result, check, frame, result.last.time);
+    if (check.smallest_gap < result.smallest_gap) {
+      result.smallest_gap = check.smallest_gap;
+      result.smallest_gap_frame = frame;
+    }
+    control.report_progress({static_cast<double>(frame + 1) / static_cast<double>(reader.frames()),
+                             static_cast<double>(frame + 1), "frame"});
+  }
+  return result;
+}
+
+template FileCheck<2> check_file(const std::filesystem::path&, bool, const RunControl&);
+template FileCheck<3> check_file(const std::filesystem::path&, bool, const RunControl&);
+
+}  // namespace vitrel

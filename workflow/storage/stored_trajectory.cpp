@@ -1,0 +1,63 @@
+#include "workflow/storage/stored_trajectory.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "core/error.h"
+
+namespace vitrel {
+namespace {
+
+std::vector<double> per_particle(std::vector<double> totals, std::size_t particles) {
+  for (double& value : totals) value /= static_cast<double>(particles);
+  return totals;
+}
+
+}  // namespace
+
+const std::vector<std::string> run_observables = {"collisions", "rotational_energy",
+                                                  "translational_energy", "virial"};
+
+template <int Dim>
+Observables measure_run(const Frame<Dim>& frame) {
+  const Mechanics<Dim> sums = mechanics(frame.configuration);
+  return {{"collisions", static_cast<double>(frame.tally.collisions)},
+          {"rotational_energy", sums.rotational_energy},
+          {"translational_energy", sums.translational_energy},
+          {"virial", frame.tally.virial}};
+}
+
+template Observables measure_run(const Frame<2>&);
+template Observables measure_run(const Frame<3>&);
+
+EnergySeries stored_energies(StoredTrajectory& trajectory) {
+  const TrajectoryReader& reader = trajectory.reader();
+  EnergySeries observed = observed_energies(reader);
+  if (observed.time.empty() && reader.has("velocity")) return energies(trajectory);
+  return observed;
+}
+
+EnergySeries observed_energies(const TrajectoryReader& reader) {
+  if (!reader.has_observable("translational_energy") || !reader.has_observable("rotational_energy"))
+    return {};
+  EnergySeries series;
+  series.time = reader.times();
+  series.translational =
+      per_particle(reader.observable("translational_energy"), reader.particles());
+  series.rotational = per_particle(reader.observable("rotational_energy"), reader.particles());
+  for (std::size_t k = 0; k < series.time.size(); ++k)
+    series.total.push_back(series.translational[k] + series.rotational[k]);
+  return series;
+}
+
+CompressibilitySeries stored_compressibility(const TrajectoryReader& reader,
+                                             const EnergySeries& energy, std::size_t rotations) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  if (energy.time.empty() || !reader.has_observable("virial"))
+    return {{}, {}, {unknown, unknown, 0}};
+  return compressibility(energy, reader.observable("virial"), reader.particles(), rotations,
+                         reader.dimension());
+}
+
+}  // namespace vitrel

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "analysis/dynamics/energy.h"
+#include "analysis/trajectory.h"
+#include "core/io/h5md.h"
+#include "core/state/observer.h"
+
+/// A run on file: what the program writes with every frame, and how the analysis sees it.
+namespace vitrel {
+
+/// The observables that `run` stores with every frame: totals over all particles, and totals since
+/// the start of the run.
+extern const std::vector<std::string> run_observables;
+template <int Dim>
+Observables measure_run(const Frame<Dim>& frame);
+
+/// A trajectory file as the analysis takes it.
+class StoredTrajectory final : public Trajectory {
+ public:
+  explicit StoredTrajectory(const std::filesystem::path& path) : reader_(path) {}
+  const std::vector<double>& times() const override { return reader_.times(); }
+  const Configuration2& read(std::size_t k) override {
+    reader_.read(k, frame_);
+    return frame_;
+  }
+  const TrajectoryReader& reader() const { return reader_; }
+
+ private:
+  TrajectoryReader reader_;
+  Configuration2 frame_;
+};
+
+/// From the observables if the file has them, else from the velocities; empty if it has neither.
+EnergySeries stored_energies(StoredTrajectory& trajectory);
+/// From the observables; empty if the file has none.
+EnergySeries observed_energies(const TrajectoryReader& reader);
+
+/// Without values if there is no energy, or the file has no virial.
+CompressibilitySeries stored_compressibility(const TrajectoryReader& reader,
+                                             const EnergySeries& energy, std::size_t rotations);
+
+}  // namespace vitrel

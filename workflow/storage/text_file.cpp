@@ -1,0 +1,44 @@
+#include "workflow/storage/text_file.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include "core/error.h"
+#include "core/io/atomic_file.h"
+
+namespace vitrel {
+
+std::string read_text(const std::filesystem::path& path) {
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  if (file && file.peek() != std::ifstream::traits_type::eof()) text << file.rdbuf();
+  if (!file.is_open() || file.bad())
+    throw FileError(fmt::format("{}: cannot be read: {}", path.string(), std::strerror(errno)));
+  return text.str();
+}
+
+void write_text(const std::filesystem::path& path, std::string_view text) {
+  AtomicFile pending(path);
+  errno = 0;
+  std::ofstream file(pending.partial(), std::ios::binary);
+  file << text;
+  file.close();
+  if (!file)
+    throw FileError(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(errno)));
+  pending.commit();
+}
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error)
+    throw FileError(
+        fmt::format("{}: the folder cannot be made: {}", folder.string(), error.message()));
+}
+
+}  // namespace vitrel

@@ -1,0 +1,96 @@
+#include "workflow/sweep/process.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "core/error.h"
+#include "workflow/sweep/stop_signals.h"
+
+namespace vitrel {
+namespace {
+
+int open_for_writing(const std::filesystem::path& path, int flags) {
+  const int descriptor = open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | flags, 0666);
+  if (descriptor < 0)
+    throw FileError(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(errno)));
+  return descriptor;
+}
+
+// Holds back the signals of a stop for the time of its life.
+class HeldSignals {
+ public:
+  HeldSignals() {
+    sigset_t stops;
+    sigemptyset(&stops);
+    for (const int number : stop_signals) sigaddset(&stops, number);
+    sigprocmask(SIG_BLOCK, &stops, &before_);
+  }
+  ~HeldSignals() { sigprocmask(SIG_SETMASK, &before_, nullptr); }
+  HeldSignals(const HeldSignals&) = delete;
+  HeldSignals& operator=(const HeldSignals&) = delete;
+
+  // In the child: a stop ends it, instead of being noted by a handler that exec forgets.
+  void release_to_default() const {
+    for (const int number : stop_signals) signal(number, SIG_DFL);
+    sigprocmask(SIG_SETMASK, &before_, nullptr);
+  }
+
+ private:
+  sigset_t before_;
+};
+
+// Between fork and exec only calls that are safe there.
+[[noreturn]] void become(char* const* arguments, int output, int log, pid_t parent,
+                         const HeldSignals& held) {
+  held.release_to_default();
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  // The parent may have died before the line above.
+  if (getppid() != parent) _exit(1);
+  // Ctrl-C on a terminal reaches the whole group; the parent passes its wish on by itself.
+  setpgid(0, 0);
+  dup2(output, STDOUT_FILENO);
+  dup2(log, STDERR_FILENO);
+  execv(arguments[0], arguments);
+  _exit(127);
+}
+
+}  // namespace
+
+ChildProcess::ChildProcess(const std::vector<std::string>& command,
+                           const std::filesystem::path& output, const std::filesystem::path& log) {
+  std::vector<char*> arguments;
+  for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  const int output_file = open_for_writing(output, O_TRUNC);
+  const int log_file = open_for_writing(log, O_APPEND);
+  const pid_t parent = getpid();
+  const HeldSignals held;
+  pid_ = fork();
+  if (pid_ == 0) become(arguments.data(), output_file, log_file, parent, held);
+  const int error = errno;
+  close(output_file);
+  close(log_file);
+  if (pid_ < 0)
+    throw FileError(fmt::format("{}: cannot be started: {}", command[0], std::strerror(error)));
+}
+
+std::optional<int> ChildProcess::poll() {
+  if (exit_code_) return exit_code_;
+  int status = 0;
+  if (waitpid(pid_, &status, WNOHANG) == pid_)
+    exit_code_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return exit_code_;
+}
+
+void ChildProcess::ask_to_stop() {
+  if (!exit_code_) kill(pid_, SIGTERM);
+}
+
+}  // namespace vitrel

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "workflow/configuration/parameters.h"
+#include "workflow/sweep/sweep_jobs.h"
+
+/// Many runs from one parameter file. Every job has a folder of its own:
+///
+///   sweep/<id>/params.json      the job's values of the grid, and its id
+///             /parameters.toml  all its parameters
+///             /state.h5 run.h5 results.h5
+///                               made by prepare, run, analyze, each in a process of its own
+///             /prepare.json run.json analyze.json log.txt
+///                               what these said
+///             /done.json        written last
+///
+/// Every step may be repeated: what is complete is left alone, a preparation or a run that was cut off is
+/// continued. So the same command continues a sweep that was stopped or killed. To equilibrate is the
+/// first part of the run, not a step of its own: both are one trajectory of the dynamics with one
+/// checkpoint, and cutting it in two would add a file and a hand-over, but nothing to the results.
+namespace vitrel {
+
+enum class JobStage { waiting, prepared, started, done };
+const char* name_of(JobStage stage);
+/// By the files in the job's folder.
+JobStage job_stage(const std::filesystem::path& folder);
+
+struct SweepRequest {
+  ParameterSource source;
+  std::filesystem::path folder;
+  std::filesystem::path program;  ///< this program, run for every step
+  int parallel = 1;               ///< jobs at a time
+  double wall_time = 0;           ///< seconds; 0: no limit
+};
+
+struct SweepOutcome {
+  std::size_t done = 0;
+  std::size_t failed = 0;
+  int first_failure = 0;  ///< exit code of the first job that failed
+  bool stopped = false;
+};
+
+/// Makes the folders, works off all jobs, and tells `say` about every job begun, done or failed. A
+/// failed job does not stop the others. Throws UserError if a folder belongs to other parameters or
+/// another process works on the sweep, FileError if folders cannot be written.
+SweepOutcome run_sweep(const SweepRequest& request,
+                       const std::function<void(const std::string&)>& say);
+
+/// The same of one job, beside other processes that work on other jobs: what a batch system runs. Waits
+/// while another process works on this job or on the whole sweep, and then finds what that has done.
+SweepOutcome run_job(const SweepRequest& request, const std::string& id,
+                     const std::function<void(const std::string&)>& say);
+
+/// Makes the folders and writes the sweep as a workflow of Snakemake; `program` is what it runs. Throws
+/// like run_sweep.
+void export_sweep(const ParameterSource& source, const std::filesystem::path& folder,
+                  const std::filesystem::path& program);
+
+/// One row per job: its values, stage and results.
+std::string sweep_table(const std::vector<SweepJob>& jobs, const std::filesystem::path& folder);
+nlohmann::ordered_json sweep_summary(const std::vector<SweepJob>& jobs,
+                                     const std::filesystem::path& folder);
+
+/// How far a sweep is, by its folder alone; all in alphabetical order.
+struct SweepProgress {
+  std::vector<std::filesystem::path> finished;  ///< folders of the jobs that are done
+  std::vector<std::string> unfinished;          ///< names of the others
+
+  /// The runs of the finished jobs and their results.
+  std::vector<std::filesystem::path> files() const;
+  /// "12 of 18 jobs are finished".
+  std::string share() const;
+  /// The same, and the names of those that are left out of what is made of the others.
+  std::string left_out() const;
+};
+
+/// UserError if no job is finished.
+SweepProgress sweep_progress(const std::filesystem::path& folder);
+
+}  // namespace vitrel

@@ -1,0 +1,151 @@
+#include "workflow/sweep/sweep_jobs.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "core/error.h"
+
+namespace vitrel {
+namespace {
+
+using Json = nlohmann::ordered_json;
+/// Dotted keys and one value of each.
+using Assignments = std::vector<std::pair<std::string, std::string>>;
+/// Assignments of which each job makes one.
+using Axis = std::vector<Assignments>;
+
+std::vector<Axis> axes_of(const SweepParameters& sweep) {
+  std::vector<Axis> axes;
+  if (!sweep.together.empty()) {
+    Axis axis(sweep.together.front().second.size());
+    for (const auto& [key, values] : sweep.together)
+      for (std::size_t k = 0; k < values.size(); ++k) axis[k].emplace_back(key, values[k]);
+    axes.push_back(std::move(axis));
+  }
+  for (const auto& [key, values] : sweep.grid) {
+    Axis axis;
+    for (const std::string& value : values) axis.push_back({{key, value}});
+    axes.push_back(std::move(axis));
+  }
+  return axes;
+}
+
+// One choice from every axis, the last axis fastest.
+std::vector<std::vector<Assignments>> combinations_of(const std::vector<Axis>& axes) {
+  std::vector<std::vector<Assignments>> combinations(1);
+  for (const Axis& axis : axes) {
+    std::vector<std::vector<Assignments>> longer;
+    for (const auto& combination : combinations)
+      for (const Assignments& choice : axis) {
+        longer.push_back(combination);
+        longer.back().push_back(choice);
+      }
+    combinations = std::move(longer);
+  }
+  return combinations;
+}
+
+std::string last_part(const std::string& key) {
+  return key.substr(key.rfind('.') + 1);
+}
+
+// Letters, digits and a few marks; anything else becomes "_", so that every shell takes the name.
+std::string file_name_part(std::string text) {
+  std::erase(text, '"');
+  for (char& c : text)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '.' && c != '-' && c != '+') c = '_';
+  return text;
+}
+
+std::string job_id(const std::vector<Assignments>& combination) {
+  std::map<std::string, int> uses;
+  for (const Assignments& choice : combination) ++uses[last_part(choice.front().first)];
+  std::string id;
+  for (const Assignments& choice : combination) {
+    const auto& [key, value] = choice.front();
+    const std::string name = uses[last_part(key)] == 1 ? last_part(key) : key;
+    id += fmt::format("{}{}-{}", id.empty() ? "" : "_", name, file_name_part(value));
+  }
+  return id.empty() ? "job" : id;
+}
+
+// What the sweep sets would silently win.
+void refuse_overridden_keys(const std::vector<Axis>& axes, const ParameterSource& source) {
+  for (const Axis& axis : axes)
+    for (const auto& [key, value] : axis.front()) {
+      const bool is_seed = key == "system.seed" && source.seed;
+      const auto set = std::find_if(
+          source.overrides.begin(), source.overrides.end(),
+          [&key = key](const std::string& text) { return text.starts_with(key + "="); });
+      if (is_seed || set != source.overrides.end())
+        throw UserError(
+            fmt::format("{}: '{}' runs through the values of the sweep, so that {} has no effect; "
+                        "leave out one of "
+                        "the two",
+                        source.file.string(), key, is_seed ? "--seed" : "--set " + *set));
+    }
+}
+
+}  // namespace
+
+std::vector<SweepJob> sweep_jobs(const ParameterSource& source) {
+  const std::vector<Axis> axes = axes_of(load_parameters(source).sweep);
+  refuse_overridden_keys(axes, source);
+  std::vector<SweepJob> jobs;
+  std::set<std::string> ids;
+  for (const std::vector<Assignments>& combination : combinations_of(axes)) {
+    SweepJob job{job_id(combination), {}, {}};
+    ParameterSource job_source = source;
+    for (const Assignments& choice : combination)
+      for (const auto& [key, value] : choice) {
+        job.values.emplace_back(key, value);
+        job_source.overrides.push_back(key + "=" + value);
+      }
+    job.parameters = load_parameters(job_source);
+    require_two_dimensions(job.parameters, "vitrel sweep");
+    if (!ids.insert(job.id).second)
+      throw UserError(
+          fmt::format("{}: two jobs of the sweep have the name {}; every value of a key of "
+                      "[sweep.grid] and of the "
+                      "first key of [sweep.together] may appear once",
+                      source.file.string(), job.id));
+    jobs.push_back(std::move(job));
+  }
+  return jobs;
+}
+
+const SweepJob& job_named(const std::vector<SweepJob>& jobs, const std::string& id) {
+  std::vector<std::string> names;
+  for (const SweepJob& job : jobs) {
+    if (job.id == id) return job;
+    names.push_back(job.id);
+  }
+  throw UserError(fmt::format("no job of the sweep has the name '{}'; its jobs: {}", id,
+                              fmt::join(names, ", ")));
+}
+
+Json values_json(const SweepJob& job) {
+  Json values = Json::object();
+  for (const auto& [key, value] : job.values) {
+    const TomlNode node = parse_toml("x = " + value, key);
+    const TomlNode& parsed = node.find("x")->node;
+    if (const auto* real = parsed.get<double>())
+      values[key] = *real;
+    else if (const auto* integer = parsed.get<std::int64_t>())
+      values[key] = *integer;
+    else if (const auto* flag = parsed.get<bool>())
+      values[key] = *flag;
+    else if (const auto* text = parsed.get<std::string>())
+      values[key] = *text;
+    else
+      values[key] = value;
+  }
+  return values;
+}
+
+}  // namespace vitrel

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "workflow/configuration/parameters.h"
+
+/// The jobs of a sweep. The keys of [sweep.together] are one axis, every key of [sweep.grid] is
+/// another; each combination of the axes' values is a job.
+namespace vitrel {
+
+struct SweepJob {
+  /// Name of the folder, from the last parts of the keys: "packing_fraction-0.4_seed-1". Of the keys
+  /// that advance together, it has the first.
+  std::string id;
+  std::vector<std::pair<std::string, std::string>> values;  ///< dotted key, TOML text of the value
+  Parameters parameters;
+};
+
+/// All combinations, those of the keys that advance together slowest, the last key of the grid
+/// fastest; a file without either is one job. Throws UserError if a combination is impossible, if two
+/// have the same name, or if the command line sets a key that the sweep sets.
+std::vector<SweepJob> sweep_jobs(const ParameterSource& source);
+
+/// The job of this name. UserError if there is none.
+const SweepJob& job_named(const std::vector<SweepJob>& jobs, const std::string& id);
+
+nlohmann::ordered_json values_json(const SweepJob& job);
+
+}  // namespace vitrel

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "analysis/glass/glass_study.h"
+#include "workflow/analyze/analyze.h"
+#include "workflow/sweep/sweep.h"
+
+/// What the runs of a sweep say together.
+namespace vitrel {
+
+/// The finished jobs of a sweep by packing fraction (to six decimals), then by seed, then by name.
+/// Their results are those in their folders; with parameters of its own, the choice has the runs analysed
+/// again, and what is in the folders stays. Throws FileError or UserError, naming the file.
+std::vector<AnalysedRun> analysed_jobs(const SweepProgress& sweep, AnalysisChoice choice);
+
+/// Relaxation times and verdicts of the runs that could be judged, and fits of the laws of the glass
+/// transition to them.
+GlassStudy glass_study(const std::vector<AnalysedRun>& runs);
+
+/// Table `runs`, the summaries of all runs, one row each in their order; and those of their glass study.
+Results results_of_sweep(const std::vector<AnalysedRun>& runs, const GlassStudy& study);
+
+}  // namespace vitrel
