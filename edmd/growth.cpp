@@ -14,12 +14,11 @@ namespace vitrel {
 
 namespace {
 
-/// Growth of all lengths in one block, at most: neighbour lists are made for the sizes at its start.
+/// Maximum growth of all lengths in one block: neighbour lists are made for the sizes at its start.
 constexpr double max_block_growth = 0.2;
-/// Growth between two rescalings times Z, at most, so that kT changes little (it rises by twice as much), and
-/// Z, too.
+/// Maximum growth between two rescalings times Z, so that kT (which rises by twice as much) and Z change little.
 constexpr double max_step_compression = 0.05;
-/// Growth that holds enough collisions to tell the pressure, even of a gas.
+/// Growth with enough collisions to measure the pressure, even of a gas.
 constexpr double min_pressure_growth = 0.005;
 
 /// The time average of a temperature that rises exponentially from 1 to `end`.
@@ -91,7 +90,7 @@ class Growth {
   void begin() {
     draw_velocities(configuration_, options_.seed, Purpose::velocities, state_.draws++,
                     Temperature::relative);
-    // Alone, a particle would keep its momentum.
+    // A single particle would keep its momentum.
     if (configuration_.size() == 1) configuration_.velocity[0] = Vec<Dim>::Zero();
     state_.under_way = true;
   }
@@ -109,14 +108,14 @@ class Growth {
     configuration_.time = start_time_;
   }
 
-  /// Runs to `end` or the block's end, notes the pressure and rescales.
+  /// Runs to `end` or the end of the block, records the pressure and rescales.
   typename Engine<Dim>::Stop step(double end) {
     const double start = configuration_.time, virial = state_.counters.virial;
     const double size = 1 + rate() * start;
     const auto stop = engine_->advance(end, state_.counters);
     engine_->write(configuration_);
     const double time = configuration_.time - start;
-    // The last step may be cut so short that it holds hardly any collisions.
+    // The last step may be too short to hold enough collisions.
     const double grown = std::abs(rate()) * time / size;
     const bool is_significant = stop == Engine<Dim>::Stop::block_end ||
                                 state_.reduced_pressure == 0 ||
@@ -127,7 +126,7 @@ class Growth {
     return stop;
   }
 
-  /// Of all lengths, in one step.
+  /// Growth of all lengths in one step.
   double step_growth() const {
     return max_step_compression / std::max(state_.reduced_pressure, 1.0);
   }
@@ -177,7 +176,7 @@ class Growth {
   }
   bool jammed() const { return is_stalled_ || state_.reduced_pressure > max_reduced_pressure; }
 
-  // By the logarithms, in which growth is about even.
+  // In logarithms, in which growth is nearly uniform.
   double progress() const {
     double done = 0;
     if (options_.packing_fraction)

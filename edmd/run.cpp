@@ -87,13 +87,13 @@ class Runner {
                      options_.brownian_step * static_cast<double>(state_.brownian_steps + 1)
                : std::numeric_limits<double>::infinity();
   }
-  // Nothing is predicted beyond it.
+  // The horizon of predictions.
   double horizon() const { return std::min(plan_.end_time, next_step_time()); }
   double next_stop() const {
     return std::min({plan_.end_time, next_sample_time(), next_tick_time(), next_step_time()});
   }
 
-  // Shows the observer, if there is one, the frame of this number, and counts it.
+  // Passes the frame to the observer, if any, and counts it.
   void observe(Observer<Dim>* observer, std::uint64_t& number, double time) {
     engine_->write(state_.configuration);
     state_.configuration.time = time;

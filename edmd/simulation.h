@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/contact/contact_queries.h"
-#include "core/contact/contact_screen.h"
+#include "core/contact/ellipse_contact_screen.h"
 #include "core/contact/ellipsoid_contact_screen.h"
 #include "core/error.h"
 #include "core/neighbors/neighborhood.h"
@@ -26,7 +26,7 @@
 
 namespace vitrel {
 
-/// The shape at size 1 for the semi-axes in a configuration, and the body that it is at a size.
+/// The shape at size 1 for the semi-axes in a configuration, and the body of that shape at the common size.
 template <class Shape, class Axes>
 Shape shape_from(const Axes& semi_axes) {
   if constexpr (std::is_convertible_v<Axes, Shape>)
@@ -59,7 +59,7 @@ inline std::vector<double> semi_axis_values(const Ellipsoid& shape) {
   return {shape.semi_axes[0], shape.semi_axes[1], shape.semi_axes[2]};
 }
 
-/// Of an angle that is kept unwrapped, and of one that a quaternion keeps.
+/// The magnitude of an angle, which sets its rounding: unwrapped angles grow, quaternions stay normalised.
 inline double angle_magnitude(double angle) {
   return std::abs(angle);
 }
@@ -73,23 +73,22 @@ inline double spin_magnitude(const Vec3& angular_velocity) {
   return angular_velocity.norm();
 }
 
-/// The event loop, written once for every body.
+/// The event loop, written once for all bodies.
 ///
-/// Each particle has one entry in the calendar: the earliest of its contacts with its neighbours
-/// and of the time at which it leaves its neighbourhood. Only that particle's own entry is ever
-/// changed by a prediction. For every pair of neighbours (i, j) the earlier of the two entries is
-/// no later than their first contact: a prediction for i therefore never looks past the best event
-/// already known for i or for j. An entry whose partner has meanwhile changed its motion is stale;
-/// when it comes to the top the particle is predicted anew.
+/// Each particle has one entry in the calendar: the earliest of its contacts with its neighbours and of the time at
+/// which it leaves its neighbourhood. A prediction changes only the entry of its own particle. For every pair of
+/// neighbours (i, j) the earlier of the two entries is no later than their first contact; a prediction for i
+/// therefore never searches beyond the earliest known event of i or of j. An entry whose partner has changed its
+/// motion in the meantime is stale: when it comes up, the particle is predicted again.
 ///
-/// A prediction takes a first look at all neighbours (first_look.h) and searches only those that
-/// could come first, the most urgent first. A contact that is far off by that look is not searched: most
-/// are overtaken by other events. The particle is looked at again when it could have come.
+/// A prediction screens all neighbours (contact_screen.h) and searches only the candidates that could come first,
+/// in the order of their lower bounds. It does not search a contact whose lower bound is far ahead, because other
+/// events overtake most of these; the particle is predicted again at that time.
 ///
-/// Soft particles in contact have an entry for their release, too (soft_events.h).
+/// Soft particles in contact also have an entry for their release (soft_events.h).
 ///
-/// Times are relative to the start of the block, and every particle has its own clock. Particles are
-/// numbered so that neighbours are near in memory.
+/// Times are relative to the start of the block, and every particle has its own clock. Particles are numbered so
+/// that neighbours are near in memory.
 template <Body B>
 class Simulation final : public Engine<B::dimension> {
   static constexpr int dimension = B::dimension;
@@ -114,34 +113,35 @@ class Simulation final : public Engine<B::dimension> {
   using Index = std::uint32_t;
   using Shape = BaseShape<B>;
 
-  /// Mean neighbours per particle. Fewer mean fewer predictions but more list_updates of lists; the cost of
-  /// a collision is flat around this number.
+  /// Mean number of neighbours per particle. Fewer mean fewer predictions but more list updates; the cost of a
+  /// collision is flat around this number.
   static constexpr double target_neighbors = dimension == 2 ? 7 : 14;
   static constexpr std::uint64_t events_per_particle_and_block = 32;
   static constexpr std::uint64_t min_events_per_block = 4096;
-  /// Of larger systems the caches do not hold all, and events jump about in them: what an event will read
-  /// is asked for beforehand, in steps so many events apart. Of smaller ones it would cost more than
-  /// it gains. In three dimensions a particle has twice the neighbours.
+  /// Systems with more particles exceed the caches, and consecutive events are far apart in memory: the loop
+  /// prefetches what an event will read, in stages separated by so many events. For smaller systems this costs more
+  /// than it saves. In three dimensions a particle has twice the neighbours.
   static constexpr std::size_t cached_particles = dimension == 2 ? 32768 : 2048;
   static constexpr std::uint64_t prefetch_stages = 4, events_per_stage = 4;
 
-  /// Soft particles that approach by less than the first fraction of the largest speed only separate_grazing, and then
-  /// separate by the second: far above the rounding of velocities, far below what matters.
+  /// A grazing_speed contact: soft particles that approach by less than the first fraction of the largest speed are not
+  /// collided, but made to separate at the second fraction. Both are far above the rounding of velocities and far
+  /// below physical relevance.
   static constexpr double grazing_speed = 1e-12, separation_speed = 1e-13;
 
-  struct Empty {};  // in place of what a body does without
+  struct Empty {};  // replaces members that a body does not have
 
   struct Rotation {
     Orientation<dimension> orientation;
     AngularVelocity<dimension> angular_velocity;
   };
-  /// Spheres rotation on and on, and no event depends on it: no prediction need read it.
+  /// Spheres rotate uniformly, and no event depends on it: predictions need not read their rotation.
   static constexpr bool rotation_is_separate = dimension == 3 && ContactScreen<B>::is_exact;
-  /// What predictions read of a particle: one cache line, of ellipsoids two.
+  /// The part of a particle that predictions read: one cache line, for ellipsoids two.
   struct alignas(64) Particle {
     Vector position, velocity;
-    double time;  // its clock: position and orientation are those at this time
-    double next;  // the time of its entry in the calendar
+    double time;  // local clock of position and orientation
+    double next;  // of its entry in the calendar
     [[no_unique_address]] std::conditional_t<rotation_is_separate, Empty, Rotation> rotation;
 
     Orientation<dimension> orientation() const {
@@ -173,13 +173,13 @@ class Simulation final : public Engine<B::dimension> {
       if constexpr (!rotation_is_separate) rotation.angular_velocity = motion.angular_velocity;
     }
   };
-  /// What all particles of one shape and mass share.
+  /// The common data of all particles of one shape and mass.
   struct ParticleType {
     ShapeCoefficients<Shape> coefficients;
     Inertia<dimension> inertia;  // about its own axes
   };
 
-  /// Of a collision, unless the look is exact: then it is that of the centres.
+  /// The contact normal of a collision; with an exact screen it is the line of centres.
   struct ContactNormal {
     Vector value = Vector::Zero();
   };
@@ -197,29 +197,29 @@ class Simulation final : public Engine<B::dimension> {
     double time;
     Event event;
   };
-  /// A first look under displacement: what is in its lanes.
+  /// A screen in progress, with the neighbours in its lanes.
   struct ScreenBatch {
     ContactScreen<B> screen;
     Neighbor<B>* neighbor[ContactScreen<B>::lanes] = {};
-    double horizon[ContactScreen<B>::lanes] = {};  // times beyond which a contact is of no interest
+    double horizon[ContactScreen<B>::lanes] = {};  // contacts after these times do not matter
     int count = 0;
   };
-  /// Which neighbours a prediction asks about: all of them, as far as their own entries do not come
-  /// first; or, when all entries are made anew, every pair once and from whatever thread.
+  /// The neighbours that a prediction tests: all, up to the times of their own entries; or, when all entries are
+  /// predicted in parallel, only those with higher indices, so that each pair is tested once.
   enum class Scope { all_neighbors, higher_indices };
 
-  /// What a soft particle in contact waits for.
+  /// The pending release of a soft particle in contact.
   struct Release {
     double time = never;
     Index partner = 0;
     Vector velocity;
   };
-  /// A pair, whatever unwrapped_pair its particles are in: `unwrapped_shift` is the shift between their unwrapped positions.
+  /// A pair independent of periodic wrapping: `unwrapped_shift` is the shift between unwrapped positions.
   struct UnwrappedPair {
     Index i, j;
     Shift<dimension> unwrapped_shift;
 
-    /// The same for either order of the two, which are distinct.
+    /// The pair in ascending order of two distinct particles.
     UnwrappedPair ascending() const {
       return i < j ? *this : UnwrappedPair{j, i, -unwrapped_shift};
     }
@@ -240,7 +240,7 @@ class Simulation final : public Engine<B::dimension> {
     return contact_pair(shape(i).circumradius(), 1 / type(i).inertia.inverse_mass,
                         shape(j).circumradius(), 1 / type(j).inertia.inverse_mass);
   }
-  /// Of i in a relative motion of the two: the reduced mass over its own.
+  /// The share of i in a change of the relative motion: reduced mass over its own mass.
   double share(Index i, Index j) const {
     const double mine = type(i).inertia.inverse_mass;
     return mine / (mine + type(j).inertia.inverse_mass);
@@ -261,7 +261,7 @@ class Simulation final : public Engine<B::dimension> {
     const double size = size_now().size;
     return in_space(type(i).inertia, particles_[i].pose(), size);
   }
-  /// Of a sphere.
+  /// The current rotation of a sphere.
   Rotation rotation_now(Index i) const {
     const auto& [orientation, angular_velocity] = rotations_[i];
     const Pose<dimension> pose{Vector::Zero(), orientation};
@@ -276,7 +276,6 @@ class Simulation final : public Engine<B::dimension> {
   void load_particles(const Configuration<dimension>& configuration);
   void load_types(const Configuration<dimension>& configuration);
   double mean_free_time() const;
-  double patience() const;
   void predict_all(double horizon, RunCounters& counters);
   void predict(Index i, RunCounters& counters);
   template <Scope scope>
@@ -330,33 +329,32 @@ class Simulation final : public Engine<B::dimension> {
   EngineOptions options_;
   std::string description_;
   PeriodicBox<dimension> box_;
-  std::vector<Index> external_id_;  // the configuration's numbers of the particles
-  std::vector<Shape> shapes_;       // of every type, at size 1, as loaded
+  std::vector<Index> external_id_;  // particle numbers of the configuration
+  std::vector<Shape> shapes_;       // by type, at size 1
   std::vector<ParticleType> types_;
   TypeIndex type_index_;
   std::vector<Particle> particles_;
-  std::vector<Rotation> rotations_;  // of spheres, at this time
+  std::vector<Rotation> rotations_;  // of spheres, at rotation_time_
   double rotation_time_ = 0;
   std::vector<Shift<dimension>> image_;
-  std::vector<Index> version_;  // counts the changes of a particle's motion and image
+  std::vector<Index> version_;  // changes of motion or image so far
   std::optional<Neighborhoods<B>> neighborhoods_;
   Calendar calendar_;
   std::vector<Event> events_;
   std::vector<Release> releases_;  // of soft particles
   std::map<UnwrappedPair, double>
-      close_pairs_;  // of these, how close pairs may be; some may be apart already
-  std::size_t close_pairs_limit_ = 0;  // more are looked through first
-  std::vector<std::uint8_t>
-      collapse_count_;  // how many collisions in a row took a particle nowhere
+      close_pairs_;                    // minimum distances of soft pairs; some may have separated
+  std::size_t close_pairs_limit_ = 0;  // size that triggers a clean-up
+  std::vector<std::uint8_t> collapse_count_;  // consecutive collisions without progress
   double contact_gap_ = 0;
   double fastest_ = 0;             // speed of a surface, at the start of the block
   double base_ = 0;                // simulated time at the start of the block
   double now_ = 0;                 // since then
   double horizon_ = never;         // since then
-  double collisions_ = 0;          // collisions since then
+  double collisions_ = 0;          // since then
   std::uint64_t events_left_ = 0;  // until the block ends,
   double longest_block_ = never;   // which it also does after this time
-  std::uint64_t prefetched_ = 0;   // announcements of the calendar that were heeded
+  std::uint64_t prefetched_ = 0;   // upcoming particles already prefetched
   bool predicted_ = false;
 };
 
@@ -378,7 +376,7 @@ void Simulation<B>::load(const Configuration<dimension>& configuration, double h
     const Particle& particle = particles_[i];
     const double max_support_rate = shape(i).max_support_rate();
     poses.push_back(particle.pose());
-    // An angle is rounded too, and moves the surface by up to `max_support_rate` times its rounding.
+    // An angle is rounded, too, and moves the surface by up to max_support_rate times its rounding.
     extent = std::max({extent, shape(i).circumradius(),
                        max_support_rate * angle_magnitude(particle.orientation())});
     fastest_ =
@@ -388,7 +386,7 @@ void Simulation<B>::load(const Configuration<dimension>& configuration, double h
   for (const Release& release : releases_)
     if (release.time < never) fastest_ = std::max(fastest_, release.velocity.norm());
   contact_gap_ = tolerance::contact_gap(extent);
-  // Times are rounded too: within a block nothing moves farther than the coordinates reach.
+  // Times are rounded, too: within a block nothing moves farther than the coordinates extend.
   longest_block_ = fastest_ > 0 ? extent / fastest_ : never;
   neighborhoods_.emplace(box_, shapes_, type_index_, poses, target_neighbors);
   events_.assign(particles_.size(), {});
@@ -443,7 +441,7 @@ void Simulation<B>::load_types(const Configuration<dimension>& configuration) {
   type_index_ = TypeIndex(std::move(type_index), types_.size());
 }
 
-// All at once, every pair by one of its particles: no prediction needs another's result.
+// Predicts all particles, every pair once: the predictions are independent of each other.
 template <Body B>
 void Simulation<B>::predict_all(double horizon, RunCounters& counters) {
   horizon_ = horizon;
@@ -494,7 +492,7 @@ void Simulation<B>::prefetch_events() {
                       static_cast<int>(step));
 }
 
-// What each step asks for is known from what the step before has asked for.
+// Each stage uses what the stage before has prefetched.
 template <Body B>
 void Simulation<B>::prefetch_events(Index i, int step) const {
   const auto prefetch_own = [&](Index k) {
@@ -600,21 +598,16 @@ typename Simulation<B>::Entry Simulation<B>::next_entry(Index i, RunCounters& co
   return best;
 }
 
-// The mean time between two collisions of a particle in this block, once it is known.
+// The mean time between two collisions of a particle in this block, once it is known. A contact that cannot
+// occur within this time is not searched yet: the gain is largest, and flat, around one mean free time
+// (bench/engine.md).
 template <Body B>
 double Simulation<B>::mean_free_time() const {
   const auto particles = static_cast<double>(particles_.size());
   return collisions_ < particles ? never : 0.5 * particles * now_ / collisions_;
 }
 
-// A contact that cannot come within this time is not searched yet. The gain is largest, and flat,
-// around one mean free time (bench/engine.md).
-template <Body B>
-double Simulation<B>::patience() const {
-  return mean_free_time();
-}
-
-// Fills the batch from neighbour number `next` on; returns the number after the last.
+// Fills the batch starting at neighbour `next`; returns the first neighbour not included.
 template <Body B>
 template <typename Simulation<B>::Scope scope>
 std::size_t Simulation<B>::gather(Index i, const Pose<dimension>& mine, double latest,
@@ -647,15 +640,15 @@ void Simulation<B>::search_earliest_first(Index i, const Pose<dimension>& mine, 
     const Neighbor<B>& neighbor = *batch.neighbor[k];
     if (ContactScreen<B>::is_exact && wait > 0)
       best = {now_ + wait, collision(neighbor, Vector::Zero())};
-    else if (wait > patience())
-      best = {now_ + wait, {}};  // to look again
+    else if (wait > mean_free_time())
+      best = {now_ + wait, {}};  // predict again then
     else
       search(i, mine, neighbor, std::min(batch.horizon[k], best.time), best, counters);
-    batch.screen.close(k);
+    batch.screen.discard(k);
   }
 }
 
-// Makes the first contact with this neighbour the best entry, if it comes before the horizon.
+// Replaces the best entry by the first contact with this neighbour, if that is earlier than the horizon.
 template <Body B>
 void Simulation<B>::search(Index i, const Pose<dimension>& mine, const Neighbor<B>& neighbor,
                            double horizon, Entry& best, RunCounters& counters) const {
@@ -678,8 +671,8 @@ void Simulation<B>::search(Index i, const Pose<dimension>& mine, const Neighbor<
   if (now_ + wait < best.time) best = {now_ + wait, event};
 }
 
-// A pair that overlaps: stop, or plan the correction move; once its centres recede it is only
-// watched. A soft pair that a third particle has rotated back meets again.
+// An overlapping pair: stop, or schedule the correction move; once the centres recede, only check again. A soft
+// pair that a third particle has rotated back collides again.
 template <Body B>
 double Simulation<B>::overlap_event(Index i, const Vector& d, Event& event) const {
   const Index j = event.partner.other;
@@ -724,7 +717,7 @@ void Simulation<B>::leave_neighborhood(Index i) {
   advance_to_now(particle);
   const Shift<dimension> image = image_[i];
   box_.wrap(particle.position, image_[i]);
-  // Whoever plans to execute_collision it has its old image in mind.
+  // Collisions scheduled with its old image are stale.
   if (image_[i] != image) ++version_[i];
   neighborhoods_->update(i, particle.pose(), size_now().size);
 }
@@ -753,12 +746,12 @@ void Simulation<B>::execute_collision(Index i, const Event& event, RunCounters& 
   }
   ++version_[i];
   if (i != j) ++version_[j];
-  one.next = two.next = never;  // neither entry holds any longer
+  one.next = two.next = never;  // pair_images entries are invalid
   predict(i, counters);
   if (i != j) predict(j, counters);
 }
 
-// At once. Returns the speed at which the surfaces approached.
+// Applies an instantaneous collision. Returns the approach speed of the surfaces.
 template <Body B>
 double Simulation<B>::impact(Index i, Index j, const Vector& d, const Vector& n, double restitution,
                              RunCounters& counters) {
@@ -784,9 +777,9 @@ double Simulation<B>::impact(Index i, Index j, const Vector& d, const Vector& n,
   return speed;
 }
 
-// Inelastic collapse: infinitely many collisions of a few particles in a finite time; or of one pair, as
-// of a bouncing ball, if its rotation brings the surfaces together again. It has come when the ways
-// between collisions are lost in the contact gap, time and again.
+// Inelastic collapse: infinitely many collisions of a few particles in a finite time; or of one pair, like a
+// bouncing ball, whose rotation brings the surfaces together again. The criterion: the distances travelled
+// between collisions stay below the contact gap several times in a row.
 template <Body B>
 void Simulation<B>::detect_inelastic_collapse(Index i, Index j, double displacement) {
   constexpr int max_count = 10;

@@ -6,13 +6,13 @@
 
 #include "edmd/simulation.h"
 
-/// The events of soft particles (soft/soft_contact.h), a part of the loop: included at the end of
+/// The events of soft particles (soft/soft_contact.h), a part of the event loop: included at the end of
 /// simulation.h.
 
 namespace vitrel {
 
-// A third particle that comes to one of a pair in contact meets it as if the contact was over. Whether they
-// then still approach, the predictions say.
+// A third particle that hits one of a pair in contact collides with it as if the contact were over. New
+// predictions decide whether they still approach.
 template <Body B>
 void Simulation<B>::execute_soft_collision(Index i, const Event& event, RunCounters& counters) {
   const Index j = event.partner.other;
@@ -40,14 +40,14 @@ void Simulation<B>::soft_impact(Index i, const Image& partner, RunCounters& coun
     return separate_grazing(i, j, (speed + separation_speed * fastest_) * normal);
 
   ContactPair pair = contact_pair_of(i, j);
-  const UnwrappedPair pair_images = unwrapped_pair(i, partner);  // in this order
-  if (d.norm() >= pair.distance) close_pairs_.erase(pair_images.ascending());
+  const UnwrappedPair unwrapped = unwrapped_pair(i, partner);  // not sorted
+  if (d.norm() >= pair.distance) close_pairs_.erase(unwrapped.ascending());
   pair.distance = std::min(pair.distance, d.norm());
   const Restitution restitution =
       options_.soft_contact->collide(pair, speed, (v + speed * normal).norm(), counters);
   const RelativeMotion<dimension> after = after_contact<dimension>({d, v}, restitution);
   const Vector shortening = d - after.position;
-  if (!try_displace(pair_images, share(i, j) * shortening, -share(j, i) * shortening)) {
+  if (!try_displace(unwrapped, share(i, j) * shortening, -share(j, i) * shortening)) {
     ++counters.blocked_rotations;
     impact(i, j, d, normal, -restitution.rate, counters);
     return;
@@ -56,19 +56,19 @@ void Simulation<B>::soft_impact(Index i, const Image& partner, RunCounters& coun
                                   restitution.duration * after.velocity.squaredNorm());
   counters.dissipated += 0.5 * pair.mass * (v.squaredNorm() - after.velocity.squaredNorm());
   ++counters.collisions;
-  begin_contact(pair_images, after, now_ + restitution.duration);
+  begin_contact(unwrapped, after, now_ + restitution.duration);
 }
 
-// Slower than velocities are exact, they are let go apart, or they would execute_collision for ever. Each time this brings
-// a cluster that has lost all of its speed nearer to one in which all pairs separate, by steps of a fixed
-// size: so it ends.
+// Approach speeds below the accuracy of velocities: the pair is made to separate, or it would collide forever.
+// Each such event brings a cluster that has lost all of its speed closer, by steps of a fixed size, to a state in
+// which all pairs separate, so the sequence ends.
 template <Body B>
 void Simulation<B>::separate_grazing(Index i, Index j, const Vector& change) {
   particles_[i].velocity -= share(i, j) * change;
   particles_[j].velocity += share(j, i) * change;
 }
 
-// They have their places of the end, and go on with their centre of mass.
+// Both are already at the positions of the end of the contact, and move with their centre of mass.
 template <Body B>
 void Simulation<B>::begin_contact(const UnwrappedPair& pair, const RelativeMotion<dimension>& after,
                                   double end) {
@@ -83,7 +83,7 @@ void Simulation<B>::begin_contact(const UnwrappedPair& pair, const RelativeMotio
   if (distance < contact_pair_of(i, j).distance) add_close_pair(pair, distance - contact_gap_);
 }
 
-// Moves pair_images, unless one would be too close to a third particle.
+// Displaces pair_images, unless one would be too close to a third particle.
 template <Body B>
 bool Simulation<B>::try_displace(const UnwrappedPair& pair, const Vector& displacement1,
                                  const Vector& displacement2) {
@@ -105,8 +105,8 @@ void Simulation<B>::displace(Index i, const Vector& displacement) {
   if (!(exit > 0)) leave_neighborhood(i);
 }
 
-// Empty but its partner is nearer than contact, or not nearer than it was before the pair's ways there. In
-// a small box another image of the partner, or its own, may be.
+// No third particle is closer than contact, or closer than before the displacement. In a small box this includes
+// other unwrapped_pair of the partner and own unwrapped_pair.
 template <Body B>
 bool Simulation<B>::has_clearance(Index i, const UnwrappedPair& pair, const Vector& displacement1,
                                   const Vector& displacement2) const {

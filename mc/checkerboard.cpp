@@ -7,15 +7,15 @@ namespace vitrel {
 
 namespace {
 
-/// Wider: fewer moves end at a border. Narrower: more threads find work in a small system, and a
-/// domain stays in the first cache.
+/// Wider: fewer moves end at a border. Narrower: more parallelism in a small system, and a domain fits the
+/// first-level cache.
 constexpr std::size_t min_cells_per_domain = 4;
 
-/// Cells are so much wider than the reach that the rounding of positions does not matter.
+/// Widens cells so that rounding of positions does not matter.
 constexpr double rounding_margin = 1 + 1e-9;
 
 std::size_t count_cells(double length, double reach, std::size_t particles) {
-  // Many more cells than particles are of no use.
+  // Many more cells than particles are useless.
   const double most = std::ceil(std::sqrt(4 * static_cast<double>(particles))) + 1;
   return static_cast<std::size_t>(std::clamp(std::floor(length / reach), 1.0, most));
 }

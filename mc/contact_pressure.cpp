@@ -30,7 +30,7 @@ std::vector<double> contact_excesses(const Configuration2& configuration, double
   return excesses;
 }
 
-// The window with the wanted number of pairs.
+// The window with the target number of pairs.
 double choose_window(const Configuration2& configuration) {
   std::vector<double> excesses = contact_excesses(configuration, max_window);
   const auto wanted =

@@ -30,7 +30,7 @@ double displacement_in_widths(const Configuration2& before, const Configuration2
   return std::sqrt(sum / static_cast<double>(now.size()));
 }
 
-/// Compares later configurations with one.
+/// Compares configurations with the first one.
 class Comparison {
  public:
   Comparison(const Configuration2& start, Decorrelation& result)

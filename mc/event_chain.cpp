@@ -11,11 +11,11 @@ namespace vitrel {
 
 namespace {
 
-/// At contact, in hard margins: so much more than one that rounding does not matter.
+/// Gap at contact, in hard-core margins: so far above one that rounding does not matter.
 constexpr double contact_margins = 1.25;
-/// Of chains before they are tuned, in √(V/N): few contacts, however dense.
+/// Initial length of chains, in √(V/N): few contacts at any density.
 constexpr double initial_length = 1e-3;
-/// More contacts than are wanted, by this factor, cut a chain short.
+/// A chain is cut short after its target number of contacts times this factor.
 constexpr double max_contact_factor = 1000;
 
 }  // namespace
@@ -43,7 +43,7 @@ EventChain::EventChain(Configuration2& configuration, const EventChainOptions& o
     smallest = std::min(smallest, configuration.shape[i].inradius());
     if (!configuration.shape[i].is_round()) rotors_.push_back(static_cast<SimdCells::Index>(i));
   }
-  // As far apart as two of the longest can touch (path_look.h).
+  // The maximum contact distance of two particles (ellipse_free_path_batch.h).
   const double enlarged = 1 + 2 * contact_margins * margin_ / smallest;
   board_.emplace(configuration_.box, 2 * enlarged * largest_, configuration_.size());
 }
@@ -120,7 +120,7 @@ void EventChain::run(std::size_t first) {
   }
 }
 
-// Goes no farther than just over the border of the cell: beyond there may be others than are near it.
+// Stops just beyond the border of the cell, where other particles come within reach.
 template <int direction, template <int> class PathBatch>
 FreePath EventChain::next_contact(std::size_t i, double remaining) const {
   constexpr int across = 1 - direction;

@@ -17,7 +17,7 @@ namespace vitrel {
 
 namespace {
 
-/// The share of the packing fraction reached at which places are found in no time.
+/// The fraction of the packing fraction reached at which insertion is fast.
 constexpr double safe_fraction = 0.9;
 
 template <int Dim>

@@ -7,23 +7,23 @@
 
 namespace vitrel {
 
-/// Random sequential insertion: particles, the largest first, are put one after another at random
-/// places and orientations where they meet none of those before, and are never moved.
+/// Random sequential insertion: particles, the largest first, are placed one after another at random positions and
+/// orientations where they do not overlap earlier ones, and are never moved.
 struct InsertionOptions {
-  double packing_fraction = 0.3;     ///< to insert at; the box is scaled to it
-  std::uint64_t attempts = 1000000;  ///< for one particle, before insertion is called hopeless
-  bool aligned = false;              ///< all axes along those of space instead of random ones
+  double packing_fraction = 0.3;     ///< the box is scaled to it
+  std::uint64_t attempts = 1000000;  ///< maximum per particle
+  bool aligned = false;              ///< all axes along those of space, not random
 };
 
-/// The end of an insertion. With n places tried the dimensionless time of its kinetics is τ = n A/V, A
-/// the area of a particle; close to saturation φ∞ − φ ∝ τ^(−1/2) for disks and τ^(−1/3) for
-/// other shapes. Sources: swendsen1981, talbot1989.
+/// The result of an insertion. With n trials the dimensionless time of its kinetics is τ = n A/V, A the area of a
+/// particle; near saturation φ∞ − φ ∝ τ^(−1/2) for disks and τ^(−1/3) for other shapes.
+/// Sources: swendsen1981, talbot1989.
 struct InsertionReport : StageReport {
   std::uint64_t trials = 0;
 };
 
-/// `stuck` with a reason if a particle found no place, `stopped` if the control said so; the
-/// configuration then is not to be used, and the same call makes it anew.
+/// `stalled`, with a reason, if a particle found no place; `stopped` on request. The configuration then is unusable,
+/// and the same call starts again.
 /// The jamming limit is near φ = 0.547 for disks, 0.583 for ellipses and 0.382 for spheres.
 template <int Dim>
 InsertionReport insert_particles(Configuration<Dim>& configuration, const InsertionOptions& options,

@@ -18,7 +18,7 @@ namespace vitrel {
 
 namespace {
 
-/// Farthest distance of centres at which particles can be closer than `reshape` asks.
+/// Maximum distance of centres at which `reshape` must test.
 double reach_of(double largest, double margin) {
   return 2 * (largest + margin);
 }
@@ -73,7 +73,7 @@ void Sampler::sweep() {
   ++state_.sweeps;
 }
 
-// Sorts all particles into the cells, by counting.
+// Counting sort of all particles into the cells.
 void Sampler::arrange() {
   const std::size_t n = configuration_.size();
   order_.resize(n);
@@ -128,7 +128,7 @@ void Sampler::sweep_domain(std::size_t domain, Tally& tally) {
                           order_.data() + domain_begin_[domain + 1]);
   Stream draw(seed_, Purpose::trial_moves, state_.next_sweep, domain + 1);
   DomainContext context{domain, free_lists_[domain], tally};
-  // Drawn several at a time: the generator's arithmetic fills its own waiting times.
+  // Draws several blocks at a time, so that independent evaluations of the generator overlap.
   std::array<Words, 16> drawn;
   for (std::size_t done = 0; done < members.size(); done += drawn.size()) {
     const std::span trials(drawn.data(), std::min(drawn.size(), members.size() - done));
@@ -159,7 +159,7 @@ void Sampler::translate(std::size_t i, const Words& words, DomainContext& contex
   ++context.tally.counts.translations_tried;
   const Checkerboard::Cell cell = board_->cell_of(position);
   if (board_->domain_of(cell) != context.domain) return;
-  // Its own images move along: their distance stays a whole number of box lengths.
+  // Own images move along: their distances stay whole box lengths.
   const Ellipse shape = group.shape(lane);
   const Vec2 axis = group.axis(lane);
   if (!clear_of_others(i, OverlapBatch(shape, axis, margin_), position, cell,
@@ -213,7 +213,7 @@ void Sampler::exchange(std::size_t i, std::size_t j, DomainContext& context) {
   std::swap(axis_[i], axis_[j]);
 }
 
-// Where the cells have it.
+// Whether particle i keeps the margin at its current place in the cells.
 bool Sampler::fits(std::size_t i, OverlapTestCounts& tests) const {
   const SimdCells::Group& group = cells_[cells_.group_index(i)];
   const int lane = cells_.lane_of(i);
@@ -254,7 +254,7 @@ bool Sampler::rescale(const Vec2& factors) {
   return false;
 }
 
-// Every pair is looked at twice.
+// Tests every pair twice.
 bool Sampler::is_hard() {
   std::atomic<bool> hard = true;
   std::mutex adding;
@@ -296,7 +296,7 @@ void Sampler::add(const Tally& tally) {
 }
 
 void Sampler::tune() {
-  constexpr std::uint64_t enough = 100;  // to tell the acceptance to about 0.05
+  constexpr std::uint64_t enough = 100;  // acceptance to about 0.05
   state_.translation.tune(enough, 0.5 * configuration_.box.lengths().minCoeff());
   state_.rotation.tune(enough, std::numbers::pi / 2);
 }

@@ -9,8 +9,8 @@
 
 namespace vitrel {
 
-/// How particles move: by event chains (event_chain.h), which forget density and places many times sooner
-/// and orientations about as fast, or by local trial moves (sampler.h), which can use several threads.
+/// Moves: event chains (event_chain.h), which decorrelate density and positions many times faster and orientations
+/// about as fast, or local trial moves (sampler.h), which can use several threads.
 enum class Moves { chains, local };
 
 struct SamplingOptions {
@@ -20,7 +20,7 @@ struct SamplingOptions {
   int threads = 1;       ///< of local moves; the result does not depend on it
 };
 
-/// Where a sampling stands; each kind of moves uses its own.
+/// The state of a sampling; each kind of moves uses its own.
 struct SamplingState {
   ChainState chains;
   SweepState local;
@@ -28,9 +28,9 @@ struct SamplingState {
   std::uint64_t sweeps() const { return chains.sweeps + local.sweeps; }
 };
 
-/// Monte Carlo at constant packing fraction, as a stage that brings a state to equilibrium: chains and
-/// steps adapt all the way. `reached` when `state` counts the wanted sweeps, `stopped` by the run control
-/// between two sweeps; the same call then goes on bit by bit. The reason tells if chains were cut short.
+/// Monte Carlo at constant packing fraction, as an equilibration stage: chains and step sizes adapt throughout.
+/// `reached` when `state` counts the requested sweeps, `stopped` on request between two sweeps; the same call then
+/// continues with bit-identical results. The reason says if chains were cut short.
 StageReport sample(Configuration2& configuration, const SamplingOptions& options,
                    std::uint64_t seed, SamplingState& state, const RunControl& control);
 

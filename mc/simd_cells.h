@@ -9,12 +9,12 @@
 
 namespace vitrel {
 
-/// Who is in which cell: the ellipses of a cell lie in the lanes of a chain of groups, all but the last
-/// group full. So there is no largest number for a cell, and a look reads few groups.
+/// Cell lists for SIMD batches: the ellipses of a cell fill the lanes of a linked list of groups, all but the last
+/// group full. A cell has no capacity limit, and a test reads few groups.
 ///
-/// The first group of a cell is its own; the others come from the free_list groups of the domain that the
-/// cell belongs to. A domain of n particles needs at most n/simd_width of those, wherever its particles go:
-/// ⌈k/simd_width⌉ − 1 < k/simd_width for a cell of k.
+/// The first group of a cell belongs to it; the others come from the free list of the cell's domain. A domain of n
+/// particles needs at most n/simd_width of those, wherever its particles are: ⌈k/simd_width⌉ − 1 < k/simd_width for a
+/// cell of k.
 class SimdCells {
  public:
   using Index = std::uint32_t;
@@ -23,11 +23,11 @@ class SimdCells {
   struct alignas(64) Group : EllipseBatch {
     Index particle[simd_width] = {};
     Index cell = 0;
-    Index next = none;  // of the same cell, or of the free_list ones
+    Index next = none;  // group of the same cell, or of the free list
     int count = 0;
   };
 
-  /// FreeList groups of a domain, the next to be used first.
+  /// The free groups of a domain, as a linked list.
   class FreeList {
    public:
     explicit FreeList(Index first) : first_(first) {}
@@ -37,20 +37,20 @@ class SimdCells {
     Index first_;
   };
 
-  /// Room for so simd_width cells and particles.
+  /// Allocates for so simd_width cells and particles.
   void resize(std::size_t cells, std::size_t particles) {
     cells_ = cells;
     groups_.resize(cells + particles / simd_width);
     slot_.resize(particles);
   }
 
-  /// Empties a cell of a domain that is about to be filled anew.
+  /// Empties a cell before it is refilled.
   void clear(std::size_t cell) {
     groups_[cell] = Group();
     groups_[cell].cell = static_cast<Index>(cell);
   }
 
-  /// The free_list groups of the domain that has particles begin … end − 1, counted through all domains.
+  /// The free groups of the domain that holds the particles begin … end − 1 of all domains.
   FreeList free_groups(std::size_t begin, std::size_t end) {
     Index first = none;
     for (std::size_t k = end / simd_width; k-- > begin / simd_width;) {
@@ -72,7 +72,7 @@ class SimdCells {
     slot_[i] = at * simd_width + static_cast<Index>(lane);
   }
 
-  /// The last of the cell takes the place of the one that goes.
+  /// The last particle of the cell takes the slot that becomes free.
   void remove(std::size_t i, FreeList& free_list) {
     const Index group = slot_[i] / simd_width;
     Index before = none, last = groups_[group].cell;
@@ -90,7 +90,7 @@ class SimdCells {
     free_list.first_ = last;
   }
 
-  /// Particles i and j of one domain take each other's places, with their axes.
+  /// Exchanges the slots of particles i and j of one domain, with their axes.
   void exchange(std::size_t i, std::size_t j) {
     Group &group_i = group_of(i), &group_j = group_of(j);
     const int lane_i = lane_of(i), lane_j = lane_of(j);
@@ -106,7 +106,7 @@ class SimdCells {
   Group& group_of(std::size_t i) { return groups_[group_index(i)]; }
   int lane_of(std::size_t i) const { return static_cast<int>(slot_[i] % simd_width); }
 
-  /// The name of the place of lane 0 of a group; those of its other lanes follow.
+  /// The slot of lane 0 of a group; those of its other lanes follow.
   static Index first_slot(std::size_t group) { return static_cast<Index>(group * simd_width); }
   std::size_t particle_in(Index place) const {
     return groups_[place / simd_width].particle[place % simd_width];
@@ -123,8 +123,8 @@ class SimdCells {
   }
 
   std::size_t cells_ = 0;
-  std::vector<Group> groups_;  // the first of every cell, then the free_list ones
-  std::vector<Index> slot_;    // of every particle: group · simd_width + lane
+  std::vector<Group> groups_;  // the first group of each cell, then the free ones
+  std::vector<Index> slot_;    // of each particle: group · simd_width + lane
 };
 
 }  // namespace vitrel

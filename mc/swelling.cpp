@@ -14,13 +14,13 @@ namespace vitrel {
 
 namespace {
 
-/// Sweeps in which all particles should find room, and sweeps that count as fast_sweeps.
+/// The maximum number of sweeps for a round, and that of a fast_sweeps round.
 constexpr std::uint64_t max_sweeps_per_round = 40, fast_sweeps = 12;
 /// Limits of the growth g − 1 in one round.
 constexpr double smallest_growth = 1e-9, largest_growth = SwellingState().growth;
-/// Share of the way to the first touch that is used, so that pairs keep room to move.
+/// The share of the distance to first contact that is used, so that pairs keep space to move.
 constexpr double share = 0.95;
-/// Jammed: a relative rise of the packing fraction below this in so many sweeps.
+/// Jammed: the packing fraction rises by less than this in so many sweeps, relatively.
 constexpr std::uint64_t jamming_sweeps = 5000;
 constexpr double jamming_rise = 1e-4;
 
@@ -75,8 +75,8 @@ class Swelling {
                                    std::to_string(options_.packing_fraction) + " was wanted"};
   }
 
-  // One round, from the present growth; adapts the growth of the next. False if the run control asked to
-  // stop: then the round has not begun.
+  // One round, starting from the current growth; adapts that of the next. False if stopped: the round then has not
+  // begun.
   bool round(const RunControl& control) {
     const Configuration2 before = configuration_;
     const SweepState began = state_.moves;
@@ -99,15 +99,14 @@ class Swelling {
     state_.growth = state_.moves.sweeps - began.sweeps <= fast_sweeps
                         ? std::min(largest_growth, 1.5 * state_.growth)
                         : std::max(smallest_growth, growth);
-    // Rounding alone could cost a pair its margin; then the round does not count.
+    // If rounding alone costs a pair its margin, the round is discarded.
     if (find_overlap(configuration_)) configuration_ = before;
     return true;
   }
 
   enum class Outcome { all, no_room, stopped };
 
-  // Sweeps, and between them enlarges one particle after another. The growth is halved for all as
-  // often as some find no room, in the hope that this helps.
+  // Alternates sweeps and enlargements of single particles. If some find no space, the growth is halved for all.
   Outcome enlarge_all(double& growth, const RunControl& control) {
     Sampler sampler(configuration_, seed_, state_.moves, options_.threads);
     std::vector<std::size_t> waiting(configuration_.size());

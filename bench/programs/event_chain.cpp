@@ -287,7 +287,7 @@ struct Chains : Contestant {
             {"step_factor", factor},
             {"length", chains.plan().length},
             {"chains_in_a_sweep", chains.plan().chains},
-            {"looks_for_a_contact", ratio(n.looks, n.contacts)},
+            {"looks_for_a_contact", ratio(n.searches, n.contacts)},
             {"rotations_accepted", ratio(n.rotations_accepted, n.rotations_tried)},
             {"compressibility_of_chains", n.compressibility()}};
   }

@@ -8,6 +8,7 @@
 #include "core/contact/ellipse_gap.h"
 #include "core/contact/ellipsoid_gap.h"
 #include "core/contact/first_contact.h"
+#include "core/contact/first_root.h"
 
 namespace vitrel {
 
@@ -17,17 +18,8 @@ constexpr double max_time = 1e100;
 constexpr int max_steps = 1000;
 /// A gap up to this multiple of the contact gap counts as touching.
 constexpr double touching = 1.25;
-/// A newton_to_contact ends where the gap is the contact gap to within this fraction.
+/// The Newton iteration ends where the gap is the contact gap to within this fraction.
 constexpr double newton_tolerance = 0.25;
-
-/// First root of c + slope s − ½ M s² = 0 for c ≥ 0 and any M; infinity if there is none.
-inline double first_root(double c, double slope, double acceleration) {
-  const double discriminant = slope * slope + 2 * acceleration * c;
-  if (!(discriminant >= 0)) return std::numeric_limits<double>::infinity();
-  const double root = std::sqrt(discriminant);
-  if (slope < 0) return 2 * c / (root - slope);
-  return acceleration > 0 ? (slope + root) / acceleration : std::numeric_limits<double>::infinity();
-}
 
 struct Interval {
   double begin, end;
@@ -35,8 +27,8 @@ struct Interval {
 };
 constexpr Interval empty_interval{1, 0};
 
-// A part of [0, horizon] outside which |d + v t| > reach + growth t: from the first moment at which
-// this is not so to the last (or to the horizon, if the circles grow faster than they move).
+// An interval of [0, horizon] outside which |d + v t| > reach + growth t: from the first time at which the
+// circles touch to the last, or to the horizon if they grow faster than they move apart.
 template <int Dim>
 Interval time_within(const Vec<Dim>& d, const Vec<Dim>& v, double reach, double growth,
                      double horizon) {
@@ -50,12 +42,12 @@ Interval time_within(const Vec<Dim>& d, const Vec<Dim>& v, double reach, double 
   if (outside && !(root - b > 0)) return empty_interval;
   const double begin = outside ? c / (root - b) : 0;
   if (!(a > 0)) return {begin, horizon};
-  // The far root, in the form without cancellation.
+  // The second root, without cancellation.
   const double end = b <= 0 ? (root - b) / a : -c / (root + b);
   return {begin, std::min(end, horizon)};
 }
 
-/// How long a step in the tangent plane of the axes is, and the product of two.
+/// Length and scalar product of steps in the tangent plane of the axes.
 inline double length(double rotation) {
   return std::abs(rotation);
 }
@@ -71,8 +63,8 @@ inline double product(const Vec2& one, const Vec2& two) {
 
 }  // namespace detail
 
-/// The search for one pair: the steps of first_contact.h, over a pair in flight of either dimension. An
-/// axis is turned by steps in its tangent plane: a number in two dimensions, two in three.
+/// The contact search for one pair by the steps of first_contact.h, in either dimension. An axis is rotated by
+/// steps in its tangent plane: one number in two dimensions, two in three.
 template <class PairInFlight>
 class AxisSearch {
   using Axis = typename PairInFlight::Axis;
@@ -88,7 +80,7 @@ class AxisSearch {
     int steps;
   };
 
-  /// Flattened, since calls weigh in so short a search.
+  /// Flattened, because the search is so short that calls would dominate.
   [[gnu::flatten]] Result run(double horizon, const Axis* initial_axis) {
     const detail::Interval near = detail::time_within(
         flight_.d0(), flight_.v(), flight_.reach() + detail::touching * contact_gap_,
@@ -111,7 +103,7 @@ class AxisSearch {
         return contact(step);
       }
       const double duration = safe_duration(rate, time_left);
-      // Closing so fast that no double lies between now and the contact.
+      // The gap closes so fast that no double lies between now and the contact.
       if (rate < 0 && flight_.time() + duration == flight_.time()) return contact(step);
       advance(duration);
     }
@@ -128,7 +120,7 @@ class AxisSearch {
     here_ = flight_.evaluate(n);
   }
 
-  // Whether the present axis separates, or one Newton step from it, or, sought from nothing, any.
+  // Whether the current axis separates the bodies, or one Newton step from it, or any axis at all.
   bool has_separating_axis() {
     if (here_.gap > 0) return true;
     set_axis(detail::turned(n_, detail::clamped(here_.newton(), 1.0)));
@@ -138,24 +130,24 @@ class AxisSearch {
     return separates;
   }
 
-  // A contact may be declared only with the best axis: near touching it is improved until the
-  // possible gain is far below the contact gap.
+  // Only the best axis may declare a contact: near touching it is improved until the possible gain is far
+  // below the contact gap.
   void optimize_axis() {
     for (int step = 0; step < 30 && !is_best_axis(); ++step)
       if (!flight_.improve_axis(n_, here_)) break;
   }
   bool is_best_axis() const { return here_.gain() <= 1e-3 * contact_gap_; }
 
-  // Whether the parabola that bounds the gap `g`, with `margin` of it, stays positive for a duration
-  // ahead or, negative, back: being concave, it is lowest at an end.
+  // Whether the parabola that bounds the gap `g` below stays positive for `duration` (negative: backwards),
+  // starting `margin` above zero. It is concave, so its minimum is at an end.
   bool stays_open(const Gap& g, double margin, double rate, double duration) const {
     const double bound = std::max(flight_.acceleration_bound(g, duration), 0.0);
     return margin > 0 && margin + duration * (rate - 0.5 * bound * duration) > 0;
   }
 
-  // How the gap along the best axis closes. With C the curvature −∇∇g and m = d∇g/dt, that axis turns
-  // at C⁻¹m, and its gap is g + ½ ∇g·C⁻¹∇g, its rate ġ + ∇g·C⁻¹m, its acceleration g̈ + m·C⁻¹m.
-  // All but m multiplied by det C.
+  // The gap along the best axis as a function of time. With C = −∇∇g and m = d∇g/dt, the best axis rotates at
+  // C⁻¹m; its gap is g + ½ ∇g·C⁻¹∇g, its rate ġ + ∇g·C⁻¹m and its acceleration g̈ + m·C⁻¹m. All values but m
+  // are multiplied by det C.
   using Step = decltype(std::declval<Gap>().newton());
   struct Approach {
     Step mixed;
@@ -173,17 +165,17 @@ class AxisSearch {
         flight_.acceleration(here_) * c - product(mixed, pull)};
   }
 
-  // Whether the gap, to second order, closes at a rate that is not lost on the way.
+  // Whether the gap, to second order, reaches zero with at least half of the square of its rate.
   bool crosses(double rate) const {
-    constexpr double kept = 0.5;  // of the square of the rate
+    constexpr double kept = 0.5;  // fraction of the squared rate
     const Approach a = approach(rate);
     const double lost = -2 * a.acceleration * a.margin;
     return a.rate < 0 && lost < (1 - kept) * (a.rate * a.rate);
   }
 
-  // Newton's method, of third order in time, for g = contact gap and dg/dφ = 0 in t and φ; then the
-  // proof that the gap was open all the way. If it does not converge before `end`, or the proof
-  // fails, nothing changes and the answer is false.
+  // Newton iteration, of third order in time, for g = contact gap and dg/dφ = 0 in t and φ; then the proof that
+  // the gap was open all the way. If the iteration does not converge before `end`, or the proof fails, it
+  // restores the state and returns false.
   bool newton_to_contact(double rate, double end) {
     const double start = flight_.time(), start_rate = rate;
     const Axis start_axis = n_;
@@ -213,9 +205,8 @@ class AxisSearch {
     return false;
   }
 
-  // Whether the gap was open for `duration` before now, at the beginning of which it was `then`: by
-  // the parabola looking back from here, or by this for the later half and, for the earlier, the
-  // parabola looking forward from there.
+  // Whether the gap was open for the last `duration`, at whose start it was `then`: by the backward parabola
+  // from here, or by the backward parabola for the later half and the forward one for the earlier.
   bool stayed_open(double duration, double rate, const Gap& then, double then_rate) const {
     const double half = 0.5 * duration;
     return duration >= 0 && (stays_open(here_, here_.gap, rate, -duration) ||
@@ -223,22 +214,22 @@ class AxisSearch {
                               stays_open(then, then.gap - contact_gap_, then_rate, half)));
   }
 
-  // A time in which the gap cannot fall below the contact gap.
+  // A time step in which the gap cannot fall below the contact gap.
   double safe_duration(double rate, double time_left) const {
     const double margin = std::max(here_.gap - contact_gap_, 0.0);
     const double largest = flight_.largest_acceleration();
-    // A guess, for a bound that need not hold longer.
+    // An estimate; the bound then holds for this step only.
     const double estimated = std::max(flight_.acceleration(here_), largest / 16);
     double trial = std::min(detail::first_root(margin, rate, estimated), time_left);
     trial = std::min(trial, flight_.doubling_time(here_.gap));
     const double bound = flight_.acceleration_bound(here_, trial);
     const double safe = std::min(trial, detail::first_root(margin, rate, bound));
     if (here_.gap > detail::touching * contact_gap_ || largest == 0) return safe;
-    // Sliding at the contact gap: time must pass, and the gap falls by an eighth of it at most.
+    // The pair slides at the contact gap: time must advance, and the gap falls by at most an eighth of it.
     return std::max(safe, std::min(1.0, std::sqrt(0.25 * contact_gap_ / largest)));
   }
 
-  // Goes on with the axis turned to where it will be best, as far as that can be foreseen.
+  // Advances by `duration` and rotates the axis to its predicted optimum.
   void advance(double duration) {
     const Step rotation = here_.adjugate(here_.slope + flight_.slope_rate(n_, here_) * duration) /
                           here_.determinant();
@@ -254,8 +245,8 @@ class AxisSearch {
 
   PairInFlight flight_;
   double contact_gap_;
-  Axis n_;    // the axis
-  Gap here_;  // along it, now
+  Axis n_;
+  Gap here_;  // along n_, now
 };
 
 }  // namespace vitrel

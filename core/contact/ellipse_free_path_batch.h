@@ -7,47 +7,47 @@
 
 #include "core/contact/ellipse_overlap_batch.h"
 
-/// One ellipse that moves straight along x or y, at a fixed angle, beside several others at rest, `simd_width`
-/// at a time: how far does it come before it touches the first of them? The question of an event chain.
+/// How far can one ellipse move along x or y, at a fixed angle, before it touches another at rest? The free_length path
+/// of event-chain Monte Carlo, in SIMD batches.
 ///
-/// Let x point along the path and y across it. An ellipse has the height h = √Σ_yy, the shear k =
-/// Σ_xy/h and the half_chord w = a b/h, so that its support function along n = (c, s) is
+/// Let x point along the path and y across it. An ellipse has the half height h = √Σ_yy, the shear k = Σ_xy/h and
+/// the half chord w = a b/h along the path through its centre, so that its support function along n = (c, s) is
 ///     η(n) = √(w²c² + (h s + k c)²).
-/// With d from centre 1 to centre 2 and any n with c > 0, the gap along n stays positive up to the path
+/// With d from centre 1 to centre 2 and any n with c > 0, the gap along n stays positive up to the path length
 ///     f(n) = (n·d − η₁(n) − η₂(n))/c:
-/// every n proves a path to be free_length. f is concave in s/c, and its maximum is the contact.
+/// every n proves a free_length path. f is concave in s/c, and its maximum is the contact.
 ///
 /// Steps:
-///   1. Whoever is |d_y| ≥ H = h₁ + h₂ aside is never met. With t = d_y/H the point (t (k₁ + k₂), d_y)
-///      belongs to the sum of the two bodies; so of two that do not overlap the other is offset_at_contact if d_x is
-///      larger, and behind if not.
-///   2. The ellipse Q = Σ₁/q + Σ₂/(1 − q) contains that sum, for 0 < q < 1; it is met at
-///          d_x − (Q_xy d_y + √(det Q (Q_yy − d_y²)))/Q_yy,
-///      which is a free_length path. It is exact for q : 1 − q = η₁ : η₂ at the contact, here guessed as w + (h − w) t².
-///      The contact comes at d_x − t (k₁ + k₂) − (w₁ + w₂) √(1 − t²) at the upper. Those whose free_length path is
-///      longer than another's upper contact, or than mask for, are out.
-///   3. The others four by four: with n = (c, (W v − B c)/G), c = √(1 − v²), G = √Q_yy, B = Q_xy/G and
-///      W = √(det Q)/G, the slope of f is a smooth function of v on −1 … 1, that of Q is d_y − G v. Newton's
-///      method from v = d_y/G, between bounds that close in, needs 2 to 4 steps.
+///   1. An ellipse with |d_y| ≥ H = h₁ + h₂ is never partner. With t = d_y/H the point (t (k₁ + k₂), d_y) belongs
+///      to the Minkowski sum of the two bodies. So of two disjoint bodies the other is offset_at_contact if d_x is larger,
+///      and behind otherwise.
+///   2. The ellipse Q = Σ₁/q + Σ₂/(1 − q) contains that sum for 0 < q < 1. It gives the free_length path
+///          d_x − (Q_xy d_y + √(det Q (Q_yy − d_y²)))/Q_yy.
+///      The bound is exact for q : 1 − q = η₁ : η₂ at the contact, which w + (h − w) t² approximates. An upper
+///      bound of the contact is d_x − t (k₁ + k₂) − (w₁ + w₂) √(1 − t²). Ellipses whose free_length path exceeds the
+///      upper bound of another, or the maximum length, are discarded.
+///   3. The others are solved in batches: with n = (c, (W v − B c)/G), c = √(1 − v²), G = √Q_yy, B = Q_xy/G and
+///      W = √(det Q)/G, the slope of f is a smooth function of v on −1 … 1; that of Q is d_y − G v. Bracketed
+///      Newton iteration from v = d_y/G takes 2 to 4 steps.
 ///
-/// Disks of any sizes are exact at step 2; if all are round, `RoundFreePathBatch` does with one root.
+/// For disks of any sizes step 2 is exact. If all particles are round, `RoundFreePathBatch` needs one square root.
 ///
-/// Contact is declared with the surfaces between `gap` and (a₁/b₁ + ¼) `gap` apart, to the rounding of
-/// coordinates: as in overlap_look.h the first body is enlarged by the factor 1 + gap/b₁. A pair
-/// that is closer already, and approaching, touches at once.
+/// Contact is declared with the surfaces between `gap` and (a₁/b₁ + ¼) `gap` apart, to the rounding of the
+/// coordinates: as in ellipse_overlap_batch.h the first body is enlarged by the factor 1 + gap/b₁. A pair that is
+/// closer already, and approaching, touches at once.
 namespace vitrel {
 
-/// What ends a path.
+/// The end of a free_length path.
 struct FreePath {
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
   double length;
-  std::uint32_t partner;     ///< the id of the other, or none
-  double offset_at_contact;  ///< how far its centre is then offset_at_contact along the path
+  std::uint32_t partner;     ///< id of the particle partner, or none
+  double offset_at_contact;  ///< along the path, from the moving centre to that of the partner
 };
 
 namespace detail {
 
-/// An ellipse seen along a path; ux is along it.
+/// An ellipse relative to a path along ux.
 template <class T>
 struct PathProfile {
   T height, shear, half_chord;
@@ -71,13 +71,13 @@ VITREL_INLINE SimdBatch component(const BatchBuffer<simd_width>& x,
 
 }  // namespace detail
 
-/// Looks along x (`direction` 0) or y (1).
+/// Paths along x (`direction` 0) or y (1).
 template <int direction>
 class FreePathBatch {
  public:
   using Mask = SimdBatch::mask_type;
 
-  /// `axis` is the unit vector along the major axis. Paths end at `max_length` > 0, if not before.
+  /// `axis` is the unit vector along the major axis; `max_length` > 0 limits the path.
   FreePathBatch(const Ellipse& shape, const Vec2& axis, double gap, double max_length)
       : upper_bound_(max_length), tolerance_(0.25 * gap), end_{max_length, FreePath::none, 0} {
     const double enlarged = 1 + gap / shape.b;
@@ -88,14 +88,14 @@ class FreePathBatch {
     half_chord_ = enlarged * mine.half_chord;
   }
 
-  /// How far behind, aside and offset_at_contact the centres can be of those that end the path, if their semi-axes
-  /// are `largest` at most.
+  /// How far behind, aside and offset_at_contact the centres of particles that can end the path may be, if no semi-axis
+  /// exceeds `largest`.
   double reach_behind(double largest) const { return std::abs(shear_) + largest; }
   double reach_aside(double largest) const { return height_ + largest; }
   double reach_ahead(double largest) const { return upper_bound_ + circumradius_ + largest; }
 
-  /// Looks at those in the group that are mask about; `offset` + their positions are the separations
-  /// d, `first_id` + lane is what to call them.
+  /// Adds the ellipses in the lanes of `mask`; the separations d are `offset` + their positions, and their ids
+  /// are `first_id` + lane.
   VITREL_INLINE void add(const EllipseBatch& group, std::uint32_t first_id, const Vec2& offset,
                          Mask mask) {
     using detail::component;
@@ -137,7 +137,7 @@ class FreePathBatch {
     }
   }
 
-  /// The end of the path, of all that were looked at.
+  /// The free_length path among all ellipses added.
   FreePath end() {
     if (pending_ > 0) solve_pending();
     return end_;
@@ -159,9 +159,9 @@ class FreePathBatch {
     earliest_[k] = lower[lane];
   }
 
-  // Step 3 for those that wait.
+  // Step 3 for the pending ellipses.
   [[gnu::noinline]] void solve_pending() {
-    constexpr int max_steps = 64;  // halving alone comes to the last digit
+    constexpr int max_steps = 64;  // enough for bisection alone
     const SimdBatch dx = dx_.load(), dy = dy_.load();
     const SimdBatch height = other_height_.load(), shear = other_shear_.load(),
                     half_chord = other_half_chord_.load();
@@ -183,7 +183,7 @@ class FreePathBatch {
       const SimdBatch inverse1 = 1. / support1, inverse2 = 1. / support2;
       const SimdBatch now = dx + (s * dy - support1 - support2) / c;
       where(now > free_length, free_length) = now;
-      // Of f by s/c, and of that slope.
+      // df/d(s/c), and minus its derivative.
       const SimdBatch slope = dy - height_ * along1 * inverse1 - height * along2 * inverse2;
       const SimdBatch curvature = curvature1 * (inverse1 * inverse1 * inverse1) +
                                   curvature2 * (inverse2 * inverse2 * inverse2);
@@ -204,7 +204,7 @@ class FreePathBatch {
   }
 
   double circumradius_, height_, shear_, half_chord_;  // enlarged by the gap
-  double upper_bound_;                                 // nothing later is of interest
+  double upper_bound_;                                 // of the contact
   double tolerance_;
   FreePath end_;
   int pending_ = 0;
@@ -213,7 +213,7 @@ class FreePathBatch {
   detail::BatchBuffer<simd_width> xy_, yy_, det_, earliest_;
 };
 
-/// The same among round particles.
+/// Free paths among round particles.
 template <int direction>
 class RoundFreePathBatch {
  public:

@@ -11,7 +11,7 @@ Vec2 direction(double angle) {
 
 namespace {
 
-// F(λ) in two dimensions needs no inverse: with w_i = adj(Σ_i) d and μ = 1 − λ,
+// In two dimensions F(λ) needs no inverse: with w_i = adj(Σ_i) d and μ = 1 − λ,
 // F = λμ (μ p₁ + λ p₂)/(μ² D₁ + λμ M + λ² D₂), p_i = d·w_i, D_i = det Σ_i, M = tr(adj(Σ₁) Σ₂).
 class PerramWertheimRatio {
  public:
@@ -30,7 +30,7 @@ class PerramWertheimRatio {
     mixed_ = bb[0] * aa[1] + aa[0] * bb[1] + aa_minus_bb[0] * aa_minus_bb[1] * s * s;
   }
 
-  // λ : μ as the radii of the two ellipses along d.
+  // λ with λ : μ in the ratio of the radii of the two ellipses along d.
   double circle_like() const {
     const double r1 = std::sqrt(det_[0] * p_[1]), r2 = std::sqrt(det_[1] * p_[0]);
     return r1 + r2 > 0 ? r1 / (r1 + r2) : 0.5;
@@ -38,7 +38,7 @@ class PerramWertheimRatio {
 
   // C⁻¹d as a unit vector.
   Vec2 axis(double lambda) const { return unit_sum(1 - lambda, lambda); }
-  // The same for λ as in circle_like, √x : √y replaced by (3x + y) : (x + 3y).
+  // The same, with √x : √y of circle_like replaced by (3x + y) : (x + 3y).
   Vec2 circle_like_axis() const {
     const double x = det_[1] * p_[0], y = det_[0] * p_[1];
     return unit_sum(3 * x + y, x + 3 * y);
@@ -66,7 +66,7 @@ class PerramWertheimRatio {
   }
 
  private:
-  // Of points nothing is left but d; of a common centre, nothing.
+  // Degenerate bodies (points) leave only d, and coinciding centres not even that.
   Vec2 unit_sum(double weight1, double weight2) const {
     Vec2 w(weight1 * wx_[0] + weight2 * wx_[1], weight1 * wy_[0] + weight2 * wy_[1]);
     if (w.isZero(0)) w = d_.isZero(0) ? Vec2(1, 0) : d_;
@@ -117,7 +117,7 @@ SeparatingAxis find_separating_axis(const EllipsePair& pair) {
 }
 
 bool improve_axis(const EllipsePair& pair, Vec2& n, GapAlongAxis& here) {
-  // A gain below the rounding of g = n·d − h₁ − h₂ cannot be seen.
+  // A gain below the rounding of g = n·d − h₁ − h₂ is not visible.
   constexpr double negligible = 1e-17;
   if (!(here.curvature > 0) || here.gain() < negligible * n.dot(pair.d)) return false;
   double turn = here.slope / here.curvature;

@@ -5,32 +5,31 @@
 #include "core/contact/ellipse_gap.h"
 #include "core/contact/simd_batch.h"
 
-/// One ellipse beside several others at rest, `simd_width` at a time: is it clear of them all, that is, are
-/// the surfaces at least a margin apart? The question of a trial move, decided by proofs for either
-/// answer, the cheapest first.
+/// Does one ellipse keep a margin to all of several others at rest? The overlap test of trial moves, in SIMD
+/// batches. Each answer is proved; the cheapest proofs come first.
 ///
-///   1. Circumcircles a margin apart prove the pair clear; incircles that meet prove an overlap.
+///   1. Circumcircles a margin apart prove the pair separated; overlapping incircles prove an overlap.
 ///   2. For weights w₁, w₂ > 0 let C = w₁Σ₁ + w₂Σ₂, n = C⁻¹d, hᵢ = √(nᵀΣᵢn), d from centre 1 to 2.
-///      Clear if n·d > h₁ + h₂ + margin |n|: n separates (support_gap.h), whatever n is.
+///      Separated if n·d > h₁ + h₂ + margin |n|: any such n separates (ellipse_gap.h).
 ///      Overlap if w₁h₁ ≤ 1 and w₂h₂ ≤ 1: w₁Σ₁n = d − w₂Σ₂n is a point of both ellipses.
-///      First w₁ = w₂, which settles most.
-///   3. Once more with w₁ : w₂ = h₂ : h₁, towards the maximum of the function of Perram and Wertheim
-///      (there one of the two proofs holds, or the pair is between touching and a margin apart).
-///      1 to 3 % of all within the circumcircles are left.
-///   4. These go to separated() one by one.
+///      The first weights are w₁ = w₂; they decide most pairs.
+///   3. Repeat with w₁ : w₂ = h₂ : h₁, towards the maximum of the Perram–Wertheim function. At the maximum
+///      one of the two proofs holds, or the gap is between 0 and the margin.
+///      1 to 3 % of all pairs with overlapping circumcircles remain.
+///   4. separated() decides these one by one.
 ///
-/// |n| ≤ hᵢ/bᵢ, so margin |n| is replaced by margin h₁/b₁: one root less, and clear is still proved. The
-/// proof of an overlap must hold with a reserve of 1e-10, far above the rounding of C⁻¹ up to aspect
-/// ratios of 1000: every pair that gets this answer has a common point. C⁻¹ det C and det C are sums
-/// of positive matrices and numbers, without cancellation.
+/// Since |n| ≤ hᵢ/bᵢ, margin |n| is replaced by margin h₁/b₁: this saves a square root and is still a proof. The
+/// proof of an overlap must hold with a safety margin of 1e-10, far above the rounding of C⁻¹ up to aspect
+/// ratios of 1000: every pair reported as overlapping has a common point. C⁻¹ det C and det C are sums of
+/// positive terms, without cancellation.
 ///
-/// So whichever step answers, the answer is that of separated(): the largest support gap is at least
-/// the margin, to the rounding of the gap. It depends on the pair scalar_tests, not on the other lanes, and
-/// changes if the bodies change places only where the gap is the margin to rounding.
+/// Every step therefore gives the answer of separated(): the largest support gap is at least the margin, to the
+/// rounding of the gap. The answer depends on the pair scalar_tests, not on the other lanes. Exchanging the bodies
+/// changes it only where the gap equals the margin to rounding.
 /// Source: perram1985.
 namespace vitrel {
 
-/// Up to `simd_width` ellipses at rest. A lane that holds none is out of everybody's reach.
+/// A batch of ellipses at rest. An empty lane holds an ellipse far away.
 struct EllipseBatch {
   static constexpr double far_away = 1e150;  // its square is finite
 
@@ -53,7 +52,7 @@ struct EllipseBatch {
 
 class OverlapBatch {
  public:
-  /// PairArray of a group.
+  /// PairArray of a batch.
   using Mask = SimdBatch::mask_type;
 
   /// `axis` is the unit vector along the major axis; margin ≥ 0.
@@ -65,8 +64,8 @@ class OverlapBatch {
         aa_minus_bb_(shape.aa_minus_bb()),
         enlargement_(1 + margin / shape.b) {}
 
-  /// Whether the body is clear of all in the group that are mask about; `offset` + their positions
-  /// are the separations d. Adds the number of pairs that step 4 decided to `scalar_tests`.
+  /// Whether the body keeps the margin to all ellipses in the lanes of `mask`; the separations d are `offset` +
+  /// their positions. Adds the number of pairs that step 4 decided to `scalar_tests`.
   VITREL_INLINE bool clear_of(const EllipseBatch& group, const Vec2& offset, Mask mask,
                               std::uint64_t& scalar_tests) const {
     const SimdBatch dx = group.x.load() + offset.x(), dy = group.y.load() + offset.y();
@@ -96,11 +95,11 @@ class OverlapBatch {
     SimdBatch one, two;
   };
 
-  // The body and those of a group, with what does not depend on the weights.
+  // The body and the ellipses of a batch: what does not depend on the weights.
   struct Pairs {
     const OverlapBatch& body;
     SimdBatch ux, uy, bb, aa_minus_bb, dx, dy;
-    SimdBatch across1, across2;  // of d to the axes
+    SimdBatch across1, across2;  // components of d across the major axes
     SimdBatch sine_squared;      // of the angle between the axes
 
     VITREL_INLINE Pairs(const OverlapBatch& one, const SimdBatch& group_ux,
@@ -120,7 +119,7 @@ class OverlapBatch {
       sine_squared = sine * sine;
     }
 
-    // False if one of the undecided pairs is proved to overlap; closes those that are proved clear.
+    // False if an undecided pair is proved to overlap; removes the pairs that are proved separated.
     VITREL_INLINE bool decide(const SimdBatch& weight1, const SimdBatch& weight2, Heights& heights,
                               Mask& undecided) const {
       const SimdBatch beta = weight1 * body.bb_ + weight2 * bb;

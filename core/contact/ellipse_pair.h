@@ -5,12 +5,12 @@
 
 namespace vitrel {
 
-/// Two ellipses at one instant, in the form that the support gap computes with. Lane 0 is body 1.
+/// Two ellipses at one instant, in the form that the support gap uses. Element 0 is body 1.
 struct EllipsePair {
   PairArray bb;           ///< b²
   PairArray aa_minus_bb;  ///< a² − b²
   PairArray aabb;         ///< a²b²
-  PairArray size;         ///< by which a and b are multiplied
+  PairArray size;         ///< factor of a and b
   PairArray ux, uy;       ///< unit vectors along the major axes
   Vec2 d;                 ///< from centre 1 to centre 2
 
@@ -26,9 +26,8 @@ struct EllipsePair {
         d(centre_to_centre) {}
 };
 
-/// The support function h of an ellipse with major axis u at the angle φ of a unit vector n, and
-/// what its change needs. T holds several numbers: of two bodies, or of one kind of body in several
-/// pairs.
+/// The support function h of an ellipse with major axis u at the angle φ of a unit vector n, and its derivatives.
+/// T holds the two bodies of a pair, or one body of each pair of a batch.
 template <class T>
 struct SupportAlong {
   T along, across;   ///< u·n and u·dn/dφ
@@ -46,23 +45,23 @@ VITREL_INLINE SupportAlong<T> support_along(const T& bb, const T& aa_minus_bb, c
   s.across = nx * uy - ny * ux;
   const T hh = bb + aa_minus_bb * (s.along * s.along);
   s.height = sqrt(hh);
-  s.inverse_square = 1. / hh;  // beside the root, not after it
+  s.inverse_square = 1. / hh;  // independent of the square root
   const T inverse = s.height * s.inverse_square;
   s.turning = aa_minus_bb * s.along * s.across * inverse;
   s.radius = aabb * s.inverse_square * inverse;
   return s;
 }
 
-/// A bound K ω² of d²h/dt² while a body turns at angular velocity ω for `duration`, which may be
-/// negative (then looking back); `s` is at n now and `largest` = ω² (a² − b²)/b.
+/// A bound K ω² of d²h/dt² while a body rotates at angular velocity ω for `duration`, which may be negative
+/// (backwards); `s` is at n now and `largest` = ω² (a² − b²)/b.
 ///
-/// The body turns by Δ = ω t, and |u·n| changes from p = |u·n| by the slope r = −ω (u·dn/dφ) sgn(u·n)
-/// at first; from cos Δ ≥ 1 − Δ²/2 and 0 ≤ sin |Δ| ≤ |Δ| where that is positive,
+/// The body rotates by Δ = ω t, and |u·n| changes from p = |u·n| with the initial slope
+/// r = −ω (u·dn/dφ) sgn(u·n); from cos Δ ≥ 1 − Δ²/2 and, where it is positive, 0 ≤ sin |Δ| ≤ |Δ|,
 ///     |u·n| ≥ max(0, p (1 − Δ²/2) + min(0, r t)),
-/// which bounds h² = b² + (a² − b²)(u·n)² below. With q that bound over h² now, ρ = a²b²/h³ rises
-/// to q^(−3/2) ρ ≤ ρ/q² at most and h falls to q^(1/2) h ≥ q h at least, so that
+/// which bounds h² = b² + (a² − b²)(u·n)² from below. With q the ratio of that bound to h² now, ρ = a²b²/h³ rises
+/// to at most q^(−3/2) ρ ≤ ρ/q², and h falls to at least q^(1/2) h ≥ q h, so that
 ///     h'' ≤ K = min(ρ/q² − q h, (a² − b²)/b),
-/// the latter its largest value at all. K may be negative.
+/// the latter its global maximum. K may be negative.
 template <class T>
 VITREL_INLINE T support_acceleration_bound(const SupportAlong<T>& s, const T& bb,
                                            const T& aa_minus_bb, const T& omega, const T& largest,
@@ -86,11 +85,11 @@ struct GapAlongAxis : SupportAlong<PairArray> {
   double curvature = 0;  ///< −d²g/dφ² = g + σ₁ρ₁ + σ₂ρ₂
 
   bool is_concave() const { return curvature > 0; }
-  /// Newton's step in φ to the maximum.
+  /// The Newton step in φ to the maximum.
   double newton() const { return slope / curvature; }
-  /// What it would add to g, to second order (only meaningful if concave).
+  /// The gain of that step in g, to second order (meaningful only if concave).
   double gain() const { return 0.5 * slope * slope / curvature; }
-  /// The curvature as a matrix C of one row: det C and (det C) C⁻¹ t.
+  /// The curvature as a 1 × 1 matrix C: det C and (det C) C⁻¹ t.
   double determinant() const { return curvature; }
   double adjugate(double t) const { return t; }
 };

@@ -8,21 +8,20 @@
 
 namespace vitrel {
 
-/// Two ellipses in free flight, perhaps growing, and how their support gap changes along a fixed
-/// axis n.
+/// Two ellipses in free flight, possibly growing, and the change of their support gap along a fixed axis n.
 ///
 ///     ġ = n·v + Σ (σ ω h' − γ h)
 ///     −g̈ = Σ (σ ω² (ρ − h) − 2 γ ω h')
 ///
-/// with σ the size, γ the growth rate, h' = dh/dφ, ρ = h + h'' (at size 1): turning a body by dθ is
-/// turning n by −dθ, so that dh/dt = −ω h' and d²h/dt² = ω² h''.
+/// with σ the size, γ the growth rate, h' = dh/dφ and ρ = h + h'' at size 1. Rotating a body by dθ is rotating n by
+/// −dθ, so that dh/dt = −ω h' and d²h/dt² = ω² h''.
 template <class B>
 class EllipsePairInFlight {
  public:
   using Axis = Vec2;
   using Gap = GapAlongAxis;
 
-  /// Else sizes are 1 and stay so, which the compiler makes use of.
+  /// If false, all sizes are 1 at compile time.
   static constexpr bool grows = !std::is_same_v<B, Ellipse>;
 
   EllipsePairInFlight(const Flight<B>& one, const Flight<B>& two)
@@ -48,15 +47,15 @@ class EllipsePairInFlight {
   /// Sum of the circumradii at time 0, and its rate of growth.
   double reach() const { return (a_ * size0_).sum(); }
   double reach_growth() const { return (a_ * growth_).sum(); }
-  /// The time in which the bodies that grow do so by the gap and the present circumradii together:
-  /// a scale of time for them, infinite if none grows.
+  /// The time in which the growing bodies grow by the gap and their present circumradii together: their time
+  /// scale, infinite if none grows.
   double doubling_time(double gap) const {
     return ((a_ * pair_.size).sum() + gap) / (a_ * growth_.max(0)).sum();
   }
 
   double time() const { return time_; }
 
-  /// Goes to `time`, the axes taken from the angles.
+  /// Moves to `time`, with the axes computed from the angles.
   void start_at(double time) {
     place_centres(time);
     axes_time_ = time;
@@ -65,8 +64,7 @@ class EllipsePairInFlight {
     pair_.uy = axes_y_;
   }
 
-  /// Goes to `time`, the axes turned from those at the start; never from one step to the next, lest
-  /// rounding add up.
+  /// Moves to `time`, with the axes rotated from those at the start, so that rounding does not accumulate.
   void go_to(double time) {
     const PairArray turn = omega_ * (time - axes_time_);
     if (std::max(std::abs(turn[0]), std::abs(turn[1])) > max_small_angle) return start_at(time);
@@ -92,7 +90,7 @@ class EllipsePairInFlight {
     return pair_.size[0] / h * (pair_.bb[0] * n + pair_.aa_minus_bb[0] * along * u);
   }
 
-  /// ġ along the axis n, of which `g` is the gap.
+  /// ġ along the axis n, where `g` is the gap.
   double gap_rate(const Vec2& n, const GapAlongAxis& g) const {
     if constexpr (!grows) return n.dot(v_) + (omega_ * g.turning).sum();
     return n.dot(v_) + (pair_.size * omega_ * g.turning - growth_ * g.height).sum();
@@ -112,13 +110,12 @@ class EllipsePairInFlight {
     return (pair_.size * rotation - cross_term(g)).sum();
   }
 
-  /// M with g(t + s) ≥ g + ġ s − ½ M s² for all s from 0 to `duration`, which may be negative (then
-  /// looking back), as long as sizes stay ≥ 0.
+  /// M with g(t + s) ≥ g + ġ s − ½ M s² for all s from 0 to `duration`, which may be negative (backwards), as long as
+  /// the sizes stay ≥ 0.
   ///
-  /// With K ω² of support_acceleration_bound, growing by the factor σ + γ s of either sign of s,
+  /// With K ω² of support_acceleration_bound and growth by the factor σ + γ s,
   ///     (σ + γ s)(h − ω h' s + ½ ω² K s²)
-  /// has the coefficient ½ σ ω² K − γ ω h' of s² and ½ γ ω² K of s³; K may be negative, and so may
-  /// γ s.
+  /// has the coefficient ½ σ ω² K − γ ω h' of s² and ½ γ ω² K of s³. Both K and γ s may be negative.
   double acceleration_bound(const GapAlongAxis& g, double duration) const {
     const PairArray rotation = support_acceleration_bound<PairArray>(
         g, pair_.bb, pair_.aa_minus_bb, omega_, max_rotation_term_, PairArray::Constant(duration));
@@ -127,7 +124,7 @@ class EllipsePairInFlight {
     return (pair_.size * rotation + growing - cross_term(g)).sum();
   }
 
-  /// The largest that acceleration_bound can be for any axis and a duration of at most 1.
+  /// The maximum of acceleration_bound over all axes and durations up to 1.
   double largest_acceleration() const {
     if constexpr (!grows) return max_rotation_term_.sum();
     return ((pair_.size + growth_.abs()) * max_rotation_term_ +
@@ -156,7 +153,7 @@ class EllipsePairInFlight {
   PairArray a_;
   PairArray max_rotation_term_;  // ω² (a² − b²)/b
   double time_ = 0;
-  double axes_time_ = 0;  // when the major axes were these
+  double axes_time_ = 0;  // time of axes_x_, axes_y_
   PairArray axes_x_, axes_y_;
   EllipsePair pair_;  // at time_
 };

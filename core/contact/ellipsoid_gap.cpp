@@ -14,7 +14,7 @@ Axis3 axis_along(const Vec3& w) {
   return completed(components(w.normalized()));
 }
 
-/// The function of Perram and Wertheim of a pair.
+/// The Perram–Wertheim function of a pair.
 class PerramWertheimAxis {
  public:
   explicit PerramWertheimAxis(const EllipsoidPair& pair)
@@ -22,7 +22,7 @@ class PerramWertheimAxis {
         one_(matrix(pair, 0)),
         two_(matrix(pair, 1)) {}
 
-  /// λ as the radii along d: to 1/rᵢ² = dᵀΣᵢ⁻¹d/d².
+  /// λ with λ : 1 − λ in the ratio of the radii along d, 1/rᵢ² = dᵀΣᵢ⁻¹d/d².
   double circle_like() const {
     const double r1 = 1 / std::sqrt(inverse_form(one_)), r2 = 1 / std::sqrt(inverse_form(two_));
     return std::isfinite(r1 + r2) && r1 + r2 > 0 ? r1 / (r1 + r2) : 0.5;
@@ -92,7 +92,7 @@ SeparatingAxis3 find_separating_axis(const EllipsoidPair& pair) {
     const double ratio = f.heights_ratio(w);
     double next = ratio / (1 + ratio);  // the fixed point is the maximum
     (next > lambda ? low : high) = lambda;
-    // Now and then the middle, should the iteration creep.
+    // Bisect every fourth step, in case the iteration converges slowly.
     if (!(next > low && next < high) || step % 4 == 3) next = 0.5 * (low + high);
     if (std::abs(next - lambda) <= 1e-15 * lambda) break;
     lambda = next;
@@ -101,7 +101,7 @@ SeparatingAxis3 find_separating_axis(const EllipsoidPair& pair) {
 }
 
 bool improve_axis(const EllipsoidPair& pair, Axis3& n, GapAlongAxis3& here) {
-  // A gain below the rounding of g = n·d − h₁ − h₂ cannot be seen.
+  // A gain below the rounding of g = n·d − h₁ − h₂ is not visible.
   constexpr double negligible = 1e-17;
   if (!here.is_concave() || here.gain() < negligible * vector(n.n).dot(pair.d)) return false;
   Tangent step = here.newton();

@@ -6,13 +6,13 @@
 
 namespace vitrel {
 
-/// Two ellipsoids in free flight, perhaps growing, and how their support gap changes along a fixed
-/// axis n (ellipsoid_pair.h):
+/// Two ellipsoids in free flight, possibly growing, and the change of their support gap along a fixed axis n
+/// (ellipsoid_pair.h):
 ///
 ///     ġ = n·v − Σ (σ ḣ + γ h)
 ///     −g̈ = Σ (σ ḧ + 2 γ ḣ)
 ///
-/// with σ the size, γ the growth rate, and h and its derivatives those at size 1.
+/// with σ the size, γ the growth rate, and h and its derivatives at size 1.
 template <class B>
 class EllipsoidPairInFlight {
  public:
@@ -45,15 +45,15 @@ class EllipsoidPairInFlight {
   /// Sum of the circumradii at time 0, and its rate of growth.
   double reach() const { return (circumradius_ * size0_).sum(); }
   double reach_growth() const { return (circumradius_ * growth_).sum(); }
-  /// The time in which the bodies that grow do so by the gap and the present circumradii together:
-  /// a scale of time for them, infinite if none grows.
+  /// The time in which the growing bodies grow by the gap and their present circumradii together: their time
+  /// scale, infinite if none grows.
   double doubling_time(double gap) const {
     return ((circumradius_ * pair_.size).sum() + gap) / (circumradius_ * growth_.max(0)).sum();
   }
 
   double time() const { return time_; }
 
-  /// Goes to `time`, always from time 0, lest rounding add up.
+  /// Moves to `time`, always from time 0, so that rounding does not accumulate.
   void go_to(double time) {
     time_ = time;
     pair_.d = d0_ + v_ * time;
@@ -95,7 +95,7 @@ class EllipsoidPairInFlight {
            (s.height[0] * vector(n.n) + s.s1[0] * vector(n.e1) + s.s2[0] * vector(n.e2));
   }
 
-  /// ġ along the axis n, of which `g` is the gap.
+  /// ġ along the axis n, where `g` is the gap.
   double gap_rate(const Axis& n, const Gap& g) const {
     return vector(n.n).dot(v_) - (pair_.size * g.rate + growth_ * g.height).sum();
   }
@@ -111,8 +111,8 @@ class EllipsoidPairInFlight {
     return (pair_.size * g.second + 2 * growth_ * g.rate).sum();
   }
 
-  /// M with g(t + s) ≥ g + ġ s − ½ M s² for all s from 0 to `duration`, which may be negative (then
-  /// looking back), as long as sizes stay ≥ 0: with K of support_acceleration_bound,
+  /// M with g(t + s) ≥ g + ġ s − ½ M s² for all s from 0 to `duration`, which may be negative (backwards), as long as
+  /// the sizes stay ≥ 0. With the bound K of support_acceleration_bound,
   ///     (σ + γ s)(h + ḣ s + ½ K s²)
   /// has the coefficient ½ σ K + γ ḣ of s² and ½ γ K of s³.
   double acceleration_bound(const Gap& g, double duration) const {
@@ -124,7 +124,7 @@ class EllipsoidPairInFlight {
         .sum();
   }
 
-  /// The largest that acceleration_bound can be for any axis and a duration of at most 1.
+  /// The maximum of acceleration_bound over all axes and durations up to 1.
   double largest_acceleration() const {
     const PairArray acceleration = speed_.square() * 0.5 *
                                    (aa_minus_cc_ + (aa_minus_cc_.square() + tau_.square()).sqrt()) /
@@ -142,7 +142,8 @@ class EllipsoidPairInFlight {
   static double growth_of(const Ellipsoid&) { return 0; }
   static double growth_of(const GrowingEllipsoid& body) { return body.growth_rate; }
 
-  /// Of an axis that turns about ω: what stays, and what it has across at first and a quarter turn on.
+  /// An axis that rotates about ω: its constant decompose along ω, the rest at time 0, and the rest a quarter
+  /// rotation later.
   struct RotationParts {
     Vec3Of<PairArray> along, across, ahead;
   };

@@ -4,16 +4,17 @@
 #include <cmath>
 #include <experimental/simd>
 
-/// Arithmetic on a few numbers at once, and the formulas that are written once for either kind.
+/// Arithmetic on the two bodies of a pair at once, and on a SIMD batch of pairs. Formulas are templates over the
+/// two types.
 namespace vitrel {
 
-/// For short functions of several lanes, whose arguments would travel through warm_start.
+/// For short functions, whose vector arguments would otherwise pass through warm_start.
 #define VITREL_INLINE [[gnu::always_inline]] inline
 
-/// A number for each of the two bodies of a pair.
+/// One number for each of the two bodies of a pair.
 using PairArray = Eigen::Array2d;
 
-/// A number for each of several pairs.
+/// One number for each of `simd_width` pairs.
 constexpr int simd_width = 4;
 using SimdBatch = std::experimental::fixed_size_simd<double, simd_width>;
 
@@ -52,8 +53,8 @@ VITREL_INLINE bool all_below(const SimdBatch& x, double limit) {
   return all_of(x < limit);
 }
 
-// The series of sine and cosine for |x| ≤ π/2, to 2e-17, in parts that need not wait for each other
-// (Estrin's scheme). xx = x².
+// Taylor series of sine and cosine for |x| ≤ π/2, to 2e-17, split into independent parts (Estrin's scheme).
+// xx = x².
 template <class T>
 VITREL_INLINE T sine_series(const T& x, const T& xx) {
   const T x4 = xx * xx;
@@ -78,8 +79,8 @@ VITREL_INLINE T cosine_series(const T& xx) {
   return (1 - 0.5 * xx) + x4 * ((part1 + x4 * part2) + x8 * ((part3 + x4 * part4) + part5));
 }
 
-/// The same as directions, by the library: for angles of which a multiple of π is no longer taken
-/// off exactly.
+/// As `directions`, by the standard library: for angles so large that subtracting multiples of π is no longer
+/// exact.
 constexpr double max_reducible_angle = 1e6;
 template <class T>
 [[gnu::noinline]] void library_directions(const T& angle, T& x, T& y) {
@@ -96,8 +97,8 @@ template <class T>
 VITREL_INLINE void directions(const T& angle, T& x, T& y) {
   if (!detail::all_below(abs(angle), detail::max_reducible_angle))
     return detail::library_directions(angle, x, y);
-  // Adding and subtracting this rounds to a whole number. π is taken off in three parts; a multiple
-  // of the first is exact.
+  // Adding and subtracting this number rounds to an integer. π is subtracted in three parts, so that multiples
+  // of the first are exact.
   constexpr double rounder = 0x1.8p52;
   constexpr double pi_high = 0x1.921fb544p1;
   constexpr double pi_middle = 0x1.0b4611a6p-33;
@@ -114,7 +115,7 @@ VITREL_INLINE void directions(const T& angle, T& x, T& y) {
 
 constexpr double max_small_angle = 1.5;
 
-/// The same for |angle| ≤ max_small_angle.
+/// As `directions`, for |angle| ≤ max_small_angle.
 template <class T>
 VITREL_INLINE void small_angle_directions(const T& angle, T& x, T& y) {
   const T square = angle * angle;

@@ -8,11 +8,11 @@
 #include "core/geometry/ellipsoid.h"
 #include "core/geometry/sphere.h"
 
-/// What the looks of one body at several others share (first_look.h, gap_look.h): numbers in lanes,
-/// one lane for each pair.
+/// What all SIMD batches share: precomputed shape coefficients, and buffers that are filled lane by lane. One
+/// lane holds one pair.
 namespace vitrel {
 
-/// What a look needs to know of a shape (at size 1).
+/// The coefficients of a shape, at size 1, that batched formulas need.
 template <class Shape>
 struct ShapeCoefficients;
 
@@ -31,10 +31,10 @@ struct ShapeCoefficients<Sphere> {
 template <>
 struct ShapeCoefficients<Ellipsoid> {
   Vec3 semi_axes;
-  double aa_minus_bb, cc;  ///< a² − c², c²
+  double aa_minus_cc, cc;  ///< a² − c², c²
   explicit ShapeCoefficients(const Ellipsoid& ellipsoid)
       : semi_axes(ellipsoid.semi_axes),
-        aa_minus_bb((ellipsoid.circumradius() - ellipsoid.inradius()) *
+        aa_minus_cc((ellipsoid.circumradius() - ellipsoid.inradius()) *
                     (ellipsoid.circumradius() + ellipsoid.inradius())),
         cc(ellipsoid.inradius() * ellipsoid.inradius()) {}
 };
@@ -42,7 +42,7 @@ struct ShapeCoefficients<Ellipsoid> {
 template <>
 struct ShapeCoefficients<Ellipse> {
   double bb, aa_minus_bb, aabb;  ///< b², a² − b², a² b²
-  double max_second_derivative;  ///< (a² − b²)/b, the largest h''
+  double max_second_derivative;  ///< (a² − b²)/b, the maximum of h''
   explicit ShapeCoefficients(const Ellipse& ellipse)
       : bb(ellipse.b * ellipse.b),
         aa_minus_bb(ellipse.aa_minus_bb()),
@@ -55,7 +55,7 @@ namespace detail {
 template <int lanes>
 using Simd = std::experimental::fixed_size_simd<double, lanes>;
 
-/// One number of each of several pairs, filled one by one.
+/// One number per lane; written lane by lane, loaded and stored as a batch.
 template <int lanes>
 struct BatchBuffer {
   alignas(std::experimental::memory_alignment_v<Simd<lanes>>) double lane[lanes] = {};
@@ -69,9 +69,9 @@ struct BatchBuffer {
 template <int lanes>
 const Simd<lanes> lane_indices([](int k) { return k; });
 
-/// Unit vectors, turned by one step of Newton's method in the angle, as far as it can be trusted.
-VITREL_INLINE void turn(SimdBatch& nx, SimdBatch& ny, const SimdBatch& slope,
-                        const SimdBatch& curvature) {
+/// Rotates unit vectors by one Newton step in the angle, at most 1/2.
+VITREL_INLINE void newton_rotate(SimdBatch& nx, SimdBatch& ny, const SimdBatch& slope,
+                                 const SimdBatch& curvature) {
   const SimdBatch angle = min(max(slope / curvature, SimdBatch(-0.5)), SimdBatch(0.5));
   const SimdBatch q = 0.5 * angle;
   const SimdBatch scale = 1. / (1. + q * q);

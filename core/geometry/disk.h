@@ -6,7 +6,7 @@
 
 namespace vitrel {
 
-/// A hard disk. It has no orientation that a smooth (frictionless) collision could see.
+/// A hard disk. Smooth (frictionless) collisions do not depend on its orientation, which is not modelled.
 struct Disk {
   static constexpr int dimension = 2;
   double radius = 1;

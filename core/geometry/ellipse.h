@@ -18,7 +18,7 @@ struct Ellipse {
   double max_support_rate() const { return a - b; }
   double aspect_ratio() const { return a / b; }
   bool is_round() const { return a == b; }
-  /// Ways to rotate that smooth collisions can see.
+  /// Number of rotational degrees of freedom that smooth collisions change.
   int rotations() const { return is_round() ? 0 : 1; }
   /// a² − b², without cancellation.
   double aa_minus_bb() const { return (a - b) * (a + b); }

@@ -44,7 +44,7 @@ struct ShapeOf<Growing<Shape>> {
   using type = Shape;
   static constexpr bool grows = true;
 };
-/// What grows, or the body itself.
+/// The shape of a body at size 1: without its growth.
 template <class B>
 using BaseShape = typename ShapeOf<B>::type;
 template <class B>

@@ -6,7 +6,7 @@
 
 namespace vitrel {
 
-/// A hard sphere. It has no orientation that a smooth (frictionless) collision could see.
+/// A hard sphere. Smooth (frictionless) collisions do not depend on its orientation, which predictions ignore.
 struct Sphere {
   static constexpr int dimension = 3;
   double radius = 1;

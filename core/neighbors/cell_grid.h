@@ -12,20 +12,19 @@
 
 namespace vitrel {
 
-/// A point of a cell grid. Other types can take its place that know more of a point and have these two:
-/// whoever is near is then known with the one read that finds it.
+/// A point of a cell grid. Types with further members may replace it, so that a query reads all it needs of a
+/// point at once; they must have these two.
 template <int Dim>
 struct CellPoint {
   Vec<Dim> position;       // wrapped into the box
-  std::uint32_t next = 0;  // the grid's own: the next point of the cell
+  std::uint32_t next = 0;  // next point of the same cell; set by the grid
 };
 
-/// Points in the cells of a periodic box, to find those near a place.
+/// A cell list: points in the cells of a periodic box.
 ///
-/// A query walks the cells that its reach covers in unwrapped cell coordinates; a cell beyond the
-/// box is the image of one inside, and how many boxes lie between is the shift. So every image (j,
-/// shift) within reach is met exactly once, in boxes of any size, down to a single cell. Insert and
-/// move cost O(1).
+/// A query visits the cells that its reach covers in unwrapped cell coordinates. A cell outside the box is the
+/// image of one inside, and the number of boxes between them is the shift. So each image (j, shift) within reach is
+/// found exactly once, in boxes of any size, down to a single cell. Insert and move cost O(1).
 template <int Dim, class Point = CellPoint<Dim>>
 class CellGrid {
  public:
@@ -82,8 +81,7 @@ class CellGrid {
     });
   }
 
-  /// Asks the memory for what a query will read: for the cells, and, when these have had time to come, for
-  /// the first point of each.
+  /// Prefetches what a query reads: the cells and, in a later call, the first point of each.
   void prefetch_cells(const Vec<Dim>& position, double reach) const {
     for_each_cell(position, reach, [&](std::size_t cell, const Shift<Dim>&) {
       prefetch_line(&first_[cell]);
@@ -126,7 +124,7 @@ class CellGrid {
     return walk<0>(ranges, 0, shift, visit);
   }
 
-  // The same over direction k and those after it; `before` is the number of the cell by those before.
+  // The same over directions k and later; `before` is the cell number from the directions before.
   template <int k, class Visit>
   bool walk(const Range (&ranges)[Dim], std::int64_t before, Shift<Dim>& shift,
             Visit& visit) const {
@@ -150,7 +148,7 @@ class CellGrid {
     return boxes;
   }
 
-  // Cells that [position − reach, position + reach] covers, with slot for rounding at the edges.
+  // Cells that [position − reach, position + reach] covers, with a margin for rounding at the edges.
   Range covered(const Vec<Dim>& position, double reach, int k) const {
     const double centre = position[k] + 0.5 * box_.lengths()[k];
     const double half = reach + 1e-12 * (reach + box_.lengths()[k]);

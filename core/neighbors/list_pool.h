@@ -11,43 +11,43 @@
 
 namespace vitrel {
 
-/// Many short lists, one after the other in one piece of memory. A list that outgrows its slot moves
-/// to the end, where it gets twice as much; the slot that it leaves is not used again.
+/// Many short lists in one array. A list that exceeds its capacity moves to the end, with twice the capacity; its
+/// old memory is not reused.
 template <class T>
 class ListPool {
  public:
   /// Number of lists.
-  explicit ListPool(std::size_t lists = 0) : slots_(lists) {}
+  explicit ListPool(std::size_t lists = 0) : headers_(lists) {}
 
-  /// Empty lists with slot for as many entries as counted and a few more. There is slot for 2³²
-  /// entries in all.
+  /// Empties all lists and gives each the capacity for its count and a few more entries. At most 2³² entries in
+  /// all.
   void reserve(std::span<const std::uint32_t> counts) {
     constexpr std::uint32_t more = 2;
-    slots_.clear();
+    headers_.clear();
     std::uint32_t end = 0;
     for (const std::uint32_t count : counts) {
       const std::uint32_t capacity = count + more;
-      slots_.push_back({end, 0, capacity});
+      headers_.push_back({end, 0, capacity});
       end += capacity;
     }
     entries_.assign(end, {});
   }
 
   std::span<T> operator[](std::size_t list) {
-    return {entries_.data() + slots_[list].begin, slots_[list].count};
+    return {entries_.data() + headers_[list].begin, headers_[list].count};
   }
   std::span<const T> operator[](std::size_t list) const {
-    return {entries_.data() + slots_[list].begin, slots_[list].count};
+    return {entries_.data() + headers_[list].begin, headers_[list].count};
   }
 
   void add(std::size_t list, const T& entry) {
-    Slot& slot = slots_[list];
-    if (slot.count == slot.capacity) move_to_end(slot);
-    entries_[slot.begin + slot.count++] = entry;
+    Header& header = headers_[list];
+    if (header.count == header.capacity) move_to_end(header);
+    entries_[header.begin + header.count++] = entry;
   }
 
-  /// Asks the memory for where a list is, and, once that is known, for the list.
-  void prefetch_slot(std::size_t list) const { prefetch_line(&slots_[list]); }
+  /// Prefetches the header of a list and, in a later call, its entries.
+  void prefetch_header(std::size_t list) const { prefetch_line(&headers_[list]); }
   void prefetch_list_header(std::size_t list) const {
     constexpr std::size_t line = 64;
     const std::span<const T> entries = (*this)[list];
@@ -56,31 +56,31 @@ class ListPool {
       prefetch_line(begin + at);
   }
 
-  void clear(std::size_t list) { slots_[list].count = 0; }
+  void clear(std::size_t list) { headers_[list].count = 0; }
 
-  /// Removes the entries for which `unwanted` holds; the others keep their order.
+  /// Removes the entries for which `unwanted` holds; the order of the others stays.
   template <class Predicate>
   void remove_if(std::size_t list, Predicate unwanted) {
     const std::span<T> entries = (*this)[list];
-    slots_[list].count -=
+    headers_[list].count -=
         static_cast<std::uint32_t>(std::ranges::remove_if(entries, unwanted).size());
   }
 
  private:
-  struct Slot {
+  struct Header {
     std::uint32_t begin = 0, count = 0, capacity = 0;
   };
 
-  void move_to_end(Slot& slot) {
+  void move_to_end(Header& header) {
     const auto begin = static_cast<std::uint32_t>(entries_.size());
-    const std::uint32_t capacity = 2 * slot.capacity + 1;
+    const std::uint32_t capacity = 2 * header.capacity + 1;
     entries_.resize(begin + capacity);
-    for (std::uint32_t k = 0; k < slot.count; ++k)
-      entries_[begin + k] = std::move(entries_[slot.begin + k]);
-    slot = {begin, slot.count, capacity};
+    for (std::uint32_t k = 0; k < header.count; ++k)
+      entries_[begin + k] = std::move(entries_[header.begin + k]);
+    header = {begin, header.count, capacity};
   }
 
-  std::vector<Slot> slots_;
+  std::vector<Header> headers_;
   std::vector<T> entries_;
 };
 

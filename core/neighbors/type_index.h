@@ -6,7 +6,7 @@
 
 namespace vitrel {
 
-/// Which of a few types every particle is of. If there is one type only, nothing is read to know it.
+/// The type of each particle. With only one type no memory is read.
 class TypeIndex {
  public:
   TypeIndex() = default;

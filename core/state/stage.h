@@ -5,19 +5,19 @@
 
 namespace vitrel {
 
-/// How far a piece of work has come; handed to the front end now and then.
+/// The progress of a stage, for the front end.
 struct Progress {
   double fraction = 0;   ///< 0 … 1
   double value = 0;      ///< the quantity that moves (simulated time, packing fraction, …)
   const char* quantity;  ///< its name
 };
 
-/// What a stage may use, and whom it tells; an empty function means: never stop, report_progress nobody.
+/// How a stage is stopped and reports. An empty function means: never stop, no callback.
 struct RunControl {
   std::function<bool()> should_stop;
   std::function<void(const Progress&)> on_progress;
-  /// Called at moments in which the configuration and the state of the stage, together, are such that
-  /// the stage goes on from copies of them bit by bit.
+  /// Called when configuration and state of the stage are consistent: continuing from copies of them gives
+  /// bit-identical results.
   std::function<void()> on_resumable;
 
   bool stop_requested() const { return should_stop && should_stop(); }
@@ -32,12 +32,12 @@ struct RunControl {
 enum class StageEnd {
   reached,  ///< the goal of the stage was reached
   stalled,  ///< no further progress is possible; `reason` says why
-  stopped,  ///< the control asked to stop; the stage can be resumed
+  stopped,  ///< stop requested; the stage can be resumed
 };
 
 struct StageReport {
   StageEnd end = StageEnd::reached;
-  std::string reason;  ///< a few words, for a person
+  std::string reason;  ///< for the user, in a few words
 };
 
 }  // namespace vitrel

@@ -41,7 +41,7 @@ struct ContactScales {
 /// `force(ξ, ξ̇, pair)`: F_n in N, positive if it repels, for ξ ≥ 0; also negative, as written down
 /// (a contact ends before: restitution.h).
 /// `scales(speed, pair)`: for a normal speed > 0 at first contact, m/s.
-/// `profile(s)`, `rest(s)`, `elastic_slope(s)`: h, E and dE/ds as functions of s = √ξ̃; `elastic_inverse(E)`: s ≥ 0.
+/// `profile(s)`, `elastic(s)`, `elastic_slope(s)`: h, E and dE/ds as functions of s = √ξ̃; `elastic_inverse(E)`: s ≥ 0.
 /// l/X ∝ speed^(−2p) and c_dis ∝ (l/X)^(−q): p = `length_exponent`, q = `damping_exponent`.
 template <class Force>
 concept ContactForce = requires(const Force& material, const ContactPair& pair, double x) {

@@ -31,7 +31,7 @@ struct LinearDashpot {
   static double profile(double) { return 1; }
   static double elastic(double s) { return s * s; }
   static double elastic_slope(double s) { return 2 * s; }
-  static double elastic_inverse(double elastic) { return std::sqrt(rest); }
+  static double elastic_inverse(double elastic) { return std::sqrt(elastic); }
 };
 
 static_assert(ContactForce<LinearDashpot>);

@@ -40,7 +40,7 @@ struct Viscoelastic {
   static double profile(double s) { return s; }
   static double elastic(double s) { return s * s; }
   static double elastic_slope(double s) { return 2 * s; }
-  static double elastic_inverse(double elastic) { return std::sqrt(rest); }
+  static double elastic_inverse(double elastic) { return std::sqrt(elastic); }
 };
 
 static_assert(ContactForce<Viscoelastic>);

@@ -1,7 +1,7 @@
 // The first screen: disks in closed form, pairs that have just collided, axes, lanes. That it is
 // never late whatever the axis is judged in tests/bench/contact_screen_truth_test.cpp.
 
-#include "core/contact/contact_screen.h"
+#include "core/contact/ellipse_contact_screen.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 // Gaps of several bodies at once against the gap of two, found slowly.
 
-#include "core/contact/gap_batch.h"
+#include "core/contact/ellipse_gap_batch.h"
+#include "core/contact/ellipsoid_gap_batch.h"
 
 #include <gtest/gtest.h>
 

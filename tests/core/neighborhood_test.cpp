@@ -236,7 +236,7 @@ TYPED_TEST(Memories, OfAPairStayWithIt) {
   Crowd<TypeParam> crowd(draw, Vec2(12, 9), 20, 7);
   const auto axis_of = [&](std::size_t i, const NeighborImage<2>& image) {
     for (const Neighbor<TypeParam>& neighbor : crowd.lists.of(i))
-      if (neighbor.is(image)) return neighbor.memory.axis;
+      if (neighbor.is(image)) return neighbor.warm_start.axis;
     ADD_FAILURE() << "no such neighbour";
     return Vec2(0, 0);
   };
@@ -267,7 +267,7 @@ TYPED_TEST(Memories, BeginWithAnAxisThatSeparates) {
       const std::size_t j = neighbor.other;
       const Vec2 d = crowd.poses[j].position + crowd.box.translation(neighbor.shift()) -
                      crowd.poses[i].position;
-      const Vec2 n = neighbor.memory.axis;
+      const Vec2 n = neighbor.warm_start.axis;
       EXPECT_NEAR(n.norm(), 1, 1e-14);
       const double reach = support(crowd.shapes[i], direction(crowd.poses[i].angle), n) +
                            support(crowd.shapes[j], direction(crowd.poses[j].angle), n);

@@ -8,9 +8,9 @@
 #include <numeric>
 #include <vector>
 
-#include "bench/baselines/heap_calendar.h"
-#include "bench/baselines/sorted_calendar.h"
-#include "bench/baselines/tournament_calendar.h"
+#include "bench/lab/twins/heap_calendar.h"
+#include "bench/lab/twins/sorted_calendar.h"
+#include "bench/lab/twins/tournament_calendar.h"
 #include "core/random/stream.h"
 
 namespace vitrel {
@@ -18,11 +18,11 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-/// A calendar and its baseline, through the same changes.
+/// A calendar and its slow twin, through the same changes.
 template <class C>
-class Compared {
+class Twins {
  public:
-  explicit Compared(std::size_t n) : fast_(n), slow_(n) {}
+  explicit Twins(std::size_t n) : fast_(n), slow_(n) {}
 
   void set(std::size_t i, double time) {
     fast_.set(i, time);
@@ -43,7 +43,7 @@ class Compared {
 
  private:
   C fast_;
-  bench::SortedCalendar slow_;
+  lab::SortedCalendar slow_;
 };
 
 template <class C>
@@ -58,7 +58,7 @@ struct ForesightedCalendar : Calendar {
 };
 
 using Calendars =
-    testing::Types<Calendar, ForesightedCalendar, bench::HeapCalendar, bench::TournamentCalendar>;
+    testing::Types<Calendar, ForesightedCalendar, lab::HeapCalendar, lab::TournamentCalendar>;
 TYPED_TEST_SUITE(CalendarTest, Calendars, );
 
 // Waiting times as a run draws them.
@@ -107,14 +107,14 @@ TYPED_TEST(CalendarTest, OrderOfTimesSetInAnyOrder) {
 // Few distinct times, so that ties are common, and not in order of time: the present does not exist.
 TYPED_TEST(CalendarTest, EqualsASortedSetThroughUnorderedChanges) {
   for (const std::size_t n : this->sizes) {
-    Compared<TypeParam> both(n);
+    Twins<TypeParam> twins(n);
     Stream draw(n, Purpose::tests, 1);
     for (int change = 0; change < 20'000; ++change) {
       const std::uint64_t time = draw.below(50);
-      both.set(draw.below(n), time < 40 ? static_cast<double>(time) : never);
-      if (draw.below(3) == 0) both.earliest();
+      twins.set(draw.below(n), time < 40 ? static_cast<double>(time) : never);
+      if (draw.below(3) == 0) twins.earliest();
     }
-    EXPECT_TRUE(both.all_times_agree());
+    EXPECT_TRUE(twins.all_times_agree());
     ASSERT_FALSE(this->HasFailure());
   }
 }
@@ -123,22 +123,22 @@ TYPED_TEST(CalendarTest, EqualsASortedSetThroughUnorderedChanges) {
 // often never; some others become sooner or later.
 TYPED_TEST(CalendarTest, EqualsASortedSetThroughARun) {
   for (const std::size_t n : this->sizes) {
-    Compared<TypeParam> both(n);
+    Twins<TypeParam> twins(n);
     Stream draw(n, Purpose::tests, 2);
-    for (std::size_t i = 0; i < n; ++i) both.set(i, exponential(draw));
+    for (std::size_t i = 0; i < n; ++i) twins.set(i, exponential(draw));
     double now = 0;
     for (int event = 0; event < 30'000; ++event) {
-      const std::size_t i = both.earliest();
-      const double next = both.time(i);
+      const std::size_t i = twins.earliest();
+      const double next = twins.time(i);
       ASSERT_GE(next, now);
       if (next < never) now = next;
       const std::uint64_t kind = draw.below(8);
       const double wait = kind == 0 ? 0 : kind == 1 ? 1e-9 : exponential(draw);
-      both.set(i, kind == 2 ? never : now + wait);
+      twins.set(i, kind == 2 ? never : now + wait);
       for (std::uint64_t more = draw.below(4); more > 0; --more)
-        both.set(draw.below(n), draw.below(10) == 0 ? never : now + exponential(draw));
+        twins.set(draw.below(n), draw.below(10) == 0 ? never : now + exponential(draw));
     }
-    EXPECT_TRUE(both.all_times_agree());
+    EXPECT_TRUE(twins.all_times_agree());
     ASSERT_FALSE(this->HasFailure());
   }
 }
@@ -146,34 +146,34 @@ TYPED_TEST(CalendarTest, EqualsASortedSetThroughARun) {
 // The rate of events jumps by many orders of magnitude, up and down.
 TYPED_TEST(CalendarTest, EqualsASortedSetWhenTheScaleOfTimeChanges) {
   for (const std::size_t n : {2, 17, 300}) {
-    Compared<TypeParam> both(n);
+    Twins<TypeParam> twins(n);
     Stream draw(n, Purpose::tests, 3);
     double now = 0;
     for (const double scale : {1.0, 1e-12, 1e6, 1e-6, 1e3, 0.0, 1e-3}) {
       for (std::size_t event = 0; event < 100 * n; ++event) {
-        const std::size_t i = both.earliest();
-        if (both.time(i) < never) now = both.time(i);
-        both.set(i, now + scale * exponential(draw));
-        both.set(draw.below(n), now + scale * exponential(draw));
+        const std::size_t i = twins.earliest();
+        if (twins.time(i) < never) now = twins.time(i);
+        twins.set(i, now + scale * exponential(draw));
+        twins.set(draw.below(n), now + scale * exponential(draw));
       }
       ASSERT_FALSE(this->HasFailure());
     }
-    EXPECT_TRUE(both.all_times_agree());
+    EXPECT_TRUE(twins.all_times_agree());
   }
 }
 
 TYPED_TEST(CalendarTest, EqualsASortedSetOverAMillionEventsOfManyParticles) {
   const std::size_t n = 20'000;
-  Compared<TypeParam> both(n);
+  Twins<TypeParam> twins(n);
   Stream draw(n, Purpose::tests, 4);
-  for (std::size_t i = 0; i < n; ++i) both.set(i, exponential(draw));
+  for (std::size_t i = 0; i < n; ++i) twins.set(i, exponential(draw));
   for (int event = 0; event < 500'000; ++event) {
-    const std::size_t i = both.earliest();
-    const double now = both.time(i);
-    both.set(i, now + exponential(draw));
-    both.set((i + draw.below(100)) % n, now + exponential(draw));
+    const std::size_t i = twins.earliest();
+    const double now = twins.time(i);
+    twins.set(i, now + exponential(draw));
+    twins.set((i + draw.below(100)) % n, now + exponential(draw));
   }
-  EXPECT_TRUE(both.all_times_agree());
+  EXPECT_TRUE(twins.all_times_agree());
 }
 
 // Whatever was planned in between, the order is that of the times alone.
