@@ -223,7 +223,7 @@ TEST(Program, TheSpeciesOfAStateWin) {
   folder.write("none.toml", small_system);
   folder.write("other.toml", small_system + "[[species]]\naspect_ratio = 2.0\n");
   const std::string contradiction =
-      "other.toml:8:16: key 'species.0.aspect_ratio' is 2, but particle 0 has 1.4";
+      "other.toml:9:16: key 'species.0.aspect_ratio' is 2, but particle 0 has 1.4";
   for (const char* how : {"--quiet", "--dry-run"})
     expect_refusal(
         run(folder.path(), {"run", "other.toml", "-o", "run.h5", "--from", "k14.h5", how}), 2,
