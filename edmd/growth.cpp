@@ -70,10 +70,10 @@ class Growth {
 
   void check() const {
     if (!options_.packing_fraction && !options_.reduced_pressure)
-      throw UserError("growth has no goal: give a packing fraction or a reduced pressure");
+      throw UserError("growth has no target: give a packing fraction or a reduced pressure");
     if (rate() == 0 || !std::isfinite(rate()))
       throw UserError("growth at the rate " + std::to_string(rate()) +
-                      " leads nowhere: the rate must be finite and not 0");
+                      " is impossible: the rate must be finite and not 0");
     if (translations_ + rotations_ == 0)
       throw UserError("growth needs particles that can move; a lone disk or sphere cannot");
     const bool shrinks = rate() < 0;
@@ -83,7 +83,7 @@ class Growth {
             : shrinks;
     if (away)
       throw UserError("growth at the rate " + std::to_string(rate()) +
-                      " leads away from its goal, from a packing fraction of " +
+                      " leads away from its target, starting at a packing fraction of " +
                       std::to_string(start_fraction_));
   }
 

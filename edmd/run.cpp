@@ -48,9 +48,9 @@ class Runner {
       record_conservation();
       if (!finished && !(state_.configuration.time > block_start))
         throw InvariantError("time stands still at " + std::to_string(block_start) +
-                             ": a block of events passed in no time (" +
+                             ": a block of events took no simulated time (" +
                              (options_.engine.soft_contact
-                                  ? "too dense, or too much damped, for contacts to be events?)"
+                                  ? "too dense or too strongly damped for event-driven contacts?)"
                                   : "inelastic collapse?)"));
       if (plan_.at_block_end) plan_.at_block_end(state_);
       control_.report_progress({progress(), state_.configuration.time, "time"});

@@ -790,8 +790,8 @@ void Simulation<B>::detect_inelastic_collapse(Index i, Index j, double displacem
   throw InvariantError(
       "inelastic collapse at time " + std::to_string(base_ + now_) + ": particles " +
       std::to_string(external_id_[i]) + " and " + std::to_string(external_id_[j]) +
-      " collide again and again in no time; a coefficient of restitution closer to 1 "
-      "or fewer collisions would avoid it");
+      " collide repeatedly without moving; use a coefficient of restitution closer to 1 "
+      "or a shorter run");
 }
 
 template <Body B>
@@ -799,7 +799,7 @@ void Simulation<B>::report_overlap(Index i, Index j) const {
   throw InvariantError("particles " + std::to_string(external_id_[i]) + " and " +
                        std::to_string(external_id_[j]) + " overlap at time " +
                        std::to_string(base_ + now_) +
-                       ": a run must start from, and keeps, a state without overlaps");
+                       ": a run must start from a state without overlaps, and keeps it");
 }
 
 template <Body B>

@@ -16,8 +16,8 @@ constexpr double rounding_margin = 1 + 1e-9;
 
 std::size_t count_cells(double length, double reach, std::size_t particles) {
   // Many more cells than particles are useless.
-  const double most = std::ceil(std::sqrt(4 * static_cast<double>(particles))) + 1;
-  return static_cast<std::size_t>(std::clamp(std::floor(length / reach), 1.0, most));
+  const double max_cells = std::ceil(std::sqrt(4 * static_cast<double>(particles))) + 1;
+  return static_cast<std::size_t>(std::clamp(std::floor(length / reach), 1.0, max_cells));
 }
 
 std::size_t count_domains(std::size_t cells) {

@@ -99,8 +99,9 @@ class Compression {
         return {StageEnd::stalled, end_text("no longer rises at this pressure")};
       if (state_.moves.sweeps >= options_.sweeps)
         return options_.packing_fraction
-                   ? StageReport{StageEnd::stalled, end_text("was all that its sweeps reached")}
-                   : StageReport{StageEnd::reached, "all sweeps were made"};
+                   ? StageReport{StageEnd::stalled,
+                                 end_text("did not reach its target within the given sweeps")}
+                   : StageReport{StageEnd::reached, "all sweeps were completed"};
       if (control.stop_requested()) return {StageEnd::stopped, "compression was stopped"};
       sweep();
       control.report_progress(
@@ -140,8 +141,9 @@ class Compression {
   }
 
   std::string end_text(const std::string& how) const {
-    return "a packing fraction of " + std::to_string(packing_fraction(configuration_)) + " " + how +
-           "; " + std::to_string(*options_.packing_fraction) + " was wanted";
+    return "the packing fraction " + how + ": it is " +
+           std::to_string(packing_fraction(configuration_)) + ", and the target is " +
+           std::to_string(*options_.packing_fraction);
   }
 
   Configuration2& configuration_;

@@ -33,12 +33,12 @@ std::vector<double> contact_excesses(const Configuration2& configuration, double
 // The window with the target number of pairs.
 double choose_window(const Configuration2& configuration) {
   std::vector<double> excesses = contact_excesses(configuration, max_window);
-  const auto wanted =
+  const auto target =
       static_cast<std::size_t>(pairs_per_particle * static_cast<double>(configuration.size()));
-  if (excesses.size() <= wanted) return max_window;
-  std::nth_element(excesses.begin(), excesses.begin() + static_cast<std::ptrdiff_t>(wanted),
+  if (excesses.size() <= target) return max_window;
+  std::nth_element(excesses.begin(), excesses.begin() + static_cast<std::ptrdiff_t>(target),
                    excesses.end());
-  return excesses[wanted];
+  return excesses[target];
 }
 
 double intercept_weight(double y) {

@@ -100,7 +100,7 @@ void EventChain::run(std::size_t first) {
   ++state_.counts.chains;
   state_.counts.length += state_.length;
   const std::uint64_t begin = state_.counts.contacts;
-  const auto most = static_cast<std::uint64_t>(max_contact_factor * options_.contacts);
+  const auto max_contacts = static_cast<std::uint64_t>(max_contact_factor * options_.contacts);
   std::size_t moving = first;
   for (double remaining = state_.length; remaining > 0;) {
     const FreePath path = next_contact<direction, PathBatch>(moving, remaining);
@@ -113,7 +113,7 @@ void EventChain::run(std::size_t first) {
     ++state_.counts.contacts;
     state_.counts.ahead += path.offset_at_contact;
     moving = next;
-    if (state_.counts.contacts - begin == most) {
+    if (state_.counts.contacts - begin == max_contacts) {
       ++state_.counts.cut_short;
       return;
     }

@@ -98,10 +98,10 @@ class Insertion {
 std::string failure_text(std::size_t placed, std::size_t particles, double reached,
                          std::uint64_t attempts) {
   std::ostringstream text;
-  text << "insertion is hopeless: after " << placed << " of " << particles
+  text << "insertion failed: after " << placed << " of " << particles
        << " particles, at a packing fraction of " << reached << ", " << attempts
-       << " attempts found no place for the next; insert at " << std::setprecision(2)
-       << safe_fraction * reached << " at most, and let the particles swell or grow from there";
+       << " attempts found no position for the next; insert at " << std::setprecision(2)
+       << safe_fraction * reached << " at most, and compress by swelling or growth from there";
   return text.str();
 }
 

@@ -33,10 +33,10 @@ struct StepSize {
 
   /// Adapts towards an acceptance of 0.35; waits for more trials if fewer than `enough`.
   void tune(std::uint64_t enough, double largest) {
-    constexpr double wanted = 0.35, strongest = 2;
+    constexpr double target = 0.35, max_change = 2;
     if (tried < enough) return;
     const double acceptance = static_cast<double>(accepted) / static_cast<double>(tried);
-    size = std::min(largest, size * std::clamp(acceptance / wanted, 1 / strongest, strongest));
+    size = std::min(largest, size * std::clamp(acceptance / target, 1 / max_change, max_change));
     tried = accepted = 0;
   }
 };

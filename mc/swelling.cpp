@@ -71,8 +71,8 @@ class Swelling {
   StageReport stuck(const std::string& how) const {
     return {StageEnd::stalled, "swelling " + how + " at a packing fraction of " +
                                    std::to_string(packing_fraction(configuration_)) + " after " +
-                                   std::to_string(state_.moves.sweeps) + " sweeps; " +
-                                   std::to_string(options_.packing_fraction) + " was wanted"};
+                                   std::to_string(state_.moves.sweeps) + " sweeps; the target is " +
+                                   std::to_string(options_.packing_fraction)};
   }
 
   // One round, starting from the current growth; adapts that of the next. False if stopped: the round then has not

@@ -133,7 +133,7 @@ void read_orientations(const h5::Group& group, Configuration3& configuration) {
   read_rows<double>(group, "orientation", configuration.orientation);
 }
 
-/// What goes on between soft particles, as rows of doubles: they hold every number of a particle.
+/// Contacts of soft particles, as rows of doubles, which represent all particle numbers exactly.
 template <int Dim>
 void write_contacts(h5::Group& group, const Configuration<Dim>& configuration) {
   std::vector<std::array<double, 3 + Dim>> releases, close_pairs;

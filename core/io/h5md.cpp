@@ -156,7 +156,7 @@ std::optional<h5::Dataset> optional_dataset(const h5::File& file, const std::str
   return root.dataset(name);
 }
 
-/// Positions inside the box stay as they are, bit by bit.
+/// Positions inside the box stay bit-identical.
 template <int Dim>
 void wrap_if_outside(const PeriodicBox<Dim>& box, Vec<Dim>& position, Shift<Dim>& image) {
   const Vec<Dim> half = 0.5 * box.lengths();

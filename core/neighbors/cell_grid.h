@@ -31,13 +31,13 @@ class CellGrid {
   /// For about `particles` points and queries of about `reach`.
   CellGrid(const PeriodicBox<Dim>& box, double reach, std::size_t particles) : box_(box) {
     constexpr double cells_per_particle = 4;
-    const auto most =
+    const auto max_count =
         static_cast<std::int64_t>(std::ceil(std::pow(cells_per_particle * particles, 1.0 / Dim))) +
         1;
     std::int64_t cells = 1;
     for (int k = 0; k < Dim; ++k) {
-      const auto wanted = static_cast<std::int64_t>(box.lengths()[k] / (0.5 * reach));
-      count_[k] = std::clamp<std::int64_t>(wanted, 1, most);
+      const auto target = static_cast<std::int64_t>(box.lengths()[k] / (0.5 * reach));
+      count_[k] = std::clamp<std::int64_t>(target, 1, max_count);
       width_[k] = box.lengths()[k] / static_cast<double>(count_[k]);
       cells *= count_[k];
     }

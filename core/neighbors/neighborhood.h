@@ -86,7 +86,7 @@ class Neighborhoods {
   /// wrapped into the box.
   Neighborhoods(const PeriodicBox<dimension>& box, std::span<const Shape> shapes,
                 const TypeIndex& type_index, std::span<const Pose<dimension>> poses,
-                double wanted_neighbors)
+                double target_neighbors)
       : box_(box),
         shapes_(shapes),
         type_index_(type_index),
@@ -94,9 +94,9 @@ class Neighborhoods {
         references_(box, cell_reach(poses.size()), poses.size()) {
     if constexpr (has_capsule) capsules_ = std::vector<CapsuleOf>(shapes.begin(), shapes.end());
     for (std::size_t i = 0; i < poses.size(); ++i) references_.insert(i, reference(i, poses[i], 1));
-    const double max_candidate_gap = max_gap(wanted_neighbors);
+    const double max_candidate_gap = max_gap(target_neighbors);
     const std::vector<Pair> pairs = pairs_closer_than(max_candidate_gap);
-    margin_ = 0.5 * choose_gap(pairs, wanted_neighbors);
+    margin_ = 0.5 * choose_gap(pairs, target_neighbors);
     std::vector<std::uint32_t> counts(poses.size());
     const auto near = [&](const Pair& pair) { return pair.gap < 2 * margin_; };
     for (const Pair& pair : pairs)

@@ -14,18 +14,19 @@
 
 #include "core/parallel.h"
 
-/// A smooth function on a box, as polynomials on panels that are halved until a tolerance is met.
+/// Piecewise Chebyshev approximation: a smooth function on a box, as polynomials on panels that are halved until a
+/// tolerance is met.
 ///
-/// On a panel, with every variable scaled to −1 … 1, the function is Σ c_ijk T_i(x) T_j(y) T_k(z), i, j,
-/// k < Nodes, which interpolates it at the zeros of T_Nodes. Steps of the construction, level by level:
-///   1. Interpolate on each panel, and compare with the function at points of the grid where
-///      |T_Nodes| = 1 in every variable: there the error is largest where the series converges.
-///   2. Where all values are within the tolerance, keep the panel. Else halve it in the variable whose
-///      highest coefficients are the largest, unless that would make it narrower than is allowed.
-///   3. What then is not within the tolerance has no value.
+/// On a panel, with every variable scaled to −1 … 1, the function is Σ c_ijk T_i(x) T_j(y) T_k(z), i, j, k < Nodes, which
+/// interpolates it at the zeros of T_Nodes. Steps of the construction, level by level:
+///   1. Interpolate on each panel, and compare with the function at points of the grid where |T_Nodes| = 1 in every
+///      variable: there the error is largest where the series converges.
+///   2. If all values are within the tolerance, keep the panel. Otherwise halve it in the variable whose highest
+///      coefficients are largest, unless it would become narrower than the minimum width.
+///   3. Panels that are still not within the tolerance have no value.
 /// The panels depend on the function and the options, not on the number of threads.
 ///
-/// Validity: between the points of comparison the error is not known; measure it (docs/validation.md).
+/// Validity: the error is not controlled between the test points; measure it (docs/validation.md).
 namespace vitrel {
 
 template <int Dim>
@@ -54,15 +55,14 @@ class ChebyshevPanels {
   using Value = std::array<double, Values>;
   using Function = std::function<Value(const Point&)>;
 
-  /// An inner node of the tree has its lower half at `next` and the upper one behind; a leaf has
-  /// panel `next`, or none.
+  /// The lower half of an inner node is at `next`, the upper half behind it; a leaf has panel `next`, or none.
   struct Node {
     double middle = 0;
     std::int32_t axis = -1;
     std::int32_t next = -1;
   };
-  /// What is kept in files: the tree, the root first, and of every panel the middle and 2/width of each
-  /// side and the coefficients, those of one polynomial's all values side by side.
+  /// The stored form: the tree, root first; and for each panel the middle and 2/width of each side and the
+  /// coefficients, with the values of each polynomial term side by side.
   struct Content {
     std::vector<Node> nodes;
     std::vector<double> panels;
@@ -72,7 +72,7 @@ class ChebyshevPanels {
                   int threads);
   ChebyshevPanels(const Box<Dim>& box, Content content) : box_(box), content_(std::move(content)) {}
 
-  /// Nothing outside the box, and where the tolerance is not met.
+  /// No value outside the box, or where the tolerance is not met.
   std::optional<Value> operator()(const Point& x) const;
 
   const Content& content() const { return content_; }
@@ -80,7 +80,7 @@ class ChebyshevPanels {
   std::size_t bytes() const {
     return content_.panels.size() * sizeof(double) + content_.nodes.size() * sizeof(Node);
   }
-  /// Whether a tree like this can be walked: what is read from a file may be anything.
+  /// Whether the content is a valid tree: a file may contain anything.
   static bool is_valid(const Content& content);
 
  private:

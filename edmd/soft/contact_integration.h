@@ -51,9 +51,9 @@ class ContactIntegration {
   static constexpr double step_error = 1e-14;
   // Errors count relative to what is integrated; this only keeps 0/0 away.
   static constexpr double min_error = 1e-100;
-  // Some 100 are usual, 1000 when particles meet centre to centre.
+  // About 100 are usual, 1000 if particles collide centre to centre.
   static constexpr int max_steps = 100000;
-  // An impact parameter below rounding is head-on.
+  // Smaller impact parameters are head-on to rounding.
   static constexpr double smallest_offset = 1e-15;
 
   double centrifugal(double rho) const {
@@ -80,7 +80,7 @@ class ContactIntegration {
     slope[4] = slow;
   }
 
-  // In the step from `before`, whose end `after` is beyond.
+  // The end of the contact, in the step from `before` to `after`, which is beyond it.
   State end_of_contact(const State& before, const State& after, double step) const {
     Stepper stepper;
     State x;
@@ -103,7 +103,7 @@ class ContactIntegration {
                          : swept < std::numbers::pi / 2 ? 0
                                                         : std::numbers::pi;
     if (impact_.damping == 0) return {1, angle, time, -1};
-    // The more exact of two that are equal.
+    // Chooses the more accurate of two equal expressions.
     const double compression = s * s / impact_.distance;
     return {compression < 0.5 ? 1 - compression : rho, angle, time, approach_rate(end)};
   }

@@ -14,7 +14,7 @@
 namespace vitrel {
 namespace {
 
-/// d of a pair is the same for all its impacts up to rounding.
+/// d of a pair is the same for all its collisions up to rounding.
 constexpr double same_damping = 1e-9;
 
 bool is_slice(const RestitutionDomain& domain) {
@@ -68,7 +68,7 @@ Restitution restitution_of(const ForceForm& form, const ScaledImpact& impact,
   return {1 - s * s / impact.distance, angle, duration, rate};
 }
 
-/// What a table depends on, and so what a file must say of itself.
+/// The identity of a table, stored in its file.
 std::string key_of(const ForceForm& form, const RestitutionDomain& domain,
                    const PanelOptions& options) {
   return fmt::format(
@@ -100,7 +100,7 @@ void write_panels(h5::Group& group, const Panels& panels) {
   write_array(group, "panels", panels.content().panels);
 }
 
-/// FileError if it cannot be, or is no tree of panels.
+/// Throws FileError if the file is unreadable or not a tree of panels.
 template <class Panels>
 Panels read_panels(const h5::Group& group, const typename Panels::Bounds& box) {
   typename Panels::Content content;

@@ -51,12 +51,12 @@ struct RestitutionDomain {
 inline constexpr ValueRange elastic_damping{-std::numeric_limits<double>::infinity(),
                                             -std::numeric_limits<double>::infinity()};
 
-/// Eccentricities between, as g = ln(e/√(1 − e²)). Outside are 10⁻⁴ of the impacts of a gas in three
-/// dimensions, 10⁻³ in two.
+/// The usual range of eccentricities, as g = ln(e/√(1 − e²)). A fraction of 10⁻⁴ of the collisions of a gas in three
+/// dimensions, 10⁻³ in two, lies outside.
 inline constexpr ValueRange typical_obliqueness{-6.9, 4.6};
 
-/// The domain of the impacts of these pairs at relative speeds from `slowest` to `fastest` > 0, m/s. Of radii
-/// from a range: pairs of a grid of them, as m and d need not be largest at the ends.
+/// The domain of the collisions of these pairs at relative speeds from `slowest` to `fastest` > 0, m/s. For
+/// polydisperse radii pass pairs of a grid of radii: m and d need not be extremal at the ends.
 template <ContactForce Force>
 RestitutionDomain restitution_domain(const Force& force, std::span<const ContactPair> pairs,
                                      double slowest, double fastest);
@@ -67,7 +67,7 @@ class RestitutionTable {
   RestitutionTable(const ForceForm& form, const RestitutionDomain& domain,
                    const PanelOptions& options, int threads);
 
-  /// Nothing outside the domain, or where the tolerance is not met.
+  /// No value outside the domain, or where the tolerance is not met.
   std::optional<Restitution> operator()(const ScaledImpact& impact) const;
 
   std::size_t panels() const;
@@ -75,7 +75,7 @@ class RestitutionTable {
 
   /// Throws FileError.
   void save(const std::filesystem::path& file) const;
-  /// Nothing if the file is not there, damaged, or of another table or another version of the program.
+  /// Empty if the file is missing, damaged, or of another table or program version.
   static std::optional<RestitutionTable> load(const std::filesystem::path& file,
                                               const ForceForm& form,
                                               const RestitutionDomain& domain,
@@ -95,8 +95,8 @@ class RestitutionTable {
   Panels panels_;
 };
 
-/// From the file if it has this table, else built and saved to it. If saving fails the table is as
-/// good; `save_error` then says why.
+/// Loads the table from the file if it is there, otherwise builds and saves it. If saving fails, the table is still
+/// valid, and `save_error` says why.
 struct CachedTable {
   RestitutionTable table;
   bool loaded;
@@ -106,7 +106,7 @@ CachedTable load_or_build_table(const std::filesystem::path& file, const ForceFo
                                 const RestitutionDomain& domain, const PanelOptions& options,
                                 int threads);
 
-/// The slow twin of TabulatedRestitution.
+/// Integrates every contact: the slow reference for TabulatedRestitution.
 class IntegratedRestitution {
  public:
   explicit IntegratedRestitution(const ForceForm& form) : form_(form) {}
@@ -122,7 +122,7 @@ class IntegratedRestitution {
   std::uint64_t integrated_ = 0;
 };
 
-/// From the table where it has a value, else integrated, and counted.
+/// Uses the table where it has a value; otherwise integrates and counts.
 class TabulatedRestitution {
  public:
   TabulatedRestitution(const ForceForm& form, RestitutionTable table)

@@ -1,4 +1,4 @@
-// The first screen against the guaranteed reference: whatever axis it is given, never late.
+// The contact screen against the guaranteed reference: never late, whatever the axis.
 
 #include "core/contact/contact_screen.h"
 
@@ -35,7 +35,7 @@ struct Partner {
   Vec2 axis;
 };
 
-/// One body and as simd_width partners as a screen takes, all of the common size.
+/// One body and as many partners as a screen takes, all of the common size.
 struct Scene {
   Ellipse shape;
   Pose2 pose;

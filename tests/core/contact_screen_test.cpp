@@ -1,4 +1,4 @@
-// The first screen: disks in closed form, pairs that have just collided, axes, lanes. That it is
+// The contact screen: disks in closed form, pairs that have just collided, axes, lanes. That it is
 // never late whatever the axis is judged in tests/bench/contact_screen_truth_test.cpp.
 
 #include "core/contact/ellipse_contact_screen.h"
@@ -147,7 +147,7 @@ TEST(ContactScreenOfDisks, APairThatTouchesMeetsAtOnceIfItApproachesAndNeverIfIt
   }
 }
 
-// ---- PairArray ----
+// ---- Lanes ----
 
 template <class B>
 class LookLanes : public testing::Test {};
@@ -162,7 +162,7 @@ BaseShape<B> round_shape(double radius) {
     return {radius, radius};
 }
 
-// Whatever an earlier screen has left in a lane, or nothing at all, does not count: bodies that touch
+// Earlier contents of a lane, and empty lanes, have no effect: bodies that touch
 // at once stand in all of them.
 TYPED_TEST(LookLanes, BeyondTheCountNeverWin) {
   constexpr int lanes = ContactScreen<TypeParam>::lanes;

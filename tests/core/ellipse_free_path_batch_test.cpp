@@ -1,4 +1,4 @@
-// Ends of paths against the predictor of collisions, which shares no code with the paths, and the exact
+// Free paths against the contact search, which shares no code with them, and the exact
 // support gap.
 
 #include "core/contact/ellipse_free_path_batch.h"
@@ -162,7 +162,7 @@ TEST(FreePathBatch, MeetsCrossedEllipsesAtTheKnownDistance) {
   EXPECT_NEAR(end.length, 10 - height, 10 * gap);
 }
 
-// Whoever is closer than the gap is met at once if offset_at_contact, and not at all if behind or not mask about.
+// An ellipse closer than the gap is touched at once if it is ahead, and ignored if it is behind or masked out.
 TEST(FreePathBatch, TouchesAtOnceWhatIsAhead) {
   const Ellipse shape{2, 1};
   for (const double side : {1., -1.}) {

@@ -1,4 +1,4 @@
-// The answers of the batch in lanes against the exact criterion in 80-bit arithmetic and the slow gap.
+// The overlap batch against the exact criterion in 80-bit arithmetic and the support gap.
 
 #include "core/contact/ellipse_overlap_batch.h"
 
@@ -112,7 +112,7 @@ TEST_P(OverlapLookAt, IsRightAboutEveryPair) {
       ASSERT_NEAR(gap, margin(pair), rounding(pair)) << pair;
     }
   }
-  // The comparison means something: both answers are frequent, and simd_width pairs touch.
+  // The comparison means something: both answers are frequent, and many pairs touch.
   EXPECT_GT(clear, pairs / 4);
   EXPECT_LT(clear, 3 * pairs / 4);
   EXPECT_GT(near, pairs / 10);

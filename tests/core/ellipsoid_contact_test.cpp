@@ -159,7 +159,7 @@ TEST(EllipsoidPairInFlight, RatesAreDerivatives) {
   }
 }
 
-// What a batch says of several at once: a lower bound of the gap, mostly a good one; and nobody closer than
+// The gap batch gives a lower bound of the gap, mostly a tight one; and no ellipsoid closer than
 // the limit is said to be far by the capsules.
 TEST(GapLookAtEllipsoids, BoundsTheGapFromBelow) {
   Stream draw(6, Purpose::tests);

@@ -363,7 +363,7 @@ TYPED_TEST(Exits, ComeNoEarlierThanNeedBe) {
   }
 }
 
-// With growth not by much: the max_support_rate is taken a tenth too large, and nothing is promised for longer
+// With growth not by much: the support rate is a tenth too large, and nothing is promised for longer
 // than the time of a growth by a tenth.
 TEST(GrowingExits, ComeNotMuchEarlierThanNeedBe) {
   Stream draw(68, Purpose::tests);

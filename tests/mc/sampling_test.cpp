@@ -14,7 +14,7 @@ TEST(Sampling, MakesTheSweepsAskedForAndFindsFittingSteps) {
   state.local.next_sweep = 7;
   const StageReport report = sample(c, {400, Moves::local}, 1, state, {});
   EXPECT_EQ(report.end, StageEnd::reached);
-  EXPECT_EQ(report.reason, "all sweeps were made");
+  EXPECT_EQ(report.reason, "all sweeps were completed");
   EXPECT_EQ(state.sweeps(), 400u);
   EXPECT_EQ(state.local.next_sweep, 407u);
   EXPECT_EQ(state.local.counts.tried(), 400u * 100u);
