@@ -172,14 +172,14 @@ class CommandLine {
         ->check(positive);
     for (const auto& [name, sentence, run] :
          {std::tuple("event-chain", "Do event chains forget a state sooner than local moves?",
-                     event_chain),
-          std::tuple("sampler", "How fast is Monte Carlo?", sampler),
+                     &event_chain),
+          std::tuple("sampler", "How fast is Monte Carlo?", &sampler),
           std::tuple("soft-spheres",
                      "Soft spheres in motion: exceptions, accuracy, speed, cooling, conservation.",
-                     soft_spheres),
+                     &soft_spheres),
           std::tuple("ellipsoids",
                      "The speed of the engine in three dimensions, and the pressure it finds.",
-                     ellipsoids)})
+                     &ellipsoids)})
       add_in_parts(add(name, sentence, [this, run = run] { return run(parts_); }), parts_);
     app_.get_subcommand("ellipsoids")->alias("solids");
   }

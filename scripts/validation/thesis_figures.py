@@ -109,10 +109,11 @@ def energies_figure(data):
                          "energy per particle / kT", log="")
     times, kinetic, rotational = zip(*data["energies"])
     total = [k + r for k, r in zip(kinetic, rotational)]
-    for k, (name, values, mean) in enumerate((("total", total, total[0]), ("kinetic", kinetic, 2 / 3 * total[0]),
+    for k, (name, values, mean) in enumerate((("total", total, None), ("kinetic", kinetic, 2 / 3 * total[0]),
                                               ("rotational", rotational, total[0] / 3))):
         axes.plot(times, values, color=COLOURS[k], linewidth=1, label=name)
-        axes.axhline(mean, color=COLOURS[k], linewidth=0.7, linestyle="--")
+        if mean is not None:
+            axes.axhline(mean, color=COLOURS[k], linewidth=0.7, linestyle="--")
     return legend(figure, axes, ["dashed: equipartition"])
 
 

@@ -48,7 +48,7 @@ class BenchPage(unittest.TestCase):
             self.assertEqual(self.count(".chart canvas"), 3)
 
     def test_whole_run(self):
-        for _ in self.page("whole-run", "whole-run", "--duration", "0.1", "--method", "psi_root", "-q"):
+        for _ in self.page("whole-run", "whole-run", "--duration", "1", "--method", "psi_root", "-q"):
             self.assertEqual(self.count("section"), 2)
             self.assertEqual(self.count("#runs tbody tr"), 6)
             # A marker is read by the keyboard: its method, its place and its tolerance.
