@@ -192,8 +192,8 @@ TEST_P(FirstLookAgainstTheTruth, IsNeverLateFromWhateverAxis) {
     const Scene scene = random_scene(draw, at.largest_aspect_ratio, at.growth);
     SCOPED_TRACE(trial);
     for (const Scene& looked_at : {scene, with_close_horizons(scene, draw)}) {
-      if (at.growth == 0) compare<Ellipse>(looked_at, counts);
-      compare<GrowingEllipse>(looked_at, counts);
+      if (at.growth == 0) assess<Ellipse>(looked_at, counts);
+      assess<GrowingEllipse>(looked_at, counts);
     }
   }
   const int asked = counts.contacts + counts.misses + counts.overlaps;
