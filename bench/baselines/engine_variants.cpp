@@ -91,23 +91,23 @@ double Neighborhoods<bench::RoundListedEllipse>::choose_gap(std::vector<Pair>,
 template <>
 template <>
 std::size_t Simulation<bench::FarSightedEllipse>::gather<
-    Simulation<bench::FarSightedEllipse>::Scope::neighborhood>(Index i, const Pose2& mine,
-                                                               double latest, std::size_t next,
-                                                               Glance& glance) {
+    Simulation<bench::FarSightedEllipse>::Scope::all_neighbors>(Index i, const Pose2& mine,
+                                                                double latest, std::size_t next,
+                                                                ScreenBatch& batch) {
   constexpr double forever = 1e100;
   const auto neighbors = neighborhoods_->of(i);
   int k = 0;
   for (; next < neighbors.size() && k < ContactScreen<Ellipse>::lanes; ++next, ++k) {
     auto& neighbor = neighbors[next];
     const Particle& partner = particles_[neighbor.other];
-    glance.horizon[k] = latest;
+    batch.horizon[k] = latest;
     Pose2 pose = partner.pose_at(now_);
     pose.position += box_.translation(neighbor.shift()) - mine.position;
-    glance.look.set(k, pose, partner.motion(), kind(neighbor.other).outline, neighbor.memory,
-                    std::min(latest - now_, forever));
-    glance.neighbor[k] = &neighbor;
+    batch.screen.set(k, pose, partner.motion(), type(neighbor.other).coefficients,
+                     neighbor.warm_start, std::min(latest - now_, forever));
+    batch.neighbor[k] = &neighbor;
   }
-  glance.count = k;
+  batch.count = k;
   return next;
 }
 
@@ -129,26 +129,26 @@ Flight<Ellipse> plain(const Flight<B>& flight) {
 // The event loop finds these in place of the predictor for ellipses.
 Prediction2 first_contact(const Flight<SearchedEllipse>& one, const Flight<SearchedEllipse>& two,
                           double horizon, double contact_gap,
-                          const ContactScreen<SearchedEllipse>::Memory& /*memory*/) {
+                          const ContactScreen<SearchedEllipse>::WarmStart& /*warm_start*/) {
   return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap);
 }
 
 Prediction2 first_contact(const Flight<FarSightedEllipse>& one,
                           const Flight<FarSightedEllipse>& two, double horizon, double contact_gap,
-                          const ContactScreen<Ellipse>::Memory& memory) {
-  return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, memory);
+                          const ContactScreen<Ellipse>::WarmStart& warm_start) {
+  return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, warm_start);
 }
 
 Prediction2 first_contact(const Flight<RoundListedEllipse>& one,
                           const Flight<RoundListedEllipse>& two, double horizon, double contact_gap,
-                          const ContactScreen<Ellipse>::Memory& memory) {
-  return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, memory);
+                          const ContactScreen<Ellipse>::WarmStart& warm_start) {
+  return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, warm_start);
 }
 
 Prediction2 first_contact(const Flight<PatientEllipse>& one, const Flight<PatientEllipse>& two,
                           double horizon, double contact_gap,
-                          const ContactScreen<Ellipse>::Memory& memory) {
-  return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, memory);
+                          const ContactScreen<Ellipse>::WarmStart& warm_start) {
+  return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, warm_start);
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ namespace vitrel {
 template <>
 struct ShapeOf<bench::PredictedEllipse> : ShapeOf<Ellipse> {};
 
-/// Every pair is the method's to answer.
+/// Every pair is the method's to judge.
 template <>
 class ContactScreen<bench::PredictedEllipse> : public bench::NoLowerBound {
  public:
@@ -41,7 +41,7 @@ namespace {
 // is no contact.
 Prediction2 first_contact(const Flight<PredictedEllipse>& one, const Flight<PredictedEllipse>& two,
                           double horizon, double /*contact_gap*/,
-                          const ContactScreen<PredictedEllipse>::Memory& /*memory*/) {
+                          const ContactScreen<PredictedEllipse>::WarmStart& /*warm_start*/) {
   const auto plain = [](const Flight<PredictedEllipse>& flight) {
     return of_constant_size({flight.body, flight.pose, flight.motion});
   };
