@@ -112,8 +112,10 @@ std::size_t Simulation<bench::FarSightedEllipse>::gather<
 }
 
 template <>
-double Simulation<bench::PatientEllipse>::patience() const {
-  return bench::free_times_of_patience * mean_free_time();
+double Simulation<bench::PatientEllipse>::mean_free_time() const {
+  const auto particles = static_cast<double>(particles_.size());
+  const double free_time = collisions_ < particles ? never : 0.5 * particles * now_ / collisions_;
+  return bench::free_times_of_patience * free_time;
 }
 
 }  // namespace vitrel
