@@ -16,7 +16,6 @@
 #include "workflow/sweep/folder_lock.h"
 #include "workflow/sweep/process.h"
 #include "workflow/sweep/snakemake.h"
-#include "workflow/sweep/stop_signals.h"
 
 namespace vitrel {
 namespace {
@@ -160,9 +159,9 @@ void hold_alone(FolderLock& lock, const fs::path& folder) {
 // Keeps `parallel` jobs going until all are done or the user wants to stop.
 class Sweep {
  public:
-  Sweep(const SweepRequest& request, const std::vector<SweepJob>& jobs,
+  Sweep(const SweepRequest& request, const std::vector<SweepJob>& jobs, const Budget& budget,
         const std::function<void(const std::string&)>& say)
-      : request_(request), say_(say), jobs_(jobs) {}
+      : request_(request), budget_(budget), say_(say), jobs_(jobs) {}
 
   SweepOutcome run() {
     make_folder(request_.folder);
@@ -190,7 +189,7 @@ class Sweep {
     return lock.acquire(share, [&] {
       if (!told) say_("waiting for another process that works on this job");
       told = true;
-      return stop_signalled() || time_is_up();
+      return budget_.stop_requested();
     });
   }
 
@@ -214,13 +213,8 @@ class Sweep {
     return outcome_;
   }
 
-  bool time_is_up() const {
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
-    return request_.wall_time > 0 && elapsed.count() > request_.wall_time;
-  }
-
   void pass_on_stop() {
-    if (stopping_ || !(stop_signalled() || time_is_up())) return;
+    if (stopping_ || !budget_.stop_requested()) return;
     stopping_ = true;
     say_("stopping: every job stops at the next point from which it can be continued");
     for (auto& worker : active_) worker->ask_to_stop();
@@ -254,13 +248,13 @@ class Sweep {
   }
 
   const SweepRequest& request_;
+  const Budget& budget_;
   const std::function<void(const std::string&)>& say_;
   const std::vector<SweepJob>& jobs_;
   std::deque<const SweepJob*> waiting_;
   std::vector<std::unique_ptr<JobWorker>> active_;
   SweepOutcome outcome_;
   bool stopping_ = false;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 std::string number_cell(const Json& parent, const char* key, const char* format) {
@@ -302,16 +296,16 @@ JobStage job_stage(const fs::path& folder) {
   return JobStage::waiting;
 }
 
-SweepOutcome run_sweep(const SweepRequest& request,
+SweepOutcome run_sweep(const SweepRequest& request, const Budget& budget,
                        const std::function<void(const std::string&)>& say) {
   const std::vector<SweepJob> jobs = sweep_jobs(request.source);
-  return Sweep(request, jobs, say).run();
+  return Sweep(request, jobs, budget, say).run();
 }
 
-SweepOutcome run_job(const SweepRequest& request, const std::string& id,
+SweepOutcome run_job(const SweepRequest& request, const std::string& id, const Budget& budget,
                      const std::function<void(const std::string&)>& say) {
   const std::vector<SweepJob> jobs = {job_named(sweep_jobs(request.source), id)};
-  return Sweep(request, jobs, say).run_beside_others();
+  return Sweep(request, jobs, budget, say).run_beside_others();
 }
 
 void export_sweep(const ParameterSource& source, const fs::path& folder, const fs::path& program) {
