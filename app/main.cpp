@@ -1,13 +1,10 @@
-#include <CLI/CLI.hpp>
-#include <filesystem>
 #include <functional>
-#include <iostream>
 #include <memory>
-#include <sstream>
-#include <system_error>
+#include <optional>
+#include <string_view>
 
 #include "app/commands/commands.h"
-#include "core/error.h"
+#include "app/terminal/help.h"
 #include "core/io/provenance.h"
 
 namespace vitrel {
@@ -21,57 +18,6 @@ const std::string exit_codes =
     "written";
 const std::string overlap_code = ", 4 overlap or another broken invariant";
 const std::string resumed_code = ", 5 stopped (the same command continues)";
-
-constexpr std::size_t help_width = 80;
-
-/// Line breaks between words, so that no line is longer than `width`.
-std::string wrapped(const std::string& text, std::size_t width) {
-  std::istringstream words(text);
-  std::string lines, word;
-  std::size_t column = 0;
-  while (words >> word) {
-    const bool fits = column + 1 + word.size() <= width;
-    if (column > 0) lines += fits ? ' ' : '\n';
-    lines += word;
-    column = (column > 0 && fits ? column + 1 : 0) + word.size();
-  }
-  return lines;
-}
-
-/// Help in lines that fit a terminal.
-class Help : public CLI::Formatter {
-  std::string make_description(const CLI::App* app) const override {
-    return wrapped(app->get_description(), help_width) + '\n';
-  }
-  std::string make_footer(const CLI::App* app) const override {
-    const std::string footer = app->get_footer();
-    return footer.empty() ? footer : wrapped(footer, help_width) + '\n';
-  }
-  std::string make_subcommand(const CLI::App* app) const override {
-    std::ostringstream text;
-    CLI::detail::format_help(text, app->get_name(), in_column(app->get_description()),
-                             get_column_width());
-    return text.str();
-  }
-  std::string make_option_desc(const CLI::Option* option) const override {
-    return in_column(option->get_description());
-  }
-  std::string in_column(const std::string& text) const {
-    return wrapped(text, help_width - get_column_width());
-  }
-};
-
-CLI::Validator number_above_zero(bool or_zero, const std::string& wanted) {
-  return {[=](const std::string& text) {
-            double number = 0;
-            const bool fits =
-                CLI::detail::lexical_cast(text, number) && (number > 0 || (or_zero && number == 0));
-            return fits ? std::string() : text + " is not " + wanted;
-          },
-          ""};
-}
-const CLI::Validator positive = number_above_zero(false, "a positive number");
-const CLI::Validator not_negative = number_above_zero(true, "a positive number or 0");
 
 class CommandLine {
  public:
@@ -97,8 +43,7 @@ class CommandLine {
 
   /// The exit code if there is nothing left to do (help, or a mistake), else nothing.
   std::optional<int> parse(int count, char** words) {
-    for (int k = 0; k < count; ++k)
-      arguments_.command_line += (k > 0 ? " " : "") + std::string(words[k]);
+    arguments_.command_line = joined(count, words);
     try {
       app_.parse(count, words);
     } catch (const CLI::ParseError& error) {
@@ -112,11 +57,7 @@ class CommandLine {
 
  private:
   CLI::App& add(const std::string& name, const std::string& sentence, const Chosen& command) {
-    return add(app_, name, sentence, command);
-  }
-  CLI::App& add(CLI::App& parent, const std::string& name, const std::string& sentence,
-                const Chosen& command) {
-    CLI::App& sub = *parent.add_subcommand(name, sentence);
+    CLI::App& sub = *app_.add_subcommand(name, sentence);
     sub.callback([this, command] { chosen_ = command; });
     sub.footer(exit_codes + ".");
     return sub;
@@ -268,77 +209,10 @@ class CommandLine {
         ->check(CLI::Range(1, 2000));
     add_quiet_and_json(sub);
   }
-  void add_bench() {
-    CLI::App& bench = *app_.add_subcommand(
-        "bench", "Measure the numerical methods against a guaranteed reference.");
-    bench.require_subcommand(1);
-    CLI::App& time = add(bench, "collision-time",
-                         "Speed, accuracy and failures of every way to predict a collision.",
-                         bench_collision_time_command);
-    add_benchmark(time);
-    add_pairs(time, "Pairs of each class (2000); slow methods answer what their time allows",
-              "Seconds that a method other than the default may predict (4)");
-    add_judging_tolerance(time);
-    add_duration(time, "Simulated time of the whole runs on the page (20)");
-    CLI::App& solids =
-        add(bench, "collision-time-of-solids",
-            "The same in three dimensions: ways to predict a collision of ellipsoids.",
-            bench_collision_time_of_solids_command);
-    add_benchmark(solids, "Folder for the charts and the data as JSON");
-    add_pairs(solids, "Pairs of each class (2000); slow methods answer what their time allows",
-              "Seconds that a method other than the default may predict (4)");
-    add_judging_tolerance(solids);
-    CLI::App& overlap = add(bench, "overlap", "Speed and accuracy of every criterion of overlap.",
-                            bench_overlap_command);
-    add_benchmark(overlap);
-    add_pairs(overlap, "Pairs of each class (20000)", "Seconds that a criterion may take (1)");
-    CLI::App& thesis =
-        add(bench, "thesis", "The figures of the thesis, chapter 4, beside a program like its own.",
-            bench_thesis_command);
-    add_measured(thesis, "Folder for the charts and the data as JSON");
-    thesis
-        .add_option("--seconds", arguments_.seconds,
-                    "Seconds after which a run of the thesis's program is cut short (1)")
-        ->check(positive);
-    thesis.add_option("--largest", arguments_.largest, "Largest number of particles (400)")
-        ->check(positive);
-    thesis.add_option("--runs", arguments_.runs, "Runs that are averaged in figure 4.7 (32)")
-        ->check(positive);
-    add_duration(thesis, "Simulated time of each run (100)");
-    CLI::App& run = add(bench, "whole-run",
-                        "The scene of the thesis, run with every method that can carry a run.",
-                        bench_whole_run_command);
-    add_benchmark(run);
-    add_duration(run, "Simulated time of each run (100)");
-  }
-  void add_judging_tolerance(CLI::App& sub) {
-    sub.add_option("--tolerance", arguments_.tolerance,
-                   "How far off still counts as correct (1e-8): of the horizon for times, of the "
-                   "shortest semi-axis for gaps")
-        ->check(positive);
-    sub.add_option("--gap-tolerance", arguments_.gap_tolerance,
-                   "The same for gaps, if they have another one")
-        ->check(positive);
-  }
-  void add_benchmark(CLI::App& sub, const std::string& folder =
-                                        "Folder for the page, its pictures and the rows as JSON") {
-    add_measured(sub, folder);
-    sub.add_option("--method", arguments_.methods, "Only these methods, by name");
-  }
-  void add_measured(CLI::App& sub, const std::string& folder) {
-    sub.footer(exit_codes + ", 5 stopped (rows of what was done, no files).");
-    add_output(sub, folder, false);
-    sub.add_option("--seed", arguments_.seed, "Seed of all random numbers (1)");
-    add_wall_time(sub);
-    add_quiet_and_json(sub);
-  }
-  void add_pairs(CLI::App& sub, const std::string& pairs, const std::string& seconds) {
-    sub.add_option("--pairs", arguments_.pairs, pairs)->check(positive);
-    sub.add_option("--seconds", arguments_.seconds, seconds)->check(positive);
-    sub.add_option("--class", arguments_.classes, "Only these classes of pairs, by name");
-  }
-  void add_duration(CLI::App& sub, const std::string& what) {
-    sub.add_option("--duration", arguments_.duration, what)->check(positive);
+  void add_bench() {  // for the help alone: main passes it on before anything is parsed
+    app_.add_subcommand("bench",
+                        "Measure the numerical methods against a guaranteed reference: runs "
+                        "vitrel-bench, which is built beside this program.");
   }
   void add_params() {
     CLI::App& sub =
@@ -355,37 +229,12 @@ class CommandLine {
   Chosen chosen_;
 };
 
-int complain(const std::string& command, const char* message, ExitCode code) {
-  std::cerr << "vitrel " << command << ": " << message << '\n';
-  return code;
-}
-
-int run_command_line(const CommandLine& line) {
-  const std::string command = line.command();
-  try {
-    return line.run();
-  } catch (const UserError& error) {
-    return complain(command, error.what(), user_error);
-  } catch (const FileError& error) {
-    return complain(command, error.what(), file_error);
-  } catch (const InvariantError& error) {
-    return complain(command, error.what(), broken_invariant);
-  } catch (const std::system_error& error) {
-    return complain(command, error.what(), file_error);
-  } catch (const std::bad_alloc&) {
-    return complain(command,
-                    "out of memory; fewer particles or a smaller analysis.memory need less",
-                    user_error);
-  } catch (const std::exception& error) {
-    return complain(command, error.what(), defect);
-  }
-}
-
 }  // namespace
 }  // namespace vitrel
 
 int main(int count, char** words) {
+  if (count > 1 && std::string_view(words[1]) == "bench") return vitrel::bench_command(words + 1);
   vitrel::CommandLine line;
   if (const std::optional<int> code = line.parse(count, words)) return *code;
-  return vitrel::run_command_line(line);
+  return vitrel::exit_code_of("vitrel " + line.command(), [&] { return line.run(); });
 }

@@ -36,7 +36,7 @@ nlohmann::ordered_json summary(const FileCheck<Dim>& check, const std::filesyste
 
 template <int Dim>
 int check_and_print(const Arguments& arguments) {
-  Session session(arguments);
+  Session session(arguments.quiet, arguments.wall_time);
   session.say()("check of " + arguments.input.string());
   const FileCheck<Dim> check =
       check_file<Dim>(arguments.input, arguments.last_only, session.budget());

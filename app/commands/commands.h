@@ -6,18 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "app/terminal/exit_codes.h"
+
 /// The commands of the program: each turns its part of the command line into a call of the workflow
 /// and says what came out. They return the exit code, or throw one of the errors of core/error.h.
 namespace vitrel {
-
-enum ExitCode {
-  success = 0,
-  defect = 1,  ///< an error nobody foresaw
-  user_error = 2,
-  file_error = 3,
-  broken_invariant = 4,
-  stopped = 5,  ///< on request or for want of time; the same command continues (but for bench)
-};
 
 /// What the command line says; every command uses its part.
 struct Arguments {
@@ -40,15 +33,6 @@ struct Arguments {
   std::optional<std::size_t> voxels;  ///< export: along the longest edge
   std::string job;                    ///< sweep: the only one to work off; empty: all
   std::string export_as;              ///< sweep: what to write it as; empty: work it off
-  // bench; what is not given is the benchmark's default
-  std::vector<std::string> methods, classes;  ///< by name; empty: all
-  std::optional<std::uint64_t> pairs;         ///< of each class
-  std::optional<double> seconds;              ///< that a slow method may take
-  std::optional<double> tolerance;            ///< of the judge
-  std::optional<double> gap_tolerance;        ///< of the judge, if gaps have another one
-  std::optional<double> duration;             ///< of whole runs
-  std::optional<int> largest;                 ///< number of particles
-  std::optional<int> runs;                    ///< that are averaged
 };
 
 int prepare_command(const Arguments& arguments);
@@ -59,10 +43,9 @@ int sweep_command(const Arguments& arguments);
 int export_command(const Arguments& arguments);
 int report_command(const Arguments& arguments);
 int params_command(const Arguments& arguments);
-int bench_collision_time_command(const Arguments& arguments);
-int bench_collision_time_of_solids_command(const Arguments& arguments);
-int bench_overlap_command(const Arguments& arguments);
-int bench_thesis_command(const Arguments& arguments);
-int bench_whole_run_command(const Arguments& arguments);
+
+/// Becomes `vitrel-bench` with the words after the first one: the program beside this one, that of the
+/// build tree, or the first on PATH. Returns only if there is none.
+int bench_command(char** words);
 
 }  // namespace vitrel

@@ -2,17 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "core/error.h"
 #include "core/io/number_text.h"
 #include "workflow/report/page_parts.h"
-#include "workflow/sweep/stop_signals.h"
 
 namespace vitrel {
 namespace {
@@ -57,23 +53,6 @@ std::string value_text(const nlohmann::ordered_json& summary, const std::string&
 
 }  // namespace
 
-Session::Session(const Arguments& arguments)
-    : display_(ProgressDisplay::mode(arguments.quiet)), wall_time_(arguments.wall_time) {
-  catch_stop_signals();
-  budget_.should_stop = [this] {
-    return stop_signalled() || (wall_time_ > 0 && seconds() > wall_time_);
-  };
-  budget_.report = [this](const Progress& progress) { display_.show(progress); };
-  say_ = [this](const std::string& line) {
-    display_.say(line);
-    display_.begin(line.substr(0, line.find(' ')));
-  };
-}
-
-double Session::seconds() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-}
-
 ParameterSource parameter_source(const Arguments& arguments) {
   return {arguments.input, arguments.overrides, arguments.seed};
 }
@@ -104,14 +83,6 @@ void require_output_file(const fs::path& output, const std::vector<fs::path>& in
                       ": is read, and must not be overwritten; choose another output");
 }
 
-void require_output_folder(const fs::path& output) {
-  fs::path there = fs::absolute(output);
-  while (!fs::exists(there)) there = there.parent_path();
-  if (!fs::is_directory(there))
-    throw FileError(fmt::format("{}: the folder cannot be made: {} is a file", output.string(),
-                                there.string()));
-}
-
 void require_new(const fs::path& output) {
   require_folder_of(output);
   if (fs::exists(output))
@@ -128,11 +99,6 @@ void print_summary(const Arguments& arguments, const nlohmann::ordered_json& sum
     }
   }
   flush_output();
-}
-
-void flush_output() {
-  if (std::fflush(stdout) != 0)
-    throw FileError(fmt::format("standard output: cannot be written: {}", std::strerror(errno)));
 }
 
 void remark(const Arguments& arguments, const std::string& line) {

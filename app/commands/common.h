@@ -1,41 +1,17 @@
 #pragma once
 
-#include <chrono>
 #include <filesystem>
-#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "app/commands/commands.h"
-#include "app/terminal/progress.h"
-#include "core/state/stage.h"
+#include "app/terminal/session.h"
 #include "workflow/analyze/analyze.h"
 #include "workflow/configuration/parameters.h"
 #include "workflow/sweep/sweep.h"
 
 namespace vitrel {
-
-/// What a command at work has: a budget that ends with a stop signal or the wall time, and a
-/// display.
-class Session {
- public:
-  explicit Session(const Arguments& arguments);
-
-  const Budget& budget() const { return budget_; }
-  /// Announces a step: a line, and the label of the progress that follows.
-  const std::function<void(const std::string&)>& say() const { return say_; }
-  /// Takes the progress off the terminal, before a summary is printed.
-  void clear() { display_.clear(); }
-  double seconds() const;
-
- private:
-  ProgressDisplay display_;
-  double wall_time_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  Budget budget_;
-  std::function<void(const std::string&)> say_;
-};
 
 ParameterSource parameter_source(const Arguments& arguments);
 /// UserError if --set names anything but a parameter of the analysis.
@@ -50,8 +26,6 @@ std::filesystem::path run_or_sweep(const std::filesystem::path& input);
 /// one of the files that are read.
 void require_output_file(const std::filesystem::path& output,
                          const std::vector<std::filesystem::path>& inputs);
-/// FileError if the folder is not there and cannot be made, as something on its path is a file.
-void require_output_folder(const std::filesystem::path& output);
 /// Of a file or folder that must not exist yet: FileError if the folder around it is missing, UserError
 /// if it exists.
 void require_new(const std::filesystem::path& output);
@@ -59,9 +33,6 @@ void require_new(const std::filesystem::path& output);
 /// To standard output: as JSON if asked for, else unless quiet as lines "key  value", or "key  value ±
 /// error" where `key_error` is in the summary, too.
 void print_summary(const Arguments& arguments, const nlohmann::ordered_json& summary);
-
-/// Ends what was printed to standard output; throws FileError if it could not be written.
-void flush_output();
 
 /// One line on standard error, unless quiet.
 void remark(const Arguments& arguments, const std::string& line);

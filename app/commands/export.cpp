@@ -34,7 +34,7 @@ int export_frames(const Arguments& arguments) {
                               ? fs::path(arguments.input).replace_extension(arguments.format)
                               : arguments.output;
   require_new(output);
-  Session session(arguments);
+  Session session(arguments.quiet, arguments.wall_time);
   session.say()("export of " + arguments.input.string());
   const std::optional<ExportedTrajectory> done =
       export_trajectory({arguments.input, arguments.format, output, arguments.frames,

@@ -121,7 +121,7 @@ std::optional<PackingQuality> measured(const Preparation<3>& preparation, const 
 
 template <int Dim>
 int prepare_state(const Arguments& arguments, const Parameters& parameters) {
-  Session session(arguments);
+  Session session(arguments.quiet, arguments.wall_time);
   const Preparation<Dim> preparation =
       prepare<Dim>({parameters, arguments.output, arguments.command_line, arguments.threads},
                    session.budget(), session.say());

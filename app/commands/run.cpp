@@ -12,7 +12,7 @@ namespace {
 
 template <int Dim>
 int run_and_print(const Arguments& arguments, const RunRequest& request) {
-  Session session(arguments);
+  Session session(arguments.quiet, arguments.wall_time);
   const RunOutcome<Dim> outcome = run<Dim>(request, session.budget(), session.say());
   session.clear();
   const bool has_begun = outcome.state.configuration.size() > 0;

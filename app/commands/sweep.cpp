@@ -33,7 +33,7 @@ int export_workflow(const Arguments& arguments) {
 }
 
 SweepOutcome work_off(const Arguments& arguments) {
-  Session session(arguments);
+  Session session(arguments.quiet, arguments.wall_time);
   const SweepRequest request{parameter_source(arguments), arguments.output, this_program(),
                              arguments.parallel, arguments.wall_time};
   return arguments.job.empty() ? run_sweep(request, session.say())

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <vector>
 
-#include "bench/lab/reference/first_contact.h"
+#include "bench/reference/first_contact.h"
 #include "core/contact/support_gap.h"
 #include "core/random/stream.h"
 #include "core/tolerances.h"
@@ -18,8 +18,8 @@
 namespace vitrel {
 namespace {
 
-using lab::true_first_contact;
-using Truth = lab::TrueContact::Outcome;
+using bench::true_first_contact;
+using Truth = bench::TrueContact::Outcome;
 
 constexpr double pi = std::numbers::pi;
 
@@ -101,7 +101,7 @@ FirstLook<B> looked(const Scene& scene) {
   return look;
 }
 
-lab::TrueContact truth_of(const Scene& scene, const Partner& partner) {
+bench::TrueContact truth_of(const Scene& scene, const Partner& partner) {
   const auto grown = [&](const Ellipse& shape) {
     return GrowingEllipse{shape, scene.common.size, scene.common.growth_rate};
   };
@@ -145,10 +145,10 @@ struct Counts {
 // Times are compared without any allowance: the look's floor of half a contact gap covers the
 // rounding. Pairs that are undecided touch to within rounding, and either answer is right.
 template <class B>
-void judge(const Scene& scene, Counts& counts) {
+void assess(const Scene& scene, Counts& counts) {
   const std::array<double, many> times = times_of(looked<B>(scene));
   for (int k = 0; k < many; ++k) {
-    const lab::TrueContact truth = truth_of(scene, scene.partners[k]);
+    const bench::TrueContact truth = truth_of(scene, scene.partners[k]);
     switch (truth.outcome) {
       case Truth::overlap_at_start:
         ++counts.overlaps;
@@ -174,7 +174,7 @@ void judge(const Scene& scene, Counts& counts) {
 Scene with_close_horizons(const Scene& scene, Stream& draw) {
   Scene close = scene;
   for (Partner& partner : close.partners) {
-    const lab::TrueContact truth = truth_of(scene, partner);
+    const bench::TrueContact truth = truth_of(scene, partner);
     if (truth.outcome == Truth::contact)
       partner.horizon = std::min(partner.horizon, static_cast<double>(truth.time) *
                                                       (1 + std::pow(10, draw.uniform(-4, 0))));

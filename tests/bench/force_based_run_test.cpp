@@ -7,8 +7,8 @@
 #include <numbers>
 #include <set>
 
-#include "bench/lab/twins/clusterwise_run.h"
-#include "bench/lab/twins/force_based_run.h"
+#include "bench/baselines/clusterwise_run.h"
+#include "bench/baselines/force_based_run.h"
 #include "core/random/stream.h"
 #include "edmd/run.h"
 #include "edmd/soft/restitution_table.h"
@@ -62,7 +62,7 @@ EngineOptions soft(const Viscoelastic& force) {
 }
 
 Configuration3 force_based(const Viscoelastic& force, std::uint64_t steps) {
-  lab::ForceBasedRun<3, Viscoelastic> run(gas(), force);
+  bench::ForceBasedRun<3, Viscoelastic> run(gas(), force);
   run.advance(until, steps);
   return run.state();
 }
@@ -111,7 +111,7 @@ void expect_trajectories_of_the_judge(const Configuration<Dim>& start) {
   const Viscoelastic force{1e8, 0.4, 2e-4};
   const RunState<Dim> state = event_driven(start, soft(force));
   EXPECT_GT(state.counters.collisions, start.size() / 3);
-  lab::ClusterwiseRun<Dim, Viscoelastic> run(start, force, 1e-13, 2e-4);
+  bench::ClusterwiseRun<Dim, Viscoelastic> run(start, force, 1e-13, 2e-4);
   run.advance(until);
   const auto off = differences(state.configuration, run.state());
   EXPECT_LT(quantile(off, 0.5), 1e-9);

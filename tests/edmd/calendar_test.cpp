@@ -8,9 +8,9 @@
 #include <numeric>
 #include <vector>
 
-#include "bench/lab/twins/heap_calendar.h"
-#include "bench/lab/twins/sorted_calendar.h"
-#include "bench/lab/twins/tournament_calendar.h"
+#include "bench/baselines/heap_calendar.h"
+#include "bench/baselines/sorted_calendar.h"
+#include "bench/baselines/tournament_calendar.h"
 #include "core/random/stream.h"
 
 namespace vitrel {
@@ -43,7 +43,7 @@ class Twins {
 
  private:
   C fast_;
-  lab::SortedCalendar slow_;
+  bench::SortedCalendar slow_;
 };
 
 template <class C>
@@ -58,7 +58,7 @@ struct ForesightedCalendar : Calendar {
 };
 
 using Calendars =
-    testing::Types<Calendar, ForesightedCalendar, lab::HeapCalendar, lab::TournamentCalendar>;
+    testing::Types<Calendar, ForesightedCalendar, bench::HeapCalendar, bench::TournamentCalendar>;
 TYPED_TEST_SUITE(CalendarTest, Calendars, );
 
 // Waiting times as a run draws them.

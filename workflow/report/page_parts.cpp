@@ -30,17 +30,16 @@ void add_shapes(json& data, const std::vector<std::vector<double>>& semi_axes) {
   data["shape"] = std::move(shape);
 }
 
-namespace {
-
-// JSON inside a script element: no "<" may be left that could end it.
-std::string script_safe(const json& data) {
-  std::string text = data.dump(-1, ' ', false, json::error_handler_t::replace);
+template <class AnyJson>
+std::string script_safe(const AnyJson& data) {
+  std::string text = data.dump(-1, ' ', false, AnyJson::error_handler_t::replace);
   for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;)
     text.replace(at, 1, "\\u003c");
   return text;
 }
+template std::string script_safe(const json&);
+template std::string script_safe(const nlohmann::ordered_json&);
 
-// Replaces every {{name}} of the template by its text, in one pass, so that no text is looked into.
 std::string filled(std::string_view page,
                    const std::vector<std::pair<std::string_view, std::string>>& texts) {
   std::string result;
@@ -56,8 +55,6 @@ std::string filled(std::string_view page,
   }
   return result;
 }
-
-}  // namespace
 
 std::string whole_page(PageParts parts) {
   const auto text = [](std::string_view path) { return std::string(asset(path)); };

@@ -27,6 +27,14 @@ nlohmann::json page_numbers(const Values& values, const Rows& rows, int digits =
 /// Adds "shapes": every list of semi-axes once, and "shape": for every particle which of them it has.
 void add_shapes(nlohmann::json& data, const std::vector<std::vector<double>>& semi_axes);
 
+/// JSON or ordered JSON inside a script element: no "<" is left that could end it.
+template <class AnyJson>
+std::string script_safe(const AnyJson& data);
+
+/// Replaces every {{name}} of the template by its text, in one pass, so that no text is looked into.
+std::string filled(std::string_view page,
+                   const std::vector<std::pair<std::string_view, std::string>>& texts);
+
 /// A whole page. `sections` and `script` are names of files of the folder page; the texts fill the
 /// sections.
 struct PageParts {
