@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <cstring>
 
-#include "workflow/sweep/stop_signals.h"
+#include "app/terminal/stop_signals.h"
 #include "core/error.h"
 
 namespace vitrel {

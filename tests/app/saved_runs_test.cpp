@@ -182,7 +182,7 @@ TEST(SavedRuns, SettingsWithoutEffectAreRefused) {
   write_run(folder);
   for (const char* command : {"analyze", "report"}) {
     expect_refusal(folder, {command, "run.h5", "--set", "dynamics.duration=5"}, 2,
-                   "--set dynamics.duration=5: has no effect on a run that is there; only "
+                   "--set dynamics.duration=5: has no effect on an existing run; only "
                    "parameters of its analysis, analysis.…, can be set");
     expect_refusal(folder, {command, "run.h5", "--set", "analysis.longest_leg=1"}, 2,
                    "key 'analysis.longest_leg' is unknown");

@@ -21,12 +21,10 @@ GOOD = {
     "workflow/analyze/analyze.h": '#include "analysis/results.h"\n#include "workflow/run/run.h"\n',
     "workflow/report/page.h": '#include "workflow/sweep/results.h"\n#include "workflow/analyze/analyze.h"\n',
     "app/main.cpp": '#include "mc/insert.h"\n#include "workflow/run/run.h"\n',
-    "app/commands/bench.cpp": '#include "app/main.h"\n#include "app/workflow/bench/page.h"\n',
-    "app/workflow/bench/page.h": '#include "bench/lab/methods/slsqp.h"\n#include "app/text.h"\n',
-    "bench/lab/methods/slsqp.h": '#include "edmd/engine.h"\n#include "bench/lab/reference/truth.h"\n',
-    "bench/lab/reference/truth.h": '#include "core/geometry/disk.h"\n',
-    "bench/question.cpp": '#include "bench/lab/methods/slsqp.h"\n#include "edmd/engine.h"\n',
-    "tests/app/main_test.cpp": '#include "app/main.h"\n#include "bench/lab/reference/truth.h"\n',
+    "bench/methods/slsqp.h": '#include "edmd/engine.h"\n#include "bench/reference/truth.h"\n',
+    "bench/main.cpp": '#include "app/main.h"\n#include "workflow/report/page.h"\n',
+    "bench/reference/truth.h": '#include "core/geometry/disk.h"\n',
+    "tests/app/main_test.cpp": '#include "app/main.h"\n#include "bench/reference/truth.h"\n',
 }
 
 FORBIDDEN = [
@@ -47,9 +45,8 @@ FORBIDDEN = [
     ("edmd/engine.h", '#include "tests/support/scenes.h"'),
     ("app/main.h", '#include "tests/support/scenes.h"'),
     ("edmd/engine.h", '#include "engine_details.h"'),
-    ("edmd/engine.h", '#include "bench/lab/reference/truth.h"'),
-    ("app/main.h", '#include "bench/lab/survey.h"'),
-    ("app/main.h", '#include "app/workflow/bench/page.h"'),
+    ("edmd/engine.h", '#include "bench/reference/truth.h"'),
+    ("app/main.h", '#include "bench/survey.h"'),
     ("mc/insert.h", '#include "analysis/results.h"'),
     ("analysis/results.h", '#include "workflow/report/page.h"'),
     ("workflow/storage/check.h", '#include "workflow/run/run.h"'),
@@ -57,11 +54,9 @@ FORBIDDEN = [
     ("workflow/analyze/analyze.h", '#include "workflow/report/page.h"'),
     ("workflow/run/run.h", '#include "workflow/sweep/sweep.h"'),
     ("workflow/report/page.h", '#include "app/terminal/progress.h"'),
-    ("workflow/sweep/sweep.h", '#include "bench/lab/survey.h"'),
-    ("bench/lab/survey.h", '#include "app/main.h"'),
-    ("bench/lab/reference/truth.h", '#include "core/contact/gap.h"'),
-    ("bench/lab/reference/truth.h", '#include "bench/lab/survey.h"'),
-    ("bench/question.cpp", '#include "app/main.h"'),
+    ("workflow/sweep/sweep.h", '#include "bench/survey.h"'),
+    ("bench/reference/truth.h", '#include "core/contact/gap.h"'),
+    ("bench/reference/truth.h", '#include "bench/survey.h"'),
     ("core/stray.h", ""),
 ]
 

@@ -84,18 +84,19 @@ std::string page_with(const ReportData& data, const Thinning& thinning) {
     runs.push_back(run_data(run, data.runs, thinning));
     rows += table_row(run);
   }
-  return whole_page({data.title,
-                     data.subtitle,
-                     "page/runs_sections.html",
-                     "page/movie.js",
-                     "page/report.js",
-                     {{"table_rows", rows},
-                      {"relaxation_rows", relaxation_rows(data.study)},
-                      {"fit_rows", fit_rows(data.study)},
-                      {"study_notes", study_notes(data.study)}},
-                     {{"runs", std::move(runs)}, {"study", tables_data(data.study, {})}},
-                     data.parameters,
-                     data.provenance});
+  return whole_page(
+      {data.title,
+       data.subtitle,
+       "page/runs_sections.html",
+       "page/movie.js",
+       "page/report.js",
+       {{"table_rows", rows},
+        {"relaxation_rows", relaxation_rows(data.study)},
+        {"fit_rows", fit_rows(data.study)},
+        {"study_notes", study_notes(data.study)}},
+       script_safe(json{{"runs", std::move(runs)}, {"study", tables_data(data.study, {})}}),
+       data.parameters,
+       data.provenance});
 }
 
 }  // namespace
