@@ -55,6 +55,18 @@ std::string value_text(const nlohmann::ordered_json& summary, const std::string&
   return std::isnan(number) ? "–" : fmt::format("{:.8g}", number);
 }
 
+/// Adds the keys of earlier versions beside those that replaced them, at every depth.
+nlohmann::ordered_json with_former_keys(nlohmann::ordered_json json) {
+  for (nlohmann::ordered_json& part : json)
+    if (part.is_structured()) part = with_former_keys(std::move(part));
+  for (const char* suffix : {"", "_error"}) {
+    const std::string key = std::string("compressibility_factor") + suffix;
+    if (json.is_object() && json.contains(key))
+      json[std::string("compressibility") + suffix] = json.at(key);
+  }
+  return json;
+}
+
 }  // namespace
 
 ParameterSource parameter_source(const ParameterOptions& options) {
@@ -99,7 +111,7 @@ void require_new(const fs::path& output) {
 
 void print_summary(const PrintOptions& options, const nlohmann::ordered_json& summary) {
   if (options.json) {
-    fmt::print("{}\n", summary.dump(2));
+    fmt::print("{}\n", with_former_keys(summary).dump(2));
   } else if (!options.quiet) {
     for (const auto& [key, value] : summary.items()) {
       const std::string text = value_text(summary, key);

@@ -117,11 +117,12 @@ TEST(SavedRuns, TheSummaryGivesErrorsBesideTheirValues) {
             0);
   const std::string text = run(folder.path(), {"analyze", "run.h5"}).output;
   const Results results = read_results(folder / "run_results.h5");
-  const Column& z = *results.find("summary")->find("compressibility");
-  const std::size_t line = text.find("compressibility            ");
+  const Column& z = *results.find("summary")->find("compressibility_factor");
+  const std::size_t line = text.find("compressibility_factor     ");
   ASSERT_NE(line, std::string::npos) << text;
   double value = 0, error = 0;
-  ASSERT_EQ(std::sscanf(text.c_str() + line, "compressibility %lf ± %lf", &value, &error), 2);
+  ASSERT_EQ(std::sscanf(text.c_str() + line, "compressibility_factor %lf ± %lf", &value, &error),
+            2);
   // Two digits of the error.
   EXPECT_NEAR(error, z.error[0], 0.051 * z.error[0]);
   EXPECT_NEAR(value, z.value[0], 0.051 * z.error[0]);

@@ -168,7 +168,7 @@ Table energy_table(const EnergySeries& energy) {
 }
 
 Table compressibility_table(const CompressibilitySeries& series) {
-  return {"compressibility",
+  return {"compressibility_factor",
           "Compressibility factor Z = P/(rho kT) from the virial of the collisions between two "
           "samples.",
           {{"time", "time", series.time, {}}, {"z", "1", series.value, {}}}};
@@ -188,7 +188,7 @@ std::vector<Column> summary_columns(const RunAnalysis& run) {
           {"frames", "1", {static_cast<double>(run.frames)}, {}},
           {"collisions", "1", {run.collisions}, {}},
           {"duration", "time", {run.duration}, {}},
-          single("compressibility", "1", z.mean, z.error),
+          single("compressibility_factor", "1", z.mean, z.error),
           single("translational_energy", "kT", translational.mean, translational.error),
           single("rotational_energy", "kT", rotational.mean, rotational.error),
           single("diffusion", "length^2/time", run.diffusion.value, run.diffusion.error),

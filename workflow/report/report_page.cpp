@@ -69,7 +69,7 @@ std::string table_row(const ReportRun& run) {
   };
   const double duration = value("duration");
   return "<tr><th scope=\"row\">" + density_text(run.packing_fraction) + "</th>" +
-         text("compressibility") + text("diffusion") + text("rotational_diffusion") +
+         text("compressibility_factor") + text("diffusion") + text("rotational_diffusion") +
          text("translational_energy") +
          (value("rotors") == 0 ? cell("–") : text("rotational_energy")) +
          count_cell(value("collisions")) + count_cell(run.collisions_per_second) +

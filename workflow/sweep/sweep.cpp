@@ -271,10 +271,13 @@ std::vector<std::string> result_cells(const fs::path& folder) {
     run = done["run"];
     analysis = done["analyze"];
   }
+  // Jobs done by earlier versions have the former key.
+  const std::string z =
+      run.contains("compressibility_factor") ? "compressibility_factor" : "compressibility";
   cells.push_back(number_cell(run, "packing_fraction", "{:.4f}"));
   cells.push_back(number_cell(run, "collisions", "{:.0f}"));
-  cells.push_back(number_cell(run, "compressibility", "{:.3f}"));
-  cells.push_back(number_cell(run, "compressibility_error", "{:.3f}"));
+  cells.push_back(number_cell(run, z.c_str(), "{:.3f}"));
+  cells.push_back(number_cell(run, (z + "_error").c_str(), "{:.3f}"));
   cells.push_back(number_cell(analysis, "diffusion", "{:.3g}"));
   cells.push_back(number_cell(analysis, "rotational_diffusion", "{:.3g}"));
   cells.push_back(number_cell(run, "overlaps", "{:.0f}"));
