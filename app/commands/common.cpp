@@ -61,8 +61,9 @@ nlohmann::ordered_json with_former_keys(nlohmann::ordered_json json) {
     if (part.is_structured()) part = with_former_keys(std::move(part));
   for (const char* suffix : {"", "_error"}) {
     const std::string key = std::string("compressibility_factor") + suffix;
-    if (json.is_object() && json.contains(key))
-      json[std::string("compressibility") + suffix] = json.at(key);
+    if (!json.is_object() || !json.contains(key)) continue;
+    nlohmann::ordered_json value = json.at(key);
+    json[std::string("compressibility") + suffix] = std::move(value);
   }
   return json;
 }

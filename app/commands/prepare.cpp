@@ -64,7 +64,7 @@ nlohmann::ordered_json work_summary(const Preparation<2>& preparation,
       {"trial_moves_per_second", static_cast<double>(counts.tried()) / preparation.wall_seconds}};
 }
 
-/// What was done and what came out, for other programs.
+/// What was done and what came out, as JSON.
 nlohmann::ordered_json summary(const Preparation<2>& preparation, const Parameters& parameters,
                                const Quality& quality, const std::filesystem::path& output) {
   nlohmann::ordered_json result = work_summary(preparation, output);
@@ -94,7 +94,7 @@ void print_rows(const std::vector<QualityRow>& rows) {
   flush_output();
 }
 
-/// The same for a person, who does not need to be told what there was none of.
+/// The same as text; counts that are 0 are left out.
 void print_outcome(const PrepareOptions& options, const Preparation<2>& preparation,
                    const Quality& quality) {
   const nlohmann::ordered_json all = work_summary(preparation, options.output);

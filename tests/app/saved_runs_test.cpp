@@ -99,7 +99,7 @@ TEST(SavedRuns, AReportOverwritesNothingButPages) {
     const std::string before = content(folder / output);
     for (const char* input : {"run.h5", "state.h5"})
       expect_refusal(folder, {"report", input, "-o", output}, 2,
-                     std::string(output) + ": exists and is no HTML page");
+                     std::string(output) + ": exists and is not an HTML page");
     EXPECT_EQ(content(folder / output), before);
   }
   folder.write("run.html", "<!DOCTYPE html>\n<p>an earlier one");

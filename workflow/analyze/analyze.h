@@ -31,7 +31,7 @@ struct AnalysisProgress {
   ProgressReport report = {};                          ///< how far the phase is
 };
 
-/// A run and what was found out about it.
+/// A run and its results.
 struct AnalysedRun {
   std::filesystem::path file;
   Results results;

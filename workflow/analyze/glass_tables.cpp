@@ -31,7 +31,7 @@ class Rows {
   Rows(const char* name, std::string description, std::vector<Column> columns)
       : table_{name, std::move(description), std::move(columns)} {}
 
-  /// A pair (value, error) for every column; errors of columns that have none are not looked at.
+  /// A pair (value, error) for every column; errors of columns that have none are ignored.
   void add(const std::vector<Entry>& row, const std::vector<bool>& has_error) {
     for (std::size_t k = 0; k < row.size(); ++k) {
       table_.columns[k].value.push_back(row[k].value);
@@ -181,20 +181,20 @@ std::optional<GlassRun> stored_glass_run(const std::string& name, const Results&
   const Table* relaxation = results.find("relaxation");
   const Table* summary = results.find("summary");
   if (!relaxation || !summary || relaxation->rows() != 1) return std::nullopt;
-  const auto column = [&](const Table& table, const char* wanted) -> const Column& {
-    const Column* found = table.find(wanted);
+  const auto column = [&](const Table& table, const char* name_of_column) -> const Column& {
+    const Column* found = table.find(name_of_column);
     if (!found)
       throw FileError(
           fmt::format("{}: the results have no column '{}' in the table '{}': they are of "
                       "another version; analyse the run again",
-                      name, wanted, table.name));
+                      name, name_of_column, table.name));
     return *found;
   };
-  const auto value = [&](const Table& table, const char* wanted) {
-    return column(table, wanted).value.front();
+  const auto value = [&](const Table& table, const char* name_of_column) {
+    return column(table, name_of_column).value.front();
   };
-  const auto error = [&](const Table& table, const char* wanted) {
-    const Column& found = column(table, wanted);
+  const auto error = [&](const Table& table, const char* name_of_column) {
+    const Column& found = column(table, name_of_column);
     return found.error.empty() ? unknown : found.error.front();
   };
   const auto verdict = [&](const char* code, const char* tests, const char* reason) {

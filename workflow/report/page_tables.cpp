@@ -73,7 +73,7 @@ json table_data(const Table& table, const Thinning& thinning) {
   const bool logarithmic = is_correlation(table);
   const std::size_t stride = logarithmic || table.rows() == 0
                                  ? 1
-                                 : (table.rows() + thinning.most_rows - 1) / thinning.most_rows;
+                                 : (table.rows() + thinning.max_rows - 1) / thinning.max_rows;
   const std::vector<std::size_t> rows =
       logarithmic ? logarithmic_rows(table.columns.front().value, thinning.rows_per_decade)
                   : every(stride, table.rows());

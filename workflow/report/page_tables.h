@@ -11,7 +11,7 @@ namespace vitrel {
 /// How many rows tables keep at most.
 struct Thinning {
   double rows_per_decade = 20;  ///< of correlations, whose first column is the time
-  std::size_t most_rows =
+  std::size_t max_rows =
       400;  ///< evenly, of energies, compressibility_factor, order and all others
 };
 

@@ -17,8 +17,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t most_bytes = 2'000'000;
-constexpr double fewest_rows_per_decade = 5;
+constexpr std::size_t max_bytes = 2'000'000;
+constexpr double min_rows_per_decade = 5;
 
 /// What comes after the beginning that all these names share, cut behind an underscore.
 std::string distinction(const std::string& name, const std::vector<std::string>& names) {
@@ -104,9 +104,9 @@ std::string page_with(const ReportData& data, const Thinning& thinning) {
 std::string report_page(const ReportData& data) {
   Thinning thinning;
   std::string page = page_with(data, thinning);
-  while (page.size() > most_bytes && thinning.rows_per_decade > fewest_rows_per_decade) {
+  while (page.size() > max_bytes && thinning.rows_per_decade > min_rows_per_decade) {
     thinning.rows_per_decade *= 0.75;
-    thinning.most_rows = thinning.most_rows * 3 / 4;
+    thinning.max_rows = thinning.max_rows * 3 / 4;
     page = page_with(data, thinning);
   }
   return page;

@@ -51,7 +51,7 @@ void write_job_folder(const SweepJob& job, const fs::path& folder) {
              Json{{"id", job.id}, {"values", values_json(job)}}.dump(2) + "\n");
 }
 
-// Works off the steps of one job, a process at a time.
+// Runs the steps of one job, a process at a time.
 class JobWorker {
  public:
   JobWorker(const SweepJob& job, const fs::path& folder, const fs::path& program)
@@ -68,7 +68,7 @@ class JobWorker {
     if (child_) child_->ask_to_stop();
   }
 
-  /// Looks after the current step.
+  /// Starts the next step if the current one has ended.
   void poll() {
     if (state_ != State::running) return;
     const std::optional<int> code = child_->poll();
@@ -168,7 +168,7 @@ class Sweep {
     FolderLock lock(request_.folder);
     hold_alone(lock, request_.folder);
     for (const SweepJob& job : jobs_) write_job_folder(job, request_.folder / job.id);
-    return work_off();
+    return run_jobs();
   }
 
   /// Of a single job, beside others that work on other jobs.
@@ -180,7 +180,7 @@ class Sweep {
         !wait_for(job, FolderLock::Share::alone))
       return {.stopped = true};
     write_job_folder(jobs_.front(), folder);
-    return work_off();
+    return run_jobs();
   }
 
  private:
@@ -193,7 +193,7 @@ class Sweep {
     });
   }
 
-  SweepOutcome work_off() {
+  SweepOutcome run_jobs() {
     for (const SweepJob& job : jobs_) {
       if (job_stage(request_.folder / job.id) == JobStage::done)
         ++outcome_.done;
@@ -387,8 +387,8 @@ SweepProgress sweep_progress(const fs::path& folder) {
             ? fmt::format("{}: is neither the folder of a sweep nor that of a job which has begun "
                           "to run; give one of these, or the file of a run",
                           folder.string())
-            : fmt::format("{}: none of the {} jobs of this sweep is finished; vitrel sweep works "
-                          "them off",
+            : fmt::format("{}: none of the {} jobs of this sweep is finished; vitrel sweep runs "
+                          "them",
                           folder.string(), progress.unfinished.size()));
   return progress;
 }
