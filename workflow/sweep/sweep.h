@@ -46,8 +46,9 @@ struct SweepOutcome {
 };
 
 /// Makes the folders, runs all jobs, and tells `say` about every job begun, done or failed. A failed job
-/// does not stop the others. If the budget asks to stop, every job stops where it can be continued. Throws UserError if a folder belongs to other parameters or
-/// another process works on the sweep, FileError if folders cannot be written.
+/// does not stop the others. If the budget asks to stop, every job stops where it can be continued.
+/// Throws UserError if a folder belongs to other parameters or another process works on the sweep, FileError
+/// if folders cannot be written.
 SweepOutcome run_sweep(const SweepRequest& request, const Budget& budget,
                        const std::function<void(const std::string&)>& say);
 
