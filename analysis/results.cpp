@@ -10,8 +10,8 @@
 #include <fstream>
 
 #include "core/error.h"
+#include "core/io/atomic_file.h"
 #include "core/io/h5.h"
-#include "core/io/pending_file.h"
 
 namespace vitrel {
 
@@ -146,7 +146,7 @@ std::string identifier(const std::string& name) {
 }
 
 void write_csv(const std::filesystem::path& path, const Table& table) {
-  PendingFile pending(path);
+  AtomicFile pending(path);
   std::ofstream out(pending.partial(), std::ios::binary);
   out << csv_header(table) << '\n';
   for (std::size_t row = 0; row < table.rows(); ++row) out << csv_row(table, row) << '\n';
@@ -157,7 +157,7 @@ void write_csv(const std::filesystem::path& path, const Table& table) {
 }
 
 void write_results(const std::filesystem::path& path, const Results& results) {
-  PendingFile pending(path);
+  AtomicFile pending(path);
   h5::File file = h5::File::create(pending.partial());
   h5::Group root = file.root();
   std::vector<std::string> names;

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/contact/support_gap.h"
+#include "core/contact/ellipse_gap.h"
 #include "core/neighbors/pairs.h"
 
 namespace vitrel {

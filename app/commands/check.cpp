@@ -41,7 +41,7 @@ template <int Dim>
 int check_and_print(const CheckOptions& options) {
   Session session(options.print.quiet);
   session.say()("check of " + options.input.string());
-  const FileCheck<Dim> check = check_file<Dim>(options.input, options.last_only, session.budget());
+  const FileCheck<Dim> check = check_file<Dim>(options.input, options.last_only, session.control());
   session.clear();
   if (check.frames == 0) return stopped;
   print_summary(options.print, summary(check, options.input));
@@ -52,7 +52,7 @@ int check_and_print(const CheckOptions& options) {
     for (const std::string& complaint : check.complaints) message += "\n  " + complaint;
     throw InvariantError(message);
   }
-  return session.budget().stop_requested() ? stopped : success;
+  return session.control().stop_requested() ? stopped : success;
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ int export_frames(const ExportOptions& options) {
   session.say()("export of " + options.input.string());
   const std::optional<ExportedTrajectory> done = export_trajectory(
       {options.input, options.format, output, options.frames, options.shrink, options.voxels},
-      session.budget());
+      session.control());
   session.clear();
   if (!done) return stopped;
   nlohmann::ordered_json summary = {{"output", output.string()},

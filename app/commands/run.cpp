@@ -17,7 +17,7 @@ namespace {
 template <int Dim>
 int run_and_print(const RunOptions& options, const RunRequest& request) {
   Session session(options.print.quiet, options.wall_time);
-  const RunOutcome<Dim> outcome = run<Dim>(request, session.budget(), session.say());
+  const RunOutcome<Dim> outcome = run<Dim>(request, session.control(), session.say());
   session.clear();
   const bool has_begun = outcome.state.configuration.size() > 0;
   if (has_begun) print_summary(options.print, run_summary(request, outcome));

@@ -40,8 +40,8 @@ SweepOutcome run_jobs(const SweepOptions& options) {
   Session session(options.print.quiet, options.wall_time);
   const SweepRequest request{parameter_source(options.source), options.output, this_program(),
                              options.parallel};
-  return options.job.empty() ? run_sweep(request, session.budget(), session.say())
-                             : run_job(request, options.job, session.budget(), session.say());
+  return options.job.empty() ? run_sweep(request, session.control(), session.say())
+                             : run_job(request, options.job, session.control(), session.say());
 }
 
 }  // namespace

@@ -16,10 +16,10 @@ namespace fs = std::filesystem;
 Session::Session(bool quiet, double wall_time)
     : display_(ProgressDisplay::mode(quiet)), wall_time_(wall_time) {
   catch_stop_signals();
-  budget_.should_stop = [this] {
+  control_.should_stop = [this] {
     return stop_signalled() || (wall_time_ > 0 && seconds() > wall_time_);
   };
-  budget_.report = [this](const Progress& progress) { display_.show(progress); };
+  control_.on_progress = [this](const Progress& progress) { display_.show(progress); };
   say_ = [this](const std::string& line) {
     display_.say(line);
     display_.begin(line.substr(0, line.find(' ')));

@@ -10,14 +10,14 @@
 
 namespace vitrel {
 
-/// What a command at work has: a budget that ends with a stop signal or the wall time, and a
+/// What a command at work has: a run control that stops with a stop signal or the wall time, and a
 /// display.
 class Session {
  public:
   /// `wall_time` in seconds; 0: no limit.
   explicit Session(bool quiet, double wall_time = 0);
 
-  const Budget& budget() const { return budget_; }
+  const RunControl& control() const { return control_; }
   /// Announces a step: a line, and the label of the progress that follows.
   const std::function<void(const std::string&)>& say() const { return say_; }
   /// Takes the progress off the terminal, before a summary is printed.
@@ -28,7 +28,7 @@ class Session {
   ProgressDisplay display_;
   double wall_time_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  Budget budget_;
+  RunControl control_;
   std::function<void(const std::string&)> say_;
 };
 

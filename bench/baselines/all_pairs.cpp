@@ -103,7 +103,7 @@ void AllPairs::load(const Configuration2& configuration, double horizon) {
     particle.motion = {configuration.velocity[i], configuration.angular_velocity[i]};
     particle.inertia.inverse_mass = 1 / configuration.mass[i];
     if (!particle.shape.is_round()) particle.inertia.inverse_moment = 1 / configuration.inertia(i);
-    extent = std::max(extent, particle.shape.swing() * std::abs(particle.pose.angle));
+    extent = std::max(extent, particle.shape.max_support_rate() * std::abs(particle.pose.angle));
   }
   check_box();
   contact_gap_ = tolerance::contact_gap(extent);

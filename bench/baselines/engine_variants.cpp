@@ -15,7 +15,7 @@ thread_local double free_times_of_patience = 1;
 struct RoundListedEllipse : Ellipse {
   RoundListedEllipse() = default;
   explicit(false) RoundListedEllipse(const Ellipse& ellipse) : Ellipse(ellipse) {}
-  double swing() const { return 0; }  // of its neighbourhood
+  double max_support_rate() const { return 0; }  // of its neighbourhood
 };
 
 }  // namespace
@@ -31,43 +31,43 @@ template <>
 struct ShapeOf<bench::PatientEllipse> : ShapeOf<Ellipse> {};
 
 template <>
-class FirstLook<bench::SearchedEllipse> : public bench::NoLowerBound {
+class ContactScreen<bench::SearchedEllipse> : public bench::NoLowerBound {
  public:
   using NoLowerBound::NoLowerBound;
 };
 
 template <>
-class FirstLook<bench::FarSightedEllipse> : public FirstLook<Ellipse> {
+class ContactScreen<bench::FarSightedEllipse> : public ContactScreen<Ellipse> {
  public:
-  using FirstLook<Ellipse>::FirstLook;
+  using ContactScreen<Ellipse>::ContactScreen;
 };
 
 template <>
-class FirstLook<bench::PatientEllipse> : public FirstLook<Ellipse> {
+class ContactScreen<bench::PatientEllipse> : public ContactScreen<Ellipse> {
  public:
-  using FirstLook<Ellipse>::FirstLook;
+  using ContactScreen<Ellipse>::ContactScreen;
 };
 
 template <>
-class FirstLook<bench::RoundListedEllipse> : public FirstLook<Ellipse> {
+class ContactScreen<bench::RoundListedEllipse> : public ContactScreen<Ellipse> {
  public:
-  using FirstLook<Ellipse>::FirstLook;
+  using ContactScreen<Ellipse>::ContactScreen;
 };
 
 template <>
-struct Outline<bench::RoundListedEllipse> : Outline<Ellipse> {
-  using Outline<Ellipse>::Outline;
+struct ShapeCoefficients<bench::RoundListedEllipse> : ShapeCoefficients<Ellipse> {
+  using ShapeCoefficients<Ellipse>::ShapeCoefficients;
 };
 
 /// The axis is that of the ellipses, the gap that of their circumcircles.
 template <>
-class GapLook<bench::RoundListedEllipse> : public GapLook<Ellipse> {
+class GapBatch<bench::RoundListedEllipse> : public GapBatch<Ellipse> {
  public:
-  GapLook(const Ellipse& shape, double angle, double limit)
-      : GapLook<Ellipse>(shape, angle, limit), radius_(shape.a) {}
+  GapBatch(const Ellipse& shape, double angle, double limit)
+      : GapBatch<Ellipse>(shape, angle, limit), radius_(shape.a) {}
   void set(int k, const Ellipse& shape, double angle, const Vec2& d) {
     round_gap_[k] = d.norm() - radius_ - shape.a;
-    GapLook<Ellipse>::set(k, shape, angle, d);
+    GapBatch<Ellipse>::set(k, shape, angle, d);
   }
   double gap(int k) const { return round_gap_[k]; }
 
@@ -84,7 +84,7 @@ double Neighborhoods<bench::RoundListedEllipse>::choose_gap(std::vector<Pair>,
   std::vector<Pose2> poses;
   for (std::size_t i = 0; i < references_.size(); ++i)
     poses.push_back({references_[i].position, references_[i].orientation()});
-  return 2 * Neighborhoods<Ellipse>(box_, shapes, kind_of_, poses, wanted).margin();
+  return 2 * Neighborhoods<Ellipse>(box_, shapes, type_index_, poses, wanted).margin();
 }
 
 // As for every body, but the partner's entry is no limit.
@@ -97,7 +97,7 @@ std::size_t Simulation<bench::FarSightedEllipse>::gather<
   constexpr double forever = 1e100;
   const auto neighbors = neighborhoods_->of(i);
   int k = 0;
-  for (; next < neighbors.size() && k < FirstLook<Ellipse>::lanes; ++next, ++k) {
+  for (; next < neighbors.size() && k < ContactScreen<Ellipse>::lanes; ++next, ++k) {
     auto& neighbor = neighbors[next];
     const Particle& partner = particles_[neighbor.other];
     glance.horizon[k] = latest;
@@ -129,25 +129,25 @@ Flight<Ellipse> plain(const Flight<B>& flight) {
 // The event loop finds these in place of the predictor for ellipses.
 Prediction2 first_contact(const Flight<SearchedEllipse>& one, const Flight<SearchedEllipse>& two,
                           double horizon, double contact_gap,
-                          const FirstLook<SearchedEllipse>::Memory& /*memory*/) {
+                          const ContactScreen<SearchedEllipse>::Memory& /*memory*/) {
   return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap);
 }
 
 Prediction2 first_contact(const Flight<FarSightedEllipse>& one,
                           const Flight<FarSightedEllipse>& two, double horizon, double contact_gap,
-                          const FirstLook<Ellipse>::Memory& memory) {
+                          const ContactScreen<Ellipse>::Memory& memory) {
   return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, memory);
 }
 
 Prediction2 first_contact(const Flight<RoundListedEllipse>& one,
                           const Flight<RoundListedEllipse>& two, double horizon, double contact_gap,
-                          const FirstLook<Ellipse>::Memory& memory) {
+                          const ContactScreen<Ellipse>::Memory& memory) {
   return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, memory);
 }
 
 Prediction2 first_contact(const Flight<PatientEllipse>& one, const Flight<PatientEllipse>& two,
                           double horizon, double contact_gap,
-                          const FirstLook<Ellipse>::Memory& memory) {
+                          const ContactScreen<Ellipse>::Memory& memory) {
   return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, memory);
 }
 

@@ -5,7 +5,7 @@
 #include "bench/baselines/no_lower_bound.h"
 #include "bench/baselines/unchecked_method.h"
 #include "bench/methods/bracket.h"
-#include "core/contact/pair.h"
+#include "core/contact/contact_queries.h"
 #include "edmd/simulation.h"
 
 namespace vitrel::bench {
@@ -27,7 +27,7 @@ struct ShapeOf<bench::JudgedEllipse> : ShapeOf<Ellipse> {};
 
 /// Every pair is the method's to judge.
 template <>
-class FirstLook<bench::JudgedEllipse> : public bench::NoLowerBound {
+class ContactScreen<bench::JudgedEllipse> : public bench::NoLowerBound {
  public:
   using NoLowerBound::NoLowerBound;
 };
@@ -41,7 +41,7 @@ namespace {
 // is no contact.
 Prediction2 first_contact(const Flight<JudgedEllipse>& one, const Flight<JudgedEllipse>& two,
                           double horizon, double /*contact_gap*/,
-                          const FirstLook<JudgedEllipse>::Memory& /*memory*/) {
+                          const ContactScreen<JudgedEllipse>::Memory& /*memory*/) {
   const auto plain = [](const Flight<JudgedEllipse>& flight) {
     return of_constant_size({flight.body, flight.pose, flight.motion});
   };

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "core/contact/first_look.h"
+#include "core/contact/contact_screen.h"
 
 namespace vitrel::bench {
 
 /// A first look that settles nothing and remembers nothing: every pair is searched.
-class NoLowerBound : public detail::Urgencies<many> {
+class NoLowerBound : public detail::CandidateTimes<many> {
  public:
   using Shape = Ellipse;
   static constexpr int lanes = many;
@@ -15,8 +15,10 @@ class NoLowerBound : public detail::Urgencies<many> {
     friend Memory reversed(const Memory& memory) { return memory; }
   };
 
-  NoLowerBound(const Outline<Ellipse>&, const Pose2&, const Motion2&, const CommonSize&, double) {}
-  void set(int, const Pose2&, const Motion2&, const Outline<Ellipse>&, const Memory&, double) {}
+  NoLowerBound(const ShapeCoefficients<Ellipse>&, const Pose2&, const Motion2&, const CommonSize&,
+               double) {}
+  void set(int, const Pose2&, const Motion2&, const ShapeCoefficients<Ellipse>&, const Memory&,
+           double) {}
   Memory memory(int) const { return {}; }
   void look(int count) { open(0, count); }
 };

@@ -1,8 +1,8 @@
 #include "bench/baselines/sequential_sampler.h"
 
-#include "core/contact/support_gap.h"
+#include "core/contact/ellipse_gap.h"
 #include "core/neighbors/pairs.h"
-#include "mc/disjoint.h"
+#include "mc/hard_core.h"
 
 namespace vitrel::bench {
 
@@ -51,7 +51,7 @@ void SequentialSampler::rotate(std::size_t i, Stream& draw) {
   const Vec2 axis = direction(angle);
   ++counts_.rotations_tried;
   if (!clear_of_others(i, configuration_.position[i], axis) ||
-      !clear_of_own_images(configuration_.box, configuration_.shape[i], axis, margin_))
+      !clear_of_periodic_images(configuration_.box, configuration_.shape[i], axis, margin_))
     return;
   ++counts_.rotations_accepted;
   configuration_.angle[i] = angle;

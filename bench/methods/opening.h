@@ -4,10 +4,10 @@
 #include <optional>
 
 #include "bench/methods/bracket.h"
+#include "core/contact/ellipse_vieillard_baron.h"
 #include "core/contact/ellipsoid_eta.h"
 #include "core/contact/first_contact.h"
 #include "core/contact/perram_wertheim.h"
-#include "core/contact/vieillard_baron.h"
 
 /// What the methods have in common before and after their search.
 namespace vitrel::bench {

@@ -1,9 +1,9 @@
 #include "bench/overlap/criterion.h"
 
 #include "bench/overlap/polygon.h"
-#include "core/contact/pair.h"
+#include "core/contact/contact_queries.h"
+#include "core/contact/ellipse_vieillard_baron.h"
 #include "core/contact/perram_wertheim.h"
-#include "core/contact/vieillard_baron.h"
 
 namespace vitrel::bench {
 namespace {

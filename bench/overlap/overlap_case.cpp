@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/contact/ellipse_vieillard_baron.h"
 #include "core/contact/perram_wertheim.h"
-#include "core/contact/vieillard_baron.h"
 #include "core/random/stream.h"
 
 namespace vitrel::bench {

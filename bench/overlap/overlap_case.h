@@ -44,7 +44,7 @@ struct OverlapTruth {
 /// The complete Vieillard-Baron criterion in 80-bit arithmetic, right unless the surfaces are closer
 /// than 1e-17 of their size. Of the criteria judged by it the one in double precision shares its
 /// formula, so what is judged there is the arithmetic; the proof of the formula is in
-/// core/contact/vieillard_baron.h.
+/// core/contact/ellipse_vieillard_baron.h.
 OverlapTruth true_overlap(const OverlapCase& asked);
 
 }  // namespace vitrel::bench

@@ -34,7 +34,7 @@ void record(OverlapRow& row, const OverlapCase& asked, const OverlapTruth& truth
 }
 
 OverlapRow examine(const OverlapCriterion& criterion, const OverlapClass& of, const Asked& asked,
-                   double seconds, const Budget& budget) {
+                   double seconds, const RunControl& control) {
   OverlapRow row;
   row.method = criterion.name;
   row.vertices = criterion.vertices;
@@ -42,7 +42,7 @@ OverlapRow examine(const OverlapCriterion& criterion, const OverlapClass& of, co
   row.aspect_ratio = of.aspect_ratio;
   TimedBatches timer(seconds);
   std::vector<char> answers(asked.cases.size());
-  for (std::size_t done = 0; done < asked.cases.size() && !budget.stop_requested();) {
+  for (std::size_t done = 0; done < asked.cases.size() && !control.stop_requested();) {
     const std::size_t batch = timer.next(asked.cases.size() - done);
     if (batch == 0) break;
     timer.run(batch, [&] {
@@ -59,20 +59,20 @@ OverlapRow examine(const OverlapCriterion& criterion, const OverlapClass& of, co
 
 }  // namespace
 
-OverlapSurvey survey_overlap(const OverlapSurveyRequest& request, const Budget& budget) {
+OverlapSurvey survey_overlap(const OverlapSurveyRequest& request, const RunControl& control) {
   OverlapSurvey result;
   const auto classes = static_cast<double>(request.classes.size());
-  for (std::size_t k = 0; k < request.classes.size() && !budget.stop_requested(); ++k) {
+  for (std::size_t k = 0; k < request.classes.size() && !control.stop_requested(); ++k) {
     const OverlapClass& of = request.classes[k];
     const Asked asked = make_cases(request, of);
     for (const OverlapCriterion& criterion : request.criteria) {
-      const OverlapRow row = examine(criterion, of, asked, request.seconds / classes, budget);
+      const OverlapRow row = examine(criterion, of, asked, request.seconds / classes, control);
       if (row.pairs > 0) result.rows.push_back(row);
     }
     const double done = static_cast<double>(k + 1);
-    budget.tell({done / classes, done * static_cast<double>(request.pairs), "pairs"});
+    control.report_progress({done / classes, done * static_cast<double>(request.pairs), "pairs"});
   }
-  result.stopped = budget.stop_requested();
+  result.stopped = control.stop_requested();
   return result;
 }
 

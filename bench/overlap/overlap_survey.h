@@ -37,6 +37,6 @@ struct OverlapSurvey {
 };
 
 /// Asks every criterion about the same pairs; a slow one answers as many as its time allows.
-OverlapSurvey survey_overlap(const OverlapSurveyRequest& request, const Budget& budget);
+OverlapSurvey survey_overlap(const OverlapSurveyRequest& request, const RunControl& control);
 
 }  // namespace vitrel::bench

@@ -145,13 +145,13 @@ Measured<Dim> measure(const Supply<Dim>& supply, const CollisionTimeOptions& opt
   Measured<Dim> measured;
   report.say(fmt::format("stability of {} methods on {} classes", request.candidates.size(),
                          request.classes.size()));
-  measured.survey = survey(request, report.budget());
+  measured.survey = survey(request, report.control());
   if (report.is_wanted() && !measured.survey.stopped) {
     request.candidates = candidates_by_tolerance(supply, options);
     request.classes = generic_class(supply);
     request.tolerance = {charted_tolerance, charted_tolerance};
     report.say(fmt::format("accuracy of {} methods and tolerances", request.candidates.size()));
-    measured.tolerances = survey(request, report.budget()).rows;
+    measured.tolerances = survey(request, report.control()).rows;
   }
   report.print(rows_json(measured.survey.rows), rows_text(measured.survey.rows));
   return measured;
@@ -193,7 +193,7 @@ int collision_time(const CollisionTimeOptions& options, const OutputOptions& out
                          all_classes()};
   Report report(output);
   const Measured<2> measured = measure(supply, options, report);
-  if (report.budget().stop_requested()) return report.stopped_early();
+  if (report.control().stop_requested()) return report.stopped_early();
   if (!report.is_wanted()) return success;
   OverlapOptions criteria;
   criteria.seed = options.seed;
@@ -202,7 +202,7 @@ int collision_time(const CollisionTimeOptions& options, const OutputOptions& out
   scene.duration = options.duration;
   scene.seed = options.seed;
   const std::vector<WholeRun> runs = measure_whole_runs(scene, report);
-  if (report.budget().stop_requested()) return report.stopped_early();
+  if (report.control().stop_requested()) return report.stopped_early();
   Json data = data_of(measured, supply);
   data["scene"] = thesis_scene_answers_json();
   data["scene_curves"] = thesis_scene_curves_json();
@@ -226,7 +226,7 @@ int collision_time_of_ellipsoids(const CollisionTimeOptions& options, const Outp
   const Supply<3> supply{ellipsoid_methods(), ellipsoid_methods_by_tolerance(), ellipsoid_suite()};
   Report report(output);
   const Measured<3> measured = measure(supply, options, report);
-  if (report.budget().stop_requested()) return report.stopped_early();
+  if (report.control().stop_requested()) return report.stopped_early();
   if (!report.is_wanted()) return success;
   Json data = data_of(measured, supply);
   data["passing_pair"] = passing_pair_json();

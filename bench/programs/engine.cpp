@@ -224,7 +224,7 @@ Json neighbor_counts(const Configuration2& c) {
   constexpr double wanted = 7;
   std::vector<Pose2> poses;
   for (std::size_t i = 0; i < c.size(); ++i) poses.push_back(c.pose(i));
-  const KindOf all_alike;
+  const TypeIndex all_alike;
   Neighborhoods<Ellipse> lists(c.box, {c.shape.data(), 1}, all_alike, poses, wanted);
   const CellGrid<2> cells = make_cells(c);
   const double reach = 2 * (c.shape[0].a + lists.margin());

@@ -39,7 +39,7 @@ OverlapSurvey measure_overlap(const OverlapOptions& options, Report& report) {
   return survey_overlap({chosen(overlap_criteria(), options.methods, "method"),
                          chosen(overlap_classes(), options.classes, "class"), options.pairs,
                          options.seconds, options.seed},
-                        report.budget());
+                        report.control());
 }
 
 Json overlap_json(const std::vector<OverlapRow>& rows) {

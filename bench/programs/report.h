@@ -27,7 +27,7 @@ class Report {
   /// FileError if the folder cannot be made.
   explicit Report(const OutputOptions& options);
 
-  const Budget& budget() const { return session_.budget(); }
+  const RunControl& control() const { return session_.control(); }
   void say(const std::string& step) { session_.say()(step); }
 
   /// Prints the rows: as JSON if asked for, else unless quiet as the table.

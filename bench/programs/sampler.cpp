@@ -16,12 +16,12 @@
 #include "bench/baselines/sequential_sampler.h"
 #include "bench/programs/parts.h"
 #include "bench/surveys/engine_speed.h"
-#include "core/contact/overlap_look.h"
-#include "core/contact/support_gap.h"
+#include "core/contact/ellipse_gap.h"
+#include "core/contact/ellipse_overlap_batch.h"
 #include "core/error.h"
 #include "core/neighbors/pairs.h"
 #include "core/random/stream.h"
-#include "mc/disjoint.h"
+#include "mc/hard_core.h"
 #include "mc/sampler.h"
 
 namespace vitrel::bench {
@@ -188,7 +188,7 @@ Json measure_threads(const Effort& effort) {
 struct Question {
   Ellipse shape;
   Vec2 axis;
-  std::vector<EllipseGroup> groups;
+  std::vector<EllipseBatch> groups;
   int others = 0;
 };
 
@@ -218,16 +218,16 @@ std::vector<Question> questions(const Configuration2& c, const Steps& steps, int
 }
 
 bool clear_in_lanes(const Question& asked, double margin) {
-  const OverlapLook look(asked.shape, asked.axis, margin);
+  const OverlapBatch look(asked.shape, asked.axis, margin);
   std::uint64_t alone = 0;
-  return std::ranges::all_of(asked.groups, [&](const EllipseGroup& group) {
-    return look.clear_of(group, Vec2::Zero(), OverlapLook::Asked(true), alone);
+  return std::ranges::all_of(asked.groups, [&](const EllipseBatch& group) {
+    return look.clear_of(group, Vec2::Zero(), OverlapBatch::Mask(true), alone);
   });
 }
 
 bool clear_one_by_one(const Question& asked, double margin) {
   for (int k = 0; k < asked.others; ++k) {
-    const EllipseGroup& group = asked.groups[static_cast<std::size_t>(k / many)];
+    const EllipseBatch& group = asked.groups[static_cast<std::size_t>(k / many)];
     const int lane = k % many;
     if (!separated(asked.shape, asked.axis, group.shape(lane), group.axis(lane),
                    group.position(lane), margin))

@@ -158,13 +158,13 @@ Json exceptions_at(double packing_fraction, double modulus, const Effort& effort
       return static_cast<double>(since(before, count)) /
              static_cast<double>(since(before, &RunCounters::collisions));
     };
-    refused.push_back(frequency(&RunCounters::refused_turns));
+    refused.push_back(frequency(&RunCounters::blocked_rotations));
     early.push_back(frequency(&RunCounters::early_releases));
   }
   return {{"packing_fraction", packing_fraction},
           {"modulus", modulus},
           {"collisions", since(relaxed, &RunCounters::collisions)},
-          {"refused_turns", row(&RunCounters::refused_turns, refused)},
+          {"refused_turns", row(&RunCounters::blocked_rotations, refused)},
           {"early_releases", row(&RunCounters::early_releases, early)}};
 }
 
@@ -189,7 +189,7 @@ class ClassicalRestitution {
       : head_on_(form_of<Viscoelastic>(), std::move(table)) {}
 
   Restitution operator()(const ScaledImpact& impact) {
-    const double least = impact.distance * std::exp(usual_obliqueness.low);
+    const double least = impact.distance * std::exp(typical_obliqueness.low);
     return {1, 0, 0, head_on_({impact.distance, least, impact.damping}).rate};
   }
   std::uint64_t integrated() const { return head_on_.integrated(); }
@@ -258,7 +258,7 @@ Json event_driven(const Race& race, const char* name, const EngineOptions& optio
   }
   Json row = result_json(race, name, best, state.configuration);
   row["collisions"] = state.counters.collisions;
-  row["refused_turns"] = state.counters.refused_turns;
+  row["refused_turns"] = state.counters.blocked_rotations;
   row["early_releases"] = state.counters.early_releases;
   return row;
 }
@@ -393,7 +393,7 @@ Json conservation_in(const Force& force, const char* name, const Effort& effort)
   run_on(state, tabulated(force), effort.long_run * mean_free_time(start));
   return {{"gas", name},
           {"collisions", state.counters.collisions},
-          {"refused_turns", state.counters.refused_turns},
+          {"refused_turns", state.counters.blocked_rotations},
           {"early_releases", state.counters.early_releases},
           {"momentum", state.largest_momentum / momentum_scale(start)},
           {"energy", state.energy_drift}};
@@ -432,14 +432,14 @@ Json conservation_of_clusters(EarlyRelease early_release, const Effort& effort) 
     lost.push_back((angular_momentum(end) - angular_momentum(start)).norm() /
                    angular_momentum_scale(start));
     sum.collisions += state.counters.collisions;
-    sum.refused_turns += state.counters.refused_turns;
+    sum.blocked_rotations += state.counters.blocked_rotations;
     sum.early_releases += state.counters.early_releases;
   }
   return {{"early_release", early_release == EarlyRelease::alone ? "alone" : "together"},
           {"clusters", effort.clusters},
           {"particles", effort.few_sites.prod()},
           {"collisions", sum.collisions},
-          {"refused_turns", sum.refused_turns},
+          {"refused_turns", sum.blocked_rotations},
           {"early_releases", sum.early_releases},
           {"momentum", std::ranges::max(momentum)},
           {"energy", std::ranges::max(energy)},

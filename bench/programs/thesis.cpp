@@ -42,7 +42,7 @@ struct Measured {
 class Runs {
  public:
   Runs(const ThesisOptions& options, Report& report)
-      : options_(options), report_(report), budget_(report.budget()) {}
+      : options_(options), report_(report), control_(report.control()) {}
 
   Measured all() {
     by_size();
@@ -59,7 +59,7 @@ class Runs {
 
   void run(std::vector<ThesisRow>& rows, Program program, const ThesisScene& scene, double tau,
            const Configuration2& start) {
-    if (budget_.stop_requested()) return;
+    if (control_.stop_requested()) return;
     RunLimits limits{options_.duration, 1e9, tau, options_.seed};
     // Small systems run longer, so that all have as much to do.
     if (program == Program::ours)
@@ -67,8 +67,8 @@ class Runs {
           1.0, static_cast<double>(side_lengths.back() * side_lengths.back()) / scene.particles);
     else
       limits.seconds = options_.seconds;
-    const ThesisRun run = run_thesis(program, start, limits, budget_);
-    if (!budget_.stop_requested()) rows.push_back({program, scene, tau, run});
+    const ThesisRun run = run_thesis(program, start, limits, control_);
+    if (!control_.stop_requested()) rows.push_back({program, scene, tau, run});
   }
 
   void by_size() {
@@ -82,15 +82,15 @@ class Runs {
           for (const double tau : {0.0, brownian_step})
             run(measured_.by_size, program, of, tau, start);
       }
-      budget_.tell({static_cast<double>(side * side) / options_.largest,
-                    static_cast<double>(side * side), "particles"});
+      control_.report_progress({static_cast<double>(side * side) / options_.largest,
+                                static_cast<double>(side * side), "particles"});
     }
   }
 
   void by_aspect_ratio() {
     report_.say("figure 4.3: aspect ratios");
     for (const double kappa : aspect_ratios) {
-      if (budget_.stop_requested()) return;
+      if (control_.stop_requested()) return;
       const ThesisScene of = scene(100, kappa);
       const Configuration2 start = equilibrated(of, 5 * warm_up);
       for (const double tau : {0.0, brownian_step})
@@ -108,7 +108,7 @@ class Runs {
     };
     const Configuration2 start = equilibrated(scene(100, aspect_ratio), warm_up);
     note(start);
-    const ThesisRun run = run_thesis(Program::ours, start, {options_.duration}, budget_, note);
+    const ThesisRun run = run_thesis(Program::ours, start, {options_.duration}, control_, note);
     measured_.energy_drift = run.energy_drift;
   }
 
@@ -121,15 +121,15 @@ class Runs {
                                                          {dense, 1.0, tau, 1e2},
                                                          {dense, 0.0, tau, 1e2},
                                                          {dilute, 1.0, tau, 1e2}}) {
-      if (budget_.stop_requested()) return;
+      if (control_.stop_requested()) return;
       measured_.relaxations.push_back(
-          relax({density, share, step, duration, options_.relaxations, options_.seed}, budget_));
+          relax({density, share, step, duration, options_.relaxations, options_.seed}, control_));
     }
   }
 
   const ThesisOptions& options_;
   Report& report_;
-  const Budget& budget_;
+  const RunControl& control_;
   Measured measured_;
 };
 
@@ -269,7 +269,7 @@ int thesis(const ThesisOptions& options, const OutputOptions& output) {
   Report report(output);
   const Measured measured = Runs(options, report).all();
   report.print(rows_json(measured.by_size), text_of(measured));
-  if (report.budget().stop_requested()) return report.stopped_early();
+  if (report.control().stop_requested()) return report.stopped_early();
   if (!report.is_wanted()) return success;
   Json data = measured_json(measured);
   report.add_provenance(

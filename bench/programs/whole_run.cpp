@@ -63,14 +63,14 @@ std::string whole_run_text(const std::vector<WholeRun>& rows) {
 
 std::vector<WholeRun> measure_whole_runs(const WholeRunOptions& options, Report& report) {
   report.say("whole runs");
-  const Budget& budget = report.budget();
+  const RunControl& control = report.control();
   const std::vector<Method> methods = chosen(methods_for_whole_runs(), options.methods, "method");
   std::vector<WholeRun> runs;
   for (const Method& method : methods) {
     const auto done = static_cast<double>(runs.size());
-    budget.tell({done / static_cast<double>(methods.size()), done, "runs"});
-    const WholeRun run = thesis_scene_with(method, options.duration, options.seed, budget);
-    if (budget.stop_requested()) break;
+    control.report_progress({done / static_cast<double>(methods.size()), done, "runs"});
+    const WholeRun run = thesis_scene_with(method, options.duration, options.seed, control);
+    if (control.stop_requested()) break;
     runs.push_back(run);
   }
   return runs;
@@ -96,7 +96,7 @@ int whole_run(const WholeRunOptions& options, const OutputOptions& output) {
   const std::vector<WholeRun> runs = measure_whole_runs(options, report);
   const Json rows = whole_runs_json(runs);
   report.print(rows, whole_run_text(runs));
-  if (report.budget().stop_requested()) return report.stopped_early();
+  if (report.control().stop_requested()) return report.stopped_early();
   if (!report.is_wanted()) return success;
   Json data = {{"rows", rows}};
   report.add_provenance(

@@ -43,7 +43,7 @@ class Shape {
     return (a_ / highest) * (b_ / highest) * a_ * (b_ / highest);
   }
   Real a() const { return a_; }
-  Real swing() const { return a_ - b_; }
+  Real max_support_rate() const { return a_ - b_; }
 
  private:
   Real a_ = 0, b_ = 0, bulge_ = 0, cos_ = 1, sin_ = 0;
@@ -60,7 +60,7 @@ class GapOverDirections {
     x_ = along(0);
     y_ = along(1);
     distance_ = std::hypot(x_, y_);
-    steepest_ = distance_ + one_.swing() + two_.swing();
+    steepest_ = distance_ + one_.max_support_rate() + two_.max_support_rate();
     reach_ = distance_ + one_.a() + two_.a();
   }
 

@@ -77,7 +77,7 @@ class Body {
     const Matrix second = commutator(omega, commutator(omega, axes * axes.transpose()));
     const Real most = std::max(size_, size_at(horizon));
     return most * second.norm() / (2 * shape_.inradius()) +
-           2 * std::abs(growth_) * omega_.norm() * shape_.swing();
+           2 * std::abs(growth_) * omega_.norm() * shape_.max_support_rate();
   }
 
   Real phase(Real time) const { return omega_.norm() * time; }
@@ -98,7 +98,7 @@ struct Pair {
 
   Vector d(Real time) const { return start + velocity * time; }
 
-  Vector likely_axis(Real time) const {
+  Vector initial_axis(Real time) const {
     return ellipsoid_touch<Real>(one.axes_at(time), two.axes_at(time), d(time)).normal;
   }
 
@@ -107,7 +107,7 @@ struct Pair {
     Vector normal;
   };
   Separation separation(Real time) const {
-    const Vector n = likely_axis(time);
+    const Vector n = initial_axis(time);
     const Body::Support first = one.support(time, n), second = two.support(time, n);
     return {n.dot(d(time)) - first.height - second.height,
             n.dot(velocity) - first.rate - second.rate, n};

@@ -12,8 +12,8 @@
 #include <string>
 
 #include "bench/methods/collision_case.h"
-#include "core/contact/support_gap.h"
-#include "core/contact/vieillard_baron.h"
+#include "core/contact/ellipse_gap.h"
+#include "core/contact/ellipse_vieillard_baron.h"
 #include "core/error.h"
 #include "core/random/stream.h"
 #include "edmd/brownian.h"

@@ -9,8 +9,8 @@
 #include <optional>
 #include <vector>
 
+#include "core/contact/ellipse_vieillard_baron.h"
 #include "core/contact/perram_wertheim.h"
-#include "core/contact/vieillard_baron.h"
 
 namespace vitrel::bench {
 namespace {

@@ -24,7 +24,7 @@ class Repeats {
       sum.simulated_time += work.simulated_time;
       sum.counters.events += work.counters.events;
       sum.counters.collisions += work.counters.collisions;
-      sum.counters.renewals += work.counters.renewals;
+      sum.counters.list_updates += work.counters.list_updates;
       sum.counters.virial += work.counters.virial;
       sum.counters.add_predictions(work.counters);
     }
@@ -42,7 +42,7 @@ class Repeats {
             {"predictions", per_collision(of.predictions)},
             {"searches", per_collision(of.searches)},
             {"steps", per_collision(of.steps)},
-            {"renewals", per_collision(of.renewals)}};
+            {"renewals", per_collision(of.list_updates)}};
   }
 
  private:

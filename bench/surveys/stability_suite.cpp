@@ -5,7 +5,7 @@
 
 #include "bench/reference/true_gap.h"
 #include "bench/surveys/drawn_class.h"
-#include "core/contact/vieillard_baron.h"
+#include "core/contact/ellipse_vieillard_baron.h"
 
 namespace vitrel::bench {
 

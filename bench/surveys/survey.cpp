@@ -103,10 +103,10 @@ class Examination {
 
   bool is_over() const { return over_; }
 
-  void take(const Block<Dim>& block, const Budget& budget,
+  void take(const Block<Dim>& block, const RunControl& control,
             std::optional<FailingCaseOf<Dim>>& failure) {
     std::size_t done = 0;
-    while (done < block.cases.size() && !budget.stop_requested()) {
+    while (done < block.cases.size() && !control.stop_requested()) {
       const std::size_t batch = timer_.next(block.cases.size() - done);
       over_ = batch == 0;
       if (over_) return;
@@ -184,7 +184,8 @@ class Examination {
 
 template <int Dim>
 void examine_class(const SurveyRequestOf<Dim>& request, std::size_t class_index,
-                   const Budget& budget, std::vector<std::optional<FailingCaseOf<Dim>>>& failures,
+                   const RunControl& control,
+                   std::vector<std::optional<FailingCaseOf<Dim>>>& failures,
                    SurveyOf<Dim>& result) {
   const CaseClassOf<Dim>& of = request.classes[class_index];
   const auto classes = static_cast<double>(request.classes.size());
@@ -194,16 +195,17 @@ void examine_class(const SurveyRequestOf<Dim>& request, std::size_t class_index,
   for (const CandidateOf<Dim>& candidate : request.candidates)
     examinations.emplace_back(candidate.method, of, candidate.seconds / classes, request.tolerance);
   std::size_t size = first_block;
-  for (std::uint64_t done = 0; done < request.pairs && !budget.stop_requested();) {
+  for (std::uint64_t done = 0; done < request.pairs && !control.stop_requested();) {
     if (std::ranges::all_of(examinations, &Examination<Dim>::is_over)) break;
     const Block<Dim> block = make_block(request, of, done, std::min(size, request.pairs - done));
     for (std::size_t k = 0; k < examinations.size(); ++k)
-      if (!examinations[k].is_over()) examinations[k].take(block, budget, failures[k]);
+      if (!examinations[k].is_over()) examinations[k].take(block, control, failures[k]);
     done += block.cases.size();
     size = std::min(2 * size, largest_block);
     const double part = static_cast<double>(done) / static_cast<double>(request.pairs);
     const double progress = static_cast<double>(class_index) + part;
-    budget.tell({progress / classes, progress * static_cast<double>(request.pairs), "pairs"});
+    control.report_progress(
+        {progress / classes, progress * static_cast<double>(request.pairs), "pairs"});
   }
   for (std::size_t k = 0; k < examinations.size(); ++k) {
     if (examinations[k].pairs() == 0) continue;
@@ -215,18 +217,18 @@ void examine_class(const SurveyRequestOf<Dim>& request, std::size_t class_index,
 }  // namespace
 
 template <int Dim>
-SurveyOf<Dim> survey(const SurveyRequestOf<Dim>& request, const Budget& budget) {
+SurveyOf<Dim> survey(const SurveyRequestOf<Dim>& request, const RunControl& control) {
   SurveyOf<Dim> result;
   std::vector<std::optional<FailingCaseOf<Dim>>> failures(request.candidates.size());
-  for (std::size_t k = 0; k < request.classes.size() && !budget.stop_requested(); ++k)
-    examine_class(request, k, budget, failures, result);
+  for (std::size_t k = 0; k < request.classes.size() && !control.stop_requested(); ++k)
+    examine_class(request, k, control, failures, result);
   for (const auto& failure : failures)
     if (failure) result.failures.push_back(*failure);
-  result.stopped = budget.stop_requested();
+  result.stopped = control.stop_requested();
   return result;
 }
 
-template Survey survey(const SurveyRequest&, const Budget&);
-template SurveyOf<3> survey(const SurveyRequestOf<3>&, const Budget&);
+template Survey survey(const SurveyRequest&, const RunControl&);
+template SurveyOf<3> survey(const SurveyRequestOf<3>&, const RunControl&);
 
 }  // namespace vitrel::bench

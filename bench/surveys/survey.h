@@ -85,6 +85,6 @@ using Survey = SurveyOf<2>;
 /// kept: late or missed, then early or false, these if the pair is degenerate, and last no answer,
 /// unless the method does not apply.
 template <int Dim = 2>
-SurveyOf<Dim> survey(const SurveyRequestOf<Dim>& request, const Budget& budget);
+SurveyOf<Dim> survey(const SurveyRequestOf<Dim>& request, const RunControl& control);
 
 }  // namespace vitrel::bench

@@ -166,7 +166,7 @@ const char* name_of(Program program) {
 }
 
 ThesisRun run_thesis(Program program, const Configuration2& start, const RunLimits& limits,
-                     const Budget& budget,
+                     const RunControl& control,
                      const std::function<void(const Configuration2&)>& at_sample) {
   ThesisRun result;
   Driver driver(make_program(program, start), start, limits.brownian_step);
@@ -174,7 +174,7 @@ ThesisRun run_thesis(Program program, const Configuration2& start, const RunLimi
   const auto draw = [&](Configuration2& now, std::uint64_t step) {
     draw_velocities(now, limits.seed, Purpose::brownian_step, step, Temperature::total);
   };
-  for (int sample = 1; !budget.stop_requested(); ++sample) {
+  for (int sample = 1; !control.stop_requested(); ++sample) {
     const double until = sample_interval * sample;
     if (until > limits.duration * (1 + 1e-12)) break;
     result.seconds += seconds_of([&] { result.stood_still = !driver.advance(until); });
@@ -193,13 +193,13 @@ ThesisRun run_thesis(Program program, const Configuration2& start, const RunLimi
   return result;
 }
 
-Relaxation relax(const RelaxationScene& scene, const Budget& budget) {
+Relaxation relax(const RelaxationScene& scene, const RunControl& control) {
   constexpr int particles = 100;
   Relaxation result;
   result.scene = scene;
   result.times = relaxation_times(scene);
   result.kinetic.assign(result.times.size(), 0);
-  for (int k = 0; k < scene.runs && !budget.stop_requested(); ++k) {
+  for (int k = 0; k < scene.runs && !control.stop_requested(); ++k) {
     const std::uint64_t seed = scene.seed + static_cast<std::uint64_t>(k);
     const auto draw = [&](Configuration2& now, std::uint64_t step) {
       draw_wrong_split(now, scene, seed, step);

@@ -53,7 +53,7 @@ struct ThesisRun {
 
 /// Samples every 0.1 units of time: the exact check, the energy, and `at_sample`.
 ThesisRun run_thesis(Program program, const Configuration2& start, const RunLimits& limits,
-                     const Budget& budget,
+                     const RunControl& control,
                      const std::function<void(const Configuration2&)>& at_sample = {});
 
 /// Energies after a start whose split between translation and rotation is wrong (figure 4.7): the
@@ -79,6 +79,6 @@ struct Relaxation {
   std::uint64_t samples = 0;
   std::uint64_t samples_with_overlap = 0;
 };
-Relaxation relax(const RelaxationScene& scene, const Budget& budget);
+Relaxation relax(const RelaxationScene& scene, const RunControl& control);
 
 }  // namespace vitrel::bench

@@ -9,7 +9,7 @@
 
 #include "bench/methods/method.h"
 #include "bench/reference/first_contact.h"
-#include "core/contact/vieillard_baron.h"
+#include "core/contact/ellipse_vieillard_baron.h"
 
 namespace vitrel::bench {
 namespace {

@@ -10,7 +10,7 @@
 namespace vitrel::bench {
 
 /// The time per call of something that is asked many questions, in batches that grow as far as a
-/// budget of seconds allows, but one question at least.
+/// control of seconds allows, but one question at least.
 ///
 /// Every batch is run three times and its shortest time counts, so that interruptions do not; a
 /// question that takes more than a millisecond is asked once.
@@ -23,7 +23,7 @@ class TimedBatches {
                         Clock clock = steady_clock)
       : clock_(std::move(clock)), seconds_left_(seconds) {}
 
-  /// How many of the `left` questions to ask next; 0 when the budget is used up.
+  /// How many of the `left` questions to ask next; 0 when the control is used up.
   std::size_t next(std::size_t left) const {
     if (calls_ == 0) return std::min<std::size_t>(left, 1);
     const double cost = seconds_ / static_cast<double>(calls_) * repeats();

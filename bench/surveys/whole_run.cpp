@@ -38,7 +38,7 @@ bool advance(Engine2& engine, Configuration2& now, double until, RunCounters& co
 }  // namespace
 
 WholeRun thesis_scene_with(const Method& method, double duration, std::uint64_t seed,
-                           const Budget& budget) {
+                           const RunControl& control) {
   using Clock = std::chrono::steady_clock;
   Configuration2 now = on_lattice({});
   set_initial_velocities(now, seed, InitialVelocities::maxwell, Temperature::total);
@@ -48,7 +48,8 @@ WholeRun thesis_scene_with(const Method& method, double duration, std::uint64_t 
   WholeRun result{method.name, method.tolerance};
   Clock::duration running{};
   engine->load(now);
-  for (int sample = 1; sample * sample_interval <= duration && !budget.stop_requested(); ++sample) {
+  for (int sample = 1; sample * sample_interval <= duration && !control.stop_requested();
+       ++sample) {
     const auto start = Clock::now();
     result.stood_still = !advance(*engine, now, sample * sample_interval, counters);
     running += Clock::now() - start;

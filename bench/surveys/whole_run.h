@@ -26,7 +26,7 @@ struct WholeRun {
 
 /// Samples every 0.1 units of time.
 WholeRun thesis_scene_with(const Method& method, double duration, std::uint64_t seed,
-                           const Budget& budget);
+                           const RunControl& control);
 
 /// The methods that can carry a run, each at a series of tolerances.
 std::vector<Method> methods_for_whole_runs();

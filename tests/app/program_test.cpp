@@ -459,7 +459,7 @@ TEST(Program, AnOverlapExitsWithFourUnlessItIsToBeCorrected) {
   EXPECT_GT(Json::parse(corrected.output)["correction_moves"], 0);
 }
 
-// However slow the machine, one block is done before the budget is asked.
+// However slow the machine, one block is done before the control is asked.
 TEST(Program, TheWallTimeBudgetStopsCleanly) {
   const Folder folder("wall_time");
   folder.write("p.toml", small_system);

@@ -80,7 +80,7 @@ double rounding(const CollisionCase& asked) {
 double gap_rounding(const CollisionCase& asked, double time) {
   double sum = rounding(asked);
   for (const auto* flight : {&asked.one, &asked.two})
-    sum += rounding_of_angle(*flight, time) * flight->body.shape.swing() *
+    sum += rounding_of_angle(*flight, time) * flight->body.shape.max_support_rate() *
            std::max(1.0, flight->body.size_at(time));
   return sum;
 }

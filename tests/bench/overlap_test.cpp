@@ -126,11 +126,11 @@ TEST(OverlapSurvey, ExactCriteriaAreNeverWrongAndTheOthersWhereExpected) {
 
 TEST(OverlapSurvey, StopsOnRequestAndKeepsWhatIsDone) {
   OverlapSurveyRequest request{{overlap_criteria().front()}, overlap_classes(), 100, 1, 7};
-  Budget budget;
+  RunControl control;
   double fraction = 0;
-  budget.report = [&](const Progress& progress) { fraction = progress.fraction; };
-  budget.should_stop = [&] { return fraction > 0.3; };
-  const OverlapSurvey survey = survey_overlap(request, budget);
+  control.on_progress = [&](const Progress& progress) { fraction = progress.fraction; };
+  control.should_stop = [&] { return fraction > 0.3; };
+  const OverlapSurvey survey = survey_overlap(request, control);
   EXPECT_TRUE(survey.stopped);
   EXPECT_EQ(survey.rows.size(), 2u);
 }

@@ -9,7 +9,7 @@
 
 #include "bench/reference/first_contact.h"
 #include "bench/reference/true_gap.h"
-#include "core/contact/vieillard_baron.h"
+#include "core/contact/ellipse_vieillard_baron.h"
 
 namespace vitrel::bench {
 namespace {

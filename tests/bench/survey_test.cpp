@@ -173,11 +173,11 @@ TEST(Survey, ASlowMethodAnswersWhatItsTimeAllows) {
 
 TEST(Survey, StopsOnRequestAndKeepsWhatIsDone) {
   const std::vector<CaseClass> classes(4, generic());
-  Budget budget;
+  RunControl control;
   double fraction = 0;
-  budget.report = [&](const Progress& progress) { fraction = progress.fraction; };
-  budget.should_stop = [&] { return fraction >= 0.5; };
-  const Survey result = survey({{{delayed("exact", 0)}}, classes, 40, 5, {}}, budget);
+  control.on_progress = [&](const Progress& progress) { fraction = progress.fraction; };
+  control.should_stop = [&] { return fraction >= 0.5; };
+  const Survey result = survey({{{delayed("exact", 0)}}, classes, 40, 5, {}}, control);
   EXPECT_TRUE(result.stopped);
   EXPECT_EQ(result.rows.size(), 2u);
 }

@@ -146,8 +146,8 @@ TEST(Export, LeavesNothingIfStopped) {
   const Folder folder("export_stopped");
   write_run(folder / "run.h5", 5, 4);
   int frames = 0;
-  const Budget budget{[&] { return frames == 2; }, [&](const Progress&) { ++frames; }, {}};
-  EXPECT_FALSE(export_trajectory({folder / "run.h5", "gsd", folder / "run.gsd"}, budget));
+  const RunControl control{[&] { return frames == 2; }, [&](const Progress&) { ++frames; }, {}};
+  EXPECT_FALSE(export_trajectory({folder / "run.h5", "gsd", folder / "run.gsd"}, control));
   EXPECT_EQ(frames, 2);
   EXPECT_FALSE(std::filesystem::exists(folder / "run.gsd"));
   EXPECT_FALSE(std::filesystem::exists(folder / "run.gsd.partial"));

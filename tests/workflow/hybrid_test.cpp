@@ -46,7 +46,7 @@ TEST(Hybrid, KnowsWhenTheParticlesAreJammed) {
   options.stretch.sweeps = 2;
   HybridState state;
   const StageReport report = hybrid(c, options, state, {});
-  EXPECT_EQ(report.end, StageEnd::stuck);
+  EXPECT_EQ(report.end, StageEnd::stalled);
   EXPECT_NE(report.reason.find("jammed"), std::string::npos);
   EXPECT_TRUE(exact_check(c).clean());
 }

@@ -152,9 +152,9 @@ TEST(Prepare, CompressionAtAPressureTellsItsMeanPackingFraction) {
 
 TEST(Prepare, TheBudgetStopsIt) {
   Parameters parameters = small(0.7);
-  Budget budget;
-  budget.should_stop = [] { return true; };
-  EXPECT_FALSE(prepare({parameters}, budget, say_nothing).complete);
+  RunControl control;
+  control.should_stop = [] { return true; };
+  EXPECT_FALSE(prepare({parameters}, control, say_nothing).complete);
 }
 
 /// Insertion and one stage of this method.
@@ -186,9 +186,9 @@ TEST_P(StoppedPreparation, GoesOnBitByBitFromItsFile) {
   const Preparation whole = prepare({parameters}, {}, say_nothing);
   const PrepareRequest request{parameters, folder_ / "state.h5"};
   std::uint64_t asked = 0, patience = 10, stops = 0;
-  const Budget budget{[&] { return ++asked > patience; }, {}, {}};
-  Preparation parts = prepare(request, budget, say_nothing);
-  for (; !parts.complete; parts = prepare(request, budget, say_nothing)) {
+  const RunControl control{[&] { return ++asked > patience; }, {}, {}};
+  Preparation parts = prepare(request, control, say_nothing);
+  for (; !parts.complete; parts = prepare(request, control, say_nothing)) {
     patience = 10 + 5 * ++stops;
     asked = 0;
     ASSERT_LT(stops, 1000u);
@@ -218,13 +218,14 @@ TEST_P(StoppedPreparation, GoesOnBitByBitFromAnyCheckpoint) {
   const std::filesystem::path checkpoint = folder_ / "state.h5.preparation";
   const Preparation whole = prepare({parameters}, {}, say_nothing);
   std::uint64_t reports = 0;
-  const Budget budget{{},
-                      [&](const Progress&) {
-                        reports += std::filesystem::exists(checkpoint);
-                        if (reports == 5) std::filesystem::copy_file(checkpoint, folder_ / "copy");
-                      },
-                      {}};
-  prepare(request, budget, say_nothing);
+  const RunControl control{{},
+                           [&](const Progress&) {
+                             reports += std::filesystem::exists(checkpoint);
+                             if (reports == 5)
+                               std::filesystem::copy_file(checkpoint, folder_ / "copy");
+                           },
+                           {}};
+  prepare(request, control, say_nothing);
   ASSERT_GE(reports, 5u);
   forget_preparation(request.output);
   std::filesystem::rename(folder_ / "copy", checkpoint);
@@ -311,9 +312,9 @@ TEST(PrepareSolids, StoppedTheyGoOnBitByBit) {
   const Preparation<3> whole = prepare<3>({solids()}, {}, say_nothing);
   const PrepareRequest request{solids(), folder / "state.h5"};
   std::uint64_t asked = 0, stops = 0;
-  const Budget budget{[&] { return ++asked > 50; }, {}, {}};
-  Preparation<3> parts = prepare<3>(request, budget, say_nothing);
-  for (; !parts.complete; parts = prepare<3>(request, budget, say_nothing), ++stops) asked = 0;
+  const RunControl control{[&] { return ++asked > 50; }, {}, {}};
+  Preparation<3> parts = prepare<3>(request, control, say_nothing);
+  for (; !parts.complete; parts = prepare<3>(request, control, say_nothing), ++stops) asked = 0;
   EXPECT_GT(stops, 1u);
   expect_same_state(parts, whole);
   // In the other dimension the checkpoint is of no use.

@@ -64,7 +64,7 @@ Quality example() {
   quality.hexatic_order = {0.3, 0.7};
   quality.smallest_gap = 1e-12;
   quality.backbone = JammedBackbone{{20, 1400, 5.83, 5.6}, 2e-3};
-  quality.probe = Probe{{1, 2}, {0.9, 0.8}, {0.1, 0.2}, {16.5, 16.7}, 800, 12, {}};
+  quality.decorrelation = Decorrelation{{1, 2}, {0.9, 0.8}, {0.1, 0.2}, {16.5, 16.7}, 800, 12, {}};
   return quality;
 }
 
@@ -108,7 +108,7 @@ TEST(MeasureQuality, TakesThePressureOfAGrowthThatEndedJammed) {
   ASSERT_TRUE(jammed.backbone);
   EXPECT_GT(jammed.backbone->contact_number, 4);
   EXPECT_LT(jammed.backbone->contact_number, 6.2);
-  EXPECT_FALSE(jammed.probe->place_lost);
+  EXPECT_FALSE(jammed.decorrelation->displacement_time);
 
   parameters.stages[1].reduced_pressure = 20;
   const Quality sampled = measured(parameters);
@@ -131,16 +131,16 @@ TEST(MeasureQuality, WithoutSweepsAndGrowthThereIsNeitherPressureNorTime) {
   const Quality quality = measured(parameters);
   EXPECT_EQ(quality.pressure_from, Quality::PressureFrom::nothing);
   EXPECT_TRUE(std::isnan(quality.reduced_pressure.mean));
-  EXPECT_FALSE(quality.probe);
+  EXPECT_FALSE(quality.decorrelation);
   EXPECT_EQ(row(quality, "reduced pressure βP/ρ"), "–");
   EXPECT_EQ(row(quality, "displacement time"), "no such row");
 }
 
 TEST(MeasureQuality, TheBudgetStopsIt) {
-  Budget budget;
-  budget.should_stop = [] { return true; };
+  RunControl control;
+  control.should_stop = [] { return true; };
   const Parameters parameters = small();
-  EXPECT_FALSE(measure_quality(prepare({parameters}, {}, say_nothing), parameters, budget));
+  EXPECT_FALSE(measure_quality(prepare({parameters}, {}, say_nothing), parameters, control));
 }
 
 TEST(QualityRows, SayWhatWasNotReached) {
@@ -185,21 +185,21 @@ TEST(QualityFile, ReadsBackWhatItWrote) {
   EXPECT_EQ(text(back), text(quality));
   EXPECT_TRUE(std::isnan(back.nematic_correlation.value[0]));
   EXPECT_EQ(back.pressure_from, quality.pressure_from);
-  EXPECT_EQ(back.probe->orientation_lost, 12u);
-  EXPECT_FALSE(back.probe->place_lost);
+  EXPECT_EQ(back.decorrelation->orientation_time, 12u);
+  EXPECT_FALSE(back.decorrelation->displacement_time);
   EXPECT_EQ(back.backbone->rattlers, 20u);
 
   quality.pressure_from = Quality::PressureFrom::sampling;
   quality.smallest_gap = infinity;
   quality.nematic_correlation = {};
   quality.backbone.reset();
-  quality.probe.reset();
+  quality.decorrelation.reset();
   write_quality(folder / "a.quality.json", quality);
   const Quality bare = read_quality(folder / "a.quality.json", state);
   EXPECT_EQ(text(bare), text(quality));
   EXPECT_EQ(bare.smallest_gap, infinity);
   EXPECT_EQ(bare.pressure_from, Quality::PressureFrom::sampling);
-  EXPECT_FALSE(bare.probe);
+  EXPECT_FALSE(bare.decorrelation);
 }
 
 TEST(QualityFile, SaysWhatIsWrongWithIt) {

@@ -561,10 +561,10 @@ void validate_stages(const std::vector<PrepareStage>& stages, const SystemParame
                               show(p.growth_rate)));
     rules.positive(p.pressure, "pressure");
     if (p.reduced_pressure)
-      rules.require(*p.reduced_pressure > 1 && *p.reduced_pressure <= greatest_reduced_pressure,
+      rules.require(*p.reduced_pressure > 1 && *p.reduced_pressure <= max_reduced_pressure,
                     "reduced_pressure",
                     fmt::format("is {}, but must lie above 1 (an ideal gas) and not above {}",
-                                show(*p.reduced_pressure), show(greatest_reduced_pressure)));
+                                show(*p.reduced_pressure), show(max_reduced_pressure)));
     if (p.packing_fraction)
       rules.packing_fraction(*p.packing_fraction, "packing_fraction", system.dimension);
     const double end = end_of_stage(p, system, reached);

@@ -75,8 +75,8 @@ RestitutionTable table_for(const ForceForm& form, const RestitutionDomain& domai
   const fs::path file = table_file(form, domain);
   if (auto loaded = RestitutionTable::load(file, form, domain, options)) return std::move(*loaded);
   say("making a table of what contacts do");
-  KeptTable kept = kept_table(file, form, domain, options, threads);
-  if (!kept.trouble.empty()) say("the table is not kept: " + kept.trouble);
+  CachedTable kept = load_or_build_table(file, form, domain, options, threads);
+  if (!kept.save_error.empty()) say("the table is not kept: " + kept.save_error);
   return std::move(kept.table);
 }
 

@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "core/error.h"
+#include "core/io/atomic_file.h"
 #include "core/io/h5md.h"
-#include "core/io/pending_file.h"
 #include "workflow/export/csv.h"
 #include "workflow/export/frame_range.h"
 #include "workflow/export/gsd.h"
@@ -34,22 +34,22 @@ std::unique_ptr<FrameSink> sink(const std::string& format, const std::filesystem
 
 std::optional<ExportedTrajectory> export_frames(const TrajectoryReader& reader,
                                                 const ExportRequest& request,
-                                                const Budget& budget) {
+                                                const RunControl& control) {
   if (request.shrink) throw UserError("--shrink: is for packings in three dimensions");
   if (request.voxels) throw UserError("--voxels: is for --to vti, in three dimensions");
   const std::vector<std::uint64_t> chosen =
       FrameRange(request.frames.value_or(":")).of(reader.frames(), request.input.string());
-  PendingFile pending(request.output);
+  AtomicFile pending(request.output);
   const std::unique_ptr<FrameSink> file = sink(request.format, pending.partial(), reader);
   Configuration2 configuration;
   ExportedTrajectory done;
   for (const std::uint64_t frame : chosen) {
-    if (budget.stop_requested()) return std::nullopt;
+    if (control.stop_requested()) return std::nullopt;
     reader.read(frame, configuration);
     file->write({frame, reader.steps()[frame], configuration});
     ++done.frames;
     const auto count = static_cast<double>(done.frames);
-    budget.tell({count / static_cast<double>(chosen.size()), count, "frame"});
+    control.report_progress({count / static_cast<double>(chosen.size()), count, "frame"});
   }
   file->close();
   done.particles = configuration.size();
@@ -75,7 +75,7 @@ ExportedTrajectory export_packing(const TrajectoryReader& reader, const ExportRe
     throw UserError(fmt::format("--frames {}: selects {} frames, but a packing is one",
                                 *request.frames, chosen.size()));
   const Packing packing(reader.read<3>(chosen.front()), request.shrink.value_or(1));
-  PendingFile pending(request.output);
+  AtomicFile pending(request.output);
   write_packing(pending.partial(), packing, request);
   const std::uintmax_t bytes = std::filesystem::file_size(pending.partial());
   pending.commit();
@@ -88,10 +88,10 @@ const std::vector<std::string> trajectory_formats = {"gsd", "xyz", "csv"};
 const std::vector<std::string> packing_formats = {"geo", "vti", "vtp", "csv"};
 
 std::optional<ExportedTrajectory> export_trajectory(const ExportRequest& request,
-                                                    const Budget& budget) {
+                                                    const RunControl& control) {
   const TrajectoryReader reader(request.input);
   if (reader.dimension() == 3) return export_packing(reader, request);
-  return export_frames(reader, request, budget);
+  return export_frames(reader, request, control);
 }
 
 }  // namespace vitrel

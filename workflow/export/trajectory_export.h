@@ -32,9 +32,9 @@ struct ExportedTrajectory {
 };
 
 /// Copies the frames, one in memory at a time; the output appears under its name when it is
-/// complete. Nothing if the budget stopped it: then there is no output. Throws UserError and
+/// complete. Nothing if the run control stopped it: then there is no output. Throws UserError and
 /// FileError.
 std::optional<ExportedTrajectory> export_trajectory(const ExportRequest& request,
-                                                    const Budget& budget);
+                                                    const RunControl& control);
 
 }  // namespace vitrel

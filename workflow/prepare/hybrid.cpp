@@ -13,13 +13,13 @@ constexpr double largest_growth = 0.01, largest_compression = 0.2;
 class Hybrid {
  public:
   Hybrid(Configuration2& configuration, const HybridOptions& options, HybridState& state,
-         const Budget& budget)
+         const RunControl& control)
       : configuration_(configuration),
         options_(options),
         state_(state),
-        budget_(budget),
+        control_(control),
         start_(packing_fraction(configuration)),
-        silent_{budget.should_stop, {}, budget.resumable} {}
+        silent_{control.should_stop, {}, control.on_resumable} {}
 
   StageReport run() {
     while (true) {
@@ -28,8 +28,8 @@ class Hybrid {
       if (report.end != StageEnd::reached || (grows && at_goal())) return report;
       ++state_.stretches;
       state_.stretch_end = 0;
-      budget_.tell({progress(), packing_fraction(configuration_), "packing fraction"});
-      budget_.mark_resumable();
+      control_.report_progress({progress(), packing_fraction(configuration_), "packing fraction"});
+      control_.notify_resumable();
     }
   }
 
@@ -80,16 +80,16 @@ class Hybrid {
   Configuration2& configuration_;
   const HybridOptions& options_;
   HybridState& state_;
-  const Budget& budget_;
+  const RunControl& control_;
   const double start_;
-  const Budget silent_;  // progress is that of the whole stage
+  const RunControl silent_;  // progress is that of the whole stage
 };
 
 }  // namespace
 
 StageReport hybrid(Configuration2& configuration, const HybridOptions& options, HybridState& state,
-                   const Budget& budget) {
-  return Hybrid(configuration, options, state, budget).run();
+                   const RunControl& control) {
+  return Hybrid(configuration, options, state, control).run();
 }
 
 }  // namespace vitrel

@@ -32,8 +32,8 @@ struct HybridState {
 };
 
 /// `reached` at the wanted packing fraction or pressure, `stuck` if the particles are jammed before,
-/// `stopped` by the budget: the same call then goes on bit by bit. Else as `grow`.
+/// `stopped` by the run control: the same call then goes on bit by bit. Else as `grow`.
 StageReport hybrid(Configuration2& configuration, const HybridOptions& options, HybridState& state,
-                   const Budget& budget);
+                   const RunControl& control);
 
 }  // namespace vitrel

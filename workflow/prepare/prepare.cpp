@@ -52,10 +52,10 @@ Estimate mean_of_second_half(const std::vector<double>& series) {
 template <int Dim>
 class Preparer {
  public:
-  Preparer(const PrepareRequest& request, const Budget& budget,
+  Preparer(const PrepareRequest& request, const RunControl& control,
            const std::function<void(const std::string&)>& say)
-      : request_(request), parameters_(request.parameters), say_(say), budget_(budget) {
-    budget_.resumable = [this] { save_now_and_then(); };
+      : request_(request), parameters_(request.parameters), say_(say), control_(control) {
+    control_.on_resumable = [this] { save_now_and_then(); };
     stored_.parameters = effective_parameters(parameters_);
   }
 
@@ -138,13 +138,13 @@ class Preparer {
 
   // ---- stages ---------------------------------------------------------------------------------------
 
-  /// False if the budget asked to stop.
+  /// False if the run control asked to stop.
   bool run_stage() {
     stage_start_ = Clock::now();
     const StageReport report = advance();
     keep_time();
     if (report.end == StageEnd::stopped) return false;
-    if (report.end == StageEnd::stuck) refuse_stuck(report);
+    if (report.end == StageEnd::stalled) refuse_stuck(report);
     note_stage(report);
     stored_.work = StageWork(done().next_sweep);
     stage_before_ = 0;
@@ -156,9 +156,9 @@ class Preparer {
     Configuration<Dim>& configuration = done().configuration;
     if (stage().method == Method::insert)
       return insert_particles(configuration, {goal(), stage().attempts, aligned()}, seed(),
-                              budget_);
+                              control_);
     if (stage().method == Method::grow)
-      return at_rest(grow(configuration, growth_options(), stored_.work.growth, budget_));
+      return at_rest(grow(configuration, growth_options(), stored_.work.growth, control_));
     if constexpr (Dim == 2) return advance_ellipses();
     throw std::logic_error("a stage that three dimensions do not have");
   }
@@ -172,14 +172,14 @@ class Preparer {
         return place_on_lattice(configuration, stage().lattice, seed());
       case Method::swell:
         return swell(configuration, {goal(), stage().most_sweeps, request_.threads}, seed(),
-                     work.swelling, budget_);
+                     work.swelling, control_);
       case Method::compress:
-        return compress(configuration, compression_options(), seed(), work.compression, budget_);
+        return compress(configuration, compression_options(), seed(), work.compression, control_);
       case Method::hybrid:
-        return at_rest(hybrid(configuration, hybrid_options(), work.hybrid, budget_));
+        return at_rest(hybrid(configuration, hybrid_options(), work.hybrid, control_));
       case Method::sample:
         return sample(configuration, sampling_options(stage().sweeps), seed(), work.sampling,
-                      budget_);
+                      control_);
       default:
         return {};
     }
@@ -262,7 +262,7 @@ class Preparer {
   const PrepareRequest& request_;
   const Parameters& parameters_;
   const std::function<void(const std::string&)>& say_;
-  Budget budget_;
+  RunControl control_;
   StoredPreparation<Dim> stored_;
   double wall_before_ = 0, stage_before_ = 0;  // seconds that other processes spent
   Clock::time_point start_ = Clock::now(), stage_start_ = start_, saved_ = start_;
@@ -315,17 +315,17 @@ TrialCounts Preparation<Dim>::trials() const {
 }
 
 template <int Dim>
-Preparation<Dim> prepare(const PrepareRequest& request, const Budget& budget,
+Preparation<Dim> prepare(const PrepareRequest& request, const RunControl& control,
                          const std::function<void(const std::string&)>& say) {
   assert(request.parameters.system.dimension == Dim);
-  return Preparer<Dim>(request, budget, say).run();
+  return Preparer<Dim>(request, control, say).run();
 }
 
 template struct Preparation<2>;
 template struct Preparation<3>;
-template Preparation<2> prepare<2>(const PrepareRequest&, const Budget&,
+template Preparation<2> prepare<2>(const PrepareRequest&, const RunControl&,
                                    const std::function<void(const std::string&)>&);
-template Preparation<3> prepare<3>(const PrepareRequest&, const Budget&,
+template Preparation<3> prepare<3>(const PrepareRequest&, const RunControl&,
                                    const std::function<void(const std::string&)>&);
 
 void forget_preparation(const fs::path& output) {

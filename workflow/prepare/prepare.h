@@ -42,7 +42,7 @@ struct StageRecord {
 template <int Dim>
 struct Preparation {
   Configuration<Dim> configuration;  ///< at rest, without overlaps
-  bool complete = false;             ///< else stopped by the budget
+  bool complete = false;             ///< else stopped by the run control
   std::vector<StageRecord> stages;
   ExactCheck<Dim> check;         ///< of the state, if complete; without overlaps
   std::uint64_t next_sweep = 0;  ///< Monte Carlo after it goes on with these numbers
@@ -56,7 +56,7 @@ struct Preparation {
 /// (too dense a lattice or insertion, too few sweeps, jammed), or if the checkpoint belongs to other
 /// parameters, and InvariantError if the exact check finds an overlap at the end.
 template <int Dim = 2>
-Preparation<Dim> prepare(const PrepareRequest& request, const Budget& budget,
+Preparation<Dim> prepare(const PrepareRequest& request, const RunControl& control,
                          const std::function<void(const std::string&)>& say);
 
 /// Removes the checkpoint, once what comes after the preparation is safely on disk.

@@ -27,8 +27,8 @@ void each_item_of_work(Work& work, Visit&& visit) {
   each_item_of_sampling(work.sampling, "sampling.", visit);
   each_item_of_moves(work.swelling.moves, "swelling.", visit);
   visit("swelling.growth", work.swelling.growth);
-  visit("swelling.watched_sweeps", work.swelling.watched_sweeps);
-  visit("swelling.watched_packing_fraction", work.swelling.watched_packing_fraction);
+  visit("swelling.watched_sweeps", work.swelling.checked_sweeps);
+  visit("swelling.watched_packing_fraction", work.swelling.checked_packing_fraction);
   each_item_of_moves(work.compression.moves, "compression.", visit);
   each_item_of_step(work.compression.box.step, "compression.box.", visit);
   visit("compression.box.aspect_at_start", work.compression.box.aspect_at_start);

@@ -30,9 +30,9 @@ double pressure_of_growth(const Preparation<2>& preparation) {
 void note_pressure(Quality& quality, const Preparation<2>& preparation) {
   using From = Quality::PressureFrom;
   const double grown = pressure_of_growth(preparation);
-  if (quality.probe && grown < least_jammed_pressure) {
+  if (quality.decorrelation && grown < least_jammed_pressure) {
     quality.pressure_from = From::sampling;
-    quality.reduced_pressure = block_average(quality.probe->compressibility);
+    quality.reduced_pressure = block_average(quality.decorrelation->compressibility);
   } else if (grown > 0) {
     quality.pressure_from = From::growth;
     quality.reduced_pressure = {grown, unknown, 0};
@@ -74,12 +74,13 @@ QualityRow decay_row(const std::string& name, const std::optional<std::uint64_t>
 }
 
 void add_time_rows(std::vector<QualityRow>& rows, const Quality& quality) {
-  if (!quality.probe) return;
-  const Probe& probe = *quality.probe;
+  if (!quality.decorrelation) return;
+  const Decorrelation& decorrelation = *quality.decorrelation;
   if (quality.rotors > 0)
-    rows.push_back(decay_row("orientation time", probe.orientation_lost, probe.measured,
-                             "until ⟨cos 2(θ(t) − θ(0))⟩ < 1/e"));
-  rows.push_back(decay_row("displacement time", probe.place_lost, probe.measured,
+    rows.push_back(decay_row("orientation time", decorrelation.orientation_time,
+                             decorrelation.measured, "until ⟨cos 2(θ(t) − θ(0))⟩ < 1/e"));
+  rows.push_back(decay_row("displacement time", decorrelation.displacement_time,
+                           decorrelation.measured,
                            "until the particles have moved by their width 2b"));
 }
 
@@ -99,14 +100,15 @@ void add_contact_rows(std::vector<QualityRow>& rows, const Quality& quality) {
 }  // namespace
 
 std::optional<Quality> measure_quality(const Preparation<2>& preparation,
-                                       const Parameters& parameters, const Budget& budget,
+                                       const Parameters& parameters, const RunControl& control,
                                        int threads) {
   const Configuration2& state = preparation.configuration;
   Quality quality;
   if (parameters.quality_sweeps > 0) {
-    quality.probe = probe(state, parameters.quality_sweeps, parameters.system.seed,
-                          preparation.next_sweep, budget, threads);
-    if (!quality.probe) return std::nullopt;
+    quality.decorrelation =
+        measure_decorrelation(state, parameters.quality_sweeps, parameters.system.seed,
+                              preparation.next_sweep, control, threads);
+    if (!quality.decorrelation) return std::nullopt;
   }
   quality.particles = state.size();
   quality.rotors = rotor_count(state);

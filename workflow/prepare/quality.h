@@ -7,7 +7,7 @@
 #include "analysis/statistics/blocking.h"
 #include "analysis/structure/contacts.h"
 #include "analysis/structure/order.h"
-#include "mc/probe.h"
+#include "mc/decorrelation.h"
 #include "workflow/prepare/prepare.h"
 #include "workflow/prepare/quality_row.h"
 
@@ -28,15 +28,15 @@ struct Quality {
   std::size_t overlaps = 0;
   double smallest_gap = 0;  ///< infinity beyond the longest semi-axis
 
-  std::optional<JammedBackbone> backbone;  ///< from least_jammed_pressure on
-  std::optional<Probe> probe;              ///< none if no sweeps were asked for
+  std::optional<JammedBackbone> backbone;      ///< from least_jammed_pressure on
+  std::optional<Decorrelation> decorrelation;  ///< none if no sweeps were asked for
 };
 
 /// Measures a complete preparation; the state stays as it is. The pressure is that of a short sampling on
 /// a copy; without one, or if the last stage was a growth that ended jammed (least_jammed_pressure), that of
-/// the growth. Nothing if the budget asked to stop.
+/// the growth. Nothing if the run control asked to stop.
 std::optional<Quality> measure_quality(const Preparation<2>& preparation,
-                                       const Parameters& parameters, const Budget& budget,
+                                       const Parameters& parameters, const RunControl& control,
                                        int threads = 1);
 
 /// The properties, in words and rounded numbers.

@@ -82,32 +82,34 @@ std::optional<JammedBackbone> backbone_from(const Json& json) {
       json.at("contact_tolerance")};
 }
 
-Json probe_json(const std::optional<Probe>& probe) {
-  if (!probe) return nullptr;
-  const bool has_rotors = !probe->orientation.empty();
-  return {{"orientation_lost",
-           has_rotors ? sweeps_limit(probe->orientation_lost, probe->measured) : Json(nullptr)},
-          {"moved_by_width", sweeps_limit(probe->place_lost, probe->measured)},
-          {"measured_sweeps", probe->measured},
-          {"sweeps", probe->sweeps},
-          {"orientation", probe->orientation},
-          {"displacement", probe->displacement},
-          {"reduced_pressure", probe->compressibility}};
+Json decorrelation_json(const std::optional<Decorrelation>& decorrelation) {
+  if (!decorrelation) return nullptr;
+  const bool has_rotors = !decorrelation->orientation.empty();
+  return {
+      {"orientation_lost",
+       has_rotors ? sweeps_limit(decorrelation->orientation_time, decorrelation->measured)
+                  : Json(nullptr)},
+      {"moved_by_width", sweeps_limit(decorrelation->displacement_time, decorrelation->measured)},
+      {"measured_sweeps", decorrelation->measured},
+      {"sweeps", decorrelation->sweeps},
+      {"orientation", decorrelation->orientation},
+      {"displacement", decorrelation->displacement},
+      {"reduced_pressure", decorrelation->compressibility}};
 }
 
-std::optional<Probe> probe_from(const Json& json) {
+std::optional<Decorrelation> decorrelation_from(const Json& json) {
   if (json.is_null()) return std::nullopt;
-  Probe probe{json.at("sweeps"),
-              json.at("orientation"),
-              json.at("displacement"),
-              json.at("reduced_pressure"),
-              json.at("measured_sweeps"),
-              {},
-              {}};
+  Decorrelation decorrelation{json.at("sweeps"),
+                              json.at("orientation"),
+                              json.at("displacement"),
+                              json.at("reduced_pressure"),
+                              json.at("measured_sweeps"),
+                              {},
+                              {}};
   if (!json.at("orientation_lost").is_null())
-    probe.orientation_lost = sweeps_of(json.at("orientation_lost"));
-  probe.place_lost = sweeps_of(json.at("moved_by_width"));
-  return probe;
+    decorrelation.orientation_time = sweeps_of(json.at("orientation_lost"));
+  decorrelation.displacement_time = sweeps_of(json.at("moved_by_width"));
+  return decorrelation;
 }
 
 Quality quality_from(const Json& json) {
@@ -126,7 +128,7 @@ Quality quality_from(const Json& json) {
   quality.overlaps = json.at("overlaps");
   quality.smallest_gap = number(json.at("smallest_gap"), infinity);
   quality.backbone = backbone_from(json.at("jamming"));
-  quality.probe = probe_from(json.at("time_correlation"));
+  quality.decorrelation = decorrelation_from(json.at("time_correlation"));
   return quality;
 }
 
@@ -152,7 +154,7 @@ Json quality_json(const Quality& quality) {
           {"overlaps", quality.overlaps},
           {"smallest_gap", quality.smallest_gap},
           {"jamming", backbone_json(quality.backbone)},
-          {"time_correlation", probe_json(quality.probe)}};
+          {"time_correlation", decorrelation_json(quality.decorrelation)}};
 }
 
 void write_quality(const std::filesystem::path& file, const Quality& quality) {

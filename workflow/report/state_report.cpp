@@ -21,10 +21,10 @@ StatePage state_page_data(const std::filesystem::path& file) {
   page.rows = quality_rows(quality);
   page.nematic_correlation = quality.nematic_correlation;
   page.nematic_order = quality.nematic_order;
-  if (quality.probe) {
-    page.sweeps = quality.probe->sweeps;
-    page.orientation = quality.probe->orientation;
-    page.displacement = quality.probe->displacement;
+  if (quality.decorrelation) {
+    page.sweeps = quality.decorrelation->sweeps;
+    page.orientation = quality.decorrelation->orientation;
+    page.displacement = quality.decorrelation->displacement;
   }
   page.parameters = provenance.parameters;
   page.provenance = provenance_rows(provenance);

@@ -54,10 +54,10 @@ void require_fit(const Configuration<Dim>& state, const Parameters& parameters,
 template <int Dim>
 class Runner {
  public:
-  Runner(const RunRequest& request, const Budget& budget,
+  Runner(const RunRequest& request, const RunControl& control,
          const std::function<void(const std::string&)>& say)
       : request_(request),
-        budget_(budget),
+        control_(control),
         say_(say),
         checkpoint_(checkpoint_path(request.output)) {
     stored_.parameters = effective_parameters(request.parameters);
@@ -115,7 +115,7 @@ class Runner {
       require_fit(configuration, request_.parameters, *request_.from);
     } else {
       Preparation<Dim> preparation = prepare<Dim>(
-          {request_.parameters, request_.output, request_.command_line, request_.threads}, budget_,
+          {request_.parameters, request_.output, request_.command_line, request_.threads}, control_,
           say_);
       if (!preparation.complete) return false;
       configuration = std::move(preparation.configuration);
@@ -226,7 +226,7 @@ class Runner {
 
   StageReport run_or_keep_failed_state(const DynamicsOptions& options, const RunPlan<Dim>& plan) {
     try {
-      return vitrel::run(stored_.state, options, plan, budget_);
+      return vitrel::run(stored_.state, options, plan, control_);
     } catch (const InvariantError& error) {
       keep_failed_state();
       throw InvariantError(fmt::format("{}; the state is in {}", error.what(),
@@ -253,7 +253,7 @@ class Runner {
   }
 
   const RunRequest& request_;
-  const Budget& budget_;
+  const RunControl& control_;
   const std::function<void(const std::string&)>& say_;
   fs::path checkpoint_;
   StoredRun<Dim> stored_;
@@ -310,10 +310,10 @@ std::string run_plan(const RunRequest& request) {
 }
 
 template <int Dim>
-RunOutcome<Dim> run(const RunRequest& request, const Budget& budget,
+RunOutcome<Dim> run(const RunRequest& request, const RunControl& control,
                     const std::function<void(const std::string&)>& say) {
   assert(request.parameters.system.dimension == Dim);
-  return Runner<Dim>(request, budget, say).run();
+  return Runner<Dim>(request, control, say).run();
 }
 
 template <int Dim>
@@ -345,7 +345,7 @@ nlohmann::ordered_json run_summary(const RunRequest& request, const RunOutcome<D
       {"wall_seconds", outcome.wall_seconds},
       {"collisions_per_second", collisions / outcome.wall_seconds}};
   if (request.parameters.dynamics.contact) {
-    summary["refused_turns"] = counters.refused_turns;
+    summary["refused_turns"] = counters.blocked_rotations;
     summary["early_releases"] = counters.early_releases;
     summary["integrated_contacts"] = counters.integrations;
     summary["dissipated_energy"] = counters.dissipated;
@@ -355,9 +355,9 @@ nlohmann::ordered_json run_summary(const RunRequest& request, const RunOutcome<D
   return summary;
 }
 
-template RunOutcome<2> run<2>(const RunRequest&, const Budget&,
+template RunOutcome<2> run<2>(const RunRequest&, const RunControl&,
                               const std::function<void(const std::string&)>&);
-template RunOutcome<3> run<3>(const RunRequest&, const Budget&,
+template RunOutcome<3> run<3>(const RunRequest&, const RunControl&,
                               const std::function<void(const std::string&)>&);
 template nlohmann::ordered_json run_summary(const RunRequest&, const RunOutcome<2>&);
 template nlohmann::ordered_json run_summary(const RunRequest&, const RunOutcome<3>&);

@@ -28,7 +28,7 @@ std::string run_plan(const RunRequest& request);
 
 template <int Dim>
 struct RunOutcome {
-  bool complete = false;      ///< else stopped by the budget; the same request continues
+  bool complete = false;      ///< else stopped by the run control; the same request continues
   bool was_complete = false;  ///< nothing was left to do
   RunState<Dim> state;
   double wall_seconds = 0;  ///< of all processes that worked on the run
@@ -40,7 +40,7 @@ struct RunOutcome {
 /// - FileError; the run continues from its last checkpoint once the cause is removed;
 /// - InvariantError on an overlap or a standstill; the state is then in <output>.failed.h5.
 template <int Dim>
-RunOutcome<Dim> run(const RunRequest& request, const Budget& budget,
+RunOutcome<Dim> run(const RunRequest& request, const RunControl& control,
                     const std::function<void(const std::string&)>& say);
 
 /// The figures of a run, read from its trajectory and its last state: those of the architecture's

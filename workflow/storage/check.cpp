@@ -27,13 +27,14 @@ void note_overlaps(FileCheck<Dim>& result, const ExactCheck<Dim>& check, std::ui
 }  // namespace
 
 template <int Dim>
-FileCheck<Dim> check_file(const std::filesystem::path& file, bool last_only, const Budget& budget) {
+FileCheck<Dim> check_file(const std::filesystem::path& file, bool last_only,
+                          const RunControl& control) {
   const TrajectoryReader reader(file);
   if (reader.frames() == 0) throw FileError(file.string() + ": has no frame to check");
   FileCheck<Dim> result;
   result.smallest_gap = std::numeric_limits<double>::infinity();
   const std::uint64_t first = last_only ? reader.frames() - 1 : 0;
-  for (std::uint64_t frame = first; frame < reader.frames() && !budget.stop_requested(); ++frame) {
+  for (std::uint64_t frame = first; frame < reader.frames() && !control.stop_requested(); ++frame) {
     reader.read(frame, result.last);
     const ExactCheck<Dim> check = exact_check(result.last);
     ++result.frames;
@@ -43,13 +44,13 @@ FileCheck<Dim> check_file(const std::filesystem::path& file, bool last_only, con
       result.smallest_gap = check.smallest_gap;
       result.smallest_gap_frame = frame;
     }
-    budget.tell({static_cast<double>(frame + 1) / static_cast<double>(reader.frames()),
-                 static_cast<double>(frame + 1), "frame"});
+    control.report_progress({static_cast<double>(frame + 1) / static_cast<double>(reader.frames()),
+                             static_cast<double>(frame + 1), "frame"});
   }
   return result;
 }
 
-template FileCheck<2> check_file(const std::filesystem::path&, bool, const Budget&);
-template FileCheck<3> check_file(const std::filesystem::path&, bool, const Budget&);
+template FileCheck<2> check_file(const std::filesystem::path&, bool, const RunControl&);
+template FileCheck<3> check_file(const std::filesystem::path&, bool, const RunControl&);
 
 }  // namespace vitrel

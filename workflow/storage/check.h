@@ -23,9 +23,10 @@ struct FileCheck {
   Configuration<Dim> last;              ///< the last frame
 };
 
-/// Every frame of a trajectory or state of that dimension, or the last only. The budget may stop it between frames.
+/// Every frame of a trajectory or state of that dimension, or the last only. The run control may stop it between frames.
 /// Throws FileError if the file cannot be read, is damaged, or has no frame.
 template <int Dim>
-FileCheck<Dim> check_file(const std::filesystem::path& file, bool last_only, const Budget& budget);
+FileCheck<Dim> check_file(const std::filesystem::path& file, bool last_only,
+                          const RunControl& control);
 
 }  // namespace vitrel

@@ -20,9 +20,9 @@ void each_item_of_counters(Counters& counters, const std::string& path, Visit&& 
   visit(path + "predictions", counters.predictions);
   visit(path + "searches", counters.searches);
   visit(path + "steps", counters.steps);
-  visit(path + "renewals", counters.renewals);
+  visit(path + "renewals", counters.list_updates);
   visit(path + "correction_moves", counters.correction_moves);
-  visit(path + "refused_turns", counters.refused_turns);
+  visit(path + "refused_turns", counters.blocked_rotations);
   visit(path + "early_releases", counters.early_releases);
   visit(path + "integrations", counters.integrations);
 }
@@ -73,7 +73,7 @@ void each_item_of_chains(Chains& state, const std::string& path, Visit&& visit) 
   visit(path + "all_chains", state.counts.chains);
   visit(path + "all_contacts", state.counts.contacts);
   visit(path + "cut_short", state.counts.cut_short);
-  visit(path + "looks", state.counts.looks);
+  visit(path + "looks", state.counts.searches);
   visit(path + "rotations_tried", state.counts.rotations_tried);
   visit(path + "rotations_accepted", state.counts.rotations_accepted);
   visit(path + "all_length", state.counts.length);

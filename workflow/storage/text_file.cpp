@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "core/error.h"
-#include "core/io/pending_file.h"
+#include "core/io/atomic_file.h"
 
 namespace vitrel {
 
@@ -23,7 +23,7 @@ std::string read_text(const std::filesystem::path& path) {
 }
 
 void write_text(const std::filesystem::path& path, std::string_view text) {
-  PendingFile pending(path);
+  AtomicFile pending(path);
   errno = 0;
   std::ofstream file(pending.partial(), std::ios::binary);
   file << text;

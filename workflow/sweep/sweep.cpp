@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "core/error.h"
-#include "core/io/pending_file.h"
+#include "core/io/atomic_file.h"
 #include "workflow/storage/text_file.h"
 #include "workflow/sweep/folder_lock.h"
 #include "workflow/sweep/process.h"
@@ -79,7 +79,7 @@ class JobWorker {
     } else if (*code != 0) {
       state_ = State::failed;
     } else {
-      PendingFile(summary(steps_[next_++])).commit();
+      AtomicFile(summary(steps_[next_++])).commit();
       start_next();
     }
   }
@@ -159,9 +159,9 @@ void hold_alone(FolderLock& lock, const fs::path& folder) {
 // Keeps `parallel` jobs going until all are done or the user wants to stop.
 class Sweep {
  public:
-  Sweep(const SweepRequest& request, const std::vector<SweepJob>& jobs, const Budget& budget,
+  Sweep(const SweepRequest& request, const std::vector<SweepJob>& jobs, const RunControl& control,
         const std::function<void(const std::string&)>& say)
-      : request_(request), budget_(budget), say_(say), jobs_(jobs) {}
+      : request_(request), control_(control), say_(say), jobs_(jobs) {}
 
   SweepOutcome run() {
     make_folder(request_.folder);
@@ -189,7 +189,7 @@ class Sweep {
     return lock.acquire(share, [&] {
       if (!told) say_("waiting for another process that works on this job");
       told = true;
-      return budget_.stop_requested();
+      return control_.stop_requested();
     });
   }
 
@@ -214,7 +214,7 @@ class Sweep {
   }
 
   void pass_on_stop() {
-    if (stopping_ || !budget_.stop_requested()) return;
+    if (stopping_ || !control_.stop_requested()) return;
     stopping_ = true;
     say_("stopping: every job stops at the next point from which it can be continued");
     for (auto& worker : active_) worker->ask_to_stop();
@@ -248,7 +248,7 @@ class Sweep {
   }
 
   const SweepRequest& request_;
-  const Budget& budget_;
+  const RunControl& control_;
   const std::function<void(const std::string&)>& say_;
   const std::vector<SweepJob>& jobs_;
   std::deque<const SweepJob*> waiting_;
@@ -299,16 +299,16 @@ JobStage job_stage(const fs::path& folder) {
   return JobStage::waiting;
 }
 
-SweepOutcome run_sweep(const SweepRequest& request, const Budget& budget,
+SweepOutcome run_sweep(const SweepRequest& request, const RunControl& control,
                        const std::function<void(const std::string&)>& say) {
   const std::vector<SweepJob> jobs = sweep_jobs(request.source);
-  return Sweep(request, jobs, budget, say).run();
+  return Sweep(request, jobs, control, say).run();
 }
 
-SweepOutcome run_job(const SweepRequest& request, const std::string& id, const Budget& budget,
+SweepOutcome run_job(const SweepRequest& request, const std::string& id, const RunControl& control,
                      const std::function<void(const std::string&)>& say) {
   const std::vector<SweepJob> jobs = {job_named(sweep_jobs(request.source), id)};
-  return Sweep(request, jobs, budget, say).run_beside_others();
+  return Sweep(request, jobs, control, say).run_beside_others();
 }
 
 void export_sweep(const ParameterSource& source, const fs::path& folder, const fs::path& program) {

@@ -46,15 +46,15 @@ struct SweepOutcome {
 };
 
 /// Makes the folders, runs all jobs, and tells `say` about every job begun, done or failed. A failed job
-/// does not stop the others. If the budget asks to stop, every job stops where it can be continued.
+/// does not stop the others. If the control asks to stop, every job stops where it can be continued.
 /// Throws UserError if a folder belongs to other parameters or another process works on the sweep, FileError
 /// if folders cannot be written.
-SweepOutcome run_sweep(const SweepRequest& request, const Budget& budget,
+SweepOutcome run_sweep(const SweepRequest& request, const RunControl& control,
                        const std::function<void(const std::string&)>& say);
 
 /// The same of one job, beside other processes that work on other jobs: what a batch system runs. Waits
 /// while another process works on this job or on the whole sweep, and then finds what that has done.
-SweepOutcome run_job(const SweepRequest& request, const std::string& id, const Budget& budget,
+SweepOutcome run_job(const SweepRequest& request, const std::string& id, const RunControl& control,
                      const std::function<void(const std::string&)>& say);
 
 /// Makes the folders and writes the sweep as a workflow of Snakemake; `program` is what it runs. Throws

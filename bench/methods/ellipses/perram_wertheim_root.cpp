@@ -7,7 +7,7 @@
 
 #include "bench/methods/first_root.h"
 #include "bench/methods/opening.h"
-#include "core/contact/support_gap.h"
+#include "core/contact/ellipse_gap.h"
 
 namespace vitrel::bench {
 namespace {

@@ -1,6 +1,6 @@
-// The first look against the guaranteed reference: whatever axis it is given, never late.
+// The first screen against the guaranteed reference: whatever axis it is given, never late.
 
-#include "core/contact/first_look.h"
+#include "core/contact/contact_screen.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "bench/reference/first_contact.h"
-#include "core/contact/support_gap.h"
+#include "core/contact/ellipse_gap.h"
 #include "core/random/stream.h"
 #include "core/tolerances.h"
 
@@ -35,7 +35,7 @@ struct Partner {
   Vec2 axis;
 };
 
-/// One body and as many partners as a look takes, all of the common size.
+/// One body and as simd_width partners as a screen takes, all of the common size.
 struct Scene {
   Ellipse shape;
   Pose2 pose;
@@ -73,7 +73,7 @@ Scene random_scene(Stream& draw, double largest_aspect_ratio, double growth) {
   scene.pose = {Vec2::Zero(), draw.uniform(-10, 10)};
   scene.motion = random_motion(draw);
   if (growth != 0) scene.common = {draw.uniform(0.3, 1.2), growth * draw.uniform(-1, 1)};
-  for (int k = 0; k < many; ++k) {
+  for (int k = 0; k < simd_width; ++k) {
     Partner partner;
     partner.shape = random_ellipse(draw, largest_aspect_ratio);
     const double reach = scene.common.size * (scene.shape.a + partner.shape.a);
@@ -89,16 +89,16 @@ Scene random_scene(Stream& draw, double largest_aspect_ratio, double growth) {
 }
 
 template <class B>
-FirstLook<B> looked(const Scene& scene) {
-  FirstLook<B> look(Outline<Ellipse>(scene.shape), scene.pose, scene.motion, scene.common,
-                    scene.contact_gap());
-  for (int k = 0; k < many; ++k) {
+ContactScreen<B> evaluated(const Scene& scene) {
+  ContactScreen<B> screen(ShapeCoefficients<Ellipse>(scene.shape), scene.pose, scene.motion,
+                          scene.common, scene.contact_gap());
+  for (int k = 0; k < simd_width; ++k) {
     const Partner& partner = scene.partners[k];
-    look.set(k, partner.pose, partner.motion, Outline<Ellipse>(partner.shape), {partner.axis},
-             partner.horizon);
+    screen.set(k, partner.pose, partner.motion, ShapeCoefficients<Ellipse>(partner.shape),
+               {partner.axis}, partner.horizon);
   }
-  look.look(many);
-  return look;
+  screen.evaluate(simd_width);
+  return screen;
 }
 
 bench::TrueContact truth_of(const Scene& scene, const Partner& partner) {
@@ -112,23 +112,23 @@ bench::TrueContact truth_of(const Scene& scene, const Partner& partner) {
 
 /// The time of every lane, asked for as a run does: the most urgent first.
 template <class B>
-std::array<double, many> times_of(FirstLook<B> look) {
-  std::array<double, many> times;
+std::array<double, simd_width> times_of(ContactScreen<B> screen) {
+  std::array<double, simd_width> times;
   times.fill(detail::no_contact);
   double last = 0;
-  for (int done = 0; done < many; ++done) {
-    const auto [time, lane] = look.most_urgent();
+  for (int done = 0; done < simd_width; ++done) {
+    const auto [time, lane] = screen.earliest();
     if (time == detail::no_contact) break;
     EXPECT_GE(time, last);
     times[lane] = last = time;
-    look.close(lane);
+    screen.discard(lane);
   }
   return times;
 }
 
 struct Class {
   double largest_aspect_ratio;
-  double growth;  // 0: of FirstLook<Ellipse>
+  double growth;  // 0: of ContactScreen<Ellipse>
   int scenes;
 };
 void PrintTo(const Class& at, std::ostream* out) {
@@ -138,16 +138,16 @@ void PrintTo(const Class& at, std::ostream* out) {
 /// What was seen, to know that the test has met all of it.
 struct Counts {
   int contacts = 0, misses = 0, overlaps = 0;
-  int settled = 0;   // misses that the look tells at once
-  int narrowed = 0;  // contacts that the look puts off
+  int settled = 0;   // misses that the screen tells at once
+  int narrowed = 0;  // contacts that the screen puts off
 };
 
-// Times are compared without any allowance: the look's floor of half a contact gap covers the
+// Times are compared without any allowance: the screen's floor of half a contact gap covers the
 // rounding. Pairs that are undecided touch to within rounding, and either answer is right.
 template <class B>
 void assess(const Scene& scene, Counts& counts) {
-  const std::array<double, many> times = times_of(looked<B>(scene));
-  for (int k = 0; k < many; ++k) {
+  const std::array<double, simd_width> times = times_of(evaluated<B>(scene));
+  for (int k = 0; k < simd_width; ++k) {
     const bench::TrueContact truth = truth_of(scene, scene.partners[k]);
     switch (truth.outcome) {
       case Truth::overlap_at_start:
@@ -169,7 +169,7 @@ void assess(const Scene& scene, Counts& counts) {
   }
 }
 
-/// The same scene, with horizons shortly after the contacts: there the bound that a look proves is
+/// The same scene, with horizons shortly after the contacts: there the bound that a screen proves is
 /// closest to the truth.
 Scene with_close_horizons(const Scene& scene, Stream& draw) {
   Scene close = scene;
