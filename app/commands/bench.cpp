@@ -1,9 +1,11 @@
+#include "app/commands/bench.h"
+
 #include <unistd.h>
 
 #include <filesystem>
 #include <iostream>
 
-#include "app/commands/commands.h"
+#include "app/terminal/exit_codes.h"
 
 namespace vitrel {
 

@@ -6,9 +6,13 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "app/terminal/progress.h"
+#include "app/terminal/session.h"
 #include "core/error.h"
 #include "core/io/number_text.h"
-#include "workflow/report/page_parts.h"
+#include "workflow/analyze/analyze.h"
+#include "workflow/configuration/parameters.h"
+#include "workflow/sweep/sweep.h"
 
 namespace vitrel {
 namespace {
@@ -20,10 +24,10 @@ void refuse_other_key(const std::string& assignment) {
                            assignment.starts_with("analysis=") ||
                            assignment.find('=') == std::string::npos;
   if (!is_analysis)
-    throw UserError(fmt::format(
-        "--set {}: has no effect on a run that is there; only parameters of its analysis, "
-        "analysis.…, can be set, and `vitrel params analyze` prints them",
-        assignment));
+    throw UserError(
+        fmt::format("--set {}: has no effect on an existing run; only parameters of its analysis, "
+                    "analysis.…, can be set, and `vitrel params analyze` prints them",
+                    assignment));
 }
 
 void require_folder_of(const fs::path& output) {
@@ -51,19 +55,36 @@ std::string value_text(const nlohmann::ordered_json& summary, const std::string&
   return std::isnan(number) ? "–" : fmt::format("{:.8g}", number);
 }
 
-}  // namespace
-
-ParameterSource parameter_source(const Arguments& arguments) {
-  return {arguments.input, arguments.overrides, arguments.seed};
+/// Adds the keys of earlier versions beside those that replaced them, at every depth.
+nlohmann::ordered_json with_former_keys(nlohmann::ordered_json json) {
+  for (nlohmann::ordered_json& part : json)
+    if (part.is_structured()) part = with_former_keys(std::move(part));
+  for (const char* suffix : {"", "_error"}) {
+    const std::string key = std::string("compressibility_factor") + suffix;
+    if (!json.is_object() || !json.contains(key)) continue;
+    nlohmann::ordered_json value = json.at(key);
+    json[std::string("compressibility") + suffix] = std::move(value);
+  }
+  return json;
 }
 
-AnalysisChoice analysis_choice(const Arguments& arguments) {
-  for (const std::string& assignment : arguments.overrides) refuse_other_key(assignment);
+}  // namespace
+
+ParameterSource parameter_source(const ParameterOptions& options) {
+  return {options.file, options.overrides, options.seed};
+}
+
+AnalysisChoice analysis_choice(const AnalysisOptions& options) {
+  for (const std::string& assignment : options.overrides) refuse_other_key(assignment);
   AnalysisChoice choice;
-  if (!arguments.parameters.empty()) choice.parameters = arguments.parameters;
-  choice.overrides = arguments.overrides;
-  choice.progress = ProgressDisplay::mode(arguments.quiet);
+  if (!options.file.empty()) choice.parameters = options.file;
+  choice.overrides = options.overrides;
   return choice;
+}
+
+AnalysisProgress shown_on(ProgressDisplay& display) {
+  return {[&display](const std::string& phase) { display.begin(phase); },
+          [&display](const Progress& progress) { display.show(progress); }};
 }
 
 fs::path run_or_sweep(const fs::path& input) {
@@ -89,10 +110,10 @@ void require_new(const fs::path& output) {
     throw UserError(output.string() + ": exists already; choose another output, or delete it");
 }
 
-void print_summary(const Arguments& arguments, const nlohmann::ordered_json& summary) {
-  if (arguments.json) {
-    fmt::print("{}\n", summary.dump(2));
-  } else if (!arguments.quiet) {
+void print_summary(const PrintOptions& options, const nlohmann::ordered_json& summary) {
+  if (options.json) {
+    fmt::print("{}\n", with_former_keys(summary).dump(2));
+  } else if (!options.quiet) {
     for (const auto& [key, value] : summary.items()) {
       const std::string text = value_text(summary, key);
       if (!is_error(summary, key) && !text.empty()) fmt::print("{:<26} {}\n", key, text);
@@ -101,13 +122,13 @@ void print_summary(const Arguments& arguments, const nlohmann::ordered_json& sum
   flush_output();
 }
 
-void remark(const Arguments& arguments, const std::string& line) {
-  if (!arguments.quiet) fmt::print(stderr, "{}\n", line);
+void remark(const PrintOptions& options, const std::string& line) {
+  if (!options.quiet) fmt::print(stderr, "{}\n", line);
 }
 
-void remark_left_out(const Arguments& arguments, const SweepProgress& sweep) {
-  if (!sweep.unfinished.empty())
-    remark(arguments, arguments.input.string() + ": " + sweep.left_out());
+void remark_left_out(const PrintOptions& options, const fs::path& folder,
+                     const SweepProgress& sweep) {
+  if (!sweep.unfinished.empty()) remark(options, folder.string() + ": " + sweep.left_out());
 }
 
 }  // namespace vitrel

@@ -5,22 +5,27 @@
 #include <string>
 #include <vector>
 
-#include "app/commands/commands.h"
-#include "app/terminal/session.h"
-#include "workflow/analyze/analyze.h"
-#include "workflow/configuration/parameters.h"
-#include "workflow/sweep/sweep.h"
+#include "app/commands/options.h"
 
+/// What the commands share.
 namespace vitrel {
 
-ParameterSource parameter_source(const Arguments& arguments);
+struct AnalysisChoice;
+struct AnalysisProgress;
+struct ParameterSource;
+struct SweepProgress;
+class ProgressDisplay;
+
+ParameterSource parameter_source(const ParameterOptions& options);
 /// UserError if --set names anything but a parameter of the analysis.
-AnalysisChoice analysis_choice(const Arguments& arguments);
+AnalysisChoice analysis_choice(const AnalysisOptions& options);
+/// Shows an analysis on the display.
+AnalysisProgress shown_on(ProgressDisplay& display);
 
 /// A run's file or a sweep's folder; of a job's folder, the run in it. FileError if it is not there.
 std::filesystem::path run_or_sweep(const std::filesystem::path& input);
 
-// What is to be written is looked at before the work, which may be long.
+// Outputs are checked before the work, which may take long.
 
 /// FileError if the output's folder is missing; UserError if the output is a folder or a device, or
 /// one of the files that are read.
@@ -32,11 +37,12 @@ void require_new(const std::filesystem::path& output);
 
 /// To standard output: as JSON if asked for, else unless quiet as lines "key  value", or "key  value ±
 /// error" where `key_error` is in the summary, too.
-void print_summary(const Arguments& arguments, const nlohmann::ordered_json& summary);
+void print_summary(const PrintOptions& options, const nlohmann::ordered_json& summary);
 
 /// One line on standard error, unless quiet.
-void remark(const Arguments& arguments, const std::string& line);
-/// Says which jobs of a sweep are missing, if any.
-void remark_left_out(const Arguments& arguments, const SweepProgress& sweep);
+void remark(const PrintOptions& options, const std::string& line);
+/// Names the jobs of a sweep that are left out, if any.
+void remark_left_out(const PrintOptions& options, const std::filesystem::path& folder,
+                     const SweepProgress& sweep);
 
 }  // namespace vitrel

@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <cstring>
 
+#include "app/terminal/stop_signals.h"
 #include "core/error.h"
-#include "workflow/sweep/stop_signals.h"
 
 namespace vitrel {
 

@@ -64,7 +64,8 @@ TEST(Program, PrepareRunCheckAnalyzeAndReport) {
   expect_keys(summary,
               {"collisions", "simulated_time", "wall_seconds", "collisions_per_second",
                "predictions_per_collision", "correction_moves", "energy_drift", "packing_fraction",
-               "compressibility", "compressibility_error", "overlaps"});
+               "compressibility_factor", "compressibility_factor_error", "overlaps"});
+  EXPECT_EQ(summary["compressibility"], summary["compressibility_factor"]);  // its former key
   EXPECT_EQ(summary["simulated_time"], 11);
   EXPECT_EQ(summary["frames"], 21);
   EXPECT_EQ(summary["correction_moves"], 0);
@@ -454,7 +455,7 @@ TEST(Program, RunsInThreeDimensions) {
   EXPECT_EQ(summary["frames"], 1001);
   EXPECT_GT(summary["collisions"], 1000);
   EXPECT_LT(summary["energy_drift"], 1e-11);
-  EXPECT_NEAR(summary["compressibility"].get<double>(), 2.7, 0.4);
+  EXPECT_NEAR(summary["compressibility_factor"].get<double>(), 2.7, 0.4);
   const TrajectoryReader reader(folder / "run.h5");
   EXPECT_EQ(reader.dimension(), 3);
   EXPECT_NEAR(reader.observable("translational_energy").back() +
@@ -463,7 +464,7 @@ TEST(Program, RunsInThreeDimensions) {
   EXPECT_EQ(run(folder.path(), {"check", "run.h5", "-q"}).code, 0);
   ASSERT_EQ(run(folder.path(), {"analyze", "run.h5", "-q"}).code, 0);
   EXPECT_THAT(folder.read("run_results_energies.csv"), HasSubstr("translational"));
-  EXPECT_TRUE(std::filesystem::exists(folder / "run_results_compressibility.csv"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "run_results_compressibility_factor.csv"));
   EXPECT_TRUE(std::filesystem::exists(folder / "run_results_structure_factor.csv"));
   EXPECT_EQ(run(folder.path(), {"report", "run.h5", "-q"}).code, 0);
 }

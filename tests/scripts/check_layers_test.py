@@ -22,8 +22,8 @@ GOOD = {
     "workflow/report/page.h": '#include "workflow/sweep/results.h"\n#include "workflow/analyze/analyze.h"\n',
     "app/main.cpp": '#include "mc/insert.h"\n#include "workflow/run/run.h"\n',
     "bench/methods/slsqp.h": '#include "edmd/engine.h"\n#include "bench/reference/truth.h"\n',
+    "bench/main.cpp": '#include "app/main.h"\n#include "workflow/report/page.h"\n',
     "bench/reference/truth.h": '#include "core/geometry/disk.h"\n',
-    "bench/pages/page.cpp": '#include "workflow/report/page.h"\n#include "app/terminal/progress.h"\n',
     "tests/app/main_test.cpp": '#include "app/main.h"\n#include "bench/reference/truth.h"\n',
 }
 

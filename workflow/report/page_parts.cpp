@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "workflow/report/assets.h"
 
@@ -13,6 +15,13 @@ using nlohmann::json;
 json page_number(double value, int digits) {
   if (!std::isfinite(value)) return nullptr;
   return std::stod(fmt::format("{:.{}g}", value, digits));
+}
+
+json page_numbers(const std::vector<double>& values, const std::vector<std::size_t>& rows,
+                  int digits) {
+  json array = json::array();
+  for (const std::size_t row : rows) array.push_back(page_number(values[row], digits));
+  return array;
 }
 
 void add_shapes(json& data, const std::vector<std::vector<double>>& semi_axes) {
@@ -69,7 +78,7 @@ std::string whole_page(PageParts parts) {
                                           {"parameters", escaped(parts.parameters)},
                                           {"unit_of_length", std::string(parts.unit_of_length)},
                                           {"provenance", provenance_entries(parts.provenance)},
-                                          {"data", script_safe(parts.data)},
+                                          {"data", parts.data},
                                           {"uplot_licence", text("vendor/uplot/LICENSE")},
                                           {"uplot", text("vendor/uplot/uPlot.iife.min.js")},
                                           {"common", text("page/common.js")},

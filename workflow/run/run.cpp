@@ -380,8 +380,8 @@ nlohmann::ordered_json run_summary(const RunRequest& request, const RunOutcome<D
       {"correction_moves", counters.correction_moves},
       {"energy_drift", state.energy_drift},
       {"largest_momentum", state.largest_momentum},
-      {"compressibility", z.mean.mean},
-      {"compressibility_error", z.mean.error},
+      {"compressibility_factor", z.mean.mean},
+      {"compressibility_factor_error", z.mean.error},
       {"overlaps", exact_check(state.configuration).overlaps.size()},
       {"wall_seconds", outcome.wall_seconds},
       {"collisions_per_second", collisions / outcome.wall_seconds}};

@@ -1,6 +1,8 @@
-#include "workflow/sweep/stop_signals.h"
+#include "app/terminal/stop_signals.h"
 
 #include <csignal>
+
+#include "workflow/sweep/process.h"
 
 namespace vitrel {
 namespace {
@@ -13,8 +15,6 @@ extern "C" void note_signal(int number) {
 }
 
 }  // namespace
-
-const std::array<int, 3> stop_signals = {SIGINT, SIGTERM, SIGUSR1};
 
 void catch_stop_signals() {
   struct sigaction action {};
