@@ -108,6 +108,15 @@ void write_provenance(h5::Group& root, const Results& results) {
   group.set_attribute("entries", joined(names));
 }
 
+/// The names of today for those of files that earlier versions wrote.
+void rename_former(Table& table) {
+  const auto rename = [](std::string& name) {
+    if (name == "compressibility") name = "compressibility_factor";
+  };
+  rename(table.name);
+  for (Column& column : table.columns) rename(column.name);
+}
+
 }  // namespace
 
 const Column* Table::find(const std::string& column) const {
@@ -171,7 +180,7 @@ Results read_results(const std::filesystem::path& path) {
   const h5::Group root = file.root();
   Results results;
   for (const std::string& name : table_names(root, path))
-    results.tables.push_back(read_table(root, name));
+    rename_former(results.tables.emplace_back(read_table(root, name)));
   const h5::Group provenance = root.group("provenance");
   for (const std::string& name : split(provenance.text_attribute("entries")))
     results.provenance.emplace_back(name, provenance.dataset(name).read_text());

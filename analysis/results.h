@@ -56,7 +56,8 @@ void write_results(const std::filesystem::path& path, const Results& results);
 /// The names of the tables in what write_results wrote. Throws FileError.
 std::vector<std::string> stored_tables(const std::filesystem::path& path);
 
-/// Reads what write_results wrote. Throws FileError.
+/// Reads what write_results wrote; the former name `compressibility` of tables and columns becomes
+/// `compressibility_factor`. Throws FileError.
 Results read_results(const std::filesystem::path& path);
 
 }  // namespace vitrel

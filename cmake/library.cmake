@@ -1,10 +1,19 @@
-# vitrel_library(<name> SOURCES … HEADERS … LINK … [PRIVATE_LINK …]): one static library per folder of
-# the architecture with its headers, each of which must compile alone. Includes read "core/…", from the
-# project's root.
+# vitrel_cold(<source>…): compiles these with -O1 where others get more. For sources of the same folder that
+# read or write text and never take long: they compile faster, and compute the same (options.cmake).
+function(vitrel_cold)
+  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release,RelWithDebInfo>:-O1>")
+endfunction()
+
+# vitrel_library(<name> SOURCES … [COLD …] HEADERS … LINK … [PRIVATE_LINK …]): one static library per folder
+# of the architecture with its headers, each of which must compile alone. COLD are further sources
+# (vitrel_cold). Includes read "core/…", from the project's root.
 function(vitrel_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;HEADERS;LINK;PRIVATE_LINK" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;COLD;HEADERS;LINK;PRIVATE_LINK" ${ARGN})
   set(target vitrel_${name})
-  add_library(${target} STATIC ${ARG_SOURCES})
+  if(ARG_COLD)
+    vitrel_cold(${ARG_COLD})
+  endif()
+  add_library(${target} STATIC ${ARG_SOURCES} ${ARG_COLD})
   add_library(vitrel::${name} ALIAS ${target})
   target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${ARG_HEADERS})
   target_link_libraries(${target} PUBLIC vitrel::options ${ARG_LINK} PRIVATE ${ARG_PRIVATE_LINK})

@@ -9,7 +9,12 @@ if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release)
 endif()
 
-option(VITREL_NATIVE "Use every instruction of this machine's processor" OFF)
+# Who builds the project mostly runs it on the same machine; packages turn it off (preset "portable").
+set(native_by_default ${PROJECT_IS_TOP_LEVEL})
+if(CMAKE_CROSSCOMPILING)
+  set(native_by_default OFF)
+endif()
+option(VITREL_NATIVE "Use every instruction of this machine's processor" ${native_by_default})
 set(VITREL_SANITIZE "" CACHE STRING "Sanitizers, for example address,undefined")
 
 # These reach the users of an installed library too: functions defined in headers are compiled there

@@ -1,18 +1,19 @@
 #pragma once
 
+#include "edmd/options.h"
 #include "core/random/stream.h"
 #include "core/state/configuration.h"
-#include "edmd/options.h"
 
 namespace vitrel {
 
-/// Draws all velocities anew: v ~ N(0, kT/m) per component and ω ~ N(0, kT/I), from the streams
-/// (seed, purpose, step, particle); then removes the net momentum and rescales translation and
-/// rotation to exactly the energies of `temperature`. Rotations that smooth collisions never see are not
-/// modelled: round particles get ω = 0, spheroids none about their axes. A single particle keeps its momentum.
+/// Draws all velocities: v ~ N(0, kT/m) per component and ω ~ N(0, kT/I), from the streams (seed, purpose, step,
+/// particle); then removes the net momentum and rescales translation and rotation to exactly the energies of
+/// `temperature`. Rotations that smooth collisions do not change are not modelled: round particles get ω = 0,
+/// spheroids no spin about their axes. A single particle keeps its momentum.
 ///
-/// The same on any number of threads. This is both the initial draw and the Brownian step (thesis, section 1 of the sources): repeated
-/// every τ_B, a free particle diffuses with D₀ = kT τ_B/(2m) and D_r0 = kT τ_B/(2I).
+/// The result does not depend on the number of threads. This is both the initial draw and the Brownian step
+/// (thesis, section 1 of the sources): repeated every τ_B, a free particle diffuses with D₀ = kT τ_B/(2m) and
+/// D_r0 = kT τ_B/(2I).
 template <int Dim>
 void draw_velocities(Configuration<Dim>& configuration, std::uint64_t seed, Purpose purpose,
                      std::uint64_t step, Temperature temperature, int threads = 1);

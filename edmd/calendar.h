@@ -9,73 +9,70 @@
 #include <utility>
 #include <vector>
 
-#include "core/neighbors/ask_memory.h"
+#include "core/neighbors/prefetch.h"
 
 namespace vitrel {
 
-/// The next event time of every particle, and the earliest of them all: a bounded-increment queue
-/// (Paul, J. Comput. Phys. 221, 615, 2007). Equal times are ordered by particle, so the order never
-/// depends on history. Times are finite or +∞; they may be set in any order, the queue is fast if
-/// they are set forward.
+/// The next event time of every particle, and the earliest of all: a bounded-increment priority queue (Paul,
+/// J. Comput. Phys. 221, 615, 2007). Equal times are ordered by particle, so the order never depends on history.
+/// Times are finite or +∞. They may be set in any order; the queue is fast if they move forward.
 ///
-/// 1. A window of time is cut into equal slots. A slot is a cache line, or several, with the numbers of
-///    the particles that are planned in it; who is planned later or never is noted nowhere. Nothing
-///    is struck out: a particle knows in which slot it waits, and all other notes of it are void.
-/// 2. The particles of the slots opened so far are in a small heap, ordered by (time, particle). When
-///    it holds fewer than `foresight` the next slot is opened, and its particles are announced.
-/// 3. After the last slot the window is renewed: it begins at the earliest time, and a slot is as wide
-///    as it takes, by a sample of the nearest eighth of the particles, to find a few of them in each.
-///    So is a window that has served for very many changes, because events now come much faster.
-/// 4. Slots are far apart in memory: a note is taken a few changes later, when its slot has had time to
-///    come.
+/// 1. A window of time is divided into equal slots. A slot is one or more cache lines with the numbers of the
+///    particles scheduled in it. Particles scheduled after the window are not stored in any slot. Slot entries are
+///    never deleted: a particle stores its current slot, and its other slot entries are stale.
+/// 2. The particles of all opened slots are in a small heap, ordered by (time, particle). When it holds fewer than
+///    `lookahead`, the next slot is opened, and its particles become upcoming.
+/// 3. After the last slot, or after very many changes, the window is reset: it begins at the earliest time, and the
+///    slot width is chosen so that each holds a few particles, judged by a sample of the earliest eighth.
+/// 4. Slots are far apart in memory: an entry is stored a few changes later, when its slot has been prefetched.
 ///
-/// Cost: O(1) per change and for the earliest, on average over a window; O(log N) per change if all
-/// times fall into few slots, for instance if they are equal. Memory: 48 bytes per particle, and
-/// 4 for every void note: a few per particle, or as many as changes since the renewal if times are
-/// set to and fro.
+/// Cost: O(1) per change and per query of the earliest, averaged over a window; O(log N) per change if all times
+/// fall into few slots, for instance if they are equal. Memory: 48 bytes per particle, and 4 per stale slot entry: a
+/// few per particle, or as many as changes since the last reset if times are set back and forth.
 class Calendar {
  public:
-  /// Nothing is planned: all times are +∞. At least `foresight` particles, 1 or more, are announced
-  /// before their events, as far as the window reaches and as these were planned by then.
-  explicit Calendar(std::size_t particles = 0, std::size_t foresight = 1)
-      : foresight_(foresight),
-        places_(particles),
+  /// Nothing is scheduled: all times are +∞. At least `lookahead` ≥ 1 particles become upcoming before their events,
+  /// as far as they are inside the window and scheduled by then.
+  explicit Calendar(std::size_t particles = 0, std::size_t lookahead = 1)
+      : lookahead_(lookahead),
+        entries_(particles),
         slots_(particles / particles_per_line + 1),
         opened_(end()) {
-    note_all();
+    schedule_all();
   }
 
-  std::size_t size() const { return places_.size(); }
-  double time(std::size_t particle) const { return places_[particle].time; }
+  std::size_t size() const { return entries_.size(); }
+  double time(std::size_t particle) const { return entries_[particle].time; }
 
   /// The particle with the least (time, particle). Opens slots, hence not const.
   std::size_t earliest() {
-    if (due_.size() < foresight_ || changes_left_ <= 0) open_slots();
-    return due_.empty() ? 0 : due_.front().particle;
+    if (heap_.size() < lookahead_ || changes_left_ <= 0) open_slots();
+    return heap_.empty() ? 0 : heap_.front().particle;
   }
 
-  /// How many particles have been announced, and one of the last 64 of these: number k, counted from 0.
-  std::uint64_t announcements() const { return announcements_; }
-  std::size_t announced(std::uint64_t k) const { return announced_[k % remembered]; }
+  /// The number of particles that have become upcoming so far, and number k of them, counted from 0 (the last 64
+  /// only).
+  std::uint64_t upcoming_count() const { return upcoming_count_; }
+  std::size_t upcoming(std::uint64_t k) const { return upcoming_[k % upcoming_capacity]; }
 
-  /// Asks the memory for what a change of this particle's time will read.
-  void read_ahead(std::size_t particle) const { ask_memory(&places_[particle]); }
+  /// Prefetches what `set` reads for this particle.
+  void prefetch(std::size_t particle) const { prefetch_line(&entries_[particle]); }
 
   void set(std::size_t particle, double time) {
     assert(time > -never);
     const auto i = static_cast<Index>(particle);
-    Place& place = places_[i];
+    Entry& place = entries_[i];
     const Index slot = slot_of(time);
     place.time = time;
     --changes_left_;
     if (place.slot == in_heap) {
-      if (slot < opened_) return settle(place.heap, {time, i});
-      take_from_heap(place.heap);
-      wait(i, slot);
+      if (slot < opened_) return restore_heap(place.heap, {time, i});
+      remove_from_heap(place.heap);
+      put_in_slot(i, slot);
     } else if (slot < opened_) {
       add_to_heap(i);
     } else if (slot != place.slot) {
-      wait(i, slot);
+      put_in_slot(i, slot);
     }
   }
 
@@ -83,216 +80,217 @@ class Calendar {
   using Index = std::uint32_t;
 
   static constexpr double never = std::numeric_limits<double>::infinity();
-  // Instead of a slot: of a particle in the heap, of no particle.
-  static constexpr Index in_heap = std::numeric_limits<Index>::max(), nowhere = in_heap - 1;
-  // The cost is flat around these: fewer slots mean more renewals, wider ones a higher heap.
+  // Special slots: the particle is in the heap; no particle.
+  static constexpr Index in_heap = std::numeric_limits<Index>::max(), no_slot = in_heap - 1;
+  // The cost is flat around these values: fewer slots mean more resets, wider ones a higher heap.
   static constexpr std::size_t particles_per_line = 2;
   static constexpr double particles_per_slot = 4;
-  static constexpr std::size_t least_counted = 8;
+  static constexpr std::size_t min_sampled = 8;
   static constexpr std::int64_t changes_per_particle = 64;
   static constexpr std::size_t arity = 4;
-  static constexpr std::size_t remembered = 64;  // announcements
-  static constexpr double narrowest = 1e-300;    // of one slot: its inverse stays finite
-  // How many slots before their opening these are asked for, and then their particles.
-  static constexpr Index slot_ahead = 6, particles_ahead = 3;
+  static constexpr std::size_t upcoming_capacity = 64;
+  static constexpr double min_slot_width = 1e-300;  // so that its inverse is finite
+  // Slots are prefetched so many slots before they are opened, and then their particles.
+  static constexpr Index slot_lookahead = 6, particle_lookahead = 3;
 
-  struct Place {
+  struct Entry {
     double time = never;
-    Index slot = 0;  // where the particle waits,
-    Index heap = 0;  // or where in the heap it is
+    Index slot = 0;  // of the particle
+    Index heap = 0;  // position in the heap, if slot == in_heap
   };
   struct alignas(64) Line {
-    static constexpr Index room = 14;
+    static constexpr Index capacity = 14;
     Index count = 0;
-    Index more = 0;  // if not 0: the rest are in more_[more - 1]
-    std::array<Index, room> particle;
+    Index overflow = 0;  // if not 0, overflow_[overflow - 1] continues
+    std::array<Index, capacity> particle;
   };
-  struct Note {
+  struct SlotEntry {
     Index particle = 0, slot = 0;
   };
-  struct Entry {
+  struct HeapEntry {
     double time = never;
     Index particle = 0;
   };
 
-  static bool before(const Entry& one, const Entry& two) {
+  static bool before(const HeapEntry& one, const HeapEntry& two) {
     return one.time < two.time || (one.time == two.time && one.particle < two.particle);
   }
 
-  /// After the window.
+  /// The slot of all times after the window.
   Index end() const { return static_cast<Index>(slots_.size()); }
 
-  // It never decreases with time, so that slots are in order whatever the rounding.
+  // Monotonic in time whatever the rounding, so slots are in order.
   Index slot_of(double time) const {
     const double slot = std::max((time - begin_) * slots_per_time_, 0.0);
     return static_cast<Index>(std::min(slot, static_cast<double>(slots_.size())));
   }
 
-  // Takes the oldest of the last few notes in place of this one.
-  void wait(Index particle, Index slot) {
-    places_[particle].slot = slot;
+  // Delays this entry and stores the oldest delayed one.
+  void put_in_slot(Index particle, Index slot) {
+    entries_[particle].slot = slot;
     if (slot == end()) return;
-    ask_memory(&slots_[slot]);
-    const Note due = std::exchange(notes_[noted_++ % notes_.size()], {particle, slot});
-    if (places_[due.particle].slot == due.slot) take(due);
+    prefetch_line(&slots_[slot]);
+    const SlotEntry due =
+        std::exchange(delayed_[delayed_count_++ % delayed_.size()], {particle, slot});
+    if (entries_[due.particle].slot == due.slot) store(due);
   }
 
-  void take(const Note& note) {
-    Line& line = slots_[note.slot];
-    if (line.count == Line::room) {
-      more_.push_back(line);
+  void store(const SlotEntry& entry) {
+    Line& line = slots_[entry.slot];
+    if (line.count == Line::capacity) {
+      overflow_.push_back(line);
       line.count = 0;
-      line.more = static_cast<Index>(more_.size());
+      line.overflow = static_cast<Index>(overflow_.size());
     }
-    line.particle[line.count++] = note.particle;
+    line.particle[line.count++] = entry.particle;
   }
 
-  // The note may be void, or have been heard before.
-  void call(const Note& note) {
-    if (places_[note.particle].slot != note.slot) return;
-    add_to_heap(note.particle);
-    announced_[announcements_++ % remembered] = note.particle;
+  // The entry may be stale, or already activated.
+  void activate(const SlotEntry& entry) {
+    if (entries_[entry.particle].slot != entry.slot) return;
+    add_to_heap(entry.particle);
+    upcoming_[upcoming_count_++ % upcoming_capacity] = entry.particle;
   }
 
-  void note_all() {
-    more_.clear();
-    for (Line& line : slots_) line.count = line.more = 0;
-    notes_.fill({0, nowhere});
-    for (Place& place : places_) place.slot = end();
-    for (Index i = 0; i < places_.size(); ++i) wait(i, slot_of(places_[i].time));
+  void schedule_all() {
+    overflow_.clear();
+    for (Line& line : slots_) line.count = line.overflow = 0;
+    delayed_.fill({0, no_slot});
+    for (Entry& place : entries_) place.slot = end();
+    for (Index i = 0; i < entries_.size(); ++i) put_in_slot(i, slot_of(entries_[i].time));
   }
 
-  // Until enough are due; nobody is if nothing is planned.
+  // Opens slots until the heap holds enough; the heap stays empty if nothing is scheduled.
   void open_slots() {
-    if (changes_left_ <= 0) renew_window();
-    while (due_.size() < foresight_) {
-      if (opened_ == end() && due_.empty()) renew_window();
+    if (changes_left_ <= 0) reset_window();
+    while (heap_.size() < lookahead_) {
+      if (opened_ == end() && heap_.empty()) reset_window();
       if (opened_ == end()) return;
       open(opened_++);
     }
   }
 
   void open(Index slot) {
-    if (foresight_ > 1) read_ahead_of(slot);
+    if (lookahead_ > 1) prefetch_for(slot);
     for (const Line* line = &slots_[slot]; line;
-         line = line->more ? &more_[line->more - 1] : nullptr)
-      call_all(*line, slot);
-    for (const Note& note : notes_)
-      if (note.slot == slot) call(note);
+         line = line->overflow ? &overflow_[line->overflow - 1] : nullptr)
+      activate_all(*line, slot);
+    for (const SlotEntry& entry : delayed_)
+      if (entry.slot == slot) activate(entry);
   }
 
-  // First those that are not void, without a branch: which they are cannot be foreseen.
-  void call_all(const Line& line, Index slot) {
-    std::array<Index, Line::room> valid;
+  // Collects the valid entries without branches, which could not be predicted.
+  void activate_all(const Line& line, Index slot) {
+    std::array<Index, Line::capacity> valid;
     Index count = 0;
     for (Index k = 0; k < line.count; ++k) {
       valid[count] = line.particle[k];
-      count += places_[line.particle[k]].slot == slot;
+      count += entries_[line.particle[k]].slot == slot;
     }
-    for (Index k = 0; k < count; ++k) call({valid[k], slot});
+    for (Index k = 0; k < count; ++k) activate({valid[k], slot});
   }
 
-  void read_ahead_of(Index slot) const {
-    if (slot + slot_ahead < end()) ask_memory(&slots_[slot + slot_ahead]);
-    if (slot + particles_ahead >= end()) return;
-    const Line& notes = slots_[slot + particles_ahead];
-    for (Index k = 0; k < notes.count; ++k) read_ahead(notes.particle[k]);
+  void prefetch_for(Index slot) const {
+    if (slot + slot_lookahead < end()) prefetch_line(&slots_[slot + slot_lookahead]);
+    if (slot + particle_lookahead >= end()) return;
+    const Line& notes = slots_[slot + particle_lookahead];
+    for (Index k = 0; k < notes.count; ++k) prefetch(notes.particle[k]);
   }
 
-  void renew_window() {
-    due_.clear();
-    changes_left_ = changes_per_particle * static_cast<std::int64_t>(places_.size());
-    place_window();
-    note_all();
+  void reset_window() {
+    heap_.clear();
+    changes_left_ = changes_per_particle * static_cast<std::int64_t>(entries_.size());
+    fit_window();
+    schedule_all();
   }
 
-  void place_window() {
+  void fit_window() {
     double first = never;
     std::size_t planned = 0;
-    for (const Place& place : places_) {
+    for (const Entry& place : entries_) {
       first = std::min(first, place.time);
       if (place.time < never) ++planned;
     }
     opened_ = planned == 0 ? end() : 0;
-    begin_ = planned == 0 ? -never : first;  // -never: everything is later than the window
+    begin_ = planned == 0 ? -never : first;  // -never: every time is after the window
     if (planned == 0) return;
-    // The nearest eighth, by a sample.
+    // The earliest eighth, by a sample.
     const std::size_t step = 1 + planned / sample_.size();
     std::size_t seen = 0, drawn = 0;
-    for (const Place& place : places_)
+    for (const Entry& place : entries_)
       if (place.time < never && seen++ % step == 0) sample_[drawn++] = place.time;
-    const std::size_t rank = std::min(drawn - 1, least_counted + drawn / 8);
+    const std::size_t rank = std::min(drawn - 1, min_sampled + drawn / 8);
     std::nth_element(sample_.begin(), sample_.begin() + rank, sample_.begin() + drawn);
     const auto counted = static_cast<double>((rank + 1) * step);
     const double width = particles_per_slot * (sample_[rank] - begin_) / counted;
-    slots_per_time_ = 1 / std::max(width, narrowest);
+    slots_per_time_ = 1 / std::max(width, min_slot_width);
   }
 
-  void put(std::size_t place, const Entry& entry) {
-    due_[place] = entry;
-    places_[entry.particle].heap = static_cast<Index>(place);
+  void put(std::size_t place, const HeapEntry& entry) {
+    heap_[place] = entry;
+    entries_[entry.particle].heap = static_cast<Index>(place);
   }
 
   void add_to_heap(Index particle) {
-    places_[particle].slot = in_heap;
-    const Entry entry{places_[particle].time, particle};
-    due_.push_back(entry);
-    rise(due_.size() - 1, entry);
+    entries_[particle].slot = in_heap;
+    const HeapEntry entry{entries_[particle].time, particle};
+    heap_.push_back(entry);
+    sift_up(heap_.size() - 1, entry);
   }
 
-  void take_from_heap(std::size_t place) {
-    const Entry last = due_.back();
-    due_.pop_back();
-    if (place < due_.size()) settle(place, last);
+  void remove_from_heap(std::size_t place) {
+    const HeapEntry last = heap_.back();
+    heap_.pop_back();
+    if (place < heap_.size()) restore_heap(place, last);
   }
 
-  // Puts an entry where it belongs; the place named is free.
-  void settle(std::size_t place, const Entry& entry) {
-    if (place > 0 && before(entry, due_[(place - 1) / arity]))
-      rise(place, entry);
+  // Moves an entry to its position in the heap, starting from the free position `place`.
+  void restore_heap(std::size_t place, const HeapEntry& entry) {
+    if (place > 0 && before(entry, heap_[(place - 1) / arity]))
+      sift_up(place, entry);
     else
-      sink(place, entry);
+      sift_down(place, entry);
   }
 
-  void rise(std::size_t place, const Entry& entry) {
+  void sift_up(std::size_t place, const HeapEntry& entry) {
     while (place > 0) {
       const std::size_t parent = (place - 1) / arity;
-      if (!before(entry, due_[parent])) break;
-      put(place, due_[parent]);
+      if (!before(entry, heap_[parent])) break;
+      put(place, heap_[parent]);
       place = parent;
     }
     put(place, entry);
   }
 
-  void sink(std::size_t place, const Entry& entry) {
+  void sift_down(std::size_t place, const HeapEntry& entry) {
     while (true) {
       const std::size_t first = place * arity + 1;
-      if (first >= due_.size()) break;
-      const std::size_t end = std::min(first + arity, due_.size());
+      if (first >= heap_.size()) break;
+      const std::size_t end = std::min(first + arity, heap_.size());
       std::size_t best = first;
       for (std::size_t child = first + 1; child < end; ++child)
-        if (before(due_[child], due_[best])) best = child;
-      if (!before(due_[best], entry)) break;
-      put(place, due_[best]);
+        if (before(heap_[child], heap_[best])) best = child;
+      if (!before(heap_[best], entry)) break;
+      put(place, heap_[best]);
       place = best;
     }
     put(place, entry);
   }
 
-  std::size_t foresight_;
-  std::uint64_t announcements_ = 0;
-  std::array<Index, remembered> announced_{};
-  std::vector<Place> places_;
-  std::vector<Line> slots_;           // the first line of each
-  std::vector<Line> more_;            // further ones
-  std::array<Note, 4> notes_{};       // not yet taken
-  std::array<double, 256> sample_{};  // of times, to place the window
-  std::uint64_t noted_ = 0;
-  Index opened_ = 0;  // slots
+  std::size_t lookahead_;
+  std::uint64_t upcoming_count_ = 0;
+  std::array<Index, upcoming_capacity> upcoming_{};
+  std::vector<Entry> entries_;
+  std::vector<Line> slots_;             // the first line of each
+  std::vector<Line> overflow_;          // further ones
+  std::array<SlotEntry, 4> delayed_{};  // not yet stored
+  std::array<double, 256> sample_{};    // of times, to fit the window
+  std::uint64_t delayed_count_ = 0;
+  Index opened_ = 0;  // number of opened slots
   double begin_ = -never;
   double slots_per_time_ = 1;
-  std::int64_t changes_left_ = 1;  // until the window is renewed
-  std::vector<Entry> due_;         // the heap
+  std::int64_t changes_left_ = 1;  // until the next reset
+  std::vector<HeapEntry> heap_;
 };
 
 }  // namespace vitrel

@@ -45,8 +45,7 @@ double collide(Motion<Dim>& one, const Inertia<Dim>& inertia1, Motion<Dim>& two,
                double restitution) {
   const AngularVelocity<Dim> spin1 = inertia1.inverse_moment * contact.arm1;
   const AngularVelocity<Dim> spin2 = inertia2.inverse_moment * contact.arm2;
-  // n is a unit vector to rounding, which always errs to the same side for equal disks: with n² here
-  // the energy is conserved all the same.
+  // n has norm 1 to rounding, with a systematic error for equal disks: with n² here energy is still conserved.
   const double compliance =
       (inertia1.inverse_mass + inertia2.inverse_mass) * contact.normal.squaredNorm() +
       product(spin1, contact.arm1) + product(spin2, contact.arm2);

@@ -3,15 +3,15 @@
 #include "core/geometry/ellipse.h"
 #include "core/geometry/ellipsoid.h"
 
-/// What an impact does to two bodies: smooth (frictionless) surfaces, coefficient of restitution e.
+/// The collision of two smooth (frictionless) bodies with coefficient of restitution e.
 ///
 ///     k_i = arm_i = (x − r_i) × n,   u_n = (v₁ − v₂)·n + ω₁·k₁ − ω₂·k₂ + s   (> 0: approaching)
 ///     J = (1 + e) u_n/(1/m₁ + 1/m₂ + k₁·I₁⁻¹k₁ + k₂·I₂⁻¹k₂)
 ///     v₁ −= J n/m₁, v₂ += J n/m₂, ω₁ −= J I₁⁻¹k₁, ω₂ += J I₂⁻¹k₂
 ///
-/// n is the unit contact normal from 1 to 2, x the contact point, and s the speed at which growth
-/// moves the surfaces towards each other. In two dimensions k, ω and I are numbers. Momentum and angular momentum are conserved exactly; the
-/// energy changes by J (s − u_n (1 − e)/2).
+/// n is the unit contact normal from 1 to 2, x the contact point, and s the speed at which growth moves the
+/// surfaces towards each other. In two dimensions k, ω and I are numbers. Momentum and angular momentum are
+/// conserved exactly; the energy changes by J (s − u_n (1 − e)/2).
 namespace vitrel {
 
 /// The inertia of a body, in space; an inverse moment of inertia 0 means that rotation is not modelled.
@@ -46,16 +46,16 @@ double collide(Motion<Dim>& one, const Inertia<Dim>& inertia1, Motion<Dim>& two,
                const Inertia<Dim>& inertia2, const ContactGeometry<Dim>& contact,
                double restitution);
 
-/// The impact of a body with its own periodic image: both sides act on the same body, its velocity
-/// stays and u_n = ω·k + s with k = k₁ − k₂; ω −= J I⁻¹k. Returns the impulse J.
+/// The collision of a body with its own periodic image: both sides act on the same body, its velocity does not change,
+/// and u_n = ω·k + s with k = k₁ − k₂; ω −= J I⁻¹k. Returns the impulse J.
 double collide_with_own_image(Motion2& motion, const Inertia<2>& inertia,
                               const ContactGeometry<2>& contact, double restitution);
 double collide_with_own_image(Motion3& motion, const Inertia<3>& inertia,
                               const ContactGeometry<3>& contact, double restitution);
 
-/// The correction move for a pair found overlapping (on_overlap = "correct"): the relative velocity
-/// is laid along the line of centres so that the bodies separate; angular velocities stay. It
-/// conserves momentum and energy, but not angular momentum. `d` runs from centre 1 to centre 2.
+/// The correction move for an overlapping pair (on_overlap = "correct"): the relative velocity is turned into the line
+/// of centres so that the bodies separate; angular velocities do not change. Conserves momentum and energy, but not
+/// angular momentum. `d` runs from centre 1 to centre 2.
 template <int Dim>
 void separate(Motion<Dim>& one, const Inertia<Dim>& inertia1, Motion<Dim>& two,
               const Inertia<Dim>& inertia2, const Vec<Dim>& d);

@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "core/state/configuration.h"
 #include "edmd/options.h"
+#include "core/state/configuration.h"
 
 namespace vitrel {
 
@@ -16,15 +16,16 @@ class SoftContact;
 struct RunCounters {
   std::uint64_t events = 0;  ///< everything taken from the calendar
   std::uint64_t collisions = 0;
-  std::uint64_t predictions = 0;  ///< pairs asked about
-  std::uint64_t searches = 0;     ///< of these, pairs that the first look did not settle
-  std::uint64_t steps = 0;        ///< steps along separating axes, over all searches
-  std::uint64_t renewals = 0;     ///< neighbour lists renewed because a particle left its own
+  std::uint64_t predictions = 0;   ///< pairs screened
+  std::uint64_t searches = 0;      ///< of these, pairs that the screen did not settle
+  std::uint64_t steps = 0;         ///< steps along separating axes, over all searches
+  std::uint64_t list_updates = 0;  ///< neighbour lists renewed because a particle left its own
   std::uint64_t correction_moves = 0;
-  std::uint64_t refused_turns = 0;   ///< soft collisions as of hard particles, without room to turn
+  std::uint64_t blocked_rotations =
+      0;  ///< soft collisions executed as hard ones, for lack of space to rotate
   std::uint64_t early_releases = 0;  ///< soft particles hit while in contact
-  std::uint64_t integrations = 0;    ///< contacts that no table had, or where there is none
-  /// Σ J n·d over collisions, d from centre to centre; of soft contacts what takes its place
+  std::uint64_t integrations = 0;    ///< contacts outside the table, or without a table
+  /// Σ J n·d over collisions, d from centre to centre; for soft contacts the equivalent term
   /// (soft/soft_contact.h).
   double virial = 0;
   double dissipated = 0;  ///< energy lost in inelastic collisions
@@ -37,14 +38,13 @@ struct RunCounters {
   }
 };
 
-/// Event-driven dynamics of N hard bodies, or soft round ones, in a periodic box: the run-time face
-/// of Simulation<Body>.
+/// Event-driven dynamics of N hard bodies, or soft round ones, in a periodic box: the run-time interface of
+/// Simulation<Body>.
 ///
-/// Events run in blocks of a fixed count, or of the time in which the fastest particle crosses half
-/// the box. `load` begins a block: everything the engine knows is derived anew from the
-/// configuration, so that a run continued from a configuration written at a block's end equals the
-/// uninterrupted one bit by bit. Virtual calls are per block, sample or Brownian step, never per
-/// event.
+/// Events run in blocks of a fixed count, or of the time in which the fastest particle crosses half the box. `load`
+/// begins a block and derives all internal state from the configuration: a run continued from a configuration
+/// written at the end of a block is bit-identical to the uninterrupted one. Virtual calls are per block, sample or
+/// Brownian step, never per event.
 template <int Dim>
 class Engine {
  public:
@@ -52,33 +52,32 @@ class Engine {
 
   virtual ~Engine() = default;
 
-  /// Begins a block from this configuration. Predictions do not look past `horizon`: no later than
-  /// at that simulated time comes another `load`, or `set_velocities`.
+  /// Begins a block from this configuration. Predictions end at `horizon`: another `load` or `set_velocities` must
+  /// follow by that simulated time.
   virtual void load(const Configuration<Dim>& configuration, double horizon = never) = 0;
 
   enum class Stop { time, block_end };
-  /// Processes events up to simulated time `until`, no later than the horizon, or to the end of the
-  /// block if that comes first.
+  /// Processes events up to simulated time `until` ≤ horizon, or to the end of the block if that comes first.
   virtual Stop advance(double until, RunCounters& counters) = 0;
 
-  /// Writes all particles as of now into `configuration` (positions wrapped; shapes, if they grow),
-  /// which otherwise must be the one loaded. The engine's own state does not change.
+  /// Writes the current state of all particles into `configuration` (positions wrapped; shapes, if they grow), which
+  /// must be the one loaded. The state of the engine does not change.
   virtual void write(Configuration<Dim>& configuration) const = 0;
 
-  /// Replaces all velocities, at the present time; `horizon` as for `load`.
+  /// Replaces all velocities at the current time; `horizon` as for `load`.
   virtual void set_velocities(const Configuration<Dim>& configuration, double horizon,
                               RunCounters& counters) = 0;
 
-  /// Which model runs and why it is exact for this scene, in one sentence.
+  /// The model and why it is exact for this system, in one sentence.
   virtual std::string description() const = 0;
 };
 
 using Engine2 = Engine<2>;
 using Engine3 = Engine<3>;
 
-/// The simplest model that is exact for the scene. Growing bodies if there is growth, otherwise static
-/// ones; disks (spheres) without orientation if every particle is round, otherwise ellipses (ellipsoids;
-/// a round pair among them meets in closed form). Growing disks run as growing ellipses.
+/// The simplest model that is exact for the system. Growing bodies if the growth rate is not 0; disks (spheres) without
+/// orientation if all particles are round; otherwise ellipses (ellipsoids), of which round pairs collide in closed
+/// form. Growing disks run as growing ellipses.
 std::unique_ptr<Engine2> make_engine(const Configuration2& configuration,
                                      const EngineOptions& options);
 std::unique_ptr<Engine3> make_engine(const Configuration3& configuration,

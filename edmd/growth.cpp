@@ -14,13 +14,12 @@ namespace vitrel {
 
 namespace {
 
-/// Growth of all lengths in one block, at most: neighbour lists are made for the sizes at its start.
-constexpr double largest_growth = 0.2;
-/// Growth between two rescalings times Z, at most, so that kT changes little (it rises by twice as much), and
-/// Z, too.
-constexpr double largest_compression = 0.05;
-/// Growth that holds enough collisions to tell the pressure, even of a gas.
-constexpr double telling_growth = 0.005;
+/// Maximum growth of all lengths in one block: neighbour lists are made for the sizes at its start.
+constexpr double max_block_growth = 0.2;
+/// Maximum growth between two rescalings times Z, so that kT (which rises by twice as much) and Z change little.
+constexpr double max_step_compression = 0.05;
+/// Growth with enough collisions to measure the pressure, even of a gas.
+constexpr double min_pressure_growth = 0.005;
 
 /// The time average of a temperature that rises exponentially from 1 to `end`.
 double mean_of_rise(double end) {
@@ -51,17 +50,17 @@ class Growth {
     engine_ = make_engine(configuration, engine);
   }
 
-  StageReport run(const Budget& budget) {
+  StageReport run(const RunControl& control) {
     if (!state_.under_way) begin();
     while (true) {
       if (at_packing_fraction())
         return ended(StageEnd::reached, "the packing fraction was reached");
       if (at_pressure()) return ended(StageEnd::reached, "the reduced pressure was reached");
-      if (jammed()) return ended(StageEnd::stuck, stuck_text());
-      if (budget.stop_requested()) return {StageEnd::stopped, "growth was stopped"};
+      if (jammed()) return ended(StageEnd::stalled, jammed_text());
+      if (control.stop_requested()) return {StageEnd::stopped, "growth was stopped"};
       block();
-      budget.tell({progress(), packing_fraction(), "packing fraction"});
-      budget.mark_resumable();
+      control.report_progress({progress(), packing_fraction(), "packing fraction"});
+      control.notify_resumable();
     }
   }
 
@@ -71,10 +70,10 @@ class Growth {
 
   void check() const {
     if (!options_.packing_fraction && !options_.reduced_pressure)
-      throw UserError("growth has no goal: give a packing fraction or a reduced pressure");
+      throw UserError("growth has no target: give a packing fraction or a reduced pressure");
     if (rate() == 0 || !std::isfinite(rate()))
       throw UserError("growth at the rate " + std::to_string(rate()) +
-                      " leads nowhere: the rate must be finite and not 0");
+                      " is impossible: the rate must be finite and not 0");
     if (translations_ + rotations_ == 0)
       throw UserError("growth needs particles that can move; a lone disk or sphere cannot");
     const bool shrinks = rate() < 0;
@@ -84,56 +83,57 @@ class Growth {
             : shrinks;
     if (away)
       throw UserError("growth at the rate " + std::to_string(rate()) +
-                      " leads away from its goal, from a packing fraction of " +
+                      " leads away from its target, starting at a packing fraction of " +
                       std::to_string(start_fraction_));
   }
 
   void begin() {
     draw_velocities(configuration_, options_.seed, Purpose::velocities, state_.draws++,
                     Temperature::relative);
-    // Alone, a particle would keep its momentum.
+    // A single particle would keep its momentum.
     if (configuration_.size() == 1) configuration_.velocity[0] = Vec<Dim>::Zero();
     state_.under_way = true;
   }
 
   void block() {
     configuration_.time = 0;
-    const double end = std::min(time_to_goal(), largest_growth / std::abs(rate()));
+    const double end = std::min(time_to_goal(), max_block_growth / std::abs(rate()));
     engine_->load(configuration_, step_end(0, end));
     while (step(step_end(configuration_.time, end)) == Engine<Dim>::Stop::time &&
            configuration_.time < end && !at_pressure())
       engine_->set_velocities(configuration_, step_end(configuration_.time, end), state_.counters);
-    stands_still_ = !(configuration_.time > 0);
+    is_stalled_ = !(configuration_.time > 0);
     divide_lengths(1 + rate() * configuration_.time);
     rescale_velocities();
     configuration_.time = start_time_;
   }
 
-  /// Runs to `end` or the block's end, notes the pressure and rescales.
+  /// Runs to `end` or the end of the block, records the pressure and rescales.
   typename Engine<Dim>::Stop step(double end) {
     const double start = configuration_.time, virial = state_.counters.virial;
     const double size = 1 + rate() * start;
     const auto stop = engine_->advance(end, state_.counters);
     engine_->write(configuration_);
     const double time = configuration_.time - start;
-    // The last step may be cut so short that it holds hardly any collisions.
+    // The last step may be too short to hold enough collisions.
     const double grown = std::abs(rate()) * time / size;
-    const bool tells = stop == Engine<Dim>::Stop::block_end || state_.reduced_pressure == 0 ||
-                       grown >= std::min(0.5 * longest_growth(), telling_growth);
-    if (time > 0 && tells) note_pressure(state_.counters.virial - virial, time);
+    const bool is_significant = stop == Engine<Dim>::Stop::block_end ||
+                                state_.reduced_pressure == 0 ||
+                                grown >= std::min(0.5 * step_growth(), min_pressure_growth);
+    if (time > 0 && is_significant) record_pressure(state_.counters.virial - virial, time);
     state_.time += std::log1p(rate() * time / size) / rate();
     rescale_velocities();
     return stop;
   }
 
-  /// Of all lengths, in one step.
-  double longest_growth() const {
-    return largest_compression / std::max(state_.reduced_pressure, 1.0);
+  /// Growth of all lengths in one step.
+  double step_growth() const {
+    return max_step_compression / std::max(state_.reduced_pressure, 1.0);
   }
 
   double step_end(double start, double end) const {
     const double size = 1 + rate() * start;
-    return std::min(end, start + longest_growth() * size / std::abs(rate()));
+    return std::min(end, start + step_growth() * size / std::abs(rate()));
   }
 
   double time_to_goal() const {
@@ -141,7 +141,7 @@ class Growth {
     return (std::pow(*options_.packing_fraction / packing_fraction(), 1.0 / Dim) - 1) / rate();
   }
 
-  void note_pressure(double virial, double time) {
+  void record_pressure(double virial, double time) {
     const auto sums = mechanics(configuration_);
     const double temperature =
         (sums.translational_energy + sums.rotational_energy) / (translations_ + rotations_);
@@ -174,11 +174,9 @@ class Growth {
     return options_.reduced_pressure && rate() > 0 &&
            state_.reduced_pressure >= *options_.reduced_pressure;
   }
-  bool jammed() const {
-    return stands_still_ || state_.reduced_pressure > greatest_reduced_pressure;
-  }
+  bool jammed() const { return is_stalled_ || state_.reduced_pressure > max_reduced_pressure; }
 
-  // By the logarithms, in which growth is about even.
+  // In logarithms, in which growth is nearly uniform.
   double progress() const {
     double done = 0;
     if (options_.packing_fraction)
@@ -195,7 +193,7 @@ class Growth {
     return {end, reason};
   }
 
-  std::string stuck_text() const {
+  std::string jammed_text() const {
     return "the particles are jammed, at a packing fraction of " +
            std::to_string(packing_fraction()) + " and a reduced pressure of " +
            std::to_string(state_.reduced_pressure);
@@ -208,18 +206,18 @@ class Growth {
   const double start_time_, start_fraction_;
   const double translations_, rotations_;  // energies at kT = 1, half the degrees of freedom
   std::unique_ptr<Engine<Dim>> engine_;
-  bool stands_still_ = false;
+  bool is_stalled_ = false;
 };
 
 }  // namespace
 
 template <int Dim>
 StageReport grow(Configuration<Dim>& configuration, const GrowthOptions& options,
-                 GrowthState& state, const Budget& budget) {
-  return Growth<Dim>(configuration, options, state).run(budget);
+                 GrowthState& state, const RunControl& control) {
+  return Growth<Dim>(configuration, options, state).run(control);
 }
 
-template StageReport grow(Configuration2&, const GrowthOptions&, GrowthState&, const Budget&);
-template StageReport grow(Configuration3&, const GrowthOptions&, GrowthState&, const Budget&);
+template StageReport grow(Configuration2&, const GrowthOptions&, GrowthState&, const RunControl&);
+template StageReport grow(Configuration3&, const GrowthOptions&, GrowthState&, const RunControl&);
 
 }  // namespace vitrel

@@ -21,11 +21,11 @@ template <int Dim>
 class EventDrivenRun {
  public:
   EventDrivenRun(RunState<Dim>& state, const DynamicsOptions& options, const RunPlan<Dim>& plan,
-                 const Budget& budget)
+                 const RunControl& control)
       : state_(state),
         options_(options),
         plan_(plan),
-        budget_(budget),
+        control_(control),
         engine_(make_engine(state.configuration, options.engine)),
         ticks_(plan.ticks.observer ? even_count(plan.ticks.interval, plan.end_time) : 0) {}
 
@@ -45,17 +45,17 @@ class EventDrivenRun {
       engine_->load(state_.configuration, horizon());
       const bool finished = run_block();
       engine_->write(state_.configuration);
-      note_conservation();
+      record_conservation();
       if (!finished && !(state_.configuration.time > block_start))
         throw InvariantError("time stands still at " + std::to_string(block_start) +
-                             ": a block of events passed in no time (" +
+                             ": a block of events took no simulated time (" +
                              (options_.engine.soft_contact
-                                  ? "too dense, or too much damped, for contacts to be events?)"
+                                  ? "too dense or too strongly damped for event-driven contacts?)"
                                   : "inelastic collapse?)"));
       if (plan_.at_block_end) plan_.at_block_end(state_);
-      budget_.tell({progress(), state_.configuration.time, "time"});
+      control_.report_progress({progress(), state_.configuration.time, "time"});
       if (finished) return {StageEnd::reached, "the end of the run was reached"};
-      if (budget_.stop_requested()) return {StageEnd::stopped, "stopped at the end of a block"};
+      if (control_.stop_requested()) return {StageEnd::stopped, "stopped at the end of a block"};
     }
   }
 
@@ -87,13 +87,13 @@ class EventDrivenRun {
                      options_.brownian_step * static_cast<double>(state_.brownian_steps + 1)
                : std::numeric_limits<double>::infinity();
   }
-  // Nothing is predicted beyond it.
+  // The horizon of predictions.
   double horizon() const { return std::min(plan_.end_time, next_step_time()); }
   double next_stop() const {
     return std::min({plan_.end_time, next_sample_time(), next_tick_time(), next_step_time()});
   }
 
-  // Shows the observer, if there is one, the frame of this number, and counts it.
+  // Passes the frame to the observer, if any, and counts it.
   void observe(Observer<Dim>* observer, std::uint64_t& number, double time) {
     engine_->write(state_.configuration);
     state_.configuration.time = time;
@@ -105,7 +105,7 @@ class EventDrivenRun {
 
   void redraw_velocities() {
     engine_->write(state_.configuration);
-    note_conservation();
+    record_conservation();
     ++state_.brownian_steps;
     state_.configuration.releases.clear();  // to velocities of before
     draw_velocities(state_.configuration, options_.seed, Purpose::brownian_step,
@@ -114,7 +114,7 @@ class EventDrivenRun {
     state_.flight_energy = total_energy(state_.configuration) + state_.counters.dissipated;
   }
 
-  void note_conservation() {
+  void record_conservation() {
     const double energy = total_energy(state_.configuration) + state_.counters.dissipated;
     const double drift = std::abs(energy - state_.flight_energy) / state_.flight_energy;
     state_.energy_drift = std::max(state_.energy_drift, drift);
@@ -130,7 +130,7 @@ class EventDrivenRun {
   RunState<Dim>& state_;
   const DynamicsOptions& options_;
   const RunPlan<Dim>& plan_;
-  const Budget& budget_;
+  const RunControl& control_;
   std::unique_ptr<Engine<Dim>> engine_;
   const std::uint64_t ticks_;  ///< in the whole run
 };
@@ -150,13 +150,15 @@ RunState<Dim> begin_run(const Configuration<Dim>& configuration, double start_ti
 
 template <int Dim>
 StageReport run(RunState<Dim>& state, const DynamicsOptions& options, const RunPlan<Dim>& plan,
-                const Budget& budget) {
-  return EventDrivenRun<Dim>(state, options, plan, budget).run();
+                const RunControl& control) {
+  return EventDrivenRun<Dim>(state, options, plan, control).run();
 }
 
 template RunState<2> begin_run(const Configuration<2>&, double);
-template StageReport run(RunState<2>&, const DynamicsOptions&, const RunPlan<2>&, const Budget&);
+template StageReport run(RunState<2>&, const DynamicsOptions&, const RunPlan<2>&,
+                         const RunControl&);
 template RunState<3> begin_run(const Configuration<3>&, double);
-template StageReport run(RunState<3>&, const DynamicsOptions&, const RunPlan<3>&, const Budget&);
+template StageReport run(RunState<3>&, const DynamicsOptions&, const RunPlan<3>&,
+                         const RunControl&);
 
 }  // namespace vitrel

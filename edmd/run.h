@@ -4,16 +4,16 @@
 #include <span>
 #include <vector>
 
+#include "edmd/options.h"
 #include "core/state/observer.h"
 #include "core/state/stage.h"
 #include "edmd/brownian.h"
 #include "edmd/engine.h"
-#include "edmd/options.h"
 
 namespace vitrel {
 
-/// Everything a run needs to go on, and nothing else: a plain value, written to checkpoints. Only
-/// states handed out at block ends continue bit by bit.
+/// The complete state of a run, a plain value that is written to checkpoints. Only states at the end of a block
+/// continue with bit-identical results.
 template <int Dim>
 struct RunState {
   Configuration<Dim> configuration;  ///< synchronised; its time runs from −equilibration
@@ -31,18 +31,18 @@ struct RunState {
 template <int Dim>
 RunState<Dim> begin_run(const Configuration<Dim>& configuration, double start_time);
 
-/// A second schedule beside the samples, for an observer that wants many more of them and keeps none:
-/// ticks at 0, interval, 2 interval … ≤ end of the run.
+/// A second schedule beside the samples, for an observer that needs many more frames and stores none: ticks at 0,
+/// interval, 2 interval … ≤ end of the run.
 template <int Dim>
 struct Ticks {
   double interval = 0;
   Observer<Dim>* observer = nullptr;  ///< null: no ticks
 };
 
-/// What is to happen: samples at ascending times (in simulated time), the end, and who is told. The
-/// observer sees every sample; `at_block_end` gets a state from which the run continues bit by bit.
-/// Samples and ticks change nothing in the motion, except that a block may end at one of them: from there
-/// on, two runs with different schedules differ in their rounding.
+/// The schedule of a run: sample times in ascending order (simulated time), the end, and the observers.
+/// `observer` sees every sample; `at_block_end` gets a state from which the run continues with bit-identical results.
+/// Samples and ticks do not change the motion, but a block may end at one of them: from there on, runs with different
+/// schedules differ by rounding.
 template <int Dim>
 struct RunPlan {
   std::vector<double> sample_times;
@@ -52,13 +52,12 @@ struct RunPlan {
   Ticks<Dim> ticks = {};
 };
 
-/// Runs to the end, or to the end of the block in which the budget asked to stop. A sample or tick that
-/// coincides with a Brownian step is taken before the velocities are redrawn. Throws InvariantError
-/// on an overlap, and if time stands still (inelastic collapse); `state` then holds the moment of
-/// the failure.
+/// Runs to the end, or to the end of the block in which the run control requests a stop. A sample or tick that
+/// coincides with a Brownian step is taken before the velocities are redrawn. Throws InvariantError on an overlap, and
+/// if time does not advance (inelastic collapse); `state` then is the state at the failure.
 template <int Dim>
 StageReport run(RunState<Dim>& state, const DynamicsOptions& options, const RunPlan<Dim>& plan,
-                const Budget& budget);
+                const RunControl& control);
 
 using RunState2 = RunState<2>;
 using RunState3 = RunState<3>;

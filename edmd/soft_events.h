@@ -6,19 +6,19 @@
 
 #include "edmd/simulation.h"
 
-/// The events of soft particles (soft/soft_contact.h), a part of the loop: included at the end of
+/// The events of soft particles (soft/soft_contact.h), a part of the event loop: included at the end of
 /// simulation.h.
 
 namespace vitrel {
 
-// A third particle that comes to one of a pair in contact meets it as if the contact was over. Whether they
-// then still approach, the predictions say.
+// A third particle that hits one of a pair in contact collides with it as if the contact were over. New
+// predictions decide whether they still approach.
 template <Body B>
-void Simulation<B>::meet_softly(Index i, const Event& event, RunCounters& counters) {
+void Simulation<B>::execute_soft_collision(Index i, const Event& event, RunCounters& counters) {
   const Index j = event.partner.other;
   if (in_contact(i) || in_contact(j)) return release_early(i, j, counters);
-  bring_to_now(particles_[i]);
-  bring_to_now(particles_[j]);
+  advance_to_now(particles_[i]);
+  advance_to_now(particles_[j]);
   soft_impact(i, event.partner, counters);
   for (const Index k : {i, j}) {
     ++version_[k];
@@ -36,18 +36,19 @@ void Simulation<B>::soft_impact(Index i, const Image& partner, RunCounters& coun
   const Vector v = two.velocity - one.velocity;
   const Vector normal = d.normalized();
   const double speed = -v.dot(normal);
-  if (!(speed > grazing * fastest_)) return pass(i, j, (speed + parting * fastest_) * normal);
+  if (!(speed > grazing_speed * fastest_))
+    return separate_grazing(i, j, (speed + separation_speed * fastest_) * normal);
 
   ContactPair pair = contact_pair_of(i, j);
-  const Images both = images(i, partner);  // in this order
-  if (d.norm() >= pair.distance) close_.erase(both.ascending());
+  const UnwrappedPair unwrapped = unwrapped_pair(i, partner);  // not sorted
+  if (d.norm() >= pair.distance) close_pairs_.erase(unwrapped.ascending());
   pair.distance = std::min(pair.distance, d.norm());
   const Restitution restitution =
       options_.soft_contact->collide(pair, speed, (v + speed * normal).norm(), counters);
   const RelativeMotion<dimension> after = after_contact<dimension>({d, v}, restitution);
   const Vector shortening = d - after.position;
-  if (!turn(both, share(i, j) * shortening, -share(j, i) * shortening)) {
-    ++counters.refused_turns;
+  if (!try_displace(unwrapped, share(i, j) * shortening, -share(j, i) * shortening)) {
+    ++counters.blocked_rotations;
     impact(i, j, d, normal, -restitution.rate, counters);
     return;
   }
@@ -55,68 +56,71 @@ void Simulation<B>::soft_impact(Index i, const Image& partner, RunCounters& coun
                                   restitution.duration * after.velocity.squaredNorm());
   counters.dissipated += 0.5 * pair.mass * (v.squaredNorm() - after.velocity.squaredNorm());
   ++counters.collisions;
-  begin_contact(both, after, now_ + restitution.duration);
+  begin_contact(unwrapped, after, now_ + restitution.duration);
 }
 
-// Slower than velocities are exact, they are let go apart, or they would meet for ever. Each time this brings
-// a cluster that has lost all of its speed nearer to one in which all pairs separate, by steps of a fixed
-// size: so it ends.
+// Approach speeds below the accuracy of velocities: the pair is made to separate, or it would collide forever.
+// Each such event brings a cluster that has lost all of its speed closer, by steps of a fixed size, to a state in
+// which all pairs separate, so the sequence ends.
 template <Body B>
-void Simulation<B>::pass(Index i, Index j, const Vector& change) {
+void Simulation<B>::separate_grazing(Index i, Index j, const Vector& change) {
   particles_[i].velocity -= share(i, j) * change;
   particles_[j].velocity += share(j, i) * change;
 }
 
-// They have their places of the end, and go on with their centre of mass.
+// Both are already at the positions of the end of the contact, and move with their centre of mass.
 template <Body B>
-void Simulation<B>::begin_contact(const Images& pair, const RelativeMotion<dimension>& after,
+void Simulation<B>::begin_contact(const UnwrappedPair& pair, const RelativeMotion<dimension>& after,
                                   double end) {
-  const auto [i, j, lag] = pair;
+  const auto [i, j, unwrapped_shift] = pair;
   const double share1 = share(i, j), share2 = share(j, i);
   const Vector common = share2 * particles_[i].velocity + share1 * particles_[j].velocity;
   releases_[i] = {end, j, common - share1 * after.velocity};
   releases_[j] = {end, i, common + share2 * after.velocity};
   particles_[i].velocity = particles_[j].velocity = common;
-  ++met_;
+  ++collisions_;
   const double distance = after.position.norm();
-  if (distance < contact_pair_of(i, j).distance) note_close(pair, distance - contact_gap_);
+  if (distance < contact_pair_of(i, j).distance) add_close_pair(pair, distance - contact_gap_);
 }
 
-// Moves both, unless one would be too close to a third particle.
+// Displaces pair_images, unless one would be too close to a third particle.
 template <Body B>
-bool Simulation<B>::turn(const Images& pair, const Vector& way1, const Vector& way2) {
-  shift_by(pair.i, way1);
-  shift_by(pair.j, way2);
-  if (has_room(pair.i, pair, way1, way2) && has_room(pair.j, pair, way1, way2)) return true;
-  shift_by(pair.i, -way1);
-  shift_by(pair.j, -way2);
+bool Simulation<B>::try_displace(const UnwrappedPair& pair, const Vector& displacement1,
+                                 const Vector& displacement2) {
+  displace(pair.i, displacement1);
+  displace(pair.j, displacement2);
+  if (has_clearance(pair.i, pair, displacement1, displacement2) &&
+      has_clearance(pair.j, pair, displacement1, displacement2))
+    return true;
+  displace(pair.i, -displacement1);
+  displace(pair.j, -displacement2);
   return false;
 }
 
 template <Body B>
-void Simulation<B>::shift_by(Index i, const Vector& way) {
+void Simulation<B>::displace(Index i, const Vector& displacement) {
   Particle& particle = particles_[i];
-  particle.position += way;
+  particle.position += displacement;
   const double exit = neighborhoods_->exit_time(i, particle.pose(), particle.motion(), {});
   if (!(exit > 0)) leave_neighborhood(i);
 }
 
-// Nothing but its partner is nearer than contact, or not nearer than it was before the pair's ways there. In
-// a small box another image of the partner, or its own, may be.
+// No third particle is closer than contact, or closer than before the displacement. In a small box this includes
+// other unwrapped_pair of the partner and own unwrapped_pair.
 template <Body B>
-bool Simulation<B>::has_room(Index i, const Images& pair, const Vector& way1,
-                             const Vector& way2) const {
-  const auto way_of = [&](Index k) -> Vector {
-    if (k == pair.i) return way1;
-    if (k == pair.j) return way2;
+bool Simulation<B>::has_clearance(Index i, const UnwrappedPair& pair, const Vector& displacement1,
+                                  const Vector& displacement2) const {
+  const auto displacement_of = [&](Index k) -> Vector {
+    if (k == pair.i) return displacement1;
+    if (k == pair.j) return displacement2;
     return Vector::Zero();
   };
   for (const Image& neighbor : neighborhoods_->of(i)) {
     const Index k = neighbor.other;
-    if (images(i, neighbor).ascending() == pair.ascending()) continue;
+    if (unwrapped_pair(i, neighbor).ascending() == pair.ascending()) continue;
     const Vector d = particles_[k].pose_at(now_).position + box_.translation(neighbor.shift()) -
                      particles_[i].position;
-    const Vector before = d + way_of(i) - way_of(k);
+    const Vector before = d + displacement_of(i) - displacement_of(k);
     const double reach = shape(i).circumradius() + shape(k).circumradius() + contact_gap_;
     if (d.norm() < std::min(reach, before.norm())) return false;
   }
@@ -125,7 +129,7 @@ bool Simulation<B>::has_room(Index i, const Images& pair, const Vector& way1,
 
 template <Body B>
 void Simulation<B>::release(Index i) {
-  bring_to_now(particles_[i]);
+  advance_to_now(particles_[i]);
   particles_[i].velocity = releases_[i].velocity;
   particles_[i].next = never;
   releases_[i].time = never;
@@ -152,40 +156,41 @@ void Simulation<B>::release_early(Index i, Index j, RunCounters& counters) {
 }
 
 template <Body B>
-void Simulation<B>::note_close(const Images& pair, double distance) {
-  if (close_.size() >= most_close_) {
-    std::erase_if(close_, [&](const auto& known) { return !is_close(known.first); });
-    most_close_ = std::max<std::size_t>(2 * close_.size(), 64);
+void Simulation<B>::add_close_pair(const UnwrappedPair& pair, double distance) {
+  if (close_pairs_.size() >= close_pairs_limit_) {
+    std::erase_if(close_pairs_, [&](const auto& known) { return !is_still_close(known.first); });
+    close_pairs_limit_ = std::max<std::size_t>(2 * close_pairs_.size(), 64);
   }
-  close_.insert_or_assign(pair.ascending(), distance);
+  close_pairs_.insert_or_assign(pair.ascending(), distance);
 }
 
 template <Body B>
-bool Simulation<B>::is_close(const Images& pair) const {
+bool Simulation<B>::is_still_close(const UnwrappedPair& pair) const {
   const auto position = [&](Index i) { return Vector(particles_[i].pose_at(now_).position); };
-  const Shift<dimension> shift = pair.lag - image_[pair.i] + image_[pair.j];
+  const Shift<dimension> shift = pair.unwrapped_shift - image_[pair.i] + image_[pair.j];
   const Vector d = position(pair.j) + box_.translation(shift) - position(pair.i);
   return d.norm() < shape(pair.i).circumradius() + shape(pair.j).circumradius() + contact_gap_;
 }
 
 template <Body B>
-bool Simulation<B>::may_be_close(const Images& pair) const {
-  return close_.contains(pair.ascending());
+bool Simulation<B>::is_close_pair(const UnwrappedPair& pair) const {
+  return close_pairs_.contains(pair.ascending());
 }
 
 template <Body B>
 void Simulation<B>::load_contacts(const Configuration<dimension>& configuration) {
-  close_.clear();
+  close_pairs_.clear();
   releases_.assign(particles_.size(), {});
-  std::vector<Index> inner(outer_.size());
-  for (Index i = 0; i < outer_.size(); ++i) inner[outer_[i]] = i;
+  std::vector<Index> internal_id(external_id_.size());
+  for (Index i = 0; i < external_id_.size(); ++i) internal_id[external_id_[i]] = i;
   for (const auto& [particle, partner, time, velocity] : configuration.releases)
-    releases_[inner[particle]] = {std::max(time - base_, now_), inner[partner], velocity};
+    releases_[internal_id[particle]] = {std::max(time - base_, now_), internal_id[partner],
+                                        velocity};
   for (const auto& [pair, distance] : configuration.close_pairs) {
-    const Index i = inner[pair.i], j = inner[pair.j];
-    const Shift<dimension> lag =
+    const Index i = internal_id[pair.i], j = internal_id[pair.j];
+    const Shift<dimension> unwrapped_shift =
         pair.shift + configuration.image[pair.i] - configuration.image[pair.j];
-    close_.emplace(Images{i, j, lag}.ascending(), distance);
+    close_pairs_.emplace(UnwrappedPair{i, j, unwrapped_shift}.ascending(), distance);
   }
 }
 
@@ -196,14 +201,15 @@ void Simulation<B>::write_contacts(Configuration<dimension>& configuration) cons
   for (Index i = 0; i < particles_.size(); ++i)
     if (const Release& release = releases_[i]; release.time < never)
       configuration.releases.push_back(
-          {outer_[i], outer_[release.partner], base_ + release.time, release.velocity});
-  for (const auto& [pair, distance] : close_)
-    if (is_close(pair)) {
-      const bool ascends = outer_[pair.i] < outer_[pair.j];
-      const auto [i, j] = std::minmax(outer_[pair.i], outer_[pair.j]);
-      const Shift<dimension> lag = ascends ? pair.lag : Shift<dimension>(-pair.lag);
+          {external_id_[i], external_id_[release.partner], base_ + release.time, release.velocity});
+  for (const auto& [pair, distance] : close_pairs_)
+    if (is_still_close(pair)) {
+      const bool ascends = external_id_[pair.i] < external_id_[pair.j];
+      const auto [i, j] = std::minmax(external_id_[pair.i], external_id_[pair.j]);
+      const Shift<dimension> unwrapped_shift =
+          ascends ? pair.unwrapped_shift : Shift<dimension>(-pair.unwrapped_shift);
       configuration.close_pairs.push_back(
-          {{i, j, lag - configuration.image[i] + configuration.image[j]}, distance});
+          {{i, j, unwrapped_shift - configuration.image[i] + configuration.image[j]}, distance});
     }
   std::ranges::sort(configuration.releases, {}, &vitrel::Release<dimension>::particle);
   std::ranges::sort(configuration.close_pairs, {}, [](const ClosePair<dimension>& close) {

@@ -7,33 +7,33 @@ namespace vitrel {
 
 namespace {
 
-/// Wider: fewer moves end at a border. Narrower: more threads find work in a small system, and a
-/// domain stays in the first cache.
-constexpr std::size_t least_cells_of_domain = 4;
+/// Wider: fewer moves end at a border. Narrower: more parallelism in a small system, and a domain fits the
+/// first-level cache.
+constexpr std::size_t min_cells_per_domain = 4;
 
-/// Cells are so much wider than the reach that the rounding of positions does not matter.
-constexpr double room_for_rounding = 1 + 1e-9;
+/// Widens cells so that rounding of positions does not matter.
+constexpr double rounding_margin = 1 + 1e-9;
 
 std::size_t count_cells(double length, double reach, std::size_t particles) {
-  // Many more cells than particles are of no use.
-  const double most = std::ceil(std::sqrt(4 * static_cast<double>(particles))) + 1;
-  return static_cast<std::size_t>(std::clamp(std::floor(length / reach), 1.0, most));
+  // Many more cells than particles are useless.
+  const double max_cells = std::ceil(std::sqrt(4 * static_cast<double>(particles))) + 1;
+  return static_cast<std::size_t>(std::clamp(std::floor(length / reach), 1.0, max_cells));
 }
 
 std::size_t count_domains(std::size_t cells) {
-  const std::size_t pairs = cells / (2 * least_cells_of_domain);
+  const std::size_t pairs = cells / (2 * min_cells_per_domain);
   return pairs > 0 ? 2 * pairs : 1;
 }
 
 }  // namespace
 
 Checkerboard::Line::Line(double length, double reach, std::size_t particles)
-    : half_(0.5 * length), domain_of_(count_cells(length, room_for_rounding * reach, particles)) {
+    : half_(0.5 * length), domain_of_(count_cells(length, rounding_margin * reach, particles)) {
   const int count = static_cast<int>(cells());
   cells_per_length_ = count / length;
   last_ = count - 1;
   domains_ = count_domains(cells());
-  const int layers = static_cast<int>(std::ceil(room_for_rounding * reach * cells_per_length_));
+  const int layers = static_cast<int>(std::ceil(rounding_margin * reach * cells_per_length_));
   images_ = static_cast<std::size_t>(2 * layers + 1);
   const auto add = [&](int cell, int away) {
     const int unwrapped = cell + away;
@@ -44,10 +44,10 @@ Checkerboard::Line::Line(double length, double reach, std::size_t particles)
     add(cell, 0);
     for (int away = 1; away <= layers; ++away) add(cell, away), add(cell, -away);
   }
-  put_origin(0);
+  set_origin(0);
 }
 
-void Checkerboard::Line::put_origin(std::size_t first) {
+void Checkerboard::Line::set_origin(std::size_t first) {
   origin_ = first;
   for (std::size_t domain = 0; domain < domains_; ++domain)
     for (std::size_t cell = begin(domain); cell < begin(domain + 1); ++cell)
@@ -65,7 +65,7 @@ Checkerboard::Checkerboard(const PeriodicBox<2>& box, double reach, std::size_t 
 }
 
 void Checkerboard::shift(Stream& draw) {
-  for (Line& line : lines_) line.put_origin(draw.below(line.cells()));
+  for (Line& line : lines_) line.set_origin(draw.below(line.cells()));
 }
 
 }  // namespace vitrel

@@ -10,27 +10,26 @@
 
 namespace vitrel {
 
-/// A periodic box divided into cells, and the cells into rectangular domains that are coloured like
-/// a checkerboard, so that particles of several domains can be moved at the same time.
+/// A checkerboard decomposition: a periodic box divided into cells, and the cells into rectangular coloured domains, so
+/// that particles of several domains can be moved in parallel.
 ///
-/// Cells are at least as wide as the reach of the particles, or as the box if that is shorter: whoever
-/// is within reach of a point lies in the cell of that point or in one near it (`near`). Along each
-/// direction there is one domain, or an even number of them, each at least four cells wide. Between
-/// two domains of one colour lies one of another colour, wider than the reach: no particle of the one
-/// is near one of the other. The box is cut into cells once; `shift` moves the borders of the domains
-/// by whole cells. No border stays where it is for good, since domains are wider than a cell.
+/// Cells are at least as wide as the reach of the particles, or as the box if that is shorter: everything within reach
+/// of a point lies in its cell or in a near one. Along each direction there is one domain, or an even number of them,
+/// each at least four cells wide. Two domains of one colour are separated by one of another colour, wider than the
+/// reach: their particles do not interact. The cells are fixed; `shift` moves the borders of the domains by whole
+/// cells. Since domains are wider than a cell, no border stays fixed.
 class Checkerboard {
  public:
-  /// For about `particles` particles, of which two meet at distances up to `reach`.
+  /// For about `particles` particles, which interact at distances up to `reach`.
   Checkerboard(const PeriodicBox<2>& box, double reach, std::size_t particles);
 
-  /// Moves the borders by a random number of cells, uniform and independent of all else.
+  /// Moves the borders by a random number of cells, uniform and independent.
   void shift(Stream& draw);
 
   struct Cell {
     int x, y;
   };
-  /// Where a position lies that is wrapped into the box.
+  /// The cell of a wrapped position.
   Cell cell_of(const Vec2& position) const {
     return {lines_[0].cell_of(position.x()), lines_[1].cell_of(position.y())};
   }
@@ -40,17 +39,16 @@ class Checkerboard {
     return static_cast<std::size_t>(x) * lines_[1].cells() + static_cast<std::size_t>(y);
   }
 
-  /// A column or a row that is near another, seen in an image of the box.
-  struct Near {
+  /// A column or row near another, as a periodic image.
+  struct NearLine {
     int cell;
     double translation;
-    double begin;  ///< of this column or row, from the beginning of the other
+    double begin;  ///< start of this column or row, relative to the start of the other
   };
-  /// Columns near a column, and rows near a row, the nearest first: every image that can be within
-  /// reach, once.
-  std::span<const Near> near_column(int x) const { return lines_[0].near(x); }
-  std::span<const Near> near_row(int y) const { return lines_[1].near(y); }
-  /// Where the column and the row of a cell begin, and how wide they are.
+  /// The columns near a column, and rows near a row, nearest first: each image within reach once.
+  std::span<const NearLine> near_columns(int x) const { return lines_[0].near(x); }
+  std::span<const NearLine> near_rows(int y) const { return lines_[1].near(y); }
+  /// The lower corner of a cell, and the size of cells.
   Vec2 corner(const Cell& cell) const {
     return {lines_[0].begin_of(cell.x), lines_[1].begin_of(cell.y)};
   }
@@ -78,22 +76,22 @@ class Checkerboard {
   class Line {
    public:
     Line(double length, double reach, std::size_t particles);
-    // Domains begin there.
-    void put_origin(std::size_t first);
+    // Sets the cell at which the first domain begins.
+    void set_origin(std::size_t first);
 
     std::size_t cells() const { return domain_of_.size(); }
     int cell_of(double x) const {
       const int cell = static_cast<int>((x + half_) * cells_per_length_);
-      return cell < last_ ? cell : last_;  // by rounding, at the border of the box
+      return cell < last_ ? cell : last_;  // rounding at the border of the box
     }
-    std::span<const Near> near(int cell) const {
+    std::span<const NearLine> near(int cell) const {
       return {near_.data() + static_cast<std::size_t>(cell) * images_, images_};
     }
     double width() const { return 1 / cells_per_length_; }
     double begin_of(int cell) const { return cell / cells_per_length_ - half_; }
     std::size_t domains() const { return domains_; }
     std::size_t domain_of(int cell) const { return domain_of_[static_cast<std::size_t>(cell)]; }
-    // The first cell of a domain, counted from the origin, and a cell so counted.
+    // The first cell of a domain, counted from the origin; and the cell with such a number.
     std::size_t begin(std::size_t domain) const { return domain * cells() / domains_; }
     int shifted(std::size_t cell) const { return static_cast<int>((origin_ + cell) % cells()); }
 
@@ -101,7 +99,7 @@ class Checkerboard {
     double half_, cells_per_length_;
     int last_;
     std::size_t images_, domains_, origin_;
-    std::vector<Near> near_;
+    std::vector<NearLine> near_;
     std::vector<std::size_t> domain_of_;
   };
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "mc/disjoint.h"
+#include "mc/hard_core.h"
 
 namespace vitrel {
 
@@ -55,7 +55,7 @@ void PressureSampler::try_box(Stream draw) {
 bool PressureSampler::change_box(const Vec2& factors) {
   const double change =
       factors.y() / factors.x() * aspect(configuration_.box) / box_.aspect_at_start;
-  return change <= widest_change && change >= 1 / widest_change && moves_.rescale(factors);
+  return change <= max_aspect_change && change >= 1 / max_aspect_change && moves_.rescale(factors);
 }
 
 void PressureSampler::tune() {
@@ -71,8 +71,8 @@ double mean(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Whether the packing fractions after all sweeps so far no longer rise.
-bool has_come_to_rest(const std::vector<double>& all) {
+/// Whether the packing fraction has stopped rising.
+bool has_converged(const std::vector<double>& all) {
   constexpr std::size_t least = 4000;
   constexpr double rise = 1e-3;
   if (all.size() < least) return false;
@@ -92,19 +92,22 @@ class Compression {
         sampler_(configuration, options.pressure, options.change, seed, state.moves, state.box,
                  options.threads) {}
 
-  StageReport run(const Budget& budget) {
+  StageReport run(const RunControl& control) {
     while (true) {
       if (at_packing_fraction()) return finish();
-      if (at_rest()) return {StageEnd::stuck, end_text("no longer rises at this pressure")};
+      if (has_stopped_rising())
+        return {StageEnd::stalled, end_text("no longer rises at this pressure")};
       if (state_.moves.sweeps >= options_.sweeps)
         return options_.packing_fraction
-                   ? StageReport{StageEnd::stuck, end_text("was all that its sweeps reached")}
-                   : StageReport{StageEnd::reached, "all sweeps were made"};
-      if (budget.stop_requested()) return {StageEnd::stopped, "compression was stopped"};
+                   ? StageReport{StageEnd::stalled,
+                                 end_text("did not reach its target within the given sweeps")}
+                   : StageReport{StageEnd::reached, "all sweeps were completed"};
+      if (control.stop_requested()) return {StageEnd::stopped, "compression was stopped"};
       sweep();
-      budget.tell({static_cast<double>(state_.moves.sweeps) / static_cast<double>(options_.sweeps),
-                   packing_fraction(configuration_), "packing fraction"});
-      budget.mark_resumable();
+      control.report_progress(
+          {static_cast<double>(state_.moves.sweeps) / static_cast<double>(options_.sweeps),
+           packing_fraction(configuration_), "packing fraction"});
+      control.notify_resumable();
     }
   }
 
@@ -114,10 +117,10 @@ class Compression {
            packing_fraction(configuration_) >= *options_.packing_fraction;
   }
 
-  bool at_rest() const {
-    constexpr std::uint64_t between_looks = 1000;
-    return options_.packing_fraction && state_.moves.sweeps % between_looks == 0 &&
-           has_come_to_rest(state_.packing_fraction);
+  bool has_stopped_rising() const {
+    constexpr std::uint64_t check_interval = 1000;
+    return options_.packing_fraction && state_.moves.sweeps % check_interval == 0 &&
+           has_converged(state_.packing_fraction);
   }
 
   bool adapts() const {
@@ -138,8 +141,9 @@ class Compression {
   }
 
   std::string end_text(const std::string& how) const {
-    return "a packing fraction of " + std::to_string(packing_fraction(configuration_)) + " " + how +
-           "; " + std::to_string(*options_.packing_fraction) + " was wanted";
+    return "the packing fraction " + how + ": it is " +
+           std::to_string(packing_fraction(configuration_)) + ", and the target is " +
+           std::to_string(*options_.packing_fraction);
   }
 
   Configuration2& configuration_;
@@ -151,8 +155,8 @@ class Compression {
 }  // namespace
 
 StageReport compress(Configuration2& configuration, const CompressionOptions& options,
-                     std::uint64_t seed, CompressionState& state, const Budget& budget) {
-  return Compression(configuration, options, seed, state).run(budget);
+                     std::uint64_t seed, CompressionState& state, const RunControl& control) {
+  return Compression(configuration, options, seed, state).run(control);
 }
 
 }  // namespace vitrel

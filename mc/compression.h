@@ -4,15 +4,15 @@
 #include <optional>
 #include <vector>
 
+#include "mc/options.h"
 #include "core/state/configuration.h"
 #include "core/state/stage.h"
-#include "mc/options.h"
 #include "mc/sampler.h"
 #include "mc/sweep_state.h"
 
 namespace vitrel {
 
-/// Where the trials of the box stand.
+/// The state of the box trials.
 struct BoxState {
   StepSize step{0.01};                    ///< of ln V
   double aspect_at_start = 0;             ///< L_y/L_x; 0: that of the configuration given
@@ -21,20 +21,20 @@ struct BoxState {
 
 /// Monte Carlo of hard ellipses at constant N, pressure and temperature (Wood, 1968).
 ///
-/// One sweep is two trials of the box, of which each costs about half as much as a sweep of the Sampler,
-/// and such a sweep. In a trial ln V changes by a uniform amount within ± its step, all positions with
-/// it, shapes and angles not. Without overlaps it is accepted with probability
+/// One sweep is two box trials, each of which costs about half as much as a sweep of the Sampler, and such a sweep. In
+/// a box trial ln V changes by a uniform amount within ± its step, and all positions scale; shapes and angles do not
+/// change. Without overlaps it is accepted with probability
 ///     min(1, exp(−βP (V' − V) + (N + 1) ln(V'/V))),
-/// the cheap factor first. anisotropic: by one of the two sides, each with probability 1/2; a liquid
-/// does not resist shear, so L_y/L_x is kept within a factor `widest_change` of that at the start. The
-/// trial k of sweep s draws from the stream (seed, box_trials, s, k): results do not depend on the number
-/// of threads. Detailed balance holds for fixed step sizes; they change only in `tune`.
+/// which is tested first because it is cheap. anisotropic: one of the two sides changes, each with probability 1/2; a
+/// liquid does not resist shear, so L_y/L_x stays within a factor `max_aspect_change` of its initial value. Trial k of
+/// sweep s draws from the stream (seed, box_trials, s, k): results do not depend on the number of threads. Detailed
+/// balance holds for fixed step sizes, which change only in `tune`.
 ///
 /// `pressure` is βP, in units of one over the unit of area (a b of the reference species).
 /// Source: wood1968.
 class PressureSampler {
  public:
-  static constexpr double widest_change = 2;
+  static constexpr double max_aspect_change = 2;
   static constexpr std::uint64_t box_trials = 2;
 
   /// For the configuration see Sampler.
@@ -47,7 +47,7 @@ class PressureSampler {
   void tune();
 
   void set_box_step(double step) { box_.step.size = step; }
-  /// As given at construction, and what has been done since.
+  /// The state given at construction, advanced by the work since.
   const SweepState& moves() const { return moves_.state(); }
   const BoxState& box() const { return box_; }
 
@@ -69,13 +69,12 @@ struct CompressionState {
   std::vector<double> packing_fraction;  ///< after every sweep
 };
 
-/// `reached` at the wanted packing fraction or, without one, after all sweeps; `stuck` if the sweeps
-/// did not suffice or if the packing fraction no longer rises: by less than a thousandth from the
-/// third to the last quarter of what has been done, and that 4000 sweeps or more; `stopped` by the
-/// budget between two sweeps: the same call then goes on bit by bit. Step sizes adapt all the way; without
-/// a packing fraction only in the first half of the sweeps, so that the second samples equilibrium. In
-/// any case the state is hard. A configuration denser than wanted is expanded.
+/// `reached` at the target packing fraction or, without one, after all sweeps; `stalled` if the sweeps did not suffice or
+/// the packing fraction no longer rises: by less than a thousandth from the third to the last quarter of at least 4000
+/// sweeps; `stopped` on request between two sweeps: the same call then continues with bit-identical results. Step sizes
+/// adapt throughout; without a target only in the first half of the sweeps, so that the second half samples
+/// equilibrium. In any case the state is hard. A configuration denser than the target is expanded.
 StageReport compress(Configuration2& configuration, const CompressionOptions& options,
-                     std::uint64_t seed, CompressionState& state, const Budget& budget);
+                     std::uint64_t seed, CompressionState& state, const RunControl& control);
 
 }  // namespace vitrel

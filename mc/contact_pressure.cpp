@@ -11,7 +11,7 @@ namespace vitrel {
 
 namespace {
 
-constexpr double widest_window = 0.75;
+constexpr double max_window = 0.75;
 constexpr double pairs_per_particle = 1.5;
 
 // F − 1 of all pairs with F − 1 < window.
@@ -30,15 +30,15 @@ std::vector<double> contact_excesses(const Configuration2& configuration, double
   return excesses;
 }
 
-// The window with the wanted number of pairs.
+// The window with the target number of pairs.
 double choose_window(const Configuration2& configuration) {
-  std::vector<double> excesses = contact_excesses(configuration, widest_window);
-  const auto wanted =
+  std::vector<double> excesses = contact_excesses(configuration, max_window);
+  const auto target =
       static_cast<std::size_t>(pairs_per_particle * static_cast<double>(configuration.size()));
-  if (excesses.size() <= wanted) return widest_window;
-  std::nth_element(excesses.begin(), excesses.begin() + static_cast<std::ptrdiff_t>(wanted),
+  if (excesses.size() <= target) return max_window;
+  std::nth_element(excesses.begin(), excesses.begin() + static_cast<std::ptrdiff_t>(target),
                    excesses.end());
-  return excesses[wanted];
+  return excesses[target];
 }
 
 double intercept_weight(double y) {

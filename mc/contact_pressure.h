@@ -23,11 +23,11 @@ namespace vitrel {
 /// 0.2 %, twice the width is 0.4 % too low.
 class ContactPressure {
  public:
-  /// Adds one configuration; many of them, decorrelated, make one block.
+  /// Adds one configuration; a block consists of many decorrelated ones.
   void add(const Configuration2& configuration);
   /// Z from all configurations added so far; at least one.
   double compressibility() const { return 1 + pairs_ / particles_; }
-  /// Forgets all configurations but keeps the window, to begin another block.
+  /// Discards all configurations but keeps the window, for the next block.
   void clear() { pairs_ = particles_ = 0; }
 
  private:

@@ -1,4 +1,4 @@
-#include "mc/probe.h"
+#include "mc/decorrelation.h"
 
 #include <cmath>
 
@@ -30,17 +30,17 @@ double displacement_in_widths(const Configuration2& before, const Configuration2
   return std::sqrt(sum / static_cast<double>(now.size()));
 }
 
-/// Compares later configurations with one.
+/// Compares configurations with the first one.
 class Comparison {
  public:
-  Comparison(const Configuration2& start, Probe& result)
+  Comparison(const Configuration2& start, Decorrelation& result)
       : start_(start), rotors_(rotor_count(start) > 0), result_(result) {}
 
-  void look(const Configuration2& now, std::uint64_t t) {
+  void compare(const Configuration2& now, std::uint64_t t) {
     const double moved = displacement_in_widths(start_, now);
-    if (!result_.place_lost && moved > 1) result_.place_lost = t;
+    if (!result_.displacement_time && moved > 1) result_.displacement_time = t;
     const double kept = rotors_ ? orientation_correlation(start_, now) : 1;
-    if (!result_.orientation_lost && kept < std::exp(-1)) result_.orientation_lost = t;
+    if (!result_.orientation_time && kept < std::exp(-1)) result_.orientation_time = t;
     result_.measured = t;
     const auto time = static_cast<double>(t);
     if (!result_.sweeps.empty() && time < spacing * result_.sweeps.back()) return;
@@ -52,21 +52,22 @@ class Comparison {
  private:
   const Configuration2 start_;
   const bool rotors_;
-  Probe& result_;
+  Decorrelation& result_;
 };
 
 }  // namespace
 
-std::optional<Probe> probe(const Configuration2& configuration, std::uint64_t sweeps,
-                           std::uint64_t seed, std::uint64_t first_sweep, const Budget& budget,
-                           int threads) {
+std::optional<Decorrelation> measure_decorrelation(const Configuration2& configuration,
+                                                   std::uint64_t sweeps, std::uint64_t seed,
+                                                   std::uint64_t first_sweep,
+                                                   const RunControl& control, int threads) {
   Configuration2 copy = configuration;
   Sampler sampler(copy, seed, {.next_sweep = first_sweep}, threads);
   const auto sweep = [&](std::uint64_t done) {
-    if (budget.stop_requested()) return false;
+    if (control.stop_requested()) return false;
     sampler.sweep();
-    budget.tell({static_cast<double>(done + 1) / static_cast<double>(sweeps),
-                 static_cast<double>(done + 1), "sweep"});
+    control.report_progress({static_cast<double>(done + 1) / static_cast<double>(sweeps),
+                             static_cast<double>(done + 1), "sweep"});
     return true;
   };
   const std::uint64_t tuning = sweeps / tuning_share;
@@ -74,12 +75,12 @@ std::optional<Probe> probe(const Configuration2& configuration, std::uint64_t sw
     if (!sweep(k)) return std::nullopt;
     if ((k + 1) % sweeps_between_tunings == 0) sampler.tune();
   }
-  Probe result;
+  Decorrelation result;
   Comparison comparison(copy, result);
   ContactPressure pressure;
   for (std::uint64_t t = 1; t <= sweeps - tuning; ++t) {
     if (!sweep(tuning + t - 1)) return std::nullopt;
-    comparison.look(copy, t);
+    comparison.compare(copy, t);
     if (t % sweeps_per_pressure != 1) continue;
     pressure.add(copy);
     result.compressibility.push_back(pressure.compressibility());

@@ -9,35 +9,34 @@
 
 namespace vitrel {
 
-/// A short Monte Carlo sampling from a state, to learn how fast it forgets itself and what its
-/// pressure is. It runs on a copy: the state itself stays.
+/// A short Monte Carlo run that measures how fast a state decorrelates, and its pressure. It runs on a copy of the
+/// configuration.
 ///
-/// In the first fifth of the sweeps the step sizes adapt; then they are fixed, and all is measured
-/// from the configuration reached there, t sweeps later:
+/// In the first fifth of the sweeps the step sizes adapt; then they are fixed, and everything is measured relative to
+/// the configuration reached, t sweeps later:
 ///   - orientation C₂(t) = ⟨cos 2(θ(t) − θ(0))⟩ of the particles that are not round;
-///   - displacement √⟨|r(t) − r(0)|²/(2b)²⟩, in widths 2b of the particles themselves;
+///   - displacement √⟨|r(t) − r(0)|²/(2b)²⟩, in particle widths 2b;
 ///   - Z = βP/ρ in every fifth configuration (contact_pressure.h).
-/// C₂ is 1 at first and 0 when all orientations are forgotten; in a nematic it stays near S². With
-/// steps that fit the density, a sweep is a natural unit of time, as long as states are compared at
-/// equal acceptance.
-struct Probe {
-  std::vector<double> sweeps;       ///< t, about 30 to a decade
+/// C₂ decays from 1 to 0 as orientations decorrelate; in a nematic it stays near S². With step sizes adapted to the
+/// density, a sweep is a natural unit of time for comparing states at equal acceptance.
+struct Decorrelation {
+  std::vector<double> sweeps;       ///< t, about 30 per decade
   std::vector<double> orientation;  ///< C₂(t); empty if all are round
   std::vector<double> displacement;
   std::vector<double> compressibility;  ///< a series of correlated values, evenly spaced
 
-  std::uint64_t measured = 0;  ///< the longest t
-  /// The first t at which C₂ < 1/e; none if there was no such, or no such particle.
-  std::optional<std::uint64_t> orientation_lost;
+  std::uint64_t measured = 0;  ///< largest t
+  /// The first t with C₂ < 1/e; none if C₂ stays above, or if all particles are round.
+  std::optional<std::uint64_t> orientation_time;
   /// The first t at which the displacement exceeds 1.
-  std::optional<std::uint64_t> place_lost;
+  std::optional<std::uint64_t> displacement_time;
 };
 
-/// `sweeps` ≥ 1 are numbered from `first_sweep`, with the streams of the sampler, on any number of
-/// threads. Nothing if the
-/// budget asked to stop.
-std::optional<Probe> probe(const Configuration2& configuration, std::uint64_t sweeps,
-                           std::uint64_t seed, std::uint64_t first_sweep, const Budget& budget,
-                           int threads = 1);
+/// `sweeps` ≥ 1 are numbered from `first_sweep`, with the random streams of the sampler; the result does not depend
+/// on the number of threads. Empty if stopped.
+std::optional<Decorrelation> measure_decorrelation(const Configuration2& configuration,
+                                                   std::uint64_t sweeps, std::uint64_t seed,
+                                                   std::uint64_t first_sweep,
+                                                   const RunControl& control, int threads = 1);
 
 }  // namespace vitrel

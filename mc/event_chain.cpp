@@ -5,18 +5,18 @@
 #include <limits>
 #include <numbers>
 
-#include "mc/disjoint.h"
+#include "mc/hard_core.h"
 
 namespace vitrel {
 
 namespace {
 
-/// At contact, in hard margins: so much more than one that rounding does not matter.
+/// Gap at contact, in hard-core margins: so far above one that rounding does not matter.
 constexpr double contact_margins = 1.25;
-/// Of chains before they are tuned, in √(V/N): few contacts, however dense.
-constexpr double first_length = 1e-3;
-/// More contacts than are wanted, by this factor, cut a chain short.
-constexpr double too_many = 1000;
+/// Initial length of chains, in √(V/N): few contacts at any density.
+constexpr double initial_length = 1e-3;
+/// A chain is cut short after its target number of contacts times this factor.
+constexpr double max_contact_factor = 1000;
 
 }  // namespace
 
@@ -28,22 +28,22 @@ EventChain::EventChain(Configuration2& configuration, const EventChainOptions& o
       half_box_(0.5 * configuration.box.lengths()),
       rounding_(16 * std::numeric_limits<double>::epsilon() * half_box_.maxCoeff()),
       options_(options),
-      spare_(LaneCells::none),
+      free_list_(SimdCells::none),
       seed_(seed),
       state_(state) {
   const auto particles = static_cast<double>(configuration.size());
   if (state.chains == 0) {
     state_.chains = configuration.size();
-    state_.length = first_length * std::sqrt(configuration.box.volume() / particles);
+    state_.length = initial_length * std::sqrt(configuration.box.volume() / particles);
   }
   double smallest = largest_;
   axis_.reserve(configuration.size());
   for (std::size_t i = 0; i < configuration.size(); ++i) {
     axis_.push_back(axis_at(configuration.angle[i]));
     smallest = std::min(smallest, configuration.shape[i].inradius());
-    if (!configuration.shape[i].is_round()) rotors_.push_back(static_cast<LaneCells::Index>(i));
+    if (!configuration.shape[i].is_round()) rotors_.push_back(static_cast<SimdCells::Index>(i));
   }
-  // As far apart as two of the longest can touch (path_look.h).
+  // The maximum contact distance of two particles (ellipse_free_path_batch.h).
   const double enlarged = 1 + 2 * contact_margins * margin_ / smallest;
   board_.emplace(configuration_.box, 2 * enlarged * largest_, configuration_.size());
 }
@@ -59,10 +59,10 @@ void EventChain::arrange() {
   const std::size_t n = configuration_.size();
   cells_.resize(board_->cells(), n);
   for (std::size_t cell = 0; cell < board_->cells(); ++cell) cells_.clear(cell);
-  spare_ = cells_.spare_groups(0, n);
+  free_list_ = cells_.free_groups(0, n);
   for (std::size_t i = 0; i < n; ++i)
     cells_.insert(i, board_->index(board_->cell_of(configuration_.position[i])),
-                  configuration_.shape[i], configuration_.position[i], axis_[i], spare_);
+                  configuration_.shape[i], configuration_.position[i], axis_[i], free_list_);
 }
 
 void EventChain::sweep() {
@@ -79,9 +79,9 @@ void EventChain::sweep() {
     run_chain(pick(words[0], configuration_.size()), (words[1] & 1) == 0);
     if (rotors_.empty()) continue;
     for (; rotations < chain * state_.rotations / state_.chains; ++rotations) {
-      const Stream::Block turn = next();
-      rotate(rotors_[pick(turn[0], rotors_.size())],
-             state_.rotation.size * plus_minus_one(turn[1]));
+      const Stream::Block rotation = next();
+      rotate(rotors_[pick(rotation[0], rotors_.size())],
+             state_.rotation.size * plus_minus_one(rotation[1]));
     }
   }
   ++state_.next_sweep;
@@ -90,77 +90,77 @@ void EventChain::sweep() {
 
 void EventChain::run_chain(std::size_t first, bool along_x) {
   if (rotors_.empty())
-    along_x ? run<0, RoundPathLook>(first) : run<1, RoundPathLook>(first);
+    along_x ? run<0, RoundFreePathBatch>(first) : run<1, RoundFreePathBatch>(first);
   else
-    along_x ? run<0, PathLook>(first) : run<1, PathLook>(first);
+    along_x ? run<0, FreePathBatch>(first) : run<1, FreePathBatch>(first);
 }
 
-template <int direction, template <int> class Look>
+template <int direction, template <int> class PathBatch>
 void EventChain::run(std::size_t first) {
   ++state_.counts.chains;
   state_.counts.length += state_.length;
   const std::uint64_t begin = state_.counts.contacts;
-  const auto most = static_cast<std::uint64_t>(too_many * options_.contacts);
+  const auto max_contacts = static_cast<std::uint64_t>(max_contact_factor * options_.contacts);
   std::size_t moving = first;
   for (double remaining = state_.length; remaining > 0;) {
-    const PathEnd path = next_contact<direction, Look>(moving, remaining);
-    ++state_.counts.looks;
-    const bool touches = path.touched != PathEnd::nobody;
-    const std::size_t next = touches ? cells_.particle_at(path.touched) : moving;
+    const FreePath path = next_contact<direction, PathBatch>(moving, remaining);
+    ++state_.counts.searches;
+    const bool touches = path.partner != FreePath::none;
+    const std::size_t next = touches ? cells_.particle_in(path.partner) : moving;
     advance<direction>(moving, path.length);
     remaining -= path.length;
     if (!touches) continue;
     ++state_.counts.contacts;
-    state_.counts.ahead += path.ahead;
+    state_.counts.ahead += path.offset_at_contact;
     moving = next;
-    if (state_.counts.contacts - begin == most) {
+    if (state_.counts.contacts - begin == max_contacts) {
       ++state_.counts.cut_short;
       return;
     }
   }
 }
 
-// Goes no farther than just over the border of the cell: beyond there may be others than are near it.
-template <int direction, template <int> class Look>
-PathEnd EventChain::next_contact(std::size_t i, double remaining) const {
+// Stops just beyond the border of the cell, where other particles come within reach.
+template <int direction, template <int> class PathBatch>
+FreePath EventChain::next_contact(std::size_t i, double remaining) const {
   constexpr int across = 1 - direction;
   const Vec2 position = configuration_.position[i];
   const Checkerboard::Cell cell = board_->cell_of(position);
   const Vec2 width = board_->cell_size();
   const Vec2 into = position - board_->corner(cell);
   const double to_border = std::max(width[direction] - into[direction], 0.) + rounding_;
-  Look<direction> look(configuration_.shape[i], axis_[i], contact_margins * margin_,
-                       std::min(remaining, to_border));
-  const double aside = look.reach_aside(largest_) + rounding_;
-  const double first_before = into[direction] - look.reach_behind(largest_) - rounding_;
+  PathBatch<direction> paths(configuration_.shape[i], axis_[i], contact_margins * margin_,
+                             std::min(remaining, to_border));
+  const double aside = paths.reach_aside(largest_) + rounding_;
+  const double first_before = into[direction] - paths.reach_behind(largest_) - rounding_;
   const double lowest = into[across] - aside, highest = into[across] + aside;
   const std::size_t own = cells_.group_index(i);
-  const typename Look<direction>::Asked all(true);
-  typename Look<direction>::Asked others(true);
+  const typename PathBatch<direction>::Mask all(true);
+  typename PathBatch<direction>::Mask others(true);
   others[static_cast<std::size_t>(cells_.lane_of(i))] = false;
-  const auto columns = board_->near_column(cell.x), rows = board_->near_row(cell.y);
-  for (const Checkerboard::Near& one : direction == 0 ? columns : rows) {
-    const double last_after = into[direction] + look.reach_ahead(largest_);
+  const auto columns = board_->near_columns(cell.x), rows = board_->near_rows(cell.y);
+  for (const Checkerboard::NearLine& one : direction == 0 ? columns : rows) {
+    const double last_after = into[direction] + paths.reach_ahead(largest_);
     if (one.begin + width[direction] < first_before || one.begin > last_after) continue;
-    for (const Checkerboard::Near& two : direction == 0 ? rows : columns) {
+    for (const Checkerboard::NearLine& two : direction == 0 ? rows : columns) {
       if (two.begin + width[across] < lowest || two.begin > highest) continue;
-      const Checkerboard::Near &column = direction == 0 ? one : two,
-                               &row = direction == 0 ? two : one;
+      const Checkerboard::NearLine &column = direction == 0 ? one : two,
+                                   &row = direction == 0 ? two : one;
       const Vec2 offset = Vec2(column.translation, row.translation) - position;
       std::size_t at = board_->index(column.cell, row.cell);
       do {
-        const LaneCells::Group& group = cells_[at];
-        look.look(group, LaneCells::first_place(at), offset, at == own ? others : all);
+        const SimdCells::Group& group = cells_[at];
+        paths.add(group, SimdCells::first_slot(at), offset, at == own ? others : all);
         at = group.next;
-      } while (at != LaneCells::none);
+      } while (at != SimdCells::none);
     }
   }
-  return look.end();
+  return paths.end();
 }
 
 template <int direction>
 void EventChain::advance(std::size_t i, double length) {
-  LaneCells::Group& group = cells_.group_of(i);
+  SimdCells::Group& group = cells_.group_of(i);
   const int lane = cells_.lane_of(i);
   Vec2& position = configuration_.position[i];
   position[direction] += length;
@@ -171,28 +171,28 @@ void EventChain::advance(std::size_t i, double length) {
     (direction == 0 ? group.x : group.y)[lane] = position[direction];
   } else {
     const Ellipse shape = configuration_.shape[i];
-    cells_.remove(i, spare_);
-    cells_.insert(i, cell, shape, position, axis_[i], spare_);
+    cells_.remove(i, free_list_);
+    cells_.insert(i, cell, shape, position, axis_[i], free_list_);
   }
 }
 
-void EventChain::rotate(std::size_t i, double turn) {
+void EventChain::rotate(std::size_t i, double rotation) {
   const Ellipse& shape = configuration_.shape[i];
   const Vec2& position = configuration_.position[i];
-  const double angle = configuration_.angle[i] + turn;
+  const double angle = configuration_.angle[i] + rotation;
   const Vec2 axis = axis_at(angle);
-  Looks looks;
+  OverlapTestCounts tests;
   ++state_.counts.rotations_tried;
   ++state_.rotation.tried;
-  if (!clear_of_others(*board_, cells_, i, OverlapLook(shape, axis, margin_), position,
-                       board_->cell_of(position), looks) ||
-      !clear_of_own_images(configuration_.box, shape, axis, margin_))
+  if (!clear_of_others(*board_, cells_, i, OverlapBatch(shape, axis, margin_), position,
+                       board_->cell_of(position), tests) ||
+      !clear_of_periodic_images(configuration_.box, shape, axis, margin_))
     return;
   ++state_.counts.rotations_accepted;
   ++state_.rotation.accepted;
   configuration_.angle[i] = angle;
   axis_[i] = axis;
-  LaneCells::Group& group = cells_.group_of(i);
+  SimdCells::Group& group = cells_.group_of(i);
   const int lane = cells_.lane_of(i);
   group.ux[lane] = axis.x();
   group.uy[lane] = axis.y();

@@ -4,27 +4,27 @@
 #include <optional>
 #include <vector>
 
-#include "core/contact/path_look.h"
+#include "core/contact/ellipse_free_path_batch.h"
 #include "core/random/stream.h"
 #include "core/state/configuration.h"
 #include "mc/checkerboard.h"
-#include "mc/lane_cells.h"
+#include "mc/simd_cells.h"
 #include "mc/sweep_state.h"
 #include "mc/trial.h"
 
 namespace vitrel {
 
-/// How event chains are tuned. The defaults are those that bench/event_chain.md found good.
+/// Targets for the tuning of event chains. The defaults come from bench/event_chain.md.
 struct EventChainOptions {
-  double contacts = 100;  ///< of a chain
-  double rotations = 1;   ///< trial rotations for every contact; of no effect if all are round
+  double contacts = 100;  ///< per chain
+  double rotations = 1;   ///< trial rotations per contact; no effect if all are round
 };
 
-/// What event chains have done.
+/// Totals of event chains.
 struct ChainCounts {
   std::uint64_t chains = 0, contacts = 0;
-  std::uint64_t cut_short = 0;  ///< chains
-  std::uint64_t looks = 0;      ///< for the next contact; a path ends at every border of cells too
+  std::uint64_t cut_short = 0;  ///< chains cut short
+  std::uint64_t searches = 0;   ///< free paths searched; a path also ends at each cell border
   std::uint64_t rotations_tried = 0, rotations_accepted = 0;
   double length = 0;  ///< Σ l
   double ahead = 0;   ///< Σ (r_j − r_i)·e over the contacts
@@ -33,13 +33,13 @@ struct ChainCounts {
   double compressibility() const { return 1 + ahead / length; }
 };
 
-/// Where event chains stand: with the configuration, all it takes to go on bit by bit.
+/// The state of event chains: together with the configuration, sufficient to continue with bit-identical results.
 struct ChainState {
-  std::uint64_t next_sweep = 0;  ///< its number, by which it draws
-  std::uint64_t sweeps = 0;      ///< made so far
-  // What a sweep is; without chains it is yet to be chosen.
+  std::uint64_t next_sweep = 0;  ///< number of the next sweep, which selects its random stream
+  std::uint64_t sweeps = 0;      ///< completed
+  // The plan of a sweep; not yet chosen if there are no chains.
   std::uint64_t chains = 0, rotations = 0;
-  double length = 0;  ///< of every chain
+  double length = 0;  ///< of each chain
   StepSize rotation{0.1};
   ChainCounts counts;
   std::uint64_t tuned_chains = 0, tuned_contacts = 0;  ///< at the last adaptation
@@ -47,52 +47,49 @@ struct ChainState {
 
 /// Event-chain Monte Carlo of hard ellipses at constant N, box and temperature, on one thread.
 ///
-/// A chain: a random particle moves along x or along y, either with probability ½ and always forwards,
-/// until it touches another (path_look.h); that one goes on from there in the same direction, until
-/// the paths add up to the length of the chain. Nothing is rejected. Angles change by trial
-/// rotations, uniform within ± the step, as in sampler.h.
+/// A chain: a random particle moves forwards along x or y, each with probability ½, until it touches another
+/// (ellipse_free_path_batch.h). That one continues in the same direction, until the paths add up to the length of the
+/// chain. Nothing is rejected. Angles change by trial rotations, uniform within ± the step, as in sampler.h.
 ///
-/// One sweep is a fixed number of chains of one length with trial rotations of random particles spread
-/// evenly among them; `tune` chooses them so that a sweep has about N contacts. Particles are sorted into cells
-/// anew at the beginning. Sweep s draws from the stream (seed, trial_moves, s, 0): event chains that
-/// begin with the state of others go on as these, bit by bit.
+/// One sweep is a fixed number of chains of one length, with trial rotations of random particles spread evenly among
+/// them; `tune` chooses them so that a sweep has about N contacts. Particles are sorted into cells at the start of a
+/// sweep. Sweep s draws from the stream (seed, trial_moves, s, 0): chains that start from a stored state continue with
+/// bit-identical results.
 ///
-/// Why every hard state is as likely as any other. Cut a chain of length l along x into steps ε → 0: of
-/// the N lifted states (hard state, moving particle i) each has one successor, either with i moved by
-/// ε, or, if that would overlap with j, the same state with j moving. Conversely each is reached from
-/// one alone: from i moved back by ε, or, if that would overlap with k behind, from the same state with k
-/// moving. A contact depends on the difference of the two positions only, angles fixed, so that j is
-/// in the way of i exactly if i is in the way of j going backwards. So a chain maps lifted states one
-/// to one and without change of volume (the flow is a translation between contacts): the uniform
-/// distribution goes into itself (global balance), the particle and direction being drawn uniformly
-/// and without regard to the state. Rotations are in detailed balance.
-/// That all hard states can be reached is not shown by this; tests compare with states drawn independently.
+/// Uniform sampling of all hard states. Divide a chain of length l along x into steps ε → 0. Each of the N lifted
+/// states (hard state, moving particle i) has one successor: i moved by ε or, if it would then overlap j, the same
+/// state with j moving. Conversely each has one predecessor: i moved back by ε or, if it would then overlap k behind
+/// it, the same state with k moving. At fixed angles a contact depends only on the difference of the two positions, so
+/// j blocks i if and only if i blocks j in the opposite direction. A chain therefore maps lifted states one to one, and
+/// conserves volume (the flow is a translation between contacts): the uniform distribution is invariant (global
+/// balance), since particle and direction are drawn uniformly and independently of the state. Rotations satisfy
+/// detailed balance. This does not prove ergodicity; tests compare with independently drawn states.
 ///
-/// The pressure comes with the contacts (michel2014):
+/// The pressure follows from the contacts (michel2014):
 ///     Z = βP/ρ = 1 + ⟨Σ (r_j − r_i)·e⟩/l,
 /// the sum over the contacts of a chain along e.
 ///
-/// In a row of particles that is jammed across the whole box a chain would have contacts without end: a
-/// chain of 1000 times as many as wanted is cut short, against the balance, and counted.
+/// In a row of particles jammed across the whole box a chain would have infinitely simd_width contacts. A chain is cut short
+/// after 1000 times the target number, which violates balance and is counted.
 ///
-/// Contact is at 1.25 hard margins (disjoint.h), or a little more (path_look.h), and rotations keep one, so
-/// that the margin holds always. A particle's own images move along; those of others are others.
-/// Sources: bernard2009; for ellipses and all else whose potential depends on differences michel2014.
+/// Contact is at 1.25 hard-core margins (hard_core.h) or slightly more (ellipse_free_path_batch.h), and rotations keep
+/// one margin, so the margin always holds. A particle's own images move along with it.
+/// Sources: bernard2009; for ellipses and all potentials that depend on differences michel2014.
 class EventChain {
  public:
-  /// The configuration must be hard, with wrapped positions, and outlive the chains; nobody else may
-  /// move or turn particles meanwhile.
+  /// The configuration must be hard, with wrapped positions, and outlive this object. Meanwhile nothing else may
+  /// move or rotate particles.
   EventChain(Configuration2& configuration, const EventChainOptions& options, std::uint64_t seed,
              const ChainState& state = {});
 
   void sweep();
 
-  /// Adapts the plan by the counts since the last adaptation, or waits for more: contacts and rotations
-  /// as asked for, about N contacts in a sweep, 0.35 of the rotations accepted. At first chains are short,
-  /// and their length at most doubles each time. It belongs to equilibration.
+  /// Adapts the plan by the counts since the last adaptation, or waits for more: contacts and rotations as requested,
+  /// about N contacts per sweep, and 0.35 of the rotations accepted. Chains are short at first, and their length at
+  /// most doubles each time. Belongs to equilibration.
   void tune();
 
-  /// What a sweep is. Depends on nothing but `tune` and `set_plan`.
+  /// The plan of a sweep. Only `tune` and `set_plan` change it.
   struct Plan {
     std::uint64_t chains;
     double length;  ///< of every chain
@@ -104,31 +101,31 @@ class EventChain {
   }
   void set_plan(const Plan& plan);
 
-  /// As given at construction, and what has been done since.
+  /// The state given at construction, advanced by the work since.
   const ChainState& state() const { return state_; }
   const ChainCounts& counts() const { return state_.counts; }
 
  private:
   void arrange();
   void run_chain(std::size_t first, bool along_x);
-  template <int direction, template <int> class Look>
+  template <int direction, template <int> class PathBatch>
   void run(std::size_t first);
-  template <int direction, template <int> class Look>
-  PathEnd next_contact(std::size_t i, double remaining) const;
+  template <int direction, template <int> class PathBatch>
+  FreePath next_contact(std::size_t i, double remaining) const;
   template <int direction>
   void advance(std::size_t i, double length);
-  void rotate(std::size_t i, double turn);
+  void rotate(std::size_t i, double rotation);
 
   Configuration2& configuration_;
   double largest_, margin_;
   Vec2 half_box_;
-  double rounding_;  // more than that of any position
+  double rounding_;  // bound of the rounding of positions
   EventChainOptions options_;
   std::vector<Vec2> axis_;                // unit major axes
-  std::vector<LaneCells::Index> rotors_;  // the particles that are not round
+  std::vector<SimdCells::Index> rotors_;  // the particles that are not round
   std::optional<Checkerboard> board_;
-  LaneCells cells_;
-  LaneCells::Spare spare_;
+  SimdCells cells_;
+  SimdCells::FreeList free_list_;
   std::uint64_t seed_;
   ChainState state_;
 };

@@ -1,9 +1,9 @@
-#include "mc/disjoint.h"
+#include "mc/hard_core.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/contact/pair.h"
+#include "core/contact/contact_queries.h"
 #include "core/contact/perram_wertheim.h"
 #include "core/neighbors/pairs.h"
 #include "core/tolerances.h"
@@ -12,7 +12,7 @@ namespace vitrel {
 
 namespace {
 
-/// `orientation` in the form in which it is asked for separation.
+/// `orientation` is whatever `separated` takes for this shape.
 template <int Dim, class Axes>
 bool own_images_separated(const PeriodicBox<Dim>& box, const Solid<Dim>& shape,
                           const Axes& orientation, double margin) {
@@ -33,13 +33,13 @@ double hard_margin(const Configuration<Dim>& configuration) {
                                 largest_circumradius(configuration));
 }
 
-bool clear_of_own_images(const PeriodicBox<2>& box, const Ellipse& shape, const Vec2& axis,
-                         double margin) {
+bool clear_of_periodic_images(const PeriodicBox<2>& box, const Ellipse& shape, const Vec2& axis,
+                              double margin) {
   return own_images_separated<2>(box, shape, axis, margin);
 }
 
-bool clear_of_own_images(const PeriodicBox<3>& box, const Ellipsoid& shape,
-                         const Quaternion& orientation, double margin) {
+bool clear_of_periodic_images(const PeriodicBox<3>& box, const Ellipsoid& shape,
+                              const Quaternion& orientation, double margin) {
   return own_images_separated<3>(box, shape, orientation, margin);
 }
 
@@ -62,7 +62,7 @@ double shrink_to_contact(const Configuration2& configuration, double lowest) {
   for_each_pair(configuration, 1 / lowest, [&](std::size_t i, std::size_t j, const Vec2& d) {
     const Ellipse& one = configuration.shape[i];
     const Ellipse& two = configuration.shape[j];
-    // Circumcircles touch at a smaller factor than any found so far: no need to look closer.
+    // The circumcircles touch at a smaller factor than the largest found: this pair cannot matter.
     const double circles = one.circumradius() + two.circumradius();
     if (circles * circles < factor * factor * d.squaredNorm()) return;
     const double f =

@@ -6,33 +6,32 @@
 #include "core/geometry/ellipse.h"
 #include "core/state/configuration.h"
 
-/// What all Monte Carlo stages ask of a state: are all particles at least a margin apart?
+/// The hard-core constraint of Monte Carlo: all particles at least a margin apart.
 namespace vitrel {
 
-/// The distance that Monte Carlo keeps between surfaces: the contact gap of the box and its longest
-/// particle (tolerances.h), so that rounded coordinates never overlap.
+/// The margin that Monte Carlo keeps between surfaces: the contact gap of the box and its longest particle
+/// (tolerances.h), so that rounded coordinates never overlap.
 template <int Dim>
 double hard_margin(const Configuration<Dim>& configuration);
 
-/// Whether a particle keeps the margin to its own images, which lie at whole box lengths.
-bool clear_of_own_images(const PeriodicBox<2>& box, const Ellipse& shape, const Vec2& axis,
-                         double margin);
-bool clear_of_own_images(const PeriodicBox<3>& box, const Ellipsoid& shape,
-                         const Quaternion& orientation, double margin);
+/// Whether a particle keeps the margin to its own periodic images.
+bool clear_of_periodic_images(const PeriodicBox<2>& box, const Ellipse& shape, const Vec2& axis,
+                              double margin);
+bool clear_of_periodic_images(const PeriodicBox<3>& box, const Ellipsoid& shape,
+                              const Quaternion& orientation, double margin);
 
 /// The first pair closer than the margin, if any.
 std::optional<std::pair<std::size_t, std::size_t>> find_overlap(
     const Configuration2& configuration);
 
-/// The factor by which the box and all positions may shrink until the first pair touches, looking
-/// no further than `lowest` (then `lowest` is returned); 1 or more if a pair touches or overlaps
-/// already. From max F = μ² of every pair (perram_wertheim.h): the pair touches at 1/μ.
+/// The factor by which the box and all positions may shrink until the first pair touches, at least `lowest`; 1 or more
+/// if a pair already touches or overlaps. From max F = μ² of each pair (perram_wertheim.h): the pair touches at 1/μ.
 double shrink_to_contact(const Configuration2& configuration, double lowest);
 
 /// Scales the sides of the box and all positions by these factors; shapes stay.
 template <int Dim>
 void scale_box(Configuration<Dim>& configuration, const Vec<Dim>& factors);
-/// The same by one factor for all sides.
+/// The same with one factor for all sides.
 template <int Dim>
 void scale_box(Configuration<Dim>& configuration, double factor);
 

@@ -8,17 +8,17 @@
 #include <string>
 #include <vector>
 
-#include "core/contact/pair.h"
+#include "core/contact/contact_queries.h"
 #include "core/neighbors/cell_grid.h"
 #include "core/random/stream.h"
-#include "mc/disjoint.h"
+#include "mc/hard_core.h"
 
 namespace vitrel {
 
 namespace {
 
-/// The share of the packing fraction reached at which places are found in no time.
-constexpr double found_fast = 0.9;
+/// The fraction of the packing fraction reached at which insertion is fast.
+constexpr double safe_fraction = 0.9;
 
 template <int Dim>
 std::vector<std::size_t> largest_first(const Configuration<Dim>& configuration) {
@@ -65,7 +65,7 @@ class Insertion {
 
   bool insert(std::size_t i, Stream draw) {
     for (std::uint64_t attempt = 0; attempt < options_.attempts; ++attempt) {
-      ++places_tried;
+      ++trials;
       const Pose<Dim> pose = random_pose(configuration_.box, options_.aligned, draw);
       if (!fits(i, pose)) continue;
       configuration_.set_pose(i, pose);
@@ -76,7 +76,7 @@ class Insertion {
     return false;
   }
 
-  std::uint64_t places_tried = 0;
+  std::uint64_t trials = 0;
 
  private:
   bool fits(std::size_t i, const Pose<Dim>& pose) const {
@@ -86,7 +86,7 @@ class Insertion {
       return separated(shape, pose, configuration_.shape[j], configuration_.pose(j), d, margin_);
     };
     return cells_.for_each_near(pose.position, reach, clear_of) &&
-           clear_of_own_images(configuration_.box, shape, axes_of(pose), margin_);
+           clear_of_periodic_images(configuration_.box, shape, axes_of(pose), margin_);
   }
 
   Configuration<Dim>& configuration_;
@@ -95,13 +95,13 @@ class Insertion {
   double largest_, margin_;
 };
 
-std::string hopeless(std::size_t placed, std::size_t particles, double reached,
-                     std::uint64_t attempts) {
+std::string failure_text(std::size_t placed, std::size_t particles, double reached,
+                         std::uint64_t attempts) {
   std::ostringstream text;
-  text << "insertion is hopeless: after " << placed << " of " << particles
+  text << "insertion failed: after " << placed << " of " << particles
        << " particles, at a packing fraction of " << reached << ", " << attempts
-       << " attempts found no place for the next; insert at " << std::setprecision(2)
-       << found_fast * reached << " at most, and let the particles swell or grow from there";
+       << " attempts found no position for the next; insert at " << std::setprecision(2)
+       << safe_fraction * reached << " at most, and compress by swelling or growth from there";
   return text.str();
 }
 
@@ -109,31 +109,31 @@ std::string hopeless(std::size_t placed, std::size_t particles, double reached,
 
 template <int Dim>
 InsertionReport insert_particles(Configuration<Dim>& configuration, const InsertionOptions& options,
-                                 std::uint64_t seed, const Budget& budget) {
+                                 std::uint64_t seed, const RunControl& control) {
   scale_to_packing_fraction(configuration, options.packing_fraction);
   Insertion insertion(configuration, options);
   std::size_t placed = 0;
   double covered = 0;
   const auto ended = [&](StageEnd end, const std::string& reason) {
-    return InsertionReport{{end, reason}, insertion.places_tried};
+    return InsertionReport{{end, reason}, insertion.trials};
   };
   for (std::size_t i : largest_first(configuration)) {
-    if (budget.stop_requested()) return ended(StageEnd::stopped, "insertion was stopped");
+    if (control.stop_requested()) return ended(StageEnd::stopped, "insertion was stopped");
     if (!insertion.insert(i, Stream(seed, Purpose::placement, 0, i)))
-      return ended(StageEnd::stuck,
-                   hopeless(placed, configuration.size(), covered / configuration.box.volume(),
-                            options.attempts));
+      return ended(StageEnd::stalled,
+                   failure_text(placed, configuration.size(), covered / configuration.box.volume(),
+                                options.attempts));
     ++placed;
     covered += configuration.shape[i].volume();
     const double share = static_cast<double>(placed) / static_cast<double>(configuration.size());
-    budget.tell({share, static_cast<double>(placed), "particles"});
+    control.report_progress({share, static_cast<double>(placed), "particles"});
   }
   return ended(StageEnd::reached, "all particles inserted");
 }
 
 template InsertionReport insert_particles(Configuration2&, const InsertionOptions&, std::uint64_t,
-                                          const Budget&);
+                                          const RunControl&);
 template InsertionReport insert_particles(Configuration3&, const InsertionOptions&, std::uint64_t,
-                                          const Budget&);
+                                          const RunControl&);
 
 }  // namespace vitrel

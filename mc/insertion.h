@@ -2,27 +2,24 @@
 
 #include <cstdint>
 
+#include "mc/options.h"
 #include "core/state/configuration.h"
 #include "core/state/stage.h"
-#include "mc/options.h"
 
 namespace vitrel {
 
-/// The end of an insertion. With n places tried the dimensionless time of its kinetics is τ = n A/V, A
-/// the area of a particle; close to saturation φ∞ − φ ∝ τ^(−1/2) for disks and τ^(−1/3) for
-/// other shapes. Sources: swendsen1981, talbot1989.
+/// The result of an insertion. With n trials the dimensionless time of its kinetics is τ = n A/V, A the area of a
+/// particle; near saturation φ∞ − φ ∝ τ^(−1/2) for disks and τ^(−1/3) for other shapes.
+/// Sources: swendsen1981, talbot1989.
 struct InsertionReport : StageReport {
-  std::uint64_t places_tried = 0;
+  std::uint64_t trials = 0;
 };
 
-/// Random sequential insertion: particles, the largest first, are put one after another at random
-/// places and orientations where they meet none of those before, and are never moved.
-///
-/// `stuck` with a reason if a particle found no place, `stopped` if the budget said so; the
-/// configuration then is not to be used, and the same call makes it anew.
+/// `stalled`, with a reason, if a particle found no place; `stopped` on request. The configuration then is unusable,
+/// and the same call starts again.
 /// The jamming limit is near φ = 0.547 for disks, 0.583 for ellipses and 0.382 for spheres.
 template <int Dim>
 InsertionReport insert_particles(Configuration<Dim>& configuration, const InsertionOptions& options,
-                                 std::uint64_t seed, const Budget& budget);
+                                 std::uint64_t seed, const RunControl& control);
 
 }  // namespace vitrel

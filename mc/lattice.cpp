@@ -9,7 +9,7 @@
 #include "core/contact/perram_wertheim.h"
 #include "core/error.h"
 #include "core/random/stream.h"
-#include "mc/disjoint.h"
+#include "mc/hard_core.h"
 
 namespace vitrel {
 
@@ -99,7 +99,7 @@ void refuse_overlaps(const Configuration2& configuration) {
   throw UserError("this lattice is too dense: particles " + std::to_string(overlap->first) +
                   " and " + std::to_string(overlap->second) + " overlap at a packing fraction of " +
                   std::to_string(now) + "; it reaches " + std::to_string(now / (shrink * shrink)) +
-                  ", beyond that insert and swell");
+                  ", for higher densities insert and swell");
 }
 
 }  // namespace

@@ -10,24 +10,24 @@
 #include <span>
 #include <utility>
 
-#include "core/contact/support_gap.h"
+#include "core/contact/ellipse_gap.h"
 #include "core/parallel.h"
-#include "mc/disjoint.h"
+#include "mc/hard_core.h"
 
 namespace vitrel {
 
 namespace {
 
-/// Farthest distance of centres at which particles can be closer than `reshape` asks.
+/// Maximum distance of centres at which `reshape` must test.
 double reach_of(double largest, double margin) {
   return 2 * (largest + margin);
 }
 
 }  // namespace
 
-struct Sampler::Turn {
+struct Sampler::DomainContext {
   std::size_t domain;
-  LaneCells::Spare& spare;
+  SimdCells::FreeList& free_list;
   Tally& tally;
 };
 
@@ -68,12 +68,12 @@ void Sampler::sweep() {
   std::vector<std::size_t> order(colours.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   for (std::size_t k = order.size(); k > 1; --k) std::swap(order[k - 1], order[draw.below(k)]);
-  for (const std::size_t colour : order) take_turns(colours[colour]);
+  for (const std::size_t colour : order) sweep_domains(colours[colour]);
   ++state_.next_sweep;
   ++state_.sweeps;
 }
 
-// Sorts all particles into the cells, by counting.
+// Counting sort of all particles into the cells.
 void Sampler::arrange() {
   const std::size_t n = configuration_.size();
   order_.resize(n);
@@ -81,11 +81,11 @@ void Sampler::arrange() {
   begin_.assign(board_->cells(), 0);
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t cell = board_->index(board_->cell_of(configuration_.position[i]));
-    cell_of_[i] = static_cast<LaneCells::Index>(cell);
+    cell_of_[i] = static_cast<SimdCells::Index>(cell);
     ++begin_[cell];
   }
   domain_begin_.clear();
-  LaneCells::Index before = 0;
+  SimdCells::Index before = 0;
   for (std::size_t domain = 0; domain < board_->domains(); ++domain) {
     domain_begin_.push_back(before);
     board_->for_each_cell(domain,
@@ -93,10 +93,10 @@ void Sampler::arrange() {
   }
   domain_begin_.push_back(before);
   for (std::size_t i = 0; i < n; ++i)
-    order_[begin_[cell_of_[i]]++] = static_cast<LaneCells::Index>(i);
+    order_[begin_[cell_of_[i]]++] = static_cast<SimdCells::Index>(i);
 
   cells_.resize(board_->cells(), n);
-  spare_.assign(board_->domains(), LaneCells::Spare(LaneCells::none));
+  free_lists_.assign(board_->domains(), SimdCells::FreeList(SimdCells::none));
   in_parallel(board_->domains(), threads_, [&](std::size_t begin, std::size_t end) {
     for (std::size_t domain = begin; domain < end; ++domain) fill_domain(domain);
   });
@@ -105,30 +105,30 @@ void Sampler::arrange() {
 void Sampler::fill_domain(std::size_t domain) {
   board_->for_each_cell(domain, [&](std::size_t cell) { cells_.clear(cell); });
   const std::size_t begin = domain_begin_[domain], end = domain_begin_[domain + 1];
-  spare_[domain] = cells_.spare_groups(begin, end);
+  free_lists_[domain] = cells_.free_groups(begin, end);
   for (std::size_t k = begin; k < end; ++k) {
     const std::size_t i = order_[k];
     cells_.insert(i, cell_of_[i], configuration_.shape[i], configuration_.position[i], axis_[i],
-                  spare_[domain]);
+                  free_lists_[domain]);
   }
 }
 
-void Sampler::take_turns(const std::vector<std::size_t>& domains) {
+void Sampler::sweep_domains(const std::vector<std::size_t>& domains) {
   std::mutex adding;
   in_parallel(domains.size(), threads_, [&](std::size_t begin, std::size_t end) {
     Tally mine;
-    for (std::size_t k = begin; k < end; ++k) take_turn(domains[k], mine);
+    for (std::size_t k = begin; k < end; ++k) sweep_domain(domains[k], mine);
     const std::lock_guard lock(adding);
     add(mine);
   });
 }
 
-void Sampler::take_turn(std::size_t domain, Tally& tally) {
+void Sampler::sweep_domain(std::size_t domain, Tally& tally) {
   const std::span members(order_.data() + domain_begin_[domain],
                           order_.data() + domain_begin_[domain + 1]);
   Stream draw(seed_, Purpose::trial_moves, state_.next_sweep, domain + 1);
-  Turn turn{domain, spare_[domain], tally};
-  // Drawn several at a time: the generator's arithmetic fills its own waiting times.
+  DomainContext context{domain, free_lists_[domain], tally};
+  // Draws several blocks at a time, so that independent evaluations of the generator overlap.
   std::array<Words, 16> drawn;
   for (std::size_t done = 0; done < members.size(); done += drawn.size()) {
     const std::span trials(drawn.data(), std::min(drawn.size(), members.size() - done));
@@ -136,90 +136,91 @@ void Sampler::take_turn(std::size_t domain, Tally& tally) {
     for (const Words& words : trials) {
       const std::size_t i = members[pick(words[0], members.size())];
       if (is_exchange(words[3])) {
-        exchange(i, members[pick(words[1], members.size())], turn);
+        exchange(i, members[pick(words[1], members.size())], context);
         continue;
       }
       const bool is_round = cells_.group_of(i).shape(cells_.lane_of(i)).is_round();
       if (!is_round && (words[3] & 1) == 1)
-        rotate(i, words, turn);
+        rotate(i, words, context);
       else
-        translate(i, words, turn);
+        translate(i, words, context);
     }
   }
 }
 
-void Sampler::translate(std::size_t i, const Words& words, Turn& turn) {
-  LaneCells::Group& group = cells_.group_of(i);
+void Sampler::translate(std::size_t i, const Words& words, DomainContext& context) {
+  SimdCells::Group& group = cells_.group_of(i);
   const int lane = cells_.lane_of(i);
   const Vec2 step(plus_minus_one(words[1]), plus_minus_one(words[2]));
   Vec2 position = group.position(lane) + state_.translation.size * step;
   Shift<2> crossed = Shift<2>::Zero();
   if (((position.array().abs() >= half_box_.array())).any())
     configuration_.box.wrap(position, crossed);
-  ++turn.tally.counts.translations_tried;
+  ++context.tally.counts.translations_tried;
   const Checkerboard::Cell cell = board_->cell_of(position);
-  if (board_->domain_of(cell) != turn.domain) return;
-  // Its own images move along: their distance stays a whole number of box lengths.
+  if (board_->domain_of(cell) != context.domain) return;
+  // Own images move along: their distances stay whole box lengths.
   const Ellipse shape = group.shape(lane);
   const Vec2 axis = group.axis(lane);
-  if (!clear_of_others(i, OverlapLook(shape, axis, margin_), position, cell, turn.tally.looks))
+  if (!clear_of_others(i, OverlapBatch(shape, axis, margin_), position, cell,
+                       context.tally.overlap_tests))
     return;
-  ++turn.tally.counts.translations_accepted;
+  ++context.tally.counts.translations_accepted;
   configuration_.position[i] = position;
   configuration_.image[i] += crossed;
   if (group.cell == board_->index(cell)) {
     group.x[lane] = position.x();
     group.y[lane] = position.y();
   } else {
-    cells_.remove(i, turn.spare);
-    cells_.insert(i, board_->index(cell), shape, position, axis, turn.spare);
+    cells_.remove(i, context.free_list);
+    cells_.insert(i, board_->index(cell), shape, position, axis, context.free_list);
   }
 }
 
-void Sampler::rotate(std::size_t i, const Words& words, Turn& turn) {
-  LaneCells::Group& group = cells_.group_of(i);
+void Sampler::rotate(std::size_t i, const Words& words, DomainContext& context) {
+  SimdCells::Group& group = cells_.group_of(i);
   const int lane = cells_.lane_of(i);
   const double angle = configuration_.angle[i] + state_.rotation.size * plus_minus_one(words[1]);
   const Vec2 axis = axis_at(angle), position = group.position(lane);
   const Ellipse shape = group.shape(lane);
-  ++turn.tally.counts.rotations_tried;
-  if (!clear_of_others(i, OverlapLook(shape, axis, margin_), position, board_->cell_of(position),
-                       turn.tally.looks) ||
+  ++context.tally.counts.rotations_tried;
+  if (!clear_of_others(i, OverlapBatch(shape, axis, margin_), position, board_->cell_of(position),
+                       context.tally.overlap_tests) ||
       !clear_of_itself(shape, axis, margin_))
     return;
-  ++turn.tally.counts.rotations_accepted;
+  ++context.tally.counts.rotations_accepted;
   configuration_.angle[i] = angle;
   axis_[i] = axis;
   group.ux[lane] = axis.x();
   group.uy[lane] = axis.y();
 }
 
-void Sampler::exchange(std::size_t i, std::size_t j, Turn& turn) {
+void Sampler::exchange(std::size_t i, std::size_t j, DomainContext& context) {
   const Ellipse shape_i = configuration_.shape[i], shape_j = configuration_.shape[j];
   if (shape_i.a == shape_j.a && shape_i.b == shape_j.b) return;
-  ++turn.tally.counts.exchanges_tried;
+  ++context.tally.counts.exchanges_tried;
   cells_.exchange(i, j);
   const bool i_is_larger = shape_i.volume() > shape_j.volume();
-  if (!has_room(i_is_larger ? i : j, turn.tally.looks) ||
-      !has_room(i_is_larger ? j : i, turn.tally.looks)) {
+  if (!fits(i_is_larger ? i : j, context.tally.overlap_tests) ||
+      !fits(i_is_larger ? j : i, context.tally.overlap_tests)) {
     cells_.exchange(i, j);
     return;
   }
-  ++turn.tally.counts.exchanges_accepted;
+  ++context.tally.counts.exchanges_accepted;
   std::swap(configuration_.position[i], configuration_.position[j]);
   std::swap(configuration_.image[i], configuration_.image[j]);
   std::swap(configuration_.angle[i], configuration_.angle[j]);
   std::swap(axis_[i], axis_[j]);
 }
 
-// Where the cells have it.
-bool Sampler::has_room(std::size_t i, Looks& looks) const {
-  const LaneCells::Group& group = cells_[cells_.group_index(i)];
+// Whether particle i keeps the margin at its current place in the cells.
+bool Sampler::fits(std::size_t i, OverlapTestCounts& tests) const {
+  const SimdCells::Group& group = cells_[cells_.group_index(i)];
   const int lane = cells_.lane_of(i);
   const Ellipse shape = group.shape(lane);
   const Vec2 axis = group.axis(lane), position = group.position(lane);
-  return clear_of_others(i, OverlapLook(shape, axis, margin_), position, board_->cell_of(position),
-                         looks) &&
+  return clear_of_others(i, OverlapBatch(shape, axis, margin_), position, board_->cell_of(position),
+                         tests) &&
          clear_of_itself(shape, axis, margin_);
 }
 
@@ -230,8 +231,8 @@ bool Sampler::reshape(std::size_t i, const Ellipse& shape) {
   }
   const double margin = 2 * margin_;
   const Vec2 position = configuration_.position[i];
-  if (!clear_of_others(i, OverlapLook(shape, axis_[i], margin), position, board_->cell_of(position),
-                       looks_) ||
+  if (!clear_of_others(i, OverlapBatch(shape, axis_[i], margin), position,
+                       board_->cell_of(position), overlap_tests_) ||
       !clear_of_itself(shape, axis_[i], margin))
     return false;
   configuration_.shape[i] = shape;
@@ -253,36 +254,36 @@ bool Sampler::rescale(const Vec2& factors) {
   return false;
 }
 
-// Every pair is looked at twice.
+// Tests every pair twice.
 bool Sampler::is_hard() {
   std::atomic<bool> hard = true;
   std::mutex adding;
   in_parallel(order_.size(), threads_, [&](std::size_t begin, std::size_t end) {
-    Looks mine;
+    OverlapTestCounts mine;
     for (std::size_t k = begin; k < end && hard; ++k) {
       const std::size_t i = order_[k];
       const Ellipse& shape = configuration_.shape[i];
       const Vec2& position = configuration_.position[i];
-      if (!clear_of_others(i, OverlapLook(shape, axis_[i], margin_), position,
+      if (!clear_of_others(i, OverlapBatch(shape, axis_[i], margin_), position,
                            board_->cell_of(position), mine) ||
           !clear_of_itself(shape, axis_[i], margin_))
         hard = false;
     }
     const std::lock_guard lock(adding);
-    looks_.groups += mine.groups;
-    looks_.alone += mine.alone;
+    overlap_tests_.batches += mine.batches;
+    overlap_tests_.scalar_pairs += mine.scalar_pairs;
   });
   return hard;
 }
 
-bool Sampler::clear_of_others(std::size_t i, const OverlapLook& look, const Vec2& position,
-                              const Checkerboard::Cell& cell, Looks& looks) const {
-  return vitrel::clear_of_others(*board_, cells_, i, look, position, cell, looks);
+bool Sampler::clear_of_others(std::size_t i, const OverlapBatch& batch, const Vec2& position,
+                              const Checkerboard::Cell& cell, OverlapTestCounts& tests) const {
+  return vitrel::clear_of_others(*board_, cells_, i, batch, position, cell, tests);
 }
 
 bool Sampler::clear_of_itself(const Ellipse& shape, const Vec2& axis, double margin) const {
   return shortest_side_ >= 2 * shape.circumradius() + margin ||
-         clear_of_own_images(configuration_.box, shape, axis, margin);
+         clear_of_periodic_images(configuration_.box, shape, axis, margin);
 }
 
 void Sampler::add(const Tally& tally) {
@@ -290,12 +291,12 @@ void Sampler::add(const Tally& tally) {
   state_.counts.add(more);
   state_.translation.count(more.translations_tried, more.translations_accepted);
   state_.rotation.count(more.rotations_tried, more.rotations_accepted);
-  looks_.groups += tally.looks.groups;
-  looks_.alone += tally.looks.alone;
+  overlap_tests_.batches += tally.overlap_tests.batches;
+  overlap_tests_.scalar_pairs += tally.overlap_tests.scalar_pairs;
 }
 
 void Sampler::tune() {
-  constexpr std::uint64_t enough = 100;  // to tell the acceptance to about 0.05
+  constexpr std::uint64_t enough = 100;  // acceptance to about 0.05
   state_.translation.tune(enough, 0.5 * configuration_.box.lengths().minCoeff());
   state_.rotation.tune(enough, std::numbers::pi / 2);
 }

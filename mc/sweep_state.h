@@ -21,7 +21,7 @@ struct TrialCounts {
   }
 };
 
-/// The size of a kind of trial steps, adapted by how many of them were accepted.
+/// A trial step size, adapted to the acceptance.
 struct StepSize {
   double size;
   std::uint64_t tried = 0, accepted = 0;  ///< since the last adaptation
@@ -31,20 +31,20 @@ struct StepSize {
     accepted += more_accepted;
   }
 
-  /// Towards an acceptance of 0.35; waits for more trials if they are fewer than `enough`.
+  /// Adapts towards an acceptance of 0.35; waits for more trials if fewer than `enough`.
   void tune(std::uint64_t enough, double largest) {
-    constexpr double wanted = 0.35, strongest = 2;
+    constexpr double target = 0.35, max_change = 2;
     if (tried < enough) return;
     const double acceptance = static_cast<double>(accepted) / static_cast<double>(tried);
-    size = std::min(largest, size * std::clamp(acceptance / wanted, 1 / strongest, strongest));
+    size = std::min(largest, size * std::clamp(acceptance / target, 1 / max_change, max_change));
     tried = accepted = 0;
   }
 };
 
-/// Where a stage of sweeps stands: with the configuration, all it takes to go on bit by bit.
+/// The state of a stage of sweeps: together with the configuration, sufficient to continue with bit-identical results.
 struct SweepState {
-  std::uint64_t next_sweep = 0;  ///< its number, by which it draws
-  std::uint64_t sweeps = 0;      ///< made so far
+  std::uint64_t next_sweep = 0;  ///< number of the next sweep, which selects its random stream
+  std::uint64_t sweeps = 0;      ///< completed
   StepSize translation{0.1}, rotation{0.1};
   TrialCounts counts = {};
 };

@@ -7,20 +7,20 @@
 #include <vector>
 
 #include "core/tolerances.h"
-#include "mc/disjoint.h"
+#include "mc/hard_core.h"
 #include "mc/sampler.h"
 
 namespace vitrel {
 
 namespace {
 
-/// Sweeps in which all particles should find room, and sweeps that count as fast.
-constexpr std::uint64_t patience = 40, fast = 12;
+/// The maximum number of sweeps for a round, and that of a fast_sweeps round.
+constexpr std::uint64_t max_sweeps_per_round = 40, fast_sweeps = 12;
 /// Limits of the growth g − 1 in one round.
 constexpr double smallest_growth = 1e-9, largest_growth = SwellingState().growth;
-/// Share of the way to the first touch that is used, so that pairs keep room to move.
+/// The share of the distance to first contact that is used, so that pairs keep space to move.
 constexpr double share = 0.95;
-/// Jammed: a relative rise of the packing fraction below this in so many sweeps.
+/// Jammed: the packing fraction rises by less than this in so many sweeps, relatively.
 constexpr std::uint64_t jamming_sweeps = 5000;
 constexpr double jamming_rise = 1e-4;
 
@@ -38,16 +38,17 @@ class Swelling {
         seed_(seed),
         state_(state) {}
 
-  StageReport run(const Budget& budget) {
+  StageReport run(const RunControl& control) {
     const double start = packing_fraction(configuration_);
     if (start > options_.packing_fraction) finish();
     while (!reached()) {
       if (used_up(state_.moves)) return stuck("used up its sweeps");
       if (jammed()) return stuck("found the particles jammed");
-      if (!round(budget)) return {StageEnd::stopped, "swelling was stopped"};
+      if (!round(control)) return {StageEnd::stopped, "swelling was stopped"};
       const double now = packing_fraction(configuration_);
-      budget.tell({(now - start) / (options_.packing_fraction - start), now, "packing fraction"});
-      budget.mark_resumable();
+      control.report_progress(
+          {(now - start) / (options_.packing_fraction - start), now, "packing fraction"});
+      control.notify_resumable();
     }
     return {StageEnd::reached, "the packing fraction was reached"};
   }
@@ -60,29 +61,29 @@ class Swelling {
   bool used_up(const SweepState& moves) const { return moves.sweeps >= options_.sweeps; }
 
   bool jammed() {
-    if (state_.moves.sweeps - state_.watched_sweeps < jamming_sweeps) return false;
-    const double before = state_.watched_packing_fraction;
-    state_.watched_sweeps = state_.moves.sweeps;
-    state_.watched_packing_fraction = packing_fraction(configuration_);
-    return state_.watched_packing_fraction < before * (1 + jamming_rise);
+    if (state_.moves.sweeps - state_.checked_sweeps < jamming_sweeps) return false;
+    const double before = state_.checked_packing_fraction;
+    state_.checked_sweeps = state_.moves.sweeps;
+    state_.checked_packing_fraction = packing_fraction(configuration_);
+    return state_.checked_packing_fraction < before * (1 + jamming_rise);
   }
 
   StageReport stuck(const std::string& how) const {
-    return {StageEnd::stuck, "swelling " + how + " at a packing fraction of " +
-                                 std::to_string(packing_fraction(configuration_)) + " after " +
-                                 std::to_string(state_.moves.sweeps) + " sweeps; " +
-                                 std::to_string(options_.packing_fraction) + " was wanted"};
+    return {StageEnd::stalled, "swelling " + how + " at a packing fraction of " +
+                                   std::to_string(packing_fraction(configuration_)) + " after " +
+                                   std::to_string(state_.moves.sweeps) + " sweeps; the target is " +
+                                   std::to_string(options_.packing_fraction)};
   }
 
-  // One round, from the present growth; adapts the growth of the next. False if the budget asked to
-  // stop: then the round has not begun.
-  bool round(const Budget& budget) {
+  // One round, starting from the current growth; adapts that of the next. False if stopped: the round then has not
+  // begun.
+  bool round(const RunControl& control) {
     const Configuration2 before = configuration_;
     const SweepState began = state_.moves;
     const double needed =
         std::sqrt(options_.packing_fraction / packing_fraction(configuration_)) - 1;
     double growth = std::min(state_.growth, needed);
-    const Outcome outcome = enlarge_all(growth, budget);
+    const Outcome outcome = enlarge_all(growth, control);
     configuration_.shape = shapes_;
     if (outcome == Outcome::stopped) {
       configuration_ = before;
@@ -95,24 +96,23 @@ class Swelling {
       finish();
     else
       scale_box(configuration_, 1 / (1 + growth));
-    state_.growth = state_.moves.sweeps - began.sweeps <= fast
+    state_.growth = state_.moves.sweeps - began.sweeps <= fast_sweeps
                         ? std::min(largest_growth, 1.5 * state_.growth)
                         : std::max(smallest_growth, growth);
-    // Rounding alone could cost a pair its margin; then the round does not count.
+    // If rounding alone costs a pair its margin, the round is discarded.
     if (find_overlap(configuration_)) configuration_ = before;
     return true;
   }
 
   enum class Outcome { all, no_room, stopped };
 
-  // Sweeps, and between them enlarges one particle after another. The growth is halved for all as
-  // often as some find no room, in the hope that this helps.
-  Outcome enlarge_all(double& growth, const Budget& budget) {
+  // Alternates sweeps and enlargements of single particles. If some find no space, the growth is halved for all.
+  Outcome enlarge_all(double& growth, const RunControl& control) {
     Sampler sampler(configuration_, seed_, state_.moves, options_.threads);
     std::vector<std::size_t> waiting(configuration_.size());
     std::iota(waiting.begin(), waiting.end(), 0);
     while (true) {
-      const Outcome outcome = enlarge_waiting(sampler, waiting, growth, budget);
+      const Outcome outcome = enlarge_waiting(sampler, waiting, growth, control);
       state_.moves = sampler.state();
       if (outcome != Outcome::no_room || used_up(state_.moves) || growth <= smallest_growth)
         return outcome;
@@ -124,10 +124,10 @@ class Swelling {
   }
 
   Outcome enlarge_waiting(Sampler& sampler, std::vector<std::size_t>& waiting, double growth,
-                          const Budget& budget) {
-    for (std::uint64_t k = 0; k < patience && !waiting.empty(); ++k) {
+                          const RunControl& control) {
+    for (std::uint64_t k = 0; k < max_sweeps_per_round && !waiting.empty(); ++k) {
       if (used_up(sampler.state())) return Outcome::no_room;
-      if (budget.stop_requested()) return Outcome::stopped;
+      if (control.stop_requested()) return Outcome::stopped;
       sampler.sweep();
       sampler.tune();
       std::erase_if(waiting, [&](std::size_t i) {
@@ -156,8 +156,8 @@ class Swelling {
 }  // namespace
 
 StageReport swell(Configuration2& configuration, const SwellingOptions& options, std::uint64_t seed,
-                  SwellingState& state, const Budget& budget) {
-  return Swelling(configuration, options, seed, state).run(budget);
+                  SwellingState& state, const RunControl& control) {
+  return Swelling(configuration, options, seed, state).run(control);
 }
 
 }  // namespace vitrel

@@ -3,56 +3,58 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/contact/overlap_look.h"
+#include "core/contact/ellipse_overlap_batch.h"
 #include "mc/checkerboard.h"
-#include "mc/lane_cells.h"
+#include "mc/simd_cells.h"
 
-/// What the trial moves of one particle have in common.
+/// Common parts of trial moves of one particle.
 namespace vitrel {
 
-/// Uniform on 0 … n − 1, but for 1e-16 n.
+/// Uniform on 0 … n − 1, to 1e-16 n.
 inline std::size_t pick(std::uint64_t word, std::size_t n) {
   return static_cast<std::size_t>(static_cast<double>(word >> 11) * 0x1p-53 *
                                   static_cast<double>(n));
 }
 
-/// Uniform on the odd multiples of 2⁻⁵³ between −1 and 1: x as likely as −x.
+/// Uniform on the odd multiples of 2⁻⁵³ between −1 and 1: symmetric about 0.
 inline double plus_minus_one(std::uint64_t word) {
   return static_cast<double>((static_cast<std::int64_t>(word) >> 10) | 1) * 0x1p-53;
 }
 
-/// The unit vector at an angle, in less time than the library's.
+/// The unit vector at an angle, faster than by the standard library.
 inline Vec2 axis_at(double angle) {
-  Lanes x, y;
-  directions<Lanes>({angle, angle}, x, y);
+  PairArray x, y;
+  directions<PairArray>({angle, angle}, x, y);
   return {x[0], y[0]};
 }
 
-/// What the decisions took.
-struct Looks {
-  std::uint64_t groups = 0;  ///< of up to `many` others looked at
-  std::uint64_t alone = 0;   ///< pairs that were decided one by one
+/// Counts of overlap tests.
+struct OverlapTestCounts {
+  std::uint64_t batches = 0;       ///< batches of up to `simd_width` ellipses
+  std::uint64_t scalar_pairs = 0;  ///< pairs decided one by one
 };
 
-/// Whether particle i, as `look` has it, at this position in this cell, is clear of all others.
-inline bool clear_of_others(const Checkerboard& board, const LaneCells& cells, std::size_t i,
-                            const OverlapLook& look, const Vec2& position,
-                            const Checkerboard::Cell& cell, Looks& looks) {
-  // It is not in its own way, nor are its images.
+/// Whether particle i, with the shape and axis of `batch`, keeps the margin to all others at this position in this
+/// cell.
+inline bool clear_of_others(const Checkerboard& board, const SimdCells& cells, std::size_t i,
+                            const OverlapBatch& batch, const Vec2& position,
+                            const Checkerboard::Cell& cell, OverlapTestCounts& tests) {
+  // Skips the particle itself and its images.
   const std::size_t own = cells.group_index(i);
-  const OverlapLook::Asked all(true);
-  OverlapLook::Asked others(true);
+  const OverlapBatch::Mask all(true);
+  OverlapBatch::Mask others(true);
   others[static_cast<std::size_t>(cells.lane_of(i))] = false;
-  for (const Checkerboard::Near& column : board.near_column(cell.x))
-    for (const Checkerboard::Near& row : board.near_row(cell.y)) {
+  for (const Checkerboard::NearLine& column : board.near_columns(cell.x))
+    for (const Checkerboard::NearLine& row : board.near_rows(cell.y)) {
       const Vec2 offset = Vec2(column.translation, row.translation) - position;
       std::size_t at = board.index(column.cell, row.cell);
       do {
-        ++looks.groups;
-        const LaneCells::Group& group = cells[at];
-        if (!look.clear_of(group, offset, at == own ? others : all, looks.alone)) return false;
+        ++tests.batches;
+        const SimdCells::Group& group = cells[at];
+        if (!batch.clear_of(group, offset, at == own ? others : all, tests.scalar_pairs))
+          return false;
         at = group.next;
-      } while (at != LaneCells::none);
+      } while (at != SimdCells::none);
     }
   return true;
 }

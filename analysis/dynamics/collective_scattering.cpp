@@ -13,7 +13,7 @@ namespace vitrel {
 
 namespace {
 
-constexpr std::size_t most_vectors = 32;
+constexpr std::size_t max_vectors = 32;
 
 /// Frames held in memory for the threads to share.
 constexpr std::size_t frames_at_once = 32;
@@ -178,14 +178,14 @@ Correlation correlate(const Series& series, std::size_t first, std::size_t count
 WaveVectorShell wave_vector_shell(const PeriodicBox<2>& box, double wave_number) {
   const Vec2 unit = reciprocal(box);
   const double reach = 0.5 * unit.minCoeff();
-  const int most_x = static_cast<int>((wave_number + reach) / unit.x());
-  const int most_y = static_cast<int>((wave_number + reach) / unit.y());
+  const int max_x = static_cast<int>((wave_number + reach) / unit.x());
+  const int max_y = static_cast<int>((wave_number + reach) / unit.y());
   const auto away = [&](const std::array<int, 2>& n) {
     return std::abs(length_of(n, unit) - wave_number);
   };
   WaveVectorShell shell{{}, 0};
-  for (int x = 0; x <= most_x; ++x)
-    for (int y = x == 0 ? 1 : -most_y; y <= most_y; ++y)
+  for (int x = 0; x <= max_x; ++x)
+    for (int y = x == 0 ? 1 : -max_y; y <= max_y; ++y)
       if (away({x, y}) <= reach) shell.n.push_back({x, y});
   if (shell.n.empty())
     throw UserError(
@@ -193,7 +193,7 @@ WaveVectorShell wave_vector_shell(const PeriodicBox<2>& box, double wave_number)
         " is too small for the box; the smallest is 2π/L = " + std::to_string(unit.minCoeff()));
   std::stable_sort(shell.n.begin(), shell.n.end(),
                    [&](const auto& a, const auto& b) { return away(a) < away(b); });
-  if (shell.n.size() > most_vectors) shell.n.resize(most_vectors);
+  if (shell.n.size() > max_vectors) shell.n.resize(max_vectors);
   for (const auto& n : shell.n) shell.wave_number += length_of(n, unit);
   shell.wave_number /= static_cast<double>(shell.n.size());
   return shell;

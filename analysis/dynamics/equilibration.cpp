@@ -160,9 +160,9 @@ void compare_halves(const HalvesOfCurve& c, double slowest, std::vector<Comparis
 }
 
 std::string shortage(const std::string& name, double time, double duration) {
-  if (duration >= fewest_relaxations * time) return "";
+  if (duration >= min_relaxations * time) return "";
   return fmt::format("the run lasts {:.3g} times {} = {:.4g}; {:g} times are needed",
-                     duration / time, name, time, fewest_relaxations);
+                     duration / time, name, time, min_relaxations);
 }
 
 std::string shortage(const ScalarSeries& series, double correlation_time, double duration) {
@@ -190,7 +190,7 @@ std::string shortage(const RunEvidence& run, const std::vector<double>& of_serie
     reason = fmt::format(
         "too little to test {} for ageing: it takes {} blocks "
         "of twice the slowest time, {:.4g}",
-        untested, fewest_blocks, slowest);
+        untested, min_blocks, slowest);
   return reason;
 }
 

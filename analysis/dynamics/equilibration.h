@@ -77,6 +77,6 @@ struct Equilibration {
 Equilibration judge_equilibration(const RunEvidence& run);
 
 /// A run must last that many of its relaxation times: blocks of two of them each.
-inline constexpr double fewest_relaxations = 2 * fewest_blocks;
+inline constexpr double min_relaxations = 2 * min_blocks;
 
 }  // namespace vitrel

@@ -79,7 +79,7 @@ class MultipleTau final : public Observer<2> {
   std::vector<CorrelatedGroup> correlations() const;
 
   /// Everything in it, as numbers for a checkpoint: a correlator made the same way that takes them
-  /// goes on bit by bit.
+  /// continues bit-identically.
   std::vector<double> state() const;
   /// Throws UserError if they come from other particles or options.
   void restore(const std::vector<double>& state);

@@ -9,7 +9,7 @@ namespace vitrel {
 
 namespace {
 
-constexpr std::size_t most_pairs = std::size_t{1} << 22;
+constexpr std::size_t max_pairs = std::size_t{1} << 22;
 /// Of single precision, relative.
 constexpr double rounding = 0x1p-24;
 /// The most that time differences taken as equal may differ by, relative.
@@ -64,7 +64,7 @@ double tolerance(const Difference& one, const Difference& other) {
 std::vector<Difference> first_differences(std::span<const double> times) {
   std::vector<Difference> found;
   for (std::size_t from = 0; from + 1 < times.size(); ++from) {
-    if (from > 0 && found.size() + times.size() - 1 - from > most_pairs) break;
+    if (from > 0 && found.size() + times.size() - 1 - from > max_pairs) break;
     for (std::size_t to = from + 1; to < times.size(); ++to) found.emplace_back(times, from, to);
   }
   std::sort(found.begin(), found.end(), [](const Difference& a, const Difference& b) {
@@ -119,8 +119,8 @@ std::vector<FramePair> pairs_of(const Difference& wanted, std::span<const double
 }
 
 /// The most origins that begin within some window of this duration.
-std::size_t most_within(double duration, const std::vector<FramePair>& pairs,
-                        std::span<const double> times) {
+std::size_t max_within(double duration, const std::vector<FramePair>& pairs,
+                       std::span<const double> times) {
   std::size_t most = 0;
   for (std::size_t begin = 0, end = 0; begin < pairs.size(); ++begin) {
     while (end < pairs.size() && times[pairs[end].from] - times[pairs[begin].from] < duration)
@@ -140,8 +140,8 @@ Lag lag_of(const Difference& wanted, std::span<const double> times, std::size_t 
     excess += times[all[k].to] - times[all[k].from] - wanted.time;
   }
   const std::size_t origins = pairs.size();
-  const bool share = most_within((1 - widest) * wanted.time, pairs, times) > 1;
-  const std::size_t block = share ? most_within(4 * wanted.time, pairs, times) : 1;
+  const bool share = max_within((1 - widest) * wanted.time, pairs, times) > 1;
+  const std::size_t block = share ? max_within(4 * wanted.time, pairs, times) : 1;
   const double time = wanted.time + excess / static_cast<double>(origins);
   return {0, 0, origins, time, std::move(pairs), block};
 }

@@ -25,8 +25,8 @@ struct GlassSource {
 
 /// What the glass study needs of it: F_s at the first of the wave numbers, L_2 (of a nematic seen from its
 /// director), order, diffusion, and these curves once more from each half of the run. No value for runs
-/// that are not evenly sampled: these cannot be judged. `report` hears of the particles, those of all
-/// passes.
+/// that are not evenly sampled: these cannot be judged. `report` is called with the share of
+/// the particles of all passes that are done.
 std::optional<GlassRunData> glass_run_data(Trajectory& trajectory, const GlassSource& run,
                                            const DisplacementOptions& options,
                                            const ProgressReport& report = {});

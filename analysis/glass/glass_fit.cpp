@@ -18,7 +18,7 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double equal_densities = 1e-4;
 constexpr double smallest_gap = 1e-5;  // of φ_c from the highest density
 constexpr double densest = 1;
-constexpr double least_goodness = 0.05;
+constexpr double min_goodness = 0.05;
 constexpr double one_error = 1;        // rise of χ² at the ends of a 68.3 % interval
 constexpr double one_sigma = 0.15866;  // probability of less than the mean − σ
 constexpr int scan_points = 400;
@@ -52,7 +52,7 @@ class WindowFit {
   WindowFit(std::vector<Point> points, GlassLaw law, double relaxed)
       : points_(std::move(points)), law_(law) {
     highest_ = points_.back().packing_fraction;
-    least_gap_ = std::max(relaxed - highest_, 0.0) + smallest_gap;
+    min_gap_ = std::max(relaxed - highest_, 0.0) + smallest_gap;
   }
 
   GlassWindow operator()() const {
@@ -65,7 +65,7 @@ class WindowFit {
 
  private:
   double density(double u) const { return highest_ + std::exp(u); }
-  double first() const { return std::log(least_gap_); }
+  double first() const { return std::log(min_gap_); }
   double last() const { return std::log(densest - highest_); }
 
   Line line(double u) const {
@@ -154,7 +154,7 @@ class WindowFit {
 
   std::vector<Point> points_;
   GlassLaw law_;
-  double highest_, least_gap_;
+  double highest_, min_gap_;
 };
 
 void check(const std::vector<GlassPoint>& points) {
@@ -211,9 +211,8 @@ double lower_end(const std::vector<Point>& points, GlassLaw law) {
 
 std::vector<GlassWindow> all_windows(const std::vector<Point>& points, GlassLaw law) {
   std::vector<GlassWindow> windows;
-  for (auto begin = points.begin(); points.end() - begin >= std::ptrdiff_t{fewest_densities};
-       ++begin)
-    for (auto end = begin + fewest_densities; end <= points.end(); ++end)
+  for (auto begin = points.begin(); points.end() - begin >= std::ptrdiff_t{min_densities}; ++begin)
+    for (auto end = begin + min_densities; end <= points.end(); ++end)
       windows.push_back(WindowFit({begin, end}, law, lower_end(points, law))());
   return windows;
 }
@@ -310,15 +309,15 @@ GlassFit fit_glass_law(const std::vector<GlassPoint>& points, GlassLaw law) {
   fit.scatter = densities.scatter;
   fit.density = fit.low = fit.high = fit.error = fit.statistical = fit.spread = fit.least = none;
   fit.strength = fit.strength_error = none;
-  if (densities.points.size() < fewest_densities)
+  if (densities.points.size() < min_densities)
     return refuse(fit, fmt::format("{} densities in equilibrium; a fit needs {} or more",
-                                   densities.points.size(), fewest_densities));
+                                   densities.points.size(), min_densities));
   fit.windows = all_windows(densities.points, law);
   weigh(fit.windows);
   fit.window = heaviest(fit.windows);
-  const GlassWindow& whole = fit.windows[densities.points.size() - fewest_densities];
+  const GlassWindow& whole = fit.windows[densities.points.size() - min_densities];
   if (!(whole.strength > 0)) return refuse(fit, "the times do not grow with density");
-  if (fit.window.goodness < least_goodness)
+  if (fit.window.goodness < min_goodness)
     return refuse(fit, fmt::format("the law holds in no window: chi^2/dof is {:.3g} in the best "
                                    "one, [{:.4g}, {:.4g}]",
                                    fit.window.chi_square / static_cast<double>(fit.window.degrees),

@@ -89,6 +89,6 @@ double glass_law(GlassLaw law, double log_prefactor, double strength, double den
                  double packing_fraction);
 
 /// The fewest densities of a window.
-inline constexpr std::size_t fewest_densities = 5;
+inline constexpr std::size_t min_densities = 5;
 
 }  // namespace vitrel

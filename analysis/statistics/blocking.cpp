@@ -43,7 +43,7 @@ Estimate known_block_average(std::span<const double> series, std::size_t block,
     sum += mean;
     squares += mean * mean;
   }
-  if (blocks < fewest_blocks) return {mean_of(series), none, 0};
+  if (blocks < min_blocks) return {mean_of(series), none, 0};
   const double ratio = static_cast<double>(block) / correlation;
   const double seen = correlation > 0 ? 1 + std::expm1(-ratio) / ratio : 1;
   return {mean_of(series), independent_average(blocks, sum, squares).error / std::sqrt(seen),
@@ -102,13 +102,13 @@ Estimate BlockSums::estimate(double shortest_block) const {
   if (levels_.empty()) return {none, none, 0};
   const double n = levels_.front().count;
   const double mean = levels_.front().mean;
-  if (n < fewest_blocks) return {mean, none, 0};
+  if (n < min_blocks) return {mean, none, 0};
   const double naive = squared_error(n, levels_.front().squares);
   if (naive == 0) return {mean, 0, count()};
 
   double length = 1;
   for (const Level& level : levels_) {
-    if (level.count < fewest_blocks) break;
+    if (level.count < min_blocks) break;
     const double squared = squared_error(level.count, level.squares);
     const double correlation = std::max(1.0, squared / naive);
     if (length >= shortest_block && length * length * length >= 2 * n * correlation * correlation) {

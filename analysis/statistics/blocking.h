@@ -27,7 +27,7 @@ struct Estimate {
 ///    of e_B² from correlations between blocks equals its statistical scatter (n: length of the
 ///    series). Blocks shorter than `shortest_block` are passed over: for a caller who knows how
 ///    long the correlations are at least, and need not trust chance.
-/// 3. At least `fewest_blocks` blocks must be left there: some 60 to 180 correlation times, and never
+/// 3. At least `min_blocks` blocks must be left there: some 60 to 180 correlation times, and never
 ///    below 32 values. If not, the error is NaN: the series is too short to tell.
 /// 4. The error is e_B times Student's factor for (blocks − 1) degrees of freedom.
 ///
@@ -38,7 +38,7 @@ Estimate block_average(std::span<const double> series, double shortest_block = 1
 
 /// The same from blocks of a given length B, for a caller who knows the correlations. If these decay
 /// exponentially in `correlation` = τ steps, the variance of the block means misses the part
-/// (τ/B)(1 − exp(−B/τ)), which is put back. NaN as error for fewer than `fewest_blocks` blocks; what is
+/// (τ/B)(1 − exp(−B/τ)), which is put back. NaN as error for fewer than `min_blocks` blocks; what is
 /// left over counts for the mean only.
 Estimate known_block_average(std::span<const double> series, std::size_t block,
                              double correlation = 0);
@@ -80,7 +80,7 @@ class BlockSums {
 };
 
 /// The fewest blocks on which an error may rest.
-inline constexpr std::size_t fewest_blocks = 8;
+inline constexpr std::size_t min_blocks = 8;
 
 /// Mean and standard error of independent values, from their number, sum and sum of squares; the
 /// error is NaN for fewer than two values.

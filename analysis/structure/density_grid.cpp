@@ -70,7 +70,7 @@ bool advance(std::array<int, Dim>& n, const std::array<int, Dim>& most) {
   return false;
 }
 
-int least_nodes(double length, double to) {
+int min_nodes(double length, double to) {
   const double least = length * to / (2 * pi * largest_grid_wave);
   return std::max(spline_order, static_cast<int>(std::ceil(least)));
 }
@@ -145,7 +145,7 @@ struct DensityGrid<Dim>::Transform {
 
 template <int Dim>
 DensityGrid<Dim>::DensityGrid(const Vec<Dim>& lengths, double from, double to) : lengths_(lengths) {
-  for (int k = 0; k < Dim; ++k) count_[k] = fast_size(least_nodes(lengths[k], to));
+  for (int k = 0; k < Dim; ++k) count_[k] = fast_size(min_nodes(lengths[k], to));
   std::size_t pitch = 1;
   for (std::size_t k = Dim; k-- > 0;) {
     pitch_[k] = pitch;
@@ -163,7 +163,7 @@ DensityGrid<Dim>::DensityGrid(DensityGrid&&) noexcept = default;
 template <int Dim>
 double DensityGrid<Dim>::nodes(const Vec<Dim>& lengths, double to) {
   double nodes = 1;
-  for (const double length : lengths) nodes *= least_nodes(length, to);
+  for (const double length : lengths) nodes *= min_nodes(length, to);
   return nodes;
 }
 

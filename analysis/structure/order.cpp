@@ -13,7 +13,7 @@ namespace vitrel {
 namespace {
 
 constexpr std::size_t most_origins = 4096;
-constexpr double least_order = 0.5;      // of a nematic
+constexpr double min_order = 0.5;        // of a nematic
 constexpr double well_above_chance = 3;  // in units of the order of as many rotors without any
 
 /// Centre and (cos 2θ, sin 2θ) of a particle that is not round.
@@ -80,7 +80,7 @@ double nematic_order_by_chance(std::size_t rotors) {
 }
 
 bool is_nematic(double order, std::size_t rotors) {
-  return order >= std::max(least_order, well_above_chance * nematic_order_by_chance(rotors));
+  return order >= std::max(min_order, well_above_chance * nematic_order_by_chance(rotors));
 }
 
 std::vector<double> orientation_distribution(const Configuration2& configuration,

@@ -12,9 +12,9 @@ namespace vitrel {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t most_drawn = 1000, packings_drawn = 2000;
+constexpr std::size_t max_drawn = 1000, packings_drawn = 2000;
 // The least numbers of axes for which ⟨ρ⟩ and ⟨ρ²⟩ are finite.
-constexpr std::size_t least_for_mean = 5, least_for_deviation = 7;
+constexpr std::size_t min_for_mean = 5, min_for_deviation = 7;
 
 Vec3 isotropic_axis(Stream& draw) {
   const double z = draw.uniform(-1, 1), angle = draw.uniform(0, 2 * std::numbers::pi);
@@ -40,7 +40,7 @@ IsotropicRatio drawn_ratio(std::size_t axes) {
     squares += ratio * ratio;
   }
   const double mean = sum / packings_drawn;
-  if (axes < least_for_deviation) return {mean, infinity};
+  if (axes < min_for_deviation) return {mean, infinity};
   return {mean, std::sqrt(squares / packings_drawn - mean * mean)};
 }
 
@@ -85,8 +85,8 @@ OrientationTensor orientation_tensor(const Configuration3& packing) {
 }
 
 IsotropicRatio isotropic_ratio(std::size_t axes) {
-  if (axes < least_for_mean) return {infinity, infinity};
-  return axes <= most_drawn ? drawn_ratio(axes) : expanded_ratio(static_cast<double>(axes));
+  if (axes < min_for_mean) return {infinity, infinity};
+  return axes <= max_drawn ? drawn_ratio(axes) : expanded_ratio(static_cast<double>(axes));
 }
 
 }  // namespace vitrel

@@ -14,7 +14,7 @@ using Sides = Eigen::Vector3i;  // −1, 0 (free) or 1
 
 /// The least value with some coordinates fixed, if its point lies in the box, else infinity. `d` runs from
 /// the body's centre to that of the box.
-double least_value(const Mat3& sigma, const Vec3& d, const Vec3& half, const Sides& sides) {
+double min_value(const Mat3& sigma, const Vec3& d, const Vec3& half, const Sides& sides) {
   // Free coordinates drop out of Σ_CC, here by rows and columns of the unit matrix.
   Mat3 marginal = Mat3::Identity();
   Vec3 to_side = Vec3::Zero();
@@ -92,7 +92,7 @@ bool meets_box(const Ellipsoid& body, const Pose3& pose, const PeriodicBox<3>& b
   const Mat3 sigma = shape_matrix(body, pose.orientation);
   for (int choice = 0; choice < 27; ++choice) {
     const Sides sides(choice % 3 - 1, choice / 3 % 3 - 1, choice / 9 - 1);
-    if (least_value(sigma, d, half, sides) <= 1) return true;
+    if (min_value(sigma, d, half, sides) <= 1) return true;
   }
   return false;
 }
@@ -128,7 +128,7 @@ double grazing_distance(const Configuration3& packing, const Vec3& translation) 
 }
 
 Vec3 clean_cut(const Configuration3& packing) {
-  constexpr std::size_t most_gaps = 6;
+  constexpr std::size_t max_gaps = 6;
   const Vec3& lengths = packing.box.lengths();
   std::vector<double> choices[3];
   for (int k = 0; k < 3; ++k) {
@@ -138,7 +138,7 @@ Vec3 clean_cut(const Configuration3& packing) {
       touching.insert(touching.end(),
                       {packing.position[i][k] - reach, packing.position[i][k] + reach});
     }
-    choices[k] = widest_gaps(std::move(touching), lengths[k], most_gaps);
+    choices[k] = widest_gaps(std::move(touching), lengths[k], max_gaps);
   }
   Vec3 best = Vec3::Zero();
   double farthest = -1;

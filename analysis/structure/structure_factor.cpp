@@ -10,7 +10,7 @@ namespace vitrel {
 namespace {
 
 /// Nodes of a grid: few enough for the caches, many enough for some hundred wave vectors per shell.
-constexpr double most_nodes = 1 << 18;
+constexpr double max_nodes = 1 << 18;
 
 /// What the modes are made of: the density of every species, and the orientations.
 struct Fields {
@@ -111,13 +111,13 @@ ScatteringShells<Dim>::ScatteringShells(const Vec<Dim>& lengths, const ShellOpti
   };
   Vec<Dim> folded = lengths;
   for (std::size_t first = 0; first < shells_;) {
-    while (DensityGrid<Dim>::nodes(folded, end_of(first)) > most_nodes) {
+    while (DensityGrid<Dim>::nodes(folded, end_of(first)) > max_nodes) {
       const double longest = folded.maxCoeff();
       for (int k = 0; k < Dim; ++k)
         if (folded[k] > 0.5 * longest) folded[k] *= 0.5;
     }
     std::size_t end = first + 1;
-    while (end < shells_ && DensityGrid<Dim>::nodes(folded, end_of(end)) <= most_nodes) ++end;
+    while (end < shells_ && DensityGrid<Dim>::nodes(folded, end_of(end)) <= max_nodes) ++end;
     const double from = static_cast<double>(first) * step_;
     levels_.push_back({folded, DensityGrid<Dim>(folded, from, end_of(end - 1)), first, end});
     first = end;
@@ -147,7 +147,7 @@ StructureFactor ScatteringShells<Dim>::averaged(const Configuration<Dim>& config
 template <int Dim>
 StructureFactor ScatteringShells<Dim>::structure_factor(
     const Configuration<Dim>& configuration) const {
-  return averaged(configuration, configuration.size() <= most_summed_directly);
+  return averaged(configuration, configuration.size() <= max_summed_directly);
 }
 
 template <int Dim>

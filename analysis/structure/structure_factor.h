@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "analysis/structure/density_grid.h"
 #include "analysis/structure/structure_options.h"
+#include "analysis/structure/density_grid.h"
 #include "core/state/configuration.h"
 
 /// Static structure factors of one configuration, averaged over wave vectors of about the same length.
@@ -55,7 +55,7 @@ class ScatteringShells {
   /// 2/(π 0.24²) = 11 per wave vector, and little per particle. Measured, of packing fractions from
   /// 0.1 to 0.8: as fast as each other with 8 to 32 disks, 16 to 30 ellipses, one species or two. In three
   /// dimensions there are 3/(2π 0.24³) = 35 nodes per wave vector: 50 to 80 particles, measured.
-  static constexpr std::size_t most_summed_directly = Dim == 2 ? 16 : 64;
+  static constexpr std::size_t max_summed_directly = Dim == 2 ? 16 : 64;
 
  private:
   struct Level {

@@ -4,13 +4,11 @@
 
 namespace vitrel {
 
-/// Wave numbers of structure factors (structure_factor.h).
 struct ShellOptions {
   double wave_number_max = 12;
   double wave_number_step = 0.1;  ///< width of a shell
 };
 
-/// Distances of pair correlations (pair_correlation.h).
 struct PairCorrelationOptions {
   double distance_max = 20;
   double distance_step = 0.05;  ///< width of a bin

@@ -1,9 +1,15 @@
-#include "workflow/analyze/analyze.h"
+#include "app/commands/analyze.h"
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "app/commands/common.h"
+#include "app/terminal/exit_codes.h"
+#include "app/terminal/progress.h"
+#include "app/terminal/session.h"
+#include "workflow/analyze/analyze.h"
+#include "workflow/analyze/glass_report.h"
+#include "workflow/sweep/sweep.h"
 #include "workflow/sweep/sweep_results.h"
 
 namespace vitrel {
@@ -18,26 +24,30 @@ void require_place(const fs::path& output, const std::vector<fs::path>& inputs) 
   former_tables(output);
 }
 
-int analyze_file(const Arguments& arguments, const fs::path& run) {
-  fs::path output = arguments.output;
+int analyze_file(const AnalyzeOptions& options, const fs::path& run) {
+  fs::path output = options.output;
   if (output.empty()) output = run.parent_path() / (run.stem().string() + "_results.h5");
-  const AnalysisChoice choice = analysis_choice(arguments);
-  require_place(output, {run, arguments.parameters});
-  const AnalysedRun analysis = analyze_run(run, choice);
+  const AnalysisChoice choice = analysis_choice(options.analysis);
+  require_place(output, {run, options.analysis.file});
+  ProgressDisplay display(ProgressDisplay::mode(options.print.quiet));
+  const AnalysedRun analysis = analyze_run(run, choice, shown_on(display));
+  display.clear();
   write_all(output, analysis.results);
   Json summary = analysis_summary(analysis);
   summary["output"] = output.string();
-  print_summary(arguments, summary);
+  print_summary(options.print, summary);
   return success;
 }
 
-int analyze_sweep(const Arguments& arguments, const fs::path& folder) {
-  const fs::path output = arguments.output.empty() ? folder / "results.h5" : arguments.output;
-  const AnalysisChoice choice = analysis_choice(arguments);
+int analyze_sweep(const AnalyzeOptions& options, const fs::path& folder) {
+  const fs::path output = options.output.empty() ? folder / "results.h5" : options.output;
+  const AnalysisChoice choice = analysis_choice(options.analysis);
   const SweepProgress sweep = sweep_progress(folder);
   require_place(output, sweep.files());
-  remark_left_out(arguments, sweep);
-  const std::vector<AnalysedRun> analyses = analysed_jobs(sweep, choice);
+  remark_left_out(options.print, folder, sweep);
+  ProgressDisplay display(ProgressDisplay::mode(options.print.quiet));
+  const std::vector<AnalysedRun> analyses = analysed_jobs(sweep, choice, shown_on(display));
+  display.clear();
   Json runs = Json::array();
   for (const AnalysedRun& run : analyses) runs.push_back(analysis_summary(run));
   const GlassStudy study = glass_study(analyses);
@@ -45,19 +55,19 @@ int analyze_sweep(const Arguments& arguments, const fs::path& folder) {
   if (!sweep.unfinished.empty()) results.provenance.emplace_back("left_out", sweep.left_out());
   write_all(output, results);
   Json summary = {{"output", output.string()}};
-  if (arguments.json)
+  if (options.print.json)
     summary.update({{"runs", std::move(runs)}, {"glass", glass_summary(study)}});
-  else if (!arguments.quiet)
+  else if (!options.print.quiet)
     std::fputs(glass_text(study).c_str(), stdout);
-  print_summary(arguments, summary);
+  print_summary(options.print, summary);
   return success;
 }
 
 }  // namespace
 
-int analyze_command(const Arguments& arguments) {
-  const fs::path input = run_or_sweep(arguments.input);
-  return fs::is_directory(input) ? analyze_sweep(arguments, input) : analyze_file(arguments, input);
+int analyze_command(const AnalyzeOptions& options) {
+  const fs::path input = run_or_sweep(options.input);
+  return fs::is_directory(input) ? analyze_sweep(options, input) : analyze_file(options, input);
 }
 
 }  // namespace vitrel

@@ -1,12 +1,15 @@
-#include "workflow/storage/check.h"
+#include "app/commands/check.h"
 
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
 #include "app/commands/common.h"
+#include "app/terminal/exit_codes.h"
+#include "app/terminal/session.h"
 #include "core/error.h"
 #include "core/io/h5md.h"
+#include "workflow/storage/check.h"
 
 namespace vitrel {
 namespace {
@@ -35,18 +38,17 @@ nlohmann::ordered_json summary(const FileCheck<Dim>& check, const std::filesyste
 }
 
 template <int Dim>
-int check_and_print(const Arguments& arguments) {
-  Session session(arguments);
-  session.say()("check of " + arguments.input.string());
-  const FileCheck<Dim> check =
-      check_file<Dim>(arguments.input, arguments.last_only, session.control());
+int check_and_print(const CheckOptions& options) {
+  Session session(options.print.quiet);
+  session.say()("check of " + options.input.string());
+  const FileCheck<Dim> check = check_file<Dim>(options.input, options.last_only, session.control());
   session.clear();
   if (check.frames == 0) return stopped;
-  print_summary(arguments, summary(check, arguments.input));
+  print_summary(options.print, summary(check, options.input));
   if (check.overlaps > 0) {
     std::string message =
         fmt::format("{}: {} overlapping pair(s); no pair of hard particles may overlap",
-                    arguments.input.string(), check.overlaps);
+                    options.input.string(), check.overlaps);
     for (const std::string& complaint : check.complaints) message += "\n  " + complaint;
     throw InvariantError(message);
   }
@@ -55,9 +57,9 @@ int check_and_print(const Arguments& arguments) {
 
 }  // namespace
 
-int check_command(const Arguments& arguments) {
-  return TrajectoryReader(arguments.input).dimension() == 2 ? check_and_print<2>(arguments)
-                                                            : check_and_print<3>(arguments);
+int check_command(const CheckOptions& options) {
+  return TrajectoryReader(options.input).dimension() == 2 ? check_and_print<2>(options)
+                                                          : check_and_print<3>(options);
 }
 
 }  // namespace vitrel

@@ -2,17 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "app/terminal/progress.h"
+#include "app/terminal/session.h"
 #include "core/error.h"
 #include "core/io/number_text.h"
-#include "workflow/report/page_parts.h"
-#include "workflow/sweep/stop_signals.h"
+#include "workflow/analyze/analyze.h"
+#include "workflow/configuration/parameters.h"
+#include "workflow/sweep/sweep.h"
 
 namespace vitrel {
 namespace {
@@ -24,10 +24,10 @@ void refuse_other_key(const std::string& assignment) {
                            assignment.starts_with("analysis=") ||
                            assignment.find('=') == std::string::npos;
   if (!is_analysis)
-    throw UserError(fmt::format(
-        "--set {}: has no effect on a run that is there; only parameters of its analysis, "
-        "analysis.…, can be set, and `vitrel params analyze` prints them",
-        assignment));
+    throw UserError(
+        fmt::format("--set {}: has no effect on an existing run; only parameters of its analysis, "
+                    "analysis.…, can be set, and `vitrel params analyze` prints them",
+                    assignment));
 }
 
 void require_folder_of(const fs::path& output) {
@@ -55,36 +55,36 @@ std::string value_text(const nlohmann::ordered_json& summary, const std::string&
   return std::isnan(number) ? "–" : fmt::format("{:.8g}", number);
 }
 
+/// Adds the keys of earlier versions beside those that replaced them, at every depth.
+nlohmann::ordered_json with_former_keys(nlohmann::ordered_json json) {
+  for (nlohmann::ordered_json& part : json)
+    if (part.is_structured()) part = with_former_keys(std::move(part));
+  for (const char* suffix : {"", "_error"}) {
+    const std::string key = std::string("compressibility_factor") + suffix;
+    if (!json.is_object() || !json.contains(key)) continue;
+    nlohmann::ordered_json value = json.at(key);
+    json[std::string("compressibility") + suffix] = std::move(value);
+  }
+  return json;
+}
+
 }  // namespace
 
-Session::Session(const Arguments& arguments)
-    : display_(ProgressDisplay::mode(arguments.quiet)), wall_time_(arguments.wall_time) {
-  catch_stop_signals();
-  control_.should_stop = [this] {
-    return stop_signalled() || (wall_time_ > 0 && seconds() > wall_time_);
-  };
-  control_.on_progress = [this](const Progress& progress) { display_.show(progress); };
-  say_ = [this](const std::string& line) {
-    display_.say(line);
-    display_.begin(line.substr(0, line.find(' ')));
-  };
+ParameterSource parameter_source(const ParameterOptions& options) {
+  return {options.file, options.overrides, options.seed};
 }
 
-double Session::seconds() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-}
-
-ParameterSource parameter_source(const Arguments& arguments) {
-  return {arguments.input, arguments.overrides, arguments.seed};
-}
-
-AnalysisChoice analysis_choice(const Arguments& arguments) {
-  for (const std::string& assignment : arguments.overrides) refuse_other_key(assignment);
+AnalysisChoice analysis_choice(const AnalysisOptions& options) {
+  for (const std::string& assignment : options.overrides) refuse_other_key(assignment);
   AnalysisChoice choice;
-  if (!arguments.parameters.empty()) choice.parameters = arguments.parameters;
-  choice.overrides = arguments.overrides;
-  choice.progress = ProgressDisplay::mode(arguments.quiet);
+  if (!options.file.empty()) choice.parameters = options.file;
+  choice.overrides = options.overrides;
   return choice;
+}
+
+AnalysisProgress shown_on(ProgressDisplay& display) {
+  return {[&display](const std::string& phase) { display.begin(phase); },
+          [&display](const Progress& progress) { display.show(progress); }};
 }
 
 fs::path run_or_sweep(const fs::path& input) {
@@ -104,24 +104,16 @@ void require_output_file(const fs::path& output, const std::vector<fs::path>& in
                       ": is read, and must not be overwritten; choose another output");
 }
 
-void require_output_folder(const fs::path& output) {
-  fs::path there = fs::absolute(output);
-  while (!fs::exists(there)) there = there.parent_path();
-  if (!fs::is_directory(there))
-    throw FileError(fmt::format("{}: the folder cannot be made: {} is a file", output.string(),
-                                there.string()));
-}
-
 void require_new(const fs::path& output) {
   require_folder_of(output);
   if (fs::exists(output))
     throw UserError(output.string() + ": exists already; choose another output, or delete it");
 }
 
-void print_summary(const Arguments& arguments, const nlohmann::ordered_json& summary) {
-  if (arguments.json) {
-    fmt::print("{}\n", summary.dump(2));
-  } else if (!arguments.quiet) {
+void print_summary(const PrintOptions& options, const nlohmann::ordered_json& summary) {
+  if (options.json) {
+    fmt::print("{}\n", with_former_keys(summary).dump(2));
+  } else if (!options.quiet) {
     for (const auto& [key, value] : summary.items()) {
       const std::string text = value_text(summary, key);
       if (!is_error(summary, key) && !text.empty()) fmt::print("{:<26} {}\n", key, text);
@@ -130,18 +122,13 @@ void print_summary(const Arguments& arguments, const nlohmann::ordered_json& sum
   flush_output();
 }
 
-void flush_output() {
-  if (std::fflush(stdout) != 0)
-    throw FileError(fmt::format("standard output: cannot be written: {}", std::strerror(errno)));
+void remark(const PrintOptions& options, const std::string& line) {
+  if (!options.quiet) fmt::print(stderr, "{}\n", line);
 }
 
-void remark(const Arguments& arguments, const std::string& line) {
-  if (!arguments.quiet) fmt::print(stderr, "{}\n", line);
-}
-
-void remark_left_out(const Arguments& arguments, const SweepProgress& sweep) {
-  if (!sweep.unfinished.empty())
-    remark(arguments, arguments.input.string() + ": " + sweep.left_out());
+void remark_left_out(const PrintOptions& options, const fs::path& folder,
+                     const SweepProgress& sweep) {
+  if (!sweep.unfinished.empty()) remark(options, folder.string() + ": " + sweep.left_out());
 }
 
 }  // namespace vitrel

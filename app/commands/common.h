@@ -1,71 +1,48 @@
 #pragma once
 
-#include <chrono>
 #include <filesystem>
-#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
-#include "app/commands/commands.h"
-#include "app/terminal/progress.h"
-#include "core/state/stage.h"
-#include "workflow/analyze/analyze.h"
-#include "workflow/configuration/parameters.h"
-#include "workflow/sweep/sweep.h"
+#include "app/commands/options.h"
 
+/// What the commands share.
 namespace vitrel {
 
-/// What a command at work has: a run control that stops with a stop signal or the wall time, and a
-/// display.
-class Session {
- public:
-  explicit Session(const Arguments& arguments);
+struct AnalysisChoice;
+struct AnalysisProgress;
+struct ParameterSource;
+struct SweepProgress;
+class ProgressDisplay;
 
-  const RunControl& control() const { return control_; }
-  /// Announces a step: a line, and the label of the progress that follows.
-  const std::function<void(const std::string&)>& say() const { return say_; }
-  /// Takes the progress off the terminal, before a summary is printed.
-  void clear() { display_.clear(); }
-  double seconds() const;
-
- private:
-  ProgressDisplay display_;
-  double wall_time_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  RunControl control_;
-  std::function<void(const std::string&)> say_;
-};
-
-ParameterSource parameter_source(const Arguments& arguments);
+ParameterSource parameter_source(const ParameterOptions& options);
 /// UserError if --set names anything but a parameter of the analysis.
-AnalysisChoice analysis_choice(const Arguments& arguments);
+AnalysisChoice analysis_choice(const AnalysisOptions& options);
+/// Shows an analysis on the display.
+AnalysisProgress shown_on(ProgressDisplay& display);
 
 /// A run's file or a sweep's folder; of a job's folder, the run in it. FileError if it is not there.
 std::filesystem::path run_or_sweep(const std::filesystem::path& input);
 
-// What is to be written is looked at before the work, which may be long.
+// Outputs are checked before the work, which may take long.
 
 /// FileError if the output's folder is missing; UserError if the output is a folder or a device, or
 /// one of the files that are read.
 void require_output_file(const std::filesystem::path& output,
                          const std::vector<std::filesystem::path>& inputs);
-/// FileError if the folder is not there and cannot be made, as something on its path is a file.
-void require_output_folder(const std::filesystem::path& output);
 /// Of a file or folder that must not exist yet: FileError if the folder around it is missing, UserError
 /// if it exists.
 void require_new(const std::filesystem::path& output);
 
 /// To standard output: as JSON if asked for, else unless quiet as lines "key  value", or "key  value ±
 /// error" where `key_error` is in the summary, too.
-void print_summary(const Arguments& arguments, const nlohmann::ordered_json& summary);
-
-/// Ends what was printed to standard output; throws FileError if it could not be written.
-void flush_output();
+void print_summary(const PrintOptions& options, const nlohmann::ordered_json& summary);
 
 /// One line on standard error, unless quiet.
-void remark(const Arguments& arguments, const std::string& line);
-/// Says which jobs of a sweep are missing, if any.
-void remark_left_out(const Arguments& arguments, const SweepProgress& sweep);
+void remark(const PrintOptions& options, const std::string& line);
+/// Names the jobs of a sweep that are left out, if any.
+void remark_left_out(const PrintOptions& options, const std::filesystem::path& folder,
+                     const SweepProgress& sweep);
 
 }  // namespace vitrel

@@ -1,8 +1,10 @@
-#include <fmt/format.h>
+#include "app/commands/export.h"
 
 #include <nlohmann/json.hpp>
 
 #include "app/commands/common.h"
+#include "app/terminal/exit_codes.h"
+#include "app/terminal/session.h"
 #include "core/error.h"
 #include "workflow/export/gnuplot.h"
 #include "workflow/export/trajectory_export.h"
@@ -12,50 +14,49 @@ namespace {
 
 namespace fs = std::filesystem;
 
-int export_results(const Arguments& arguments) {
-  fs::path output = arguments.output;
+int export_results(const ExportOptions& options) {
+  fs::path output = options.output;
   if (output.empty())
-    output = arguments.input.parent_path() / (arguments.input.stem().string() + "_gnuplot");
+    output = options.input.parent_path() / (options.input.stem().string() + "_gnuplot");
   if (!output.has_filename()) output = output.parent_path();  // a folder given as "folder/"
   require_new(output);
-  if (arguments.frames || arguments.shrink || arguments.voxels)
+  if (options.frames || options.shrink || options.voxels)
     throw UserError(
         "--frames, --shrink, --voxels: are for trajectories and packings, but --to gnuplot writes "
         "tables of results");
-  const std::vector<TextFile> files = gnuplot_files(read_results(arguments.input));
+  const std::vector<TextFile> files = gnuplot_files(read_results(options.input));
   write_folder(output, files);
-  print_summary(arguments,
+  print_summary(options.print,
                 {{"output", output.string()}, {"format", "gnuplot"}, {"files", files.size()}});
   return success;
 }
 
-int export_frames(const Arguments& arguments) {
-  const fs::path output = arguments.output.empty()
-                              ? fs::path(arguments.input).replace_extension(arguments.format)
-                              : arguments.output;
+int export_frames(const ExportOptions& options) {
+  const fs::path output = options.output.empty()
+                              ? fs::path(options.input).replace_extension(options.format)
+                              : options.output;
   require_new(output);
-  Session session(arguments);
-  session.say()("export of " + arguments.input.string());
-  const std::optional<ExportedTrajectory> done =
-      export_trajectory({arguments.input, arguments.format, output, arguments.frames,
-                         arguments.shrink, arguments.voxels},
-                        session.control());
+  Session session(options.print.quiet);
+  session.say()("export of " + options.input.string());
+  const std::optional<ExportedTrajectory> done = export_trajectory(
+      {options.input, options.format, output, options.frames, options.shrink, options.voxels},
+      session.control());
   session.clear();
   if (!done) return stopped;
   nlohmann::ordered_json summary = {{"output", output.string()},
-                                    {"format", arguments.format},
+                                    {"format", options.format},
                                     {"frames", done->frames},
                                     {"particles", done->particles},
                                     {"bytes", done->bytes}};
   if (done->bodies > 0) summary["bodies"] = done->bodies;
-  print_summary(arguments, summary);
+  print_summary(options.print, summary);
   return success;
 }
 
 }  // namespace
 
-int export_command(const Arguments& arguments) {
-  return arguments.format == "gnuplot" ? export_results(arguments) : export_frames(arguments);
+int export_command(const ExportOptions& options) {
+  return options.format == "gnuplot" ? export_results(options) : export_frames(options);
 }
 
 }  // namespace vitrel

@@ -1,16 +1,18 @@
+#include "app/commands/params.h"
+
 #include <fmt/format.h>
 
-#include "app/commands/common.h"
+#include "app/terminal/exit_codes.h"
+#include "app/terminal/session.h"
 #include "core/error.h"
 #include "workflow/configuration/parameters.h"
 
 namespace vitrel {
 
-int params_command(const Arguments& arguments) {
-  if (!arguments.reference && arguments.template_command.empty())
+int params_command(const ParamsOptions& options) {
+  if (!options.reference && options.command.empty())
     throw UserError("name a command, for example: vitrel params run > params.toml");
-  fmt::print("{}",
-             arguments.reference ? parameter_page() : command_template(arguments.template_command));
+  fmt::print("{}", options.reference ? parameter_page() : command_template(options.command));
   flush_output();
   return success;
 }

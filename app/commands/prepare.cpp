@@ -1,12 +1,15 @@
-#include "workflow/prepare/prepare.h"
+#include "app/commands/prepare.h"
 
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
 #include "app/commands/common.h"
+#include "app/terminal/exit_codes.h"
+#include "app/terminal/session.h"
 #include "core/io/h5md.h"
 #include "workflow/prepare/packing_quality.h"
+#include "workflow/prepare/prepare.h"
 #include "workflow/prepare/quality_file.h"
 
 namespace vitrel {
@@ -61,7 +64,7 @@ nlohmann::ordered_json work_summary(const Preparation<2>& preparation,
       {"trial_moves_per_second", static_cast<double>(counts.tried()) / preparation.wall_seconds}};
 }
 
-/// What was done and what came out, for other programs.
+/// What was done and what came out, as JSON.
 nlohmann::ordered_json summary(const Preparation<2>& preparation, const Parameters& parameters,
                                const Quality& quality, const std::filesystem::path& output) {
   nlohmann::ordered_json result = work_summary(preparation, output);
@@ -91,21 +94,21 @@ void print_rows(const std::vector<QualityRow>& rows) {
   flush_output();
 }
 
-/// The same for a person, who does not need to be told what there was none of.
-void print_summary(const Arguments& arguments, const Preparation<2>& preparation,
+/// The same as text; counts that are 0 are left out.
+void print_outcome(const PrepareOptions& options, const Preparation<2>& preparation,
                    const Quality& quality) {
-  const nlohmann::ordered_json all = work_summary(preparation, arguments.output);
+  const nlohmann::ordered_json all = work_summary(preparation, options.output);
   nlohmann::ordered_json work;
   for (const auto& [key, value] : all.items())
     if (!value.is_number() || value.get<double>() > 0) work[key] = value;
-  print_summary(arguments, work);
+  print_summary(options.print, work);
   print_rows(quality_rows(quality));
 }
-void print_summary(const Arguments& arguments, const Preparation<3>& preparation,
+void print_outcome(const PrepareOptions& options, const Preparation<3>& preparation,
                    const PackingQuality& quality) {
-  print_summary(arguments, {{"output", arguments.output.string()},
-                            {"quality_report", quality_file(arguments.output).string()},
-                            {"particles", preparation.configuration.size()}});
+  print_summary(options.print, {{"output", options.output.string()},
+                                {"quality_report", quality_file(options.output).string()},
+                                {"particles", preparation.configuration.size()}});
   print_rows(quality_rows(quality));
 }
 
@@ -120,43 +123,43 @@ std::optional<PackingQuality> measured(const Preparation<3>& preparation, const 
 }
 
 template <int Dim>
-int prepare_state(const Arguments& arguments, const Parameters& parameters) {
-  Session session(arguments);
+int prepare_state(const PrepareOptions& options, const Parameters& parameters) {
+  Session session(options.print.quiet, options.wall_time);
   const Preparation<Dim> preparation =
-      prepare<Dim>({parameters, arguments.output, arguments.command_line, arguments.threads},
+      prepare<Dim>({parameters, options.output, options.command_line, options.threads},
                    session.control(), session.say());
   decltype(measured(preparation, parameters, session, 1)) quality;
   if (preparation.complete) {
     session.say()("quality report");
-    quality = measured(preparation, parameters, session, arguments.threads);
+    quality = measured(preparation, parameters, session, options.threads);
   }
   session.clear();
   if (!quality) {
-    remark(arguments, "stopped; the same command continues");
+    remark(options.print, "stopped; the same command continues");
     return stopped;
   }
-  Provenance provenance = current_provenance(
-      arguments.command_line, effective_parameters(parameters), parameters.system.seed);
+  Provenance provenance = current_provenance(options.command_line, effective_parameters(parameters),
+                                             parameters.system.seed);
   provenance.wall_seconds = preparation.wall_seconds;
   // The state comes last: where there is one, all is there.
-  write_quality(quality_file(arguments.output), *quality);
-  write_state(arguments.output, preparation.configuration, provenance);
-  forget_preparation(arguments.output);
-  if (arguments.json) {
-    print_summary(arguments, summary(preparation, parameters, *quality, arguments.output));
-  } else if (!arguments.quiet) {
-    print_summary(arguments, preparation, *quality);
+  write_quality(quality_file(options.output), *quality);
+  write_state(options.output, preparation.configuration, provenance);
+  forget_preparation(options.output);
+  if (options.print.json) {
+    print_summary(options.print, summary(preparation, parameters, *quality, options.output));
+  } else if (!options.print.quiet) {
+    print_outcome(options, preparation, *quality);
   }
   return success;
 }
 
 }  // namespace
 
-int prepare_command(const Arguments& arguments) {
-  const Parameters parameters = load_parameters(parameter_source(arguments));
-  require_new(arguments.output);
-  return parameters.system.dimension == 2 ? prepare_state<2>(arguments, parameters)
-                                          : prepare_state<3>(arguments, parameters);
+int prepare_command(const PrepareOptions& options) {
+  const Parameters parameters = load_parameters(parameter_source(options.source));
+  require_new(options.output);
+  return parameters.system.dimension == 2 ? prepare_state<2>(options, parameters)
+                                          : prepare_state<3>(options, parameters);
 }
 
 }  // namespace vitrel

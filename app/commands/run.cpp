@@ -1,41 +1,45 @@
-#include "workflow/run/run.h"
+#include "app/commands/run.h"
 
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
 #include "app/commands/common.h"
+#include "app/terminal/exit_codes.h"
+#include "app/terminal/session.h"
+#include "workflow/configuration/parameters.h"
+#include "workflow/run/run.h"
 
 namespace vitrel {
 
 namespace {
 
 template <int Dim>
-int run_and_print(const Arguments& arguments, const RunRequest& request) {
-  Session session(arguments);
+int run_and_print(const RunOptions& options, const RunRequest& request) {
+  Session session(options.print.quiet, options.wall_time);
   const RunOutcome<Dim> outcome = run_simulation<Dim>(request, session.control(), session.say());
   session.clear();
   const bool has_begun = outcome.state.configuration.size() > 0;
-  if (has_begun) print_summary(arguments, run_summary(request, outcome));
+  if (has_begun) print_summary(options.print, run_summary(request, outcome));
   if (outcome.complete) return success;
-  remark(arguments, "stopped; the same command continues");
+  remark(options.print, "stopped; the same command continues");
   return stopped;
 }
 
 }  // namespace
 
-int run_command(const Arguments& arguments) {
-  RunRequest request{load_parameters(parameter_source(arguments)), arguments.output, std::nullopt,
-                     arguments.command_line, arguments.threads};
-  if (!arguments.from.empty()) request.from = arguments.from;
-  require_output_file(arguments.output, {arguments.input, arguments.from});
-  if (arguments.dry_run) {
+int run_command(const RunOptions& options) {
+  RunRequest request{load_parameters(parameter_source(options.source)), options.output,
+                     std::nullopt, options.command_line, options.threads};
+  if (!options.from.empty()) request.from = options.from;
+  require_output_file(options.output, {options.source.file, options.from});
+  if (options.dry_run) {
     fmt::print("{}", run_plan(request));
     flush_output();
     return success;
   }
-  return request.parameters.system.dimension == 2 ? run_and_print<2>(arguments, request)
-                                                  : run_and_print<3>(arguments, request);
+  return request.parameters.system.dimension == 2 ? run_and_print<2>(options, request)
+                                                  : run_and_print<3>(options, request);
 }
 
 }  // namespace vitrel

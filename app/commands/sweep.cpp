@@ -1,10 +1,13 @@
-#include "workflow/sweep/sweep.h"
+#include "app/commands/sweep.h"
 
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
 #include "app/commands/common.h"
+#include "app/terminal/exit_codes.h"
+#include "app/terminal/session.h"
+#include "workflow/sweep/sweep.h"
 
 namespace vitrel {
 namespace {
@@ -13,43 +16,44 @@ std::filesystem::path this_program() {
   return std::filesystem::read_symlink("/proc/self/exe");
 }
 
-void print_table(const Arguments& arguments) {
-  std::vector<SweepJob> jobs = sweep_jobs(parameter_source(arguments));
-  if (!arguments.job.empty()) jobs = {job_named(jobs, arguments.job)};
-  if (arguments.json)
-    fmt::print("{}\n", sweep_summary(jobs, arguments.output).dump(2));
-  else if (!arguments.quiet)
-    fmt::print("{}", sweep_table(jobs, arguments.output));
+void print_table(const SweepOptions& options) {
+  std::vector<SweepJob> jobs = sweep_jobs(parameter_source(options.source));
+  if (!options.job.empty()) jobs = {job_named(jobs, options.job)};
+  if (options.print.json)
+    fmt::print("{}\n", sweep_summary(jobs, options.output).dump(2));
+  else if (!options.print.quiet)
+    fmt::print("{}", sweep_table(jobs, options.output));
   flush_output();
 }
 
-int export_workflow(const Arguments& arguments) {
-  export_sweep(parameter_source(arguments), arguments.output, this_program());
-  remark(arguments,
-         fmt::format("{}: in this folder, snakemake -j 2 works off the sweep, and snakemake "
-                     "--profile slurm hands its jobs to Slurm",
-                     arguments.output.string()));
+int export_workflow(const SweepOptions& options) {
+  export_sweep(parameter_source(options.source), options.output, this_program());
+  remark(options.print,
+         fmt::format(
+             "{}: in this folder, snakemake -j 2 runs the sweep, and snakemake --profile slurm "
+             "submits its jobs to Slurm",
+             options.output.string()));
   return success;
 }
 
-SweepOutcome work_off(const Arguments& arguments) {
-  Session session(arguments);
-  const SweepRequest request{parameter_source(arguments), arguments.output, this_program(),
-                             arguments.parallel, arguments.wall_time};
-  return arguments.job.empty() ? run_sweep(request, session.say())
-                               : run_job(request, arguments.job, session.say());
+SweepOutcome run_jobs(const SweepOptions& options) {
+  Session session(options.print.quiet, options.wall_time);
+  const SweepRequest request{parameter_source(options.source), options.output, this_program(),
+                             options.parallel};
+  return options.job.empty() ? run_sweep(request, session.control(), session.say())
+                             : run_job(request, options.job, session.control(), session.say());
 }
 
 }  // namespace
 
-int sweep_command(const Arguments& arguments) {
-  if (!arguments.export_as.empty()) return export_workflow(arguments);
-  if (arguments.status) {
-    print_table(arguments);
+int sweep_command(const SweepOptions& options) {
+  if (!options.export_as.empty()) return export_workflow(options);
+  if (options.status) {
+    print_table(options);
     return success;
   }
-  const SweepOutcome outcome = work_off(arguments);
-  print_table(arguments);
+  const SweepOutcome outcome = run_jobs(options);
+  print_table(options);
   if (outcome.failed > 0) {
     fmt::print(stderr,
                "vitrel sweep: {} job(s) failed; log.txt in their folders says why, and the same "
@@ -57,7 +61,7 @@ int sweep_command(const Arguments& arguments) {
                outcome.failed);
     return outcome.first_failure;
   }
-  if (outcome.stopped) remark(arguments, "stopped; the same command continues");
+  if (outcome.stopped) remark(options.print, "stopped; the same command continues");
   return outcome.stopped ? stopped : success;
 }
 

@@ -22,7 +22,7 @@ ProgressDisplay::Mode ProgressDisplay::mode(bool quiet) {
 
 void ProgressDisplay::begin(const std::string& label) {
   clear();
-  label_ = prefix_ + label;
+  label_ = label;
   first_.reset();
 }
 

@@ -3,23 +3,20 @@
 #include <chrono>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "core/state/stage.h"
 
 namespace vitrel {
 
 /// Shows how far a piece of work has come, with rate and time left, on standard error: one line
-/// that is rewritten on a terminal, now and then a plain line elsewhere.
+/// that is rewritten on a terminal, a plain line every ten seconds elsewhere.
 class ProgressDisplay {
  public:
   enum class Mode { silent, lines, terminal };
   /// `lines` or `terminal` by what standard error is.
   static Mode mode(bool quiet);
 
-  /// `prefix` stands before every label ("job 3 of 18: ").
-  explicit ProgressDisplay(Mode mode, std::string prefix = "")
-      : mode_(mode), prefix_(std::move(prefix)) {}
+  explicit ProgressDisplay(Mode mode) : mode_(mode) {}
   ~ProgressDisplay() { clear(); }
 
   /// What the following progress is about ("swell").
@@ -34,7 +31,7 @@ class ProgressDisplay {
   using Clock = std::chrono::steady_clock;
 
   Mode mode_;
-  std::string prefix_, label_;
+  std::string label_;
   std::optional<Progress> first_;
   Clock::time_point started_{}, shown_{};
   bool line_is_open_ = false;

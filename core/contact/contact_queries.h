@@ -1,11 +1,11 @@
 #pragma once
 
+#include "core/contact/ellipse_gap.h"
 #include "core/contact/ellipsoid_gap.h"
 #include "core/contact/first_contact.h"
-#include "core/contact/support_gap.h"
 
-/// The contact questions asked of poses, in one form for every body, so that neighbour lists and
-/// the event loop are written once. d runs from centre 1 to centre 2, the image shift included.
+/// Separation, support gap and surface point as functions of poses, with one signature for all bodies, for neighbour
+/// lists and the event loop. d runs from centre 1 to centre 2, image shift included.
 namespace vitrel {
 
 inline bool separated(const Ellipse& one, const Pose2& pose1, const Ellipse& two,

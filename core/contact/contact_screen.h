@@ -4,19 +4,20 @@
 #include <limits>
 
 #include "core/contact/first_contact.h"
-#include "core/contact/several.h"
+#include "core/contact/first_root.h"
+#include "core/contact/simd_batch.h"
 
-/// One body and several partners at one instant: until when is contact surely impossible?
+/// Lower bounds of the contact times of one body with several partners at one instant.
 ///
-/// Most of the pairs that an event-driven run asks about do not touch before something else
-/// happens. The first look settles these, `many` at a time, by one parabola each,
+/// Most pairs that an event-driven run asks about do not touch before another event happens to one of
+/// them. The screen settles these in SIMD batches, by one parabola per pair,
 ///     g(n, t + s) ≥ g + ġ s − ½ M s²   (first_contact.h),
-/// along an axis n remembered from the last look at the pair; every look turns it by a step of
-/// Newton's method towards the best. Disks need no axis: their time is that of contact, in closed
-/// form.
+/// along an axis n that is kept from one evaluation to the next; each evaluation turns it by one Newton
+/// step towards the maximum of the gap. Disks and spheres need no axis: their contact time is known in
+/// closed form. Ellipses: ellipse_contact_screen.h; ellipsoids: ellipsoid_contact_screen.h.
 namespace vitrel {
 
-/// The size of all bodies alike, and its rate of growth.
+/// The size that all bodies share, and its growth rate.
 struct CommonSize {
   double size = 1;
   double growth_rate = 0;
@@ -24,187 +25,85 @@ struct CommonSize {
 
 namespace detail {
 
-constexpr double no_contact = std::numeric_limits<double>::infinity();
-
-/// A time for every lane, and which comes first.
+/// The candidate time of each lane, and the earliest of them.
 template <int lanes>
-class Urgencies {
+class CandidateTimes {
  public:
-  struct Urgent {
+  struct Candidate {
     double time;
     int lane;
   };
-  Urgent most_urgent() const {
-    const double time = hmin(open_until_);
-    return {time, find_first_set(open_until_ == time)};
+  Candidate earliest() const {
+    const double time = hmin(times_);
+    return {time, find_first_set(times_ == time)};
   }
-  /// Nothing more is to be known of this lane.
-  void close(int lane) {
-    where(lane_numbers<lanes> == lane, open_until_) = Simd<lanes>(no_contact);
-  }
+  /// Removes a lane that has been dealt with.
+  void discard(int lane) { where(lane_indices<lanes> == lane, times_) = Simd<lanes>(no_contact); }
 
  protected:
-  /// The times of the first `count` lanes.
-  VITREL_INLINE void open(const Simd<lanes>& until, int count) {
-    open_until_ = until;
-    where(lane_numbers<lanes> >= count, open_until_) = Simd<lanes>(no_contact);
+  /// Sets the first `count` lanes; the others have no contact.
+  VITREL_INLINE void set_times(const Simd<lanes>& times, int count) {
+    times_ = times;
+    where(lane_indices<lanes> >= count, times_) = Simd<lanes>(no_contact);
   }
 
  private:
-  Simd<lanes> open_until_;
+  Simd<lanes> times_;
 };
-
-/// The first root of room + rate s − ½ M s², or infinity if it lies beyond the horizon.
-VITREL_INLINE Many first_root(const Many& room, const Many& rate, const Many& bend,
-                              const Many& horizon) {
-  constexpr double nearly_straight = 1e-300;
-  const Many acceleration = max(bend, Many(nearly_straight));
-  const Many root = sqrt(rate * rate + 2. * acceleration * max(room, Many(0)));
-  Many time = 2. * room / (root - rate);
-  where(rate > 0, time) = (rate + root) / acceleration;
-  const Many end = room + horizon * (rate - 0.5 * acceleration * horizon);
-  where(end > 0, time) = Many(no_contact);
-  where(!(room > 0), time) = Many(0);
-  return time;
-}
 
 }  // namespace detail
 
-/// A look of a body at up to `lanes` partners. A body that grows is `Grown<B>` times the common size.
+/// The screen of a body against up to `lanes` partners. A growing body is its `BaseShape<B>` times the
+/// common size.
+///   set(k, pose, motion, coefficients, warm_start, horizon)  fills lane k: pose relative to the centre of
+///                     the body, motion now, and how far to evaluate ahead
+///   evaluate(count)   computes the times of the first `count` lanes: infinite if there is no contact up to
+///                     the horizon, 0 if the axis does not separate the pair
+///   earliest, discard the lanes in the order of their times
+///   warm_start(k)     what to pass to `set` next time
+///   is_exact          whether a time other than 0 is the contact time itself
 template <Body B>
-class FirstLook;
+class ContactScreen;
 
+/// Disks and spheres, in closed form: infinite without a contact, 0 for approaching pairs that touch or
+/// overlap.
 template <Body B>
-requires std::same_as<Grown<B>, Ellipse>
-class FirstLook<B> : public detail::Urgencies<many> {
-  /// A gap that stays above this fraction of the contact gap stays open. It lets a pair that has
-  /// just collided, and leaves, be settled too.
-  static constexpr double open_gap = 0.5;
-
- public:
-  static constexpr int lanes = many;
-  /// Whether open_until is the time of contact if it is not 0.
-  static constexpr bool is_exact = false;
-  /// What is remembered of a pair from one look to the next.
-  struct Memory {
-    Vec2 axis;
-    /// Of the same pair, seen from the other body.
-    friend Memory reversed(const Memory& memory) { return {-memory.axis}; }
-  };
-
-  FirstLook(const Outline<Ellipse>& outline, const Pose2& pose, const Motion2& motion,
-            const CommonSize& common, double contact_gap)
-      : outline_(outline), motion_(motion), common_(common), floor_(open_gap * contact_gap) {
-    Lanes x, y;
-    directions<Lanes>({pose.angle, pose.angle}, x, y);
-    ux_ = x[0];
-    uy_ = y[0];
-  }
-
-  /// Puts a partner into a lane: its pose, relative to this body's centre, and motion now, and how
-  /// far to look ahead.
-  VITREL_INLINE void set(int k, const Pose2& pose, const Motion2& motion,
-                         const Outline<Ellipse>& outline, const Memory& memory, double horizon) {
-    dx_[k] = pose.position.x();
-    dy_[k] = pose.position.y();
-    vx_[k] = motion.velocity.x() - motion_.velocity.x();
-    vy_[k] = motion.velocity.y() - motion_.velocity.y();
-    angle_[k] = pose.angle;
-    omega_[k] = motion.angular_velocity;
-    bb_[k] = outline.bb;
-    stretch_[k] = outline.stretch;
-    aabb_[k] = outline.aabb;
-    bend_[k] = outline.bend;
-    nx_[k] = memory.axis.x();
-    ny_[k] = memory.axis.y();
-    horizon_[k] = horizon;
-  }
-  Memory memory(int k) const { return {{nx_[k], ny_[k]}}; }
-
-  /// Finds, for each of the first `count` lanes, a time before which there can be no contact:
-  /// infinite if there is none up to the horizon, 0 if the axis separates nothing. Turns the axes.
-  [[gnu::flatten]] void look(int count) {
-    const Many nx = nx_.all(), ny = ny_.all(), dx = dx_.all(), dy = dy_.all();
-    const Many bb = bb_.all(), stretch = stretch_.all(), omega2 = omega_.all();
-    const Many omega1 = motion_.angular_velocity, horizon = horizon_.all();
-    Many ux, uy;
-    directions<Many>(angle_.all(), ux, uy);
-    const auto one =
-        support_along<Many>(outline_.bb, outline_.stretch, outline_.aabb, ux_, uy_, nx, ny);
-    const auto two = support_along<Many>(bb, stretch, aabb_.all(), ux, uy, nx, ny);
-    const Many heights = one.height + two.height;
-    const Many spin = omega1 * one.turning + omega2 * two.turning;
-    const Many gap = nx * dx + ny * dy - sized(heights);
-    Many rate = nx * vx_.all() + ny * vy_.all() + sized(spin);
-    Many bend = bend_bound<Many>(one, outline_.bb, outline_.stretch, omega1,
-                                 omega1 * omega1 * outline_.bend, horizon) +
-                bend_bound<Many>(two, bb, stretch, omega2, omega2 * omega2 * bend_.all(), horizon);
-    if constexpr (grows<B>) {
-      const double growth = common_.growth_rate;
-      rate -= growth * heights;
-      bend = common_.size * bend + std::abs(growth) * horizon * abs(bend) - 2 * growth * spin;
-    }
-    open(detail::first_root(gap - floor_, rate, bend, horizon), count);
-    Many turned_nx = nx, turned_ny = ny;
-    detail::turn(turned_nx, turned_ny, nx * dy - ny * dx - sized(one.turning + two.turning),
-                 gap + sized(one.radius + two.radius));
-    nx_.store(turned_nx);
-    ny_.store(turned_ny);
-  }
-
- private:
-  VITREL_INLINE Many sized(const Many& x) const {
-    if constexpr (grows<B>) return common_.size * x;
-    return x;
-  }
-
-  using Numbers = detail::NumbersOf<many>;
-
-  Outline<Ellipse> outline_;
-  Motion2 motion_;
-  CommonSize common_;
-  double floor_;
-  double ux_, uy_;
-  Numbers dx_, dy_, vx_, vy_, angle_, omega_, bb_, stretch_, aabb_, bend_, nx_, ny_, horizon_;
-};
-
-/// Disks and spheres: in closed form.
-template <Body B>
-requires std::same_as<Grown<B>, Disk> || std::same_as<Grown<B>, Sphere>
-class FirstLook<B> : public detail::Urgencies<8> {
+requires std::same_as<BaseShape<B>, Disk> || std::same_as<BaseShape<B>, Sphere>
+class ContactScreen<B> : public detail::CandidateTimes<8> {
   static constexpr int dimension = B::dimension;
 
  public:
   static constexpr int lanes = 8;
   static constexpr bool is_exact = true;
-  struct Memory {
-    Memory() = default;
-    explicit(false) Memory(const Vec<dimension>& /*axis*/) {}
-    friend Memory reversed(const Memory& memory) { return memory; }
+  struct WarmStart {
+    WarmStart() = default;
+    explicit(false) WarmStart(const Vec<dimension>& /*axis*/) {}
+    friend WarmStart reversed(const WarmStart& warm_start) { return warm_start; }
   };
 
-  FirstLook(const Outline<Grown<B>>& outline, const Pose<dimension>& /*pose*/,
-            const Motion<dimension>& motion, const CommonSize& common, double contact_gap)
-      : radius_(outline.radius),
+  ContactScreen(const ShapeCoefficients<BaseShape<B>>& coefficients,
+                const Pose<dimension>& /*pose*/, const Motion<dimension>& motion,
+                const CommonSize& common, double contact_gap)
+      : radius_(coefficients.radius),
         velocity_(motion.velocity),
         common_(common),
         contact_gap_(contact_gap) {}
 
   VITREL_INLINE void set(int k, const Pose<dimension>& pose, const Motion<dimension>& motion,
-                         const Outline<Grown<B>>& outline, const Memory&, double horizon) {
+                         const ShapeCoefficients<BaseShape<B>>& coefficients, const WarmStart&,
+                         double horizon) {
     for (int x = 0; x < dimension; ++x) {
       d_[x][k] = pose.position[x];
       v_[x][k] = motion.velocity[x] - velocity_[x];
     }
-    other_radius_[k] = outline.radius;
+    other_radius_[k] = coefficients.radius;
     horizon_[k] = horizon;
   }
-  Memory memory(int) const { return {}; }
+  WarmStart warm_start(int) const { return {}; }
 
-  /// Finds the times of contact: infinite without, 0 for approaching pairs that touch or overlap.
-  [[gnu::flatten]] void look(int count) {
+  [[gnu::flatten]] void evaluate(int count) {
     using Simd = detail::Simd<lanes>;
-    const Simd radii = other_radius_.all() + radius_;
+    const Simd radii = other_radius_.load() + radius_;
     Simd reach = radii + contact_gap_;
     if constexpr (grows<B>) reach = common_.size * radii + contact_gap_;
     const Simd c = product(d_, d_) - reach * reach;
@@ -216,25 +115,25 @@ class FirstLook<B> : public detail::Urgencies<8> {
     }
     const Simd discriminant = b * b - a * c;
     const Simd root = sqrt(max(discriminant, Simd(0)));
-    Simd time = max(c / (root - b), Simd(0));
+    Simd time = detail::closing_time(b, c, root);
     auto misses = !(b < 0);
     if constexpr (grows<B>) {
-      // Moving apart, but growing faster.
-      where(misses && a < 0, time) = max((b + root) / -a, Simd(0));
+      // The centres recede, but the surfaces grow faster.
+      where(misses && a < 0, time) = max(detail::overtaking_time(a, b, root), Simd(0));
       misses = misses && !(a < 0);
     }
-    where(misses || !(discriminant >= 0) || !(time < horizon_.all()), time) =
+    where(misses || !(discriminant >= 0) || !(time < horizon_.load()), time) =
         Simd(detail::no_contact);
-    open(time, count);
+    set_times(time, count);
   }
 
  private:
-  using Numbers = detail::NumbersOf<lanes>;
+  using Numbers = detail::BatchBuffer<lanes>;
 
   VITREL_INLINE static detail::Simd<lanes> product(const Numbers (&u)[dimension],
                                                    const Numbers (&v)[dimension]) {
-    detail::Simd<lanes> sum = u[0].all() * v[0].all() + u[1].all() * v[1].all();
-    if constexpr (dimension == 3) sum += u[2].all() * v[2].all();
+    detail::Simd<lanes> sum = u[0].load() * v[0].load() + u[1].load() * v[1].load();
+    if constexpr (dimension == 3) sum += u[2].load() * v[2].load();
     return sum;
   }
 
@@ -245,15 +144,15 @@ class FirstLook<B> : public detail::Urgencies<8> {
   Numbers d_[dimension], v_[dimension], other_radius_, horizon_;
 };
 
-/// first_contact, beginning with what a look remembered.
+/// first_contact, starting from the axis that the screen found.
 template <Body B>
 Prediction<B::dimension> first_contact(const Flight<B>& one, const Flight<B>& two, double horizon,
                                        double contact_gap,
-                                       const typename FirstLook<B>::Memory& memory) {
-  if constexpr (FirstLook<B>::is_exact)
+                                       const typename ContactScreen<B>::WarmStart& warm_start) {
+  if constexpr (ContactScreen<B>::is_exact)
     return first_contact(one, two, horizon, contact_gap);
   else
-    return first_contact(one, two, horizon, contact_gap, memory.axis);
+    return first_contact(one, two, horizon, contact_gap, warm_start.axis);
 }
 
 }  // namespace vitrel

@@ -5,245 +5,251 @@
 #include <cstdint>
 #include <limits>
 
-#include "core/contact/overlap_look.h"
+#include "core/contact/ellipse_overlap_batch.h"
 
-/// One ellipse that moves straight along x or y, at a fixed angle, beside several others at rest, `many`
-/// at a time: how far does it come before it touches the first of them? The question of an event chain.
+/// How far can one ellipse move along x or y, at a fixed angle, before it touches another at rest? The free_length path
+/// of event-chain Monte Carlo, in SIMD batches.
 ///
-/// Let x point along the path and y across it. An ellipse has the height h = √Σ_yy, the slant k =
-/// Σ_xy/h and the waist w = a b/h, so that its support function along n = (c, s) is
+/// Let x point along the path and y across it. An ellipse has the half height h = √Σ_yy, the shear k = Σ_xy/h and
+/// the half chord w = a b/h along the path through its centre, so that its support function along n = (c, s) is
 ///     η(n) = √(w²c² + (h s + k c)²).
-/// With d from centre 1 to centre 2 and any n with c > 0, the gap along n stays positive up to the path
+/// With d from centre 1 to centre 2 and any n with c > 0, the gap along n stays positive up to the path length
 ///     f(n) = (n·d − η₁(n) − η₂(n))/c:
-/// every n proves a path to be free. f is concave in s/c, and its maximum is the contact.
+/// every n proves a free_length path. f is concave in s/c, and its maximum is the contact.
 ///
 /// Steps:
-///   1. Whoever is |d_y| ≥ H = h₁ + h₂ aside is never met. With t = d_y/H the point (t (k₁ + k₂), d_y)
-///      belongs to the sum of the two bodies; so of two that do not overlap the other is ahead if d_x is
-///      larger, and behind if not.
-///   2. The ellipse Q = Σ₁/q + Σ₂/(1 − q) contains that sum, for 0 < q < 1; it is met at
-///          d_x − (Q_xy d_y + √(det Q (Q_yy − d_y²)))/Q_yy,
-///      which is a free path. It is exact for q : 1 − q = η₁ : η₂ at the contact, here guessed as w + (h − w) t².
-///      The contact comes at d_x − t (k₁ + k₂) − (w₁ + w₂) √(1 − t²) at the latest. Those whose free path is
-///      longer than another's latest contact, or than asked for, are out.
-///   3. The others four by four: with n = (c, (W v − B c)/G), c = √(1 − v²), G = √Q_yy, B = Q_xy/G and
-///      W = √(det Q)/G, the slope of f is a smooth function of v on −1 … 1, that of Q is d_y − G v. Newton's
-///      method from v = d_y/G, between bounds that close in, needs 2 to 4 steps.
+///   1. An ellipse with |d_y| ≥ H = h₁ + h₂ is never partner. With t = d_y/H the point (t (k₁ + k₂), d_y) belongs
+///      to the Minkowski sum of the two bodies. So of two disjoint bodies the other is offset_at_contact if d_x is larger,
+///      and behind otherwise.
+///   2. The ellipse Q = Σ₁/q + Σ₂/(1 − q) contains that sum for 0 < q < 1. It gives the free_length path
+///          d_x − (Q_xy d_y + √(det Q (Q_yy − d_y²)))/Q_yy.
+///      The bound is exact for q : 1 − q = η₁ : η₂ at the contact, which w + (h − w) t² approximates. An upper
+///      bound of the contact is d_x − t (k₁ + k₂) − (w₁ + w₂) √(1 − t²). Ellipses whose free_length path exceeds the
+///      upper bound of another, or the maximum length, are discarded.
+///   3. The others are solved in batches: with n = (c, (W v − B c)/G), c = √(1 − v²), G = √Q_yy, B = Q_xy/G and
+///      W = √(det Q)/G, the slope of f is a smooth function of v on −1 … 1; that of Q is d_y − G v. Bracketed
+///      Newton iteration from v = d_y/G takes 2 to 4 steps.
 ///
-/// Disks of any sizes are exact at step 2; if all are round, `RoundPathLook` does with one root.
+/// For disks of any sizes step 2 is exact. If all particles are round, `RoundFreePathBatch` needs one square root.
 ///
-/// Contact is declared with the surfaces between `gap` and (a₁/b₁ + ¼) `gap` apart, to the rounding of
-/// coordinates: as in overlap_look.h the first body is enlarged by the factor 1 + gap/b₁. A pair
-/// that is closer already, and approaching, touches at once.
+/// Contact is declared with the surfaces between `gap` and (a₁/b₁ + ¼) `gap` apart, to the rounding of the
+/// coordinates: as in ellipse_overlap_batch.h the first body is enlarged by the factor 1 + gap/b₁. A pair that is
+/// closer already, and approaching, touches at once.
 namespace vitrel {
 
-/// What ends a path.
-struct PathEnd {
-  static constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
+/// The end of a free_length path.
+struct FreePath {
+  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
   double length;
-  std::uint32_t touched;  ///< the name of the other, or nobody
-  double ahead;           ///< how far its centre is then ahead along the path
+  std::uint32_t partner;     ///< id of the particle partner, or none
+  double offset_at_contact;  ///< along the path, from the moving centre to that of the partner
 };
 
 namespace detail {
 
-/// An ellipse seen along a path; ux is along it.
+/// An ellipse relative to a path along ux.
 template <class T>
 struct PathProfile {
-  T height, slant, waist;
+  T height, shear, half_chord;
 
   VITREL_INLINE PathProfile(const T& a, const T& b, const T& ux, const T& uy) {
     using std::sqrt;
-    const T stretch = (a - b) * (a + b);
-    height = sqrt(b * b + stretch * (uy * uy));
+    const T aa_minus_bb = (a - b) * (a + b);
+    height = sqrt(b * b + aa_minus_bb * (uy * uy));
     const T inverse = 1. / height;
-    slant = stretch * (ux * uy) * inverse;
-    waist = a * b * inverse;
+    shear = aa_minus_bb * (ux * uy) * inverse;
+    half_chord = a * b * inverse;
   }
 };
 
 /// The component along x (`direction` 0) or y (1).
 template <int direction>
-VITREL_INLINE Many one_of(const NumbersOf<many>& x, const NumbersOf<many>& y) {
-  return direction == 0 ? x.all() : y.all();
+VITREL_INLINE SimdBatch component(const BatchBuffer<simd_width>& x,
+                                  const BatchBuffer<simd_width>& y) {
+  return direction == 0 ? x.load() : y.load();
 }
 
 }  // namespace detail
 
-/// Looks along x (`direction` 0) or y (1).
+/// Paths along x (`direction` 0) or y (1).
 template <int direction>
-class PathLook {
+class FreePathBatch {
  public:
-  using Asked = Many::mask_type;
+  using Mask = SimdBatch::mask_type;
 
-  /// `axis` is the unit vector along the major axis. Paths end at `longest` > 0, if not before.
-  PathLook(const Ellipse& shape, const Vec2& axis, double gap, double longest)
-      : latest_(longest), tolerance_(0.25 * gap), end_{longest, PathEnd::nobody, 0} {
+  /// `axis` is the unit vector along the major axis; `max_length` > 0 limits the path.
+  FreePathBatch(const Ellipse& shape, const Vec2& axis, double gap, double max_length)
+      : upper_bound_(max_length), tolerance_(0.25 * gap), end_{max_length, FreePath::none, 0} {
     const double enlarged = 1 + gap / shape.b;
     const detail::PathProfile<double> mine(shape.a, shape.b, axis[direction], axis[across]);
     circumradius_ = enlarged * shape.a;
     height_ = enlarged * mine.height;
-    slant_ = enlarged * mine.slant;
-    waist_ = enlarged * mine.waist;
+    shear_ = enlarged * mine.shear;
+    half_chord_ = enlarged * mine.half_chord;
   }
 
-  /// How far behind, aside and ahead the centres can be of those that end the path, if their semi-axes
-  /// are `largest` at most.
-  double reach_behind(double largest) const { return std::abs(slant_) + largest; }
+  /// How far behind, aside and offset_at_contact the centres of particles that can end the path may be, if no semi-axis
+  /// exceeds `largest`.
+  double reach_behind(double largest) const { return std::abs(shear_) + largest; }
   double reach_aside(double largest) const { return height_ + largest; }
-  double reach_ahead(double largest) const { return latest_ + circumradius_ + largest; }
+  double reach_ahead(double largest) const { return upper_bound_ + circumradius_ + largest; }
 
-  /// Looks at those in the group that are asked about; `offset` + their positions are the separations
-  /// d, `first_name` + lane is what to call them.
-  VITREL_INLINE void look(const EllipseGroup& group, std::uint32_t first_name, const Vec2& offset,
-                          Asked asked) {
-    using detail::one_of;
-    const Many dx = one_of<direction>(group.x, group.y) + offset[direction];
-    const Many dy = one_of<across>(group.x, group.y) + offset[across];
-    const Many a = group.a.all(), reach = a + circumradius_;
-    Asked open = asked && abs(dy) < reach && dx > -reach && dx < latest_ + reach;
-    if (none_of(open)) return;
+  /// Adds the ellipses in the lanes of `mask`; the separations d are `offset` + their positions, and their ids
+  /// are `first_id` + lane.
+  VITREL_INLINE void add(const EllipseBatch& group, std::uint32_t first_id, const Vec2& offset,
+                         Mask mask) {
+    using detail::component;
+    const SimdBatch dx = component<direction>(group.x, group.y) + offset[direction];
+    const SimdBatch dy = component<across>(group.x, group.y) + offset[across];
+    const SimdBatch a = group.a.load(), reach = a + circumradius_;
+    Mask candidates = mask && abs(dy) < reach && dx > -reach && dx < upper_bound_ + reach;
+    if (none_of(candidates)) return;
 
-    const detail::PathProfile<Many> other(a, group.b.all(), one_of<direction>(group.ux, group.uy),
-                                          one_of<across>(group.ux, group.uy));
-    const Many t = dy / (height_ + other.height), tt = t * t;
-    const Many past_middle = dx - t * (slant_ + other.slant);
-    open = open && tt < 1. && past_middle > 0.;
-    if (none_of(open)) return;
+    const detail::PathProfile<SimdBatch> other(a, group.b.load(),
+                                               component<direction>(group.ux, group.uy),
+                                               component<across>(group.ux, group.uy));
+    const SimdBatch t = dy / (height_ + other.height), tt = t * t;
+    const SimdBatch past_middle = dx - t * (shear_ + other.shear);
+    candidates = candidates && tt < 1. && past_middle > 0.;
+    if (none_of(candidates)) return;
 
-    const Many share1 = waist_ + (height_ - waist_) * tt;
-    const Many share2 = other.waist + (other.height - other.waist) * tt;
-    const Many sum = share1 + share2, weight1 = sum / share1, weight2 = sum / share2;
-    const Many xx = weight1 * (slant_ * slant_ + waist_ * waist_) +
-                    weight2 * (other.slant * other.slant + other.waist * other.waist);
-    const Many xy = weight1 * (slant_ * height_) + weight2 * (other.slant * other.height);
-    const Many yy = weight1 * (height_ * height_) + weight2 * (other.height * other.height);
-    const Many det = max(xx * yy - xy * xy, Many(0));
-    const Many earliest = dx - (xy * dy + sqrt(det * max(yy - dy * dy, Many(0)))) / yy;
-    open = open && earliest < latest_;
-    if (none_of(open)) return;
+    const SimdBatch share1 = half_chord_ + (height_ - half_chord_) * tt;
+    const SimdBatch share2 = other.half_chord + (other.height - other.half_chord) * tt;
+    const SimdBatch sum = share1 + share2, weight1 = sum / share1, weight2 = sum / share2;
+    const SimdBatch xx =
+        weight1 * (shear_ * shear_ + half_chord_ * half_chord_) +
+        weight2 * (other.shear * other.shear + other.half_chord * other.half_chord);
+    const SimdBatch xy = weight1 * (shear_ * height_) + weight2 * (other.shear * other.height);
+    const SimdBatch yy = weight1 * (height_ * height_) + weight2 * (other.height * other.height);
+    const SimdBatch det = max(xx * yy - xy * xy, SimdBatch(0));
+    const SimdBatch lower = dx - (xy * dy + sqrt(det * max(yy - dy * dy, SimdBatch(0)))) / yy;
+    candidates = candidates && lower < upper_bound_;
+    if (none_of(candidates)) return;
 
-    const Many latest = past_middle - (waist_ + other.waist) * sqrt(max(1. - tt, Many(0)));
-    for (int lane = 0; lane < many; ++lane) {
-      if (!open[lane] || !(earliest[lane] < latest_)) continue;
-      if (waiting_ == many) settle();
-      put(waiting_++, lane, first_name + static_cast<std::uint32_t>(lane), dx, dy, other, xy, yy,
-          det, earliest);
-      if (const double then = latest[lane] + tolerance_; then < latest_) latest_ = then;
+    const SimdBatch upper =
+        past_middle - (half_chord_ + other.half_chord) * sqrt(max(1. - tt, SimdBatch(0)));
+    for (int lane = 0; lane < simd_width; ++lane) {
+      if (!candidates[lane] || !(lower[lane] < upper_bound_)) continue;
+      if (pending_ == simd_width) solve_pending();
+      push(pending_++, lane, first_id + static_cast<std::uint32_t>(lane), dx, dy, other, xy, yy,
+           det, lower);
+      if (const double then = upper[lane] + tolerance_; then < upper_bound_) upper_bound_ = then;
     }
   }
 
-  /// The end of the path, of all that were looked at.
-  PathEnd end() {
-    if (waiting_ > 0) settle();
+  /// The free_length path among all ellipses added.
+  FreePath end() {
+    if (pending_ > 0) solve_pending();
     return end_;
   }
 
  private:
   static constexpr int across = 1 - direction;
 
-  VITREL_INLINE void put(int k, int lane, std::uint32_t name, const Many& dx, const Many& dy,
-                         const detail::PathProfile<Many>& other, const Many& xy, const Many& yy,
-                         const Many& det, const Many& earliest) {
-    name_[k] = name;
+  VITREL_INLINE void push(int k, int lane, std::uint32_t id, const SimdBatch& dx,
+                          const SimdBatch& dy, const detail::PathProfile<SimdBatch>& other,
+                          const SimdBatch& xy, const SimdBatch& yy, const SimdBatch& det,
+                          const SimdBatch& lower) {
+    id_[k] = id;
     dx_[k] = dx[lane], dy_[k] = dy[lane];
     other_height_[k] = other.height[lane];
-    other_slant_[k] = other.slant[lane];
-    other_waist_[k] = other.waist[lane];
+    other_shear_[k] = other.shear[lane];
+    other_half_chord_[k] = other.half_chord[lane];
     xy_[k] = xy[lane], yy_[k] = yy[lane], det_[k] = det[lane];
-    earliest_[k] = earliest[lane];
+    earliest_[k] = lower[lane];
   }
 
-  // Step 3 for those that wait.
-  [[gnu::noinline]] void settle() {
-    constexpr int most_steps = 64;  // halving alone comes to the last digit
-    const Many dx = dx_.all(), dy = dy_.all();
-    const Many height = other_height_.all(), slant = other_slant_.all(), waist = other_waist_.all();
-    const Many inverse = 1. / sqrt(yy_.all());
-    const Many middle = xy_.all() * inverse, width = sqrt(det_.all()) * inverse;
-    const Many curvature1(height_ * waist_ * (height_ * waist_));
-    const Many curvature2 = height * waist * (height * waist);
-    Many v = dy * inverse, low(-1), high(1);
-    Many free(-std::numeric_limits<double>::infinity());
-    const Asked asked = detail::lane_numbers<many> < waiting_ && earliest_.all() < latest_;
-    for (int step = 0; step < most_steps; ++step) {
-      const Many c = sqrt(max(1. - v * v, Many(0)));
-      const Many s = (width * v - middle * c) * inverse;
-      const Many along1 = height_ * s + slant_ * c, along2 = height * s + slant * c;
-      const Many across1 = waist_ * c, across2 = waist * c;
-      const Many support1 = sqrt(across1 * across1 + along1 * along1);
-      const Many support2 = sqrt(across2 * across2 + along2 * along2);
-      const Many inverse1 = 1. / support1, inverse2 = 1. / support2;
-      const Many now = dx + (s * dy - support1 - support2) / c;
-      where(now > free, free) = now;
-      // Of f by s/c, and of that slope.
-      const Many slope = dy - height_ * along1 * inverse1 - height * along2 * inverse2;
-      const Many bend = curvature1 * (inverse1 * inverse1 * inverse1) +
-                        curvature2 * (inverse2 * inverse2 * inverse2);
-      const Asked good = slope * slope <= 2 * tolerance_ * bend * (c * c * c);
-      if (none_of(asked && !good && free < end_.length)) break;
+  // Step 3 for the pending ellipses.
+  [[gnu::noinline]] void solve_pending() {
+    constexpr int max_steps = 64;  // enough for bisection alone
+    const SimdBatch dx = dx_.load(), dy = dy_.load();
+    const SimdBatch height = other_height_.load(), shear = other_shear_.load(),
+                    half_chord = other_half_chord_.load();
+    const SimdBatch inverse = 1. / sqrt(yy_.load());
+    const SimdBatch middle = xy_.load() * inverse, width = sqrt(det_.load()) * inverse;
+    const SimdBatch curvature1(height_ * half_chord_ * (height_ * half_chord_));
+    const SimdBatch curvature2 = height * half_chord * (height * half_chord);
+    SimdBatch v = dy * inverse, low(-1), high(1);
+    SimdBatch free_length(-std::numeric_limits<double>::infinity());
+    const Mask mask =
+        detail::lane_indices<simd_width> < pending_ && earliest_.load() < upper_bound_;
+    for (int step = 0; step < max_steps; ++step) {
+      const SimdBatch c = sqrt(max(1. - v * v, SimdBatch(0)));
+      const SimdBatch s = (width * v - middle * c) * inverse;
+      const SimdBatch along1 = height_ * s + shear_ * c, along2 = height * s + shear * c;
+      const SimdBatch across1 = half_chord_ * c, across2 = half_chord * c;
+      const SimdBatch support1 = sqrt(across1 * across1 + along1 * along1);
+      const SimdBatch support2 = sqrt(across2 * across2 + along2 * along2);
+      const SimdBatch inverse1 = 1. / support1, inverse2 = 1. / support2;
+      const SimdBatch now = dx + (s * dy - support1 - support2) / c;
+      where(now > free_length, free_length) = now;
+      // df/d(s/c), and minus its derivative.
+      const SimdBatch slope = dy - height_ * along1 * inverse1 - height * along2 * inverse2;
+      const SimdBatch curvature = curvature1 * (inverse1 * inverse1 * inverse1) +
+                                  curvature2 * (inverse2 * inverse2 * inverse2);
+      const Mask converged = slope * slope <= 2 * tolerance_ * curvature * (c * c * c);
+      if (none_of(mask && !converged && free_length < end_.length)) break;
       where(slope > 0., low) = v;
       where(!(slope > 0.), high) = v;
-      Many next = v + slope / (bend * width * inverse);
+      SimdBatch next = v + slope / (curvature * width * inverse);
       where(!(next > low && next < high), next) = 0.5 * (low + high);
       v = next;
     }
-    for (int lane = 0; lane < waiting_; ++lane) {
-      const double length = std::max<double>(free[lane], 0);
-      if (asked[lane] && length < end_.length) end_ = {length, name_[lane], dx_[lane] - length};
+    for (int lane = 0; lane < pending_; ++lane) {
+      const double length = std::max<double>(free_length[lane], 0);
+      if (mask[lane] && length < end_.length) end_ = {length, id_[lane], dx_[lane] - length};
     }
-    if (end_.length < latest_) latest_ = end_.length;
-    waiting_ = 0;
+    if (end_.length < upper_bound_) upper_bound_ = end_.length;
+    pending_ = 0;
   }
 
-  double circumradius_, height_, slant_, waist_;  // enlarged by the gap
-  double latest_;                                 // nothing later is of interest
+  double circumradius_, height_, shear_, half_chord_;  // enlarged by the gap
+  double upper_bound_;                                 // of the contact
   double tolerance_;
-  PathEnd end_;
-  int waiting_ = 0;
-  std::uint32_t name_[many];
-  detail::NumbersOf<many> dx_, dy_, other_height_, other_slant_, other_waist_;
-  detail::NumbersOf<many> xy_, yy_, det_, earliest_;
+  FreePath end_;
+  int pending_ = 0;
+  std::uint32_t id_[simd_width];
+  detail::BatchBuffer<simd_width> dx_, dy_, other_height_, other_shear_, other_half_chord_;
+  detail::BatchBuffer<simd_width> xy_, yy_, det_, earliest_;
 };
 
-/// The same among round particles.
+/// Free paths among round particles.
 template <int direction>
-class RoundPathLook {
+class RoundFreePathBatch {
  public:
-  using Asked = Many::mask_type;
+  using Mask = SimdBatch::mask_type;
 
-  RoundPathLook(const Ellipse& shape, const Vec2& /*axis*/, double gap, double longest)
-      : radius_(shape.a + gap), longest_(longest), length_(longest) {}
+  RoundFreePathBatch(const Ellipse& shape, const Vec2& /*axis*/, double gap, double max_length)
+      : radius_(shape.a + gap), max_length_(max_length), length_(max_length) {}
 
   double reach_behind(double /*largest*/) const { return 0; }
   double reach_aside(double largest) const { return radius_ + largest; }
-  double reach_ahead(double largest) const { return longest_ + radius_ + largest; }
+  double reach_ahead(double largest) const { return max_length_ + radius_ + largest; }
 
-  VITREL_INLINE void look(const EllipseGroup& group, std::uint32_t first_name, const Vec2& offset,
-                          Asked asked) {
-    using detail::one_of;
-    const Many dx = one_of<direction>(group.x, group.y) + offset[direction];
-    const Many dy = one_of<1 - direction>(group.x, group.y) + offset[1 - direction];
-    const Many reach = group.a.all() + radius_;
-    const Many room = reach * reach - dy * dy;
-    const Many free = dx - sqrt(max(room, Many(0)));
-    const Asked sooner = asked && room > 0. && dx > 0. && free < length_;
-    where(sooner, length_) = free;
-    where(sooner, ahead_) = dx;
-    where(sooner, name_) = detail::lane_numbers<many> + static_cast<double>(first_name);
+  VITREL_INLINE void add(const EllipseBatch& group, std::uint32_t first_id, const Vec2& offset,
+                         Mask mask) {
+    using detail::component;
+    const SimdBatch dx = component<direction>(group.x, group.y) + offset[direction];
+    const SimdBatch dy = component<1 - direction>(group.x, group.y) + offset[1 - direction];
+    const SimdBatch reach = group.a.load() + radius_;
+    const SimdBatch chord_squared = reach * reach - dy * dy;
+    const SimdBatch free_length = dx - sqrt(max(chord_squared, SimdBatch(0)));
+    const Mask sooner = mask && chord_squared > 0. && dx > 0. && free_length < length_;
+    where(sooner, length_) = free_length;
+    where(sooner, dx_) = dx;
+    where(sooner, id_) = detail::lane_indices<simd_width> + static_cast<double>(first_id);
   }
 
-  PathEnd end() const {
+  FreePath end() const {
     const double shortest = hmin(length_), length = std::max(shortest, 0.);
     const int lane = find_first_set(length_ == shortest);
-    if (name_[lane] < 0) return {length, PathEnd::nobody, 0};
-    return {length, static_cast<std::uint32_t>(static_cast<double>(name_[lane])),
-            ahead_[lane] - length};
+    if (id_[lane] < 0) return {length, FreePath::none, 0};
+    return {length, static_cast<std::uint32_t>(static_cast<double>(id_[lane])), dx_[lane] - length};
   }
 
  private:
-  double radius_, longest_;
-  Many length_, ahead_{0}, name_{-1};
+  double radius_, max_length_;
+  SimdBatch length_, dx_{0}, id_{-1};
 };
 
 }  // namespace vitrel

@@ -1,4 +1,4 @@
-#include "core/contact/support_gap.h"
+#include "core/contact/ellipse_gap.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,26 +11,26 @@ Vec2 direction(double angle) {
 
 namespace {
 
-// F(λ) in two dimensions needs no inverse: with w_i = adj(Σ_i) d and μ = 1 − λ,
+// In two dimensions F(λ) needs no inverse: with w_i = adj(Σ_i) d and μ = 1 − λ,
 // F = λμ (μ p₁ + λ p₂)/(μ² D₁ + λμ M + λ² D₂), p_i = d·w_i, D_i = det Σ_i, M = tr(adj(Σ₁) Σ₂).
 class PerramWertheimRatio {
  public:
   explicit PerramWertheimRatio(const EllipsePair& pair) : d_(pair.d) {
-    const Lanes size_squared = pair.size.square();
-    const Lanes bb = size_squared * pair.bb;
-    const Lanes stretch = size_squared * pair.stretch;
-    const Lanes aa = bb + stretch;
-    const Lanes along = pair.ux * d_.x() + pair.uy * d_.y();
-    const Lanes across = pair.ux * d_.y() - pair.uy * d_.x();
+    const PairArray size_squared = pair.size.square();
+    const PairArray bb = size_squared * pair.bb;
+    const PairArray aa_minus_bb = size_squared * pair.aa_minus_bb;
+    const PairArray aa = bb + aa_minus_bb;
+    const PairArray along = pair.ux * d_.x() + pair.uy * d_.y();
+    const PairArray across = pair.ux * d_.y() - pair.uy * d_.x();
     wx_ = bb * along * pair.ux - aa * across * pair.uy;
     wy_ = bb * along * pair.uy + aa * across * pair.ux;
     p_ = bb * along.square() + aa * across.square();
     det_ = aa * bb;
     const double s = pair.ux[0] * pair.uy[1] - pair.uy[0] * pair.ux[1];
-    mixed_ = bb[0] * aa[1] + aa[0] * bb[1] + stretch[0] * stretch[1] * s * s;
+    mixed_ = bb[0] * aa[1] + aa[0] * bb[1] + aa_minus_bb[0] * aa_minus_bb[1] * s * s;
   }
 
-  // λ : μ as the radii of the two ellipses along d.
+  // λ with λ : μ in the ratio of the radii of the two ellipses along d.
   double circle_like() const {
     const double r1 = std::sqrt(det_[0] * p_[1]), r2 = std::sqrt(det_[1] * p_[0]);
     return r1 + r2 > 0 ? r1 / (r1 + r2) : 0.5;
@@ -38,7 +38,7 @@ class PerramWertheimRatio {
 
   // C⁻¹d as a unit vector.
   Vec2 axis(double lambda) const { return unit_sum(1 - lambda, lambda); }
-  // The same for λ as in circle_like, √x : √y replaced by (3x + y) : (x + 3y).
+  // The same, with √x : √y of circle_like replaced by (3x + y) : (x + 3y).
   Vec2 circle_like_axis() const {
     const double x = det_[1] * p_[0], y = det_[0] * p_[1];
     return unit_sum(3 * x + y, x + 3 * y);
@@ -66,7 +66,7 @@ class PerramWertheimRatio {
   }
 
  private:
-  // Of points nothing is left but d; of a common centre, nothing.
+  // Degenerate bodies (points) leave only d, and coinciding centres not even that.
   Vec2 unit_sum(double weight1, double weight2) const {
     Vec2 w(weight1 * wx_[0] + weight2 * wx_[1], weight1 * wy_[0] + weight2 * wy_[1]);
     if (w.isZero(0)) w = d_.isZero(0) ? Vec2(1, 0) : d_;
@@ -75,7 +75,7 @@ class PerramWertheimRatio {
   }
 
   Vec2 d_;
-  Lanes wx_, wy_, p_, det_;
+  PairArray wx_, wy_, p_, det_;
   double mixed_;
 };
 
@@ -86,21 +86,21 @@ constexpr int max_newton_steps = 60;
 
 double support(const Ellipse& ellipse, const Vec2& u, const Vec2& n) {
   const double along = u.dot(n);
-  return std::sqrt(ellipse.b * ellipse.b + ellipse.stretch() * along * along);
+  return std::sqrt(ellipse.b * ellipse.b + ellipse.aa_minus_bb() * along * along);
 }
 
 Vec2 surface_point(const Ellipse& ellipse, const Vec2& u, const Vec2& n) {
-  const Vec2 sigma_n = ellipse.b * ellipse.b * n + ellipse.stretch() * u.dot(n) * u;
+  const Vec2 sigma_n = ellipse.b * ellipse.b * n + ellipse.aa_minus_bb() * u.dot(n) * u;
   return sigma_n / support(ellipse, u, n);
 }
 
 namespace detail {
 
-Vec2 likely_axis(const EllipsePair& pair) {
+Vec2 initial_axis(const EllipsePair& pair) {
   return PerramWertheimRatio(pair).circle_like_axis();
 }
 
-SoughtAxis find_separating_axis(const EllipsePair& pair) {
+SeparatingAxis find_separating_axis(const EllipsePair& pair) {
   const PerramWertheimRatio f(pair);
   double lambda = f.circle_like();
   double low = 0, high = 1;
@@ -116,10 +116,10 @@ SoughtAxis find_separating_axis(const EllipsePair& pair) {
   return {f.axis(lambda), false};
 }
 
-bool climb(const EllipsePair& pair, Vec2& n, GapAlongAxis& here) {
-  // A gain below the rounding of g = n·d − h₁ − h₂ cannot be seen.
-  constexpr double unseen = 1e-17;
-  if (!(here.curvature > 0) || here.gain() < unseen * n.dot(pair.d)) return false;
+bool improve_axis(const EllipsePair& pair, Vec2& n, GapAlongAxis& here) {
+  // A gain below the rounding of g = n·d − h₁ − h₂ is not visible.
+  constexpr double negligible = 1e-17;
+  if (!(here.curvature > 0) || here.gain() < negligible * n.dot(pair.d)) return false;
   double turn = here.slope / here.curvature;
   for (int halving = 0; halving < 30; ++halving, turn *= 0.25) {
     const Vec2 trial = turned(n, turn);
@@ -142,8 +142,8 @@ SupportGap support_gap(const Ellipse& one, const Vec2& u1, const Ellipse& two, c
   if (!separates) return {std::min(0.0, gap_along(pair, n).gap), n};
   GapAlongAxis here = gap_along(pair, n);
   for (int step = 0; step < max_newton_steps; ++step)
-    if (!detail::climb(pair, n, here)) break;
-  detail::settle(pair, n, here);
+    if (!detail::improve_axis(pair, n, here)) break;
+  detail::polish_axis(pair, n, here);
   return {here.gap, n};
 }
 
@@ -165,7 +165,7 @@ bool separated(const Ellipse& one, const Vec2& u1, const Ellipse& two, const Vec
   if (!separates) return false;
   GapAlongAxis here = gap_along(pair, n);
   for (int step = 0; here.gap < margin && step < max_newton_steps; ++step)
-    if (!detail::climb(pair, n, here)) break;
+    if (!detail::improve_axis(pair, n, here)) break;
   return here.gap >= margin;
 }
 

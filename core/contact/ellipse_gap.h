@@ -5,16 +5,14 @@
 
 #include "core/contact/ellipse_pair.h"
 
-/// The support gap of two ellipses. For a unit vector n, g(n) = n·d − h₁(n) − h₂(n) with the
-/// support functions h(n) = √(b² + (a² − b²)(u·n)²), u along the major axis and d from centre 1 to
-/// centre 2. If g(n) > 0, n separates the ellipses, whatever n is; max g is their distance,
-/// attained at the normal of the closest points.
+/// The support gap of two ellipses. For a unit vector n, g(n) = n·d − h₁(n) − h₂(n) with the support functions
+/// h(n) = √(b² + (a² − b²)(u·n)²), u along the major axis and d from centre 1 to centre 2. If g(n) > 0, n separates
+/// the ellipses. max g is their distance, attained at the normal of the closest points.
 ///
-/// In two dimensions, along the angle φ of n, g'' = −(g + ρ₁ + ρ₂) with ρ = a²b²/h³ the radius of
-/// curvature where n is the normal: on the arc where g > 0, g is strictly concave, and Newton's
-/// method on φ converges quadratically to the one maximum. A start on that arc comes from the
-/// function of Perram and Wertheim (1985), F(λ) = λ(1−λ) dᵀC⁻¹d with C = (1−λ)Σ₁ + λΣ₂: wherever
-/// F(λ) > 1, the direction C⁻¹d separates (Cauchy–Schwarz), and max F > 1 exactly for disjoint
+/// Along the angle φ of n, g'' = −(g + ρ₁ + ρ₂), where ρ = a²b²/h³ is the radius of curvature at the point with
+/// normal n. On the arc with g > 0, g is strictly concave, and Newton's method in φ converges quadratically to the
+/// only maximum. The Perram–Wertheim function (1985), F(λ) = λ(1−λ) dᵀC⁻¹d with C = (1−λ)Σ₁ + λΣ₂, gives a start on
+/// that arc: where F(λ) > 1, the direction C⁻¹d separates (Cauchy–Schwarz), and max F > 1 exactly for disjoint
 /// ellipses.
 namespace vitrel {
 
@@ -25,7 +23,8 @@ Vec2 direction(double angle);
 double support(const Ellipse& ellipse, const Vec2& u, const Vec2& n);
 
 struct SupportGap {
-  double gap;  ///< the distance if positive; otherwise only its sign counts (overlap or touching)
+  double
+      gap;  ///< the distance if positive; otherwise the bodies touch or overlap, and only the sign counts
   /// Unit vector from 1 to 2: the normal of the closest points; of an overlapping pair, of the
   /// ellipses scaled about their centres to touch.
   Vec2 normal;
@@ -38,8 +37,8 @@ SupportGap support_gap(const Ellipse& one, const Vec2& u1, const Ellipse& two, c
 SupportGap support_gap(const Ellipse& one, double angle1, const Ellipse& two, double angle2,
                        const Vec2& d);
 
-/// True exactly if an axis with g ≥ margin exists (margin ≥ 0; to rounding): the surfaces are at
-/// least `margin` apart. Decides as soon as any axis proves it, circles first.
+/// True if and only if an axis with g ≥ margin exists (margin ≥ 0; to rounding): the surfaces are at least
+/// `margin` apart. Returns as soon as one axis proves it; tests the circles first.
 bool separated(const Ellipse& one, const Vec2& u1, const Ellipse& two, const Vec2& u2,
                const Vec2& d, double margin);
 
@@ -48,7 +47,7 @@ Vec2 surface_point(const Ellipse& ellipse, const Vec2& u, const Vec2& n);
 
 namespace detail {
 
-/// The unit vector n turned by `angle`, to third order.
+/// The unit vector n rotated by `angle`, to third order.
 inline Vec2 turned(const Vec2& n, double angle) {
   const double q = 0.5 * angle;
   const double scale = 1 / (1 + q * q);
@@ -59,31 +58,31 @@ inline double clamped(double turn, double most) {
   return std::clamp(turn, -most, most);
 }
 
-/// C(λ)⁻¹d at λ : 1 − λ as the radii along d: the best axis for circles, and a good one while the
-/// bodies are not close. It need not separate.
-Vec2 likely_axis(const EllipsePair& pair);
+/// C(λ)⁻¹d with λ : 1 − λ in the ratio of the radii along d: the best axis for circles, and a good one while the
+/// bodies are not close. It need not separate them.
+Vec2 initial_axis(const EllipsePair& pair);
 
-/// C(λ)⁻¹d on the ascent of F(λ) from there: the first that separates, or, of an overlapping pair,
-/// that of the largest F: the common normal of the ellipses scaled to touch.
-struct SoughtAxis {
+/// The first separating axis C(λ)⁻¹d found while maximising F(λ) from there; for an overlapping pair the axis at
+/// the maximum of F, which is the common normal of the ellipses scaled to touch.
+struct SeparatingAxis {
   Vec2 n;
   bool separates;
 };
-SoughtAxis find_separating_axis(const EllipsePair& pair);
+SeparatingAxis find_separating_axis(const EllipsePair& pair);
 
-/// One damped Newton step of n towards the maximum of g; `here` is gap_along at n on entry and at
-/// the new n on return. False (and nothing changed) if no step improves g.
-bool climb(const EllipsePair& pair, Vec2& n, GapAlongAxis& here);
+/// One damped Newton step of n towards the maximum of g. `here` is gap_along at n, before and after. Returns
+/// false, and changes nothing, if no step improves g.
+bool improve_axis(const EllipsePair& pair, Vec2& n, GapAlongAxis& here);
 
-/// Newton's method on dg/dφ = 0 from an axis that is optimal as far as g can tell. Since g is flat
-/// at its maximum, such an axis is good to √ε only; the slope makes it good to ε.
-inline void settle(const EllipsePair& pair, Vec2& n, const GapAlongAxis& here) {
-  constexpr int most_steps = 4;
-  constexpr double quadratic = 3e-8;  // such a step leaves less than rounding
+/// Newton iteration on dg/dφ = 0 from an axis that maximises g to rounding. g is flat at its maximum, so such an
+/// axis is accurate to √ε only; the slope makes it accurate to ε.
+inline void polish_axis(const EllipsePair& pair, Vec2& n, const GapAlongAxis& here) {
+  constexpr int max_steps = 4;
+  constexpr double quadratic = 3e-8;  // after such a step the error is below rounding
   if (!(here.curvature > 0)) return;
   double turn = here.slope / here.curvature;
   n = turned(n, turn);
-  for (int step = 1; step < most_steps && !(std::abs(turn) < quadratic); ++step) {
+  for (int step = 1; step < max_steps && !(std::abs(turn) < quadratic); ++step) {
     const GapAlongAxis now = gap_along(pair, n);
     if (!(now.curvature > 0)) return;
     turn = now.slope / now.curvature;

@@ -2,44 +2,43 @@
 
 #include <cstdint>
 
-#include "core/contact/several.h"
-#include "core/contact/support_gap.h"
+#include "core/contact/ellipse_gap.h"
+#include "core/contact/simd_batch.h"
 
-/// One ellipse beside several others at rest, `many` at a time: is it clear of them all, that is, are
-/// the surfaces at least a margin apart? The question of a trial move, decided by proofs for either
-/// answer, the cheapest first.
+/// Does one ellipse keep a margin to all of several others at rest? The overlap test of trial moves, in SIMD
+/// batches. Each answer is proved; the cheapest proofs come first.
 ///
-///   1. Circumcircles a margin apart prove the pair clear; incircles that meet prove an overlap.
+///   1. Circumcircles a margin apart prove the pair separated; overlapping incircles prove an overlap.
 ///   2. For weights w₁, w₂ > 0 let C = w₁Σ₁ + w₂Σ₂, n = C⁻¹d, hᵢ = √(nᵀΣᵢn), d from centre 1 to 2.
-///      Clear if n·d > h₁ + h₂ + margin |n|: n separates (support_gap.h), whatever n is.
+///      Separated if n·d > h₁ + h₂ + margin |n|: any such n separates (ellipse_gap.h).
 ///      Overlap if w₁h₁ ≤ 1 and w₂h₂ ≤ 1: w₁Σ₁n = d − w₂Σ₂n is a point of both ellipses.
-///      First w₁ = w₂, which settles most.
-///   3. Once more with w₁ : w₂ = h₂ : h₁, towards the maximum of the function of Perram and Wertheim
-///      (there one of the two proofs holds, or the pair is between touching and a margin apart).
-///      1 to 3 % of all within the circumcircles are left.
-///   4. These go to separated() one by one.
+///      The first weights are w₁ = w₂; they decide most pairs.
+///   3. Repeat with w₁ : w₂ = h₂ : h₁, towards the maximum of the Perram–Wertheim function. At the maximum
+///      one of the two proofs holds, or the gap is between 0 and the margin.
+///      1 to 3 % of all pairs with overlapping circumcircles remain.
+///   4. separated() decides these one by one.
 ///
-/// |n| ≤ hᵢ/bᵢ, so margin |n| is replaced by margin h₁/b₁: one root less, and clear is still proved. The
-/// proof of an overlap must hold with a reserve of 1e-10, far above the rounding of C⁻¹ up to aspect
-/// ratios of 1000: every pair that gets this answer has a common point. C⁻¹ det C and det C are sums
-/// of positive matrices and numbers, without cancellation.
+/// Since |n| ≤ hᵢ/bᵢ, margin |n| is replaced by margin h₁/b₁: this saves a square root and is still a proof. The
+/// proof of an overlap must hold with a safety margin of 1e-10, far above the rounding of C⁻¹ up to aspect
+/// ratios of 1000: every pair reported as overlapping has a common point. C⁻¹ det C and det C are sums of
+/// positive terms, without cancellation.
 ///
-/// So whichever step answers, the answer is that of separated(): the largest support gap is at least
-/// the margin, to the rounding of the gap. It depends on the pair alone, not on the other lanes, and
-/// changes if the bodies change places only where the gap is the margin to rounding.
+/// Every step therefore gives the answer of separated(): the largest support gap is at least the margin, to the
+/// rounding of the gap. The answer depends on the pair scalar_tests, not on the other lanes. Exchanging the bodies
+/// changes it only where the gap equals the margin to rounding.
 /// Source: perram1985.
 namespace vitrel {
 
-/// Up to `many` ellipses at rest. A lane that holds none is out of everybody's reach.
-struct EllipseGroup {
-  static constexpr double nowhere = 1e150;  // its square is finite
+/// A batch of ellipses at rest. An empty lane holds an ellipse far away.
+struct EllipseBatch {
+  static constexpr double far_away = 1e150;  // its square is finite
 
-  detail::NumbersOf<many> x, y, a, b, ux, uy;
+  detail::BatchBuffer<simd_width> x, y, a, b, ux, uy;
 
-  EllipseGroup() {
-    for (int lane = 0; lane < many; ++lane) clear(lane);
+  EllipseBatch() {
+    for (int lane = 0; lane < simd_width; ++lane) clear(lane);
   }
-  void clear(int lane) { set(lane, {0, 0}, Vec2(nowhere, nowhere), Vec2(1, 0)); }
+  void clear(int lane) { set(lane, {0, 0}, Vec2(far_away, far_away), Vec2(1, 0)); }
   void set(int lane, const Ellipse& shape, const Vec2& position, const Vec2& axis) {
     x[lane] = position.x(), y[lane] = position.y();
     a[lane] = shape.a, b[lane] = shape.b;
@@ -51,101 +50,102 @@ struct EllipseGroup {
   Vec2 axis(int lane) const { return {ux[lane], uy[lane]}; }
 };
 
-class OverlapLook {
+class OverlapBatch {
  public:
-  /// Lanes of a group.
-  using Asked = Many::mask_type;
+  /// PairArray of a batch.
+  using Mask = SimdBatch::mask_type;
 
   /// `axis` is the unit vector along the major axis; margin ≥ 0.
-  OverlapLook(const Ellipse& shape, const Vec2& axis, double margin)
+  OverlapBatch(const Ellipse& shape, const Vec2& axis, double margin)
       : shape_(shape),
         axis_(axis),
         margin_(margin),
         bb_(shape.b * shape.b),
-        stretch_(shape.stretch()),
-        enlarged_(1 + margin / shape.b) {}
+        aa_minus_bb_(shape.aa_minus_bb()),
+        enlargement_(1 + margin / shape.b) {}
 
-  /// Whether the body is clear of all in the group that are asked about; `offset` + their positions
-  /// are the separations d. Adds the number of pairs that step 4 decided to `alone`.
-  VITREL_INLINE bool clear_of(const EllipseGroup& group, const Vec2& offset, Asked asked,
-                              std::uint64_t& alone) const {
-    const Many dx = group.x.all() + offset.x(), dy = group.y.all() + offset.y();
-    const Many distance_squared = dx * dx + dy * dy;
-    const Many a = group.a.all();
-    const Many outer = a + (shape_.a + margin_);
-    Asked open = asked && distance_squared < outer * outer;
-    if (none_of(open)) return true;
-    const Many b = group.b.all();
-    const Many inner = b + shape_.b;
-    if (any_of(open && distance_squared < inner * inner)) return false;
+  /// Whether the body keeps the margin to all ellipses in the lanes of `mask`; the separations d are `offset` +
+  /// their positions. Adds the number of pairs that step 4 decided to `scalar_tests`.
+  VITREL_INLINE bool clear_of(const EllipseBatch& group, const Vec2& offset, Mask mask,
+                              std::uint64_t& scalar_tests) const {
+    const SimdBatch dx = group.x.load() + offset.x(), dy = group.y.load() + offset.y();
+    const SimdBatch distance_squared = dx * dx + dy * dy;
+    const SimdBatch a = group.a.load();
+    const SimdBatch outer = a + (shape_.a + margin_);
+    Mask undecided = mask && distance_squared < outer * outer;
+    if (none_of(undecided)) return true;
+    const SimdBatch b = group.b.load();
+    const SimdBatch inner = b + shape_.b;
+    if (any_of(undecided && distance_squared < inner * inner)) return false;
 
-    const Many bb = b * b, stretch = (a - b) * (a + b);
-    const Pairs pairs(*this, group.ux.all(), group.uy.all(), bb, stretch, dx, dy);
+    const SimdBatch bb = b * b, aa_minus_bb = (a - b) * (a + b);
+    const Pairs pairs(*this, group.ux.load(), group.uy.load(), bb, aa_minus_bb, dx, dy);
     Heights heights;
-    if (!pairs.settle(Many(1), Many(1), heights, open)) return false;
-    if (none_of(open)) return true;
-    const Many weight1 = heights.two, weight2 = heights.one;
-    if (!pairs.settle(weight1, weight2, heights, open)) return false;
-    return none_of(open) || clear_alone(group, offset, open, alone);
+    if (!pairs.decide(SimdBatch(1), SimdBatch(1), heights, undecided)) return false;
+    if (none_of(undecided)) return true;
+    const SimdBatch weight1 = heights.two, weight2 = heights.one;
+    if (!pairs.decide(weight1, weight2, heights, undecided)) return false;
+    return none_of(undecided) || clear_by_scalar_tests(group, offset, undecided, scalar_tests);
   }
 
  private:
-  static constexpr double surely = 1 - 1e-10;
+  static constexpr double overlap_safety = 1 - 1e-10;
 
   struct Heights {
-    Many one, two;
+    SimdBatch one, two;
   };
 
-  // The body and those of a group, with what does not depend on the weights.
+  // The body and the ellipses of a batch: what does not depend on the weights.
   struct Pairs {
-    const OverlapLook& body;
-    Many ux, uy, bb, stretch, dx, dy;
-    Many across1, across2;  // of d to the axes
-    Many sine_squared;      // of the angle between the axes
+    const OverlapBatch& body;
+    SimdBatch ux, uy, bb, aa_minus_bb, dx, dy;
+    SimdBatch across1, across2;  // components of d across the major axes
+    SimdBatch sine_squared;      // of the angle between the axes
 
-    VITREL_INLINE Pairs(const OverlapLook& one, const Many& group_ux, const Many& group_uy,
-                        const Many& group_bb, const Many& group_stretch, const Many& group_dx,
-                        const Many& group_dy)
+    VITREL_INLINE Pairs(const OverlapBatch& one, const SimdBatch& group_ux,
+                        const SimdBatch& group_uy, const SimdBatch& group_bb,
+                        const SimdBatch& group_stretch, const SimdBatch& group_dx,
+                        const SimdBatch& group_dy)
         : body(one),
           ux(group_ux),
           uy(group_uy),
           bb(group_bb),
-          stretch(group_stretch),
+          aa_minus_bb(group_stretch),
           dx(group_dx),
           dy(group_dy),
           across1(one.axis_.x() * dy - one.axis_.y() * dx),
           across2(ux * dy - uy * dx) {
-      const Many sine = one.axis_.x() * uy - one.axis_.y() * ux;
+      const SimdBatch sine = one.axis_.x() * uy - one.axis_.y() * ux;
       sine_squared = sine * sine;
     }
 
-    // False if one of the open pairs is proved to overlap; closes those that are proved clear.
-    VITREL_INLINE bool settle(const Many& weight1, const Many& weight2, Heights& heights,
-                              Asked& open) const {
-      const Many beta = weight1 * body.bb_ + weight2 * bb;
-      const Many along1 = weight1 * body.stretch_, along2 = weight2 * stretch;
-      const Many det = beta * (beta + along1 + along2) + along1 * along2 * sine_squared;
+    // False if an undecided pair is proved to overlap; removes the pairs that are proved separated.
+    VITREL_INLINE bool decide(const SimdBatch& weight1, const SimdBatch& weight2, Heights& heights,
+                              Mask& undecided) const {
+      const SimdBatch beta = weight1 * body.bb_ + weight2 * bb;
+      const SimdBatch along1 = weight1 * body.aa_minus_bb_, along2 = weight2 * aa_minus_bb;
+      const SimdBatch det = beta * (beta + along1 + along2) + along1 * along2 * sine_squared;
       // det C times C⁻¹d
-      const Many turned1 = along1 * across1, turned2 = along2 * across2;
-      const Many nx = beta * dx - turned1 * body.axis_.y() - turned2 * uy;
-      const Many ny = beta * dy + turned1 * body.axis_.x() + turned2 * ux;
-      const Many square = nx * nx + ny * ny;
-      const Many n1 = nx * body.axis_.x() + ny * body.axis_.y(), n2 = nx * ux + ny * uy;
-      heights.one = sqrt(body.bb_ * square + body.stretch_ * (n1 * n1));
-      heights.two = sqrt(bb * square + stretch * (n2 * n2));
-      const Many limit = surely * det;
-      if (any_of(open && weight1 * heights.one <= limit && weight2 * heights.two <= limit))
+      const SimdBatch turned1 = along1 * across1, turned2 = along2 * across2;
+      const SimdBatch nx = beta * dx - turned1 * body.axis_.y() - turned2 * uy;
+      const SimdBatch ny = beta * dy + turned1 * body.axis_.x() + turned2 * ux;
+      const SimdBatch square = nx * nx + ny * ny;
+      const SimdBatch n1 = nx * body.axis_.x() + ny * body.axis_.y(), n2 = nx * ux + ny * uy;
+      heights.one = sqrt(body.bb_ * square + body.aa_minus_bb_ * (n1 * n1));
+      heights.two = sqrt(bb * square + aa_minus_bb * (n2 * n2));
+      const SimdBatch limit = overlap_safety * det;
+      if (any_of(undecided && weight1 * heights.one <= limit && weight2 * heights.two <= limit))
         return false;
-      open = open && !(nx * dx + ny * dy > body.enlarged_ * heights.one + heights.two);
+      undecided = undecided && !(nx * dx + ny * dy > body.enlargement_ * heights.one + heights.two);
       return true;
     }
   };
 
-  [[gnu::noinline]] bool clear_alone(const EllipseGroup& group, const Vec2& offset, Asked open,
-                                     std::uint64_t& alone) const {
-    for (int lane = 0; lane < many; ++lane) {
-      if (!open[lane]) continue;
-      ++alone;
+  [[gnu::noinline]] bool clear_by_scalar_tests(const EllipseBatch& group, const Vec2& offset,
+                                               Mask undecided, std::uint64_t& scalar_tests) const {
+    for (int lane = 0; lane < simd_width; ++lane) {
+      if (!undecided[lane]) continue;
+      ++scalar_tests;
       if (!separated(shape_, axis_, group.shape(lane), group.axis(lane),
                      group.position(lane) + offset, margin_))
         return false;
@@ -156,8 +156,8 @@ class OverlapLook {
   Ellipse shape_;
   Vec2 axis_;
   double margin_;
-  double bb_, stretch_;  // b², a² − b²
-  double enlarged_;      // 1 + margin/b
+  double bb_, aa_minus_bb_;  // b², a² − b²
+  double enlargement_;       // 1 + margin/b
 };
 
 }  // namespace vitrel

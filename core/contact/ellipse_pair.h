@@ -1,24 +1,24 @@
 #pragma once
 
-#include "core/contact/lanes.h"
+#include "core/contact/simd.h"
 #include "core/geometry/growing.h"
 
 namespace vitrel {
 
-/// Two ellipses at one instant, in the form that the support gap computes with. Lane 0 is body 1.
+/// Two ellipses at one instant, in the form that the support gap uses. Element 0 is body 1.
 struct EllipsePair {
-  Lanes bb;       ///< b²
-  Lanes stretch;  ///< a² − b²
-  Lanes aabb;     ///< a²b²
-  Lanes size;     ///< by which a and b are multiplied
-  Lanes ux, uy;   ///< unit vectors along the major axes
-  Vec2 d;         ///< from centre 1 to centre 2
+  PairArray bb;           ///< b²
+  PairArray aa_minus_bb;  ///< a² − b²
+  PairArray aabb;         ///< a²b²
+  PairArray size;         ///< factor of a and b
+  PairArray ux, uy;       ///< unit vectors along the major axes
+  Vec2 d;                 ///< from centre 1 to centre 2
 
   EllipsePair() = default;
   EllipsePair(const Ellipse& one, const Vec2& u1, const Ellipse& two, const Vec2& u2,
               const Vec2& centre_to_centre)
       : bb(one.b * one.b, two.b * two.b),
-        stretch(one.stretch(), two.stretch()),
+        aa_minus_bb(one.aa_minus_bb(), two.aa_minus_bb()),
         aabb(one.a * one.a * bb[0], two.a * two.a * bb[1]),
         size(1, 1),
         ux(u1.x(), u2.x()),
@@ -26,9 +26,8 @@ struct EllipsePair {
         d(centre_to_centre) {}
 };
 
-/// The support function h of an ellipse with major axis u at the angle φ of a unit vector n, and
-/// what its change needs. T holds several numbers: of two bodies, or of one kind of body in several
-/// pairs.
+/// The support function h of an ellipse with major axis u at the angle φ of a unit vector n, and its derivatives.
+/// T holds the two bodies of a pair, or one body of each pair of a batch.
 template <class T>
 struct SupportAlong {
   T along, across;   ///< u·n and u·dn/dφ
@@ -39,57 +38,58 @@ struct SupportAlong {
 };
 
 template <class T>
-VITREL_INLINE SupportAlong<T> support_along(const T& bb, const T& stretch, const T& aabb,
+VITREL_INLINE SupportAlong<T> support_along(const T& bb, const T& aa_minus_bb, const T& aabb,
                                             const T& ux, const T& uy, const T& nx, const T& ny) {
   SupportAlong<T> s;
   s.along = nx * ux + ny * uy;
   s.across = nx * uy - ny * ux;
-  const T hh = bb + stretch * (s.along * s.along);
+  const T hh = bb + aa_minus_bb * (s.along * s.along);
   s.height = sqrt(hh);
-  s.inverse_square = 1. / hh;  // beside the root, not after it
+  s.inverse_square = 1. / hh;  // independent of the square root
   const T inverse = s.height * s.inverse_square;
-  s.turning = stretch * s.along * s.across * inverse;
+  s.turning = aa_minus_bb * s.along * s.across * inverse;
   s.radius = aabb * s.inverse_square * inverse;
   return s;
 }
 
-/// A bound K ω² of d²h/dt² while a body turns at angular velocity ω for `duration`, which may be
-/// negative (then looking back); `s` is at n now and `largest` = ω² (a² − b²)/b.
+/// A bound K ω² of d²h/dt² while a body rotates at angular velocity ω for `duration`, which may be negative
+/// (backwards); `s` is at n now and `largest` = ω² (a² − b²)/b.
 ///
-/// The body turns by Δ = ω t, and |u·n| changes from p = |u·n| by the slope r = −ω (u·dn/dφ) sgn(u·n)
-/// at first; from cos Δ ≥ 1 − Δ²/2 and 0 ≤ sin |Δ| ≤ |Δ| where that is positive,
+/// The body rotates by Δ = ω t, and |u·n| changes from p = |u·n| with the initial slope
+/// r = −ω (u·dn/dφ) sgn(u·n); from cos Δ ≥ 1 − Δ²/2 and, where it is positive, 0 ≤ sin |Δ| ≤ |Δ|,
 ///     |u·n| ≥ max(0, p (1 − Δ²/2) + min(0, r t)),
-/// which bounds h² = b² + (a² − b²)(u·n)² below. With q that bound over h² now, ρ = a²b²/h³ rises
-/// to q^(−3/2) ρ ≤ ρ/q² at most and h falls to q^(1/2) h ≥ q h at least, so that
+/// which bounds h² = b² + (a² − b²)(u·n)² from below. With q the ratio of that bound to h² now, ρ = a²b²/h³ rises
+/// to at most q^(−3/2) ρ ≤ ρ/q², and h falls to at least q^(1/2) h ≥ q h, so that
 ///     h'' ≤ K = min(ρ/q² − q h, (a² − b²)/b),
-/// the latter its largest value at all. K may be negative.
+/// the latter its global maximum. K may be negative.
 template <class T>
-VITREL_INLINE T bend_bound(const SupportAlong<T>& s, const T& bb, const T& stretch, const T& omega,
-                           const T& largest, const T& duration) {
+VITREL_INLINE T support_acceleration_bound(const SupportAlong<T>& s, const T& bb,
+                                           const T& aa_minus_bb, const T& omega, const T& largest,
+                                           const T& duration) {
   const T present = abs(s.along);
   const T slope = -omega * s.across * detail::signs(s.along);
-  const T turned = omega * duration;
+  const T rotation = omega * duration;
   const T falling = detail::positive_part(-slope * duration);
-  const T least_along =
-      detail::positive_part((present - present * (0.5 * turned * turned)) - falling);
-  const T q = (bb + stretch * (least_along * least_along)) * s.inverse_square;
+  const T min_along =
+      detail::positive_part((present - present * (0.5 * rotation * rotation)) - falling);
+  const T q = (bb + aa_minus_bb * (min_along * min_along)) * s.inverse_square;
   const T rise = 1. / q;
-  return detail::lesser(omega * omega * (s.radius * (rise * rise) - s.height * q), largest);
+  return detail::minimum(omega * omega * (s.radius * (rise * rise) - s.height * q), largest);
 }
 
 /// The support gap g = n·d − σ₁h₁ − σ₂h₂ at a unit vector n, σ the sizes. φ is the angle of n; h, h'
 /// and ρ are those at size 1.
-struct GapAlongAxis : SupportAlong<Lanes> {
+struct GapAlongAxis : SupportAlong<PairArray> {
   double gap = 0;
   double slope = 0;      ///< dg/dφ
   double curvature = 0;  ///< −d²g/dφ² = g + σ₁ρ₁ + σ₂ρ₂
 
   bool is_concave() const { return curvature > 0; }
-  /// Newton's step in φ to the maximum.
+  /// The Newton step in φ to the maximum.
   double newton() const { return slope / curvature; }
-  /// What it would add to g, to second order (only meaningful if concave).
+  /// The gain of that step in g, to second order (meaningful only if concave).
   double gain() const { return 0.5 * slope * slope / curvature; }
-  /// The curvature as a matrix C of one row: det C and (det C) C⁻¹ t.
+  /// The curvature as a 1 × 1 matrix C: det C and (det C) C⁻¹ t.
   double determinant() const { return curvature; }
   double adjugate(double t) const { return t; }
 };
@@ -97,14 +97,14 @@ struct GapAlongAxis : SupportAlong<Lanes> {
 /// `sized`: whether the sizes may differ from 1.
 template <bool sized = true>
 VITREL_INLINE GapAlongAxis gap_along(const EllipsePair& pair, const Vec2& n) {
-  const auto total = [&](const Lanes& of) {
+  const auto total = [&](const PairArray& of) {
     if constexpr (sized) return (pair.size * of).sum();
     return of.sum();
   };
   GapAlongAxis g;
-  static_cast<SupportAlong<Lanes>&>(g) =
-      support_along<Lanes>(pair.bb, pair.stretch, pair.aabb, pair.ux, pair.uy,
-                           Lanes::Constant(n.x()), Lanes::Constant(n.y()));
+  static_cast<SupportAlong<PairArray>&>(g) =
+      support_along<PairArray>(pair.bb, pair.aa_minus_bb, pair.aabb, pair.ux, pair.uy,
+                               PairArray::Constant(n.x()), PairArray::Constant(n.y()));
   g.gap = n.dot(pair.d) - total(g.height);
   g.slope = cross(n, pair.d) - total(g.turning);
   g.curvature = g.gap + total(g.radius);

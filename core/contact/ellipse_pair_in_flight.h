@@ -4,25 +4,24 @@
 #include <cmath>
 #include <type_traits>
 
-#include "core/contact/support_gap.h"
+#include "core/contact/ellipse_gap.h"
 
 namespace vitrel {
 
-/// Two ellipses in free flight, perhaps growing, and how their support gap changes along a fixed
-/// axis n.
+/// Two ellipses in free flight, possibly growing, and the change of their support gap along a fixed axis n.
 ///
 ///     ġ = n·v + Σ (σ ω h' − γ h)
 ///     −g̈ = Σ (σ ω² (ρ − h) − 2 γ ω h')
 ///
-/// with σ the size, γ the growth rate, h' = dh/dφ, ρ = h + h'' (at size 1): turning a body by dθ is
-/// turning n by −dθ, so that dh/dt = −ω h' and d²h/dt² = ω² h''.
+/// with σ the size, γ the growth rate, h' = dh/dφ and ρ = h + h'' at size 1. Rotating a body by dθ is rotating n by
+/// −dθ, so that dh/dt = −ω h' and d²h/dt² = ω² h''.
 template <class B>
 class EllipsePairInFlight {
  public:
   using Axis = Vec2;
   using Gap = GapAlongAxis;
 
-  /// Else sizes are 1 and stay so, which the compiler makes use of.
+  /// If false, all sizes are 1 at compile time.
   static constexpr bool grows = !std::is_same_v<B, Ellipse>;
 
   EllipsePairInFlight(const Flight<B>& one, const Flight<B>& two)
@@ -35,12 +34,12 @@ class EllipsePairInFlight {
     const Ellipse& shape1 = shape_of(one.body);
     const Ellipse& shape2 = shape_of(two.body);
     a_ = {shape1.a, shape2.a};
-    const Lanes b(shape1.b, shape2.b);
+    const PairArray b(shape1.b, shape2.b);
     pair_.size = size0_;
     pair_.bb = b.square();
-    pair_.stretch = {shape1.stretch(), shape2.stretch()};
+    pair_.aa_minus_bb = {shape1.aa_minus_bb(), shape2.aa_minus_bb()};
     pair_.aabb = a_.square() * pair_.bb;
-    largest_rotation_ = omega_.square() * pair_.stretch / b;
+    max_rotation_term_ = omega_.square() * pair_.aa_minus_bb / b;
   }
 
   const Vec2& d0() const { return d0_; }
@@ -48,49 +47,50 @@ class EllipsePairInFlight {
   /// Sum of the circumradii at time 0, and its rate of growth.
   double reach() const { return (a_ * size0_).sum(); }
   double reach_growth() const { return (a_ * growth_).sum(); }
-  /// The time in which the bodies that grow do so by the gap and the present circumradii together:
-  /// a scale of time for them, infinite if none grows.
+  /// The time in which the growing bodies grow by the gap and their present circumradii together: their time
+  /// scale, infinite if none grows.
   double doubling_time(double gap) const {
     return ((a_ * pair_.size).sum() + gap) / (a_ * growth_.max(0)).sum();
   }
 
   double time() const { return time_; }
 
-  /// Goes to `time`, the axes taken from the angles.
+  /// Moves to `time`, with the axes computed from the angles.
   void start_at(double time) {
     place_centres(time);
     axes_time_ = time;
-    directions<Lanes>(angle0_ + omega_ * time, axes_x_, axes_y_);
+    directions<PairArray>(angle0_ + omega_ * time, axes_x_, axes_y_);
     pair_.ux = axes_x_;
     pair_.uy = axes_y_;
   }
 
-  /// Goes to `time`, the axes turned from those at the start; never from one step to the next, lest
-  /// rounding add up.
+  /// Moves to `time`, with the axes rotated from those at the start, so that rounding does not accumulate.
   void go_to(double time) {
-    const Lanes turn = omega_ * (time - axes_time_);
-    if (std::max(std::abs(turn[0]), std::abs(turn[1])) > largest_small_angle) return start_at(time);
+    const PairArray turn = omega_ * (time - axes_time_);
+    if (std::max(std::abs(turn[0]), std::abs(turn[1])) > max_small_angle) return start_at(time);
     place_centres(time);
-    Lanes cosine, sine;
-    small_directions<Lanes>(turn, cosine, sine);
+    PairArray cosine, sine;
+    small_angle_directions<PairArray>(turn, cosine, sine);
     pair_.ux = cosine * axes_x_ - sine * axes_y_;
     pair_.uy = sine * axes_x_ + cosine * axes_y_;
   }
 
-  Gap look(const Axis& n) const { return gap_along<grows>(pair_, n); }
-  Axis likely_axis() const { return detail::likely_axis(pair_); }
-  detail::SoughtAxis find_separating_axis() const { return detail::find_separating_axis(pair_); }
-  bool climb(Axis& n, Gap& here) const { return detail::climb(pair_, n, here); }
-  void settle(Axis& n, const Gap& here) const { detail::settle(pair_, n, here); }
+  Gap evaluate(const Axis& n) const { return gap_along<grows>(pair_, n); }
+  Axis initial_axis() const { return detail::initial_axis(pair_); }
+  detail::SeparatingAxis find_separating_axis() const {
+    return detail::find_separating_axis(pair_);
+  }
+  bool improve_axis(Axis& n, Gap& here) const { return detail::improve_axis(pair_, n, here); }
+  void polish_axis(Axis& n, const Gap& here) const { detail::polish_axis(pair_, n, here); }
   /// From centre 1 to its surface point with normal n.
   Vec2 arm1(const Axis& n) const {
     const Vec2 u(pair_.ux[0], pair_.uy[0]);
     const double along = u.dot(n);
-    const double h = std::sqrt(pair_.bb[0] + pair_.stretch[0] * along * along);
-    return pair_.size[0] / h * (pair_.bb[0] * n + pair_.stretch[0] * along * u);
+    const double h = std::sqrt(pair_.bb[0] + pair_.aa_minus_bb[0] * along * along);
+    return pair_.size[0] / h * (pair_.bb[0] * n + pair_.aa_minus_bb[0] * along * u);
   }
 
-  /// ġ along the axis n, of which `g` is the gap.
+  /// ġ along the axis n, where `g` is the gap.
   double gap_rate(const Vec2& n, const GapAlongAxis& g) const {
     if constexpr (!grows) return n.dot(v_) + (omega_ * g.turning).sum();
     return n.dot(v_) + (pair_.size * omega_ * g.turning - growth_ * g.height).sum();
@@ -98,38 +98,37 @@ class EllipsePairInFlight {
 
   /// d²g/dφdt.
   double slope_rate(const Vec2& n, const GapAlongAxis& g) const {
-    const Lanes second = omega_ * (g.radius - g.height);
+    const PairArray second = omega_ * (g.radius - g.height);
     if constexpr (!grows) return cross(n, v_) + second.sum();
     return cross(n, v_) + (pair_.size * second - growth_ * g.turning).sum();
   }
 
   /// −g̈.
   double acceleration(const GapAlongAxis& g) const {
-    const Lanes rotation = omega_.square() * (g.radius - g.height);
+    const PairArray rotation = omega_.square() * (g.radius - g.height);
     if constexpr (!grows) return rotation.sum();
     return (pair_.size * rotation - cross_term(g)).sum();
   }
 
-  /// M with g(t + s) ≥ g + ġ s − ½ M s² for all s from 0 to `duration`, which may be negative (then
-  /// looking back), as long as sizes stay ≥ 0.
+  /// M with g(t + s) ≥ g + ġ s − ½ M s² for all s from 0 to `duration`, which may be negative (backwards), as long as
+  /// the sizes stay ≥ 0.
   ///
-  /// With K ω² of bend_bound, growing by the factor σ + γ s of either sign of s,
+  /// With K ω² of support_acceleration_bound and growth by the factor σ + γ s,
   ///     (σ + γ s)(h − ω h' s + ½ ω² K s²)
-  /// has the coefficient ½ σ ω² K − γ ω h' of s² and ½ γ ω² K of s³; K may be negative, and so may
-  /// γ s.
+  /// has the coefficient ½ σ ω² K − γ ω h' of s² and ½ γ ω² K of s³. Both K and γ s may be negative.
   double acceleration_bound(const GapAlongAxis& g, double duration) const {
-    const Lanes rotation = bend_bound<Lanes>(g, pair_.bb, pair_.stretch, omega_, largest_rotation_,
-                                             Lanes::Constant(duration));
+    const PairArray rotation = support_acceleration_bound<PairArray>(
+        g, pair_.bb, pair_.aa_minus_bb, omega_, max_rotation_term_, PairArray::Constant(duration));
     if constexpr (!grows) return rotation.sum();
-    const Lanes growing = growth_.abs() * std::abs(duration) * rotation.abs();
+    const PairArray growing = growth_.abs() * std::abs(duration) * rotation.abs();
     return (pair_.size * rotation + growing - cross_term(g)).sum();
   }
 
-  /// The largest that acceleration_bound can be for any axis and a duration of at most 1.
+  /// The maximum of acceleration_bound over all axes and durations up to 1.
   double largest_acceleration() const {
-    if constexpr (!grows) return largest_rotation_.sum();
-    return ((pair_.size + growth_.abs()) * largest_rotation_ +
-            2 * (growth_ * omega_).abs() * pair_.stretch.sqrt())
+    if constexpr (!grows) return max_rotation_term_.sum();
+    return ((pair_.size + growth_.abs()) * max_rotation_term_ +
+            2 * (growth_ * omega_).abs() * pair_.aa_minus_bb.sqrt())
         .sum();
   }
 
@@ -147,15 +146,15 @@ class EllipsePairInFlight {
     if constexpr (grows) pair_.size = size0_ + growth_ * time;
   }
 
-  Lanes cross_term(const GapAlongAxis& g) const { return 2 * growth_ * omega_ * g.turning; }
+  PairArray cross_term(const GapAlongAxis& g) const { return 2 * growth_ * omega_ * g.turning; }
 
   Vec2 d0_, v_;
-  Lanes angle0_, omega_, size0_, growth_;
-  Lanes a_;
-  Lanes largest_rotation_;  // ω² (a² − b²)/b
+  PairArray angle0_, omega_, size0_, growth_;
+  PairArray a_;
+  PairArray max_rotation_term_;  // ω² (a² − b²)/b
   double time_ = 0;
-  double axes_time_ = 0;  // when the major axes were these
-  Lanes axes_x_, axes_y_;
+  double axes_time_ = 0;  // time of axes_x_, axes_y_
+  PairArray axes_x_, axes_y_;
   EllipsePair pair_;  // at time_
 };
 

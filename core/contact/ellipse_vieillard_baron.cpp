@@ -1,4 +1,4 @@
-#include "core/contact/vieillard_baron.h"
+#include "core/contact/ellipse_vieillard_baron.h"
 
 #include <cmath>
 

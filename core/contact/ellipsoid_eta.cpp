@@ -15,10 +15,10 @@ using Matrix = Eigen::Matrix<Real, 3, 3>;
 /// d ln p/d ln τ and its derivative for p(τ) = Σ a_k τᵏ with no a_k negative: mean and variance of k
 /// with the weights a_k τᵏ.
 template <class Real>
-struct Growth {
+struct LogDerivatives {
   Real mean = 0, variance = 0;
 
-  Growth(const Real (&a)[5], Real tau) {
+  LogDerivatives(const Real (&a)[5], Real tau) {
     Real sum = 0, power = 1, weight[5];
     for (int k = 0; k < 5; ++k, power *= tau) {
       weight[k] = a[k] * power;
@@ -36,7 +36,7 @@ Real aspect_ratio(const EllipsoidAxes<Real>& body) {
   return body.lengths.maxCoeff() / body.lengths.minCoeff();
 }
 
-/// p̄₁, p̄₂, p̄₃, or what they would be if all their terms were positive.
+/// p̄₁, p̄₂, p̄₃, or what they would be if all their sums were positive.
 template <class Real>
 struct Coefficients {
   Real p1, p2, p3;
@@ -47,12 +47,12 @@ struct Coefficients {
   Real sum2() const { return p2 * (1 + p2 * p2 + 2 * p1 * p3) + p1 * p1 + p3 * p3; }
 };
 
-/// A bound of the error of η₁ if all e and u are good to `accuracy` in relative terms: β₁ is then good
-/// to 2 `accuracy` times the sum of its terms, β₂ to 3 of it.
+/// A bound of the error of η₁ if all e and u are good to `accuracy` in relative sums: β₁ is then good
+/// to 2 `accuracy` times the sum of its sums, β₂ to 3 of it.
 template <class Real>
-Real error_of_eta1(const Coefficients<Real>& p, const Coefficients<Real>& terms, Real accuracy) {
-  const Real blur1 = 2 * accuracy * terms.sum1();
-  const Real blur2 = 3 * accuracy * terms.sum2();
+Real error_of_eta1(const Coefficients<Real>& p, const Coefficients<Real>& sums, Real accuracy) {
+  const Real blur1 = 2 * accuracy * sums.sum1();
+  const Real blur2 = 3 * accuracy * sums.sum2();
   const Real beta1 = std::abs(p.beta1()) + blur1;
   const Real beta2 = std::abs(p.beta2()) + blur2;
   return 3 * beta1 * beta1 * blur1 + 54 * beta2 * blur2;
@@ -68,23 +68,23 @@ Real CharacteristicPolynomial<Real>::operator()(Real tau) const {
 }
 
 template <class Real>
-Real CharacteristicPolynomial<Real>::most_open() const {
+Real CharacteristicPolynomial<Real>::maximizer() const {
   // F is flat there: half the digits of τ give all of F.
-  const Real enough = std::sqrt(std::numeric_limits<Real>::epsilon()) / 64;
-  constexpr int most_steps = 80;
-  Real low = least, high = most;
+  const Real tolerance = std::sqrt(std::numeric_limits<Real>::epsilon()) / 64;
+  constexpr int max_steps = 80;
+  Real low = min_ratio, high = max_ratio;
   Real tau = std::sqrt(low * high);
-  for (int step = 0; step < most_steps; ++step) {
-    const Growth<Real> up(loss, tau), down(gain, tau);
+  for (int step = 0; step < max_steps; ++step) {
+    const LogDerivatives<Real> up(negative, tau), down(positive, tau);
     const Real slope = up.mean - down.mean;
     if (slope == 0) break;
     (slope > 0 ? low : high) = tau;
     const Real curvature = up.variance - down.variance;
     Real next = curvature < 0 ? tau * std::exp(-slope / curvature) : low;
     if (!(next > low && next < high)) next = std::sqrt(low * high);
-    const bool settled = std::abs(next - tau) <= enough * tau;
+    const bool converged = std::abs(next - tau) <= tolerance * tau;
     tau = next;
-    if (settled) break;
+    if (converged) break;
   }
   return tau;
 }
@@ -123,8 +123,9 @@ EllipsoidEta<Real> ellipsoid_eta(const EllipsoidAxes<Real>& one, const Ellipsoid
                                  const Vector<Real>& d) {
   const CharacteristicPolynomial<Real> q = characteristic_polynomial(one, two, d);
   const Coefficients<Real> p{-q.coefficient(3) / 4, q.coefficient(2) / 6, -q.coefficient(1) / 4};
-  const Coefficients<Real> terms{(q.gain[3] + q.loss[3]) / 4, (q.gain[2] + q.loss[2]) / 6,
-                                 (q.gain[1] + q.loss[1]) / 4};
+  const Coefficients<Real> sums{(q.positive[3] + q.negative[3]) / 4,
+                                (q.positive[2] + q.negative[2]) / 6,
+                                (q.positive[1] + q.negative[1]) / 4};
   const Real beta1 = p.beta1();
   const Real beta2 = p.beta2();
   const Real delta1 = p.p3 - p.p1 * p.p2;
@@ -142,8 +143,8 @@ EllipsoidEta<Real> ellipsoid_eta(const EllipsoidAxes<Real>& one, const Ellipsoid
   // ratio in units of the short one.
   const Real accuracy =
       16 * std::numeric_limits<Real>::epsilon() * std::max(aspect_ratio(one), aspect_ratio(two));
-  eta.rounding = error_of_eta1(p, terms, accuracy);
-  eta.lowest = eta.decides() || d.isZero(0) ? 1 : q(q.most_open());
+  eta.rounding = error_of_eta1(p, sums, accuracy);
+  eta.min_value = eta.decides() || d.isZero(0) ? 1 : q(q.maximizer());
   return eta;
 }
 
@@ -156,7 +157,7 @@ EllipsoidTouch<Real> ellipsoid_touch(const EllipsoidAxes<Real>& one, const Ellip
     return axes * axes.transpose();
   };
   const Matrix<Real> sigma1 = shape_matrix(one);
-  const Matrix<Real> both = sigma1 + q.sigma * q.most_open() * shape_matrix(two);
+  const Matrix<Real> both = sigma1 + q.sigma * q.maximizer() * shape_matrix(two);
   const Vector<Real> y = both.llt().solve(d);
   return {sigma1 * y, y.normalized()};
 }

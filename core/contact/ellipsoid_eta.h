@@ -17,7 +17,7 @@
 ///     u₃ = dᵀA₂d/σ,   u₁ = σ dᵀA₁d,   u₂ = dᵀMd/(a₁b₁c₁a₂b₂c₂),
 ///     M = Σ_kl x_kl x_klᵀ,  x_kl the cross product of semi-axis k of body 1 and semi-axis l of body 2,
 ///
-/// Σ and A = Σ⁻¹ the 3 × 3 matrices, d from centre 1 to centre 2: e and u are sums of positive terms and
+/// Σ and A = Σ⁻¹ the 3 × 3 matrices, d from centre 1 to centre 2: e and u are sums of positive sums and
 /// ratios of lengths, and exchanging the bodies reverses the polynomial. P is (λ + 1) det(λ + Σ₁A₂), and
 /// τU/P = F, the function of Perram and Wertheim at t = λ (perram_wertheim.h), so that
 ///
@@ -44,11 +44,11 @@
 /// of symmetry and d along it. Near these, and near touching, the sign of η₁ is below rounding. Then
 /// the sign of q at the τ > 0 where F is largest decides: as P > 0, q < 0 there iff F > 1 somewhere, iff
 /// there are two positive roots. d ln F/d ln τ changes its sign once, as F is concave in λ/(1 + λ), and
-/// the maximum is between the least and the largest possible ratio h₁/h₂ of the support functions.
+/// the maximum is between the min_ratio and the largest possible ratio h₁/h₂ of the support functions.
 ///
 /// Rounding: the verdict is right unless the surfaces are closer than about 20 ε (a₁ + a₂), a the longest
 /// semi-axes and ε the unit roundoff of Real, for aspect ratios up to 100 and size ratios up to 1000
-/// (measured, docs/validation.md: 4 ε at most among 10⁷ pairs). Lengths enter only as ratios.
+/// (measured, docs/validation.md: 4 ε at max_ratio among 10⁷ pairs). Lengths enter only as ratios.
 /// Sources: wang2001, jia2011, ghossein2013 (completed; its table 1 lacks the last condition).
 namespace vitrel {
 
@@ -66,15 +66,15 @@ struct EllipsoidAxes {
 /// q(τ) of two ellipsoids.
 template <class Real>
 struct CharacteristicPolynomial {
-  Real sigma;        ///< λ = στ
-  Real gain[5];      ///< 1, e₁, e₂, e₃, 1: P(τ) = Σ gain_k τᵏ
-  Real loss[5];      ///< 0, u₁, u₂, u₃, 0: τU(τ)
-  Real least, most;  ///< the bounds of h₁/h₂ in units of τ
+  Real sigma;                 ///< λ = στ
+  Real positive[5];           ///< 1, e₁, e₂, e₃, 1: P(τ) = Σ gain_k τᵏ
+  Real negative[5];           ///< 0, u₁, u₂, u₃, 0: τU(τ)
+  Real min_ratio, max_ratio;  ///< the bounds of h₁/h₂ in units of τ
 
-  Real coefficient(int k) const { return gain[k] - loss[k]; }
+  Real coefficient(int k) const { return positive[k] - negative[k]; }
   Real operator()(Real tau) const;
   /// Where F is largest (not if the centres coincide, where F = 0).
-  Real most_open() const;
+  Real maximizer() const;
 };
 
 template <class Real>
@@ -87,12 +87,12 @@ struct EllipsoidEta {
   Real eta1, eta2, eta3, eta4, eta5;
   Real p1, p2, p3;  ///< p̄; p̄₄ = 1
   Real rounding;    ///< of η₁: where |η₁| is not larger its sign is not used
-  Real lowest;      ///< q where F is largest, if that decides
+  Real min_value;   ///< q where F is largest, if that decides
 
   bool decides() const { return std::abs(eta1) > rounding; }
-  bool disjoint() const { return decides() ? has_separating_signs() : lowest < 0; }
+  bool disjoint() const { return decides() ? has_separating_signs() : min_value < 0; }
   /// Touching from outside included.
-  bool disjoint_or_touching() const { return decides() ? has_separating_signs() : lowest <= 0; }
+  bool disjoint_or_touching() const { return decides() ? has_separating_signs() : min_value <= 0; }
 
  private:
   bool has_separating_signs() const {

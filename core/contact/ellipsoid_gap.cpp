@@ -14,7 +14,7 @@ Axis3 axis_along(const Vec3& w) {
   return completed(components(w.normalized()));
 }
 
-/// The function of Perram and Wertheim of a pair.
+/// The Perram–Wertheim function of a pair.
 class PerramWertheimAxis {
  public:
   explicit PerramWertheimAxis(const EllipsoidPair& pair)
@@ -22,7 +22,7 @@ class PerramWertheimAxis {
         one_(matrix(pair, 0)),
         two_(matrix(pair, 1)) {}
 
-  /// λ as the radii along d: to 1/rᵢ² = dᵀΣᵢ⁻¹d/d².
+  /// λ with λ : 1 − λ in the ratio of the radii along d, 1/rᵢ² = dᵀΣᵢ⁻¹d/d².
   double circle_like() const {
     const double r1 = 1 / std::sqrt(inverse_form(one_)), r2 = 1 / std::sqrt(inverse_form(two_));
     return std::isfinite(r1 + r2) && r1 + r2 > 0 ? r1 / (r1 + r2) : 0.5;
@@ -40,7 +40,7 @@ class PerramWertheimAxis {
  private:
   static Mat3 matrix(const EllipsoidPair& pair, int lane) {
     Mat3 g;
-    const auto row = [&](const Vec3Of<Lanes>& v) -> Eigen::RowVector3d {
+    const auto row = [&](const Vec3Of<PairArray>& v) -> Eigen::RowVector3d {
       return pair.size[lane] * Vec3(v.x[lane], v.y[lane], v.z[lane]).transpose();
     };
     g << row(pair.axes.first), row(pair.axes.second), row(pair.axes.third);
@@ -64,7 +64,7 @@ class PerramWertheimAxis {
 EllipsoidPair pair_at_rest(const Ellipsoid& one, const Quaternion& orientation1,
                            const Ellipsoid& two, const Quaternion& orientation2, const Vec3& d) {
   const Mat3 turn1 = orientation1.toRotationMatrix(), turn2 = orientation2.toRotationMatrix();
-  const auto axis = [&](int k) -> Vec3Of<Lanes> {
+  const auto axis = [&](int k) -> Vec3Of<PairArray> {
     const Vec3 u = one.semi_axes[k] * turn1.col(k), v = two.semi_axes[k] * turn2.col(k);
     return {{u.x(), v.x()}, {u.y(), v.y()}, {u.z(), v.z()}};
   };
@@ -75,12 +75,12 @@ EllipsoidPair pair_at_rest(const Ellipsoid& one, const Quaternion& orientation1,
 
 namespace detail {
 
-Axis3 likely_axis(const EllipsoidPair& pair) {
+Axis3 initial_axis(const EllipsoidPair& pair) {
   const PerramWertheimAxis f(pair);
   return axis_along(f.direction(f.circle_like()));
 }
 
-SoughtAxis3 find_separating_axis(const EllipsoidPair& pair) {
+SeparatingAxis3 find_separating_axis(const EllipsoidPair& pair) {
   const PerramWertheimAxis f(pair);
   double lambda = f.circle_like();
   double low = 0, high = 1;
@@ -92,7 +92,7 @@ SoughtAxis3 find_separating_axis(const EllipsoidPair& pair) {
     const double ratio = f.heights_ratio(w);
     double next = ratio / (1 + ratio);  // the fixed point is the maximum
     (next > lambda ? low : high) = lambda;
-    // Now and then the middle, should the iteration creep.
+    // Bisect every fourth step, in case the iteration converges slowly.
     if (!(next > low && next < high) || step % 4 == 3) next = 0.5 * (low + high);
     if (std::abs(next - lambda) <= 1e-15 * lambda) break;
     lambda = next;
@@ -100,10 +100,10 @@ SoughtAxis3 find_separating_axis(const EllipsoidPair& pair) {
   return {axis_along(w), false};
 }
 
-bool climb(const EllipsoidPair& pair, Axis3& n, GapAlongAxis3& here) {
-  // A gain below the rounding of g = n·d − h₁ − h₂ cannot be seen.
-  constexpr double unseen = 1e-17;
-  if (!here.is_concave() || here.gain() < unseen * vector(n.n).dot(pair.d)) return false;
+bool improve_axis(const EllipsoidPair& pair, Axis3& n, GapAlongAxis3& here) {
+  // A gain below the rounding of g = n·d − h₁ − h₂ is not visible.
+  constexpr double negligible = 1e-17;
+  if (!here.is_concave() || here.gain() < negligible * vector(n.n).dot(pair.d)) return false;
   Tangent step = here.newton();
   for (int halving = 0; halving < 30; ++halving, step *= 0.25) {
     const Axis3 trial = turned(n, step);
@@ -117,13 +117,13 @@ bool climb(const EllipsoidPair& pair, Axis3& n, GapAlongAxis3& here) {
   return false;
 }
 
-void settle(const EllipsoidPair& pair, Axis3& n, const GapAlongAxis3& here) {
-  constexpr int most_steps = 4;
+void polish_axis(const EllipsoidPair& pair, Axis3& n, const GapAlongAxis3& here) {
+  constexpr int max_steps = 4;
   constexpr double quadratic = 3e-8;  // such a step leaves less than rounding
   if (!here.is_concave()) return;
   Tangent step = here.newton();
   n = turned(n, step);
-  for (int k = 1; k < most_steps && !(step.norm() < quadratic); ++k) {
+  for (int k = 1; k < max_steps && !(step.norm() < quadratic); ++k) {
     const GapAlongAxis3 now = gap_along(pair, n);
     if (!now.is_concave()) return;
     step = now.newton();
@@ -140,8 +140,8 @@ SupportGap3 support_gap(const Ellipsoid& one, const Quaternion& orientation1, co
   GapAlongAxis3 here = gap_along(pair, n);
   if (!separates) return {std::min(0.0, here.gap), vector(n.n)};
   for (int step = 0; step < max_newton_steps; ++step)
-    if (!detail::climb(pair, n, here)) break;
-  detail::settle(pair, n, here);
+    if (!detail::improve_axis(pair, n, here)) break;
+  detail::polish_axis(pair, n, here);
   return {here.gap, vector(n.n)};
 }
 
@@ -158,7 +158,7 @@ bool separated(const Ellipsoid& one, const Quaternion& orientation1, const Ellip
   if (!separates) return false;
   GapAlongAxis3 here = gap_along(pair, n);
   for (int step = 0; here.gap < margin && step < max_newton_steps; ++step)
-    if (!detail::climb(pair, n, here)) break;
+    if (!detail::improve_axis(pair, n, here)) break;
   return here.gap >= margin;
 }
 

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "core/contact/lanes.h"
+#include "core/contact/simd.h"
 #include "core/geometry/growing.h"
 
 namespace vitrel {
 
-/// A vector of which every component is a number of several bodies or pairs (lanes.h), or one number.
+/// A vector with components of type T: double, the two bodies of a pair, or a SIMD batch (simd.h).
 template <class T>
 struct Vec3Of {
   T x, y, z;
@@ -17,13 +17,13 @@ VITREL_INLINE auto dot(const Vec3Of<T>& u, const Vec3Of<U>& v) {
   return Sum(u.x * v.x + u.y * v.y + u.z * v.z);
 }
 
-/// A unit vector n with two more that complete it: right-handed, e₁ × e₂ = n.
+/// A unit vector n with an orthonormal basis of its tangent plane: right-handed, e₁ × e₂ = n.
 template <class T>
 struct AxisOf {
   Vec3Of<T> n, e1, e2;
 };
 
-/// Completes a unit vector, without a square root and smoothly but for n_z = 0 (Duff et al., 2017).
+/// Completes n to a basis without a square root, smoothly except at n_z = 0 (Duff et al., 2017).
 template <class T>
 VITREL_INLINE AxisOf<T> completed(const Vec3Of<T>& n) {
   using detail::signs;
@@ -33,16 +33,16 @@ VITREL_INLINE AxisOf<T> completed(const Vec3Of<T>& n) {
   return {n, {1. + sign * (n.x * n.x * a), sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}};
 }
 
-/// An ellipsoid at one instant: the rows of G = diag(a, b, c) Rᵀ, its axes with the length of the
-/// semi-axes. The ellipsoid is the set of Gᵀu with |u| ≤ 1.
+/// An ellipsoid at one instant: the rows of G = diag(a, b, c) Rᵀ, that is, the semi-axes as vectors. The
+/// ellipsoid is the set of Gᵀu with |u| ≤ 1.
 template <class T>
 struct AxesOf {
   Vec3Of<T> first, second, third;
 };
 
-/// The support function h(n) = |G n| of an ellipsoid, with what its change needs. The surface point with
-/// the outward normal n is x = h n + s₁ e₁ + s₂ e₂, and H = Σ/h − x xᵀ/h, the matrix of second
-/// derivatives of h, has in the plane of e₁ and e₂ the radii of curvature where n is the normal.
+/// The support function h(n) = |G n| of an ellipsoid and its derivatives. The surface point with outward normal
+/// n is x = h n + s₁ e₁ + s₂ e₂. The Hessian of h, H = Σ/h − x xᵀ/h, has the radii of curvature as its
+/// eigenvalues in the plane of e₁ and e₂.
 template <class T>
 struct SupportOf {
   T height;         ///< h
@@ -80,9 +80,9 @@ VITREL_INLINE SpinOf<T> spin_along(const Vec3Of<B>& omega, const AxisOf<A>& axis
   return {dot(omega, axis.n), dot(omega, axis.e1), dot(omega, axis.e2)};
 }
 
-/// How the support function at a fixed n changes while the body turns: since turning the body is turning
-/// n the other way, ḣ = −x·(ω × n) and ḧ = (ω × n)·H(ω × n) + (x·ω)(ω·n) − ω² h; with the gradient of
-/// −ḣ in the plane of e₁ and e₂.
+/// The time derivatives of the support function at a fixed n while the body rotates. Rotating the body is
+/// rotating n the other way, so ḣ = −x·(ω × n) and ḧ = (ω × n)·H(ω × n) + (x·ω)(ω·n) − ω² h; with the gradient
+/// of −ḣ in the plane of e₁ and e₂.
 template <class T>
 struct SupportRates {
   T rate;            ///< ḣ
@@ -100,22 +100,22 @@ VITREL_INLINE SupportRates<T> support_rates(const SupportOf<T>& s, const SpinOf<
           hq1 + (w.on * s.s2 - w.o2 * s.height), hq2 + (w.o1 * s.height - w.on * s.s1)};
 }
 
-/// A bound of ḧ while a body turns for `duration`, which may be negative (then looking back).
+/// A bound of ḧ while a body rotates for `duration`, which may be negative (backwards).
 ///
-/// In the frame of the body n turns about u = ω/|ω| at an angle α to it that stays. Let S be the shape
-/// matrix in that frame, Δ the difference of its eigenvalues in the plane normal to u, a² − c² at most,
-/// and τ = |S u − u (u·S u)|. With φ = |ω| t
+/// In the frame of the body n rotates about u = ω/|ω| at a constant angle α. Let S be the shape matrix in that
+/// frame, Δ ≤ a² − c² the difference of its eigenvalues in the plane normal to u, and τ = |S u − u (u·S u)|. With
+/// φ = |ω| t
 ///     h² = const + sin 2α τ cos(φ − φ₁) + ½ sin²α Δ cos 2(φ − φ₂),
 /// so that, with Q = |sin α cos α| τ + sin²α Δ,
 ///     |(h²)''|/2 ≤ ω² Q,   |(h²)'''|/2 ≤ 2 ω³ Q.
-/// ḧ = ((h²)''/2 − ḣ²)/h therefore is at most q/h_least with
-///     q = min(ω² Q, h ḧ + ḣ² + 2 |ω|³ Q t) now,   h_least² = max(c², h² − 2 |h ḣ| t − ω² Q t²),
-/// c the shortest semi-axis and |h ḣ| counted only if h falls. Negative q counts as 0. Of a spheroid that
-/// turns about an axis normal to its own, τ = 0.
+/// Hence ḧ = ((h²)''/2 − ḣ²)/h is at most q/h_min with
+///     q = min(ω² Q, h ḧ + ḣ² + 2 |ω|³ Q t) now,   h_min² = max(c², h² − 2 |h ḣ| t − ω² Q t²),
+/// where c is the shortest semi-axis, the term |h ḣ| counts only if h decreases, and negative q counts as 0. A
+/// spheroid that rotates about an axis normal to its own has τ = 0.
 template <class T>
-VITREL_INLINE T bend_bound(const SupportOf<T>& s, const SupportRates<T>& r, const SpinOf<T>& w,
-                           const T& delta, const T& tau, const T& shortest_squared,
-                           const T& duration) {
+VITREL_INLINE T support_acceleration_bound(const SupportOf<T>& s, const SupportRates<T>& r,
+                                           const SpinOf<T>& w, const T& delta, const T& tau,
+                                           const T& cc, const T& duration) {
   using detail::positive_part;
   using std::sqrt;
   const T across = w.o1 * w.o1 + w.o2 * w.o2;  // ω² sin²α
@@ -124,26 +124,26 @@ VITREL_INLINE T bend_bound(const SupportOf<T>& s, const SupportRates<T>& r, cons
   const T amplitude = sqrt(across * along) * tau + across * delta;
   const T time = abs(duration);
   const T now = s.height * r.second + r.rate * r.rate;
-  const T rising = detail::lesser(amplitude, now + 2. * sqrt(square) * amplitude * time);
+  const T rising = detail::minimum(amplitude, now + 2. * sqrt(square) * amplitude * time);
   const T slope = 2. * s.height * r.rate;
   const T least = s.height * s.height - positive_part(-slope * duration) - amplitude * time * time;
-  const T least_squared = -detail::lesser(-least, -shortest_squared);
+  const T least_squared = -detail::minimum(-least, -cc);
   return positive_part(rising) / sqrt(least_squared);
 }
 
-/// A point of the tangent plane, in units of e₁ and e₂.
+/// A vector of the tangent plane, in the basis e₁, e₂.
 using Tangent = Vec2;
 
-/// Two ellipsoids at one instant. Lane 0 is body 1.
+/// Two ellipsoids at one instant. Element 0 is body 1.
 struct EllipsoidPair {
-  AxesOf<Lanes> axes;  ///< at size 1
-  Lanes size;          ///< by which they are multiplied
-  Vec3 d;              ///< from centre 1 to centre 2
+  AxesOf<PairArray> axes;  ///< at size 1
+  PairArray size;          ///< factor of the semi-axes
+  Vec3 d;                  ///< from centre 1 to centre 2
 };
 
 /// The support gap g = n·d − σ₁h₁ − σ₂h₂ at a unit vector n, σ the sizes, with its gradient and second
 /// derivatives along the great circles through n: C = Σ σ H + g on the plane of e₁ and e₂.
-struct GapAlongAxis3 : SupportOf<Lanes> {
+struct GapAlongAxis3 : SupportOf<PairArray> {
   double gap = 0;
   Tangent slope;
   double c11 = 1, c12 = 0, c22 = 1;  ///< C = −∇∇g
@@ -154,15 +154,15 @@ struct GapAlongAxis3 : SupportOf<Lanes> {
   Tangent adjugate(const Tangent& t) const {
     return {c22 * t[0] - c12 * t[1], c11 * t[1] - c12 * t[0]};
   }
-  /// Newton's step to the maximum; uphill where there is none.
+  /// The Newton step to the maximum; the gradient where g is not concave.
   Tangent newton() const { return is_concave() ? Tangent(adjugate(slope) / determinant()) : slope; }
-  /// What it would add to g, to second order (only meaningful if concave).
+  /// The gain of that step in g, to second order (meaningful only if concave).
   double gain() const { return 0.5 * slope.dot(newton()); }
 };
 
 using Axis3 = AxisOf<double>;
 
-/// τ of bend_bound for u = ω/|ω| given along the axes of the body, and the squares of its semi-axes.
+/// τ of support_acceleration_bound, from u = ω/|ω| along the axes of the body and its squared semi-axes.
 template <class T>
 VITREL_INLINE T tumbling(const Vec3Of<T>& u, const Vec3Of<T>& squares) {
   using std::sqrt;
@@ -172,7 +172,7 @@ VITREL_INLINE T tumbling(const Vec3Of<T>& u, const Vec3Of<T>& squares) {
   return sqrt(dot(rest, rest));
 }
 
-/// Between the two forms of a vector.
+/// Conversions between the two vector types.
 inline Vec3Of<double> components(const Vec3& v) {
   return {v.x(), v.y(), v.z()};
 }
@@ -182,8 +182,8 @@ inline Vec3 vector(const Vec3Of<double>& v) {
 
 VITREL_INLINE GapAlongAxis3 gap_along(const EllipsoidPair& pair, const Axis3& axis) {
   GapAlongAxis3 g;
-  static_cast<SupportOf<Lanes>&>(g) = support_along<Lanes>(pair.axes, axis);
-  const auto total = [&](const Lanes& of) { return (pair.size * of).sum(); };
+  static_cast<SupportOf<PairArray>&>(g) = support_along<PairArray>(pair.axes, axis);
+  const auto total = [&](const PairArray& of) { return (pair.size * of).sum(); };
   const Vec3Of<double> d = components(pair.d);
   g.gap = dot(axis.n, d) - total(g.height);
   g.slope = {dot(axis.e1, d) - total(g.s1), dot(axis.e2, d) - total(g.s2)};

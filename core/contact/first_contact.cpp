@@ -4,8 +4,9 @@
 #include <cmath>
 
 #include "core/contact/axis_search.h"
+#include "core/contact/ellipse_pair_in_flight.h"
 #include "core/contact/ellipsoid_pair_in_flight.h"
-#include "core/contact/pair_in_flight.h"
+#include "core/contact/first_root.h"
 
 namespace vitrel {
 
@@ -30,12 +31,12 @@ using PairInFlight =
 
 template <class B>
 Prediction<B::dimension> search(const Flight<B>& one, const Flight<B>& two, double horizon,
-                                double contact_gap, const Vec<B::dimension>* likely_axis) {
+                                double contact_gap, const Vec<B::dimension>* initial_axis) {
   using Pair = PairInFlight<B>;
   AxisSearch<Pair> pair(one, two, contact_gap);
   typename Pair::Axis likely;
-  if (likely_axis) likely = axis_from(*likely_axis);
-  const auto [outcome, steps] = pair.run(horizon, likely_axis ? &likely : nullptr);
+  if (initial_axis) likely = axis_from(*initial_axis);
+  const auto [outcome, steps] = pair.run(horizon, initial_axis ? &likely : nullptr);
   if (steps == 0) return {};
   Prediction<B::dimension> found{outcome, pair.time(), direction_of(pair.axis()),
                                  Vec<B::dimension>::Zero(), steps};
@@ -51,8 +52,9 @@ struct Round {
 };
 
 template <class B>
-Prediction<B::dimension> meet_round(const Flight<B>& one, const Round& round1, const Flight<B>& two,
-                                    const Round& round2, double horizon, double contact_gap) {
+Prediction<B::dimension> round_contact(const Flight<B>& one, const Round& round1,
+                                       const Flight<B>& two, const Round& round2, double horizon,
+                                       double contact_gap) {
   const Vec<B::dimension> d = two.pose.position - one.pose.position;
   const Vec<B::dimension> v = two.motion.velocity - one.motion.velocity;
   const double touch = round1.radius + round2.radius;
@@ -68,7 +70,8 @@ Prediction<B::dimension> meet_round(const Flight<B>& one, const Round& round1, c
   if (b >= 0 && a >= 0) return {};
   if (c > 0 && discriminant < 0) return {};
   const double root = std::sqrt(std::max(discriminant, 0.0));
-  const double time = b < 0 ? std::max(c / (root - b), 0.0) : (b + root) / -a;
+  const double time =
+      b < 0 ? detail::closing_time(b, c, root) : detail::overtaking_time(a, b, root);
   if (!(time <= horizon)) return {};
   const Vec<B::dimension> normal = (d + v * time).normalized();
   const double radius1 = round1.radius + round1.growth * time;
@@ -95,12 +98,12 @@ Round as_round(const Growing<Shape>& body) {
 }
 
 template <class B>
-Prediction<B::dimension> meet(const Flight<B>& one, const Flight<B>& two, double horizon,
-                              double contact_gap, const Vec<B::dimension>* likely_axis) {
-  if constexpr (!std::is_same_v<Grown<B>, Disk> && !std::is_same_v<Grown<B>, Sphere>)
+Prediction<B::dimension> contact_of(const Flight<B>& one, const Flight<B>& two, double horizon,
+                                    double contact_gap, const Vec<B::dimension>* initial_axis) {
+  if constexpr (!std::is_same_v<BaseShape<B>, Disk> && !std::is_same_v<BaseShape<B>, Sphere>)
     if (!is_round(one.body) || !is_round(two.body))
-      return search(one, two, horizon, contact_gap, likely_axis);
-  return meet_round(one, as_round(one.body), two, as_round(two.body), horizon, contact_gap);
+      return search(one, two, horizon, contact_gap, initial_axis);
+  return round_contact(one, as_round(one.body), two, as_round(two.body), horizon, contact_gap);
 }
 
 }  // namespace
@@ -108,13 +111,13 @@ Prediction<B::dimension> meet(const Flight<B>& one, const Flight<B>& two, double
 template <Body B>
 Prediction<B::dimension> first_contact(const Flight<B>& one, const Flight<B>& two, double horizon,
                                        double contact_gap) {
-  return meet(one, two, horizon, contact_gap, nullptr);
+  return contact_of(one, two, horizon, contact_gap, nullptr);
 }
 
 template <Body B>
 Prediction<B::dimension> first_contact(const Flight<B>& one, const Flight<B>& two, double horizon,
-                                       double contact_gap, const Vec<B::dimension>& likely_axis) {
-  return meet(one, two, horizon, contact_gap, &likely_axis);
+                                       double contact_gap, const Vec<B::dimension>& initial_axis) {
+  return contact_of(one, two, horizon, contact_gap, &initial_axis);
 }
 
 template Prediction2 first_contact(const Flight<Disk>&, const Flight<Disk>&, double, double);

@@ -7,12 +7,12 @@
 namespace vitrel {
 namespace {
 
-/// Of ln F with respect to ln t.
+/// Derivatives of ln F with respect to ln t.
 struct Derivatives {
   double slope, curvature;
 };
 
-/// F as the rational function of t = λ/(1−λ) given in the header.
+/// F as the rational function of t = λ/(1−λ) in the header.
 struct ContactFunction {
   double p1, p2;  ///< pᵢ = dᵀ adj(Σᵢ) d
   double d1, d2;  ///< Dᵢ = det Σᵢ
@@ -68,7 +68,7 @@ struct EllipsoidPair {
   Vec3 d;
   Mat3 sigma1 = axes1 * axes1.transpose(), sigma2 = axes2 * axes2.transpose();
 
-  /// y = (Σ₁ + tΣ₂)⁻¹d, along the common normal if t is that of the largest F.
+  /// y = (Σ₁ + tΣ₂)⁻¹d, along the common normal at the maximum of F.
   Vec3 direction(double t) const { return (sigma1 + t * sigma2).llt().solve(d); }
 
   double height1(const Vec3& n) const { return (axes1.transpose() * n).norm(); }
@@ -92,14 +92,14 @@ Mat3 semi_axes(const Ellipsoid& ellipsoid, const Quaternion& orientation) {
   return orientation.toRotationMatrix() * ellipsoid.semi_axes.asDiagonal();
 }
 
-/// The root of the slope in [low, high], where it falls from positive to negative.
+/// The root of the slope in [low, high], where the slope falls from positive to negative.
 template <class Function>
-double maximiser(const Function& f, double low, double high) {
-  // The slope is a sum of four terms of order 1: below this it is rounding.
+double maximizer(const Function& f, double low, double high) {
+  // The slope is a sum of four terms of order 1: smaller values are rounding.
   constexpr double negligible = 4 * std::numeric_limits<double>::epsilon();
-  constexpr int most_steps = 60;  // as many bisections exhaust a double
+  constexpr int max_steps = 60;  // enough for bisection alone
   double t = std::sqrt(low * high);
-  for (int step = 0; step < most_steps; ++step) {
+  for (int step = 0; step < max_steps; ++step) {
     const auto [slope, curvature] = f.derivatives(t);
     if (std::abs(slope) <= negligible) break;
     (slope > 0 ? low : high) = t;
@@ -117,14 +117,14 @@ PerramWertheim<2> perram_wertheim(const Ellipse& one, double angle1, const Ellip
                                   double angle2, const Vec2& d) {
   const Axes first(one, angle1);
   const Axes second(two, angle2);
-  // A tiny d is scaled up, lest its square underflow.
+  // Normalise d, so that the square of a tiny d does not underflow.
   const double distance = d.norm();
   if (distance == 0) return {0, 0.5, Vec2::UnitX(), Vec2::Zero()};
   const Vec2 e = d / distance;
 
   const ContactFunction f{first.adjugate_form(e), second.adjugate_form(e), first.determinant(),
                           second.determinant(), mixed_determinant(first, second)};
-  const double t = maximiser(f, one.b / two.a, one.a / two.b);
+  const double t = maximizer(f, one.b / two.a, one.a / two.b);
   const Vec2 normal = (first.adjugate_times(e) + t * second.adjugate_times(e)).normalized();
   // The surface of ellipse 1 has normal n at Σ₁n/h₁(n); scaled by μ it is the common point.
   const Vec2 sigma_n = first.shape_times(normal);
@@ -146,7 +146,7 @@ PerramWertheim<3> perram_wertheim(const Ellipsoid& one, const Quaternion& orient
   const EllipsoidPair pair{semi_axes(one, orientation1), semi_axes(two, orientation2),
                            d / distance};
   const double t =
-      maximiser(pair, one.inradius() / two.circumradius(), one.circumradius() / two.inradius());
+      maximizer(pair, one.inradius() / two.circumradius(), one.circumradius() / two.inradius());
   const Vec3 n = pair.direction(t).normalized();
   const double h1 = pair.height1(n);
   const double mu = distance * n.dot(pair.d) / (h1 + pair.height2(n));

@@ -4,56 +4,57 @@
 #include <cmath>
 #include <experimental/simd>
 
-/// Arithmetic on a few numbers at once, and the formulas that are written once for either kind.
+/// Arithmetic on the two bodies of a pair at once, and on a SIMD batch of pairs. Formulas are templates over the
+/// two types.
 namespace vitrel {
 
-/// For short functions of several lanes, whose arguments would travel through memory.
+/// For short functions, whose vector arguments would otherwise pass through warm_start.
 #define VITREL_INLINE [[gnu::always_inline]] inline
 
-/// A number for each of the two bodies of a pair.
-using Lanes = Eigen::Array2d;
+/// One number for each of the two bodies of a pair.
+using PairArray = Eigen::Array2d;
 
-/// A number for each of several pairs.
-constexpr int many = 4;
-using Many = std::experimental::fixed_size_simd<double, many>;
+/// One number for each of `simd_width` pairs.
+constexpr int simd_width = 4;
+using SimdBatch = std::experimental::fixed_size_simd<double, simd_width>;
 
 namespace detail {
 
 /// ±1, the sign bit of each lane.
-VITREL_INLINE Lanes signs(const Lanes& x) {
+VITREL_INLINE PairArray signs(const PairArray& x) {
   return {std::copysign(1.0, x[0]), std::copysign(1.0, x[1])};
 }
-VITREL_INLINE Many signs(const Many& x) {
-  return copysign(Many(1), x);
+VITREL_INLINE SimdBatch signs(const SimdBatch& x) {
+  return copysign(SimdBatch(1), x);
 }
 
 inline double signs(double x) {
   return std::copysign(1.0, x);
 }
 
-VITREL_INLINE Lanes lesser(const Lanes& x, const Lanes& y) {
+VITREL_INLINE PairArray minimum(const PairArray& x, const PairArray& y) {
   return x.min(y);
 }
-VITREL_INLINE Many lesser(const Many& x, const Many& y) {
+VITREL_INLINE SimdBatch minimum(const SimdBatch& x, const SimdBatch& y) {
   return min(x, y);
 }
 
-VITREL_INLINE Lanes positive_part(const Lanes& x) {
+VITREL_INLINE PairArray positive_part(const PairArray& x) {
   return x.max(0);
 }
-VITREL_INLINE Many positive_part(const Many& x) {
-  return max(x, Many(0));
+VITREL_INLINE SimdBatch positive_part(const SimdBatch& x) {
+  return max(x, SimdBatch(0));
 }
 
-VITREL_INLINE bool all_below(const Lanes& x, double limit) {
+VITREL_INLINE bool all_below(const PairArray& x, double limit) {
   return x.maxCoeff() < limit;
 }
-VITREL_INLINE bool all_below(const Many& x, double limit) {
+VITREL_INLINE bool all_below(const SimdBatch& x, double limit) {
   return all_of(x < limit);
 }
 
-// The series of sine and cosine for |x| ≤ π/2, to 2e-17, in parts that need not wait for each other
-// (Estrin's scheme). xx = x².
+// Taylor series of sine and cosine for |x| ≤ π/2, to 2e-17, split into independent parts (Estrin's scheme).
+// xx = x².
 template <class T>
 VITREL_INLINE T sine_series(const T& x, const T& xx) {
   const T x4 = xx * xx;
@@ -78,11 +79,11 @@ VITREL_INLINE T cosine_series(const T& xx) {
   return (1 - 0.5 * xx) + x4 * ((part1 + x4 * part2) + x8 * ((part3 + x4 * part4) + part5));
 }
 
-/// The same as directions, by the library: for angles of which a multiple of π is no longer taken
-/// off exactly.
-constexpr double far_angle = 1e6;
+/// As `directions`, by the standard library: for angles so large that subtracting multiples of π is no longer
+/// exact.
+constexpr double max_reducible_angle = 1e6;
 template <class T>
-[[gnu::noinline]] void far_directions(const T& angle, T& x, T& y) {
+[[gnu::noinline]] void library_directions(const T& angle, T& x, T& y) {
   for (int k = 0; k < static_cast<int>(angle.size()); ++k) {
     x[k] = std::cos(static_cast<double>(angle[k]));
     y[k] = std::sin(static_cast<double>(angle[k]));
@@ -94,9 +95,10 @@ template <class T>
 /// Unit vectors (x, y) at the angles: cosine and sine to within 4 units in the last place of 1.
 template <class T>
 VITREL_INLINE void directions(const T& angle, T& x, T& y) {
-  if (!detail::all_below(abs(angle), detail::far_angle)) return detail::far_directions(angle, x, y);
-  // Adding and subtracting this rounds to a whole number. π is taken off in three parts; a multiple
-  // of the first is exact.
+  if (!detail::all_below(abs(angle), detail::max_reducible_angle))
+    return detail::library_directions(angle, x, y);
+  // Adding and subtracting this number rounds to an integer. π is subtracted in three parts, so that multiples
+  // of the first are exact.
   constexpr double rounder = 0x1.8p52;
   constexpr double pi_high = 0x1.921fb544p1;
   constexpr double pi_middle = 0x1.0b4611a6p-33;
@@ -111,11 +113,11 @@ VITREL_INLINE void directions(const T& angle, T& x, T& y) {
   y = sign * detail::sine_series<T>(rest, square);
 }
 
-constexpr double largest_small_angle = 1.5;
+constexpr double max_small_angle = 1.5;
 
-/// The same for |angle| ≤ largest_small_angle.
+/// As `directions`, for |angle| ≤ max_small_angle.
 template <class T>
-VITREL_INLINE void small_directions(const T& angle, T& x, T& y) {
+VITREL_INLINE void small_angle_directions(const T& angle, T& x, T& y) {
   const T square = angle * angle;
   x = detail::cosine_series<T>(square);
   y = detail::sine_series<T>(angle, square);

@@ -8,46 +8,46 @@
 #include "core/geometry/ellipsoid.h"
 #include "core/geometry/sphere.h"
 
-/// What the looks of one body at several others share (first_look.h, gap_look.h): numbers in lanes,
-/// one lane for each pair.
+/// What all SIMD batches share: precomputed shape coefficients, and buffers that are filled lane by lane. One
+/// lane holds one pair.
 namespace vitrel {
 
-/// What a look needs to know of a shape (at size 1).
+/// The coefficients of a shape, at size 1, that batched formulas need.
 template <class Shape>
-struct Outline;
+struct ShapeCoefficients;
 
 template <>
-struct Outline<Disk> {
+struct ShapeCoefficients<Disk> {
   double radius = 1;
-  explicit Outline(const Disk& disk) : radius(disk.radius) {}
+  explicit ShapeCoefficients(const Disk& disk) : radius(disk.radius) {}
 };
 
 template <>
-struct Outline<Sphere> {
+struct ShapeCoefficients<Sphere> {
   double radius = 1;
-  explicit Outline(const Sphere& sphere) : radius(sphere.radius) {}
+  explicit ShapeCoefficients(const Sphere& sphere) : radius(sphere.radius) {}
 };
 
 template <>
-struct Outline<Ellipsoid> {
+struct ShapeCoefficients<Ellipsoid> {
   Vec3 semi_axes;
-  double stretch, shortest_squared;  ///< a² − c², c²
-  explicit Outline(const Ellipsoid& ellipsoid)
+  double aa_minus_cc, cc;  ///< a² − c², c²
+  explicit ShapeCoefficients(const Ellipsoid& ellipsoid)
       : semi_axes(ellipsoid.semi_axes),
-        stretch((ellipsoid.circumradius() - ellipsoid.inradius()) *
-                (ellipsoid.circumradius() + ellipsoid.inradius())),
-        shortest_squared(ellipsoid.inradius() * ellipsoid.inradius()) {}
+        aa_minus_cc((ellipsoid.circumradius() - ellipsoid.inradius()) *
+                    (ellipsoid.circumradius() + ellipsoid.inradius())),
+        cc(ellipsoid.inradius() * ellipsoid.inradius()) {}
 };
 
 template <>
-struct Outline<Ellipse> {
-  double bb, stretch, aabb;  ///< b², a² − b², a² b²
-  double bend;               ///< (a² − b²)/b, the largest h''
-  explicit Outline(const Ellipse& ellipse)
+struct ShapeCoefficients<Ellipse> {
+  double bb, aa_minus_bb, aabb;  ///< b², a² − b², a² b²
+  double max_second_derivative;  ///< (a² − b²)/b, the maximum of h''
+  explicit ShapeCoefficients(const Ellipse& ellipse)
       : bb(ellipse.b * ellipse.b),
-        stretch(ellipse.stretch()),
+        aa_minus_bb(ellipse.aa_minus_bb()),
         aabb(ellipse.a * ellipse.a * bb),
-        bend(stretch / ellipse.b) {}
+        max_second_derivative(aa_minus_bb / ellipse.b) {}
 };
 
 namespace detail {
@@ -55,27 +55,28 @@ namespace detail {
 template <int lanes>
 using Simd = std::experimental::fixed_size_simd<double, lanes>;
 
-/// One number of each of several pairs, filled one by one.
+/// One number per lane; written lane by lane, loaded and stored as a batch.
 template <int lanes>
-struct NumbersOf {
+struct BatchBuffer {
   alignas(std::experimental::memory_alignment_v<Simd<lanes>>) double lane[lanes] = {};
   double& operator[](int k) { return lane[k]; }
   double operator[](int k) const { return lane[k]; }
-  Simd<lanes> all() const { return {lane, std::experimental::vector_aligned}; }
+  Simd<lanes> load() const { return {lane, std::experimental::vector_aligned}; }
   void store(const Simd<lanes>& x) { x.copy_to(lane, std::experimental::vector_aligned); }
 };
 
 /// 0, 1, 2 …
 template <int lanes>
-const Simd<lanes> lane_numbers([](int k) { return k; });
+const Simd<lanes> lane_indices([](int k) { return k; });
 
-/// Unit vectors, turned by one step of Newton's method in the angle, as far as it can be trusted.
-VITREL_INLINE void turn(Many& nx, Many& ny, const Many& slope, const Many& curvature) {
-  const Many angle = min(max(slope / curvature, Many(-0.5)), Many(0.5));
-  const Many q = 0.5 * angle;
-  const Many scale = 1. / (1. + q * q);
-  const Many cosine = (1. - q * q) * scale, sine = angle * scale;
-  const Many old_nx = nx;
+/// Rotates unit vectors by one Newton step in the angle, at most 1/2.
+VITREL_INLINE void newton_rotate(SimdBatch& nx, SimdBatch& ny, const SimdBatch& slope,
+                                 const SimdBatch& curvature) {
+  const SimdBatch angle = min(max(slope / curvature, SimdBatch(-0.5)), SimdBatch(0.5));
+  const SimdBatch q = 0.5 * angle;
+  const SimdBatch scale = 1. / (1. + q * q);
+  const SimdBatch cosine = (1. - q * q) * scale, sine = angle * scale;
+  const SimdBatch old_nx = nx;
   nx = cosine * nx - sine * ny;
   ny = cosine * ny + sine * old_nx;
 }

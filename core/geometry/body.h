@@ -6,21 +6,21 @@
 
 namespace vitrel {
 
-/// What every hard particle offers: a convex, centrally symmetric shape in `dimension` dimensions.
+/// The interface of a hard particle: a convex, centrally symmetric shape in `dimension` dimensions.
 ///
 ///   circumradius, inradius  radii of the smallest enclosing and the largest enclosed circle (sphere)
 ///   volume                  area in two dimensions
-///   swing                   largest speed of the support function per unit of angular speed,
+///   max_support_rate        maximum rate of the support function per unit of angular speed,
 ///                           max |dh/dt|/|ω| (0 for a round body)
 ///
-/// `Disk`, `Ellipse`, `Sphere`, `Ellipsoid` and what grows (growing.h) satisfy it.
+/// Models: `Disk`, `Ellipse`, `Sphere`, `Ellipsoid`, and growing bodies (growing.h).
 template <class B>
 concept Body = requires(const B body) {
   { B::dimension } -> std::convertible_to<int>;
   { body.circumradius() } -> std::convertible_to<double>;
   { body.inradius() } -> std::convertible_to<double>;
   { body.volume() } -> std::convertible_to<double>;
-  { body.swing() } -> std::convertible_to<double>;
+  { body.max_support_rate() } -> std::convertible_to<double>;
 };
 
 /// A body in free flight: its pose at time 0 and its constant velocities.

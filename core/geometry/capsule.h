@@ -4,20 +4,20 @@
 
 #include "core/geometry/ellipsoid.h"
 
-/// Capsules around ellipsoids, to tell long bodies apart at little cost.
+/// Bounding capsules of ellipsoids: a cheap test that separates long bodies.
 ///
-/// With semi-axes a ≥ b ≥ c, the ellipsoid lies within b of the segment of half-length (a² − b²)/a along
-/// its longest axis: the balls about t on the axis with the squared radius b² (1 − t²/(a² − b²)) cover the
-/// spheroid a, b, b, and the last of them touches its tip.
+/// With semi-axes a ≥ b ≥ c, the ellipsoid lies within b of the segment of half-length (a² − b²)/a along its longest
+/// axis: the balls at t on the axis with squared radius b² (1 − t²/(a² − b²)) cover the spheroid a, b, b, and the last
+/// of them touches its tip.
 namespace vitrel {
 
-/// A capsule about its centre: all points within `radius` of the segment −half … half.
+/// A capsule centred at the body: all points within `radius` of the segment −half … half.
 struct Capsule {
   Vec3 half = Vec3::Zero();
   double radius = 0;
 };
 
-/// The capsule of a body, to be placed with it.
+/// The capsule of a shape; `at` gives it at an orientation and size.
 class CapsuleOf {
  public:
   explicit CapsuleOf(const Ellipsoid& shape) {
@@ -35,15 +35,15 @@ class CapsuleOf {
   double half_length_, radius_;
 };
 
-/// Whether two capsules, the second one at d, are surely farther apart than `limit`. Mostly already the lines
-/// of their axes are. The nearest points of the segments are s h₁ and d + t h₂ with −1 ≤ s, t ≤ 1; of nearly
-/// parallel ones any s is nearly as good.
+/// Whether two capsules, the second at d, are proved to be farther apart than `limit`. The lines of their axes decide
+/// most pairs. The closest points of the segments are s h₁ and d + t h₂ with −1 ≤ s, t ≤ 1; for nearly parallel
+/// segments any s is nearly as good.
 inline bool farther_apart(const Capsule& one, const Capsule& two, const Vec3& d, double limit) {
   constexpr double parallel = 1e-14;
   const double a = one.half.squaredNorm(), b = one.half.dot(two.half), c = two.half.squaredNorm();
   const double det = a * c - b * b;
   const double reach = one.radius + two.radius + limit;
-  // With what a poor s adds to the distance of nearly parallel ones, 2√parallel of their lengths, and rounding.
+  // Includes the error of s for nearly parallel segments, 2√parallel of their lengths, and rounding.
   const double least = reach * reach * (1 + 1e-5) + 1e-8 * (a + c);
   const double along_normal = d.dot(one.half.cross(two.half));
   if (det > 1e-6 * a * c && along_normal * along_normal > least * det) return true;

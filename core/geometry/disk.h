@@ -6,7 +6,7 @@
 
 namespace vitrel {
 
-/// A hard disk. It has no orientation that a smooth (frictionless) collision could see.
+/// A hard disk. Smooth (frictionless) collisions do not depend on its orientation, which is not modelled.
 struct Disk {
   static constexpr int dimension = 2;
   double radius = 1;
@@ -14,7 +14,7 @@ struct Disk {
   double circumradius() const { return radius; }
   double inradius() const { return radius; }
   double volume() const { return std::numbers::pi * radius * radius; }
-  double swing() const { return 0; }
+  double max_support_rate() const { return 0; }
 };
 
 static_assert(Body<Disk>);

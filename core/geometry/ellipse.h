@@ -15,13 +15,13 @@ struct Ellipse {
   double circumradius() const { return a; }
   double inradius() const { return b; }
   double volume() const { return std::numbers::pi * a * b; }
-  double swing() const { return a - b; }
+  double max_support_rate() const { return a - b; }
   double aspect_ratio() const { return a / b; }
   bool is_round() const { return a == b; }
-  /// Ways to rotate that smooth collisions can see.
+  /// Number of rotational degrees of freedom that smooth collisions change.
   int rotations() const { return is_round() ? 0 : 1; }
   /// a² − b², without cancellation.
-  double stretch() const { return (a - b) * (a + b); }
+  double aa_minus_bb() const { return (a - b) * (a + b); }
   /// Moment of inertia of the homogeneous ellipse over its mass, (a² + b²)/4.
   double inertia_per_mass() const { return 0.25 * (a * a + b * b); }
 };

@@ -9,13 +9,13 @@ namespace vitrel {
 
 /// A hard ellipsoid with semi-axes (a, b, c) > 0 along its own x, y and z axes, in any order.
 ///
-/// Rotation. The body is homogeneous; its principal moments are m (b² + c²)/5 and so on. A spheroid is
-/// special: smooth collisions exert no torque about its axis of symmetry, and its shape, free, turns
-/// uniformly about the angular momentum L with ω = L/I⊥. That ω is the angular velocity which vitrel
-/// keeps; with it the spheroid moves like a body of the three equal moments I⊥, which is exact, and
-/// L = I⊥ ω. Of a scalene body ω is constant in flight, too, which is a model (after the article on packing)
-/// and not Euler's equations: L then is not constant in flight, but ω along the axes of the body is, and with
-/// it the energy; the volume of phase space is kept, so that all static averages are those of equilibrium.
+/// Rotation. The body is homogeneous; its principal moments are m (b² + c²)/5 and cyclic permutations.
+/// Spheroids: smooth collisions exert no torque about the axis of symmetry, and in free flight the shape rotates
+/// uniformly about the angular momentum L with ω = L/I⊥. This ω is the stored angular velocity. With it the spheroid
+/// moves like a body with three equal moments I⊥, which is exact, and L = I⊥ ω.
+/// Scalene bodies: ω is constant in flight, too. This is a model (after the article on packing), not Euler's
+/// equations: L is not constant in flight, but ω in the body frame is, and so is the energy. Phase-space volume is
+/// conserved, so all static averages are those of equilibrium.
 struct Ellipsoid {
   static constexpr int dimension = 3;
   Vec3 semi_axes = Vec3::Ones();
@@ -23,7 +23,7 @@ struct Ellipsoid {
   double circumradius() const { return semi_axes.maxCoeff(); }
   double inradius() const { return semi_axes.minCoeff(); }
   double volume() const { return 4 * std::numbers::pi / 3 * semi_axes.prod(); }
-  double swing() const { return circumradius() - inradius(); }
+  double max_support_rate() const { return circumradius() - inradius(); }
 
   bool is_round() const { return semi_axes[0] == semi_axes[1] && semi_axes[1] == semi_axes[2]; }
   /// The axis of symmetry of a spheroid: 0, 1 or 2; none if all three semi-axes differ, or none does.
@@ -34,7 +34,7 @@ struct Ellipsoid {
       if (semi_axes[(k + 1) % 3] == semi_axes[(k + 2) % 3]) return k;
     return none;
   }
-  /// Ways to rotate that smooth collisions can see: 0, 2 or 3.
+  /// Number of rotational degrees of freedom that smooth collisions change: 0, 2 or 3.
   int rotations() const { return is_round() ? 0 : symmetry_axis() == none ? 3 : 2; }
 
   /// Moments of inertia over the mass about the own axes; of a spheroid I⊥ three times.

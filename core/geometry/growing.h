@@ -25,7 +25,7 @@ struct Growing {
   double circumradius() const { return size * shape.circumradius(); }
   double inradius() const { return size * shape.inradius(); }
   double volume() const { return scaled(shape, size).volume(); }
-  double swing() const { return size * shape.swing(); }
+  double max_support_rate() const { return size * shape.max_support_rate(); }
 };
 
 using GrowingEllipse = Growing<Ellipse>;
@@ -44,9 +44,9 @@ struct ShapeOf<Growing<Shape>> {
   using type = Shape;
   static constexpr bool grows = true;
 };
-/// What grows, or the body itself.
+/// The shape of a body at size 1: without its growth.
 template <class B>
-using Grown = typename ShapeOf<B>::type;
+using BaseShape = typename ShapeOf<B>::type;
 template <class B>
 inline constexpr bool grows = ShapeOf<B>::grows;
 

@@ -82,7 +82,7 @@ class PeriodicBox {
 
 /// Of two opposite shifts, exactly one: so that own images are counted once.
 template <int Dim>
-bool comes_after_zero(const Shift<Dim>& shift) {
+bool is_positive_shift(const Shift<Dim>& shift) {
   for (int k = 0; k < Dim; ++k)
     if (shift[k] != 0) return shift[k] > 0;
   return false;

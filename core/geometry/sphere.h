@@ -6,7 +6,7 @@
 
 namespace vitrel {
 
-/// A hard sphere. It has no orientation that a smooth (frictionless) collision could see.
+/// A hard sphere. Smooth (frictionless) collisions do not depend on its orientation, which predictions ignore.
 struct Sphere {
   static constexpr int dimension = 3;
   double radius = 1;
@@ -14,7 +14,7 @@ struct Sphere {
   double circumradius() const { return radius; }
   double inradius() const { return radius; }
   double volume() const { return 4 * std::numbers::pi / 3 * radius * radius * radius; }
-  double swing() const { return 0; }
+  double max_support_rate() const { return 0; }
 };
 
 static_assert(Body<Sphere>);

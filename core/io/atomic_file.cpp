@@ -1,4 +1,4 @@
-#include "core/io/pending_file.h"
+#include "core/io/atomic_file.h"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -32,16 +32,16 @@ void move_file(const fs::path& from, const fs::path& to) {
 
 }  // namespace
 
-PendingFile::PendingFile(fs::path path) : path_(std::move(path)), partial_(path_) {
+AtomicFile::AtomicFile(fs::path path) : path_(std::move(path)), partial_(path_) {
   partial_ += ".partial";
 }
 
-PendingFile::~PendingFile() {
+AtomicFile::~AtomicFile() {
   std::error_code ignored;
   fs::remove(partial_, ignored);
 }
 
-void PendingFile::commit(const fs::path& previous) {
+void AtomicFile::commit(const fs::path& previous) {
   synchronize(partial_);
   if (!previous.empty() && fs::exists(path_)) move_file(path_, previous);
   move_file(partial_, path_);

@@ -4,20 +4,20 @@
 
 namespace vitrel {
 
-/// A file that appears under its name only when it is complete: it is written as `<path>.partial`
-/// in the same folder, and `commit` renames it. Without a commit the partial file is removed.
-class PendingFile {
+/// A file that is replaced atomically: it is written as `<path>.partial` in the same folder, and `commit` renames it.
+/// Without a commit the destructor removes the partial file.
+class AtomicFile {
  public:
-  explicit PendingFile(std::filesystem::path path);
-  ~PendingFile();
-  PendingFile(const PendingFile&) = delete;
-  PendingFile& operator=(const PendingFile&) = delete;
+  explicit AtomicFile(std::filesystem::path path);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
 
   /// Where to write.
   const std::filesystem::path& partial() const { return partial_; }
-  /// Waits until the disk has the partial file, then renames it over `path`, then waits for the
-  /// folder. With `previous` not empty, a file already at `path` is first renamed to it. Throws
-  /// FileError; the file at `path` is then still what it was, under its name or as `previous`.
+  /// Waits until the partial file is on disk, renames it to `path`, and waits for the folder. With `previous` not
+  /// empty, renames an existing file at `path` to it first. Throws FileError; the old file then still exists, as
+  /// `path` or as `previous`.
   void commit(const std::filesystem::path& previous = {});
 
  private:

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/io/atomic_file.h"
 #include "core/io/h5.h"
-#include "core/io/pending_file.h"
 
 namespace vitrel {
 namespace fs = std::filesystem;
@@ -133,7 +133,7 @@ void read_orientations(const h5::Group& group, Configuration3& configuration) {
   read_rows<double>(group, "orientation", configuration.orientation);
 }
 
-/// What goes on between soft particles, as rows of doubles: they hold every number of a particle.
+/// Contacts of soft particles, as rows of doubles, which represent all particle numbers exactly.
 template <int Dim>
 void write_contacts(h5::Group& group, const Configuration<Dim>& configuration) {
   std::vector<std::array<double, 3 + Dim>> releases, close_pairs;
@@ -227,7 +227,7 @@ Checkpoint read_checkpoint(const fs::path& path) {
 }  // namespace
 
 void save_checkpoint(const fs::path& path, const Checkpoint& checkpoint) {
-  PendingFile pending(path);
+  AtomicFile pending(path);
   h5::File file = h5::File::create(pending.partial());
   {
     h5::Group root = file.root();

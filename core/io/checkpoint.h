@@ -11,8 +11,8 @@
 
 namespace vitrel {
 
-/// All that a piece of work needs to go on as if it had never stopped: the state, and what its parts
-/// keep, by name.
+/// Everything needed to continue a computation as if it had never stopped: the configuration, and the items of its
+/// parts by name.
 struct Checkpoint {
   std::variant<Configuration2, Configuration3> configuration;
   std::map<std::string, double> reals;
@@ -23,7 +23,7 @@ struct Checkpoint {
 };
 
 /// Writes `<path>.partial`, waits for the disk, keeps the checkpoint before as `<path>.previous`,
-/// and renames. Every double is kept bit by bit. Killed at any moment, or on a full disk, at least
+/// and renames. Doubles are stored exactly. Killed at any moment, or on a full disk, at least
 /// one complete checkpoint stays. Throws FileError; both earlier files are then still there.
 void save_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint);
 

@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "core/error.h"
-#include "core/io/pending_file.h"
+#include "core/io/atomic_file.h"
 
 namespace vitrel {
 namespace fs = std::filesystem;
@@ -156,7 +156,7 @@ std::optional<h5::Dataset> optional_dataset(const h5::File& file, const std::str
   return root.dataset(name);
 }
 
-/// Positions inside the box stay as they are, bit by bit.
+/// Positions inside the box stay bit-identical.
 template <int Dim>
 void wrap_if_outside(const PeriodicBox<Dim>& box, Vec<Dim>& position, Shift<Dim>& image) {
   const Vec<Dim> half = 0.5 * box.lengths();
@@ -173,7 +173,7 @@ TrajectoryWriter TrajectoryWriter::create(const fs::path& path,
                                           const Provenance& provenance,
                                           const TrajectoryOptions& options) {
   refuse_existing(path, options.overwrite);
-  PendingFile pending(path);
+  AtomicFile pending(path);
   create_layout(pending.partial(), configuration, provenance, options).close();
   pending.commit();
   return append_to(path, 0);
@@ -685,7 +685,7 @@ template <int Dim>
 void write_state(const fs::path& path, const Configuration<Dim>& configuration,
                  const Provenance& provenance, bool overwrite) {
   refuse_existing(path, overwrite);
-  PendingFile pending(path);
+  AtomicFile pending(path);
   TrajectoryWriter writer(
       create_layout(pending.partial(), configuration, provenance,
                     {.velocities = true, .close_pairs = !configuration.close_pairs.empty()}));

@@ -38,7 +38,7 @@
 /// no contacts under way, but the pairs that are still close.
 ///
 /// Every {step, time} is one dataset under many names. All numbers are stored as they are in
-/// memory, so a wrapped configuration read back is the same bit by bit.
+/// memory, so a wrapped configuration read back is bit-identical.
 namespace vitrel {
 
 using Observables = std::map<std::string, double>;

@@ -11,7 +11,7 @@ namespace vitrel {
 /// Throws UserError if its list of units is missing.
 std::optional<double> quantity(const std::string& text, const std::string& unit);
 
-/// The text of a number in that unit, which `quantity` reads back bit by bit.
+/// The text of a number in that unit; `quantity` reads back the bit-identical number.
 std::string quantity_text(double number, const std::string& unit);
 
 }  // namespace vitrel

@@ -56,7 +56,7 @@ void apply_override(TomlNode& root, std::string_view assignment, const std::stri
 /// The place of a dotted key, or of the nearest table around it that exists.
 std::string locate(const TomlNode& root, std::string_view path);
 
-/// One-line TOML text of a value; parse_toml reads the same value back, bit by bit.
+/// One-line TOML text of a value; parse_toml reads back the identical value.
 std::string to_toml(const TomlNode& node);
 std::string to_toml(double value);
 std::string to_toml(std::span<const double> values);

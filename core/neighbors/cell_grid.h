@@ -8,37 +8,36 @@
 #include <vector>
 
 #include "core/geometry/periodic_box.h"
-#include "core/neighbors/ask_memory.h"
+#include "core/neighbors/prefetch.h"
 
 namespace vitrel {
 
-/// A point of a cell grid. Other types can take its place that know more of a point and have these two:
-/// whoever is near is then known with the one read that finds it.
+/// A point of a cell grid. Types with further members may replace it, so that a query reads all it needs of a
+/// point at once; they must have these two.
 template <int Dim>
 struct CellPoint {
   Vec<Dim> position;       // wrapped into the box
-  std::uint32_t next = 0;  // the grid's own: the next point of the cell
+  std::uint32_t next = 0;  // next point of the same cell; set by the grid
 };
 
-/// Points in the cells of a periodic box, to find those near a place.
+/// A cell list: points in the cells of a periodic box.
 ///
-/// A query walks the cells that its reach covers in unwrapped cell coordinates; a cell beyond the
-/// box is the image of one inside, and how many boxes lie between is the shift. So every image (j,
-/// shift) within reach is met exactly once, in boxes of any size, down to a single cell. Insert and
-/// move cost O(1).
+/// A query visits the cells that its reach covers in unwrapped cell coordinates. A cell outside the box is the
+/// image of one inside, and the number of boxes between them is the shift. So each image (j, shift) within reach is
+/// found exactly once, in boxes of any size, down to a single cell. Insert and move cost O(1).
 template <int Dim, class Point = CellPoint<Dim>>
 class CellGrid {
  public:
   /// For about `particles` points and queries of about `reach`.
   CellGrid(const PeriodicBox<Dim>& box, double reach, std::size_t particles) : box_(box) {
     constexpr double cells_per_particle = 4;
-    const auto most =
+    const auto max_count =
         static_cast<std::int64_t>(std::ceil(std::pow(cells_per_particle * particles, 1.0 / Dim))) +
         1;
     std::int64_t cells = 1;
     for (int k = 0; k < Dim; ++k) {
-      const auto wanted = static_cast<std::int64_t>(box.lengths()[k] / (0.5 * reach));
-      count_[k] = std::clamp<std::int64_t>(wanted, 1, most);
+      const auto target = static_cast<std::int64_t>(box.lengths()[k] / (0.5 * reach));
+      count_[k] = std::clamp<std::int64_t>(target, 1, max_count);
       width_[k] = box.lengths()[k] / static_cast<double>(count_[k]);
       cells *= count_[k];
     }
@@ -82,17 +81,16 @@ class CellGrid {
     });
   }
 
-  /// Asks the memory for what a query will read: for the cells, and, when these have had time to come, for
-  /// the first point of each.
-  void read_ahead_cells(const Vec<Dim>& position, double reach) const {
+  /// Prefetches what a query reads: the cells and, in a later call, the first point of each.
+  void prefetch_cells(const Vec<Dim>& position, double reach) const {
     for_each_cell(position, reach, [&](std::size_t cell, const Shift<Dim>&) {
-      ask_memory(&first_[cell]);
+      prefetch_line(&first_[cell]);
       return true;
     });
   }
-  void read_ahead_points(const Vec<Dim>& position, double reach) const {
+  void prefetch_points(const Vec<Dim>& position, double reach) const {
     for_each_cell(position, reach, [&](std::size_t cell, const Shift<Dim>&) {
-      if (first_[cell] != none) ask_memory(&points_[first_[cell]]);
+      if (first_[cell] != none) prefetch_line(&points_[first_[cell]]);
       return true;
     });
   }
@@ -126,7 +124,7 @@ class CellGrid {
     return walk<0>(ranges, 0, shift, visit);
   }
 
-  // The same over direction k and those after it; `before` is the number of the cell by those before.
+  // The same over directions k and later; `before` is the cell number from the directions before.
   template <int k, class Visit>
   bool walk(const Range (&ranges)[Dim], std::int64_t before, Shift<Dim>& shift,
             Visit& visit) const {
@@ -150,7 +148,7 @@ class CellGrid {
     return boxes;
   }
 
-  // Cells that [position − reach, position + reach] covers, with room for rounding at the edges.
+  // Cells that [position − reach, position + reach] covers, with a margin for rounding at the edges.
   Range covered(const Vec<Dim>& position, double reach, int k) const {
     const double centre = position[k] + 0.5 * box_.lengths()[k];
     const double half = reach + 1e-12 * (reach + box_.lengths()[k]);

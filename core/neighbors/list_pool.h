@@ -7,79 +7,80 @@
 #include <utility>
 #include <vector>
 
-#include "core/neighbors/ask_memory.h"
+#include "core/neighbors/prefetch.h"
 
 namespace vitrel {
 
-/// Many short lists, one after the other in one piece of memory. A list that outgrows its room moves
-/// to the end, where it gets twice as much; the room that it leaves is not used again.
+/// Many short lists in one array. A list that exceeds its capacity moves to the end, with twice the capacity; its
+/// old memory is not reused.
 template <class T>
 class ListPool {
  public:
   /// Number of lists.
-  explicit ListPool(std::size_t lists = 0) : rooms_(lists) {}
+  explicit ListPool(std::size_t lists = 0) : headers_(lists) {}
 
-  /// Empty lists with room for as many entries as counted and a few more. There is room for 2³²
-  /// entries in all.
+  /// Empties all lists and gives each the capacity for its count and a few more entries. At most 2³² entries in
+  /// all.
   void reserve(std::span<const std::uint32_t> counts) {
     constexpr std::uint32_t more = 2;
-    rooms_.clear();
+    headers_.clear();
     std::uint32_t end = 0;
     for (const std::uint32_t count : counts) {
       const std::uint32_t capacity = count + more;
-      rooms_.push_back({end, 0, capacity});
+      headers_.push_back({end, 0, capacity});
       end += capacity;
     }
     entries_.assign(end, {});
   }
 
   std::span<T> operator[](std::size_t list) {
-    return {entries_.data() + rooms_[list].begin, rooms_[list].count};
+    return {entries_.data() + headers_[list].begin, headers_[list].count};
   }
   std::span<const T> operator[](std::size_t list) const {
-    return {entries_.data() + rooms_[list].begin, rooms_[list].count};
+    return {entries_.data() + headers_[list].begin, headers_[list].count};
   }
 
   void add(std::size_t list, const T& entry) {
-    Room& room = rooms_[list];
-    if (room.count == room.capacity) move_to_end(room);
-    entries_[room.begin + room.count++] = entry;
+    Header& header = headers_[list];
+    if (header.count == header.capacity) move_to_end(header);
+    entries_[header.begin + header.count++] = entry;
   }
 
-  /// Asks the memory for where a list is, and, once that is known, for the list.
-  void read_ahead_room(std::size_t list) const { ask_memory(&rooms_[list]); }
-  void read_ahead(std::size_t list) const {
+  /// Prefetches the header of a list and, in a later call, its entries.
+  void prefetch_header(std::size_t list) const { prefetch_line(&headers_[list]); }
+  void prefetch_list_header(std::size_t list) const {
     constexpr std::size_t line = 64;
     const std::span<const T> entries = (*this)[list];
     const auto* begin = reinterpret_cast<const std::byte*>(entries.data());
-    for (std::size_t at = 0; at < entries.size_bytes() + line; at += line) ask_memory(begin + at);
+    for (std::size_t at = 0; at < entries.size_bytes() + line; at += line)
+      prefetch_line(begin + at);
   }
 
-  void clear(std::size_t list) { rooms_[list].count = 0; }
+  void clear(std::size_t list) { headers_[list].count = 0; }
 
-  /// Removes the entries for which `unwanted` holds; the others keep their order.
+  /// Removes the entries for which `unwanted` holds; the order of the others stays.
   template <class Predicate>
   void remove_if(std::size_t list, Predicate unwanted) {
     const std::span<T> entries = (*this)[list];
-    rooms_[list].count -=
+    headers_[list].count -=
         static_cast<std::uint32_t>(std::ranges::remove_if(entries, unwanted).size());
   }
 
  private:
-  struct Room {
+  struct Header {
     std::uint32_t begin = 0, count = 0, capacity = 0;
   };
 
-  void move_to_end(Room& room) {
+  void move_to_end(Header& header) {
     const auto begin = static_cast<std::uint32_t>(entries_.size());
-    const std::uint32_t capacity = 2 * room.capacity + 1;
+    const std::uint32_t capacity = 2 * header.capacity + 1;
     entries_.resize(begin + capacity);
-    for (std::uint32_t k = 0; k < room.count; ++k)
-      entries_[begin + k] = std::move(entries_[room.begin + k]);
-    room = {begin, room.count, capacity};
+    for (std::uint32_t k = 0; k < header.count; ++k)
+      entries_[begin + k] = std::move(entries_[header.begin + k]);
+    header = {begin, header.count, capacity};
   }
 
-  std::vector<Room> rooms_;
+  std::vector<Header> headers_;
   std::vector<T> entries_;
 };
 

@@ -10,9 +10,8 @@ namespace vitrel {
 template <int Dim>
 CellGrid<Dim> make_cells(const Configuration<Dim>& configuration);
 
-/// Calls visit(i, j, d) for every pair (i ≤ j, d from i to the image of j) whose circumcircles (circumspheres) meet
-/// when all are enlarged by `scale`, and perhaps for some more; each pair once, also (i, i,
-/// ±shift).
+/// Calls visit(i, j, d) for every pair (i ≤ j, d from i to the image of j) whose circumcircles (circumspheres)
+/// overlap when all are scaled by `scale`, and possibly for some more; each pair once, including (i, i, ±shift).
 template <int Dim, class Visit>
 void for_each_pair(const Configuration<Dim>& configuration, double scale, Visit&& visit) {
   const CellGrid<Dim> cells = make_cells(configuration);
@@ -21,7 +20,7 @@ void for_each_pair(const Configuration<Dim>& configuration, double scale, Visit&
     const double reach = scale * (configuration.shape[i].circumradius() + largest);
     cells.for_each_near(configuration.position[i], reach,
                         [&](std::size_t j, const Shift<Dim>& shift, const Vec<Dim>& d) {
-                          if (j > i || (j == i && comes_after_zero(shift))) visit(i, j, d);
+                          if (j > i || (j == i && is_positive_shift(shift))) visit(i, j, d);
                         });
   }
 }

@@ -8,9 +8,9 @@
 
 namespace vitrel {
 
-/// Numbers points so that near ones have near numbers (along Morton's curve through a grid with
-/// about one point in a cell): entry k is the point that comes k-th. Positions wrapped into the box.
-/// What is stored in this order is near in memory too, which a large system needs.
+/// Orders points along a Morton curve through a grid with about one point per cell: entry k is the k-th point.
+/// Positions must be wrapped into the box. Points stored in this order have their neighbours near in memory, which
+/// speeds up large systems.
 template <int Dim>
 std::vector<std::uint32_t> spatial_order(const PeriodicBox<Dim>& box,
                                          std::span<const Vec<Dim>> positions);

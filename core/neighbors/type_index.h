@@ -6,20 +6,20 @@
 
 namespace vitrel {
 
-/// Which of a few kinds every particle is of. If there is one kind only, nothing is read to know it.
-class KindOf {
+/// The type of each particle. With only one type no memory is read.
+class TypeIndex {
  public:
-  KindOf() = default;
-  KindOf(std::vector<std::uint32_t> kind, std::size_t kinds) {
-    if (kinds > 1) kind_ = std::move(kind);
+  TypeIndex() = default;
+  TypeIndex(std::vector<std::uint32_t> type, std::size_t types) {
+    if (types > 1) type_ = std::move(type);
   }
 
   std::uint32_t operator[](std::size_t particle) const {
-    return kind_.empty() ? 0 : kind_[particle];
+    return type_.empty() ? 0 : type_[particle];
   }
 
  private:
-  std::vector<std::uint32_t> kind_;
+  std::vector<std::uint32_t> type_;
 };
 
 }  // namespace vitrel

@@ -6,7 +6,7 @@
 
 namespace vitrel {
 
-/// What a random number is for: streams of different purposes never meet.
+/// The purpose of a random number: streams of different purposes are independent.
 enum class Purpose : std::uint64_t {
   shapes = 1,
   placement = 2,
@@ -19,12 +19,12 @@ enum class Purpose : std::uint64_t {
   tests = 100,
 };
 
-/// A stream of random numbers keyed by (seed, purpose, step, particle): Philox 4×64-10 (Salmon et al.,
-/// 2011) with the key as (seed, purpose) and the counter as (draw, step, particle). Equal keys give
-/// equal numbers whatever else has been drawn, by whom, or on how many threads.
+/// A stream of random numbers keyed by (seed, purpose, step, particle): Philox 4×64-10 (Salmon et al., 2011) with the
+/// key (seed, purpose) and the counter (draw, step, particle). Equal keys give equal numbers, independent of all
+/// other draws and of the number of threads.
 class Stream {
  public:
-  /// What one evaluation of the generator gives.
+  /// The output of one evaluation of the generator.
   using Block = std::array<std::uint64_t, 4>;
 
   Stream(std::uint64_t seed, Purpose purpose, std::uint64_t step = 0, std::uint64_t particle = 0);

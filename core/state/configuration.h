@@ -41,15 +41,15 @@ struct Release {
   Vec<Dim> velocity;
 };
 
-/// A pair of soft particles that has lost energy in a contact and is not yet apart by the sum of its radii:
-/// its centres may be as close as `distance`.
+/// A pair of soft particles that lost energy in a contact and is still closer than the sum of its radii: its centres
+/// may be as close as `distance`.
 template <int Dim>
 struct ClosePair {
   PairImage<Dim> pair;
   double distance;
 };
 
-/// What does not depend on how an orientation is given.
+/// The part that does not depend on the representation of orientations.
 template <int Dim>
 struct Particles {
   PeriodicBox<Dim> box;
@@ -110,13 +110,12 @@ double packing_fraction(const Configuration<Dim>& configuration);
 template <int Dim>
 double largest_circumradius(const Configuration<Dim>& configuration);
 
-/// The velocities with which particles count: those in contact with the one they will be released with.
+/// Velocities for all sums: particles in contact count with the velocity after the contact.
 template <int Dim>
 std::vector<Vec<Dim>> velocities_after_contact(const Configuration<Dim>& configuration);
 
-/// Sums over all particles. Rotations that smooth collisions cannot see are not modelled and count
-/// nowhere: that of round particles, and that of spheroids about their axes. Velocities are those after
-/// contact.
+/// Sums over all particles. Rotations that smooth collisions cannot change are not modelled and do not count: those of
+/// round particles, and of spheroids about their axes. Velocities are those after contact.
 template <int Dim>
 struct Mechanics {
   Vec<Dim> momentum = Vec<Dim>::Zero();

@@ -3,8 +3,8 @@
 #include <limits>
 #include <type_traits>
 
+#include "core/contact/ellipse_vieillard_baron.h"
 #include "core/contact/ellipsoid_eta.h"
-#include "core/contact/vieillard_baron.h"
 #include "core/state/configuration.h"
 
 /// Two particles in 80-bit arithmetic, as the exact check (check.h) judges and measures them.

@@ -6,7 +6,7 @@
 
 namespace vitrel {
 
-/// What a run has done so far, at the moment of a frame.
+/// Totals of a run at the time of a frame.
 struct Tally {
   std::uint64_t collisions = 0;
   double virial = 0;  ///< Σ J n·d over all collisions, d from centre to centre

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-/// What particles a system is made of, and how their shapes are drawn.
+/// The species of a system, and how their shapes are drawn.
 namespace vitrel {
 
 class Stream;
@@ -40,9 +40,8 @@ struct Species {
   std::optional<double> mass;  ///< of every particle; a b (a b c: uniform density) if not given
 };
 
-/// How many of `particles` belong to each species: the shares rounded down, and the particles left
-/// over given to the largest remainders (the earlier species on a tie). The counts add up to
-/// `particles`.
+/// The number of particles of each species: the shares rounded down, and the remaining particles given to the
+/// largest remainders (the earlier species on a tie). The counts add up to `particles`.
 std::vector<std::size_t> species_counts(const std::vector<Species>& species, std::size_t particles);
 
 /// N particles at rest at the origin, mixed in a random order, in the box of that packing fraction

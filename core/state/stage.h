@@ -5,39 +5,39 @@
 
 namespace vitrel {
 
-/// How far a piece of work has come; handed to the front end now and then.
+/// The progress of a stage, for the front end.
 struct Progress {
   double fraction = 0;   ///< 0 … 1
   double value = 0;      ///< the quantity that moves (simulated time, packing fraction, …)
   const char* quantity;  ///< its name
 };
 
-/// What a stage may use, and whom it tells; an empty function means: never stop, tell nobody.
-struct Budget {
+/// How a stage is stopped and reports. An empty function means: never stop, no callback.
+struct RunControl {
   std::function<bool()> should_stop;
-  std::function<void(const Progress&)> report;
-  /// Called at moments in which the configuration and the state of the stage, together, are such that
-  /// the stage goes on from copies of them bit by bit.
-  std::function<void()> resumable;
+  std::function<void(const Progress&)> on_progress;
+  /// Called when configuration and state of the stage are consistent: continuing from copies of them gives
+  /// bit-identical results.
+  std::function<void()> on_resumable;
 
   bool stop_requested() const { return should_stop && should_stop(); }
-  void tell(const Progress& progress) const {
-    if (report) report(progress);
+  void report_progress(const Progress& progress) const {
+    if (on_progress) on_progress(progress);
   }
-  void mark_resumable() const {
-    if (resumable) resumable();
+  void notify_resumable() const {
+    if (on_resumable) on_resumable();
   }
 };
 
 enum class StageEnd {
   reached,  ///< the goal of the stage was reached
-  stuck,    ///< no further progress is possible; `reason` says why
-  stopped,  ///< the budget asked to stop; the stage can be resumed
+  stalled,  ///< no further progress is possible; `reason` says why
+  stopped,  ///< stop requested; the stage can be resumed
 };
 
 struct StageReport {
   StageEnd end = StageEnd::reached;
-  std::string reason;  ///< a few words, for a person
+  std::string reason;  ///< for the user, in a few words
 };
 
 }  // namespace vitrel

@@ -14,18 +14,19 @@
 
 #include "core/parallel.h"
 
-/// A smooth function on a box, as polynomials on panels that are halved until a tolerance is met.
+/// Piecewise Chebyshev approximation: a smooth function on a box, as polynomials on panels that are halved until a
+/// tolerance is met.
 ///
-/// On a panel, with every variable scaled to −1 … 1, the function is Σ c_ijk T_i(x) T_j(y) T_k(z), i, j,
-/// k < Nodes, which interpolates it at the zeros of T_Nodes. Steps of the construction, level by level:
-///   1. Interpolate on each panel, and compare with the function at points of the grid where
-///      |T_Nodes| = 1 in every variable: there the error is largest where the series converges.
-///   2. Where all values are within the tolerance, keep the panel. Else halve it in the variable whose
-///      highest coefficients are the largest, unless that would make it narrower than is allowed.
-///   3. What then is not within the tolerance has no value.
+/// On a panel, with every variable scaled to −1 … 1, the function is Σ c_ijk T_i(x) T_j(y) T_k(z), i, j, k < Nodes, which
+/// interpolates it at the zeros of T_Nodes. Steps of the construction, level by level:
+///   1. Interpolate on each panel, and compare with the function at points of the grid where |T_Nodes| = 1 in every
+///      variable: there the error is largest where the series converges.
+///   2. If all values are within the tolerance, keep the panel. Otherwise halve it in the variable whose highest
+///      coefficients are largest, unless it would become narrower than the minimum width.
+///   3. Panels that are still not within the tolerance have no value.
 /// The panels depend on the function and the options, not on the number of threads.
 ///
-/// Validity: between the points of comparison the error is not known; measure it (docs/validation.md).
+/// Validity: the error is not controlled between the test points; measure it (docs/validation.md).
 namespace vitrel {
 
 template <int Dim>
@@ -41,7 +42,7 @@ struct Box {
 
 struct PanelOptions {
   double tolerance = 1e-8;  ///< absolute, of each value
-  double least_width = 0.02;
+  double min_width = 0.02;
 
   bool operator==(const PanelOptions&) const = default;
 };
@@ -54,15 +55,14 @@ class ChebyshevPanels {
   using Value = std::array<double, Values>;
   using Function = std::function<Value(const Point&)>;
 
-  /// An inner node of the tree has its lower half at `next` and the upper one behind; a leaf has
-  /// panel `next`, or none.
+  /// The lower half of an inner node is at `next`, the upper half behind it; a leaf has panel `next`, or none.
   struct Node {
     double middle = 0;
     std::int32_t axis = -1;
     std::int32_t next = -1;
   };
-  /// What is kept in files: the tree, the root first, and of every panel the middle and 2/width of each
-  /// side and the coefficients, those of one polynomial's all values side by side.
+  /// The stored form: the tree, root first; and for each panel the middle and 2/width of each side and the
+  /// coefficients, with the values of each polynomial term side by side.
   struct Content {
     std::vector<Node> nodes;
     std::vector<double> panels;
@@ -72,7 +72,7 @@ class ChebyshevPanels {
                   int threads);
   ChebyshevPanels(const Box<Dim>& box, Content content) : box_(box), content_(std::move(content)) {}
 
-  /// Nothing outside the box, and where the tolerance is not met.
+  /// No value outside the box, or where the tolerance is not met.
   std::optional<Value> operator()(const Point& x) const;
 
   const Content& content() const { return content_; }
@@ -80,8 +80,8 @@ class ChebyshevPanels {
   std::size_t bytes() const {
     return content_.panels.size() * sizeof(double) + content_.nodes.size() * sizeof(Node);
   }
-  /// Whether a tree like this can be walked: what is read from a file may be anything.
-  static bool sound(const Content& content);
+  /// Whether the content is a valid tree: a file may contain anything.
+  static bool is_valid(const Content& content);
 
  private:
   static constexpr int power(int base, int exponent) {
@@ -89,7 +89,7 @@ class ChebyshevPanels {
   }
   static constexpr int terms = power(Nodes, Dim);
   static constexpr int panel_size = 2 * Dim + terms * Values;
-  static constexpr int comparisons = 16 * Dim * Dim;
+  static constexpr int test_points = 16 * Dim * Dim;
 
   struct Trial {
     std::vector<double> panel;
@@ -145,7 +145,7 @@ void ChebyshevPanels<Dim, Nodes, Values>::settle(const Open& open, const Trial& 
     return;
   }
   const double low = open.box.low[trial.axis], high = open.box.high[trial.axis];
-  if (high - low < 2 * options.least_width) return;
+  if (high - low < 2 * options.min_width) return;
   const auto child = static_cast<std::int32_t>(nodes.size());
   nodes[open.node] = {(low + high) / 2, trial.axis, child};
   nodes.resize(nodes.size() + 2);
@@ -244,7 +244,7 @@ bool ChebyshevPanels<Dim, Nodes, Values>::agrees(const Box<Dim>& box, const Func
                                                  const double* panel, double tolerance) {
   // Points of a lattice without short periods (Roberts's generalised golden ratio), moved to the grid.
   const double ratio = Dim == 2 ? 1.32471795724474602596 : 1.22074408460575947536;
-  for (int k = 1; k <= comparisons; ++k) {
+  for (int k = 1; k <= test_points; ++k) {
     Point scaled;
     for (int axis = 0; axis < Dim; ++axis) {
       const double along = k * std::pow(ratio, -1 - axis);
@@ -283,7 +283,7 @@ auto ChebyshevPanels<Dim, Nodes, Values>::interpolate(const Box<Dim>& box, const
 }
 
 template <int Dim, int Nodes, int Values>
-bool ChebyshevPanels<Dim, Nodes, Values>::sound(const Content& content) {
+bool ChebyshevPanels<Dim, Nodes, Values>::is_valid(const Content& content) {
   const auto count = static_cast<std::int64_t>(content.nodes.size());
   const auto panels = static_cast<std::int64_t>(content.panels.size() / panel_size);
   if (count == 0 || content.panels.size() % panel_size != 0) return false;

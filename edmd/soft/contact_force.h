@@ -5,22 +5,22 @@
 
 /// Forces between two soft, frictionless spheres (disks) in contact, and their natural scales.
 ///
-/// A force is a value type: the parameters of a material in SI units and the functions of `ContactForce`.
-/// To add one, write such a type in a header of its own and a source file that instantiates what is
-/// computed from it, as linear_dashpot.h and linear_dashpot.cpp do.
+/// A force is a value type: the parameters of a material in SI units and the functions of `ContactForce`. To add one,
+/// write such a type in its own header, and a source file with the explicit instantiations, like linear_dashpot.h and
+/// linear_dashpot.cpp.
 ///
-/// ξ = l − r > 0 is the compression, l = R₁ + R₂ and r the distance of the centres; ξ̇ > 0 while the pair
-/// approaches. With a length X and a time T that the force chooses such that dξ̃/dt̃ = 1 at first
-/// contact (X/T is the normal speed), ξ̃ = ξ/X and t̃ = t/T, every force must come to
+/// ξ = l − r > 0 is the compression, l = R₁ + R₂ and r the distance of the centres; ξ̇ > 0 while the pair approaches. The
+/// force chooses a length X and a time T such that dξ̃/dt̃ = 1 at first contact (X/T is the normal speed). With ξ̃ = ξ/X
+/// and t̃ = t/T, every force must have the form
 ///
 ///     F_n T²/(m_eff X) = h(ξ̃) (E(ξ̃) + c_dis dξ̃/dt̃),   E(0) = 0, E increasing, h > 0 for ξ̃ > 0,
 ///
-/// without any other parameter. h and E are given as functions of s = √ξ̃, in which Hertz's law, too, is a
-/// polynomial; so the motion is smooth in s at first contact (restitution.h). They must be finite for s < 0,
-/// too: a step that is tried may go beyond the end of the contact.
+/// without any other parameter. h and E are functions of s = √ξ̃, in which Hertz's law, too, is a polynomial; so the
+/// motion is smooth in s at first contact (restitution.h). They must be finite for s < 0, too: a trial step may pass the
+/// end of the contact.
 namespace vitrel {
 
-/// What a pair of spheres or disks is, as far as a force between them depends on it. SI units.
+/// The properties of a pair of spheres or disks on which the force depends. SI units.
 struct ContactPair {
   double distance;  ///< l = R₁ + R₂, m
   double mass;      ///< m_eff = m₁m₂/(m₁ + m₂), kg
@@ -41,7 +41,7 @@ struct ContactScales {
 /// `force(ξ, ξ̇, pair)`: F_n in N, positive if it repels, for ξ ≥ 0; also negative, as written down
 /// (a contact ends before: restitution.h).
 /// `scales(speed, pair)`: for a normal speed > 0 at first contact, m/s.
-/// `profile(s)`, `rest(s)`, `rest_slope(s)`: h, E and dE/ds as functions of s = √ξ̃; `rest_inverse(E)`: s ≥ 0.
+/// `profile(s)`, `elastic(s)`, `elastic_slope(s)`: h, E and dE/ds as functions of s = √ξ̃; `elastic_inverse(E)`: s ≥ 0.
 /// l/X ∝ speed^(−2p) and c_dis ∝ (l/X)^(−q): p = `length_exponent`, q = `damping_exponent`.
 template <class Force>
 concept ContactForce = requires(const Force& material, const ContactPair& pair, double x) {
@@ -51,9 +51,9 @@ concept ContactForce = requires(const Force& material, const ContactPair& pair, 
   { material.force(x, x, pair) } -> std::same_as<double>;
   { material.scales(x, pair) } -> std::same_as<ContactScales>;
   { Force::profile(x) } -> std::same_as<double>;
-  { Force::rest(x) } -> std::same_as<double>;
-  { Force::rest_slope(x) } -> std::same_as<double>;
-  { Force::rest_inverse(x) } -> std::same_as<double>;
+  { Force::elastic(x) } -> std::same_as<double>;
+  { Force::elastic_slope(x) } -> std::same_as<double>;
+  { Force::elastic_inverse(x) } -> std::same_as<double>;
 };
 
 }  // namespace vitrel

@@ -22,15 +22,15 @@ class ContactIntegration {
  public:
   explicit ContactIntegration(const ScaledImpact& impact)
       : impact_(impact),
-        swirl_(std::max(impact.angular_momentum, smallest_offset * impact.distance)),
+        orbital_(std::max(impact.angular_momentum, smallest_offset * impact.distance)),
         kappa_(impact.damping >= 1 ? 1 / impact.damping : 0) {}
 
   Restitution operator()() const {
-    auto stepper = boost::numeric::odeint::make_controlled(smallest_error, step_error, blank);
+    auto stepper = boost::numeric::odeint::make_controlled(min_error, step_error, blank);
     const auto motion = [this](const State& x, State& slope, double) { set_slope(x, slope); };
     State x{0, 1, 1, 0, 0};
     double at = 0, step = 0.1 / (1 + std::sqrt(centrifugal(1)) + impact_.damping);
-    for (int trial = 0; trial < most_trials; ++trial) {
+    for (int trial = 0; trial < max_steps; ++trial) {
       const State before = x;
       const double begin = at;
       if (stepper.try_step(motion, x, at, step) == boost::numeric::odeint::fail) continue;
@@ -50,37 +50,37 @@ class ContactIntegration {
   static inline const Stepper blank{};
   static constexpr double step_error = 1e-14;
   // Errors count relative to what is integrated; this only keeps 0/0 away.
-  static constexpr double smallest_error = 1e-100;
-  // Some 100 are usual, 1000 when particles meet centre to centre.
-  static constexpr int most_trials = 100000;
-  // An impact parameter below rounding is head-on.
+  static constexpr double min_error = 1e-100;
+  // About 100 are usual, 1000 if particles collide centre to centre.
+  static constexpr int max_steps = 100000;
+  // Smaller impact parameters are head-on to rounding.
   static constexpr double smallest_offset = 1e-15;
 
   double centrifugal(double rho) const {
-    const double tangent = swirl_ / impact_.distance;
+    const double tangent = orbital_ / impact_.distance;
     return tangent * tangent / (impact_.distance * rho * rho * rho);
   }
-  double approach_rate(const State& x) const { return x[1] - kappa_ * Force::rest(x[0]); }
+  double approach_rate(const State& x) const { return x[1] - kappa_ * Force::elastic(x[0]); }
   // E + c_dis u: what the force is proportional to.
   double excess(const State& x) const {
     if (kappa_ > 0) return impact_.damping * x[1];
-    return std::copysign(Force::rest(std::abs(x[0])), x[0]) + impact_.damping * x[1];
+    return std::copysign(Force::elastic(std::abs(x[0])), x[0]) + impact_.damping * x[1];
   }
 
   void set_slope(const State& x, State& slope) const {
     const auto [s, v, rho, angle, time] = x;
     const double u = approach_rate(x);
     const double slow = 2 * s * rho;
-    const double push = Force::profile(s) *
-                        (kappa_ > 0 ? impact_.damping * v : Force::rest(s) + impact_.damping * v);
+    const double push = Force::profile(s) * (kappa_ > 0 ? impact_.damping * v
+                                                        : Force::elastic(s) + impact_.damping * v);
     slope[0] = rho * u;
-    slope[1] = kappa_ * Force::rest_slope(s) * rho * u - slow * (centrifugal(rho) + push);
+    slope[1] = kappa_ * Force::elastic_slope(s) * rho * u - slow * (centrifugal(rho) + push);
     slope[2] = -slow * u / impact_.distance;
-    slope[3] = 2 * s * swirl_ / (impact_.distance * impact_.distance * rho);
+    slope[3] = 2 * s * orbital_ / (impact_.distance * impact_.distance * rho);
     slope[4] = slow;
   }
 
-  // In the step from `before`, whose end `after` is beyond.
+  // The end of the contact, in the step from `before` to `after`, which is beyond it.
   State end_of_contact(const State& before, const State& after, double step) const {
     Stepper stepper;
     State x;
@@ -103,13 +103,13 @@ class ContactIntegration {
                          : swept < std::numbers::pi / 2 ? 0
                                                         : std::numbers::pi;
     if (impact_.damping == 0) return {1, angle, time, -1};
-    // The more exact of two that are equal.
+    // Chooses the more accurate of two equal expressions.
     const double compression = s * s / impact_.distance;
     return {compression < 0.5 ? 1 - compression : rho, angle, time, approach_rate(end)};
   }
 
   ScaledImpact impact_;
-  double swirl_;  // c_φ
+  double orbital_;  // c_φ
   double kappa_;
 };
 

@@ -2,33 +2,33 @@
 
 #include "edmd/soft/contact_force.h"
 
-/// What a collision of finite duration does to two soft spheres: the matrix of restitution.
+/// The matrix of restitution: the effect of a collision of finite duration on two soft spheres.
 ///
-/// While in contact, the pair moves in a plane about its centre of mass, r the distance of the centres and φ
-/// the angle of their line. With the scales X and T of the force (contact_force.h), tildes left out,
+/// While in contact, the pair moves in a plane about its centre of mass; r is the distance of the centres and φ the angle
+/// of their line. With the scales X and T of the force (contact_force.h), tildes omitted,
 ///
 ///     φ' = c_φ/r²,   r'' = c_φ²/r³ + F(l − r, −r'),   φ(0) = 0, r(0) = l, r'(0) = −1,
 ///     c_φ = T L/(X² m_eff) = l (tangential speed/normal speed),   L the angular momentum.
 ///
-/// It ends at the first τ at which the spheres separate, r' > 0, and the force vanishes; with damping that
-/// is before r = l, as the force of separating spheres would attract from there on: E(l − r) = c_dis r', for
-/// both forces l − r = c_dis r'. Since F falls while r' > 0 and F > 0, there is only one such time.
+/// The contact ends at the first τ at which the spheres separate, r' > 0, and the force vanishes. With damping this
+/// happens before r = l, since from there on the force between separating spheres would attract: E(l − r) = c_dis r', for
+/// both forces l − r = c_dis r'. F falls while r' > 0 and F > 0, so there is only one such time.
 ///
 ///     ε_r = r(τ)/l,   ε_φ = φ(τ),   ε_t = τ,   ε_ṙ = r'(τ)/r'(0) < 0
 ///
-/// and φ'(τ)/φ'(0) = 1/ε_r². Elastic (c_dis = 0): ε_r = 1 and ε_ṙ = −1 exactly. Particles softer than
-/// l ≈ 1 may pass through each other, which the model has no objection to. A head-on impact is the limit
-/// c_φ → 0: ε_φ = 0, or π if they pass through each other.
+/// and φ'(τ)/φ'(0) = 1/ε_r². Elastic (c_dis = 0): ε_r = 1 and ε_ṙ = −1 exactly. The model allows particles softer than
+/// l ≈ 1 to pass through each other. A head-on collision is the limit c_φ → 0: ε_φ = 0, or π if they pass through each
+/// other.
 ///
 /// Steps of the integration, in the variables s = √(l − r), ρ = r/l, φ, t and v:
-///   1. dt = 2sρ dσ makes the motion smooth at first contact and, ρ, also where the centres nearly meet.
-///   2. v = u + κE with u = −r', κ = 1/c_dis if c_dis ≥ 1, else 0: strong damping lets E + c_dis u fall
-///      below the rounding of u; so it is integrated itself.
-///   3. Adaptive steps of Runge, Kutta and Fehlberg's order 8, of a relative error of 10⁻¹⁴ each.
-///   4. The end is a root of the length of the last step.
+///   1. dt = 2sρ dσ makes the motion smooth at first contact and, through ρ, where the centres nearly meet.
+///   2. v = u + κE with u = −r', κ = 1/c_dis if c_dis ≥ 1, else 0: with strong damping E + c_dis u falls below the
+///      rounding of u, so it is integrated directly.
+///   3. Adaptive Runge–Kutta–Fehlberg steps of order 8, with a relative error of 10⁻¹⁴ each.
+///   4. The end is a root in the length of the last step.
 ///
-/// Accuracy: 10⁻¹² relative of each coefficient (docs/validation.md), except next to the jump of ε_φ
-/// from 0 to π: head-on and soft, at l = 1 if elastic. About 20 µs.
+/// Accuracy: 10⁻¹² relative of each coefficient (docs/validation.md), except near the jump of ε_φ from 0 to π: head-on
+/// and soft, at l = 1 if elastic. Cost: about 20 µs.
 /// Source: mueller2013; for the end of contact schwager2007.
 namespace vitrel {
 
@@ -59,23 +59,23 @@ ScaledImpact scaled_impact(const Force& force, const ContactPair& pair, double n
   return scaled_impact(force.scales(normal_speed, pair), pair, normal_speed, tangential_speed);
 }
 
-/// Integrates the contact, as above. Depends on the form of the force only, not on its material. Throws
-/// InvariantError if it does not end (an impact that is no number).
+/// Integrates the contact as above. Depends on the form of the force only, not on the material. Throws
+/// InvariantError if the contact does not end (non-finite input).
 template <ContactForce Force>
 Restitution integrate_contact(const ScaledImpact& impact);
 
-/// What of a force remains once its material and scales are taken out.
+/// The form of a force, without its material and scales.
 struct ForceForm {
   std::string_view name;
   double length_exponent, damping_exponent;
   Restitution (*integrate)(const ScaledImpact&);
-  double (*rest_inverse)(double);
+  double (*elastic_inverse)(double);
 };
 
 template <ContactForce Force>
 ForceForm form_of() {
   return {Force::name, Force::length_exponent, Force::damping_exponent, &integrate_contact<Force>,
-          &Force::rest_inverse};
+          &Force::elastic_inverse};
 }
 
 }  // namespace vitrel

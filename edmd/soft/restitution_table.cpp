@@ -7,14 +7,14 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/io/atomic_file.h"
 #include "core/io/h5.h"
-#include "core/io/pending_file.h"
 #include "core/io/provenance.h"
 
 namespace vitrel {
 namespace {
 
-/// d of a pair is the same for all its impacts up to rounding.
+/// d of a pair is the same for all its collisions up to rounding.
 constexpr double same_damping = 1e-9;
 
 bool is_slice(const RestitutionDomain& domain) {
@@ -64,17 +64,17 @@ Restitution restitution_of(const ForceForm& form, const ScaledImpact& impact,
   const double duration = std::exp(of[1]);
   if (impact.damping == 0) return {1, angle, duration, -1};
   const double rate = -std::exp(of[0]);
-  const double s = form.rest_inverse(-impact.damping * rate);
+  const double s = form.elastic_inverse(-impact.damping * rate);
   return {1 - s * s / impact.distance, angle, duration, rate};
 }
 
-/// What a table depends on, and so what a file must say of itself.
+/// The identity of a table, stored in its file.
 std::string key_of(const ForceForm& form, const RestitutionDomain& domain,
                    const PanelOptions& options) {
   return fmt::format(
       "restitution table, {} {}: {}, g {} … {}, m {} … {}, d {} … {}, tolerance {}, least width {}",
       program_version(), program_commit(), form.name, domain.g.low, domain.g.high, domain.m.low,
-      domain.m.high, domain.d.low, domain.d.high, options.tolerance, options.least_width);
+      domain.m.high, domain.d.low, domain.d.high, options.tolerance, options.min_width);
 }
 
 /// An array with a checksum.
@@ -100,7 +100,7 @@ void write_panels(h5::Group& group, const Panels& panels) {
   write_array(group, "panels", panels.content().panels);
 }
 
-/// FileError if it cannot be, or is no tree of panels.
+/// Throws FileError if the file is unreadable or not a tree of panels.
 template <class Panels>
 Panels read_panels(const h5::Group& group, const typename Panels::Bounds& box) {
   typename Panels::Content content;
@@ -112,7 +112,7 @@ Panels read_panels(const h5::Group& group, const typename Panels::Bounds& box) {
   for (std::size_t k = 0; k < middle.size(); ++k)
     content.nodes.push_back({middle[k], axis[k], next[k]});
   content.panels = group.dataset("panels").read<double>();
-  if (!Panels::sound(content)) throw FileError(group.name() + ": not a tree of panels");
+  if (!Panels::is_valid(content)) throw FileError(group.name() + ": not a tree of panels");
   return Panels(box, std::move(content));
 }
 
@@ -160,7 +160,7 @@ std::size_t RestitutionTable::bytes() const {
 }
 
 void RestitutionTable::save(const std::filesystem::path& file) const {
-  PendingFile pending(file);
+  AtomicFile pending(file);
   h5::File out = h5::File::create(pending.partial());
   h5::Group root = out.root();
   root.set_attribute("key", key_of(form_, domain_, options_));
@@ -184,15 +184,16 @@ std::optional<RestitutionTable> RestitutionTable::load(const std::filesystem::pa
   }
 }
 
-KeptTable kept_table(const std::filesystem::path& file, const ForceForm& form,
-                     const RestitutionDomain& domain, const PanelOptions& options, int threads) {
+CachedTable load_or_build_table(const std::filesystem::path& file, const ForceForm& form,
+                                const RestitutionDomain& domain, const PanelOptions& options,
+                                int threads) {
   if (auto loaded = RestitutionTable::load(file, form, domain, options))
     return {std::move(*loaded), true, {}};
-  KeptTable kept{RestitutionTable(form, domain, options, threads), false, {}};
+  CachedTable kept{RestitutionTable(form, domain, options, threads), false, {}};
   try {
     kept.table.save(file);
   } catch (const FileError& error) {
-    kept.trouble = error.what();
+    kept.save_error = error.what();
   }
   return kept;
 }

@@ -51,12 +51,12 @@ struct RestitutionDomain {
 inline constexpr ValueRange elastic_damping{-std::numeric_limits<double>::infinity(),
                                             -std::numeric_limits<double>::infinity()};
 
-/// Eccentricities between, as g = ln(e/√(1 − e²)). Outside are 10⁻⁴ of the impacts of a gas in three
-/// dimensions, 10⁻³ in two.
-inline constexpr ValueRange usual_obliqueness{-6.9, 4.6};
+/// The usual range of eccentricities, as g = ln(e/√(1 − e²)). A fraction of 10⁻⁴ of the collisions of a gas in three
+/// dimensions, 10⁻³ in two, lies outside.
+inline constexpr ValueRange typical_obliqueness{-6.9, 4.6};
 
-/// The domain of the impacts of these pairs at relative speeds from `slowest` to `fastest` > 0, m/s. Of radii
-/// from a range: pairs of a grid of them, as m and d need not be largest at the ends.
+/// The domain of the collisions of these pairs at relative speeds from `slowest` to `fastest` > 0, m/s. For
+/// polydisperse radii pass pairs of a grid of radii: m and d need not be extremal at the ends.
 template <ContactForce Force>
 RestitutionDomain restitution_domain(const Force& force, std::span<const ContactPair> pairs,
                                      double slowest, double fastest);
@@ -67,7 +67,7 @@ class RestitutionTable {
   RestitutionTable(const ForceForm& form, const RestitutionDomain& domain,
                    const PanelOptions& options, int threads);
 
-  /// Nothing outside the domain, or where the tolerance is not met.
+  /// No value outside the domain, or where the tolerance is not met.
   std::optional<Restitution> operator()(const ScaledImpact& impact) const;
 
   std::size_t panels() const;
@@ -75,7 +75,7 @@ class RestitutionTable {
 
   /// Throws FileError.
   void save(const std::filesystem::path& file) const;
-  /// Nothing if the file is not there, damaged, or of another table or another version of the program.
+  /// Empty if the file is missing, damaged, or of another table or program version.
   static std::optional<RestitutionTable> load(const std::filesystem::path& file,
                                               const ForceForm& form,
                                               const RestitutionDomain& domain,
@@ -95,17 +95,18 @@ class RestitutionTable {
   Panels panels_;
 };
 
-/// From the file if it has this table, else built and saved to it. If saving fails the table is as
-/// good; `trouble` then says why.
-struct KeptTable {
+/// Loads the table from the file if it is there, otherwise builds and saves it. If saving fails, the table is still
+/// valid, and `save_error` says why.
+struct CachedTable {
   RestitutionTable table;
   bool loaded;
-  std::string trouble;
+  std::string save_error;
 };
-KeptTable kept_table(const std::filesystem::path& file, const ForceForm& form,
-                     const RestitutionDomain& domain, const PanelOptions& options, int threads);
+CachedTable load_or_build_table(const std::filesystem::path& file, const ForceForm& form,
+                                const RestitutionDomain& domain, const PanelOptions& options,
+                                int threads);
 
-/// The slow twin of TabulatedRestitution.
+/// Integrates every contact: the slow reference for TabulatedRestitution.
 class IntegratedRestitution {
  public:
   explicit IntegratedRestitution(const ForceForm& form) : form_(form) {}
@@ -121,28 +122,28 @@ class IntegratedRestitution {
   std::uint64_t integrated_ = 0;
 };
 
-/// From the table where it has a value, else integrated, and counted.
+/// Uses the table where it has a value; otherwise integrates and counts.
 class TabulatedRestitution {
  public:
   TabulatedRestitution(const ForceForm& form, RestitutionTable table)
-      : table_(std::move(table)), outside_(form) {}
+      : table_(std::move(table)), fallback_(form) {}
 
   Restitution operator()(const ScaledImpact& impact) {
     const std::optional<Restitution> found = table_(impact);
-    return found ? *found : outside_(impact);
+    return found ? *found : fallback_(impact);
   }
-  std::uint64_t integrated() const { return outside_.integrated(); }
+  std::uint64_t integrated() const { return fallback_.integrated(); }
 
  private:
   RestitutionTable table_;
-  IntegratedRestitution outside_;
+  IntegratedRestitution fallback_;
 };
 
 template <ContactForce Force>
 RestitutionDomain restitution_domain(const Force& force, std::span<const ContactPair> pairs,
                                      double slowest, double fastest) {
   constexpr double none = std::numeric_limits<double>::infinity();
-  RestitutionDomain domain{usual_obliqueness, {none, -none}, {none, -none}};
+  RestitutionDomain domain{typical_obliqueness, {none, -none}, {none, -none}};
   const auto extend = [](ValueRange& interval, double value) {
     interval = {std::min(interval.low, value), std::max(interval.high, value)};
   };

@@ -10,45 +10,43 @@
 
 /// Collisions of soft spheres and disks in event-driven dynamics.
 ///
-/// A contact takes a time τ, in which the line of centres turns; the matrix of restitution
-/// (restitution.h) gives the state at its end from that at its beginning. A collision is three events:
-///   E^φ  at first contact: the pair is turned and rescaled about its centre of mass, as it will be at
-///        the end, and both go on with the velocity of the centre of mass;
-///   E^v  a time τ later, one for each: it takes its velocity of after the contact.
-/// From then on the trajectories are those of the force. Two exceptions, both counted:
-///   (a)  at its new place one of the pair would be closer than contact to a third particle (and closer
-///        than it was): the two collide as hard spheres, with the coefficient of restitution −ε_ṙ;
-///   (b)  a third particle comes to one of the pair before τ has passed: its E^v is executed just before.
+/// A contact takes a time τ, during which the line of centres rotates; the matrix of restitution (restitution.h) maps the
+/// state at its start to that at its end. A collision consists of three events:
+///   E^φ  at first contact: the pair is rotated and rescaled about its centre of mass to its configuration at the end of
+///        the contact, and both particles continue with the velocity of the centre of mass;
+///   E^v  a time τ later, one for each particle: it gets its velocity after the contact.
+/// From then on the trajectories are exact. Two exceptions, both counted:
+///   (a)  in its new position one of the pair would be closer than contact to a third particle (and closer than before):
+///        the two collide as hard spheres, with the coefficient of restitution −ε_ṙ;
+///   (b)  a third particle hits one of the pair before τ has passed: its E^v is executed first.
 ///
-/// Conserved, to rounding: momentum; energy, if elastic; angular momentum, except in (b), as the distance
-/// of the pair is another one when the partner is released too. If both are released together nothing
-/// is lost.
+/// Conserved to rounding: momentum; energy, if elastic; angular momentum, except in (b), since the distance of the pair
+/// has changed when the partner is released later. Nothing is lost if both are released together.
 ///
-/// While in contact, particles count with the velocities they will be released with. So the energy of an
-/// elastic gas, potential energy included, is its kinetic energy. For the pressure a contact counts as
+/// While in contact, particles count with the velocities after the contact. The energy of an elastic gas, potential energy
+/// included, therefore equals its kinetic energy. For the pressure a contact counts as
 ///     ∫ (d·F + m_eff v²) dt − τ m_eff v'² = [m_eff d·v]₀^τ − τ m_eff v'²,
-/// d the distance, v the relative velocity and v' that after the contact, which is exact together with
-/// the kinetic energy counted so.
+/// d the distance, v the relative velocity and v' that after the contact; this is exact together with the kinetic energy.
 ///
-/// With damping a pair leaves contact closer than the sum of its radii. As long as it separates it
-/// meets nothing. Should a third particle make it approach again before it is apart, this is a new
-/// contact, which begins at the distance that the two have: none is lost, and the surfaces still recede.
+/// With damping a pair leaves contact closer than the sum of its radii. While it separates it does not collide. If a third
+/// particle makes it approach again before it is apart, a new contact begins at the current distance: no collision is
+/// lost, and the surfaces still recede.
 ///
 /// Validity: dilute systems. Source: mueller2013, section VI.
 namespace vitrel {
 
-/// What contacts do to the particles of a run.
+/// The effect of contacts on the particles of a run.
 class SoftContact {
  public:
   virtual ~SoftContact() = default;
 
-  /// Speeds as in scaled_impact; the duration is in units of time, τ = ε_t T. Counts integrations.
+  /// Speeds as in scaled_impact; the duration is in simulated time, τ = ε_t T. Counts integrations.
   virtual Restitution collide(const ContactPair& pair, double normal_speed, double tangential_speed,
                               RunCounters& counters) = 0;
 };
 
-/// By a force and its coefficients, tabulated or integrated (restitution_table.h): they give the Restitution of
-/// a ScaledImpact, and how many they have integrated.
+/// A force with its coefficients, tabulated or integrated (restitution_table.h), which map a ScaledImpact to a
+/// Restitution and count their integrations.
 template <ContactForce Force, class Coefficients>
 class SoftContactOf final : public SoftContact {
  public:
@@ -70,14 +68,14 @@ class SoftContactOf final : public SoftContact {
   Coefficients coefficients_;
 };
 
-/// Of particle 2 as seen from particle 1, r = r₂ − r₁.
+/// Particle 2 relative to particle 1, r = r₂ − r₁.
 template <int Dim>
 struct RelativeMotion {
   Vec<Dim> position, velocity;
 };
 
-/// From first contact to its end. With n = r/|r|, t the direction of the velocity across it, and u and
-/// w the speeds along −n and t:
+/// The relative motion after a contact, from that at first contact. With n = r/|r|, t the direction of the tangential
+/// velocity, and u and w the speeds along −n and t:
 ///     r' = ε_r |r| n',   v' = −ε_ṙ u n' + (w/ε_r) t',
 ///     n' = cos ε_φ n + sin ε_φ t,   t' = cos ε_φ t − sin ε_φ n
 template <int Dim>

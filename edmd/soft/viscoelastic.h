@@ -38,9 +38,9 @@ struct Viscoelastic {
   }
 
   static double profile(double s) { return s; }
-  static double rest(double s) { return s * s; }
-  static double rest_slope(double s) { return 2 * s; }
-  static double rest_inverse(double rest) { return std::sqrt(rest); }
+  static double elastic(double s) { return s * s; }
+  static double elastic_slope(double s) { return 2 * s; }
+  static double elastic_inverse(double elastic) { return std::sqrt(elastic); }
 };
 
 static_assert(ContactForce<Viscoelastic>);

@@ -18,7 +18,7 @@ FAILURES = ["early", "late", "missed", "false", "not_converged"]
 
 def survey(build, pairs, classes=()):
     # Early answers of degenerate pairs are judged below, more strictly than by --gap-tolerance.
-    command = [build / "app/vitrel", "bench", "collision-time", "--method", "separating_axis", "--pairs", str(pairs),
+    command = [build / "bench/vitrel-bench", "collision-time", "--method", "separating_axis", "--pairs", str(pairs),
                "--tolerance", str(TIME_TOLERANCE), "--gap-tolerance", "1e-8", "--json", "-q"]
     return json.loads(output_of(command + [word for name in classes for word in ("--class", name)]))["rows"]
 
@@ -53,8 +53,8 @@ def measure(build):
     pairs = sum(one["pairs"] for one in measured)
     expect(PAIRS < 800_000 or pairs >= LEAST_PAIRS, f"{pairs} pairs in all")
     head = ["class", "largest κ", "pairs", "contacts", "degenerate", "largest error", "largest gap"]
-    return f"""`vitrel bench collision-time` asks the default method about {pairs} pairs of {len(measured)} classes and
-judges every answer by the reference in 80-bit interval arithmetic. Wanted: none late, missed, false or without an answer;
+    return f"""`vitrel-bench collision-time` asks the default method about {pairs} pairs of {len(measured)} classes and
+compares every answer with the reference in 80-bit interval arithmetic. Wanted: none late, missed, false or without an answer;
 none early by more than {TIME_TOLERANCE:g} of the horizon (the largest error below, in fractions of the horizon), except
 where the surfaces cross so slowly that the time is ill-defined (degenerate: below 0.02 (a₁ + a₂)/horizon). There, and
 where a contact is reported of a pair that does not quite touch, the true gap at the reported time (the largest gap below)

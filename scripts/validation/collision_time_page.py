@@ -1,19 +1,15 @@
 """The page about collision times: rewrites the measured parts and the pictures of docs/collision-time.md."""
 
-import json
-import pathlib
 import re
-import shutil
-import tempfile
 
-from validation.common import HERE, expect, output_of, processor, table
+from validation.common import ROOT, compared, expect, processor, save_figure, table
+from validation.figures import failing_pair_figure, overlap_figure, scene_figure, speed_figure, whole_run_figure
 
 TITLE = "Collision time: all methods"
 PAIRS = 10_000  # of each class, for the default method
 SECONDS = 20  # for every other method
 DURATION = 100  # of the whole runs, as in the thesis
-DOCS = HERE.parents[1] / "docs"
-PAGE = DOCS / "collision-time.md"
+PAGE = ROOT / "docs/collision-time.md"
 FIGURES = "figures/collision-time"
 
 DEFAULT, RIVAL = "separating_axis", "slsqp"
@@ -182,7 +178,7 @@ def failures(data, rows):
         name = NAMES[failure["method"]]
         of = class_name((failure["class"], failure["aspect_ratio"]))
         parts.append(f"### {name[0].upper() + name[1:]}\n\n{failing(rows, failure['method'])}\n\n"
-                     f"![A pair that {name} answers wrongly]({FIGURES}/{failure['picture']})\n\n"
+                     f"![A pair that {name} answers wrongly]({FIGURES}/failure_{failure['method']}.svg)\n\n"
                      f"Here ({of}, pair {failure['index']}) it {failure['caption']}.")
     return "\n\n".join(parts)
 
@@ -226,7 +222,7 @@ def measured(data):
     how = data["provenance"]
     commit = how["commit"][:7] + "-modified" * ("modified" in how["commit"])
     return (f"Measured on {how['finished'][:10]}, commit {commit}, {processor()}, with\n\n"
-            f"    vitrel bench collision-time --pairs {PAIRS} --seconds {SECONDS} --duration {DURATION} -o FOLDER\n\n"
+            f"    vitrel-bench collision-time --pairs {PAIRS} --seconds {SECONDS} --duration {DURATION} -o FOLDER\n\n"
             f"in {how['wall time']}.")
 
 
@@ -238,7 +234,16 @@ def with_part(page, name, text):
     return before + begin + "\n\n" + text + "\n\n" + end + rest.split(end)[1]
 
 
-def write_page(data, rows, folder):
+def figures(data):
+    tolerances, curves = data["tolerances"], data["scene_curves"]
+    return {"collision-time": speed_figure(tolerances, "median_error"),
+            "collision-time-largest": speed_figure(tolerances, "largest_error"),
+            "scene_gap": scene_figure(curves, "distance", "d(t)"), "scene_psi": scene_figure(curves, "psi", "Ψ(t)"),
+            "overlap": overlap_figure(data["overlap"]), "whole-run": whole_run_figure(data["whole_runs"]),
+            **{f"failure_{failure['method']}": failing_pair_figure(failure) for failure in data["failures"]}}
+
+
+def write_page(data, rows):
     parts = {"measured": measured(data), "speed": speed(rows), "glance": glance(rows), "stability": stability(rows),
              "classes": classes(data), "counts": counts(rows), "failures": failures(data, rows), "scene": scene(data),
              "runs": runs(data), "overlap": overlap(data)}
@@ -247,25 +252,21 @@ def write_page(data, rows, folder):
     expect(sorted(marked) == sorted(parts), f"{PAGE.name} has the parts {marked}, wanted are {list(parts)}")
     for name, text in parts.items():
         page = with_part(page, name, text)
-    figures = DOCS / FIGURES
-    shutil.rmtree(figures, ignore_errors=True)
-    figures.mkdir(parents=True)
-    for picture in pathlib.Path(folder).glob("*.svg"):
-        shutil.copy(picture, figures)
+    for old in (PAGE.parent / FIGURES).glob("*.svg"):
+        old.unlink()
+    for name, figure in figures(data).items():
+        save_figure(figure, FIGURES, name)
     PAGE.write_text(page, encoding="utf-8")
 
 
 def measure(build):
-    with tempfile.TemporaryDirectory() as folder:
-        output_of([build / "app/vitrel", "bench", "collision-time", "--pairs", str(PAIRS), "--seconds", str(SECONDS),
-                   "--duration", str(DURATION), "-q", "-o", folder])
-        data = json.loads(pathlib.Path(folder, "collision-time.json").read_text(encoding="utf-8"))
-        rows = Rows(data["rows"])
-        sums = totals(rows, DEFAULT)
-        expect(sums["correct"] == sums["pairs"], f"the default method is wrong: {sums}")
-        moves = [run["correction_moves"] for run in data["whole_runs"] if run["method"] == DEFAULT]
-        expect(moves and not any(moves), f"correction moves with the default method: {moves}")
-        write_page(data, rows, folder)
+    data = compared(build, "collision-time", "collision-time.json", "--pairs", PAIRS, "--seconds", SECONDS, "--duration", DURATION)
+    rows = Rows(data["rows"])
+    sums = totals(rows, DEFAULT)
+    expect(sums["correct"] == sums["pairs"], f"the default method is wrong: {sums}")
+    moves = [run["correction_moves"] for run in data["whole_runs"] if run["method"] == DEFAULT]
+    expect(moves and not any(moves), f"correction moves with the default method: {moves}")
+    write_page(data, rows)
     return f"""[The page about collision times](collision-time.md) and its pictures are written from this. Wanted: no wrong
 answer of the default method at its usual tolerance, and no correction move in its whole runs at any. Goals, missed or
 reached as measured:

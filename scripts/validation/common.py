@@ -93,7 +93,11 @@ def pyplot():
 
 def save_figure(figure, folder, name):
     """As docs/<folder>/<name>.svg; the figure is closed."""
-    file = ROOT / "docs" / folder / f"{name}.svg"
+    write_figure(figure, ROOT / "docs" / folder / f"{name}.svg")
+
+
+def write_figure(figure, file):
+    """As SVG; the figure is closed."""
     file.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(file, metadata={"Date": None}, dpi=100)
     pyplot().close(figure)
@@ -109,11 +113,18 @@ def commit_of(data):
     return data["commit"][:8] + "-modified" * ("modified" in data["commit"])
 
 
-def measured(program, preset, *parts):
-    """What a benchmark prints when built with this preset."""
-    for step in (["--preset", preset], ["--build", "--preset", preset, "--target", program]):
+def measured(command, preset, *parts):
+    """What a subcommand of vitrel-bench prints when built with this preset."""
+    for step in (["--preset", preset], ["--build", "--preset", preset, "--target", "vitrel-bench"]):
         subprocess.run(["cmake", *step], cwd=ROOT, check=True)
-    return json.loads(output_of([ROOT / "build" / preset / "bench" / program, *parts]))
+    return json.loads(output_of([ROOT / "build" / preset / "bench/vitrel-bench", command, *parts]))
+
+
+def compared(build, command, file, *options):
+    """The data that a comparison of vitrel-bench writes into this file of its folder."""
+    with tempfile.TemporaryDirectory() as folder:
+        output_of([build / "bench/vitrel-bench", command, *map(str, options), "-q", "-o", folder])
+        return json.loads(pathlib.Path(folder, file).read_text(encoding="utf-8"))
 
 
 def shape(kappa):

@@ -24,8 +24,8 @@ def compressibility(build, packing_fraction):
             build, HERE / "disks.toml", f"system.particles={PARTICLES}",
             f"system.packing_fraction={packing_fraction}", f"system.seed={seed}", frames=["--last"])
         expect(check["overlaps"] == 0, f"φ = {packing_fraction}, seed {seed}: {check['overlaps']} overlaps")
-        means.append(run["compressibility"])
-        errors.append(run["compressibility_error"])
+        means.append(run["compressibility_factor"])
+        errors.append(run["compressibility_factor_error"])
         collisions += run["collisions"]
     return statistics.mean(means), math.hypot(*errors) / RUNS, collisions
 

@@ -7,7 +7,7 @@ from validation.common import (ROOT, clock_rate, commit_of, expect, measured, mi
                                table)
 
 TITLE = "Speed of the engine"
-PROGRAM = "bench_engine"
+PROGRAM = "engine"
 PAGE = ROOT / "bench" / "engine.md"
 FIGURE = ROOT / "bench" / "engine.svg"
 
@@ -41,15 +41,15 @@ def seconds_text(seconds):
     return f"{float(f'{seconds:.2g}'):g} {unit}"
 
 
-def speed(native, release):
-    portable = rows_by(release["speed"], "aspect_ratio", "packing_fraction")
+def speed(native, portable):
+    portable_rows = rows_by(portable["speed"], "aspect_ratio", "packing_fraction")
     lines = []
     for row in native["speed"]:
         scene = row["aspect_ratio"], row["packing_fraction"]
         goal, public = GOALS[scene]
         reached = "reached" if rate(row) >= goal else "**not reached**"
         lines.append([shape(scene[0]), scene[1], row["particles"], f"**{millions(rate(row))}**",
-                      millions(1e9 / row["median_ns_per_collision"]), millions(rate(portable[scene])),
+                      millions(1e9 / row["median_ns_per_collision"]), millions(rate(portable_rows[scene])),
                       f"{millions(goal)}, {reached}", millions(public), f"{rate(row) / public:.3g}",
                       f"{row['reduced_pressure']:.2f}"])
     return table(["", "φ", "N", "millions per second", "median", "portable build", "goal", "best public program",
@@ -180,16 +180,16 @@ def lazy(rows):
     return table(["", "put off beyond", "per collision", "gain", *COUNTS], lines)
 
 
-def page(native, release):
+def page(native, portable):
     psi = " and ".join(f"{native[key]:.1f}" for key in ("ns_per_psi", "ns_per_psi_at_the_end"))
     return f"""# How fast is the engine?
 
     scripts/validate engine                       # builds, measures and writes this page
-    build/native/bench/bench_engine speed sizes   # parts of it, as JSON
+    build/release/bench/vitrel-bench engine speed sizes   # parts of it, as JSON
 
 Measured on {datetime.date.today()}, commit {commit_of(native)}, {processor()}{clock_rate()}, {native["compiler"]}, `{native["flags"]}`.
 Calibration: {psi} ns per Ψ (the function of Vieillard-Baron of two ellipses, from their angles; at the
-beginning and at the end of the run). The portable build: `{release["flags"]}`, {release["ns_per_psi"]:.1f} ns per Ψ.
+beginning and at the end of the run). The portable build: `{portable["flags"]}`, {portable["ns_per_psi"]:.1f} ns per Ψ.
 
 Times are those of the process, on one core; the best of five stretches of whole blocks of at least a second each,
 with what the beginning and the end of a block takes. Every state is a liquid: inserted at random places and angles
@@ -203,7 +203,7 @@ Newtonian dynamics, in millions of collisions per second. The best public progra
 (EPYC, `-O3 -march=native`, double precision): for disks Smallenburg's code of 2022, held to a plane; for ellipses a
 generic code by the algorithm of Gilbert, Johnson and Keerthi, which lets overlaps through.
 
-{speed(native, release)}
+{speed(native, portable)}
 
 {counts(native)}
 
@@ -253,12 +253,12 @@ longer than so many mean times between two collisions of a particle; the engine 
 
 
 def measure(_build):
-    native, release = measured(PROGRAM, "native"), measured(PROGRAM, "release", "speed")
+    native, portable = measured(PROGRAM, "release"), measured(PROGRAM, "portable", "speed")
     draw(native["all_pairs"], FIGURE)
-    PAGE.write_text(page(native, release), encoding="utf-8")
+    PAGE.write_text(page(native, portable), encoding="utf-8")
     check_sizes(native["sizes"])
     return f"""[The page about the engine's speed](../bench/engine.md) is written from this. Wanted: a collision costs at most
 {LARGEST_RATIO[100_000]} times as much at N = 10⁵ as at 10³, and {LARGEST_RATIO[1_000_000]} times at 10⁶. Goals, missed or reached as measured:
 
-{speed(native, release)}
+{speed(native, portable)}
 """

@@ -6,7 +6,7 @@ import math
 from validation.common import ROOT, clock_rate, commit_of, expect, measured, processor, shape, table
 
 TITLE = "Event chains against local moves"
-PROGRAM = "bench_event_chain"
+PROGRAM = "event-chain"
 PAGE = ROOT / "bench" / "event_chain.md"
 
 QUANTITIES = {"density": "density, longest waves", "place": "place", "hexatic": "hexatic order, ψ₆",
@@ -99,7 +99,7 @@ def page(data):
     return f"""# Do event chains forget a state sooner than local moves?
 
     scripts/validate event_chain                          # builds, measures and writes this page
-    build/native/bench/bench_event_chain states lengths   # parts of it, as JSON
+    build/release/bench/vitrel-bench event-chain states lengths   # parts of it, as JSON
 
 Measured on {datetime.date.today()}, commit {commit_of(data)}, {processor()}{clock_rate()}, {data["compiler"]}, `{data["flags"]}`.
 Calibration: {psi} ns per Ψ (the function of Vieillard-Baron of two ellipses, from their angles; at the
@@ -154,7 +154,7 @@ def check(rows):
 
 
 def measure(_build):
-    data = measured(PROGRAM, "native")
+    data = measured(PROGRAM, "release")
     PAGE.write_text(page(data), encoding="utf-8")
     check(data["states"])
     return f"""[The page about event chains](../bench/event_chain.md) is written from this. Wanted: density and place are forgotten at

@@ -8,7 +8,7 @@ TEST = "OverlapCriteria.ThreeCriteriaAgreeOnRandomPairs"
 
 
 def measure(build):
-    case = properties_of_test(build / "tests/core/test_contact", TEST, VITREL_CONTACT_PAIRS=PAIRS)
+    case = properties_of_test(build / "tests/core/test_core", TEST, VITREL_CONTACT_PAIRS=PAIRS)
     largest = float(case["largest_blurred_gap_over_1e-12_b"]) * 1e-12
     return f"""The support gap, Perram and Wertheim's function and Vieillard-Baron's function with the complete
 criterion judge 10⁷ random pairs: aspect ratios 1 … 50, size ratios 1 … 100, a third of them at the

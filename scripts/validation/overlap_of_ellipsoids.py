@@ -8,7 +8,7 @@ TEST = "EllipsoidCriteria.ThreeCriteriaAgreeOnRandomPairs"
 
 
 def measure(build):
-    case = properties_of_test(build / "tests/core/test_ellipsoid_overlap", TEST, VITREL_CONTACT_PAIRS=PAIRS)
+    case = properties_of_test(build / "tests/core/test_core", TEST, VITREL_CONTACT_PAIRS=PAIRS)
     decided = int(case["decided_by_eta_1"]) / PAIRS
     overlaps = int(case["random_overlaps"])
     overlooked = int(case["overlooked_by_the_article"]) / overlaps

@@ -5,7 +5,7 @@ import math
 from validation.common import expect, measured, pyplot, save_figure, table
 
 TITLE = "Matrix of restitution of soft spheres"
-PROGRAM = "bench_restitution"
+PROGRAM = "restitution"
 FIGURES = "figures/restitution"
 
 INTEGRATION_ERROR = 1e-12
@@ -236,7 +236,7 @@ def measure(_build):
 those of ε_r are absolute, of the others relative.
 
 The integration beside the equations of motion as they stand, in extended precision by another method
-(`bench/lab/twins/plain_contact.h`), for random impacts of the source's domain with c_dis ≤ 20; wanted: {INTEGRATION_ERROR:g}.
+(`bench/baselines/plain_contact.h`), for random impacts of the source's domain with c_dis ≤ 20; wanted: {INTEGRATION_ERROR:g}.
 
 {table(["force", "impacts", *COEFFICIENTS.values()], integration)}
 

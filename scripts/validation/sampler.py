@@ -6,7 +6,7 @@ from validation.common import (ROOT, clock_rate, commit_of, expect, measured, mi
                                table)
 
 TITLE = "Speed of Monte Carlo"
-PROGRAM = "bench_sampler"
+PROGRAM = "sampler"
 PAGE = ROOT / "bench" / "sampler.md"
 
 # (κ, φ): trials per second wanted on one core of such a machine.
@@ -30,15 +30,15 @@ def goal_text(row):
     return f"{millions(goal)}, " + ("reached" if rate(row) >= goal else "**not reached**")
 
 
-def speed(native, release):
-    portable = rows_by(release["speed"], "aspect_ratio", "packing_fraction")
+def speed(native, portable):
+    portable_rows = rows_by(portable["speed"], "aspect_ratio", "packing_fraction")
     lines = []
     for row in native["speed"]:
         plain = row["plain"]
         lines.append([shape(row["aspect_ratio"]), row["packing_fraction"], f"**{millions(rate(row))}**",
-                      millions(1e9 / row["median_ns_per_trial"]), millions(rate(portable[scene(row)])), goal_text(row),
+                      millions(1e9 / row["median_ns_per_trial"]), millions(rate(portable_rows[scene(row)])), goal_text(row),
                       millions(rate(plain)), f"{plain['ns_per_trial'] / row['ns_per_trial']:.2f}"])
-    return table(["", "φ", "millions per second", "median", "portable build", "goal", "plain twin", "times as fast"],
+    return table(["", "φ", "millions per second", "median", "portable build", "goal", "plain baseline", "times as fast"],
                  lines)
 
 
@@ -56,7 +56,7 @@ def work(native):
                       f"{rotations(row, row['rotations_accepted'])} / {rotations(row, plain['rotations_accepted'])}",
                       f"{row['groups']:.2f}", f"{row['alone']:.3f}", f"{plain['decisions']:.2f}"])
     return table(["", "φ", "translation", "rotation", "translations accepted", "rotations accepted", "groups", "alone",
-                  "decisions of the twin"], lines)
+                  "decisions of the baseline"], lines)
 
 
 def gain(row):
@@ -85,16 +85,16 @@ def lanes(rows):
     return table(["", "φ", "others within reach", "clear", "in lanes", "one by one", "gain"], lines)
 
 
-def page(native, release):
+def page(native, portable):
     psi = " and ".join(f"{native[key]:.1f}" for key in ("ns_per_psi", "ns_per_psi_at_the_end"))
     return f"""# How fast is Monte Carlo?
 
     scripts/validate sampler                         # builds, measures and writes this page
-    build/native/bench/bench_sampler speed threads   # parts of it, as JSON
+    build/release/bench/vitrel-bench sampler speed threads   # parts of it, as JSON
 
 Measured on {datetime.date.today()}, commit {commit_of(native)}, {processor()}{clock_rate()}, {native["compiler"]}, `{native["flags"]}`.
 Calibration: {psi} ns per Ψ (the function of Vieillard-Baron of two ellipses, from their angles; at the
-beginning and at the end of the run). The portable build: `{release["flags"]}`, {release["ns_per_psi"]:.1f} ns per Ψ.
+beginning and at the end of the run). The portable build: `{portable["flags"]}`, {portable["ns_per_psi"]:.1f} ns per Ψ.
 
 The best and the median of many stretches of whole sweeps, in alternation with what it is compared to. Every state is a
 liquid: inserted at random places and angles at φ = 0.2, swollen, and mixed by 500 sweeps. Steps are those at which 0.3
@@ -102,14 +102,14 @@ of the moves of each kind are accepted, but a turn is π at most, which more tha
 
 ## Trials per second
 
-N = {native["speed"][0]["particles"]}, one thread, in millions of trials per second. The plain twin makes one trial after another among all
+N = {native["speed"][0]["particles"]}, one thread, in millions of trials per second. The baseline makes one trial after another among all
 particles and decides every pair within the circumcircles alone.
 
-{speed(native, release)}
+{speed(native, portable)}
 
-The steps, the shares that are accepted (sampler / twin, at the same steps: a sampler's moves across a border between
+The steps, the shares that are accepted (sampler / baseline, at the same steps: a sampler's moves across a border between
 domains are rejected), *groups* of up to four others looked at per trial, pairs of these that were decided *alone*, and
-pairs that the twin decided.
+pairs that the baseline decided.
 
 {work(native)}
 
@@ -129,13 +129,13 @@ answered four at a time, or one by one with the same exact decision, until one o
 
 
 def measure(_build):
-    native, release = measured(PROGRAM, "native"), measured(PROGRAM, "release", "speed")
-    PAGE.write_text(page(native, release), encoding="utf-8")
+    native, portable = measured(PROGRAM, "release"), measured(PROGRAM, "portable", "speed")
+    PAGE.write_text(page(native, portable), encoding="utf-8")
     check_threads(native["threads"])
     return f"""[The page about the speed of Monte Carlo](../bench/sampler.md) is written from this. Wanted: two threads are at least
 {LEAST_GAIN} times as fast as one at N = 10⁵. Goals, missed or reached as measured:
 
-{speed(native, release)}
+{speed(native, portable)}
 
 {threads(native["threads"])}
 """

@@ -6,7 +6,7 @@ import math
 from validation.common import commit_of, expect, measured, processor, pyplot, save_figure, table
 
 TITLE = "Soft spheres in motion"
-PROGRAM = "bench_soft_spheres"
+PROGRAM = "soft-spheres"
 FIGURES = "figures/soft_spheres"
 
 USUAL_MODULUS, DILUTE = 1e9, 1e-3
@@ -288,9 +288,9 @@ a share of {refused_after_hit():.3f} of these hits by random sampling of such en
 state of the gas, for one mean free time, {accuracy['duration']:.1f} s, in which a contact takes {1e3 * accuracy['contact']:.2f} ms. Errors are distances in radii from
 the places of a reference, of the {tables['particles']} particles that have collided; each earlier collision among their ancestors multiplies
 an error by a hundred and more. The reference integrates Newton's equations cluster by cluster, with adaptive
-steps in the clusters and none in free flight (`bench/lab/twins/clusterwise_run.h`); the last row is the same with ten times the
+steps in the clusters and none in free flight (`bench/baselines/clusterwise_run.h`); the last row is the same with ten times the
 tolerance, its error so a bound for that of the reference. The force-based runs are of velocity Verlet steps with neighbour lists
-(`bench/lab/twins/force_based_run.h`). The classical rule has the coefficient of restitution of a head-on impact of the same
+(`bench/baselines/force_based_run.h`). The classical rule has the coefficient of restitution of a head-on impact of the same
 normal speed.
 
 {table(["way", "per simulated second", "times as long", "median error", "ninth decile", "largest"], list(accuracy_rows(accuracy)))}

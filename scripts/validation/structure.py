@@ -6,7 +6,7 @@ TITLE = "Structure factor: transform and direct sum"
 
 
 def measure(_build):
-    rows = measured("bench_structure_factor", "release")["rows"]
+    rows = measured("structure-factor", "release")["rows"]
     for row in rows:
         expect(row["share_of_bound"] <= 1, f"N = {row['particles']}: an error is {row['share_of_bound']:.2f} bounds")
     lines = [[row["particles"], f"{row['wave_vectors']:.0f}", f"{row['transform_ms']:.2f}", f"{row['direct_ms']:.2f}",

@@ -1,22 +1,15 @@
 """Chapter 4 of the thesis: its figures again, with a program like its own and with this one."""
 
-import json
-import pathlib
-import shutil
-import tempfile
-
-from validation.common import HERE, expect, output_of, table
+from validation.common import compared, expect, save_figure, table
+from validation.thesis_figures import IMPROVED, NAMES, OURS, THESIS, thesis_figures
 
 TITLE = "The figures of the thesis"
 SECONDS = 2  # of work, after which a run of the thesis's program is cut short
 DURATION = 100  # of the runs in simulated time, unless cut short
 LARGEST = 400
 RUNS = 32  # averaged in figure 4.7
-DOCS = HERE.parents[1] / "docs"
 FIGURES = "figures/thesis"
 
-OURS, THESIS, IMPROVED = "vitrel", "thesis", "improved"
-NAMES = {OURS: "vitrel", THESIS: "all pairs", IMPROVED: "all pairs, improved"}
 ELLIPSES, CIRCLES = 2, 1
 # Between what the powers of N must lie with which the cost grows: linear with lists and calendar. With all pairs, N
 # events times N optimisations of ellipses; where only dismissals in closed form are left, N events times N² pairs.
@@ -139,26 +132,17 @@ def picture(name, text):
     return f"![{text}]({FIGURES}/{name}.svg)"
 
 
-def copy_pictures(folder):
-    figures = DOCS / FIGURES
-    shutil.rmtree(figures, ignore_errors=True)
-    figures.mkdir(parents=True)
-    for file in pathlib.Path(folder).glob("*.svg"):
-        shutil.copy(file, figures)
-
-
 def measure(build):
-    with tempfile.TemporaryDirectory() as folder:
-        output_of([build / "app/vitrel", "bench", "thesis", "--seconds", str(SECONDS), "--duration", str(DURATION),
-                   "--largest", str(LARGEST), "--runs", str(RUNS), "-q", "-o", folder])
-        data = json.loads(pathlib.Path(folder, "thesis.json").read_text(encoding="utf-8"))
-        samples = check_ours(data)
-        check_exponents(data)
-        check_brownian_relaxation(data)
-        relaxed = relaxation(data)
-        copy_pictures(folder)
+    data = compared(build, "thesis", "thesis.json", "--seconds", SECONDS, "--duration", DURATION, "--largest", LARGEST,
+                    "--runs", RUNS)
+    samples = check_ours(data)
+    check_exponents(data)
+    check_brownian_relaxation(data)
+    relaxed = relaxation(data)
+    for name, figure in thesis_figures(data).items():
+        save_figure(figure, FIGURES, name)
     return f"""Chapter 4 of the thesis again: κ = 2 and circles of the same area, φ = 0.5, kT = m = a b = 1, from
-equilibrium unless said otherwise, τ_B = 0.1 where the dynamics are Brownian. `vitrel bench thesis` runs three programs:
+equilibrium unless said otherwise, τ_B = 0.1 where the dynamics are Brownian. `vitrel-bench thesis` runs three programs:
 
 - **all pairs** works as the thesis's does: no calendar, no lists, no cells; after every event every pair is asked
   anew for its next collision, ellipses by SLSQP, circles in closed form; a pair found overlapping gets a correction
@@ -178,7 +162,7 @@ circles); that of all pairs to the power {powers(THESIS, ELLIPSES)} (ellipses) a
 ### Time against the number of particles (figures 4.1 and 4.2)
 
 Seconds of work for one unit of simulated time, mean of a Newtonian and a Brownian run as in the thesis. The thesis
-fits parabolas to both shapes, up to N = 100. For ellipses the twin grows alike: after each of N events it optimises
+fits parabolas to both shapes, up to N = 100. For ellipses *all pairs* grows alike: after each of N events it optimises
 about N pairs whose circumcircles overlap. For circles nothing is left but to look at all N²/2 pairs, and the cost
 comes closer to N³: either the thesis's circles were not asked all again, or the small N hide it.
 

@@ -102,5 +102,16 @@ TEST_F(ResultsTest, FailuresNameTheFile) {
   EXPECT_THROW(read_results(folder_ / "text.h5"), FileError);
 }
 
+TEST_F(ResultsTest, FormerNamesAreReadAsTodays) {
+  Results results;
+  results.tables = {{"summary", "", {{"compressibility", "1", {4.5}, {0.1}}}},
+                    {"compressibility", "", {{"z", "1", {4.5}, {}}}}};
+  write_results(folder_ / "results.h5", results);
+  const Results read = read_results(folder_ / "results.h5");
+  EXPECT_FALSE(read.find("compressibility"));
+  ASSERT_TRUE(read.find("compressibility_factor"));
+  EXPECT_EQ(read.find("summary")->find("compressibility_factor")->error[0], 0.1);
+}
+
 }  // namespace
 }  // namespace vitrel

@@ -71,10 +71,10 @@ void expect_same_within_bound(const Configuration<Dim>& c, const ShellOptions& o
 TEST(StructureFactor, IsThatOfDirectSumsForFewParticles) {
   const Vec2 lengths(12, 9);
   const ScatteringShells shells(lengths, {8, 1});
-  const Configuration2 few = gas<2>(ScatteringShells<2>::most_summed_directly, lengths, 3);
+  const Configuration2 few = gas<2>(ScatteringShells<2>::max_summed_directly, lengths, 3);
   EXPECT_EQ(shells.structure_factor(few).total, shells.direct_structure_factor(few).total);
   EXPECT_NE(shells.structure_factor(few).total, shells.transformed_structure_factor(few).total);
-  const Configuration2 many = gas<2>(ScatteringShells<2>::most_summed_directly + 1, lengths, 3);
+  const Configuration2 many = gas<2>(ScatteringShells<2>::max_summed_directly + 1, lengths, 3);
   EXPECT_EQ(shells.structure_factor(many).total, shells.transformed_structure_factor(many).total);
   EXPECT_NE(shells.structure_factor(many).total, shells.direct_structure_factor(many).total);
 }

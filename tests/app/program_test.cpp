@@ -64,7 +64,8 @@ TEST(Program, PrepareRunCheckAnalyzeAndReport) {
   expect_keys(summary,
               {"collisions", "simulated_time", "wall_seconds", "collisions_per_second",
                "predictions_per_collision", "correction_moves", "energy_drift", "packing_fraction",
-               "compressibility", "compressibility_error", "overlaps"});
+               "compressibility_factor", "compressibility_factor_error", "overlaps"});
+  EXPECT_EQ(summary["compressibility"], summary["compressibility_factor"]);  // its former key
   EXPECT_EQ(summary["simulated_time"], 11);
   EXPECT_EQ(summary["frames"], 21);
   EXPECT_EQ(summary["correction_moves"], 0);
@@ -213,6 +214,96 @@ TEST(Program, AStateMustFitTheParameters) {
                  "holds 30 particles, but system.particles is 31");
   expect_refusal(run_with("system.packing_fraction=0.4"), 2, "has the packing fraction 0.5");
   expect_refusal(run_with("dynamics.initial_velocities=keep"), 2, "is at rest");
+}
+
+// What a run records is what ran, whatever the parameter file says or leaves out.
+TEST(Program, TheSpeciesOfAStateWin) {
+  const Folder folder("species_of_state");
+  folder.write("k14.toml", small_system + "[[species]]\naspect_ratio = 1.4\n");
+  ASSERT_EQ(run(folder.path(), {"prepare", "k14.toml", "-o", "k14.h5", "-q"}).code, 0);
+  folder.write("none.toml", small_system);
+  folder.write("other.toml", small_system + "[[species]]\naspect_ratio = 2.0\n");
+  const std::string contradiction =
+      "other.toml:9:16: key 'species.0.aspect_ratio' is 2, but particle 0 has 1.4";
+  for (const char* how : {"--quiet", "--dry-run"})
+    expect_refusal(
+        run(folder.path(), {"run", "other.toml", "-o", "run.h5", "--from", "k14.h5", how}), 2,
+        contradiction);
+  EXPECT_FALSE(std::filesystem::exists(folder / "run.h5.checkpoint"));
+  const std::vector<std::string> from_none = {"run",    "none.toml", "-o",
+                                              "run.h5", "--from",    "k14.h5"};
+  const Outcome ran = run(folder.path(), from_none);
+  ASSERT_EQ(ran.code, 0) << ran.errors;
+  EXPECT_THAT(ran.errors, HasSubstr("species as in k14.h5"));
+  EXPECT_THAT(TrajectoryReader(folder / "run.h5").provenance().parameters,
+              HasSubstr("aspect_ratio = 1.4\n"));
+  // The same command finds it complete, also without the state.
+  std::filesystem::remove(folder / "k14.h5");
+  EXPECT_EQ(run(folder.path(), from_none).code, 0);
+  expect_refusal(
+      run(folder.path(), {"run", "other.toml", "-o", "run.h5", "--from", "k14.h5", "-q"}), 2,
+      contradiction);
+}
+
+/// Starts from state.h5 and is stopped after the first block, however slow the machine.
+std::vector<std::string> stopped_run(const std::string& setting) {
+  return {"run",
+          "p.toml",
+          "-o",
+          "run.h5",
+          "-q",
+          "--from",
+          "state.h5",
+          "--set",
+          setting,
+          "--wall-time",
+          "0.001",
+          "--set",
+          "dynamics.duration=1e6",
+          "--set",
+          "output.samples.interval=1e5"};
+}
+
+TEST(Program, ACheckpointWithoutItsTrajectoryIsRefusedAndKept) {
+  const Folder folder("missing_trajectory");
+  folder.write("p.toml", small_system);
+  ASSERT_EQ(run(folder.path(), {"prepare", "p.toml", "-o", "state.h5", "-q"}).code, 0);
+  const std::vector<std::string> whole = {"run", "p.toml", "-o", "run.h5", "-q"};
+  const std::vector<std::string> dry = {"run", "p.toml", "-o", "run.h5", "--dry-run"};
+  const auto refused = [&](const std::vector<std::string>& again) {
+    std::filesystem::remove(folder / "run.h5");
+    const std::string before = folder.read("run.h5.checkpoint");
+    expect_refusal(run(folder.path(), again), 3,
+                   "run.h5: is missing, but run.h5.checkpoint is there, the checkpoint of the run");
+    EXPECT_FALSE(std::filesystem::exists(folder / "run.h5"));
+    EXPECT_EQ(folder.read("run.h5.checkpoint"), before);
+  };
+  const auto forget = [&] {
+    for (const char* file : {"run.h5.checkpoint", "run.h5.checkpoint.previous"})
+      std::filesystem::remove(folder / file);
+  };
+  // The frame of time 0 is in the first block.
+  ASSERT_EQ(run(folder.path(), stopped_run("dynamics.equilibration=0")).code, 5);
+  refused(stopped_run("dynamics.equilibration=0"));
+  forget();
+  ASSERT_EQ(run(folder.path(), whole).code, 0);
+  refused(whole);
+  refused(dry);
+  forget();
+  EXPECT_EQ(run(folder.path(), whole).code, 0);
+}
+
+// The first checkpoint is saved before the trajectory is made.
+TEST(Program, ACheckpointBeforeTheFirstFrameNeedsNoTrajectory) {
+  const Folder folder("no_frame_yet");
+  folder.write("p.toml", small_system);
+  ASSERT_EQ(run(folder.path(), {"prepare", "p.toml", "-o", "state.h5", "-q"}).code, 0);
+  const std::vector<std::string> equilibrating = stopped_run("dynamics.equilibration=1e6");
+  ASSERT_EQ(run(folder.path(), equilibrating).code, 5);
+  ASSERT_TRUE(std::filesystem::remove(folder / "run.h5"));
+  const Outcome continued = run(folder.path(), equilibrating);
+  EXPECT_EQ(continued.code, 5) << continued.errors;
+  EXPECT_TRUE(std::filesystem::exists(folder / "run.h5"));
 }
 
 TEST(Program, ADryRunWritesNothing) {
@@ -364,7 +455,7 @@ TEST(Program, RunsInThreeDimensions) {
   EXPECT_EQ(summary["frames"], 1001);
   EXPECT_GT(summary["collisions"], 1000);
   EXPECT_LT(summary["energy_drift"], 1e-11);
-  EXPECT_NEAR(summary["compressibility"].get<double>(), 2.7, 0.4);
+  EXPECT_NEAR(summary["compressibility_factor"].get<double>(), 2.7, 0.4);
   const TrajectoryReader reader(folder / "run.h5");
   EXPECT_EQ(reader.dimension(), 3);
   EXPECT_NEAR(reader.observable("translational_energy").back() +
@@ -373,7 +464,7 @@ TEST(Program, RunsInThreeDimensions) {
   EXPECT_EQ(run(folder.path(), {"check", "run.h5", "-q"}).code, 0);
   ASSERT_EQ(run(folder.path(), {"analyze", "run.h5", "-q"}).code, 0);
   EXPECT_THAT(folder.read("run_results_energies.csv"), HasSubstr("translational"));
-  EXPECT_TRUE(std::filesystem::exists(folder / "run_results_compressibility.csv"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "run_results_compressibility_factor.csv"));
   EXPECT_TRUE(std::filesystem::exists(folder / "run_results_structure_factor.csv"));
   EXPECT_EQ(run(folder.path(), {"report", "run.h5", "-q"}).code, 0);
 }

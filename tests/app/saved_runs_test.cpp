@@ -99,7 +99,7 @@ TEST(SavedRuns, AReportOverwritesNothingButPages) {
     const std::string before = content(folder / output);
     for (const char* input : {"run.h5", "state.h5"})
       expect_refusal(folder, {"report", input, "-o", output}, 2,
-                     std::string(output) + ": exists and is no HTML page");
+                     std::string(output) + ": exists and is not an HTML page");
     EXPECT_EQ(content(folder / output), before);
   }
   folder.write("run.html", "<!DOCTYPE html>\n<p>an earlier one");
@@ -117,11 +117,12 @@ TEST(SavedRuns, TheSummaryGivesErrorsBesideTheirValues) {
             0);
   const std::string text = run(folder.path(), {"analyze", "run.h5"}).output;
   const Results results = read_results(folder / "run_results.h5");
-  const Column& z = *results.find("summary")->find("compressibility");
-  const std::size_t line = text.find("compressibility            ");
+  const Column& z = *results.find("summary")->find("compressibility_factor");
+  const std::size_t line = text.find("compressibility_factor     ");
   ASSERT_NE(line, std::string::npos) << text;
   double value = 0, error = 0;
-  ASSERT_EQ(std::sscanf(text.c_str() + line, "compressibility %lf ± %lf", &value, &error), 2);
+  ASSERT_EQ(std::sscanf(text.c_str() + line, "compressibility_factor %lf ± %lf", &value, &error),
+            2);
   // Two digits of the error.
   EXPECT_NEAR(error, z.error[0], 0.051 * z.error[0]);
   EXPECT_NEAR(value, z.value[0], 0.051 * z.error[0]);
@@ -182,7 +183,7 @@ TEST(SavedRuns, SettingsWithoutEffectAreRefused) {
   write_run(folder);
   for (const char* command : {"analyze", "report"}) {
     expect_refusal(folder, {command, "run.h5", "--set", "dynamics.duration=5"}, 2,
-                   "--set dynamics.duration=5: has no effect on a run that is there; only "
+                   "--set dynamics.duration=5: has no effect on an existing run; only "
                    "parameters of its analysis, analysis.…, can be set");
     expect_refusal(folder, {command, "run.h5", "--set", "analysis.longest_leg=1"}, 2,
                    "key 'analysis.longest_leg' is unknown");

@@ -1,6 +1,6 @@
-// The slow twin of the event loop: without calendar, lists and cells, the same collisions.
+// The baseline of the event loop: without calendar, lists and cells, the same collisions.
 
-#include "bench/lab/twins/all_pairs.h"
+#include "bench/baselines/all_pairs.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 #include "tests/support/motion.h"
 #include "tests/support/scenes.h"
 
-namespace vitrel::lab {
+namespace vitrel::bench {
 namespace {
 
 Configuration2 ellipses(int side) {
@@ -141,4 +141,4 @@ INSTANTIATE_TEST_SUITE_P(Asking, Twin, testing::Values(Asking::every_pair, Askin
                          });
 
 }  // namespace
-}  // namespace vitrel::lab
+}  // namespace vitrel::bench

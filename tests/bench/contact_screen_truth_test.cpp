@@ -1,4 +1,4 @@
-// The first screen against the guaranteed reference: whatever axis it is given, never late.
+// The contact screen against the guaranteed reference: never late, whatever the axis.
 
 #include "core/contact/contact_screen.h"
 
@@ -10,7 +10,7 @@
 #include <numbers>
 #include <vector>
 
-#include "bench/lab/reference/first_contact.h"
+#include "bench/reference/first_contact.h"
 #include "core/contact/ellipse_gap.h"
 #include "core/random/stream.h"
 #include "core/tolerances.h"
@@ -18,8 +18,8 @@
 namespace vitrel {
 namespace {
 
-using lab::true_first_contact;
-using Truth = lab::TrueContact::Outcome;
+using bench::true_first_contact;
+using Truth = bench::TrueContact::Outcome;
 
 constexpr double pi = std::numbers::pi;
 
@@ -35,7 +35,7 @@ struct Partner {
   Vec2 axis;
 };
 
-/// One body and as simd_width partners as a screen takes, all of the common size.
+/// One body and as many partners as a screen takes, all of the common size.
 struct Scene {
   Ellipse shape;
   Pose2 pose;
@@ -101,7 +101,7 @@ ContactScreen<B> evaluated(const Scene& scene) {
   return screen;
 }
 
-lab::TrueContact truth_of(const Scene& scene, const Partner& partner) {
+bench::TrueContact truth_of(const Scene& scene, const Partner& partner) {
   const auto grown = [&](const Ellipse& shape) {
     return GrowingEllipse{shape, scene.common.size, scene.common.growth_rate};
   };
@@ -145,10 +145,10 @@ struct Counts {
 // Times are compared without any allowance: the screen's floor of half a contact gap covers the
 // rounding. Pairs that are undecided touch to within rounding, and either answer is right.
 template <class B>
-void judge(const Scene& scene, Counts& counts) {
+void assess(const Scene& scene, Counts& counts) {
   const std::array<double, simd_width> times = times_of(evaluated<B>(scene));
   for (int k = 0; k < simd_width; ++k) {
-    const lab::TrueContact truth = truth_of(scene, scene.partners[k]);
+    const bench::TrueContact truth = truth_of(scene, scene.partners[k]);
     switch (truth.outcome) {
       case Truth::overlap_at_start:
         ++counts.overlaps;
@@ -174,7 +174,7 @@ void judge(const Scene& scene, Counts& counts) {
 Scene with_close_horizons(const Scene& scene, Stream& draw) {
   Scene close = scene;
   for (Partner& partner : close.partners) {
-    const lab::TrueContact truth = truth_of(scene, partner);
+    const bench::TrueContact truth = truth_of(scene, partner);
     if (truth.outcome == Truth::contact)
       partner.horizon = std::min(partner.horizon, static_cast<double>(truth.time) *
                                                       (1 + std::pow(10, draw.uniform(-4, 0))));
@@ -192,8 +192,8 @@ TEST_P(FirstLookAgainstTheTruth, IsNeverLateFromWhateverAxis) {
     const Scene scene = random_scene(draw, at.largest_aspect_ratio, at.growth);
     SCOPED_TRACE(trial);
     for (const Scene& looked_at : {scene, with_close_horizons(scene, draw)}) {
-      if (at.growth == 0) judge<Ellipse>(looked_at, counts);
-      judge<GrowingEllipse>(looked_at, counts);
+      if (at.growth == 0) assess<Ellipse>(looked_at, counts);
+      assess<GrowingEllipse>(looked_at, counts);
     }
   }
   const int asked = counts.contacts + counts.misses + counts.overlaps;

@@ -7,11 +7,11 @@
 #include <limits>
 #include <map>
 
-#include "bench/lab/judge.h"
-#include "bench/lab/methods/method.h"
-#include "bench/lab/stability_suite.h"
+#include "bench/methods/method.h"
+#include "bench/surveys/stability_suite.h"
+#include "bench/surveys/verdict.h"
 
-namespace vitrel::lab {
+namespace vitrel::bench {
 namespace {
 
 constexpr std::uint64_t seed = 1;
@@ -152,19 +152,19 @@ struct Tally {
 };
 
 void take_contact(const CollisionCase& asked, const TrueContact& truth, const Prediction2& answer,
-                  const Judgement& judgement, std::uint64_t index, Tally& tally) {
-  const double time = answer.time, gap = judgement.gap_error;
+                  const Assessment& assessment, std::uint64_t index, Tally& tally) {
+  const double time = answer.time, gap = assessment.gap_error;
   const GapRange range = gap_range(asked, time, truth.approach_speed);
   const double middle = asked.contact_gap();
   ++tally.contacts;
   tally.high_gap.take(std::max(gap - middle, 0.0), range.high - middle, index);
   // A pair may start closer than where a contact would have been declared.
   if (time > 0) tally.low_gap.take(std::max(middle - gap, 0.0), middle - range.low, index);
-  if (judgement.degenerate) return;
+  if (assessment.degenerate) return;
   ++tally.crossings;
-  tally.time.take(judgement.time_error, time_tolerance * asked.horizon, index);
+  tally.time.take(assessment.time_error, time_tolerance * asked.horizon, index);
   tally.normal.take(angle_between(truth.normal, answer.normal),
-                    normal_bound(asked, truth, std::abs(judgement.time_error)), index);
+                    normal_bound(asked, truth, std::abs(assessment.time_error)), index);
   const double place = gap_rounding(asked, time) + rounding_of_position(asked.one, time);
   tally.point_on_one.take(height_above(asked.one, time, answer.point), place, index);
   tally.point_on_two.take(height_above(asked.two, time, answer.point) - gap, place, index);
@@ -177,13 +177,13 @@ Tally tally_of(const CaseClass& of, const Method& method) {
     const TrueContact truth = true_first_contact(asked.one, asked.two, asked.horizon);
     const Prediction2 answer = method.predict(asked);
     const double gap = gap_range(asked, answer.time, truth.approach_speed).high;
-    const Judgement judgement =
-        judge(asked, truth, answer, {time_tolerance, gap / asked.gap_unit()});
-    ++tally.verdicts[judgement.verdict];
-    if (judgement.verdict != Verdict::correct)
+    const Assessment assessment =
+        assess(asked, truth, answer, {time_tolerance, gap / asked.gap_unit()});
+    ++tally.verdicts[assessment.verdict];
+    if (assessment.verdict != Verdict::correct)
       tally.first_wrong = std::min(tally.first_wrong, index);
     if (answer.outcome == Outcome::contact && truth.outcome == TrueContact::Outcome::contact)
-      take_contact(asked, truth, answer, judgement, index, tally);
+      take_contact(asked, truth, answer, assessment, index, tally);
   }
   return tally;
 }
@@ -241,4 +241,4 @@ TEST(DefaultMethodSteps, AreFewToAGrazeOfGrowingBodies) {
 INSTANTIATE_TEST_SUITE_P(Classes, DefaultMethod, testing::ValuesIn(all_classes()));
 
 }  // namespace
-}  // namespace vitrel::lab
+}  // namespace vitrel::bench

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "bench/lab/reference/first_contact.h"
+#include "bench/reference/first_contact.h"
 #include "core/contact/first_contact.h"
 #include "core/random/stream.h"
 #include "core/tolerances.h"
@@ -13,8 +13,8 @@
 namespace vitrel {
 namespace {
 
-using lab::true_first_contact;
-using Truth = lab::TrueContact::Outcome;
+using bench::true_first_contact;
+using Truth = bench::TrueContact::Outcome;
 
 struct Pair {
   Flight<Ellipse> one, two;

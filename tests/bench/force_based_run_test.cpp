@@ -7,8 +7,8 @@
 #include <numbers>
 #include <set>
 
-#include "bench/lab/twins/clusterwise_run.h"
-#include "bench/lab/twins/force_based_run.h"
+#include "bench/baselines/clusterwise_run.h"
+#include "bench/baselines/force_based_run.h"
 #include "core/random/stream.h"
 #include "edmd/run.h"
 #include "edmd/soft/restitution_table.h"
@@ -62,7 +62,7 @@ EngineOptions soft(const Viscoelastic& force) {
 }
 
 Configuration3 force_based(const Viscoelastic& force, std::uint64_t steps) {
-  lab::ForceBasedRun<3, Viscoelastic> run(gas(), force);
+  bench::ForceBasedRun<3, Viscoelastic> run(gas(), force);
   run.advance(until, steps);
   return run.state();
 }
@@ -107,23 +107,23 @@ TEST(ForceBasedRun, HasTheTrajectoriesOfTheMatrixOfRestitution) {
 }
 
 template <int Dim>
-void expect_trajectories_of_the_judge(const Configuration<Dim>& start) {
+void expect_trajectories_of_the_reference(const Configuration<Dim>& start) {
   const Viscoelastic force{1e8, 0.4, 2e-4};
   const RunState<Dim> state = event_driven(start, soft(force));
   EXPECT_GT(state.counters.collisions, start.size() / 3);
-  lab::ClusterwiseRun<Dim, Viscoelastic> run(start, force, 1e-13, 2e-4);
+  bench::ClusterwiseRun<Dim, Viscoelastic> run(start, force, 1e-13, 2e-4);
   run.advance(until);
   const auto off = differences(state.configuration, run.state());
   EXPECT_LT(quantile(off, 0.5), 1e-9);
   EXPECT_LT(quantile(off, 0.8), 1e-6);
 }
 
-// But for contacts of three the event-driven run is exact, and so is the judge.
+// But for contacts of three the event-driven run is exact, and so is the reference.
 TEST(ClusterwiseRun, HasTheTrajectoriesOfTheMatrixOfRestitution) {
-  expect_trajectories_of_the_judge(gas());
+  expect_trajectories_of_the_reference(gas());
 }
 TEST(ClusterwiseRun, HasThemForDisksOfUnlikeSize) {
-  expect_trajectories_of_the_judge(gas_of_disks());
+  expect_trajectories_of_the_reference(gas_of_disks());
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
-#include "bench/lab/reference/interval_jet.h"
+#include "bench/reference/interval_jet.h"
 
 #include <gtest/gtest.h>
 
 #include "core/random/stream.h"
 
-namespace vitrel::lab {
+namespace vitrel::bench {
 namespace {
 
 // Intervals of doubles, points and their images in long double: an image that lies in the interval
@@ -80,4 +80,4 @@ TEST(Jet, DerivativesOfAProduct) {
 }
 
 }  // namespace
-}  // namespace vitrel::lab
+}  // namespace vitrel::bench

@@ -1,6 +1,6 @@
 // Every method for the collision time: the scene that all can do, closed forms, brackets, derivatives.
 
-#include "bench/lab/methods/method.h"
+#include "bench/methods/method.h"
 
 #include <gtest/gtest.h>
 
@@ -13,15 +13,15 @@
 #include <numbers>
 #include <ostream>
 
-#include "bench/lab/methods/bracket.h"
-#include "bench/lab/methods/ellipse_constraint.h"
-#include "bench/lab/methods/opening.h"
-#include "bench/lab/methods/perram_wertheim_root.h"
-#include "bench/lab/methods/psi_root.h"
-#include "bench/lab/methods/unit_circle.h"
+#include "bench/methods/bracket.h"
+#include "bench/methods/ellipses/ellipse_constraint.h"
+#include "bench/methods/ellipses/perram_wertheim_root.h"
+#include "bench/methods/ellipses/psi_root.h"
+#include "bench/methods/ellipses/unit_circle.h"
+#include "bench/methods/opening.h"
 #include "core/random/stream.h"
 
-namespace vitrel::lab {
+namespace vitrel::bench {
 
 // GoogleTest's name for it.
 void PrintTo(const Method& method, std::ostream* out) {
@@ -352,4 +352,4 @@ TEST(CollisionTimeMethods, RegistryNamesEachOnceAndSeriesContainThem) {
 }
 
 }  // namespace
-}  // namespace vitrel::lab
+}  // namespace vitrel::bench

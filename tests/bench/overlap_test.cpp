@@ -1,4 +1,4 @@
-#include "bench/lab/overlap/overlap_survey.h"
+#include "bench/overlap/overlap_survey.h"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 #include <map>
 #include <numbers>
 
-#include "bench/lab/overlap/polygon.h"
+#include "bench/overlap/polygon.h"
 #include "core/contact/perram_wertheim.h"
 
-namespace vitrel::lab {
+namespace vitrel::bench {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -136,4 +136,4 @@ TEST(OverlapSurvey, StopsOnRequestAndKeepsWhatIsDone) {
 }
 
 }  // namespace
-}  // namespace vitrel::lab
+}  // namespace vitrel::bench

@@ -1,14 +1,14 @@
 // The questions of a real run, as a class of cases.
 
-#include "bench/lab/recorded_class.h"
+#include "bench/surveys/recorded_class.h"
 
 #include <gtest/gtest.h>
 
-#include "bench/lab/judge.h"
-#include "bench/lab/methods/method.h"
-#include "bench/lab/reference/true_gap.h"
+#include "bench/methods/method.h"
+#include "bench/reference/true_gap.h"
+#include "bench/surveys/verdict.h"
 
-namespace vitrel::lab {
+namespace vitrel::bench {
 namespace {
 
 using Truth = TrueContact::Outcome;
@@ -53,8 +53,8 @@ TEST(RecordedClass, IsAnsweredRightByTheDefaultMethod) {
       none += truth.outcome == Truth::none;
       const double apart = static_cast<double>(true_gap(asked.one, asked.two, 0));
       touching += apart < 2 * asked.contact_gap();
-      const JudgingTolerance tolerance{1e-12, 1.375 * asked.contact_gap() / asked.gap_unit()};
-      EXPECT_EQ(judge(asked, truth, method.predict(asked), tolerance).verdict, Verdict::correct)
+      const AllowedError tolerance{1e-12, 1.375 * asked.contact_gap() / asked.gap_unit()};
+      EXPECT_EQ(assess(asked, truth, method.predict(asked), tolerance).verdict, Verdict::correct)
           << index;
     }
     EXPECT_GT(contacts, cases / 20);
@@ -64,4 +64,4 @@ TEST(RecordedClass, IsAnsweredRightByTheDefaultMethod) {
 }
 
 }  // namespace
-}  // namespace vitrel::lab
+}  // namespace vitrel::bench

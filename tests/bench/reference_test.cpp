@@ -4,11 +4,11 @@
 
 #include <cmath>
 
-#include "bench/lab/reference/first_contact.h"
-#include "bench/lab/reference/true_gap.h"
-#include "bench/lab/stability_suite.h"
+#include "bench/reference/first_contact.h"
+#include "bench/reference/true_gap.h"
+#include "bench/surveys/stability_suite.h"
 
-namespace vitrel::lab {
+namespace vitrel::bench {
 namespace {
 
 using Truth = TrueContact::Outcome;
@@ -113,4 +113,4 @@ INSTANTIATE_TEST_SUITE_P(Suite, EveryClass, testing::ValuesIn(stability_suite())
                          });
 
 }  // namespace
-}  // namespace vitrel::lab
+}  // namespace vitrel::bench

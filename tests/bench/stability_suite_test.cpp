@@ -1,17 +1,17 @@
 // Every class of the stability suite keeps what it promises.
 
-#include "bench/lab/stability_suite.h"
+#include "bench/surveys/stability_suite.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <set>
 
-#include "bench/lab/reference/first_contact.h"
-#include "bench/lab/reference/true_gap.h"
+#include "bench/reference/first_contact.h"
+#include "bench/reference/true_gap.h"
 #include "core/contact/ellipse_vieillard_baron.h"
 
-namespace vitrel::lab {
+namespace vitrel::bench {
 namespace {
 
 using Truth = TrueContact::Outcome;
@@ -253,4 +253,4 @@ TEST(StabilitySuite, GrowthHasBothSignsAndPoints) {
 }
 
 }  // namespace
-}  // namespace vitrel::lab
+}  // namespace vitrel::bench

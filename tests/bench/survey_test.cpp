@@ -1,4 +1,4 @@
-#include "bench/lab/survey.h"
+#include "bench/surveys/survey.h"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 #include <thread>
 #include <vector>
 
-#include "bench/lab/timed_batches.h"
+#include "bench/surveys/timed_batches.h"
 
-namespace vitrel::lab {
+namespace vitrel::bench {
 namespace {
 
 const CaseClass& generic() {
@@ -145,7 +145,7 @@ TEST(Survey, KeepsTheFirstFailureOfEachMethodThatAppliesAtAll) {
   ASSERT_EQ(failures.size(), 2u);
   const FailingCase& late = failures[0];
   EXPECT_EQ(late.method, "late");
-  EXPECT_EQ(late.judgement.verdict, Verdict::late);
+  EXPECT_EQ(late.assessment.verdict, Verdict::late);
   // It can be made anew from class, seed and index, and none before it has a contact.
   for (std::uint64_t k = 0; k <= late.index; ++k) {
     const CollisionCase asked = make_case(generic(), request.seed, k);
@@ -183,4 +183,4 @@ TEST(Survey, StopsOnRequestAndKeepsWhatIsDone) {
 }
 
 }  // namespace
-}  // namespace vitrel::lab
+}  // namespace vitrel::bench

@@ -1,4 +1,4 @@
-#include "bench/lab/reference/true_gap.h"
+#include "bench/reference/true_gap.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "core/random/stream.h"
 
-namespace vitrel::lab {
+namespace vitrel::bench {
 namespace {
 
 using Body = Flight<GrowingEllipse>;
@@ -107,4 +107,4 @@ TEST(TrueGap, MatchesAScan) {
 }
 
 }  // namespace
-}  // namespace vitrel::lab
+}  // namespace vitrel::bench

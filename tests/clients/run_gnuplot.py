@@ -27,7 +27,7 @@ DRAWN = {
     "pair_correlation": (False, [("1", False, ["g", "g_2"])]),
     "orientation_distribution": (False, [("1/rad", False, ["density"])]),
     "energies": (False, [("kT", False, ["rotational", "total"])]),
-    "runs": (False, [("1", False, ["compressibility"]), ("length^2/time", True, ["diffusion"]),
+    "runs": (False, [("1", False, ["compressibility_factor"]), ("length^2/time", True, ["diffusion"]),
                      ("rad^2/time", True, ["rotational_diffusion"])]),
 }
 NOT_DRAWN = {"summary", "wave_numbers"}

@@ -1,4 +1,4 @@
-"""Snakemake works off an exported sweep and ends with the datasets of `vitrel sweep`; a job that is stopped
+"""Snakemake runs an exported sweep and ends with the datasets of `vitrel sweep`; a job that is stopped
 is tried again and continues, one that failed for good is not tried again.
 """
 import os

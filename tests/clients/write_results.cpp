@@ -128,7 +128,7 @@ Table runs() {
           {{"packing_fraction", "1", phi, {}},
            {"particles", "1", equal(phi, 500), {}},
            {"duration", "time", equal(phi, 100), {}},
-           {"compressibility", "1", {4, 9, 6, 4.1}, {0.1, unknown, 0.2, 0.1}},
+           {"compressibility_factor", "1", {4, 9, 6, 4.1}, {0.1, unknown, 0.2, 0.1}},
            {"diffusion", "length^2/time", {0.1, unknown, 0.01, 0.11}, {0.01, unknown, 0.02, 0.01}},
            {"rotational_diffusion", "rad^2/time", equal(phi, 0.25), {}}}};
 }
@@ -136,7 +136,7 @@ Table runs() {
 Results results() {
   return {{{"summary",
             "Averages.",
-            {{"packing_fraction", "1", {0.5}, {}}, {"compressibility", "1", {4.5}, {0.1}}}},
+            {{"packing_fraction", "1", {0.5}, {}}, {"compressibility_factor", "1", {4.5}, {0.1}}}},
            displacements(),
            scattering("self_scattering_all", "fs_"),
            scattering("collective_scattering", "f_"),

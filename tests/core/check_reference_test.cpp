@@ -4,8 +4,8 @@
 #include <limits>
 #include <numbers>
 
+#include "core/contact/ellipse_vieillard_baron.h"
 #include "core/contact/ellipsoid_eta.h"
-#include "core/contact/vieillard_baron.h"
 #include "core/state/exact_pair.h"
 #include "tests/support/exact_checks.h"
 #include "tests/support/solids.h"
@@ -42,7 +42,7 @@ ExactCheck<Dim> scan(const Configuration<Dim>& state, int boxes) {
     for (std::size_t j = i; j < state.size(); ++j) {
       const exact::Particle<Dim> two = exact::particle(state, j);
       for (const Shift<Dim>& shift : all_shifts<Dim>(boxes)) {
-        if (i == j && !comes_after_zero<Dim>(shift)) continue;
+        if (i == j && !is_positive_shift<Dim>(shift)) continue;
         exact::Point<Dim> d = two.centre - one.centre;
         for (int k = 0; k < Dim; ++k) d[k] += shift[k] * lengths[k];
         const Real circles = d.norm() - (one.circumradius + two.circumradius);

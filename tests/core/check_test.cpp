@@ -4,7 +4,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/contact/support_gap.h"
+#include "core/contact/ellipse_gap.h"
 #include "core/error.h"
 #include "core/random/stream.h"
 #include "tests/support/exact_checks.h"

@@ -1,7 +1,7 @@
-// The first look: disks in closed form, pairs that have just collided, axes, lanes. That it is
-// never late whatever the axis is judged in tests/bench/first_look_truth_test.cpp.
+// The contact screen: disks in closed form, pairs that have just collided, axes, lanes. That it is
+// never late whatever the axis is judged in tests/bench/contact_screen_truth_test.cpp.
 
-#include "core/contact/first_look.h"
+#include "core/contact/ellipse_contact_screen.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/contact/support_gap.h"
+#include "core/contact/ellipse_gap.h"
 #include "core/random/stream.h"
 #include "core/tolerances.h"
 
@@ -27,19 +27,19 @@ Vec2 random_direction(Stream& draw) {
 }
 
 /// The times of the first `count` lanes, asked for as a run does: the most urgent first.
-template <class Look>
-std::vector<double> times_of(Look look, int count) {
+template <class Screen>
+std::vector<double> times_of(Screen screen, int count) {
   std::vector<double> times(count, infinity);
   double last = 0;
   for (int done = 0; done < count; ++done) {
-    const auto [time, lane] = look.most_urgent();
+    const auto [time, lane] = screen.earliest();
     if (time == infinity) break;
     EXPECT_LT(lane, count);
     EXPECT_GE(time, last);
     times[lane] = last = time;
-    look.close(lane);
+    screen.discard(lane);
   }
-  EXPECT_EQ(look.most_urgent().time, infinity) << "all are closed";
+  EXPECT_EQ(screen.earliest().time, infinity) << "all are closed";
   return times;
 }
 
@@ -82,17 +82,17 @@ Meeting meeting(const DiskPair& pair, double contact_gap) {
 
 // Of the sum in c = d² − reach² rounding leaves 3 ε d², of the products in the discriminant as much;
 // near a graze, at a height η of the discriminant, that makes the relative error ~ 8 ε (d²/c + 1/η).
-TEST(FirstLookAtDisks, TellsTheTimeOfContact) {
+TEST(ContactScreenOfDisks, TellsTheTimeOfContact) {
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
-  constexpr int lanes = FirstLook<Disk>::lanes;
+  constexpr int lanes = ContactScreen<Disk>::lanes;
   Stream draw(31, Purpose::tests);
   int met = 0, grazing = 0;
   for (int trial = 0; trial < 3'000; ++trial) {
     DiskPair of[lanes];
     const DiskPair first = random_disks(draw);
     const double contact_gap = tolerance::contact_gap(20);
-    FirstLook<Disk> look(Outline<Disk>(first.one), {Vec2::Zero(), 0}, first.motion1, {},
-                         contact_gap);
+    ContactScreen<Disk> screen(ShapeCoefficients<Disk>(first.one), {Vec2::Zero(), 0}, first.motion1,
+                               {}, contact_gap);
     double horizon[lanes];
     for (int k = 0; k < lanes; ++k) {
       of[k] = random_disks(draw);
@@ -101,10 +101,11 @@ TEST(FirstLookAtDisks, TellsTheTimeOfContact) {
       const double apart = of[k].one.radius + of[k].two.radius;
       of[k].d *= std::max(1.0, 1.000001 * apart / of[k].d.norm());
       horizon[k] = k % 2 ? 1e100 : draw.uniform(0, 5);
-      look.set(k, {of[k].d, 3.0 * k}, of[k].motion2, Outline<Disk>(of[k].two), {}, horizon[k]);
+      screen.set(k, {of[k].d, 3.0 * k}, of[k].motion2, ShapeCoefficients<Disk>(of[k].two), {},
+                 horizon[k]);
     }
-    look.look(lanes);
-    const std::vector<double> times = times_of(look, lanes);
+    screen.evaluate(lanes);
+    const std::vector<double> times = times_of(screen, lanes);
     for (int k = 0; k < lanes; ++k) {
       const Meeting truth = meeting(of[k], contact_gap);
       if (truth.height < 1e-9) {
@@ -128,16 +129,17 @@ TEST(FirstLookAtDisks, TellsTheTimeOfContact) {
   EXPECT_LT(grazing, 5);
 }
 
-TEST(FirstLookAtDisks, APairThatTouchesMeetsAtOnceIfItApproachesAndNeverIfItLeaves) {
+TEST(ContactScreenOfDisks, APairThatTouchesMeetsAtOnceIfItApproachesAndNeverIfItLeaves) {
   const double contact_gap = tolerance::contact_gap(10);
   for (const double gap : {1.2 * contact_gap, 0.8 * contact_gap, 0.0, -1e-9, -0.5}) {
-    FirstLook<Disk> look(Outline<Disk>({1}), {Vec2::Zero(), 0}, {Vec2::Zero(), 0}, {}, contact_gap);
+    ContactScreen<Disk> screen(ShapeCoefficients<Disk>({1}), {Vec2::Zero(), 0}, {Vec2::Zero(), 0},
+                               {}, contact_gap);
     const Vec2 d(2 + gap, 0);
-    look.set(0, {d, 0}, {Vec2(-0.1, 0.2), 0}, Outline<Disk>({1}), {}, infinity);
-    look.set(1, {d, 0}, {Vec2(0.1, 0.2), 0}, Outline<Disk>({1}), {}, infinity);
-    look.set(2, {d, 0}, {Vec2(0, 0), 0}, Outline<Disk>({1}), {}, infinity);
-    look.look(3);
-    const std::vector<double> times = times_of(look, 3);
+    screen.set(0, {d, 0}, {Vec2(-0.1, 0.2), 0}, ShapeCoefficients<Disk>({1}), {}, infinity);
+    screen.set(1, {d, 0}, {Vec2(0.1, 0.2), 0}, ShapeCoefficients<Disk>({1}), {}, infinity);
+    screen.set(2, {d, 0}, {Vec2(0, 0), 0}, ShapeCoefficients<Disk>({1}), {}, infinity);
+    screen.evaluate(3);
+    const std::vector<double> times = times_of(screen, 3);
     EXPECT_GE(times[0], 0);
     EXPECT_LE(times[0], gap > contact_gap ? 10 * 0.2 * contact_gap + 1e-15 : 0);
     EXPECT_EQ(times[1], infinity);
@@ -153,27 +155,28 @@ using Bodies = testing::Types<Disk, Ellipse, GrowingEllipse>;
 TYPED_TEST_SUITE(LookLanes, Bodies);
 
 template <class B>
-Grown<B> round_shape(double radius) {
+BaseShape<B> round_shape(double radius) {
   if constexpr (std::is_same_v<B, Disk>)
     return {radius};
   else
     return {radius, radius};
 }
 
-// Whatever an earlier look has left in a lane, or nothing at all, does not count: bodies that touch
+// Earlier contents of a lane, and empty lanes, have no effect: bodies that touch
 // at once stand in all of them.
 TYPED_TEST(LookLanes, BeyondTheCountNeverWin) {
-  constexpr int lanes = FirstLook<TypeParam>::lanes;
+  constexpr int lanes = ContactScreen<TypeParam>::lanes;
   const auto shape = round_shape<TypeParam>(1);
-  const Outline<Grown<TypeParam>> outline(shape);
+  const ShapeCoefficients<BaseShape<TypeParam>> coefficients(shape);
   for (const bool filled : {true, false})
     for (int count = 0; count <= lanes; ++count) {
-      FirstLook<TypeParam> look(outline, {Vec2::Zero(), 0}, {Vec2::Zero(), 0}, {}, 1e-12);
+      ContactScreen<TypeParam> screen(coefficients, {Vec2::Zero(), 0}, {Vec2::Zero(), 0}, {},
+                                      1e-12);
       for (int k = 0; k < (filled ? lanes : count); ++k)
-        look.set(k, {Vec2(k < count ? 3 + k : 2.001, 0), 0}, {Vec2(-1, 0), 0}, outline,
-                 {Vec2(1, 0)}, 100);
-      look.look(count);
-      const std::vector<double> times = times_of(look, count);
+        screen.set(k, {Vec2(k < count ? 3 + k : 2.001, 0), 0}, {Vec2(-1, 0), 0}, coefficients,
+                   {Vec2(1, 0)}, 100);
+      screen.evaluate(count);
+      const std::vector<double> times = times_of(screen, count);
       for (int k = 0; k < count; ++k) EXPECT_NEAR(times[k], 1 + k, 1e-9);
     }
 }
@@ -205,12 +208,13 @@ EllipsePairAt random_pair(Stream& draw, double largest_aspect_ratio, double gap,
 }
 
 template <class B>
-FirstLook<B> looked(const EllipsePairAt& pair, const CommonSize& common, double contact_gap,
-                    const Vec2& axis, double horizon) {
-  FirstLook<B> look(Outline<Ellipse>(pair.one), pair.pose1, pair.motion1, common, contact_gap);
-  look.set(0, pair.pose2, pair.motion2, Outline<Ellipse>(pair.two), {axis}, horizon);
-  look.look(1);
-  return look;
+ContactScreen<B> evaluated(const EllipsePairAt& pair, const CommonSize& common, double contact_gap,
+                           const Vec2& axis, double horizon) {
+  ContactScreen<B> screen(ShapeCoefficients<Ellipse>(pair.one), pair.pose1, pair.motion1, common,
+                          contact_gap);
+  screen.set(0, pair.pose2, pair.motion2, ShapeCoefficients<Ellipse>(pair.two), {axis}, horizon);
+  screen.evaluate(1);
+  return screen;
 }
 
 /// Speed at which the gap along n changes, and the most by which its rate can fall in a unit of time
@@ -218,7 +222,7 @@ FirstLook<B> looked(const EllipsePairAt& pair, const CommonSize& common, double 
 double gap_rate(const EllipsePairAt& pair, const Vec2& n) {
   const auto turning = [&](const Ellipse& shape, double angle) {
     const Vec2 u = direction(angle);
-    return shape.stretch() * u.dot(n) * u.dot(perpendicular(n)) / support(shape, u, n);
+    return shape.aa_minus_bb() * u.dot(n) * u.dot(perpendicular(n)) / support(shape, u, n);
   };
   return n.dot(pair.motion2.velocity - pair.motion1.velocity) +
          pair.motion1.angular_velocity * turning(pair.one, pair.pose1.angle) +
@@ -226,15 +230,15 @@ double gap_rate(const EllipsePairAt& pair, const Vec2& n) {
 }
 double largest_fall(const EllipsePairAt& pair) {
   const auto of = [](const Ellipse& shape, const Motion2& motion) {
-    return motion.angular_velocity * motion.angular_velocity * shape.stretch() / shape.b;
+    return motion.angular_velocity * motion.angular_velocity * shape.aa_minus_bb() / shape.b;
   };
   return of(pair.one, pair.motion1) + of(pair.two, pair.motion2);
 }
 
 // A pair that leaves with the rate ġ > 0 from a gap above the floor keeps above it for at least
-// 2 ġ/M: that is what a look must tell of a pair that has just collided, whose gap then is 0.75 to
+// 2 ġ/M: that is what a screen must tell of a pair that has just collided, whose gap then is 0.75 to
 // 1.25 contact gaps. (So also after 99 % of the speed are lost.)
-TEST(FirstLookAtEllipses, SettlesAPairThatHasJustCollided) {
+TEST(ContactScreenOfEllipses, SettlesAPairThatHasJustCollided) {
   Stream draw(32, Purpose::tests);
   int settled = 0;
   for (int trial = 0; trial < 20'000; ++trial) {
@@ -249,9 +253,9 @@ TEST(FirstLookAtEllipses, SettlesAPairThatHasJustCollided) {
     }
     const double apart_until = 2 * std::abs(rate) / largest_fall(pair);
     for (const double horizon : {0.5 * apart_until, 10 * apart_until}) {
-      const double still = looked<Ellipse>(pair, {}, contact_gap, n, horizon).most_urgent().time;
+      const double still = evaluated<Ellipse>(pair, {}, contact_gap, n, horizon).earliest().time;
       const double grows =
-          looked<GrowingEllipse>(pair, {1, 0}, contact_gap, n, horizon).most_urgent().time;
+          evaluated<GrowingEllipse>(pair, {1, 0}, contact_gap, n, horizon).earliest().time;
       if (horizon < apart_until) {
         EXPECT_EQ(still, infinity);
         EXPECT_EQ(grows, infinity);
@@ -267,7 +271,7 @@ TEST(FirstLookAtEllipses, SettlesAPairThatHasJustCollided) {
 
 // With the best axis the time is no earlier than that of the plainest bound: the rate of the gap and
 // the largest fall of it.
-TEST(FirstLookAtEllipses, LooksAtLeastAsFarAsThePlainBound) {
+TEST(ContactScreenOfEllipses, LooksAtLeastAsFarAsThePlainBound) {
   Stream draw(33, Purpose::tests);
   for (int trial = 0; trial < 20'000; ++trial) {
     const double contact_gap = tolerance::contact_gap(20);
@@ -278,14 +282,14 @@ TEST(FirstLookAtEllipses, LooksAtLeastAsFarAsThePlainBound) {
     const double room = gap - contact_gap;
     const double bound = (rate + std::sqrt(rate * rate + 2 * fall * room)) / fall;
     const double horizon = 1e3;
-    EXPECT_GE(looked<Ellipse>(pair, {}, contact_gap, n, horizon).most_urgent().time,
+    EXPECT_GE(evaluated<Ellipse>(pair, {}, contact_gap, n, horizon).earliest().time,
               (1 - 1e-6) * bound);
   }
 }
 
 // A step of Newton's method takes an axis that is off by δ to within C δ², C ~ 3 κ at most: from 1e-4
 // far closer than a hundredth of that.
-TEST(FirstLookAtEllipses, TurnsAxesToTheBest) {
+TEST(ContactScreenOfEllipses, TurnsAxesToTheBest) {
   Stream draw(34, Purpose::tests);
   for (int trial = 0; trial < 5'000; ++trial) {
     Vec2 n;
@@ -293,21 +297,21 @@ TEST(FirstLookAtEllipses, TurnsAxesToTheBest) {
     const double off = 1e-4;
     const Vec2 axis = detail::turned(n, trial % 2 ? off : -off);
     for (const Vec2& turned :
-         {looked<Ellipse>(pair, {}, 1e-12, axis, 1).memory(0).axis,
-          looked<GrowingEllipse>(pair, {1, 0.1}, 1e-12, axis, 1).memory(0).axis})
+         {evaluated<Ellipse>(pair, {}, 1e-12, axis, 1).warm_start(0).axis,
+          evaluated<GrowingEllipse>(pair, {1, 0.1}, 1e-12, axis, 1).warm_start(0).axis})
       EXPECT_LT(std::abs(cross(n, turned)), 0.01 * off);
   }
 }
 
 // An axis that is longer than 1 by δ makes the gap wrong by about δ (b₁²/h₁ + b₂²/h₂), which the floor
 // of half a contact gap, 16 ε of the extent of the box, has to cover like all other rounding. Between
-// two loads, which find all axes anew, a pair is looked at some hundred times; every turn may make the
+// two loads, which find all axes anew, a pair is evaluated at some hundred times; every turn may make the
 // axis longer by half a unit in the last place.
-TEST(FirstLookAtEllipses, AxesStayUnitVectors) {
+TEST(ContactScreenOfEllipses, AxesStayUnitVectors) {
   Stream draw(35, Purpose::tests);
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
-  const Outline<Ellipse> outline(Ellipse{2, 0.7});
-  std::array<Vec2, many> axes;
+  const ShapeCoefficients<Ellipse> coefficients(Ellipse{2, 0.7});
+  std::array<Vec2, simd_width> axes;
   for (Vec2& axis : axes) axis = random_direction(draw);
   const auto largest_error = [&] {
     double largest = 0;
@@ -315,12 +319,13 @@ TEST(FirstLookAtEllipses, AxesStayUnitVectors) {
     return largest;
   };
   for (int turn = 1; turn <= 100'000; ++turn) {
-    FirstLook<Ellipse> look(outline, {Vec2::Zero(), draw.uniform(-3, 3)}, {{0.1, 0}, 1}, {}, 1e-12);
-    for (int k = 0; k < many; ++k)
-      look.set(k, {2.9 * random_direction(draw), draw.uniform(-3, 3)}, {{0.3, 0.2}, -1}, outline,
-               {axes[k]}, 1);
-    look.look(many);
-    for (int k = 0; k < many; ++k) axes[k] = look.memory(k).axis;
+    ContactScreen<Ellipse> screen(coefficients, {Vec2::Zero(), draw.uniform(-3, 3)}, {{0.1, 0}, 1},
+                                  {}, 1e-12);
+    for (int k = 0; k < simd_width; ++k)
+      screen.set(k, {2.9 * random_direction(draw), draw.uniform(-3, 3)}, {{0.3, 0.2}, -1},
+                 coefficients, {axes[k]}, 1);
+    screen.evaluate(simd_width);
+    for (int k = 0; k < simd_width; ++k) axes[k] = screen.warm_start(k).axis;
     if (turn == 100) {
       EXPECT_LT(largest_error(), 16 * epsilon);
     }
@@ -330,7 +335,7 @@ TEST(FirstLookAtEllipses, AxesStayUnitVectors) {
 
 // Full turns of a body are no change: angles beyond those of which π is taken off by parts, in one
 // lane or as the first body's, against the remainder in extended precision.
-TEST(FirstLookAtEllipses, AnglesMayBeLarge) {
+TEST(ContactScreenOfEllipses, AnglesMayBeLarge) {
   Stream draw(36, Purpose::tests);
   const auto remainder = [](double angle) {
     return static_cast<double>(
@@ -346,8 +351,8 @@ TEST(FirstLookAtEllipses, AnglesMayBeLarge) {
     same.pose2.angle = remainder(pair.pose2.angle);
     pair.pose2.position = same.pose2.position = (pair.one.a + pair.two.a) * n;
     const double horizon = 3;
-    const double time = looked<Ellipse>(pair, {}, 1e-12, n, horizon).most_urgent().time;
-    const double wanted = looked<Ellipse>(same, {}, 1e-12, n, horizon).most_urgent().time;
+    const double time = evaluated<Ellipse>(pair, {}, 1e-12, n, horizon).earliest().time;
+    const double wanted = evaluated<Ellipse>(same, {}, 1e-12, n, horizon).earliest().time;
     if (wanted == infinity)
       EXPECT_EQ(time, infinity);
     else

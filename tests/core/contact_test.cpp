@@ -6,9 +6,9 @@
 #include <numbers>
 #include <string>
 
+#include "core/contact/ellipse_gap.h"
+#include "core/contact/ellipse_vieillard_baron.h"
 #include "core/contact/perram_wertheim.h"
-#include "core/contact/support_gap.h"
-#include "core/contact/vieillard_baron.h"
 #include "core/random/stream.h"
 #include "tests/support/posed_pair.h"
 

@@ -1,7 +1,7 @@
-// Ends of paths against the predictor of collisions, which shares no code with the look, and the exact
+// Free paths against the contact search, which shares no code with them, and the exact
 // support gap.
 
-#include "core/contact/path_look.h"
+#include "core/contact/ellipse_free_path_batch.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <numbers>
 #include <vector>
 
+#include "core/contact/ellipse_gap.h"
 #include "core/contact/first_contact.h"
-#include "core/contact/support_gap.h"
 #include "core/random/stream.h"
 
 namespace vitrel {
@@ -70,67 +70,67 @@ Scene random_scene(Stream& draw, const Class& at, int count) {
   return scene;
 }
 
-template <template <int> class Look, int along>
-PathEnd path_end(const Scene& scene, double longest) {
-  Look<along> look(scene.shape, direction(scene.angle), gap, longest);
+template <template <int> class Batch, int along>
+FreePath path_end(const Scene& scene, double max_length) {
+  Batch<along> paths(scene.shape, direction(scene.angle), gap, max_length);
   const Vec2 offset(0.25, -0.5);
-  for (std::size_t begin = 0; begin < scene.others.size(); begin += many) {
-    EllipseGroup group;
-    for (std::size_t k = begin; k < std::min(begin + many, scene.others.size()); ++k) {
+  for (std::size_t begin = 0; begin < scene.others.size(); begin += simd_width) {
+    EllipseBatch group;
+    for (std::size_t k = begin; k < std::min(begin + simd_width, scene.others.size()); ++k) {
       const Placed& other = scene.others[k];
       group.set(static_cast<int>(k - begin), other.shape, other.position - offset,
                 direction(other.angle));
     }
-    look.look(group, static_cast<std::uint32_t>(begin), offset, typename Look<along>::Asked(true));
+    paths.add(group, static_cast<std::uint32_t>(begin), offset, typename Batch<along>::Mask(true));
   }
-  return look.end();
+  return paths.end();
 }
 
 /// Free all the way, and then either of the wanted length or in contact.
-template <template <int> class Look, int along>
-void check(const Scene& scene, double longest, int& touched, int& free) {
-  const PathEnd end = path_end<Look, along>(scene, longest);
+template <template <int> class Batch, int along>
+void check(const Scene& scene, double max_length, int& partner, int& free) {
+  const FreePath end = path_end<Batch, along>(scene, max_length);
   const Vec2 e = along == 0 ? Vec2(1, 0) : Vec2(0, 1);
   ASSERT_GE(end.length, 0);
-  ASSERT_LE(end.length, longest);
+  ASSERT_LE(end.length, max_length);
   for (const Placed& other : scene.others) {
     const Flight<Ellipse> moving{scene.shape, {Vec2::Zero(), scene.angle}, {e, 0}};
     const Flight<Ellipse> resting{other.shape, {other.position, other.angle}, {Vec2::Zero(), 0}};
     const Prediction2 met = first_contact(moving, resting, end.length, 0.5 * gap);
     ASSERT_EQ(met.outcome, Outcome::none) << "after " << met.time << " of " << end.length;
   }
-  if (end.touched == PathEnd::nobody) {
+  if (end.partner == FreePath::none) {
     ++free;
-    ASSERT_EQ(end.length, longest);
+    ASSERT_EQ(end.length, max_length);
     return;
   }
-  ++touched;
-  const Placed& other = scene.others[end.touched];
+  ++partner;
+  const Placed& other = scene.others[end.partner];
   const Vec2 d = other.position - end.length * e;
   const SupportGap now = support_gap(scene.shape, scene.angle, other.shape, other.angle, d);
-  const double rounding = 1e-14 * (scene.shape.a + other.shape.a + longest);
+  const double rounding = 1e-14 * (scene.shape.a + other.shape.a + max_length);
   ASSERT_GT(now.gap, gap - rounding);
   ASSERT_LT(now.gap, (scene.shape.aspect_ratio() + 0.25) * gap + rounding);
   ASSERT_GT(now.normal.dot(e), 0);
-  ASSERT_NEAR(end.ahead, d.dot(e), rounding);
+  ASSERT_NEAR(end.offset_at_contact, d.dot(e), rounding);
 }
 
 class PathLookAt : public testing::TestWithParam<Class> {};
 
 TEST_P(PathLookAt, EndsAtTheFirstContact) {
   Stream draw(71, Purpose::tests);
-  int touched = 0, free = 0;
+  int partner = 0, free = 0;
   constexpr int scenes = 10'000;
   for (int k = 0; k < scenes; ++k) {
     const Scene scene = random_scene(draw, GetParam(), 1 + static_cast<int>(draw.below(12)));
-    const double longest = scene.shape.a * draw.uniform(0.1, 5);
+    const double max_length = scene.shape.a * draw.uniform(0.1, 5);
     if (k % 2 == 0)
-      check<PathLook, 0>(scene, longest, touched, free);
+      check<FreePathBatch, 0>(scene, max_length, partner, free);
     else
-      check<PathLook, 1>(scene, longest, touched, free);
+      check<FreePathBatch, 1>(scene, max_length, partner, free);
     if (HasFatalFailure()) FAIL() << "scene " << k;
   }
-  EXPECT_GT(touched, scenes / 5);
+  EXPECT_GT(partner, scenes / 5);
   EXPECT_GT(free, scenes / 20);
 }
 
@@ -138,47 +138,47 @@ INSTANTIATE_TEST_SUITE_P(Shapes, PathLookAt,
                          testing::Values(Class{1, 1}, Class{1, 100}, Class{2, 1}, Class{6, 1},
                                          Class{10, 3}, Class{100, 1}, Class{100, 100}));
 
-TEST(RoundPathLook, EndsAtTheFirstContact) {
+TEST(RoundFreePathBatch, EndsAtTheFirstContact) {
   Stream draw(72, Purpose::tests);
-  int touched = 0, free = 0;
+  int partner = 0, free = 0;
   for (int k = 0; k < 10'000; ++k) {
     const Scene scene = random_scene(draw, {1, 10}, 1 + static_cast<int>(draw.below(12)));
-    const double longest = scene.shape.a * draw.uniform(0.1, 5);
-    check<RoundPathLook, 0>(scene, longest, touched, free);
-    check<RoundPathLook, 1>(scene, longest, touched, free);
+    const double max_length = scene.shape.a * draw.uniform(0.1, 5);
+    check<RoundFreePathBatch, 0>(scene, max_length, partner, free);
+    check<RoundFreePathBatch, 1>(scene, max_length, partner, free);
     if (HasFatalFailure()) FAIL() << "scene " << k;
   }
-  EXPECT_GT(touched, 2000);
+  EXPECT_GT(partner, 2000);
   EXPECT_GT(free, 1000);
 }
 
 // The contact distance of oracles: semi-axes 2 and 1, at angles 0 and 90 degrees and d at 45, is √10.
-TEST(PathLook, MeetsCrossedEllipsesAtTheKnownDistance) {
+TEST(FreePathBatch, MeetsCrossedEllipsesAtTheKnownDistance) {
   const Ellipse shape{2, 1};
   const double height = std::sqrt(5);
   const Scene scene{shape, 0, {{shape, 0.5 * pi, Vec2(10, height)}}};
-  const PathEnd end = path_end<PathLook, 0>(scene, 20);
-  EXPECT_EQ(end.touched, 0u);
+  const FreePath end = path_end<FreePathBatch, 0>(scene, 20);
+  EXPECT_EQ(end.partner, 0u);
   EXPECT_NEAR(end.length, 10 - height, 10 * gap);
 }
 
-// Whoever is closer than the gap is met at once if ahead, and not at all if behind or not asked about.
-TEST(PathLook, TouchesAtOnceWhatIsAhead) {
+// An ellipse closer than the gap is touched at once if it is ahead, and ignored if it is behind or masked out.
+TEST(FreePathBatch, TouchesAtOnceWhatIsAhead) {
   const Ellipse shape{2, 1};
   for (const double side : {1., -1.}) {
     const Scene scene{
         shape, 0.3, {{shape, 0.3, side * (2 + 0.5 * gap) * direction(0.3 + 0.5 * pi)}}};
-    const PathEnd end = path_end<PathLook, 1>(scene, 1);
-    EXPECT_EQ(end.touched, side > 0 ? 0 : PathEnd::nobody);
+    const FreePath end = path_end<FreePathBatch, 1>(scene, 1);
+    EXPECT_EQ(end.partner, side > 0 ? 0 : FreePath::none);
     EXPECT_EQ(end.length, side > 0 ? 0 : 1);
   }
-  PathLook<0> look(shape, Vec2(1, 0), gap, 1);
-  EllipseGroup group;
+  FreePathBatch<0> paths(shape, Vec2(1, 0), gap, 1);
+  EllipseBatch group;
   group.set(2, shape, Vec2(4.5, 0), Vec2(1, 0));
-  PathLook<0>::Asked asked(true);
-  asked[2] = false;
-  look.look(group, 0, Vec2::Zero(), asked);
-  EXPECT_EQ(look.end().touched, PathEnd::nobody);
+  FreePathBatch<0>::Mask mask(true);
+  mask[2] = false;
+  paths.add(group, 0, Vec2::Zero(), mask);
+  EXPECT_EQ(paths.end().partner, FreePath::none);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
-// The answers of the look in lanes against the exact criterion in 80-bit arithmetic and the slow gap.
+// The overlap batch against the exact criterion in 80-bit arithmetic and the support gap.
 
-#include "core/contact/overlap_look.h"
+#include "core/contact/ellipse_overlap_batch.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <numbers>
 #include <vector>
 
+#include "core/contact/ellipse_vieillard_baron.h"
 #include "core/contact/perram_wertheim.h"
-#include "core/contact/vieillard_baron.h"
 #include "core/random/stream.h"
 #include "core/tolerances.h"
 #include "tests/support/posed_pair.h"
@@ -18,7 +18,7 @@
 namespace vitrel {
 namespace {
 
-using Asked = OverlapLook::Asked;
+using Mask = OverlapBatch::Mask;
 
 constexpr double pi = std::numbers::pi;
 
@@ -73,12 +73,12 @@ bool disjoint(const PosedPair& pair) {
       .disjoint_or_touching();
 }
 
-bool looks_clear(const PosedPair& pair, int lane, std::uint64_t& alone) {
-  EllipseGroup group;
+bool looks_clear(const PosedPair& pair, int lane, std::uint64_t& scalar_tests) {
+  EllipseBatch group;
   const Vec2 offset(0.3, -0.2);
   group.set(lane, pair.two, pair.d - offset, direction(pair.angle2));
-  return OverlapLook(pair.one, direction(pair.angle1), margin(pair))
-      .clear_of(group, offset, Asked(true), alone);
+  return OverlapBatch(pair.one, direction(pair.angle1), margin(pair))
+      .clear_of(group, offset, Mask(true), scalar_tests);
 }
 
 /// What the coordinates' rounding may do to a gap.
@@ -95,10 +95,10 @@ TEST_P(OverlapLookAt, IsRightAboutEveryPair) {
   Stream draw(61, Purpose::tests);
   constexpr int pairs = 100'000;
   int clear = 0, near = 0;
-  std::uint64_t alone = 0;
+  std::uint64_t scalar_tests = 0;
   for (int k = 0; k < pairs; ++k) {
     const PosedPair pair = random_pair(draw, GetParam());
-    const bool answer = looks_clear(pair, k % many, alone);
+    const bool answer = looks_clear(pair, k % simd_width, scalar_tests);
     clear += answer;
     const double gap = support_gap(pair.one, pair.angle1, pair.two, pair.angle2, pair.d).gap;
     near += std::abs(gap) < 1e-9;
@@ -108,7 +108,7 @@ TEST_P(OverlapLookAt, IsRightAboutEveryPair) {
     } else {
       ASSERT_LT(gap, margin(pair) + rounding(pair)) << pair;
     }
-    if (looks_clear(pair.swapped(), k % many, alone) != answer) {
+    if (looks_clear(pair.swapped(), k % simd_width, scalar_tests) != answer) {
       ASSERT_NEAR(gap, margin(pair), rounding(pair)) << pair;
     }
   }
@@ -123,30 +123,30 @@ INSTANTIATE_TEST_SUITE_P(Shapes, OverlapLookAt,
                                          Class{10, 3}, Class{100, 1}, Class{100, 100}));
 
 // The same pair in another lane, beside others and beside nobody.
-TEST(OverlapLook, AnswersOfAGroupAreThoseOfItsPairs) {
+TEST(OverlapBatch, AnswersOfAGroupAreThoseOfItsPairs) {
   Stream draw(62, Purpose::tests);
   int clear = 0;
   constexpr int groups = 20'000;
   for (int k = 0; k < groups; ++k) {
     const PosedPair first = random_pair(draw, {6, 3});
-    const OverlapLook look(first.one, direction(first.angle1), 1e-12);
-    EllipseGroup group;
+    const OverlapBatch batch(first.one, direction(first.angle1), 1e-12);
+    EllipseBatch group;
     bool each_clear = true;
-    std::uint64_t alone_in_group = 0, alone = 0;
-    for (int lane = 0; lane < many; ++lane) {
+    std::uint64_t alone_in_group = 0, scalar_tests = 0;
+    for (int lane = 0; lane < simd_width; ++lane) {
       if (draw.below(3) == 0) continue;
       const PosedPair other = random_pair(draw, {6, 3});
       const Vec2 place =
           other.d * (1.2 * (first.one.a + other.two.a) / (other.one.a + other.two.a));
       group.set(lane, other.two, place, direction(other.angle2));
-      EllipseGroup single;
-      single.set((lane + k) % many, other.two, place, direction(other.angle2));
-      each_clear = each_clear && look.clear_of(single, Vec2::Zero(), Asked(true), alone);
+      EllipseBatch single;
+      single.set((lane + k) % simd_width, other.two, place, direction(other.angle2));
+      each_clear = each_clear && batch.clear_of(single, Vec2::Zero(), Mask(true), scalar_tests);
     }
-    const bool answer = look.clear_of(group, Vec2::Zero(), Asked(true), alone_in_group);
+    const bool answer = batch.clear_of(group, Vec2::Zero(), Mask(true), alone_in_group);
     ASSERT_EQ(answer, each_clear);
     if (answer) {
-      ASSERT_EQ(alone_in_group, alone);
+      ASSERT_EQ(alone_in_group, scalar_tests);
     }
     clear += answer;
   }
@@ -156,36 +156,36 @@ TEST(OverlapLook, AnswersOfAGroupAreThoseOfItsPairs) {
 
 // Of pairs at random places within the circumcircles nearly all are settled in lanes: what the speed
 // rests on.
-TEST(OverlapLook, FewPairsAreLeftToBeDecidedAlone) {
+TEST(OverlapBatch, FewPairsAreLeftToBeDecidedAlone) {
   for (const auto& [kappa, most] :
        {std::pair{1.5, 0.01}, std::pair{2., 0.02}, std::pair{6., 0.04}}) {
     Stream draw(63, Purpose::tests);
     const Ellipse shape{std::sqrt(kappa), 1 / std::sqrt(kappa)};
     constexpr int pairs = 100'000;
-    std::uint64_t alone = 0;
+    std::uint64_t scalar_tests = 0;
     for (int k = 0; k < pairs; ++k) {
       const double distance = 2 * shape.a * std::sqrt(draw.uniform());
       const PosedPair pair{shape, shape, draw.uniform(0, pi), draw.uniform(0, pi),
                            distance * direction(draw.uniform(-pi, pi))};
-      looks_clear(pair, 0, alone);
+      looks_clear(pair, 0, scalar_tests);
     }
-    RecordProperty("kappa_" + std::to_string(kappa), static_cast<int>(alone));
-    EXPECT_LT(static_cast<double>(alone), most * pairs) << "κ = " << kappa;
-    EXPECT_GT(alone, 0u) << "κ = " << kappa;
+    RecordProperty("kappa_" + std::to_string(kappa), static_cast<int>(scalar_tests));
+    EXPECT_LT(static_cast<double>(scalar_tests), most * pairs) << "κ = " << kappa;
+    EXPECT_GT(scalar_tests, 0u) << "κ = " << kappa;
   }
 }
 
 // Two disks are settled by their circles.
-TEST(OverlapLook, DisksAreNeverLeft) {
+TEST(OverlapBatch, DisksAreNeverLeft) {
   Stream draw(64, Purpose::tests);
-  std::uint64_t alone = 0;
+  std::uint64_t scalar_tests = 0;
   for (int k = 0; k < 10'000; ++k) {
     const Ellipse one{draw.uniform(0.1, 3), 0}, two{draw.uniform(0.1, 3), 0};
     const PosedPair pair{{one.a, one.a}, {two.a, two.a}, 0.3, 1, Vec2(draw.uniform(0, 5), 0.1)};
-    const bool answer = looks_clear(pair, 1, alone);
+    const bool answer = looks_clear(pair, 1, scalar_tests);
     EXPECT_EQ(answer, pair.d.norm() > one.a + two.a);
   }
-  EXPECT_EQ(alone, 0u);
+  EXPECT_EQ(scalar_tests, 0u);
 }
 
 }  // namespace

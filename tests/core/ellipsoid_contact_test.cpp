@@ -5,8 +5,9 @@
 #include <limits>
 #include <vector>
 
+#include "core/contact/ellipsoid_contact_screen.h"
 #include "core/contact/ellipsoid_gap.h"
-#include "core/contact/ellipsoid_look.h"
+#include "core/contact/ellipsoid_gap_batch.h"
 #include "core/contact/ellipsoid_pair_in_flight.h"
 #include "core/contact/first_contact.h"
 #include "core/geometry/capsule.h"
@@ -98,7 +99,7 @@ TEST(EllipsoidPairInFlight, AccelerationBoundHoldsAndIsTight) {
     EllipsoidPairInFlight<GrowingEllipsoid> pair(flight(), flight());
     const Axis3 n = completed(components(random_direction(draw)));
     pair.go_to(1);
-    const auto then = pair.look(n);
+    const auto then = pair.batch(n);
     const double rate = pair.gap_rate(n, then);
     for (const double reach : {-1.0, -0.1, 0.01, 0.1, 0.5, 1.0, 3.0}) {
       pair.go_to(1);
@@ -107,7 +108,7 @@ TEST(EllipsoidPairInFlight, AccelerationBoundHoldsAndIsTight) {
       for (int step = 1; step <= 50; ++step) {
         const double s = reach * step / 50;
         pair.go_to(1 + s);
-        const double loss = then.gap + rate * s - pair.look(n).gap;
+        const double loss = then.gap + rate * s - pair.batch(n).gap;
         EXPECT_LE(loss, 0.5 * bound * s * s + 1e-12);
         if (bound > 1e-3) tightest = std::max(tightest, loss / (0.5 * bound * s * s));
       }
@@ -130,10 +131,10 @@ TEST(EllipsoidPairInFlight, RatesAreDerivatives) {
     const Axis3 n = completed(components(random_direction(draw)));
     const auto gap = [&](double time, const Tangent& step) {
       pair.go_to(time);
-      return pair.look(detail::turned(n, step)).gap;
+      return pair.batch(detail::turned(n, step)).gap;
     };
     pair.go_to(0.3);
-    const auto g = pair.look(n);
+    const auto g = pair.batch(n);
     const double rate = pair.gap_rate(n, g), acceleration = pair.acceleration(g);
     const Tangent mixed = pair.slope_rate(n, g), ex(h, 0), ey(0, h), none(0, 0);
     EXPECT_NEAR(rate, (gap(0.3 + h, none) - gap(0.3 - h, none)) / (2 * h), 1e-7);
@@ -158,18 +159,18 @@ TEST(EllipsoidPairInFlight, RatesAreDerivatives) {
   }
 }
 
-// What a look says of several at once: a lower bound of the gap, mostly a good one; and nobody closer than
+// The gap batch gives a lower bound of the gap, mostly a tight one; and no ellipsoid closer than
 // the limit is said to be far by the capsules.
 TEST(GapLookAtEllipsoids, BoundsTheGapFromBelow) {
   Stream draw(6, Purpose::tests);
-  constexpr int lanes = GapLook<Ellipsoid>::lanes;
+  constexpr int lanes = GapBatch<Ellipsoid>::lanes;
   int disjoint = 0, loose = 0, far = 0;
   for (const double aspect : {1.5, 5.0, 30.0})
     for (int trial = 0; trial < 500; ++trial) {
       const Ellipsoid one = trial % 2 ? prolate(aspect) : random_ellipsoid(draw, aspect);
       const Quaternion q1 = random_orientation(draw);
       const double limit = draw.uniform(0, 0.3) * one.circumradius();
-      GapLook<Ellipsoid> look(one, q1, limit);
+      GapBatch<Ellipsoid> batch(one, q1, limit);
       struct Other {
         Ellipsoid shape;
         Quaternion q;
@@ -187,19 +188,19 @@ TEST(GapLookAtEllipsoids, BoundsTheGapFromBelow) {
           ++far;
           EXPECT_GT(support_gap(one, q1, other.shape, other.q, other.d).gap, limit);
         } else {
-          look.set(count++, other.shape, other.q, other.d);
+          batch.set(count++, other.shape, other.q, other.d);
         }
       }
-      look.look();
+      batch.evaluate();
       for (int k = 0; k < lanes; ++k) {
         const auto& [shape, q, d] = others[k];
         const double best = support_gap(one, q1, shape, q, d).gap;
-        const Vec3 n = look.axis(k);
-        EXPECT_NEAR(look.gap(k), n.dot(d) - support(one, q1, n) - support(shape, q, n), 1e-13);
-        EXPECT_LE(look.gap(k), std::max(best, 0.0) + 1e-13);
+        const Vec3 n = batch.axis(k);
+        EXPECT_NEAR(batch.gap(k), n.dot(d) - support(one, q1, n) - support(shape, q, n), 1e-13);
+        EXPECT_LE(batch.gap(k), std::max(best, 0.0) + 1e-13);
         if (!(best > 0 && best < limit)) continue;
         ++disjoint;
-        loose += look.gap(k) < 0.9 * best - 1e-2 * one.inradius();
+        loose += batch.gap(k) < 0.9 * best - 1e-2 * one.inradius();
       }
     }
   EXPECT_GT(disjoint, 200);

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <limits>
 
+#include "core/contact/ellipse_gap.h"
+#include "core/contact/ellipse_pair_in_flight.h"
 #include "core/contact/first_contact.h"
-#include "core/contact/pair_in_flight.h"
-#include "core/contact/support_gap.h"
 #include "core/random/stream.h"
 #include "core/tolerances.h"
 
@@ -105,7 +105,7 @@ TEST(PairInFlight, AccelerationBoundHoldsAndIsTight) {
     EllipsePairInFlight pair(one, two);
     const auto gap = [&](double time) {
       pair.start_at(time);
-      return pair.look(n);
+      return pair.evaluate(n);
     };
     const double smallest =
         std::min({one.body.size_at(now - duration), one.body.size_at(now + duration),
@@ -137,7 +137,7 @@ TEST(PairInFlight, RatesAreDerivatives) {
   const double step = 1e-4;
   const auto along = [&](double time) {
     pair.go_to(time);
-    return pair.look(n);
+    return pair.evaluate(n);
   };
   pair.start_at(0);
   const GapAlongAxis before = along(0.5 - step), after = along(0.5 + step), here = along(0.5);
@@ -152,21 +152,21 @@ TEST(EllipsePair, DirectionsAreCosineAndSine) {
   constexpr double close = 4 * std::numeric_limits<double>::epsilon();
   for (int trial = 0; trial < 100'000; ++trial) {
     const double size = std::pow(10, draw.uniform(-3, 7));
-    const Lanes angle(draw.uniform(-size, size), draw.uniform(-1.5, 1.5));
-    Lanes x, y;
-    directions<Lanes>(angle, x, y);
+    const PairArray angle(draw.uniform(-size, size), draw.uniform(-1.5, 1.5));
+    PairArray x, y;
+    directions<PairArray>(angle, x, y);
     for (const int lane : {0, 1}) {
       ASSERT_NEAR(x[lane], std::cos(angle[lane]), close) << angle[lane];
       ASSERT_NEAR(y[lane], std::sin(angle[lane]), close) << angle[lane];
     }
-    Lanes small_x, small_y;
-    small_directions<Lanes>({angle[1], angle[1]}, small_x, small_y);
+    PairArray small_x, small_y;
+    small_angle_directions<PairArray>({angle[1], angle[1]}, small_x, small_y);
     ASSERT_NEAR(small_x[0], std::cos(angle[1]), close);
     ASSERT_NEAR(small_y[0], std::sin(angle[1]), close);
   }
 }
 
-// Grown from points; closed form: |d| − |v| t = (γ₁ + γ₂) t.
+// BaseShape from points; closed form: |d| − |v| t = (γ₁ + γ₂) t.
 TEST(FirstContact, GrowingDisksAndPointsInClosedForm) {
   const Flight<GrowingEllipse> one{{{1, 1}, 0, 0.5}, {{0, 0}, 0}, {{0.5, 0}, 0}};
   const Flight<GrowingEllipse> two{{{2, 2}, 0, 0.25}, {{7, 0}, 0}, {{0, 0}, 0}};

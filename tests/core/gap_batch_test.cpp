@@ -1,6 +1,7 @@
 // Gaps of several bodies at once against the gap of two, found slowly.
 
-#include "core/contact/gap_look.h"
+#include "core/contact/ellipse_gap_batch.h"
+#include "core/contact/ellipsoid_gap_batch.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +11,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/contact/support_gap.h"
+#include "core/contact/ellipse_gap.h"
 #include "core/random/stream.h"
 
 namespace vitrel {
@@ -50,36 +51,36 @@ void PrintTo(const Class& at, std::ostream* out) {
        << " to " << at.farthest;
 }
 
-class GapLookAtEllipses : public testing::TestWithParam<Class> {};
+class GapBatchOfEllipses : public testing::TestWithParam<Class> {};
 
 // Never larger than the distance of a disjoint pair, and not positive for an overlapping one, to
 // rounding; the gap is that along the axis told. One in ten at most falls short of the distance by
 // more than a twentieth, up to the largest aspect ratios: each such makes a list longer than need be.
-TEST_P(GapLookAtEllipses, IsALowerBoundAndSeldomALooseOne) {
+TEST_P(GapBatchOfEllipses, IsALowerBoundAndSeldomALooseOne) {
   const Class& at = GetParam();
   Stream draw(51, Purpose::tests);
   int disjoint = 0, overlapping = 0, loose = 0;
   for (int trial = 0; trial < 5'000; ++trial) {
     const Ellipse one = random_ellipse(draw, at.largest_aspect_ratio);
     const double angle = draw.uniform(-20, 20);
-    GapLook<Ellipse> look(one, angle, std::numeric_limits<double>::infinity());
-    std::array<Other, GapLook<Ellipse>::lanes> others;
-    for (int k = 0; k < GapLook<Ellipse>::lanes; ++k) {
+    GapBatch<Ellipse> batch(one, angle, std::numeric_limits<double>::infinity());
+    std::array<Other, GapBatch<Ellipse>::lanes> others;
+    for (int k = 0; k < GapBatch<Ellipse>::lanes; ++k) {
       const Ellipse shape = random_ellipse(draw, at.largest_aspect_ratio);
       const double distance = draw.uniform(at.nearest, at.farthest) * (one.a + shape.a);
       others[k] = {shape, draw.uniform(-20, 20), distance * direction(draw.uniform(0, 2 * pi))};
-      look.set(k, others[k].shape, others[k].angle, others[k].d);
+      batch.set(k, others[k].shape, others[k].angle, others[k].d);
     }
-    look.look();
-    for (int k = 0; k < GapLook<Ellipse>::lanes; ++k) {
+    batch.evaluate();
+    for (int k = 0; k < GapBatch<Ellipse>::lanes; ++k) {
       const Other& other = others[k];
       const SupportGap best = support_gap(one, angle, other.shape, other.angle, other.d);
       const double rounding = 1e-14 * (one.a + other.shape.a + other.d.norm());
-      EXPECT_NEAR(look.axis(k).norm(), 1, 1e-15);
-      EXPECT_NEAR(look.gap(k), gap_along(one, angle, other, look.axis(k)), rounding);
+      EXPECT_NEAR(batch.axis(k).norm(), 1, 1e-15);
+      EXPECT_NEAR(batch.gap(k), gap_along(one, angle, other, batch.axis(k)), rounding);
       (best.gap > 0 ? disjoint : overlapping) += 1;
-      EXPECT_LE(look.gap(k), std::max(best.gap, 0.0) + rounding);
-      loose += best.gap > 0 && look.gap(k) < 0.95 * best.gap - 1e-3 * (one.b + other.shape.b);
+      EXPECT_LE(batch.gap(k), std::max(best.gap, 0.0) + rounding);
+      loose += best.gap > 0 && batch.gap(k) < 0.95 * best.gap - 1e-3 * (one.b + other.shape.b);
     }
   }
   RecordProperty("loose", loose);
@@ -88,26 +89,26 @@ TEST_P(GapLookAtEllipses, IsALowerBoundAndSeldomALooseOne) {
   EXPECT_LT(loose, 0.1 * disjoint);
 }
 
-INSTANTIATE_TEST_SUITE_P(Classes, GapLookAtEllipses,
+INSTANTIATE_TEST_SUITE_P(Classes, GapBatchOfEllipses,
                          testing::Values(Class{1, 0.5, 1.5}, Class{2, 0.5, 1.5}, Class{6, 0.3, 1.2},
                                          Class{20, 0.3, 1.2}, Class{6, 1, 5}));
 
 // Distances of circles: |d| − r₁ − r₂.
 TEST(GapLookAtDisks, IsTheDistance) {
-  constexpr int lanes = GapLook<Disk>::lanes;
+  constexpr int lanes = GapBatch<Disk>::lanes;
   Stream draw(52, Purpose::tests);
   for (int trial = 0; trial < 1'000; ++trial) {
     const Disk one{draw.uniform(0.5, 2)};
-    GapLook<Disk> look(one, draw.uniform(0, 7), std::numeric_limits<double>::infinity());
+    GapBatch<Disk> batch(one, draw.uniform(0, 7), std::numeric_limits<double>::infinity());
     double wanted[lanes];
     for (int k = 0; k < lanes; ++k) {
       const Disk other{draw.uniform(0.1, 3)};
       const double distance = draw.uniform(0, 8);
-      look.set(k, other, draw.uniform(0, 7), distance * direction(draw.uniform(0, 2 * pi)));
+      batch.set(k, other, draw.uniform(0, 7), distance * direction(draw.uniform(0, 2 * pi)));
       wanted[k] = distance - one.radius - other.radius;
     }
-    look.look();
-    for (int k = 0; k < lanes; ++k) EXPECT_NEAR(look.gap(k), wanted[k], 1e-14);
+    batch.evaluate();
+    for (int k = 0; k < lanes; ++k) EXPECT_NEAR(batch.gap(k), wanted[k], 1e-14);
   }
 }
 

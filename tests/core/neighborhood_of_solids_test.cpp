@@ -47,10 +47,10 @@ class Crowd {
   Crowd(Stream& draw, const Scene& scene)
       : scene_(scene),
         box_(Vec3::Constant(scene.box)),
-        kind_of_(numbers(scene), scene.kinds.size()),
+        type_index_(numbers(scene), scene.kinds.size()),
         poses_(drawn_poses(draw, scene)),
         sizes_(scene.particles, 1.),
-        lists_(box_, scene_.kinds, kind_of_, poses_, 14) {}
+        lists_(box_, scene_.kinds, type_index_, poses_, 14) {}
   Crowd(const Crowd&) = delete;
 
   const Neighborhoods<Body>& lists() const { return lists_; }
@@ -60,13 +60,13 @@ class Crowd {
     const std::size_t i = draw.below(scene_.particles);
     Pose3& pose = poses_[i];
     if (draw.uniform() < 0.02) pose = drawn_pose(draw, scene_);
-    const double turn = lists_.margin() / scene_.kinds[kind_of_[i]].circumradius();
+    const double turn = lists_.margin() / scene_.kinds[type_index_[i]].circumradius();
     pose = advanced(pose, {random_direction(draw), turn / lists_.margin() * random_direction(draw)},
                     draw.uniform() * lists_.margin());
     Shift<3> image = Shift<3>::Zero();
     box_.wrap(pose.position, image);
     sizes_[i] = static_cast<float>(size);
-    lists_.renew(i, pose, size);
+    lists_.update(i, pose, size);
   }
 
   void expect_right() const {
@@ -122,8 +122,8 @@ class Crowd {
     std::multiset<Image> images;
     for (std::size_t i = 0; i < scene_.particles; ++i)
       for (std::size_t j = 0; j < scene_.particles; ++j) {
-        const Ellipsoid one = scaled(scene_.kinds[kind_of_[i]], sizes_[i]);
-        const Ellipsoid two = scaled(scene_.kinds[kind_of_[j]], sizes_[j]);
+        const Ellipsoid one = scaled(scene_.kinds[type_index_[i]], sizes_[i]);
+        const Ellipsoid two = scaled(scene_.kinds[type_index_[j]], sizes_[j]);
         box_.for_each_image(
             poses_[j].position - poses_[i].position, one.circumradius() + two.circumradius() + gap,
             [&](const Shift<3>& shift, const Vec3& d) {
@@ -137,7 +137,7 @@ class Crowd {
 
   const Scene& scene_;
   PeriodicBox<3> box_;
-  KindOf kind_of_;
+  TypeIndex type_index_;
   std::vector<Pose3> poses_;
   std::vector<double> sizes_;
   Neighborhoods<Body> lists_;

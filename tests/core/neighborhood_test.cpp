@@ -12,7 +12,7 @@
 #include <tuple>
 #include <vector>
 
-#include "core/contact/support_gap.h"
+#include "core/contact/ellipse_gap.h"
 #include "core/neighbors/list_pool.h"
 #include "core/neighbors/spatial_order.h"
 #include "core/random/stream.h"
@@ -42,11 +42,11 @@ Ellipse random_shape(Stream& draw, Ellipse) {
 /// Particles at any places, overlapping or not: the lists do not ask.
 template <class B>
 struct Crowd {
-  using Shape = Grown<B>;
+  using Shape = BaseShape<B>;
 
   PeriodicBox<2> box;
   std::vector<Shape> kinds;
-  KindOf kind_of;
+  TypeIndex type_index;
   std::vector<Shape> shapes;  // of every particle
   std::vector<Pose2> poses;   // at the last renewal
   std::vector<double> sizes;  // as well
@@ -56,11 +56,11 @@ struct Crowd {
   Crowd(Stream& draw, const Vec2& lengths, std::size_t particles, double wanted, std::size_t count)
       : box(lengths),
         kinds(drawn_shapes(draw, count)),
-        kind_of(kind_numbers(particles, count), count),
+        type_index(kind_numbers(particles, count), count),
         shapes(shapes_of_all(kinds, particles)),
         poses(drawn_poses(draw, lengths, particles)),
         sizes(particles, 1),
-        lists(box, kinds, kind_of, poses, wanted) {}
+        lists(box, kinds, type_index, poses, wanted) {}
   Crowd(Stream& draw, const Vec2& lengths, std::size_t particles, double wanted)
       : Crowd(draw, lengths, particles, wanted, particles) {}
   Crowd(const Crowd&) = delete;
@@ -91,10 +91,10 @@ struct Crowd {
     return drawn;
   }
 
-  void renew(std::size_t i, const Pose2& pose, double size) {
+  void update(std::size_t i, const Pose2& pose, double size) {
     poses[i] = pose;
     sizes[i] = size;
-    lists.renew(i, pose, size);
+    lists.update(i, pose, size);
   }
 };
 
@@ -208,7 +208,7 @@ TYPED_TEST(NeighborLists, StayRightThroughThousandsOfRenewals) {
         }
         Shift<2> image = Shift<2>::Zero();
         crowd.box.wrap(pose.position, image);
-        crowd.renew(i, pose, std::pow(last_size, static_cast<double>(n) / renewals));
+        crowd.update(i, pose, std::pow(last_size, static_cast<double>(n) / renewals));
         if (n % 100 == 0) expect_lists_right(crowd);
         if (this->HasFatalFailure()) return;
       }
@@ -236,7 +236,7 @@ TYPED_TEST(Memories, OfAPairStayWithIt) {
   Crowd<TypeParam> crowd(draw, Vec2(12, 9), 20, 7);
   const auto axis_of = [&](std::size_t i, const NeighborImage<2>& image) {
     for (const Neighbor<TypeParam>& neighbor : crowd.lists.of(i))
-      if (neighbor.is(image)) return neighbor.memory.axis;
+      if (neighbor.is(image)) return neighbor.warm_start.axis;
     ADD_FAILURE() << "no such neighbour";
     return Vec2(0, 0);
   };
@@ -247,10 +247,10 @@ TYPED_TEST(Memories, OfAPairStayWithIt) {
     if (with.other == i) continue;
     const NeighborImage back = with.seen_from_there(i);
     const Vec2 normal = direction(draw.uniform(0, 2 * pi));
-    crowd.lists.remember(i, with, normal);
+    crowd.lists.store_axis(i, with, normal);
     EXPECT_EQ(axis_of(i, with), normal);
     EXPECT_EQ(axis_of(with.other, back), -normal);
-    crowd.renew(i, crowd.poses[i], 1);
+    crowd.update(i, crowd.poses[i], 1);
     EXPECT_EQ(axis_of(i, with), normal);
     EXPECT_EQ(axis_of(with.other, back), -normal);
     ++noted;
@@ -267,7 +267,7 @@ TYPED_TEST(Memories, BeginWithAnAxisThatSeparates) {
       const std::size_t j = neighbor.other;
       const Vec2 d = crowd.poses[j].position + crowd.box.translation(neighbor.shift()) -
                      crowd.poses[i].position;
-      const Vec2 n = neighbor.memory.axis;
+      const Vec2 n = neighbor.warm_start.axis;
       EXPECT_NEAR(n.norm(), 1, 1e-14);
       const double reach = support(crowd.shapes[i], direction(crowd.poses[i].angle), n) +
                            support(crowd.shapes[j], direction(crowd.poses[j].angle), n);
@@ -305,10 +305,11 @@ Inside random_inside(Stream& draw, const Crowd<B>& crowd, double growth) {
   Inside inside;
   const double room = crowd.lists.margin() * draw.uniform();
   const double share = draw.uniform();
-  const double swing = std::max(crowd.sizes[0] * crowd.shapes[0].swing(), 1e-3);
-  inside.pose = {
-      crowd.poses[0].position + share * room * direction(draw.uniform(0, 2 * pi)),
-      crowd.poses[0].angle + (1 - share) * room / swing * (draw.uniform() < 0.5 ? 1 : -1)};
+  const double max_support_rate =
+      std::max(crowd.sizes[0] * crowd.shapes[0].max_support_rate(), 1e-3);
+  inside.pose = {crowd.poses[0].position + share * room * direction(draw.uniform(0, 2 * pi)),
+                 crowd.poses[0].angle +
+                     (1 - share) * room / max_support_rate * (draw.uniform() < 0.5 ? 1 : -1)};
   inside.motion = {{draw.normal(), draw.normal()}, draw.uniform() < 0.3 ? 0 : 3 * draw.normal()};
   inside.common = {crowd.sizes[0], growth};
   return inside;
@@ -322,7 +323,7 @@ TYPED_TEST(Exits, UntilThenTheBodyIsInsideItsNeighborhood) {
     Crowd<TypeParam> crowd(draw, Vec2(9, 7), 6, 5);
     const bool grows = std::is_same_v<TypeParam, GrowingEllipse> && trial % 3;
     const double growth = grows ? (trial % 3 == 1 ? 0.3 : -0.3) * draw.uniform() : 0;
-    if (grows) crowd.renew(0, crowd.poses[0], 1 + growth * draw.uniform());
+    if (grows) crowd.update(0, crowd.poses[0], 1 + growth * draw.uniform());
     Inside inside = random_inside(draw, crowd, growth);
     // Since the last renewal it has grown too, at first by as much as there is room for.
     if (growth > 0)
@@ -345,7 +346,7 @@ TYPED_TEST(Exits, UntilThenTheBodyIsInsideItsNeighborhood) {
   }
 }
 
-// Without growth it is exactly the time at which |Δr| + swing |Δθ| reaches the margin.
+// Without growth it is exactly the time at which |Δr| + max_support_rate |Δθ| reaches the margin.
 TYPED_TEST(Exits, ComeNoEarlierThanNeedBe) {
   Stream draw(67, Purpose::tests);
   for (int trial = 0; trial < 2'000; ++trial) {
@@ -354,7 +355,7 @@ TYPED_TEST(Exits, ComeNoEarlierThanNeedBe) {
     const auto used = [&](double time) {
       const Pose2 pose = advanced(inside.pose, inside.motion, time);
       return (pose.position - crowd.poses[0].position).norm() +
-             crowd.shapes[0].swing() * std::abs(pose.angle - crowd.poses[0].angle);
+             crowd.shapes[0].max_support_rate() * std::abs(pose.angle - crowd.poses[0].angle);
     };
     const double exit = crowd.lists.exit_time(0, inside.pose, inside.motion, inside.common);
     EXPECT_NEAR(used(exit), crowd.lists.margin(), 1e-9 * crowd.lists.margin());
@@ -362,7 +363,7 @@ TYPED_TEST(Exits, ComeNoEarlierThanNeedBe) {
   }
 }
 
-// With growth not by much: the swing is taken a tenth too large, and nothing is promised for longer
+// With growth not by much: the support rate is a tenth too large, and nothing is promised for longer
 // than the time of a growth by a tenth.
 TEST(GrowingExits, ComeNotMuchEarlierThanNeedBe) {
   Stream draw(68, Purpose::tests);
@@ -374,7 +375,7 @@ TEST(GrowingExits, ComeNotMuchEarlierThanNeedBe) {
     const Pose2 pose = advanced(inside.pose, inside.motion, exit);
     const double used =
         (pose.position - crowd.poses[0].position).norm() +
-        1.1 * crowd.shapes[0].swing() * std::abs(pose.angle - crowd.poses[0].angle) +
+        1.1 * crowd.shapes[0].max_support_rate() * std::abs(pose.angle - crowd.poses[0].angle) +
         growth * exit * crowd.shapes[0].circumradius();
     EXPECT_LE(growth * exit, 0.1 + 1e-12);
     const bool at_the_tenth = std::abs(growth * exit - 0.1) < 1e-12;

@@ -8,9 +8,9 @@
 #include <numeric>
 #include <vector>
 
-#include "bench/lab/twins/heap_calendar.h"
-#include "bench/lab/twins/sorted_calendar.h"
-#include "bench/lab/twins/tournament_calendar.h"
+#include "bench/baselines/heap_calendar.h"
+#include "bench/baselines/sorted_calendar.h"
+#include "bench/baselines/tournament_calendar.h"
 #include "core/random/stream.h"
 
 namespace vitrel {
@@ -43,7 +43,7 @@ class Twins {
 
  private:
   C fast_;
-  lab::SortedCalendar slow_;
+  bench::SortedCalendar slow_;
 };
 
 template <class C>
@@ -58,7 +58,7 @@ struct ForesightedCalendar : Calendar {
 };
 
 using Calendars =
-    testing::Types<Calendar, ForesightedCalendar, lab::HeapCalendar, lab::TournamentCalendar>;
+    testing::Types<Calendar, ForesightedCalendar, bench::HeapCalendar, bench::TournamentCalendar>;
 TYPED_TEST_SUITE(CalendarTest, Calendars, );
 
 // Waiting times as a run draws them.
@@ -200,12 +200,12 @@ TYPED_TEST(CalendarTest, OrderDoesNotDependOnHistory) {
   }
 }
 
-// A thousand particles with one event per unit of time each. Whoever comes was announced, and mostly
+// A thousand particles with one event per unit of time each. Whoever comes was upcoming, and mostly
 // some events before, unless it was planned so late that it came at once.
 TEST(Calendar, AnnouncesWhoComesSoon) {
-  const std::size_t n = 1000, foresight = 5;
+  const std::size_t n = 1000, lookahead = 5;
   constexpr double soon = 0.03;  // thirty events
-  Calendar calendar(n, foresight);
+  Calendar calendar(n, lookahead);
   Stream draw(8, Purpose::tests);
   for (std::size_t i = 0; i < n; ++i) calendar.set(i, exponential(draw));
   std::vector<double> planned_at(n, 0), announced_at(n, -1);
@@ -214,13 +214,13 @@ TEST(Calendar, AnnouncesWhoComesSoon) {
   constexpr int events = 20'000;
   for (int event = 0; event < events; ++event) {
     const std::size_t i = calendar.earliest();
-    for (; heard < calendar.announcements(); ++heard)
-      announced_at[calendar.announced(heard)] = event;
+    for (; heard < calendar.upcoming_count(); ++heard)
+      announced_at[calendar.upcoming(heard)] = event;
     now = calendar.time(i);
     if (now - planned_at[i] > soon) {
       ASSERT_GE(announced_at[i], 0);
     }
-    foreseen += announced_at[i] >= 0 && event - announced_at[i] >= static_cast<int>(foresight) - 1;
+    foreseen += announced_at[i] >= 0 && event - announced_at[i] >= static_cast<int>(lookahead) - 1;
     announced_at[i] = -1;
     planned_at[i] = now;
     calendar.set(i, now + exponential(draw));

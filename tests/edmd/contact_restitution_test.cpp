@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "bench/lab/twins/plain_contact.h"
+#include "bench/baselines/plain_contact.h"
 #include "core/random/stream.h"
 #include "edmd/soft/contact_integration.h"
 #include "edmd/soft/linear_dashpot.h"
@@ -116,13 +116,13 @@ TYPED_TEST(EveryForce, ScalesMakeTheForceDimensionless) {
   expect_relative(scales.length / scales.time, speed, 1e-14);
   for (const double s : {0.1, 0.9, 1.3})
     for (const double rate : {-1.0, 0.0, 0.6}) {
-      const double scaled = TypeParam::profile(s) * (TypeParam::rest(s) + scales.damping * rate);
+      const double scaled = TypeParam::profile(s) * (TypeParam::elastic(s) + scales.damping * rate);
       expect_relative(force.force(s * s * scales.length, rate * speed, pair) *
                           std::pow(scales.time, 2) / (pair.mass * scales.length),
                       scaled, 1e-12);
-      expect_relative((TypeParam::rest(s * 1.001) - TypeParam::rest(s * 0.999)) / (0.002 * s),
-                      TypeParam::rest_slope(s), 1e-5);
-      expect_relative(TypeParam::rest_inverse(TypeParam::rest(s)), s, 1e-15);
+      expect_relative((TypeParam::elastic(s * 1.001) - TypeParam::elastic(s * 0.999)) / (0.002 * s),
+                      TypeParam::elastic_slope(s), 1e-5);
+      expect_relative(TypeParam::elastic_inverse(TypeParam::elastic(s)), s, 1e-15);
     }
   const ContactScales faster = force.scales(10 * speed, pair);
   expect_relative(scales.length / faster.length, std::pow(10, -2 * TypeParam::length_exponent),
@@ -139,7 +139,7 @@ TYPED_TEST(EveryForce, AgreesWithAnIndependentIntegration) {
     SCOPED_TRACE(testing::Message() << "l = " << of.distance << ", c_φ = " << of.angular_momentum
                                     << ", c_dis = " << of.damping);
     const Restitution found = integrate_contact<TypeParam>(of);
-    const Restitution expected = lab::PlainContact<TypeParam>(of)();
+    const Restitution expected = bench::PlainContact<TypeParam>(of)();
     expect_relative(found.distance, expected.distance, 1e-13);
     expect_relative(found.angle, expected.angle, 1e-12);
     expect_relative(found.duration, expected.duration, 1e-12);
@@ -241,9 +241,9 @@ struct Tsuji {
     return {time, speed * time, damping / std::sqrt(stiffness * pair.mass)};
   }
   static double profile(double s) { return std::sqrt(std::abs(s)); }
-  static double rest(double s) { return s * s * std::sqrt(std::abs(s)); }
-  static double rest_slope(double s) { return 2.5 * s * std::sqrt(std::abs(s)); }
-  static double rest_inverse(double rest) { return std::pow(rest, 0.4); }
+  static double elastic(double s) { return s * s * std::sqrt(std::abs(s)); }
+  static double elastic_slope(double s) { return 2.5 * s * std::sqrt(std::abs(s)); }
+  static double elastic_inverse(double elastic) { return std::pow(elastic, 0.4); }
 };
 static_assert(ContactForce<Tsuji>);
 

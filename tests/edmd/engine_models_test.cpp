@@ -284,9 +284,9 @@ TEST(Accuracy, DoesNotDecayOverAMillionCollisions) {
                   ++blocks;
                   clean = clean && exact_check(now.configuration).clean();
                 }};
-  Budget budget;
-  budget.should_stop = [&] { return state.counters.collisions > 1'000'000; };
-  run(state, {}, plan, budget);
+  RunControl control;
+  control.should_stop = [&] { return state.counters.collisions > 1'000'000; };
+  run(state, {}, plan, control);
   EXPECT_GT(state.counters.collisions, 1'000'000u);
   EXPECT_GT(blocks, 100);
   EXPECT_TRUE(clean);

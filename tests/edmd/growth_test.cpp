@@ -163,9 +163,9 @@ void expect_same_shapes(const Configuration2& c, const Configuration2& start) {
 class Growth : public testing::TestWithParam<Material> {};
 
 /// The end of a growth that is not stopped.
-struct Grown : StageReport, GrowthState {};
-Grown grown(Configuration2& c, const GrowthOptions& options) {
-  Grown result;
+struct BaseShape : StageReport, GrowthState {};
+BaseShape grown(Configuration2& c, const GrowthOptions& options) {
+  BaseShape result;
   static_cast<StageReport&>(result) = grow(c, options, result, {});
   return result;
 }
@@ -173,7 +173,7 @@ Grown grown(Configuration2& c, const GrowthOptions& options) {
 TEST_P(Growth, ReachesThePackingFractionExactly) {
   const Configuration2 start = dilute(GetParam(), 8);
   Configuration2 c = start;
-  const Grown report = grown(c, {0.02, 0.7, {}, 1});
+  const BaseShape report = grown(c, {0.02, 0.7, {}, 1});
   EXPECT_EQ(report.end, StageEnd::reached) << report.reason;
   EXPECT_NEAR(packing_fraction(c), 0.7, 0.7e-12);
   // φ = (1 + γ t)² φ(0) in one go; in units of the present size, sizes grow exponentially.
@@ -188,7 +188,7 @@ TEST_P(Growth, ReachesThePackingFractionExactly) {
 
 TEST_P(Growth, JamsWithoutOverlap) {
   Configuration2 c = dilute(GetParam(), 8);
-  const Grown report = grown(c, {0.02, {}, 1e4, 2});
+  const BaseShape report = grown(c, {0.02, {}, 1e4, 2});
   EXPECT_EQ(report.end, StageEnd::reached) << report.reason;
   EXPECT_GE(report.reduced_pressure, 1e4);
   EXPECT_TRUE(exact_check(c).clean());
@@ -211,8 +211,8 @@ TEST(GrowthPressure, FollowsTheEquationOfState) {
   grown(c, {1e-2, low, {}, 1});
   std::vector<double> over_legs, of_last_block;
   for (std::uint64_t pair = 0; pair < 8; ++pair) {
-    const Grown up = grown(c, {1e-4, high, {}, 2 * pair + 2});
-    const Grown down = grown(c, {-1e-4, low, {}, 2 * pair + 3});
+    const BaseShape up = grown(c, {1e-4, high, {}, 2 * pair + 2});
+    const BaseShape down = grown(c, {-1e-4, low, {}, 2 * pair + 3});
     const double virial = up.counters.virial + down.counters.virial;
     over_legs.push_back(1 + virial / (2 * 400 * (up.time + down.time)));
     of_last_block.push_back(0.5 * (up.reduced_pressure + down.reduced_pressure));
@@ -235,7 +235,7 @@ TEST(GrowthLimits, ALoneParticleJamsAgainstItsOwnImages) {
   c.box = PeriodicBox<2>(Vec2(6, 1.1));
   const double box_aspect = c.box.lengths().y() / c.box.lengths().x();
   const double jamming = std::numbers::pi / 2 * 2 * box_aspect;  // π (a/b) (L_y/L_x)/4
-  const Grown report = grown(c, {1e-4, {}, 2e3, 1});
+  const BaseShape report = grown(c, {1e-4, {}, 2e3, 1});
   EXPECT_EQ(report.end, StageEnd::reached) << report.reason;
   EXPECT_GT(report.counters.collisions, 1000u);
   EXPECT_NEAR(report.reduced_pressure * (1 - packing_fraction(c) / jamming), 0.5, 0.15);
@@ -244,8 +244,8 @@ TEST(GrowthLimits, ALoneParticleJamsAgainstItsOwnImages) {
 
 TEST(GrowthLimits, KnowsWhenTheParticlesAreJammed) {
   Configuration2 c = dilute(materials[3], 4);
-  const Grown report = grown(c, {0.05, 0.9, {}, 1});
-  EXPECT_EQ(report.end, StageEnd::stuck);
+  const BaseShape report = grown(c, {0.05, 0.9, {}, 1});
+  EXPECT_EQ(report.end, StageEnd::stalled);
   EXPECT_NE(report.reason.find("jammed"), std::string::npos) << report.reason;
   EXPECT_LT(packing_fraction(c), 0.9);
   EXPECT_TRUE(exact_check(c).clean());
@@ -254,7 +254,7 @@ TEST(GrowthLimits, KnowsWhenTheParticlesAreJammed) {
 // Whichever goal comes first.
 TEST(GrowthLimits, EndsAtThePackingFractionBeforeThePressure) {
   Configuration2 c = dilute(materials[2], 6);
-  const Grown report = grown(c, {0.02, 0.5, 1e4, 1});
+  const BaseShape report = grown(c, {0.02, 0.5, 1e4, 1});
   EXPECT_EQ(report.end, StageEnd::reached);
   EXPECT_NEAR(packing_fraction(c), 0.5, 0.5e-12);
   EXPECT_LT(report.reduced_pressure, 10);
@@ -263,7 +263,7 @@ TEST(GrowthLimits, EndsAtThePackingFractionBeforeThePressure) {
 TEST(GrowthLimits, ShrinksWithANegativeRate) {
   Configuration2 c = dilute(materials[4], 6);
   grown(c, {0.02, 0.6, {}, 1});
-  const Grown report = grown(c, {-0.02, 0.3, {}, 1});
+  const BaseShape report = grown(c, {-0.02, 0.3, {}, 1});
   EXPECT_EQ(report.end, StageEnd::reached) << report.reason;
   EXPECT_NEAR(packing_fraction(c), 0.3, 0.3e-12);
   EXPECT_TRUE(exact_check(c).clean());
@@ -273,9 +273,9 @@ TEST(GrowthLimits, ShrinksWithANegativeRate) {
 TEST(GrowthLimits, ResumesBitByBit) {
   const GrowthOptions options{0.01, {}, 1e3, 5};
   Configuration2 whole = dilute(materials[4], 5), parts = whole;
-  const Grown uninterrupted = grown(whole, options);
+  const BaseShape uninterrupted = grown(whole, options);
   int asked = 0, calls = 1;
-  const Budget one_block{[&] { return ++asked % 2 == 0; }, {}, {}};
+  const RunControl one_block{[&] { return ++asked % 2 == 0; }, {}, {}};
   GrowthState state;
   for (; grow(parts, options, state, one_block).end == StageEnd::stopped; ++calls) {
   }

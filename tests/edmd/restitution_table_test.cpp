@@ -67,11 +67,11 @@ void expect_within_tolerance(const RestitutionDomain& domain) {
 }
 
 TYPED_TEST(EveryForce, ElasticTable) {
-  expect_within_tolerance<TypeParam>({usual_obliqueness, {1, 8}, elastic_damping});
+  expect_within_tolerance<TypeParam>({typical_obliqueness, {1, 8}, elastic_damping});
 }
 
 TYPED_TEST(EveryForce, TableOfOnePair) {
-  expect_within_tolerance<TypeParam>({usual_obliqueness, {1, 8}, {-0.7, -0.7}});
+  expect_within_tolerance<TypeParam>({typical_obliqueness, {1, 8}, {-0.7, -0.7}});
 }
 
 TYPED_TEST(EveryForce, TableOfManyPairs) {
@@ -160,9 +160,9 @@ class KeptTableFile : public testing::Test {
   }
   ~KeptTableFile() override { fs::remove_all(folder_); }
 
-  KeptTable keep(const RestitutionDomain& domain = domain_, double exact = tolerance,
-                 const ForceForm& form = form_of<Viscoelastic>()) const {
-    return kept_table(folder_ / "table.h5", form, domain, {exact, 0.02}, 2);
+  CachedTable keep(const RestitutionDomain& domain = domain_, double exact = tolerance,
+                   const ForceForm& form = form_of<Viscoelastic>()) const {
+    return load_or_build_table(folder_ / "table.h5", form, domain, {exact, 0.02}, 2);
   }
 
   static constexpr RestitutionDomain domain_{{-1, 1}, {2, 3}, {-0.7, -0.7}};
@@ -183,9 +183,9 @@ void expect_equal(const RestitutionTable& one, const RestitutionTable& two) {
 }
 
 TEST_F(KeptTableFile, IsBuiltOnce) {
-  const KeptTable first = keep(), second = keep();
+  const CachedTable first = keep(), second = keep();
   EXPECT_FALSE(first.loaded);
-  EXPECT_EQ(first.trouble, "");
+  EXPECT_EQ(first.save_error, "");
   EXPECT_TRUE(second.loaded);
   expect_equal(first.table, second.table);
   EXPECT_EQ(first.table.bytes(), second.table.bytes());
@@ -195,7 +195,7 @@ TEST_F(KeptTableFile, IsBuiltOnce) {
 
 TEST_F(KeptTableFile, ARangeIsKeptToo) {
   const RestitutionDomain range{{-1, 1}, {2, 3}, {-0.8, -0.6}};
-  const KeptTable first = keep(range), second = keep(range);
+  const CachedTable first = keep(range), second = keep(range);
   EXPECT_TRUE(second.loaded);
   expect_equal(first.table, second.table);
 }
@@ -213,7 +213,7 @@ TEST_F(KeptTableFile, IsBuiltAgainForAnythingElse) {
 
 // Cut short anywhere, or with any byte changed, the file is replaced, or what it says is the same.
 TEST_F(KeptTableFile, IsBuiltAgainIfDamaged) {
-  const KeptTable whole = keep();
+  const CachedTable whole = keep();
   const fs::path file = folder_ / "table.h5";
   const auto size = fs::file_size(file);
   int rebuilt = 0;
@@ -225,7 +225,7 @@ TEST_F(KeptTableFile, IsBuiltAgainIfDamaged) {
       bytes.seekp(static_cast<std::streamoff>(byte));
       bytes.put(static_cast<char>(~old));
     }
-    const KeptTable again = keep();
+    const CachedTable again = keep();
     expect_equal(whole.table, again.table);
     rebuilt += !again.loaded;
     EXPECT_TRUE(keep().loaded);
@@ -239,9 +239,9 @@ TEST_F(KeptTableFile, IsBuiltAgainIfDamaged) {
 }
 
 TEST_F(KeptTableFile, WithoutAPlaceItIsAsGood) {
-  const auto kept =
-      kept_table(folder_ / "missing" / "table.h5", form_of<Viscoelastic>(), domain_, coarse, 1);
-  EXPECT_NE(kept.trouble.find("missing"), std::string::npos);
+  const auto kept = load_or_build_table(folder_ / "missing" / "table.h5", form_of<Viscoelastic>(),
+                                        domain_, coarse, 1);
+  EXPECT_NE(kept.save_error.find("missing"), std::string::npos);
   expect_equal(kept.table, keep().table);
 }
 

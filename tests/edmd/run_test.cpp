@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/contact/support_gap.h"
+#include "core/contact/ellipse_gap.h"
 #include "core/error.h"
 #include "edmd/sampling.h"
 #include "tests/support/motion.h"
@@ -212,9 +212,9 @@ TEST(Run, TicksEndWithTheRun) {
 
 TEST(Run, BudgetStopsAtABlockEndAndTheRunGoesOn) {
   RunState2 state = begin_run(thesis_scene(), 0);
-  Budget budget;
-  budget.should_stop = [] { return true; };
-  const StageReport report = run(state, {}, plan_until(50), budget);
+  RunControl control;
+  control.should_stop = [] { return true; };
+  const StageReport report = run(state, {}, plan_until(50), control);
   EXPECT_EQ(report.end, StageEnd::stopped);
   EXPECT_LT(state.configuration.time, 50);
   EXPECT_EQ(run(state, {}, plan_until(50), {}).end, StageEnd::reached);

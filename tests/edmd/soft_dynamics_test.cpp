@@ -190,7 +190,7 @@ TEST(SoftException, NoRoomToTurnIsAHardCollision) {
   const Configuration2 start = pair_and_third({0.24, -0.02});
   const RunState2 state = run_until(start, 0.0011, soft(LinearDashpot{2000}));
   EXPECT_EQ(state.counters.collisions, 1u);
-  EXPECT_EQ(state.counters.refused_turns, 1u);
+  EXPECT_EQ(state.counters.blocked_rotations, 1u);
   const Vec2 n(0.3, std::sqrt(0.91));
   const Vec2 exchanged = 5 * n.y() * n;
   EXPECT_LT((state.configuration.velocity[0] - start.velocity[0] + exchanged).norm(), 1e-12);
@@ -204,7 +204,7 @@ TEST(SoftException, TheHardCollisionHasTheSoftRestitution) {
   const Configuration2 start = pair_and_third({0.24, -0.02});
   const LinearDashpot force{2000, 30};
   const RunState2 state = run_until(start, 0.0011, soft(force));
-  ASSERT_EQ(state.counters.refused_turns, 1u);
+  ASSERT_EQ(state.counters.blocked_rotations, 1u);
   const Vec2 n(0.3, std::sqrt(0.91));
   const double approach = 5 * n.y(), across = 5 * n.x();
   const ContactPair pair = contact_pair(0.1, start.mass[0], 0.1, start.mass[1]);
@@ -227,7 +227,7 @@ Interrupted interrupted_pair(EarlyRelease early_release) {
   EXPECT_TRUE(c.releases.empty());
   EXPECT_EQ(state.counters.early_releases, 1u);
   EXPECT_EQ(state.counters.collisions, 2u);
-  EXPECT_EQ(state.counters.refused_turns, 0u);
+  EXPECT_EQ(state.counters.blocked_rotations, 0u);
   return {
       state,
       (mechanics(c).momentum - mechanics(start).momentum).norm() / mechanics(start).momentum.norm(),
@@ -264,7 +264,7 @@ TEST(SoftException, OnlyLoneReleasesCostAngularMomentum) {
     const Configuration2& c = state.configuration;
     EXPECT_TRUE(c.releases.empty());
     EXPECT_GT(state.counters.early_releases, 5u);
-    EXPECT_GT(state.counters.refused_turns, 0u);
+    EXPECT_GT(state.counters.blocked_rotations, 0u);
     const double lost = std::abs(angular_momentum(c) - angular_momentum(start)) / scale;
     if (early == EarlyRelease::alone)
       EXPECT_GT(lost, 1e-6);
@@ -339,7 +339,7 @@ TEST(SoftGas, ElasticKeepsItsEnergyAndNoUnintendedOverlap) {
     EXPECT_GT(watched.blocks, 2u);
     EXPECT_GT(watched.releases, 0u);
     EXPECT_EQ(watched.close_pairs, 0u);
-    EXPECT_GT(state.counters.refused_turns, 0u);
+    EXPECT_GT(state.counters.blocked_rotations, 0u);
     EXPECT_GT(state.counters.early_releases, 0u);
     EXPECT_NEAR(energy(state.configuration) / energy(start), 1, 1e-12);
     EXPECT_LT(state.energy_drift, 1e-12);
@@ -459,7 +459,7 @@ TEST(SoftGas, NearlyPlasticItsClustersComeToAnEnd) {
     for (const std::uint64_t seed : {1, 2, 3}) {
       const Configuration2 start = disks(8, packing_fraction, seed);
       const RunState2 state = run_until(start, 1000, soft(LinearDashpot{200, 200}));
-      EXPECT_GT(state.counters.refused_turns, 0u);
+      EXPECT_GT(state.counters.blocked_rotations, 0u);
       EXPECT_LT(energy(state.configuration), 0.2 * energy(start));
       EXPECT_LT(state.energy_drift, 1e-9);
       EXPECT_TRUE(exact_check(state.configuration).clean());
@@ -497,7 +497,7 @@ TEST(SoftGas, InASmallBoxImagesOfThePartnerFindRoom) {
     ASSERT_TRUE(exact_check(c).clean());
     const RunState3 state = run_until(c, 200, soft(LinearDashpot{100}));
     EXPECT_GT(state.counters.collisions, 100u);
-    EXPECT_GT(state.counters.refused_turns, 0u);
+    EXPECT_GT(state.counters.blocked_rotations, 0u);
     EXPECT_TRUE(exact_check(state.configuration).clean());
   }
 }

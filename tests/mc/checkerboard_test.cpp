@@ -32,8 +32,8 @@ class CheckerboardOf : public testing::TestWithParam<Scene> {
   /// visit(cell index, translation) for all cells near one.
   template <class Visit>
   void for_each_near(const Checkerboard::Cell& cell, Visit&& visit) const {
-    for (const Checkerboard::Near& column : board_.near_column(cell.x))
-      for (const Checkerboard::Near& row : board_.near_row(cell.y))
+    for (const Checkerboard::NearLine& column : board_.near_columns(cell.x))
+      for (const Checkerboard::NearLine& row : board_.near_rows(cell.y))
         visit(Checkerboard::Cell{column.cell, row.cell}, Vec2(column.translation, row.translation));
   }
 

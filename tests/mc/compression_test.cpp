@@ -55,8 +55,8 @@ TEST(PressureSampler, KeepsTheStateHardInBoxesOfAnyShape) {
       EXPECT_GT(densest, 0.4);
       EXPECT_GT(sampler.box().accepted, 20u);
       const double change_of_aspect = c.box.lengths().y() / c.box.lengths().x() / aspect;
-      EXPECT_LT(change_of_aspect, PressureSampler::widest_change);
-      EXPECT_GT(change_of_aspect, 1 / PressureSampler::widest_change);
+      EXPECT_LT(change_of_aspect, PressureSampler::max_aspect_change);
+      EXPECT_GT(change_of_aspect, 1 / PressureSampler::max_aspect_change);
       if (change == BoxChange::isotropic) {
         EXPECT_NEAR(change_of_aspect, 1, 1e-12);
       }
@@ -96,7 +96,7 @@ TEST(Compression, SaysWhenThePressureDoesNotSuffice) {
   CompressionState state;
   const StageReport report =
       compress(c, {.pressure = 2, .packing_fraction = 0.8, .sweeps = 100'000}, 1, state, {});
-  EXPECT_EQ(report.end, StageEnd::stuck);
+  EXPECT_EQ(report.end, StageEnd::stalled);
   EXPECT_NE(report.reason.find("no longer rises"), std::string::npos);
   EXPECT_LT(state.moves.sweeps, 20'000u);
   EXPECT_TRUE(exact_check(c).clean());
@@ -107,8 +107,8 @@ TEST(Compression, SaysWhenTheSweepsDoNotSuffice) {
   CompressionState state;
   const StageReport report =
       compress(c, {.pressure = 30, .packing_fraction = 0.6, .sweeps = 10}, 1, state, {});
-  EXPECT_EQ(report.end, StageEnd::stuck);
-  EXPECT_NE(report.reason.find("all that its sweeps reached"), std::string::npos);
+  EXPECT_EQ(report.end, StageEnd::stalled);
+  EXPECT_NE(report.reason.find("did not reach its target"), std::string::npos);
   EXPECT_EQ(state.moves.sweeps, 10u);
 }
 
@@ -118,8 +118,8 @@ TEST(Compression, GoesOnBitByBitAfterStops) {
   CompressionState undisturbed, state;
   EXPECT_EQ(compress(whole, options, 1, undisturbed, {}).end, StageEnd::reached);
   int asked = 0, stops = 0;
-  const Budget budget{[&] { return ++asked % 37 == 0; }, {}, {}};
-  for (; compress(parts, options, 1, state, budget).end == StageEnd::stopped; ++stops)
+  const RunControl control{[&] { return ++asked % 37 == 0; }, {}, {}};
+  for (; compress(parts, options, 1, state, control).end == StageEnd::stopped; ++stops)
     EXPECT_TRUE(exact_check(parts).clean());
   EXPECT_GT(stops, 3);
   EXPECT_EQ(parts.position, whole.position);

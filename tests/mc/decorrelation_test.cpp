@@ -1,4 +1,4 @@
-#include "mc/probe.h"
+#include "mc/decorrelation.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "mc/contact_pressure.h"
-#include "mc/disjoint.h"
+#include "mc/hard_core.h"
 #include "mc/lattice.h"
 #include "mc/sampler.h"
 #include "tests/support/scenes.h"
@@ -19,23 +19,24 @@ Configuration2 dilute(double aspect_ratio) {
   return square_lattice(10, 0.2, 0, [&](std::size_t) { return of_aspect_ratio(aspect_ratio); });
 }
 
-TEST(Probe, LeavesTheStateAndNumbersItsSweeps) {
+TEST(Decorrelation, LeavesTheStateAndNumbersItsSweeps) {
   const Configuration2 state = dilute(2);
-  const auto one = probe(state, 50, 7, 3, {}), same = probe(state, 50, 7, 3, {});
+  const auto one = measure_decorrelation(state, 50, 7, 3, {}),
+             same = measure_decorrelation(state, 50, 7, 3, {});
   ASSERT_TRUE(one && same);
   EXPECT_EQ(one->orientation, same->orientation);
   EXPECT_EQ(one->compressibility, same->compressibility);
-  EXPECT_NE(one->orientation, probe(state, 50, 7, 4, {})->orientation);
-  EXPECT_NE(one->orientation, probe(state, 50, 8, 3, {})->orientation);
+  EXPECT_NE(one->orientation, measure_decorrelation(state, 50, 7, 4, {})->orientation);
+  EXPECT_NE(one->orientation, measure_decorrelation(state, 50, 8, 3, {})->orientation);
   EXPECT_EQ(one->measured, 40u);
   EXPECT_EQ(one->compressibility.size(), 8u);
 }
 
 // By hand, with the sampler itself: a fifth of 500 sweeps with a tuning after every fifth one, then 400
 // with fixed steps.
-TEST(Probe, MeasuresWhatTheSamplerDoes) {
+TEST(Decorrelation, MeasuresWhatTheSamplerDoes) {
   const Configuration2 state = dilute(2);
-  const auto result = probe(state, 500, 7, 3, {});
+  const auto result = measure_decorrelation(state, 500, 7, 3, {});
   ASSERT_TRUE(result);
   Configuration2 copy = state;
   Sampler sampler(copy, 7, {.next_sweep = 3});
@@ -72,9 +73,9 @@ TEST(Probe, MeasuresWhatTheSamplerDoes) {
                                       values.begin()) +
            1;
   };
-  EXPECT_EQ(result->orientation_lost,
+  EXPECT_EQ(result->orientation_time,
             first(orientation, [](double c) { return c < std::exp(-1); }));
-  EXPECT_EQ(result->place_lost, first(displacement, [](double moved) { return moved > 1; }));
+  EXPECT_EQ(result->displacement_time, first(displacement, [](double moved) { return moved > 1; }));
   // Far enough that some particles left the box.
   EXPECT_GT(displacement.back(), 1);
 }
@@ -83,43 +84,43 @@ TEST(Probe, MeasuresWhatTheSamplerDoes) {
 // average, a number of Poisson distribution, half of the times turned by up to ± w: C₂(t) =
 // exp(−t/2 (1 − sin(2w)/(2w))). All steps are accepted, so tuning makes them as large as it may: w
 // = π/2, where sin 2w = 0.
-TEST(Probe, OrientationsOfAnIdealGasAreLostAtAKnownRate) {
+TEST(Decorrelation, OrientationsOfAnIdealGasAreLostAtAKnownRate) {
   Configuration2 state = dilute(1.5);
   for (Ellipse& shape : state.shape) shape = scaled(shape, 1e-3);
-  const auto result = probe(state, 500, 1, 0, {});
+  const auto result = measure_decorrelation(state, 500, 1, 0, {});
   ASSERT_TRUE(result && result->orientation.size() > 3);
   // C₂ of 100 particles scatters by less than 1/√200; five standard deviations.
   for (const std::size_t k : {0u, 1u, 2u})
     EXPECT_NEAR(result->orientation[k], std::exp(-0.5 * result->sweeps[k]), 5 / std::sqrt(200.0));
-  ASSERT_TRUE(result->orientation_lost);
-  EXPECT_GE(*result->orientation_lost, 1u);
-  EXPECT_LE(*result->orientation_lost, 4u);
-  EXPECT_EQ(*result->place_lost, 1u);
+  ASSERT_TRUE(result->orientation_time);
+  EXPECT_GE(*result->orientation_time, 1u);
+  EXPECT_LE(*result->orientation_time, 4u);
+  EXPECT_EQ(*result->displacement_time, 1u);
 }
 
-TEST(Probe, DenseCrystalsKeepTheirPlacesAndOrientations) {
+TEST(Decorrelation, DenseCrystalsKeepTheirPlacesAndOrientations) {
   Configuration2 state = dilute(2);
   scale_to_packing_fraction(state, 0.88);
   place_on_lattice(state, {Arrangement::triangular, 0});
-  const auto result = probe(state, 200, 1, 0, {});
+  const auto result = measure_decorrelation(state, 200, 1, 0, {});
   ASSERT_TRUE(result);
-  EXPECT_FALSE(result->orientation_lost);
-  EXPECT_FALSE(result->place_lost);
+  EXPECT_FALSE(result->orientation_time);
+  EXPECT_FALSE(result->displacement_time);
   EXPECT_GT(result->orientation.back(), 0.9);
   EXPECT_LT(result->displacement.back(), 0.5);
   EXPECT_GT(result->displacement.back(), 0);
 }
 
-TEST(Probe, RoundParticlesHaveNoOrientationToLose) {
-  const auto result = probe(dilute(1), 1000, 1, 0, {});
+TEST(Decorrelation, RoundParticlesHaveNoOrientationToLose) {
+  const auto result = measure_decorrelation(dilute(1), 1000, 1, 0, {});
   ASSERT_TRUE(result);
   EXPECT_TRUE(result->orientation.empty());
-  EXPECT_FALSE(result->orientation_lost);
-  EXPECT_TRUE(result->place_lost);
+  EXPECT_FALSE(result->orientation_time);
+  EXPECT_TRUE(result->displacement_time);
 }
 
-TEST(Probe, EvenOneSweepIsMeasured) {
-  const auto result = probe(dilute(2), 1, 1, 0, {});
+TEST(Decorrelation, EvenOneSweepIsMeasured) {
+  const auto result = measure_decorrelation(dilute(2), 1, 1, 0, {});
   ASSERT_TRUE(result);
   EXPECT_EQ(result->measured, 1u);
   EXPECT_EQ(result->compressibility.size(), 1u);
@@ -127,11 +128,11 @@ TEST(Probe, EvenOneSweepIsMeasured) {
 
 // Z(0.3) = 2.063261 for disks (Kolafa & Rottner 2006). 240 configurations of 400 disks in ten
 // blocks, five standard errors: with ten blocks, a false alarm in 1500.
-TEST(Probe, ThePressureIsThatOfTheDiskFluid) {
+TEST(Decorrelation, ThePressureIsThatOfTheDiskFluid) {
   const Configuration2 state = square_lattice(20, 0.3, 0, [](std::size_t) {
     return Ellipse{1, 1};
   });
-  const auto result = probe(state, 1500, 2, 0, {});
+  const auto result = measure_decorrelation(state, 1500, 2, 0, {});
   ASSERT_TRUE(result);
   std::vector<double> blocks;
   for (std::size_t k = 0; k + 24 <= result->compressibility.size(); k += 24) {
@@ -145,11 +146,11 @@ TEST(Probe, ThePressureIsThatOfTheDiskFluid) {
   EXPECT_NEAR(z.mean, 2.063261, 5 * z.error);
 }
 
-TEST(Probe, TheBudgetStopsIt) {
-  Budget budget;
+TEST(Decorrelation, TheBudgetStopsIt) {
+  RunControl control;
   int asked = 0;
-  budget.should_stop = [&] { return ++asked > 3; };
-  EXPECT_FALSE(probe(dilute(2), 50, 1, 0, budget));
+  control.should_stop = [&] { return ++asked > 3; };
+  EXPECT_FALSE(measure_decorrelation(dilute(2), 50, 1, 0, control));
   EXPECT_EQ(asked, 4);
 }
 

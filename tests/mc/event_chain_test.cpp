@@ -8,7 +8,7 @@
 
 #include "core/state/check.h"
 #include "mc/contact_pressure.h"
-#include "mc/disjoint.h"
+#include "mc/hard_core.h"
 #include "tests/support/fluids.h"
 #include "tests/support/mixtures.h"
 #include "tests/support/statistics.h"

@@ -56,7 +56,7 @@ TEST(Insertion, OfSolidsMindsTheirOwnImages) {
   ASSERT_EQ(report.end, StageEnd::reached);
   EXPECT_TRUE(exact_check(c).clean());
   // Aligned, it overlaps its own image.
-  EXPECT_EQ(insert_particles(c, {packing_fraction(c), 1000, true}, 1, {}).end, StageEnd::stuck);
+  EXPECT_EQ(insert_particles(c, {packing_fraction(c), 1000, true}, 1, {}).end, StageEnd::stalled);
 }
 
 TEST(Insertion, IntoABoxOfOneParticleLengthMindsTheImages) {
@@ -71,7 +71,7 @@ TEST(Insertion, IntoABoxOfOneParticleLengthMindsTheImages) {
 TEST(Insertion, SaysWhenItIsHopeless) {
   Configuration2 c = particles(400, {1, 1});
   const StageReport report = insert_particles(c, {0.6, 2000, false}, 1, {});
-  EXPECT_EQ(report.end, StageEnd::stuck);
+  EXPECT_EQ(report.end, StageEnd::stalled);
   EXPECT_NE(report.reason.find("hopeless"), std::string::npos);
 }
 
@@ -94,7 +94,7 @@ TEST(Insertion, FirstRejectionOfSpheroidsGivesTheSecondVirialCoefficient) {
   for (int k = 0; k < throws; ++k) {
     Configuration3 pair = solids(2, shape, 8);
     const double fraction = packing_fraction(pair);
-    rejected += insert_particles(pair, {fraction, 1, false}, k, {}).end == StageEnd::stuck;
+    rejected += insert_particles(pair, {fraction, 1, false}, k, {}).end == StageEnd::stalled;
   }
   const double p = 2 * b2 / 512;
   EXPECT_NEAR(rejected, p * throws, 4 * std::sqrt(throws * p * (1 - p)));
@@ -113,7 +113,7 @@ TEST(Insertion, FirstRejectionGivesTheSecondVirialCoefficient) {
     Configuration2 c = particles(2, shape);
     c.box = PeriodicBox<2>(Vec2(12, 12));
     const StageReport report = insert_particles(c, {packing_fraction(c), 1, false}, k, {});
-    rejected += report.end == StageEnd::stuck;
+    rejected += report.end == StageEnd::stalled;
     volume = c.box.volume();
   }
   const double p = 2 * b2 / volume;

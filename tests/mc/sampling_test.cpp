@@ -14,7 +14,7 @@ TEST(Sampling, MakesTheSweepsAskedForAndFindsFittingSteps) {
   state.local.next_sweep = 7;
   const StageReport report = sample(c, {400, Moves::local}, 1, state, {});
   EXPECT_EQ(report.end, StageEnd::reached);
-  EXPECT_EQ(report.reason, "all sweeps were made");
+  EXPECT_EQ(report.reason, "all sweeps were completed");
   EXPECT_EQ(state.sweeps(), 400u);
   EXPECT_EQ(state.local.next_sweep, 407u);
   EXPECT_EQ(state.local.counts.tried(), 400u * 100u);
@@ -53,8 +53,8 @@ TEST(Sampling, GoesOnBitByBitAfterStops) {
     SamplingState undisturbed, state;
     sample(whole, {150, moves}, 3, undisturbed, {});
     int asked = 0, stops = 0;
-    const Budget budget{[&] { return ++asked % 13 == 0; }, {}, {}};
-    for (; sample(parts, {150, moves}, 3, state, budget).end == StageEnd::stopped; ++stops) {
+    const RunControl control{[&] { return ++asked % 13 == 0; }, {}, {}};
+    for (; sample(parts, {150, moves}, 3, state, control).end == StageEnd::stopped; ++stops) {
     }
     EXPECT_GT(stops, 5);
     EXPECT_EQ(parts.position, whole.position);

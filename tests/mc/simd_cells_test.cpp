@@ -1,4 +1,4 @@
-#include "mc/lane_cells.h"
+#include "mc/simd_cells.h"
 
 #include <gtest/gtest.h>
 
@@ -10,21 +10,21 @@
 namespace vitrel {
 namespace {
 
-using Index = LaneCells::Index;
+using Index = SimdCells::Index;
 
 /// Particles of a cell, read group by group; every one where its place says, and no lane besides.
-std::set<Index> particles_in(LaneCells& cells, std::size_t cell) {
+std::set<Index> particles_in(SimdCells& cells, std::size_t cell) {
   std::set<Index> found;
   std::size_t at = cell;
-  while (at != LaneCells::none) {
-    const LaneCells::Group& group = cells[at];
+  while (at != SimdCells::none) {
+    const SimdCells::Group& group = cells[at];
     EXPECT_EQ(group.cell, cell);
-    if (group.next != LaneCells::none) {
-      EXPECT_EQ(group.count, many);
+    if (group.next != SimdCells::none) {
+      EXPECT_EQ(group.count, simd_width);
     }
-    for (int lane = 0; lane < many; ++lane) {
+    for (int lane = 0; lane < simd_width; ++lane) {
       if (lane >= group.count) {
-        EXPECT_EQ(group.x[lane], EllipseGroup::nowhere);
+        EXPECT_EQ(group.x[lane], EllipseBatch::far_away);
         continue;
       }
       const Index i = group.particle[lane];
@@ -40,16 +40,16 @@ std::set<Index> particles_in(LaneCells& cells, std::size_t cell) {
 }
 
 // Two domains of particles that wander among their cells, crowding into one of them now and then:
-// always where they were put last, and the spare groups suffice.
-TEST(LaneCells, KeepTrackOfEverybody) {
+// always where they were put last, and the free_list groups suffice.
+TEST(SimdCells, KeepTrackOfEverybody) {
   constexpr std::size_t cells_of_domain = 5;
   const std::vector<std::size_t> begin = {0, 23, 41};
   const std::size_t n = begin.back();
-  LaneCells cells;
+  SimdCells cells;
   cells.resize(2 * cells_of_domain, n);
   for (std::size_t cell = 0; cell < 2 * cells_of_domain; ++cell) cells.clear(cell);
-  std::vector<LaneCells::Spare> spare = {cells.spare_groups(begin[0], begin[1]),
-                                         cells.spare_groups(begin[1], begin[2])};
+  std::vector<SimdCells::FreeList> free_list = {cells.free_groups(begin[0], begin[1]),
+                                                cells.free_groups(begin[1], begin[2])};
   std::vector<std::size_t> cell_of(n);
   Stream draw(91, Purpose::tests);
   std::size_t crowded = 0;
@@ -57,7 +57,8 @@ TEST(LaneCells, KeepTrackOfEverybody) {
     const bool anywhere = draw.below(3) == 0;
     cell_of[i] = domain * cells_of_domain + (anywhere ? draw.below(cells_of_domain) : crowded);
     cells.insert(i, cell_of[i], {2.0 + static_cast<double>(i), 1},
-                 Vec2(static_cast<double>(i), -static_cast<double>(i)), Vec2(1, 0), spare[domain]);
+                 Vec2(static_cast<double>(i), -static_cast<double>(i)), Vec2(1, 0),
+                 free_list[domain]);
   };
   for (std::size_t domain = 0; domain < 2; ++domain)
     for (std::size_t i = begin[domain]; i < begin[domain + 1]; ++i) put(i, domain);
@@ -66,7 +67,7 @@ TEST(LaneCells, KeepTrackOfEverybody) {
     if (move % 300 == 0) crowded = draw.below(cells_of_domain);
     const std::size_t domain = draw.below(2);
     const std::size_t i = begin[domain] + draw.below(begin[domain + 1] - begin[domain]);
-    cells.remove(i, spare[domain]);
+    cells.remove(i, free_list[domain]);
     put(i, domain);
     if (move % 50 != 0) continue;
     std::map<std::size_t, std::set<Index>> expected;
@@ -76,20 +77,20 @@ TEST(LaneCells, KeepTrackOfEverybody) {
       fullest = std::max(fullest, expected[cell].size());
     }
   }
-  EXPECT_GT(fullest, 3u * many);
+  EXPECT_GT(fullest, 3u * simd_width);
 }
 
-TEST(LaneCells, ExchangePlaces) {
-  LaneCells cells;
+TEST(SimdCells, ExchangePlaces) {
+  SimdCells cells;
   cells.resize(8, 40);
   for (std::size_t cell = 0; cell < 8; ++cell) cells.clear(cell);
-  LaneCells::Spare spare = cells.spare_groups(0, 40);
-  cells.insert(0, 0, {3, 1}, Vec2(1, 2), Vec2(1, 0), spare);
-  cells.insert(1, 1, {2, 0.5}, Vec2(5, 6), Vec2(0, 1), spare);
+  SimdCells::FreeList free_list = cells.free_groups(0, 40);
+  cells.insert(0, 0, {3, 1}, Vec2(1, 2), Vec2(1, 0), free_list);
+  cells.insert(1, 1, {2, 0.5}, Vec2(5, 6), Vec2(0, 1), free_list);
   cells.exchange(0, 1);
   const auto expect_at = [&cells](std::size_t i, std::size_t cell, const Ellipse& shape,
                                   const Vec2& position, const Vec2& axis) {
-    const LaneCells::Group& group = cells.group_of(i);
+    const SimdCells::Group& group = cells.group_of(i);
     const int lane = cells.lane_of(i);
     EXPECT_EQ(group.cell, cell);
     EXPECT_EQ(group.particle[lane], i);

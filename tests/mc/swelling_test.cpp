@@ -55,7 +55,7 @@ TEST(SwellingLimits, KnowsWhenTheParticlesAreJammed) {
   Configuration2 c = inserted(60, {of_aspect_ratio(1.5)});
   SwellingState state;
   const StageReport report = swell(c, {0.95, 1000000}, 1, state, {});
-  EXPECT_EQ(report.end, StageEnd::stuck);
+  EXPECT_EQ(report.end, StageEnd::stalled);
   EXPECT_NE(report.reason.find("jammed"), std::string::npos) << report.reason;
   EXPECT_LT(packing_fraction(c), 0.9069);
   EXPECT_GT(packing_fraction(c), 0.80);
@@ -77,8 +77,8 @@ TEST(SwellingLimits, GoesOnBitByBitAfterStops) {
   SwellingState undisturbed, state;
   EXPECT_EQ(swell(whole, {0.75, 1000000}, 1, undisturbed, {}).end, StageEnd::reached);
   std::uint64_t patience = 25, questions = 0, stops = 0;
-  const Budget budget{[&] { return ++questions > patience; }, {}, {}};
-  while (swell(parts, {0.75, 1000000}, 1, state, budget).end == StageEnd::stopped) {
+  const RunControl control{[&] { return ++questions > patience; }, {}, {}};
+  while (swell(parts, {0.75, 1000000}, 1, state, control).end == StageEnd::stopped) {
     EXPECT_TRUE(exact_check(parts).clean());
     EXPECT_EQ(parts.shape[0].a, of_aspect_ratio(3).a);
     patience = 25 + 10 * ++stops;  // so that every round comes to its end some time
@@ -94,7 +94,7 @@ TEST(SwellingLimits, SaysHowFarItGot) {
   Configuration2 c = inserted(100, {of_aspect_ratio(2)});
   SwellingState state;
   const StageReport report = swell(c, {0.8, 50}, 1, state, {});
-  EXPECT_EQ(report.end, StageEnd::stuck);
+  EXPECT_EQ(report.end, StageEnd::stalled);
   EXPECT_EQ(state.moves.sweeps, 50u);
   EXPECT_NE(report.reason.find("0.8"), std::string::npos);
   EXPECT_TRUE(exact_check(c).clean());

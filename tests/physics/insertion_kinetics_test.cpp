@@ -20,7 +20,7 @@ double time_to(double aspect_ratio, double packing_fraction) {
   for (Ellipse& shape : c.shape) shape = of_aspect_ratio(aspect_ratio);
   const InsertionReport report = insert_particles(c, {packing_fraction, 100'000'000}, 1, {});
   EXPECT_EQ(report.end, StageEnd::reached);
-  return static_cast<double>(report.places_tried) * c.shape[0].volume() / c.box.volume();
+  return static_cast<double>(report.trials) * c.shape[0].volume() / c.box.volume();
 }
 
 /// φ∞ from the least-squares line φ = φ∞ − c τ^(−power).

@@ -66,7 +66,7 @@ std::size_t expect_overlaps_of_a_scan(const Configuration<Dim>& state, const Exa
   for (std::size_t i = 0; i < state.size(); ++i) {
     for (std::size_t j = i; j < state.size(); ++j) {
       for (const Shift<Dim>& shift : shifts) {
-        if (i == j && !comes_after_zero<Dim>(shift)) continue;
+        if (i == j && !is_positive_shift<Dim>(shift)) continue;
         const Vec<Dim> d = state.position[j] - state.position[i] + state.box.translation(shift);
         if (gap(i, j, d) > 0) continue;
         const std::size_t k = found++;

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/contact/pair.h"
+#include "core/contact/contact_queries.h"
 #include "core/random/stream.h"
 #include "core/state/configuration.h"
 #include "tests/support/scenes.h"

@@ -155,7 +155,7 @@ TEST(Export, LeavesNothingIfStopped) {
 
 TEST(Export, GsdRefusesTooManyShapes) {
   const Folder folder("export_shapes");
-  write_run(folder / "run.h5", GsdSink::most_types + 1, 1);
+  write_run(folder / "run.h5", GsdSink::max_types + 1, 1);
   const auto to = [&](const std::string& format) {
     export_trajectory({folder / "run.h5", format, folder / ("run." + format)}, {});
   };

@@ -141,7 +141,7 @@ TEST_F(PackingFile, OfSeveralFramesTheLastIsShown) {
   ASSERT_NE(energies, nullptr);
   EXPECT_EQ(energies->find("translational")->value.size(), 3u);
   // E = (3 (N − 1) + 2 N) kT/2 at kT = 1, and Z = 1 + 6/3.
-  EXPECT_NEAR(page.results.find("compressibility")->find("z")->value[0], 3, 1e-12);
+  EXPECT_NEAR(page.results.find("compressibility_factor")->find("z")->value[0], 3, 1e-12);
 }
 
 }  // namespace

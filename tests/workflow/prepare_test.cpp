@@ -39,7 +39,7 @@ TEST(Prepare, StagesInARowReachThePackingFractionWithoutOverlap) {
   EXPECT_NEAR(packing_fraction(result.configuration), 0.6, 1e-12);
   EXPECT_TRUE(exact_check(result.configuration).clean());
   EXPECT_EQ(announced.size(), 6u);
-  EXPECT_EQ(announced[5], "  all sweeps were made; packing fraction 0.6");
+  EXPECT_EQ(announced[5], "  all sweeps were completed; packing fraction 0.6");
   ASSERT_EQ(result.stages.size(), 3u);
   EXPECT_EQ(result.stages[0].sweeps, 0u);
   EXPECT_GT(result.stages[1].sweeps, 0u);

@@ -11,6 +11,8 @@
 #include "analysis/glass/glass_data.h"
 #include "core/error.h"
 #include "workflow/analyze/dynamics_tables.h"
+#include "workflow/analyze/glass_report.h"
+#include "workflow/analyze/glass_tables.h"
 #include "workflow/analyze/packing_tables.h"
 #include "workflow/analyze/relaxation_tables.h"
 #include "workflow/analyze/structure_tables.h"
@@ -70,21 +72,20 @@ auto naming(const std::filesystem::path& file, Work&& work) {
   }
 }
 
-ProgressReport shown_by(ProgressDisplay& display) {
-  return [&display](const Progress& state) { display.show(state); };
+void begin(const AnalysisProgress& progress, const char* phase) {
+  if (progress.begin) progress.begin(phase);
 }
 
 /// The short part first: it refuses wave numbers that do not fit into the box.
 RunDynamics measure_dynamics(TrajectoryFile& trajectory, DisplacementOptions options,
-                             ProgressDisplay& display) {
-  const ProgressReport report = shown_by(display);
+                             const AnalysisProgress& progress) {
   options.wave_numbers = wave_numbers_or_main(std::move(options.wave_numbers), trajectory.read(0));
   RunDynamics dynamics;
-  display.begin("collective scattering");
+  begin(progress, "collective scattering");
   dynamics.collective = collective_scattering(trajectory, options.wave_numbers, options.axis,
-                                              report, options.threads);
-  display.begin("displacements");
-  dynamics.displacements = displacements(trajectory, options, report);
+                                              progress.report, options.threads);
+  begin(progress, "displacements");
+  dynamics.displacements = displacements(trajectory, options, progress.report);
   return dynamics;
 }
 
@@ -114,7 +115,7 @@ double collisions_between_frames(const TrajectoryReader& reader) {
 /// Judged, if the run can be.
 std::optional<GlassRun> measure_glass(TrajectoryFile& trajectory, const std::string& name,
                                       const RunAnalysis& run, const DisplacementOptions& options,
-                                      ProgressDisplay& display) {
+                                      const AnalysisProgress& progress) {
   const GlassSource source{.name = name,
                            .seed = trajectory.reader().provenance().seed,
                            .packing_fraction = run.packing_fraction,
@@ -124,14 +125,14 @@ std::optional<GlassRun> measure_glass(TrajectoryFile& trajectory, const std::str
                            .order = order_table(run.structure),
                            .diffusion = run.diffusion,
                            .rotational_diffusion = run.rotational_diffusion};
-  display.begin("relaxation and halves");
-  const auto data = glass_run_data(trajectory, source, options, shown_by(display));
+  begin(progress, "relaxation and halves");
+  const auto data = glass_run_data(trajectory, source, options, progress.report);
   if (!data) return std::nullopt;
   return judge_glass_run(*data);
 }
 
 RunAnalysis measure(TrajectoryFile& trajectory, const std::string& name,
-                    const Parameters& parameters, ProgressDisplay& display) {
+                    const Parameters& parameters, const AnalysisProgress& progress) {
   const TrajectoryReader& reader = trajectory.reader();
   const std::vector<double>& times = trajectory.times();
   RunAnalysis run{};
@@ -143,9 +144,9 @@ RunAnalysis measure(TrajectoryFile& trajectory, const std::string& name,
   run.duration = times.back() - times.front();
   run.collisions = collisions_between_frames(reader);
   require_tracks(reader, run.rotors);
-  run.dynamics = measure_dynamics(trajectory, parameters.analysis, display);
-  display.begin("structure");
-  run.structure = structure_tables(trajectory, parameters.structure, all_cores, shown_by(display));
+  run.dynamics = measure_dynamics(trajectory, parameters.analysis, progress);
+  begin(progress, "structure");
+  run.structure = structure_tables(trajectory, parameters.structure, all_cores, progress.report);
   run.energy = stored_energies(trajectory);
   run.compressibility = stored_compressibility(reader, run.energy, run.rotors);
   const Displacements& found = run.dynamics.displacements;
@@ -153,7 +154,7 @@ RunAnalysis measure(TrajectoryFile& trajectory, const std::string& name,
   run.diffusion = long_time_diffusion(found, all.translation, 2, times);
   run.rotational_diffusion = run.rotors > 0 ? long_time_diffusion(found, all.rotation, 1, times)
                                             : no_diffusion("no particle can turn");
-  run.glass = measure_glass(trajectory, name, run, parameters.analysis, display);
+  run.glass = measure_glass(trajectory, name, run, parameters.analysis, progress);
   return run;
 }
 
@@ -167,7 +168,7 @@ Table energy_table(const EnergySeries& energy) {
 }
 
 Table compressibility_table(const CompressibilitySeries& series) {
-  return {"compressibility",
+  return {"compressibility_factor",
           "Compressibility factor Z = P/(rho kT) from the virial of the collisions between two "
           "samples.",
           {{"time", "time", series.time, {}}, {"z", "1", series.value, {}}}};
@@ -187,7 +188,7 @@ std::vector<Column> summary_columns(const RunAnalysis& run) {
           {"frames", "1", {static_cast<double>(run.frames)}, {}},
           {"collisions", "1", {run.collisions}, {}},
           {"duration", "time", {run.duration}, {}},
-          single("compressibility", "1", z.mean, z.error),
+          single("compressibility_factor", "1", z.mean, z.error),
           single("translational_energy", "kT", translational.mean, translational.error),
           single("rotational_energy", "kT", rotational.mean, rotational.error),
           single("diffusion", "length^2/time", run.diffusion.value, run.diffusion.error),
@@ -219,11 +220,12 @@ std::filesystem::path csv_file(const std::filesystem::path& results, const std::
 }
 
 // In three dimensions: the structure of the last frame, and what the file says of all frames.
-AnalysedRun analyze_solids(const std::filesystem::path& file, const AnalysisChoice& choice) {
+AnalysedRun analyze_solids(const std::filesystem::path& file, const AnalysisChoice& choice,
+                           const AnalysisProgress& progress) {
   const TrajectoryReader reader(file);
   require_own_names(reader);
   const Parameters parameters = analysis_parameters(reader, choice);
-  ProgressDisplay(choice.progress, choice.job).begin("structure");
+  begin(progress, "structure");
   AnalysedRun analysed{file, {}};
   const Configuration3 last = read_state<3>(file);
   analysed.results.tables = packing_tables(last, parameters.structure);
@@ -252,8 +254,9 @@ std::uint64_t AnalysedRun::seed() const {
   return seed.empty() ? 0 : std::stoull(seed);
 }
 
-AnalysedRun analyze_run(const std::filesystem::path& file, const AnalysisChoice& choice) {
-  if (TrajectoryReader(file).dimension() == 3) return analyze_solids(file, choice);
+AnalysedRun analyze_run(const std::filesystem::path& file, const AnalysisChoice& choice,
+                        const AnalysisProgress& progress) {
+  if (TrajectoryReader(file).dimension() == 3) return analyze_solids(file, choice, progress);
   TrajectoryFile trajectory(file);
   const TrajectoryReader& reader = trajectory.reader();
   if (trajectory.frames() < 2)
@@ -264,9 +267,8 @@ AnalysedRun analyze_run(const std::filesystem::path& file, const AnalysisChoice&
   require_own_names(reader);
   AnalysedRun analysed{file, {}};
   const Parameters parameters = analysis_parameters(reader, choice);
-  ProgressDisplay display(choice.progress, choice.job);
   const RunAnalysis run =
-      naming(file, [&] { return measure(trajectory, analysed.name(), parameters, display); });
+      naming(file, [&] { return measure(trajectory, analysed.name(), parameters, progress); });
   Results& results = analysed.results;
   results = results_of(run);
   for (Table& table : on_the_fly_tables(file)) results.tables.push_back(std::move(table));
@@ -326,7 +328,7 @@ Json analysis_summary(const AnalysedRun& run) {
   return summary;
 }
 
-PageProvenance provenance_rows(const Provenance& provenance) {
+std::vector<std::pair<std::string, std::string>> provenance_rows(const Provenance& provenance) {
   return {{"version", provenance.version},
           {"commit", provenance.commit},
           {"command_line", provenance.command_line},

@@ -2,15 +2,16 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "analysis/results.h"
-#include "app/terminal/progress.h"
+#include "analysis/trajectory.h"
 #include "core/io/provenance.h"
-#include "workflow/report/html.h"
 
 /// The analysis of one saved run.
 namespace vitrel {
@@ -19,14 +20,18 @@ namespace vitrel {
 struct AnalysisChoice {
   std::optional<std::filesystem::path> parameters;
   std::vector<std::string> overrides;
-  ProgressDisplay::Mode progress = ProgressDisplay::Mode::silent;
-  std::string job = {};  ///< which of many, before the phases of the progress: "job 3 of 18: "
 
   /// Whether it says anything about the analysis.
   bool given() const { return parameters || !overrides.empty(); }
 };
 
-/// A run and what was found out about it.
+/// Callbacks of an analysis; empty functions are not called.
+struct AnalysisProgress {
+  std::function<void(const std::string&)> begin = {};  ///< a phase begins: "structure"
+  ProgressReport report = {};                          ///< how far the phase is
+};
+
+/// A run and its results.
 struct AnalysedRun {
   std::filesystem::path file;
   Results results;
@@ -42,7 +47,8 @@ struct AnalysedRun {
 /// on the fly (correlations_file.h), and if the run can be judged (glass_data.h) its relaxation times and
 /// verdict. In three dimensions those of packing_tables.h of the last frame, and of a run its energies
 /// and compressibility. Throws FileError or UserError, naming the file.
-AnalysedRun analyze_run(const std::filesystem::path& file, const AnalysisChoice& choice);
+AnalysedRun analyze_run(const std::filesystem::path& file, const AnalysisChoice& choice,
+                        const AnalysisProgress& progress = {});
 
 /// The tables of the results in this file, if there is one. Throws UserError if it holds anything but
 /// the results of an analysis, for which these must not take its place.
@@ -57,6 +63,6 @@ void write_all(const std::filesystem::path& file, const Results& results);
 nlohmann::ordered_json analysis_summary(const AnalysedRun& run);
 
 /// Where a file comes from, as tables and pages give it.
-PageProvenance provenance_rows(const Provenance& provenance);
+std::vector<std::pair<std::string, std::string>> provenance_rows(const Provenance& provenance);
 
 }  // namespace vitrel

@@ -16,7 +16,7 @@ namespace vitrel {
 /// The tables structure_factor, pair_correlation, orientation_distribution (unless all particles are
 /// round) and order. Errors are those of averages over frames (frame_average.h). Frames are read
 /// one after another and measured on up to `threads` threads, some at a time; the results do not
-/// depend on it. `report` hears of the frames.
+/// depend on it. `report` is called with the share of the frames that are done.
 std::vector<Table> structure_tables(Trajectory& trajectory, const StructureOptions& options,
                                     int threads = all_cores, const ProgressReport& report = {});
 

@@ -12,8 +12,22 @@ namespace {
 
 using Style = FieldVisitor::TableStyle;
 
+void collect_places(const TomlNode& node, const std::string& key,
+                    std::map<std::string, std::string>& places) {
+  const auto below = [&](const std::string& part) { return key.empty() ? part : key + "." + part; };
+  if (const auto* table = node.get<TomlNode::Table>()) {
+    for (const TomlEntry& entry : *table) collect_places(entry.node, below(entry.key), places);
+  } else if (const auto* array = node.get<TomlNode::Array>()) {
+    for (std::size_t k = 0; k < array->size(); ++k)
+      collect_places((*array)[k], below(std::to_string(k)), places);
+  } else {
+    places[key] = node.where;
+  }
+}
+
 Parameters read(const TomlNode& root) {
   Parameters parameters;
+  collect_places(root, "", parameters.given);
   read_parameters(root, fields(parameters), [&] { validate(parameters); });
   return parameters;
 }
@@ -113,6 +127,15 @@ Parameters parse_parameters(const std::string& text, const std::string& name,
   TomlNode root = parse_toml(text, name);
   apply(root, overrides);
   return read(root);
+}
+
+std::optional<std::string> place_of(const Parameters& parameters, const std::string& key) {
+  const auto found = parameters.given.lower_bound(key);
+  if (found == parameters.given.end()) return std::nullopt;
+  const std::string& first = found->first;
+  // Nothing sorts between a key and those below it: keys are of letters, digits and '_', above '.'.
+  const bool fits = first == key || first.starts_with(key + ".");
+  return fits ? std::optional(found->second) : std::nullopt;
 }
 
 std::string effective_parameters(const Parameters& parameters) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -86,9 +87,14 @@ struct Parameters {
   DisplacementOptions analysis;
   StructureOptions structure;
   SweepParameters sweep;
+  /// The dotted keys that the file or the command line gives, and their places; others are at their defaults.
+  std::map<std::string, std::string> given;
 
   Parameters();
 };
+
+/// The place where a key, or any key in that table, is given.
+std::optional<std::string> place_of(const Parameters& parameters, const std::string& key);
 
 /// Parts of the file, for the templates of single commands.
 struct Sections {

@@ -125,12 +125,12 @@ void GsdSink::write_types(const Configuration2& configuration) {
     if (is_new) types.push_back(type);
     type_ids.push_back(place->second);
   }
-  if (types.size() > most_types)
+  if (types.size() > max_types)
     throw UserError(fmt::format(
         "the particles have {} different shapes, but a GSD file names every shape, and more than "
         "{} are too many for the programs that read it; --to xyz or csv writes the semi-axes of "
         "every particle",
-        types.size(), most_types));
+        types.size(), max_types));
   std::vector<std::string> shapes;
   for (const Type& type : types) shapes.push_back(shape_text(type));
   write_texts("particles/types", names_of(types, configuration.species_names));

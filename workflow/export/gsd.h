@@ -27,10 +27,10 @@ class GsdSink final : public FrameSink {
  public:
   /// Each type has a name and a shape in the file: a polydisperse system of many more particles
   /// would give a file that programs choke on.
-  static constexpr std::size_t most_types = 20'000;
+  static constexpr std::size_t max_types = 20'000;
 
   GsdSink(const std::filesystem::path& path, StoredMotion motion);
-  /// UserError if the particles have more than `most_types` shapes.
+  /// UserError if the particles have more than `max_types` shapes.
   void write(const StoredFrame& frame) override;
   void close() override { file_.close(); }
 

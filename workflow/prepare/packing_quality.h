@@ -7,7 +7,7 @@
 
 #include "analysis/structure/orientation_tensor.h"
 #include "workflow/prepare/prepare.h"
-#include "workflow/report/state_page.h"
+#include "workflow/prepare/quality_row.h"
 
 /// How good a prepared state of three dimensions is.
 namespace vitrel {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "workflow/report/page_parts.h"
+#include "core/io/number_text.h"
 
 namespace vitrel {
 namespace {

@@ -9,7 +9,7 @@
 #include "analysis/structure/order.h"
 #include "mc/decorrelation.h"
 #include "workflow/prepare/prepare.h"
-#include "workflow/report/state_page.h"
+#include "workflow/prepare/quality_row.h"
 
 /// How good a prepared state is.
 namespace vitrel {

@@ -7,9 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
-#include "core/io/h5md.h"
-#include "workflow/analyze/analyze.h"
-#include "workflow/report/run_report.h"
 #include "workflow/storage/text_file.h"
 
 namespace vitrel {
@@ -185,32 +182,6 @@ Quality read_quality(const std::filesystem::path& file, const Configuration2& st
                     "both files together",
                     file.string()));
   return quality;
-}
-
-bool is_single_state(const std::filesystem::path& file) {
-  return TrajectoryReader(file).frames() == 1;
-}
-
-StatePage state_page_data(const std::filesystem::path& file) {
-  const TrajectoryReader reader(file);
-  StatePage page;
-  page.state = reader.read(0);
-  const Provenance provenance = reader.provenance();
-  const Quality quality = read_quality(quality_file(file), page.state);
-  page.title = file.stem().string();
-  page.subtitle = fmt::format("{} {} at φ = {:.6g}", page.state.size(), particles_text(page.state),
-                              quality.packing_fraction);
-  page.rows = quality_rows(quality);
-  page.nematic_correlation = quality.nematic_correlation;
-  page.nematic_order = quality.nematic_order;
-  if (quality.decorrelation) {
-    page.sweeps = quality.decorrelation->sweeps;
-    page.orientation = quality.decorrelation->orientation;
-    page.displacement = quality.decorrelation->displacement;
-  }
-  page.parameters = provenance.parameters;
-  page.provenance = provenance_rows(provenance);
-  return page;
 }
 
 }  // namespace vitrel

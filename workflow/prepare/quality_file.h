@@ -4,9 +4,8 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "workflow/prepare/quality.h"
-#include "workflow/report/state_page.h"
 
-/// The quality of a state on file, beside the state itself, and its page.
+/// The quality of a state on file, beside the state itself.
 namespace vitrel {
 
 /// state.h5 → state.quality.json
@@ -21,12 +20,5 @@ void write_quality(const std::filesystem::path& file, const Quality& quality);
 
 /// What write_quality wrote. FileError if there is no such file, or if it is not of this state.
 Quality read_quality(const std::filesystem::path& file, const Configuration2& state);
-
-/// Whether the file holds one frame, as a prepared state does. Throws FileError.
-bool is_single_state(const std::filesystem::path& file);
-
-/// What the page of a prepared state shows, from the state and the report beside it. Throws
-/// FileError.
-StatePage state_page_data(const std::filesystem::path& state);
 
 }  // namespace vitrel

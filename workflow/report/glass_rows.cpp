@@ -5,7 +5,7 @@
 #include <array>
 #include <string_view>
 
-#include "analysis/glass/glass_words.h"
+#include "analysis/glass/glass_names.h"
 #include "workflow/report/html.h"
 #include "workflow/report/page_tables.h"
 
@@ -53,9 +53,9 @@ std::string relaxation_row(const Row& row) {
   const bool nematic = row.value("plateau") > 0;
   return html_row(
       density_text(row.value("packing_fraction")),
-      {row.text("seed"), std::string(row.word("verdict_translation", verdict_words)),
-       std::string(row.word("verdict", verdict_words)),
-       std::string(row.word("orientation", orientation_words)), row.text("tau_translation"),
+      {row.text("seed"), std::string(row.word("verdict_translation", verdict_names)),
+       std::string(row.word("verdict", verdict_names)),
+       std::string(row.word("orientation", orientation_names)), row.text("tau_translation"),
        row.text("tau_rotation"), row.text("nematic_order"), row.text("nematic_by_chance"),
        nematic ? row.text("plateau") : "–", row.text("duration")});
 }
@@ -69,7 +69,7 @@ std::string fit_row(const Row& row) {
   const double dof = row.value("dof");
   return html_row(
       row.word("kind", kinds),
-      {std::string(row.word("law", law_words)), critical_density(row),
+      {std::string(row.word("law", law_names)), critical_density(row),
        row.text("phi_c_statistical"), row.text("phi_c_spread"), row.text("exponent"),
        dof > 0 ? fmt::format("{} … {}", row.text("window_low"), row.text("window_high")) : "–",
        dof > 0 ? fmt::format("{:.2f}", row.value("chi2") / dof) : "–",

@@ -4,7 +4,7 @@
 
 #include "analysis/results.h"
 
-/// The glass study in words, for people: the rows of two tables of the page, and the notes below them.
+/// The glass study as HTML: the rows of two tables of the page, and the notes below them.
 namespace vitrel {
 
 /// One row per run: φ, seed, verdict, what orientations do, τ_α, τ_2, nematic order and that by

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "workflow/prepare/quality_row.h"
+
 namespace vitrel {
 
 /// Name and text of everything that says how a page came about.
@@ -15,13 +17,6 @@ std::string escaped(std::string_view text);
 
 /// The entries of a description list; what has no text is left out.
 std::string provenance_entries(const PageProvenance& provenance);
-
-/// One property of a state, for a person.
-struct QualityRow {
-  std::string name;
-  std::string value;
-  std::string remark;  ///< how it was found, or what to compare it with; may be empty
-};
 
 /// The rows of a table of properties.
 std::string table_rows(const std::vector<QualityRow>& rows);

@@ -1,5 +1,7 @@
 #include "workflow/report/packing_page.h"
 
+#include <nlohmann/json.hpp>
+
 #include "workflow/report/page_parts.h"
 #include "workflow/report/page_tables.h"
 
@@ -12,9 +14,9 @@ std::string packing_page(const PackingPage& page) {
                      "page/solids.js",
                      "page/packing.js",
                      {{"rows", table_rows(page.rows)}},
-                     {{"label", page.title},
-                      {"scene", scene_data(page.scene)},
-                      {"tables", tables_data(page.results, {})}},
+                     script_safe(nlohmann::json{{"label", page.title},
+                                                {"scene", scene_data(page.scene)},
+                                                {"tables", tables_data(page.results, {})}}),
                      page.parameters,
                      page.provenance,
                      "a b c"});

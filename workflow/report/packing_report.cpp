@@ -9,7 +9,8 @@
 
 namespace vitrel {
 
-PackingPage packing_page_data(const std::filesystem::path& file, const AnalysisChoice& choice) {
+PackingPage packing_page_data(const std::filesystem::path& file, const AnalysisChoice& choice,
+                              const AnalysisProgress& progress) {
   const TrajectoryReader reader(file);
   const Configuration3 packing = read_state<3>(file);
   const ExactCheck<3> check = exact_check(packing);
@@ -26,7 +27,7 @@ PackingPage packing_page_data(const std::filesystem::path& file, const AnalysisC
         fmt::format("; the last of {} frames, at time {:.6g}", reader.frames(), packing.time);
   page.rows = quality_rows(quality);
   page.scene = packing_scene(packing, check);
-  page.results = analyze_run(file, choice).results;
+  page.results = analyze_run(file, choice, progress).results;
   page.parameters = provenance.parameters;
   page.provenance = provenance_rows(provenance);
   return page;

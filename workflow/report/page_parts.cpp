@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "workflow/report/assets.h"
 
@@ -13,6 +15,13 @@ using nlohmann::json;
 json page_number(double value, int digits) {
   if (!std::isfinite(value)) return nullptr;
   return std::stod(fmt::format("{:.{}g}", value, digits));
+}
+
+json page_numbers(const std::vector<double>& values, const std::vector<std::size_t>& rows,
+                  int digits) {
+  json array = json::array();
+  for (const std::size_t row : rows) array.push_back(page_number(values[row], digits));
+  return array;
 }
 
 void add_shapes(json& data, const std::vector<std::vector<double>>& semi_axes) {
@@ -30,17 +39,16 @@ void add_shapes(json& data, const std::vector<std::vector<double>>& semi_axes) {
   data["shape"] = std::move(shape);
 }
 
-namespace {
-
-// JSON inside a script element: no "<" may be left that could end it.
-std::string script_safe(const json& data) {
-  std::string text = data.dump(-1, ' ', false, json::error_handler_t::replace);
+template <class AnyJson>
+std::string script_safe(const AnyJson& data) {
+  std::string text = data.dump(-1, ' ', false, AnyJson::error_handler_t::replace);
   for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;)
     text.replace(at, 1, "\\u003c");
   return text;
 }
+template std::string script_safe(const json&);
+template std::string script_safe(const nlohmann::ordered_json&);
 
-// Replaces every {{name}} of the template by its text, in one pass, so that no text is looked into.
 std::string filled(std::string_view page,
                    const std::vector<std::pair<std::string_view, std::string>>& texts) {
   std::string result;
@@ -57,8 +65,6 @@ std::string filled(std::string_view page,
   return result;
 }
 
-}  // namespace
-
 std::string whole_page(PageParts parts) {
   const auto text = [](std::string_view path) { return std::string(asset(path)); };
   const std::string stage = text("page/stage.html");
@@ -72,7 +78,7 @@ std::string whole_page(PageParts parts) {
                                           {"parameters", escaped(parts.parameters)},
                                           {"unit_of_length", std::string(parts.unit_of_length)},
                                           {"provenance", provenance_entries(parts.provenance)},
-                                          {"data", script_safe(parts.data)},
+                                          {"data", parts.data},
                                           {"uplot_licence", text("vendor/uplot/LICENSE")},
                                           {"uplot", text("vendor/uplot/uPlot.iife.min.js")},
                                           {"common", text("page/common.js")},

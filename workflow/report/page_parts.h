@@ -1,7 +1,7 @@
 #pragma once
 
-#include <cmath>
-#include <nlohmann/json.hpp>
+#include <cstddef>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -16,16 +16,19 @@ namespace vitrel {
 nlohmann::json page_number(double value, int digits = 6);
 
 /// These rows of a column.
-template <class Values, class Rows>
-nlohmann::json page_numbers(const Values& values, const Rows& rows, int digits = 6) {
-  nlohmann::json array = nlohmann::json::array();
-  for (const std::size_t row : rows)
-    array.push_back(page_number(static_cast<double>(values[row]), digits));
-  return array;
-}
+nlohmann::json page_numbers(const std::vector<double>& values, const std::vector<std::size_t>& rows,
+                            int digits = 6);
 
 /// Adds "shapes": every list of semi-axes once, and "shape": for every particle which of them it has.
 void add_shapes(nlohmann::json& data, const std::vector<std::vector<double>>& semi_axes);
+
+/// JSON or ordered JSON inside a script element: no "<" is left that could end it.
+template <class AnyJson>
+std::string script_safe(const AnyJson& data);
+
+/// Replaces every {{name}} of the template by its text, in one pass, so that no text is looked into.
+std::string filled(std::string_view page,
+                   const std::vector<std::pair<std::string_view, std::string>>& texts);
 
 /// A whole page. `sections` and `script` are names of files of the folder page; the texts fill the
 /// sections.
@@ -35,7 +38,7 @@ struct PageParts {
   std::string_view picture;  ///< the script of the picture
   std::string_view script;
   std::vector<std::pair<std::string_view, std::string>> texts;
-  nlohmann::json data;     ///< for the script
+  std::string data;        ///< for the script: script_safe JSON
   std::string parameters;  ///< TOML
   PageProvenance provenance;
   std::string_view unit_of_length = "a b";  ///< the product of the reference semi-axes that is 1

@@ -20,13 +20,20 @@ using nlohmann::json;
 namespace {
 
 constexpr int error_digits = 3;
-constexpr std::array<std::string_view, 3> series = {"energies", "compressibility", "order"};
+constexpr std::array<std::string_view, 3> series = {"energies", "compressibility_factor", "order"};
 
 // What the page makes charts from (report.js).
-constexpr std::array<std::string_view, 11> shown = {
-    "summary",          "wave_numbers",     "susceptibility", "collective_scattering",
-    "structure_factor", "pair_correlation", "order",          "energies",
-    "compressibility",  "relaxation",       "glass_fit"};
+constexpr std::array<std::string_view, 11> shown = {"summary",
+                                                    "wave_numbers",
+                                                    "susceptibility",
+                                                    "collective_scattering",
+                                                    "structure_factor",
+                                                    "pair_correlation",
+                                                    "order",
+                                                    "energies",
+                                                    "compressibility_factor",
+                                                    "relaxation",
+                                                    "glass_fit"};
 constexpr std::array<std::string_view, 4> shown_groups = {"displacements_", "self_scattering_",
                                                           "orientation_", "on_the_fly_"};
 
@@ -66,7 +73,7 @@ json table_data(const Table& table, const Thinning& thinning) {
   const bool logarithmic = is_correlation(table);
   const std::size_t stride = logarithmic || table.rows() == 0
                                  ? 1
-                                 : (table.rows() + thinning.most_rows - 1) / thinning.most_rows;
+                                 : (table.rows() + thinning.max_rows - 1) / thinning.max_rows;
   const std::vector<std::size_t> rows =
       logarithmic ? logarithmic_rows(table.columns.front().value, thinning.rows_per_decade)
                   : every(stride, table.rows());

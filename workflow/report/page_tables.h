@@ -11,7 +11,8 @@ namespace vitrel {
 /// How many rows tables keep at most.
 struct Thinning {
   double rows_per_decade = 20;  ///< of correlations, whose first column is the time
-  std::size_t most_rows = 400;  ///< evenly, of energies, compressibility, order and all others
+  std::size_t max_rows =
+      400;  ///< evenly, of energies, compressibility_factor, order and all others
 };
 
 /// For the script: a table by its name; in it the columns by theirs, with unit, value and error (if

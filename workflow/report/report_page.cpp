@@ -17,8 +17,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t most_bytes = 2'000'000;
-constexpr double fewest_rows_per_decade = 5;
+constexpr std::size_t max_bytes = 2'000'000;
+constexpr double min_rows_per_decade = 5;
 
 /// What comes after the beginning that all these names share, cut behind an underscore.
 std::string distinction(const std::string& name, const std::vector<std::string>& names) {
@@ -69,7 +69,7 @@ std::string table_row(const ReportRun& run) {
   };
   const double duration = value("duration");
   return "<tr><th scope=\"row\">" + density_text(run.packing_fraction) + "</th>" +
-         text("compressibility") + text("diffusion") + text("rotational_diffusion") +
+         text("compressibility_factor") + text("diffusion") + text("rotational_diffusion") +
          text("translational_energy") +
          (value("rotors") == 0 ? cell("–") : text("rotational_energy")) +
          count_cell(value("collisions")) + count_cell(run.collisions_per_second) +
@@ -84,18 +84,19 @@ std::string page_with(const ReportData& data, const Thinning& thinning) {
     runs.push_back(run_data(run, data.runs, thinning));
     rows += table_row(run);
   }
-  return whole_page({data.title,
-                     data.subtitle,
-                     "page/runs_sections.html",
-                     "page/movie.js",
-                     "page/report.js",
-                     {{"table_rows", rows},
-                      {"relaxation_rows", relaxation_rows(data.study)},
-                      {"fit_rows", fit_rows(data.study)},
-                      {"study_notes", study_notes(data.study)}},
-                     {{"runs", std::move(runs)}, {"study", tables_data(data.study, {})}},
-                     data.parameters,
-                     data.provenance});
+  return whole_page(
+      {data.title,
+       data.subtitle,
+       "page/runs_sections.html",
+       "page/movie.js",
+       "page/report.js",
+       {{"table_rows", rows},
+        {"relaxation_rows", relaxation_rows(data.study)},
+        {"fit_rows", fit_rows(data.study)},
+        {"study_notes", study_notes(data.study)}},
+       script_safe(json{{"runs", std::move(runs)}, {"study", tables_data(data.study, {})}}),
+       data.parameters,
+       data.provenance});
 }
 
 }  // namespace
@@ -103,9 +104,9 @@ std::string page_with(const ReportData& data, const Thinning& thinning) {
 std::string report_page(const ReportData& data) {
   Thinning thinning;
   std::string page = page_with(data, thinning);
-  while (page.size() > most_bytes && thinning.rows_per_decade > fewest_rows_per_decade) {
+  while (page.size() > max_bytes && thinning.rows_per_decade > min_rows_per_decade) {
     thinning.rows_per_decade *= 0.75;
-    thinning.most_rows = thinning.most_rows * 3 / 4;
+    thinning.max_rows = thinning.max_rows * 3 / 4;
     page = page_with(data, thinning);
   }
   return page;

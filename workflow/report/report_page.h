@@ -34,7 +34,7 @@ struct ReportData {
 /// structure of all runs, what depends on the packing fraction, a table of the runs, parameters,
 /// provenance. A chart is there if its table is: displacements_<group>, self_scattering_<group> with
 /// wave_numbers, orientation_<group>, susceptibility, collective_scattering, structure_factor,
-/// pair_correlation, orientation_distribution, order, energies, compressibility, summary; of the
+/// pair_correlation, orientation_distribution, order, energies, compressibility_factor, summary; of the
 /// study, relaxation and glass_fit (glass_rows.h).
 ///
 /// To stay small, tables are thinned (page_tables.h), and movies are what film (movie.h) made of

@@ -21,12 +21,12 @@ std::string dynamics_text(const Provenance& provenance, const std::string& file)
              : "Newtonian";
 }
 
-constexpr std::size_t most_movies = 6;
+constexpr std::size_t max_movies = 6;
 
 /// How many poses the movie of every run may have.
 std::vector<std::size_t> movie_poses(std::size_t runs) {
   if (runs == 1) return {MovieLimits{}.poses};
-  const std::size_t movies = std::min(runs, most_movies);
+  const std::size_t movies = std::min(runs, max_movies);
   std::vector<std::size_t> poses(runs, 0);
   for (std::size_t k = 0; k < movies; ++k)
     poses[k * (runs - 1) / (movies - 1)] = MovieLimits{}.poses / (2 * movies);

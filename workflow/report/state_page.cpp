@@ -1,6 +1,7 @@
 #include "workflow/report/state_page.h"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <numeric>
 
 #include "workflow/report/movie.h"
@@ -50,7 +51,7 @@ std::string state_page(const StatePage& page) {
                      "page/movie.js",
                      "page/state.js",
                      {{"rows", table_rows(page.rows)}},
-                     data,
+                     script_safe(data),
                      page.parameters,
                      page.provenance});
 }

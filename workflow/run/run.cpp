@@ -10,6 +10,7 @@
 #include "core/io/h5md.h"
 #include "core/state/check.h"
 #include "workflow/configuration/soft_particles.h"
+#include "workflow/configuration/state_species.h"
 #include "workflow/prepare/prepare.h"
 #include "workflow/run/correlations_file.h"
 #include "workflow/run/run_checkpoint.h"
@@ -43,6 +44,48 @@ void require_fit(const Configuration<Dim>& state, const Parameters& parameters,
         fmt::format("{}: has the packing fraction {}, but system.packing_fraction is {}; "
                     "make them equal",
                     file.string(), fraction, parameters.system.packing_fraction));
+}
+
+/// The state to start from; the species of `parameters` become its own.
+template <int Dim>
+Configuration<Dim> read_start(const fs::path& file, Parameters& parameters) {
+  Configuration<Dim> state = read_state<Dim>(file);
+  require_fit(state, parameters, file);
+  take_species(parameters, state, {file.string(), TrajectoryReader(file).provenance().parameters});
+  return state;
+}
+
+void refuse_changes(const Parameters& parameters, const std::string& begun_with,
+                    const fs::path& output) {
+  if (const auto change = forbidden_change(begun_with, effective_parameters(parameters), Work::run))
+    throw UserError(
+        fmt::format("{}: the run was begun with {} = {}, but now it is {}; continue it "
+                    "with its own parameters, or choose another output",
+                    output.string(), change->key, change->first, change->second));
+}
+
+/// Frames that a checkpoint counts must be in the trajectory; one that counts none may come before it.
+template <int Dim>
+void require_trajectory(const RunCheckpoint<Dim>& run, const fs::path& output) {
+  if (run.state.next_sample == 0 || fs::exists(output)) return;
+  throw FileError(fmt::format(
+      "{}: is missing, but {} is there, the checkpoint of the run that wrote {} frame(s) to it; "
+      "restore the file, delete the checkpoint (and its .previous, if there) to start anew, or "
+      "choose another output",
+      output.string(), checkpoint_path(output).string(), run.state.next_sample));
+}
+
+/// The run to continue, also if its file to start from is no longer there.
+template <int Dim>
+RunCheckpoint<Dim> stored_run(RunRequest& request, const Checkpoint& checkpoint) {
+  const fs::path file = checkpoint_path(request.output);
+  const auto* state = std::get_if<Configuration<Dim>>(&checkpoint.configuration);
+  if (request.from && state)
+    take_species(request.parameters, *state, {file.string(), checkpoint.parameters});
+  refuse_changes(request.parameters, checkpoint.parameters, request.output);
+  RunCheckpoint<Dim> run = run_from_checkpoint<Dim>(checkpoint, file);
+  require_trajectory(run, request.output);
+  return run;
 }
 
 /// One request at work.
@@ -89,24 +132,17 @@ class RunJob {
           "another output, or delete it");
   }
 
-  void load() {
-    const Checkpoint loaded = checkpoint_.load(log_);
-    const std::string& now = stored_.parameters;
-    if (const auto change = forbidden_change(loaded.parameters, now, Work::run))
-      throw UserError(
-          fmt::format("{}: the run was begun with {} = {}, but now it is {}; continue it "
-                      "with its own parameters, or choose another output",
-                      request_.output.string(), change->key, change->first, change->second));
-    stored_ = run_from_checkpoint<Dim>(loaded, checkpoint_.path());
-  }
+  void load() { stored_ = stored_run<Dim>(request_, checkpoint_.load(log_)); }
 
   // False if the preparation was stopped.
   bool begin() {
     Configuration<Dim> configuration;
     if (request_.from) {
-      configuration = read_state<Dim>(*request_.from);
+      configuration = read_start<Dim>(*request_.from, request_.parameters);
+      stored_.parameters = effective_parameters(request_.parameters);
+      if (!place_of(request_.parameters, "species"))
+        log_line(log_, "species as in " + request_.from->string());
       if (!is_soft()) configuration.close_pairs.clear();
-      require_fit(configuration, request_.parameters, *request_.from);
     } else {
       Preparation<Dim> preparation = prepare<Dim>(
           {request_.parameters, request_.output, request_.command_line, request_.threads}, control_,
@@ -244,7 +280,7 @@ class RunJob {
         check.overlaps.size(), failed_state_path(request_.output).string()));
   }
 
-  const RunRequest& request_;
+  RunRequest request_;  ///< its species become those of the state that the run starts from
   const RunControl& control_;
   const Log& log_;
   CheckpointFile checkpoint_;
@@ -252,33 +288,35 @@ class RunJob {
   std::optional<MultipleTau> correlator_;  ///< on the fly, if the parameters ask for it
 };
 
-std::string start_text(const RunRequest& request) {
+/// Where the run starts; the species of the request become those that run.
+template <int Dim>
+std::string start_text(RunRequest& request) {
   const fs::path checkpoint = checkpoint_path(request.output);
   if (checkpoint_exists(checkpoint)) {
-    const Checkpoint stored = load_checkpoint(checkpoint).checkpoint;
-    return std::visit(
-        [&]<int Dim>(const Configuration<Dim>& configuration) {
-          const RunCheckpoint<Dim> run = run_from_checkpoint<Dim>(stored, checkpoint);
-          return run.complete ? "nothing: the run is complete"
-                              : fmt::format("the checkpoint at time {:.6g}, {} frames",
-                                            configuration.time, run.state.next_sample);
-        },
-        stored.configuration);
+    const RunCheckpoint<Dim> run = stored_run<Dim>(request, load_checkpoint(checkpoint).checkpoint);
+    return run.complete ? "nothing: the run is complete"
+                        : fmt::format("the checkpoint at time {:.6g}, {} frames",
+                                      run.state.configuration.time, run.state.next_sample);
   }
-  if (request.from) return "the state in " + request.from->string();
+  if (request.from) {
+    read_start<Dim>(*request.from, request.parameters);
+    return "the state in " + request.from->string();
+  }
   return fmt::format("a preparation in {} stage(s)", request.parameters.stages.size());
 }
 
 }  // namespace
 
-std::string run_plan(const RunRequest& request) {
+std::string run_plan(RunRequest request) {
   const Parameters& p = request.parameters;
+  const std::string start =
+      p.system.dimension == 2 ? start_text<2>(request) : start_text<3>(request);
   const std::size_t frames = sample_times(p).size();
   // Position, image, orientation, angle, and the velocities if asked for, before compression.
   const double bytes_per_particle = 24 + 12 + 32 + 8 + (p.output.velocities ? 32 : 0);
   const double size =
       bytes_per_particle * static_cast<double>(p.system.particles) * static_cast<double>(frames);
-  std::string text = fmt::format("starts from  {}\n", start_text(request));
+  std::string text = fmt::format("starts from  {}\n", start);
   const std::string fraction =
       ends_at_pressure(p.stages) ? "as prepared" : fmt::format("{}", p.system.packing_fraction);
   text += fmt::format("system       {} particles, packing fraction {}, seed {}\n",
@@ -330,8 +368,8 @@ nlohmann::ordered_json run_summary(const RunRequest& request, const RunOutcome<D
       {"correction_moves", counters.correction_moves},
       {"energy_drift", state.energy_drift},
       {"largest_momentum", state.largest_momentum},
-      {"compressibility", z.mean.mean},
-      {"compressibility_error", z.mean.error},
+      {"compressibility_factor", z.mean.mean},
+      {"compressibility_factor_error", z.mean.error},
       {"overlaps", exact_check(state.configuration).overlaps.size()},
       {"wall_seconds", outcome.wall_seconds},
       {"collisions_per_second", collisions / outcome.wall_seconds}};

@@ -21,13 +21,14 @@ namespace vitrel {
 struct RunRequest {
   Parameters parameters;
   std::filesystem::path output;
-  std::optional<std::filesystem::path> from = {};  ///< state to start from; none: prepare
+  std::optional<std::filesystem::path> from = {};  ///< state to start from, whose species win; none: prepare
   std::string command_line = {};                   ///< for the provenance
   int threads = 1;                                 ///< the results do not depend on it
 };
 
-/// What the request would do, in lines for a person. Nothing is written.
-std::string run_plan(const RunRequest& request);
+/// What the request would do, in lines for a person. Nothing is written. Throws like run for what is there
+/// already: the state to start from, or the run to continue.
+std::string run_plan(RunRequest request);
 
 template <int Dim>
 struct RunOutcome {

@@ -11,7 +11,6 @@
 #include <cstring>
 
 #include "core/error.h"
-#include "workflow/sweep/stop_signals.h"
 
 namespace vitrel {
 namespace {

@@ -1,12 +1,19 @@
 #pragma once
 
 #include <sys/types.h>
+
+#include <array>
+#include <csignal>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace vitrel {
+
+/// What asks the program for a clean stop: Ctrl-C, a batch system, or a batch system's warning that time
+/// runs out.
+inline constexpr std::array<int, 3> stop_signals = {SIGINT, SIGTERM, SIGUSR1};
 
 /// A child process that does not outlive this one: if this process dies, however, the child is
 /// killed. Must be started from the thread that lives as long as the child is wanted.

@@ -7,7 +7,7 @@
 
 /// A sweep as a workflow of Snakemake (7), which runs its jobs on this machine or hands them to Slurm:
 ///
-///   sweep/Snakefile                  a rule that works off a job by `vitrel sweep --job`
+///   sweep/Snakefile                  a rule that runs a job by `vitrel sweep --job`
 ///        /sweep.toml                 the parameter file, copied
 ///        /slurm/config.yaml          profile: how jobs are submitted, for the user to complete
 ///        /slurm/jobscript.sh         what Slurm runs

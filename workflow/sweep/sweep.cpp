@@ -16,7 +16,6 @@
 #include "workflow/sweep/folder_lock.h"
 #include "workflow/sweep/process.h"
 #include "workflow/sweep/snakemake.h"
-#include "workflow/sweep/stop_signals.h"
 
 namespace vitrel {
 namespace {
@@ -52,7 +51,7 @@ void write_job_folder(const SweepJob& job, const fs::path& folder) {
              Json{{"id", job.id}, {"values", values_json(job)}}.dump(2) + "\n");
 }
 
-// Works off the steps of one job, a process at a time.
+// Runs the steps of one job, a process at a time.
 class JobWorker {
  public:
   JobWorker(const SweepJob& job, const fs::path& folder, const fs::path& program)
@@ -69,7 +68,7 @@ class JobWorker {
     if (child_) child_->ask_to_stop();
   }
 
-  /// Looks after the current step.
+  /// Starts the next step if the current one has ended.
   void poll() {
     if (state_ != State::running) return;
     const std::optional<int> code = child_->poll();
@@ -160,16 +159,16 @@ void hold_alone(FolderLock& lock, const fs::path& folder) {
 // Keeps `parallel` jobs going until all are done or the user wants to stop.
 class Sweep {
  public:
-  Sweep(const SweepRequest& request, const std::vector<SweepJob>& jobs,
+  Sweep(const SweepRequest& request, const std::vector<SweepJob>& jobs, const RunControl& control,
         const std::function<void(const std::string&)>& say)
-      : request_(request), say_(say), jobs_(jobs) {}
+      : request_(request), control_(control), say_(say), jobs_(jobs) {}
 
   SweepOutcome run() {
     make_folder(request_.folder);
     FolderLock lock(request_.folder);
     hold_alone(lock, request_.folder);
     for (const SweepJob& job : jobs_) write_job_folder(job, request_.folder / job.id);
-    return work_off();
+    return run_jobs();
   }
 
   /// Of a single job, beside others that work on other jobs.
@@ -181,7 +180,7 @@ class Sweep {
         !wait_for(job, FolderLock::Share::alone))
       return {.stopped = true};
     write_job_folder(jobs_.front(), folder);
-    return work_off();
+    return run_jobs();
   }
 
  private:
@@ -190,11 +189,11 @@ class Sweep {
     return lock.acquire(share, [&] {
       if (!told) say_("waiting for another process that works on this job");
       told = true;
-      return stop_signalled() || time_is_up();
+      return control_.stop_requested();
     });
   }
 
-  SweepOutcome work_off() {
+  SweepOutcome run_jobs() {
     for (const SweepJob& job : jobs_) {
       if (job_stage(request_.folder / job.id) == JobStage::done)
         ++outcome_.done;
@@ -214,13 +213,8 @@ class Sweep {
     return outcome_;
   }
 
-  bool time_is_up() const {
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
-    return request_.wall_time > 0 && elapsed.count() > request_.wall_time;
-  }
-
   void pass_on_stop() {
-    if (stopping_ || !(stop_signalled() || time_is_up())) return;
+    if (stopping_ || !control_.stop_requested()) return;
     stopping_ = true;
     say_("stopping: every job stops at the next point from which it can be continued");
     for (auto& worker : active_) worker->ask_to_stop();
@@ -254,13 +248,13 @@ class Sweep {
   }
 
   const SweepRequest& request_;
+  const RunControl& control_;
   const std::function<void(const std::string&)>& say_;
   const std::vector<SweepJob>& jobs_;
   std::deque<const SweepJob*> waiting_;
   std::vector<std::unique_ptr<JobWorker>> active_;
   SweepOutcome outcome_;
   bool stopping_ = false;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 std::string number_cell(const Json& parent, const char* key, const char* format) {
@@ -277,10 +271,13 @@ std::vector<std::string> result_cells(const fs::path& folder) {
     run = done["run"];
     analysis = done["analyze"];
   }
+  // Jobs done by earlier versions have the former key.
+  const std::string z =
+      run.contains("compressibility_factor") ? "compressibility_factor" : "compressibility";
   cells.push_back(number_cell(run, "packing_fraction", "{:.4f}"));
   cells.push_back(number_cell(run, "collisions", "{:.0f}"));
-  cells.push_back(number_cell(run, "compressibility", "{:.3f}"));
-  cells.push_back(number_cell(run, "compressibility_error", "{:.3f}"));
+  cells.push_back(number_cell(run, z.c_str(), "{:.3f}"));
+  cells.push_back(number_cell(run, (z + "_error").c_str(), "{:.3f}"));
   cells.push_back(number_cell(analysis, "diffusion", "{:.3g}"));
   cells.push_back(number_cell(analysis, "rotational_diffusion", "{:.3g}"));
   cells.push_back(number_cell(run, "overlaps", "{:.0f}"));
@@ -302,16 +299,16 @@ JobStage job_stage(const fs::path& folder) {
   return JobStage::waiting;
 }
 
-SweepOutcome run_sweep(const SweepRequest& request,
+SweepOutcome run_sweep(const SweepRequest& request, const RunControl& control,
                        const std::function<void(const std::string&)>& say) {
   const std::vector<SweepJob> jobs = sweep_jobs(request.source);
-  return Sweep(request, jobs, say).run();
+  return Sweep(request, jobs, control, say).run();
 }
 
-SweepOutcome run_job(const SweepRequest& request, const std::string& id,
+SweepOutcome run_job(const SweepRequest& request, const std::string& id, const RunControl& control,
                      const std::function<void(const std::string&)>& say) {
   const std::vector<SweepJob> jobs = {job_named(sweep_jobs(request.source), id)};
-  return Sweep(request, jobs, say).run_beside_others();
+  return Sweep(request, jobs, control, say).run_beside_others();
 }
 
 void export_sweep(const ParameterSource& source, const fs::path& folder, const fs::path& program) {
@@ -390,8 +387,8 @@ SweepProgress sweep_progress(const fs::path& folder) {
             ? fmt::format("{}: is neither the folder of a sweep nor that of a job which has begun "
                           "to run; give one of these, or the file of a run",
                           folder.string())
-            : fmt::format("{}: none of the {} jobs of this sweep is finished; vitrel sweep works "
-                          "them off",
+            : fmt::format("{}: none of the {} jobs of this sweep is finished; vitrel sweep runs "
+                          "them",
                           folder.string(), progress.unfinished.size()));
   return progress;
 }

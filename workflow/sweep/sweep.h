@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/state/stage.h"
 #include "workflow/configuration/parameters.h"
 #include "workflow/sweep/sweep_jobs.h"
 
@@ -35,7 +36,6 @@ struct SweepRequest {
   std::filesystem::path folder;
   std::filesystem::path program;  ///< this program, run for every step
   int parallel = 1;               ///< jobs at a time
-  double wall_time = 0;           ///< seconds; 0: no limit
 };
 
 struct SweepOutcome {
@@ -45,15 +45,16 @@ struct SweepOutcome {
   bool stopped = false;
 };
 
-/// Makes the folders, works off all jobs, and tells `say` about every job begun, done or failed. A
-/// failed job does not stop the others. Throws UserError if a folder belongs to other parameters or
-/// another process works on the sweep, FileError if folders cannot be written.
-SweepOutcome run_sweep(const SweepRequest& request,
+/// Makes the folders, runs all jobs, and tells `say` about every job begun, done or failed. A failed job
+/// does not stop the others. If the control asks to stop, every job stops where it can be continued.
+/// Throws UserError if a folder belongs to other parameters or another process works on the sweep, FileError
+/// if folders cannot be written.
+SweepOutcome run_sweep(const SweepRequest& request, const RunControl& control,
                        const std::function<void(const std::string&)>& say);
 
 /// The same of one job, beside other processes that work on other jobs: what a batch system runs. Waits
 /// while another process works on this job or on the whole sweep, and then finds what that has done.
-SweepOutcome run_job(const SweepRequest& request, const std::string& id,
+SweepOutcome run_job(const SweepRequest& request, const std::string& id, const RunControl& control,
                      const std::function<void(const std::string&)>& say);
 
 /// Makes the folders and writes the sweep as a workflow of Snakemake; `program` is what it runs. Throws

@@ -12,6 +12,8 @@
 #include <tuple>
 
 #include "core/error.h"
+#include "workflow/analyze/glass_report.h"
+#include "workflow/analyze/glass_tables.h"
 #include "workflow/storage/text_file.h"
 
 namespace vitrel {
@@ -67,11 +69,17 @@ std::string differing_keys(const std::vector<AnalysedRun>& runs) {
 
 }  // namespace
 
-std::vector<AnalysedRun> analysed_jobs(const SweepProgress& sweep, AnalysisChoice choice) {
+std::vector<AnalysedRun> analysed_jobs(const SweepProgress& sweep, const AnalysisChoice& choice,
+                                       const AnalysisProgress& progress) {
   std::vector<AnalysedRun> runs;
+  AnalysisProgress of_job = progress;
+  if (progress.begin)
+    of_job.begin = [&](const std::string& phase) {
+      progress.begin(
+          fmt::format("job {} of {}: {}", runs.size() + 1, sweep.finished.size(), phase));
+    };
   for (const std::filesystem::path& job : sweep.finished) {
-    choice.job = fmt::format("job {} of {}: ", runs.size() + 1, sweep.finished.size());
-    runs.push_back(choice.given() ? analyze_run(job / "run.h5", choice)
+    runs.push_back(choice.given() ? analyze_run(job / "run.h5", choice, of_job)
                                   : AnalysedRun{job / "run.h5", read_results(job / "results.h5")});
     if (!runs.back().results.find("summary"))
       throw FileError((job / "results.h5").string() +

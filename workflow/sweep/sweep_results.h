@@ -12,7 +12,8 @@ namespace vitrel {
 /// The finished jobs of a sweep by packing fraction (to six decimals), then by seed, then by name.
 /// Their results are those in their folders; with parameters of its own, the choice has the runs analysed
 /// again, and what is in the folders stays. Throws FileError or UserError, naming the file.
-std::vector<AnalysedRun> analysed_jobs(const SweepProgress& sweep, AnalysisChoice choice);
+std::vector<AnalysedRun> analysed_jobs(const SweepProgress& sweep, const AnalysisChoice& choice,
+                                       const AnalysisProgress& progress = {});
 
 /// Relaxation times and verdicts of the runs that could be judged, and fits of the laws of the glass
 /// transition to them.

@@ -71,7 +71,8 @@ function aligned(curves) {
     return result;
   };
   return { x: order.map(([, x]) => x), values: curves.map((curve, c) => column(curve, c, curve.value)),
-           errors: curves.map((curve, c) => curve.error ? column(curve, c, curve.error) : null) };
+           errors: curves.map((curve, c) => curve.error ? column(curve, c, curve.error) : null),
+           notes: curves.map((curve, c) => curve.notes ? column(curve, c, curve.notes) : null) };
 }
 
 function csvText(chart) {
@@ -253,14 +254,15 @@ function readOut(chart) {
   const i = chart.plot?.cursor.idx, k = chart.focused;
   const value = i === null || i === undefined || k === null ? null : chart.data.values[k]?.[i];
   if (value === null || value === undefined) return chart.readout.textContent = chart.hint;
+  const note = chart.data.notes[k]?.[i];
   chart.readout.textContent = `${chart.variant.curves[k].label}:  ${chart.xSymbol} = ${shortNumber(chart.data.x[i], 4)},  ` +
-    `${withError(value, chart.data.errors[k]?.[i])} ${chart.variant.unit}`;
+    `${withError(value, chart.data.errors[k]?.[i])} ${chart.variant.unit}` + (note ? ` (${note})` : '');
 }
 
 /**
  * One chart in `host`. `description`: heading; xSymbol, xUnit; logX, logY; file, the name of its CSV; range, slopes, hint;
  * variants, of which a select shows one: [{label, symbol, unit, curves, levels, uprights, rangeX}].
- * A curve: {label, x, value, error, colour(), points: 'full' or 'hollow' instead of a line, dashed, thin, id}. Curves are
+ * A curve: {label, x, value, error, notes (said with the values), colour(), points: 'full' or 'hollow' instead of a line, dashed, thin, id}. Curves are
  * switched off by their `id`, in the legend of the chart or from outside (show); the legend names the first of each.
  */
 class Chart {

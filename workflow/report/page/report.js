@@ -46,7 +46,7 @@ const families = [
 const series = [
   { table: 'energies', heading: 'Energy per particle', symbol: 'E/N', unit: 'kT', fromZero: true,
     columns: [[/^translational$/, () => 'translational'], [/^rotational$/, () => 'rotational'], [/^total$/, () => 'total']] },
-  { table: 'compressibility', heading: 'Compressibility factor', symbol: 'Z = βP/ρ', unit: '', columns: [[/^z$/, () => 'Z']] },
+  { table: 'compressibility_factor', heading: 'Compressibility factor', symbol: 'Z = βP/ρ', unit: '', columns: [[/^z$/, () => 'Z']] },
   { table: 'order', heading: 'Order', symbol: 'order parameter', unit: '', fromZero: true,
     columns: [[/^nematic$/, () => 'nematic'], [/^hexatic$/, () => 'hexatic']] },
   { table: 'order', heading: 'Director', symbol: 'angle of the director', unit: 'rad', columns: [[/^director$/, () => 'director']] },
@@ -191,7 +191,8 @@ function levelsOf(run, { table }) {
     const rotors = summary.rotors.value[0] / summary.particles.value[0];
     return rotors ? [1, 0.5 * rotors, 1 + 0.5 * rotors] : [1];
   }
-  return table === 'compressibility' && summary?.compressibility ? [summary.compressibility.value[0]] : [];
+  const z = summary?.compressibility_factor;
+  return table === 'compressibility_factor' && z ? [z.value[0]] : [];
 }
 
 function showSeries(run) {
@@ -209,7 +210,7 @@ const density = { xSymbol: 'φ', xUnit: '', rangeX: (plot, low, high) => {
 } };
 
 const averages = [
-  { column: 'compressibility', heading: 'Compressibility factor', symbol: 'Z = βP/ρ', unit: '' },
+  { column: 'compressibility_factor', heading: 'Compressibility factor', symbol: 'Z = βP/ρ', unit: '' },
   { column: 'diffusion', heading: 'Diffusion', symbol: 'D', unit: '√(ab kT/m)', logY: true },
   { column: 'rotational_diffusion', heading: 'Rotational diffusion', symbol: 'Dᵣ', unit: '√(kT/(m ab))', logY: true },
 ];

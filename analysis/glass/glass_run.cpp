@@ -1,0 +1,81 @@
+#include "analysis/glass/glass_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "analysis/structure/order.h"
+
+namespace vitrel {
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double negligible = 0.05;  // rest of a correlation that has decayed
+
+/// Whether nothing is left of a correlation at the longest time, but for what its error explains.
+bool vanishes(const Decay& correlation) {
+  const double error = std::isnan(correlation.error.back()) ? 0 : correlation.error.back();
+  return correlation.value.back() <= std::max(negligible, 3 * error);
+}
+
+void judge_orientation(GlassRun& run, const GlassRunData& data) {
+  run.nematic_order = {unknown, unknown, 0};
+  run.plateau = 0;
+  run.orientation = OrientationKind::round;
+  run.rotation = {unknown, unknown, unknown, unknown, "no particle can turn"};
+  if (data.rotors == 0) return;
+  run.nematic_order = slow_average(data.nematic_order);
+  const auto& [order, error, blocks] = run.nematic_order;
+  if (!is_nematic(data)) {
+    run.rotation = relaxation_time(data.orientation);
+    const bool decays = !std::isnan(run.rotation.value) || !std::isnan(run.rotation.most);
+    run.orientation = decays ? OrientationKind::relaxes : OrientationKind::lasting;
+    return;
+  }
+  run.plateau = order * order;
+  const Decay connected =
+      connected_part(data.orientation, {run.plateau, 2 * order * error, blocks});
+  run.rotation = relaxation_time(connected);
+  const bool decays = !std::isnan(run.rotation.value) && vanishes(connected);
+  run.orientation = decays ? OrientationKind::ordered : OrientationKind::lasting;
+}
+
+void judge(GlassRun& run, const GlassRunData& data) {
+  RunEvidence evidence{data.duration, data.series, data.halves, {{"tau_alpha", run.translation}}};
+  run.translation_equilibration = judge_equilibration(evidence);
+  if (data.rotors > 0) {
+    evidence.series.push_back({"the nematic order", data.nematic_order});
+    evidence.curves.insert(evidence.curves.end(), data.rotation_halves.begin(),
+                           data.rotation_halves.end());
+    evidence.times.push_back({"tau_2", run.rotation});
+  }
+  run.equilibration = judge_equilibration(evidence);
+}
+
+}  // namespace
+
+bool is_nematic(const GlassRunData& data) {
+  return data.rotors > 0 && is_nematic(mean_of(data.nematic_order), data.rotors);
+}
+
+GlassRun judge_glass_run(const GlassRunData& data) {
+  GlassRun run{};
+  run.name = data.name;
+  run.packing_fraction = data.packing_fraction;
+  run.seed = data.seed;
+  run.rotors = data.rotors;
+  run.duration = data.duration;
+  run.wave_number = data.wave_number;
+  run.diffusion = data.diffusion;
+  run.rotational_diffusion = data.rotational_diffusion;
+  run.translation = relaxation_time(data.scattering);
+  judge_orientation(run, data);
+  judge(run, data);
+  return run;
+}
+
+bool equilibrated(const Equilibration& equilibration) {
+  return equilibration.verdict == EquilibrationVerdict::equilibrated;
+}
+
+}  // namespace vitrel

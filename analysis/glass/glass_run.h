@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "analysis/dynamics/diffusion.h"
+#include "analysis/dynamics/equilibration.h"
+#include "analysis/dynamics/relaxation.h"
+#include "analysis/statistics/blocking.h"
+
+/// Whether the particles of one run move and turn, and how fast.
+namespace vitrel {
+
+/// What the analysis of one run hands over.
+struct GlassRunData {
+  std::string name;
+  double packing_fraction;
+  std::uint64_t seed;
+  std::size_t rotors;
+  double duration;
+  double wave_number;  ///< q of F_s
+  Decay scattering;    ///< F_s(q, t)
+  Decay orientation;   ///< L_2(t), of a nematic seen from its director; empty without rotors
+  std::vector<double> nematic_order;  ///< S at evenly spaced times; empty without rotors
+  std::vector<ScalarSeries> series;   ///< others that must not drift: compressibility, energy
+  std::vector<HalvesOfCurve>
+      halves;  ///< curves of translation that must be the same in both halves
+  std::vector<HalvesOfCurve> rotation_halves;  ///< the same of rotation
+  DiffusionCoefficient diffusion, rotational_diffusion;
+};
+
+/// Whether the order of a run is that of a nematic (order.h): then L_2 is seen from its director, and
+/// has a plateau. Never without rotors.
+bool is_nematic(const GlassRunData& data);
+
+/// Why orientations are kept, or not.
+enum class OrientationKind {
+  round,    ///< there are none
+  relaxes,  ///< L_2 decays
+  ordered,  ///< nematic: L_2 decays to its plateau, and is kept there by order
+  lasting,  ///< L_2 does not decay within the run, or not to the plateau: glass, or too short
+};
+
+struct GlassRun {
+  std::string name;
+  double packing_fraction;
+  std::uint64_t seed;
+  std::size_t rotors;
+  double duration;
+  double wave_number;      ///< q of τ_α
+  Estimate nematic_order;  ///< S
+  double plateau;          ///< of L_2, by order; 0 if not nematic
+  OrientationKind orientation;
+  RelaxationTime translation;  ///< τ_α: F_s(q, t) = 1/e
+  RelaxationTime rotation;     ///< τ_2: L_2 = 1/e, in a nematic its connected part
+  DiffusionCoefficient diffusion, rotational_diffusion;
+  Equilibration equilibration;  ///< of everything
+  Equilibration
+      translation_equilibration;  ///< of τ_α, `series` and `halves`, whatever rotation does
+};
+
+/// Relaxation times, order and verdict of one run.
+///
+/// In a nematic (order.h) L_2 does not decay to 0 and the mean squared rotation stops although all is in
+/// equilibrium. So its connected part is judged, seen from the director (relaxation.h): if that decays
+/// below 1/e, and to less than three errors or 0.05 at the longest time, the stop is order; if it does
+/// not, orientations last beyond their order. That S is stationary is part of the verdict, as are τ_α
+/// and τ_2. Translation has a verdict of its own besides: where orientations stand still, places may
+/// still be in equilibrium among them.
+GlassRun judge_glass_run(const GlassRunData& data);
+
+/// Whether the verdict is `equilibrated`.
+bool equilibrated(const Equilibration& equilibration);
+
+}  // namespace vitrel

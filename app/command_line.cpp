@@ -1,0 +1,266 @@
+#include "app/command_line.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string_view>
+
+#include "app/commands/analyze.h"
+#include "app/commands/bench.h"
+#include "app/commands/check.h"
+#include "app/commands/export.h"
+#include "app/commands/params.h"
+#include "app/commands/prepare.h"
+#include "app/commands/report.h"
+#include "app/commands/run.h"
+#include "app/commands/sweep.h"
+#include "app/terminal/exit_codes.h"
+#include "app/terminal/help.h"
+#include "core/io/provenance.h"
+
+namespace vitrel {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string exit_codes =
+    "Exit codes: 0 done, 2 mistake in parameters or command line, 3 a file cannot be read or "
+    "written";
+const std::string overlap_code = ", 4 overlap or another broken invariant";
+const std::string resumed_code = ", 5 stopped (the same command continues)";
+
+void add_print(CLI::App& sub, PrintOptions& print) {
+  sub.add_flag("-q,--quiet", print.quiet, "No progress and no summary");
+  sub.add_flag("--json", print.json, "Summary as JSON on standard output");
+}
+
+void add_overrides(CLI::App& sub, std::vector<std::string>& overrides, const std::string& example) {
+  sub.add_option("--set", overrides,
+                 "key=value, instead of the value in the file: --set " + example)
+      ->take_all()
+      ->allow_extra_args(false);
+}
+
+void add_wall_time(CLI::App& sub, double& seconds) {
+  sub.add_option("--wall-time", seconds, "Stop cleanly after this many seconds (exit code 5)")
+      ->check(not_negative);
+}
+
+void add_parameter_file(CLI::App& sub, ParameterOptions& source) {
+  sub.add_option("params", source.file, "Parameter file (TOML); vitrel params prints one")
+      ->required();
+  add_overrides(sub, source.overrides, "dynamics.duration=10");
+  sub.add_option("--seed", source.seed,
+                 "Seed of all random numbers, the same as --set system.seed=");
+}
+
+CLI::Option* add_output(CLI::App& sub, fs::path& output, const std::string& what) {
+  return sub.add_option("-o,--output", output, what);
+}
+
+void add_threads(CLI::App& sub, int& threads, const std::string& what) {
+  sub.add_option("--threads", threads, what + "; the results do not depend on it")->check(positive);
+}
+
+void add_analysis(CLI::App& sub, AnalysisOptions& analysis) {
+  sub.add_option("--params", analysis.file,
+                 "Parameter file with [analysis], instead of that in the run");
+  add_overrides(sub, analysis.overrides, "analysis.longest_lag=0.1");
+}
+
+/// The options of all commands, each filled where its command is the one chosen.
+class CommandLine {
+ public:
+  CommandLine(int count, char** words)
+      : app_("Simulation of hard anisotropic particles, from the liquid to the glass.", "vitrel") {
+    prepare_.command_line = run_.command_line = joined(count, words);
+    app_.formatter(std::make_shared<Help>());
+    app_.require_subcommand(1);
+    app_.set_version_flag("--version", program_version());
+    app_.failure_message([](const CLI::App*, const CLI::Error& error) {
+      return "vitrel: " + std::string(error.what()) +
+             "; vitrel --help and vitrel <command> --help list what there is\n";
+    });
+    add_prepare();
+    add_run();
+    add_check();
+    add_analyze();
+    add_sweep();
+    add_report();
+    add_export();
+    add_bench();
+    add_params();
+  }
+
+  /// The exit code if there is nothing left to do (help, or a mistake), else nothing.
+  std::optional<int> parse(int count, char** words) {
+    try {
+      app_.parse(count, words);
+    } catch (const CLI::ParseError& error) {
+      return app_.exit(error) == 0 ? success : user_error;
+    }
+    return std::nullopt;
+  }
+
+  int run() const { return chosen_(); }
+  std::string command() const { return app_.get_subcommands().front()->get_name(); }
+
+ private:
+  template <class Options>
+  CLI::App& add(const std::string& name, const std::string& sentence,
+                int (*command)(const Options&), const Options& options) {
+    CLI::App& sub = *app_.add_subcommand(name, sentence);
+    sub.callback(
+        [this, command, &options] { chosen_ = [=, &options] { return command(options); }; });
+    sub.footer(exit_codes + ".");
+    return sub;
+  }
+
+  void add_prepare() {
+    CLI::App& sub =
+        add("prepare", "Make a first state and report how good it is.", prepare_command, prepare_);
+    sub.footer(exit_codes + overlap_code + resumed_code + ".");
+    add_parameter_file(sub, prepare_.source);
+    add_output(sub, prepare_.output,
+               "State file to write, with its quality report <state>.quality.json beside it")
+        ->required();
+    add_threads(sub, prepare_.threads, "Threads for Monte Carlo (1)");
+    add_wall_time(sub, prepare_.wall_time);
+    add_print(sub, prepare_.print);
+  }
+
+  void add_run() {
+    CLI::App& sub =
+        add("run", "Start or continue an event-driven run; without --from, prepare first.",
+            run_command, run_);
+    sub.footer(exit_codes + overlap_code + resumed_code + ".");
+    add_parameter_file(sub, run_.source);
+    add_output(sub, run_.output, "Trajectory to write, with its checkpoint beside it")->required();
+    sub.add_option("--from", run_.from, "State or run whose last frame to start from");
+    sub.add_flag("--dry-run", run_.dry_run, "Print what would be done");
+    add_threads(sub, run_.threads,
+                "Threads for the Brownian steps and for Monte Carlo in the preparation (1)");
+    add_wall_time(sub, run_.wall_time);
+    add_print(sub, run_.print);
+  }
+
+  void add_check() {
+    CLI::App& sub = add("check", "Exact check of a state or of all frames of a run for overlaps.",
+                        check_command, check_);
+    sub.footer(exit_codes + overlap_code + ", 5 stopped (no overlap so far).");
+    sub.add_option("file", check_.input, "State or run")->required();
+    sub.add_flag("--last", check_.last_only, "The last frame only");
+    add_print(sub, check_.print);
+  }
+
+  void add_analyze() {
+    CLI::App& sub = add("analyze",
+                        "Structure, motion, energies and pressure of a run. Of a sweep, relaxation "
+                        "times and the glass transition, from the results of its jobs, or with "
+                        "--params or --set from their runs.",
+                        analyze_command, analyze_);
+    sub.add_option("run", analyze_.input, "Run, or folder of a job or a sweep")->required();
+    add_output(sub, analyze_.output,
+               "Results to write (HDF5, with CSV tables beside it); default <run>_results.h5 or "
+               "<sweep>/results.h5");
+    add_analysis(sub, analyze_.analysis);
+    add_print(sub, analyze_.print);
+  }
+
+  void add_sweep() {
+    CLI::App& sub =
+        add("sweep", "Run all jobs of [sweep]: prepare, run, analyze.", sweep_command, sweep_);
+    sub.footer(exit_codes + overlap_code + resumed_code +
+               "; of jobs that failed, the first one's.");
+    add_parameter_file(sub, sweep_.source);
+    add_output(sub, sweep_.output, "Folder of the sweep")->required();
+    CLI::Option* parallel =
+        sub.add_option("-j,--jobs", sweep_.parallel, "Jobs at a time")->check(positive);
+    CLI::Option* status =
+        sub.add_flag("--status", sweep_.status, "Only print how far every job is");
+    CLI::Option* job = sub.add_option(
+        "--job", sweep_.job, "Run this job only; other processes may run other jobs meanwhile");
+    CLI::Option* exported =
+        sub.add_option("--export", sweep_.export_as,
+                       "Run nothing; write the sweep into its folder as a workflow for snakemake, "
+                       "which runs it here or on Slurm")
+            ->check(CLI::IsMember({"snakemake"}));
+    job->excludes(parallel)->excludes(status)->excludes(exported);
+    exported->excludes(parallel)->excludes(status);
+    add_wall_time(sub, sweep_.wall_time);
+    add_print(sub, sweep_.print);
+  }
+
+  void add_report() {
+    CLI::App& sub = add("report", "One HTML page about a prepared state, a run or a sweep.",
+                        report_command, report_);
+    sub.add_option("run", report_.input, "State, run, or folder of a job or a sweep")->required();
+    add_output(sub, report_.output,
+               "Page to write; default <state>.html, <run>.html or <sweep>/report.html");
+    add_analysis(sub, report_.analysis);
+    add_print(sub, report_.print);
+  }
+
+  void add_export() {
+    CLI::App& sub =
+        add("export", "Write a state, a run or results in the format of another program.",
+            export_command, export_);
+    sub.footer(exit_codes + ", 5 stopped (nothing was written).");
+    sub.add_option("file", export_.input, "State or run, or results of vitrel analyze")->required();
+    sub.add_option("--to", export_.format,
+                   "gsd (HOOMD-blue, OVITO), xyz (OVITO, ASE) or csv; in three dimensions, one "
+                   "period with all images: geo (Gmsh), vti (voxels for VTK), vtp (points for VTK) "
+                   "or csv; of results: gnuplot (a folder of data and scripts)")
+        ->required();
+    add_output(sub, export_.output,
+               "File or folder to write, which must not exist; default <file> with the new suffix, "
+               "or <results>_gnuplot");
+    sub.add_option("--frames", export_.frames,
+                   "Which frames, as Python's slices: 7, -1 (the last), first:end:step (all; in "
+                   "three dimensions one, the last)");
+    sub.add_option("--shrink", export_.shrink,
+                   "In three dimensions: all semi-axes times this (1), for room between bodies")
+        ->check(CLI::Range(1e-3, 1.0));
+    sub.add_option("--voxels", export_.voxels, "To vti: voxels along the longest edge (100)")
+        ->check(CLI::Range(1, 2000));
+    add_print(sub, export_.print);
+  }
+
+  // For the help only: the words after it are passed on unparsed.
+  void add_bench() {
+    app_.add_subcommand("bench",
+                        "Measure the numerical methods against a guaranteed reference: runs "
+                        "vitrel-bench, which is built beside this program.");
+  }
+
+  void add_params() {
+    CLI::App& sub = add("params", "Print a commented template of a command's parameters.",
+                        params_command, params_);
+    CLI::Option* of = sub.add_option("command", params_.command, "prepare, run, analyze or sweep");
+    sub.add_flag("--reference", params_.reference,
+                 "All parameters as Markdown (docs/parameters.md)")
+        ->excludes(of);
+  }
+
+  CLI::App app_;
+  PrepareOptions prepare_;
+  RunOptions run_;
+  CheckOptions check_;
+  AnalyzeOptions analyze_;
+  SweepOptions sweep_;
+  ReportOptions report_;
+  ExportOptions export_;
+  ParamsOptions params_;
+  std::function<int()> chosen_;
+};
+
+}  // namespace
+
+int run_command_line(int count, char** words) {
+  if (count > 1 && std::string_view(words[1]) == "bench") return bench_command(words + 1);
+  CommandLine line(count, words);
+  if (const std::optional<int> code = line.parse(count, words)) return *code;
+  return exit_code_of("vitrel " + line.command(), [&] { return line.run(); });
+}
+
+}  // namespace vitrel

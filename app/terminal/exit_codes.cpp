@@ -1,0 +1,39 @@
+#include "app/terminal/exit_codes.h"
+
+#include <iostream>
+#include <new>
+#include <system_error>
+
+#include "core/error.h"
+
+namespace vitrel {
+namespace {
+
+int complain(const std::string& program, const char* message, ExitCode code) {
+  std::cerr << program << ": " << message << '\n';
+  return code;
+}
+
+}  // namespace
+
+int exit_code_of(const std::string& program, const std::function<int()>& work) {
+  try {
+    return work();
+  } catch (const UserError& error) {
+    return complain(program, error.what(), user_error);
+  } catch (const FileError& error) {
+    return complain(program, error.what(), file_error);
+  } catch (const InvariantError& error) {
+    return complain(program, error.what(), broken_invariant);
+  } catch (const std::system_error& error) {
+    return complain(program, error.what(), file_error);
+  } catch (const std::bad_alloc&) {
+    return complain(program,
+                    "out of memory; fewer particles or a smaller analysis.memory need less",
+                    user_error);
+  } catch (const std::exception& error) {
+    return complain(program, error.what(), defect);
+  }
+}
+
+}  // namespace vitrel

@@ -1,0 +1,46 @@
+#include "app/terminal/session.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include "app/terminal/stop_signals.h"
+#include "core/error.h"
+
+namespace vitrel {
+
+namespace fs = std::filesystem;
+
+Session::Session(bool quiet, double wall_time)
+    : display_(ProgressDisplay::mode(quiet)), wall_time_(wall_time) {
+  catch_stop_signals();
+  control_.should_stop = [this] {
+    return stop_signalled() || (wall_time_ > 0 && seconds() > wall_time_);
+  };
+  control_.on_progress = [this](const Progress& progress) { display_.show(progress); };
+  say_ = [this](const std::string& line) {
+    display_.say(line);
+    display_.begin(line.substr(0, line.find(' ')));
+  };
+}
+
+double Session::seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+void require_output_folder(const fs::path& output) {
+  fs::path there = fs::absolute(output);
+  while (!fs::exists(there)) there = there.parent_path();
+  if (!fs::is_directory(there))
+    throw FileError(fmt::format("{}: the folder cannot be made: {} is a file", output.string(),
+                                there.string()));
+}
+
+void flush_output() {
+  if (std::fflush(stdout) != 0)
+    throw FileError(fmt::format("standard output: cannot be written: {}", std::strerror(errno)));
+}
+
+}  // namespace vitrel

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "app/terminal/progress.h"
+#include "core/state/stage.h"
+
+namespace vitrel {
+
+/// What a command at work has: a run control that stops with a stop signal or the wall time, and a
+/// display.
+class Session {
+ public:
+  /// `wall_time` in seconds; 0: no limit.
+  explicit Session(bool quiet, double wall_time = 0);
+
+  const RunControl& control() const { return control_; }
+  /// Announces a step: a line, and the label of the progress that follows.
+  const std::function<void(const std::string&)>& say() const { return say_; }
+  /// Takes the progress off the terminal, before a summary is printed.
+  void clear() { display_.clear(); }
+  double seconds() const;
+
+ private:
+  ProgressDisplay display_;
+  double wall_time_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  RunControl control_;
+  std::function<void(const std::string&)> say_;
+};
+
+/// FileError if the folder is not there and cannot be made, as something on its path is a file.
+void require_output_folder(const std::filesystem::path& output);
+
+/// Ends what was printed to standard output; throws FileError if it could not be written.
+void flush_output();
+
+}  // namespace vitrel

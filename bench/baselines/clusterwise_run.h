@@ -1,0 +1,176 @@
+#pragma once
+
+#include <algorithm>
+#include <boost/numeric/odeint/integrate/integrate_adaptive.hpp>
+#include <boost/numeric/odeint/stepper/generation.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "core/neighbors/pairs.h"
+#include "edmd/soft/contact_force.h"
+
+namespace vitrel::bench {
+
+/// Soft spheres or disks as exactly as Newton's equations can be integrated, as the reference for the other ways:
+/// it knows neither events nor the matrix of restitution, and contacts of three are right, too.
+///
+/// Steps, each as long as nobody moves by more than half of a margin:
+///   1. Clusters of particles closer than contact and the margin: none can meet another one in this time.
+///   2. One that is alone flies on; the others are integrated by Dormand and Prince's order 5 with adaptive
+///      steps, which become short where a force sets in or ends. `longest_step`, well below the duration of
+///      a contact, lets none be missed.
+template <int Dim, ContactForce Force>
+class ClusterwiseRun {
+ public:
+  ClusterwiseRun(const Configuration<Dim>& start, const Force& force, double tolerance,
+                 double longest_step)
+      : c_(start),
+        force_(force),
+        tolerance_(tolerance),
+        longest_step_(longest_step),
+        margin_(0.5 * largest_circumradius(start)) {}
+
+  void advance(double duration) {
+    const double end = c_.time + duration;
+    while (c_.time < end) {
+      find_clusters();
+      const std::vector<Vec<Dim>> position = c_.position, velocity = c_.velocity;
+      double step = std::min(end - c_.time, 0.4 * margin_ / fastest());
+      while (!advance_clusters(step)) {  // somebody was slow at the beginning, in contact
+        c_.position = position;
+        c_.velocity = velocity;
+        step /= 2;
+      }
+      c_.time = end - c_.time > step ? c_.time + step : end;
+    }
+  }
+
+  /// Positions as they come, not wrapped.
+  const Configuration<Dim>& state() const { return c_; }
+
+ private:
+  struct Pair {
+    std::size_t i, j;  // within the cluster
+    Vec<Dim> translation;
+    ContactPair contact;
+  };
+  struct Cluster {
+    std::vector<std::size_t> members;
+    std::vector<Pair> pairs;
+  };
+  using State = std::vector<double>;  // positions, then velocities
+
+  double fastest() const {
+    double most = 0;
+    for (const Vec<Dim>& v : c_.velocity) most = std::max(most, v.norm());
+    return most;
+  }
+
+  void find_clusters() {
+    for (std::size_t i = 0; i < c_.size(); ++i) c_.box.wrap(c_.position[i], c_.image[i]);
+    struct Near {
+      std::size_t i, j;
+      Vec<Dim> translation;
+    };
+    std::vector<Near> near;
+    std::vector<std::size_t> root(c_.size());
+    std::iota(root.begin(), root.end(), std::size_t{0});
+    const auto root_of = [&](std::size_t i) {
+      while (root[i] != i) i = root[i] = root[root[i]];
+      return i;
+    };
+    for_each_pair(c_, 1 + margin_ / largest_circumradius(c_),
+                  [&](std::size_t i, std::size_t j, const Vec<Dim>& d) {
+                    if (d.norm() > distance(i, j) + margin_) return;
+                    near.push_back({i, j, d - (c_.position[j] - c_.position[i])});
+                    root[root_of(i)] = root_of(j);
+                  });
+    std::vector<Cluster> of_root(c_.size());
+    std::vector<std::size_t> place(c_.size());
+    for (std::size_t i = 0; i < c_.size(); ++i) {
+      Cluster& cluster = of_root[root_of(i)];
+      place[i] = cluster.members.size();
+      cluster.members.push_back(i);
+    }
+    for (const auto& [i, j, translation] : near)
+      of_root[root_of(i)].pairs.push_back(
+          {place[i], place[j], translation,
+           contact_pair(radius(i), c_.mass[i], radius(j), c_.mass[j])});
+    std::erase_if(of_root, [](const Cluster& cluster) { return cluster.members.empty(); });
+    clusters_ = std::move(of_root);
+  }
+
+  bool advance_clusters(double step) {
+    for (const Cluster& cluster : clusters_) {
+      const std::vector<Vec<Dim>> before = positions(cluster);
+      if (cluster.members.size() == 1)
+        c_.position[cluster.members[0]] += step * c_.velocity[cluster.members[0]];
+      else
+        integrate(cluster, step);
+      for (std::size_t k = 0; k < before.size(); ++k)
+        if ((c_.position[cluster.members[k]] - before[k]).norm() > 0.5 * margin_) return false;
+    }
+    return true;
+  }
+
+  std::vector<Vec<Dim>> positions(const Cluster& cluster) const {
+    std::vector<Vec<Dim>> all;
+    for (const std::size_t i : cluster.members) all.push_back(c_.position[i]);
+    return all;
+  }
+
+  void integrate(const Cluster& cluster, double duration) {
+    namespace odeint = boost::numeric::odeint;
+    const std::size_t n = cluster.members.size();
+    const Vec<Dim> origin = c_.position[cluster.members[0]];
+    State x(2 * n * Dim);
+    for (std::size_t k = 0; k < n; ++k) {
+      part(x, k) = c_.position[cluster.members[k]] - origin;
+      part(x, n + k) = c_.velocity[cluster.members[k]];
+    }
+    const auto motion = [&](const State& at, State& slope, double) { move(cluster, at, slope); };
+    odeint::integrate_adaptive(odeint::make_controlled(tolerance_, tolerance_, longest_step_,
+                                                       odeint::runge_kutta_dopri5<State>()),
+                               motion, x, 0.0, duration, std::min(duration, longest_step_));
+    for (std::size_t k = 0; k < n; ++k) {
+      c_.position[cluster.members[k]] = origin + part(x, k);
+      c_.velocity[cluster.members[k]] = part(x, n + k);
+    }
+  }
+
+  void move(const Cluster& cluster, const State& x, State& slope) const {
+    const std::size_t n = cluster.members.size();
+    for (std::size_t k = 0; k < n; ++k) {
+      part(slope, k) = part(x, n + k);
+      part(slope, n + k).setZero();
+    }
+    for (const Pair& pair : cluster.pairs) {
+      const Vec<Dim> d = part(x, pair.j) + pair.translation - part(x, pair.i);
+      const double r = d.norm();
+      if (r >= pair.contact.distance) continue;
+      const double rate = -d.dot(part(x, n + pair.j) - part(x, n + pair.i)) / r;
+      const double push =
+          std::max(0.0, force_.force(pair.contact.distance - r, rate, pair.contact));
+      part(slope, n + pair.i) -= push / (r * c_.mass[cluster.members[pair.i]]) * d;
+      part(slope, n + pair.j) += push / (r * c_.mass[cluster.members[pair.j]]) * d;
+    }
+  }
+
+  static Eigen::Map<Vec<Dim>> part(State& x, std::size_t k) {
+    return Eigen::Map<Vec<Dim>>(x.data() + k * Dim);
+  }
+  static Eigen::Map<const Vec<Dim>> part(const State& x, std::size_t k) {
+    return Eigen::Map<const Vec<Dim>>(x.data() + k * Dim);
+  }
+  double radius(std::size_t i) const { return c_.shape[i].circumradius(); }
+  double distance(std::size_t i, std::size_t j) const { return radius(i) + radius(j); }
+
+  Configuration<Dim> c_;
+  Force force_;
+  double tolerance_, longest_step_, margin_;
+  std::vector<Cluster> clusters_;
+};
+
+}  // namespace vitrel::bench

@@ -1,0 +1,174 @@
+#include "bench/baselines/engine_variants.h"
+
+#include "bench/baselines/no_lower_bound.h"
+#include "edmd/simulation.h"
+
+namespace vitrel::bench {
+namespace {
+
+// Ellipses, each of which the engine treats in another way.
+struct SearchedEllipse : Ellipse {};
+struct FarSightedEllipse : Ellipse {};
+struct PatientEllipse : Ellipse {};
+thread_local double free_times_of_patience = 1;
+
+struct RoundListedEllipse : Ellipse {
+  RoundListedEllipse() = default;
+  explicit(false) RoundListedEllipse(const Ellipse& ellipse) : Ellipse(ellipse) {}
+  double max_support_rate() const { return 0; }  // of its neighbourhood
+};
+
+}  // namespace
+}  // namespace vitrel::bench
+
+namespace vitrel {
+
+template <>
+struct ShapeOf<bench::SearchedEllipse> : ShapeOf<Ellipse> {};
+template <>
+struct ShapeOf<bench::FarSightedEllipse> : ShapeOf<Ellipse> {};
+template <>
+struct ShapeOf<bench::PatientEllipse> : ShapeOf<Ellipse> {};
+
+template <>
+class ContactScreen<bench::SearchedEllipse> : public bench::NoLowerBound {
+ public:
+  using NoLowerBound::NoLowerBound;
+};
+
+template <>
+class ContactScreen<bench::FarSightedEllipse> : public ContactScreen<Ellipse> {
+ public:
+  using ContactScreen<Ellipse>::ContactScreen;
+};
+
+template <>
+class ContactScreen<bench::PatientEllipse> : public ContactScreen<Ellipse> {
+ public:
+  using ContactScreen<Ellipse>::ContactScreen;
+};
+
+template <>
+class ContactScreen<bench::RoundListedEllipse> : public ContactScreen<Ellipse> {
+ public:
+  using ContactScreen<Ellipse>::ContactScreen;
+};
+
+template <>
+struct ShapeCoefficients<bench::RoundListedEllipse> : ShapeCoefficients<Ellipse> {
+  using ShapeCoefficients<Ellipse>::ShapeCoefficients;
+};
+
+/// The axis is that of the ellipses, the gap that of their circumcircles.
+template <>
+class GapBatch<bench::RoundListedEllipse> : public GapBatch<Ellipse> {
+ public:
+  GapBatch(const Ellipse& shape, double angle, double limit)
+      : GapBatch<Ellipse>(shape, angle, limit), radius_(shape.a) {}
+  void set(int k, const Ellipse& shape, double angle, const Vec2& d) {
+    round_gap_[k] = d.norm() - radius_ - shape.a;
+    GapBatch<Ellipse>::set(k, shape, angle, d);
+  }
+  double gap(int k) const { return round_gap_[k]; }
+
+ private:
+  double radius_;
+  double round_gap_[lanes] = {};
+};
+
+// The margin of lists shaped like the particles.
+template <>
+double Neighborhoods<bench::RoundListedEllipse>::choose_gap(std::vector<Pair>,
+                                                            double wanted) const {
+  const std::vector<Ellipse> shapes(shapes_.begin(), shapes_.end());
+  std::vector<Pose2> poses;
+  for (std::size_t i = 0; i < references_.size(); ++i)
+    poses.push_back({references_[i].position, references_[i].orientation()});
+  return 2 * Neighborhoods<Ellipse>(box_, shapes, type_index_, poses, wanted).margin();
+}
+
+// As for every body, but the partner's entry is no limit.
+template <>
+template <>
+std::size_t Simulation<bench::FarSightedEllipse>::gather<
+    Simulation<bench::FarSightedEllipse>::Scope::all_neighbors>(Index i, const Pose2& mine,
+                                                                double latest, std::size_t next,
+                                                                ScreenBatch& batch) {
+  constexpr double forever = 1e100;
+  const auto neighbors = neighborhoods_->of(i);
+  int k = 0;
+  for (; next < neighbors.size() && k < ContactScreen<Ellipse>::lanes; ++next, ++k) {
+    auto& neighbor = neighbors[next];
+    const Particle& partner = particles_[neighbor.other];
+    batch.horizon[k] = latest;
+    Pose2 pose = partner.pose_at(now_);
+    pose.position += box_.translation(neighbor.shift()) - mine.position;
+    batch.screen.set(k, pose, partner.motion(), type(neighbor.other).coefficients,
+                     neighbor.warm_start, std::min(latest - now_, forever));
+    batch.neighbor[k] = &neighbor;
+  }
+  batch.count = k;
+  return next;
+}
+
+template <>
+double Simulation<bench::PatientEllipse>::mean_free_time() const {
+  const auto particles = static_cast<double>(particles_.size());
+  const double free_time = collisions_ < particles ? never : 0.5 * particles * now_ / collisions_;
+  return bench::free_times_of_patience * free_time;
+}
+
+}  // namespace vitrel
+
+namespace vitrel::bench {
+namespace {
+
+template <class B>
+Flight<Ellipse> plain(const Flight<B>& flight) {
+  return {flight.body, flight.pose, flight.motion};
+}
+
+// The event loop finds these in place of the predictor for ellipses.
+Prediction2 first_contact(const Flight<SearchedEllipse>& one, const Flight<SearchedEllipse>& two,
+                          double horizon, double contact_gap,
+                          const ContactScreen<SearchedEllipse>::WarmStart& /*warm_start*/) {
+  return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap);
+}
+
+Prediction2 first_contact(const Flight<FarSightedEllipse>& one,
+                          const Flight<FarSightedEllipse>& two, double horizon, double contact_gap,
+                          const ContactScreen<Ellipse>::WarmStart& warm_start) {
+  return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, warm_start);
+}
+
+Prediction2 first_contact(const Flight<RoundListedEllipse>& one,
+                          const Flight<RoundListedEllipse>& two, double horizon, double contact_gap,
+                          const ContactScreen<Ellipse>::WarmStart& warm_start) {
+  return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, warm_start);
+}
+
+Prediction2 first_contact(const Flight<PatientEllipse>& one, const Flight<PatientEllipse>& two,
+                          double horizon, double contact_gap,
+                          const ContactScreen<Ellipse>::WarmStart& warm_start) {
+  return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, warm_start);
+}
+
+}  // namespace
+
+std::unique_ptr<Engine2> make_engine_without_lower_bound() {
+  return std::make_unique<Simulation<SearchedEllipse>>(EngineOptions{}, "without the first look");
+}
+std::unique_ptr<Engine2> make_engine_without_horizon() {
+  return std::make_unique<Simulation<FarSightedEllipse>>(EngineOptions{}, "without the horizon");
+}
+std::unique_ptr<Engine2> make_engine_with_round_lists() {
+  return std::make_unique<Simulation<RoundListedEllipse>>(EngineOptions{}, "with round lists");
+}
+std::unique_ptr<Engine2> make_engine_of_patience() {
+  return std::make_unique<Simulation<PatientEllipse>>(EngineOptions{}, "of other patience");
+}
+void set_patience(double mean_free_times) {
+  free_times_of_patience = mean_free_times;
+}
+
+}  // namespace vitrel::bench

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "core/neighbors/pairs.h"
+#include "edmd/soft/contact_force.h"
+
+namespace vitrel::bench {
+
+/// Soft spheres or disks the plain way, as the baseline of the event-driven run: Newton's equations with the force itself
+/// in steps of time, by the velocity Verlet method,
+///     v* = v + a h/2,  r' = r + v* h,  a' = F(r', v* + a h/2)/m,  v' = v* + a' h/2.
+/// A pair repels as long as it is closer than contact and its force is not negative. Errors ∝ h², near
+/// the ends of contacts with damping ∝ h. Neighbours are found by cells, and anew when somebody has moved by half
+/// of the skin, which is as thick as lets one more neighbour of a particle in: so wide in a thin gas that the
+/// search costs nothing.
+template <int Dim, ContactForce Force>
+class ForceBasedRun {
+ public:
+  ForceBasedRun(const Configuration<Dim>& start, const Force& force)
+      : c_(start),
+        force_(force),
+        skin_(skin(start)),
+        acceleration_(start.size(), Vec<Dim>::Zero()),
+        before_(acceleration_) {
+    find_neighbors();
+    accelerate();
+  }
+
+  /// On by so much time in that many steps.
+  void advance(double duration, std::uint64_t steps) {
+    const double h = duration / static_cast<double>(steps);
+    for (std::uint64_t step = 0; step < steps; ++step) {
+      bool somebody_left = false;
+      for (std::size_t i = 0; i < c_.size(); ++i) {
+        const Vec<Dim> kick = 0.5 * h * acceleration_[i];
+        c_.velocity[i] += kick;
+        c_.position[i] += h * c_.velocity[i];
+        c_.velocity[i] += kick;
+        somebody_left |= (c_.position[i] - there_[i]).squaredNorm() > 0.25 * skin_ * skin_;
+      }
+      if (somebody_left) find_neighbors();
+      acceleration_.swap(before_);
+      accelerate();
+      for (std::size_t i = 0; i < c_.size(); ++i)
+        c_.velocity[i] += 0.5 * h * (acceleration_[i] - before_[i]);
+    }
+    c_.time += duration;
+  }
+
+  /// Positions as they come, not wrapped.
+  const Configuration<Dim>& state() const { return c_; }
+
+ private:
+  struct Pair {
+    std::size_t i, j;
+    Vec<Dim> translation;
+    ContactPair contact;
+  };
+
+  // A shell of this thickness around a sphere of two radii has the volume of the box per particle.
+  static double skin(const Configuration<Dim>& c) {
+    const double radius = largest_circumradius(c);
+    return radius * (std::pow(std::pow(2, Dim) + 1 / packing_fraction(c), 1.0 / Dim) - 2);
+  }
+
+  void find_neighbors() {
+    for (std::size_t i = 0; i < c_.size(); ++i) c_.box.wrap(c_.position[i], c_.image[i]);
+    there_ = c_.position;
+    pairs_.clear();
+    // (R₁ + R) scale ≥ R₁ + R₂ + skin, R the largest radius
+    for_each_pair(c_, 1 + skin_ / largest_circumradius(c_),
+                  [&](std::size_t i, std::size_t j, const Vec<Dim>& d) {
+                    const double radius1 = c_.shape[i].circumradius(),
+                                 radius2 = c_.shape[j].circumradius();
+                    if (d.norm() > radius1 + radius2 + skin_) return;
+                    pairs_.push_back({i, j, d - (c_.position[j] - c_.position[i]),
+                                      contact_pair(radius1, c_.mass[i], radius2, c_.mass[j])});
+                  });
+  }
+
+  void accelerate() {
+    std::ranges::fill(acceleration_, Vec<Dim>::Zero());
+    for (const Pair& pair : pairs_) {
+      const Vec<Dim> d = c_.position[pair.j] + pair.translation - c_.position[pair.i];
+      if (d.squaredNorm() >= pair.contact.distance * pair.contact.distance) continue;
+      const double r = d.norm();
+      const double rate = -d.dot(c_.velocity[pair.j] - c_.velocity[pair.i]) / r;
+      const double push =
+          std::max(0.0, force_.force(pair.contact.distance - r, rate, pair.contact));
+      acceleration_[pair.i] -= push / (r * c_.mass[pair.i]) * d;
+      acceleration_[pair.j] += push / (r * c_.mass[pair.j]) * d;
+    }
+  }
+
+  Configuration<Dim> c_;
+  Force force_;
+  double skin_;
+  std::vector<Vec<Dim>> acceleration_, before_, there_;
+  std::vector<Pair> pairs_;
+};
+
+}  // namespace vitrel::bench

@@ -1,0 +1,103 @@
+#include "bench/baselines/method_engine.h"
+
+#include <limits>
+
+#include "bench/baselines/no_lower_bound.h"
+#include "bench/baselines/unchecked_method.h"
+#include "bench/methods/bracket.h"
+#include "core/contact/contact_queries.h"
+#include "edmd/simulation.h"
+
+namespace vitrel::bench {
+namespace {
+
+/// An ellipse whose collisions are predicted by whatever method the engine at work was given.
+struct PredictedEllipse : Ellipse {
+  static thread_local const Method* method;
+};
+thread_local const Method* PredictedEllipse::method = nullptr;
+
+}  // namespace
+}  // namespace vitrel::bench
+
+namespace vitrel {
+
+template <>
+struct ShapeOf<bench::PredictedEllipse> : ShapeOf<Ellipse> {};
+
+/// Every pair is the method's to judge.
+template <>
+class ContactScreen<bench::PredictedEllipse> : public bench::NoLowerBound {
+ public:
+  using NoLowerBound::NoLowerBound;
+};
+
+}  // namespace vitrel
+
+namespace vitrel::bench {
+namespace {
+
+// Found by Simulation<PredictedEllipse> in place of the default predictor. An answer that did not come
+// is no contact.
+Prediction2 first_contact(const Flight<PredictedEllipse>& one, const Flight<PredictedEllipse>& two,
+                          double horizon, double /*contact_gap*/,
+                          const ContactScreen<PredictedEllipse>::WarmStart& /*warm_start*/) {
+  const auto plain = [](const Flight<PredictedEllipse>& flight) {
+    return of_constant_size({flight.body, flight.pose, flight.motion});
+  };
+  const Prediction2 answer =
+      unchecked_answer(*PredictedEllipse::method, {plain(one), plain(two), horizon});
+  return answer.outcome == Outcome::not_converged ? Prediction2{} : answer;
+}
+
+class MethodEngine final : public Engine2 {
+ public:
+  MethodEngine(const Method& method, const EngineOptions& options)
+      : simulation_(options, "ellipses, collisions by " + method.name) {
+    PredictedEllipse::method = &method;
+  }
+
+  void load(const Configuration2& configuration, double horizon) override {
+    simulation_.load(configuration, horizon);
+  }
+  Stop advance(double until, RunCounters& counters) override {
+    return simulation_.advance(until, counters);
+  }
+  void write(Configuration2& configuration) const override { simulation_.write(configuration); }
+  void set_velocities(const Configuration2& configuration, double horizon,
+                      RunCounters& counters) override {
+    simulation_.set_velocities(configuration, horizon, counters);
+  }
+  std::string description() const override { return simulation_.description(); }
+
+ private:
+  Simulation<PredictedEllipse> simulation_;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine2> make_method_engine(const Method& method, const EngineOptions& options) {
+  return std::make_unique<MethodEngine>(method, options);
+}
+
+std::vector<CollisionCase> recorded_cases(const Configuration2& start, std::size_t count) {
+  std::vector<CollisionCase> cases;
+  const Method recording{"recording", 0, [&](const CollisionCase& asked) {
+                           if (cases.size() < count && bracket_contact(asked))
+                             cases.push_back(asked);
+                           return vitrel::first_contact(asked.one, asked.two, asked.horizon,
+                                                        asked.contact_gap());
+                         }};
+  MethodEngine engine(recording, {});
+  Configuration2 now = start;
+  RunCounters counters;
+  engine.load(now, Engine2::never);
+  while (cases.size() < count) {
+    engine.advance(std::numeric_limits<double>::max(), counters);
+    engine.write(now);
+    engine.load(now, Engine2::never);
+  }
+  return cases;
+}
+
+}  // namespace vitrel::bench

@@ -1,0 +1,54 @@
+#include "bench/methods/ellipsoids/eta_root.h"
+
+#include "bench/methods/first_root.h"
+#include "bench/methods/opening.h"
+
+namespace vitrel::bench {
+namespace {
+
+bool is_external_contact(const EllipsoidEta<double>& eta) {
+  return eta.eta2 > 0 && eta.eta3 < 0 && eta.eta5 > 0;
+}
+
+Prediction3 touch_at(const EllipsoidCase& asked, double time, int evaluations) {
+  const auto axes = [&](const Flight<GrowingEllipsoid>& flight) {
+    return EllipsoidAxes<double>(body_at(flight, time),
+                                 advanced(flight.pose, flight.motion, time).orientation);
+  };
+  const Vec3 centre1 = asked.one.pose.position + asked.one.motion.velocity * time;
+  const Vec3 centre2 = asked.two.pose.position + asked.two.motion.velocity * time;
+  const auto touch = ellipsoid_touch<double>(axes(asked.one), axes(asked.two), centre2 - centre1);
+  return {Outcome::contact, time, touch.normal, centre1 + touch.point, evaluations};
+}
+
+}  // namespace
+
+Prediction3 eta_root(const EllipsoidCase& asked, double tolerance) {
+  const OpeningOf<3> opening = open_search(asked);
+  if (opening.answer) return *opening.answer;
+  const Bracket& bracket = opening.bracket;
+  int evaluations = 0;
+  const auto eta1 = [&](double time) {
+    ++evaluations;
+    return ellipsoid_eta_at(asked, time).eta1;
+  };
+  const int steps = scan_steps_of(tolerance);
+  double before = bracket.earliest;
+  double eta_before = eta1(before);
+  for (int step = 1; step <= steps; ++step) {
+    const double time = bracket.sample(step, steps);
+    const double eta_time = eta1(time);
+    if ((eta_before > 0 && eta_time <= 0) || (eta_before <= 0 && eta_time > 0)) {
+      const double sign = eta_before > 0 ? 1 : -1;
+      const auto falling = [&](double at) { return sign * eta1(at); };
+      const double root = root_between(falling, before, sign * eta_before, time, sign * eta_time);
+      if (is_external_contact(ellipsoid_eta_at(asked, root)))
+        return touch_at(asked, root, evaluations);
+    }
+    before = time;
+    eta_before = eta_time;
+  }
+  return without_contact<3>(Outcome::none, evaluations);
+}
+
+}  // namespace vitrel::bench

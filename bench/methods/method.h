@@ -1,0 +1,30 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bench/methods/collision_case.h"
+#include "core/contact/first_contact.h"
+
+namespace vitrel::bench {
+
+/// A way to predict the first contact of two bodies, at one setting of its accuracy.
+///
+/// `predict` answers contact (time, normal from 1 to 2, point), none, not_converged, or overlap if
+/// it finds the pair overlapping at the start.
+template <int Dim>
+struct MethodOf {
+  std::string name;      ///< "slsqp"
+  double tolerance = 0;  ///< the method's own: what it means is said in its header
+  std::function<Prediction<Dim>(const CollisionCaseOf<Dim>&)> predict;
+};
+using Method = MethodOf<2>;
+
+/// Every method at its usual tolerance, the default first.
+std::vector<Method> collision_time_methods();
+
+/// Every method at a series of tolerances, from coarse to fine: the points of the chart.
+std::vector<Method> collision_time_methods_by_tolerance();
+
+}  // namespace vitrel::bench

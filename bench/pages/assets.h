@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string_view>
+
+namespace vitrel::bench {
+
+/// The content of a file of bench that was compiled in ("pages/page.html"). Throws std::logic_error for
+/// any other.
+std::string_view asset(std::string_view path);
+
+}  // namespace vitrel::bench

@@ -1,0 +1,20 @@
+#include "bench/programs/parts.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "app/terminal/session.h"
+
+namespace vitrel::bench {
+
+void say(const std::string& what) {
+  fmt::print(stderr, "{}\n", what);
+}
+
+void print(const Json& result) {
+  fmt::print("{}\n", result.dump(2));
+  flush_output();
+}
+
+}  // namespace vitrel::bench

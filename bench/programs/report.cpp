@@ -1,0 +1,56 @@
+#include "bench/programs/report.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/terminal/exit_codes.h"
+#include "bench/pages/page.h"
+#include "core/io/provenance.h"
+#include "workflow/storage/text_file.h"
+
+namespace vitrel::bench {
+
+using Json = nlohmann::ordered_json;
+
+Report::Report(const OutputOptions& options)
+    : options_(options), session_(options.quiet, options.wall_time) {
+  if (is_wanted()) require_output_folder(options.folder);
+}
+
+void Report::print(const Json& rows, const std::string& table) {
+  session_.clear();
+  if (options_.json)
+    fmt::print("{}\n", Json{{"rows", rows}}.dump(2));
+  else if (!options_.quiet)
+    fmt::print("{}", table);
+  flush_output();
+}
+
+int Report::stopped_early() const {
+  if (!options_.quiet)
+    fmt::print(stderr, "stopped; the table has what was done so far, and no files were written\n");
+  return stopped;
+}
+
+void Report::add_provenance(Json& data, const PageProvenance& what) const {
+  const Provenance now = current_provenance(options_.command_line, "", 0);
+  Json& fields = data["provenance"] = {{"command", now.command_line}};
+  for (const auto& [name, text] : what) fields[name] = text;
+  fields["version"] = now.version;
+  fields["commit"] = now.commit;
+  fields["host"] = now.host;
+  fields["finished"] = now.started;
+  fields["wall time"] = fmt::format("{:.0f} s", session_.seconds());
+}
+
+void Report::write_data(const std::string& name, const Json& data) const {
+  make_folder(options_.folder);
+  write_text(options_.folder / (name + ".json"), data.dump(2) + "\n");
+}
+
+void Report::write_page(const std::string& name, const PageTitle& title, const Json& data) const {
+  write_text(options_.folder / (name + ".html"), page(title.title, title.subtitle, data));
+}
+
+}  // namespace vitrel::bench

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "bench/reference/first_contact.h"
+
+namespace vitrel::bench {
+
+using TrueEllipsoidContact = TrueContactOf<3>;
+
+/// The true first contact of two ellipsoids in free flight, growing or not: slow, in 80-bit arithmetic,
+/// and without a step that could pass over a short overlap. It shares no code with the engine.
+///
+/// Disjoint at a time: if there is an axis n along which the support gap
+///     G(n, t) = n·d − s₁h₁ − s₂h₂,   hᵢ = √(nᵀΣᵢn),   Σᵢ the shape matrix at size 1, sᵢ the size,
+/// is positive, wherever n comes from (ellipsoid_touch, core/contact/ellipsoid_eta.h). Overlapping: by the
+/// completed criterion of η₁ … η₅ in 80-bit arithmetic. Between the two lies a gap of about the rounding,
+/// where nothing is said.
+///
+/// Steps. From a time with G > 0 the same axis separates the bodies up to the root of
+///     G + Ġ s − ½ M s²,   M = Σᵢ ( most of sᵢ · ½‖[Ωᵢ, [Ωᵢ, Σᵢ]]‖/cᵢ + 2 |γᵢ ωᵢ| (aᵢ − cᵢ) ) ≥ −G̈,
+/// since Σ̇ = [Ω, Σ] with Ωx = ω × x, the norm (of Frobenius) of [Ω, [Ω, Σ]] does not change as the body
+/// turns, and ḧ = (½ nᵀΣ̈n − ḣ²)/h with h ≥ c. The times approach the first contact from below, close to
+/// it with Newton's speed. Where G has become as small as rounding, the time by which the surfaces must
+/// have crossed is tried for an overlap, and the crossing bisected.
+///
+/// `undecided`: no overlap is found there: the surfaces touch, or miss each other by the rounding. Sizes
+/// must not become negative within the horizon.
+TrueEllipsoidContact true_first_contact(const Flight<GrowingEllipsoid>& one,
+                                        const Flight<GrowingEllipsoid>& two, double horizon);
+
+/// The distance of the surfaces at `time`, or minus the depth of the overlap, by the exact check's
+/// arithmetic (core/state/exact_pair.h).
+long double true_gap(const Flight<GrowingEllipsoid>& one, const Flight<GrowingEllipsoid>& two,
+                     long double time);
+
+}  // namespace vitrel::bench

@@ -1,0 +1,199 @@
+#include "bench/surveys/ellipsoid_suite.h"
+
+#include "bench/methods/opening.h"
+#include "bench/surveys/drawn_class.h"
+#include "bench/surveys/ellipsoid_reference.h"
+
+namespace vitrel::bench {
+namespace {
+
+using Solid = Flight<GrowingEllipsoid>;
+
+// kT = 1 and mass 1.
+Vec3 thermal_vector(Stream& draw) {
+  const double x = draw.normal(), y = draw.normal();
+  return {x, y, draw.normal()};
+}
+Vec3 any_direction(Stream& draw) {
+  return thermal_vector(draw).normalized();
+}
+Quaternion any_orientation(Stream& draw) {
+  const Vec3 v = thermal_vector(draw);
+  return Quaternion(draw.normal(), v.x(), v.y(), v.z()).normalized();
+}
+
+/// Of unit a b c.
+Ellipsoid any_shape(Stream& draw, double kappa) {
+  const double kind = draw.uniform();
+  const double middle = kind < 0.25 ? 1 : kind < 0.5 ? kappa : log_uniform(draw, 1, kappa);
+  return {Vec3(kappa, middle, 1) / std::cbrt(kappa * middle)};
+}
+
+Vec3 thermal_turning(Stream& draw, const Ellipsoid& shape, const Quaternion& orientation) {
+  return orientation * thermal_vector(draw).cwiseQuotient(shape.inertia_per_mass().cwiseSqrt());
+}
+
+Solid thermal(Stream& draw, const Ellipsoid& shape) {
+  const Quaternion q = any_orientation(draw);
+  const Vec3 velocity = thermal_vector(draw);
+  return {{shape, 1, 0}, {Vec3::Zero(), q}, {velocity, thermal_turning(draw, shape, q)}};
+}
+
+EllipsoidCase thermal_pair(Stream& draw, double kappa) {
+  const Solid one = thermal(draw, any_shape(draw, kappa));
+  return {one, thermal(draw, any_shape(draw, kappa)), usual_horizon};
+}
+
+bool disjoint_at(const EllipsoidCase& pair, double time) {
+  return perram_wertheim_at(pair, time).disjoint();
+}
+
+/// Puts the second body around the first until the two are disjoint, as in two dimensions.
+EllipsoidCase placed_apart(Stream& draw, EllipsoidCase pair, double nearest, double farthest) {
+  do {
+    const double distance = draw.uniform(nearest, farthest) * pair.reach();
+    pair.two.pose.position = pair.one.pose.position + distance * any_direction(draw);
+  } while (!disjoint_at(pair, 0));
+  return pair;
+}
+
+/// The support function of a body of size 1 along n: surface point and rate.
+struct Support {
+  Vec3 point;
+  double rate;
+};
+Support support(const Solid& flight, const Vec3& n) {
+  const Vec3 along = shape_matrix(flight.body.shape, flight.pose.orientation) * n;
+  const Vec3 point = along / std::sqrt(n.dot(along));
+  return {point, -point.dot(flight.motion.angular_velocity.cross(n))};
+}
+
+/// How two bodies stand and move when their surfaces are closest, `gap` apart along n, with this approach
+/// speed: shifts the second body and corrects its velocity along n.
+void bring_together(EllipsoidCase& pair, const Vec3& n, double gap, double approach) {
+  const Support s1 = support(pair.one, n), s2 = support(pair.two, n);
+  pair.two.pose.position = pair.one.pose.position + s1.point + s2.point + gap * n;
+  const double relative = (pair.two.motion.velocity - pair.one.motion.velocity).dot(n);
+  pair.two.motion.velocity += (s1.rate + s2.rate - approach - relative) * n;
+}
+
+/// d²/dt² of the gap by its second difference.
+double gap_acceleration(const EllipsoidCase& pair) {
+  constexpr double step = 1e-3;
+  const auto gap = [&](double time) { return true_gap(pair.one, pair.two, time); };
+  return static_cast<double>((gap(step) - 2 * gap(0) + gap(-step)) / (step * step));
+}
+
+EllipsoidCase generic(Stream& draw, double kappa) {
+  return placed_apart(draw, thermal_pair(draw, kappa), 0.2, 1.2);
+}
+
+EllipsoidCase grazing(Stream& draw, double kappa) {
+  constexpr double widest = 1e-3;
+  constexpr int samples = 64;
+  const double wanted = sign(draw) * log_uniform(draw, 1e-12, widest);
+  while (true) {
+    EllipsoidCase pair = thermal_pair(draw, kappa);
+    const Vec3 n = any_direction(draw);
+    const double when = draw.uniform(0.1, 0.9) * usual_horizon;
+    bring_together(pair, n, widest * pair.gap_unit(), 0);
+    if (gap_acceleration(pair) < 0.1 * pair.gap_unit()) continue;
+    EllipsoidCase probe = pair;
+    happen_at(probe, when);
+    bool disjoint = true;
+    for (int k = 0; k < samples && disjoint; ++k)
+      disjoint = disjoint_at(probe, k * usual_horizon / samples);
+    if (!disjoint) continue;
+    bring_together(pair, n, wanted * pair.gap_unit(), 0);
+    happen_at(pair, when);
+    return pair;
+  }
+}
+
+EllipsoidCase fast_rotation(Stream& draw, double kappa) {
+  EllipsoidCase pair = thermal_pair(draw, kappa);
+  for (Solid* flight : {&pair.one, &pair.two})
+    flight->motion.angular_velocity = draw.uniform(10, 60) * any_direction(draw);
+  return placed_apart(draw, pair, 0.5, 1.4);
+}
+
+EllipsoidCase drawn_aspect_ratios(Stream& draw, double largest) {
+  const Solid one = thermal(draw, any_shape(draw, log_uniform(draw, 1, largest)));
+  return {one, thermal(draw, any_shape(draw, log_uniform(draw, 1, largest))), usual_horizon};
+}
+
+EllipsoidCase aspect_ratios(Stream& draw, double largest) {
+  return placed_apart(draw, drawn_aspect_ratios(draw, largest), 0.2, 1.2);
+}
+
+EllipsoidCase sizes(Stream& draw, double largest) {
+  EllipsoidCase pair = drawn_aspect_ratios(draw, largest);
+  Ellipsoid& small = pair.two.body.shape;
+  small = scaled(small, log_uniform(draw, 1e-3, 1));
+  return placed_apart(draw, pair, 0.2, 1.2);
+}
+
+EllipsoidCase touching_leaving(Stream& draw, double kappa) {
+  while (true) {
+    EllipsoidCase pair = thermal_pair(draw, kappa);
+    const double wanted = draw.uniform(0.25, 1.25) * pair.contact_gap();
+    const double speed = std::abs(std::sqrt(2.0) * draw.normal());
+    bring_together(pair, any_direction(draw), wanted, -speed);
+    // What the stored doubles say.
+    const auto gap = static_cast<double>(true_gap(pair.one, pair.two, 0));
+    if (gap >= 0.25 * pair.contact_gap() && gap <= 1.25 * pair.contact_gap()) return pair;
+  }
+}
+
+EllipsoidCase parallel_congruent(Stream& draw, double kappa) {
+  EllipsoidCase pair = thermal_pair(draw, kappa);
+  pair.two.body = pair.one.body;
+  pair.two.pose.orientation = pair.one.pose.orientation;
+  pair.two.motion.angular_velocity = pair.one.motion.angular_velocity;
+  return placed_apart(draw, pair, 0.2, 1.2);
+}
+
+EllipsoidCase growth(Stream& draw, double kappa) {
+  EllipsoidCase pair = thermal_pair(draw, kappa);
+  let_grow(draw, pair);
+  return placed_apart(draw, pair, 0.2, 1.4);
+}
+
+}  // namespace
+
+std::vector<CaseClassOf<3>> ellipsoid_suite() {
+  DrawnClasses<3> classes;
+  classes.add("generic", "random close pairs with thermal velocities", generic, {2, 10});
+  classes.add("grazing",
+              "the gap has a least value between ±1e-12 and ±1e-3 shortest semi-axes within the "
+              "horizon: below 0 a close pair of roots",
+              grazing, {2, 10});
+  classes.add("fast_rotation",
+              "angular velocities of 10 to 60, so that the gap has many minima within the horizon",
+              fast_rotation, {2, 10});
+  classes.add("aspect_ratios", "aspect ratios log-uniform from 1 to 100, drawn for each body",
+              aspect_ratios, {100});
+  classes.add("sizes", "size ratios log-uniform from 1 to 1000, aspect ratios from 1 to 100", sizes,
+              {100});
+  classes.add("growth", "bodies grow or shrink while they turn, some from a point", growth,
+              {2, 10});
+  classes.add("touching_leaving",
+              "apart at the start by 1/4 to 5/4 of the gap of a declared contact, and leaving",
+              touching_leaving, {2, 10});
+  classes.add("parallel_congruent",
+              "of one shape, parallel and turning alike, as a body and its image: η₁ = 0 at all "
+              "times",
+              parallel_congruent, {2, 10});
+  return classes.list();
+}
+
+EllipsoidCase passing_pair(double depth) {
+  const auto solid = [](const Vec3& semi_axes, const Vec3& position,
+                        const Vec3& velocity) -> Solid {
+    return {{{semi_axes}, 1, 0}, {position, Quaternion::Identity()}, {velocity, Vec3::Zero()}};
+  };
+  return {solid({2, 1, 1.2}, {0, 0, 0}, {0, 0, 0}),
+          solid({1.5, 1, 0.8}, {3, 2 - depth, 0}, {-1, 0, 0}), 5.12};
+}
+
+}  // namespace vitrel::bench

@@ -1,0 +1,191 @@
+#include "bench/surveys/engine_speed.h"
+
+#include <malloc.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <fstream>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <string>
+
+#include "bench/methods/collision_case.h"
+#include "core/contact/ellipse_gap.h"
+#include "core/contact/ellipse_vieillard_baron.h"
+#include "core/error.h"
+#include "core/random/stream.h"
+#include "edmd/brownian.h"
+#include "mc/insertion.h"
+#include "mc/sampler.h"
+#include "mc/swelling.h"
+
+namespace vitrel::bench {
+namespace {
+
+void must_reach(const StageReport& report) {
+  if (report.end != StageEnd::reached)
+    throw InvariantError("no state to measure: " + report.reason);
+}
+
+// A permutation of 0 … n − 1.
+std::vector<std::size_t> random_order(std::size_t n) {
+  std::vector<std::size_t> order(n);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  Stream draw(n, Purpose::benchmark_cases);
+  for (std::size_t k = n; k > 1; --k) std::swap(order[k - 1], order[draw.below(k)]);
+  return order;
+}
+
+}  // namespace
+
+double processor_seconds() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+Configuration2 fluid(const FluidScene& scene) {
+  constexpr double dilute = 0.2;
+  constexpr int sweeps = 500, sweeps_between_tunings = 10;
+  Configuration2 c;
+  c.resize(static_cast<std::size_t>(scene.particles));
+  c.species_names = {"A"};
+  std::ranges::fill(c.shape, of_unit_area(scene.aspect_ratio));
+  must_reach(insert_particles(c, {std::min(dilute, scene.packing_fraction)}, scene.seed, {}));
+  SwellingState swelling;
+  must_reach(swell(c, {scene.packing_fraction}, scene.seed, swelling, {}));
+  Sampler sampler(c, scene.seed, {.next_sweep = swelling.moves.next_sweep});
+  for (int k = 1; k <= sweeps; ++k) {
+    sampler.sweep();
+    if (k % sweeps_between_tunings == 0) sampler.tune();
+  }
+  draw_velocities(c, scene.seed, Purpose::velocities, 0, Temperature::total);
+  return c;
+}
+
+Configuration2 tiled(const Configuration2& tile, int columns, int rows) {
+  const Vec2 lengths = tile.box.lengths();
+  const std::size_t copies = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+  const std::vector<std::size_t> place = random_order(copies * tile.size());
+  Configuration2 c;
+  c.box = PeriodicBox<2>(Vec2(columns * lengths.x(), rows * lengths.y()));
+  c.resize(place.size());
+  c.species_names = tile.species_names;
+  for (std::size_t k = 0; k < place.size(); ++k) {
+    const std::size_t i = k % tile.size(), copy = k / tile.size();
+    const Vec2 corner(static_cast<double>(copy % static_cast<std::size_t>(columns)),
+                      static_cast<double>(copy / static_cast<std::size_t>(columns)));
+    const std::size_t at = place[k];
+    c.position[at] = tile.position[i] + corner.cwiseProduct(lengths);
+    c.box.wrap(c.position[at], c.image[at]);
+    c.angle[at] = tile.angle[i];
+    c.shape[at] = tile.shape[i];
+    c.mass[at] = tile.mass[i];
+  }
+  draw_velocities(c, 1, Purpose::velocities, 0, Temperature::total);
+  return c;
+}
+
+template <int Dim>
+TimedRun<Dim>::TimedRun(std::unique_ptr<Engine<Dim>> engine, Configuration<Dim> start)
+    : engine_(std::move(engine)), now_(std::move(start)) {}
+
+template <int Dim>
+Work TimedRun<Dim>::blocks(double least_seconds) {
+  Work work;
+  const double start_time = now_.time, start = processor_seconds();
+  do {
+    engine_->load(now_);
+    engine_->advance(std::numeric_limits<double>::max(), work.counters);
+    engine_->write(now_);
+    work.seconds = processor_seconds() - start;
+  } while (work.seconds < least_seconds);
+  work.simulated_time = now_.time - start_time;
+  return work;
+}
+
+template <int Dim>
+Work TimedRun<Dim>::parts(double seconds, double first_collisions,
+                          double enough_collisions) requires(Dim == 2) {
+  Work work;
+  const double start_time = now_.time, start = processor_seconds();
+  double length = first_collisions / expected_collision_rate(now_);
+  double before = 0;
+  engine_->load(now_);
+  do {
+    before = work.seconds;
+    const double until = now_.time + length;
+    while (engine_->advance(until, work.counters) == Engine2::Stop::block_end) {
+      engine_->write(now_);
+      engine_->load(now_);
+      if (work.counters.collisions > 0 && processor_seconds() - start > seconds) break;
+    }
+    engine_->write(now_);
+    work.seconds = processor_seconds() - start;
+    length *= 2;
+  } while (work.counters.collisions == 0 ||
+           (static_cast<double>(work.counters.collisions) < enough_collisions &&
+            3 * work.seconds - 2 * before < seconds));
+  work.simulated_time = now_.time - start_time;
+  return work;
+}
+
+template class TimedRun<2>;
+template class TimedRun<3>;
+
+double expected_collision_rate(const Configuration2& c) {
+  // N/2 · 4 (Z − 1)/σ · √(kT/(π m)) with σ = 2, and Z − 1 = 2 φ g(σ).
+  const double phi = packing_fraction(c);
+  const double excess = 2 * phi * (1 - 7 * phi / 16) / ((1 - phi) * (1 - phi));
+  return static_cast<double>(c.size()) * excess / std::sqrt(std::numbers::pi);
+}
+
+double ns_per_psi(double seconds) {
+  struct Pair {
+    double angle1, angle2;
+    Vec2 d;
+  };
+  constexpr std::size_t pairs = 1000;
+  const Ellipse shape = of_unit_area(2);
+  std::vector<Pair> asked;
+  Stream draw(1, Purpose::benchmark_cases);
+  const auto angle = [&] { return draw.uniform(0, 2 * std::numbers::pi); };
+  for (std::size_t k = 0; k < pairs; ++k)
+    asked.push_back({angle(), angle(), draw.uniform(1.5, 3) * direction(angle())});
+  double best = std::numeric_limits<double>::infinity(), sum = 0;
+  for (const double begin = processor_seconds(); processor_seconds() - begin < seconds;) {
+    constexpr int passes = 20;
+    const double start = processor_seconds();
+    for (int pass = 0; pass < passes; ++pass)
+      for (const Pair& pair : asked)
+        sum += vieillard_baron(shape, pair.angle1, shape, pair.angle2, pair.d).psi;
+    best = std::min(best, (processor_seconds() - start) / (passes * pairs));
+  }
+  if (!std::isfinite(sum)) throw InvariantError("a contact function that is not a number");
+  return 1e9 * best;
+}
+
+std::size_t allocated_bytes() {
+  const struct mallinfo2 info = mallinfo2();
+  return info.uordblks + info.hblkhd;
+}
+
+std::size_t peak_bytes() {
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;)
+    if (word == "VmHWM:") {
+      std::size_t kilobytes = 0;
+      status >> kilobytes;
+      return 1024 * kilobytes;
+    }
+  return 0;
+}
+
+bool forget_peak() {
+  malloc_trim(0);
+  std::ofstream file("/proc/self/clear_refs");
+  file << 5 << std::flush;
+  return file.good();
+}
+
+}  // namespace vitrel::bench

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/state/configuration.h"
+#include "edmd/engine.h"
+
+/// How fast engines are: states to run from, and the clock.
+namespace vitrel::bench {
+
+/// N equal particles with a b = 1 and mass 1 in a square box.
+struct FluidScene {
+  int particles = 1000;
+  double aspect_ratio = 2;  ///< 1: disks
+  double packing_fraction = 0.5;
+  std::uint64_t seed = 1;
+};
+
+/// Inserted at random places and angles at φ = 0.2, swollen to the packing fraction, and mixed by 500
+/// sweeps of Monte Carlo; velocities at kT = 1. A liquid, not a melted crystal.
+Configuration2 fluid(const FluidScene& scene);
+
+/// Columns × rows copies of a configuration, the particles numbered at random, with velocities of
+/// their own. No more a periodic one after some collisions of each.
+Configuration2 tiled(const Configuration2& tile, int columns, int rows);
+
+/// Of this process, so that others do not count.
+double processor_seconds();
+
+/// What some work of an engine took.
+struct Work {
+  double seconds = 0;
+  double simulated_time = 0;
+  RunCounters counters;
+
+  double ns_per_collision() const {
+    return 1e9 * seconds / static_cast<double>(counters.collisions);
+  }
+};
+
+/// An engine at work, for as long as one wants. The time is that of this process, so that others do
+/// not count.
+template <int Dim>
+class TimedRun {
+ public:
+  TimedRun(std::unique_ptr<Engine<Dim>> engine, Configuration<Dim> start);
+
+  /// Whole blocks, with what their beginning and end takes; at least one, and as many as take so
+  /// many seconds.
+  Work blocks(double least_seconds);
+
+  /// For an engine whose blocks take long: ever longer parts of them, the first of about so many
+  /// collisions, until there were enough or the next would take more than the seconds.
+  Work parts(double seconds, double first_collisions, double enough_collisions) requires(Dim == 2);
+
+  const Configuration<Dim>& now() const { return now_; }
+
+ private:
+  std::unique_ptr<Engine<Dim>> engine_;
+  Configuration<Dim> now_;
+};
+
+/// Collisions per unit of time in a fluid of these, roughly: those of disks by Enskog's theory.
+double expected_collision_rate(const Configuration2& configuration);
+
+/// The calibration: nanoseconds per Vieillard-Baron function Ψ of two ellipses given by their angles.
+double ns_per_psi(double seconds);
+
+/// Bytes that this process has allocated now, and has had in memory at most since `forget_peak`.
+std::size_t allocated_bytes();
+std::size_t peak_bytes();
+/// Peaks before do not count any more. False if the system does not allow that.
+bool forget_peak();
+
+}  // namespace vitrel::bench

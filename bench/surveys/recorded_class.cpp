@@ -1,0 +1,106 @@
+#include "bench/surveys/recorded_class.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+
+#include "bench/baselines/method_engine.h"
+#include "edmd/brownian.h"
+#include "mc/insertion.h"
+#include "mc/swelling.h"
+
+namespace vitrel::bench {
+namespace {
+
+constexpr std::size_t particles = 256;
+constexpr double packing_fraction = 0.7;
+constexpr std::uint64_t collisions_before = 50 * particles / 2;  // two particles have part in each
+
+void expect_reached(const StageReport& report) {
+  if (report.end != StageEnd::reached)
+    throw std::runtime_error("recorded_classes: the state could not be prepared: " + report.reason);
+}
+
+Configuration2 prepared(double aspect_ratio, std::uint64_t seed) {
+  Configuration2 c;
+  c.resize(particles);
+  c.species_names = {"A"};
+  std::ranges::fill(c.shape, of_unit_area(aspect_ratio));
+  const double length = std::sqrt(particles * std::numbers::pi / packing_fraction);
+  c.box = PeriodicBox<2>(Vec2(length, length));
+  expect_reached(insert_particles(c, {}, seed, {}));
+  SwellingState swelling;
+  expect_reached(swell(c, {packing_fraction}, seed, swelling, {}));
+  set_initial_velocities(c, seed, InitialVelocities::maxwell, Temperature::total);
+  return c;
+}
+
+/// A state of the run after its first transient.
+Configuration2 running(double aspect_ratio, std::uint64_t seed) {
+  Configuration2 c = prepared(aspect_ratio, seed);
+  const auto engine = make_engine(c, {});
+  RunCounters counters;
+  while (counters.collisions < collisions_before) {
+    engine->load(c);
+    engine->advance(std::numeric_limits<double>::infinity(), counters);
+    engine->write(c);
+  }
+  return c;
+}
+
+/// One run and what it asked so far.
+class Recording {
+ public:
+  explicit Recording(double aspect_ratio) : aspect_ratio_(aspect_ratio) {}
+
+  CollisionCase at(std::uint64_t seed, std::uint64_t index) {
+    const std::lock_guard lock(mutex_);
+    if (seed != seed_) {
+      start_ = running(aspect_ratio_, seed);
+      cases_.clear();
+      seed_ = seed;
+    }
+    // Recorded anew from the start whenever there are too few: the same ones again, and more.
+    constexpr std::uint64_t least = 8192;
+    if (index >= cases_.size())
+      cases_ = recorded_cases(start_, std::max(least, std::bit_ceil(index + 1)));
+    return cases_[index];
+  }
+
+ private:
+  double aspect_ratio_;
+  std::mutex mutex_;
+  std::optional<std::uint64_t> seed_;
+  Configuration2 start_;
+  std::vector<CollisionCase> cases_;
+};
+
+}  // namespace
+
+std::vector<CaseClass> recorded_classes() {
+  std::vector<CaseClass> list;
+  for (const double aspect_ratio : {2.0, 6.0}) {
+    const auto recording = std::make_shared<Recording>(aspect_ratio);
+    list.push_back({"recorded",
+                    "asked by the engine in a run of 256 ellipses at packing fraction 0.7",
+                    aspect_ratio, [recording](std::uint64_t seed, std::uint64_t index) {
+                      return recording->at(seed, index);
+                    }});
+  }
+  return list;
+}
+
+std::vector<CaseClass> all_classes() {
+  std::vector<CaseClass> classes = stability_suite();
+  std::ranges::move(recorded_classes(), std::back_inserter(classes));
+  return classes;
+}
+
+}  // namespace vitrel::bench

@@ -1,0 +1,229 @@
+#include "bench/surveys/thesis_run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include "bench/baselines/all_pairs.h"
+#include "bench/methods/collision_case.h"
+#include "core/state/check.h"
+#include "edmd/brownian.h"
+#include "mc/lattice.h"
+
+namespace vitrel::bench {
+namespace {
+
+constexpr double sample_interval = 0.1;
+/// In a sample interval a particle has about half a collision; a run with so many events stands still.
+constexpr std::uint64_t most_events_per_particle = 100;
+constexpr double diagonal = 0.25 * std::numbers::pi;
+
+double energy(const Configuration2& c) {
+  const Mechanics sums = mechanics(c);
+  return sums.translational_energy + sums.rotational_energy;
+}
+
+/// An engine at work on a configuration, whose velocities are drawn anew every `brownian_step`
+/// (0: never).
+class Driver {
+ public:
+  Driver(std::unique_ptr<Engine2> engine, const Configuration2& start, double brownian_step)
+      : engine_(std::move(engine)), now_(start), brownian_step_(brownian_step) {
+    engine_->load(now_, next_step());
+  }
+
+  /// False if the engine stands still.
+  bool advance(double until) {
+    const std::uint64_t last = counters_.events + most_events_per_particle * now_.size();
+    while (engine_->advance(until, counters_) == Engine2::Stop::block_end) {
+      engine_->write(now_);
+      if (counters_.events > last) return false;
+      engine_->load(now_, next_step());
+    }
+    engine_->write(now_);
+    return true;
+  }
+
+  double next_step() const {
+    return brownian_step_ > 0 ? brownian_step_ * static_cast<double>(steps_ + 1) : Engine2::never;
+  }
+  /// To be called at the time of the next step: `draw` gets the configuration and the step's number.
+  template <class Draw>
+  void step(Draw draw) {
+    ++steps_;
+    draw(now_, steps_);
+    engine_->set_velocities(now_, next_step(), counters_);
+  }
+
+  const Configuration2& now() const { return now_; }
+  const RunCounters& counters() const { return counters_; }
+
+ private:
+  std::unique_ptr<Engine2> engine_;
+  Configuration2 now_;
+  double brownian_step_;
+  std::uint64_t steps_ = 0;
+  RunCounters counters_;
+};
+
+/// How long `work` takes, in seconds.
+template <class Work>
+double seconds_of(Work work) {
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  work();
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::unique_ptr<Engine2> make_program(Program program, const Configuration2& start) {
+  if (program == Program::ours) return make_engine(start, {});
+  const auto method = [](const char* name) {
+    const std::vector<Method> methods = collision_time_methods();
+    return *std::ranges::find(methods, name, &Method::name);
+  };
+  static const Method slsqp = method("slsqp"), checked = method("slsqp_checked");
+  EngineOptions options;
+  options.on_overlap = OnOverlap::correct;
+  if (program == Program::thesis)
+    return make_all_pairs_engine({options, Asking::every_pair, &slsqp});
+  return make_all_pairs_engine({options, Asking::changed_pairs, &checked});
+}
+
+void note_overlaps(const Configuration2& now, ThesisRun& result) {
+  const ExactCheck<2> check = exact_check(now);
+  ++result.samples;
+  if (check.clean()) return;
+  ++result.samples_with_overlap;
+  result.deepest_overlap = std::max(result.deepest_overlap, -check.smallest_gap / now.shape[0].b);
+}
+
+// Velocities whose energy is split as `share` says.
+void draw_wrong_split(Configuration2& c, const RelaxationScene& scene, std::uint64_t seed,
+                      std::uint64_t step) {
+  draw_velocities(c, seed, step == 0 ? Purpose::velocities : Purpose::brownian_step, step,
+                  Temperature::total);
+  const Mechanics drawn = mechanics(c);
+  const double total = drawn.translational_energy + drawn.rotational_energy;
+  const double v = std::sqrt(scene.share * total / drawn.translational_energy);
+  const double omega = std::sqrt((1 - scene.share) * total / drawn.rotational_energy);
+  for (Vec2& velocity : c.velocity) velocity *= v;
+  for (double& angular : c.angular_velocity) angular *= omega;
+}
+
+// When the energies are looked at: ten times per decade, of a Brownian run at ends of its periods.
+std::vector<double> relaxation_times(const RelaxationScene& scene) {
+  constexpr int per_decade = 10;
+  constexpr double first = 0.01;
+  std::vector<double> times;
+  for (int k = 0;; ++k) {
+    double time = first * std::pow(10, static_cast<double>(k) / per_decade);
+    if (time > scene.duration * (1 + 1e-9)) return times;
+    if (scene.brownian_step > 0 && time > scene.brownian_step)
+      time = scene.brownian_step * std::round(time / scene.brownian_step);
+    if (times.empty() || time > times.back()) times.push_back(time);
+  }
+}
+
+}  // namespace
+
+Configuration2 on_lattice(const ThesisScene& scene) {
+  Configuration2 c;
+  c.resize(static_cast<std::size_t>(scene.particles));
+  c.species_names = {"A"};
+  std::ranges::fill(c.shape, of_unit_area(scene.aspect_ratio));
+  const double length = std::sqrt(scene.particles * std::numbers::pi / scene.packing_fraction);
+  c.box = PeriodicBox<2>(Vec2(length, length));
+  const bool square_fits = densest_square_lattice(c.shape[0], diagonal) >= scene.packing_fraction;
+  if (square_fits)
+    place_on_lattice(c, {Arrangement::square, diagonal, false});
+  else
+    place_on_lattice(c, {Arrangement::triangular, 0, false});
+  return c;
+}
+
+Configuration2 equilibrated(const ThesisScene& scene, double duration) {
+  Configuration2 start = on_lattice(scene);
+  set_initial_velocities(start, scene.seed, InitialVelocities::maxwell, Temperature::total);
+  Driver driver(make_engine(start, {}), start, 0);
+  driver.advance(duration);
+  Configuration2 end = driver.now();
+  end.time = 0;
+  draw_velocities(end, scene.seed, Purpose::brownian_step, 0, Temperature::total);
+  return end;
+}
+
+const char* name_of(Program program) {
+  switch (program) {
+    case Program::ours:
+      return "vitrel";
+    case Program::thesis:
+      return "thesis";
+    case Program::improved:
+      return "improved";
+  }
+  return "";
+}
+
+ThesisRun run_thesis(Program program, const Configuration2& start, const RunLimits& limits,
+                     const RunControl& control,
+                     const std::function<void(const Configuration2&)>& at_sample) {
+  ThesisRun result;
+  Driver driver(make_program(program, start), start, limits.brownian_step);
+  const double first_energy = energy(start);
+  const auto draw = [&](Configuration2& now, std::uint64_t step) {
+    draw_velocities(now, limits.seed, Purpose::brownian_step, step, Temperature::total);
+  };
+  for (int sample = 1; !control.stop_requested(); ++sample) {
+    const double until = sample_interval * sample;
+    if (until > limits.duration * (1 + 1e-12)) break;
+    result.seconds += seconds_of([&] { result.stood_still = !driver.advance(until); });
+    note_overlaps(driver.now(), result);
+    if (result.stood_still) break;
+    result.simulated_time = until;
+    if (limits.brownian_step == 0)
+      result.energy_drift =
+          std::max(result.energy_drift, std::abs(energy(driver.now()) / first_energy - 1));
+    if (at_sample) at_sample(driver.now());
+    if (result.seconds > limits.seconds) break;
+    if (driver.next_step() < until + 0.5 * sample_interval)
+      result.seconds += seconds_of([&] { driver.step(draw); });
+  }
+  result.counters = driver.counters();
+  return result;
+}
+
+Relaxation relax(const RelaxationScene& scene, const RunControl& control) {
+  constexpr int particles = 100;
+  Relaxation result;
+  result.scene = scene;
+  result.times = relaxation_times(scene);
+  result.kinetic.assign(result.times.size(), 0);
+  for (int k = 0; k < scene.runs && !control.stop_requested(); ++k) {
+    const std::uint64_t seed = scene.seed + static_cast<std::uint64_t>(k);
+    const auto draw = [&](Configuration2& now, std::uint64_t step) {
+      draw_wrong_split(now, scene, seed, step);
+    };
+    Configuration2 start = on_lattice({particles, 2, scene.packing_fraction, seed});
+    draw(start, 0);
+    Driver driver(make_engine(start, {}), start, scene.brownian_step);
+    for (std::size_t at = 0; at < result.times.size(); ++at) {
+      // Periods that end before the time, not with it: energies are those just before a step.
+      while (driver.next_step() < result.times[at] * (1 - 1e-9)) {
+        driver.advance(driver.next_step());
+        driver.step(draw);
+      }
+      driver.advance(std::min(result.times[at], driver.next_step()));
+      result.kinetic[at] += mechanics(driver.now()).translational_energy / (particles * scene.runs);
+      ++result.samples;
+      if (!exact_check(driver.now()).clean()) ++result.samples_with_overlap;
+    }
+  }
+  // Beta(α, β): mean α/(α + β), variance αβ/((α + β)²(α + β + 1)).
+  const double alpha = particles - 1, beta = 0.5 * particles, sum = alpha + beta;
+  result.expected = 1.5 * alpha / sum;
+  result.standard_error = 1.5 * std::sqrt(alpha * beta / (sum * sum * (sum + 1)) / scene.runs);
+  return result;
+}
+
+}  // namespace vitrel::bench

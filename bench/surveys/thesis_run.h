@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/state/configuration.h"
+#include "core/state/stage.h"
+#include "edmd/engine.h"
+
+/// The simulations of chapter 4 of the thesis (thesis-elliptic-disks), with its program and with this one.
+namespace vitrel::bench {
+
+/// N equal particles with a b = 1 in a square box.
+struct ThesisScene {
+  int particles = 100;
+  double aspect_ratio = 2;  ///< 1: circles
+  double packing_fraction = 0.5;
+  std::uint64_t seed = 1;
+};
+
+/// On a square lattice with the major axes along its diagonal, as in the thesis, or triangular where
+/// that does not fit; at rest.
+Configuration2 on_lattice(const ThesisScene& scene);
+/// The same after `duration` units of time of Newtonian dynamics, and with new velocities.
+Configuration2 equilibrated(const ThesisScene& scene, double duration);
+
+enum class Program {
+  ours,      ///< the engine
+  thesis,    ///< every pair asked after every event, ellipses by SLSQP as the thesis has it
+  improved,  ///< the same with a table of the pairs' next events, and every answer checked
+};
+const char* name_of(Program program);
+
+struct RunLimits {
+  double duration = 100;     ///< simulated
+  double seconds = 1e9;      ///< that the engine works; at least one sample is taken
+  double brownian_step = 0;  ///< τ_B, a multiple of the sample interval; 0: Newtonian
+  std::uint64_t seed = 1;    ///< of the velocities drawn at Brownian steps
+};
+
+struct ThesisRun {
+  double simulated_time = 0;
+  double seconds = 0;  ///< that the engine worked
+  RunCounters counters;
+  std::uint64_t samples = 0;
+  std::uint64_t samples_with_overlap = 0;  ///< by the exact check
+  double deepest_overlap = 0;              ///< in units of b
+  double energy_drift = 0;                 ///< largest |E − E₀|/E₀ of a Newtonian run
+  bool stood_still = false;                ///< events without end at one time
+};
+
+/// Samples every 0.1 units of time: the exact check, the energy, and `at_sample`.
+ThesisRun run_thesis(Program program, const Configuration2& start, const RunLimits& limits,
+                     const RunControl& control,
+                     const std::function<void(const Configuration2&)>& at_sample = {});
+
+/// Energies after a start whose split between translation and rotation is wrong (figure 4.7): the
+/// mean over `runs` runs of the kinetic energy of translation per particle, at ascending times.
+struct RelaxationScene {
+  double packing_fraction = 0.5;
+  double share = 1;          ///< of the energy, 3/2 kT per particle, that begins in translation
+  double brownian_step = 0;  ///< τ_B: the wrong split is drawn anew every τ_B; 0: never
+  double duration = 100;
+  int runs = 32;
+  std::uint64_t seed = 1;
+};
+struct Relaxation {
+  RelaxationScene scene;
+  std::vector<double>
+      times;  ///< of a Brownian run: in the first period, then at the ends of periods
+  std::vector<double> kinetic;  ///< per particle, mean over the runs
+  /// In equilibrium at zero momentum and fixed energy E the kinetic energy of translation is E times
+  /// a Beta(N − 1, N/2) variable: every configuration of momenta with the energy E and the momentum 0
+  /// is equally likely, and those are 2N − 2 and N quadratic degrees of freedom.
+  double expected = 0;        ///< per particle
+  double standard_error = 0;  ///< of the mean over the runs
+  std::uint64_t samples = 0;
+  std::uint64_t samples_with_overlap = 0;
+};
+Relaxation relax(const RelaxationScene& scene, const RunControl& control);
+
+}  // namespace vitrel::bench

@@ -1,0 +1,84 @@
+#include "bench/surveys/verdict.h"
+
+#include <cmath>
+#include <limits>
+
+#include "bench/reference/true_gap.h"
+#include "bench/surveys/ellipsoid_reference.h"
+
+namespace vitrel::bench {
+
+namespace {
+
+template <int Dim>
+bool answers_contact(const Prediction<Dim>& answer) {
+  return answer.outcome == Outcome::contact || answer.outcome == Outcome::overlap;
+}
+
+// An overlap found at the start is a contact at time 0.
+template <int Dim>
+double time_of(const Prediction<Dim>& answer) {
+  return answer.outcome == Outcome::overlap ? 0 : answer.time;
+}
+
+template <int Dim>
+bool is_degenerate(const CollisionCaseOf<Dim>& asked, const TrueContactOf<Dim>& truth) {
+  using Truth = typename TrueContactOf<Dim>::Outcome;
+  if (truth.outcome == Truth::undecided) return true;
+  if (truth.outcome != Truth::contact) return false;
+  return truth.approach_speed < 0.02 * asked.reach() / asked.horizon;
+}
+
+// A contact answered where a true one exists; `off` is the time error.
+Verdict timing(double off, double allowed, bool degenerate, bool at_rounding) {
+  if (std::abs(off) <= allowed) return Verdict::correct;
+  if (off > 0) return Verdict::late;
+  return degenerate && at_rounding ? Verdict::correct : Verdict::early;
+}
+
+}  // namespace
+
+template <int Dim>
+Assessment assess(const CollisionCaseOf<Dim>& asked, const TrueContactOf<Dim>& truth,
+                  const Prediction<Dim>& answer, const AllowedError& tolerance) {
+  using Truth = typename TrueContactOf<Dim>::Outcome;
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  // The truth itself is no better known than that.
+  const double allowed = tolerance.time * asked.horizon + static_cast<double>(truth.uncertainty);
+  Assessment assessment{Verdict::correct, is_degenerate(asked, truth), none, none};
+
+  const bool contact = answers_contact(answer);
+  const double time = time_of(answer);
+  if (answer.outcome == Outcome::not_converged || (contact && !std::isfinite(time))) {
+    assessment.verdict = Verdict::not_converged;
+    return assessment;
+  }
+  if (truth.outcome == Truth::overlap_at_start) {
+    assessment.verdict = contact && time <= allowed ? Verdict::correct : Verdict::missed;
+    return assessment;
+  }
+  if (!contact) {
+    assessment.verdict = truth.outcome == Truth::contact ? Verdict::missed : Verdict::correct;
+    return assessment;
+  }
+
+  const auto off = static_cast<double>(time - truth.time);
+  const bool near_in_time = truth.outcome == Truth::contact && std::abs(off) <= allowed;
+  const auto gap = static_cast<double>(true_gap(asked.one, asked.two, time));
+  const bool at_rounding = gap <= tolerance.gap * asked.gap_unit();
+  assessment.gap_error = gap;
+  if (truth.outcome == Truth::contact) assessment.time_error = off;
+  if (!at_rounding && !near_in_time &&
+      (truth.outcome != Truth::contact || answer.outcome == Outcome::overlap))
+    assessment.verdict = Verdict::false_contact;
+  else if (truth.outcome == Truth::contact)
+    assessment.verdict = timing(off, allowed, assessment.degenerate, at_rounding);
+  return assessment;
+}
+
+template Assessment assess(const CollisionCase&, const TrueContact&, const Prediction2&,
+                           const AllowedError&);
+template Assessment assess(const EllipsoidCase&, const TrueEllipsoidContact&, const Prediction3&,
+                           const AllowedError&);
+
+}  // namespace vitrel::bench

@@ -1,0 +1,106 @@
+#pragma once
+
+#include "core/contact/ellipse_pair.h"
+#include "core/contact/gap_batch.h"
+
+namespace vitrel {
+
+/// Ellipses: the gap along C⁻¹d with λ as for circles (detail::initial_axis), and along that axis turned by
+/// one Newton step; the larger of the two.
+template <>
+class GapBatch<Ellipse> {
+ public:
+  static constexpr int lanes = simd_width;
+
+  GapBatch(const Ellipse& shape, double angle, double /*limit*/) : coefficients_(shape) {
+    PairArray x, y;
+    directions<PairArray>({angle, angle}, x, y);
+    ux_ = x[0];
+    uy_ = y[0];
+  }
+
+  VITREL_INLINE void set(int k, const Ellipse& shape, double angle, const Vec2& d) {
+    dx_[k] = d.x();
+    dy_[k] = d.y();
+    angle_[k] = angle;
+    const double bb = shape.b * shape.b;
+    bb_[k] = bb;
+    aa_minus_bb_[k] = shape.aa_minus_bb();
+    aabb_[k] = shape.a * shape.a * bb;
+  }
+
+  [[gnu::flatten]] void evaluate() {
+    const Body one{coefficients_.bb, coefficients_.aa_minus_bb, coefficients_.aabb, ux_, uy_};
+    Body two{bb_.load(), aa_minus_bb_.load(), aabb_.load(), {}, {}};
+    directions<SimdBatch>(angle_.load(), two.ux, two.uy);
+    const SimdBatch dx = dx_.load(), dy = dy_.load();
+    SimdBatch nx, ny;
+    initial_axes(one, two, dx, dy, nx, ny);
+    const Gap first = gap_along(one, two, dx, dy, nx, ny);
+    SimdBatch turned_nx = nx, turned_ny = ny;
+    detail::newton_rotate(turned_nx, turned_ny, first.slope, first.curvature);
+    const Gap second = gap_along(one, two, dx, dy, turned_nx, turned_ny);
+    const auto better = second.gap > first.gap;
+    where(better, nx) = turned_nx;
+    where(better, ny) = turned_ny;
+    gap_.store(max(first.gap, second.gap));
+    nx_.store(nx);
+    ny_.store(ny);
+  }
+
+  double gap(int k) const { return gap_[k]; }
+  Vec2 axis(int k) const { return {nx_[k], ny_[k]}; }
+
+ private:
+  struct Body {
+    SimdBatch bb, aa_minus_bb, aabb, ux, uy;
+  };
+  struct Gap {
+    SimdBatch gap, slope, curvature;
+  };
+
+  VITREL_INLINE static Gap gap_along(const Body& one, const Body& two, const SimdBatch& dx,
+                                     const SimdBatch& dy, const SimdBatch& nx,
+                                     const SimdBatch& ny) {
+    const auto h1 =
+        support_along<SimdBatch>(one.bb, one.aa_minus_bb, one.aabb, one.ux, one.uy, nx, ny);
+    const auto h2 =
+        support_along<SimdBatch>(two.bb, two.aa_minus_bb, two.aabb, two.ux, two.uy, nx, ny);
+    const SimdBatch gap = nx * dx + ny * dy - (h1.height + h2.height);
+    return {gap, nx * dy - ny * dx - (h1.turning + h2.turning), gap + (h1.radius + h2.radius)};
+  }
+
+  // w = adj(Σ) d and p = d·w.
+  VITREL_INLINE static void adjugate_times(const Body& body, const SimdBatch& dx,
+                                           const SimdBatch& dy, SimdBatch& wx, SimdBatch& wy,
+                                           SimdBatch& p) {
+    const SimdBatch along = body.ux * dx + body.uy * dy;
+    const SimdBatch across = body.ux * dy - body.uy * dx;
+    const SimdBatch b = body.bb * along, a = (body.bb + body.aa_minus_bb) * across;
+    wx = b * body.ux - a * body.uy;
+    wy = b * body.uy + a * body.ux;
+    p = b * along + a * across;
+  }
+
+  VITREL_INLINE static void initial_axes(const Body& one, const Body& two, const SimdBatch& dx,
+                                         const SimdBatch& dy, SimdBatch& nx, SimdBatch& ny) {
+    SimdBatch wx1, wy1, p1, wx2, wy2, p2;
+    adjugate_times(one, dx, dy, wx1, wy1, p1);
+    adjugate_times(two, dx, dy, wx2, wy2, p2);
+    const SimdBatch x = two.aabb * p1, y = one.aabb * p2;
+    const SimdBatch weight1 = 3. * x + y, weight2 = x + 3. * y;
+    nx = weight1 * wx1 + weight2 * wx2;
+    ny = weight1 * wy1 + weight2 * wy2;
+    const SimdBatch scale = 1. / sqrt(nx * nx + ny * ny);
+    nx *= scale;
+    ny *= scale;
+  }
+
+  using Numbers = detail::BatchBuffer<simd_width>;
+
+  ShapeCoefficients<Ellipse> coefficients_;
+  double ux_, uy_;
+  Numbers dx_, dy_, angle_, bb_, aa_minus_bb_, aabb_, gap_, nx_, ny_;
+};
+
+}  // namespace vitrel

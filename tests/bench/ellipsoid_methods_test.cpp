@@ -1,0 +1,217 @@
+// The collision times of ellipsoids: the truth, the default method on every class, and what the root
+// finders miss.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "bench/methods/ellipsoids/eta_root.h"
+#include "bench/methods/ellipsoids/methods.h"
+#include "bench/methods/opening.h"
+#include "bench/surveys/ellipsoid_reference.h"
+#include "bench/surveys/ellipsoid_suite.h"
+#include "bench/surveys/verdict.h"
+#include "core/contact/ellipsoid_eta.h"
+
+namespace vitrel::bench {
+namespace {
+
+using Truth = TrueEllipsoidContact::Outcome;
+
+constexpr std::uint64_t seed = 1;
+constexpr std::uint64_t pairs = 2000;
+
+TrueEllipsoidContact truth_of(const EllipsoidCase& asked) {
+  return true_first_contact(asked.one, asked.two, asked.horizon);
+}
+
+// ---- The truth ----
+
+Flight<GrowingEllipsoid> ball(double radius, double growth, const Vec3& position,
+                              const Vec3& velocity) {
+  return {{{Vec3::Constant(radius)}, 1, growth},
+          {position, Quaternion::Identity()},
+          {velocity, Vec3(1, 2, 3)}};
+}
+
+TEST(TrueContactOfSolids, SpheresInClosedForm) {
+  // 10 − 2 t = (1 + 2)(1 + t/2)
+  const TrueEllipsoidContact growing = true_first_contact(ball(1, 0.5, {0, 0, 0}, {0, 0, 0}),
+                                                          ball(2, 0.5, {10, 0, 0}, {-2, 0, 0}), 10);
+  ASSERT_EQ(growing.outcome, Truth::contact);
+  EXPECT_LT(growing.uncertainty, 1e-15);
+  EXPECT_LE(std::abs(growing.time - 2), growing.uncertainty);
+  EXPECT_NEAR(growing.approach_speed, 3.5, 1e-15);
+  EXPECT_NEAR((growing.normal - Vec3::UnitX()).norm(), 0, 1e-15);
+  // |(4 − t, 1)| = 2
+  const TrueEllipsoidContact passing =
+      true_first_contact(ball(1, 0, {0, 0, 0}, {0, 0, 0}), ball(1, 0, {4, 1, 0}, {-1, 0, 0}), 10);
+  EXPECT_LT(passing.uncertainty, 1e-15);
+  EXPECT_LE(std::abs(passing.time - (4 - std::sqrt(3.0L))), passing.uncertainty);
+  EXPECT_EQ(true_first_contact(ball(1, 0, {0, 0, 0}, {0, 0, 0}),
+                               ball(1, 0, {4, 2.001, 0}, {-1, 0, 0}), 10)
+                .outcome,
+            Truth::none);
+  EXPECT_EQ(
+      true_first_contact(ball(1, 0, {0, 0, 0}, {0, 0, 0}), ball(1, 0, {1, 1, 0}, {1, 0, 0}), 10)
+          .outcome,
+      Truth::overlap_at_start);
+}
+
+/// The completed criterion in 80-bit arithmetic; poses from those of the methods, in double.
+bool overlap_by_criterion(const EllipsoidCase& asked, long double time) {
+  using Vector = Eigen::Matrix<long double, 3, 1>;
+  const auto axes = [&](const Flight<GrowingEllipsoid>& flight) {
+    const double at = static_cast<double>(time);
+    return EllipsoidAxes<long double>(body_at(flight, at),
+                                      advanced(flight.pose, flight.motion, at).orientation);
+  };
+  const Vector d =
+      (asked.two.pose.position - asked.one.pose.position).cast<long double>() +
+      (asked.two.motion.velocity - asked.one.motion.velocity).cast<long double>() * time;
+  return !ellipsoid_eta<long double>(axes(asked.one), axes(asked.two), d).disjoint_or_touching();
+}
+
+// A scan and a bisection that know nothing of axes and bounds. Poses in double limit what they can see to
+// some 1e-15 of the reach, thus 1e-12 of the horizon where the surfaces cross at speed.
+TEST(TrueContactOfSolids, ScansAndBisectionSayTheSame) {
+  constexpr int samples = 1000;
+  int contacts = 0;
+  for (const CaseClassOf<3>& of : ellipsoid_suite()) {
+    if (of.name == "touching_leaving") continue;  // its gap is that of the roundings
+    for (std::uint64_t index = 0; index < 40; ++index) {
+      const EllipsoidCase asked = make_case(of, seed + 1, index);
+      const TrueEllipsoidContact truth = truth_of(asked);
+      const bool touches = truth.outcome == Truth::contact;
+      const auto end = touches ? static_cast<double>(truth.time) : asked.horizon;
+      const double near = 1e-11 * asked.horizon;
+      for (int k = 0; k < samples; ++k)
+        ASSERT_FALSE(overlap_by_criterion(asked, (end - near) * k / samples))
+            << of.name << ' ' << index << ": overlap before " << end;
+      if (!touches || truth.approach_speed < 0.02 * asked.reach() / asked.horizon) continue;
+      ++contacts;
+      double low = end - near, high = end + near;
+      ASSERT_TRUE(overlap_by_criterion(asked, high)) << of.name << ' ' << index;
+      for (int k = 0; k < 40; ++k) {
+        const double middle = 0.5 * (low + high);
+        (overlap_by_criterion(asked, middle) ? high : low) = middle;
+      }
+      EXPECT_NEAR(high, end, 1e-12 * asked.horizon) << of.name << ' ' << index;
+    }
+  }
+  EXPECT_GT(contacts, 80);
+}
+
+TEST(TrueContactOfSolids, ShortOverlapsHaveTheLengthOfTheParabola) {
+  for (const double depth : {1e-4, 1e-8, 1e-12, 1e-16}) {
+    const TrueEllipsoidContact truth = truth_of(passing_pair(depth));
+    const double stored = 2 - (2 - depth);
+    if (stored == 0) {
+      EXPECT_EQ(truth.outcome, Truth::undecided);
+      continue;
+    }
+    ASSERT_EQ(truth.outcome, Truth::contact) << depth;
+    const double half = 0.5 * std::sqrt(50 * stored);
+    EXPECT_NEAR(static_cast<double>(3 - truth.time), half,
+                half * stored + static_cast<double>(truth.uncertainty) + 1e-15);
+    EXPECT_NEAR(static_cast<double>(true_gap(passing_pair(depth).one, passing_pair(depth).two, 3)),
+                -stored, 1e-18 + 1e-9 * stored);
+  }
+  EXPECT_EQ(truth_of(passing_pair(-1e-12)).outcome, Truth::none);
+}
+
+// ---- The methods ----
+
+struct Named {
+  CaseClassOf<3> of;
+  friend void PrintTo(const Named& named, std::ostream* out) {
+    *out << named.of.name << ", aspect ratio " << named.of.aspect_ratio;
+  }
+};
+std::vector<Named> all_classes() {
+  std::vector<Named> all;
+  for (const CaseClassOf<3>& of : ellipsoid_suite()) all.push_back({of});
+  return all;
+}
+
+class DefaultMethodOfSolids : public testing::TestWithParam<Named> {};
+
+TEST_P(DefaultMethodOfSolids, IsNeverWrong) {
+  const CaseClassOf<3>& of = GetParam().of;
+  // As for ellipses (default_method_test.cpp).
+  constexpr AllowedError tolerance{1e-12, 1e-8};
+  const MethodOf<3> method = ellipsoid_methods().front();
+  std::map<Verdict, int> verdicts;
+  int contacts = 0, crossings = 0, undecided = 0;
+  for (std::uint64_t index = 0; index < pairs; ++index) {
+    const EllipsoidCase asked = make_case(of, seed, index);
+    const TrueEllipsoidContact truth = truth_of(asked);
+    const Assessment assessment = assess(asked, truth, method.predict(asked), tolerance);
+    ++verdicts[assessment.verdict];
+    contacts += truth.outcome == Truth::contact;
+    undecided += truth.outcome == Truth::undecided;
+    crossings += truth.outcome == Truth::contact && !assessment.degenerate;
+    EXPECT_EQ(assessment.verdict, Verdict::correct) << "pair " << index;
+  }
+  EXPECT_EQ(verdicts[Verdict::late], 0);
+  EXPECT_EQ(verdicts[Verdict::missed], 0);
+  EXPECT_EQ(undecided, 0);
+  const bool leaves = of.name == "touching_leaving";
+  EXPECT_GE(contacts, leaves ? 0 : pairs / 10);
+  EXPECT_GE(crossings, leaves ? 0 : pairs / 100);
+}
+
+INSTANTIATE_TEST_SUITE_P(Classes, DefaultMethodOfSolids, testing::ValuesIn(all_classes()));
+
+TEST(RootsOfSolids, ACloseDoublePairIsSteppedOver) {
+  const EllipsoidCase asked = passing_pair(3e-5);
+  const TrueEllipsoidContact truth = truth_of(asked);
+  ASSERT_EQ(truth.outcome, Truth::contact);
+  for (const MethodOf<3>& method : ellipsoid_methods()) {
+    const Prediction3 answer = method.predict(asked);
+    if (method.name == "separating_axis") {
+      EXPECT_EQ(answer.outcome, Outcome::contact);
+      EXPECT_NEAR(answer.time, static_cast<double>(truth.time),
+                  1.25 * asked.contact_gap() / truth.approach_speed);
+    } else {
+      EXPECT_EQ(answer.outcome, Outcome::none) << method.name;
+    }
+  }
+  // Steps that are short enough see it.
+  for (auto* predict : {&eta_root, &perram_wertheim_root})
+    EXPECT_NEAR((*predict)(asked, 1e-3).time, static_cast<double>(truth.time), 1e-12);
+}
+
+TEST(RootsOfSolids, TheSignsOfContactFollowARootOfEta) {
+  int found = 0;
+  for (std::uint64_t index = 0; index < 300; ++index) {
+    const EllipsoidCase asked = make_case(ellipsoid_suite().front(), seed, index);
+    const TrueEllipsoidContact truth = truth_of(asked);
+    const Prediction3 answer = eta_root(asked, 1e-3);
+    if (truth.outcome != Truth::contact || answer.outcome != Outcome::contact) continue;
+    ++found;
+    EXPECT_NEAR(answer.time, static_cast<double>(truth.time), 1e-9);
+    EXPECT_NEAR((answer.normal - truth.normal).norm(), 0, 1e-6);
+  }
+  EXPECT_GT(found, 60);
+}
+
+// η₁ vanishes at all times: its signs are those of rounding.
+TEST(RootsOfSolids, ParallelBodiesOfOneShapeAreMissedByEta) {
+  int contacts = 0, missed = 0;
+  for (const CaseClassOf<3>& of : ellipsoid_suite()) {
+    if (of.name != "parallel_congruent") continue;
+    for (std::uint64_t index = 0; index < 300; ++index) {
+      const EllipsoidCase asked = make_case(of, seed, index);
+      if (truth_of(asked).outcome != Truth::contact) continue;
+      ++contacts;
+      missed += eta_root(asked, 1e-2).outcome == Outcome::none;
+    }
+  }
+  EXPECT_GT(contacts, 60);
+  EXPECT_GT(missed, contacts / 2);
+}
+
+}  // namespace
+}  // namespace vitrel::bench

@@ -1,0 +1,238 @@
+#include "workflow/analyze/glass_tables.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "analysis/structure/order.h"
+#include "core/error.h"
+
+namespace vitrel {
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+constexpr const char* reason_key = "verdict_reason";
+constexpr const char* translation_reason_key = "verdict_translation_reason";
+
+template <class Code>
+double number(Code code) {
+  return static_cast<double>(static_cast<int>(code));
+}
+
+/// A value and its error; NaN where there is none.
+struct Entry {
+  double value, error;
+};
+
+/// A table that grows by rows.
+class Rows {
+ public:
+  Rows(const char* name, std::string description, std::vector<Column> columns)
+      : table_{name, std::move(description), std::move(columns)} {}
+
+  /// A pair (value, error) for every column; errors of columns that have none are ignored.
+  void add(const std::vector<Entry>& row, const std::vector<bool>& has_error) {
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      table_.columns[k].value.push_back(row[k].value);
+      if (has_error[k]) table_.columns[k].error.push_back(row[k].error);
+    }
+  }
+  Table table() && { return std::move(table_); }
+
+ private:
+  Table table_;
+};
+
+Entry plain(double value) {
+  return {value, unknown};
+}
+
+constexpr const char* kinds_text =
+    "kind: 0 translation (tau_alpha), 1 rotation (tau_2), 2 rotation in the nematic (tau_2 of the "
+    "connected part), 3 diffusion (1/D), 4 rotational diffusion (1/D_r)";
+
+Table relaxation_table(const GlassStudy& study) {
+  Rows rows(
+      "relaxation",
+      "Relaxation times, one row per run. tau_translation: F_s = 1/e at wave_number; tau_rotation: "
+      "L_2 = 1/e, in a nematic its connected part, seen from the director. verdict: 0 "
+      "equilibrated, "
+      "1 ageing, 2 not enough time, from so many tests; verdict_translation, whatever rotation "
+      "does; "
+      "only equilibrated runs enter the fits, of translation by the latter. nematic_order: S, "
+      "beside that of as many "
+      "rotors without order; plateau: of L_2 by order, 0 if not nematic. orientation: 0 round, "
+      "1 relaxes, 2 nematic order, 3 does not relax.",
+      {{"packing_fraction", "1", {}, {}},
+       {"seed", "1", {}, {}},
+       {"duration", "time", {}, {}},
+       {"verdict", "1", {}, {}},
+       {"tests", "1", {}, {}},
+       {"verdict_translation", "1", {}, {}},
+       {"tests_translation", "1", {}, {}},
+       {"wave_number", "1/length", {}, {}},
+       {"tau_translation", "time", {}, {}},
+       {"tau_rotation", "time", {}, {}},
+       {"nematic_order", "1", {}, {}},
+       {"nematic_by_chance", "1", {}, {}},
+       {"plateau", "1", {}, {}},
+       {"orientation", "1", {}, {}}});
+  std::vector<bool> has_error(14, false);
+  has_error[8] = has_error[9] = has_error[10] = true;
+  for (const GlassRun& run : study.runs)
+    rows.add({plain(run.packing_fraction), plain(static_cast<double>(run.seed)),
+              plain(run.duration), plain(number(run.equilibration.verdict)),
+              plain(static_cast<double>(run.equilibration.tests)),
+              plain(number(run.translation_equilibration.verdict)),
+              plain(static_cast<double>(run.translation_equilibration.tests)),
+              plain(run.wave_number), Entry{run.translation.value, run.translation.error},
+              Entry{run.rotation.value, run.rotation.error},
+              Entry{run.nematic_order.mean, run.nematic_order.error},
+              plain(run.rotors > 0 ? nematic_order_by_chance(run.rotors) : unknown),
+              plain(run.plateau), plain(number(run.orientation))},
+             has_error);
+  return std::move(rows).table();
+}
+
+Table fit_table(const GlassStudy& study) {
+  Rows rows(
+      "glass_fit",
+      fmt::format("Laws of the glass transition. {}. law: 0 tau = A (phi_c - phi)^-s, 1 tau = "
+                  "A exp(s phi/(phi_c - phi)). verdict: 0 found, 1 lower bound only, 2 "
+                  "refused. phi_c is above phi_c_least with a probability of 95 %; window: "
+                  "that of the greatest weight, and its fit.",
+                  kinds_text),
+      {{"kind", "1", {}, {}},
+       {"law", "1", {}, {}},
+       {"verdict", "1", {}, {}},
+       {"phi_c", "1", {}, {}},
+       {"phi_c_statistical", "1", {}, {}},
+       {"phi_c_spread", "1", {}, {}},
+       {"phi_c_least", "1", {}, {}},
+       {"exponent", "1", {}, {}},
+       {"window_low", "1", {}, {}},
+       {"window_high", "1", {}, {}},
+       {"densities", "1", {}, {}},
+       {"window_phi_c", "1", {}, {}},
+       {"window_exponent", "1", {}, {}},
+       {"window_log_prefactor", "ln(time)", {}, {}},
+       {"chi2", "1", {}, {}},
+       {"dof", "1", {}, {}},
+       {"scatter", "1", {}, {}}});
+  std::vector<bool> has_error(17, false);
+  has_error[3] = has_error[7] = true;
+  for (const StudiedLaw& studied : study.laws) {
+    const GlassFit& fit = studied.fit;
+    const GlassWindow& w = fit.window;
+    const bool found = fit.verdict == GlassVerdict::found;
+    const bool any = !fit.windows.empty();
+    const auto if_any = [&](double value) { return plain(any ? value : unknown); };
+    rows.add({plain(number(studied.kind)), plain(number(studied.law)), plain(number(fit.verdict)),
+              found ? Entry{fit.density, fit.error} : plain(unknown),
+              plain(found ? fit.statistical : unknown), plain(found ? fit.spread : unknown),
+              plain(fit.verdict == GlassVerdict::refused ? unknown : fit.least),
+              found ? Entry{fit.strength, fit.strength_error} : plain(unknown), if_any(w.lowest),
+              if_any(w.highest), if_any(static_cast<double>(w.densities)), if_any(w.density),
+              if_any(w.strength), if_any(w.log_prefactor), if_any(w.chi_square),
+              if_any(static_cast<double>(w.degrees)), plain(fit.scatter)},
+             has_error);
+  }
+  return std::move(rows).table();
+}
+
+Table window_table(const GlassStudy& study) {
+  Rows rows("glass_fit_windows",
+            fmt::format("The laws fitted to every window of densities. {}. law as in glass_fit; "
+                        "phi_c_low and phi_c_high: where chi^2 is 1 above its minimum.",
+                        kinds_text),
+            {{"kind", "1", {}, {}},
+             {"law", "1", {}, {}},
+             {"window_low", "1", {}, {}},
+             {"window_high", "1", {}, {}},
+             {"phi_c", "1", {}, {}},
+             {"phi_c_low", "1", {}, {}},
+             {"phi_c_high", "1", {}, {}},
+             {"exponent", "1", {}, {}},
+             {"chi2", "1", {}, {}},
+             {"dof", "1", {}, {}},
+             {"goodness", "1", {}, {}},
+             {"weight", "1", {}, {}}});
+  const std::vector<bool> has_error(12, false);
+  for (const StudiedLaw& studied : study.laws)
+    for (const GlassWindow& w : studied.fit.windows)
+      rows.add({plain(number(studied.kind)), plain(number(studied.law)), plain(w.lowest),
+                plain(w.highest), plain(w.density), plain(w.low), plain(w.high), plain(w.strength),
+                plain(w.chi_square), plain(static_cast<double>(w.degrees)), plain(w.goodness),
+                plain(w.weight)},
+               has_error);
+  return std::move(rows).table();
+}
+
+}  // namespace
+
+void store_glass_run(const GlassRun& run, Results& results) {
+  results.tables.push_back(relaxation_table({{run}, {}}));
+  results.provenance.emplace_back(reason_key, run.equilibration.reason);
+  results.provenance.emplace_back(translation_reason_key, run.translation_equilibration.reason);
+}
+
+std::optional<GlassRun> stored_glass_run(const std::string& name, const Results& results) {
+  const Table* relaxation = results.find("relaxation");
+  const Table* summary = results.find("summary");
+  if (!relaxation || !summary || relaxation->rows() != 1) return std::nullopt;
+  const auto column = [&](const Table& table, const char* name_of_column) -> const Column& {
+    const Column* found = table.find(name_of_column);
+    if (!found)
+      throw FileError(
+          fmt::format("{}: the results have no column '{}' in the table '{}': they are of "
+                      "another version; analyse the run again",
+                      name, name_of_column, table.name));
+    return *found;
+  };
+  const auto value = [&](const Table& table, const char* name_of_column) {
+    return column(table, name_of_column).value.front();
+  };
+  const auto error = [&](const Table& table, const char* name_of_column) {
+    const Column& found = column(table, name_of_column);
+    return found.error.empty() ? unknown : found.error.front();
+  };
+  const auto verdict = [&](const char* code, const char* tests, const char* reason) {
+    return Equilibration{
+        static_cast<EquilibrationVerdict>(static_cast<int>(value(*relaxation, code))),
+        results.text(reason), static_cast<std::size_t>(value(*relaxation, tests))};
+  };
+  const auto time = [&](const char* of) {
+    return RelaxationTime{value(*relaxation, of), error(*relaxation, of), unknown, unknown, ""};
+  };
+  const auto diffusion = [&](const std::string& of) {
+    return DiffusionCoefficient{value(*summary, of.c_str()), error(*summary, of.c_str()),
+                                value(*summary, (of + "_from").c_str()),
+                                value(*summary, (of + "_to").c_str()), ""};
+  };
+  GlassRun run{};
+  run.name = name;
+  run.packing_fraction = value(*relaxation, "packing_fraction");
+  run.seed = static_cast<std::uint64_t>(value(*relaxation, "seed"));
+  run.rotors = static_cast<std::size_t>(value(*summary, "rotors"));
+  run.duration = value(*relaxation, "duration");
+  run.wave_number = value(*relaxation, "wave_number");
+  run.nematic_order = {value(*relaxation, "nematic_order"), error(*relaxation, "nematic_order"), 0};
+  run.plateau = value(*relaxation, "plateau");
+  run.orientation =
+      static_cast<OrientationKind>(static_cast<int>(value(*relaxation, "orientation")));
+  run.translation = time("tau_translation");
+  run.rotation = time("tau_rotation");
+  run.diffusion = diffusion("diffusion");
+  run.rotational_diffusion = diffusion("rotational_diffusion");
+  run.equilibration = verdict("verdict", "tests", reason_key);
+  run.translation_equilibration =
+      verdict("verdict_translation", "tests_translation", translation_reason_key);
+  return run;
+}
+
+std::vector<Table> glass_tables(const GlassStudy& study) {
+  return {relaxation_table(study), fit_table(study), window_table(study)};
+}
+
+}  // namespace vitrel

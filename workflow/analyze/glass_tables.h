@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/glass/glass_study.h"
+#include "analysis/results.h"
+
+/// Glass runs and glass studies as tables of results.
+namespace vitrel {
+
+/// Adds a judged run to its results: a table `relaxation` of one row, and reasons in the provenance.
+void store_glass_run(const GlassRun& run, Results& results);
+/// The same from there, with all that a study needs; no value if the results have none. Throws FileError
+/// for results of another version.
+std::optional<GlassRun> stored_glass_run(const std::string& name, const Results& results);
+
+/// Tables `relaxation` (one row per run), `glass_fit` (one row per kind and law) and
+/// `glass_fit_windows` (one row per kind, law and window). Kinds, laws and verdicts are numbers there,
+/// which the descriptions explain.
+std::vector<Table> glass_tables(const GlassStudy& study);
+
+}  // namespace vitrel

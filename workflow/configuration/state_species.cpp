@@ -1,0 +1,328 @@
+#include "workflow/configuration/state_species.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace vitrel {
+namespace {
+
+using Kind = Distribution::Kind;
+
+/// Rounding of shapes that were computed from ratios and sizes, and of numbers typed with ten digits.
+constexpr double slack = 1e-9;
+
+bool agree(double one, double two) {
+  return std::abs(one - two) <= slack * std::abs(two);
+}
+
+double natural_mass(const Ellipse& shape) {
+  return shape.a * shape.b;
+}
+double natural_mass(const Ellipsoid& shape) {
+  return shape.semi_axes.prod();
+}
+
+double size_of(const Ellipse& shape) {
+  return std::sqrt(shape.a * shape.b);
+}
+double size_of(const Ellipsoid& shape) {
+  return std::cbrt(shape.semi_axes.prod());
+}
+
+std::vector<double> axes_of(const Ellipse& shape) {
+  return {shape.a, shape.b};
+}
+std::vector<double> axes_of(const Ellipsoid& shape) {
+  return {shape.semi_axes[0], shape.semi_axes[1], shape.semi_axes[2]};
+}
+
+bool agree(std::vector<double> one, std::vector<double> two) {
+  // In three dimensions semi-axes may come in any order.
+  std::ranges::sort(one);
+  std::ranges::sort(two);
+  return std::ranges::equal(one, two, [](double x, double y) { return agree(x, y); });
+}
+
+std::string text(const Distribution& d) {
+  switch (d.kind) {
+    case Kind::constant:
+      return fmt::format("{}", d.mean);
+    case Kind::uniform:
+      return fmt::format("uniform from {} to {}, at least {}", d.low, d.high, d.minimum);
+    case Kind::gaussian:
+    case Kind::lognormal:
+      break;
+  }
+  return fmt::format("{} with mean {} and standard deviation {}, at least {}",
+                     d.kind == Kind::gaussian ? "gaussian" : "lognormal", d.mean,
+                     d.standard_deviation, d.minimum);
+}
+
+bool allows(const Distribution& d, double value) {
+  if (d.kind == Kind::constant) return agree(value, d.mean);
+  const bool above = value >= d.minimum * (1 - slack);
+  if (d.kind != Kind::uniform) return above;
+  return above && value >= d.low - slack * std::abs(d.low) && value <= d.high * (1 + slack);
+}
+
+Distribution constant(double value) {
+  Distribution d;
+  d.mean = value;
+  return d;
+}
+
+// ---- one particle -----------------------------------------------------------------------------------
+
+struct Misfit {
+  const char* key;  ///< of the species
+  std::string given, found;
+};
+
+std::optional<Misfit> misfit(const char* key, const Distribution& given, double found) {
+  if (allows(given, found)) return std::nullopt;
+  return Misfit{key, text(given), fmt::format("{}", found)};
+}
+
+std::optional<Misfit> ratio_misfit(const Species& species, const std::vector<double>& axes) {
+  const double first = axes[0] / axes[1], second = axes[0] / axes.back();
+  if (species.aspect_ratios) {
+    const auto one = misfit("aspect_ratios", (*species.aspect_ratios)[0], first);
+    return one ? one : misfit("aspect_ratios", (*species.aspect_ratios)[1], second);
+  }
+  const Distribution ratio = species.aspect_ratio.value_or(constant(1));
+  const auto one = misfit("aspect_ratio", ratio, first);
+  return one ? one : misfit("aspect_ratio", ratio, second);
+}
+
+template <class Shape>
+std::optional<Misfit> misfit(const Species& species, const Shape& shape, double mass) {
+  const std::vector<double> axes = axes_of(shape);
+  if (species.semi_axes) {
+    if (!agree(*species.semi_axes, axes))
+      return Misfit{"semi_axes", to_toml(std::span<const double>(*species.semi_axes)),
+                    to_toml(std::span<const double>(axes))};
+  } else {
+    if (const auto found = ratio_misfit(species, axes)) return found;
+    if (const auto found = misfit("size", species.size.value_or(constant(1)), size_of(shape)))
+      return found;
+  }
+  return misfit("mass", constant(species.mass.value_or(natural_mass(shape))), mass);
+}
+
+// ---- all particles ----------------------------------------------------------------------------------
+
+std::string key_of(std::size_t species, const char* field) {
+  return fmt::format("species.{}.{}", species, field);
+}
+
+template <int Dim>
+std::vector<std::size_t> counts_of(const Configuration<Dim>& state) {
+  std::vector<std::size_t> counts(state.species_names.size());
+  for (const std::int32_t k : state.species) ++counts[static_cast<std::size_t>(k)];
+  return counts;
+}
+
+template <int Dim>
+std::optional<SpeciesConflict> composition_conflict(const std::vector<Species>& species,
+                                                    const Configuration<Dim>& state) {
+  if (species.size() != state.species_names.size())
+    return SpeciesConflict{"species", fmt::format("has {} entries, but the state has {} species",
+                                                  species.size(), state.species_names.size())};
+  const std::vector<std::size_t> wanted = species_counts(species, state.size());
+  const std::vector<std::size_t> found = counts_of(state);
+  for (std::size_t k = 0; k < species.size(); ++k) {
+    if (species[k].name != state.species_names[k])
+      return SpeciesConflict{key_of(k, "name"),
+                             fmt::format("is \"{}\", but in the state \"{}\"", species[k].name,
+                                         state.species_names[k])};
+    if (wanted[k] != found[k])
+      return SpeciesConflict{
+          key_of(k, "fraction"),
+          fmt::format("is {}, which makes {} of {} particles, but the state has {}",
+                      species[k].fraction, wanted[k], state.size(), found[k])};
+  }
+  return std::nullopt;
+}
+
+bool same(const Distribution& one, const Distribution& two) {
+  if (one.kind != two.kind) return false;
+  if (one.kind == Kind::constant) return one.mean == two.mean;
+  if (one.minimum != two.minimum) return false;
+  if (one.kind == Kind::uniform) return one.low == two.low && one.high == two.high;
+  return one.mean == two.mean && one.standard_deviation == two.standard_deviation;
+}
+
+/// A distribution that differs from the one the particles were drawn from, though it would allow them.
+std::optional<SpeciesConflict> distribution_conflict(const std::vector<Species>& given,
+                                                     const std::vector<Species>& recorded) {
+  for (std::size_t k = 0; k < given.size(); ++k) {
+    const auto conflict =
+        [&](const char* key, const std::optional<Distribution>& one,
+            const std::optional<Distribution>& two) -> std::optional<SpeciesConflict> {
+      if (!one || one->kind == Kind::constant || (two && same(*one, *two))) return std::nullopt;
+      return SpeciesConflict{key_of(k, key), fmt::format("is {}, but the state was drawn from {}",
+                                                         text(*one), two ? text(*two) : "another")};
+    };
+    const auto ratio = [](const Species& species, int which) -> std::optional<Distribution> {
+      if (!species.aspect_ratios) return std::nullopt;
+      return (*species.aspect_ratios)[static_cast<std::size_t>(which)];
+    };
+    if (auto found = conflict("aspect_ratio", given[k].aspect_ratio, recorded[k].aspect_ratio))
+      return found;
+    for (int which = 0; which < 2; ++which)
+      if (auto found = conflict("aspect_ratios", ratio(given[k], which), ratio(recorded[k], which)))
+        return found;
+    if (auto found = conflict("size", given[k].size, recorded[k].size)) return found;
+  }
+  return std::nullopt;
+}
+
+// ---- species of a state -----------------------------------------------------------------------------
+
+/// The recorded parameters, if there are any and they describe the particles.
+template <int Dim>
+std::optional<Parameters> recorded_parameters(const Configuration<Dim>& state,
+                                              const StateOrigin& origin) {
+  if (origin.parameters.empty()) return std::nullopt;
+  try {
+    Parameters recorded = parse_parameters(origin.parameters, origin.file);
+    if (species_conflict(recorded.species, state)) return std::nullopt;
+    return recorded;
+  } catch (const UserError&) {
+    // Of another program, or of a version with other keys.
+    return std::nullopt;
+  }
+}
+
+/// One species as its particles are: without a shape if theirs differ, without a mass if theirs are
+/// a b (a b c), or differ.
+template <int Dim>
+Species as_found(const Configuration<Dim>& state, std::size_t species) {
+  Species found;
+  found.name = state.species_names[species];
+  std::vector<std::size_t> members;
+  for (std::size_t i = 0; i < state.size(); ++i)
+    if (static_cast<std::size_t>(state.species[i]) == species) members.push_back(i);
+  found.fraction = static_cast<double>(members.size()) / static_cast<double>(state.size());
+  if (members.empty()) return found;
+  const auto all = [&](const auto& holds) { return std::ranges::all_of(members, holds); };
+  const std::vector<double> axes = axes_of(state.shape[members.front()]);
+  const double mass = state.mass[members.front()];
+  if (all([&](std::size_t i) { return agree(axes_of(state.shape[i]), axes); }))
+    found.semi_axes = axes;
+  if (!all([&](std::size_t i) { return agree(state.mass[i], natural_mass(state.shape[i])); }) &&
+      all([&](std::size_t i) { return agree(state.mass[i], mass); }))
+    found.mass = mass;
+  return found;
+}
+
+template <int Dim>
+std::vector<Species> as_found(const Configuration<Dim>& state) {
+  std::vector<Species> species;
+  for (std::size_t k = 0; k < state.species_names.size(); ++k)
+    species.push_back(as_found(state, k));
+  return species;
+}
+
+std::vector<Species> fully_described(std::vector<Species> species, const std::string& file) {
+  std::erase_if(species, [](const Species& kind) { return kind.fraction == 0; });
+  for (const Species& kind : species)
+    if (!kind.semi_axes)
+      throw UserError(fmt::format(
+          "{}: the particles of species {} differ in shape, and no parameters are recorded; "
+          "give [[species]] with the distribution they come from",
+          file, kind.name));
+  return species;
+}
+
+/// What is given, and what is not, as in `other`.
+std::vector<Species> completed(const Parameters& parameters, const std::vector<Species>& other) {
+  std::vector<Species> species = parameters.species;
+  for (std::size_t k = 0; k < std::min(species.size(), other.size()); ++k) {
+    if (!place_of(parameters, key_of(k, "name"))) species[k].name = other[k].name;
+    if (!species[k].mass) species[k].mass = other[k].mass;
+    if (species[k].semi_axes || species[k].size) continue;
+    if (const auto& axes = other[k].semi_axes) {
+      double product = 1;
+      for (const double axis : *axes) product *= axis;
+      species[k].size = constant(std::pow(product, 1 / static_cast<double>(axes->size())));
+    } else {
+      species[k].size = other[k].size;
+    }
+  }
+  return species;
+}
+
+void refuse(const std::optional<SpeciesConflict>& conflict, const Parameters& parameters,
+            const std::string& file) {
+  if (!conflict) return;
+  const std::size_t field = conflict->key.rfind('.');
+  const auto place = place_of(parameters, conflict->key);
+  const auto around = place_of(parameters, conflict->key.substr(0, field));
+  throw UserError(fmt::format("{}: key '{}' {} ({}); leave it out, and that of the state is taken",
+                              place    ? *place
+                              : around ? *around
+                                       : file,
+                              conflict->key, conflict->complaint, file));
+}
+
+template <int Dim>
+std::optional<SpeciesConflict> box_conflict(const Parameters& parameters, double aspect) {
+  if (Dim == 3 || !place_of(parameters, "system.box_aspect") ||
+      agree(parameters.system.box_aspect, aspect))
+    return std::nullopt;
+  return SpeciesConflict{"system.box_aspect", fmt::format("is {}, but that of the state {}",
+                                                          parameters.system.box_aspect, aspect)};
+}
+
+}  // namespace
+
+template <int Dim>
+std::optional<SpeciesConflict> species_conflict(const std::vector<Species>& species,
+                                                const Configuration<Dim>& state) {
+  if (auto conflict = composition_conflict(species, state)) return conflict;
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    const auto k = static_cast<std::size_t>(state.species[i]);
+    if (const auto found = misfit(species[k], state.shape[i], state.mass[i]))
+      return SpeciesConflict{key_of(k, found->key), fmt::format("is {}, but particle {} has {}",
+                                                                found->given, i, found->found)};
+  }
+  return std::nullopt;
+}
+
+template <int Dim>
+void take_species(Parameters& parameters, const Configuration<Dim>& state,
+                  const StateOrigin& origin) {
+  const std::optional<Parameters> recorded = recorded_parameters(state, origin);
+  const std::vector<Species> of_state = recorded ? recorded->species : as_found(state);
+  if (place_of(parameters, "species")) {
+    const std::vector<Species> given = completed(parameters, of_state);
+    refuse(species_conflict(given, state), parameters, origin.file);
+    if (recorded) refuse(distribution_conflict(given, of_state), parameters, origin.file);
+    parameters.species = recorded ? of_state : given;
+  } else {
+    parameters.species = recorded ? of_state : fully_described(of_state, origin.file);
+  }
+  if constexpr (Dim == 2) {
+    const auto& lengths = state.box.lengths();
+    const double aspect = recorded ? recorded->system.box_aspect : lengths[1] / lengths[0];
+    refuse(box_conflict<Dim>(parameters, aspect), parameters, origin.file);
+    parameters.system.box_aspect = aspect;
+  }
+  try {
+    validate(parameters);
+  } catch (const BadValue& bad) {
+    throw UserError(fmt::format("{}: {}", origin.file, bad.what()));
+  }
+}
+
+template std::optional<SpeciesConflict> species_conflict(const std::vector<Species>&,
+                                                         const Configuration2&);
+template std::optional<SpeciesConflict> species_conflict(const std::vector<Species>&,
+                                                         const Configuration3&);
+template void take_species(Parameters&, const Configuration2&, const StateOrigin&);
+template void take_species(Parameters&, const Configuration3&, const StateOrigin&);
+
+}  // namespace vitrel

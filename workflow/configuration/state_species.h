@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/state/configuration.h"
+#include "workflow/configuration/parameters.h"
+
+/// Whether parameters describe the particles of a state that a run starts from.
+namespace vitrel {
+
+struct SpeciesConflict {
+  std::string key;        ///< dotted: "species.0.size"
+  std::string complaint;  ///< completes "key … "
+};
+
+/// The first contradiction between species and particles: names, counts per species, aspect ratios, sizes,
+/// semi-axes and masses. Constants must agree to a relative 1e-9, draws must lie within the bounds of
+/// their distribution. Every stage of a preparation keeps the shapes and scales the box, so that this
+/// holds at any packing fraction.
+template <int Dim>
+std::optional<SpeciesConflict> species_conflict(const std::vector<Species>& species,
+                                                const Configuration<Dim>& state);
+
+/// Where a state comes from.
+struct StateOrigin {
+  std::string file;        ///< for messages
+  std::string parameters;  ///< recorded there, TOML; may be empty
+};
+
+/// Replaces the species and the box aspect by those of the state: as recorded, if the record agrees with
+/// the particles; otherwise as given, or, where nothing is given, as the particles are. UserError
+/// with the place of the key if what the parameters give (Parameters::given) contradicts the state, or if
+/// nothing is given and recorded, but the shapes of a species differ.
+template <int Dim>
+void take_species(Parameters& parameters, const Configuration<Dim>& state,
+                  const StateOrigin& origin);
+
+}  // namespace vitrel

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+namespace vitrel {
+
+/// One property of a state, for a person.
+struct QualityRow {
+  std::string name;
+  std::string value;
+  std::string remark;  ///< how it was found, or what to compare it with; may be empty
+};
+
+}  // namespace vitrel

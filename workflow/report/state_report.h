@@ -1,0 +1,13 @@
+#pragma once
+
+#include <filesystem>
+
+#include "workflow/report/state_page.h"
+
+namespace vitrel {
+
+/// What the page of a prepared state shows, from the state and the quality report beside it. Throws
+/// FileError.
+StatePage state_page_data(const std::filesystem::path& state);
+
+}  // namespace vitrel
