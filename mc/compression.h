@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "mc/options.h"
 #include "core/state/configuration.h"
 #include "core/state/stage.h"
+#include "mc/options.h"
 #include "mc/sampler.h"
 #include "mc/sweep_state.h"
 

@@ -2,9 +2,9 @@
 
 #include <cstdint>
 
-#include "mc/options.h"
 #include "core/state/configuration.h"
 #include "core/state/stage.h"
+#include "mc/options.h"
 
 namespace vitrel {
 
@@ -15,6 +15,9 @@ struct InsertionReport : StageReport {
   std::uint64_t trials = 0;
 };
 
+/// Random sequential insertion: particles, the largest first, are placed one after another at random positions and
+/// orientations where they do not overlap earlier ones, and are never moved.
+///
 /// `stalled`, with a reason, if a particle found no place; `stopped` on request. The configuration then is unusable,
 /// and the same call starts again.
 /// The jamming limit is near φ = 0.547 for disks, 0.583 for ellipses and 0.382 for spheres.

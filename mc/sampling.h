@@ -2,10 +2,10 @@
 
 #include <cstdint>
 
-#include "mc/options.h"
 #include "core/state/configuration.h"
 #include "core/state/stage.h"
 #include "mc/event_chain.h"
+#include "mc/options.h"
 #include "mc/sweep_state.h"
 
 namespace vitrel {
@@ -16,6 +16,7 @@ struct SamplingState {
   SweepState local;
 
   std::uint64_t sweeps() const { return chains.sweeps + local.sweeps; }
+  void number_sweeps(std::uint64_t next) { chains.next_sweep = local.next_sweep = next; }
 };
 
 /// Monte Carlo at constant packing fraction, as an equilibration stage: chains and step sizes adapt throughout.

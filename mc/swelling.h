@@ -2,9 +2,9 @@
 
 #include <cstdint>
 
-#include "mc/options.h"
 #include "core/state/configuration.h"
 #include "core/state/stage.h"
+#include "mc/options.h"
 #include "mc/sweep_state.h"
 
 namespace vitrel {
@@ -18,7 +18,19 @@ struct SwellingState {
   double checked_packing_fraction = 0;
 };
 
-/// `reached` at the target packing fraction; `stalled` if the sweeps are used up, or if the particles are jammed: the
+/// Compression by swelling: Monte Carlo to a target packing fraction.
+///
+/// One round enlarges all particles by a factor g:
+///   1. A sweep of trial moves, with step sizes adapted to the density.
+///   2. Each particle that is not yet enlarged is enlarged by g if there is space for it.
+///   3. Repeat until all are enlarged; if some find no space in 40 sweeps, g − 1 is halved for all.
+///   4. Divide all lengths by g: the reference species has a b = 1, so the particles have their old sizes again, and the
+///      box is smaller. After a fast_sweeps round the next g is larger.
+/// No particle waits for the closest pair of the whole system, so the number of sweeps grows slowly with N. An
+/// unsuccessful round (jammed, or stopped) shrinks the box as far as the closest pair allows (shrink_to_contact). The
+/// target packing fraction is met to rounding.
+///
+/// Returns `reached` at the target packing fraction; `stalled` if the sweeps are used up, or if the particles are jammed: the
 /// packing fraction rises by less than a relative 1e-4 in 5000 sweeps; `stopped` on request, at the end of the
 /// previous round: the same call then continues with bit-identical results. In any case the state is hard. A
 /// configuration denser than the target is expanded.

@@ -125,7 +125,7 @@ Json measure_speed(const Effort& effort) {
     const Steps steps = fitting_steps(sampler, 20);
     baseline.set_steps(steps.translation, steps.rotation);
     const TrialCounts before = sampler.counts(), baseline_before = baseline.counts();
-    const Looks looks = sampler.looks();
+    const OverlapTestCounts tests = sampler.overlap_tests();
     const std::uint64_t decisions = baseline.decisions();
     Stretches of_ours, of_baseline;
     for (int k = 0; k < effort.stretches; ++k) {
@@ -144,8 +144,8 @@ Json measure_speed(const Effort& effort) {
     row["rotation_step"] = steps.rotation;
     row["translations_accepted"] = accepted.translation;
     row["rotations_accepted"] = accepted.rotation;
-    row["groups"] = ratio(sampler.looks().groups - looks.groups, tried);
-    row["alone"] = ratio(sampler.looks().alone - looks.alone, tried);
+    row["groups"] = ratio(sampler.overlap_tests().batches - tests.batches, tried);
+    row["alone"] = ratio(sampler.overlap_tests().scalar_pairs - tests.scalar_pairs, tried);
     row["plain"] = of_baseline.json();
     row["plain"]["translations_accepted"] = baseline_accepted.translation;
     row["plain"]["rotations_accepted"] = baseline_accepted.rotation;
@@ -208,7 +208,7 @@ std::vector<Question> questions(const Configuration2& c, const Steps& steps, int
     const double reach = 2 * c.shape[i].circumradius();
     cells.for_each_near(position, reach, [&](std::size_t j, const Shift<2>&, const Vec2& d) {
       if (j == i) return;
-      const int lane = question.others++ % many;
+      const int lane = question.others++ % simd_width;
       if (lane == 0) question.groups.emplace_back();
       question.groups.back().set(lane, c.shape[j], d, direction(c.angle[j]));
     });
@@ -218,17 +218,17 @@ std::vector<Question> questions(const Configuration2& c, const Steps& steps, int
 }
 
 bool clear_in_lanes(const Question& asked, double margin) {
-  const OverlapBatch look(asked.shape, asked.axis, margin);
+  const OverlapBatch batch(asked.shape, asked.axis, margin);
   std::uint64_t alone = 0;
   return std::ranges::all_of(asked.groups, [&](const EllipseBatch& group) {
-    return look.clear_of(group, Vec2::Zero(), OverlapBatch::Mask(true), alone);
+    return batch.clear_of(group, Vec2::Zero(), OverlapBatch::Mask(true), alone);
   });
 }
 
 bool clear_one_by_one(const Question& asked, double margin) {
   for (int k = 0; k < asked.others; ++k) {
-    const EllipseBatch& group = asked.groups[static_cast<std::size_t>(k / many)];
-    const int lane = k % many;
+    const EllipseBatch& group = asked.groups[static_cast<std::size_t>(k / simd_width)];
+    const int lane = k % simd_width;
     if (!separated(asked.shape, asked.axis, group.shape(lane), group.axis(lane),
                    group.position(lane), margin))
       return false;

@@ -33,8 +33,8 @@ struct SwellStage : StageDefaults {
   static void each_item(AnyState& state, Visit&& visit) {
     each_item_of_moves(state.moves, "swelling.", visit);
     visit("swelling.growth", state.growth);
-    visit("swelling.watched_sweeps", state.watched_sweeps);
-    visit("swelling.watched_packing_fraction", state.watched_packing_fraction);
+    visit("swelling.watched_sweeps", state.checked_sweeps);
+    visit("swelling.watched_packing_fraction", state.checked_packing_fraction);
   }
 };
 
