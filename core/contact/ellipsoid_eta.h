@@ -67,7 +67,7 @@ struct EllipsoidAxes {
 template <class Real>
 struct CharacteristicPolynomial {
   Real sigma;                 ///< λ = στ
-  Real positive[5];           ///< 1, e₁, e₂, e₃, 1: P(τ) = Σ gain_k τᵏ
+  Real positive[5];           ///< 1, e₁, e₂, e₃, 1: P(τ) = Σ positive_k τᵏ
   Real negative[5];           ///< 0, u₁, u₂, u₃, 0: τU(τ)
   Real min_ratio, max_ratio;  ///< the bounds of h₁/h₂ in units of τ
 

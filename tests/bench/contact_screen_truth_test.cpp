@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "bench/reference/first_contact.h"
+#include "core/contact/ellipse_contact_screen.h"
 #include "core/contact/ellipse_gap.h"
 #include "core/random/stream.h"
 #include "core/tolerances.h"

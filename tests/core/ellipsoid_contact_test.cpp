@@ -99,7 +99,7 @@ TEST(EllipsoidPairInFlight, AccelerationBoundHoldsAndIsTight) {
     EllipsoidPairInFlight<GrowingEllipsoid> pair(flight(), flight());
     const Axis3 n = completed(components(random_direction(draw)));
     pair.go_to(1);
-    const auto then = pair.batch(n);
+    const auto then = pair.evaluate(n);
     const double rate = pair.gap_rate(n, then);
     for (const double reach : {-1.0, -0.1, 0.01, 0.1, 0.5, 1.0, 3.0}) {
       pair.go_to(1);
@@ -108,7 +108,7 @@ TEST(EllipsoidPairInFlight, AccelerationBoundHoldsAndIsTight) {
       for (int step = 1; step <= 50; ++step) {
         const double s = reach * step / 50;
         pair.go_to(1 + s);
-        const double loss = then.gap + rate * s - pair.batch(n).gap;
+        const double loss = then.gap + rate * s - pair.evaluate(n).gap;
         EXPECT_LE(loss, 0.5 * bound * s * s + 1e-12);
         if (bound > 1e-3) tightest = std::max(tightest, loss / (0.5 * bound * s * s));
       }
@@ -131,10 +131,10 @@ TEST(EllipsoidPairInFlight, RatesAreDerivatives) {
     const Axis3 n = completed(components(random_direction(draw)));
     const auto gap = [&](double time, const Tangent& step) {
       pair.go_to(time);
-      return pair.batch(detail::turned(n, step)).gap;
+      return pair.evaluate(detail::turned(n, step)).gap;
     };
     pair.go_to(0.3);
-    const auto g = pair.batch(n);
+    const auto g = pair.evaluate(n);
     const double rate = pair.gap_rate(n, g), acceleration = pair.acceleration(g);
     const Tangent mixed = pair.slope_rate(n, g), ex(h, 0), ey(0, h), none(0, 0);
     EXPECT_NEAR(rate, (gap(0.3 + h, none) - gap(0.3 - h, none)) / (2 * h), 1e-7);

@@ -221,7 +221,7 @@ TEST(EllipsoidEta, PolynomialAndEtaByTheirDefinitions) {
     const Eigen::Matrix4d a1 = quadric(pair.one, pair.turn1, Vec3::Zero());
     const Eigen::Matrix4d a2 = quadric(pair.two, pair.turn2, pair.d);
     double scale = 0;
-    for (const double g : q.gain) scale = std::max(scale, g);
+    for (const double g : q.positive) scale = std::max(scale, g);
     for (const double tau : {-2.0, -0.3, 0.0, 0.4, 1.0, 3.0}) {
       const double lambda = q.sigma * tau;
       EXPECT_NEAR(q(tau),

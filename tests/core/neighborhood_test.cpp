@@ -245,7 +245,7 @@ TYPED_TEST(Memories, OfAPairStayWithIt) {
     if (crowd.lists.of(i).empty()) continue;
     const NeighborImage with = crowd.lists.of(i)[0];
     if (with.other == i) continue;
-    const NeighborImage back = with.seen_from_there(i);
+    const NeighborImage back = with.reversed_image(i);
     const Vec2 normal = direction(draw.uniform(0, 2 * pi));
     crowd.lists.store_axis(i, with, normal);
     EXPECT_EQ(axis_of(i, with), normal);

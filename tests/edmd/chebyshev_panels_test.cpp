@@ -108,11 +108,11 @@ TEST(ChebyshevPanels, KnowsATreeFromAnythingElse) {
       {1e-8, 1e-3}, 1);
   ASSERT_GT(panels.size(), 1);
   const Plane::Content content = panels.content();
-  EXPECT_TRUE(Plane::sound(content));
+  EXPECT_TRUE(Plane::is_valid(content));
   const auto spoilt = [&](auto change) {
     Plane::Content other = content;
     change(other);
-    return Plane::sound(other);
+    return Plane::is_valid(other);
   };
   EXPECT_FALSE(spoilt([](auto& c) { c.nodes.clear(); }));
   EXPECT_FALSE(spoilt([](auto& c) { c.nodes[0].next = 0; }));
