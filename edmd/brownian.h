@@ -1,8 +1,8 @@
 #pragma once
 
-#include "edmd/options.h"
 #include "core/random/stream.h"
 #include "core/state/configuration.h"
+#include "edmd/options.h"
 
 namespace vitrel {
 

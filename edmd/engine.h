@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "edmd/options.h"
 #include "core/state/configuration.h"
+#include "edmd/options.h"
 
 namespace vitrel {
 

@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <optional>
 
-#include "edmd/options.h"
 #include "core/state/configuration.h"
 #include "core/state/stage.h"
 #include "edmd/engine.h"
+#include "edmd/options.h"
 
 /// Compression of hard particles by growth (Lubachevsky–Stillinger), to a target packing fraction or until they jam:
 /// Newtonian dynamics in which all semi-axes of all particles grow at the same rate,

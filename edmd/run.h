@@ -4,11 +4,11 @@
 #include <span>
 #include <vector>
 
-#include "edmd/options.h"
 #include "core/state/observer.h"
 #include "core/state/stage.h"
 #include "edmd/brownian.h"
 #include "edmd/engine.h"
+#include "edmd/options.h"
 
 namespace vitrel {
 

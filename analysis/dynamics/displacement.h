@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "analysis/dynamics/displacement_options.h"
 #include "analysis/dynamics/correlation.h"
+#include "analysis/dynamics/displacement_options.h"
 #include "analysis/dynamics/time_axis.h"
 #include "analysis/trajectory.h"
 #include "core/parallel.h"

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "analysis/structure/structure_options.h"
 #include "analysis/structure/density_grid.h"
+#include "analysis/structure/structure_options.h"
 #include "core/state/configuration.h"
 
 /// Static structure factors of one configuration, averaged over wave vectors of about the same length.

@@ -15,7 +15,7 @@
 #include "edmd/soft/linear_dashpot.h"
 #include "edmd/soft/viscoelastic.h"
 #include "workflow/configuration/system_parameters.h"
-#include "workflow/prepare/stages/stage.h"
+#include "workflow/stages/stage.h"
 
 /// The parameter file: what it holds, how it is read, and the texts that describe it. All commands
 /// read the same file; each uses the sections it needs.

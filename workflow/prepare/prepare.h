@@ -10,7 +10,7 @@
 #include "core/state/stage.h"
 #include "workflow/configuration/parameters.h"
 #include "workflow/log.h"
-#include "workflow/prepare/stage_record.h"
+#include "workflow/stages/stage_record.h"
 
 /// From parameters to a first state: particles are drawn, then the stages of [prepare] follow each other.
 ///

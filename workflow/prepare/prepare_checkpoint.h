@@ -6,7 +6,7 @@
 
 #include "core/io/checkpoint.h"
 #include "workflow/prepare/prepare.h"
-#include "workflow/prepare/stages/stage_state.h"
+#include "workflow/stages/stage_state.h"
 
 namespace vitrel {
 

@@ -21,9 +21,10 @@ namespace vitrel {
 struct RunRequest {
   Parameters parameters;
   std::filesystem::path output;
-  std::optional<std::filesystem::path> from = {};  ///< state to start from, whose species win; none: prepare
-  std::string command_line = {};                   ///< for the provenance
-  int threads = 1;                                 ///< the results do not depend on it
+  std::optional<std::filesystem::path> from =
+      {};                         ///< state to start from, whose species win; none: prepare
+  std::string command_line = {};  ///< for the provenance
+  int threads = 1;                ///< the results do not depend on it
 };
 
 /// What the request would do, in lines for a person. Nothing is written. Throws like run for what is there

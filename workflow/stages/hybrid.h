@@ -6,7 +6,7 @@
 #include "core/state/stage.h"
 #include "edmd/growth.h"
 #include "mc/sampling.h"
-#include "workflow/prepare/hybrid_options.h"
+#include "workflow/stages/hybrid_options.h"
 
 namespace vitrel {
 

@@ -1,9 +1,9 @@
-#include "workflow/prepare/stages/hybrid_stage.h"
+#include "workflow/stages/hybrid_stage.h"
 
-#include "workflow/prepare/hybrid.h"
-#include "workflow/prepare/stage_record.h"
-#include "workflow/prepare/stages/growth_goal.h"
-#include "workflow/prepare/stages/stage_fields.h"
+#include "workflow/stages/growth_goal.h"
+#include "workflow/stages/hybrid.h"
+#include "workflow/stages/stage_fields.h"
+#include "workflow/stages/stage_record.h"
 
 namespace vitrel {
 namespace {

@@ -1,4 +1,4 @@
-#include "workflow/prepare/stages/stage_state.h"
+#include "workflow/stages/stage_state.h"
 
 #include <stdexcept>
 

@@ -4,13 +4,13 @@
 #include <variant>
 #include <vector>
 
-#include "workflow/prepare/stages/compress_stage.h"
-#include "workflow/prepare/stages/grow_stage.h"
-#include "workflow/prepare/stages/hybrid_stage.h"
-#include "workflow/prepare/stages/insert_stage.h"
-#include "workflow/prepare/stages/lattice_stage.h"
-#include "workflow/prepare/stages/sample_stage.h"
-#include "workflow/prepare/stages/swell_stage.h"
+#include "workflow/stages/compress_stage.h"
+#include "workflow/stages/grow_stage.h"
+#include "workflow/stages/hybrid_stage.h"
+#include "workflow/stages/insert_stage.h"
+#include "workflow/stages/lattice_stage.h"
+#include "workflow/stages/sample_stage.h"
+#include "workflow/stages/swell_stage.h"
 
 /// The stages of a preparation, as the parameter file describes them.
 namespace vitrel {

@@ -1,11 +1,11 @@
-#include "workflow/prepare/stages/insert_stage.h"
+#include "workflow/stages/insert_stage.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "mc/insertion.h"
-#include "workflow/prepare/stages/stage_fields.h"
+#include "workflow/stages/stage_fields.h"
 
 namespace vitrel {
 namespace {

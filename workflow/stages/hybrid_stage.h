@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "edmd/options.h"
-#include "workflow/prepare/hybrid_options.h"
-#include "workflow/prepare/stages/stage_interface.h"
+#include "workflow/stages/hybrid_options.h"
+#include "workflow/stages/stage_interface.h"
 #include "workflow/storage/state_items.h"
 
 namespace vitrel {

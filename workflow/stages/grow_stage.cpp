@@ -1,10 +1,10 @@
-#include "workflow/prepare/stages/grow_stage.h"
+#include "workflow/stages/grow_stage.h"
 
 #include "edmd/growth.h"
 #include "mc/options.h"
-#include "workflow/prepare/stage_record.h"
-#include "workflow/prepare/stages/growth_goal.h"
-#include "workflow/prepare/stages/stage_fields.h"
+#include "workflow/stages/growth_goal.h"
+#include "workflow/stages/stage_fields.h"
+#include "workflow/stages/stage_record.h"
 
 namespace vitrel {
 

@@ -1,10 +1,10 @@
-#include "workflow/prepare/stages/swell_stage.h"
+#include "workflow/stages/swell_stage.h"
 
 #include <fmt/format.h>
 
 #include "mc/swelling.h"
-#include "workflow/prepare/stage_record.h"
-#include "workflow/prepare/stages/stage_fields.h"
+#include "workflow/stages/stage_fields.h"
+#include "workflow/stages/stage_record.h"
 
 namespace vitrel {
 

@@ -1,12 +1,12 @@
-#include "workflow/prepare/stages/compress_stage.h"
+#include "workflow/stages/compress_stage.h"
 
 #include <fmt/format.h>
 
 #include <span>
 
 #include "mc/compression.h"
-#include "workflow/prepare/stage_record.h"
-#include "workflow/prepare/stages/stage_fields.h"
+#include "workflow/stages/stage_fields.h"
+#include "workflow/stages/stage_record.h"
 
 namespace vitrel {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "mc/options.h"
-#include "workflow/prepare/stages/stage_interface.h"
+#include "workflow/stages/stage_interface.h"
 #include "workflow/storage/state_items.h"
 
 namespace vitrel {

@@ -1,4 +1,4 @@
-#include "workflow/prepare/hybrid.h"
+#include "workflow/stages/hybrid.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "workflow/prepare/stages/stage_fields.h"
+#include "workflow/stages/stage_fields.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "workflow/prepare/stages/lattice_stage.h"
+#include "workflow/stages/lattice_stage.h"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,10 @@
-#include "workflow/prepare/stages/sample_stage.h"
+#include "workflow/stages/sample_stage.h"
 
 #include <fmt/format.h>
 
 #include "mc/sampling.h"
-#include "workflow/prepare/stage_record.h"
-#include "workflow/prepare/stages/stage_fields.h"
+#include "workflow/stages/stage_fields.h"
+#include "workflow/stages/stage_record.h"
 
 namespace vitrel {
 

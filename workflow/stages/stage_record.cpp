@@ -1,4 +1,4 @@
-#include "workflow/prepare/stage_record.h"
+#include "workflow/stages/stage_record.h"
 
 #include "mc/sampling.h"
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "workflow/prepare/stages/stage_interface.h"
+#include "workflow/stages/stage_interface.h"
 
 /// What ends the stages `grow` and `hybrid`: a packing fraction, that of the system if none is given, or a
 /// reduced pressure, or whichever of two given comes first.

@@ -6,9 +6,9 @@
 #include "mc/compression.h"
 #include "mc/sampling.h"
 #include "mc/swelling.h"
-#include "workflow/prepare/hybrid.h"
-#include "workflow/prepare/stage_record.h"
-#include "workflow/prepare/stages/stage.h"
+#include "workflow/stages/hybrid.h"
+#include "workflow/stages/stage.h"
+#include "workflow/stages/stage_record.h"
 
 /// Stages at work.
 namespace vitrel {

@@ -1,4 +1,4 @@
-#include "workflow/prepare/stages/stage.h"
+#include "workflow/stages/stage.h"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 
 #include "core/io/parameters.h"
 #include "mc/options.h"
-#include "workflow/prepare/stages/stage_interface.h"
+#include "workflow/stages/stage_interface.h"
 
 /// The keys that several stages have.
 namespace vitrel {

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "mc/options.h"
-#include "workflow/prepare/stages/stage_interface.h"
+#include "workflow/stages/stage_interface.h"
 #include "workflow/storage/state_items.h"
 
 namespace vitrel {
