@@ -108,10 +108,10 @@ class CommandLine {
  private:
   template <class Options>
   CLI::App& add(const std::string& name, const std::string& sentence,
-                int (*command)(const Options&), const Options& options) {
+                int (*execute)(const Options&), const Options& options) {
     CLI::App& sub = *app_.add_subcommand(name, sentence);
     sub.callback(
-        [this, command, &options] { chosen_ = [=, &options] { return command(options); }; });
+        [this, execute, &options] { chosen_ = [=, &options] { return execute(options); }; });
     sub.footer(exit_codes + ".");
     return sub;
   }

@@ -4,6 +4,21 @@ function(vitrel_cold)
   set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release,RelWithDebInfo>:-O1>")
 endfunction()
 
+# What many sources include, parsed once: the first target compiles it, all others reuse it. They must agree in
+# options and definitions, so every target links fmt. Headers still include what they need
+# (scripts/check_headers).
+set(VITREL_PRECOMPILED
+    <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <limits> <map> <memory> <optional> <span>
+    <string> <vector> <experimental/simd> <Eigen/Geometry> <fmt/format.h> <nlohmann/json.hpp>)
+function(vitrel_precompile target)
+  target_link_libraries(${target} PRIVATE fmt::fmt)
+  if(target STREQUAL vitrel_core)
+    target_precompile_headers(${target} PRIVATE ${VITREL_PRECOMPILED})
+  else()
+    target_precompile_headers(${target} REUSE_FROM vitrel_core)
+  endif()
+endfunction()
+
 # vitrel_library(<name> SOURCES … [COLD …] HEADERS … LINK … [PRIVATE_LINK …]): one static library per folder
 # of the architecture with its headers, each of which must compile alone. COLD are further sources
 # (vitrel_cold). Includes read "core/…", from the project's root.
@@ -19,4 +34,5 @@ function(vitrel_library name)
   target_link_libraries(${target} PUBLIC vitrel::options ${ARG_LINK} PRIVATE ${ARG_PRIVATE_LINK})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} VERIFY_INTERFACE_HEADER_SETS ON)
   vitrel_private_options(${target})
+  vitrel_precompile(${target})
 endfunction()
