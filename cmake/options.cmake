@@ -32,6 +32,11 @@ if(VITREL_SANITIZE)
   target_link_options(vitrel_options INTERFACE -fsanitize=${VITREL_SANITIZE})
 endif()
 
+# GCC 12 warns falsely in its own header of AVX-512 (GCC bug 105593).
+if(VITREL_NATIVE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  set(false_warnings -Wno-uninitialized -Wno-maybe-uninitialized)
+endif()
+
 function(vitrel_private_options target)
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow ${false_warnings})
 endfunction()

@@ -16,7 +16,7 @@ namespace vitrel::bench {
 template <int Dim>
 struct MethodOf {
   std::string name;      ///< "slsqp"
-  double tolerance = 0;  ///< the method's own: what it means is said in its header
+  double tolerance = 0;  ///< defined by each method, see its header
   std::function<Prediction<Dim>(const CollisionCaseOf<Dim>&)> predict;
 };
 using Method = MethodOf<2>;

@@ -10,7 +10,7 @@
 /// in 80-bit arithmetic, over all images, with tolerance zero and without any code of the engine.
 ///
 /// Positions, orientations, semi-axes and box lengths are taken into long double unchanged; a pair is
-/// (i, j, shift), with i = j for a particle and its own image. Round particles are judged by the distance
+/// (i, j, shift), with i = j for a particle and its own image. Round particles are compared by the distance
 /// of their centres. Other pairs whose circumcircles (spheres) meet are judged by the complete
 /// Vieillard-Baron criterion (core/contact/ellipse_vieillard_baron.h), in three dimensions by the completed
 /// criterion of the characteristic polynomial (core/contact/ellipsoid_eta.h). Crossed and contained

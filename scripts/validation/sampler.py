@@ -115,7 +115,7 @@ pairs that the baseline decided.
 
 ## Two threads
 
-In millions of trials per second. The state is the same, bit by bit.
+In millions of trials per second. The final states are bit-identical.
 
 {threads(native["threads"])}
 
