@@ -22,9 +22,9 @@ constexpr double tolerance = 1e-5;
 constexpr PanelOptions coarse{tolerance, 0.02};
 
 template <class Force>
-class EveryForce : public testing::Test {};
+class TabulatedForce : public testing::Test {};
 using Forces = testing::Types<LinearDashpot, Viscoelastic>;
-TYPED_TEST_SUITE(EveryForce, Forces);
+TYPED_TEST_SUITE(TabulatedForce, Forces);
 
 double uniform(const ValueRange& interval, Stream& draw) {
   return draw.uniform(interval.low, interval.high);
@@ -66,19 +66,19 @@ void expect_within_tolerance(const RestitutionDomain& domain) {
   }
 }
 
-TYPED_TEST(EveryForce, ElasticTable) {
+TYPED_TEST(TabulatedForce, ElasticTable) {
   expect_within_tolerance<TypeParam>({typical_obliqueness, {1, 8}, elastic_damping});
 }
 
-TYPED_TEST(EveryForce, TableOfOnePair) {
+TYPED_TEST(TabulatedForce, TableOfOnePair) {
   expect_within_tolerance<TypeParam>({typical_obliqueness, {1, 8}, {-0.7, -0.7}});
 }
 
-TYPED_TEST(EveryForce, TableOfManyPairs) {
+TYPED_TEST(TabulatedForce, TableOfManyPairs) {
   expect_within_tolerance<TypeParam>({{-2, 2}, {2, 5}, {-1.5, -0.5}});
 }
 
-TYPED_TEST(EveryForce, IntegratesAndCountsWhatIsOutside) {
+TYPED_TEST(TabulatedForce, IntegratesAndCountsWhatIsOutside) {
   const RestitutionDomain domain{{-1, 1}, {2, 3}, {-0.7, -0.7}};
   const ForceForm form = form_of<TypeParam>();
   TabulatedRestitution tabulated(form, RestitutionTable(form, domain, coarse, 1));
@@ -129,7 +129,7 @@ ContactPair pair_of(double radius1, double radius2) {
 }
 
 // What the impacts of a scene need: two dimensions for one kind of pair, three for several.
-TYPED_TEST(EveryForce, DomainOfAScene) {
+TYPED_TEST(TabulatedForce, DomainOfAScene) {
   const auto force = soft_material<TypeParam>();
   const ForceForm form = form_of<TypeParam>();
   const std::vector<ContactPair> pairs{pair_of(0.01, 0.01), pair_of(0.01, 0.011),

@@ -46,7 +46,7 @@ double value_at_zero(const std::vector<double>& q, const std::vector<double>& s,
 
 // S(q → 0) = ρ kT κ_T. Fixed N is no matter at q ≠ 0 but for O(1/N). 20 independent stretches of 25
 // frames, three standard errors: false alarm 0.3 %, seed fixed.
-TEST(HardDisks, StructureFactorAtSmallWaveNumbersIsTheCompressibility) {
+TEST(HardDiskStructure, StructureFactorAtSmallWaveNumbersIsTheCompressibility) {
   const double packing_fraction = 0.2;
   const Configuration2 start = square_lattice(32, packing_fraction, 0, [](std::size_t) {
     return Ellipse{1, 1};
