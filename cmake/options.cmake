@@ -25,18 +25,19 @@ set_target_properties(vitrel_options PROPERTIES EXPORT_NAME options)
 target_compile_features(vitrel_options INTERFACE cxx_std_20)
 target_compile_options(vitrel_options INTERFACE -ffp-contract=off)
 if(VITREL_NATIVE)
-  target_compile_options(vitrel_options INTERFACE -march=native)
+  set(VITREL_NATIVE_FLAGS -march=native)
+  # With AVX-512, GCC 12.2 vectorises initialisers wrongly at -O3: of a struct of four doubles it stores the third one
+  # twice (found by the test Verdict.DegenerateContactCountsByItsGap).
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    list(APPEND VITREL_NATIVE_FLAGS -mno-avx512f)
+  endif()
+  target_compile_options(vitrel_options INTERFACE ${VITREL_NATIVE_FLAGS})
 endif()
 if(VITREL_SANITIZE)
   target_compile_options(vitrel_options INTERFACE -fsanitize=${VITREL_SANITIZE} -fno-omit-frame-pointer)
   target_link_options(vitrel_options INTERFACE -fsanitize=${VITREL_SANITIZE})
 endif()
 
-# GCC 12 warns falsely in its own header of AVX-512 (GCC bug 105593).
-if(VITREL_NATIVE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-  set(false_warnings -Wno-uninitialized -Wno-maybe-uninitialized)
-endif()
-
 function(vitrel_private_options target)
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow ${false_warnings})
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow)
 endfunction()
