@@ -20,7 +20,7 @@ function(vitrel_precompile target)
 endfunction()
 
 # vitrel_library(<name> SOURCES … [COLD …] HEADERS … LINK … [PRIVATE_LINK …]): one static library per folder
-# of the architecture with its headers, each of which must compile alone. COLD are further sources
+# of the architecture with its headers, each of which must compile alone (scripts/check_headers). COLD are further sources
 # (vitrel_cold). Includes read "core/…", from the project's root.
 function(vitrel_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;COLD;HEADERS;LINK;PRIVATE_LINK" ${ARGN})
@@ -32,7 +32,7 @@ function(vitrel_library name)
   add_library(vitrel::${name} ALIAS ${target})
   target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${ARG_HEADERS})
   target_link_libraries(${target} PUBLIC vitrel::options ${ARG_LINK} PRIVATE ${ARG_PRIVATE_LINK})
-  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} VERIFY_INTERFACE_HEADER_SETS ON)
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
   vitrel_private_options(${target})
   vitrel_precompile(${target})
 endfunction()
