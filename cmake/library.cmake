@@ -20,8 +20,8 @@ function(vitrel_precompile target)
 endfunction()
 
 # vitrel_library(<name> SOURCES … [COLD …] HEADERS … LINK … [PRIVATE_LINK …]): one static library per folder
-# of the architecture with its headers, each of which must compile alone (scripts/check_headers). COLD are further sources
-# (vitrel_cold). Includes read "core/…", from the project's root.
+# of the architecture with its headers, each of which must compile alone (scripts/check_headers). COLD are
+# further sources (vitrel_cold). Includes read "core/…", from the project's root.
 function(vitrel_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;COLD;HEADERS;LINK;PRIVATE_LINK" ${ARGN})
   set(target vitrel_${name})
