@@ -1,8 +1,5 @@
 #include "app/command_line.h"
 
-#include <functional>
-#include <memory>
-#include <optional>
 #include <string_view>
 
 #include "app/commands/analyze.h"
@@ -14,9 +11,7 @@
 #include "app/commands/report.h"
 #include "app/commands/run.h"
 #include "app/commands/sweep.h"
-#include "app/terminal/exit_codes.h"
 #include "app/terminal/help.h"
-#include "core/io/provenance.h"
 
 namespace vitrel {
 namespace {
@@ -69,18 +64,12 @@ void add_analysis(CLI::App& sub, AnalysisOptions& analysis) {
 }
 
 /// The options of all commands, each filled where its command is the one chosen.
-class CommandLine {
+class CommandLine : public ProgramCommandLine {
  public:
   CommandLine(int count, char** words)
-      : app_("Simulation of hard anisotropic particles, from the liquid to the glass.", "vitrel") {
+      : ProgramCommandLine(
+            "Simulation of hard anisotropic particles, from the liquid to the glass.", "vitrel") {
     prepare_.command_line = run_.command_line = joined(count, words);
-    app_.formatter(std::make_shared<Help>());
-    app_.require_subcommand(1);
-    app_.set_version_flag("--version", program_version());
-    app_.failure_message([](const CLI::App*, const CLI::Error& error) {
-      return "vitrel: " + std::string(error.what()) +
-             "; vitrel --help and vitrel <command> --help list what there is\n";
-    });
     add_prepare();
     add_run();
     add_check();
@@ -92,26 +81,12 @@ class CommandLine {
     add_params();
   }
 
-  /// The exit code if there is nothing left to do (help, or a mistake), else nothing.
-  std::optional<int> parse(int count, char** words) {
-    try {
-      app_.parse(count, words);
-    } catch (const CLI::ParseError& error) {
-      return app_.exit(error) == 0 ? success : user_error;
-    }
-    return std::nullopt;
-  }
-
-  int run() const { return chosen_(); }
-  std::string command() const { return app_.get_subcommands().front()->get_name(); }
-
  private:
   template <class Options>
-  CLI::App& add(const std::string& name, const std::string& sentence,
-                int (*execute)(const Options&), const Options& options) {
+  CLI::App& add(const std::string& name, const std::string& sentence, int (*work)(const Options&),
+                const Options& options) {
     CLI::App& sub = *app_.add_subcommand(name, sentence);
-    sub.callback(
-        [this, execute, &options] { chosen_ = [=, &options] { return execute(options); }; });
+    sub.callback([this, work, &options] { chosen_ = [=, &options] { return work(options); }; });
     sub.footer(exit_codes + ".");
     return sub;
   }
@@ -242,7 +217,6 @@ class CommandLine {
         ->excludes(of);
   }
 
-  CLI::App app_;
   PrepareOptions prepare_;
   RunOptions run_;
   CheckOptions check_;
@@ -251,16 +225,13 @@ class CommandLine {
   ReportOptions report_;
   ExportOptions export_;
   ParamsOptions params_;
-  std::function<int()> chosen_;
 };
 
 }  // namespace
 
 int run_command_line(int count, char** words) {
   if (count > 1 && std::string_view(words[1]) == "bench") return bench_command(words + 1);
-  CommandLine line(count, words);
-  if (const std::optional<int> code = line.parse(count, words)) return *code;
-  return exit_code_of("vitrel " + line.command(), [&] { return line.run(); });
+  return CommandLine(count, words).execute(count, words);
 }
 
 }  // namespace vitrel

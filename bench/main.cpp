@@ -1,16 +1,12 @@
 // vitrel-bench: the command line of all subcommands. The only file here that includes CLI11.
 #include <functional>
-#include <memory>
-#include <optional>
 
-#include "app/terminal/exit_codes.h"
 #include "app/terminal/help.h"
 #include "bench/programs/collision_time.h"
 #include "bench/programs/overlap.h"
 #include "bench/programs/programs.h"
 #include "bench/programs/thesis.h"
 #include "bench/programs/whole_run.h"
-#include "core/io/provenance.h"
 
 namespace vitrel::bench {
 namespace {
@@ -18,19 +14,13 @@ namespace {
 const std::string exit_codes =
     "Exit codes: 0 done, 2 mistake in the command line, 3 a file cannot be read or written";
 
-class CommandLine {
+class CommandLine : public ProgramCommandLine {
  public:
   CommandLine(int count, char** words)
-      : app_("Measures the numerical methods of vitrel against references and baselines.",
-             "vitrel-bench") {
+      : ProgramCommandLine(
+            "Measures the numerical methods of vitrel against references and baselines.",
+            "vitrel-bench") {
     output_.command_line = joined(count, words);
-    app_.formatter(std::make_shared<Help>());
-    app_.require_subcommand(1);
-    app_.set_version_flag("--version", program_version());
-    app_.failure_message([](const CLI::App*, const CLI::Error& error) {
-      return "vitrel-bench: " + std::string(error.what()) +
-             "; vitrel-bench --help and vitrel-bench <command> --help list what there is\n";
-    });
     add_collision_time();
     add_overlap();
     add_whole_run();
@@ -38,19 +28,6 @@ class CommandLine {
     add_parts();
     add_others();
   }
-
-  /// The exit code if there is nothing left to do (help, or a mistake), else nothing.
-  std::optional<int> parse(int count, char** words) {
-    try {
-      app_.parse(count, words);
-    } catch (const CLI::ParseError& error) {
-      return app_.exit(error) == 0 ? success : user_error;
-    }
-    return std::nullopt;
-  }
-
-  int run() const { return chosen_(); }
-  std::string command() const { return app_.get_subcommands().front()->get_name(); }
 
  private:
   CLI::App& add(const std::string& name, const std::string& sentence,
@@ -203,8 +180,6 @@ class CommandLine {
     }).add_flag("--quick", parts_.quick, "Few points: to see that it works");
   }
 
-  CLI::App app_;
-  std::function<int()> chosen_;
   OutputOptions output_;
   CollisionTimeOptions collision_time_;
   OverlapOptions overlap_;
@@ -220,7 +195,5 @@ class CommandLine {
 }  // namespace vitrel::bench
 
 int main(int count, char** words) {
-  vitrel::bench::CommandLine line(count, words);
-  if (const std::optional<int> code = line.parse(count, words)) return *code;
-  return vitrel::exit_code_of("vitrel-bench " + line.command(), [&] { return line.run(); });
+  return vitrel::bench::CommandLine(count, words).execute(count, words);
 }

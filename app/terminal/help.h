@@ -1,8 +1,13 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <functional>
+#include <memory>
 #include <sstream>
 #include <string>
+
+#include "app/terminal/exit_codes.h"
+#include "core/io/provenance.h"
 
 /// What the command lines of the programs share. CLI11 takes long to compile: one source file of each
 /// program includes this.
@@ -65,5 +70,35 @@ inline std::string joined(int count, char** words) {
   for (int k = 0; k < count; ++k) line += (k > 0 ? " " : "") + std::string(words[k]);
   return line;
 }
+
+/// The command line of a program with subcommands, which derived classes add.
+class ProgramCommandLine {
+ public:
+  /// Parses the words and runs the subcommand chosen; returns the exit code.
+  int execute(int count, char** words) {
+    try {
+      app_.parse(count, words);
+    } catch (const CLI::ParseError& error) {
+      return app_.exit(error) == 0 ? success : user_error;
+    }
+    return exit_code_of(app_.get_name() + " " + app_.get_subcommands().front()->get_name(),
+                        [this] { return chosen_(); });
+  }
+
+ protected:
+  ProgramCommandLine(const std::string& sentence, const std::string& program)
+      : app_(sentence, program) {
+    app_.formatter(std::make_shared<Help>());
+    app_.require_subcommand(1);
+    app_.set_version_flag("--version", program_version());
+    app_.failure_message([program](const CLI::App*, const CLI::Error& error) {
+      return program + ": " + error.what() + "; " + program + " --help and " + program +
+             " <command> --help list what there is\n";
+    });
+  }
+
+  CLI::App app_;
+  std::function<int()> chosen_;  ///< set by the subcommand that the command line names
+};
 
 }  // namespace vitrel
