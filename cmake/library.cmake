@@ -8,8 +8,9 @@ endfunction()
 # options and definitions, so every target links fmt. Headers still include what they need
 # (scripts/check_headers).
 set(VITREL_PRECOMPILED
-    <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <limits> <map> <memory> <optional> <span>
-    <string> <vector> <experimental/simd> <Eigen/Geometry> <fmt/format.h> <nlohmann/json.hpp>)
+    <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <fstream> <functional> <iostream> <limits> <map>
+    <memory> <numeric> <optional> <random> <set> <span> <sstream> <string> <unordered_map> <variant> <vector>
+    <Eigen/Geometry> <fmt/core.h> "${PROJECT_SOURCE_DIR}/core/state/configuration.h")
 function(vitrel_precompile target)
   target_link_libraries(${target} PRIVATE fmt::fmt)
   if(target STREQUAL vitrel_core)

@@ -7,6 +7,7 @@
 #include "app/terminal/exit_codes.h"
 #include "app/terminal/progress.h"
 #include "app/terminal/session.h"
+#include "core/io/json.h"
 #include "workflow/analyze/analyze.h"
 #include "workflow/analyze/glass_report.h"
 #include "workflow/sweep/sweep.h"
@@ -16,7 +17,6 @@ namespace vitrel {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 /// Where results go must be free, or hold those of an earlier analysis.
 void require_place(const fs::path& output, const std::vector<fs::path>& inputs) {

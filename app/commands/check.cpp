@@ -9,6 +9,7 @@
 #include "app/terminal/session.h"
 #include "core/error.h"
 #include "core/io/h5md.h"
+#include "core/io/json.h"
 #include "workflow/storage/check.h"
 
 namespace vitrel {
@@ -20,19 +21,19 @@ std::vector<double> components(const Vec<Dim>& vector) {
 }
 
 template <int Dim>
-nlohmann::ordered_json summary(const FileCheck<Dim>& check, const std::filesystem::path& file) {
+Json summary(const FileCheck<Dim>& check, const std::filesystem::path& file) {
   const Mechanics<Dim> sums = mechanics(check.last);
-  nlohmann::ordered_json result = {{"file", file.string()},
-                                   {"frames", check.frames},
-                                   {"particles", check.last.size()},
-                                   {"box", components<Dim>(check.last.box.lengths())},
-                                   {"packing_fraction", packing_fraction(check.last)},
-                                   {"overlaps", check.overlaps},
-                                   {"smallest_gap", check.smallest_gap},
-                                   {"smallest_gap_frame", check.smallest_gap_frame},
-                                   {"momentum", components<Dim>(sums.momentum)},
-                                   {"translational_energy", sums.translational_energy},
-                                   {"rotational_energy", sums.rotational_energy}};
+  Json result = {{"file", file.string()},
+                 {"frames", check.frames},
+                 {"particles", check.last.size()},
+                 {"box", components<Dim>(check.last.box.lengths())},
+                 {"packing_fraction", packing_fraction(check.last)},
+                 {"overlaps", check.overlaps},
+                 {"smallest_gap", check.smallest_gap},
+                 {"smallest_gap_frame", check.smallest_gap_frame},
+                 {"momentum", components<Dim>(sums.momentum)},
+                 {"translational_energy", sums.translational_energy},
+                 {"rotational_energy", sums.rotational_energy}};
   if (check.close_pairs > 0) result["close_pairs"] = check.close_pairs;
   return result;
 }

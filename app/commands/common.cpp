@@ -9,6 +9,7 @@
 #include "app/terminal/progress.h"
 #include "app/terminal/session.h"
 #include "core/error.h"
+#include "core/io/json.h"
 #include "core/io/number_text.h"
 #include "workflow/analyze/analyze.h"
 #include "workflow/configuration/parameters.h"
@@ -40,15 +41,15 @@ void require_folder_of(const fs::path& output) {
 constexpr std::string_view error_suffix = "_error";
 
 /// Whether the value is the error of another one, and is printed with that.
-bool is_error(const nlohmann::ordered_json& summary, const std::string& key) {
+bool is_error(const Json& summary, const std::string& key) {
   return key.ends_with(error_suffix) &&
          summary.contains(key.substr(0, key.size() - error_suffix.size()));
 }
 
-std::string value_text(const nlohmann::ordered_json& summary, const std::string& key) {
-  const nlohmann::ordered_json& value = summary.at(key);
+std::string value_text(const Json& summary, const std::string& key) {
+  const Json& value = summary.at(key);
   if (value.is_string()) return value.get<std::string>();
-  if (!value.is_number_float()) return value.dump();
+  if (!value.is_number_float()) return json_text(value);
   const auto number = value.get<double>();
   const auto error = summary.find(key + std::string(error_suffix));
   if (error != summary.end()) return with_error(number, error->get<double>());
@@ -56,13 +57,13 @@ std::string value_text(const nlohmann::ordered_json& summary, const std::string&
 }
 
 /// Adds the keys of earlier versions beside those that replaced them, at every depth.
-nlohmann::ordered_json with_former_keys(nlohmann::ordered_json json) {
-  for (nlohmann::ordered_json& part : json)
+Json with_former_keys(Json json) {
+  for (Json& part : json)
     if (part.is_structured()) part = with_former_keys(std::move(part));
   for (const char* suffix : {"", "_error"}) {
     const std::string key = std::string("compressibility_factor") + suffix;
     if (!json.is_object() || !json.contains(key)) continue;
-    nlohmann::ordered_json value = json.at(key);
+    Json value = json.at(key);
     json[std::string("compressibility") + suffix] = std::move(value);
   }
   return json;
@@ -110,9 +111,9 @@ void require_new(const fs::path& output) {
     throw UserError(output.string() + ": exists already; choose another output, or delete it");
 }
 
-void print_summary(const PrintOptions& options, const nlohmann::ordered_json& summary) {
+void print_summary(const PrintOptions& options, const Json& summary) {
   if (options.json) {
-    fmt::print("{}\n", with_former_keys(summary).dump(2));
+    fmt::print("{}\n", json_text(with_former_keys(summary), 2));
   } else if (!options.quiet) {
     for (const auto& [key, value] : summary.items()) {
       const std::string text = value_text(summary, key);

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "app/commands/options.h"
+#include "core/io/json.h"
 
 /// What the commands share.
 namespace vitrel {
@@ -37,7 +37,7 @@ void require_new(const std::filesystem::path& output);
 
 /// To standard output: as JSON if asked for, else unless quiet as lines "key  value", or "key  value ±
 /// error" where `key_error` is in the summary, too.
-void print_summary(const PrintOptions& options, const nlohmann::ordered_json& summary);
+void print_summary(const PrintOptions& options, const Json& summary);
 
 /// One line on standard error, unless quiet.
 void remark(const PrintOptions& options, const std::string& line);

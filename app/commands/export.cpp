@@ -6,6 +6,7 @@
 #include "app/terminal/exit_codes.h"
 #include "app/terminal/session.h"
 #include "core/error.h"
+#include "core/io/json.h"
 #include "workflow/export/gnuplot.h"
 #include "workflow/export/trajectory_export.h"
 
@@ -43,11 +44,11 @@ int export_frames(const ExportOptions& options) {
       session.control());
   session.clear();
   if (!done) return stopped;
-  nlohmann::ordered_json summary = {{"output", output.string()},
-                                    {"format", options.format},
-                                    {"frames", done->frames},
-                                    {"particles", done->particles},
-                                    {"bytes", done->bytes}};
+  Json summary = {{"output", output.string()},
+                  {"format", options.format},
+                  {"frames", done->frames},
+                  {"particles", done->particles},
+                  {"bytes", done->bytes}};
   if (done->bodies > 0) summary["bodies"] = done->bodies;
   print_summary(options.print, summary);
   return success;

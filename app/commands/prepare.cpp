@@ -8,6 +8,7 @@
 #include "app/terminal/exit_codes.h"
 #include "app/terminal/session.h"
 #include "core/io/h5md.h"
+#include "core/io/json.h"
 #include "workflow/prepare/packing_quality.h"
 #include "workflow/prepare/prepare.h"
 #include "workflow/prepare/quality_file.h"
@@ -20,11 +21,11 @@ double ratio(std::uint64_t part, std::uint64_t whole) {
 }
 
 /// A number, or null where there is none.
-nlohmann::ordered_json if_positive(double value) {
-  return value > 0 ? nlohmann::ordered_json(value) : nullptr;
+Json if_positive(double value) {
+  return value > 0 ? Json(value) : nullptr;
 }
 
-nlohmann::ordered_json stage_summary(const Stage& stage, const StageRecord& record) {
+Json stage_summary(const Stage& stage, const StageRecord& record) {
   return {{"method", method_name(stage)},
           {"end", record.report.reason},
           {"packing_fraction", record.packing_fraction},
@@ -40,17 +41,15 @@ nlohmann::ordered_json stage_summary(const Stage& stage, const StageRecord& reco
           {"wall_seconds", record.wall_seconds}};
 }
 
-nlohmann::ordered_json stage_summaries(const Parameters& parameters,
-                                       const std::vector<StageRecord>& records) {
-  nlohmann::ordered_json stages;
+Json stage_summaries(const Parameters& parameters, const std::vector<StageRecord>& records) {
+  Json stages;
   for (std::size_t k = 0; k < records.size(); ++k)
     stages.push_back(stage_summary(parameters.stages[k], records[k]));
   return stages;
 }
 
 /// What was done; ratios of no moves at all are NaN.
-nlohmann::ordered_json work_summary(const Preparation<2>& preparation,
-                                    const std::filesystem::path& output) {
+Json work_summary(const Preparation<2>& preparation, const std::filesystem::path& output) {
   const TrialCounts counts = preparation.trials();
   return {
       {"output", output.string()},
@@ -65,9 +64,9 @@ nlohmann::ordered_json work_summary(const Preparation<2>& preparation,
 }
 
 /// What was done and what came out, as JSON.
-nlohmann::ordered_json summary(const Preparation<2>& preparation, const Parameters& parameters,
-                               const Quality& quality, const std::filesystem::path& output) {
-  nlohmann::ordered_json result = work_summary(preparation, output);
+Json summary(const Preparation<2>& preparation, const Parameters& parameters,
+             const Quality& quality, const std::filesystem::path& output) {
+  Json result = work_summary(preparation, output);
   result["packing_fraction"] = quality.packing_fraction;
   result["nematic_order"] = quality.nematic_order;
   result["overlaps"] = quality.overlaps;
@@ -78,10 +77,9 @@ nlohmann::ordered_json summary(const Preparation<2>& preparation, const Paramete
   return result;
 }
 
-nlohmann::ordered_json summary(const Preparation<3>& preparation, const Parameters& parameters,
-                               const PackingQuality& quality, const std::filesystem::path& output) {
-  nlohmann::ordered_json result = {{"output", output.string()},
-                                   {"quality_report", quality_file(output).string()}};
+Json summary(const Preparation<3>& preparation, const Parameters& parameters,
+             const PackingQuality& quality, const std::filesystem::path& output) {
+  Json result = {{"output", output.string()}, {"quality_report", quality_file(output).string()}};
   result.update(quality_json(quality));
   result["collisions_per_second"] = static_cast<double>(quality.collisions) / quality.wall_seconds;
   result["stages"] = stage_summaries(parameters, preparation.stages);
@@ -97,8 +95,8 @@ void print_rows(const std::vector<QualityRow>& rows) {
 /// The same as text; counts that are 0 are left out.
 void print_outcome(const PrepareOptions& options, const Preparation<2>& preparation,
                    const Quality& quality) {
-  const nlohmann::ordered_json all = work_summary(preparation, options.output);
-  nlohmann::ordered_json work;
+  const Json all = work_summary(preparation, options.output);
+  Json work;
   for (const auto& [key, value] : all.items())
     if (!value.is_number() || value.get<double>() > 0) work[key] = value;
   print_summary(options.print, work);

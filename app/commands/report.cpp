@@ -11,6 +11,7 @@
 #include "app/terminal/progress.h"
 #include "core/error.h"
 #include "core/io/h5md.h"
+#include "core/io/json.h"
 #include "workflow/analyze/analyze.h"
 #include "workflow/report/packing_report.h"
 #include "workflow/report/run_report.h"
@@ -42,9 +43,9 @@ void require_place(const fs::path& output, const std::vector<fs::path>& inputs) 
 }
 
 int write_page(const ReportOptions& options, const fs::path& output, const std::string& text,
-               const nlohmann::ordered_json& about) {
+               const Json& about) {
   write_text(output, text);
-  nlohmann::ordered_json summary = {{"output", output.string()}};
+  Json summary = {{"output", output.string()}};
   summary.update(about);
   print_summary(options.print, summary);
   return success;

@@ -20,7 +20,7 @@ void print_table(const SweepOptions& options) {
   std::vector<SweepJob> jobs = sweep_jobs(parameter_source(options.source));
   if (!options.job.empty()) jobs = {job_named(jobs, options.job)};
   if (options.print.json)
-    fmt::print("{}\n", sweep_summary(jobs, options.output).dump(2));
+    fmt::print("{}\n", json_text(sweep_summary(jobs, options.output), 2));
   else if (!options.print.quiet)
     fmt::print("{}", sweep_table(jobs, options.output));
   flush_output();

@@ -3,13 +3,13 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/pages/assets.h"
+#include "core/io/json.h"
 #include "workflow/report/assets.h"
 #include "workflow/report/page_parts.h"
 
 namespace vitrel::bench {
 
-std::string page(const std::string& title, const std::string& subtitle,
-                 const nlohmann::ordered_json& data) {
+std::string page(const std::string& title, const std::string& subtitle, const Json& data) {
   PageProvenance provenance;
   for (const auto& [name, text] : data.at("provenance").items())
     provenance.emplace_back(name, text);

@@ -1,14 +1,14 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
+
+#include "core/io/json.h"
 
 namespace vitrel::bench {
 
 /// One HTML file that needs nothing beside it: charts and tables of what the comparisons have measured,
 /// with the data inside, and their "provenance". A section is there if its data are: "rows" and "classes",
 /// "tolerances", "failures", "scene" and "scene_curves", "passing_pair", "whole_runs", "overlap".
-std::string page(const std::string& title, const std::string& subtitle,
-                 const nlohmann::ordered_json& data);
+std::string page(const std::string& title, const std::string& subtitle, const Json& data);
 
 }  // namespace vitrel::bench

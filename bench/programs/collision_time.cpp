@@ -18,11 +18,10 @@
 #include "bench/surveys/recorded_class.h"
 #include "bench/surveys/survey.h"
 #include "bench/surveys/thesis_scene.h"
+#include "core/io/json.h"
 
 namespace vitrel::bench {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// In the chart of all tolerances a coarse answer counts as correct if it is off by no more than this.
 constexpr double charted_tolerance = 1e-2;

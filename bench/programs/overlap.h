@@ -1,12 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "bench/overlap/overlap_survey.h"
 #include "bench/programs/report.h"
+#include "core/io/json.h"
 
 namespace vitrel::bench {
 
@@ -23,6 +23,6 @@ struct OverlapOptions {
 int overlap(const OverlapOptions& options, const OutputOptions& output);
 
 OverlapSurvey measure_overlap(const OverlapOptions& options, Report& report);
-nlohmann::ordered_json overlap_json(const std::vector<OverlapRow>& rows);
+Json overlap_json(const std::vector<OverlapRow>& rows);
 
 }  // namespace vitrel::bench

@@ -13,7 +13,7 @@ void say(const std::string& what) {
 }
 
 void print(const Json& result) {
-  fmt::print("{}\n", result.dump(2));
+  fmt::print("{}\n", json_text(result, 2));
   flush_output();
 }
 

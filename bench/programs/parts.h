@@ -14,8 +14,6 @@
 /// A benchmark in parts that can be asked for by name, and the JSON that it prints.
 namespace vitrel::bench {
 
-using Json = nlohmann::ordered_json;
-
 inline Json scene_json(const FluidScene& scene) {
   return {{"particles", scene.particles},
           {"aspect_ratio", scene.aspect_ratio},

@@ -6,12 +6,11 @@
 
 #include "app/terminal/exit_codes.h"
 #include "bench/pages/page.h"
+#include "core/io/json.h"
 #include "core/io/provenance.h"
 #include "workflow/storage/text_file.h"
 
 namespace vitrel::bench {
-
-using Json = nlohmann::ordered_json;
 
 Report::Report(const OutputOptions& options)
     : options_(options), session_(options.quiet, options.wall_time) {
@@ -21,7 +20,7 @@ Report::Report(const OutputOptions& options)
 void Report::print(const Json& rows, const std::string& table) {
   session_.clear();
   if (options_.json)
-    fmt::print("{}\n", Json{{"rows", rows}}.dump(2));
+    fmt::print("{}\n", json_text({{"rows", rows}}, 2));
   else if (!options_.quiet)
     fmt::print("{}", table);
   flush_output();
@@ -46,7 +45,7 @@ void Report::add_provenance(Json& data, const PageProvenance& what) const {
 
 void Report::write_data(const std::string& name, const Json& data) const {
   make_folder(options_.folder);
-  write_text(options_.folder / (name + ".json"), data.dump(2) + "\n");
+  write_text(options_.folder / (name + ".json"), json_text(data, 2) + "\n");
 }
 
 void Report::write_page(const std::string& name, const PageTitle& title, const Json& data) const {

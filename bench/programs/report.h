@@ -1,10 +1,10 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "app/terminal/session.h"
+#include "core/io/json.h"
 #include "workflow/report/html.h"
 
 /// What the comparisons of methods do with what they have measured.
@@ -31,18 +31,17 @@ class Report {
   void say(const std::string& step) { session_.say()(step); }
 
   /// Prints the rows: as JSON if asked for, else unless quiet as the table.
-  void print(const nlohmann::ordered_json& rows, const std::string& table);
+  void print(const Json& rows, const std::string& table);
   /// For work that was interrupted: says so; the exit code.
   int stopped_early() const;
   bool is_wanted() const { return !options_.folder.empty(); }
 
   /// Adds the provenance, in which `what` describes the benchmark itself, to the data.
-  void add_provenance(nlohmann::ordered_json& data, const PageProvenance& what) const;
+  void add_provenance(Json& data, const PageProvenance& what) const;
   /// The data as <name>.json.
-  void write_data(const std::string& name, const nlohmann::ordered_json& data) const;
+  void write_data(const std::string& name, const Json& data) const;
   /// <name>.html, with charts and tables of these data (pages/page.h).
-  void write_page(const std::string& name, const PageTitle& title,
-                  const nlohmann::ordered_json& data) const;
+  void write_page(const std::string& name, const PageTitle& title, const Json& data) const;
 
  private:
   OutputOptions options_;

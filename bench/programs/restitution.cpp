@@ -18,6 +18,7 @@
 
 #include "bench/baselines/plain_contact.h"
 #include "bench/programs/parts.h"
+#include "core/io/json.h"
 #include "core/io/provenance.h"
 #include "core/parallel.h"
 #include "core/random/stream.h"

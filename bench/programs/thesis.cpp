@@ -12,11 +12,10 @@
 
 #include "app/terminal/exit_codes.h"
 #include "bench/programs/number_text.h"
+#include "core/io/json.h"
 
 namespace vitrel::bench {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr double brownian_step = 0.1;
 constexpr double warm_up = 20;

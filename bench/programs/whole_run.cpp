@@ -9,10 +9,9 @@
 #include "app/terminal/exit_codes.h"
 #include "bench/programs/number_text.h"
 #include "bench/surveys/choice.h"
+#include "core/io/json.h"
 
 namespace vitrel::bench {
-
-using Json = nlohmann::ordered_json;
 
 namespace {
 

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "bench/programs/report.h"
 #include "bench/surveys/whole_run.h"
+#include "core/io/json.h"
 
 namespace vitrel::bench {
 
@@ -22,6 +22,6 @@ int whole_run(const WholeRunOptions& options, const OutputOptions& output);
 
 /// The runs that were done before a stop.
 std::vector<WholeRun> measure_whole_runs(const WholeRunOptions& options, Report& report);
-nlohmann::ordered_json whole_runs_json(const std::vector<WholeRun>& runs);
+Json whole_runs_json(const std::vector<WholeRun>& runs);
 
 }  // namespace vitrel::bench

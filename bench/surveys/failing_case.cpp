@@ -11,11 +11,11 @@
 
 #include "core/contact/ellipse_vieillard_baron.h"
 #include "core/contact/perram_wertheim.h"
+#include "core/io/json.h"
 
 namespace vitrel::bench {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using TruthOutcome = TrueContact::Outcome;
 
 struct Placed {

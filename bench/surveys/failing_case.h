@@ -1,8 +1,7 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
-
 #include "bench/surveys/survey.h"
+#include "core/io/json.h"
 
 namespace vitrel::bench {
 
@@ -11,6 +10,6 @@ namespace vitrel::bench {
 /// deepest overlap that the method overlooked and at the time it reported, in the order of time. Every
 /// picture is a square from −1 to 1 with a scale of its own (`half_width`, in units of length); if one
 /// ellipse is far larger, only the neighbourhood of the smaller one is shown.
-nlohmann::ordered_json failing_case_json(const FailingCase& failure);
+Json failing_case_json(const FailingCase& failure);
 
 }  // namespace vitrel::bench

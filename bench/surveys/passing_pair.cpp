@@ -7,11 +7,10 @@
 #include "bench/methods/opening.h"
 #include "bench/surveys/ellipsoid_reference.h"
 #include "bench/surveys/ellipsoid_suite.h"
+#include "core/io/json.h"
 
 namespace vitrel::bench {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr double depth = 3e-5;
 constexpr int scan_steps = 100;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
+#include "core/io/json.h"
 
 namespace vitrel::bench {
 
@@ -9,6 +9,6 @@ namespace vitrel::bench {
 /// every method at all its tolerances answers (the time, or null if it finds no contact, and the number
 /// of steps or evaluations), and η₁ against time about the overlap, as a curve and as a scan of the usual
 /// step sees it.
-nlohmann::ordered_json passing_pair_json();
+Json passing_pair_json();
 
 }  // namespace vitrel::bench

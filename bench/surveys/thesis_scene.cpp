@@ -10,11 +10,10 @@
 #include "bench/methods/method.h"
 #include "bench/reference/first_contact.h"
 #include "core/contact/ellipse_vieillard_baron.h"
+#include "core/io/json.h"
 
 namespace vitrel::bench {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 const Flight<Ellipse> resting{{1, 0.5}, {{0, 0}, 0}, {{0, 0}, 0}};
 const Flight<Ellipse> coming{{1, 0.5}, {{1, 1}, 0}, {{-1, 0}, std::numbers::pi}};

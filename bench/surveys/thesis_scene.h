@@ -1,6 +1,6 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
+#include "core/io/json.h"
 
 /// The scene of appendix B.1 of the thesis (thesis-elliptic-disks): two ellipses with a = 1, b = 0.5, one
 /// at rest at the origin, the other coming from (1, 1) at (−1, 0), turning at π. They touch first at
@@ -10,11 +10,11 @@ namespace vitrel::bench {
 
 /// When the guaranteed reference, with the name "reference", and every method at its usual tolerance say
 /// that the two touch first: null for no contact. Without the methods that are not made for such a pair.
-nlohmann::ordered_json thesis_scene_answers_json();
+Json thesis_scene_answers_json();
 
 /// Against time, the distance d of the second ellipse from the first after the map that makes the first
 /// one the unit circle, negative if they overlap (figure 3.11 of the thesis), and the contact function Ψ
 /// of Vieillard-Baron (figure 3.15).
-nlohmann::ordered_json thesis_scene_curves_json();
+Json thesis_scene_curves_json();
 
 }  // namespace vitrel::bench

@@ -44,6 +44,14 @@ class PeriodicBox {
     }
   }
 
+  /// The same, but a position that is inside stays bit-identical.
+  void wrap_if_outside(Vec<Dim>& position, Shift<Dim>& image) const {
+    const Vec<Dim> half = 0.5 * lengths_;
+    const bool inside =
+        (position.array() >= -half.array()).all() && (position.array() < half.array()).all();
+    if (!inside) wrap(position, image);
+  }
+
   /// The shift that makes |d + shift ∘ L| smallest, for any separation d.
   Shift<Dim> nearest_shift(const Vec<Dim>& d) const {
     Shift<Dim> shift;

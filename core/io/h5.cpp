@@ -5,11 +5,8 @@
 #include <algorithm>
 #include <functional>
 #include <numeric>
-#include <optional>
-#include <string_view>
 
-#include "core/error.h"
-#include "core/io/h5_driver.h"
+#include "core/io/h5_open_file.h"
 
 namespace vitrel::h5 {
 namespace {
@@ -17,12 +14,6 @@ namespace {
 static_assert(std::is_same_v<Id, hid_t>);
 
 constexpr hsize_t entries_per_chunk = 128;
-
-/// HDF5 keeps one error handler per thread.
-void silence_hdf5() {
-  thread_local const herr_t silenced = H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  static_cast<void>(silenced);
-}
 
 template <class T>
 Id native_type();
@@ -74,108 +65,7 @@ std::uint64_t elements(const Shape& shape) {
   return std::accumulate(shape.begin(), shape.end(), std::uint64_t{1}, std::multiplies<>());
 }
 
-/// What HDF5 noted where the error arose, the innermost entry of its error stack.
-std::string innermost_note() {
-  std::string note;
-  const auto keep_first = [](unsigned depth, const H5E_error2_t* error, void* out) -> herr_t {
-    if (depth == 0 && error->desc) *static_cast<std::string*>(out) = error->desc;
-    return 0;
-  };
-  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_first, &note);
-  return note;
-}
-
-/// Turns HDF5's note into words for a person, with what to do about it.
-std::string explained(const std::string& note) {
-  if (note.find("truncated file") != std::string::npos)
-    return "the file is truncated: its end is missing, restore it from a copy";
-  if (note.find("file signature not found") != std::string::npos)
-    return "it is not an HDF5 file, or its beginning is damaged";
-  return note.empty() ? "unknown reason" : note;
-}
-
-[[noreturn]] void throw_file_error(const std::string& path, std::string_view action,
-                                   std::string_view object, const std::string& reason) {
-  std::string message = path + ": cannot " + std::string(action);
-  if (!object.empty()) message += ' ' + std::string(object);
-  throw FileError(message + ": " + reason);
-}
-
 }  // namespace
-
-/// The file identifier, shared by all objects of the file.
-class OpenFile {
- public:
-  OpenFile(const std::filesystem::path& path, TransactionalFile::Mode mode)
-      : path_(path.string()), content_(std::in_place, path, mode) {
-    const bool create = mode == TransactionalFile::Mode::create;
-    silence_hdf5();
-    const Id access = access_through(*content_);
-    // Format version 1.8: every reader in use understands it.
-    H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);
-    H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
-    const unsigned flags = content_->writable() ? H5F_ACC_RDWR : H5F_ACC_RDONLY;
-    id_ = create ? H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access)
-                 : H5Fopen(path.c_str(), flags, access);
-    const std::string reason = id_ < 0 ? explained(innermost_note()) : "";
-    H5Pclose(access);
-    if (id_ < 0) throw_file_error(path_, create ? "create the file" : "open the file", "", reason);
-  }
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
-  ~OpenFile() {
-    silence_hdf5();
-    try {
-      if (id_ >= 0 && content_->writable()) flush();
-    } catch (const FileError&) {  // what was flushed before is safe
-    }
-    if (id_ >= 0) H5Fclose(id_);
-  }
-
-  Id id() const { return id_; }
-  const std::string& path() const { return path_; }
-
-  /// Runs an HDF5 call; a negative result becomes a FileError.
-  template <class Call>
-  auto run(std::string_view action, std::string_view object, Call&& call) {
-    silence_hdf5();
-    if (!content_) throw_file_error(path_, action, object, "it is closed");
-    if (!content_->failure().empty()) throw_file_error(path_, action, object, content_->failure());
-    const auto result = call();
-    if (result < 0) fail(action, object, explained(innermost_note()));
-    return result;
-  }
-
-  [[noreturn]] void fail(std::string_view action, std::string_view object,
-                         const std::string& reason) {
-    if (content_ && content_->writable()) content_->give_up(reason);
-    const bool known = content_ && !content_->failure().empty();
-    throw_file_error(path_, action, object, known ? content_->failure() : reason);
-  }
-
-  void flush() {
-    run("write", "", [&] { return H5Fflush(id_, H5F_SCOPE_GLOBAL); });
-    content_->commit();
-  }
-
-  void synchronize() {
-    flush();
-    content_->synchronize();
-  }
-
-  void close() {
-    flush();
-    run("close", "", [&] { return H5Fclose(std::exchange(id_, -1)); });
-    content_->commit();
-    content_->synchronize();
-    content_.reset();
-  }
-
- private:
-  std::string path_;
-  std::optional<TransactionalFile> content_;  // none once closed
-  Id id_ = -1;
-};
 
 Object::Handle::~Handle() {
   if (id_ < 0) return;
@@ -196,13 +86,14 @@ bool Object::has_attribute(const std::string& name) const {
                     [&] { return H5Aexists(handle_.id(), name.c_str()); }) > 0;
 }
 
-void Object::write_attribute(const std::string& name, Id type, Id space, const void* data) {
+void Object::write_attribute(const std::string& name, Id stored, Id memory, Id space,
+                             const void* data) {
   if (has_attribute(name))
     file_->run("replace attribute", name, [&] { return H5Adelete(handle_.id(), name.c_str()); });
   const Handle attribute(file_->run("create attribute", name, [&] {
-    return H5Acreate2(handle_.id(), name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT);
+    return H5Acreate2(handle_.id(), name.c_str(), stored, space, H5P_DEFAULT, H5P_DEFAULT);
   }));
-  file_->run("write attribute", name, [&] { return H5Awrite(attribute.id(), type, data); });
+  file_->run("write attribute", name, [&] { return H5Awrite(attribute.id(), memory, data); });
 }
 
 void Object::set_attribute(const std::string& name, std::span<const std::string> texts,
@@ -216,7 +107,7 @@ void Object::set_attribute(const std::string& name, std::span<const std::string>
   H5Tset_cset(type.id(), H5T_CSET_UTF8);
   const hsize_t count = texts.size();
   const Handle space(count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &count, nullptr));
-  write_attribute(name, type.id(), space.id(), padded.data());
+  write_attribute(name, type.id(), type.id(), space.id(), padded.data());
 }
 
 void Object::set_attribute(const std::string& name, const std::string& text) {
@@ -228,14 +119,7 @@ template <class T>
 void Object::set_attribute(const std::string& name, std::span<const T> values) {
   const hsize_t count = values.size();
   const Handle space(count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &count, nullptr));
-  if (has_attribute(name))
-    file_->run("replace attribute", name, [&] { return H5Adelete(handle_.id(), name.c_str()); });
-  const Handle attribute(file_->run("create attribute", name, [&] {
-    return H5Acreate2(handle_.id(), name.c_str(), stored_type<T>(), space.id(), H5P_DEFAULT,
-                      H5P_DEFAULT);
-  }));
-  file_->run("write attribute", name,
-             [&] { return H5Awrite(attribute.id(), native_type<T>(), values.data()); });
+  write_attribute(name, stored_type<T>(), native_type<T>(), space.id(), values.data());
 }
 
 namespace {

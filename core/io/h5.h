@@ -65,7 +65,7 @@ class Object {
   std::string name_;
 
  private:
-  void write_attribute(const std::string& name, Id type, Id space, const void* data);
+  void write_attribute(const std::string& name, Id stored, Id memory, Id space, const void* data);
 };
 
 /// An array of numbers or strings. A series is an array that grows along its first direction, one

@@ -10,6 +10,7 @@
 
 #include "analysis/glass/glass_data.h"
 #include "core/error.h"
+#include "core/io/json.h"
 #include "workflow/analyze/dynamics_tables.h"
 #include "workflow/analyze/glass_report.h"
 #include "workflow/analyze/glass_tables.h"
@@ -23,8 +24,6 @@
 
 namespace vitrel {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 

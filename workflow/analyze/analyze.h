@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -11,6 +10,7 @@
 
 #include "analysis/results.h"
 #include "analysis/trajectory.h"
+#include "core/io/json.h"
 #include "core/io/provenance.h"
 
 /// The analysis of one saved run.
@@ -60,7 +60,7 @@ std::vector<std::string> former_tables(const std::filesystem::path& file);
 void write_all(const std::filesystem::path& file, const Results& results);
 
 /// All numbers of the summary, and the verdict.
-nlohmann::ordered_json analysis_summary(const AnalysedRun& run);
+Json analysis_summary(const AnalysedRun& run);
 
 /// Where a file comes from, as tables and pages give it.
 std::vector<std::pair<std::string, std::string>> provenance_rows(const Provenance& provenance);

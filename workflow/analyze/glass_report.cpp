@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/glass/glass_names.h"
+#include "core/io/json.h"
 #include "core/io/number_text.h"
 
 namespace vitrel {
@@ -107,7 +108,7 @@ std::vector<std::pair<std::string, std::string>> glass_notes(const GlassStudy& s
   return notes;
 }
 
-nlohmann::ordered_json glass_summary(const GlassRun& run) {
+Json glass_summary(const GlassRun& run) {
   return {{"seed", run.seed},
           {"verdict", name_of(run.equilibration.verdict)},
           {"reason", run.equilibration.reason},
@@ -123,8 +124,8 @@ nlohmann::ordered_json glass_summary(const GlassRun& run) {
           {"tau_rotation_error", run.rotation.error}};
 }
 
-nlohmann::ordered_json glass_summary(const GlassStudy& study) {
-  nlohmann::ordered_json fits = nlohmann::ordered_json::array();
+Json glass_summary(const GlassStudy& study) {
+  Json fits = Json::array();
   for (const auto& [kind, law, fit] : study.laws) {
     const bool found = fit.verdict == GlassVerdict::found;
     const bool bounded = fit.verdict != GlassVerdict::refused;

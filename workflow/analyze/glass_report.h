@@ -1,11 +1,11 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "analysis/glass/glass_study.h"
+#include "core/io/json.h"
 
 /// Glass runs and glass studies in words and as JSON.
 namespace vitrel {
@@ -13,9 +13,9 @@ namespace vitrel {
 /// As provenance: why runs stay out of the fits, why a law has no φ_c.
 std::vector<std::pair<std::string, std::string>> glass_notes(const GlassStudy& study);
 /// Times, order and verdict of one run.
-nlohmann::ordered_json glass_summary(const GlassRun& run);
+Json glass_summary(const GlassRun& run);
 /// `fits`: φ_c of every kind and law, or why there is none; `remarks`: order or glass, and what else must be known.
-nlohmann::ordered_json glass_summary(const GlassStudy& study);
+Json glass_summary(const GlassStudy& study);
 /// As text: densities with order, verdict and times, and φ_c by the laws.
 std::string glass_text(const GlassStudy& study);
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/io/json.h"
 #include "workflow/storage/text_file.h"
 
 namespace vitrel {
@@ -55,18 +56,18 @@ PackingQuality measure_quality(const Preparation<3>& preparation) {
 
 void add_preparation(PackingQuality& quality, const std::filesystem::path& file) {
   try {
-    const nlohmann::json report = nlohmann::json::parse(read_text(file));
+    const Json report = read_json(file);
     if (report.at("particles") != quality.particles ||
         report.at("packing_fraction") != quality.packing_fraction)
       throw FileError(
           fmt::format("{}: is the quality report of another packing; vitrel prepare "
                       "writes both files together",
                       file.string()));
-    const nlohmann::json& pressure = report.at("reduced_pressure");
+    const Json& pressure = report.at("reduced_pressure");
     if (!pressure.is_null()) quality.reduced_pressure = pressure;
     quality.collisions = report.at("collisions");
     quality.wall_seconds = report.at("wall_seconds");
-  } catch (const nlohmann::json::exception& error) {
+  } catch (const Json::exception& error) {
     throw FileError(fmt::format("{}: is not a quality report of vitrel prepare: {}", file.string(),
                                 error.what()));
   }
@@ -93,7 +94,7 @@ std::vector<QualityRow> quality_rows(const PackingQuality& quality) {
   return rows;
 }
 
-nlohmann::ordered_json quality_json(const PackingQuality& quality) {
+Json quality_json(const PackingQuality& quality) {
   const IsotropicRatio chance = isotropic_ratio(quality.axes);
   return {{"dimension", 3},
           {"particles", quality.particles},
@@ -110,7 +111,7 @@ nlohmann::ordered_json quality_json(const PackingQuality& quality) {
 }
 
 void write_quality(const std::filesystem::path& file, const PackingQuality& quality) {
-  write_text(file, quality_json(quality).dump(1) + "\n");
+  write_text(file, json_text(quality_json(quality), 1) + "\n");
 }
 
 }  // namespace vitrel

@@ -2,10 +2,10 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <vector>
 
 #include "analysis/structure/orientation_tensor.h"
+#include "core/io/json.h"
 #include "workflow/prepare/prepare.h"
 #include "workflow/prepare/quality_row.h"
 
@@ -35,7 +35,7 @@ void add_preparation(PackingQuality& quality, const std::filesystem::path& file)
 std::vector<QualityRow> quality_rows(const PackingQuality& quality);
 
 /// JSON has neither NaN nor infinity: null stands for both.
-nlohmann::ordered_json quality_json(const PackingQuality& quality);
+Json quality_json(const PackingQuality& quality);
 
 /// Written whole or not at all. Throws FileError.
 void write_quality(const std::filesystem::path& file, const PackingQuality& quality);

@@ -7,12 +7,12 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/io/json.h"
 #include "workflow/storage/text_file.h"
 
 namespace vitrel {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using From = Quality::PressureFrom;
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -158,7 +158,7 @@ Json quality_json(const Quality& quality) {
 }
 
 void write_quality(const std::filesystem::path& file, const Quality& quality) {
-  write_text(file, quality_json(quality).dump(1) + "\n");
+  write_text(file, json_text(quality_json(quality), 1) + "\n");
 }
 
 Quality read_quality(const std::filesystem::path& file, const Configuration2& state) {
@@ -167,11 +167,10 @@ Quality read_quality(const std::filesystem::path& file, const Configuration2& st
         fmt::format("{}: is missing; vitrel prepare writes this quality report beside a state, and "
                     "the page needs both (that of a run needs two frames or more)",
                     file.string()));
-  const std::string text = read_text(file);
   Quality quality;
   try {
-    quality = quality_from(Json::parse(text));
-  } catch (const nlohmann::json::exception& error) {
+    quality = quality_from(read_json(file));
+  } catch (const Json::exception& error) {
     throw FileError(fmt::format("{}: is not a quality report of vitrel prepare: {}", file.string(),
                                 error.what()));
   }

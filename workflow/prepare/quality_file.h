@@ -1,8 +1,8 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 
+#include "core/io/json.h"
 #include "workflow/prepare/quality.h"
 
 /// The quality of a state on file, beside the state itself.
@@ -13,7 +13,7 @@ std::filesystem::path quality_file(const std::filesystem::path& state);
 
 /// JSON has neither NaN nor infinity: null stands for both. A limit that was not met within what
 /// was looked at is told by "reached": false, and the value is how far that was.
-nlohmann::ordered_json quality_json(const Quality& quality);
+Json quality_json(const Quality& quality);
 
 /// Written whole or not at all. Throws FileError.
 void write_quality(const std::filesystem::path& file, const Quality& quality);

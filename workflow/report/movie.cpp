@@ -8,13 +8,12 @@
 #include <span>
 
 #include "core/io/base64.h"
+#include "core/io/json.h"
 #include "core/parallel.h"
 #include "core/state/check.h"
 #include "workflow/report/page_parts.h"
 
 namespace vitrel {
-
-using nlohmann::json;
 
 namespace {
 
@@ -149,15 +148,15 @@ Movie film(Trajectory& trajectory, const MovieLimits& limits) {
   return camera.checked();
 }
 
-json movie_data(const Movie& movie) {
+Json movie_data(const Movie& movie) {
   if (movie.particles() == 0) return nullptr;
-  json boxes = json::array(), jumps = json::array(), times = json::array();
+  Json boxes = Json::array(), jumps = Json::array(), times = Json::array();
   for (const Vec2& box : movie.box) boxes.push_back({page_number(box.x()), page_number(box.y())});
   for (const double time : movie.time) times.push_back(page_number(time));
   for (const Movie::Jump& jump : movie.jumps)
     jumps.push_back({jump.frame, jump.particle, jump.shift.x(), jump.shift.y()});
   if (std::equal(boxes.begin() + 1, boxes.end(), boxes.begin())) boxes = {boxes.front()};
-  json data = {{"runParticles", movie.run_particles},
+  Json data = {{"runParticles", movie.run_particles},
                {"runFrames", movie.run_frames},
                {"particles", movie.particles()},
                {"window", {movie.window.x(), movie.window.y()}},

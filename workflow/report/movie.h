@@ -2,11 +2,11 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "analysis/trajectory.h"
+#include "core/io/json.h"
 #include "core/state/configuration.h"
 
 /// The moving particles of a run, packed small enough to travel inside a page.
@@ -56,6 +56,6 @@ struct Movie {
 Movie film(Trajectory& trajectory, const MovieLimits& limits = {});
 
 /// For the script of the page; null without particles.
-nlohmann::json movie_data(const Movie& movie);
+Json movie_data(const Movie& movie);
 
 }  // namespace vitrel

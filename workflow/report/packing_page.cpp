@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/io/json.h"
 #include "workflow/report/page_parts.h"
 #include "workflow/report/page_tables.h"
 
@@ -14,9 +15,9 @@ std::string packing_page(const PackingPage& page) {
                      "page/solids.js",
                      "page/packing.js",
                      {{"rows", table_rows(page.rows)}},
-                     script_safe(nlohmann::json{{"label", page.title},
-                                                {"scene", scene_data(page.scene)},
-                                                {"tables", tables_data(page.results, {})}}),
+                     script_safe(Json{{"label", page.title},
+                                      {"scene", scene_data(page.scene)},
+                                      {"tables", tables_data(page.results, {})}}),
                      page.parameters,
                      page.provenance,
                      "a b c"});

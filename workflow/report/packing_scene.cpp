@@ -9,11 +9,10 @@
 
 #include "analysis/structure/packing_images.h"
 #include "core/io/base64.h"
+#include "core/io/json.h"
 #include "workflow/report/page_parts.h"
 
 namespace vitrel {
-
-using nlohmann::json;
 
 namespace {
 
@@ -78,16 +77,16 @@ PackingScene packing_scene(const Configuration3& packing, const ExactCheck<3>& c
   return scene;
 }
 
-json scene_data(const PackingScene& scene) {
+Json scene_data(const PackingScene& scene) {
   const auto sides = [](const Vec3& lengths) {
-    return json{page_number(lengths.x()), page_number(lengths.y()), page_number(lengths.z())};
+    return Json{page_number(lengths.x()), page_number(lengths.y()), page_number(lengths.z())};
   };
-  json images = json::array();
+  Json images = Json::array();
   for (const PackingScene::Image& image : scene.images) {
     images.push_back(image.particle);
     for (const std::int32_t boxes : image.shift) images.push_back(boxes);
   }
-  json data = {{"particles", scene.particles},
+  Json data = {{"particles", scene.particles},
                {"box", sides(scene.box)},
                {"window", sides(scene.window)},
                {"speciesNames", scene.species_names},

@@ -2,10 +2,10 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
+#include "core/io/json.h"
 #include "core/state/check.h"
 #include "core/state/configuration.h"
 
@@ -44,6 +44,6 @@ PackingScene packing_scene(const Configuration3& packing, const ExactCheck<3>& c
                            std::size_t most_particles = 10'000);
 
 /// For the script of the page.
-nlohmann::json scene_data(const PackingScene& scene);
+Json scene_data(const PackingScene& scene);
 
 }  // namespace vitrel

@@ -6,31 +6,30 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "core/io/json.h"
 #include "workflow/report/assets.h"
 
 namespace vitrel {
 
-using nlohmann::json;
-
-json page_number(double value, int digits) {
+Json page_number(double value, int digits) {
   if (!std::isfinite(value)) return nullptr;
   return std::stod(fmt::format("{:.{}g}", value, digits));
 }
 
-json page_numbers(const std::vector<double>& values, const std::vector<std::size_t>& rows,
+Json page_numbers(const std::vector<double>& values, const std::vector<std::size_t>& rows,
                   int digits) {
-  json array = json::array();
+  Json array = Json::array();
   for (const std::size_t row : rows) array.push_back(page_number(values[row], digits));
   return array;
 }
 
-void add_shapes(json& data, const std::vector<std::vector<double>>& semi_axes) {
+void add_shapes(Json& data, const std::vector<std::vector<double>>& semi_axes) {
   std::map<std::vector<double>, std::size_t> known;
-  json shapes = json::array(), shape = json::array();
+  Json shapes = Json::array(), shape = Json::array();
   for (const std::vector<double>& axes : semi_axes) {
     const auto [place, added] = known.emplace(axes, known.size());
     if (added) {
-      json& numbers = shapes.emplace_back(json::array());
+      Json& numbers = shapes.emplace_back(Json::array());
       for (const double axis : axes) numbers.push_back(page_number(axis));
     }
     shape.push_back(place->second);
@@ -39,15 +38,12 @@ void add_shapes(json& data, const std::vector<std::vector<double>>& semi_axes) {
   data["shape"] = std::move(shape);
 }
 
-template <class AnyJson>
-std::string script_safe(const AnyJson& data) {
-  std::string text = data.dump(-1, ' ', false, AnyJson::error_handler_t::replace);
+std::string script_safe(const Json& data) {
+  std::string text = json_text(data);
   for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;)
     text.replace(at, 1, "\\u003c");
   return text;
 }
-template std::string script_safe(const json&);
-template std::string script_safe(const nlohmann::ordered_json&);
 
 std::string filled(std::string_view page,
                    const std::vector<std::pair<std::string_view, std::string>>& texts) {

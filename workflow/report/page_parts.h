@@ -1,30 +1,29 @@
 #pragma once
 
 #include <cstddef>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "core/io/json.h"
 #include "workflow/report/html.h"
 
 /// What the pages are put together from.
 namespace vitrel {
 
 /// Six significant digits are more than any pixel shows; JSON has no NaN, null stands for it.
-nlohmann::json page_number(double value, int digits = 6);
+Json page_number(double value, int digits = 6);
 
 /// These rows of a column.
-nlohmann::json page_numbers(const std::vector<double>& values, const std::vector<std::size_t>& rows,
-                            int digits = 6);
+Json page_numbers(const std::vector<double>& values, const std::vector<std::size_t>& rows,
+                  int digits = 6);
 
 /// Adds "shapes": every list of semi-axes once, and "shape": for every particle which of them it has.
-void add_shapes(nlohmann::json& data, const std::vector<std::vector<double>>& semi_axes);
+void add_shapes(Json& data, const std::vector<std::vector<double>>& semi_axes);
 
 /// JSON or ordered JSON inside a script element: no "<" is left that could end it.
-template <class AnyJson>
-std::string script_safe(const AnyJson& data);
+std::string script_safe(const Json& data);
 
 /// Replaces every {{name}} of the template by its text, in one pass, so that no text is looked into.
 std::string filled(std::string_view page,

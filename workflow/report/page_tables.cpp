@@ -1,4 +1,5 @@
 #include "workflow/report/page_tables.h"
+#include "core/io/json.h"
 #include "core/io/number_text.h"
 
 #include <fmt/format.h>
@@ -14,8 +15,6 @@
 #include "workflow/report/page_parts.h"
 
 namespace vitrel {
-
-using nlohmann::json;
 
 namespace {
 
@@ -63,13 +62,13 @@ std::vector<std::size_t> every(std::size_t stride, std::size_t size) {
   return rows;
 }
 
-json column_data(const Column& column, const std::vector<std::size_t>& rows) {
-  json data = {{"unit", column.unit}, {"value", page_numbers(column.value, rows)}};
+Json column_data(const Column& column, const std::vector<std::size_t>& rows) {
+  Json data = {{"unit", column.unit}, {"value", page_numbers(column.value, rows)}};
   if (!column.error.empty()) data["error"] = page_numbers(column.error, rows, error_digits);
   return data;
 }
 
-json table_data(const Table& table, const Thinning& thinning) {
+Json table_data(const Table& table, const Thinning& thinning) {
   const bool logarithmic = is_correlation(table);
   const std::size_t stride = logarithmic || table.rows() == 0
                                  ? 1
@@ -77,7 +76,7 @@ json table_data(const Table& table, const Thinning& thinning) {
   const std::vector<std::size_t> rows =
       logarithmic ? logarithmic_rows(table.columns.front().value, thinning.rows_per_decade)
                   : every(stride, table.rows());
-  json columns = json::object();
+  Json columns = Json::object();
   for (const Column& column : table.columns) columns[column.name] = column_data(column, rows);
   return {{"stride", stride}, {"columns", std::move(columns)}};
 }
@@ -91,8 +90,8 @@ const Column* find(const Results& results, const std::string& table, const std::
 
 }  // namespace
 
-json tables_data(const Results& results, const Thinning& thinning) {
-  json data = json::object();
+Json tables_data(const Results& results, const Thinning& thinning) {
+  Json data = Json::object();
   for (const Table& table : results.tables)
     if (is_shown(table.name)) data[table.name] = table_data(table, thinning);
   return data;

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "analysis/results.h"
+#include "core/io/json.h"
 
 /// Tables of results, as the pages carry and show them.
 namespace vitrel {
@@ -18,7 +18,7 @@ struct Thinning {
 /// For the script: a table by its name; in it the columns by theirs, with unit, value and error (if
 /// there is any), and the stride that evenly spaced rows were thinned by. Tables that the page does
 /// not show stay out.
-nlohmann::json tables_data(const Results& results, const Thinning& thinning);
+Json tables_data(const Results& results, const Thinning& thinning);
 
 /// A packing fraction with two decimals if that is exact, else four: 0.50, 0.7125.
 std::string density_text(double phi);

@@ -1,4 +1,5 @@
 #include "workflow/report/report_page.h"
+#include "core/io/json.h"
 #include "core/io/number_text.h"
 
 #include <fmt/format.h>
@@ -14,8 +15,6 @@
 namespace vitrel {
 
 namespace {
-
-using nlohmann::json;
 
 constexpr std::size_t max_bytes = 2'000'000;
 constexpr double min_rows_per_decade = 5;
@@ -42,7 +41,7 @@ std::string label(const ReportRun& run, const std::vector<ReportRun>& runs) {
          (equals.size() > 1 ? " (" + distinction(run.name, equals) + ")" : "");
 }
 
-json run_data(const ReportRun& run, const std::vector<ReportRun>& runs, const Thinning& thinning) {
+Json run_data(const ReportRun& run, const std::vector<ReportRun>& runs, const Thinning& thinning) {
   return {{"label", label(run, runs)},
           {"name", run.name},
           {"dynamics", run.dynamics},
@@ -78,7 +77,7 @@ std::string table_row(const ReportRun& run) {
 }
 
 std::string page_with(const ReportData& data, const Thinning& thinning) {
-  json runs = json::array();
+  Json runs = Json::array();
   std::string rows;
   for (const ReportRun& run : data.runs) {
     runs.push_back(run_data(run, data.runs, thinning));
@@ -94,7 +93,7 @@ std::string page_with(const ReportData& data, const Thinning& thinning) {
         {"relaxation_rows", relaxation_rows(data.study)},
         {"fit_rows", fit_rows(data.study)},
         {"study_notes", study_notes(data.study)}},
-       script_safe(json{{"runs", std::move(runs)}, {"study", tables_data(data.study, {})}}),
+       script_safe(Json{{"runs", std::move(runs)}, {"study", tables_data(data.study, {})}}),
        data.parameters,
        data.provenance});
 }

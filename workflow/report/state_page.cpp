@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "core/io/json.h"
 #include "workflow/report/movie.h"
 #include "workflow/report/page_parts.h"
 
@@ -11,10 +12,8 @@ namespace vitrel {
 
 namespace {
 
-using nlohmann::json;
-
 /// Null without values.
-json curve(const std::vector<double>& abscissa, const std::vector<double>& value) {
+Json curve(const std::vector<double>& abscissa, const std::vector<double>& value) {
   if (value.empty()) return nullptr;
   std::vector<std::size_t> rows(value.size());
   std::iota(rows.begin(), rows.end(), 0);
@@ -22,7 +21,7 @@ json curve(const std::vector<double>& abscissa, const std::vector<double>& value
 }
 
 /// Bins with pairs only.
-json correlation(const NematicCorrelation& correlation) {
+Json correlation(const NematicCorrelation& correlation) {
   std::vector<std::size_t> rows;
   std::vector<double> error;
   for (std::size_t k = 0; k < correlation.pairs.size(); ++k) {
@@ -39,7 +38,7 @@ json correlation(const NematicCorrelation& correlation) {
 
 std::string state_page(const StatePage& page) {
   MemoryTrajectory state({page.state});
-  const json data = {{"label", page.title},
+  const Json data = {{"label", page.title},
                      {"movie", movie_data(film(state))},
                      {"correlation", correlation(page.nematic_correlation)},
                      {"order", page_number(page.nematic_order)},

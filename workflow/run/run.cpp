@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/io/h5md.h"
+#include "core/io/json.h"
 #include "core/state/check.h"
 #include "workflow/configuration/soft_particles.h"
 #include "workflow/configuration/state_species.h"
@@ -346,7 +347,7 @@ RunOutcome<Dim> run_simulation(const RunRequest& request, const RunControl& cont
 }
 
 template <int Dim>
-nlohmann::ordered_json run_summary(const RunRequest& request, const RunOutcome<Dim>& outcome) {
+Json run_summary(const RunRequest& request, const RunOutcome<Dim>& outcome) {
   const RunState<Dim>& state = outcome.state;
   const RunCounters& counters = state.counters;
   const TrajectoryReader trajectory(request.output);
@@ -354,7 +355,7 @@ nlohmann::ordered_json run_summary(const RunRequest& request, const RunOutcome<D
                                                          rotation_count(state.configuration));
   const double simulated = state.configuration.time - state.start_time;
   const auto collisions = static_cast<double>(counters.collisions);
-  nlohmann::ordered_json summary = {
+  Json summary = {
       {"output", request.output.string()},
       {"complete", outcome.complete},
       {"particles", state.configuration.size()},
@@ -386,7 +387,7 @@ nlohmann::ordered_json run_summary(const RunRequest& request, const RunOutcome<D
 
 template RunOutcome<2> run_simulation<2>(const RunRequest&, const RunControl&, const Log&);
 template RunOutcome<3> run_simulation<3>(const RunRequest&, const RunControl&, const Log&);
-template nlohmann::ordered_json run_summary(const RunRequest&, const RunOutcome<2>&);
-template nlohmann::ordered_json run_summary(const RunRequest&, const RunOutcome<3>&);
+template Json run_summary(const RunRequest&, const RunOutcome<2>&);
+template Json run_summary(const RunRequest&, const RunOutcome<3>&);
 
 }  // namespace vitrel

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
+#include "core/io/json.h"
 #include "core/state/stage.h"
 #include "edmd/run.h"
 #include "workflow/configuration/parameters.h"
@@ -51,6 +51,6 @@ RunOutcome<Dim> run_simulation(const RunRequest& request, const RunControl& cont
 /// The figures of a run, from its trajectory and its last state: what `vitrel run --json` prints.
 /// `overlaps` counts pairs of the last state. Throws FileError if the trajectory cannot be read.
 template <int Dim>
-nlohmann::ordered_json run_summary(const RunRequest& request, const RunOutcome<Dim>& outcome);
+Json run_summary(const RunRequest& request, const RunOutcome<Dim>& outcome);
 
 }  // namespace vitrel

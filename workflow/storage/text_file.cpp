@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "core/error.h"
@@ -31,6 +32,10 @@ void write_text(const std::filesystem::path& path, std::string_view text) {
   if (!file)
     throw FileError(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(errno)));
   pending.commit();
+}
+
+Json read_json(const std::filesystem::path& path) {
+  return parse_json(read_text(path), path.string());
 }
 
 void make_folder(const std::filesystem::path& folder) {

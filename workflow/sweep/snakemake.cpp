@@ -5,13 +5,13 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/io/json.h"
 #include "workflow/storage/text_file.h"
 
 namespace vitrel {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 constexpr const char* snakefile_head =
     R"(# Written by `vitrel sweep --export snakemake`. The sweep of sweep.toml, here or on a cluster:
@@ -75,7 +75,7 @@ trap '' TERM USR1
 
 /// A string or a list of strings as Python reads it.
 std::string python(const Json& value) {
-  return value.dump(-1, ' ', true);
+  return json_text(value, -1, JsonCharacters::ascii);
 }
 
 std::string snakefile(const ParameterSource& source, const std::vector<SweepJob>& jobs,

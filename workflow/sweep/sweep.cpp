@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "core/io/atomic_file.h"
+#include "core/io/json.h"
 #include "workflow/storage/text_file.h"
 #include "workflow/sweep/folder_lock.h"
 #include "workflow/sweep/process.h"
@@ -21,7 +22,6 @@ namespace vitrel {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 // A preparation or a run saves its state and ends with 5; an analysis has nothing to save, and a
 // signal just ends it.
@@ -48,7 +48,7 @@ void write_job_folder(const SweepJob& job, const fs::path& folder) {
   }
   write_text(file, text);
   write_text(folder / "params.json",
-             Json{{"id", job.id}, {"values", values_json(job)}}.dump(2) + "\n");
+             json_text({{"id", job.id}, {"values", values_json(job)}}, 2) + "\n");
 }
 
 // Runs the steps of one job, a process at a time.
@@ -127,8 +127,8 @@ class JobWorker {
 
   void finish() {
     Json done = {{"id", job_.id}, {"values", values_json(job_)}};
-    for (const Step& step : steps_) done[step.name] = Json::parse(read_text(summary(step)));
-    write_text(folder_ / "done.json", done.dump(2) + "\n");
+    for (const Step& step : steps_) done[step.name] = read_json(summary(step));
+    write_text(folder_ / "done.json", json_text(done, 2) + "\n");
     state_ = State::done;
   }
 
@@ -267,7 +267,7 @@ std::vector<std::string> result_cells(const fs::path& folder) {
   std::vector<std::string> cells = {name_of(stage)};
   Json run, analysis;
   if (stage == JobStage::done) {
-    const Json done = Json::parse(read_text(folder / "done.json"));
+    const Json done = read_json(folder / "done.json");
     run = done["run"];
     analysis = done["analyze"];
   }
@@ -346,7 +346,7 @@ Json sweep_summary(const std::vector<SweepJob>& jobs, const fs::path& folder) {
   Json rows = Json::array();
   for (const SweepJob& job : jobs) {
     const JobStage stage = job_stage(folder / job.id);
-    Json row = stage == JobStage::done ? Json::parse(read_text(folder / job.id / "done.json"))
+    Json row = stage == JobStage::done ? read_json(folder / job.id / "done.json")
                                        : Json{{"id", job.id}, {"values", values_json(job)}};
     row["stage"] = name_of(stage);
     rows.push_back(std::move(row));

@@ -2,10 +2,10 @@
 
 #include <filesystem>
 #include <functional>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
+#include "core/io/json.h"
 #include "core/state/stage.h"
 #include "workflow/configuration/parameters.h"
 #include "workflow/sweep/sweep_jobs.h"
@@ -64,8 +64,7 @@ void export_sweep(const ParameterSource& source, const std::filesystem::path& fo
 
 /// One row per job: its values, stage and results.
 std::string sweep_table(const std::vector<SweepJob>& jobs, const std::filesystem::path& folder);
-nlohmann::ordered_json sweep_summary(const std::vector<SweepJob>& jobs,
-                                     const std::filesystem::path& folder);
+Json sweep_summary(const std::vector<SweepJob>& jobs, const std::filesystem::path& folder);
 
 /// How far a sweep is, by its folder alone; all in alphabetical order.
 struct SweepProgress {

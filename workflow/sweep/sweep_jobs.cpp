@@ -9,11 +9,11 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/io/json.h"
 
 namespace vitrel {
 namespace {
 
-using Json = nlohmann::ordered_json;
 /// Dotted keys and one value of each.
 using Assignments = std::vector<std::pair<std::string, std::string>>;
 /// Assignments of which each job makes one.

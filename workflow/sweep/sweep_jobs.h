@@ -1,10 +1,10 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/io/json.h"
 #include "workflow/configuration/parameters.h"
 
 /// The jobs of a sweep. The keys of [sweep.together] are one axis, every key of [sweep.grid] is
@@ -27,6 +27,6 @@ std::vector<SweepJob> sweep_jobs(const ParameterSource& source);
 /// The job of this name. UserError if there is none.
 const SweepJob& job_named(const std::vector<SweepJob>& jobs, const std::string& id);
 
-nlohmann::ordered_json values_json(const SweepJob& job);
+Json values_json(const SweepJob& job);
 
 }  // namespace vitrel

@@ -12,6 +12,7 @@
 #include <tuple>
 
 #include "core/error.h"
+#include "core/io/json.h"
 #include "workflow/analyze/glass_report.h"
 #include "workflow/analyze/glass_tables.h"
 #include "workflow/storage/text_file.h"
@@ -57,9 +58,9 @@ std::string differing_keys(const std::vector<AnalysedRun>& runs) {
   for (const AnalysedRun& run : runs) {
     const std::filesystem::path file = run.file.parent_path() / "params.json";
     if (!std::filesystem::exists(file)) continue;
-    const auto job = nlohmann::json::parse(read_text(file));
+    const Json job = read_json(file);
     for (const auto& [key, value] : job.at("values").items())
-      if (!is_free(key)) values[key].insert(value.dump());
+      if (!is_free(key)) values[key].insert(json_text(value));
   }
   std::vector<std::string> keys;
   for (const auto& [key, different] : values)

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+
+/// JSON to and from text, compiled in one source file: the parser and the writer of nlohmann::json take long.
+namespace vitrel {
+
+/// Members keep the order in which they were added.
+using Json = nlohmann::ordered_json;
+
+enum class JsonCharacters { utf8, ascii };
+
+/// On one line without blanks, or with `indent` blanks per level. Numbers that are not finite become
+/// null; bytes that are not UTF-8 become U+FFFD.
+std::string json_text(const Json& json, int indent = -1,
+                      JsonCharacters characters = JsonCharacters::utf8);
+
+/// FileError if it is not JSON; `file` is for the message.
+Json parse_json(std::string_view text, const std::string& file);
+
+}  // namespace vitrel
