@@ -38,12 +38,7 @@ struct Ellipsoid {
   int rotations() const { return is_round() ? 0 : symmetry_axis() == none ? 3 : 2; }
 
   /// Moments of inertia over the mass about the own axes; of a spheroid I⊥ three times.
-  Vec3 inertia_per_mass() const {
-    const Vec3 squares = semi_axes.cwiseAbs2();
-    const Vec3 moments = 0.2 * (Vec3::Constant(squares.sum()) - squares);
-    const int axis = symmetry_axis();
-    return axis == none ? moments : Vec3::Constant(moments[(axis + 1) % 3]);
-  }
+  Vec3 inertia_per_mass() const;
 };
 
 static_assert(Body<Ellipsoid>);
@@ -54,9 +49,6 @@ inline Ellipsoid scaled(const Ellipsoid& ellipsoid, double size) {
 }
 
 /// Shape matrix Σ = R diag(a², b², c²) Rᵀ; the ellipsoid is the set of x with xᵀ Σ⁻¹ x ≤ 1.
-inline Mat3 shape_matrix(const Ellipsoid& ellipsoid, const Quaternion& orientation) {
-  const Mat3 axes = orientation.toRotationMatrix() * ellipsoid.semi_axes.asDiagonal();
-  return axes * axes.transpose();
-}
+Mat3 shape_matrix(const Ellipsoid& ellipsoid, const Quaternion& orientation);
 
 }  // namespace vitrel

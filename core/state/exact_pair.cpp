@@ -1,6 +1,5 @@
 #include "core/state/exact_pair.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
@@ -98,7 +97,7 @@ Separation<3> separation_along(const Particle<3>& one, const Particle<3>& two, c
   Eigen::Matrix<Real, 2, 2> bend = t.transpose() * (first.bend + second.bend) * t;
   bend.diagonal().array() += gap;
   const bool concave = bend(0, 0) > 0 && bend.determinant() > 0;
-  Point<2> turn = concave ? Point<2>(bend.llt().solve(slope)) : slope;
+  Point<2> turn = concave ? Point<2>(bend.inverse() * slope) : slope;
   const Real length = turn.norm();
   if (length > longest_step || (!concave && length > 0)) turn *= longest_step / length;
   return {gap, t * turn};
@@ -236,7 +235,7 @@ bool surely_apart(const Particle<Dim>& one, const Particle<Dim>& two, const Poin
     const double h2 = (axes2.transpose() * n).norm();
     if (n.dot(distance) - h1 - h2 > enough) return true;
     const Square sum = axes1 * axes1.transpose() / h1 + axes2 * axes2.transpose() / h2;
-    n = sum.llt().solve(distance).normalized();
+    n = (sum.inverse() * distance).normalized();
   }
   return false;
 }

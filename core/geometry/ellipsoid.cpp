@@ -1,0 +1,17 @@
+#include "core/geometry/ellipsoid.h"
+
+namespace vitrel {
+
+Vec3 Ellipsoid::inertia_per_mass() const {
+  const Vec3 squares = semi_axes.cwiseAbs2();
+  const Vec3 moments = 0.2 * (Vec3::Constant(squares.sum()) - squares);
+  const int axis = symmetry_axis();
+  return axis == none ? moments : Vec3::Constant(moments[(axis + 1) % 3]);
+}
+
+Mat3 shape_matrix(const Ellipsoid& ellipsoid, const Quaternion& orientation) {
+  const Mat3 axes = orientation.toRotationMatrix() * ellipsoid.semi_axes.asDiagonal();
+  return axes * axes.transpose();
+}
+
+}  // namespace vitrel
