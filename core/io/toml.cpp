@@ -13,7 +13,7 @@
 
 #include "core/error.h"
 
-// The only file that includes toml++, which is slow to compile.
+// The only file that includes toml++.
 namespace vitrel {
 namespace {
 
