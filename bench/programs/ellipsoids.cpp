@@ -13,6 +13,7 @@
 #include "bench/programs/repeats.h"
 #include "bench/surveys/engine_speed.h"
 #include "core/error.h"
+#include "core/io/json.h"
 #include "edmd/brownian.h"
 #include "edmd/growth.h"
 #include "edmd/instances/instances.h"

@@ -18,6 +18,7 @@
 #include "bench/programs/parts.h"
 #include "bench/programs/repeats.h"
 #include "bench/surveys/engine_speed.h"
+#include "core/io/json.h"
 #include "core/neighbors/neighborhood.h"
 #include "core/neighbors/pairs.h"
 #include "edmd/brownian.h"

@@ -19,6 +19,7 @@
 #include "bench/surveys/engine_speed.h"
 #include "bench/surveys/mean.h"
 #include "core/error.h"
+#include "core/io/json.h"
 #include "core/neighbors/pairs.h"
 #include "core/state/check.h"
 #include "core/state/species.h"

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "app/terminal/session.h"
+#include "core/io/json.h"
 
 namespace vitrel::bench {
 

@@ -9,6 +9,7 @@
 #include "bench/programs/programs.h"
 #include "bench/surveys/engine_speed.h"
 #include "core/error.h"
+#include "core/io/json.h"
 #include "core/io/provenance.h"
 
 /// A benchmark in parts that can be asked for by name, and the JSON that it prints.

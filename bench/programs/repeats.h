@@ -6,6 +6,7 @@
 
 #include "bench/programs/parts.h"
 #include "bench/surveys/engine_speed.h"
+#include "core/io/json.h"
 
 namespace vitrel::bench {
 

@@ -19,6 +19,7 @@
 #include "core/contact/ellipse_gap.h"
 #include "core/contact/ellipse_overlap_batch.h"
 #include "core/error.h"
+#include "core/io/json.h"
 #include "core/neighbors/pairs.h"
 #include "core/random/stream.h"
 #include "mc/hard_core.h"

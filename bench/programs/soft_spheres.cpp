@@ -21,6 +21,7 @@
 #include "bench/programs/repeats.h"
 #include "bench/surveys/engine_speed.h"
 #include "bench/surveys/mean.h"
+#include "core/io/json.h"
 #include "core/random/stream.h"
 #include "edmd/brownian.h"
 #include "edmd/run.h"

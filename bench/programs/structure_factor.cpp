@@ -9,6 +9,7 @@
 
 #include "analysis/structure/structure_factor.h"
 #include "bench/programs/parts.h"
+#include "core/io/json.h"
 #include "mc/insertion.h"
 
 namespace vitrel::bench {

@@ -15,7 +15,7 @@ namespace vitrel {
 ///   particles/N, position, image                 wrapped; unwrapped = position + image ∘ box
 ///   particles/orientation                        quaternion (cos θ/2, 0, 0, sin θ/2)
 ///   particles/types, typeid, type_shapes         a type per species and shape, named by the
-///       species, or <species>#1, #2 … if its shapes differ; {"type":"Ellipsoid","a":a,"b":b,"c":b}.
+///       species, or `<species>#1`, `#2` … if its shapes differ; {"type":"Ellipsoid","a":a,"b":b,"c":b}.
 ///       The axis out of the plane is b: HOOMD-blue and OVITO do not take a flat one
 ///   particles/mass, moment_inertia = (0, 0, I)   I = 0 if round: rotation is not modelled
 ///   particles/velocity                           if the trajectory has it

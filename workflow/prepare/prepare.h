@@ -21,8 +21,8 @@ namespace vitrel {
 
 struct PrepareRequest {
   Parameters parameters;
-  /// Where the caller will write the state. A checkpoint is kept beside it, <output>.preparation, from which
-  /// the same request continues; a state that is stuck goes to <output>.stuck.h5. Empty: no files.
+  /// Where the caller will write the state. A checkpoint is kept beside it, `<output>.preparation`, from which
+  /// the same request continues; a state that is stuck goes to `<output>.stuck.h5`. Empty: no files.
   std::filesystem::path output = {};
   std::string command_line = {};  ///< for the provenance
   int threads = 1;                ///< of Monte Carlo; the result does not depend on it

@@ -43,7 +43,7 @@ struct RunOutcome {
 /// - UserError if the output exists but is no run that can be continued, belongs to other
 ///   parameters, or the state to start from does not fit them;
 /// - FileError; the run continues from its last checkpoint once the cause is removed;
-/// - InvariantError on an overlap or a standstill; the state is then in <output>.failed.h5.
+/// - InvariantError on an overlap or a standstill; the state is then in `<output>.failed.h5`.
 template <int Dim>
 RunOutcome<Dim> run_simulation(const RunRequest& request, const RunControl& control,
                                const Log& log);
