@@ -213,7 +213,7 @@ TEST(QualityFile, SaysWhatIsWrongWithIt) {
   folder.write("a.quality.json", "{\"particles\": 3}");
   EXPECT_THAT(complaint(), HasSubstr("a.quality.json: is not a quality report"));
   folder.write("a.quality.json", "{\"parti");
-  EXPECT_THAT(complaint(), HasSubstr("is not a quality report"));
+  EXPECT_THAT(complaint(), HasSubstr("is not JSON"));
   quality.nematic_order *= 1 + 1e-15;
   write_quality(folder / "a.quality.json", quality);
   EXPECT_THAT(complaint(), HasSubstr("is the quality report of another state"));
