@@ -4,21 +4,26 @@ function(vitrel_cold)
   set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release,RelWithDebInfo>:-O1>")
 endfunction()
 
-# What many sources include, parsed once: the first target compiles it, all others reuse it. They must agree in
-# options and definitions, so every target links fmt. Headers still include what they need
-# (scripts/check_headers).
+# vitrel_precompiled(<name> HEADERS … LINK …): a target that only precompiles headers, for others to reuse. These
+# agree in options with it, and may have definitions of their own that the headers do not read.
+function(vitrel_precompiled name)
+  cmake_parse_arguments(ARG "" "" "HEADERS;LINK" ${ARGN})
+  set(source ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
+  file(CONFIGURE OUTPUT ${source} CONTENT "// A target needs a source.\n")
+  add_library(${name} OBJECT ${source})
+  target_link_libraries(${name} PRIVATE vitrel::options Eigen3::Eigen fmt::fmt ${ARG_LINK})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
+  vitrel_private_options(${name})
+  target_precompile_headers(${name} PRIVATE ${ARG_HEADERS})
+endfunction()
+
+# What many sources include. Headers still include what they need (scripts/check_headers). JSON is not among
+# them: every source would pay for its functions.
 set(VITREL_PRECOMPILED
     <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <fstream> <functional> <iostream> <limits> <map>
     <memory> <numeric> <optional> <random> <set> <span> <sstream> <string> <unordered_map> <variant> <vector>
     <Eigen/Geometry> <fmt/core.h> "${PROJECT_SOURCE_DIR}/core/state/configuration.h")
-function(vitrel_precompile target)
-  target_link_libraries(${target} PRIVATE fmt::fmt)
-  if(target STREQUAL vitrel_core)
-    target_precompile_headers(${target} PRIVATE ${VITREL_PRECOMPILED})
-  else()
-    target_precompile_headers(${target} REUSE_FROM vitrel_core)
-  endif()
-endfunction()
+vitrel_precompiled(vitrel_precompiled HEADERS ${VITREL_PRECOMPILED})
 
 # vitrel_library(<name> SOURCES … [COLD …] HEADERS … LINK … [PRIVATE_LINK …]): one static library per folder
 # of the architecture with its headers, each of which must compile alone (scripts/check_headers). COLD are
@@ -35,5 +40,6 @@ function(vitrel_library name)
   target_link_libraries(${target} PUBLIC vitrel::options ${ARG_LINK} PRIVATE ${ARG_PRIVATE_LINK})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
   vitrel_private_options(${target})
-  vitrel_precompile(${target})
+  target_link_libraries(${target} PRIVATE fmt::fmt)
+  target_precompile_headers(${target} REUSE_FROM vitrel_precompiled)
 endfunction()

@@ -139,7 +139,7 @@ std::vector<Lag> lags_from_zero(std::span<const double> times, const TimeAxisOpt
   std::vector<Lag> lags = time_axis(times, axis);
   Lag zero{};
   if (lags.empty() || lags.front().pairs.empty()) {
-    const std::size_t stride = (times.size() + axis.most_origins - 1) / axis.most_origins;
+    const std::size_t stride = (times.size() + axis.max_origins - 1) / axis.max_origins;
     zero = {0, stride, (times.size() - 1) / stride + 1};
   } else {
     zero = lags.front();

@@ -19,9 +19,9 @@ std::size_t stride_to(std::size_t most, std::size_t available) {
   return (available + most - 1) / most;
 }
 
-Lag even_lag(std::size_t frames, double time, std::size_t samples, std::size_t most_origins) {
+Lag even_lag(std::size_t frames, double time, std::size_t samples, std::size_t max_origins) {
   const std::size_t available = samples - frames;
-  const std::size_t stride = stride_to(most_origins, available);
+  const std::size_t stride = stride_to(max_origins, available);
   return {frames, stride, (available - 1) / stride + 1, time};
 }
 
@@ -34,7 +34,7 @@ std::vector<Lag> even_lags(std::span<const double> times, const TimeAxisOptions&
   double next = 1;
   for (std::size_t frames = 1; frames <= longest;) {
     const double time = (times.back() - times.front()) * static_cast<double>(frames) / intervals;
-    lags.push_back(even_lag(frames, time, times.size(), options.most_origins));
+    lags.push_back(even_lag(frames, time, times.size(), options.max_origins));
     if (frames < options.every_lag_up_to) {
       next = static_cast<double>(++frames);
     } else {
@@ -130,10 +130,10 @@ std::size_t max_within(double duration, const std::vector<FramePair>& pairs,
   return most;
 }
 
-Lag lag_of(const Difference& wanted, std::span<const double> times, std::size_t most_origins) {
+Lag lag_of(const Difference& wanted, std::span<const double> times, std::size_t max_origins) {
   std::vector<FramePair> pairs;
   const std::vector<FramePair> all = pairs_of(wanted, times);
-  const std::size_t stride = stride_to(most_origins, all.size());
+  const std::size_t stride = stride_to(max_origins, all.size());
   double excess = 0;
   for (std::size_t k = 0; k < all.size(); k += stride) {
     pairs.push_back(all[k]);
@@ -152,7 +152,7 @@ std::vector<Lag> uneven_lags(std::span<const double> times, const TimeAxisOption
   for (const Difference& wanted :
        common_differences(first_differences(times), options.lags_per_decade)) {
     if (wanted.time < least) continue;
-    lags.push_back(lag_of(wanted, times, options.most_origins));
+    lags.push_back(lag_of(wanted, times, options.max_origins));
     least = wanted.time * (1 + 3 * widest);
   }
   return lags;

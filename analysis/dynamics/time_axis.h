@@ -14,7 +14,7 @@ struct TimeAxisOptions {
   std::size_t every_lag_up_to =
       100;  ///< in sample intervals; longer lags are spaced logarithmically,
   std::size_t lags_per_decade = 50;  ///< that many to a decade
-  std::size_t most_origins = 4096;   ///< time origins per lag; evenly thinned beyond
+  std::size_t max_origins = 4096;    ///< time origins per lag; evenly thinned beyond
 };
 
 struct FramePair {
@@ -47,7 +47,7 @@ struct Lag {
 /// The lags of a run with these sample times, ascending, without 0. Empty for fewer than two frames.
 ///
 /// Evenly sampled: 1 … `every_lag_up_to` sample intervals, then logarithmically spaced ones up to
-/// `longest_lag`; all frames are origins, evenly thinned to `most_origins` per lag.
+/// `longest_lag`; all frames are origins, evenly thinned to `max_origins` per lag.
 ///
 /// Any other run, such as logarithmic samples, once or in cycles:
 /// 1. Time differences of pairs of frames are equal if rounding to single precision can account for
@@ -55,7 +55,7 @@ struct Lag {
 /// 2. A lag is a time difference that two pairs have at least, or the first frame with another one.
 ///    Of those within one of `lags_per_decade` steps the one with most pairs is taken; of equals the
 ///    shortest. They go on to the end of the run, for the longest may have as many origins as any.
-/// 3. All its pairs are origins, in the order of time, evenly thinned to `most_origins`. Blocks for
+/// 3. All its pairs are origins, in the order of time, evenly thinned to `max_origins`. Blocks for
 ///    the errors are counted in origins, so their durations differ, but none is shorter than four
 ///    lags.
 /// Lags are looked for among 2²² pairs or fewer, those of the first frames: all pairs of 2 896 frames,

@@ -8,7 +8,7 @@ namespace vitrel {
 
 namespace {
 
-constexpr std::size_t most_iterations = 200;
+constexpr std::size_t max_iterations = 200;
 constexpr double smallest_step = 1e-10;
 
 using Vector = Eigen::VectorXd;
@@ -68,7 +68,7 @@ LeastSquares least_squares(std::size_t points, const Vector& start,
   const gsl_vector_const_view at = gsl_vector_const_view_array(start.data(), n);
   gsl_multifit_nlinear_init(&at.vector, &function, workspace.get());
   int stopped_by = 0;
-  const int status = gsl_multifit_nlinear_driver(most_iterations, smallest_step, smallest_step, 0,
+  const int status = gsl_multifit_nlinear_driver(max_iterations, smallest_step, smallest_step, 0,
                                                  nullptr, nullptr, &stopped_by, workspace.get());
 
   RowMajor covariance(start.size(), start.size());

@@ -40,7 +40,7 @@ struct Backbone {
 Backbone backbone(const Configuration2& configuration, double tolerance);
 
 /// From this reduced pressure on the contacts of a jammed packing can be told from other pairs.
-inline constexpr double least_jammed_pressure = 1e5;
+inline constexpr double min_jammed_pressure = 1e5;
 
 /// The backbone at the reduced pressure Z = βP/ρ, with a tolerance that follows from the state.
 ///

@@ -12,7 +12,7 @@ namespace vitrel {
 
 namespace {
 
-constexpr std::size_t most_origins = 4096;
+constexpr std::size_t max_origins = 4096;
 constexpr double min_order = 0.5;        // of a nematic
 constexpr double well_above_chance = 3;  // in units of the order of as many rotors without any
 
@@ -110,7 +110,7 @@ NematicCorrelation nematic_correlation(const Configuration2& configuration, doub
   const double scale = static_cast<double>(bins) / range;
   std::vector<double> sum(bins, 0);
   NematicCorrelation result{{}, {}, std::vector<std::size_t>(bins, 0)};
-  const std::size_t stride = (rotors.size() + most_origins - 1) / most_origins;
+  const std::size_t stride = (rotors.size() + max_origins - 1) / max_origins;
   for (std::size_t i = 0; i < rotors.size(); i += stride)
     for (std::size_t j = 0; j < rotors.size(); ++j) {
       const double at = scale * nearest_distance(lengths, rotors[i].position, rotors[j].position);

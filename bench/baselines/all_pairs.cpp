@@ -53,7 +53,7 @@ class AllPairs final : public Engine2 {
     return advanced(particle.pose, particle.motion, now_ - particle.time);
   }
   void check_box() const;
-  void set_longest_look();
+  void set_longest_screen();
   double image_lasts(std::size_t i, std::size_t j, const Vec2& d) const;
   double time_to_part(std::size_t i, std::size_t j) const;
   Prediction2 predict(std::size_t i, std::size_t j, const Pose2& pose2, double horizon) const;
@@ -75,7 +75,7 @@ class AllPairs final : public Engine2 {
   std::vector<double> time_;  // the table, of pairs i < j: time of the next event …
   std::vector<Event> event_;  // … and what it is
   double contact_gap_ = 0;
-  double longest_look_ = 0;
+  double longest_screen_ = 0;
   double horizon_ = never;  // since the start of the block
   double base_ = 0;         // simulated time at the start of the block
   double now_ = 0;          // since then
@@ -107,7 +107,7 @@ void AllPairs::load(const Configuration2& configuration, double horizon) {
   }
   check_box();
   contact_gap_ = tolerance::contact_gap(extent);
-  set_longest_look();
+  set_longest_screen();
   met_.assign(n * n, -never);
   time_.assign(n * n, never);
   event_.assign(n * n, {});
@@ -126,14 +126,14 @@ void AllPairs::check_box() const {
 
 // In this time a typical particle crosses the box, or its tip goes as far: there must be an end even
 // for particles that only spin.
-void AllPairs::set_longest_look() {
+void AllPairs::set_longest_screen() {
   double square = 0;
   for (const Particle& particle : particles_) {
     const double tip = particle.shape.a * particle.motion.angular_velocity;
     square += particle.motion.velocity.squaredNorm() + tip * tip;
   }
   const double speed = std::sqrt(square / static_cast<double>(particles_.size()));
-  longest_look_ = box_.lengths().maxCoeff() / (speed > 0 ? speed : 1);
+  longest_screen_ = box_.lengths().maxCoeff() / (speed > 0 ? speed : 1);
 }
 
 // For how long the nearest image now, at the separation d, is all that need be asked about. In a direction k in which |d_k| < L_k − R the other
@@ -141,7 +141,7 @@ void AllPairs::set_longest_look() {
 double AllPairs::image_lasts(std::size_t i, std::size_t j, const Vec2& d) const {
   const double reach = particles_[i].shape.a + particles_[j].shape.a;
   const Vec2 v = particles_[j].motion.velocity - particles_[i].motion.velocity;
-  double time = std::min(longest_look_, horizon_ - now_);
+  double time = std::min(longest_screen_, horizon_ - now_);
   for (int k = 0; k < 2; ++k)
     if (v[k] != 0)
       time = std::min(
@@ -156,7 +156,7 @@ double AllPairs::time_to_part(std::size_t i, std::size_t j) const {
   const double speed = (two.motion.velocity - one.motion.velocity).norm() +
                        one.shape.a * std::abs(one.motion.angular_velocity) +
                        two.shape.a * std::abs(two.motion.angular_velocity);
-  return speed > 0 ? part * (one.shape.b + two.shape.b) / speed : longest_look_;
+  return speed > 0 ? part * (one.shape.b + two.shape.b) / speed : longest_screen_;
 }
 
 Prediction2 AllPairs::predict(std::size_t i, std::size_t j, const Pose2& pose2,
@@ -206,14 +206,15 @@ AllPairs::Event AllPairs::overlap_event(std::size_t i, std::size_t j, const Vec2
                                         Event event) const {
   if (options_.engine.on_overlap == OnOverlap::stop) report_overlap(i, j);
   const Vec2 v = particles_[j].motion.velocity - particles_[i].motion.velocity;
-  const double patience = time_to_part(i, j);
+  const double separation_time = time_to_part(i, j);
   const double since = now_ - met_[index(i, j)];
   // Not less than by rounding: else the time that is left may be too short to move the clock.
-  const bool is_early = since < 0.999 * patience;
+  const bool is_early = since < 0.999 * separation_time;
   const bool recede = d.dot(v) > 0;
   if (!recede && !is_early) event.kind = Kind::correction;
   event.time = now_;
-  if (event.kind != Kind::correction) event.time += is_early ? patience - since : patience;
+  if (event.kind != Kind::correction)
+    event.time += is_early ? separation_time - since : separation_time;
   return event;
 }
 
@@ -328,7 +329,7 @@ void AllPairs::set_velocities(const Configuration2& configuration, double horizo
     particle.motion = {configuration.velocity[i], configuration.angular_velocity[i]};
   }
   horizon_ = horizon - base_;
-  set_longest_look();
+  set_longest_screen();
   if (options_.asking == Asking::changed_pairs) ask_all_for_table(counters);
 }
 

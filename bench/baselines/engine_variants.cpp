@@ -8,9 +8,9 @@ namespace {
 
 // Ellipses, each of which the engine treats in another way.
 struct SearchedEllipse : Ellipse {};
-struct FarSightedEllipse : Ellipse {};
-struct PatientEllipse : Ellipse {};
-thread_local double free_times_of_patience = 1;
+struct UnboundedHorizonEllipse : Ellipse {};
+struct FreeTimeEllipse : Ellipse {};
+thread_local double screened_free_times = 1;
 
 struct RoundListedEllipse : Ellipse {
   RoundListedEllipse() = default;
@@ -26,9 +26,9 @@ namespace vitrel {
 template <>
 struct ShapeOf<bench::SearchedEllipse> : ShapeOf<Ellipse> {};
 template <>
-struct ShapeOf<bench::FarSightedEllipse> : ShapeOf<Ellipse> {};
+struct ShapeOf<bench::UnboundedHorizonEllipse> : ShapeOf<Ellipse> {};
 template <>
-struct ShapeOf<bench::PatientEllipse> : ShapeOf<Ellipse> {};
+struct ShapeOf<bench::FreeTimeEllipse> : ShapeOf<Ellipse> {};
 
 template <>
 class ContactScreen<bench::SearchedEllipse> : public bench::NoLowerBound {
@@ -37,13 +37,13 @@ class ContactScreen<bench::SearchedEllipse> : public bench::NoLowerBound {
 };
 
 template <>
-class ContactScreen<bench::FarSightedEllipse> : public ContactScreen<Ellipse> {
+class ContactScreen<bench::UnboundedHorizonEllipse> : public ContactScreen<Ellipse> {
  public:
   using ContactScreen<Ellipse>::ContactScreen;
 };
 
 template <>
-class ContactScreen<bench::PatientEllipse> : public ContactScreen<Ellipse> {
+class ContactScreen<bench::FreeTimeEllipse> : public ContactScreen<Ellipse> {
  public:
   using ContactScreen<Ellipse>::ContactScreen;
 };
@@ -90,10 +90,11 @@ double Neighborhoods<bench::RoundListedEllipse>::choose_gap(std::vector<Pair>,
 // As for every body, but the partner's entry is no limit.
 template <>
 template <>
-std::size_t Simulation<bench::FarSightedEllipse>::gather<
-    Simulation<bench::FarSightedEllipse>::Scope::all_neighbors>(Index i, const Pose2& mine,
-                                                                double latest, std::size_t next,
-                                                                ScreenBatch& batch) {
+std::size_t Simulation<bench::UnboundedHorizonEllipse>::gather<
+    Simulation<bench::UnboundedHorizonEllipse>::Scope::all_neighbors>(Index i, const Pose2& mine,
+                                                                      double latest,
+                                                                      std::size_t next,
+                                                                      ScreenBatch& batch) {
   constexpr double forever = 1e100;
   const auto neighbors = neighborhoods_->of(i);
   int k = 0;
@@ -112,10 +113,10 @@ std::size_t Simulation<bench::FarSightedEllipse>::gather<
 }
 
 template <>
-double Simulation<bench::PatientEllipse>::mean_free_time() const {
+double Simulation<bench::FreeTimeEllipse>::mean_free_time() const {
   const auto particles = static_cast<double>(particles_.size());
   const double free_time = collisions_ < particles ? never : 0.5 * particles * now_ / collisions_;
-  return bench::free_times_of_patience * free_time;
+  return bench::screened_free_times * free_time;
 }
 
 }  // namespace vitrel
@@ -135,9 +136,9 @@ Prediction2 first_contact(const Flight<SearchedEllipse>& one, const Flight<Searc
   return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap);
 }
 
-Prediction2 first_contact(const Flight<FarSightedEllipse>& one,
-                          const Flight<FarSightedEllipse>& two, double horizon, double contact_gap,
-                          const ContactScreen<Ellipse>::WarmStart& warm_start) {
+Prediction2 first_contact(const Flight<UnboundedHorizonEllipse>& one,
+                          const Flight<UnboundedHorizonEllipse>& two, double horizon,
+                          double contact_gap, const ContactScreen<Ellipse>::WarmStart& warm_start) {
   return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, warm_start);
 }
 
@@ -147,7 +148,7 @@ Prediction2 first_contact(const Flight<RoundListedEllipse>& one,
   return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, warm_start);
 }
 
-Prediction2 first_contact(const Flight<PatientEllipse>& one, const Flight<PatientEllipse>& two,
+Prediction2 first_contact(const Flight<FreeTimeEllipse>& one, const Flight<FreeTimeEllipse>& two,
                           double horizon, double contact_gap,
                           const ContactScreen<Ellipse>::WarmStart& warm_start) {
   return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, warm_start);
@@ -159,16 +160,17 @@ std::unique_ptr<Engine2> make_engine_without_lower_bound() {
   return std::make_unique<Simulation<SearchedEllipse>>(EngineOptions{}, "without the first look");
 }
 std::unique_ptr<Engine2> make_engine_without_horizon() {
-  return std::make_unique<Simulation<FarSightedEllipse>>(EngineOptions{}, "without the horizon");
+  return std::make_unique<Simulation<UnboundedHorizonEllipse>>(EngineOptions{},
+                                                               "without the horizon");
 }
 std::unique_ptr<Engine2> make_engine_with_round_lists() {
   return std::make_unique<Simulation<RoundListedEllipse>>(EngineOptions{}, "with round lists");
 }
-std::unique_ptr<Engine2> make_engine_of_patience() {
-  return std::make_unique<Simulation<PatientEllipse>>(EngineOptions{}, "of other patience");
+std::unique_ptr<Engine2> make_engine_of_free_times() {
+  return std::make_unique<Simulation<FreeTimeEllipse>>(EngineOptions{}, "with another horizon");
 }
-void set_patience(double mean_free_times) {
-  free_times_of_patience = mean_free_times;
+void set_screened_free_times(double mean_free_times) {
+  screened_free_times = mean_free_times;
 }
 
 }  // namespace vitrel::bench

@@ -19,9 +19,9 @@ std::unique_ptr<Engine2> make_engine_without_horizon();
 /// translation alone.
 std::unique_ptr<Engine2> make_engine_with_round_lists();
 
-/// With another patience: a contact that cannot come within so many mean free times is not searched;
-/// infinity: every one is that could come first. The patience is that of the thread when it predicts.
-std::unique_ptr<Engine2> make_engine_of_patience();
-void set_patience(double mean_free_times);
+/// With another horizon of the search: contacts that cannot come within so many mean free times are put off; with
+/// infinity, every contact that could come first is searched. The value is that of the thread.
+std::unique_ptr<Engine2> make_engine_of_free_times();
+void set_screened_free_times(double mean_free_times);
 
 }  // namespace vitrel::bench

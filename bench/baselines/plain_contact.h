@@ -31,7 +31,7 @@ class PlainContact {
     State x{0, 1, 0};
     long double time = 0, step = 1e-3L / (1 + damping_), taken = 1;
     for (int trial = 0; taken > 1e-17L && step > 1e-18L; ++trial) {
-      if (trial == most_trials) throw InvariantError("the plain contact does not end");
+      if (trial == max_trials) throw InvariantError("the plain contact does not end");
       const State before = x;
       const long double begin = time;
       if (stepper.try_step(motion, x, time, step) == odeint::fail) continue;
@@ -48,7 +48,7 @@ class PlainContact {
 
  private:
   using State = std::vector<long double>;  // l − r, −r', φ
-  static constexpr int most_trials = 1'000'000;
+  static constexpr int max_trials = 1'000'000;
 
   // The dashpot's is smooth beyond r = l, where a step that is tried may go; the other one is none there.
   long double force(const State& x) const {

@@ -29,8 +29,8 @@ double root_between(Function&& f, double low, double f_low, double high, double 
 
 /// The number of steps, each `fraction` of the whole.
 inline int scan_steps_of(double fraction) {
-  constexpr double most_steps = 1e6;
-  return static_cast<int>(std::clamp(std::ceil(1 / fraction), 1.0, most_steps));
+  constexpr double max_steps = 1e6;
+  return static_cast<int>(std::clamp(std::ceil(1 / fraction), 1.0, max_steps));
 }
 
 struct RootSearch {

@@ -95,12 +95,12 @@ Json measure_sizes(const Effort& effort) {
       const std::size_t peak = peak_bytes() - peak_before;
       TimedRun run(std::move(engine), start);
       const auto n = static_cast<double>(start.size());
-      constexpr double collisions_of_each = 5, most_stretches = 20;
+      constexpr double collisions_of_each = 5, max_stretches = 20;
       const double to_mix = 0.5 * collisions_of_each * n;
       run.parts(0, to_mix, to_mix);
       Repeats repeats;
       double spent = 0;
-      for (int k = 0; k < effort.repeats && spent < most_stretches * effort.stretch; ++k) {
+      for (int k = 0; k < effort.repeats && spent < max_stretches * effort.stretch; ++k) {
         repeats.add(run.blocks(effort.stretch));
         spent += repeats.last_seconds();
       }
@@ -246,29 +246,29 @@ Json neighbor_counts(const Configuration2& c) {
 /// so many mean times between two collisions of a particle.
 Json lazy_refinement(const Effort& effort, const FluidScene& scene) {
   say("device: lazy refinement");
-  struct Patient {
-    double patience;
+  struct LazyRun {
+    double free_times;
     TimedRun<2> run;
     Repeats repeats;
   };
   const Configuration2 start = relaxed(scene, 0.3 * effort.stretch);
   constexpr double eager = std::numeric_limits<double>::infinity();
-  std::vector<Patient> runs;
-  for (const double patience : {eager, 0.1, 0.3, 0.6, 1., 2.})
-    runs.push_back({patience, {make_engine_of_patience(), start}, {}});
+  std::vector<LazyRun> runs;
+  for (const double free_times : {eager, 0.1, 0.3, 0.6, 1., 2.})
+    runs.push_back({free_times, {make_engine_of_free_times(), start}, {}});
   for (int k = 0; k < effort.repeats; ++k)
-    for (Patient& of : runs) {
-      set_patience(of.patience);
+    for (LazyRun& of : runs) {
+      set_screened_free_times(of.free_times);
       of.repeats.add(of.run.blocks(0.3 * effort.stretch));
     }
   Json row = scene_json(scene);
   row["lazy"] = Json::array();
-  for (const Patient& of : runs)
-    if (of.patience == eager) {
+  for (const LazyRun& of : runs)
+    if (of.free_times == eager) {
       row["eager"] = of.repeats.json();
     } else {
       row["lazy"].push_back(of.repeats.json());
-      row["lazy"].back()["patience"] = of.patience;
+      row["lazy"].back()["free_times"] = of.free_times;
     }
   return row;
 }

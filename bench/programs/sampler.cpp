@@ -86,7 +86,7 @@ Steps fitting_steps(AnySampler& sampler, int sweeps) {
 class Stretches {
  public:
   template <class AnySampler>
-  void add(AnySampler& sampler, std::size_t particles, double least_seconds) {
+  void add(AnySampler& sampler, std::size_t particles, double min_seconds) {
     const double start = seconds_now();
     double seconds = 0;
     std::uint64_t sweeps = 0;
@@ -94,7 +94,7 @@ class Stretches {
       sampler.sweep();
       ++sweeps;
       seconds = seconds_now() - start;
-    } while (seconds < least_seconds);
+    } while (seconds < min_seconds);
     ns_.push_back(1e9 * seconds / static_cast<double>(sweeps * particles));
   }
 

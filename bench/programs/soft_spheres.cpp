@@ -117,10 +117,10 @@ constexpr ValueRange usual_speeds{1e-3, 25};  // m/s
 
 template <class Force>
 RestitutionTable table_of(const Force& force, const ValueRange& speeds = usual_speeds) {
-  constexpr double tolerance = 1e-8, least_width = 0.02;
+  constexpr double tolerance = 1e-8, min_width = 0.02;
   return {form_of<Force>(),
           restitution_domain(force, std::span(&pair, 1), speeds.low, speeds.high),
-          {tolerance, least_width},
+          {tolerance, min_width},
           1};
 }
 

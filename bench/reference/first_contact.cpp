@@ -135,7 +135,7 @@ class Pair {
 // it is largest over the piece: a smaller one, 0 for a body that grows from a point, would choose
 // an x far out, which no later time of the piece could use.
 template <class Real>
-Real least_at(const Cubic<Real>& middle, const Cubic<Real>& piece) {
+Real minimum_at(const Cubic<Real>& middle, const Cubic<Real>& piece) {
   using std::sqrt;
   const Real a = piece.xxx.value.high, b = middle.xxy.value.middle(), c = middle.xyy.value.middle();
   const Real square_root = sqrt(std::max(Real(b * b - 3 * a * c), Real(0)));
@@ -249,13 +249,13 @@ class Search {
   static bool usable(const Real& x) { return x > 0 && x < 1 / std::numeric_limits<float>::min(); }
 
   static bool negative_somewhere(const Cubic<Real>& at_middle, const Cubic<Real>& piece) {
-    const Real x = least_at(at_middle, piece);
+    const Real x = minimum_at(at_middle, piece);
     return usable(x) && piece.at(x).value.high < 0;
   }
 
   static bool negative_throughout(const Cubic<Real>& at_middle, const Cubic<Real>& piece,
                                   const Real& half) {
-    const Real x = least_at(at_middle, piece);
+    const Real x = minimum_at(at_middle, piece);
     if (!usable(x)) return false;
     const Jet<Real> at = at_middle.at(x);
     if (at.value.high >= 0) return false;
@@ -269,7 +269,7 @@ class Search {
   enum class Start { apart, unclear, leaving };
   Start at_start(const Cubic<Real>& piece, const Real& from, const Real& width) const {
     const Cubic<Real> start = pair_.at(from);
-    const Real x = least_at(start, start);
+    const Real x = minimum_at(start, start);
     if (!usable(x)) return Start::apart;
     const Jet<Real> at = start.at(x);
     if (at.first.high >= 0) return Start::apart;

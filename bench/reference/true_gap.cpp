@@ -37,7 +37,7 @@ class Shape {
     return {h, -bulge_ * c * s / h, (a_ / h) * (b_ / h) * a_ * (b_ / h)};
   }
   // The least radius of curvature within w of where the support is h.
-  Real least_curvature(Real h, Real w) const {
+  Real min_curvature(Real h, Real w) const {
     if (a_ == 0) return 0;
     const Real highest = std::min(a_, h + (a_ - b_) * w);
     return (a_ / highest) * (b_ / highest) * a_ * (b_ / highest);
@@ -118,8 +118,8 @@ class GapOverDirections {
 
   bool is_concave(const Piece& piece) const {
     const Point& m = piece.middle;
-    return m.gap - steepest_ * piece.half + one_.least_curvature(m.one.height, piece.half) +
-               two_.least_curvature(m.two.height, piece.half) >
+    return m.gap - steepest_ * piece.half + one_.min_curvature(m.one.height, piece.half) +
+               two_.min_curvature(m.two.height, piece.half) >
            0;
   }
 

@@ -168,7 +168,7 @@ TrueEllipsoidContact crossing_between(const Pair& pair, Real disjoint, Real over
 }
 
 TrueEllipsoidContact search(const Pair& pair, Real horizon) {
-  constexpr int most_pieces = 10'000'000;
+  constexpr int max_pieces = 10'000'000;
   TrueEllipsoidContact found;
   if (pair.overlapping(0)) {
     found.outcome = Outcome::overlap_at_start;
@@ -176,7 +176,7 @@ TrueEllipsoidContact search(const Pair& pair, Real horizon) {
   }
   const Real bend = pair.one.bend(horizon) + pair.two.bend(horizon);
   Real time = 0;
-  for (int pieces = 1; pieces <= most_pieces; ++pieces) {
+  for (int pieces = 1; pieces <= max_pieces; ++pieces) {
     found.pieces = pieces;
     const Pair::Separation here = pair.separation(time);
     const Real gap = here.gap - pair.blur(time);

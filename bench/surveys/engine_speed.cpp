@@ -91,7 +91,7 @@ TimedRun<Dim>::TimedRun(std::unique_ptr<Engine<Dim>> engine, Configuration<Dim> 
     : engine_(std::move(engine)), now_(std::move(start)) {}
 
 template <int Dim>
-Work TimedRun<Dim>::blocks(double least_seconds) {
+Work TimedRun<Dim>::blocks(double min_seconds) {
   Work work;
   const double start_time = now_.time, start = processor_seconds();
   do {
@@ -99,7 +99,7 @@ Work TimedRun<Dim>::blocks(double least_seconds) {
     engine_->advance(std::numeric_limits<double>::max(), work.counters);
     engine_->write(now_);
     work.seconds = processor_seconds() - start;
-  } while (work.seconds < least_seconds);
+  } while (work.seconds < min_seconds);
   work.simulated_time = now_.time - start_time;
   return work;
 }

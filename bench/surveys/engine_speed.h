@@ -49,7 +49,7 @@ class TimedRun {
 
   /// Whole blocks, with what their beginning and end takes; at least one, and as many as take so
   /// many seconds.
-  Work blocks(double least_seconds);
+  Work blocks(double min_seconds);
 
   /// For an engine whose blocks take long: ever longer parts of them, the first of about so many
   /// collisions, until there were enough or the next would take more than the seconds.

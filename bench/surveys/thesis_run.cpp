@@ -16,7 +16,7 @@ namespace {
 
 constexpr double sample_interval = 0.1;
 /// In a sample interval a particle has about half a collision; a run with so many events stands still.
-constexpr std::uint64_t most_events_per_particle = 100;
+constexpr std::uint64_t max_events_per_particle = 100;
 constexpr double diagonal = 0.25 * std::numbers::pi;
 
 double energy(const Configuration2& c) {
@@ -35,7 +35,7 @@ class Driver {
 
   /// False if the engine stands still.
   bool advance(double until) {
-    const std::uint64_t last = counters_.events + most_events_per_particle * now_.size();
+    const std::uint64_t last = counters_.events + max_events_per_particle * now_.size();
     while (engine_->advance(until, counters_) == Engine2::Stop::block_end) {
       engine_->write(now_);
       if (counters_.events > last) return false;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double sample_interval = 0.1;
 /// Between two samples some 25 collisions happen; a run that needs so many events stands still.
-constexpr std::uint64_t most_events_per_sample = 100'000;
+constexpr std::uint64_t max_events_per_sample = 100'000;
 
 double energy(const Configuration2& c) {
   const Mechanics sums = mechanics(c);
@@ -28,7 +28,7 @@ bool advance(Engine2& engine, Configuration2& now, double until, RunCounters& co
   const std::uint64_t events = counters.events;
   while (engine.advance(until, counters) == Engine2::Stop::block_end) {
     engine.write(now);
-    if (counters.events - events > most_events_per_sample) return false;
+    if (counters.events - events > max_events_per_sample) return false;
     engine.load(now);
   }
   engine.write(now);

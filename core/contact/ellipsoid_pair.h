@@ -127,8 +127,8 @@ VITREL_INLINE T support_acceleration_bound(const SupportOf<T>& s, const SupportR
   const T rising = detail::minimum(amplitude, now + 2. * sqrt(square) * amplitude * time);
   const T slope = 2. * s.height * r.rate;
   const T least = s.height * s.height - positive_part(-slope * duration) - amplitude * time * time;
-  const T least_squared = -detail::minimum(-least, -cc);
-  return positive_part(rising) / sqrt(least_squared);
+  const T min_squared = -detail::minimum(-least, -cc);
+  return positive_part(rising) / sqrt(min_squared);
 }
 
 /// A vector of the tangent plane, in the basis e₁, e₂.

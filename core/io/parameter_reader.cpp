@@ -32,6 +32,10 @@ std::size_t edit_distance(const std::string& from, const std::string& to) {
   return row.back();
 }
 
+bool contains(const std::vector<std::string>& words, const std::string& word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
 // "; did you mean 'x'?" if a candidate is close, else nothing.
 std::string suggestion(const std::string& word, const std::vector<std::string>& candidates) {
   const std::string* best = nullptr;
@@ -221,7 +225,7 @@ class Reader final : public FieldVisitor {
 
   void refuse_unknown_keys() const {
     for (const TomlEntry& entry : *table_.get<TomlNode::Table>())
-      if (std::find(known_.begin(), known_.end(), entry.key) == known_.end()) refuse(entry);
+      if (!contains(known_, entry.key) && !contains(former_, entry.key)) refuse(entry);
   }
 
  private:
@@ -230,9 +234,12 @@ class Reader final : public FieldVisitor {
       known_elsewhere_.emplace(field.key, elsewhere_);
       return nullptr;
     }
-    if (std::find(known_.begin(), known_.end(), field.key) == known_.end())
-      known_.push_back(field.key);
+    if (!contains(known_, field.key)) known_.push_back(field.key);
     const TomlEntry* entry = table_.find(field.key);
+    if (!entry && !field.former_key.empty()) {
+      entry = table_.find(field.former_key);
+      former_.push_back(field.former_key);
+    }
     return entry ? &entry->node : nullptr;
   }
 
@@ -283,6 +290,7 @@ class Reader final : public FieldVisitor {
   const TomlNode& table_;
   std::string path_;
   std::vector<std::string> known_;
+  std::vector<std::string> former_;                     ///< keys of earlier versions, read instead
   std::map<std::string, std::string> known_elsewhere_;  ///< key → when it has a meaning
   std::string elsewhere_;                               ///< set while fields do not apply
 };

@@ -25,8 +25,9 @@ namespace vitrel {
 
 struct Field {
   std::string key;
-  std::string unit;      ///< "" for pure numbers, words and flags
-  std::string sentence;  ///< what the field means
+  std::string unit;             ///< "" for pure numbers, words and flags
+  std::string sentence;         ///< what the field means
+  std::string former_key = "";  ///< of earlier versions, still read; "" for none
 };
 
 /// Dotted keys and the values each of them takes, as TOML text ("0.5", "\"brownian\"").

@@ -21,10 +21,10 @@ using exact::Real;
 
 /// Limit of positions and semi-axes in box lengths. Shifts then stay below 2¹¹, so that shift ∘ L
 /// is exact in 64 bits, 53 of which belong to L.
-constexpr double most_boxes = 300;
+constexpr double max_boxes = 300;
 
 std::string within_boxes() {
-  return std::to_string(static_cast<int>(most_boxes)) + " box lengths";
+  return std::to_string(static_cast<int>(max_boxes)) + " box lengths";
 }
 
 void validate_body(const Configuration2& configuration, std::size_t i, const std::string& who) {
@@ -32,7 +32,7 @@ void validate_body(const Configuration2& configuration, std::size_t i, const std
   if (!std::isfinite(configuration.angle[i]))
     throw InvariantError(who + ": its angle must be finite");
   if (!(shape.b > 0 && shape.a >= shape.b &&
-        shape.a <= most_boxes * configuration.box.lengths().minCoeff()))
+        shape.a <= max_boxes * configuration.box.lengths().minCoeff()))
     throw InvariantError(who + ": its semi-axes must obey b > 0 and b ≤ a ≤ " + within_boxes());
 }
 
@@ -42,7 +42,7 @@ void validate_body(const Configuration3& configuration, std::size_t i, const std
   if (!(std::abs(configuration.orientation[i].norm() - 1) <= rounding))
     throw InvariantError(who + ": its orientation must be a quaternion of norm 1");
   if (!((semi_axes.array() > 0).all() &&
-        semi_axes.maxCoeff() <= most_boxes * configuration.box.lengths().minCoeff()))
+        semi_axes.maxCoeff() <= max_boxes * configuration.box.lengths().minCoeff()))
     throw InvariantError(who + ": its semi-axes must be above 0 and at most " + within_boxes());
 }
 
@@ -54,7 +54,7 @@ void validate(const Configuration<Dim>& configuration) {
   for (std::size_t i = 0; i < configuration.size(); ++i) {
     const Vec<Dim>& position = configuration.position[i];
     const std::string who = "exact check: particle " + std::to_string(i);
-    if (!position.allFinite() || (position.cwiseAbs().array() > most_boxes * lengths.array()).any())
+    if (!position.allFinite() || (position.cwiseAbs().array() > max_boxes * lengths.array()).any())
       throw InvariantError(who + ": its position must be finite and within " + within_boxes() +
                            " of the origin");
     validate_body(configuration, i, who);

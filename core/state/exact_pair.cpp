@@ -110,9 +110,9 @@ template <int Dim>
 Real climb(const Particle<Dim>& one, const Particle<Dim>& two, const Point<Dim>& d, Point<Dim> n,
            Real enough) {
   constexpr Real shortest_step = 1e-10L;  // g is flat there: an error of 1e-20 in relative terms
-  constexpr int most_steps = 200;
+  constexpr int max_steps = 200;
   Separation<Dim> here = separation_along(one, two, d, n);
-  for (int step = 0; step < most_steps && here.gap < enough; ++step) {
+  for (int step = 0; step < max_steps && here.gap < enough; ++step) {
     Point<Dim> turn = here.step;
     Point<Dim> next = (n + turn).normalized();
     Separation<Dim> there = separation_along(one, two, d, next);
@@ -222,7 +222,7 @@ bool is_round(const EllipsoidAxes<Real>& e) {
 template <int Dim>
 bool surely_apart(const Particle<Dim>& one, const Particle<Dim>& two, const Point<Dim>& d,
                   Real gap) {
-  constexpr int most_steps = 3;
+  constexpr int max_steps = 3;
   using Square = Eigen::Matrix<double, Dim, Dim>;
   const Real scale = 1 / (one.circumradius + two.circumradius);
   const Square axes1 = (scale * semi_axes(one.axes)).template cast<double>();
@@ -230,7 +230,7 @@ bool surely_apart(const Particle<Dim>& one, const Particle<Dim>& two, const Poin
   const Vec<Dim> distance = (scale * d).template cast<double>();
   const double enough = static_cast<double>(scale * gap) + 0x1p-40 * (1 + distance.norm());
   Vec<Dim> n = distance.normalized();
-  for (int step = 0; step < most_steps; ++step) {
+  for (int step = 0; step < max_steps; ++step) {
     const double h1 = (axes1.transpose() * n).norm();
     const double h2 = (axes2.transpose() * n).norm();
     if (n.dot(distance) - h1 - h2 > enough) return true;

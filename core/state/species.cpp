@@ -77,8 +77,8 @@ void shuffle(std::vector<std::int32_t>& values, Stream stream) {
 }  // namespace
 
 double Distribution::draw(Stream& stream) const {
-  constexpr int most_draws = 10'000;
-  for (int k = 0; k < most_draws; ++k)
+  constexpr int max_draws = 10'000;
+  for (int k = 0; k < max_draws; ++k)
     if (const double value = draw_once(*this, stream); kind == Kind::constant || value >= minimum)
       return value;
   throw UserError("a distribution lies below its minimum " + std::to_string(minimum) +

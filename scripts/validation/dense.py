@@ -32,7 +32,7 @@ METHODS = {
     "swell": 'method = "swell"',
     "compress, βP = 100": 'method = "compress"\npressure = 100\npacking_fraction = {fraction}',
 }
-MOST_SECONDS = 100
+MAX_SECONDS = 100
 STOPPED = 5  # exit code
 
 
@@ -53,10 +53,10 @@ def outcome(build, kappa, sizes, fraction, method):
         file, state = pathlib.Path(folder, "dense.toml"), pathlib.Path(folder, "state.h5")
         file.write_text(parameters(kappa, sizes, fraction, method), encoding="utf-8")
         done = subprocess.run([build / "app/vitrel", "prepare", file, "-o", state, "--json", "-q", "--wall-time",
-                               str(MOST_SECONDS), "--set", f"system.packing_fraction={fraction}"],
+                               str(MAX_SECONDS), "--set", f"system.packing_fraction={fraction}"],
                               check=False, capture_output=True, text=True)
         if done.returncode == STOPPED:
-            return False, f"not in {MOST_SECONDS} s"
+            return False, f"not in {MAX_SECONDS} s"
         if done.returncode != 0:
             stuck_at = packing_fraction_of_failure(done.stderr)
             expect(stuck_at, f"{method}, κ = {kappa}: {done.stderr}")

@@ -174,7 +174,7 @@ def lazy(rows):
     for row in rows:
         scene, eager = shape(row["aspect_ratio"]), row["eager"]
         for of in (eager, *row["lazy"]):
-            name = f"{of['patience']:g}" if "patience" in of else "searched at once"
+            name = f"{of['free_times']:g}" if "free_times" in of else "searched at once"
             lines.append([scene, name, f"{of['ns_per_collision']:.0f} ns",
                           f"{eager['ns_per_collision'] / of['ns_per_collision']:.2f}", *count_cells(of)])
     return table(["", "put off beyond", "per collision", "gain", *COUNTS], lines)

@@ -203,7 +203,7 @@ def orientation_times(build):
     return times
 
 
-def least_order(particles):
+def min_order(particles):
     """S of a nematic at the end of its stability, where g₂(r) falls as r^-1/4 from the distance of neighbours on."""
     return particles ** (-LARGEST_DECAY / 4)
 
@@ -223,12 +223,12 @@ def nematic(build):
                       for seed in range(1, NEMATIC_SEEDS + 1)]
             found = [one["nematic_order"] for one in states]
             row.append(text_of(*estimate(found)))
-            least = least_order(particles)
+            least = min_order(particles)
             expect(min(found) >= least, f"κ = 6, N = {particles}, {sweeps} sweeps: S = {min(found)}, below {least}")
         expect(not any(one["quality"]["nematic_correlation"]["length"]["reached"] for one in states),
                f"κ = 6, N = {particles}: correlations end within the box")
         orders[particles] = estimate(found)
-        rows.append([*row, f"{least_order(particles):.3f}"])
+        rows.append([*row, f"{min_order(particles):.3f}"])
     power, error = exponent(orders)
     expect(power + ERRORS * error >= -LARGEST_DECAY / 4, f"κ = 6: S falls as N to the power {text_of(power, error)}")
     return rows, (power, error)

@@ -9,8 +9,8 @@ PROGRAM = "restitution"
 FIGURES = "figures/restitution"
 
 INTEGRATION_ERROR = 1e-12
-MOST_MEGABYTES, MOST_SECONDS, MOST_NANOSECONDS = 200, 600, 1000
-MOST_WITHOUT_VALUE = 1e-3  # part of the domain
+MAX_MEGABYTES, MAX_SECONDS, MAX_NANOSECONDS = 200, 600, 1000
+MAX_WITHOUT_VALUE = 1e-3  # part of the domain
 PAIR_ERROR, TABULATED_PAIR_ERROR = 1e-8, 1e-7  # of positions over l and velocities over v
 VISIBLE = 0.1
 STEPS = 7  # of the contact, marked in the picture, as in the source
@@ -189,10 +189,10 @@ def check_table(of):
     name = f"{of['force']}, {of['kind']}"
     for key, bound in BOUNDS.items():
         expect(of["errors"][key] <= bound * of["tolerance"], f"{name}: {COEFFICIENTS[key]} is {of['errors'][key]} off")
-    expect(of["without_value"] <= MOST_WITHOUT_VALUE * of["points"], f"{name}: {of['without_value']} without a value")
-    expect(of["megabytes"] <= MOST_MEGABYTES, f"{name}: {of['megabytes']} MB")
-    expect(of["seconds"] <= MOST_SECONDS, f"{name}: built in {of['seconds']} s")
-    expect(of["nanoseconds"] <= MOST_NANOSECONDS, f"{name}: {of['nanoseconds']} ns")
+    expect(of["without_value"] <= MAX_WITHOUT_VALUE * of["points"], f"{name}: {of['without_value']} without a value")
+    expect(of["megabytes"] <= MAX_MEGABYTES, f"{name}: {of['megabytes']} MB")
+    expect(of["seconds"] <= MAX_SECONDS, f"{name}: built in {of['seconds']} s")
+    expect(of["nanoseconds"] <= MAX_NANOSECONDS, f"{name}: {of['nanoseconds']} ns")
 
 
 def span(interval):
@@ -210,7 +210,7 @@ def table_row(of):
 def source_sentence(tables):
     found = [of for of in tables if "source_impacts" in of]
     for of in found:
-        expect(of["source_impacts_without_value"] <= MOST_WITHOUT_VALUE * of["source_impacts"],
+        expect(of["source_impacts_without_value"] <= MAX_WITHOUT_VALUE * of["source_impacts"],
                f"{of['force']}: {of['source_impacts_without_value']} impacts of the source without a value")
     return " and ".join(f"{of['source_impacts_without_value']} of {of['source_impacts']} ({NAMES[of['force']]})"
                         for of in found)
@@ -241,8 +241,8 @@ The integration beside the equations of motion as they stand, in extended precis
 {table(["force", "impacts", *COEFFICIENTS.values()], integration)}
 
 Tables (`edmd/soft/restitution_table.h`) beside the integration, at random points and at the middles of a lattice of
-cells, uniform in g, m and d. Wanted: ε_ṙ and ε_t within the tolerance, ε_φ and ε_r within twice that; at most {MOST_MEGABYTES} MB,
-{MOST_SECONDS} s and {MOST_NANOSECONDS} ns; a value in all but {MOST_WITHOUT_VALUE:.1%} of the domain, where it is integrated. The source's domain is
+cells, uniform in g, m and d. Wanted: ε_ṙ and ε_t within the tolerance, ε_φ and ε_r within twice that; at most {MAX_MEGABYTES} MB,
+{MAX_SECONDS} s and {MAX_NANOSECONDS} ns; a value in all but {MAX_WITHOUT_VALUE:.1%} of the domain, where it is integrated. The source's domain is
 that of its tables 1 and 2, with any two radii: g from {data['tables'][0]['g'][0]:.2f} to {data['tables'][0]['g'][1]:.2f}. Times include the making of a random
 impact's logarithms, and the memory that random places of a large table are fetched from.
 

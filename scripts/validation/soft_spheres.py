@@ -14,12 +14,12 @@ MOST_EXCEPTIONS = 2e-3  # at the usual modulus, dilute
 THIN = 0.01  # up to here exceptions are compared with theory
 VANISHED = 2e-4  # at the most dilute and the hardest
 MOST_SIGMAS = 4
-LEAST_FACTOR = 100
-LEAST_SPEED = 0.4
+MIN_FACTOR = 100
+MIN_SPEED = 0.4
 LATE = 1.5  # decades of time
 SLOPES = {"viscoelastic": -5 / 3, "linear_dashpot": -2}
 SLOPE_ERROR = 0.03
-MOST_DRIFT, MOST_ANGULAR_DRIFT = 1e-11, 1e-12
+MAX_DRIFT, MOST_ANGULAR_DRIFT = 1e-11, 1e-12
 
 NAMES = {"viscoelastic": "viscoelastic", "linear_dashpot": "linear dashpot"}
 EXCEPTIONS = {"early_releases": "hit in contact", "refused_turns": "no room to turn"}
@@ -162,7 +162,7 @@ def check_accuracy(of):
     finest, adaptive = ways_of(of, "force-based")[-1], ways_of(of, "clusterwise")[0]
     factor, inexact = finest["seconds"] / tables["seconds"], finest["median"] / tables["median"]
     expect(inexact >= 1, "a force-based run is more exact than tables: none is of equal accuracy")
-    expect(factor >= LEAST_FACTOR, f"the force-based run takes only {factor} times as long")
+    expect(factor >= MIN_FACTOR, f"the force-based run takes only {factor} times as long")
     expect(ways_of(of, "integration")[0]["median"] <= tables["median"] * 2, "integration is less exact than tables")
     return factor, inexact, adaptive["seconds"] / tables["seconds"]
 
@@ -221,7 +221,7 @@ def cooling_rows(cooling):
 def speed_rows(rows):
     for row in rows:
         share = {way: row["hard"]["ns_per_collision"] / row[way]["ns_per_collision"] for way in ("tables", "integration")}
-        expect(share["tables"] >= LEAST_SPEED, f"η = {row['packing_fraction']}: only {share['tables']:.0%} with tables")
+        expect(share["tables"] >= MIN_SPEED, f"η = {row['packing_fraction']}: only {share['tables']:.0%} with tables")
         yield [f"{row['packing_fraction']:g}", *(f"{1e6 / row[way]['ns_per_collision']:.3g}" for way in ("hard", *share)),
                *(f"{value:.0%}" for value in share.values()), f"{row['hard']['renewals']:.3g}"]
 
@@ -239,13 +239,13 @@ def counts(row):
 def gas_rows(gases):
     for row in gases:
         for key in ("momentum", "energy"):
-            expect(row[key] <= MOST_DRIFT, f"{row['gas']}: {key} drifts by {row[key]}")
+            expect(row[key] <= MAX_DRIFT, f"{row['gas']}: {key} drifts by {row[key]}")
         yield [row["gas"], *counts(row), drift(row["momentum"]), drift(row["energy"])]
 
 
 def cluster_rows(clusters):
     for row in clusters:
-        expect(row["momentum"] <= MOST_DRIFT and row["energy"] <= MOST_DRIFT, f"clusters: {row}")
+        expect(row["momentum"] <= MAX_DRIFT and row["energy"] <= MAX_DRIFT, f"clusters: {row}")
         if row["early_release"] == "together":
             expect(row["largest_angular_momentum"] <= MOST_ANGULAR_DRIFT, f"angular momentum is lost: {row}")
         lost = row["angular_momentum"]
@@ -296,8 +296,8 @@ normal speed.
 {table(["way", "per simulated second", "times as long", "median error", "ninth decile", "largest"], list(accuracy_rows(accuracy)))}
 
 The finest force-based run takes {factor:.0f} times as long as the event-driven one with tables, and its error is still {inexact:.0f} times as
-large. Wanted: at least {LEAST_FACTOR} times as long at equal accuracy. The adaptive one, which is no usual force-based run as it
-leaves out the free flight, is as exact as the events and takes {adaptive:.0f} times as long{"" if adaptive >= LEAST_FACTOR else ", less than wanted"}. The table takes {accuracy['table']['seconds']:.2f} s to build, once, and {accuracy['table']['megabytes']:.2g} MB.
+large. Wanted: at least {MIN_FACTOR} times as long at equal accuracy. The adaptive one, which is no usual force-based run as it
+leaves out the free flight, is as exact as the events and takes {adaptive:.0f} times as long{"" if adaptive >= MIN_FACTOR else ", less than wanted"}. The table takes {accuracy['table']['seconds']:.2f} s to build, once, and {accuracy['table']['megabytes']:.2g} MB.
 
 ![Error against time; full marks: median, open marks: ninth decile; numbers: steps in a contact]({FIGURES}/accuracy.svg)
 
@@ -316,7 +316,7 @@ viscoelastic gas steeper by an amount ∝ t^(−1/6), which is slow to vanish.
 ### Collisions per second
 
 {data['speed'][0]['particles']} elastic spheres beside the same as hard spheres in the same engine, from the same state, in alternation; best of the repeats.
-Wanted: at least {LEAST_SPEED:.0%} of the hard ones' with tables. In thin gases the time goes into the renewal of neighbour lists.
+Wanted: at least {MIN_SPEED:.0%} of the hard ones' with tables. In thin gases the time goes into the renewal of neighbour lists.
 
 {table(["η", "hard, 10³/s", "tables, 10³/s", "integration, 10³/s", "tables/hard", "integration/hard", "renewals per collision"], list(speed_rows(data["speed"])))}
 

@@ -337,7 +337,7 @@ TEST(Displacement, MainWaveNumberIsThatOfTheTriangularLattice) {
 TEST(Displacement, OriginsAreThinnedEvenlyAndLongLagsLogarithmically) {
   MemoryTrajectory trajectory = free_brownian(ellipses(1), 2001, 4);
   const Displacements result = displacements(
-      trajectory, {.axis = {.every_lag_up_to = 10, .lags_per_decade = 5, .most_origins = 100}});
+      trajectory, {.axis = {.every_lag_up_to = 10, .lags_per_decade = 5, .max_origins = 100}});
   for (const std::size_t origins : result.origins) {
     EXPECT_LE(origins, 100u);
     EXPECT_GE(origins, 50u);

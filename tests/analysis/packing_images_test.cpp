@@ -48,7 +48,7 @@ double value_at(const Ellipsoid& body, const Pose3& pose, const Vec3& x) {
 
 /// Its least value in the box by descent along one coordinate after the other, which converges to the
 /// least of a convex function between bounds on the coordinates.
-double least_by_descent(const Ellipsoid& body, const Pose3& pose, const PeriodicBox<3>& box) {
+double min_by_descent(const Ellipsoid& body, const Pose3& pose, const PeriodicBox<3>& box) {
   const Mat3 inverse = shape_matrix(body, pose.orientation).inverse();
   Vec3 x = Vec3::Zero();
   for (int sweep = 0; sweep < 100'000; ++sweep) {
@@ -114,7 +114,7 @@ TEST(MeetsBox, AgreesWithDescentAlongTheCoordinates) {
     const Ellipsoid body{
         Vec3(draw.uniform(0.05, 2), draw.uniform(0.05, 1), draw.uniform(0.05, 0.5))};
     const Pose3 pose{1.5 * random_vector(draw), random_orientation(draw)};
-    const double least = least_by_descent(body, pose, box);
+    const double least = min_by_descent(body, pose, box);
     EXPECT_GT(std::abs(least - 1), 1e-7) << "undecided";
     EXPECT_EQ(meets_box(body, pose, box), least < 1) << k;
     ++(least < 1 ? meeting : clear);
@@ -135,7 +135,7 @@ TEST(BodiesInBox, AreThoseThatHoldPointsOfTheBox) {
     listed.emplace(body.particle, body.shift.x(), body.shift.y(), body.shift.z());
     const Pose3 pose{packing.position[body.particle] + packing.box.translation(body.shift),
                      packing.orientation[body.particle]};
-    EXPECT_LT(least_by_descent(packing.shape[body.particle], pose, packing.box), 1);
+    EXPECT_LT(min_by_descent(packing.shape[body.particle], pose, packing.box), 1);
     cut += body.is_cut;
   }
   EXPECT_EQ(listed.size(), bodies_in_box(packing).size()) << "one listed twice";

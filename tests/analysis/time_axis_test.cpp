@@ -153,7 +153,7 @@ TEST(TimeAxis, BlocksOfUnevenOriginsLastForFourLags) {
 
 TEST(TimeAxis, ManyUnevenFramesGiveLagsAndOriginsWithinTheOptions) {
   const Times times = cycles(20'000, 0.5);
-  const std::vector<Lag> lags = time_axis(times, {.lags_per_decade = 10, .most_origins = 1000});
+  const std::vector<Lag> lags = time_axis(times, {.lags_per_decade = 10, .max_origins = 1000});
   EXPECT_LE(lags.size(), 55u);  // five decades and a third
   EXPECT_GE(lags.size(), 45u);
   for (const Lag& lag : lags) {

@@ -183,9 +183,9 @@ Scene with_close_horizons(const Scene& scene, Stream& draw) {
   return close;
 }
 
-class FirstLookAgainstTheTruth : public testing::TestWithParam<Class> {};
+class ScreenAgainstTheTruth : public testing::TestWithParam<Class> {};
 
-TEST_P(FirstLookAgainstTheTruth, IsNeverLateFromWhateverAxis) {
+TEST_P(ScreenAgainstTheTruth, IsNeverLateFromWhateverAxis) {
   const Class& at = GetParam();
   Stream draw(41, Purpose::tests);
   Counts counts;
@@ -204,7 +204,7 @@ TEST_P(FirstLookAgainstTheTruth, IsNeverLateFromWhateverAxis) {
   EXPECT_GT(counts.settled, counts.misses / 4);
 }
 
-INSTANTIATE_TEST_SUITE_P(Classes, FirstLookAgainstTheTruth,
+INSTANTIATE_TEST_SUITE_P(Classes, ScreenAgainstTheTruth,
                          testing::Values(Class{2, 0, 5'000}, Class{20, 0, 5'000},
                                          Class{2, 0.3, 6'000}, Class{20, 0.3, 6'000},
                                          Class{4, 3, 6'000}));

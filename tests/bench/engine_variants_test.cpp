@@ -18,12 +18,12 @@ namespace vitrel::bench {
 namespace {
 
 std::unique_ptr<Engine2> make_eager() {
-  set_patience(std::numeric_limits<double>::infinity());
-  return make_engine_of_patience();
+  set_screened_free_times(std::numeric_limits<double>::infinity());
+  return make_engine_of_free_times();
 }
 std::unique_ptr<Engine2> make_lazier() {
-  set_patience(0.05);
-  return make_engine_of_patience();
+  set_screened_free_times(0.05);
+  return make_engine_of_free_times();
 }
 
 struct Variant {
@@ -31,11 +31,11 @@ struct Variant {
   std::function<std::unique_ptr<Engine2>()> make;
 };
 const std::vector<Variant> variants = {
-    {"without_look", make_engine_without_lower_bound},
+    {"without_screen", make_engine_without_lower_bound},
     {"without_horizon", make_engine_without_horizon},
     {"with_round_lists", make_engine_with_round_lists},
-    {"without_patience", make_eager},
-    {"with_less_patience", make_lazier},
+    {"searched_at_once", make_eager},
+    {"with_a_short_horizon", make_lazier},
 };
 
 Configuration2 scene() {
@@ -55,11 +55,11 @@ struct Moving {
   RunCounters counters;
 };
 
-class EngineTwin : public testing::TestWithParam<Variant> {};
+class EngineVariant : public testing::TestWithParam<Variant> {};
 
 // They round alike but for the order in which pairs are asked, and every collision multiplies what
 // they differ by; another collision parts them at once.
-TEST_P(EngineTwin, HasTheSameCollisions) {
+TEST_P(EngineVariant, HasTheSameCollisions) {
   const Configuration2 start = scene();
   Moving plain(make_ellipse_engine({}), start), other(GetParam().make(), start);
   const std::uint64_t wanted = 3 * start.size();  // six of each particle
@@ -72,17 +72,17 @@ TEST_P(EngineTwin, HasTheSameCollisions) {
   }
 }
 
-TEST_P(EngineTwin, StaysHard) {
+TEST_P(EngineVariant, StaysHard) {
   Moving run(GetParam().make(), scene());
   run.advance(10);
   EXPECT_GT(run.counters.collisions, 1000u);
   EXPECT_TRUE(exact_check(run.now).clean());
 }
 
-INSTANTIATE_TEST_SUITE_P(Variants, EngineTwin, testing::ValuesIn(variants),
+INSTANTIATE_TEST_SUITE_P(Variants, EngineVariant, testing::ValuesIn(variants),
                          [](const auto& at) { return at.param.name; });
 
-TEST(EngineTwins, DifferInWhatTheyAsk) {
+TEST(EngineVariants, DifferInWhatTheyAsk) {
   const auto counts = [](std::unique_ptr<Engine2> engine) {
     Moving run(std::move(engine), scene());
     run.advance(2);

@@ -42,7 +42,7 @@ Estimate compressibility(Configuration2 c) {
 
 // κ = 2, φ = 0.5: Z = 4.492(3), another 0.1 % allowed (oracle: NVT Monte Carlo). 3 standard errors, as
 // between the two.
-TEST(SamplerTwin, HasTheSamePressure) {
+TEST(SamplerBaseline, HasTheSamePressure) {
   const Configuration2 start = fluid(2, 0.5);
   const Estimate ours = compressibility<Sampler>(start);
   const Estimate plain = compressibility<SequentialSampler>(start);

@@ -43,7 +43,7 @@ TrueContact truth_of(const CollisionCase& of) {
 }
 
 // The local minima of the gap over the horizon, from samples and a ternary search.
-std::vector<long double> least_gaps(const CollisionCase& of, int samples) {
+std::vector<long double> min_gaps(const CollisionCase& of, int samples) {
   std::vector<long double> gaps, least;
   const long double step = static_cast<long double>(of.horizon) / samples;
   for (int k = 0; k <= samples; ++k) gaps.push_back(gap_at(of, k * step));
@@ -128,7 +128,7 @@ TEST(StabilitySuite, GrazingHasTheLeastGapItSays) {
   int inside = 0, outside = 0;
   for_cases("grazing", 40, [&](const CollisionCase& at) {
     int fitting = 0;
-    for (const long double gap : least_gaps(at, 300)) {
+    for (const long double gap : min_gaps(at, 300)) {
       const long double in_units = gap / at.gap_unit();
       if (std::abs(in_units) > 1.001e-3L || std::abs(in_units) < 0.99e-12L) continue;
       ++fitting;
@@ -142,7 +142,7 @@ TEST(StabilitySuite, GrazingHasTheLeastGapItSays) {
 
 TEST(StabilitySuite, FastRotationHasManyMinima) {
   for_cases("fast_rotation", 20,
-            [](const CollisionCase& at) { EXPECT_GE(least_gaps(at, 600).size(), 3U); });
+            [](const CollisionCase& at) { EXPECT_GE(min_gaps(at, 600).size(), 3U); });
 }
 
 TEST(StabilitySuite, AspectRatiosAndSizesReachTheirEnds) {

@@ -152,13 +152,13 @@ TYPED_TEST(TabulatedForce, DomainOfAScene) {
   }
 }
 
-class KeptTableFile : public testing::Test {
+class StoredTableFile : public testing::Test {
  protected:
-  KeptTableFile() {
+  StoredTableFile() {
     std::string pattern = (fs::temp_directory_path() / "vitrel_table_XXXXXX").string();
     folder_ = mkdtemp(pattern.data());
   }
-  ~KeptTableFile() override { fs::remove_all(folder_); }
+  ~StoredTableFile() override { fs::remove_all(folder_); }
 
   CachedTable keep(const RestitutionDomain& domain = domain_, double exact = tolerance,
                    const ForceForm& form = form_of<Viscoelastic>()) const {
@@ -182,7 +182,7 @@ void expect_equal(const RestitutionTable& one, const RestitutionTable& two) {
   }
 }
 
-TEST_F(KeptTableFile, IsBuiltOnce) {
+TEST_F(StoredTableFile, IsBuiltOnce) {
   const CachedTable first = keep(), second = keep();
   EXPECT_FALSE(first.loaded);
   EXPECT_EQ(first.save_error, "");
@@ -193,14 +193,14 @@ TEST_F(KeptTableFile, IsBuiltOnce) {
   expect_equal(first.table, alone);
 }
 
-TEST_F(KeptTableFile, ARangeIsKeptToo) {
+TEST_F(StoredTableFile, ARangeIsKeptToo) {
   const RestitutionDomain range{{-1, 1}, {2, 3}, {-0.8, -0.6}};
   const CachedTable first = keep(range), second = keep(range);
   EXPECT_TRUE(second.loaded);
   expect_equal(first.table, second.table);
 }
 
-TEST_F(KeptTableFile, IsBuiltAgainForAnythingElse) {
+TEST_F(StoredTableFile, IsBuiltAgainForAnythingElse) {
   keep();
   RestitutionDomain other = domain_;
   other.m.high = 3.1;
@@ -212,7 +212,7 @@ TEST_F(KeptTableFile, IsBuiltAgainForAnythingElse) {
 }
 
 // Cut short anywhere, or with any byte changed, the file is replaced, or what it says is the same.
-TEST_F(KeptTableFile, IsBuiltAgainIfDamaged) {
+TEST_F(StoredTableFile, IsBuiltAgainIfDamaged) {
   const CachedTable whole = keep();
   const fs::path file = folder_ / "table.h5";
   const auto size = fs::file_size(file);
@@ -238,7 +238,7 @@ TEST_F(KeptTableFile, IsBuiltAgainIfDamaged) {
   EXPECT_TRUE(keep().loaded);
 }
 
-TEST_F(KeptTableFile, WithoutAPlaceItIsAsGood) {
+TEST_F(StoredTableFile, WithoutAPlaceItIsAsGood) {
   const auto kept = load_or_build_table(folder_ / "missing" / "table.h5", form_of<Viscoelastic>(),
                                         domain_, coarse, 1);
   EXPECT_NE(kept.save_error.find("missing"), std::string::npos);

@@ -76,12 +76,12 @@ TEST(SwellingLimits, GoesOnBitByBitAfterStops) {
   Configuration2 whole = inserted(100, {of_aspect_ratio(3)}), parts = whole;
   SwellingState undisturbed, state;
   EXPECT_EQ(swell(whole, {0.75, 1000000}, 1, undisturbed, {}).end, StageEnd::reached);
-  std::uint64_t patience = 25, questions = 0, stops = 0;
-  const RunControl control{[&] { return ++questions > patience; }, {}, {}};
+  std::uint64_t allowed = 25, questions = 0, stops = 0;
+  const RunControl control{[&] { return ++questions > allowed; }, {}, {}};
   while (swell(parts, {0.75, 1000000}, 1, state, control).end == StageEnd::stopped) {
     EXPECT_TRUE(exact_check(parts).clean());
     EXPECT_EQ(parts.shape[0].a, of_aspect_ratio(3).a);
-    patience = 25 + 10 * ++stops;  // so that every round comes to its end some time
+    allowed = 25 + 10 * ++stops;  // so that every round comes to its end some time
     questions = 0;
   }
   EXPECT_GT(stops, 3u);

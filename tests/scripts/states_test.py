@@ -86,7 +86,7 @@ class LiquidCrystal(unittest.TestCase):
         self.assertAlmostEqual(second, 1 + 2 / 10 * 5)
 
     def test_least_order_of_a_nematic_hardly_depends_on_the_size(self):
-        self.assertAlmostEqual(liquid_crystal.least_order(2000) / liquid_crystal.least_order(500), 2 ** (-1 / 8))
+        self.assertAlmostEqual(liquid_crystal.min_order(2000) / liquid_crystal.min_order(500), 2 ** (-1 / 8))
 
 
 if __name__ == "__main__":

@@ -61,7 +61,7 @@ TEST(DynamicsTables, RoundParticlesHaveNoAnglesAndOneOriginNoSusceptibility) {
 TEST(DynamicsTables, SayWhichTimesTheyAreOf) {
   MemoryTrajectory even = free_brownian(ellipses(1), 81, 1);
   EXPECT_EQ(time_axis_text(even.times(), displacements(even)), "linear, every frame an origin");
-  EXPECT_EQ(time_axis_text(even.times(), displacements(even, {.axis = {.most_origins = 10}})),
+  EXPECT_EQ(time_axis_text(even.times(), displacements(even, {.axis = {.max_origins = 10}})),
             "linear, up to 10 origins, evenly thinned");
   // Steps 0, 1, 2, 4, 8 … 64: seven lags, of two origins but for the longest.
   std::vector<Configuration2> frames{even.read(0)};

@@ -145,8 +145,8 @@ const BadFile bad_files[] = {
      "file.toml:4:9: key 'prepare.stage.0.angle' is 1.0, but must be 0"},
     {"[[prepare.stage]]\nmethod = \"insert\"\nattempts = 0", "file.toml:3:12: key"},
     {"[[prepare.stage]]\nmethod = \"insert\"\npacking_fraction = 1.2", "file.toml:3:20: key"},
-    {"[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"swell\"\nmost_sweeps = 0",
-     "file.toml:4:15: key"},
+    {"[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"swell\"\nmax_sweeps = 0",
+     "file.toml:4:14: key"},
     {"[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"sample\"\nsweeps = 0",
      "file.toml:4:10: key"},
     {"[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"swell\"\npacking_fraction = 0.2",
@@ -212,7 +212,7 @@ const BadFile bad_files[] = {
      "key 'output.correlations.wave_numbers.1' is -1.0, but must be positive"},
     {"[output]\ncheckpoint_interval = -1", "file.toml:2:23: key 'output.checkpoint_interval'"},
     {"[analysis]\nlongest_lag = 2", "file.toml:2:15: key 'analysis.longest_lag' is 2.0"},
-    {"[analysis]\nmost_origins = 0", "file.toml:2:16: key 'analysis.most_origins' is 0"},
+    {"[analysis]\nmax_origins = 0", "file.toml:2:15: key 'analysis.max_origins' is 0"},
     {"[analysis]\nstructure = { frames = 0 }",
      "file.toml:2:24: key 'analysis.structure.frames' is 0"},
     {"[analysis]\nstructure = { wave_number_step = 0 }",
@@ -253,7 +253,7 @@ TEST(ParameterFile, TheDefaultsAreValidAndTheTemplatesAreTheDefaults) {
   EXPECT_THROW(command_template("check"), UserError);
 }
 
-TEST(ParameterFile, EffectiveParametersReadBackBitByBit) {
+TEST(ParameterFile, EffectiveParametersReadBackBitIdentical) {
   Parameters parameters = parse_parameters(R"(
 [system]
 packing_fraction = 0.7123456789012345
@@ -294,6 +294,22 @@ TEST(ParameterFile, OverridesReachSpeciesAndStages) {
   ASSERT_EQ(parameters.stages.size(), 2u);
   EXPECT_TRUE(std::holds_alternative<SwellStage>(parameters.stages[1]));
   EXPECT_EQ(parameters.output.spacing, OutputParameters::Spacing::logarithmic);
+}
+
+TEST(ParameterFile, KeysOfEarlierVersionsAreStillRead) {
+  const Parameters former = parse("[analysis]\nmost_origins = 7\n");
+  EXPECT_EQ(former.analysis.axis.max_origins, 7u);
+  const std::string now = effective_parameters(former);
+  EXPECT_THAT(now, HasSubstr("max_origins = 7"));
+  EXPECT_THAT(now, Not(HasSubstr("most_origins")));
+  EXPECT_THAT(complaint("[analysis]\nmax_origins = 7\nmost_origins = 7\n"),
+              HasSubstr("file.toml:3:1: key 'analysis.most_origins' is unknown"));
+
+  const std::string stages = "[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"swell\"\n";
+  const std::string before = effective_parameters(parse(stages + "max_sweeps = 3\n"));
+  std::string recorded = before;
+  recorded.replace(recorded.find("max_sweeps"), 3, "most");
+  EXPECT_EQ(forbidden_change(recorded, before, Work::preparation), std::nullopt);
 }
 
 TEST(ParameterFile, OnlyHarmlessChangesAreAllowedWhenContinuing) {

@@ -130,7 +130,7 @@ TEST(Prepare, GrowthBeyondJammingIsTheUsersToChange) {
 
 TEST(Prepare, AnUnreachableGoalIsTheUsersToChange) {
   Parameters parameters = small(0.88);
-  std::get<SwellStage>(parameters.stages[1]).most_sweeps = 20;
+  std::get<SwellStage>(parameters.stages[1]).max_sweeps = 20;
   EXPECT_THROW(prepare({parameters}, {}, say_nothing), UserError);
 }
 
@@ -198,11 +198,11 @@ TEST_P(StoppedPreparation, ContinuesBitIdenticalFromItsFile) {
   const Parameters parameters = with(GetParam().second);
   const Preparation whole = prepare({parameters}, {}, say_nothing);
   const PrepareRequest request{parameters, folder_ / "state.h5"};
-  std::uint64_t asked = 0, patience = 10, stops = 0;
-  const RunControl control{[&] { return ++asked > patience; }, {}, {}};
+  std::uint64_t asked = 0, allowed = 10, stops = 0;
+  const RunControl control{[&] { return ++asked > allowed; }, {}, {}};
   Preparation parts = prepare(request, control, say_nothing);
   for (; !parts.complete; parts = prepare(request, control, say_nothing)) {
-    patience = 10 + 5 * ++stops;
+    allowed = 10 + 5 * ++stops;
     asked = 0;
     ASSERT_LT(stops, 1000u);
   }
@@ -340,7 +340,7 @@ TEST(PrepareSolids, StoppedTheyGoOnBitByBit) {
 
 TEST(Prepare, AStuckStateIsKept) {
   Parameters parameters = small(0.88);
-  std::get<SwellStage>(parameters.stages[1]).most_sweeps = 50;
+  std::get<SwellStage>(parameters.stages[1]).max_sweeps = 50;
   parameters.output.checkpoint_interval = 0;
   const Folder folder("stuck");
   EXPECT_THROW(prepare({parameters, folder / "state.h5"}, {}, say_nothing), UserError);

@@ -58,7 +58,7 @@ bool same_bits(const std::vector<double>& x, const std::vector<double>& y) {
 TEST(StructureTables, TellHowFarTheyAre) {
   MemoryTrajectory trajectory(gases(100, false));
   StructureOptions options;
-  options.most_frames = 40;
+  options.max_frames = 40;
   std::vector<double> frames;
   structure_tables(trajectory, options, 2, [&](const Progress& progress) {
     frames.push_back(progress.value);
@@ -124,7 +124,7 @@ TEST(StructureTables, DoNotDependOnThreads) {
 TEST(StructureTables, AverageEveryThirdFrame) {
   std::vector<Configuration2> frames = gases(300, false);
   StructureOptions options;
-  options.most_frames = 100;
+  options.max_frames = 100;
   std::vector<double> s, orders;
   double pairs = 0, weighted = 0;
   const ScatteringShells shells(frames[0].box.lengths(), options.shells);

@@ -177,7 +177,7 @@ class StructureAverages {
 std::vector<Table> structure_tables(Trajectory& trajectory, const StructureOptions& options,
                                     int threads, const ProgressReport& report) {
   StructureAverages averages(options);
-  const std::size_t stride = (trajectory.frames() + options.most_frames - 1) / options.most_frames;
+  const std::size_t stride = (trajectory.frames() + options.max_frames - 1) / options.max_frames;
   std::shared_ptr<const ScatteringShells<2>> shells;
   Vec2 lengths = Vec2::Zero();
   for (std::size_t next = 0; next < trajectory.frames();) {

@@ -22,8 +22,9 @@ void describe_analysis(DisplacementOptions& p, FieldVisitor& visit) {
   visit.field(
       {"lags_per_decade", "", "Time differences per factor of ten in the logarithmic part."},
       p.axis.lags_per_decade);
-  visit.field({"most_origins", "", "Time origins per time difference; evenly thinned beyond."},
-              p.axis.most_origins);
+  visit.field({"max_origins", "", "Time origins per time difference; evenly thinned beyond.",
+               "most_origins"},
+              p.axis.max_origins);
   visit.field({"wave_numbers", "1/length",
                "Wave numbers q of the intermediate scattering functions; if empty one, about that "
                "of the main peak of the structure factor: 2π√(2ρ/√3) of the number density ρ."},
@@ -38,7 +39,7 @@ void describe_analysis(DisplacementOptions& p, FieldVisitor& visit) {
 }
 
 void describe_structure(StructureOptions& p, FieldVisitor& visit) {
-  visit.field({"frames", "", "Frames averaged over; evenly thinned beyond."}, p.most_frames);
+  visit.field({"frames", "", "Frames averaged over; evenly thinned beyond."}, p.max_frames);
   visit.field({"wave_number_max", "1/length", "Largest wave number q of structure factors."},
               p.shells.wave_number_max);
   visit.field({"wave_number_step", "1/length", "Width of the shells of q averaged over."},
@@ -57,7 +58,7 @@ void validate_analysis(const DisplacementOptions& p) {
       fmt::format("is {}, but must lie above 0 and not above 1", show(p.axis.longest_lag)));
   rules.at_least(static_cast<std::int64_t>(p.axis.every_lag_up_to), 1, "every_lag_up_to");
   rules.at_least(static_cast<std::int64_t>(p.axis.lags_per_decade), 1, "lags_per_decade");
-  rules.at_least(static_cast<std::int64_t>(p.axis.most_origins), 1, "most_origins");
+  rules.at_least(static_cast<std::int64_t>(p.axis.max_origins), 1, "max_origins");
   for (const double q : p.wave_numbers) rules.positive(q, "wave_numbers");
   for (const double n : p.orders)
     rules.require(n >= 1 && n <= 100 && n == std::floor(n), "orders",
@@ -70,7 +71,7 @@ void validate_analysis(const DisplacementOptions& p) {
 
 void validate_structure(const StructureOptions& p) {
   const Rules rules("analysis.structure");
-  rules.at_least(static_cast<std::int64_t>(p.most_frames), 1, "frames");
+  rules.at_least(static_cast<std::int64_t>(p.max_frames), 1, "frames");
   const auto steps = [&](double longest, double step, const char* longest_key,
                          const char* step_key) {
     rules.positive(longest, longest_key);

@@ -58,19 +58,19 @@ void describe_contact(ContactParameters& p, FieldVisitor& visit) {
 
 /// Whether contacts at the thermal speed are such that coefficients can be had.
 void validate_impact(const ContactParameters& p, const Rules& rules) {
-  constexpr double most_damping = 1e5, least_distance = 0.01;
+  constexpr double max_damping = 1e5, min_distance = 0.01;
   const bool is_dashpot = p.law == ContactParameters::Law::linear_dashpot;
   const ContactScales scales = thermal_scales(p);
   rules.require(
-      scales.damping <= most_damping, is_dashpot ? "damping" : "dissipative_time",
+      scales.damping <= max_damping, is_dashpot ? "damping" : "dissipative_time",
       fmt::format("is so large that nothing is left of the thermal speed (c_dis = {:.3g}, at "
                   "most {:g}, with this radius, density and stiffness); lower it",
-                  scales.damping, most_damping));
+                  scales.damping, max_damping));
   rules.require(
-      2 * p.radius >= least_distance * scales.length, is_dashpot ? "stiffness" : "youngs_modulus",
+      2 * p.radius >= min_distance * scales.length, is_dashpot ? "stiffness" : "youngs_modulus",
       fmt::format("is so small that particles pass through each other at the thermal speed "
                   "(2 R/X = {:.3g}, at least {:g}); raise it",
-                  2 * p.radius / scales.length, least_distance));
+                  2 * p.radius / scales.length, min_distance));
 }
 
 }  // namespace

@@ -180,7 +180,10 @@ std::string parameter_page() {
 
 std::optional<ParameterDifference> forbidden_change(const std::string& before,
                                                     const std::string& after, Work work) {
-  return first_difference(before, after, [work](const std::string& key) {
+  // As this version would have recorded it: with its keys, and the defaults of those that are new.
+  const std::string recorded =
+      effective_parameters(parse_parameters(before, "recorded parameters"));
+  return first_difference(recorded, after, [work](const std::string& key) {
     if (key == "output.checkpoint_interval" || key == "prepare.quality_sweeps") return true;
     return key.starts_with("analysis.") ||
            (work == Work::preparation &&

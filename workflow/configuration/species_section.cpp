@@ -13,7 +13,7 @@ namespace vitrel {
 namespace {
 
 /// Sizes are relative to 1, ratios to one another: a thousandth is as small as they may sensibly be.
-constexpr double least_size = 0.001, least_ratio = 0.001;
+constexpr double min_size = 0.001, min_ratio = 0.001;
 
 constexpr const char* distribution_names[] = {"gaussian", "lognormal", "uniform"};
 
@@ -40,7 +40,7 @@ void describe_distribution(const Field& field, Distribution& d, FieldVisitor& vi
 
 /// A number, or a distribution above a thousandth, as small as a ratio may sensibly be.
 Distribution positive_draws(double example) {
-  return {Distribution::Kind::constant, example, 0.1, least_ratio, example, least_ratio};
+  return {Distribution::Kind::constant, example, 0.1, min_ratio, example, min_ratio};
 }
 
 void describe_optional_distribution(const Field& field, std::optional<Distribution>& value,
@@ -96,13 +96,13 @@ void validate_shape(const Species& p, int dimension, const std::string& path) {
     validate_semi_axes(p, dimension, rules);
     return;
   }
-  if (p.size) validate_distribution(*p.size, least_size, path + ".size");
+  if (p.size) validate_distribution(*p.size, min_size, path + ".size");
   if (p.aspect_ratios) {
     rules.require(dimension == 3, "aspect_ratios",
                   "has a meaning only with dimension = 3; give aspect_ratio");
     rules.require(!p.aspect_ratio, "aspect_ratios", "excludes aspect_ratio; give one or the other");
     for (int k = 0; k < 2; ++k)
-      validate_distribution((*p.aspect_ratios)[k], least_ratio,
+      validate_distribution((*p.aspect_ratios)[k], min_ratio,
                             fmt::format("{}.aspect_ratios.{}", path, k));
     return;
   }

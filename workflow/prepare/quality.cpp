@@ -30,7 +30,7 @@ double pressure_of_growth(const Preparation<2>& preparation) {
 void note_pressure(Quality& quality, const Preparation<2>& preparation) {
   using From = Quality::PressureFrom;
   const double grown = pressure_of_growth(preparation);
-  if (quality.decorrelation && grown < least_jammed_pressure) {
+  if (quality.decorrelation && grown < min_jammed_pressure) {
     quality.pressure_from = From::sampling;
     quality.reduced_pressure = block_average(quality.decorrelation->compressibility);
   } else if (grown > 0) {
@@ -119,7 +119,7 @@ std::optional<Quality> measure_quality(const Preparation<2>& preparation,
   quality.hexatic_order = hexatic_order(state);
   quality.overlaps = preparation.check.overlaps.size();
   quality.smallest_gap = preparation.check.smallest_gap;
-  if (quality.reduced_pressure.mean >= least_jammed_pressure)
+  if (quality.reduced_pressure.mean >= min_jammed_pressure)
     quality.backbone = jammed_backbone(state, quality.reduced_pressure.mean);
   return quality;
 }

@@ -28,12 +28,12 @@ struct Quality {
   std::size_t overlaps = 0;
   double smallest_gap = 0;  ///< infinity beyond the longest semi-axis
 
-  std::optional<JammedBackbone> backbone;      ///< from least_jammed_pressure on
+  std::optional<JammedBackbone> backbone;      ///< from min_jammed_pressure on
   std::optional<Decorrelation> decorrelation;  ///< none if no sweeps were asked for
 };
 
 /// Measures a complete preparation; the state stays as it is. The pressure is that of a short sampling on
-/// a copy; without one, or if the last stage was a growth that ended jammed (least_jammed_pressure), that of
+/// a copy; without one, or if the last stage was a growth that ended jammed (min_jammed_pressure), that of
 /// the growth. Nothing if the run control asked to stop.
 std::optional<Quality> measure_quality(const Preparation<2>& preparation,
                                        const Parameters& parameters, const RunControl& control,

@@ -50,11 +50,11 @@ void add_particle(PackingScene& scene, const Configuration3& packing, std::size_
 }  // namespace
 
 PackingScene packing_scene(const Configuration3& packing, const ExactCheck<3>& check,
-                           std::size_t most_particles) {
+                           std::size_t max_particles) {
   PackingScene scene;
   scene.particles = packing.size();
   scene.box = packing.box.lengths();
-  const double share = static_cast<double>(most_particles) / static_cast<double>(packing.size());
+  const double share = static_cast<double>(max_particles) / static_cast<double>(packing.size());
   scene.window = share < 1 ? Vec3(std::cbrt(share) * scene.box) : scene.box;
   scene.species_names = packing.species_names;
 

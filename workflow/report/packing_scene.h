@@ -38,10 +38,10 @@ struct PackingScene {
   std::vector<std::size_t> overlapping;
 };
 
-/// Of more than `most_particles` those that meet a part in the middle of the box, of a volume for about
+/// Of more than `max_particles` those that meet a part in the middle of the box, of a volume for about
 /// as many. `check` is that of the packing.
 PackingScene packing_scene(const Configuration3& packing, const ExactCheck<3>& check,
-                           std::size_t most_particles = 10'000);
+                           std::size_t max_particles = 10'000);
 
 /// For the script of the page.
 Json scene_data(const PackingScene& scene);

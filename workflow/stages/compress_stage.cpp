@@ -32,14 +32,14 @@ Estimate mean_of_second_half(const std::vector<double>& series) {
 
 std::vector<StageField<CompressStage>> CompressStage::fields() {
   return {{"packing_fraction", describe_packing_fraction},
-          {"most_sweeps", describe_most_sweeps},
+          {"max_sweeps", describe_max_sweeps},
           {"pressure", describe_pressure},
           {"box", describe_box},
           {"sweeps", describe_sweeps}};
 }
 
 void CompressStage::validate(const Rules& rules) const {
-  rules.require(most_sweeps >= 1, "most_sweeps", "is 0, but must be at least 1");
+  rules.require(max_sweeps >= 1, "max_sweeps", "is 0, but must be at least 1");
   rules.require(sweeps >= 1, "sweeps", "is 0, but must be at least 1");
   rules.positive(pressure, "pressure");
 }
@@ -61,7 +61,7 @@ std::string CompressStage::description(double) const {
 StageReport CompressStage::advance(Configuration<2>& configuration, CompressionState& state,
                                    const StageContext& context, const RunControl& control) const {
   const CompressionOptions options{pressure, box, packing_fraction,
-                                   packing_fraction ? most_sweeps : sweeps, context.threads};
+                                   packing_fraction ? max_sweeps : sweeps, context.threads};
   return compress(configuration, options, context.seed, state, control);
 }
 

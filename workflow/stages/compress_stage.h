@@ -18,7 +18,7 @@ struct CompressStage : StageDefaults {
   static constexpr const char* summary = "Monte Carlo at constant pressure, in a box that changes";
 
   std::optional<double> packing_fraction;
-  std::uint64_t most_sweeps = SwellingOptions().sweeps;  ///< with a packing fraction
+  std::uint64_t max_sweeps = SwellingOptions().sweeps;  ///< with a packing fraction
   double pressure = CompressionOptions().pressure;
   BoxChange box = CompressionOptions().change;
   std::uint64_t sweeps = CompressionOptions().sweeps;  ///< without one

@@ -20,9 +20,10 @@ void describe_packing_fraction(S& stage, FieldVisitor& visit) {
 }
 
 template <class S>
-void describe_most_sweeps(S& stage, FieldVisitor& visit) {
-  visit.field({"most_sweeps", "", "Sweeps after which a packing fraction is given up."},
-              stage.most_sweeps);
+void describe_max_sweeps(S& stage, FieldVisitor& visit) {
+  visit.field(
+      {"max_sweeps", "", "Sweeps after which a packing fraction is given up.", "most_sweeps"},
+      stage.max_sweeps);
 }
 
 template <class S>

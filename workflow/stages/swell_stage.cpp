@@ -9,11 +9,11 @@
 namespace vitrel {
 
 std::vector<StageField<SwellStage>> SwellStage::fields() {
-  return {{"packing_fraction", describe_packing_fraction}, {"most_sweeps", describe_most_sweeps}};
+  return {{"packing_fraction", describe_packing_fraction}, {"max_sweeps", describe_max_sweeps}};
 }
 
 void SwellStage::validate(const Rules& rules) const {
-  rules.require(most_sweeps >= 1, "most_sweeps", "is 0, but must be at least 1");
+  rules.require(max_sweeps >= 1, "max_sweeps", "is 0, but must be at least 1");
 }
 
 double SwellStage::end(const SystemParameters& system, double) const {
@@ -26,8 +26,8 @@ std::string SwellStage::description(double goal) const {
 
 StageReport SwellStage::advance(Configuration<2>& configuration, SwellingState& state,
                                 const StageContext& context, const RunControl& control) const {
-  return swell(configuration, {context.packing_fraction, most_sweeps, context.threads},
-               context.seed, state, control);
+  return swell(configuration, {context.packing_fraction, max_sweeps, context.threads}, context.seed,
+               state, control);
 }
 
 void SwellStage::record(const SwellingState& state, StageRecord& record) const {

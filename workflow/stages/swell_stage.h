@@ -18,7 +18,7 @@ struct SwellStage : StageDefaults {
       "Monte Carlo while the particles grow to the wanted packing fraction";
 
   std::optional<double> packing_fraction;
-  std::uint64_t most_sweeps = SwellingOptions().sweeps;
+  std::uint64_t max_sweeps = SwellingOptions().sweeps;
 
   static std::vector<StageField<SwellStage>> fields();
   void validate(const Rules& rules) const;

@@ -10,14 +10,14 @@
 namespace vitrel {
 namespace {
 
-constexpr std::size_t most_complaints = 5;
+constexpr std::size_t max_complaints = 5;
 
 template <int Dim>
 void note_overlaps(FileCheck<Dim>& result, const ExactCheck<Dim>& check, std::uint64_t frame,
                    double time) {
   result.overlaps += check.overlaps.size();
   for (const PairImage<Dim>& pair : check.overlaps) {
-    if (result.complaints.size() == most_complaints) return;
+    if (result.complaints.size() == max_complaints) return;
     result.complaints.push_back(
         fmt::format("frame {} (time {:.6g}): particles {} and {}, image ({})", frame, time, pair.i,
                     pair.j, fmt::join(pair.shift.data(), pair.shift.data() + Dim, ", ")));

@@ -4,15 +4,15 @@
 #include <nlopt.hpp>
 #include <vector>
 
-#include "bench/methods/ellipses/least_time.h"
 #include "bench/methods/ellipses/scaled_problem.h"
+#include "bench/methods/ellipses/time_objective.h"
 
 namespace vitrel::bench {
 namespace {
 
 constexpr double violated = 1e-6;
 constexpr double farthest = 1e6;  // of the point from the start, in scaled units
-constexpr int most_evaluations = 1000;
+constexpr int max_evaluations = 1000;
 
 template <bool first>
 double constraint(unsigned, const double* y, double* gradient, void* data) {
@@ -29,12 +29,12 @@ double constraint(unsigned, const double* y, double* gradient, void* data) {
 class Solver {
  public:
   Solver() : optimiser_(nlopt::LD_AUGLAG, 3) {
-    optimiser_.set_min_objective(least_time, nullptr);
+    optimiser_.set_min_objective(time_objective, nullptr);
     optimiser_.add_inequality_constraint(constraint<true>, &problem_, 1e-10);
     optimiser_.add_inequality_constraint(constraint<false>, &problem_, 1e-10);
     optimiser_.set_lower_bounds({0, -farthest, -farthest});
     optimiser_.set_upper_bounds({1, farthest, farthest});
-    optimiser_.set_maxeval(most_evaluations);
+    optimiser_.set_maxeval(max_evaluations);
   }
   Solver(const Solver&) = delete;
   Solver& operator=(const Solver&) = delete;
@@ -48,7 +48,7 @@ class Solver {
     if (tolerance != tolerance_) {
       nlopt::opt inner(nlopt::LD_TNEWTON_PRECOND, 3);
       inner.set_xtol_rel(tolerance);
-      inner.set_maxeval(most_evaluations);
+      inner.set_maxeval(max_evaluations);
       optimiser_.set_local_optimizer(inner);
       optimiser_.set_xtol_rel(tolerance);
       tolerance_ = tolerance;

@@ -12,7 +12,7 @@ namespace vitrel::bench {
 namespace {
 
 constexpr double first_edge = 0.2;
-constexpr int most_iterations = 1000;
+constexpr int max_iterations = 1000;
 
 double objective(const gsl_vector* y, void* data) {
   const auto& f = *static_cast<const PenalisedTime*>(data);
@@ -41,7 +41,7 @@ class Simplex {
     gsl_vector_set_all(edges_, edge);
     gsl_multimin_fminimizer_set(minimiser_, &function, start_, edges_);
     bool small = false;
-    for (int step = 0; step < most_iterations && !small; ++step, ++iterations) {
+    for (int step = 0; step < max_iterations && !small; ++step, ++iterations) {
       if (gsl_multimin_fminimizer_iterate(minimiser_) != GSL_SUCCESS) break;
       small = gsl_multimin_fminimizer_size(minimiser_) < tolerance;
     }

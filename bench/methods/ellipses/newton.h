@@ -21,12 +21,12 @@ struct SecondOrder {
 ///   2. The Hessian is made positive by the absolute values of its eigenvalues; step = −|H|⁻¹∇f.
 ///   3. The step is cut to a quarter until f falls by 10⁻⁴ of what the slope promises (infinite f is fine:
 ///      that is the outside of a barrier).
-/// It ends when a step is shorter than `shortest` or no cut makes f fall, and after `most_steps` at
+/// It ends when a step is shorter than `shortest` or no cut makes f fall, and after `max_steps` at
 /// the latest. Objective: SecondOrder operator()(y) and double value(y). Returns the steps.
 template <class Objective>
-int minimise(const Objective& f, Vec3& y, double shortest, int most_steps) {
+int minimise(const Objective& f, Vec3& y, double shortest, int max_steps) {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
-  for (int step = 1; step <= most_steps; ++step) {
+  for (int step = 1; step <= max_steps; ++step) {
     SecondOrder here = f(y);
     if (!std::isfinite(here.value) || !here.hessian.allFinite()) return step;
     if ((y[0] <= 0 && here.gradient[0] > 0) || (y[0] >= 1 && here.gradient[0] < 0)) {
@@ -54,7 +54,7 @@ int minimise(const Objective& f, Vec3& y, double shortest, int most_steps) {
     y = next;
     if (length <= shortest) return step;
   }
-  return most_steps;
+  return max_steps;
 }
 
 /// Minimises objective(μ) for μ = largest, largest/10, … down to `smallest`, each from where the last
@@ -62,10 +62,10 @@ int minimise(const Objective& f, Vec3& y, double shortest, int most_steps) {
 template <class MakeObjective>
 int minimise_for_decreasing(const MakeObjective& objective, double largest, double smallest,
                             double accuracy, Vec3& y) {
-  constexpr int most_steps = 200;  // for one parameter
+  constexpr int max_steps = 200;  // for one parameter
   int steps = 0;
   for (double mu = largest;; mu = std::max(0.1 * mu, smallest)) {
-    steps += minimise(objective(mu), y, accuracy * mu, most_steps);
+    steps += minimise(objective(mu), y, accuracy * mu, max_steps);
     if (!(mu > smallest)) return steps;
   }
 }

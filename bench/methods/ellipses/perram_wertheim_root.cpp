@@ -86,9 +86,9 @@ class Search {
   }
 
   std::optional<double> first_between(Sample before, Sample after) {
-    constexpr int most_looks = 10;
+    constexpr int max_evaluations = 10;
     if (!(after.f.value >= 1)) return root_between_samples(before, after);
-    for (int look = 0; look < most_looks; ++look) {
+    for (int evaluation = 0; evaluation < max_evaluations; ++evaluation) {
       if (!(before.f.slope < 0 && after.f.slope > 0)) return {};
       const Dip dip = deepest(before, after);
       if (dip.value >= 1) return {};

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "bench/methods/ellipses/ellipse_constraint.h"
-#include "bench/methods/ellipses/least_time.h"
+#include "bench/methods/ellipses/time_objective.h"
 #include "bench/methods/opening.h"
 
 namespace vitrel::bench {
@@ -13,7 +13,7 @@ namespace {
 constexpr double constraint_tolerance = 1e-10;
 constexpr double violated = 1e-8;    // of a constraint at the result
 constexpr double at_the_end = 1e-8;  // of the bracket, in units of time
-constexpr int most_evaluations = 2000;
+constexpr int max_evaluations = 2000;
 
 double constraint(unsigned, const double* x, double* gradient, void* data) {
   const EllipseConstraint& e = **static_cast<const EllipseConstraint**>(data);
@@ -28,11 +28,11 @@ double constraint(unsigned, const double* x, double* gradient, void* data) {
 class Solver {
  public:
   Solver() : optimiser_(nlopt::LD_SLSQP, 3) {
-    optimiser_.set_min_objective(least_time, nullptr);
+    optimiser_.set_min_objective(time_objective, nullptr);
     optimiser_.add_inequality_constraint(constraint, &one_, constraint_tolerance);
     optimiser_.add_inequality_constraint(constraint, &two_, constraint_tolerance);
     optimiser_.set_xtol_abs(1e-16);
-    optimiser_.set_maxeval(most_evaluations);
+    optimiser_.set_maxeval(max_evaluations);
   }
   Solver(const Solver&) = delete;
   Solver& operator=(const Solver&) = delete;

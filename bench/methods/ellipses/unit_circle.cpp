@@ -20,7 +20,7 @@ Mat2 rotation(double angle) {
   return turn;
 }
 
-double least_eigenvalue(const Mat2& s, const Vec2& g) {
+double min_eigenvalue(const Mat2& s, const Vec2& g) {
   const double length = g.norm();
   const Vec2 e = g.normalized();  // 0 for g = 0
   Eigen::Matrix4d matrix;
@@ -53,7 +53,7 @@ Transformed transformed(const CollisionCase& asked, double time) {
 ClosestPoint closest_to_origin(const Vec2& c, const Mat2& m) {
   const Mat2 s = m.transpose() * m;
   const Vec2 g = m.transpose() * c;
-  const double mu = least_eigenvalue(s, g);
+  const double mu = min_eigenvalue(s, g);
   Eigen::SelfAdjointEigenSolver<Mat2> basis;
   basis.computeDirect(s);
   const Vec2 lambda = basis.eigenvalues();  // ascending

@@ -3,7 +3,7 @@
 namespace vitrel::bench {
 
 /// The objective of NLopt's methods: the time, the first of the three variables.
-inline double least_time(unsigned, const double* x, double* gradient, void*) {
+inline double time_objective(unsigned, const double* x, double* gradient, void*) {
   if (gradient) {
     gradient[0] = 1;
     gradient[1] = gradient[2] = 0;
