@@ -116,7 +116,7 @@ function stability({ rows, classes }) {
       const mine = rows.filter((row) => row.method === method);
       return details(`${method}, tolerance ${shortNumber(mine[0].tolerance, 2)}`, countsTable(mine));
     }),
-    details('What the classes are', table(['class', 'meaning'], shown.map((of) => [className(of), { text: of.meaning, class: 'words' }])))];
+    details('Classes of pairs', table(['class', 'meaning'], shown.map((of) => [className(of), { text: of.meaning, class: 'words' }])))];
 }
 
 function overlapTable(rows) {

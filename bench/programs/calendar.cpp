@@ -1,12 +1,13 @@
-// Which calendar costs least, from a hundred to a million particles?
+// Which calendar is cheapest, from a hundred to a million particles?
 //
-// Every calendar is driven by the same model of the event loop. Particles stand on a square lattice.
-// The earliest event is a collision (one half), after which two neighbours and now and then some
-// particles around them are planned anew; or a stale event (a quarter), after which only the particle
-// itself is; or a closer look (a quarter), which puts it off by a tenth. Waiting times are exponential.
-// Whoever is planned anew looks at seven neighbours: their times and 64 bytes each. The same loop
-// without a calendar is timed too and its time taken off. Neighbours are near in memory as after
-// sorting, or anywhere, as in a liquid after long.
+// Every calendar is driven by the same model of the event loop. Particles are on a square lattice. The
+// earliest event is a collision (one half), after which two neighbours and sometimes particles around
+// them are rescheduled; or a stale event (a quarter), after which only the particle itself is
+// rescheduled; or a repeated contact screen (a quarter), after which it is rescheduled within a tenth of
+// the usual waiting time. Waiting times are exponential. Rescheduling reads the times of seven
+// neighbours and 64 bytes of each. The same loop without a calendar is timed as well, and its time is
+// subtracted. Neighbours are near in memory, as after sorting, or anywhere, as in a liquid after a long
+// time.
 
 #include <fmt/format.h>
 
@@ -187,8 +188,8 @@ void measure(std::size_t n, bool shuffled, int repeats) {
 }  // namespace
 
 int calendar(const CalendarOptions& options) {
-  fmt::print("ns per event; in brackets: times the calendar's\n\n");
-  fmt::print("| N | neighbours | loop without | calendar | heap | tournament | sorted set |\n");
+  fmt::print("ns per event; in brackets: relative to the calendar of the engine\n\n");
+  fmt::print("| N | neighbours | loop alone | calendar | heap | tournament | sorted set |\n");
   fmt::print("| --- | --- | --- | --- | --- | --- | --- |\n");
   for (std::size_t n = 100; n <= options.largest; n *= 10)
     for (const bool shuffled : {false, true}) measure(n, shuffled, options.repeats);

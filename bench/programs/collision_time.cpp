@@ -215,8 +215,7 @@ int collision_time(const CollisionTimeOptions& options, const OutputOptions& out
   report.write_page(
       "collision-time",
       {"Collision time: speed, accuracy, stability",
-       "Every method, asked about the same pairs, compared with a guaranteed reference "
-       "in 80-bit arithmetic"},
+       "All methods on the same pairs, compared with a guaranteed reference in 80-bit arithmetic"},
       data);
   return success;
 }
@@ -234,7 +233,7 @@ int collision_time_of_ellipsoids(const CollisionTimeOptions& options, const Outp
   report.write_page(
       "collision-time",
       {"Collision time of ellipsoids: speed, accuracy, stability",
-       "Every method, asked about the same pairs, compared with a reference in 80-bit arithmetic"},
+       "All methods on the same pairs, compared with a reference in 80-bit arithmetic"},
       data);
   return success;
 }

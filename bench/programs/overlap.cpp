@@ -67,10 +67,10 @@ int overlap(const OverlapOptions& options, const OutputOptions& output) {
       data, {{"pairs", fmt::format("{} of each class, seed {}", options.pairs, options.seed)},
              {"time limit", fmt::format("{:g} s for a criterion", options.seconds)}});
   report.write_data("overlap", data);
-  report.write_page("overlap",
-                    {"Overlap tests: speed and accuracy",
-                     "Every criterion, asked about the same pairs of ellipses"},
-                    {{"overlap", rows}, {"provenance", data["provenance"]}});
+  report.write_page(
+      "overlap",
+      {"Overlap tests: speed and accuracy", "All criteria on the same pairs of ellipses"},
+      {{"overlap", rows}, {"provenance", data["provenance"]}});
   return success;
 }
 

@@ -103,7 +103,7 @@ int whole_run(const WholeRunOptions& options, const OutputOptions& output) {
       {{"scene", fmt::format("{:g} units of time, seed {}", options.duration, options.seed)}});
   report.write_data("whole-run", data);
   report.write_page("whole-run",
-                    {"Whole runs: speed and correction moves",
+                    {"Complete runs: speed and correction moves",
                      "The scene of the thesis, with different methods to predict its collisions"},
                     {{"whole_runs", rows}, {"provenance", data["provenance"]}});
   return success;

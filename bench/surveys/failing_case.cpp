@@ -188,13 +188,13 @@ std::string failure_caption(const FailingCase& failure) {
       return fmt::format(
           "{}{}",
           has_contact(failure)
-              ? fmt::format("reports no contact up to the horizon, t = {:.4g}", asked.horizon)
-              : std::string("does not notice that the pair overlaps at the start"),
+              ? fmt::format("reports no contact before the horizon t = {:.4g}", asked.horizon)
+              : std::string("misses that the pair overlaps at the start"),
           overlap_text(asked, overlooked_time(failure), ", but the ellipses overlap by up to"));
     case Verdict::false_contact:
-      return "reports a contact of a pair that never touches";
+      return "reports a contact for a pair that never touches";
     case Verdict::not_converged:
-      return "finds no answer";
+      return "does not converge";
     case Verdict::correct:
       break;
   }

@@ -89,7 +89,7 @@ std::vector<CaseClass> recorded_classes() {
   for (const double aspect_ratio : {2.0, 6.0}) {
     const auto recording = std::make_shared<Recording>(aspect_ratio);
     list.push_back({"recorded",
-                    "asked by the engine in a run of 256 ellipses at packing fraction 0.7",
+                    "predictions of the engine in a run of 256 ellipses at packing fraction 0.7",
                     aspect_ratio, [recording](std::uint64_t seed, std::uint64_t index) {
                       return recording->at(seed, index);
                     }});

@@ -290,10 +290,9 @@ CollisionCase growth(Stream& draw, double kappa) {
 std::vector<CaseClass> stability_suite() {
   DrawnClasses<2> classes;
   classes.add("generic", "random close pairs with thermal velocities", generic, {2, 6});
-  classes.add(
-      "grazing",
-      "the gap has a least value between ±1e-12 and ±1e-3 semi-minor axes within the horizon",
-      grazing, {2, 6});
+  classes.add("grazing",
+              "the gap has a minimum between ±1e-12 and ±1e-3 semi-minor axes within the horizon",
+              grazing, {2, 6});
   classes.add("fast_rotation",
               "angular velocities of 10 to 60, so that the gap has many minima within the horizon",
               fast_rotation, {2, 6});
@@ -302,27 +301,26 @@ std::vector<CaseClass> stability_suite() {
   classes.add("sizes", "size ratios log-uniform from 1 to 1000, aspect ratios from 1 to 100", sizes,
               {100});
   classes.add("crossed_at_start",
-              "crossed at the start, with four intersections: Ψ > 0 all the same", crossed_at_start,
-              {2, 6});
-  classes.add("touching_leaving",
-              "apart at the start by 1/4 to 5/4 of the gap of a declared contact, and leaving",
+              "crossed at the start with four intersections, so Ψ > 0 despite the overlap",
+              crossed_at_start, {2, 6});
+  classes.add("touching_leaving", "initial gap of 1/4 to 5/4 contact gaps, separating",
               touching_leaving, {2, 6});
-  classes.add("touching_approaching",
-              "apart at the start by 1/4 to 5/4 of the gap of a declared contact, and approaching",
+  classes.add("touching_approaching", "initial gap of 1/4 to 5/4 contact gaps, approaching",
               touching_approaching, {2, 6});
-  classes.add("slow", "relative velocities and angular velocities of 1e-8, gaps to match", slow,
-              {2, 6});
+  classes.add("slow", "relative and angular velocities of order 1e-8, gaps scaled accordingly",
+              slow, {2, 6});
   classes.add("nearly_circular", "aspect ratios 1 + 1e-12", nearly_circular, {1});
-  classes.add("round", "circles that are given as ellipses", round, {1});
+  classes.add("round", "circles represented as ellipses", round, {1});
   classes.add(
       "parallel_sides",
-      "flat sides, parallel to within 1e-6 or exactly, meet before or just after the horizon",
+      "flat sides, parallel exactly or to within 1e-6, meet before or just after the horizon",
       parallel_sides, {2, 6});
   classes.add("tip", "the tip of one body meets the other before or just after the horizon", tip,
               {2, 6});
-  classes.add("large_coordinates", "close pairs at a million semi-major axes from the origin",
+  classes.add("large_coordinates", "close pairs a million semi-major axes from the origin",
               large_coordinates, {2, 6});
-  classes.add("growth", "bodies grow or shrink while they turn, some from a point", growth, {2, 6});
+  classes.add("growth", "bodies grow or shrink while they rotate; some start as a point", growth,
+              {2, 6});
   return classes.list();
 }
 

@@ -178,8 +178,8 @@ def failures(data, rows):
         name = NAMES[failure["method"]]
         of = class_name((failure["class"], failure["aspect_ratio"]))
         parts.append(f"### {name[0].upper() + name[1:]}\n\n{failing(rows, failure['method'])}\n\n"
-                     f"![A pair that {name} answers wrongly]({FIGURES}/failure_{failure['method']}.svg)\n\n"
-                     f"Here ({of}, pair {failure['index']}) it {failure['caption']}.")
+                     f"![Example failure: {name}]({FIGURES}/failure_{failure['method']}.svg)\n\n"
+                     f"Example ({of}, pair {failure['index']}): the method {failure['caption']}.")
     return "\n\n".join(parts)
 
 
