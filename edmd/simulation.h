@@ -119,12 +119,12 @@ class Simulation final : public Engine<B::dimension> {
   static constexpr std::uint64_t events_per_particle_and_block = 32;
   static constexpr std::uint64_t min_events_per_block = 4096;
   /// Systems with more particles exceed the caches, and consecutive events are far apart in memory: the loop
-  /// prefetches what an event will read, in stages separated by so many events. For smaller systems this costs more
+  /// prefetches what an event will read, in stages this many events apart. For smaller systems this costs more
   /// than it saves. In three dimensions a particle has twice the neighbours.
   static constexpr std::size_t cached_particles = dimension == 2 ? 32768 : 2048;
   static constexpr std::uint64_t prefetch_stages = 4, events_per_stage = 4;
 
-  /// A grazing_speed contact: soft particles that approach by less than the first fraction of the largest speed are not
+  /// A grazing contact: soft particles that approach by less than the first fraction of the largest speed are not
   /// collided, but made to separate at the second fraction. Both are far above the rounding of velocities and far
   /// below physical relevance.
   static constexpr double grazing_speed = 1e-12, separation_speed = 1e-13;
@@ -746,7 +746,7 @@ void Simulation<B>::execute_collision(Index i, const Event& event, RunCounters& 
   }
   ++version_[i];
   if (i != j) ++version_[j];
-  one.next = two.next = never;  // pair_images entries are invalid
+  one.next = two.next = never;  // both entries are invalid
   predict(i, counters);
   if (i != j) predict(j, counters);
 }

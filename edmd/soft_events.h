@@ -83,7 +83,7 @@ void Simulation<B>::begin_contact(const UnwrappedPair& pair, const RelativeMotio
   if (distance < contact_pair_of(i, j).distance) add_close_pair(pair, distance - contact_gap_);
 }
 
-// Displaces pair_images, unless one would be too close to a third particle.
+// Displaces both particles, unless one would be too close to a third particle.
 template <Body B>
 bool Simulation<B>::try_displace(const UnwrappedPair& pair, const Vector& displacement1,
                                  const Vector& displacement2) {
@@ -106,7 +106,7 @@ void Simulation<B>::displace(Index i, const Vector& displacement) {
 }
 
 // No third particle is closer than contact, or closer than before the displacement. In a small box this includes
-// other unwrapped_pair of the partner and own unwrapped_pair.
+// other images of the partner and own images.
 template <Body B>
 bool Simulation<B>::has_clearance(Index i, const UnwrappedPair& pair, const Vector& displacement1,
                                   const Vector& displacement2) const {

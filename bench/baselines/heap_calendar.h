@@ -9,7 +9,7 @@
 namespace vitrel::bench {
 
 /// What Calendar might be as well: an indexed 4-ary heap of (time, particle). The four children of a
-/// place fill one line of the cache. Cost: O(log N) per change, O(1) for the earliest. WarmStart: 20
+/// place fill one line of the cache. Cost: O(log N) per change, O(1) for the earliest. Memory: 20
 /// bytes per particle.
 class HeapCalendar {
  public:

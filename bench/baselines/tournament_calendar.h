@@ -11,7 +11,7 @@ namespace vitrel::bench {
 /// What Calendar might be as well: a tournament among the times. Eight of them, one line of the cache,
 /// send the least to the round above, until one line is left. A change goes up only as far as it
 /// changes who is least; the earliest is found from the top, the first among equals in every round.
-/// Cost: O(log N) for the earliest and if it is changed, O(1) for most others. WarmStart: 9.2 bytes per
+/// Cost: O(log N) for the earliest and if it is changed, O(1) for most others. Memory: 9.2 bytes per
 /// particle.
 class TournamentCalendar {
  public:

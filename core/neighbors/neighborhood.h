@@ -66,10 +66,9 @@ struct Neighbor : NeighborImage<B::dimension> {
 /// since its support function has grown by no more than that in any direction. Two neighbourhoods are disjoint if
 /// the bodies at their reference poses are 2 margin apart.
 ///
-/// Cells find candidates, and capsules (capsule.h) discard max_size of them. A long body still has very many
-/// candidates, because its circumsphere contains max_size of its surroundings. An outer layer of larger neighbourhoods,
-/// which particles leave less often, then limits them: inner neighbourhoods that overlap lie in outer ones that
-/// overlap.
+/// Cells find candidates, and capsules (capsule.h) discard most of them. A long body still has very many
+/// candidates, because its circumsphere contains most of its surroundings. An outer layer of larger neighbourhoods,
+/// which particles leave less often, then limits them: inner neighbourhoods can overlap only if the outer ones do.
 ///
 /// The margin is chosen to give a target mean number of neighbours in the given configuration. A particle's own
 /// images are among its neighbours, each unordered pair (i, i, ±shift) once.
@@ -163,7 +162,7 @@ class Neighborhoods {
   /// growth exactly the time at which it leaves.
   double exit_time(std::size_t i, const Pose<dimension>& pose, const Motion<dimension>& motion,
                    const CommonSize& common) const {
-    // While the size grows by at max_size this fraction, the support rate of the larger size is a bound.
+    // While the size grows by at most this fraction, the support rate of the larger size is a bound.
     constexpr double growth_at_once = 0.1;
     const Reference& reference = references_[i];
     const double growing = std::max(common.growth_rate, 0.0);
@@ -338,7 +337,7 @@ class Neighborhoods {
     const auto nth = pairs.begin() + static_cast<std::ptrdiff_t>(rank);
     std::nth_element(pairs.begin(), nth, pairs.end(),
                      [](const Pair& one, const Pair& two) { return one.gap < two.gap; });
-    // In a jammed packing the gaps vanish; a neighbourhood must still leave slot to move.
+    // In a jammed packing the gaps vanish; a neighbourhood must still leave room to move.
     const double min_gap = 1e-4 * largest_;
     return std::max(nth->gap, min_gap);
   }

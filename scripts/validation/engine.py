@@ -23,7 +23,7 @@ PROGRAMS = {"vitrel": "vitrel", "all_pairs": "all pairs, collision times of vitr
 DEVICES = {
     "disks": ("disks as disks", "disks as ellipses with κ = 1"),
     "constant_size": ("ellipses of constant size", "ellipses growing at the rate 0"),
-    "look": ("contact screen of all neighbours, then searches", "every pair searched"),
+    "contact_screen": ("contact screen of all neighbours, then searches", "every pair searched"),
     "horizon": ("predictions up to the partner's next event", "up to the particle's own next event only"),
     "shaped_lists": ("neighbour lists shaped like the particles", "neighbour lists shaped like the circumcircles"),
 }
@@ -174,7 +174,7 @@ def lazy(rows):
     for row in rows:
         scene, eager = shape(row["aspect_ratio"]), row["eager"]
         for of in (eager, *row["lazy"]):
-            name = f"{of['patience']:g}" if "patience" in of else "searched immediately"
+            name = f"{of['search_window']:g}" if "search_window" in of else "searched immediately"
             lines.append([scene, name, f"{of['ns_per_collision']:.0f} ns",
                           f"{eager['ns_per_collision'] / of['ns_per_collision']:.2f}", *count_cells(of)])
     return table(["", "postponed beyond", "per collision", "gain", *COUNTS], lines)

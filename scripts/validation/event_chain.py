@@ -79,7 +79,7 @@ def pressures(rows):
                       with_error(local["compressibility"], local["compressibility_error"]),
                       with_error(chains["compressibility"], chains["compressibility_error"]),
                       f"{chains['compressibility_of_chains']:.3f}", f"{local['ns_per_move']:.0f}",
-                      f"{chains['ns_per_move']:.0f}", f"{chains['looks_for_a_contact']:.2f}"])
+                      f"{chains['ns_per_move']:.0f}", f"{chains['searches_per_contact']:.2f}"])
     return table(["", "φ", "N", "Z, local moves", "Z, event chains", "Z from the contacts of the chains", "ns per trial",
                   "ns per contact or trial", "searches per contact"], lines)
 

@@ -80,8 +80,8 @@ def threads(rows):
 
 def batches(rows):
     lines = [[shape(row["aspect_ratio"]), row["packing_fraction"], f"{row['others']:.2f}", f"{row['clear']:.3f}",
-              f"{row['ns_in_lanes']:.0f} ns", f"{row['ns_one_by_one']:.0f} ns",
-              f"**{row['ns_one_by_one'] / row['ns_in_lanes']:.2f}**"] for row in rows]
+              f"{row['ns_batched']:.0f} ns", f"{row['ns_single']:.0f} ns",
+              f"**{row['ns_single'] / row['ns_batched']:.2f}**"] for row in rows]
     return table(["", "φ", "candidates", "no overlap", "batched", "one at a time", "speed-up"], lines)
 
 
@@ -126,7 +126,7 @@ The overlap tests of trials in these liquids. The candidates of a trial have ove
 contiguously. They are tested in overlap batches of four, or one at a time with the same exact criterion, until one
 overlaps. The results are identical.
 
-{batches(native["lanes"])}
+{batches(native["batches"])}
 """
 
 

@@ -18,12 +18,12 @@ namespace vitrel::bench {
 namespace {
 
 std::unique_ptr<Engine2> make_eager() {
-  set_patience(std::numeric_limits<double>::infinity());
-  return make_engine_of_patience();
+  set_search_window(std::numeric_limits<double>::infinity());
+  return make_engine_with_search_window();
 }
 std::unique_ptr<Engine2> make_lazier() {
-  set_patience(0.05);
-  return make_engine_of_patience();
+  set_search_window(0.05);
+  return make_engine_with_search_window();
 }
 
 struct Variant {
@@ -31,11 +31,11 @@ struct Variant {
   std::function<std::unique_ptr<Engine2>()> make;
 };
 const std::vector<Variant> variants = {
-    {"without_look", make_engine_without_lower_bound},
+    {"without_contact_screen", make_engine_without_lower_bound},
     {"without_horizon", make_engine_without_horizon},
     {"with_round_lists", make_engine_with_round_lists},
-    {"without_patience", make_eager},
-    {"with_less_patience", make_lazier},
+    {"with_infinite_search_window", make_eager},
+    {"with_short_search_window", make_lazier},
 };
 
 Configuration2 scene() {
@@ -82,7 +82,7 @@ TEST_P(EngineTwin, StaysHard) {
 INSTANTIATE_TEST_SUITE_P(Variants, EngineTwin, testing::ValuesIn(variants),
                          [](const auto& at) { return at.param.name; });
 
-TEST(EngineTwins, DifferInWhatTheyAsk) {
+TEST(EngineVariants, DifferInWhatTheyAsk) {
   const auto counts = [](std::unique_ptr<Engine2> engine) {
     Moving run(std::move(engine), scene());
     run.advance(2);
