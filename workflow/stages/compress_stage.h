@@ -15,7 +15,8 @@ struct CompressionState;
 struct CompressStage : StageDefaults {
   using State = CompressionState;
   static constexpr const char* method = "compress";
-  static constexpr const char* summary = "Monte Carlo at constant pressure, in a box that changes";
+  static constexpr const char* summary =
+      "Monte Carlo at constant pressure, in a box of variable size";
 
   std::optional<double> packing_fraction;
   std::uint64_t most_sweeps = SwellingOptions().sweeps;  ///< with a packing fraction
