@@ -1,12 +1,11 @@
-// Which calendar costs least, from a hundred to a million particles?
+// Which calendar is fastest, from a hundred to a million particles?
 //
 // Every calendar is driven by the same model of the event loop. Particles stand on a square lattice.
-// The earliest event is a collision (one half), after which two neighbours and now and then some
-// particles around them are planned anew; or a stale event (a quarter), after which only the particle
-// itself is; or a closer look (a quarter), which puts it off by a tenth. Waiting times are exponential.
-// Whoever is planned anew looks at seven neighbours: their times and 64 bytes each. The same loop
-// without a calendar is timed too and its time taken off. Neighbours are near in memory as after
-// sorting, or anywhere, as in a liquid after long.
+// The earliest event is a collision (one half), after which two neighbours and occasionally some particles
+// around them are predicted again; or a stale event (a quarter), after which only the particle itself is;
+// or a postponed search (a quarter), which delays it by a tenth. Waiting times are exponential. A prediction
+// reads the times of seven neighbours and 64 bytes of each. The time of the same loop without a calendar is
+// subtracted. Neighbours are near in memory, as after sorting, or anywhere, as in a liquid after a long run.
 
 #include <fmt/format.h>
 
