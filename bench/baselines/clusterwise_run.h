@@ -14,7 +14,7 @@
 namespace vitrel::bench {
 
 /// Soft spheres or disks as exactly as Newton's equations can be integrated, as the reference for the other ways:
-/// it knows neither events nor the matrix of restitution, and contacts of three are right, too.
+/// it uses neither events nor the restitution matrix, and is also correct for contacts of three particles.
 ///
 /// Steps, each as long as nobody moves by more than half of a margin:
 ///   1. Clusters of particles closer than contact and the margin: none can meet another one in this time.

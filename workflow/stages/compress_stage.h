@@ -10,7 +10,7 @@ namespace vitrel {
 
 struct CompressionState;
 
-/// Monte Carlo at constant pressure (mc/compression.h): to a packing fraction, or without one for a number
+/// Monte Carlo at constant pressure (mc/compression.h), up to a packing fraction or, without one, for a number
 /// of sweeps.
 struct CompressStage : StageDefaults {
   using State = CompressionState;

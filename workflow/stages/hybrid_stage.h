@@ -11,7 +11,7 @@ namespace vitrel {
 
 struct HybridState;
 
-/// Growth and Monte Carlo in turn (hybrid.h).
+/// Alternating growth and Monte Carlo (hybrid.h).
 struct HybridStage : StageDefaults {
   using State = HybridState;
   static constexpr const char* method = "hybrid";

@@ -6,7 +6,7 @@
 #include "mc/options.h"
 #include "workflow/stages/stage_interface.h"
 
-/// The keys that several stages have.
+/// Keys shared by several stages.
 namespace vitrel {
 
 template <class S>
