@@ -155,24 +155,28 @@ class CommandLine : public ProgramCommandLine {
               "soft-spheres",
               "Dynamics of soft spheres: exceptions, accuracy, speed, cooling, conservation.",
               &soft_spheres),
-          std::tuple("ellipsoids",
-                     "The speed of the engine in three dimensions, and the pressure it finds.",
+          std::tuple("ellipsoids", "Speed and pressure of the engine in three dimensions.",
                      &ellipsoids)})
       add_in_parts(add(name, sentence, [this, run = run] { return run(parts_); }), parts_);
     app_.get_subcommand("ellipsoids")->alias("solids");
   }
   void add_others() {
-    CLI::App& queue = add("calendar", "What does one event cost with which calendar?",
+    CLI::App& queue = add("calendar", "What does an event cost with each calendar?",
                           [this] { return calendar(calendar_); });
-    queue.add_option("largest", calendar_.largest, "Up to how many particles (1000000)");
-    queue.add_option("--repeats", calendar_.repeats, "Of every run; the best counts (5)")
+    queue.add_option("largest", calendar_.largest, "Largest number of particles (1000000)");
+    queue
+        .add_option("--repeats", calendar_.repeats, "Repetitions of every run; the best counts (5)")
         ->check(positive);
-    CLI::App& prediction = add("first-contact", "What does one prediction of the default cost?",
-                               [this] { return first_contact_time(first_contact_); });
+    CLI::App& prediction =
+        add("first-contact", "What does a prediction of the default method cost?",
+            [this] { return first_contact_time(first_contact_); });
     prediction.add_option("class", first_contact_.name, "Class of pairs (generic)");
-    prediction.add_option("aspect_ratio", first_contact_.aspect_ratio, "Of the class (2)");
-    prediction.add_option("--pairs", first_contact_.pairs, "How many (4000)")->check(positive);
-    prediction.add_option("--repeats", first_contact_.repeats, "The fastest counts (15)")
+    prediction.add_option("aspect_ratio", first_contact_.aspect_ratio,
+                          "Aspect ratio of the class (2)");
+    prediction.add_option("--pairs", first_contact_.pairs, "Number of pairs (4000)")
+        ->check(positive);
+    prediction
+        .add_option("--repeats", first_contact_.repeats, "Repetitions; the fastest counts (15)")
         ->check(positive);
     add("structure-factor", "The structure factor by Fourier transform beside the direct sum.",
         structure_factor);

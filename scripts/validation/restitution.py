@@ -249,7 +249,8 @@ logarithms of a random impact and cache misses from random access to a large tab
 {table(head, [table_row(of) for of in data["tables"]])}
 
 Random impacts take material, radii, densities and speeds from the ranges of the source, uniform in their logarithms, with
-uniform eccentricities. Impacts without a value in the three-dimensional table: {source_sentence(data["tables"])}.
+uniform eccentricities. Impacts without a value in the three-dimensional table:
+{source_sentence(data["tables"])}.
 
 The coefficients in the domain of the source (its figures 4 and 5), and ε_φ of elastic contacts in the plane of ln c_φ and
 ln l/X (its figure 3):

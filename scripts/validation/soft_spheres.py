@@ -300,8 +300,8 @@ classical rule uses the coefficient of restitution of a head-on impact at the sa
 
 The finest force-based run takes {factor:.0f} times as long as the event-driven run with tables, and its error is still {inexact:.0f} times as
 large. Required: at least {MIN_FACTOR} times as long at equal accuracy. The adaptive run is not an ordinary force-based run, since it
-skips free flight. It is as accurate as the event-driven run and takes {adaptive:.0f} times as long{"" if adaptive >= MIN_FACTOR else ", below the requirement"}. Building the table once takes
-{accuracy['table']['seconds']:.2f} s; the table occupies {accuracy['table']['megabytes']:.2g} MB.
+skips free flight. It is as accurate as the event-driven run and takes {adaptive:.0f} times as long{"" if adaptive >= MIN_FACTOR else ", below the requirement"}.
+Building the table once takes {accuracy['table']['seconds']:.2f} s; the table occupies {accuracy['table']['megabytes']:.2g} MB.
 
 ![Error against computing time. Filled symbols: median; open symbols: ninth decile; numbers: steps per contact]({FIGURES}/accuracy.svg)
 
