@@ -91,19 +91,18 @@ class CommandLine : public ProgramCommandLine {
   }
   void add_collision_time() {
     CLI::App& ellipses =
-        add("collision-time", "Speed, accuracy and failures of every way to predict a collision.",
+        add("collision-time", "Speed, accuracy and failures of every collision-time method.",
             [this] { return collision_time(collision_time_, output_); });
     add_collision_time_options(ellipses);
     add_duration(ellipses, collision_time_, "Simulated time of the whole runs on the page (20)");
     CLI::App& solids =
-        add("collision-time-of-ellipsoids",
-            "The same in three dimensions: ways to predict a collision of ellipsoids.",
+        add("collision-time-of-ellipsoids", "The same in three dimensions, for ellipsoids.",
             [this] { return collision_time_of_ellipsoids(collision_time_, output_); });
     solids.alias("collision-time-of-solids");
     add_collision_time_options(solids);
   }
   void add_overlap() {
-    CLI::App& sub = add("overlap", "Speed and accuracy of every criterion of overlap.",
+    CLI::App& sub = add("overlap", "Speed and accuracy of every overlap criterion.",
                         [this] { return overlap(overlap_, output_); });
     add_output(sub, "Folder for the page and its data as JSON");
     add_seed(sub, overlap_);
@@ -113,7 +112,7 @@ class CommandLine : public ProgramCommandLine {
   }
   void add_whole_run() {
     CLI::App& sub =
-        add("whole-run", "The scene of the thesis, run with every method that can carry a run.",
+        add("whole-run", "The scene of the thesis, run with every method that can complete it.",
             [this] { return whole_run(whole_run_, output_); });
     add_output(sub, "Folder for the page and its data as JSON");
     add_seed(sub, whole_run_);
@@ -121,13 +120,13 @@ class CommandLine : public ProgramCommandLine {
     add_duration(sub, whole_run_, "Simulated time of each run (100)");
   }
   void add_thesis() {
-    CLI::App& sub =
-        add("thesis", "The figures of the thesis, chapter 4, beside a program like its own.",
-            [this] { return thesis(thesis_, output_); });
+    CLI::App& sub = add(
+        "thesis", "The figures of chapter 4 of the thesis, compared with a program like its own.",
+        [this] { return thesis(thesis_, output_); });
     add_output(sub, "Folder for the data as JSON; scripts/draw_bench draws them");
     add_seed(sub, thesis_);
     sub.add_option("--seconds", thesis_.seconds,
-                   "Seconds after which a run of the thesis's program is cut short (1)")
+                   "Seconds after which a run of the thesis's program ends (1)")
         ->check(positive);
     sub.add_option("--largest", thesis_.largest, "Largest number of particles (400)")
         ->check(positive);
@@ -138,44 +137,50 @@ class CommandLine : public ProgramCommandLine {
 
   void add_in_parts(CLI::App& sub, PartsOptions& options) {
     sub.add_option("part", options.parts, "What to measure; all parts if none is named");
-    sub.add_flag("--quick", options.quick, "Little work: to see that it works");
+    sub.add_flag("--quick", options.quick, "Short test run");
   }
   void add_parts() {
-    CLI::App& speed = add("engine", "How fast is the engine, and what does each device gain?",
-                          [this] { return engine(engine_); });
+    CLI::App& speed =
+        add("engine", "How fast is the engine, and what is the speed-up by each optimisation?",
+            [this] { return engine(engine_); });
     add_in_parts(speed, engine_);
     speed.add_option("--stretch", engine_.stretch, "Seconds of one repeat")->check(positive);
     speed.add_option("--largest", engine_.largest, "Number of particles (1000000)")
         ->check(positive);
     for (const auto& [name, sentence, run] :
-         {std::tuple("event-chain", "Do event chains forget a state sooner than local moves?",
+         {std::tuple("event-chain", "Do event chains decorrelate states faster than local moves?",
                      &event_chain),
-          std::tuple("sampler", "How fast is Monte Carlo?", &sampler),
-          std::tuple("soft-spheres",
-                     "Soft spheres in motion: exceptions, accuracy, speed, cooling, conservation.",
-                     &soft_spheres),
-          std::tuple("ellipsoids",
-                     "The speed of the engine in three dimensions, and the pressure it finds.",
+          std::tuple("sampler", "How fast is Monte Carlo sampling?", &sampler),
+          std::tuple(
+              "soft-spheres",
+              "Dynamics of soft spheres: exceptions, accuracy, speed, cooling, conservation.",
+              &soft_spheres),
+          std::tuple("ellipsoids", "Speed and pressure of the engine in three dimensions.",
                      &ellipsoids)})
       add_in_parts(add(name, sentence, [this, run = run] { return run(parts_); }), parts_);
     app_.get_subcommand("ellipsoids")->alias("solids");
   }
   void add_others() {
-    CLI::App& queue = add("calendar", "What does one event cost with which calendar?",
+    CLI::App& queue = add("calendar", "What does an event cost with each calendar?",
                           [this] { return calendar(calendar_); });
-    queue.add_option("largest", calendar_.largest, "Up to how many particles (1000000)");
-    queue.add_option("--repeats", calendar_.repeats, "Of every run; the best counts (5)")
+    queue.add_option("largest", calendar_.largest, "Largest number of particles (1000000)");
+    queue
+        .add_option("--repeats", calendar_.repeats, "Repetitions of every run; the best counts (5)")
         ->check(positive);
-    CLI::App& prediction = add("first-contact", "What does one prediction of the default cost?",
-                               [this] { return first_contact_time(first_contact_); });
+    CLI::App& prediction =
+        add("first-contact", "What does a prediction of the default method cost?",
+            [this] { return first_contact_time(first_contact_); });
     prediction.add_option("class", first_contact_.name, "Class of pairs (generic)");
-    prediction.add_option("aspect_ratio", first_contact_.aspect_ratio, "Of the class (2)");
-    prediction.add_option("--pairs", first_contact_.pairs, "How many (4000)")->check(positive);
-    prediction.add_option("--repeats", first_contact_.repeats, "The fastest counts (15)")
+    prediction.add_option("aspect_ratio", first_contact_.aspect_ratio,
+                          "Aspect ratio of the class (2)");
+    prediction.add_option("--pairs", first_contact_.pairs, "Number of pairs (4000)")
+        ->check(positive);
+    prediction
+        .add_option("--repeats", first_contact_.repeats, "Repetitions; the fastest counts (15)")
         ->check(positive);
     add("structure-factor", "The structure factor by Fourier transform beside the direct sum.",
         structure_factor);
-    add("restitution", "How exact and how fast is the matrix of restitution?", [this] {
+    add("restitution", "How accurate and how fast is the restitution matrix?", [this] {
       return restitution(parts_.quick);
     }).add_flag("--quick", parts_.quick, "Few points: to see that it works");
   }

@@ -8,8 +8,8 @@ namespace vitrel {
 
 /// Draws all velocities: v ~ N(0, kT/m) per component and ω ~ N(0, kT/I), from the streams (seed, purpose, step,
 /// particle); then removes the net momentum and rescales translation and rotation to exactly the energies of
-/// `temperature`. Rotations that smooth collisions do not change are not modelled: round particles get ω = 0,
-/// spheroids no spin about their axes. A single particle keeps its momentum.
+/// `temperature`. Rotations that smooth collisions cannot change are not modelled: round particles have ω = 0, and
+/// spheroids have no spin about their axes. A single particle keeps its momentum.
 ///
 /// The result does not depend on the number of threads. This is both the initial draw and the Brownian step
 /// (thesis, section 1 of the sources): repeated every τ_B, a free particle diffuses with D₀ = kT τ_B/(2m) and
@@ -18,7 +18,7 @@ template <int Dim>
 void draw_velocities(Configuration<Dim>& configuration, std::uint64_t seed, Purpose purpose,
                      std::uint64_t step, Temperature temperature, int threads = 1);
 
-/// Throws UserError where a split is impossible (rotation without any particle that can rotate).
+/// Throws UserError if a partition of the energy is impossible (rotation, but no particle can rotate).
 template <int Dim>
 void set_initial_velocities(Configuration<Dim>& configuration, std::uint64_t seed,
                             InitialVelocities kind, Temperature temperature);

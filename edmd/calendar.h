@@ -23,12 +23,12 @@ namespace vitrel {
 /// 2. The particles of all opened slots are in a small heap, ordered by (time, particle). When it holds fewer than
 ///    `lookahead`, the next slot is opened, and its particles become upcoming.
 /// 3. After the last slot, or after very many changes, the window is reset: it begins at the earliest time, and the
-///    slot width is chosen so that each holds a few particles, judged by a sample of the earliest eighth.
-/// 4. Slots are far apart in memory: an entry is stored a few changes later, when its slot has been prefetched.
+///    slot width is chosen so that each holds a few particles, as estimated from a sample of the earliest eighth.
+/// 4. Slots are far apart in memory, so an entry is stored a few changes later, after its slot has been prefetched.
 ///
 /// Cost: O(1) per change and per query of the earliest, averaged over a window; O(log N) per change if all times
-/// fall into few slots, for instance if they are equal. Memory: 48 bytes per particle, and 4 per stale slot entry: a
-/// few per particle, or as many as changes since the last reset if times are set back and forth.
+/// fall into few slots, for instance if they are equal. Memory: 48 bytes per particle, and 4 per stale slot entry.
+/// There are a few stale entries per particle, or up to one per change since the last reset if times move back and forth.
 class Calendar {
  public:
   /// Nothing is scheduled: all times are +∞. At least `lookahead` ≥ 1 particles become upcoming before their events,
@@ -44,7 +44,7 @@ class Calendar {
   std::size_t size() const { return entries_.size(); }
   double time(std::size_t particle) const { return entries_[particle].time; }
 
-  /// The particle with the least (time, particle). Opens slots, hence not const.
+  /// The particle with the smallest (time, particle). Opens slots, hence not const.
   std::size_t earliest() {
     if (heap_.size() < lookahead_ || changes_left_ <= 0) open_slots();
     return heap_.empty() ? 0 : heap_.front().particle;
@@ -82,7 +82,7 @@ class Calendar {
   static constexpr double never = std::numeric_limits<double>::infinity();
   // Special slots: the particle is in the heap; no particle.
   static constexpr Index in_heap = std::numeric_limits<Index>::max(), no_slot = in_heap - 1;
-  // The cost is flat around these values: fewer slots mean more resets, wider ones a higher heap.
+  // The cost has a flat minimum here: fewer slots mean more resets, wider slots a larger heap.
   static constexpr std::size_t particles_per_line = 2;
   static constexpr double particles_per_slot = 4;
   static constexpr std::size_t min_sampled = 8;
@@ -90,7 +90,7 @@ class Calendar {
   static constexpr std::size_t arity = 4;
   static constexpr std::size_t upcoming_capacity = 64;
   static constexpr double min_slot_width = 1e-300;  // so that its inverse is finite
-  // Slots are prefetched so many slots before they are opened, and then their particles.
+  // Slots are prefetched this many slots before they are opened, and then their particles.
   static constexpr Index slot_lookahead = 6, particle_lookahead = 3;
 
   struct Entry {
@@ -119,7 +119,7 @@ class Calendar {
   /// The slot of all times after the window.
   Index end() const { return static_cast<Index>(slots_.size()); }
 
-  // Monotonic in time whatever the rounding, so slots are in order.
+  // Monotonic in time despite rounding, so slots are in order.
   Index slot_of(double time) const {
     const double slot = std::max((time - begin_) * slots_per_time_, 0.0);
     return static_cast<Index>(std::min(slot, static_cast<double>(slots_.size())));
@@ -145,7 +145,7 @@ class Calendar {
     line.particle[line.count++] = entry.particle;
   }
 
-  // The entry may be stale, or already activated.
+  // The entry may be stale, or its particle may already be in the heap.
   void activate(const SlotEntry& entry) {
     if (entries_[entry.particle].slot != entry.slot) return;
     add_to_heap(entry.particle);

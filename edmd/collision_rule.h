@@ -14,17 +14,17 @@
 /// conserved exactly; the energy changes by J (s − u_n (1 − e)/2).
 namespace vitrel {
 
-/// The inertia of a body, in space; an inverse moment of inertia 0 means that rotation is not modelled.
+/// The inertia of a body in the space frame. If an inverse moment of inertia is 0, the rotation is not modelled.
 template <int Dim>
 struct Inertia {
   double inverse_mass = 1;
   std::conditional_t<Dim == 2, double, Mat3> inverse_moment;
 };
 
-/// The same about the own axes, at size 1.
+/// The same in the body frame, at size 1.
 Inertia<2> inertia_of(const Ellipse& shape, double mass);
 Inertia<3> inertia_of(const Ellipsoid& shape, double mass);
-/// Inertia about the own axes in the directions of space, at a size.
+/// The space-frame inertia of a body of this size from its body-frame inertia.
 Inertia<2> in_space(const Inertia<2>& own, const Pose2& pose, double size);
 Inertia<3> in_space(const Inertia<3>& own, const Pose3& pose, double size);
 

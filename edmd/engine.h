@@ -12,17 +12,17 @@ namespace vitrel {
 
 class SoftContact;
 
-/// Counts and sums over everything since the start of a run.
+/// Counters and sums since the start of a run.
 struct RunCounters {
   std::uint64_t events = 0;  ///< everything taken from the calendar
   std::uint64_t collisions = 0;
   std::uint64_t predictions = 0;   ///< pairs screened
-  std::uint64_t searches = 0;      ///< of these, pairs that the screen did not settle
+  std::uint64_t searches = 0;      ///< of these, pairs that the contact screen leaves undecided
   std::uint64_t steps = 0;         ///< steps along separating axes, over all searches
   std::uint64_t list_updates = 0;  ///< neighbour lists renewed because a particle left its own
   std::uint64_t correction_moves = 0;
   std::uint64_t blocked_rotations =
-      0;  ///< soft collisions executed as hard ones, for lack of space to rotate
+      0;  ///< soft collisions executed as hard ones because a neighbour blocks the rotation
   std::uint64_t early_releases = 0;  ///< soft particles hit while in contact
   std::uint64_t integrations = 0;    ///< contacts outside the table, or without a table
   /// Σ J n·d over collisions, d from centre to centre; for soft contacts the equivalent term
@@ -68,7 +68,7 @@ class Engine {
   virtual void set_velocities(const Configuration<Dim>& configuration, double horizon,
                               RunCounters& counters) = 0;
 
-  /// The model and why it is exact for this system, in one sentence.
+  /// The model and the reason why it is exact for this system, in one sentence.
   virtual std::string description() const = 0;
 };
 

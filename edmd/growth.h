@@ -14,8 +14,8 @@
 ///     a_i(t) = (1 + γ t) a_i,   b_i(t) = (1 + γ t) b_i …,   φ(t) = (1 + γ t)^D φ(0)
 ///
 /// in D dimensions. Conventions: masses are constant, moments of inertia are those of the current axes, and ω is
-/// constant in flight (for scalene ellipsoids, too: ellipsoid.h). In a collision the surface speed s = γ (h₁ + h₂) along
-/// the normal (h the support functions) adds to the approach speed; every impulse J does the work J s, and the
+/// constant in flight (also for scalene ellipsoids: ellipsoid.h). In a collision the surface speed s = γ (h₁ + h₂)
+/// along the normal (h the support functions) adds to the approach speed; every impulse J does the work J s, and the
 /// particles heat up.
 ///
 /// Velocities are drawn at the start (brownian.h), from the stream (seed, velocities, draws). A block ends after a
@@ -25,8 +25,8 @@
 ///   2. after each step, the reduced pressure is Z = βP/ρ = 1 + Σ J n·d/(D N ⟨kT⟩ t), d from centre to centre.
 ///      kT = 2E/f, f = D (N − 1) + N_rot, rises exponentially at constant Z, and ⟨kT⟩ is the mean of such a rise;
 ///   3. velocities are rescaled to kT = 1: translational energy D (N − 1)/2 and rotational energy N_rot/2, each by
-///      its own factor, as when velocities are drawn. A common factor would let them drift apart where they are
-///      weakly coupled: collisions of nearly round particles heat translation only.
+///      its own factor, as when velocities are drawn. With a common factor the two would drift apart if they are weakly
+///      coupled, since collisions of nearly round particles heat only translation.
 /// At the end of a block all lengths are divided by 1 + γ t: growth is equivalent to shrinking the box, and the
 /// particles have the sizes of their species again. With kT = 1 the motion at lengths a(t) is the same in the time
 /// unit √(m a b/kT) for all t, so γ is relative to the current size, in this time unit of the reference species.
@@ -45,7 +45,7 @@ namespace vitrel {
 /// The state of a growth at the end of a block.
 struct GrowthState {
   std::uint64_t draws = 0;      ///< draws of velocities so far
-  bool under_way = false;       ///< otherwise velocities are drawn first
+  bool under_way = false;       ///< false: velocities are drawn first
   double reduced_pressure = 0;  ///< of the last significant step; 0 if there was none
   double time = 0;              ///< sum over steps, each in its current unit
   RunCounters counters;

@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-/// Options of event-driven dynamics. They stand apart so that code that reads parameters compiles no algorithm.
+/// Options of event-driven dynamics, in a header of their own so that code that reads parameters compiles no algorithm.
 namespace vitrel {
 
 class SoftContact;
@@ -26,14 +26,14 @@ struct EngineOptions {
   /// If set, the particles are soft: round, and not growing. `restitution` then has no effect.
   std::shared_ptr<SoftContact> soft_contact;
   EarlyRelease early_release = EarlyRelease::alone;
-  /// Threads for predictions of all particles; results do not depend on it.
+  /// Threads that predict all particles; results do not depend on their number.
   int threads = 1;
 };
 
 /// The kinetic energy that corresponds to kT = 1 once the net momentum has been removed.
 ///   total:    Σ m v²/2 = D N kT/2 in D dimensions; the mean squared displacement of free particles then has no
 ///             term of order 1/N
-///   relative: Σ m v²/2 = D (N − 1) kT/2; Newtonian equipartition then is exact
+///   relative: Σ m v²/2 = D (N − 1) kT/2; Newtonian equipartition is then exact
 /// The rotational energy is N_rot kT/2 in both, N_rot the number of rotational degrees of freedom that smooth
 /// collisions change: 1 for an ellipse, 2 for a spheroid, 3 for a scalene ellipsoid, 0 for a round particle.
 enum class Temperature { total, relative };
@@ -41,8 +41,8 @@ enum class Temperature { total, relative };
 /// The initial velocities of a run.
 enum class InitialVelocities {
   maxwell,      ///< drawn as above
-  translation,  ///< drawn, then all energy put into translation
-  rotation,     ///< drawn, then all energy put into rotation
+  translation,  ///< drawn, then all energy transferred to translation
+  rotation,     ///< drawn, then all energy transferred to rotation
   keep,         ///< those of the configuration
 };
 

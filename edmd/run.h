@@ -31,8 +31,8 @@ struct RunState {
 template <int Dim>
 RunState<Dim> begin_run(const Configuration<Dim>& configuration, double start_time);
 
-/// A second schedule beside the samples, for an observer that needs many more frames and stores none: ticks at 0,
-/// interval, 2 interval … ≤ end of the run.
+/// A second schedule in addition to the samples, for an observer that needs many more frames and stores none. Ticks are
+/// at 0, interval, 2 interval … ≤ end of the run.
 template <int Dim>
 struct Ticks {
   double interval = 0;
@@ -54,7 +54,7 @@ struct RunPlan {
 
 /// Runs to the end, or to the end of the block in which the run control requests a stop. A sample or tick that
 /// coincides with a Brownian step is taken before the velocities are redrawn. Throws InvariantError on an overlap, and
-/// if time does not advance (inelastic collapse); `state` then is the state at the failure.
+/// if time does not advance (inelastic collapse); `state` is then the state at the failure.
 template <int Dim>
 StageReport run(RunState<Dim>& state, const DynamicsOptions& options, const RunPlan<Dim>& plan,
                 const RunControl& control);

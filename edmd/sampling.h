@@ -5,7 +5,7 @@
 
 namespace vitrel {
 
-/// The even times 0, interval, 2 interval, … ≤ duration: how many there are, and the k-th of them.
+/// The evenly spaced times 0, interval, 2 interval, … ≤ duration: their number, and the k-th of them.
 std::uint64_t even_count(double interval, double duration);
 double even_time(std::uint64_t k, double interval, double duration);
 

@@ -59,7 +59,7 @@ inline std::vector<double> semi_axis_values(const Ellipsoid& shape) {
   return {shape.semi_axes[0], shape.semi_axes[1], shape.semi_axes[2]};
 }
 
-/// The magnitude of an angle, which sets its rounding: unwrapped angles grow, quaternions stay normalised.
+/// The magnitude of an angle, which determines its rounding error: unwrapped angles grow, quaternions stay normalised.
 inline double angle_magnitude(double angle) {
   return std::abs(angle);
 }
@@ -119,13 +119,13 @@ class Simulation final : public Engine<B::dimension> {
   static constexpr std::uint64_t events_per_particle_and_block = 32;
   static constexpr std::uint64_t min_events_per_block = 4096;
   /// Systems with more particles exceed the caches, and consecutive events are far apart in memory: the loop
-  /// prefetches what an event will read, in stages separated by so many events. For smaller systems this costs more
+  /// prefetches what an event will read, in stages this many events apart. For smaller systems this costs more
   /// than it saves. In three dimensions a particle has twice the neighbours.
   static constexpr std::size_t cached_particles = dimension == 2 ? 32768 : 2048;
   static constexpr std::uint64_t prefetch_stages = 4, events_per_stage = 4;
 
-  /// A grazing_speed contact: soft particles that approach by less than the first fraction of the largest speed are not
-  /// collided, but made to separate at the second fraction. Both are far above the rounding of velocities and far
+  /// A grazing contact: soft particles that approach by less than the first fraction of the largest speed are not
+  /// collided, but separate at the second fraction. Both are far above the rounding of velocities and far
   /// below physical relevance.
   static constexpr double grazing_speed = 1e-12, separation_speed = 1e-13;
 
@@ -173,7 +173,7 @@ class Simulation final : public Engine<B::dimension> {
       if constexpr (!rotation_is_separate) rotation.angular_velocity = motion.angular_velocity;
     }
   };
-  /// The common data of all particles of one shape and mass.
+  /// The data shared by all particles of one shape and mass.
   struct ParticleType {
     ShapeCoefficients<Shape> coefficients;
     Inertia<dimension> inertia;  // about its own axes
@@ -376,7 +376,7 @@ void Simulation<B>::load(const Configuration<dimension>& configuration, double h
     const Particle& particle = particles_[i];
     const double max_support_rate = shape(i).max_support_rate();
     poses.push_back(particle.pose());
-    // An angle is rounded, too, and moves the surface by up to max_support_rate times its rounding.
+    // Angles are also rounded, which moves the surface by up to max_support_rate times the rounding error.
     extent = std::max({extent, shape(i).circumradius(),
                        max_support_rate * angle_magnitude(particle.orientation())});
     fastest_ =
@@ -386,7 +386,7 @@ void Simulation<B>::load(const Configuration<dimension>& configuration, double h
   for (const Release& release : releases_)
     if (release.time < never) fastest_ = std::max(fastest_, release.velocity.norm());
   contact_gap_ = tolerance::contact_gap(extent);
-  // Times are rounded, too: within a block nothing moves farther than the coordinates extend.
+  // Times are also rounded; within a block nothing moves farther than the coordinates extend.
   longest_block_ = fastest_ > 0 ? extent / fastest_ : never;
   neighborhoods_.emplace(box_, shapes_, type_index_, poses, target_neighbors);
   events_.assign(particles_.size(), {});
@@ -441,7 +441,7 @@ void Simulation<B>::load_types(const Configuration<dimension>& configuration) {
   type_index_ = TypeIndex(std::move(type_index), types_.size());
 }
 
-// Predicts all particles, every pair once: the predictions are independent of each other.
+// Predicts all particles, testing every pair once; the predictions are independent of each other.
 template <Body B>
 void Simulation<B>::predict_all(double horizon, RunCounters& counters) {
   horizon_ = horizon;
@@ -492,7 +492,7 @@ void Simulation<B>::prefetch_events() {
                       static_cast<int>(step));
 }
 
-// Each stage uses what the stage before has prefetched.
+// Each stage uses the data that the preceding stage has prefetched.
 template <Body B>
 void Simulation<B>::prefetch_events(Index i, int step) const {
   const auto prefetch_own = [&](Index k) {
@@ -599,7 +599,7 @@ typename Simulation<B>::Entry Simulation<B>::next_entry(Index i, RunCounters& co
 }
 
 // The mean time between two collisions of a particle in this block, once it is known. A contact that cannot
-// occur within this time is not searched yet: the gain is largest, and flat, around one mean free time
+// occur within this time is not searched yet. The speed-up has a flat maximum around one mean free time
 // (bench/engine.md).
 template <Body B>
 double Simulation<B>::mean_free_time() const {
@@ -746,7 +746,7 @@ void Simulation<B>::execute_collision(Index i, const Event& event, RunCounters& 
   }
   ++version_[i];
   if (i != j) ++version_[j];
-  one.next = two.next = never;  // pair_images entries are invalid
+  one.next = two.next = never;  // both entries are invalid
   predict(i, counters);
   if (i != j) predict(j, counters);
 }

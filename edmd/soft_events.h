@@ -59,16 +59,16 @@ void Simulation<B>::soft_impact(Index i, const Image& partner, RunCounters& coun
   begin_contact(unwrapped, after, now_ + restitution.duration);
 }
 
-// Approach speeds below the accuracy of velocities: the pair is made to separate, or it would collide forever.
-// Each such event brings a cluster that has lost all of its speed closer, by steps of a fixed size, to a state in
-// which all pairs separate, so the sequence ends.
+// Approach speeds below the accuracy of velocities: the pair is forced to separate, since otherwise it would collide
+// forever. Each such event moves a cluster that has lost all its speed by a fixed step towards a state in which all
+// pairs separate, so the sequence ends.
 template <Body B>
 void Simulation<B>::separate_grazing(Index i, Index j, const Vector& change) {
   particles_[i].velocity -= share(i, j) * change;
   particles_[j].velocity += share(j, i) * change;
 }
 
-// Both are already at the positions of the end of the contact, and move with their centre of mass.
+// Both are already at their final positions of the contact and move with their centre of mass.
 template <Body B>
 void Simulation<B>::begin_contact(const UnwrappedPair& pair, const RelativeMotion<dimension>& after,
                                   double end) {
@@ -83,7 +83,7 @@ void Simulation<B>::begin_contact(const UnwrappedPair& pair, const RelativeMotio
   if (distance < contact_pair_of(i, j).distance) add_close_pair(pair, distance - contact_gap_);
 }
 
-// Displaces pair_images, unless one would be too close to a third particle.
+// Displaces both particles, unless one would be too close to a third particle.
 template <Body B>
 bool Simulation<B>::try_displace(const UnwrappedPair& pair, const Vector& displacement1,
                                  const Vector& displacement2) {
@@ -106,7 +106,7 @@ void Simulation<B>::displace(Index i, const Vector& displacement) {
 }
 
 // No third particle is closer than contact, or closer than before the displacement. In a small box this includes
-// other unwrapped_pair of the partner and own unwrapped_pair.
+// other images of the partner and own images.
 template <Body B>
 bool Simulation<B>::has_clearance(Index i, const UnwrappedPair& pair, const Vector& displacement1,
                                   const Vector& displacement2) const {

@@ -69,7 +69,7 @@ struct ChainState {
 ///     Z = βP/ρ = 1 + ⟨Σ (r_j − r_i)·e⟩/l,
 /// the sum over the contacts of a chain along e.
 ///
-/// In a row of particles jammed across the whole box a chain would have infinitely simd_width contacts. A chain is cut short
+/// In a row of particles jammed across the whole box a chain would have infinitely many contacts. A chain is cut short
 /// after 1000 times the target number, which violates balance and is counted.
 ///
 /// Contact is at 1.25 hard-core margins (hard_core.h) or slightly more (ellipse_free_path_batch.h), and rotations keep

@@ -37,7 +37,7 @@ class SimdCells {
     Index first_;
   };
 
-  /// Allocates for so simd_width cells and particles.
+  /// Allocates memory for these numbers of cells and particles.
   void resize(std::size_t cells, std::size_t particles) {
     cells_ = cells;
     groups_.resize(cells + particles / simd_width);

@@ -14,7 +14,7 @@ namespace vitrel {
 
 namespace {
 
-/// The maximum number of sweeps for a round, and that of a fast_sweeps round.
+/// The maximum number of sweeps for a round, and of a fast round.
 constexpr std::uint64_t max_sweeps_per_round = 40, fast_sweeps = 12;
 /// Limits of the growth g − 1 in one round.
 constexpr double smallest_growth = 1e-9, largest_growth = SwellingState().growth;

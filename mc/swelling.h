@@ -25,7 +25,7 @@ struct SwellingState {
 ///   2. Each particle that is not yet enlarged is enlarged by g if there is space for it.
 ///   3. Repeat until all are enlarged; if some find no space in 40 sweeps, g − 1 is halved for all.
 ///   4. Divide all lengths by g: the reference species has a b = 1, so the particles have their old sizes again, and the
-///      box is smaller. After a fast_sweeps round the next g is larger.
+///      box is smaller. After a fast round the next g is larger.
 /// No particle waits for the closest pair of the whole system, so the number of sweeps grows slowly with N. An
 /// unsuccessful round (jammed, or stopped) shrinks the box as far as the closest pair allows (shrink_to_contact). The
 /// target packing fraction is met to rounding.

@@ -28,7 +28,7 @@ struct Lag {
   std::size_t origins;
   double time = 0;                    ///< the mean time difference of the pairs
   std::vector<FramePair> pairs = {};  ///< empty: evenly sampled
-  std::size_t pairs_per_block = 1;    ///< shortest_block of listed pairs
+  std::size_t pairs_per_block = 1;    ///< for listed pairs
 
   std::size_t from(std::size_t origin) const {
     return pairs.empty() ? origin * stride : pairs[origin].from;

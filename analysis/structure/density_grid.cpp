@@ -75,7 +75,7 @@ int min_nodes(double length, double to) {
   return std::max(spline_order, static_cast<int>(std::ceil(least)));
 }
 
-/// The least even number from n on without prime factors above 7, for which transforms are fast.
+/// The smallest even number from n on without prime factors above 7, for which transforms are fast.
 int fast_size(int n) {
   for (n += n % 2;; n += 2) {
     int rest = n;

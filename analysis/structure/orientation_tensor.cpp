@@ -13,7 +13,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t max_drawn = 1000, packings_drawn = 2000;
-// The least numbers of axes for which ⟨ρ⟩ and ⟨ρ²⟩ are finite.
+// The smallest numbers of axes for which ⟨ρ⟩ and ⟨ρ²⟩ are finite.
 constexpr std::size_t min_for_mean = 5, min_for_deviation = 7;
 
 Vec3 isotropic_axis(Stream& draw) {
@@ -68,7 +68,7 @@ Vec3 OrientationTensor::eigenvalues() const {
 double OrientationTensor::ratio() const {
   if (axes == 0) return std::numeric_limits<double>::quiet_NaN();
   const Vec3 values = eigenvalues();
-  // Below, the least eigenvalue is rounding.
+  // Below, the smallest eigenvalue is rounding.
   return axes < 3 || values[0] <= 1e-15 ? infinity : values[2] / values[0];
 }
 

@@ -40,13 +40,13 @@ struct IsotropicRatio {
 ///      ⟨ρ²⟩ − ⟨ρ⟩² = 9 (⟨g²⟩ − ⟨g⟩²) + 27 (⟨g³⟩ − ⟨g⟩⟨g²⟩) + O(N⁻²),
 ///      ⟨g⟩ = 3 √(3/π) s,  ⟨g²⟩ = (19/2) s²,  ⟨g³⟩ = (27 √3 + 4π)/√π s³,  s² = 2/(15 N),
 ///    hence ⟨ρ⟩ = 1 + 3.21/√N + 5.7/N. Proof: with Δ = T − I/3, ρ = 1 + 3g − 9 y g + …, g = x − y the
-///    difference of the largest and the least eigenvalue x and y of Δ. As ⟨w_i w_j w_k w_l⟩ =
+///    difference of the largest and the smallest eigenvalue x and y of Δ. As ⟨w_i w_j w_k w_l⟩ =
 ///    (δ_ij δ_kl + δ_ik δ_jl + δ_il δ_jk)/15, Δ is a vector of five uncorrelated components of variance
 ///    s², Gaussian for N → ∞. Its eigenvalues are √(2/3) r cos(ψ + 2πk/3), with r distributed as the length
 ///    of that vector and ψ in (0, π/3) with the density (3/2) sin 3ψ (Vandermonde's determinant); so g =
 ///    √2 r sin(ψ + π/3), and its moments are those above. By the symmetry Δ → −Δ, ⟨y gⁿ⟩ = −⟨gⁿ⁺¹⟩/2, and
 ///    the third cumulants of Δ, the only other terms of the orders kept, have no effect.
-/// The least singular value ε of N random axes has the density ε^(N−3) near 0 and ρ ∝ ε⁻²: hence the
+/// The smallest singular value ε of N random axes has the density ε^(N−3) near 0 and ρ ∝ ε⁻²: hence the
 /// infinities.
 IsotropicRatio isotropic_ratio(std::size_t axes);
 

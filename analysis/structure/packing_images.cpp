@@ -12,7 +12,7 @@ namespace {
 /// One of the 27 ways in which coordinates are free or fixed to a side of the box.
 using Sides = Eigen::Vector3i;  // −1, 0 (free) or 1
 
-/// The least value with some coordinates fixed, if its point lies in the box, else infinity. `d` runs from
+/// The smallest value with some coordinates fixed, if its point lies in the box, else infinity. `d` runs from
 /// the body's centre to that of the box.
 double min_value(const Mat3& sigma, const Vec3& d, const Vec3& half, const Sides& sides) {
   // Free coordinates drop out of Σ_CC, here by rows and columns of the unit matrix.
@@ -60,7 +60,7 @@ double distance_from_touch(const Mat3& sigma, const Vec3& d) {
   return std::abs(std::sqrt(to_side.dot(marginal.ldlt().solve(to_side))) - 1);
 }
 
-/// The same, at its least over all planes, edges and corners that are near a body at r.
+/// The same, minimised over all planes, edges and corners that are near a body at r.
 double distance_from_lattice(const Mat3& sigma, const Vec3& r, const Vec3& lengths) {
   constexpr double unfixed = std::numeric_limits<double>::infinity();
   std::vector<double> offsets[3];

@@ -19,7 +19,7 @@ Vec3 half_extents(const Ellipsoid& body, const Quaternion& orientation);
 /// Whether body and box have a point in common; a body that only touches the box may be judged either way
 /// by rounding.
 ///
-/// That is so iff the least value of (x − r)ᵀ Σ⁻¹ (x − r) in the box is at most 1. It is taken inside, on a
+/// That is so iff the smallest value of (x − r)ᵀ Σ⁻¹ (x − r) in the box is at most 1. It is taken inside, on a
 /// face, an edge or a corner, that is, with some coordinates C fixed to ±L/2. By the d_C from r to there it
 /// is d_Cᵀ Σ_CC⁻¹ d_C, at the free coordinates x_F = r_F + Σ_FC Σ_CC⁻¹ d_C (the marginal and the conditional
 /// mean of a Gaussian of covariance Σ). Of these 27 values that of the least is exact whose point lies in the

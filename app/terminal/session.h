@@ -18,7 +18,7 @@ class Session {
   explicit Session(bool quiet, double wall_time = 0);
 
   const RunControl& control() const { return control_; }
-  /// Announces a step: a line, and the label of the progress that follows.
+  /// Begins a step: prints a line, and the label of the progress that follows.
   const std::function<void(const std::string&)>& say() const { return say_; }
   /// Takes the progress off the terminal, before a summary is printed.
   void clear() { display_.clear(); }

@@ -206,15 +206,14 @@ AllPairs::Event AllPairs::overlap_event(std::size_t i, std::size_t j, const Vec2
                                         Event event) const {
   if (options_.engine.on_overlap == OnOverlap::stop) report_overlap(i, j);
   const Vec2 v = particles_[j].motion.velocity - particles_[i].motion.velocity;
-  const double separation_time = time_to_part(i, j);
+  const double interval = time_to_part(i, j);
   const double since = now_ - met_[index(i, j)];
-  // Not less than by rounding: else the time that is left may be too short to move the clock.
-  const bool is_early = since < 0.999 * separation_time;
+  // Rounding must not count: the remaining time could be too short to advance the clock.
+  const bool is_early = since < 0.999 * interval;
   const bool recede = d.dot(v) > 0;
   if (!recede && !is_early) event.kind = Kind::correction;
   event.time = now_;
-  if (event.kind != Kind::correction)
-    event.time += is_early ? separation_time - since : separation_time;
+  if (event.kind != Kind::correction) event.time += is_early ? interval - since : interval;
   return event;
 }
 

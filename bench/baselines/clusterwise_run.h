@@ -14,11 +14,11 @@
 namespace vitrel::bench {
 
 /// Soft spheres or disks as exactly as Newton's equations can be integrated, as the reference for the other ways:
-/// it knows neither events nor the matrix of restitution, and contacts of three are right, too.
+/// it uses neither events nor the restitution matrix, and is also correct for contacts of three particles.
 ///
 /// Steps, each as long as nobody moves by more than half of a margin:
 ///   1. Clusters of particles closer than contact and the margin: none can meet another one in this time.
-///   2. One that is alone flies on; the others are integrated by Dormand and Prince's order 5 with adaptive
+///   2. A particle on its own moves freely; the others are integrated by Dormand and Prince's order 5 with adaptive
 ///      steps, which become short where a force sets in or ends. `longest_step`, well below the duration of
 ///      a contact, lets none be missed.
 template <int Dim, ContactForce Force>

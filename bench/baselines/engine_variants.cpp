@@ -6,11 +6,11 @@
 namespace vitrel::bench {
 namespace {
 
-// Ellipses, each of which the engine treats in another way.
+// Ellipse types, each of which the engine treats differently.
 struct SearchedEllipse : Ellipse {};
-struct UnboundedHorizonEllipse : Ellipse {};
-struct FreeTimeEllipse : Ellipse {};
-thread_local double screened_free_times = 1;
+struct UnlimitedEllipse : Ellipse {};
+struct WindowedEllipse : Ellipse {};
+thread_local double search_window = 1;  // in mean free times
 
 struct RoundListedEllipse : Ellipse {
   RoundListedEllipse() = default;
@@ -26,9 +26,9 @@ namespace vitrel {
 template <>
 struct ShapeOf<bench::SearchedEllipse> : ShapeOf<Ellipse> {};
 template <>
-struct ShapeOf<bench::UnboundedHorizonEllipse> : ShapeOf<Ellipse> {};
+struct ShapeOf<bench::UnlimitedEllipse> : ShapeOf<Ellipse> {};
 template <>
-struct ShapeOf<bench::FreeTimeEllipse> : ShapeOf<Ellipse> {};
+struct ShapeOf<bench::WindowedEllipse> : ShapeOf<Ellipse> {};
 
 template <>
 class ContactScreen<bench::SearchedEllipse> : public bench::NoLowerBound {
@@ -37,13 +37,13 @@ class ContactScreen<bench::SearchedEllipse> : public bench::NoLowerBound {
 };
 
 template <>
-class ContactScreen<bench::UnboundedHorizonEllipse> : public ContactScreen<Ellipse> {
+class ContactScreen<bench::UnlimitedEllipse> : public ContactScreen<Ellipse> {
  public:
   using ContactScreen<Ellipse>::ContactScreen;
 };
 
 template <>
-class ContactScreen<bench::FreeTimeEllipse> : public ContactScreen<Ellipse> {
+class ContactScreen<bench::WindowedEllipse> : public ContactScreen<Ellipse> {
  public:
   using ContactScreen<Ellipse>::ContactScreen;
 };
@@ -87,14 +87,13 @@ double Neighborhoods<bench::RoundListedEllipse>::choose_gap(std::vector<Pair>,
   return 2 * Neighborhoods<Ellipse>(box_, shapes, type_index_, poses, wanted).margin();
 }
 
-// As for every body, but the partner's entry is no limit.
+// As for every body, but without the limit of the partner's entry.
 template <>
 template <>
-std::size_t Simulation<bench::UnboundedHorizonEllipse>::gather<
-    Simulation<bench::UnboundedHorizonEllipse>::Scope::all_neighbors>(Index i, const Pose2& mine,
-                                                                      double latest,
-                                                                      std::size_t next,
-                                                                      ScreenBatch& batch) {
+std::size_t Simulation<bench::UnlimitedEllipse>::gather<
+    Simulation<bench::UnlimitedEllipse>::Scope::all_neighbors>(Index i, const Pose2& mine,
+                                                               double latest, std::size_t next,
+                                                               ScreenBatch& batch) {
   constexpr double forever = 1e100;
   const auto neighbors = neighborhoods_->of(i);
   int k = 0;
@@ -113,10 +112,10 @@ std::size_t Simulation<bench::UnboundedHorizonEllipse>::gather<
 }
 
 template <>
-double Simulation<bench::FreeTimeEllipse>::mean_free_time() const {
+double Simulation<bench::WindowedEllipse>::mean_free_time() const {
   const auto particles = static_cast<double>(particles_.size());
   const double free_time = collisions_ < particles ? never : 0.5 * particles * now_ / collisions_;
-  return bench::screened_free_times * free_time;
+  return bench::search_window * free_time;
 }
 
 }  // namespace vitrel
@@ -129,16 +128,16 @@ Flight<Ellipse> plain(const Flight<B>& flight) {
   return {flight.body, flight.pose, flight.motion};
 }
 
-// The event loop finds these in place of the predictor for ellipses.
+// The event loop calls these instead of the predictor for ellipses.
 Prediction2 first_contact(const Flight<SearchedEllipse>& one, const Flight<SearchedEllipse>& two,
                           double horizon, double contact_gap,
                           const ContactScreen<SearchedEllipse>::WarmStart& /*warm_start*/) {
   return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap);
 }
 
-Prediction2 first_contact(const Flight<UnboundedHorizonEllipse>& one,
-                          const Flight<UnboundedHorizonEllipse>& two, double horizon,
-                          double contact_gap, const ContactScreen<Ellipse>::WarmStart& warm_start) {
+Prediction2 first_contact(const Flight<UnlimitedEllipse>& one, const Flight<UnlimitedEllipse>& two,
+                          double horizon, double contact_gap,
+                          const ContactScreen<Ellipse>::WarmStart& warm_start) {
   return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, warm_start);
 }
 
@@ -148,7 +147,7 @@ Prediction2 first_contact(const Flight<RoundListedEllipse>& one,
   return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, warm_start);
 }
 
-Prediction2 first_contact(const Flight<FreeTimeEllipse>& one, const Flight<FreeTimeEllipse>& two,
+Prediction2 first_contact(const Flight<WindowedEllipse>& one, const Flight<WindowedEllipse>& two,
                           double horizon, double contact_gap,
                           const ContactScreen<Ellipse>::WarmStart& warm_start) {
   return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, warm_start);
@@ -157,20 +156,21 @@ Prediction2 first_contact(const Flight<FreeTimeEllipse>& one, const Flight<FreeT
 }  // namespace
 
 std::unique_ptr<Engine2> make_engine_without_lower_bound() {
-  return std::make_unique<Simulation<SearchedEllipse>>(EngineOptions{}, "without the first look");
+  return std::make_unique<Simulation<SearchedEllipse>>(EngineOptions{},
+                                                       "without the contact screen");
 }
 std::unique_ptr<Engine2> make_engine_without_horizon() {
-  return std::make_unique<Simulation<UnboundedHorizonEllipse>>(EngineOptions{},
-                                                               "without the horizon");
+  return std::make_unique<Simulation<UnlimitedEllipse>>(EngineOptions{}, "without the horizon");
 }
 std::unique_ptr<Engine2> make_engine_with_round_lists() {
   return std::make_unique<Simulation<RoundListedEllipse>>(EngineOptions{}, "with round lists");
 }
-std::unique_ptr<Engine2> make_engine_of_free_times() {
-  return std::make_unique<Simulation<FreeTimeEllipse>>(EngineOptions{}, "with another horizon");
+std::unique_ptr<Engine2> make_engine_with_search_window() {
+  return std::make_unique<Simulation<WindowedEllipse>>(EngineOptions{},
+                                                       "with another search window");
 }
-void set_screened_free_times(double mean_free_times) {
-  screened_free_times = mean_free_times;
+void set_search_window(double mean_free_times) {
+  search_window = mean_free_times;
 }
 
 }  // namespace vitrel::bench

@@ -4,7 +4,7 @@
 
 namespace vitrel::bench {
 
-/// A first evaluate that settles nothing and remembers nothing: every pair is searched.
+/// A contact screen that excludes no contact and stores no warm start: every pair is searched.
 class NoLowerBound : public detail::CandidateTimes<simd_width> {
  public:
   using Shape = Ellipse;

@@ -12,7 +12,7 @@ namespace vitrel::bench {
 
 /// The sampler's Markov chain done the plain way, as its baseline: one trial after another among all
 /// particles, every trial with a stream of its own, and everybody whose circumcircle is met decided
-/// alone (support_gap.h). No domains, no lanes, one thread.
+/// alone (support_gap.h). No domains, no SIMD batches, one thread.
 class SequentialSampler {
  public:
   /// As for Sampler (mc/sampler.h).

@@ -1,6 +1,6 @@
 // How fast is the engine in three dimensions, and do its collisions add up to the right pressure?
 //
-// Prints JSON. scripts/validate solids builds and runs this and compares with Carnahan and Starling.
+// Prints JSON. scripts/validate ellipsoids builds and runs this and compares with Carnahan and Starling.
 
 #include <fmt/format.h>
 

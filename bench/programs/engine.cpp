@@ -242,33 +242,33 @@ Json neighbor_counts(const Configuration2& c) {
           {"round", static_cast<double>(round) / n}};
 }
 
-/// Contacts searched only when they are about to happen, with several ideas of what that means: within
-/// so many mean times between two collisions of a particle.
+/// Contacts are searched only if they can occur within the search window, for several windows in mean times between two
+/// collisions of a particle.
 Json lazy_refinement(const Effort& effort, const FluidScene& scene) {
   say("device: lazy refinement");
-  struct LazyRun {
-    double free_times;
+  struct Windowed {
+    double window;
     TimedRun<2> run;
     Repeats repeats;
   };
   const Configuration2 start = relaxed(scene, 0.3 * effort.stretch);
   constexpr double eager = std::numeric_limits<double>::infinity();
-  std::vector<LazyRun> runs;
-  for (const double free_times : {eager, 0.1, 0.3, 0.6, 1., 2.})
-    runs.push_back({free_times, {make_engine_of_free_times(), start}, {}});
+  std::vector<Windowed> runs;
+  for (const double window : {eager, 0.1, 0.3, 0.6, 1., 2.})
+    runs.push_back({window, {make_engine_with_search_window(), start}, {}});
   for (int k = 0; k < effort.repeats; ++k)
-    for (LazyRun& of : runs) {
-      set_screened_free_times(of.free_times);
+    for (Windowed& of : runs) {
+      set_search_window(of.window);
       of.repeats.add(of.run.blocks(0.3 * effort.stretch));
     }
   Json row = scene_json(scene);
   row["lazy"] = Json::array();
-  for (const LazyRun& of : runs)
-    if (of.free_times == eager) {
+  for (const Windowed& of : runs)
+    if (of.window == eager) {
       row["eager"] = of.repeats.json();
     } else {
       row["lazy"].push_back(of.repeats.json());
-      row["lazy"].back()["free_times"] = of.free_times;
+      row["lazy"].back()["search_window"] = of.window;
     }
   return row;
 }
@@ -282,7 +282,8 @@ Json measure_devices(const Effort& effort) {
   for (const double kappa : {2., 6.}) {
     const FluidScene scene{effort.ellipses, kappa, 0.7};
     rows.push_back(compare(effort, "constant_size", scene, ellipses, growing));
-    rows.push_back(compare(effort, "look", scene, ellipses, make_engine_without_lower_bound));
+    rows.push_back(
+        compare(effort, "contact_screen", scene, ellipses, make_engine_without_lower_bound));
     rows.push_back(compare(effort, "horizon", scene, ellipses, make_engine_without_horizon));
     rows.push_back(compare(effort, "shaped_lists", scene, ellipses, make_engine_with_round_lists));
     rows.back()["neighbors"] = neighbor_counts(relaxed(scene, 0));

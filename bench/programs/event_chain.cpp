@@ -1,4 +1,4 @@
-// Do event chains forget a state sooner than local moves, per second of one processor?
+// Do event chains decorrelate states faster than local moves, in CPU time?
 //
 // Prints JSON. scripts/validate event_chain builds and runs this, and writes the page, event_chain.md.
 
@@ -48,7 +48,7 @@ struct State {
   FluidScene scene;
   double size_ratio = 1;
   double seconds;  ///< of either method
-  double tick;     ///< seconds between looks at the state, about
+  double tick;     ///< approximate seconds between measurements of the state
 };
 
 double ratio(std::uint64_t part, std::uint64_t whole) {
@@ -288,7 +288,7 @@ struct Chains : Contestant {
             {"step_factor", factor},
             {"length", chains.plan().length},
             {"chains_in_a_sweep", chains.plan().chains},
-            {"looks_for_a_contact", ratio(n.searches, n.contacts)},
+            {"searches_per_contact", ratio(n.searches, n.contacts)},
             {"rotations_accepted", ratio(n.rotations_accepted, n.rotations_tried)},
             {"compressibility_of_chains", n.compressibility()}};
   }

@@ -1,7 +1,7 @@
-// What does one prediction of the default cost, and where?
+// What does a prediction of the default method cost, and where?
 //
-// Time of first_contact (core/contact) on the pairs of one class, the best of some repeats. Where
-// the instructions go is counted by scripts/count_instructions, which runs this program.
+// Time of first_contact (core/contact) on the pairs of one class, the best of several repetitions.
+// scripts/count_instructions runs this program to count instructions by function.
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-// How exact and how fast is the matrix of restitution of soft spheres, integrated and from tables, in the
+// How accurate and how fast is the restitution matrix of soft spheres, integrated and from tables, in the
 // whole domain of the source (mueller2013, tables 1 and 2)?
 //
 // Prints JSON. scripts/validate restitution builds and runs this, compares with what is wanted, and writes

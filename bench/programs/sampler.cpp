@@ -1,4 +1,4 @@
-// How fast is Monte Carlo, what do two threads gain, and what does deciding in lanes?
+// How fast is Monte Carlo sampling, and what is the speed-up by two threads and by overlap batches?
 //
 // Prints JSON. scripts/validate sampler builds and runs this, compares with what is wanted, and
 // writes the page, sampler.md.
@@ -183,9 +183,9 @@ Json measure_threads(const Effort& effort) {
   return rows;
 }
 
-// ---- lanes ----------------------------------------------------------------------------------------------
+// ---- overlap batches ------------------------------------------------------------------------------------
 
-/// A trial and everybody within its reach.
+/// A trial and all particles within its reach.
 struct Question {
   Ellipse shape;
   Vec2 axis;
@@ -193,7 +193,7 @@ struct Question {
   int others = 0;
 };
 
-/// The questions that trials in this state ask.
+/// The overlap tests of trials in this state.
 std::vector<Question> questions(const Configuration2& c, const Steps& steps, int count) {
   const CellGrid<2> cells = make_cells(c);
   Stream draw(5, Purpose::benchmark_cases);
@@ -218,7 +218,7 @@ std::vector<Question> questions(const Configuration2& c, const Steps& steps, int
   return all;
 }
 
-bool clear_in_lanes(const Question& asked, double margin) {
+bool clear_in_batches(const Question& asked, double margin) {
   const OverlapBatch batch(asked.shape, asked.axis, margin);
   std::uint64_t alone = 0;
   return std::ranges::all_of(asked.groups, [&](const EllipseBatch& group) {
@@ -237,7 +237,7 @@ bool clear_one_by_one(const Question& asked, double margin) {
   return true;
 }
 
-/// The best time of one question, and how many are answered by clear.
+/// The best time per test, and the number of trials without an overlap.
 template <class Decide>
 std::pair<double, int> timed(const Effort& effort, const std::vector<Question>& asked,
                              Decide&& decide) {
@@ -252,28 +252,28 @@ std::pair<double, int> timed(const Effort& effort, const std::vector<Question>& 
   return {1e9 * best / static_cast<double>(asked.size()), clear};
 }
 
-Json measure_lanes(const Effort& effort) {
+Json measure_batches(const Effort& effort) {
   Json rows = Json::array();
   for (const FluidScene& scene : scenes(effort)) {
-    say(fmt::format("lanes: kappa = {}, phi = {}", scene.aspect_ratio, scene.packing_fraction));
+    say(fmt::format("batches: kappa = {}, phi = {}", scene.aspect_ratio, scene.packing_fraction));
     Configuration2 c = fluid(scene);
     Sampler sampler(c, 1);
     const Steps steps = fitting_steps(sampler, 20);
     const double margin = hard_margin(c);
     const std::vector<Question> asked = questions(c, steps, effort.questions);
-    const auto [in_lanes, clear] =
-        timed(effort, asked, [&](const Question& q) { return clear_in_lanes(q, margin); });
-    const auto [alone, also_clear] =
+    const auto [batched, clear] =
+        timed(effort, asked, [&](const Question& q) { return clear_in_batches(q, margin); });
+    const auto [single, also_clear] =
         timed(effort, asked, [&](const Question& q) { return clear_one_by_one(q, margin); });
     if (clear != also_clear)
-      throw InvariantError("lanes and single decisions give different answers");
+      throw InvariantError("overlap batches and single tests give different results");
     int others = 0;
     for (const Question& question : asked) others += question.others;
     Json row = scene_json(scene);
     row["others"] = ratio(static_cast<std::uint64_t>(others), asked.size());
     row["clear"] = ratio(static_cast<std::uint64_t>(clear), asked.size());
-    row["ns_in_lanes"] = in_lanes;
-    row["ns_one_by_one"] = alone;
+    row["ns_batched"] = batched;
+    row["ns_single"] = single;
     rows.push_back(row);
   }
   return rows;
@@ -282,7 +282,7 @@ Json measure_lanes(const Effort& effort) {
 // ---------------------------------------------------------------------------------------------------------
 
 const BenchParts<Effort> parts = {
-    {"speed", measure_speed}, {"threads", measure_threads}, {"lanes", measure_lanes}};
+    {"speed", measure_speed}, {"threads", measure_threads}, {"batches", measure_batches}};
 
 }  // namespace
 

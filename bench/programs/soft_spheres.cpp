@@ -1,4 +1,4 @@
-// Soft spheres in motion: how often do contacts meet exceptions, how exact and how fast are event-driven and
+// Dynamics of soft spheres: how frequent are exceptions, and how accurate and how fast are event-driven and
 // force-based runs, how does a granular gas cool, what do soft collisions cost, and what is conserved?
 //
 // Prints JSON. scripts/validate soft_spheres builds and runs this, compares with what is wanted, and writes

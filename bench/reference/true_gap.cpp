@@ -36,7 +36,7 @@ class Shape {
     if (h == 0) return {0, 0, 0};
     return {h, -bulge_ * c * s / h, (a_ / h) * (b_ / h) * a_ * (b_ / h)};
   }
-  // The least radius of curvature within w of where the support is h.
+  // The smallest radius of curvature within w of where the support is h.
   Real min_curvature(Real h, Real w) const {
     if (a_ == 0) return 0;
     const Real highest = std::min(a_, h + (a_ - b_) * w);

@@ -14,7 +14,7 @@ struct ClosestSurfaces {
 /// The distance of two ellipses at `time`, in 80-bit arithmetic, by the largest support gap: with n
 /// at angle φ and h the support functions,
 ///     g(φ) = n·d − h₁ − h₂,   g'' = −(g + ρ₁ + ρ₂),   ρ = a²b²/h³,
-/// max g > 0 is the distance, max g < 0 minus the least shift that separates the ellipses. There
+/// max g > 0 is the distance, max g < 0 minus the smallest shift that separates the ellipses. There
 /// may be several maxima, all where g + ρ₁ + ρ₂ ≥ 0.
 ///
 /// Branch and bound over the circle of directions: a piece goes if the bound

@@ -165,8 +165,8 @@ std::vector<CaseClassOf<3>> ellipsoid_suite() {
   DrawnClasses<3> classes;
   classes.add("generic", "random close pairs with thermal velocities", generic, {2, 10});
   classes.add("grazing",
-              "the gap has a least value between ±1e-12 and ±1e-3 shortest semi-axes within the "
-              "horizon: below 0 a close pair of roots",
+              "the minimum gap within the horizon is between ±1e-12 and ±1e-3 shortest semi-axes; "
+              "if negative, there are two close roots",
               grazing, {2, 10});
   classes.add("fast_rotation",
               "angular velocities of 10 to 60, so that the gap has many minima within the horizon",
@@ -175,14 +175,14 @@ std::vector<CaseClassOf<3>> ellipsoid_suite() {
               aspect_ratios, {100});
   classes.add("sizes", "size ratios log-uniform from 1 to 1000, aspect ratios from 1 to 100", sizes,
               {100});
-  classes.add("growth", "bodies grow or shrink while they turn, some from a point", growth,
+  classes.add("growth", "bodies grow or shrink while they rotate, some from a point", growth,
               {2, 10});
   classes.add("touching_leaving",
-              "apart at the start by 1/4 to 5/4 of the gap of a declared contact, and leaving",
-              touching_leaving, {2, 10});
+              "initial gap 1/4 to 5/4 of that of a declared contact, separating", touching_leaving,
+              {2, 10});
   classes.add("parallel_congruent",
-              "of one shape, parallel and turning alike, as a body and its image: η₁ = 0 at all "
-              "times",
+              "bodies of the same shape, parallel and rotating alike, as a body and its image: η₁ "
+              "= 0 at all times",
               parallel_congruent, {2, 10});
   return classes.list();
 }

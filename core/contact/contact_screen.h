@@ -56,7 +56,7 @@ class CandidateTimes {
 /// The screen of a body against up to `lanes` partners. A growing body is its `BaseShape<B>` times the
 /// common size.
 ///   set(k, pose, motion, coefficients, warm_start, horizon)  fills lane k: pose relative to the centre of
-///                     the body, motion now, and how far to evaluate ahead
+///                     the body, current motion, and time up to which to screen
 ///   evaluate(count)   computes the times of the first `count` lanes: infinite if there is no contact up to
 ///                     the horizon, 0 if the axis does not separate the pair
 ///   earliest, discard the lanes in the order of their times

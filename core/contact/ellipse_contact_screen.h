@@ -11,7 +11,7 @@ namespace vitrel {
 template <Body B>
 requires std::same_as<BaseShape<B>, Ellipse>
 class ContactScreen<B> : public detail::CandidateTimes<simd_width> {
-  /// A pair counts as set_times while its gap stays above this fraction of the contact gap, so that a pair that
+  /// A pair counts as open while its gap stays above this fraction of the contact gap, so that a pair that
   /// has just collided and now separates is settled too.
   static constexpr double min_gap_fraction = 0.5;
 

@@ -7,24 +7,24 @@
 
 #include "core/contact/ellipse_overlap_batch.h"
 
-/// How far can one ellipse move along x or y, at a fixed angle, before it touches another at rest? The free_length path
-/// of event-chain Monte Carlo, in SIMD batches.
+/// How far can one ellipse move along x or y, at a fixed angle, before it touches another at rest? The free path of
+/// event-chain Monte Carlo, in SIMD batches.
 ///
 /// Let x point along the path and y across it. An ellipse has the half height h = √Σ_yy, the shear k = Σ_xy/h and
 /// the half chord w = a b/h along the path through its centre, so that its support function along n = (c, s) is
 ///     η(n) = √(w²c² + (h s + k c)²).
 /// With d from centre 1 to centre 2 and any n with c > 0, the gap along n stays positive up to the path length
 ///     f(n) = (n·d − η₁(n) − η₂(n))/c:
-/// every n proves a free_length path. f is concave in s/c, and its maximum is the contact.
+/// every n proves a free path. f is concave in s/c, and its maximum is the contact.
 ///
 /// Steps:
-///   1. An ellipse with |d_y| ≥ H = h₁ + h₂ is never partner. With t = d_y/H the point (t (k₁ + k₂), d_y) belongs
-///      to the Minkowski sum of the two bodies. So of two disjoint bodies the other is offset_at_contact if d_x is larger,
-///      and behind otherwise.
-///   2. The ellipse Q = Σ₁/q + Σ₂/(1 − q) contains that sum for 0 < q < 1. It gives the free_length path
+///   1. An ellipse with |d_y| ≥ H = h₁ + h₂ is never hit. With t = d_y/H the point (t (k₁ + k₂), d_y) belongs
+///      to the Minkowski sum of the two bodies. So of two disjoint bodies the other is ahead if d_x is larger, and behind
+///      otherwise.
+///   2. The ellipse Q = Σ₁/q + Σ₂/(1 − q) contains that sum for 0 < q < 1. It gives the free path
 ///          d_x − (Q_xy d_y + √(det Q (Q_yy − d_y²)))/Q_yy.
 ///      The bound is exact for q : 1 − q = η₁ : η₂ at the contact, which w + (h − w) t² approximates. An upper
-///      bound of the contact is d_x − t (k₁ + k₂) − (w₁ + w₂) √(1 − t²). Ellipses whose free_length path exceeds the
+///      bound of the contact is d_x − t (k₁ + k₂) − (w₁ + w₂) √(1 − t²). Ellipses whose free path exceeds the
 ///      upper bound of another, or the maximum length, are discarded.
 ///   3. The others are solved in batches: with n = (c, (W v − B c)/G), c = √(1 − v²), G = √Q_yy, B = Q_xy/G and
 ///      W = √(det Q)/G, the slope of f is a smooth function of v on −1 … 1; that of Q is d_y − G v. Bracketed
@@ -37,11 +37,11 @@
 /// closer already, and approaching, touches at once.
 namespace vitrel {
 
-/// The end of a free_length path.
+/// The end of a free path.
 struct FreePath {
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
   double length;
-  std::uint32_t partner;     ///< id of the particle partner, or none
+  std::uint32_t partner;     ///< id of the particle hit, or none
   double offset_at_contact;  ///< along the path, from the moving centre to that of the partner
 };
 
@@ -88,7 +88,7 @@ class FreePathBatch {
     half_chord_ = enlarged * mine.half_chord;
   }
 
-  /// How far behind, aside and offset_at_contact the centres of particles that can end the path may be, if no semi-axis
+  /// How far behind, aside and ahead the centres of particles that can end the path may be, if no semi-axis
   /// exceeds `largest`.
   double reach_behind(double largest) const { return std::abs(shear_) + largest; }
   double reach_aside(double largest) const { return height_ + largest; }
@@ -137,7 +137,7 @@ class FreePathBatch {
     }
   }
 
-  /// The free_length path among all ellipses added.
+  /// The free path among all ellipses added.
   FreePath end() {
     if (pending_ > 0) solve_pending();
     return end_;

@@ -24,7 +24,7 @@
 /// positive terms, without cancellation.
 ///
 /// Every step therefore gives the answer of separated(): the largest support gap is at least the margin, to the
-/// rounding of the gap. The answer depends on the pair scalar_tests, not on the other lanes. Exchanging the bodies
+/// rounding of the gap. The answer depends on the pair alone, not on the other lanes. Exchanging the bodies
 /// changes it only where the gap equals the margin to rounding.
 /// Source: perram1985.
 namespace vitrel {

@@ -44,11 +44,11 @@
 /// of symmetry and d along it. Near these, and near touching, the sign of η₁ is below rounding. Then
 /// the sign of q at the τ > 0 where F is largest decides: as P > 0, q < 0 there iff F > 1 somewhere, iff
 /// there are two positive roots. d ln F/d ln τ changes its sign once, as F is concave in λ/(1 + λ), and
-/// the maximum is between the min_ratio and the largest possible ratio h₁/h₂ of the support functions.
+/// the maximum is between the smallest and the largest possible ratio h₁/h₂ of the support functions.
 ///
 /// Rounding: the verdict is right unless the surfaces are closer than about 20 ε (a₁ + a₂), a the longest
 /// semi-axes and ε the unit roundoff of Real, for aspect ratios up to 100 and size ratios up to 1000
-/// (measured, docs/validation.md: 4 ε at max_ratio among 10⁷ pairs). Lengths enter only as ratios.
+/// (measured, docs/validation.md: 4 ε at most among 10⁷ pairs). Lengths enter only as ratios.
 /// Sources: wang2001, jia2011, ghossein2013 (completed; its table 1 lacks the last condition).
 namespace vitrel {
 

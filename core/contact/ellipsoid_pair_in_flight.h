@@ -142,8 +142,8 @@ class EllipsoidPairInFlight {
   static double growth_of(const Ellipsoid&) { return 0; }
   static double growth_of(const GrowingEllipsoid& body) { return body.growth_rate; }
 
-  /// An axis that rotates about ω: its constant decompose along ω, the rest at time 0, and the rest a quarter
-  /// rotation later.
+  /// An axis that rotates about ω: its constant part along ω, the remainder at time 0, and the remainder a
+  /// quarter rotation later.
   struct RotationParts {
     Vec3Of<PairArray> along, across, ahead;
   };

@@ -34,7 +34,7 @@ namespace vitrel {
 enum class Outcome {
   contact,        ///< first touch at `time`, with `normal` and `point`
   none,           ///< no contact before the horizon
-  not_converged,  ///< no contact up to `time`; call again from there (only after very simd_width steps)
+  not_converged,  ///< no contact up to `time`; call again from there (only after very many steps)
   overlap,        ///< the bodies overlap at the start
 };
 

@@ -8,7 +8,7 @@
 /// two types.
 namespace vitrel {
 
-/// For short functions, whose vector arguments would otherwise pass through warm_start.
+/// For short functions, whose vector arguments would otherwise pass through memory.
 #define VITREL_INLINE [[gnu::always_inline]] inline
 
 /// One number for each of the two bodies of a pair.

@@ -20,7 +20,7 @@ class ListPool {
   explicit ListPool(std::size_t lists = 0) : headers_(lists) {}
 
   /// Empties all lists and gives each the capacity for its count and a few more entries. At most 2³² entries in
-  /// all.
+  /// total.
   void reserve(std::span<const std::uint32_t> counts) {
     constexpr std::uint32_t more = 2;
     headers_.clear();

@@ -23,7 +23,7 @@
 
 namespace vitrel {
 
-/// Another particle's image (j, shift), seen at r_j + shift ∘ L.
+/// The image (j, shift) of another particle, at r_j + shift ∘ L.
 template <int Dim>
 struct NeighborImage {
   std::uint32_t other = 0;
@@ -39,7 +39,7 @@ struct NeighborImage {
     for (int k = 0; k < Dim; ++k) wide[k] = boxes[k];
     return wide;
   }
-  /// The image of particle i that the other particle sees.
+  /// The image of particle i that is a neighbour of the other particle.
   NeighborImage reversed_image(std::size_t i) const { return {i, -shift()}; }
   bool operator==(const NeighborImage& image) const {
     bool same = other == image.other;
@@ -66,13 +66,12 @@ struct Neighbor : NeighborImage<B::dimension> {
 /// since its support function has grown by no more than that in any direction. Two neighbourhoods are disjoint if
 /// the bodies at their reference poses are 2 margin apart.
 ///
-/// Cells find candidates, and capsules (capsule.h) discard max_size of them. A long body still has very many
-/// candidates, because its circumsphere contains max_size of its surroundings. An outer layer of larger neighbourhoods,
-/// which particles leave less often, then limits them: inner neighbourhoods that overlap lie in outer ones that
-/// overlap.
+/// Cells find candidates, and capsules (capsule.h) discard most of them. A long body still has very many
+/// candidates, because its circumsphere contains most of its surroundings. An outer layer of larger neighbourhoods,
+/// which particles leave less often, then limits them: inner neighbourhoods can overlap only if the outer ones do.
 ///
 /// The margin is chosen to give a target mean number of neighbours in the given configuration. A particle's own
-/// images are among its neighbours, each unordered pair (i, i, ±shift) once.
+/// images are also neighbours, with each unordered pair (i, i, ±shift) stored once.
 template <Body B>
 class Neighborhoods {
   static constexpr int dimension = B::dimension;
@@ -129,7 +128,7 @@ class Neighborhoods {
     if (outer_) outer_->update(i);
     candidates_.clear();
     visit_near(i, 2 * margin_, 0, [&](const Pair& pair) { candidates_.push_back(pair); });
-    // Most neighbours stay: only the lists of those that come or go change.
+    // Most neighbours stay; only the lists of added and removed neighbours change.
     previous_.assign(lists_[i].begin(), lists_[i].end());
     lists_.clear(i);
     for (const Pair& pair : candidates_)
@@ -163,7 +162,7 @@ class Neighborhoods {
   /// growth exactly the time at which it leaves.
   double exit_time(std::size_t i, const Pose<dimension>& pose, const Motion<dimension>& motion,
                    const CommonSize& common) const {
-    // While the size grows by at max_size this fraction, the support rate of the larger size is a bound.
+    // While the size grows by at most this fraction, the support rate of the larger size is a bound.
     constexpr double growth_at_once = 0.1;
     const Reference& reference = references_[i];
     const double growing = std::max(common.growth_rate, 0.0);
@@ -314,14 +313,14 @@ class Neighborhoods {
     return largest;
   }
 
-  // The reach that gives cells of a quarter of a particle, or of one particle each if these are larger.
+  // The reach that gives cells with a quarter of a particle on average, or of the size of a particle if larger.
   double cell_reach(std::size_t particles) const {
     const double spacing =
         std::pow(box_.volume() / static_cast<double>(particles), 1.0 / dimension);
     return 2 * std::max(0.5 * largest_, spacing);
   }
 
-  // A gap within which, at the mean density, there are surely more neighbours than the target.
+  // A gap within which, at the mean density, there are certainly more neighbours than the target.
   double max_gap(double target) const {
     const double density = static_cast<double>(references_.size()) / box_.volume();
     const double of_unit = dimension == 2 ? std::numbers::pi : 4 * std::numbers::pi / 3;
@@ -338,12 +337,12 @@ class Neighborhoods {
     const auto nth = pairs.begin() + static_cast<std::ptrdiff_t>(rank);
     std::nth_element(pairs.begin(), nth, pairs.end(),
                      [](const Pair& one, const Pair& two) { return one.gap < two.gap; });
-    // In a jammed packing the gaps vanish; a neighbourhood must still leave slot to move.
+    // In a jammed packing the gaps vanish; a neighbourhood must still leave room to move.
     const double min_gap = 1e-4 * largest_;
     return std::max(nth->gap, min_gap);
   }
 
-  // Whether cells find so many candidates that an outer layer pays, in a box that is wide enough for it.
+  // Whether cells return so many candidates that an outer layer is worthwhile, and the box is wide enough for it.
   bool needs_outer_layer() const {
     constexpr double many_candidates = 400;
     const double density = static_cast<double>(references_.size()) / box_.volume();
@@ -401,7 +400,7 @@ class Neighborhoods {
                              });
   }
 
-  // The same among the candidates of the outer layer, for a limit of two margins.
+  // The same for the candidates of the outer layer, with a limit of two margins.
   template <class Visit>
   void for_each_in_outer_layer(std::size_t i, double limit, Visit&& visit) const {
     const Reference& mine = references_[i];

@@ -11,7 +11,7 @@ template <int Dim>
 CellGrid<Dim> make_cells(const Configuration<Dim>& configuration);
 
 /// Calls visit(i, j, d) for every pair (i ≤ j, d from i to the image of j) whose circumcircles (circumspheres)
-/// overlap when all are scaled by `scale`, and possibly for some more; each pair once, including (i, i, ±shift).
+/// overlap when all are scaled by `scale`, and possibly for some others; each pair once, including (i, i, ±shift).
 template <int Dim, class Visit>
 void for_each_pair(const Configuration<Dim>& configuration, double scale, Visit&& visit) {
   const CellGrid<Dim> cells = make_cells(configuration);

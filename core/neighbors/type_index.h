@@ -6,7 +6,7 @@
 
 namespace vitrel {
 
-/// The type of each particle. With only one type no memory is read.
+/// The type of each particle. If there is only one type, no memory is read.
 class TypeIndex {
  public:
   TypeIndex() = default;

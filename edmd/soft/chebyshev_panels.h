@@ -14,8 +14,8 @@
 
 #include "core/parallel.h"
 
-/// Piecewise Chebyshev approximation: a smooth function on a box, as polynomials on panels that are halved until a
-/// tolerance is met.
+/// Piecewise Chebyshev approximation of a smooth function on a box by polynomials on panels, which are halved until
+/// they meet a tolerance.
 ///
 /// On a panel, with every variable scaled to −1 … 1, the function is Σ c_ijk T_i(x) T_j(y) T_k(z), i, j, k < Nodes, which
 /// interpolates it at the zeros of T_Nodes. Steps of the construction, level by level:
@@ -23,7 +23,7 @@
 ///      variable: there the error is largest where the series converges.
 ///   2. If all values are within the tolerance, keep the panel. Otherwise halve it in the variable whose highest
 ///      coefficients are largest, unless it would become narrower than the minimum width.
-///   3. Panels that are still not within the tolerance have no value.
+///   3. Panels that still exceed the tolerance have no value.
 /// The panels depend on the function and the options, not on the number of threads.
 ///
 /// Validity: the error is not controlled between the test points; measure it (docs/validation.md).
@@ -242,7 +242,7 @@ double ChebyshevPanels<Dim, Nodes, Values>::tail(const std::vector<double>& coef
 template <int Dim, int Nodes, int Values>
 bool ChebyshevPanels<Dim, Nodes, Values>::agrees(const Box<Dim>& box, const Function& function,
                                                  const double* panel, double tolerance) {
-  // Points of a lattice without short periods (Roberts's generalised golden ratio), moved to the grid.
+  // Points of a low-discrepancy lattice (Roberts's generalised golden ratio), moved to the grid.
   const double ratio = Dim == 2 ? 1.32471795724474602596 : 1.22074408460575947536;
   for (int k = 1; k <= test_points; ++k) {
     Point scaled;
@@ -290,7 +290,7 @@ bool ChebyshevPanels<Dim, Nodes, Values>::is_valid(const Content& content) {
   for (std::int64_t k = 0; k < count; ++k) {
     const Node& node = content.nodes[k];
     const bool leaf = node.axis == -1 && node.next >= -1 && node.next < panels;
-    // Children come after their parent: a walk ends.
+    // Children come after their parent, so a traversal ends.
     const bool inner = node.axis >= 0 && node.axis < Dim && node.next > k && node.next + 1 < count;
     if (!leaf && !inner) return false;
   }

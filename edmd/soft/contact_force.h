@@ -15,9 +15,9 @@
 ///
 ///     F_n T²/(m_eff X) = h(ξ̃) (E(ξ̃) + c_dis dξ̃/dt̃),   E(0) = 0, E increasing, h > 0 for ξ̃ > 0,
 ///
-/// without any other parameter. h and E are functions of s = √ξ̃, in which Hertz's law, too, is a polynomial; so the
-/// motion is smooth in s at first contact (restitution.h). They must be finite for s < 0, too: a trial step may pass the
-/// end of the contact.
+/// without any other parameter. h and E are functions of s = √ξ̃, in which Hertz's law is also a polynomial, so the
+/// motion is smooth in s at first contact (restitution.h). They must also be finite for s < 0, since a trial step may
+/// pass the end of the contact.
 namespace vitrel {
 
 /// The properties of a pair of spheres or disks on which the force depends. SI units.
@@ -38,8 +38,8 @@ struct ContactScales {
   double damping;  ///< c_dis, dimensionless; 0: elastic
 };
 
-/// `force(ξ, ξ̇, pair)`: F_n in N, positive if it repels, for ξ ≥ 0; also negative, as written down
-/// (a contact ends before: restitution.h).
+/// `force(ξ, ξ̇, pair)`: F_n in N, positive if repulsive, for ξ ≥ 0. The formula can become negative;
+/// the contact ends before that (restitution.h).
 /// `scales(speed, pair)`: for a normal speed > 0 at first contact, m/s.
 /// `profile(s)`, `elastic(s)`, `elastic_slope(s)`: h, E and dE/ds as functions of s = √ξ̃; `elastic_inverse(E)`: s ≥ 0.
 /// l/X ∝ speed^(−2p) and c_dis ∝ (l/X)^(−q): p = `length_exponent`, q = `damping_exponent`.

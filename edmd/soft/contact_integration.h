@@ -14,7 +14,7 @@
 #include "core/error.h"
 #include "edmd/soft/restitution.h"
 
-/// The integration that restitution.h describes; included where a force is instantiated.
+/// The integration described in restitution.h; included by the sources that instantiate a force.
 namespace vitrel {
 
 template <ContactForce Force>
@@ -46,14 +46,14 @@ class ContactIntegration {
       boost::numeric::odeint::runge_kutta_fehlberg78<State, double, State, double,
                                                      boost::numeric::odeint::array_algebra>;
 
-  // Steppers are copied, scratch memory included: static memory is not uninitialised.
+  // Steppers are copied with their scratch memory; as a static object it is initialised.
   static inline const Stepper blank{};
   static constexpr double step_error = 1e-14;
-  // Errors count relative to what is integrated; this only keeps 0/0 away.
+  // Errors are relative to the integrated quantities; this only prevents 0/0.
   static constexpr double min_error = 1e-100;
   // About 100 are usual, 1000 if particles collide centre to centre.
   static constexpr int max_steps = 100000;
-  // Smaller impact parameters are head-on to rounding.
+  // Impacts with smaller impact parameters are head-on to rounding.
   static constexpr double smallest_offset = 1e-15;
 
   double centrifugal(double rho) const {
@@ -61,7 +61,7 @@ class ContactIntegration {
     return tangent * tangent / (impact_.distance * rho * rho * rho);
   }
   double approach_rate(const State& x) const { return x[1] - kappa_ * Force::elastic(x[0]); }
-  // E + c_dis u: what the force is proportional to.
+  // E + c_dis u, to which the force is proportional.
   double excess(const State& x) const {
     if (kappa_ > 0) return impact_.damping * x[1];
     return std::copysign(Force::elastic(std::abs(x[0])), x[0]) + impact_.damping * x[1];

@@ -2,7 +2,7 @@
 
 #include "edmd/soft/contact_force.h"
 
-/// The matrix of restitution: the effect of a collision of finite duration on two soft spheres.
+/// The restitution matrix: the effect of a collision of finite duration on two soft spheres.
 ///
 /// While in contact, the pair moves in a plane about its centre of mass; r is the distance of the centres and φ the angle
 /// of their line. With the scales X and T of the force (contact_force.h), tildes omitted,

@@ -14,22 +14,22 @@
 #include "edmd/soft/chebyshev_panels.h"
 #include "edmd/soft/restitution.h"
 
-/// The matrix of restitution from a table, in a small part of the time of an integration.
+/// The restitution matrix from a table, in a small fraction of the time of an integration.
 ///
 /// Variables: those of the source, in which the impacts of all materials, radii and speeds of given
-/// ranges fill a rectangle, and instead of ln c_dis what of it does not depend on the impact,
+/// ranges fill a rectangle. Instead of ln c_dis the table uses the part of it that does not depend on the impact,
 ///
 ///     g = ln(c_φ/l) = ln(tangential speed/normal speed)     (source: ln c_φ/c_φ^min + g^min)
 ///     m = ln l − p ln(1 + (c_φ/l)²) = ln(l/X) at full speed    (source: ln l/l^min + m^min)
 ///     d = ln c_dis + q ln l                                      (of the pair alone)
 ///
-/// with p and q of the force (contact_force.h): dashpot 1/2, 0; viscoelastic 2/5, 1/4. So particles of
-/// a few species need, for each pair of species, two dimensions only, d being given; elastic ones need
-/// two, d = −∞, whatever their radii; damped ones with any radii from a range need three, of which d has
-/// a narrow range.
+/// with p and q of the force (contact_force.h): dashpot 1/2, 0; viscoelastic 2/5, 1/4. Particles of
+/// a few species thus need only two dimensions for each pair of species, since d is given. Elastic particles need
+/// two for any radii, with d = −∞. Damped particles with radii from a range need three, and the range of d is
+/// narrow.
 ///
-/// Tabulated are ln(−ε_ṙ), ln ε_t and ln(ε_φ l²/c_φ), by polynomials (chebyshev_panels.h: Nodes 8 in two
-/// dimensions, 6 in three); then E(l (1 − ε_r)) = −c_dis ε_ṙ gives ε_r. Elastic: ε_r = 1 and ε_ṙ = −1.
+/// The table contains ln(−ε_ṙ), ln ε_t and ln(ε_φ l²/c_φ) as polynomials (chebyshev_panels.h: Nodes 8 in two
+/// dimensions, 6 in three); E(l (1 − ε_r)) = −c_dis ε_ṙ then gives ε_r. Elastic: ε_r = 1 and ε_ṙ = −1.
 /// The tolerance is the relative error of ε_ṙ and ε_t; that of ε_φ and of 1 − ε_r is at most twice as
 /// large. Measured: docs/validation.md. Source: mueller2013.
 namespace vitrel {
@@ -40,7 +40,7 @@ struct ValueRange {
   bool operator==(const ValueRange&) const = default;
 };
 
-/// `d.low == d.high`: that d only; see `elastic_damping`.
+/// `d.low == d.high`: only this value of d; see `elastic_damping`.
 struct RestitutionDomain {
   ValueRange g, m, d;
 
@@ -56,14 +56,14 @@ inline constexpr ValueRange elastic_damping{-std::numeric_limits<double>::infini
 inline constexpr ValueRange typical_obliqueness{-6.9, 4.6};
 
 /// The domain of the collisions of these pairs at relative speeds from `slowest` to `fastest` > 0, m/s. For
-/// polydisperse radii pass pairs of a grid of radii: m and d need not be extremal at the ends.
+/// polydisperse radii pass the pairs of a grid of radii, since m and d need not be extremal at the ends.
 template <ContactForce Force>
 RestitutionDomain restitution_domain(const Force& force, std::span<const ContactPair> pairs,
                                      double slowest, double fastest);
 
 class RestitutionTable {
  public:
-  /// Integrates in parallel. Ranges must be finite and not empty, but for d.
+  /// Integrates in parallel. Ranges, except that of d, must be finite and not empty.
   RestitutionTable(const ForceForm& form, const RestitutionDomain& domain,
                    const PanelOptions& options, int threads);
 
@@ -95,7 +95,7 @@ class RestitutionTable {
   Panels panels_;
 };
 
-/// Loads the table from the file if it is there, otherwise builds and saves it. If saving fails, the table is still
+/// Loads the table from the file if that exists; otherwise builds and saves it. If saving fails, the table is still
 /// valid, and `save_error` says why.
 struct CachedTable {
   RestitutionTable table;

@@ -10,11 +10,11 @@
 
 /// Collisions of soft spheres and disks in event-driven dynamics.
 ///
-/// A contact takes a time τ, during which the line of centres rotates; the matrix of restitution (restitution.h) maps the
+/// A contact takes a time τ, during which the line of centres rotates; the restitution matrix (restitution.h) maps the
 /// state at its start to that at its end. A collision consists of three events:
 ///   E^φ  at first contact: the pair is rotated and rescaled about its centre of mass to its configuration at the end of
 ///        the contact, and both particles continue with the velocity of the centre of mass;
-///   E^v  a time τ later, one for each particle: it gets its velocity after the contact.
+///   E^v  a time τ later, one for each particle: the particle takes its velocity after the contact.
 /// From then on the trajectories are exact. Two exceptions, both counted:
 ///   (a)  in its new position one of the pair would be closer than contact to a third particle (and closer than before):
 ///        the two collide as hard spheres, with the coefficient of restitution −ε_ṙ;

@@ -12,7 +12,7 @@ namespace vitrel {
 ///     T = κ^(−2/5) speed^(−1/5),  X = κ^(−2/5) speed^(4/5),  κ = ρ/m_eff
 ///     F̃ = ξ̃^(1/2) (ξ̃ + c_dis dξ̃/dt̃),  c_dis = 3A/(2T)
 ///
-/// Of two disks it is a model, as if they were spheres. Validity: ξ well below R_eff.
+/// Disks are modelled as spheres. Validity: ξ well below R_eff.
 /// Ranges in the source: Y 0.01 … 100 GPa, ν 0.2 … 0.5, A 10⁻⁶ … 1 s. Sources: mueller2013,
 /// section V.2; brilliantov1996.
 struct Viscoelastic {

@@ -1,12 +1,12 @@
-"""The default collision-time method on every class of pairs, judged by the guaranteed reference."""
+"""The default collision-time method on every class of pairs, compared with the guaranteed reference."""
 
 import json
 
 from validation.common import expect, output_of, table
 
 TITLE = "Collision time: the default method on every class"
-PAIRS = 800_000  # of each class, at all its aspect ratios together
-LEAST_PAIRS = 10_000_000  # of all together, where PAIRS is what it should be
+PAIRS = 800_000  # of each class, all its aspect ratios taken together
+LEAST_PAIRS = 10_000_000  # in total, if PAIRS has its regular value
 TIME_TOLERANCE = 1e-12  # of the horizon
 
 # core/contact/first_contact.h declares a contact at a gap of at most 1.25 contact gaps. A contact gap is
@@ -17,14 +17,14 @@ FAILURES = ["early", "late", "missed", "false", "not_converged"]
 
 
 def survey(build, pairs, classes=()):
-    # Early answers of degenerate pairs are judged below, more strictly than by --gap-tolerance.
+    # Early answers for degenerate pairs are checked below, more strictly than by --gap-tolerance.
     command = [build / "bench/vitrel-bench", "collision-time", "--method", "separating_axis", "--pairs", str(pairs),
                "--tolerance", str(TIME_TOLERANCE), "--gap-tolerance", "1e-8", "--json", "-q"]
     return json.loads(output_of(command + [word for name in classes for word in ("--class", name)]))["rows"]
 
 
 def rows(build):
-    """Half of the pairs at each aspect ratio; classes that have only one get them all."""
+    """Half of the pairs at each aspect ratio; a class with a single aspect ratio gets all of them."""
     halves = survey(build, PAIRS // 2)
     names = [one["class"] for one in halves]
     once = [name for name in names if names.count(name) == 1]
@@ -36,9 +36,9 @@ def number(value, form):
 
 
 def row(measured):
-    """Checks a class; returns its line."""
+    """Checks a class and returns its table row."""
     name = f"{measured['class']}, κ = {measured['aspect_ratio']:g}"
-    expect(measured["pairs"] >= PAIRS // 2, f"{name}: {measured['pairs']} pairs only")
+    expect(measured["pairs"] >= PAIRS // 2, f"{name}: only {measured['pairs']} pairs")
     for failure in FAILURES:
         expect(measured[failure] == 0, f"{name}: {measured[failure]} {failure.replace('_', ' ')}")
     error, gap = measured["largest_error"], measured["largest_moot_gap"]
@@ -51,17 +51,16 @@ def row(measured):
 def measure(build):
     measured = rows(build)
     pairs = sum(one["pairs"] for one in measured)
-    expect(PAIRS < 800_000 or pairs >= LEAST_PAIRS, f"{pairs} pairs in all")
+    expect(PAIRS < 800_000 or pairs >= LEAST_PAIRS, f"only {pairs} pairs in total")
     head = ["class", "largest κ", "pairs", "contacts", "degenerate", "largest error", "largest gap"]
-    return f"""`vitrel-bench collision-time` asks the default method about {pairs} pairs of {len(measured)} classes and
-compares every answer with the reference in 80-bit interval arithmetic. Wanted: none late, missed, false or without an answer;
-none early by more than {TIME_TOLERANCE:g} of the horizon (the largest error below, in fractions of the horizon), except
-where the surfaces cross so slowly that the time is ill-defined (degenerate: below 0.02 (a₁ + a₂)/horizon). There, and
-where a contact is reported of a pair that does not quite touch, the true gap at the reported time (the largest gap below)
-is at most {LARGEST_GAP:g} contact gaps: 1.25 by construction, and 4 units in the last place of a₁ + a₂, of which a
-contact gap has 32.
+    return f"""`vitrel-bench collision-time` runs the default method on {pairs} pairs of {len(measured)} classes and compares every answer with
+the reference in 80-bit interval arithmetic. Required: no answer is late, missed, false or lacking, and none is early by
+more than {TIME_TOLERANCE:g} of the horizon (*largest error*, in fractions of the horizon). Degenerate pairs are exempt: their
+surfaces cross so slowly (below 0.02 (a₁ + a₂)/horizon) that the time is ill-defined. For these, and for a reported contact
+of a pair that does not quite touch, the true gap at the reported time (*largest gap*) must be at most {LARGEST_GAP:g} contact
+gaps: 1.25 by construction plus 4 units in the last place of a₁ + a₂. A contact gap is 32 of these units.
 
 {table(head, [row(one) for one in measured])}
 
-Late, missed, false, without an answer: 0 of {pairs}.
+Late, missed, false or no answer: 0 of {pairs}.
 """

@@ -1,4 +1,4 @@
-"""Collision times of ellipsoids: the default method beside the article's and the root of Perram and Wertheim."""
+"""Collision times of ellipsoids: the default method, that of the article, and the root of Perram and Wertheim."""
 
 from validation.collision_time_page import FAILURES, SPACE, Rows, class_name, count_text, error_text, time_text
 from validation.common import compared, expect, save_figure, table
@@ -15,7 +15,7 @@ NAMES = {DEFAULT: "separating axis (default)", "eta_root": "root of η₁", "per
 
 
 def check(rows):
-    """The default method has every answer right, and the scans show what they are here for."""
+    """Checks that the default method answers every pair correctly."""
     for row in rows.of(DEFAULT):
         name = class_name((row["class"], row["aspect_ratio"]))
         expect(row["pairs"] == PAIRS, f"{name}: {row['pairs']} pairs")
@@ -36,7 +36,7 @@ def counts(rows):
 
 
 def speed(rows):
-    """Of random pairs."""
+    """Times for random pairs."""
     lines = []
     for of in (of for of in rows.classes if of[0] == "generic"):
         times = [rows.of(method, of)["ns_per_call"] for method in NAMES]
@@ -46,7 +46,7 @@ def speed(rows):
 
 
 def passing(data):
-    """What the methods say of two ellipsoids that overlap for a moment as they pass."""
+    """The answers for two ellipsoids that overlap briefly while passing each other."""
     pair = data["passing_pair"]
     answers = {(answer["method"], answer["tolerance"]): answer for answer in pair["answers"]}
     default = min((a for a in pair["answers"] if a["method"] == DEFAULT), key=lambda a: a["tolerance"])
@@ -56,8 +56,8 @@ def passing(data):
         for tolerance in sorted({t for m, t in answers if m == method}, reverse=True):
             time = answers[method, tolerance]["time"]
             lines.append([f"{NAMES[method]}, in {1 / tolerance:.0f} steps", "none" if time is None else f"{time:.12f}"])
-        expect(answers[method, 0.01]["time"] is None, f"{method} sees the overlap in 100 steps")
-        expect(answers[method, 0.001]["time"] is not None, f"{method} does not see the overlap in 1000 steps")
+        expect(answers[method, 0.01]["time"] is None, f"{method} finds the overlap in 100 steps")
+        expect(answers[method, 0.001]["time"] is not None, f"{method} misses the overlap in 1000 steps")
     return pair, table(["method", "contact at"], lines)
 
 
@@ -77,35 +77,35 @@ def measure(build):
         save_figure(figure, FIGURES, name)
     grazing = [rows.of("eta_root", of) for of in rows.classes if of[0] == "grazing"]
     missed, contacts = (sum(row[key] for row in grazing) for key in ("missed", "contacts"))
-    return f"""`vitrel-bench collision-time-of-ellipsoids` asks three methods about the same pairs of ellipsoids, growing or not: the
-default; the article's, which follows the root of η₁(t) at which the signs of η₂, η₃ and η₅ are those of external
-contact; and the first root of F(t) − 1, F the function of Perram and Wertheim. Both roots are looked for in 100 equal steps
-of the time during which the circumscribed spheres overlap, and refined by algorithm 748, Brent's successor. The reference
-follows a separating axis in 80-bit arithmetic with a bound that lets no contact pass, up to where the completed criterion
-of η₁ … η₅ finds the overlap. Answers count as correct within {TOLERANCE:g} of the horizon, early ones of surfaces that cross
-at less than 0.02 (a₁ + a₂)/horizon within a gap of 10⁻⁸ of the shortest semi-axis.
+    return f"""`vitrel-bench collision-time-of-ellipsoids` compares three methods on the same pairs of ellipsoids, growing or of
+constant size. The first is the default method. The second, that of the article, finds the root of η₁(t) at which η₂, η₃ and
+η₅ have the signs of external contact. The third finds the first root of F(t) − 1, where F is the function of Perram and
+Wertheim. Both root finders scan the time during which the circumscribed spheres overlap in 100 equal steps and refine the
+root by algorithm 748 (Alefeld, Potra and Shi). The reference implementation follows a separating axis in 80-bit arithmetic,
+with a bound that excludes missed contacts, until the completed criterion of η₁ … η₅ detects the overlap. An answer is
+correct if its error is at most {TOLERANCE:g} of the horizon. If the surfaces cross at less than 0.02 (a₁ + a₂)/horizon, an early
+answer is also correct if the gap is at most 10⁻⁸ of the shortest semi-axis.
 
-Wanted: every answer of the default method correct. Wrong answers of it: 0 of {sum(row["pairs"] for row in rows.of(DEFAULT))}.
+Required: every answer of the default method is correct. Its wrong answers: 0 of {sum(row["pairs"] for row in rows.of(DEFAULT))}.
 
-Time per call of random pairs, and how many times that of the default:
+Time per call for random pairs, also as a multiple of the default:
 
 {speed(rows)}
 
-![Time per call against the largest error, a point per tolerance or number of steps]({FIGURES}/largest.svg)
+![Time per call against the maximum error, one point per tolerance or number of steps]({FIGURES}/largest.svg)
 
-![The same with the median error]({FIGURES}/median.svg)
+![Time per call against the median error]({FIGURES}/median.svg)
 
 {counts(rows)}
 
 {table(["class", "largest κ", "meaning"], [[of["class"], f"{of['aspect_ratio']:g}", of["meaning"]] for of in data["classes"]])}
 
-Grazing pairs have two roots close to each other, or none: the root of η₁ misses {missed} of {contacts} contacts, all of
-them overlaps shorter than a step. Where bodies of one shape are parallel, η₁ vanishes at all times, its sign is that of
-rounding, and no contact is found (the scan then costs most). Small bodies beside large ones cost η₁ its digits.
+Grazing pairs have two close roots, or none. The root of η₁ misses {missed} of {contacts} contacts, all of them overlaps that last
+less than a step. For parallel bodies of the same shape η₁ vanishes at all times. Its sign is then that of the rounding
+error, the method finds no contact, and the scan is slowest. If a small body meets a large one, η₁ suffers from cancellation.
 
-Two ellipsoids with parallel axes, (2, 1, 1.2) and (1.5, 1, 0.8), the second of which passes the first without turning, so that
-they overlap by {pair["depth"]:g} for {2 * (3 - pair["contact"]):.4f} units of time, about t = 3; the truth is
-t = {pair["contact"]:.12f}:
+Two ellipsoids with parallel axes, (2, 1, 1.2) and (1.5, 1, 0.8), pass each other without rotation. They overlap by {pair["depth"]:g}
+for {2 * (3 - pair["contact"]):.4f} units of time around t = 3. The exact contact time is t = {pair["contact"]:.12f}:
 
 {answers}
 

@@ -1,4 +1,4 @@
-"""The page about collision times: rewrites the measured parts and the pictures of docs/collision-time.md."""
+"""Collision-time methods: rewrites the measured parts and the figures of docs/collision-time.md."""
 
 import re
 
@@ -13,7 +13,7 @@ PAGE = ROOT / "docs/collision-time.md"
 FIGURES = "figures/collision-time"
 
 DEFAULT, RIVAL = "separating_axis", "slsqp"
-# How many times faster than SLSQP the default method is to be.
+# Goals for the speed-up of the default method over SLSQP.
 GOALS = {("generic", 2): 60, ("generic", 6): 40, ("recorded", 2): 100, ("recorded", 6): 100}
 
 NAMES = {
@@ -45,7 +45,7 @@ def time_text(nanoseconds):
 
 
 def share_text(part, whole):
-    """A share that is not 0 is never shown as 0."""
+    """A non-zero share is never shown as 0."""
     if part == 0:
         return "·"
     percent = 100 * part / whole
@@ -53,7 +53,7 @@ def share_text(part, whole):
 
 
 def plain(value):
-    """Three digits, without an exponent."""
+    """Three significant digits, without an exponent."""
     return f"{float(f'{value:.3g}'):g}"
 
 
@@ -74,7 +74,7 @@ def wrong(row):
 
 
 def applies(row):
-    """A method that answers not one pair of a class is not made for it."""
+    """A method that answers no pair of a class does not apply to it."""
     return row["not_converged"] < row["pairs"]
 
 
@@ -87,7 +87,7 @@ class Rows:
         self._rows = {(row["method"], row["class"], row["aspect_ratio"]): row for row in rows}
 
     def of(self, method, of=None):
-        """Its row of one class, or its rows of all, if it is made for such pairs."""
+        """Its row for one class, or all its rows, where the method applies."""
         if of is None:
             return [row for c in self.classes if (row := self.of(method, c))]
         row = self._rows.get((method, *of))
@@ -112,7 +112,7 @@ def speed(rows):
 
 
 def totals(rows, method):
-    """Pairs and counts over all classes that the method is made for."""
+    """Pairs and counts over all classes to which the method applies."""
     of_method = rows.of(method)
     return {key: sum(row[key] for row in of_method) for key in ("pairs", "correct", *FAILURES)}
 
@@ -163,7 +163,7 @@ def classes(data):
 
 
 def failing(rows, method):
-    """What goes wrong, in a sentence."""
+    """A sentence on the wrong answers of a method."""
     sums = totals(rows, method)
     shares = [f"{share_text(sums[f], sums['pairs'])} {word}" for f, word in FAILURES.items() if sums[f]]
     worst = max(rows.of(method), key=lambda row: wrong(row) / row["pairs"])
@@ -227,9 +227,9 @@ def measured(data):
 
 
 def with_part(page, name, text):
-    """The page with what stands between the markers of this part replaced."""
+    """The page with the text between the markers of this part replaced."""
     begin, end = f"<!-- begin {name} -->", f"<!-- end {name} -->"
-    expect(page.count(begin) == 1 and page.count(end) == 1, f"{PAGE.name}: not one part {name}")
+    expect(page.count(begin) == 1 and page.count(end) == 1, f"{PAGE.name}: there is not exactly one part {name}")
     before, rest = page.split(begin)
     return before + begin + "\n\n" + text + "\n\n" + end + rest.split(end)[1]
 
@@ -249,7 +249,7 @@ def write_page(data, rows):
              "runs": runs(data), "overlap": overlap(data)}
     page = PAGE.read_text(encoding="utf-8")
     marked = re.findall(r"<!-- begin (\w+) -->", page)
-    expect(sorted(marked) == sorted(parts), f"{PAGE.name} has the parts {marked}, wanted are {list(parts)}")
+    expect(sorted(marked) == sorted(parts), f"{PAGE.name} has the parts {marked}, expected {list(parts)}")
     for name, text in parts.items():
         page = with_part(page, name, text)
     for old in (PAGE.parent / FIGURES).glob("*.svg"):
@@ -267,9 +267,8 @@ def measure(build):
     moves = [run["correction_moves"] for run in data["whole_runs"] if run["method"] == DEFAULT]
     expect(moves and not any(moves), f"correction moves with the default method: {moves}")
     write_page(data, rows)
-    return f"""[The page about collision times](collision-time.md) and its pictures are written from this. Wanted: no wrong
-answer of the default method at its usual tolerance, and no correction move in its whole runs at any. Goals, missed or
-reached as measured:
+    return f"""This command writes the tables and figures of [Collision time](collision-time.md). Required: the default method gives no
+wrong answer at its default tolerance, and its complete runs need no correction move at any tolerance. Goals:
 
 {speed(rows)}
 """

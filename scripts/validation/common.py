@@ -1,4 +1,4 @@
-"""What the validations share."""
+"""Helpers shared by the validations."""
 
 import contextlib
 import json
@@ -16,7 +16,7 @@ PARAMS = ROOT / "params"
 
 
 class Failure(Exception):
-    """What was measured contradicts what is claimed, or could not be measured."""
+    """A measurement failed or contradicts a requirement."""
 
 
 def expect(condition, message):
@@ -25,7 +25,7 @@ def expect(condition, message):
 
 
 def output_of(command, **options):
-    """Standard output of a command that must succeed."""
+    """The standard output of a command that must succeed."""
     done = subprocess.run(command, capture_output=True, text=True, check=False, **options)
     words = " ".join(map(str, command))
     expect(done.returncode == 0, f"{words}: exit code {done.returncode}\n{done.stdout}{done.stderr}")
@@ -33,7 +33,7 @@ def output_of(command, **options):
 
 
 def properties_of_test(program, test, **variables):
-    """What one test records about itself, run with these variables in its environment."""
+    """The properties that one test records when it runs with these environment variables."""
     with tempfile.TemporaryDirectory() as folder:
         result = pathlib.Path(folder, "result.json")
         output_of([program, f"--gtest_filter={test}", f"--gtest_output=json:{result}"],
@@ -49,7 +49,7 @@ def summary_of(build, command, *arguments):
 
 
 def run_and_check(build, parameters, *overrides, frames=()):
-    """The summaries of a run and of its exact check: of all frames, or with ("--last",) of the last."""
+    """The summaries of a run and of its exact check, of all frames or, with ("--last",), of the last frame."""
     settings = [word for override in overrides for word in ("--set", override)]
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder, "run.h5")
@@ -58,7 +58,7 @@ def run_and_check(build, parameters, *overrides, frames=()):
 
 
 def preparation(particles, aspect_ratio, sizes, *sections):
-    """Parameters of a mixture in equal numbers, sizes being TOML values, and these sections."""
+    """Parameters of an equimolar mixture of these sizes (TOML values), followed by these sections."""
     species = "\n".join(
         f'[[species]]\nname = "{name}"\nfraction = {1 / len(sizes)}\naspect_ratio = {aspect_ratio}\nsize = {size}'
         for name, size in zip("AB", sizes))
@@ -81,7 +81,7 @@ def table(head, rows):
 
 
 def pyplot():
-    """Matplotlib set up for pictures that depend on nothing but what they show."""
+    """Matplotlib, set up to write reproducible SVG files."""
     import matplotlib  # only here: a test imports all validations
 
     matplotlib.use("svg")
@@ -92,12 +92,12 @@ def pyplot():
 
 
 def save_figure(figure, folder, name):
-    """As docs/<folder>/<name>.svg; the figure is closed."""
+    """Writes docs/<folder>/<name>.svg and closes the figure."""
     write_figure(figure, ROOT / "docs" / folder / f"{name}.svg")
 
 
 def write_figure(figure, file):
-    """As SVG; the figure is closed."""
+    """Writes an SVG file and closes the figure."""
     file.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(file, metadata={"Date": None}, dpi=100)
     pyplot().close(figure)
@@ -109,19 +109,19 @@ def clock_rate():
 
 
 def commit_of(data):
-    """The commit that a benchmark was built from."""
+    """The commit from which a benchmark was built."""
     return data["commit"][:8] + "-modified" * ("modified" in data["commit"])
 
 
 def measured(command, preset, *parts):
-    """What a subcommand of vitrel-bench prints when built with this preset."""
+    """The output of a subcommand of vitrel-bench built with this preset."""
     for step in (["--preset", preset], ["--build", "--preset", preset, "--target", "vitrel-bench"]):
         subprocess.run(["cmake", *step], cwd=ROOT, check=True)
     return json.loads(output_of([ROOT / "build" / preset / "bench/vitrel-bench", command, *parts]))
 
 
 def compared(build, command, file, *options):
-    """The data that a comparison of vitrel-bench writes into this file of its folder."""
+    """The data that a comparison of vitrel-bench writes to this file of its output folder."""
     with tempfile.TemporaryDirectory() as folder:
         output_of([build / "bench/vitrel-bench", command, *map(str, options), "-q", "-o", folder])
         return json.loads(pathlib.Path(folder, file).read_text(encoding="utf-8"))
@@ -140,8 +140,8 @@ def rows_by(rows, *keys):
 
 
 def datasets(file):
-    """All datasets of an HDF5 file but its provenance, by name: type, shape and bytes."""
-    import h5py  # what does not compare files does not need it
+    """Type, shape and bytes of all datasets of an HDF5 file except its provenance, by name."""
+    import h5py  # needed only to compare files
 
     found = {}
 
@@ -160,15 +160,15 @@ def differing_datasets(first, second):
 
 
 def differing_files(first, second, jobs):
-    """What differs between the states, runs and results of two sweeps, and the number of files compared."""
+    """The differences between the states, runs and results of two sweeps, and the number of files compared."""
     different, count = [], 0
     for job in jobs:
         names = {file.name for sweep in (first, second) for kind in ("h5", "csv") for file in (sweep / job).glob(f"*.{kind}")}
-        expect({"state.h5", "run.h5", "results.h5"} <= names, f"{job}: only {', '.join(sorted(names))} are there")
+        expect({"state.h5", "run.h5", "results.h5"} <= names, f"{job}: files are missing; found only {', '.join(sorted(names))}")
         for name in sorted(names):
             pair = first / job / name, second / job / name
             if not all(file.exists() for file in pair):
-                different.append(f"{job}/{name}: only one sweep has it")
+                different.append(f"{job}/{name}: present in only one of the sweeps")
             elif name.endswith(".h5"):
                 different += [f"{job}/{name}: {dataset}" for dataset in differing_datasets(*pair)]
             elif pair[0].read_bytes() != pair[1].read_bytes():
@@ -178,13 +178,13 @@ def differing_files(first, second, jobs):
 
 
 def wait_until(condition, seconds, what):
-    """Returns what `condition` returns as soon as that is true."""
+    """Waits until `condition` returns a true value and returns that value."""
     end = time.monotonic() + seconds
     while time.monotonic() < end:
         if found := condition():
             return found
         time.sleep(0.05)
-    raise Failure(f"after {seconds} s: {what}")
+    raise Failure(f"timeout after {seconds} s: {what}")
 
 
 def process_of_run(sweep, job):

@@ -1,4 +1,4 @@
-"""Monte Carlo at constant pressure: at the pressure of an equation of state it finds the packing fraction."""
+"""Monte Carlo at constant pressure: the pressure of an equation of state yields its packing fraction."""
 
 import itertools
 import math
@@ -29,9 +29,9 @@ REFERENCE = (
 BOXES = ("isotropic", "anisotropic")
 SEEDS = 16
 PARTICLES = 100
-# Of every seed, by aspect ratio; the second half counts.
+# Per seed, by aspect ratio; averages are over the second half.
 SWEEPS = {1: 16_000, 2: 16_000, 4: 24_000, 6: 28_000}
-# Particles: how many times as many sweeps.
+# Particles: multiple of the number of sweeps.
 SIZES = {25: 2, 400: 1}
 SIZE_STATES = ((1, 0.6), (6, 0.2))
 
@@ -40,7 +40,7 @@ ERRORS = 3
 
 
 def table_error(packing_fraction):
-    """Relative, as its authors state it."""
+    """Relative error stated by the authors."""
     return 0.003 if packing_fraction >= 0.6 else 0.001
 
 
@@ -50,7 +50,7 @@ def pressure(packing_fraction, compressibility):
 
 
 def derivative(points, x):
-    """At x, of the polynomial through these points (x, y)."""
+    """Derivative at x of the polynomial through the points (x, y)."""
     total = 0
     for j, (x_j, y_j) in enumerate(points):
         others = [x_k for k, (x_k, _) in enumerate(points) if k != j]
@@ -62,8 +62,8 @@ def derivative(points, x):
 def spread(aspect_ratio, packing_fraction, particles):
     """Relative standard deviation of φ at constant pressure: the inverse square root of N ∂(φZ)/∂φ.
 
-    The slope is that of the table, in which 1/√Z is interpolated: nearly a straight line, 1 − φ for disks by
-    scaled-particle theory.
+    The derivative is that of the table, with 1/√Z interpolated. 1/√Z is nearly linear in φ; scaled-particle theory
+    gives 1 − φ for disks.
     """
     of_shape = {phi: z for kappa, phi, z in REFERENCE if kappa == aspect_ratio}
     z = of_shape[packing_fraction]
@@ -79,12 +79,12 @@ def parameters(particles, aspect_ratio, betap, box, sweeps):
 
 
 def seeds(number):
-    """Of one measurement. With equal seeds two of them would draw equal changes of the box."""
+    """The seeds of one measurement. Two measurements with equal seeds would draw equal changes of the box."""
     return range(number * SEEDS + 1, (number + 1) * SEEDS + 1)
 
 
 class Found:
-    """The mean packing fraction at the pressure of one entry of the table, by independent seeds."""
+    """The mean packing fraction at the pressure of one table entry, from independent seeds."""
 
     def __init__(self, build, number, entry, box, particles=PARTICLES, more_sweeps=1):
         self.entry = entry
@@ -103,7 +103,7 @@ class Found:
                 means.append(done["stages"][-1]["mean_packing_fraction"])
         self.mean = statistics.mean(means)
         self.error = statistics.stdev(means) / math.sqrt(SEEDS)
-        # Relative, as all below.
+        # Relative, as are all deviations below.
         self.deviation = self.mean / self.reference - 1
         self.relative_error = self.error / self.reference
         ratio = self.relative_error / spread(self.aspect_ratio, self.reference, particles)
@@ -128,13 +128,13 @@ class Found:
 
 
 def mean_deviation(found):
-    """Relative, and its standard error."""
+    """The mean relative deviation and its standard error."""
     error = math.hypot(*(one.relative_error for one in found)) / len(found)
     return statistics.mean(one.deviation for one in found), error
 
 
 def sizes(build, numbers, found):
-    """The states of SIZE_STATES at all sizes, small ones first; only the larger ones have to agree."""
+    """The states of SIZE_STATES at all sizes, small ones first; only the larger ones must agree with the table."""
     all_sizes = []
     for entry in REFERENCE:
         if entry[:2] not in SIZE_STATES:
@@ -159,26 +159,26 @@ def measure(build):
     head = ["", "φ, table", "βP", "box", "φ", "standard error", "deviation", "in standard errors",
             "sweeps per independent volume"]
     lengths = ", ".join(f"{sweeps} ({shape(kappa)})" for kappa, sweeps in SWEEPS.items())
-    return f"""Monte Carlo at the pressure P = ρZ of a table has to find the table's packing fraction, in a box that keeps its shape
-(isotropic) and in one whose sides change one at a time (anisotropic). βP is in units of 1/(a b): an ellipse with a b = 1
-covers π, so βP = φZ/π. Z of disks: Kolafa and Rottner, Mol. Phys. 104, 3435 (2006), for the infinite system; Z of
-ellipses: Monte Carlo at constant volume, N ≈ 400, another road to the same.
+    return f"""Monte Carlo at the pressure P = ρZ of a table must reproduce the packing fraction of the table. This is tested in a box of
+constant shape (isotropic) and in a box whose sides change one at a time (anisotropic). βP is in units of 1/(a b). An ellipse
+with a b = 1 has the area π, so βP = φZ/π. Z of disks comes from Kolafa and Rottner, Mol. Phys. 104, 3435 (2006), for the
+infinite system. Z of ellipses comes from Monte Carlo at constant volume with N ≈ 400, an independent route.
 
-{SEEDS} seeds of {PARTICLES} particles each, from random places at the table's φ. Sweeps of each seed, of which the second half counts:
-{lengths}. Wanted: a standard error (from the scatter of the seeds) of
-at most {LARGEST_ERROR:.1%} of φ, and a deviation of at most {ERRORS} standard errors and what the tables may be off ({table_error(0):.1%} of φ, {table_error(0.6):.1%}
-from φ = 0.6 on); the same ({table_error(0):.1%}) of the mean of all deviations: {mean:+.3%} ± {error:.3%}.
+{SEEDS} seeds of {PARTICLES} particles each start from random positions at the φ of the table. Averages are over the second half of
+the sweeps. Sweeps per seed: {lengths}. Required: a standard error,
+from the scatter of the seeds, of at most {LARGEST_ERROR:.1%} of φ; a deviation of at most {ERRORS} standard errors plus the error of the tables
+({table_error(0):.1%} of φ, {table_error(0.6):.1%} from φ = 0.6 on). The same holds for the mean of all deviations, with {table_error(0):.1%}: {mean:+.3%} ± {error:.3%}.
 
-Volumes forget each other slowly. A trial of the box survives if it makes no pair overlap, so its step is about
-1/(N (Z − 1)) of the volume, and the volume diffuses through its own spread, which is 1/√(N ∂(φZ)/∂φ). The last column
-follows from the measured error and this spread: the length of the run over the number of independent volumes that give
-this error. It grows with N as the square of the one over the other, so that an error costs a number of sweeps that
-does not depend on N, and small systems are cheap.
+Volumes decorrelate slowly. A volume move is accepted if it creates no overlap, so its step is about 1/(N (Z − 1)) of the
+volume. The volume diffuses in such steps across the width of its distribution, 1/√(N ∂(φZ)/∂φ). The last column follows from
+the measured error and this width: the length of the run divided by the number of independent volumes that give this error.
+It grows with N as the square of the ratio of width to step. The number of sweeps for a given error is therefore
+independent of N, and small systems are cheap.
 
 {table(head, [one.row() for one in found])}
 
-How much the size of the system matters, in an isotropic box. The shift falls as 1/N or faster: that of the smallest
-systems, which need not agree, is four times that at N = {PARTICLES} at least, and so the latter is below the errors.
+Finite-size effects in an isotropic box. The shift of φ decreases as 1/N or faster. In the smallest systems, which need not
+agree with the table, it is at least four times as large as at N = {PARTICLES}, where it is therefore below the errors.
 
 {table(["", "φ, table", "N", "φ", "standard error", "deviation", "sweeps per independent volume"],
        [one.size_row() for one in sizes(build, numbers, found)])}

@@ -1,4 +1,4 @@
-"""Dense states from random starts: which method reaches which packing fraction, and how long it takes."""
+"""Dense states from random starts: the packing fractions that each method reaches, and its running time."""
 
 import json
 import pathlib
@@ -8,7 +8,7 @@ import tempfile
 
 from validation.common import INSERT, expect, preparation, shape, summary_of, table
 
-TITLE = "Dense states: method, aspect ratio, packing fraction, time"
+TITLE = "Dense states: methods, packing fractions and times"
 PARTICLES = 1000
 
 # Aspect ratio, sizes, packing fraction, and whether the first method must reach it.
@@ -42,13 +42,13 @@ def parameters(kappa, sizes, fraction, method):
 
 
 def packing_fraction_of_failure(words):
-    """Where a preparation says that it is stuck."""
+    """The packing fraction at which a preparation reports that it is stuck."""
     found = re.search(r"packing fraction of ([0-9.]+)", words)
     return found and float(found[1])
 
 
 def outcome(build, kappa, sizes, fraction, method):
-    """Whether the packing fraction was reached, and the table's words about it."""
+    """Whether the packing fraction was reached, and the text for the table."""
     with tempfile.TemporaryDirectory() as folder:
         file, state = pathlib.Path(folder, "dense.toml"), pathlib.Path(folder, "state.h5")
         file.write_text(parameters(kappa, sizes, fraction, method), encoding="utf-8")
@@ -73,11 +73,11 @@ def measure(build):
         reached, words = next(iter(found.values()))
         expect(reached or not must, f"κ = {kappa}, φ = {fraction}: {words}")
         rows.append([shape(kappa), NAMES[sizes], fraction, *(words for _, words in found.values())])
-    return f"""{PARTICLES} particles, one seed each: inserted at random places and angles at φ = 0.3, then brought to φ by one more stage on
-one core. Every state is free of overlaps by the exact check (tolerance zero). The default, growth at the rate 1e-3, has
-to reach 0.83 (disks), 0.86 (κ = 1.4) and 0.80 (κ = 2 and 6); 0.845 and 0.89 are goals. The hybrid makes 100 sweeps of
-Monte Carlo after every stretch of growth, by event chains, or by local moves of which a fifth exchange the places of two
-particles; to compress at constant pressure is Monte Carlo, too. Sizes 0.6 … 1.4 are spread evenly.
+    return f"""{PARTICLES} particles, one seed each. They are inserted with random positions and orientations at φ = 0.3; one more stage, on one
+core, brings them to φ. The exact check (tolerance zero) finds no overlap in any state. The default, growth at the rate
+1e-3, must reach 0.83 (disks), 0.86 (κ = 1.4) and 0.80 (κ = 2 and 6); 0.845 and 0.89 are goals. The hybrid method runs 100
+Monte Carlo sweeps after every growth interval, either with event chains or with local moves, a fifth of which exchange the
+positions of two particles. Compression at constant pressure is also Monte Carlo. Sizes 0.6 … 1.4 are uniformly distributed.
 
 {table(["", "sizes", "φ", *METHODS], rows)}
 """

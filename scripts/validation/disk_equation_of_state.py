@@ -1,4 +1,4 @@
-"""Compressibility of hard disks against the equation of state of Kolafa and Rottner."""
+"""Compressibility factor of hard disks, compared with the equation of state of Kolafa and Rottner."""
 
 import math
 import statistics
@@ -10,14 +10,14 @@ PARTICLES = 2500
 RUNS = 4  # independent seeds
 REFERENCE = {0.3: 2.063261, 0.5: 4.106364, 0.6: 6.455337, 0.65: 8.408044}
 
-# 3.5 standard errors of the mean of the runs, whose own errors are from blocking: false alarm 0.05 %
-# for each density.
+# 3.5 standard errors of the mean over the runs; the error of each run comes from blocking. False-alarm rate: 0.05 %
+# per density.
 ERRORS = 3.5
 LARGEST_RELATIVE_ERROR = 1e-3
 
 
 def compressibility(build, packing_fraction):
-    """Mean over the runs, its standard error from those of the runs, and the collisions."""
+    """The mean over the runs, its standard error from those of the runs, and the number of collisions."""
     means, errors, collisions = [], [], 0
     for seed in range(1, RUNS + 1):
         run, check = run_and_check(
@@ -40,9 +40,9 @@ def row(build, packing_fraction, reference):
 
 def measure(build):
     head = ["φ", "Z, reference", "Z", "standard error", "deviation in standard errors", "collisions"]
-    return f"""Z = βP/ρ from the collisional virial of {RUNS} Newtonian runs of {PARTICLES} disks each, against Kolafa and
-Rottner, Mol. Phys. 104, 3435 (2006), for the infinite system. Wanted: a standard error of at most
-{LARGEST_RELATIVE_ERROR:.1%} and a deviation of at most {ERRORS} standard errors (false alarm: 0.05 % for each row).
+    return f"""The compressibility factor Z = βP/ρ from the collisional virial of {RUNS} Newtonian runs of {PARTICLES} disks each, compared
+with the equation of state of Kolafa and Rottner, Mol. Phys. 104, 3435 (2006), for the infinite system. Required: a standard
+error of at most {LARGEST_RELATIVE_ERROR:.1%} and a deviation of at most {ERRORS} standard errors (false-alarm rate: 0.05 % per row).
 
 {table(head, [row(build, *case) for case in REFERENCE.items()])}
 """

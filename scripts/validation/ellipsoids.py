@@ -1,12 +1,12 @@
-"""Spheres and ellipsoids in motion: collisions per second, and the pressure that they add up to."""
+"""Dynamics of spheres and ellipsoids: collisions per second, and the pressure from the collisions."""
 
 from validation.common import commit_of, expect, measured, millions, processor, table
 
-TITLE = "Spheres and ellipsoids in motion"
+TITLE = "Dynamics of spheres and ellipsoids"
 
 # Collisions per second of spheres that the code of Smallenburg (2022) reaches, N = 10 000.
 PUBLISHED = {0.3: 0.83e6, 0.49: 1.47e6}
-# Carnahan and Starling are off by that much in a dense liquid.
+# The error of Carnahan and Starling in a dense liquid.
 TOLERANCE = 0.004
 
 
@@ -15,7 +15,7 @@ def carnahan_starling(phi):
 
 
 def virial_series(phi):
-    """To the tenth coefficient (Clisby and McCoy 2006), which is enough up to φ = 0.3."""
+    """To the tenth coefficient (Clisby and McCoy 2006), sufficient up to φ = 0.3."""
     coefficients = (1, 4, 10, 18.364768, 28.2245, 39.81515, 53.3444, 68.5375, 85.8128, 105.775)
     return sum(b * phi**k for k, b in enumerate(coefficients))
 
@@ -48,13 +48,14 @@ def pressures(rows):
 def measure(_):
     data = measured("ellipsoids", "release")
     rows = data["speed"]
-    return f"""Newtonian dynamics, one core of {processor()}, build {commit_of(data)}; Z by the virial of the collisions.
-Spheres beside the same spheres as ellipsoids, and beside what the code of Smallenburg (2022) reaches on a machine of this kind.
+    return f"""Newtonian dynamics on one core of {processor()}, build {commit_of(data)}. Z comes from the collisional virial.
+Spheres are compared with the same spheres simulated as ellipsoids, and with the rate that the code of Smallenburg (2022)
+reaches on a similar machine (*published*).
 
-{table(["shape", "N", "φ", "10⁶ collisions/s", "published", "as ellipsoids", "pairs asked", "lists renewed", "Z"], list(speeds(rows)))}
+{table(["shape", "N", "φ", "10⁶ collisions/s", "published", "as ellipsoids", "predictions", "list renewals", "Z"], list(speeds(rows)))}
 
-Z of spheres from their rate of collisions, Z − 1 = Γ σ √(π m/kT)/6, and from the virial, beside Carnahan and Starling (1969),
-which at φ = 0.3 is {1 - carnahan_starling(0.3) / virial_series(0.3):.2%} below the virial series.
+Z of spheres from the collision rate, Z − 1 = Γ σ √(π m/kT)/6, and from the virial, compared with the equation of state of
+Carnahan and Starling (1969), which at φ = 0.3 is {1 - carnahan_starling(0.3) / virial_series(0.3):.2%} below the virial series.
 
-{table(["φ", "Z by rate", "Z by virial", "Carnahan–Starling", "virial series"], list(pressures(rows)))}
+{table(["φ", "Z from rate", "Z from virial", "Carnahan–Starling", "virial series"], list(pressures(rows)))}
 """

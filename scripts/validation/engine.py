@@ -1,4 +1,4 @@
-"""The speed of the engine: rewrites bench/engine.md and its picture."""
+"""The speed of the engine: rewrites bench/engine.md and its figure."""
 
 import datetime
 import math
@@ -11,21 +11,21 @@ PROGRAM = "engine"
 PAGE = ROOT / "bench" / "engine.md"
 FIGURE = ROOT / "bench" / "engine.svg"
 
-# (κ, φ): goal and the best public program, collisions per second on one core of such a machine.
+# (κ, φ): collisions per second on one core of such a machine: the goal, and the best public program.
 GOALS = {(1, 0.5): (2.4e6, 2.17e6), (1, 0.7): (3.4e6, 3.11e6), (2, 0.5): (5e5, 4.6e3), (2, 0.7): (5e5, 3.2e3),
          (6, 0.5): (3e5, 2.9e3), (6, 0.7): (3e5, 2.4e3)}
-# Times the cost of a collision at N = 1000.
+# Cost of a collision, relative to N = 1000.
 LARGEST_RATIO = {100_000: 1.6, 1_000_000: 2.5}
 REFERENCE_SIZE = 1000
 
-PROGRAMS = {"vitrel": "vitrel", "all_pairs": "all pairs, our collision times",
+PROGRAMS = {"vitrel": "vitrel", "all_pairs": "all pairs, collision times of vitrel",
             "all_pairs_slsqp": "all pairs, SLSQP (the thesis)"}
 DEVICES = {
-    "disks": ("disks as disks", "as ellipses that happen to be round"),
-    "constant_size": ("ellipses of constant size", "as ellipses that grow at the rate 0"),
-    "look": ("first look at all neighbours, then searches", "every pair searched"),
-    "horizon": ("predictions up to the partner's own entry", "up to the particle's own entry only"),
-    "shaped_lists": ("lists shaped like the particles", "shaped like the circumcircles"),
+    "disks": ("disks as disks", "disks as ellipses with κ = 1"),
+    "constant_size": ("ellipses of constant size", "ellipses growing at the rate 0"),
+    "contact_screen": ("contact screen of all neighbours, then searches", "every pair searched"),
+    "horizon": ("predictions up to the partner's next event", "up to the particle's own next event only"),
+    "shaped_lists": ("neighbour lists shaped like the particles", "neighbour lists shaped like the circumcircles"),
 }
 
 
@@ -70,7 +70,7 @@ def counts(native):
 
 
 def cost_ratio(sizes, row):
-    """Against the same shape at N = 1000, or the fewest particles that there are."""
+    """Relative to the same shape at N = 1000, or at the smallest N present."""
     same = [of for of in sizes if of["aspect_ratio"] == row["aspect_ratio"]]
     reference = next((of for of in same if of["particles"] == REFERENCE_SIZE), same[0])
     return row["ns_per_collision"] / reference["ns_per_collision"]
@@ -80,7 +80,7 @@ def check_sizes(sizes):
     for row in sizes:
         most, ratio = LARGEST_RATIO.get(row["particles"], math.inf), cost_ratio(sizes, row)
         expect(ratio <= most, f"{shape(row['aspect_ratio'])}, N = {row['particles']}: a collision costs {ratio:.2f} "
-                              f"times what it costs at N = {REFERENCE_SIZE}, not {most} at most")
+                              f"times as much as at N = {REFERENCE_SIZE}; the limit is {most}")
 
 
 def sizes_table(sizes):
@@ -92,12 +92,12 @@ def sizes_table(sizes):
         lines.append([shape(row["aspect_ratio"]), row["particles"], f"{row['ns_per_collision']:.0f} ns",
                       f"{ratio:.2f}", wanted,
                       f"{row['bytes_per_particle']:.0f}", f"{peak:.0f}" if peak else "–"])
-    return table(["", "N", "per collision", "times that at the least N", "wanted", "bytes per particle",
-                  "bytes while a block begins, at most"], lines)
+    return table(["", "N", "per collision", "relative to the smallest N", "required", "bytes per particle",
+                  "peak bytes per particle at the start of a block"], lines)
 
 
 def charted(rows):
-    """(N, seconds per unit of simulated time) of each program; the collision rate is always the engine's own."""
+    """(N, seconds per unit of simulated time) of each program; the collision rate is always that of the engine."""
     rates = {row["particles"]: row["collision_rate"] for row in rows if row["program"] == "vitrel"}
     return {program: [(row["particles"], 1e-9 * row["ns_per_collision"] * rates[row["particles"]])
                       for row in rows if row["program"] == program] for program in PROGRAMS}
@@ -132,7 +132,7 @@ def all_pairs(rows):
             if program != "vitrel":
                 yield "–" if other is None else f"{float(f'{other / ours:.2g}'):g}"
 
-    return table(["N", "vitrel", PROGRAMS["all_pairs"], "times ours", PROGRAMS["all_pairs_slsqp"], "times ours"],
+    return table(["N", "vitrel", PROGRAMS["all_pairs"], "relative to vitrel", PROGRAMS["all_pairs_slsqp"], "relative to vitrel"],
                  [[n, *cells(n)] for n in points["vitrel"]])
 
 
@@ -174,10 +174,10 @@ def lazy(rows):
     for row in rows:
         scene, eager = shape(row["aspect_ratio"]), row["eager"]
         for of in (eager, *row["lazy"]):
-            name = f"{of['free_times']:g}" if "free_times" in of else "searched at once"
+            name = f"{of['search_window']:g}" if "search_window" in of else "searched immediately"
             lines.append([scene, name, f"{of['ns_per_collision']:.0f} ns",
                           f"{eager['ns_per_collision'] / of['ns_per_collision']:.2f}", *count_cells(of)])
-    return table(["", "put off beyond", "per collision", "gain", *COUNTS], lines)
+    return table(["", "postponed beyond", "per collision", "gain", *COUNTS], lines)
 
 
 def page(native, portable):
@@ -191,34 +191,36 @@ Measured on {datetime.date.today()}, commit {commit_of(native)}, {processor()}{c
 Calibration: {psi} ns per Ψ (the function of Vieillard-Baron of two ellipses, from their angles; at the
 beginning and at the end of the run). The portable build: `{portable["flags"]}`, {portable["ns_per_psi"]:.1f} ns per Ψ.
 
-Times are those of the process, on one core; the best of five stretches of whole blocks of at least a second each,
-with what the beginning and the end of a block takes. Every state is a liquid: inserted at random places and angles
-at φ = 0.2, swollen, mixed by 500 sweeps of Monte Carlo and a second of the run itself. Counts are per collision:
-*events* taken from the calendar, *predictions* (pairs looked at), *searches* (pairs that the first look did not
-settle), *steps* along separating axes, *renewals* of neighbour lists.
+Times are CPU times on one core, the best of five measurements. Each measurement lasts at least a second and consists of
+complete blocks, including their start and end. Every state is a liquid: particles are inserted with random positions and
+orientations at φ = 0.2, swollen, and equilibrated by 500 Monte Carlo sweeps and a second of the run itself. Counts are per
+collision: *events* taken from the calendar, *predictions* (pairs tested), *searches* (pairs that the contact screen leaves
+undecided), *steps* along separating axes, *renewals* of neighbour lists.
 
 ## Collisions per second
 
-Newtonian dynamics, in millions of collisions per second. The best public programs, measured on a machine of this kind
-(EPYC, `-O3 -march=native`, double precision): for disks Smallenburg's code of 2022, held to a plane; for ellipses a
-generic code by the algorithm of Gilbert, Johnson and Keerthi, which lets overlaps through.
+Newtonian dynamics, in millions of collisions per second. The best public programs were measured on a similar machine
+(EPYC, `-O3 -march=native`, double precision). For disks this is Smallenburg's code of 2022, confined to a plane. For
+ellipses it is a generic code with the algorithm of Gilbert, Johnson and Keerthi, which permits overlaps.
 
 {speed(native, portable)}
 
 {counts(native)}
 
-## Against the number of particles
+## Scaling with the number of particles
 
-φ = 0.5. An equilibrated liquid of 1000 particles is repeated, every copy with other velocities, the particles numbered
-at random, and moved for about five collisions of each; then five stretches, or as many as begin within twenty seconds.
+φ = 0.5. The initial state consists of copies of an equilibrated liquid of 1000 particles. Every copy has different
+velocities, and the particles are numbered at random. After about five collisions per particle come five measurements, or
+as many as begin within twenty seconds.
 
 {sizes_table(native["sizes"])}
 
-## Beside the program of the thesis
+## Comparison with the program of the thesis
 
-The same scene (κ = 2, φ = 0.5) without event calendar, neighbour lists and cells: after every event all pairs are asked
-again, as in the thesis, by its method or by ours. Time per unit of simulated time; the slow ones get 2000 collisions or
-eight seconds for each point, as far as their memory goes (88 bytes for each pair).
+The same scene (κ = 2, φ = 0.5) without event calendar, neighbour lists and cells. After every event these programs predict
+the collisions of all pairs again, as in the thesis, either with its method or with vitrel's. The table lists the time per
+unit of simulated time. The slow programs run for 2000 collisions or eight seconds per point, as far as memory permits
+(88 bytes per pair).
 
 ![Time per unit of simulated time against the number of particles]({FIGURE.name})
 
@@ -226,23 +228,25 @@ eight seconds for each point, as far as their memory goes (88 bytes for each pai
 
 ## Brownian dynamics
 
-κ = 6, φ = 0.72, N = {native["brownian"][0]["particles"]}: simulated time per second. Every τ_B all velocities are drawn and all pairs of
-neighbours predicted anew, on so many threads; results do not depend on it.
+κ = 6, φ = 0.72, N = {native["brownian"][0]["particles"]}: simulated time per second. After every τ_B the engine draws all velocities and
+predicts the collisions of all neighbouring pairs, on one or two threads. Results do not depend on the number of threads.
 
 {brownian(native["brownian"])}
 
-## What each simplification and each device gains
+## Speed-up by each specialisation and optimisation
 
-The engine as it is and with something else in its place, in alternation in the same run; counts with / without.
+Each row compares the engine with a variant in which one optimisation is replaced. Both run alternately in the same
+process. Counts: with / without the optimisation.
 
 {devices(native["devices"])}
 
-Neighbours per particle at the margin of the lists, shaped like the particles or like their circumcircles:
+Neighbours per particle at the margin used, with lists shaped like the particles or like their circumcircles:
 
 {neighbors(native["devices"])}
 
-Lazy refinement: a contact that the first look rules out for long is not searched, but looked at again then. Long means
-longer than so many mean times between two collisions of a particle; the engine takes 1.
+Lazy refinement: if the contact screen excludes a contact for a long time, the engine does not search for it but screens
+the pair again at the end of that time. "Long" is the given multiple of the mean time between two collisions of a particle;
+the engine uses 1.
 
 {lazy(native["lazy"])}
 
@@ -257,8 +261,8 @@ def measure(_build):
     draw(native["all_pairs"], FIGURE)
     PAGE.write_text(page(native, portable), encoding="utf-8")
     check_sizes(native["sizes"])
-    return f"""[The page about the engine's speed](../bench/engine.md) is written from this. Wanted: a collision costs at most
-{LARGEST_RATIO[100_000]} times as much at N = 10⁵ as at 10³, and {LARGEST_RATIO[1_000_000]} times at 10⁶. Goals, missed or reached as measured:
+    return f"""This command writes [How fast is the engine?](../bench/engine.md). Required: a collision costs at most
+{LARGEST_RATIO[100_000]} times as much at N = 10⁵ as at 10³, and at most {LARGEST_RATIO[1_000_000]} times as much at 10⁶. Goals:
 
 {speed(native, portable)}
 """

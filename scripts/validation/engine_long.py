@@ -1,4 +1,4 @@
-"""A hundred million collisions of long ellipses at high density: overlaps, corrections, energy."""
+"""A hundred million collisions of elongated ellipses at high density: overlaps, correction moves, energy."""
 
 import pathlib
 import tempfile
@@ -10,8 +10,8 @@ PARTICLES = 1000
 COLLISIONS = 1e8
 FRAMES = 100
 ENERGY_DRIFT = 1e-10  # relative
-TRIAL = 200  # units of time, to learn the collision rate
-MARGIN = 1.1  # on it: it falls, by a tenth or two, while the particles align
+TRIAL = 200  # units of time, to measure the collision rate
+MARGIN = 1.1  # the rate falls by ten to twenty per cent while the particles align
 
 PARAMETERS = f"""[system]
 particles = {PARTICLES}
@@ -56,7 +56,7 @@ def measure(build):
         interval = MARGIN * COLLISIONS * TRIAL / trial["collisions"] / FRAMES
         done = run(build, parameters, file, FRAMES * interval, interval)
         check = summary_of(build, "check", file)
-    expect(done["collisions"] >= COLLISIONS, f"{done['collisions']} collisions only")
+    expect(done["collisions"] >= COLLISIONS, f"only {done['collisions']} collisions")
     expect(done["correction_moves"] == 0, f"{done['correction_moves']} correction moves")
     expect(done["energy_drift"] <= ENERGY_DRIFT, f"relative energy drift {done['energy_drift']}")
     expect(check["frames"] >= FRAMES and check["overlaps"] == 0,
@@ -65,14 +65,14 @@ def measure(build):
             ["correction moves", done["correction_moves"], "0"],
             [f"overlaps in {check['frames']} frames", check["overlaps"], "0"],
             ["smallest gap in all frames", f"{check['smallest_gap']:.1e}", "≥ 0"],
-            ["largest relative change of the energy", f"{done['energy_drift']:.1e}", f"≤ {ENERGY_DRIFT:g}"],
-            ["momentum, largest", f"{done['largest_momentum']:.1e}", "–"],
+            ["largest relative energy drift", f"{done['energy_drift']:.1e}", f"≤ {ENERGY_DRIFT:g}"],
+            ["largest momentum", f"{done['largest_momentum']:.1e}", "–"],
             ["βP/ρ", f"{done['compressibility']:.3f}", "–"],
             ["simulated time", f"{done['simulated_time']:.0f}", "–"],
             ["collisions per second, files and checks included", f"{done['collisions_per_second']:.3g}", "–"]]
-    return f"""{PARTICLES} ellipses of aspect ratio 6 at φ = 0.75, swollen from a random dilute state and mixed by 2000 sweeps of
-Monte Carlo, in Newtonian motion; {FRAMES} frames, about every million collisions, each looked through by the exact
-check (tolerance zero).
+    return f"""Newtonian dynamics of {PARTICLES} ellipses with aspect ratio 6 at φ = 0.75, swollen from a random dilute state and equilibrated by
+2000 Monte Carlo sweeps. {FRAMES} frames are saved, one about every million collisions. The exact check (tolerance zero)
+tests each of them.
 
-{table(["", "measured", "wanted"], rows)}
+{table(["", "measured", "required"], rows)}
 """

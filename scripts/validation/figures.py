@@ -1,4 +1,4 @@
-"""Pictures of what vitrel-bench has measured about collision times and overlap criteria, from its data."""
+"""Figures of collision times and overlap criteria, from the data of vitrel-bench."""
 
 import math
 
@@ -7,11 +7,11 @@ from validation.common import pyplot
 COLOURS = ["#0072b2", "#c65200", "#00805c", "#b1407f", "#8a7a00", "#6a4fc4", "#a8281c", "#3c434b"]
 MARKERS = "osD^"
 ONE, TWO, OVERLAP = "#1f78c8", "#d9822b", "#c8374d"
-SMALLEST_ERROR, SMALLEST_GAP = 1e-17, 1e-13  # what is smaller is drawn there
+SMALLEST_ERROR, SMALLEST_GAP = 1e-17, 1e-13  # smaller values are drawn there
 
 
 def chart(title, x, y, log="xy", size=(8.4, 4.8)):
-    """An empty chart with these titles; `log`: its logarithmic axes."""
+    """An empty chart with these titles; `log` names its logarithmic axes."""
     figure, axes = pyplot().subplots(figsize=size, layout="constrained")
     axes.set(title=title, xlabel=x, ylabel=y, **{f"{axis}scale": "log" for axis in log})
     axes.title.set_fontsize("medium")
@@ -20,7 +20,7 @@ def chart(title, x, y, log="xy", size=(8.4, 4.8)):
 
 
 def points(axes, name, k, shown):
-    """A line with a marker for each (x, y, hollow); colour and marker say which series it is."""
+    """A line with a marker for each (x, y, hollow); `k` selects its colour and marker."""
     colour, marker = COLOURS[k % len(COLOURS)], MARKERS[k // len(COLOURS) % len(MARKERS)]
     axes.plot([x for x, _, _ in shown], [y for _, y, _ in shown], color=colour, linewidth=0.8, zorder=1)
     for hollow in (False, True):
@@ -31,14 +31,14 @@ def points(axes, name, k, shown):
 
 
 def legend(figure, axes, notes=()):
-    """Beside the chart, below the notes."""
+    """A legend beside the chart, below the notes."""
     axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1), borderaxespad=0, frameon=False, fontsize="small",
                 title="\n".join(notes), title_fontsize="small", alignment="left")
     return figure
 
 
 def floor(axes, value, label):
-    """Marks the lower end at which smaller values are drawn, if there are any."""
+    """Marks the lower limit at which smaller values are drawn."""
     axes.axhline(value, color="black", linewidth=0.6, linestyle=":")
     axes.annotate(label, (0.5, value), xycoords=("axes fraction", "data"), ha="center", va="bottom", fontsize="small")
 
@@ -113,7 +113,7 @@ def scene_figure(curves, key, name):
 
 
 def passing_pair_figure(pair):
-    """η₁ about the overlap of two ellipsoids that pass, with the samples of a scan."""
+    """η₁ around the overlap of two passing ellipsoids, with the samples of a scan."""
     curve, scan = pair["eta1"]["curve"], pair["eta1"]["scan"]
     figure, axes = curve_figure("Two ellipsoids pass and overlap for a moment: η₁(t)", curve["time"], curve["eta1"], "η₁",
                                 [(pair["contact"], f"contact, t = {pair['contact']:.4f}", 60)])
@@ -122,10 +122,10 @@ def passing_pair_figure(pair):
     return figure
 
 
-def ellipse(of, **look):
-    from matplotlib.patches import Ellipse  # what draws nothing does not need it
+def ellipse(of, **style):
+    from matplotlib.patches import Ellipse  # needed only to draw
 
-    return Ellipse((of["x"], of["y"]), 2 * of["a"], 2 * of["b"], angle=math.degrees(of["angle"]), **look)
+    return Ellipse((of["x"], of["y"]), 2 * of["a"], 2 * of["b"], angle=math.degrees(of["angle"]), **style)
 
 
 def draw_pair(axes, picture, velocity):
@@ -145,7 +145,7 @@ def draw_pair(axes, picture, velocity):
 
 
 def failing_pair_figure(failure):
-    """Both ellipses at the moments that show how a method failed, each with a scale of its own."""
+    """Both ellipses at the times that show how a method failed, each panel with its own scale."""
     pictures = failure["pictures"]
     figure, panels = pyplot().subplots(1, len(pictures), figsize=(2.9 * len(pictures), 3.3), squeeze=False, layout="constrained")
     for axes, picture in zip(panels[0], pictures):

@@ -1,14 +1,14 @@
-"""The glass transition of ellipses: relaxation times over the density, order or glass, and the fits of φ_c."""
+"""The glass transition of ellipses: relaxation times against density, nematic order or glass, and fits of φ_c."""
 
 import json
 
 from validation.common import PARAMS, ROOT, expect, output_of, summary_of, table
 
 TITLE = "The glass transition of ellipses"
-FOLDER = ROOT / "out" / "glass"  # kept, so that a study that was stopped goes on
+FOLDER = ROOT / "out" / "glass"  # kept, so that an interrupted study continues
 SMALLEST_NEMATIC = 0.5
 LONGEST = 4 * 3600 * 2  # seconds of one core
-# Where the experiment on monolayers of κ = 6 (Zheng, Wang & Han 2011) sees rotation and translation stop.
+# Packing fractions of the glass transitions in the experiment on monolayers with κ = 6 (Zheng, Wang & Han 2011).
 EXPERIMENT_ROTATION, EXPERIMENT_TRANSLATION = 0.72, 0.79
 
 
@@ -26,7 +26,7 @@ def density(fit):
 
 
 class Study:
-    """One sweep: run or continued, analysed and read."""
+    """One sweep, run or continued, with its analysis."""
 
     def __init__(self, build, name):
         self.name, self.folder = name, FOLDER / name
@@ -41,7 +41,7 @@ class Study:
         return sum(job[step]["wall_seconds"] for job in self.jobs for step in ("prepare", "run"))
 
     def check(self):
-        expect(all("verdict" in run for run in self.runs), f"{self.name}: a run could not be judged")
+        expect(all("verdict" in run for run in self.runs), f"{self.name}: the analysis of a run is incomplete")
         for job in self.jobs:
             expect(job["run"]["overlaps"] == 0, f"{self.name}, {job['id']}: overlaps")
 
@@ -53,7 +53,7 @@ class Study:
                  r["orientation"], r["verdict_translation"], r["verdict"]] for r in self.runs]
 
     def reasons(self):
-        """Why runs stay out of fits: of translation, and where that is in, of rotation."""
+        """Why runs are excluded from the fits of translation or, otherwise, of rotation."""
         lines = []
         for r in self.runs:
             what, reason = (("all", r["reason_translation"]) if r["reason_translation"] else ("rotation", r["reason"]))
@@ -68,16 +68,16 @@ class Study:
 
     def text(self):
         runs = table(["φ", "seed", "duration", "S", "τ_α", "τ_2", "orientations", "translation", "all"], self.rows())
-        fits = table(["of", "law", "φ_c", "exponent", "best window", "χ²/dof", "why not"], self.fit_rows())
+        fits = table(["quantity", "law", "φ_c", "exponent", "best window", "χ²/dof", "reason for no fit"], self.fit_rows())
         remarks = "\n\n".join(self.remarks)
-        return f"{runs}\n\n{remarks}\n\nRuns that stay out of the fits:\n\n{self.reasons()}\n\n{fits}"
+        return f"{runs}\n\n{remarks}\n\nRuns excluded from the fits:\n\n{self.reasons()}\n\n{fits}"
 
     def order(self):
         values = [run["nematic_order"] for run in self.runs]
         return min(values), max(values)
 
     def growth(self, key):
-        """Of a time, from the lowest density to the highest, in the mean over seeds."""
+        """The increase of a time from the lowest density to the highest, averaged over seeds."""
         def mean(phi):
             values = [run[key] for run in self.runs if abs(run["packing_fraction"] - phi) < 1e-6]
             return None if None in values else sum(values) / len(values)
@@ -93,9 +93,9 @@ class Study:
 
 
 def comparison(nematic, isotropic):
-    """Both transitions of both systems beside those of the experiment."""
+    """Both transitions of both systems, compared with the experiment."""
     kinds = {"φ_θ, orientations": ("rotation in the nematic, tau_2", "rotation, tau_2", EXPERIMENT_ROTATION),
-             "φ_T, places": ("translation, tau_alpha", "translation, tau_alpha", EXPERIMENT_TRANSLATION)}
+             "φ_T, positions": ("translation, tau_alpha", "translation, tau_alpha", EXPERIMENT_TRANSLATION)}
     return table(["", "κ = 6, nematic", "κ = 2, isotropic", "experiment, κ = 6"],
                  [[name, nematic.found(first), isotropic.found(second), experiment]
                   for name, (first, second, experiment) in kinds.items()])
@@ -106,42 +106,41 @@ def measure(build):
     for study in (nematic, isotropic):
         study.check()
     order = isotropic.order()[1]
-    expect(order < SMALLEST_NEMATIC, f"the companion is not isotropic: S up to {order:.2f}")
+    expect(order < SMALLEST_NEMATIC, f"the binary mixture is not isotropic: S is up to {order:.2f}")
     seconds = nematic.seconds() + isotropic.seconds()
     expect(seconds < LONGEST, f"the study took {seconds / 7200:.1f} hours on two cores")
     low, high = nematic.order()
     return f"""\
-Protocol: random insertion at φ = 0.3, growth in motion at a rate of 10⁻³ to the density, Brownian dynamics
-(τ_B = 0.1, N = 500) for half the duration to age, then the duration. τ_α: F_s(q, t) = 1/e, at q = 3.2 for κ = 6 and
-2.7 for κ = 2; τ_2: L_2(t) = 1/e, in a nematic of the connected part seen from the director. Only runs in equilibrium
-enter the fits, of translation by the verdict of translation. Errors of φ_c are those of the fit and of the choice of
-densities. Preparation and dynamics took {seconds / 7200:.1f} hours on two cores.
+Protocol: random insertion at φ = 0.3, event-driven growth at the rate 10⁻³ to the final density, Brownian dynamics
+(τ_B = 0.1, N = 500) for half the duration as equilibration, then for the duration. τ_α is defined by F_s(q, t) = 1/e, with
+q = 3.2 for κ = 6 and q = 2.7 for κ = 2. τ_2 is defined by L_2(t) = 1/e; in a nematic this is the connected part, relative to
+the director. Only equilibrated runs enter the fits. Fits of translation use the verdict on translation. Errors of φ_c
+include those of the fit and of the choice of densities. Preparation and dynamics took {seconds / 7200:.1f} hours on two cores.
 
 {comparison(nematic, isotropic)}
 
-Equal ellipses of κ = 6 are nematic at every density of the study (S = {low:.2f} … {high:.2f}). There the mean squared
-rotation stops because of order, and slow growth does not lead to an isotropic glass of orientations. What is left of
-rotation, about the director, slows from τ_2 = {nematic.growth("tau_rotation")} between the lowest density and the
-highest, places from τ_α = {nematic.growth("tau_translation")}. Order itself changes as slowly as the runs last, and
-differs between seeds: there is no verdict of equilibrium at most densities, and no φ_θ. φ_T is what the power law says,
-but its exponent is {nematic.exponent("translation, tau_alpha", "power law")}, where mode-coupling theory has no less
-than 1.77, and Vogel and Fulcher's φ_T is another: that the first is near the experiment's is no evidence. The two stops
-of the experiment are not on this path through the nematic.
+Monodisperse ellipses with κ = 6 are nematic at every density of the study (S = {low:.2f} … {high:.2f}). Nematic order limits
+the mean squared rotation, and slow growth does not lead to an isotropic orientational glass. From the lowest density to the
+highest, the relaxation time of rotation about the director increases from τ_2 = {nematic.growth("tau_rotation")} and that
+of translation from τ_α = {nematic.growth("tau_translation")}. The order parameter itself relaxes on the time scale of the
+runs and differs between seeds. At most densities there is thus no verdict of equilibrium, and there is no φ_θ. The power law
+gives φ_T with the exponent {nematic.exponent("translation, tau_alpha", "power law")}, while mode-coupling theory requires at
+least 1.77. The Vogel–Fulcher law gives a different φ_T. The agreement of the power-law value with the experiment is
+therefore no evidence. The two transitions of the experiment do not lie on this path through the nematic.
 
-Binary ellipses of κ = 2 stay isotropic (S ≤ {order:.2f}): what stops there is a glass. Orientations come first by the
-power law, as in the experiment, but by less, and the laws differ by more than that: τ_2 grows
-from {isotropic.growth("tau_rotation")} and τ_α from {isotropic.growth("tau_translation")}, and what still relaxes at the
-highest density is above the power law's φ_θ. Exponents ({isotropic.exponent("translation, tau_alpha", "power law")} and
-{isotropic.exponent("rotation, tau_2", "power law")}) are below 1.77 here, too: the growth is followed over two decades
-in τ_2, and the laws are extrapolations from there. No two separate transitions are what other simulations of such
-mixtures say (Xu et al. 2014); the mode-coupling density of binary disks of the same ratio is 0.795 (Weysser & Hajnal
-2011).
+Binary ellipses with κ = 2 stay isotropic (S ≤ {order:.2f}) and form a glass. By the power law, orientations arrest at a lower
+density than positions, as in the experiment. The difference is smaller than in the experiment, however, and smaller than
+the difference between the two laws. τ_2 grows from {isotropic.growth("tau_rotation")} and τ_α
+from {isotropic.growth("tau_translation")}; the system still relaxes at the highest density, above the φ_θ of the power law.
+The exponents, {isotropic.exponent("translation, tau_alpha", "power law")} and {isotropic.exponent("rotation, tau_2", "power law")}, are again below 1.77: the data cover two decades in τ_2, and the laws
+extrapolate beyond them. Other simulations of such mixtures also find no two separate transitions (Xu et al. 2014). The
+mode-coupling density of binary disks with the same size ratio is 0.795 (Weysser & Hajnal 2011).
 
-### Ellipses of κ = 6
+### Monodisperse ellipses, κ = 6
 
 {nematic.text()}
 
-### Two sizes of κ = 2, 1 : 1.4 in equal numbers
+### Equimolar binary ellipses, κ = 2, size ratio 1.4
 
 {isotropic.text()}
 """

@@ -1,4 +1,4 @@
-"""Jammed packings of ellipses, grown in motion, and their packing fraction against the aspect ratio."""
+"""Jammed packings of ellipses from event-driven growth: packing fraction against aspect ratio."""
 
 import pathlib
 import tempfile
@@ -10,20 +10,20 @@ FIGURE = HERE.parents[1] / "docs" / "figures" / "jamming.svg"
 
 PARTICLES = 500
 GROWTH_RATE = 1e-3
-# The constant C is measured at the first pressure, φ_J at the last. At 1e4 some still rearrange.
+# C is measured at the first pressure, φ_J at the last. At 1e4 some packings still rearrange.
 PRESSURES = (1e5, 1e6)
 MIXTURE = (1, 1.1, 1.2, 1.3, 1.4, 1.5, 2, 3, 4, 6)
 ONE_SIZE = (1.4, 4)
 SIZE_RATIO = 1.4
 
-# Aspect ratio, φ_J and source. Disks: two sizes, the usual value; the ellipses by their own protocols.
+# Aspect ratio, φ_J and source. Disks: two sizes, the usual value; ellipses: each source has its own protocol.
 LITERATURE = (
     (1, 0.84, "disks of two sizes"),
     (1.40, 0.8974, "Donev et al. 2007"),
     (1.43, 0.895, "Delaney et al. 2005"),
     (1.45, 0.8917, "Rocks & Hoy 2023"),
 )
-# Protocols differ by about as much as these sources do.
+# About the scatter of these sources.
 TOLERANCE = 0.01
 
 
@@ -109,19 +109,18 @@ def measure(build):
     rows = beside_literature(mixture, one_size)
     draw(mixture, one_size)
     head = ["κ", "φ_J", "C", "Z at the end", "contacts", "isostatic", "rattlers", "nematic order", "collisions", "smallest gap", "time"]
-    return f"""{PARTICLES} particles, inserted at random at φ = 0.3, grow in motion (Lubachevsky and Stillinger) at the rate
-{GROWTH_RATE:g} until their reduced pressure Z = βP/ρ is {PRESSURES[-1]:.0e}. Masses stay, the moment of inertia follows the axes,
-ω is constant in flight. Disks and nearly round particles of one size crystallise, so the curve is of mixtures: two
-sizes, 1 : {SIZE_RATIO}, in equal numbers. φ_J and C follow from Z = C/(1 − φ/φ_J) at Z = {PRESSURES[0]:.0e} and at the end; in a
-true jam C is the number of degrees of freedom, 2 for disks and 3 for ellipses, less the share of rattlers. Contacts are
-those of the quality report, per particle without rattlers, beside the number that would fix all degrees of freedom;
-nearly round ellipses have fewer (Donev et al. 2007).
+    return f"""{PARTICLES} particles are inserted at random at φ = 0.3. They grow during event-driven dynamics (Lubachevsky and Stillinger) at
+the rate {GROWTH_RATE:g} until the compressibility factor Z = βP/ρ is {PRESSURES[-1]:.0e}. Masses are constant, the moment of inertia follows
+the axes, and ω is constant in free flight. Monodisperse disks and nearly round ellipses crystallise. The curve therefore
+shows equimolar mixtures of two sizes, 1 : {SIZE_RATIO}. φ_J and C follow from Z = C/(1 − φ/φ_J) at Z = {PRESSURES[0]:.0e} and at the end. In
+a jammed packing C is the number of degrees of freedom (2 for disks, 3 for ellipses) times the fraction of non-rattlers. The
+column *contacts* is the contact number of the quality report, per particle and without rattlers; *isostatic* is the number
+that fixes all degrees of freedom. Nearly round ellipses have fewer (Donev et al. 2007).
 
-One seed each. Long particles align while they grow (nematic order), which raises φ_J again towards κ = 6.
+One seed each. Elongated particles align while they grow (nematic order), so φ_J rises again towards κ = 6.
 
-Wanted: Z ≥ {PRESSURES[-1]:.0e} everywhere; no overlap by the exact check (tolerance zero); C between 75 % and 110 % of the
-degrees of freedom; φ_J of the mixtures within {TOLERANCE} of the literature, whose protocols and particles differ among
-each other.
+Required: Z ≥ {PRESSURES[-1]:.0e} everywhere; no overlap by the exact check (tolerance zero); C between 75 % and 110 % of the
+degrees of freedom; φ_J of the mixtures within {TOLERANCE} of the literature. The sources differ in protocol and in particles.
 
 Two sizes:
 

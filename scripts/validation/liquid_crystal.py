@@ -1,4 +1,4 @@
-"""Which states of hard ellipses are isotropic and which nematic, from random and from aligned starts."""
+"""Isotropic and nematic states of hard ellipses, from random and aligned starts."""
 
 import math
 import pathlib
@@ -9,13 +9,13 @@ from validation.common import expect, preparation, shape, summary_of, table
 
 TITLE = "Isotropic and nematic states"
 STARTS = ("random", "aligned")
-INSERTED = 0.4  # the packing fraction
+INSERTED = 0.4  # packing fraction after insertion
 ERRORS = 3
 
-# Aspect ratio, φ, sweeps of Monte Carlo after the swelling.
+# Aspect ratio, φ, Monte Carlo sweeps after swelling.
 ISOTROPIC = ((2, 0.60, 1500), (6, 0.40, 6000))
 SIZES = {500: 24, 2000: 12}  # particles: seeds of each start
-# The way there, of the last of them, and how long single particles remember their angles.
+# The approach to equilibrium in the last of them, and the orientational relaxation of single particles.
 WAY = (0, 500, 1000, 2000, 4000, 6000)
 WAY_PARTICLES = 1000
 WAY_SEEDS = 6
@@ -25,10 +25,10 @@ NEMATIC = (6, 0.70)
 NEMATIC_WAY = (0, 1000, 5000)
 NEMATIC_SIZES = (500, 2000)
 NEMATIC_SEEDS = 3
-# The power of r by which order may decay before a two-dimensional nematic falls apart.
+# The largest exponent of the decay of order at which a two-dimensional nematic is stable.
 LARGEST_DECAY = 1 / 4
 
-# From a random start: the stages that bring it to φ, and how many seeds.
+# From a random start: the number of seeds, and the stages that bring it to φ.
 RANDOM_PARTICLES = 1000
 GROW = 'method = "grow"\ngrowth_rate = {}'
 HYBRID = 'method = "hybrid"\ngrowth_rate = 1e-2\nstretch_sweeps = {}'
@@ -36,8 +36,8 @@ SAMPLE = 'method = "sample"\nmoves = "local"\nsweeps = {}'
 METHODS = {
     "swell": (2, 'method = "swell"'),
     "compress, βP = 10": (1, f'method = "compress"\npressure = 10\npacking_fraction = {NEMATIC[1]}'),
-    "hybrid, rate 1e-2, 10 sweeps at a time": (2, HYBRID.format(10)),
-    "hybrid, rate 1e-2, 100 sweeps at a time": (2, HYBRID.format(100)),
+    "hybrid, rate 1e-2, 10 sweeps per interval": (2, HYBRID.format(10)),
+    "hybrid, rate 1e-2, 100 sweeps per interval": (2, HYBRID.format(100)),
     "grow, rate 1e-2": (2, GROW.format("1e-2")),
     "grow, rate 1e-2, then 10000 sweeps": (2, GROW.format("1e-2"), SAMPLE.format(10_000)),
     "grow, rate 1e-3": (2, GROW.format("1e-3")),
@@ -65,7 +65,7 @@ def prepared(build, particles, aspect_ratio, packing_fraction, seed, *stages, qu
 
 
 def sampling(sweeps):
-    """Nothing is a stage of no sweeps."""
+    """A swelling stage and, unless `sweeps` is 0, a sampling stage."""
     return ('method = "swell"', SAMPLE.format(sweeps)) if sweeps else ('method = "swell"',)
 
 
@@ -79,20 +79,20 @@ def text_of(mean, error, digits=3):
 
 
 def apart(one, other):
-    """Of two estimates, in standard errors."""
+    """The distance of two estimates, in standard errors."""
     return abs(one[0] - other[0]) / math.hypot(one[1], other[1])
 
 
 def exponent(orders):
-    """That of N in S, and its standard error, from the estimates of S at two numbers of particles."""
+    """The exponent of N in S and its standard error, from the estimates of S at two numbers of particles."""
     (small, (s, ds)), (large, (t, dt)) = sorted(orders.items())
     ratio = math.log(large / small)
     return math.log(t / s) / ratio, math.hypot(ds / s, dt / t) / ratio
 
 
 def correlated_sums(correlations, particles):
-    """For each state the sum of cos 2(θ_i − θ_j) over all j that are correlated with i, itself included, on the
-    average of i. Correlated are distances up to that where the mean of g₂ over the states first falls to 0."""
+    """For each state the sum of cos 2(θ_i − θ_j) over all j correlated with i, i included, averaged over i. Particles are
+    correlated up to the distance at which the mean of g₂ over the states first falls to 0."""
     bins = zip(*([pairs * (value or 0) for pairs, value in zip(g["pairs"], g["value"])] for g in correlations))
     sums = [1.0] * len(correlations)
     for column in bins:
@@ -115,7 +115,7 @@ class Liquid:
         self.order = estimate(self.orders)
         self.correlations = [one["nematic_correlation"] for one in states]
         lengths = [one["length"] for one in self.correlations]
-        expect(all(length["reached"] for length in lengths), f"{self.name()}: correlated through half the box")
+        expect(all(length["reached"] for length in lengths), f"{self.name()}: g₂ does not fall below 1/e within half the box")
         self.length = statistics.mean(length["value"] for length in lengths)
 
     def name(self):
@@ -123,7 +123,7 @@ class Liquid:
 
 
 class Both:
-    """Both starts of one size: they have to agree, and order must be what the correlations of near particles make."""
+    """Both starts of one size. They must agree, and nearby correlations must account for the order."""
 
     def __init__(self, build, state, particles):
         self.liquids = [Liquid(build, state, particles, start) for start in STARTS]
@@ -141,10 +141,10 @@ class Both:
         difference = apart(*(liquid.order for liquid in self.liquids))
         expect(difference <= ERRORS, f"{self.name}: the starts differ by {difference:.1f} standard errors")
         expect(abs(self.rest[0]) <= ERRORS * self.rest[1],
-               f"{self.name}: N S² has {text_of(*self.rest)} more than what near particles make")
+               f"{self.name}: N S² has {text_of(*self.rest)} more than nearby particles contribute")
 
     def expected(self):
-        """S of a sum of many independent groups: the mean length of a Gaussian with ⟨S²⟩ = sum/N."""
+        """S of many independent groups: the mean modulus of a Gaussian with ⟨S²⟩ = sum/N."""
         return math.sqrt(math.pi * self.sum / (4 * self.particles))
 
     def row(self):
@@ -154,7 +154,7 @@ class Both:
 
 
 def check_exponent(name, orders):
-    """That of a liquid, and told apart from the largest that a nematic may have."""
+    """Checks that the exponent is that of a liquid and excludes the largest exponent of a nematic."""
     power, error = exponent(orders)
     expect(abs(power + 0.5) <= ERRORS * error, f"{name}: S falls as N to the power {text_of(power, error)}")
     expect(power + ERRORS * error < -LARGEST_DECAY / 4, f"{name}: {text_of(power, error)} does not rule out a nematic")
@@ -162,7 +162,7 @@ def check_exponent(name, orders):
 
 
 def isotropic(build):
-    """Rows of all states, and a sentence about each exponent."""
+    """The rows of all states, and a phrase on each exponent."""
     rows, powers = [], []
     for state in ISOTROPIC:
         sizes = [Both(build, state, particles) for particles in SIZES]
@@ -175,8 +175,8 @@ def isotropic(build):
     return rows, " and ".join(powers)
 
 
-def forgetting(build):
-    """Rows of S against sweeps, from both starts."""
+def approach(build):
+    """Rows of S against the number of sweeps, from both starts."""
     kappa, fraction, _ = ISOTROPIC[-1]
     rows = []
     for sweeps in WAY:
@@ -190,21 +190,21 @@ def forgetting(build):
 
 
 def orientation_times(build):
-    """The longest of single particles in each liquid, by aspect ratio, far below the sweeps that were sampled."""
+    """The longest orientational relaxation time of single particles in each liquid, by aspect ratio."""
     times = {}
     for kappa, fraction, sweeps in ISOTROPIC:
         states = [prepared(build, WAY_PARTICLES, kappa, fraction, seed, insertion("random", INSERTED),
                            *sampling(sweeps // 4), quality_sweeps=QUALITY_SWEEPS)["quality"]
                   for seed in range(1, WAY_SEEDS + 1)]
         limits = [one["time_correlation"]["orientation_lost"] for one in states]
-        expect(all(limit["reached"] for limit in limits), f"{shape(kappa)}: orientations are kept: {limits}")
+        expect(all(limit["reached"] for limit in limits), f"{shape(kappa)}: orientations do not relax: {limits}")
         times[kappa] = max(limit["value"] for limit in limits)
-        expect(times[kappa] <= sweeps / 10, f"{shape(kappa)}: {sweeps} sweeps are too few for a time of {times[kappa]}")
+        expect(times[kappa] <= sweeps / 10, f"{shape(kappa)}: {sweeps} sweeps are too few for a relaxation time of {times[kappa]}")
     return times
 
 
 def min_order(particles):
-    """S of a nematic at the end of its stability, where g₂(r) falls as r^-1/4 from the distance of neighbours on."""
+    """S of a nematic at its stability limit, where g₂(r) falls as r^-1/4 from the nearest-neighbour distance on."""
     return particles ** (-LARGEST_DECAY / 4)
 
 
@@ -214,7 +214,7 @@ def length_text(quality):
 
 
 def nematic(build):
-    """Rows of S against sweeps, and the exponent of N at the end."""
+    """Rows of S against the number of sweeps, and the final exponent of N."""
     rows, orders = [], {}
     for particles in NEMATIC_SIZES:
         row = [particles]
@@ -226,7 +226,7 @@ def nematic(build):
             least = min_order(particles)
             expect(min(found) >= least, f"κ = 6, N = {particles}, {sweeps} sweeps: S = {min(found)}, below {least}")
         expect(not any(one["quality"]["nematic_correlation"]["length"]["reached"] for one in states),
-               f"κ = 6, N = {particles}: correlations end within the box")
+               f"κ = 6, N = {particles}: g₂ falls below 1/e within the box")
         orders[particles] = estimate(found)
         rows.append([*row, f"{min_order(particles):.3f}"])
     power, error = exponent(orders)
@@ -248,49 +248,49 @@ def from_random(build):
 def measure(build):
     liquids, powers = isotropic(build)
     times = orientation_times(build)
-    way = forgetting(build)
+    way = approach(build)
     order, (power, error) = nematic(build)
-    sweeps = " and ".join(f"{sweeps} sweeps (κ = {kappa}; orientations of particles: {times[kappa]})"
+    sweeps = " and ".join(f"{sweeps} sweeps (κ = {kappa}; relaxation time: {times[kappa]})"
                           for kappa, _, sweeps in ISOTROPIC)
     seeds = " and ".join(f"{count} (N = {particles})" for particles, count in SIZES.items())
     kappa, fraction, _ = ISOTROPIC[-1]
-    return f"""Ellipses of one size in a square box. The nematic order is S = |⟨exp 2iθ⟩|. Particles are inserted at φ = {INSERTED}, at random
-angles (random start) or all at the angle 0 (aligned start, S = 1), swollen to φ and then sampled for a number of sweeps of
-local moves.
+    return f"""Monodisperse ellipses in a square box. The nematic order parameter is S = |⟨exp 2iθ⟩|. Particles are inserted at φ = {INSERTED},
+either at random angles (random start) or all at the angle 0 (aligned start, S = 1). They are swollen to φ and then sampled
+by sweeps of local moves.
 
 ### Isotropic states
 
-Independent seeds, {seeds} of each start, are sampled for many times as long as
-single particles remember their orientation (C₂ < 1/e, the longest of {WAY_SEEDS} seeds at N = {WAY_PARTICLES}):
+There are independent seeds for each start: {seeds}. Each is sampled for many orientational
+relaxation times of single particles (C₂ < 1/e, the longest of {WAY_SEEDS} seeds at N = {WAY_PARTICLES}):
 {sweeps}.
 
-In a liquid N⟨S²⟩ is the sum of ⟨cos 2(θ_i − θ_j)⟩ over all j, i included, and does not depend on N. The column *near*
-takes only particles j up to the distance where g₂(r) first falls to 0, *far* is what the others add. *Expected* is
-S = √(π near/4N), that of many independent groups. Wanted, within {ERRORS} standard errors: the same S from both starts;
-nothing from far; S ∝ N to the power −1/2, told apart from the −1/16 or more of a nematic, too. Besides, the
-orientation time of particles is at most a tenth of the sweeps, and g₂ stays below 1/e from a length on that is less than
-half the box. The power of N is {powers}.
+In a liquid N⟨S²⟩ is the sum of ⟨cos 2(θ_i − θ_j)⟩ over all j, i included, and does not depend on N. The column *near* is
+the sum over particles j up to the distance at which g₂(r) first falls to 0; *far* is the contribution of all others.
+*Expected* is S = √(π near/4N), the value for many independent groups. Required, within {ERRORS} standard errors: both starts
+give the same S; *far* is zero; S ∝ N^(−1/2), distinct from the exponent of a nematic, −1/16 or above. Also required: the
+relaxation time of single particles is at most a tenth of the sweeps, and g₂ stays below 1/e beyond a length shorter than
+half the box. The exponent of N is {powers}.
 
 {table(["", "S, random start", "S, aligned start", "expected", "near", "far", "correlation length"], liquids)}
 
-Near its transition the liquid forgets its alignment more slowly than a particle its angle. κ = {kappa}, φ = {fraction},
-N = {WAY_PARTICLES}, {WAY_SEEDS} seeds:
+Near the transition the alignment of the liquid relaxes more slowly than the orientation of a single particle.
+κ = {kappa}, φ = {fraction}, N = {WAY_PARTICLES}, {WAY_SEEDS} seeds:
 
 {table(["sweeps", *(f"S, {start} start" for start in STARTS)], way)}
 
 ### Nematic states
 
-κ = {NEMATIC[0]}, φ = {NEMATIC[1]:.2f}. There is only quasi-long-range order in two dimensions: g₂(r) falls as r to the power −η. η is 1/4 at most,
-where pairs of disclinations part and the nematic melts. So S falls as N to the power −η/4, that is, −1/16 or more, and is
-at least about N^(−1/16) if the power law begins at the distance of neighbours. Wanted: S of every seed above this after any
-number of sweeps; a power of N not below −1/16 by more than {ERRORS} standard errors; g₂ above 1/e as far as the box allows.
-Aligned starts, {NEMATIC_SEEDS} seeds; the power of N at the end is {text_of(power, error)}.
+κ = {NEMATIC[0]}, φ = {NEMATIC[1]:.2f}. In two dimensions nematic order is only quasi-long-ranged: g₂(r) ∝ r^(−η). At η = 1/4 disclination pairs
+unbind and the nematic melts, so η ≤ 1/4. S decreases as N^(−η/4), with an exponent of −1/16 or above. If the power law
+begins at the nearest-neighbour distance, S is at least about N^(−1/16) (*minimum S*). Required: S of every seed exceeds this
+value after any number of sweeps; the exponent of N is not below −1/16 by more than {ERRORS} standard errors; g₂ stays above 1/e
+throughout the box. {NEMATIC_SEEDS} seeds start aligned; the final exponent of N is {text_of(power, error)}.
 
-{table(["N", *(f"S after {n} sweeps" for n in NEMATIC_WAY), "S, least"], order)}
+{table(["N", *(f"S after {n} sweeps" for n in NEMATIC_WAY), "minimum S"], order)}
 
-Random starts, {RANDOM_PARTICLES} particles: domains of different directions have to grow together, and disclinations to meet, the
-sooner the longer they stay at densities where particles still move. S and the correlation length of g₂ for each seed,
-and the mean time. Nothing is wanted here.
+Random starts, {RANDOM_PARTICLES} particles. Domains of different directors must merge and disclinations must annihilate. They do so
+more completely the longer the preparation stays at densities where particles are mobile. The table lists S and the
+correlation length of g₂ for each seed, and the mean time. It sets no requirement.
 
 {table(["stages", "S", "correlation length", "time"], from_random(build))}
 """

@@ -12,14 +12,14 @@ def measure(build):
     decided = int(case["decided_by_eta_1"]) / PAIRS
     overlaps = int(case["random_overlaps"])
     overlooked = int(case["overlooked_by_the_article"]) / overlaps
-    return f"""The support gap, Perram and Wertheim's function and the completed criterion of η₁ … η₅ judge 10⁷ random
-pairs of scalene ellipsoids: aspect ratios 1 … 100, size ratios 1 … 1000, a third of them at the contact
-distance times 1 ± 10⁻¹ … 10⁻¹⁵. Verdicts may differ only where the surfaces are closer than 20 ε (a₁ + a₂),
-a the longest semi-axes and ε = 2.2 · 10⁻¹⁶.
+    return f"""Three criteria test 10⁷ random pairs of scalene ellipsoids for overlap: the support gap, the function of Perram and
+Wertheim, and the completed criterion of η₁ … η₅. Aspect ratios are 1 … 100 and size ratios 1 … 1000. A third of the pairs
+are at the contact distance times 1 ± 10⁻¹ … 10⁻¹⁵. The criteria may disagree only where the surfaces are closer than
+20 ε (a₁ + a₂), where a is the longest semi-axis of a body and ε = 2.2 · 10⁻¹⁶.
 
-Pairs with different verdicts: {case["blurred"]}; the largest distance of surfaces among them:
-{float(case["largest_blurred_gap_over_epsilon"]):.2f} ε (a₁ + a₂). The sign of η₁ is above its rounding, and decides, in {decided:.1%} of the pairs.
+Pairs on which they disagree: {case["blurred"]}. The largest distance between the surfaces of such a pair:
+{float(case["largest_blurred_gap_over_epsilon"]):.2f} ε (a₁ + a₂). In {decided:.1%} of the pairs η₁ exceeds its rounding error, and its sign decides.
 
-The article's table of signs, without the last condition, calls {overlooked:.1%} of the {overlaps:,} overlaps among the
-pairs that are not near contact separate: those where one body is inside the other or crosses it.
+The article's table of signs lacks the last condition. It misclassifies {overlooked:.1%} of the {overlaps:,} overlapping pairs
+that are not near contact as disjoint: those in which one body contains or crosses the other.
 """

@@ -1,4 +1,4 @@
-"""Random periodic packings of hard ellipsoids: the volume fractions of the article and their times."""
+"""Random periodic packings of hard ellipsoids: the volume fractions of the article, and the computing times."""
 
 import functools
 import math
@@ -12,21 +12,21 @@ TITLE = "Random periodic packings of ellipsoids"
 FIGURES = HERE.parents[1] / "docs" / "figures" / "packings"
 
 GROWTH_RATE = 0.1
-SLOW_RATE = 0.01  # of the largest fractions
-JAMMED = 1e6  # the reduced pressure: what is left to gain is a millionth of the fraction times the degrees of freedom
+SLOW_RATE = 0.01  # growth rate for the maximum volume fractions
+JAMMED = 1e6  # final reduced pressure; the fraction is then below its limit by 1e-6 times the degrees of freedom
 RUNS = 10
 START = 0.01
 
-# R_1, R_2, particles, volume fraction, growth rate, mean CPU seconds printed (MATLAB, 1.6 GHz): its largest fractions.
-# Dense fluids of discs and long rods are nematic: the packings are isotropic only if they have no time to order. The
-# rates are as fast as reaches the fraction in all runs.
+# R_1, R_2, particles, volume fraction, growth rate, published mean CPU seconds (MATLAB, 1.6 GHz), for the maximum
+# volume fractions of the article. Dense fluids of platelets and long rods are nematic: packings are isotropic only if
+# they have no time to order. The rates are the highest that reach the fraction in all runs.
 TABLE_2 = (
     (2, 2, 30, 0.60, 0.3, 54.3), (5, 5, 45, 0.55, 0.05, 69.9), (10, 10, 90, 0.30, 0.3, 48.6),
     (20, 20, 175, 0.20, 0.15, 112.5), (30, 30, 175, 0.10, 0.2, 104.9), (40, 40, 310, 0.10, 0.15, 181.3),
     (2, 1, 30, 0.60, 0.3, 52.7), (5, 1, 45, 0.55, 0.1, 65.2), (10, 1, 60, 0.30, 0.3, 39.3),
     (20, 1, 75, 0.20, 0.2, 47.8), (30, 1, 90, 0.10, 0.4, 53.7), (40, 1, 100, 0.10, 0.25, 92.8),
 )
-# The further examples: name, aspect ratios in TOML, particles, volume fraction.
+# Further examples: name, aspect ratios in TOML, particles, volume fraction.
 EXAMPLES = (
     ("prolate 3", "[3, 3]", 100, 0.40),
     ("prolate 40", "[40, 40]", 300, 0.10),
@@ -73,7 +73,7 @@ growth_rate = {rate}
 
 
 class Packing:
-    """One packing, grown and checked by the program itself when it writes its quality report."""
+    """One packing, grown by `vitrel prepare` and tested by `vitrel check`."""
 
     def __init__(self, build, ratios, particles, fraction, seed=1, rate=GROWTH_RATE):
         goal = f"packing_fraction = {fraction}" if fraction else f"reduced_pressure = {JAMMED}"
@@ -93,7 +93,7 @@ class Packing:
 
 
 def isotropic_ratio(particles):
-    """ρ of so many directions at random: mean and half width of the 95 % confidence interval of the mean of RUNS."""
+    """Mean ρ of random directions, and the half-width of the 95 % confidence interval of a mean over RUNS samples."""
     import numpy  # only here: a test imports all validations
 
     draw = numpy.random.default_rng(1)
@@ -107,7 +107,7 @@ def isotropic_ratio(particles):
 
 
 def spread(values):
-    """Mean and half width of its 95 % confidence interval."""
+    """The mean and the half-width of its 95 % confidence interval."""
     student = {5: 2.776, 10: 2.262}[len(values)]
     return statistics.mean(values), student * statistics.stdev(values) / math.sqrt(len(values))
 
@@ -143,7 +143,7 @@ def examples(build):
 
 
 def larger_packings(build):
-    """Isotropic packings of correlated particles have ρ − 1 ∝ N^(−1/2), ordered ones keep it."""
+    """In isotropic packings of correlated particles ρ − 1 ∝ N^(−1/2); in ordered ones it is independent of N."""
     rows = []
     for r1, r2, particles, fraction, rate, _ in TABLE_2:
         if r2 != 1 and r1 != 5:
@@ -163,13 +163,13 @@ def jammed(build):
     for name, ratios, rate, lowest, highest in JAMMED_ROWS:
         packing = Packing(build, ratios, 1000, None, 1, rate)
         expect(lowest <= packing.fraction <= highest,
-               f"{name}: jammed at {packing.fraction}, not within {lowest} and {highest}")
+               f"{name}: jammed at {packing.fraction}, not between {lowest} and {highest}")
         rows.append([name, f"{rate:g}", f"{packing.fraction:.4f}", f"{lowest:g} – {highest:g}", f"{packing.seconds:.3g}"])
     return rows
 
 
 def orientation_study(build):
-    """Figure 6: ρ against N, mean and 95 % confidence interval of 10 runs."""
+    """Figure 6: ρ against N, with means and 95 % confidence intervals of 10 runs."""
     series = {}
     for ratio, fraction in ((2, 0.30), (10, 0.10)):
         for particles in (10, 25, 50, 100, 200, 500):
@@ -180,14 +180,14 @@ def orientation_study(build):
 
 
 def exponent(points):
-    """The slope of a straight line through the logarithms."""
+    """The slope of a linear fit to the logarithms."""
     x, y = ([math.log(p[k]) for p in points] for k in (0, 1))
     mx, my = statistics.mean(x), statistics.mean(y)
     return sum((a - mx) * (b - my) for a, b in zip(x, y)) / sum((a - mx) ** 2 for a in x)
 
 
 def times(build):
-    """Figures 7 to 9: seconds against N (R = 2, 30 %), volume fraction (N = 100, R = 2) and R (N = 100, 5 %)."""
+    """Figures 7 to 9: seconds against N (R = 2, 30 %), volume fraction (N = 1000, R = 2) and R (N = 100, 5 %)."""
     def seconds(ratio, particles, fraction):
         return Packing(build, f"[{ratio}, {ratio}]", particles, fraction).seconds
 
@@ -242,37 +242,39 @@ def measure(build):
     orientation, timed = orientation_study(build), times(build)
     draw(orientation, timed)
     slopes = {name: exponent(points) for name, points in timed.items()}
-    isotropic = [f"R = {ratio}: {points[0][1]:.2f} at N = {points[0][0]} to {points[-1][1]:.2f} ± {points[-1][2]:.2f} "
+    isotropic = [f"R = {ratio}: from {points[0][1]:.2f} at N = {points[0][0]} to {points[-1][1]:.2f} ± {points[-1][2]:.2f} "
                  f"at N = {points[-1][0]}" for (ratio, _), points in orientation.items()]
-    return f"""Ellipsoids with semi-axes a : a/R_1 : a/R_2 are inserted at random at {START:.0%} (or less) and grow in motion in a
-periodic cube, in the table at the given rate of all lengths per unit of time, else at {GROWTH_RATE:g}. Every packing is checked exactly, with tolerance
-zero; its volume fraction is the wanted one to 1e-11. Means of {RUNS} runs with their 95 % confidence intervals, beside the
-ρ of as many directions at random. The fractions wanted are the largest of the article; the last column is what we reach, the
-mean of three packings grown at the rate {SLOW_RATE:g} to a reduced pressure of {JAMMED:g}, where Z ≈ 6/(1 − φ/φ_J) leaves
-6 millionths of the fraction to gain; the article stops when 50 iterations gain less than 0.1 %.
+    return f"""Ellipsoids with semi-axes a : a/R_1 : a/R_2 are inserted at random in a periodic cube at {START:.0%} (or less) and grow during
+event-driven dynamics. The growth rate, of all lengths per unit of time, is that of the table, otherwise {GROWTH_RATE:g}. The exact
+check (tolerance zero) tests every packing; the volume fraction agrees with the target to 1e-11. The table lists means of {RUNS}
+runs with 95 % confidence intervals, and the ρ of as many random directions (*random ρ*). The target volume fractions are the
+maximum values of the article. The last column lists the maximum reached by vitrel: the mean of three packings grown at the
+rate {SLOW_RATE:g} to a reduced pressure of {JAMMED:g}. There Z ≈ 6/(1 − φ/φ_J), so the fraction is 6 millionths below its limit. The
+article stops when 50 iterations gain less than 0.1 %.
 
-{table(["shape", "R_1", "N", "volume fraction", "growth rate", "ρ", "ρ by chance", "printed, s", "measured, s", "ratio", "largest fraction"], rows)}
+{table(["shape", "R_1", "N", "volume fraction", "growth rate", "ρ", "random ρ", "published, s", "measured, s", "ratio", "maximum fraction"], rows)}
 
-Where ρ lies above that of chance, neighbours are aligned: discs of aspect ratio 20 and more are nematic at these fractions
-when they are in equilibrium, and jam before them when they grow still faster. The packings as wholes are isotropic: in
-eight times as many particles ρ − 1 falls by {min(float(row[-1]) for row in larger):g} or more, where √8 = 2.8 is expected, and an ordered packing would keep it.
+Where ρ exceeds its random value, neighbours are aligned. Platelets of aspect ratio 20 and above are nematic at these
+fractions in equilibrium; at higher growth rates they jam before reaching them. The packings as a whole are isotropic: with
+eight times as many particles, ρ − 1 decreases by a factor of {min(float(row[-1]) for row in larger):g} or more. The expected factor is √8 = 2.8; in an ordered
+packing ρ − 1 would not decrease.
 
-{table(["R_1, R_2", "volume fraction", "N", "ρ", "ρ at 8 N", "ρ − 1 falls by"], larger)}
+{table(["R_1, R_2", "volume fraction", "N", "ρ", "ρ at 8 N", "decrease of ρ − 1"], larger)}
 
-The printed times are of MATLAB on 1.6 GHz, the measured ones of {processor()}, one core.
+The published times were measured with MATLAB at 1.6 GHz, the others on one core of {processor()}.
 
 {table(["shape", "N", "volume fraction", "ρ", "collisions", "seconds"], further)}
 
-Jammed packings of 1 000 particles, at the same reduced pressure, beside the literature:
+Jammed packings of 1000 particles at the same reduced pressure, compared with the literature:
 
 {table(["shape", "growth rate", "volume fraction", "literature", "seconds"], dense)}
 
-ρ falls towards 1 with the number of particles: {"; ".join(isotropic)}.
+ρ approaches 1 as the number of particles increases: {"; ".join(isotropic)}.
 
 ![ρ against N](figures/packings/orientation.svg)
 
-Time against the number of particles (R = 2, 30 %) goes like N^{slopes["particles N"]:.2f}, against the volume fraction (N = 1 000,
-R = 2) like V_f^{slopes["volume fraction"]:.1f}, against the aspect ratio (N = 100, 5 %) like R^{slopes["aspect ratio R"]:.1f}; the article found 1.5, 2.6, and 0.6 up to R = 10
+The time scales as N^{slopes["particles N"]:.2f} with the number of particles (R = 2, 30 %), as V_f^{slopes["volume fraction"]:.1f} with the volume fraction (N = 1000,
+R = 2), and as R^{slopes["aspect ratio R"]:.1f} with the aspect ratio (N = 100, 5 %). The exponents of the article are 1.5, 2.6, and 0.6 up to R = 10
 and 2.8 beyond.
 
 ![Time against N, volume fraction and R](figures/packings/times.svg)

@@ -1,20 +1,20 @@
-"""The matrix of restitution of soft spheres: accuracy and speed of integration and tables, maps, one pair."""
+"""The restitution matrix of soft spheres: accuracy and speed of integration and tables, maps, one pair."""
 
 import math
 
 from validation.common import expect, measured, pyplot, save_figure, table
 
-TITLE = "Matrix of restitution of soft spheres"
+TITLE = "Restitution matrix of soft spheres"
 PROGRAM = "restitution"
 FIGURES = "figures/restitution"
 
 INTEGRATION_ERROR = 1e-12
 MAX_MEGABYTES, MAX_SECONDS, MAX_NANOSECONDS = 200, 600, 1000
-MAX_WITHOUT_VALUE = 1e-3  # part of the domain
+MAX_WITHOUT_VALUE = 1e-3  # fraction of the domain
 PAIR_ERROR, TABULATED_PAIR_ERROR = 1e-8, 1e-7  # of positions over l and velocities over v
 VISIBLE = 0.1
-STEPS = 7  # of the contact, marked in the picture, as in the source
-REFINED = 2000  # steps of integration in each of them
+STEPS = 7  # intervals of the contact, marked in the figure as in the source
+REFINED = 2000  # integration steps per interval
 
 NAMES = {"linear_dashpot": "linear dashpot", "viscoelastic": "viscoelastic"}
 COEFFICIENTS = {"angle": "ε_φ", "rate": "ε_ṙ", "distance": "ε_r", "duration": "ε_t"}
@@ -95,7 +95,7 @@ def by_matrix(pair, coefficients, duration):
 
 
 def difference(pair, one, two):
-    """At the end: of positions over l and velocities over v."""
+    """The difference of the final states: positions over l, velocities over v."""
     units = [2 * pair["radius"]] * 4 + [pair["speed"]] * 4
     return max(abs(a - b) / unit for a, b, unit in zip(one[-1], two[-1], units))
 
@@ -109,9 +109,9 @@ def pair_ways(pair):
 
 def check_pair(pair, ways):
     found = {name: difference(pair, ways["Newton"], states) for name, states in ways.items()}
-    expect(found["matrix"] <= PAIR_ERROR, f"the pair ends {found['matrix']} off")
-    expect(found["matrix from a table"] <= TABULATED_PAIR_ERROR, f"with a table {found['matrix from a table']} off")
-    expect(found["classical"] >= VISIBLE, f"the classical rule is only {found['classical']} off")
+    expect(found["matrix"] <= PAIR_ERROR, f"the final state with the matrix is off by {found['matrix']}")
+    expect(found["matrix from a table"] <= TABULATED_PAIR_ERROR, f"the final state with the matrix from a table is off by {found['matrix from a table']}")
+    expect(found["classical"] >= VISIBLE, f"the classical rule is off by only {found['classical']}")
     return found
 
 
@@ -145,7 +145,7 @@ def middles(interval, count):
 
 
 def draw_elastic_angle(of):
-    """Figure 3: ε_φ against ln c_φ and ln l, where a rectangle of g and m has another shape."""
+    """Figure 3: ε_φ against ln c_φ and ln l, onto which the rectangle of g and m is mapped."""
     plots = pyplot()
     columns, rows = middles(of["g"], len(of["angle"][0])), middles(of["m"], len(of["angle"]))
     length = [[m + math.log1p(math.exp(2 * g)) / 2 for g in columns] for m in rows]
@@ -182,13 +182,13 @@ def draw_pair(pair, ways):
 
 def check_integration(force, of):
     for key, symbol in COEFFICIENTS.items():
-        expect(of["errors"][key] <= INTEGRATION_ERROR, f"{force}: {symbol} is {of['errors'][key]} off")
+        expect(of["errors"][key] <= INTEGRATION_ERROR, f"{force}: {symbol} is off by {of['errors'][key]}")
 
 
 def check_table(of):
     name = f"{of['force']}, {of['kind']}"
     for key, bound in BOUNDS.items():
-        expect(of["errors"][key] <= bound * of["tolerance"], f"{name}: {COEFFICIENTS[key]} is {of['errors'][key]} off")
+        expect(of["errors"][key] <= bound * of["tolerance"], f"{name}: {COEFFICIENTS[key]} is off by {of['errors'][key]}")
     expect(of["without_value"] <= MAX_WITHOUT_VALUE * of["points"], f"{name}: {of['without_value']} without a value")
     expect(of["megabytes"] <= MAX_MEGABYTES, f"{name}: {of['megabytes']} MB")
     expect(of["seconds"] <= MAX_SECONDS, f"{name}: built in {of['seconds']} s")
@@ -230,29 +230,30 @@ def measure(_build):
     draw_pair(data["pair"], ways)
     integration = [[NAMES[force], of["impacts"], *(f"{of['errors'][key]:.1e}" for key in COEFFICIENTS)]
                    for force, of in data["integration"].items()]
-    head = ["force", "impacts of", "m", "d", "tolerance", "panels", "MB", "built in", *COEFFICIENTS.values(),
-            "without a value", "look-up", "integration"]
-    return f"""Müller and Pöschel (2013): ε_r, ε_φ, ε_t and ε_ṙ of a contact of finite duration. Errors are the largest found;
-those of ε_r are absolute, of the others relative.
+    head = ["force", "impacts of", "m", "d", "tolerance", "panels", "MB", "build time", *COEFFICIENTS.values(),
+            "without a value", "lookup", "integration"]
+    return f"""The coefficients ε_r, ε_φ, ε_t and ε_ṙ describe a contact of finite duration (Müller and Pöschel 2013). The tables list
+maximum errors: absolute ones for ε_r, relative ones for the other coefficients.
 
-The integration beside the equations of motion as they stand, in extended precision by another method
-(`bench/baselines/plain_contact.h`), for random impacts of the source's domain with c_dis ≤ 20; wanted: {INTEGRATION_ERROR:g}.
+The integration is compared with a solution of the original equations of motion, in extended precision and by another method
+(`bench/baselines/plain_contact.h`), for random impacts of the source's domain with c_dis ≤ 20. Required: {INTEGRATION_ERROR:g}.
 
 {table(["force", "impacts", *COEFFICIENTS.values()], integration)}
 
-Tables (`edmd/soft/restitution_table.h`) beside the integration, at random points and at the middles of a lattice of
-cells, uniform in g, m and d. Wanted: ε_ṙ and ε_t within the tolerance, ε_φ and ε_r within twice that; at most {MAX_MEGABYTES} MB,
-{MAX_SECONDS} s and {MAX_NANOSECONDS} ns; a value in all but {MAX_WITHOUT_VALUE:.1%} of the domain, where it is integrated. The source's domain is
-that of its tables 1 and 2, with any two radii: g from {data['tables'][0]['g'][0]:.2f} to {data['tables'][0]['g'][1]:.2f}. Times include the making of a random
-impact's logarithms, and the memory that random places of a large table are fetched from.
+Tables (`edmd/soft/restitution_table.h`) are compared with the integration at random points and at the centres of a grid of
+cells, uniform in g, m and d. Required: ε_ṙ and ε_t within the tolerance, ε_φ and ε_r within twice the tolerance; at most
+{MAX_MEGABYTES} MB, {MAX_SECONDS} s and {MAX_NANOSECONDS} ns; no value in at most {MAX_WITHOUT_VALUE:.1%} of the domain, where the contact is integrated. The
+domain of the source is that of its tables 1 and 2, for any two radii: g from {data['tables'][0]['g'][0]:.2f} to {data['tables'][0]['g'][1]:.2f}. Lookup times include the
+logarithms of a random impact and cache misses from random access to a large table.
 
 {table(head, [table_row(of) for of in data["tables"]])}
 
-Of impacts of random materials, radii, densities and speeds of the source (uniform in their logarithms; eccentricities
-uniform) {source_sentence(data["tables"])} have no value in the three-dimensional table.
+Random impacts take material, radii, densities and speeds from the ranges of the source, uniform in their logarithms, with
+uniform eccentricities. Impacts without a value in the three-dimensional table:
+{source_sentence(data["tables"])}.
 
-The coefficients in the source's domain (its figures 4 and 5), and ε_φ of elastic contacts in the plane of ln c_φ and ln l/X
-(its figure 3):
+The coefficients in the domain of the source (its figures 4 and 5), and ε_φ of elastic contacts in the plane of ln c_φ and
+ln l/X (its figure 3):
 
 ![Linear dashpot]({FIGURES}/linear_dashpot.svg)
 
@@ -260,10 +261,10 @@ The coefficients in the source's domain (its figures 4 and 5), and ε_φ of elas
 
 ![ε_φ of elastic contacts, linear dashpot]({FIGURES}/elastic_angle.svg)
 
-The pair of figure 6 (k = 2 kN/m, R = 0.1 m, 1140 kg/m³, 5 m/s, e = 0.3, elastic), marks at equal times. At the end of the
-contact the largest difference from Newton's equations, of positions over l and velocities over v, is {off['matrix']:.1e} with
-the matrix of restitution, {off['matrix from a table']:.1e} with one from a table, and {off['classical']:.2g} with the classical rule. Wanted: at most
-{PAIR_ERROR:g} and {TABULATED_PAIR_ERROR:g}, and at least {VISIBLE}.
+The pair of figure 6 (k = 2 kN/m, R = 0.1 m, 1140 kg/m³, 5 m/s, e = 0.3, elastic), with marks at equal times. The final state
+of the contact is compared with the solution of Newton's equations (positions in units of l, velocities in units of v). The
+maximum difference is {off['matrix']:.1e} with the restitution matrix, {off['matrix from a table']:.1e} with the tabulated matrix, and {off['classical']:.2g} with the
+classical rule. Required: at most {PAIR_ERROR:g}, at most {TABULATED_PAIR_ERROR:g}, and at least {VISIBLE}.
 
 ![Trajectories of the pair]({FIGURES}/pair.svg)
 """

@@ -1,4 +1,4 @@
-"""A sweep through a real Slurm on this machine equals the local one."""
+"""A sweep that runs through Slurm on this machine gives the same files as a local sweep."""
 
 from validation.common import ROOT, output_of
 

@@ -1,28 +1,28 @@
-"""Soft spheres in motion: exceptions, accuracy against time, cooling, collisions per second, conservation."""
+"""Dynamics of soft spheres: exceptions, accuracy against computing time, cooling, collision rates, conservation."""
 
 import functools
 import math
 
 from validation.common import commit_of, expect, measured, processor, pyplot, save_figure, table
 
-TITLE = "Soft spheres in motion"
+TITLE = "Dynamics of soft spheres"
 PROGRAM = "soft-spheres"
 FIGURES = "figures/soft_spheres"
 
 USUAL_MODULUS, DILUTE = 1e9, 1e-3
-MOST_EXCEPTIONS = 2e-3  # at the usual modulus, dilute
-THIN = 0.01  # up to here exceptions are compared with theory
-VANISHED = 2e-4  # at the most dilute and the hardest
-MOST_SIGMAS = 4
+MAX_EXCEPTIONS = 2e-3  # at the usual modulus, dilute
+DILUTE_LIMIT = 0.01  # the largest packing fraction at which exceptions are compared with theory
+VANISHED = 2e-4  # at the lowest packing fraction and for the hardest particles
+MAX_SIGMAS = 4
 MIN_FACTOR = 100
 MIN_SPEED = 0.4
 LATE = 1.5  # decades of time
 SLOPES = {"viscoelastic": -5 / 3, "linear_dashpot": -2}
 SLOPE_ERROR = 0.03
-MAX_DRIFT, MOST_ANGULAR_DRIFT = 1e-11, 1e-12
+MAX_DRIFT, MAX_ANGULAR_DRIFT = 1e-11, 1e-12
 
 NAMES = {"viscoelastic": "viscoelastic", "linear_dashpot": "linear dashpot"}
-EXCEPTIONS = {"early_releases": "hit in contact", "refused_turns": "no room to turn"}
+EXCEPTIONS = {"early_releases": "early releases", "refused_turns": "refused rotations"}
 WAYS = {"tables": "event-driven, tables", "integration": "event-driven, integration",
         "classical": "classical rule", "force-based": "force-based", "clusterwise": "force-based, adaptive"}
 
@@ -31,9 +31,10 @@ WAYS = {"tables": "event-driven, tables", "integration": "event-driven, integrat
 
 @functools.cache
 def refused_after_hit(samples=1_000_000):
-    """A particle that moves with its partner is hit by a third one at k and released: the probability that the two
-    then approach, and that the turn of their line brings the particle nearer to its former partner, at n. Over
-    velocities of a gas with kT = m = 1 and all k that the partner leaves free, weighted with the flux."""
+    """A particle moves with its partner, is hit by a third one at k, and is released. Returns the probability that the
+    two then approach and that the rotation of their line of centres brings the particle closer to its former partner,
+    at n. The average is over the velocities of a gas with kT = m = 1 and over all k not shadowed by the partner,
+    weighted with the flux."""
     import numpy
 
     draw = numpy.random.default_rng(1)
@@ -41,8 +42,8 @@ def refused_after_hit(samples=1_000_000):
     k = draw.normal(size=(samples, 3))
     k /= numpy.linalg.norm(k, axis=1, keepdims=True)
     k = k[k @ n < 0.5]
-    third = math.sqrt(3 / 2) * draw.normal(size=k.shape)  # seen from the centre of mass of the pair
-    apart = math.sqrt(2) * draw.normal(size=k.shape)  # velocity of the partner after contact, seen from the particle
+    third = math.sqrt(3 / 2) * draw.normal(size=k.shape)  # relative to the centre of mass of the pair
+    apart = math.sqrt(2) * draw.normal(size=k.shape)  # velocity of the partner after contact, relative to the particle
     apart[:, 0] = math.sqrt(2) * draw.rayleigh(size=len(k))
     flux = numpy.maximum(0, -(third * k).sum(axis=1))
     relative = third + apart / 2
@@ -52,7 +53,7 @@ def refused_after_hit(samples=1_000_000):
 
 
 def expected_exceptions(packing_fraction, modulus):
-    """Per collision, by kinetic theory in a thin gas of nearly hard particles."""
+    """Per collision, from the kinetic theory of a dilute gas of nearly hard particles."""
     radius, density, poisson, speed = 0.1, 1140, 0.4, 2
     mass = density * 4 * math.pi / 3 * radius**3
     stiffness = 2 * modulus * math.sqrt(radius / 2) / (3 * (1 - poisson**2)) / (mass / 2)
@@ -75,10 +76,10 @@ def check_exceptions(rows):
         for name in EXCEPTIONS:
             found = row[name]["mean"]
             if row["packing_fraction"] <= DILUTE and row["modulus"] >= USUAL_MODULUS:
-                expect(found <= MOST_EXCEPTIONS, f"{where}: {name} is {found}")
-            if row["packing_fraction"] <= THIN:
+                expect(found <= MAX_EXCEPTIONS, f"{where}: {name} is {found}")
+            if row["packing_fraction"] <= DILUTE_LIMIT:
                 error = math.sqrt(expected[name] / row["collisions"])
-                expect(abs(found - expected[name]) <= MOST_SIGMAS * error + 0.1 * expected[name],
+                expect(abs(found - expected[name]) <= MAX_SIGMAS * error + 0.1 * expected[name],
                        f"{where}: {name} is {found}, expected {expected[name]}")
     for key, fixed, value, last in (("packing_fraction", "modulus", USUAL_MODULUS, 0),
                                     ("modulus", "packing_fraction", DILUTE, -1)):
@@ -104,7 +105,7 @@ def draw_exceptions(rows):
         axes.set(xscale="log", yscale="log", xlabel=label)
         axes.axhline(1, color="gray", linewidth=0.8)
         axes.grid(alpha=0.3)
-    panels[0].set_ylabel("exceptions in 1000 collisions")
+    panels[0].set_ylabel("exceptions per 1000 collisions")
     panels[0].legend(frameon=False)
     figure.tight_layout()
     save_figure(figure, FIGURES, "exceptions")
@@ -150,20 +151,19 @@ def draw_accuracy(of):
 def accuracy_rows(of):
     fastest = ways_of(of, "tables")[0]["seconds"]
     for row in of["rows"]:
-        steps = f", {row['steps_per_contact']:g} steps in a contact" if "steps_per_contact" in row else ""
+        steps = f", {row['steps_per_contact']:g} steps per contact" if "steps_per_contact" in row else ""
         yield [WAYS[row["way"]] + steps, f"{row['seconds'] / of['duration']:.2g} s", f"{row['seconds'] / fastest:.3g}",
                f"{row['median']:.1e}", f"{row['ninth_decile']:.1e}", f"{row['largest']:.1e}"]
 
 
 def check_accuracy(of):
-    """Beside tables: how much slower and how much less exact the finest force-based run is, and how much slower the
-    adaptive one."""
+    """Relative to tables: the time and the error of the finest force-based run, and the time of the adaptive one."""
     tables, = ways_of(of, "tables")
     finest, adaptive = ways_of(of, "force-based")[-1], ways_of(of, "clusterwise")[0]
     factor, inexact = finest["seconds"] / tables["seconds"], finest["median"] / tables["median"]
-    expect(inexact >= 1, "a force-based run is more exact than tables: none is of equal accuracy")
+    expect(inexact >= 1, "a force-based run is more accurate than tables: there is none of equal accuracy")
     expect(factor >= MIN_FACTOR, f"the force-based run takes only {factor} times as long")
-    expect(ways_of(of, "integration")[0]["median"] <= tables["median"] * 2, "integration is less exact than tables")
+    expect(ways_of(of, "integration")[0]["median"] <= tables["median"] * 2, "integration is less accurate than tables")
     return factor, inexact, adaptive["seconds"] / tables["seconds"]
 
 
@@ -175,7 +175,7 @@ def mean_and_error(values):
 
 
 def late_slope(times, temperatures):
-    """Of ln T against ln t, by least squares over the last decades."""
+    """The slope of ln T against ln t, by least squares over the last decades."""
     points = [(math.log(t), math.log(value)) for t, value in zip(times, temperatures)
               if t >= times[-1] / 10**LATE]
     x0, y0 = (sum(values) / len(points) for values in zip(*points))
@@ -247,7 +247,7 @@ def cluster_rows(clusters):
     for row in clusters:
         expect(row["momentum"] <= MAX_DRIFT and row["energy"] <= MAX_DRIFT, f"clusters: {row}")
         if row["early_release"] == "together":
-            expect(row["largest_angular_momentum"] <= MOST_ANGULAR_DRIFT, f"angular momentum is lost: {row}")
+            expect(row["largest_angular_momentum"] <= MAX_ANGULAR_DRIFT, f"angular momentum is lost: {row}")
         lost = row["angular_momentum"]
         yield [row["early_release"], *counts(row), drift(row["momentum"]), drift(row["energy"]),
                f"{lost['mean']:.1e} ± {lost['error']:.0e}"]
@@ -265,49 +265,54 @@ def measure(_build):
     draw_cooling(cooling)
     usual, = (row for row in exceptions if row["modulus"] == USUAL_MODULUS and row["packing_fraction"] == DILUTE)
     tables, = ways_of(accuracy, "tables")
-    count_head = ["collisions", "no room to turn", "hit in contact"]
-    return f"""Spheres as in figure 7 of Müller and Pöschel (2013): R = 0.1 m, 1140 kg/m³, ν = 0.4, Y = 1 GPa and a thermal
-speed √(2kT/m) of 2 m/s where nothing else is said; periodic boxes. One core of {processor()}, build {commit_of(data)};
-times are those of the processor.
+    count_head = ["collisions", *reversed(EXCEPTIONS.values())]
+    return f"""The spheres are those of figure 7 of Müller and Pöschel (2013): R = 0.1 m, 1140 kg/m³, ν = 0.4. Unless stated otherwise,
+Y = 1 GPa, the thermal speed √(2kT/m) is 2 m/s, and the box is periodic. Times are CPU times on one core of
+{processor()}, build {commit_of(data)}.
 
 ### Exceptions (figure 7)
 
-{data['exceptions']['particles']} elastic spheres released from a crystal; errors from blocks of the run. Dashed: what kinetic theory lets expect of a
-thin gas of nearly hard spheres, with τ the mean duration of a contact and τ_f the mean free time: a third particle
-hits one of the pair in (3√3/4) τ/τ_f of the collisions, and is in the way of the turn in (π/6 + √3/16) τ/τ_f; then there are
-those in which the partner of a particle that was hit in contact is in the way of its turn with the third one,
-a share of {refused_after_hit():.3f} of these hits by random sampling of such encounters. At Y = 1 GPa and η = 0.001 there are {1e3 * usual['early_releases']['mean']:.2f} and {1e3 * usual['refused_turns']['mean']:.2f} in 1000 collisions; both vanish in the dilute and in the hard limit.
+{data['exceptions']['particles']} elastic spheres start from a crystal; errors are estimated by blocking. An *early release* is a contact in which a
+third particle hits one of the pair. A *refused rotation* is a contact whose rotation a neighbour blocks. Dashed lines show
+the kinetic theory of a dilute gas of nearly hard spheres, with the mean contact duration τ and the mean free time τ_f. A
+third particle hits one of the pair in a fraction (3√3/4) τ/τ_f of the collisions; it blocks the rotation in a fraction
+(π/6 + √3/16) τ/τ_f. In addition, after an early release the former partner can block the rotation of the released particle
+with the third one. Random sampling of such encounters gives a fraction of {refused_after_hit():.3f} of the early releases. At Y = 1 GPa and
+η = 0.001 there are {1e3 * usual['early_releases']['mean']:.2f} early releases and {1e3 * usual['refused_turns']['mean']:.2f} refused rotations per 1000 collisions. Both vanish in the dilute limit and in
+the hard limit.
 
 ![Exceptions against packing fraction and Young's modulus]({FIGURES}/exceptions.svg)
 
-{table(["η", "Y (GPa)", "collisions", "hit in contact, ‰", "expected", "no room to turn, ‰", "expected"], list(exception_rows(exceptions)))}
+{table(["η", "Y (GPa)", "collisions", "early releases, ‰", "theory", "refused rotations, ‰", "theory"], list(exception_rows(exceptions)))}
 
-### Accuracy against time
+### Accuracy against computing time
 
-{accuracy['particles']} spheres at η = 0.001 with A = 4·10⁻⁵ s (a head-on coefficient of restitution of {data['cooling'][0]['restitution']:.2f} at 2 m/s), all from the same
-state of the gas, for one mean free time, {accuracy['duration']:.1f} s, in which a contact takes {1e3 * accuracy['contact']:.2f} ms. Errors are distances in radii from
-the places of a reference, of the {tables['particles']} particles that have collided; each earlier collision among their ancestors multiplies
-an error by a hundred and more. The reference integrates Newton's equations cluster by cluster, with adaptive
-steps in the clusters and none in free flight (`bench/baselines/clusterwise_run.h`); the last row is the same with ten times the
-tolerance, its error so a bound for that of the reference. The force-based runs are of velocity Verlet steps with neighbour lists
-(`bench/baselines/force_based_run.h`). The classical rule has the coefficient of restitution of a head-on impact of the same
-normal speed.
+{accuracy['particles']} spheres at η = 0.001 with A = 4·10⁻⁵ s (a head-on coefficient of restitution of {data['cooling'][0]['restitution']:.2f} at 2 m/s).
+All runs start from the same state of the gas and last one mean free time, {accuracy['duration']:.1f} s; a contact lasts {1e3 * accuracy['contact']:.2f} ms. Errors are the
+distances, in radii, from the positions of a reference solution, for the {tables['particles']} particles that have collided. Every earlier
+collision in the history of a particle multiplies its error by a hundred or more. The reference solution integrates Newton's
+equations cluster by cluster, with adaptive steps in the clusters and no steps in free flight
+(`bench/baselines/clusterwise_run.h`). The last row uses ten times its tolerance, so its error bounds that of the reference
+solution. The force-based runs use velocity Verlet steps with neighbour lists (`bench/baselines/force_based_run.h`). The
+classical rule uses the coefficient of restitution of a head-on impact at the same normal speed.
 
-{table(["way", "per simulated second", "times as long", "median error", "ninth decile", "largest"], list(accuracy_rows(accuracy)))}
+{table(["method", "time per simulated second", "relative time", "median error", "ninth decile", "maximum"], list(accuracy_rows(accuracy)))}
 
-The finest force-based run takes {factor:.0f} times as long as the event-driven one with tables, and its error is still {inexact:.0f} times as
-large. Wanted: at least {MIN_FACTOR} times as long at equal accuracy. The adaptive one, which is no usual force-based run as it
-leaves out the free flight, is as exact as the events and takes {adaptive:.0f} times as long{"" if adaptive >= MIN_FACTOR else ", less than wanted"}. The table takes {accuracy['table']['seconds']:.2f} s to build, once, and {accuracy['table']['megabytes']:.2g} MB.
+The finest force-based run takes {factor:.0f} times as long as the event-driven run with tables, and its error is still {inexact:.0f} times as
+large. Required: at least {MIN_FACTOR} times as long at equal accuracy. The adaptive run is not an ordinary force-based run, since it
+skips free flight. It is as accurate as the event-driven run and takes {adaptive:.0f} times as long{"" if adaptive >= MIN_FACTOR else ", below the requirement"}.
+Building the table once takes {accuracy['table']['seconds']:.2f} s; the table occupies {accuracy['table']['megabytes']:.2g} MB.
 
-![Error against time; full marks: median, open marks: ninth decile; numbers: steps in a contact]({FIGURES}/accuracy.svg)
+![Error against computing time. Filled symbols: median; open symbols: ninth decile; numbers: steps per contact]({FIGURES}/accuracy.svg)
 
 ### Cooling
 
-Granular gases of {cooling[0]['particles']} spheres at η = {cooling[0]['packing_fraction']:g}, {len(cooling[0]['temperatures'])} runs of each; Haff's law: T ∝ t^(−5/3) late if viscoelastic, as
-collisions become more elastic, and t^(−2) with the one coefficient of restitution of the dashpot. The viscoelastic gas is that of before, the
-other one has k = 10⁷ N/m and γ = 327 kg/s. Slopes of ln T against ln t over the
-last {LATE:g} decades of time; wanted: within {SLOPE_ERROR:g}. Haff's law has the first order of 1 − ε in v^(1/5) only: the next one makes the slope of the
-viscoelastic gas steeper by an amount ∝ t^(−1/6), which is slow to vanish.
+Granular gases of {cooling[0]['particles']} spheres at η = {cooling[0]['packing_fraction']:g}, {len(cooling[0]['temperatures'])} runs each. At late times Haff's law gives T ∝ t^(−5/3) for
+viscoelastic spheres, whose collisions become more elastic, and T ∝ t^(−2) for the linear dashpot, whose coefficient of
+restitution is constant. The viscoelastic gas is the one above; the other has k = 10⁷ N/m and γ = 327 kg/s. The table lists
+the slopes of ln T against ln t over the last {LATE:g} decades of time. Required: agreement within {SLOPE_ERROR:g}. Haff's law contains 1 − ε only
+to first order in v^(1/5). The next order makes the slope of the viscoelastic gas steeper by an amount ∝ t^(−1/6), which
+vanishes slowly.
 
 {table(["force", "restitution at 2 m/s", "collisions", "T/T(0) at the end", "late slope", "Haff's law"], list(cooling_rows(cooling)))}
 
@@ -315,19 +320,22 @@ viscoelastic gas steeper by an amount ∝ t^(−1/6), which is slow to vanish.
 
 ### Collisions per second
 
-{data['speed'][0]['particles']} elastic spheres beside the same as hard spheres in the same engine, from the same state, in alternation; best of the repeats.
-Wanted: at least {MIN_SPEED:.0%} of the hard ones' with tables. In thin gases the time goes into the renewal of neighbour lists.
+{data['speed'][0]['particles']} elastic spheres, compared with hard spheres in the same engine. Both start from the same state and run
+alternately; the table lists the best repetition. Required: with tables, at least {MIN_SPEED:.0%} of the rate of hard spheres. In dilute
+gases the renewal of neighbour lists dominates.
 
 {table(["η", "hard, 10³/s", "tables, 10³/s", "integration, 10³/s", "tables/hard", "integration/hard", "renewals per collision"], list(speed_rows(data["speed"])))}
 
 ### Conservation
 
-Gases of {accuracy['particles']} spheres at η = 0.01. Momentum is in units of Σ m |v| at the start; the energy is the one with what was dissipated.
+Gases of {accuracy['particles']} spheres at η = 0.01. Momentum is in units of the initial Σ m |v|. The energy includes the dissipated
+energy.
 
 {table(["gas", *count_head, "momentum", "energy"], list(gas_rows(data["conservation"]["gases"])))}
 
-{data['conservation']['clusters'][0]['clusters']} hot clusters of {data['conservation']['clusters'][0]['particles']} elastic spheres at η = 0.3 that fly apart in empty space: a particle that is hit while in contact is
-released alone, or its partner with it. The change of angular momentum is in units of Σ m |r × v| at the start.
+{data['conservation']['clusters'][0]['clusters']} hot clusters of {data['conservation']['clusters'][0]['particles']} elastic spheres at η = 0.3 expand into empty space. A particle that is hit during a
+contact is released alone or together with its partner. The change of angular momentum is in units of the initial
+Σ m |r × v|.
 
 {table(["released", *count_head, "momentum", "energy", "angular momentum"], list(cluster_rows(data["conservation"]["clusters"])))}
 """

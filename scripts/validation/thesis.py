@@ -1,23 +1,23 @@
-"""Chapter 4 of the thesis: its figures again, with a program like its own and with this one."""
+"""Chapter 4 of the thesis: its figures reproduced with a program like that of the thesis and with vitrel."""
 
 from validation.common import compared, expect, save_figure, table
 from validation.thesis_figures import IMPROVED, NAMES, OURS, THESIS, thesis_figures
 
 TITLE = "The figures of the thesis"
-SECONDS = 2  # of work, after which a run of the thesis's program is cut short
-DURATION = 100  # of the runs in simulated time, unless cut short
+SECONDS = 2  # CPU time after which a run of the thesis's program ends
+DURATION = 100  # simulated time of a complete run
 LARGEST = 400
 RUNS = 32  # averaged in figure 4.7
 FIGURES = "figures/thesis"
 
 ELLIPSES, CIRCLES = 2, 1
-# Between what the powers of N must lie with which the cost grows: linear with lists and calendar. With all pairs, N
-# events times N optimisations of ellipses; where only dismissals in closed form are left, N events times N² pairs.
+# Range of the exponent of N in the cost. Lists and a calendar make it linear. With all pairs, N events require N
+# optimisations each for ellipses, and N² closed-form tests each for circles.
 EXPONENTS = {(OURS, ELLIPSES): (0.8, 1.3), (OURS, CIRCLES): (0.8, 1.3),
              (THESIS, ELLIPSES): (1.7, 2.5), (THESIS, CIRCLES): (2.4, 3.2)}
 ENERGY_DRIFT = 1e-12  # of figure 4.6, relative
-ROUNDING = 4 * 2.0**-52  # of a pair's energy: what an impact may change it by, if all err alike
-STANDARD_ERRORS = 4  # false alarm: 6e-5 for each row
+ROUNDING = 4 * 2.0**-52  # of a pair's energy: the change by an impact if all rounding errors have the same sign
+STANDARD_ERRORS = 4  # false-alarm rate: 6e-5 per row
 
 
 def exponent(data, program, kappa):
@@ -25,7 +25,7 @@ def exponent(data, program, kappa):
 
 
 def seconds_per_time(data, program, kappa, particles):
-    """Mean of the Newtonian and the Brownian run, as in the thesis; None if there is none."""
+    """Mean of the Newtonian and the Brownian run, as in the thesis; None without such runs."""
     values = [row["seconds"] / row["simulated_time"] for row in data["rows"]
               if (row["program"], row["aspect_ratio"], row["particles"]) == (program, kappa, particles)
               and not row["stood_still"]]
@@ -41,7 +41,7 @@ def ratio(one, two):
 
 
 def check_ours(data):
-    """No correction move and a clean exact check in every run; energy where it is conserved."""
+    """Checks for correction moves, overlaps and, where energy is conserved, its drift."""
     samples = 0
     for row in data["rows"] + data["by_aspect_ratio"]:
         if row["program"] != OURS:
@@ -52,7 +52,7 @@ def check_ours(data):
         expect(row["dynamics"] == "Brownian"
                or row["energy_drift"] <= ROUNDING * (1 + row["collisions"] / row["particles"]),
                f"{name}: relative energy drift {row['energy_drift']} in {row['collisions']} collisions")
-        expect(row["simulated_time"] >= 0.999 * DURATION, f"{name}: {row['simulated_time']} units of time only")
+        expect(row["simulated_time"] >= 0.999 * DURATION, f"{name}: only {row['simulated_time']} units of time")
         samples += row["samples"]
     expect(data["energy_drift"] <= ENERGY_DRIFT, f"figure 4.6: relative energy drift {data['energy_drift']}")
     for of in data["relaxations"]:
@@ -87,7 +87,7 @@ def durations(data):
 
 def corrections(data):
     head = ["program", "dynamics", "runs", "collisions", "per collision of vitrel", "correction moves",
-            "per 1000 collisions", "deepest overlap (b)", "runs that stood still"]
+            "per 1000 collisions", "deepest overlap (b)", "stalled runs"]
     truth = {(row["particles"], row["dynamics"]): row["collisions"] / row["simulated_time"]
              for row in data["rows"] if row["program"] == OURS and row["aspect_ratio"] == ELLIPSES}
     rows = []
@@ -105,7 +105,7 @@ def corrections(data):
 
 
 def relaxation(data):
-    head = ["φ", "dynamics", "energy at first in", "units of time", "kinetic energy at last",
+    head = ["φ", "dynamics", "initial energy in", "units of time", "final kinetic energy",
             "equipartition", "standard error"]
     rows = []
     for of in data["relaxations"]:
@@ -121,7 +121,7 @@ def relaxation(data):
 
 
 def check_brownian_relaxation(data):
-    """Before velocities are drawn anew a dense system comes nearer to equilibrium than a dilute one."""
+    """Between two draws of the velocities a dense system comes closer to equilibrium than a dilute one."""
     reached = {of["packing_fraction"]: abs(of["kinetic"][-1] - of["expected"]) for of in data["relaxations"]
                if of["dynamics"] == "Brownian" and of["share_in_translation"] == 1}
     dilute, dense = min(reached), max(reached)
@@ -141,45 +141,46 @@ def measure(build):
     relaxed = relaxation(data)
     for name, figure in thesis_figures(data).items():
         save_figure(figure, FIGURES, name)
-    return f"""Chapter 4 of the thesis again: κ = 2 and circles of the same area, φ = 0.5, kT = m = a b = 1, from
-equilibrium unless said otherwise, τ_B = 0.1 where the dynamics are Brownian. `vitrel-bench thesis` runs three programs:
+    return f"""The figures of chapter 4 of the thesis, reproduced for ellipses with κ = 2 and circles of the same area. Parameters are
+φ = 0.5 and kT = m = a b = 1; Brownian dynamics uses τ_B = 0.1. Runs start from equilibrium unless stated otherwise.
+`vitrel-bench thesis` runs three programs:
 
-- **all pairs** works as the thesis's does: no calendar, no lists, no cells; after every event every pair is asked
-  anew for its next collision, ellipses by SLSQP, circles in closed form; a pair found overlapping gets a correction
-  move;
-- **all pairs, improved** keeps a table of the pairs' next events, asks only pairs whose motion has changed, and takes
-  no answer of SLSQP that violates a constraint;
-- **vitrel** is this program's engine.
+- **all pairs** is a program like that of the thesis, without calendar, lists or cells. After every event it predicts the
+  next collision of every pair, for ellipses with SLSQP and for circles in closed form. Overlapping pairs are separated by
+  a correction move.
+- **all pairs, improved** keeps a table of the next events of the pairs. It predicts only for pairs whose motion has changed
+  and rejects solutions of SLSQP that violate a constraint.
+- **vitrel** is the engine of this program.
 
-The first two are cut short after {SECONDS} s of work for each run, at a whole sample (0.1 units of time).
+Runs of the first two end after {SECONDS} s of CPU time, at a complete sample (0.1 units of time).
 
-Wanted, and found, of vitrel: no correction move; the exact check (tolerance zero) clean at all {samples} samples; a
-drift of the energy in Newtonian runs of at most 4 units in the last place for every impact of a pair, and of at most
-{ENERGY_DRIFT:g} of the whole in that of figure 4.6; equipartition within {STANDARD_ERRORS} standard errors after a
-wrong split of the energy. Its cost grows as N to the power {powers(OURS, ELLIPSES)} (ellipses and
-circles); that of all pairs to the power {powers(THESIS, ELLIPSES)} (ellipses) and {powers(THESIS, CIRCLES)} (circles).
+vitrel meets these requirements: no correction moves; no overlap at any of the {samples} samples by the exact check
+(tolerance zero); in Newtonian runs, an energy drift of at most 4 units in the last place per impact of a pair, and of at most
+{ENERGY_DRIFT:g} of the total energy in the run of figure 4.6; equipartition within {STANDARD_ERRORS} standard errors after a
+start far from it. Required exponents of N in the cost: {powers(OURS, ELLIPSES)} for vitrel (ellipses and
+circles); for all pairs {powers(THESIS, ELLIPSES)} (ellipses) and {powers(THESIS, CIRCLES)} (circles).
 
 ### Time against the number of particles (figures 4.1 and 4.2)
 
-Seconds of work for one unit of simulated time, mean of a Newtonian and a Brownian run as in the thesis. The thesis
-fits parabolas to both shapes, up to N = 100. For ellipses *all pairs* grows alike: after each of N events it optimises
-about N pairs whose circumcircles overlap. For circles nothing is left but to look at all N²/2 pairs, and the cost
-comes closer to N³: either the thesis's circles were not asked all again, or the small N hide it.
+CPU seconds per unit of simulated time, averaged over a Newtonian and a Brownian run as in the thesis. The thesis fits
+parabolas to both shapes, up to N = 100. For ellipses the cost of *all pairs* is also quadratic: after each of N events it
+optimises about N pairs whose circumcircles overlap. For circles the test of all N²/2 pairs dominates, and the cost
+approaches N³. Either the program of the thesis does not predict for all circles again, or N is too small there to show this.
 
 {durations(data)}
 
-{picture("duration", "Seconds for one unit of simulated time against the number of particles")}
+{picture("duration", "CPU seconds per unit of simulated time against the number of particles")}
 
 {picture("linear", "The same for vitrel alone, on linear axes")}
 
-{picture("cost-ratio", "Cost of an ellipse over that of a circle against the number of particles")}
+{picture("cost-ratio", "Cost of an ellipse relative to a circle against the number of particles")}
 
 ### Collisions and correction moves (figures 4.3 and 4.4)
 
-Ellipses, all particle numbers together. An optimiser whose answer is checked only at the ends of its bracket (as in
-the thesis's appendix A.1) reports collisions that do not happen, the more the oftener it is asked; the thesis's own
-count is linear in N. One that is local overlooks some: a program that asks every pair again after every event mostly
-makes that good; one that does not has to correct.
+Ellipses, all particle numbers combined. The optimiser of appendix A.1 of the thesis checks its solution only at the ends of
+the bracket. It reports false collisions, and more of them the more often it runs; the count in the thesis is linear in N. A
+local optimiser also misses collisions. A program that predicts for every pair after every event usually finds these later;
+one that does not needs correction moves.
 
 {corrections(data)}
 
@@ -193,16 +194,16 @@ makes that good; one that does not has to correct.
 
 ### Energy (figures 4.6 and 4.7)
 
-One Newtonian run; its relative energy drift: {data["energy_drift"]:.1e}.
+One Newtonian run. Its relative energy drift is {data["energy_drift"]:.1e}.
 
 {picture("energies", "Kinetic, rotational and total energy of one run")}
 
-Mean of {RUNS} runs of 100 particles from a square lattice whose energy, 3/2 kT per particle, is all in translation or
-all in rotation. At zero momentum and fixed energy E the kinetic energy of translation is in equilibrium E times a
-Beta(N − 1, N/2) variable, which gives its mean and the standard error. In the Brownian runs the wrong split is drawn
-anew every τ_B: the kinetic energy just before that shows how far the system comes in between.
+Mean of {RUNS} runs of 100 particles that start from a square lattice. The initial energy, 3/2 kT per particle, is entirely
+translational or entirely rotational. At zero momentum and fixed energy E the translational kinetic energy in equilibrium is
+E times a Beta(N − 1, N/2) variable; this gives its mean and the standard error. In the Brownian runs the velocities are drawn
+with the initial partition after every τ_B. The kinetic energy just before a draw shows how far the system relaxes in between.
 
 {relaxed}
 
-{picture("relaxation", "Kinetic energy against time after a wrong split")}
+{picture("relaxation", "Kinetic energy against time, from a start without equipartition")}
 """

@@ -1,11 +1,11 @@
-"""Pictures of chapter 4 of the thesis from the data of vitrel-bench thesis."""
+"""The figures of chapter 4 of the thesis, from the data of vitrel-bench thesis."""
 
 from validation.figures import COLOURS, chart, floor, legend, points
 
 OURS, THESIS, IMPROVED = "vitrel", "thesis", "improved"
 NAMES = {OURS: "vitrel", THESIS: "all pairs", IMPROVED: "all pairs, improved"}
 SHAPES = {2: "ellipses", 1: "circles"}
-LONG_ENOUGH = 1  # simulated time of a run, to count its collisions
+LONG_ENOUGH = 1  # minimum simulated time of a run whose collisions are counted
 N = "number of particles N"
 
 
@@ -19,7 +19,7 @@ def durations(rows, program, kappa):
 
 
 def duration_figure(data):
-    figure, axes = chart("Figure 4.1: seconds of work for one unit of simulated time, φ = 0.5", N, "seconds per unit of time")
+    figure, axes = chart("Figure 4.1: CPU seconds per unit of simulated time, φ = 0.5", N, "seconds per unit of time")
     exponents = {(e["program"], e["aspect_ratio"]): e["exponent"] for e in data["exponents"]}
     for k, program in enumerate((THESIS, IMPROVED, OURS)):
         for kappa, shape in SHAPES.items():
@@ -27,12 +27,12 @@ def duration_figure(data):
             power = "" if exponent is None else f": N^{exponent:.2f}"
             points(axes, f"{NAMES[program]}, {shape}{power}", 2 * k + (kappa == 1),
                    [(n, s, kappa == 1) for n, s in durations(data["rows"], program, kappa).items()])
-    return legend(figure, axes, ["all pairs: the thesis's program,", "every pair asked after every event",
-                                 "improved: only those changed,", "and every answer checked"])
+    return legend(figure, axes, ["all pairs: the thesis's program,", "predicts every pair after every event",
+                                 "improved: only changed pairs,", "and every solution checked"])
 
 
 def linear_figure(data):
-    figure, axes = chart("Figure 4.2: milliseconds for one unit of simulated time, vitrel, φ = 0.5", N,
+    figure, axes = chart("Figure 4.2: CPU milliseconds per unit of simulated time, vitrel, φ = 0.5", N,
                          "milliseconds per unit of time", log="")
     for k, (kappa, shape) in enumerate(SHAPES.items()):
         points(axes, shape, k, [(0, 0, True), *((n, 1000 * s, kappa == 1) for n, s in durations(data["rows"], OURS, kappa).items())])
@@ -40,7 +40,7 @@ def linear_figure(data):
 
 
 def ratio_figure(data):
-    figure, axes = chart("Cost of an ellipse (κ = 2) over that of a circle of the same area, φ = 0.5", N,
+    figure, axes = chart("Cost of an ellipse (κ = 2) relative to a circle of the same area, φ = 0.5", N,
                          "ratio of the times per unit of time")
     for k, program in enumerate((THESIS, IMPROVED, OURS)):
         circles = durations(data["rows"], program, 1)
@@ -101,7 +101,7 @@ def corrections_figure(data, relative):
 
     draw_series(axes, data["rows"], name_of, lambda row: (row["particles"], max(moves(row), none), row["stood_still"]))
     floor(axes, none, "none")
-    return legend(figure, axes, ["hollow: the run stood still"])
+    return legend(figure, axes, ["hollow: the run stalled"])
 
 
 def energies_figure(data):
@@ -118,15 +118,15 @@ def energies_figure(data):
 
 
 def relaxation_figure(data):
-    figure, axes = chart("Figure 4.7: kinetic energy after a wrong split, N = 100, κ = 2", "time",
+    figure, axes = chart("Figure 4.7: relaxation of the kinetic energy, N = 100, κ = 2", "time",
                          "kinetic energy per particle / kT", log="x")
     for k, of in enumerate(data["relaxations"]):
         spinning = ", spinning" if of["share_in_translation"] == 0 else ""
         points(axes, f"φ = {of['packing_fraction']:g}, {of['dynamics']}{spinning}", k,
                [(t, e, of["brownian_step"] > 0) for t, e in zip(of["times"], of["kinetic"])])
     axes.axhline(1, color="black", linewidth=0.8, linestyle="--")
-    return legend(figure, axes, ["all energy begins in translation,", "or (spinning) in rotation;",
-                                 "Brownian: drawn so anew every", "τ_B = 0.1, shown just before;", "dashed: equipartition"])
+    return legend(figure, axes, ["initial energy: translational", "or (spinning) rotational;",
+                                 "Brownian: redrawn like this every", "τ_B = 0.1, shown just before it;", "dashed: equipartition"])
 
 
 def thesis_figures(data):

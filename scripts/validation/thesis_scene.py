@@ -1,9 +1,9 @@
-"""The scene of the thesis and a binary mixture: nothing overlaps, what must be conserved is."""
+"""The scene of the thesis and a binary mixture: no overlaps, and conserved quantities stay constant."""
 
 from validation.common import PARAMS, expect, run_and_check, table
 
 TITLE = "The scene of the thesis"
-DURATION = 1000  # ten times the thesis's
+DURATION = 1000  # ten times that of the thesis
 
 SCENES = {
     "thesis, Newtonian": ("thesis.toml", True),
@@ -29,9 +29,9 @@ def measure(build):
     head = ["scene", "collisions", "predictions per collision", "correction moves", "relative energy drift",
             "largest momentum", "frames", "overlaps", "smallest gap"]
     rows = [row(build, name, *scene) for name, scene in SCENES.items()]
-    return f"""The parameter files `params/thesis.toml`, `params/thesis_brownian.toml` and `params/binary.toml`, run for
-{DURATION} units of time. Wanted: no correction moves; no overlap in any saved frame by the exact check (tolerance
-zero); and without the Brownian step a relative energy drift of at most 10⁻¹² and a momentum of at most 10⁻¹¹.
+    return f"""`params/thesis.toml`, `params/thesis_brownian.toml` and `params/binary.toml` run for {DURATION} units of time. Required: no
+correction moves; no overlap in any saved frame by the exact check (tolerance zero); in Newtonian runs, a relative energy
+drift of at most 10⁻¹² and a momentum of at most 10⁻¹¹.
 
 {table(head, rows)}
 """

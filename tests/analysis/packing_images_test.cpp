@@ -46,7 +46,7 @@ double value_at(const Ellipsoid& body, const Pose3& pose, const Vec3& x) {
       .squaredNorm();
 }
 
-/// Its least value in the box by descent along one coordinate after the other, which converges to the
+/// Its minimum in the box by descent along one coordinate after the other, which converges to the
 /// least of a convex function between bounds on the coordinates.
 double min_by_descent(const Ellipsoid& body, const Pose3& pose, const PeriodicBox<3>& box) {
   const Mat3 inverse = shape_matrix(body, pose.orientation).inverse();

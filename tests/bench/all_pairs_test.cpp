@@ -42,29 +42,29 @@ void expect_same_motion(const Configuration2& start, Asking asking, double colli
   EXPECT_EQ(of_slow.correction_moves, 0u);
 }
 
-class AllPairsRun : public testing::TestWithParam<Asking> {};
+class AllPairsProgram : public testing::TestWithParam<Asking> {};
 
-TEST_P(AllPairsRun, OfEllipsesMovesAlike) {
+TEST_P(AllPairsProgram, OfEllipsesMovesAlike) {
   expect_same_motion(ellipses(5), GetParam(), 10);
 }
 
-TEST_P(AllPairsRun, OfDisksMovesAlike) {
+TEST_P(AllPairsProgram, OfDisksMovesAlike) {
   const auto disk = [](std::size_t) { return Ellipse{1, 1}; };
   expect_same_motion(moving(square_lattice(5, 0.5, 0, disk)), GetParam(), 10);
 }
 
-TEST_P(AllPairsRun, OfAMixtureMovesAlike) {
+TEST_P(AllPairsProgram, OfAMixtureMovesAlike) {
   const auto mixed = [](std::size_t i) { return i % 2 ? Ellipse{1.3, 1.3} : of_aspect_ratio(2); };
   expect_same_motion(moving(square_lattice(5, 0.4, std::numbers::pi / 4, mixed)), GetParam(), 10);
 }
 
 // So far apart that the crossing of the box comes long before most collisions.
-TEST_P(AllPairsRun, OfADiluteGasMovesAlike) {
+TEST_P(AllPairsProgram, OfADiluteGasMovesAlike) {
   const auto shape = [](std::size_t) { return of_aspect_ratio(3); };
   expect_same_motion(moving(square_lattice(3, 0.05, 0, shape)), GetParam(), 3);
 }
 
-TEST_P(AllPairsRun, StaysHardWithNewVelocities) {
+TEST_P(AllPairsProgram, StaysHardWithNewVelocities) {
   Configuration2 now = ellipses(5);
   const auto engine = make_all_pairs_engine({{}, GetParam(), nullptr});
   RunCounters counters;
@@ -79,7 +79,7 @@ TEST_P(AllPairsRun, StaysHardWithNewVelocities) {
 }
 
 // A local optimiser overlooks collisions: the run goes on with correction moves, at the same energy.
-TEST_P(AllPairsRun, WithTheOptimiserOfTheThesisGoesOnWithCorrectionMoves) {
+TEST_P(AllPairsProgram, WithTheOptimiserOfTheThesisGoesOnWithCorrectionMoves) {
   const std::vector<Method> methods = collision_time_methods();
   const Method& slsqp = *std::ranges::find(methods, "slsqp", &Method::name);
   Configuration2 now = ellipses(4);
@@ -100,7 +100,7 @@ TEST_P(AllPairsRun, WithTheOptimiserOfTheThesisGoesOnWithCorrectionMoves) {
   EXPECT_NEAR(energy(), before, 1e-11 * before);
 }
 
-TEST(AllPairsBaseline, WithATableAsksForFewer) {
+TEST(AllPairsPrograms, WithATableAsksForFewer) {
   const Configuration2 start = ellipses(4);
   std::uint64_t predictions[2];
   for (const Asking asking : {Asking::every_pair, Asking::changed_pairs}) {
@@ -114,19 +114,19 @@ TEST(AllPairsBaseline, WithATableAsksForFewer) {
   EXPECT_LT(3 * predictions[0], predictions[1]);
 }
 
-TEST(AllPairsBaseline, RefusesABoxWithTwoImagesOfAPair) {
+TEST(AllPairsPrograms, RefusesABoxWithTwoImagesOfAPair) {
   const auto engine = make_all_pairs_engine({});
   EXPECT_THROW(engine->load(ellipses(2)), UserError);
 }
 
-TEST(AllPairsBaseline, RefusesGrowth) {
+TEST(AllPairsPrograms, RefusesGrowth) {
   EngineOptions growing;
   growing.growth_rate = 0.1;
   const auto engine = make_all_pairs_engine({growing});
   EXPECT_THROW(engine->load(ellipses(4)), UserError);
 }
 
-TEST(AllPairsBaseline, StopsAtAnOverlap) {
+TEST(AllPairsPrograms, StopsAtAnOverlap) {
   Configuration2 now = ellipses(4);
   now.position[1] = now.position[0] + Vec2(0.3, 0);
   const auto engine = make_all_pairs_engine({});
@@ -135,7 +135,7 @@ TEST(AllPairsBaseline, StopsAtAnOverlap) {
   EXPECT_THROW(engine->advance(1, counters), InvariantError);
 }
 
-INSTANTIATE_TEST_SUITE_P(Asking, AllPairsRun,
+INSTANTIATE_TEST_SUITE_P(Asking, AllPairsProgram,
                          testing::Values(Asking::every_pair, Asking::changed_pairs),
                          [](const auto& at) {
                            return at.param == Asking::every_pair ? "every_pair" : "changed_pairs";

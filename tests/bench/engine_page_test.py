@@ -30,7 +30,7 @@ class EnginePage(unittest.TestCase):
             # A collision is one event; a few more find that their partner has met another.
             self.assertGreater(row["events"], 1)
             self.assertLess(row["events"], 3)
-            # Both partners look at their neighbours, about seven of them each.
+            # Both partners test their neighbours, about seven each.
             self.assertGreater(row["predictions"], 10)
             self.assertLess(row["predictions"], 40)
             self.assertLess(row["searches"], row["predictions"])
@@ -51,8 +51,8 @@ class EnginePage(unittest.TestCase):
 
     def test_devices_do_what_they_say(self):
         devices = {(r["device"], r["aspect_ratio"]): r for r in self.data["devices"]}
-        look, horizon, lists = (devices[name, 6] for name in ("look", "horizon", "shaped_lists"))
-        self.assertAlmostEqual(look["without"]["searches"], look["without"]["predictions"])
+        screen, horizon, lists = (devices[name, 6] for name in ("contact_screen", "horizon", "shaped_lists"))
+        self.assertAlmostEqual(screen["without"]["searches"], screen["without"]["predictions"])
         self.assertGreater(horizon["without"]["searches"], horizon["with"]["searches"])
         self.assertGreater(lists["without"]["predictions"], 2 * lists["with"]["predictions"])
         for row in self.data["lazy"]:

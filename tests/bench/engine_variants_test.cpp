@@ -18,12 +18,12 @@ namespace vitrel::bench {
 namespace {
 
 std::unique_ptr<Engine2> make_eager() {
-  set_screened_free_times(std::numeric_limits<double>::infinity());
-  return make_engine_of_free_times();
+  set_search_window(std::numeric_limits<double>::infinity());
+  return make_engine_with_search_window();
 }
 std::unique_ptr<Engine2> make_lazier() {
-  set_screened_free_times(0.05);
-  return make_engine_of_free_times();
+  set_search_window(0.05);
+  return make_engine_with_search_window();
 }
 
 struct Variant {
@@ -31,11 +31,11 @@ struct Variant {
   std::function<std::unique_ptr<Engine2>()> make;
 };
 const std::vector<Variant> variants = {
-    {"without_screen", make_engine_without_lower_bound},
+    {"without_contact_screen", make_engine_without_lower_bound},
     {"without_horizon", make_engine_without_horizon},
     {"with_round_lists", make_engine_with_round_lists},
-    {"searched_at_once", make_eager},
-    {"with_a_short_horizon", make_lazier},
+    {"with_infinite_search_window", make_eager},
+    {"with_short_search_window", make_lazier},
 };
 
 Configuration2 scene() {
@@ -55,11 +55,11 @@ struct Moving {
   RunCounters counters;
 };
 
-class EngineVariant : public testing::TestWithParam<Variant> {};
+class EngineTwin : public testing::TestWithParam<Variant> {};
 
 // They round alike but for the order in which pairs are asked, and every collision multiplies what
 // they differ by; another collision parts them at once.
-TEST_P(EngineVariant, HasTheSameCollisions) {
+TEST_P(EngineTwin, HasTheSameCollisions) {
   const Configuration2 start = scene();
   Moving plain(make_ellipse_engine({}), start), other(GetParam().make(), start);
   const std::uint64_t wanted = 3 * start.size();  // six of each particle
@@ -72,14 +72,14 @@ TEST_P(EngineVariant, HasTheSameCollisions) {
   }
 }
 
-TEST_P(EngineVariant, StaysHard) {
+TEST_P(EngineTwin, StaysHard) {
   Moving run(GetParam().make(), scene());
   run.advance(10);
   EXPECT_GT(run.counters.collisions, 1000u);
   EXPECT_TRUE(exact_check(run.now).clean());
 }
 
-INSTANTIATE_TEST_SUITE_P(Variants, EngineVariant, testing::ValuesIn(variants),
+INSTANTIATE_TEST_SUITE_P(Variants, EngineTwin, testing::ValuesIn(variants),
                          [](const auto& at) { return at.param.name; });
 
 TEST(EngineVariants, DifferInWhatTheyAsk) {

@@ -34,8 +34,8 @@ class EventChainPage(unittest.TestCase):
         for row in self.data["states"]:
             local, chains = row["methods"]
             self.assertGreater(local["translations_accepted"], 0.1)
-            self.assertGreater(chains["looks_for_a_contact"], 1)
-            self.assertLess(chains["looks_for_a_contact"], 3)
+            self.assertGreater(chains["searches_per_contact"], 1)
+            self.assertLess(chains["searches_per_contact"], 3)
             self.assertGreater(chains["compressibility_of_chains"], 1.5)
             for method in row["methods"]:
                 self.assertGreater(method["density"]["seconds"], 0)

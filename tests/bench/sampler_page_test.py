@@ -39,7 +39,7 @@ class SamplerPage(unittest.TestCase):
                 self.assertLess(5 * row["alone"], row["plain"]["decisions"])
                 self.assertGreater(row["plain"]["decisions"], 1)
 
-    def test_twin_accepts_the_same(self):
+    def test_baseline_accepts_the_same(self):
         # 64 particles are in one domain, disks in a few: hardly a move ends at a border.
         for row in self.data["speed"]:
             self.assertAlmostEqual(row["translations_accepted"], row["plain"]["translations_accepted"], delta=0.15)

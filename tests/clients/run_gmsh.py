@@ -63,11 +63,11 @@ def check_sides(mesh, box):
         low, high = mesh.elements[axis + "min"], mesh.elements[axis + "max"]
         for side, place in (low, -box[k] / 2), (high, box[k] / 2):
             assert np.abs(mesh.nodes[side, k] - place).max() < 1e-9 * box[k]
-        twin = {b: a for a, b in mesh.pairs if mesh.nodes[a, k] - mesh.nodes[b, k] > box[k] / 2}
-        off = mesh.nodes[list(twin.values())] - mesh.nodes[list(twin)] - box * np.eye(3)[k]
+        image = {b: a for a, b in mesh.pairs if mesh.nodes[a, k] - mesh.nodes[b, k] > box[k] / 2}
+        off = mesh.nodes[list(image.values())] - mesh.nodes[list(image)] - box * np.eye(3)[k]
         assert np.abs(off).max() < 1e-9 * box[k], axis
-        assert set(twin) == set(low.ravel()), axis
-        assert {frozenset(twin[n] for n in nodes) for nodes in low} == set(map(frozenset, high)), axis
+        assert set(image) == set(low.ravel()), axis
+        assert {frozenset(image[n] for n in nodes) for nodes in low} == set(map(frozenset, high)), axis
 
 
 def holders(right, points):

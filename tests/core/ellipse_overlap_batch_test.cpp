@@ -154,7 +154,7 @@ TEST(OverlapBatch, AnswersOfAGroupAreThoseOfItsPairs) {
   EXPECT_LT(clear, groups * 9 / 10);
 }
 
-// Of pairs at random places within the circumcircles nearly all are settled in lanes: what the speed
+// Of pairs at random places within the circumcircles nearly all are decided in batches: what the speed
 // rests on.
 TEST(OverlapBatch, FewPairsAreLeftToBeDecidedAlone) {
   for (const auto& [kappa, most] :

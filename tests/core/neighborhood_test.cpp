@@ -402,32 +402,32 @@ TEST(ListPool, HoldsWhatVectorsHold) {
   Stream draw(70, Purpose::tests);
   constexpr std::size_t lists = 30;
   ListPool<std::uint64_t> pool(lists);
-  std::vector<std::vector<std::uint64_t>> vectors(lists);
+  std::vector<std::vector<std::uint64_t>> expected(lists);
   std::vector<std::uint32_t> counts(lists);
   for (std::uint32_t& count : counts) count = static_cast<std::uint32_t>(draw.below(5));
   for (const bool reserved : {false, true}) {
     if (reserved) {
       pool.reserve(counts);
-      for (auto& list : vectors) list.clear();
+      for (auto& list : expected) list.clear();
     }
     for (int n = 0; n < 20'000; ++n) {
       const std::size_t k = draw.below(lists);
       const std::uint64_t choice = draw.below(20), value = draw.below(100);
       if (choice < 17) {
         pool.add(k, value);
-        vectors[k].push_back(value);
+        expected[k].push_back(value);
       } else if (choice < 19) {
         const auto unwanted = [&](std::uint64_t x) { return x % 3 == value % 3; };
         pool.remove_if(k, unwanted);
-        std::erase_if(vectors[k], unwanted);
+        std::erase_if(expected[k], unwanted);
       } else {
         pool.clear(k);
-        vectors[k].clear();
+        expected[k].clear();
       }
       for (std::size_t list : {k, (k + 1) % lists})
-        ASSERT_TRUE(std::ranges::equal(pool[list], vectors[list]));
+        ASSERT_TRUE(std::ranges::equal(pool[list], expected[list]));
     }
-    for (std::size_t k = 0; k < lists; ++k) ASSERT_TRUE(std::ranges::equal(pool[k], vectors[k]));
+    for (std::size_t k = 0; k < lists; ++k) ASSERT_TRUE(std::ranges::equal(pool[k], expected[k]));
   }
 }
 

@@ -18,11 +18,11 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-/// A calendar and a slow one, through the same changes.
+/// A calendar and its slow reference, with the same changes applied to both.
 template <class C>
-class ComparedCalendars {
+class CalendarPair {
  public:
-  explicit ComparedCalendars(std::size_t n) : fast_(n), slow_(n) {}
+  explicit CalendarPair(std::size_t n) : fast_(n), slow_(n) {}
 
   void set(std::size_t i, double time) {
     fast_.set(i, time);
@@ -107,14 +107,14 @@ TYPED_TEST(CalendarTest, OrderOfTimesSetInAnyOrder) {
 // Few distinct times, so that ties are common, and not in order of time: the present does not exist.
 TYPED_TEST(CalendarTest, EqualsASortedSetThroughUnorderedChanges) {
   for (const std::size_t n : this->sizes) {
-    ComparedCalendars<TypeParam> calendars(n);
+    CalendarPair<TypeParam> both(n);
     Stream draw(n, Purpose::tests, 1);
     for (int change = 0; change < 20'000; ++change) {
       const std::uint64_t time = draw.below(50);
-      calendars.set(draw.below(n), time < 40 ? static_cast<double>(time) : never);
-      if (draw.below(3) == 0) calendars.earliest();
+      both.set(draw.below(n), time < 40 ? static_cast<double>(time) : never);
+      if (draw.below(3) == 0) both.earliest();
     }
-    EXPECT_TRUE(calendars.all_times_agree());
+    EXPECT_TRUE(both.all_times_agree());
     ASSERT_FALSE(this->HasFailure());
   }
 }
@@ -123,22 +123,22 @@ TYPED_TEST(CalendarTest, EqualsASortedSetThroughUnorderedChanges) {
 // often never; some others become sooner or later.
 TYPED_TEST(CalendarTest, EqualsASortedSetThroughARun) {
   for (const std::size_t n : this->sizes) {
-    ComparedCalendars<TypeParam> calendars(n);
+    CalendarPair<TypeParam> both(n);
     Stream draw(n, Purpose::tests, 2);
-    for (std::size_t i = 0; i < n; ++i) calendars.set(i, exponential(draw));
+    for (std::size_t i = 0; i < n; ++i) both.set(i, exponential(draw));
     double now = 0;
     for (int event = 0; event < 30'000; ++event) {
-      const std::size_t i = calendars.earliest();
-      const double next = calendars.time(i);
+      const std::size_t i = both.earliest();
+      const double next = both.time(i);
       ASSERT_GE(next, now);
       if (next < never) now = next;
       const std::uint64_t kind = draw.below(8);
       const double wait = kind == 0 ? 0 : kind == 1 ? 1e-9 : exponential(draw);
-      calendars.set(i, kind == 2 ? never : now + wait);
+      both.set(i, kind == 2 ? never : now + wait);
       for (std::uint64_t more = draw.below(4); more > 0; --more)
-        calendars.set(draw.below(n), draw.below(10) == 0 ? never : now + exponential(draw));
+        both.set(draw.below(n), draw.below(10) == 0 ? never : now + exponential(draw));
     }
-    EXPECT_TRUE(calendars.all_times_agree());
+    EXPECT_TRUE(both.all_times_agree());
     ASSERT_FALSE(this->HasFailure());
   }
 }
@@ -146,34 +146,34 @@ TYPED_TEST(CalendarTest, EqualsASortedSetThroughARun) {
 // The rate of events jumps by many orders of magnitude, up and down.
 TYPED_TEST(CalendarTest, EqualsASortedSetWhenTheScaleOfTimeChanges) {
   for (const std::size_t n : {2, 17, 300}) {
-    ComparedCalendars<TypeParam> calendars(n);
+    CalendarPair<TypeParam> both(n);
     Stream draw(n, Purpose::tests, 3);
     double now = 0;
     for (const double scale : {1.0, 1e-12, 1e6, 1e-6, 1e3, 0.0, 1e-3}) {
       for (std::size_t event = 0; event < 100 * n; ++event) {
-        const std::size_t i = calendars.earliest();
-        if (calendars.time(i) < never) now = calendars.time(i);
-        calendars.set(i, now + scale * exponential(draw));
-        calendars.set(draw.below(n), now + scale * exponential(draw));
+        const std::size_t i = both.earliest();
+        if (both.time(i) < never) now = both.time(i);
+        both.set(i, now + scale * exponential(draw));
+        both.set(draw.below(n), now + scale * exponential(draw));
       }
       ASSERT_FALSE(this->HasFailure());
     }
-    EXPECT_TRUE(calendars.all_times_agree());
+    EXPECT_TRUE(both.all_times_agree());
   }
 }
 
 TYPED_TEST(CalendarTest, EqualsASortedSetOverAMillionEventsOfManyParticles) {
   const std::size_t n = 20'000;
-  ComparedCalendars<TypeParam> calendars(n);
+  CalendarPair<TypeParam> both(n);
   Stream draw(n, Purpose::tests, 4);
-  for (std::size_t i = 0; i < n; ++i) calendars.set(i, exponential(draw));
+  for (std::size_t i = 0; i < n; ++i) both.set(i, exponential(draw));
   for (int event = 0; event < 500'000; ++event) {
-    const std::size_t i = calendars.earliest();
-    const double now = calendars.time(i);
-    calendars.set(i, now + exponential(draw));
-    calendars.set((i + draw.below(100)) % n, now + exponential(draw));
+    const std::size_t i = both.earliest();
+    const double now = both.time(i);
+    both.set(i, now + exponential(draw));
+    both.set((i + draw.below(100)) % n, now + exponential(draw));
   }
-  EXPECT_TRUE(calendars.all_times_agree());
+  EXPECT_TRUE(both.all_times_agree());
 }
 
 // Whatever was planned in between, the order is that of the times alone.

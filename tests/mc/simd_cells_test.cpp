@@ -40,7 +40,7 @@ std::set<Index> particles_in(SimdCells& cells, std::size_t cell) {
 }
 
 // Two domains of particles that wander among their cells, crowding into one of them now and then:
-// always where they were put last, and the free_list groups suffice.
+// always where they were put last, and the free groups suffice.
 TEST(SimdCells, KeepTrackOfEverybody) {
   constexpr std::size_t cells_of_domain = 5;
   const std::vector<std::size_t> begin = {0, 23, 41};

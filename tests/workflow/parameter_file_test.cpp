@@ -386,7 +386,7 @@ TEST(ParameterFile, ContactsAreReadInAnyUnitAndWrittenInSi) {
 
 TEST(ParameterFile, TheReferencePageIsUpToDate) {
   EXPECT_EQ(read_text(source_folder / "docs/parameters.md"), parameter_page())
-      << "make it anew: vitrel params --reference > docs/parameters.md";
+      << "regenerate it: vitrel params --reference > docs/parameters.md";
 }
 
 TEST(SweepJobs, EveryCombinationIsAJobOfItsOwn) {

@@ -9,46 +9,51 @@
 namespace vitrel {
 
 void describe_analysis(DisplacementOptions& p, FieldVisitor& visit) {
-  visit.field(
-      {"longest_lag", "",
-       "Longest time difference, as a fraction of an evenly sampled run; those of others go "
-       "to the end."},
-      p.axis.longest_lag);
+  visit.field({"longest_lag", "",
+               "Longest time difference, as a fraction of an evenly sampled run. For other runs "
+               "time differences extend to the end."},
+              p.axis.longest_lag);
   visit.field(
       {"every_lag_up_to", "sample intervals",
-       "Up to here every time difference is evaluated, beyond they are spaced logarithmically; of "
-       "runs that are not evenly sampled all are."},
+       "Up to this value every time difference is evaluated; beyond it they are spaced "
+       "logarithmically. For runs that are not evenly sampled all are spaced logarithmically."},
       p.axis.every_lag_up_to);
   visit.field(
       {"lags_per_decade", "", "Time differences per factor of ten in the logarithmic part."},
       p.axis.lags_per_decade);
-  visit.field({"max_origins", "", "Time origins per time difference; evenly thinned beyond.",
-               "most_origins"},
+  visit.field({"max_origins", "",
+               "Maximum number of time origins per time difference; if there are more, they are "
+               "thinned evenly.",
+               "max_origins"},
               p.axis.max_origins);
-  visit.field({"wave_numbers", "1/length",
-               "Wave numbers q of the intermediate scattering functions; if empty one, about that "
-               "of the main peak of the structure factor: 2π√(2ρ/√3) of the number density ρ."},
-              p.wave_numbers);
+  visit.field(
+      {"wave_numbers", "1/length",
+       "Wave numbers q of the intermediate scattering functions. If empty: approximately that of "
+       "the main peak of the structure factor, 2π √(2ρ/√3) with the number density ρ."},
+      p.wave_numbers);
   visit.field({"orders", "", "Orders n of the orientational correlations ⟨cos n(θ(t) − θ(0))⟩."},
               p.orders);
   visit.field({"overlap_distance", "length",
-               "A particle counts as being where it was, in overlap and four-point susceptibility, "
-               "if it has moved by less: somewhat more than it rattles in its cage."},
+               "Cutoff distance of the overlap function and the four-point susceptibility: a "
+               "particle that has moved by less counts as immobile. Choose it somewhat larger than "
+               "the rattling in a cage."},
               p.overlap_distance);
   visit.field({"memory", "bytes", "Memory for particle tracks."}, p.memory);
 }
 
 void describe_structure(StructureOptions& p, FieldVisitor& visit) {
-  visit.field({"frames", "", "Frames averaged over; evenly thinned beyond."}, p.max_frames);
-  visit.field({"wave_number_max", "1/length", "Largest wave number q of structure factors."},
+  visit.field({"frames", "",
+               "Maximum number of frames in averages; if there are more, they are thinned evenly."},
+              p.max_frames);
+  visit.field({"wave_number_max", "1/length", "Maximum wave number q of structure factors."},
               p.shells.wave_number_max);
-  visit.field({"wave_number_step", "1/length", "Width of the shells of q averaged over."},
+  visit.field({"wave_number_step", "1/length",
+               "Width of the q shells over which structure factors are averaged."},
               p.shells.wave_number_step);
   visit.field({"distance_max", "length",
-               "Largest distance of pair correlations, but at most half the shorter side of the "
-               "box."},
+               "Maximum distance of pair correlations; at most half the shorter side of the box."},
               p.pairs.distance_max);
-  visit.field({"distance_step", "length", "Width of the bins of distance."}, p.pairs.distance_step);
+  visit.field({"distance_step", "length", "Width of the distance bins."}, p.pairs.distance_step);
 }
 
 void validate_analysis(const DisplacementOptions& p) {

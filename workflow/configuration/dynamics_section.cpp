@@ -22,15 +22,15 @@ void describe_contact(ContactParameters& p, FieldVisitor& visit) {
   visit.quantity({"radius", "m", "Radius of a particle of size 1."}, p.radius);
   visit.quantity(
       {"density", "kg/m^3",
-       "Density. A particle of mass 1 weighs as much as a sphere of this radius and density."},
+       "Density. A particle of mass 1 has the mass of a sphere of this radius and density."},
       p.density);
   visit.quantity(
       {"thermal_speed", "m/s", "Thermal speed √(kT/m) of a particle of mass 1 at kT = 1."},
       p.thermal_speed);
   visit.field(
       {"law", "",
-       "Force in contact: spring and dashpot, k ξ + γ dξ/dt, or that of viscoelastic spheres, "
-       "ρ (ξ + (3/2) A dξ/dt) √ξ with ρ = 2 Y √R_eff/(3 (1 − ν²)), where ξ is the compression."},
+       "Contact force as a function of the compression ξ: spring and dashpot, k ξ + γ dξ/dt, or "
+       "viscoelastic spheres, ρ (ξ + (3/2) A dξ/dt) √ξ with ρ = 2 Y √R_eff/(3 (1 − ν²))."},
       p.law, law_names);
   visit.when(p.law == Law::linear_dashpot, "law = \"linear_dashpot\"", [&](FieldVisitor& in) {
     in.quantity({"stiffness", "N/m", "Spring constant k."}, p.linear_dashpot.stiffness);
@@ -44,16 +44,14 @@ void describe_contact(ContactParameters& p, FieldVisitor& visit) {
                  "Dissipative time A of the material; \"0 s\" for elastic particles."},
                 p.viscoelastic.dissipative_time);
   });
-  visit.field(
-      {"coefficients", "",
-       "What a contact does to a pair, from a table that is made once and kept in the user's "
-       "cache folder, or integrated anew for every contact, which takes longer."},
-      p.coefficients, coefficients_names);
-  visit.field(
-      {"early_release", "",
-       "A particle that is hit while in contact is released from it alone, as published, or "
-       "together with its partner, which keeps the angular momentum."},
-      p.early_release, early_release_names);
+  visit.field({"coefficients", "",
+               "Source of the restitution matrix: a table that is computed once and kept in the "
+               "user's cache folder, or a slower integration of every contact."},
+              p.coefficients, coefficients_names);
+  visit.field({"early_release", "",
+               "A particle that is hit during a contact is released alone, as published, or "
+               "together with its partner, which conserves the angular momentum."},
+              p.early_release, early_release_names);
 }
 
 /// Whether contacts at the thermal speed are such that coefficients can be had.
@@ -82,35 +80,33 @@ const char* law_name(ContactParameters::Law law) {
 void describe_dynamics(DynamicsParameters& p, FieldVisitor& visit) {
   visit.field({"kind", "",
                "Free flight and collisions (newtonian), or the same with all velocities redrawn "
-               "every brownian_step (brownian)."},
+               "after every brownian_step (brownian)."},
               p.kind, kind_names);
   visit.field({"brownian_step", "time",
-               "Time τ_B between redrawings; a free particle then diffuses with D = kT τ_B/(2 m). "
-               "Brownian dynamics only."},
+               "Time τ_B between draws of the velocities. A free particle diffuses with D = kT "
+               "τ_B/(2 m). Brownian dynamics only."},
               p.brownian_step);
-  visit.field(
-      {"equilibration", "time", "Length of the run before sampling starts; time 0 is its end."},
-      p.equilibration);
-  visit.field({"duration", "time", "Length of the sampled part of the run."}, p.duration);
+  visit.field({"equilibration", "time", "Duration of the run before sampling starts, at time 0."},
+              p.equilibration);
+  visit.field({"duration", "time", "Duration of the sampled part of the run."}, p.duration);
   visit.field({"restitution", "", "Coefficient of restitution, 1 for elastic collisions."},
               p.restitution);
   visit.field({"on_overlap", "",
-               "What to do if two particles are found overlapping: stop with exit code 4, or the "
-               "thesis's correction move, counted."},
+               "Action if two particles overlap: stop with exit code 4, or apply and count the "
+               "correction move of the thesis."},
               p.on_overlap, on_overlap_names);
   visit.field({"temperature", "",
-               "Which energy means kT = 1 when velocities are drawn: a translational energy of N "
-               "kT (total) or of (N − 1) kT (relative, the degrees of freedom left once the net "
-               "momentum is removed)."},
+               "Energy that corresponds to kT = 1 when velocities are drawn: a translational "
+               "energy of N kT (total) or of (N − 1) kT (relative: the degrees of freedom that "
+               "remain once the net momentum is removed)."},
               p.temperature, temperature_names);
   visit.field({"initial_velocities", "",
-               "Equilibrium at kT = 1 (maxwell), the same energy all in translation or all in "
-               "rotation, or those of the state started from (keep)."},
+               "Equilibrium at kT = 1 (maxwell), the same energy entirely in translation or "
+               "entirely in rotation, or the velocities of the initial state (keep)."},
               p.initial_velocities, velocity_names);
-  const Field contact{
-      "contact", "",
-      "Soft particles, which must be round: what happens in their contacts. Without this "
-      "section particles are hard."};
+  const Field contact{"contact", "",
+                      "Contact force of soft particles, which must be round. Without this section "
+                      "particles are hard."};
   visit.optional(contact, p.contact, ContactParameters(),
                  [&](FieldVisitor& in, ContactParameters& inner) {
                    in.table(contact, Style::section, section_of(inner, describe_contact));

@@ -11,7 +11,7 @@ constexpr const char* spacing_names[] = {"linear", "logarithmic"};
 
 void describe_samples(OutputParameters& p, FieldVisitor& visit) {
   using Spacing = OutputParameters::Spacing;
-  visit.field({"spacing", "", "How the sample times follow each other."}, p.spacing, spacing_names);
+  visit.field({"spacing", "", "Spacing of the sample times."}, p.spacing, spacing_names);
   visit.when(p.spacing == Spacing::linear, "spacing = \"linear\"", [&](FieldVisitor& in) {
     in.field({"interval", "time", "Time between samples."}, p.interval);
   });
@@ -22,12 +22,13 @@ void describe_samples(OutputParameters& p, FieldVisitor& visit) {
 }
 
 void describe_correlations(CorrelationParameters& p, FieldVisitor& visit) {
-  visit.field({"interval", "time",
-               "Time between the states that are correlated, the shortest time difference."},
-              p.interval);
+  visit.field(
+      {"interval", "time", "Time between correlated states; this is the shortest time difference."},
+      p.interval);
   visit.field({"wave_numbers", "1/length",
-               "Wave numbers q of the self scattering functions F_s(q, t); none: about that of the "
-               "main peak of the structure factor, 2π √(2ρ/√3) with ρ the number density."},
+               "Wave numbers q of the self-intermediate scattering functions F_s(q, t). If empty: "
+               "approximately that of the main peak of the structure factor, 2π √(2ρ/√3) with the "
+               "number density ρ."},
               p.wave_numbers);
 }
 
@@ -45,26 +46,25 @@ void validate_correlations(const CorrelationParameters& p, double duration) {
 }  // namespace
 
 void describe_output(OutputParameters& p, FieldVisitor& visit) {
-  visit.table({"samples", "", "When the state is written to the trajectory."}, Style::inline_table,
-              [&](FieldVisitor& in) { describe_samples(p, in); });
+  visit.table({"samples", "", "Times at which the state is written to the trajectory."},
+              Style::inline_table, [&](FieldVisitor& in) { describe_samples(p, in); });
   visit.field({"velocities", "",
-               "Whether the velocities of all particles are written, too. Energies and the "
-               "pressure are measured without."},
+               "Whether the velocities of all particles are also written. Energies and pressure do "
+               "not need them."},
               p.velocities);
   const Field correlations{"correlations", "",
-                           "Correlations measured while the run goes on, from states that need not "
-                           "be written: displacement, rotation, self scattering and orientation "
-                           "over times from the interval to half the run, in a file of the "
-                           "run's name with .correlations.h5 behind it. None if left out."};
+                           "Correlations measured during the run, from states that need not be "
+                           "written: displacement, rotation, self-scattering and orientation, over "
+                           "times from the interval to half the run. The file has the name of the "
+                           "run with the suffix .correlations.h5. By default none are measured."};
   visit.optional(correlations, p.correlations, CorrelationParameters(),
                  [&](FieldVisitor& in, CorrelationParameters& inner) {
                    in.table(correlations, Style::inline_table,
                             section_of(inner, describe_correlations));
                  });
-  visit.field(
-      {"checkpoint_interval", "seconds of wall time",
-       "Time between checkpoints, from which a preparation or a run that was killed continues."},
-      p.checkpoint_interval);
+  visit.field({"checkpoint_interval", "seconds of wall time",
+               "Time between checkpoints, from which an interrupted preparation or run continues."},
+              p.checkpoint_interval);
 }
 
 void validate_output(const Parameters& parameters) {

@@ -48,48 +48,51 @@ FieldVisitor::Inside fields(Parameters& p, const Sections& sections) {
                    "The system. Units: kT = 1; a b = 1 and mass 1 for particles of size 1; time in "
                    "√(m a b/kT)."},
                   Style::section, section_of(p.system, describe_system));
-      visit.list({"species", "", "A species of particles; any number of them."}, p.species,
-                 describe_species);
+      visit.list(
+          {"species", "", "A species of particles. A file may contain any number of species."},
+          p.species, describe_species);
     }
     if (sections.prepare)
       visit.table(
-          {"prepare", "", "How the first state is made: stages, one after the other."},
+          {"prepare", "", "Preparation of the initial state by consecutive stages."},
           Style::section, [&](FieldVisitor& in) {
             in.field({"quality_sweeps", "",
                       "Monte Carlo sweeps on a copy of the prepared state, in which `vitrel "
-                      "prepare` measures pressure and time correlations for its quality report. 0: "
-                      "none, then these are left out. The state itself stays."},
+                      "prepare` measures the pressure and time correlations of its quality report. "
+                      "With 0 the report omits both. The prepared state does not change."},
                      p.quality_sweeps);
-            in.list({"stage", "", "The first stage places the particles, later ones move them."},
+            in.list({"stage", "", "The first stage places the particles; later stages move them."},
                     p.stages, describe_stage);
           });
     if (sections.run) {
-      visit.table({"dynamics", "", "The event-driven run."}, Style::section,
+      visit.table({"dynamics", "", "Event-driven dynamics."}, Style::section,
                   section_of(p.dynamics, describe_dynamics));
-      visit.table({"output", "", "What a run writes."}, Style::section,
+      visit.table({"output", "", "Output of a run."}, Style::section,
                   section_of(p.output, describe_output));
     }
     if (sections.analysis)
       visit.table(
-          {"analysis", "", "How saved runs are evaluated."}, Style::section, [&](FieldVisitor& in) {
+          {"analysis", "", "Analysis of saved runs."}, Style::section, [&](FieldVisitor& in) {
             describe_analysis(p.analysis, in);
             in.table(
-                {"structure", "", "Structure factors, pair correlations, order of single frames."},
+                {"structure", "",
+                 "Structure factors, pair correlations and order parameters of single frames."},
                 Style::inline_table, section_of(p.structure, describe_structure));
           });
     if (sections.sweep)
-      visit.table({"sweep", "", "Many runs from one file."}, Style::section, [&](FieldVisitor& in) {
-        in.grid({"grid", "",
-                 "Keys of this file in quotes, and the values each of them runs through; every "
-                 "combination is one job."},
-                p.sweep.grid);
-        in.grid(
-            {"together", "",
-             "Keys that advance together, each with as many values: the first values of all make "
-             "one job, the second ones the next; with a grid, each of them is combined with all of "
-             "the grid. The job is named after the first of these keys, and those of the grid."},
-            p.sweep.together);
-      });
+      visit.table(
+          {"sweep", "", "Several runs from one file."}, Style::section, [&](FieldVisitor& in) {
+            in.grid({"grid", "",
+                     "Keys of this file in quotes, each with a list of values. Every combination "
+                     "of values is a job."},
+                    p.sweep.grid);
+            in.grid({"together", "",
+                     "Keys that advance together, each with the same number of values. The first "
+                     "values of all keys make a job, the second values the next, and so on. "
+                     "Together with a grid, each of these jobs is combined with every job of the "
+                     "grid. Jobs are named after the first of these keys and those of the grid."},
+                    p.sweep.together);
+          });
   };
 }
 
@@ -169,12 +172,10 @@ std::string command_template(const std::string& command) {
 std::string parameter_page() {
   Parameters parameters;
   return "# Parameters\n\n"
-         "<!-- Made by `vitrel params --reference`; a test compares. -->\n\n"
-         "Parameter files are TOML. Every key may be left out; any key can be set on the command "
-         "line, "
-         "too: `--set dynamics.duration=10`, `--set species.0.aspect_ratio=3`. An unknown key, a "
-         "wrong "
-         "type or an impossible value is refused with file, line and column.\n\n" +
+         "<!-- Written by `vitrel params --reference`; a test compares the two. -->\n\n"
+         "Parameter files are TOML. All keys are optional. The command line can also set any key: "
+         "`--set dynamics.duration=10`, `--set species.0.aspect_ratio=3`. An unknown key, a wrong "
+         "type or an invalid value is an error, reported with file, line and column.\n\n" +
          parameter_tables(fields(parameters));
 }
 

@@ -22,18 +22,19 @@ void describe_distribution(const Field& field, Distribution& d, FieldVisitor& vi
   std::size_t kind = is_table ? static_cast<std::size_t>(d.kind) - 1 : 0;
   visit.number_or_table(field, d.mean, is_table, [&](FieldVisitor& in) {
     in.choice({"distribution", "",
-               "Instead of a number, a table with the distribution the numbers are drawn from."},
+               "Distribution from which the numbers are drawn, as a table instead of a number."},
               kind, distribution_names);
     in.when(kind != 2, "distribution = \"gaussian\" or \"lognormal\"", [&](FieldVisitor& bell) {
       bell.field({"mean", "", "Mean."}, d.mean);
-      bell.field({"standard_deviation", "", "Standard deviation of the numbers themselves."},
-                 d.standard_deviation);
+      bell.field(
+          {"standard_deviation", "", "Standard deviation of the values (not of their logarithms)."},
+          d.standard_deviation);
     });
     in.when(kind == 2, "distribution = \"uniform\"", [&](FieldVisitor& flat) {
       flat.field({"low", "", "Lower bound."}, d.low);
       flat.field({"high", "", "Upper bound."}, d.high);
     });
-    in.field({"minimum", "", "Smaller draws are drawn again."}, d.minimum);
+    in.field({"minimum", "", "Smaller values are drawn again."}, d.minimum);
   });
   d.kind = static_cast<Distribution::Kind>(is_table ? kind + 1 : 0);
 }
@@ -116,21 +117,22 @@ void validate_shape(const Species& p, int dimension, const std::string& path) {
 }  // namespace
 
 void describe_system(SystemParameters& p, FieldVisitor& visit) {
-  visit.field({"dimension", "",
-               "Space dimensions: 2, ellipses, or 3, ellipsoids. In three dimensions there are "
-               "`vitrel prepare` with stages that insert and grow, and `vitrel run`."},
-              p.dimension);
-  visit.field({"particles", "", "Number of particles."}, p.particles);
   visit.field(
-      {"packing_fraction", "",
-       "Share of the box covered by particles, the sum of π a b over the area (4π/3 a b c over "
-       "the volume): that of a "
-       "lattice, and at the end of the preparation unless a reduced pressure ends it."},
-      p.packing_fraction);
-  visit.field({"seed", "", "All random numbers follow from it."}, p.seed);
+      {"dimension", "",
+       "Space dimensions: 2 for ellipses, 3 for ellipsoids. In three dimensions `vitrel run` and "
+       "`vitrel prepare` are available, the latter with the stages insert and grow."},
+      p.dimension);
+  visit.field({"particles", "", "Number of particles."}, p.particles);
+  visit.field({"packing_fraction", "",
+               "Fraction of the box covered by particles: the sum of π a b divided by the area (of "
+               "4π/3 a b c divided by the volume). It applies to a lattice, and to the end of the "
+               "preparation unless a reduced pressure ends it."},
+              p.packing_fraction);
+  visit.field({"seed", "", "Seed of all random numbers."}, p.seed);
   visit.when(p.dimension == 2, "dimension = 2", [&](FieldVisitor& in) {
     in.field({"box_aspect", "",
-              "Height over width of the periodic box, L_y/L_x; in three dimensions it is a cube."},
+              "Ratio of height to width of the periodic box, L_y/L_x. In three dimensions the box "
+              "is a cube."},
              p.box_aspect);
   });
 }
@@ -138,36 +140,36 @@ void describe_system(SystemParameters& p, FieldVisitor& visit) {
 void describe_species(Species& p, FieldVisitor& visit) {
   visit.field({"name", "", "Name in files and tables."}, p.name);
   visit.field({"fraction", "",
-               "Share of all particles; the shares add up to 1. Counts are rounded by the largest "
-               "remainder."},
+               "Fraction of all particles; the fractions add up to 1. Counts are rounded by the "
+               "largest-remainder method."},
               p.fraction);
   describe_optional_distribution(
       {"aspect_ratio", "",
-       "κ = a/b ≥ 1, major over minor semi-axis: a number or a distribution. In three dimensions a "
-       "prolate spheroid a : a/κ : a/κ."},
+       "κ = a/b ≥ 1, the ratio of major to minor semi-axis: a number or a distribution. In three "
+       "dimensions it defines a prolate spheroid a : a/κ : a/κ."},
       p.aspect_ratio, 2, 1, visit);
-  const Field ratios{"aspect_ratios", "",
-                     "In three dimensions [R_1, R_2] of the semi-axes a : a/R_1 : a/R_2, each a "
-                     "number above 0 or a distribution like that of aspect_ratio, whose place they "
-                     "take."};
+  const Field ratios{
+      "aspect_ratios", "",
+      "In three dimensions, instead of aspect_ratio: [R_1, R_2] for the semi-axes a : a/R_1 : "
+      "a/R_2, each a positive number or a distribution like that of aspect_ratio."};
   visit.optional(ratios, p.aspect_ratios, std::array{positive_draws(2), positive_draws(5)},
                  [&](FieldVisitor& in, std::array<Distribution, 2>& inner) {
                    in.array(ratios, inner.size(), [&](std::size_t k, FieldVisitor& entry) {
                      describe_distribution({std::to_string(k), "", ""}, inner[k], entry);
                    });
                  });
-  describe_optional_distribution({"size", "length",
-                                  "√(a b), in three dimensions (a b c)^(1/3), 1 for the reference "
-                                  "species that sets the unit of "
-                                  "length: a number or a distribution; 1 if left out."},
-                                 p.size, 1, 0.1, visit);
+  describe_optional_distribution(
+      {"size", "length",
+       "√(a b), or (a b c)^(1/3) in three dimensions: a number or a distribution; the default is "
+       "1. The reference species of size 1 defines the unit of length."},
+      p.size, 1, 0.1, visit);
   visit.optional({"semi_axes", "length",
-                  "Semi-axes [a, b] with a ≥ b, or in three dimensions [a, b, c] in any order, "
-                  "instead of aspect ratios and size."},
+                  "Instead of aspect ratios and size: semi-axes [a, b] with a ≥ b, or [a, b, c] in "
+                  "any order in three dimensions."},
                  p.semi_axes, std::vector<double>{2, 0.5});
   visit.optional({"mass", "mass",
-                  "Mass of every particle of this species; a b (a b c) if left out, the same "
-                  "density for all."},
+                  "Mass of every particle of this species. The default is a b (a b c), which gives "
+                  "all species the same density."},
                  p.mass, 1.0);
 }
 

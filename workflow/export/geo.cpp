@@ -55,26 +55,26 @@ Macro MakeParticle
   inclusions() += slices();
 Return
 
-// A face on a lower side and its twin, one box further, have nearly equal bounding boxes: the kernel
+// A face on a lower side and its image, one period further, have nearly equal bounding boxes: the kernel
 // approximates the curves along which it cuts.
 Macro PairFaces
   For i In {0:#low()-1}
     one() = BoundingBox Surface{ low(i) };
     near() = Surface In BoundingBox{ one(0) + tx - m, one(1) + ty - m, one(2) + tz - m,
                                      one(3) + tx + m, one(4) + ty + m, one(5) + tz + m };
-    twin = 0;
+    image = 0;
     least = 6*m;
     For j In {0:#near()-1}
       two() = BoundingBox Surface{ near(j) };
       off = Fabs(two(0) - tx - one(0)) + Fabs(two(1) - ty - one(1)) + Fabs(two(2) - tz - one(2)) +
             Fabs(two(3) - tx - one(3)) + Fabs(two(4) - ty - one(4)) + Fabs(two(5) - tz - one(5));
       If (off < least)
-        twin = near(j);
+        image = near(j);
         least = off;
       EndIf
     EndFor
-    If (twin)
-      Periodic Surface{ twin } = { low(i) } Translate{ tx, ty, tz };
+    If (image)
+      Periodic Surface{ image } = { low(i) } Translate{ tx, ty, tz };
       area = Mass Surface{ low(i) };
       curves() = Abs(Boundary{ Surface{low(i)}; });
       perimeter = 0;
@@ -82,10 +82,10 @@ Macro PairFaces
         length = Mass Curve{ curves(j) };
         perimeter += length;
       EndFor
-      faces() += { low(i), twin };
+      faces() += { low(i), image };
       sizes() += { area/perimeter, area/perimeter };
     Else
-      Error("Surface %g has no twin on the opposite side", low(i));
+      Error("Surface %g has no image on the opposite side", low(i));
     EndIf
   EndFor
 Return
@@ -132,7 +132,7 @@ EndFor
 
 )";
 
-/// Over the thinnest body: how thick a side is in the eyes of the kernel, and how well faces and their twins
+/// Over the thinnest body: how thick a side is in the eyes of the kernel, and how well faces and their images
 /// agree.
 constexpr double side_tolerance = 1e-3, twin_tolerance = 0.02;
 

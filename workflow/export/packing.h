@@ -13,7 +13,7 @@ namespace vitrel {
 
 struct Packing {
   Configuration3 configuration;
-  std::vector<BodyInBox> bodies;  ///< bodies_in_box of it
+  std::vector<BodyInBox> bodies;  ///< the bodies that meet its box
 
   /// All semi-axes times `shrink`, which leaves room between bodies that touch.
   Packing(Configuration3 state, double shrink);

@@ -12,15 +12,15 @@ namespace vitrel {
 namespace {
 
 void describe_pressure(CompressStage& stage, FieldVisitor& visit) {
-  visit.field({"pressure", "kT/area", "βP, in units of one over the unit of area."},
-              stage.pressure);
+  visit.field({"pressure", "kT/area", "βP, in units of the inverse unit of area."}, stage.pressure);
 }
 
 void describe_box(CompressStage& stage, FieldVisitor& visit) {
   static constexpr const char* names[] = {"isotropic", "anisotropic"};
   visit.field({"box", "",
-               "Both sides of the box change by one factor, or one at a time, within a factor 2 of "
-               "their ratio at the start."},
+               "Either both sides of the box change by a common factor (isotropic), or one side at "
+               "a time does (anisotropic). The ratio of the sides stays within a factor of 2 of "
+               "its initial value."},
               stage.box, names);
 }
 

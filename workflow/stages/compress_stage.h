@@ -10,12 +10,13 @@ namespace vitrel {
 
 struct CompressionState;
 
-/// Monte Carlo at constant pressure (mc/compression.h): to a packing fraction, or without one for a number
+/// Monte Carlo at constant pressure (mc/compression.h), up to a packing fraction or, without one, for a number
 /// of sweeps.
 struct CompressStage : StageDefaults {
   using State = CompressionState;
   static constexpr const char* method = "compress";
-  static constexpr const char* summary = "Monte Carlo at constant pressure, in a box that changes";
+  static constexpr const char* summary =
+      "Monte Carlo at constant pressure, in a box of variable size";
 
   std::optional<double> packing_fraction;
   std::uint64_t max_sweeps = SwellingOptions().sweeps;  ///< with a packing fraction

@@ -15,7 +15,7 @@ struct GrowStage : StageDefaults {
   using State = GrowthState;
   static constexpr const char* method = "grow";
   static constexpr const char* summary =
-      "event-driven dynamics while they grow to a packing fraction or until they jam";
+      "event-driven dynamics while the particles grow to a packing fraction or until they jam";
 
   std::optional<double> packing_fraction;
   std::optional<double> reduced_pressure;

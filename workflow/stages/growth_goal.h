@@ -7,8 +7,8 @@
 
 #include "workflow/stages/stage_interface.h"
 
-/// What ends the stages `grow` and `hybrid`: a packing fraction, that of the system if none is given, or a
-/// reduced pressure, or whichever of two given comes first.
+/// The goal of the stages `grow` and `hybrid`: a packing fraction (by default that of the system), a reduced
+/// pressure, or whichever of the two comes first.
 namespace vitrel {
 
 template <class S>

@@ -13,19 +13,19 @@ namespace vitrel {
 struct HybridState {
   GrowthState growth;
   SamplingState sampling;
-  std::uint64_t stretches = 0;  ///< of both kinds, complete
-  double stretch_end = 0;       ///< packing fraction at which the present growth ends
+  std::uint64_t stretches = 0;  ///< completed intervals of both kinds
+  double stretch_end = 0;       ///< packing fraction at which the current interval of growth ends
 };
 
-/// Compression by both engines in turn: event-driven growth (edmd/growth.h), and Monte Carlo at the
-/// packing fraction reached, in which the liquid relaxes.
+/// Compression by alternating intervals of event-driven growth (edmd/growth.h) and of Monte Carlo, which relaxes the
+/// liquid at the packing fraction reached.
 ///
-/// A stretch of growth ends when all lengths have grown by 1 %, or by 0.2/Z if that is less: then about
-/// a fifth of the free lengths is used up, and Z has risen by as much. Velocities are
-/// drawn anew after every stretch of Monte Carlo. Goals are met within growth, which ends the stage.
+/// An interval of growth ends when all lengths have grown by 1 %, or by 0.2/Z if that is less. It then has used about a
+/// fifth of the free lengths, and Z has risen by the same fraction. Velocities are redrawn after every interval of
+/// Monte Carlo. Goals are reached during growth, which ends the stage.
 ///
-/// `reached` at the wanted packing fraction or pressure, `stuck` if the particles are jammed before,
-/// `stopped` by the run control: the same call then continues and its result is bit-identical. Else as `grow`.
+/// `reached` at the target packing fraction or pressure; `stuck` if the particles jam before; `stopped` by the run
+/// control: the same call then continues with bit-identical results. Otherwise like `grow`.
 StageReport hybrid(Configuration2& configuration, const HybridOptions& options, HybridState& state,
                    const RunControl& control);
 

@@ -7,11 +7,11 @@
 
 namespace vitrel {
 
-/// Growth and Monte Carlo in turn (hybrid.h).
+/// Alternating growth and Monte Carlo (hybrid.h).
 struct HybridOptions {
   double growth_rate = 1e-2;
-  std::optional<double> packing_fraction;     ///< ends there, exactly
-  std::optional<double> reduced_pressure;     ///< ends at such a pressure
+  std::optional<double> packing_fraction;     ///< target, reached exactly
+  std::optional<double> reduced_pressure;     ///< target
   SamplingOptions stretch = {.sweeps = 100};  ///< of Monte Carlo
   std::uint64_t seed = 1;
 };

@@ -9,11 +9,10 @@ namespace vitrel {
 namespace {
 
 void describe_stretch_sweeps(HybridStage& stage, FieldVisitor& visit) {
-  visit.field(
-      {"stretch_sweeps", "",
-       "Sweeps of Monte Carlo after every stretch of growth, which lasts until all lengths have "
-       "grown by 1 %, or less at high pressure."},
-      stage.stretch_sweeps);
+  visit.field({"stretch_sweeps", "",
+               "Monte Carlo sweeps after every interval of growth. An interval ends when all "
+               "lengths have grown by 1 %, or by less at high pressure."},
+              stage.stretch_sweeps);
 }
 
 }  // namespace

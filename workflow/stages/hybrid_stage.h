@@ -11,12 +11,12 @@ namespace vitrel {
 
 struct HybridState;
 
-/// Growth and Monte Carlo in turn (hybrid.h).
+/// Alternating growth and Monte Carlo (hybrid.h).
 struct HybridStage : StageDefaults {
   using State = HybridState;
   static constexpr const char* method = "hybrid";
   static constexpr const char* summary =
-      "short stretches of such growth and of Monte Carlo in turn";
+      "short intervals of event-driven growth that alternate with Monte Carlo";
 
   std::optional<double> packing_fraction;
   std::optional<double> reduced_pressure;

@@ -14,14 +14,14 @@ namespace {
 constexpr double easy_insertion = 0.3, easy_insertion_of_solids = 0.01;
 
 void describe_attempts(InsertStage& stage, FieldVisitor& visit) {
-  visit.field({"attempts", "", "Random places tried for one particle before the stage gives up."},
+  visit.field({"attempts", "", "Random positions tried for one particle before the stage fails."},
               stage.attempts);
 }
 
 void describe_orientations(InsertStage& stage, FieldVisitor& visit) {
   static constexpr const char* names[] = {"random", "aligned"};
-  visit.field({"orientations", "", "Each particle at random, or all along x."}, stage.orientations,
-              names);
+  visit.field({"orientations", "", "Random orientations, or all particles aligned along x."},
+              stage.orientations, names);
 }
 
 }  // namespace

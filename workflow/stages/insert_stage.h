@@ -10,7 +10,8 @@ namespace vitrel {
 /// Random sequential insertion (mc/insertion.h).
 struct InsertStage : StageDefaults {
   static constexpr const char* method = "insert";
-  static constexpr const char* summary = "random places without overlap, as a start at low density";
+  static constexpr const char* summary =
+      "random positions without overlap, as a start at low density";
   static constexpr bool places_particles = true;
 
   enum class Orientations { random, aligned };

@@ -12,15 +12,16 @@ namespace {
 
 void describe_arrangement(LatticeStage& stage, FieldVisitor& visit) {
   static constexpr const char* names[] = {"square", "triangular"};
-  visit.field(
-      {"arrangement", "", "The triangular lattice is stretched along x like the particles."},
-      stage.arrangement, names);
+  visit.field({"arrangement", "",
+               "Lattice type. The triangular lattice is stretched along x by the aspect ratio of "
+               "the particles."},
+              stage.arrangement, names);
 }
 
 void describe_angle(LatticeStage& stage, FieldVisitor& visit) {
-  visit.field(
-      {"angle", "radians", "From the x axis to the major axes; 0 on the triangular lattice."},
-      stage.angle);
+  visit.field({"angle", "radians",
+               "Angle from the x axis to the major axes; must be 0 on the triangular lattice."},
+              stage.angle);
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ std::string listed(const std::vector<const char*>& names, const std::string& con
 }
 
 std::string summaries() {
-  std::string text = "What the stage does. ";
+  std::string text = "Method of the stage. ";
   each_kind([&]<class S>(const S&) {
     text += fmt::format("{}{}: {}", text.ends_with(". ") ? "" : "; ", S::method, S::summary);
   });

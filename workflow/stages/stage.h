@@ -15,30 +15,30 @@
 /// The stages of a preparation, as the parameter file describes them.
 namespace vitrel {
 
-/// All there are; the first is the default.
+/// All stages; the first is the default.
 using Stage = std::variant<InsertStage, LatticeStage, SwellStage, CompressStage, GrowStage,
                            HybridStage, SampleStage>;
 
-/// As the parameter file calls it.
+/// Its name in the parameter file.
 const char* method_name(const Stage& stage);
 
-/// Names `method`, which selects the stage, and the keys of all stages; those of other stages exist only
-/// with their methods.
+/// Describes `method`, which selects the stage, and the keys of all stages. The keys of a stage exist only with its
+/// method.
 void describe_stage(Stage& stage, FieldVisitor& visit);
 
-/// Throws BadValue, for keys of [[prepare.stage]] or system.packing_fraction, if a stage has an impossible
-/// option, or if they do not fit each other: the first places the particles, the others move them, none
-/// lowers the packing fraction, and the last one reaches that of the system, unless a pressure ends it.
+/// Throws BadValue, for keys of [[prepare.stage]] or system.packing_fraction, if an option of a stage is invalid or if
+/// the stages do not fit together: the first places the particles, the others move them, none lowers the packing
+/// fraction, and the last one reaches that of the system unless a pressure ends it.
 void validate_stages(const std::vector<Stage>& stages, const SystemParameters& system);
 
-/// The packing fraction at which a stage ends that begins at `before`; if a pressure ends it, `before`,
-/// since the end is not known.
+/// The packing fraction at which a stage that begins at `before` ends. If a pressure ends the stage, this is unknown
+/// and `before` is returned.
 double end_of_stage(const Stage& stage, const SystemParameters& system, double before);
 
-/// Whether a pressure decides at which packing fraction the preparation ends.
+/// Whether a pressure determines the packing fraction at which the preparation ends.
 bool ends_at_pressure(const std::vector<Stage>& stages);
 
-/// What the stage does with its options, in a few words; `packing_fraction`: end_of_stage.
+/// A short description of the stage with its options; `packing_fraction` is that of end_of_stage.
 std::string stage_description(const Stage& stage, double packing_fraction);
 
 }  // namespace vitrel

@@ -8,22 +8,21 @@
 #include "workflow/configuration/rules.h"
 #include "workflow/configuration/system_parameters.h"
 
-/// What the stages of a preparation have in common. A stage is one type: its members are the options, with
-/// their defaults, and it has
+/// The interface of the stages of a preparation. A stage is a type whose members are the options, with their defaults.
+/// It also has
 ///
-///   method, summary       its name in the parameter file, and what it does
-///   State                 where it stands; with the configuration, all it needs to go on
+///   method, summary       its name in the parameter file, and a description
+///   State                 its progress; together with the configuration, all it needs to continue
 ///   fields()              its keys in the parameter file (stage_fields.h)
-///   validate              throws BadValue for an impossible option
-///   ending, end           what ends it, and at which packing fraction
-///   description           what it does with these options, in a few words
-///   advance               does it, in the dimensions it is there for
+///   validate              throws BadValue for an invalid option
+///   ending, end           the kind of its end, and the packing fraction there
+///   description           a short description with these options
+///   advance               runs it, for each dimension that it supports
 ///   each_item             names the items of its state in a checkpoint
-///   record                adds what it did to the record of the stage
+///   record                adds its results to the record of the stage
 ///
-/// and what StageDefaults has, if that does not fit. To add a stage, write such a type in files of its own
-/// and add it to the list in stage.h. The header holds no algorithm, so that readers of parameters compile
-/// none.
+/// and overrides members of StageDefaults where needed. To add a stage, write such a type in files of its own and add
+/// it to the list in stage.h. Its header contains no algorithm, so that code that reads parameters compiles none.
 namespace vitrel {
 
 template <int Dim>
@@ -31,23 +30,23 @@ struct Configuration;
 class FieldVisitor;
 struct StageRecord;
 
-/// Of a stage that cannot be continued, but begins anew.
+/// The state of a stage that cannot be continued and always starts again.
 struct NoState {};
 
 enum class StageEnding {
-  packing_fraction,  ///< ends at a packing fraction that is known before
-  pressure,          ///< a pressure decides where it ends
+  packing_fraction,  ///< ends at a packing fraction known in advance
+  pressure,          ///< a pressure determines the end
   unchanged,         ///< ends at the packing fraction at which it begins
 };
 
-/// What a stage gets from its surroundings.
+/// The input of a stage.
 struct StageContext {
   double packing_fraction;  ///< `end` of the stage
   std::uint64_t seed;
-  int threads;  ///< of Monte Carlo; the result does not depend on it
+  int threads;  ///< of Monte Carlo; the result does not depend on their number
 };
 
-/// One key of a stage in the parameter file, with those that depend on its value.
+/// A key of a stage in the parameter file, with the keys that depend on its value.
 template <class S>
 struct StageField {
   const char* key;
@@ -56,12 +55,12 @@ struct StageField {
 
 struct StageDefaults {
   using State = NoState;
-  /// Whether it places the particles, and so comes first; the others move them.
+  /// Whether it places the particles and therefore comes first; other stages move them.
   static constexpr bool places_particles = false;
 
   StageEnding ending() const { return StageEnding::packing_fraction; }
   void validate(const Rules&) const {}
-  /// Sweeps of Monte Carlo draw by their number, counted through all stages.
+  /// Monte Carlo sweeps draw random numbers by their number, counted over all stages.
   template <class State>
   static void number_sweeps(State&, std::uint64_t /*next_sweep*/) {}
   template <class State, class Visit>

@@ -11,15 +11,15 @@ namespace vitrel {
 
 struct SamplingState;
 
-/// What one stage did.
+/// The results of a stage.
 struct StageRecord {
   StageReport report;
-  double packing_fraction = 0;                 ///< at its end
-  Estimate mean_packing_fraction = {0, 0, 0};  ///< second half of a compression without such a goal
+  double packing_fraction = 0;                 ///< at the end
+  Estimate mean_packing_fraction = {0, 0, 0};  ///< second half of a compression without target
   std::uint64_t sweeps = 0;
-  std::uint64_t chain_contacts = 0;  ///< of event chains
+  std::uint64_t chain_contacts = 0;  ///< contacts of event chains
   TrialCounts trials;
-  GrowthState growth;  ///< of growth and hybrid; its counters are 0 elsewhere
+  GrowthState growth;  ///< of growth and hybrid; its counters are 0 for other stages
   double wall_seconds = 0;
 
   void add(const SweepState& moves);

@@ -10,7 +10,7 @@
 #include "workflow/stages/stage.h"
 #include "workflow/stages/stage_record.h"
 
-/// Stages at work.
+/// Execution of stages.
 namespace vitrel {
 
 template <class S>
@@ -26,19 +26,19 @@ struct StatesOf<std::variant<S...>> {
   using Type = std::variant<StateOf<S>...>;
 };
 
-/// Where a stage stands, of the same index as the stage.
+/// The progress of a stage; the alternative has the index of the stage.
 using StageState = StatesOf<Stage>::Type;
 
-/// Of a stage that has not begun; its sweeps of Monte Carlo bear the numbers from `next_sweep` on.
+/// The state of a stage that has not begun; its Monte Carlo sweeps are numbered from `next_sweep` on.
 StageState first_state(const Stage& stage, std::uint64_t next_sweep);
 
-/// Does the stage, or continues it from `state`. `reached` at its end, `stuck` if it cannot get there,
-/// `stopped` by the run control. Throws std::logic_error for a stage that this dimension does not have.
+/// Runs the stage, or continues it from `state`. Returns `reached` at its end, `stuck` if it cannot get there,
+/// `stopped` if the run control requests it. Throws std::logic_error for a stage that does not exist in this dimension.
 template <int Dim>
 StageReport advance_stage(const Stage& stage, StageState& state, Configuration<Dim>& configuration,
                           const StageContext& context, const RunControl& control);
 
-/// What the stage did, as far as its state tells.
+/// The results of the stage, as far as its state contains them.
 StageRecord record_of(const Stage& stage, const StageState& state);
 
 /// The items of the state in a checkpoint; `state` may be constant.

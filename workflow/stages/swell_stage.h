@@ -15,7 +15,7 @@ struct SwellStage : StageDefaults {
   using State = SwellingState;
   static constexpr const char* method = "swell";
   static constexpr const char* summary =
-      "Monte Carlo while the particles grow to the wanted packing fraction";
+      "Monte Carlo while the particles grow to the target packing fraction";
 
   std::optional<double> packing_fraction;
   std::uint64_t max_sweeps = SwellingOptions().sweeps;

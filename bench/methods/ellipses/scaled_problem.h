@@ -7,7 +7,7 @@
 
 namespace vitrel::bench {
 
-/// The problem "least t with E₁ ≤ 0 and E₂ ≤ 0" in variables of order 1, y = (τ, ξ, η): t = earliest +
+/// The problem "smallest t with E₁ ≤ 0 and E₂ ≤ 0" in variables of order 1, y = (τ, ξ, η): t = earliest +
 /// τ · duration, 0 ≤ τ ≤ 1 within the bracket, and x = origin + length · (ξ, η), the origin being the
 /// point that divides the line of centres at the earliest time like the radii, where the circumcircles
 /// touch if they do; the length is the smaller semi-minor axis. So y = 0 is where a search starts.

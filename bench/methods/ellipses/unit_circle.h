@@ -22,7 +22,7 @@ struct ClosestPoint {
 /// which u = (S − μ) z/|g| turns into a linear one of twice the size, with ĝ = g/|g|:
 ///     ⎛   S      −|g| I ⎞ ⎛z⎞     ⎛z⎞
 ///     ⎝ −|g| ĝĝᵀ    S    ⎠ ⎝u⎠ = μ ⎝u⎠
-/// The least μ belongs to the minimum (gander1989), and it has the least real part of all: for complex μ with a smaller real part, |Σ gᵢ²/(λᵢ − μ)²| < 1 in the eigenbasis of
+/// The smallest μ belongs to the minimum (gander1989), and it has the smallest real part of all: for complex μ with a smaller real part, |Σ gᵢ²/(λᵢ − μ)²| < 1 in the eigenbasis of
 /// S. Rounding that makes a complex pair of a double root therefore does no harm. In that basis wᵢ =
 /// −gᵢ/(λᵢ − μ); should a denominator vanish (the origin on an axis of the ellipse), |w| = 1 gives that
 /// component. Sources: thesis-elliptic-disks, section 3.2.2; gander1989.
