@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+/// @file
 /// Tables of results, and the two forms they are written in.
 namespace vitrel {
 

@@ -8,6 +8,7 @@
 #include "core/state/configuration.h"
 #include "core/state/stage.h"
 
+/// @file
 /// Saved runs, as the analysis sees them: a list of sample times and one configuration at each.
 namespace vitrel {
 

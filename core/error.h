@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+/// @file
 /// Errors that reach the user. Each message is complete: what is wrong, where, what would be right.
 namespace vitrel {
 

@@ -2,6 +2,7 @@
 
 #include <limits>
 
+/// @file
 /// Every tolerance of the program: its reason, and what breaks if it changes.
 namespace vitrel::tolerance {
 

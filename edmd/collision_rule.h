@@ -3,6 +3,7 @@
 #include "core/geometry/ellipse.h"
 #include "core/geometry/ellipsoid.h"
 
+/// @file
 /// The collision of two smooth (frictionless) bodies with coefficient of restitution e.
 ///
 ///     k_i = arm_i = (x − r_i) × n,   u_n = (v₁ − v₂)·n + ω₁·k₁ − ω₂·k₂ + s   (> 0: approaching)

@@ -8,6 +8,7 @@
 #include "edmd/engine.h"
 #include "edmd/options.h"
 
+/// @file
 /// Compression of hard particles by growth (Lubachevsky–Stillinger), to a target packing fraction or until they jam:
 /// Newtonian dynamics in which all semi-axes of all particles grow at the same rate,
 ///

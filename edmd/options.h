@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+/// @file
 /// Options of event-driven dynamics, in a header of their own so that code that reads parameters compiles no algorithm.
 namespace vitrel {
 
@@ -31,9 +32,11 @@ struct EngineOptions {
 };
 
 /// The kinetic energy that corresponds to kT = 1 once the net momentum has been removed.
-///   total:    Σ m v²/2 = D N kT/2 in D dimensions; the mean squared displacement of free particles then has no
-///             term of order 1/N
-///   relative: Σ m v²/2 = D (N − 1) kT/2; Newtonian equipartition is then exact
+///
+///     total:    Σ m v²/2 = D N kT/2 in D dimensions; the mean squared displacement of free particles then has no
+///               term of order 1/N
+///     relative: Σ m v²/2 = D (N − 1) kT/2; Newtonian equipartition is then exact
+///
 /// The rotational energy is N_rot kT/2 in both, N_rot the number of rotational degrees of freedom that smooth
 /// collisions change: 1 for an ellipse, 2 for a spheroid, 3 for a scalene ellipsoid, 0 for a round particle.
 enum class Temperature { total, relative };

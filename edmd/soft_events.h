@@ -6,6 +6,7 @@
 
 #include "edmd/simulation.h"
 
+/// @file
 /// The events of soft particles (soft/soft_contact.h), a part of the event loop: included at the end of
 /// simulation.h.
 

@@ -24,7 +24,9 @@ struct BoxState {
 /// One sweep is two box trials, each of which costs about half as much as a sweep of the Sampler, and such a sweep. In
 /// a box trial ln V changes by a uniform amount within ± its step, and all positions scale; shapes and angles do not
 /// change. Without overlaps it is accepted with probability
+///
 ///     min(1, exp(−βP (V' − V) + (N + 1) ln(V'/V))),
+///
 /// which is tested first because it is cheap. anisotropic: one of the two sides changes, each with probability 1/2; a
 /// liquid does not resist shear, so L_y/L_x stays within a factor `max_aspect_change` of its initial value. Trial k of
 /// sweep s draws from the stream (seed, box_trials, s, k): results do not depend on the number of threads. Detailed

@@ -11,12 +11,16 @@ namespace vitrel {
 /// shrink by 1/μ, that is, the area by 1/F. So a shrink of the area by 1/(1 + x) leaves no overlap
 /// with probability 1 − n x + …, n the mean number of pairs per unit of F at F → 1. With Q the
 /// configuration integral, βP = ∂ ln Q/∂V, so
+///
 ///     Z = βP/ρ = 1 + n/N.
+///
 /// In the dilute limit pairs are uniform in F, and n/N = B₂ρ.
 ///
 /// The density of pairs over y = (F − 1)/w on 0 … 1 is extrapolated to 0 by its least-squares
 /// cubic. By orthogonality of the Legendre polynomials that is a plain sum over pairs,
+///
 ///     n ≈ Σ K(y)/w,   K = Σ_k (2k+1)(−1)^k P_k(2y − 1) = 16 − 120 y + 240 y² − 140 y³,
+///
 /// so that no bins are needed and averages over configurations are unbiased up to the cubic itself,
 /// whose error falls with w⁴. The window w holds 1.5 pairs per particle in the first configuration,
 /// but is at most 0.75. At κ = 2, φ = 0.5 that is w = 0.55: a narrower one gives the same Z within

@@ -66,7 +66,9 @@ struct ChainState {
 /// detailed balance. This does not prove ergodicity; tests compare with independently drawn states.
 ///
 /// The pressure follows from the contacts (michel2014):
+///
 ///     Z = βP/ρ = 1 + ⟨Σ (r_j − r_i)·e⟩/l,
+///
 /// the sum over the contacts of a chain along e.
 ///
 /// In a row of particles jammed across the whole box a chain would have infinitely many contacts. A chain is cut short

@@ -6,6 +6,7 @@
 #include "core/geometry/ellipse.h"
 #include "core/state/configuration.h"
 
+/// @file
 /// The hard-core constraint of Monte Carlo: all particles at least a margin apart.
 namespace vitrel {
 

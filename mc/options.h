@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 
+/// @file
 /// Options of the Monte Carlo stages. They stand apart so that code that reads parameters compiles no algorithm.
 namespace vitrel {
 

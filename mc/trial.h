@@ -7,6 +7,7 @@
 #include "mc/checkerboard.h"
 #include "mc/simd_cells.h"
 
+/// @file
 /// Common parts of trial moves of one particle.
 namespace vitrel {
 

@@ -30,7 +30,9 @@ struct CollectiveScattering {
 };
 
 /// Collective (coherent) intermediate scattering function of all particles,
-///   F(q, t) = N⁻¹ ⟨Re ρ_q(t) ρ_q(0)*⟩,  ρ_q = Σ_j exp(i q·r_j),
+///
+///     F(q, t) = N⁻¹ ⟨Re ρ_q(t) ρ_q(0)*⟩,  ρ_q = Σ_j exp(i q·r_j),
+///
 /// averaged over the wave vectors of a shell and over time origins; not normalised: F(q, 0) = S(q).
 ///
 /// 1. One pass over the frames gives ρ_q(t) of every wave vector; powers of exp(2πi x/L) by

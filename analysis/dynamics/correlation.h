@@ -7,6 +7,7 @@
 #include "analysis/dynamics/time_axis.h"
 #include "analysis/statistics/blocking.h"
 
+/// @file
 /// Averages over particles and time origins against the time difference, with their errors.
 namespace vitrel {
 
@@ -72,7 +73,8 @@ class CorrelationSum {
 
 /// Sums of the squares s and fourth powers s² of displacements, whose ratio shows how far they are
 /// from being normally distributed: the non-Gaussian parameter
-///   α = c ⟨s²⟩/⟨s⟩² − 1, c = 1/2 in the plane, 1/3 for rotation; 0 for normal distributions.
+///
+///     α = c ⟨s²⟩/⟨s⟩² − 1, c = 1/2 in the plane, 1/3 for rotation; 0 for normal distributions.
 class MomentSum {
  public:
   explicit MomentSum(std::size_t origins) : square(origins), quartic(origins) {}

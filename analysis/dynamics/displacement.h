@@ -10,6 +10,7 @@
 #include "analysis/trajectory.h"
 #include "core/parallel.h"
 
+/// @file
 /// Correlations of single particles: how far each has moved and turned in a time t, from unwrapped
 /// positions and angles. Δr = r(t) − r(0), Δθ = θ(t) − θ(0); lengths in units where a b = 1, angles
 /// in radians.

@@ -5,6 +5,7 @@
 #include "analysis/statistics/blocking.h"
 #include "analysis/trajectory.h"
 
+/// @file
 /// Energies and pressure of a saved run.
 ///
 /// Convention: every energy is divided by N, the number of all particles, and given in units of kT;
@@ -34,7 +35,9 @@ struct CompressibilitySeries {
 
 /// Compressibility factor Z = βP/ρ from the virial Σ J n·d, d from centre to centre, summed over
 /// the collisions since the start:
-///   Z = 1 + Δ(Σ J n·d)/(d N kT Δt).
+///
+///     Z = 1 + Δ(Σ J n·d)/(d N kT Δt).
+///
 /// kT is the mean temperature of the run, 2 E/(dN − d + R) with E = N ⟨total⟩: exact for zero net
 /// momentum, where the virial rate depends on ⟨(v_1 − v_2)²⟩ only and the centre of mass takes none
 /// of the energy. `virial` belongs to the times of `energy`; fewer than two of them give NaN.

@@ -7,6 +7,7 @@
 #include "analysis/dynamics/relaxation.h"
 #include "analysis/statistics/blocking.h"
 
+/// @file
 /// Whether a run was in equilibrium, and long enough to tell.
 namespace vitrel {
 

@@ -8,6 +8,7 @@
 #include "analysis/dynamics/time_axis.h"
 #include "analysis/dynamics/tracks.h"
 
+/// @file
 /// The inner part of displacement.h: what every particle adds at one lag.
 namespace vitrel {
 

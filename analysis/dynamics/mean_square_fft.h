@@ -6,7 +6,9 @@
 namespace vitrel {
 
 /// Mean squares of the changes of an evenly sampled coordinate over every lag and all origins,
-///   m(n) = (T − n)⁻¹ Σ_{k=0}^{T−n−1} (x_{k+n} − x_k)²,  n = 0 … T − 1,
+///
+///     m(n) = (T − n)⁻¹ Σ_{k=0}^{T−n−1} (x_{k+n} − x_k)²,  n = 0 … T − 1,
+///
 /// in O(T log T). The mean squared displacement of a particle is that of x plus that of y.
 ///
 /// m(n) = (A(n) − 2 B(n))/(T − n): A(n) = Σ (x_k² + x_{k+n}²) from a recursion, B(n) = Σ x_k x_{k+n}, the

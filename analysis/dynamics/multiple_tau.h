@@ -30,10 +30,11 @@ struct CorrelatedGroup {
 
 /// Time correlations of a run while it goes on, without stored frames, over time differences from one
 /// sample to the whole run, in a memory that grows with the logarithm of its length only:
-///   msd   ⟨|r(t) − r(0)|²⟩, of unwrapped positions (length²)
-///   msr   ⟨(θ(t) − θ(0))²⟩, of unwrapped angles (rad²), over rotors
-///   fs_k  F_s(q_k, t) = ⟨J_0(q_k |r(t) − r(0)|)⟩, the average of exp(i q·Δr) over all directions of q
-///   l_n   L_n(t) = ⟨cos n(θ(t) − θ(0))⟩, n = 2 and 4, over rotors
+///
+///     msd   ⟨|r(t) − r(0)|²⟩, of unwrapped positions (length²)
+///     msr   ⟨(θ(t) − θ(0))²⟩, of unwrapped angles (rad²), over rotors
+///     fs_k  F_s(q_k, t) = ⟨J_0(q_k |r(t) − r(0)|)⟩, the average of exp(i q·Δr) over all directions of q
+///     l_n   L_n(t) = ⟨cos n(θ(t) − θ(0))⟩, n = 2 and 4, over rotors
 ///
 /// Steps (multiple tau with p = `points` places per level and levels a factor m = 2 apart):
 /// 1. Level l keeps the last p of the samples 0, 2^l, 2 · 2^l … Every new one is paired with the older

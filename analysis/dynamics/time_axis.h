@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+/// @file
 /// The time differences at which a correlation is evaluated, and the origins it is averaged over.
 namespace vitrel {
 

@@ -5,6 +5,7 @@
 
 #include "analysis/glass/glass_study.h"
 
+/// @file
 /// Names of what the glass study distinguishes; tables hold the numbers of the enumerations.
 namespace vitrel {
 

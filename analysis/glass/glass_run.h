@@ -9,6 +9,7 @@
 #include "analysis/dynamics/relaxation.h"
 #include "analysis/statistics/blocking.h"
 
+/// @file
 /// Whether the particles of one run move and turn, and how fast.
 namespace vitrel {
 

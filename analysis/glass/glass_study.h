@@ -7,6 +7,7 @@
 #include "analysis/glass/glass_fit.h"
 #include "analysis/glass/glass_run.h"
 
+/// @file
 /// Where particles cease to move and to turn, from runs at several densities.
 namespace vitrel {
 

@@ -5,6 +5,7 @@
 
 #include "core/state/configuration.h"
 
+/// @file
 /// Contacts of a jammed packing, and which particles they hold.
 namespace vitrel {
 
@@ -47,7 +48,9 @@ inline constexpr double min_jammed_pressure = 1e5;
 /// With d the mean of 2√(a b), the diameter of a disk of equal area: close to jamming a contact
 /// that bears the force f is open by kT/f on the average, some d/Z for most, while the gaps of all
 /// other pairs spread below d (donev2005pair). The tolerance is the geometric mean of both,
+///
 ///     d Z^(−1/2),
+///
 /// and is doubled until more than half of the particles are held. Growth compresses faster than a
 /// particle that came out of balance can move to its next support, and without it an isostatic
 /// packing falls apart to the last particle. If more than d/10 were needed, the packing is not

@@ -9,6 +9,7 @@
 
 #include "core/geometry/vector.h"
 
+/// @file
 /// Fourier modes of weighted points in a periodic box, all of them at once.
 namespace vitrel {
 
@@ -31,7 +32,8 @@ inline constexpr double largest_grid_wave = 0.24;
 inline constexpr double alias_tolerance = 1e-6;
 
 /// Bound of the aliasing at x = q h/2π, |x_k| < 1/2 (q_k h_k in every direction):
-///   ε = Π_k A(x_k) − 1,  A(x) = Σ_m |x/(x + m)|^p over all whole m.
+///
+///     ε = Π_k A(x_k) − 1,  A(x) = Σ_m |x/(x + m)|^p over all whole m.
 template <int Dim>
 double alias_bound(const Vec<Dim>& x);
 
@@ -43,7 +45,9 @@ double alias_bound(const Vec<Dim>& x);
 ///    2π m/h with whole numbers m, where ŵ(q) = Π_k (sin(q_k h_k/2)/(q_k h_k/2))^p.
 /// 3. Divided by ŵ(q), every image is left with the factor ± Π_k |x_k/(x_k + m_k)|^p.
 /// |ρ(q')| is at most Σ|w_j|, so, rounding apart,
-///   |error of ρ(q)| ≤ alias_bound(q h/2π) Σ_j |w_j| ≤ alias_tolerance Σ_j |w_j|.
+///
+///     |error of ρ(q)| ≤ alias_bound(q h/2π) Σ_j |w_j| ≤ alias_tolerance Σ_j |w_j|.
+///
 /// A lattice in step with the grid comes up to it; for points without order the error is about
 /// √N/N of that. Cost p^D per point and field, and that of a transform of
 /// Π_k L_k to/(2π · 0.24) nodes per field.

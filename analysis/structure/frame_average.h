@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+/// @file
 /// Averages over the frames of a run of what is measured in each: a row of numbers.
 namespace vitrel {
 

@@ -5,13 +5,16 @@
 
 #include "core/state/configuration.h"
 
+/// @file
 /// Order of one configuration: of the angles (nematic) and of the places (hexatic). Ellipses look
 /// alike after half a turn, so angles enter as 2θ.
 namespace vitrel {
 
 /// The order tensor Q = ⟨2 u uᵀ − 1⟩, u along the major axis, of the particles that are not round:
-///   Q = ( ⟨cos 2θ⟩   ⟨sin 2θ⟩ )
-///       ( ⟨sin 2θ⟩  −⟨cos 2θ⟩ ),
+///
+///     Q = ( ⟨cos 2θ⟩   ⟨sin 2θ⟩ )
+///         ( ⟨sin 2θ⟩  −⟨cos 2θ⟩ ),
+///
 /// with the eigenvalues ± S; the eigenvector of + S is the director. 0 if all are round.
 struct OrderTensor {
   double cosine = 0, sine = 0;  ///< ⟨cos 2θ⟩ and ⟨sin 2θ⟩

@@ -5,6 +5,7 @@
 
 #include "core/state/configuration.h"
 
+/// @file
 /// Whether the orientations of a packing are isotropic, by the second-rank orientation tensor.
 namespace vitrel {
 

@@ -4,6 +4,7 @@
 
 #include "core/state/configuration.h"
 
+/// @file
 /// The bodies of a periodic packing that fill its box: what a mesh or a voxel grid of one period needs.
 ///
 /// The box is the cuboid |x_k| ≤ L_k/2. Each particle has infinitely many images, at r + shift ∘ L; those

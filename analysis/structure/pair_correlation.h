@@ -5,6 +5,7 @@
 #include "analysis/structure/structure_options.h"
 #include "core/state/configuration.h"
 
+/// @file
 /// Pair correlations of one configuration by the distance r of the centres.
 namespace vitrel {
 

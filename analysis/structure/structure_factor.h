@@ -8,12 +8,15 @@
 #include "analysis/structure/structure_options.h"
 #include "core/state/configuration.h"
 
+/// @file
 /// Static structure factors of one configuration, averaged over wave vectors of about the same length.
 namespace vitrel {
 
 /// One entry per shell of wave numbers, the k-th from k to k + 1 steps. Convention, with ρ_α(q) =
 /// Σ_j exp(−i q·r_j) over the particles of species α, and N_α their number:
-///   S(q) = |Σ_α ρ_α|²/N,  S_αβ(q) = Re ρ_α ρ_β^*/√(N_α N_β),  S = Σ_αβ √(x_α x_β) S_αβ,
+///
+///     S(q) = |Σ_α ρ_α|²/N,  S_αβ(q) = Re ρ_α ρ_β^*/√(N_α N_β),  S = Σ_αβ √(x_α x_β) S_αβ,
+///
 /// each averaged over the wave vectors of the shell. S = S_αα = 1 and S_αβ = 0 in an ideal gas.
 struct StructureFactor {
   std::vector<double> modes;  ///< wave vectors in the shell, q and −q counted once; may be 0
@@ -22,7 +25,9 @@ struct StructureFactor {
   /// S_αβ for α ≤ β: AA, AB … BB …; empty for a single species. NaN where one has no particles.
   std::vector<std::vector<double>> partial;
   /// S(q) of the field exp(2iθ) of the R particles that are not round, the mean of q and −q,
-  ///   (|Σ_j cos 2θ_j exp(−i q·r_j)|² + |Σ_j sin 2θ_j exp(−i q·r_j)|²)/R:
+  ///
+  ///     (|Σ_j cos 2θ_j exp(−i q·r_j)|² + |Σ_j sin 2θ_j exp(−i q·r_j)|²)/R:
+  ///
   /// 1 for independent angles, that of the centres where all are parallel, and the larger at small
   /// q the farther the nematic order reaches. Empty if all are round, and in three dimensions.
   std::vector<double> orientation;

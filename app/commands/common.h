@@ -7,6 +7,7 @@
 #include "app/commands/options.h"
 #include "core/io/json.h"
 
+/// @file
 /// What the commands share.
 namespace vitrel {
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+/// @file
 /// Options that several commands share.
 namespace vitrel {
 

@@ -9,6 +9,7 @@
 #include "app/terminal/exit_codes.h"
 #include "core/io/provenance.h"
 
+/// @file
 /// What the command lines of the programs share. CLI11 takes long to compile: one source file of each
 /// program includes this.
 namespace vitrel {

@@ -1,5 +1,6 @@
 #pragma once
 
+/// @file
 /// A clean stop on request: the signals of workflow/sweep/process.h only set a flag, which work asks for
 /// where it can be resumed.
 namespace vitrel {

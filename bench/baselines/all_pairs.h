@@ -5,6 +5,7 @@
 #include "bench/methods/method.h"
 #include "edmd/engine.h"
 
+/// @file
 /// The event loop without any of its devices: no calendar, no neighbour lists, no cells, as in the
 /// program of the thesis (thesis-elliptic-disks, chapters 3.1 and 4.1). The baseline of the engine.
 namespace vitrel::bench {

@@ -4,6 +4,7 @@
 
 #include "edmd/engine.h"
 
+/// @file
 /// The engine for rotating ellipses with one optimisation removed or changed, to measure its speed-up. All variants
 /// simulate the same collisions.
 namespace vitrel::bench {

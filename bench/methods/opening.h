@@ -9,6 +9,7 @@
 #include "core/contact/first_contact.h"
 #include "core/contact/perram_wertheim.h"
 
+/// @file
 /// What the methods have in common before and after their search.
 namespace vitrel::bench {
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 
+/// @file
 /// Numbers as the tables of the benchmarks show them.
 namespace vitrel::bench {
 

@@ -12,6 +12,7 @@
 #include "core/io/json.h"
 #include "core/io/provenance.h"
 
+/// @file
 /// A benchmark in parts that can be asked for by name, and the JSON that it prints.
 namespace vitrel::bench {
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+/// @file
 /// The subcommands of vitrel-bench that answer one written question each, which stands at the head of
 /// their source files. They print JSON, calendar a table and first-contact a line, and return the exit
 /// code.

@@ -7,6 +7,7 @@
 #include "core/io/json.h"
 #include "workflow/report/html.h"
 
+/// @file
 /// What the comparisons of methods do with what they have measured.
 namespace vitrel::bench {
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+/// @file
 /// Interval arithmetic in any binary floating-point type, and functions of time with two
 /// derivatives over an interval.
 ///

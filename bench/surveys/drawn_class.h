@@ -5,6 +5,7 @@
 #include "bench/surveys/stability_suite.h"
 #include "core/random/stream.h"
 
+/// @file
 /// How the cases of a class are drawn.
 namespace vitrel::bench {
 

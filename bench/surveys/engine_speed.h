@@ -7,6 +7,7 @@
 #include "core/state/configuration.h"
 #include "edmd/engine.h"
 
+/// @file
 /// How fast engines are: states to run from, and the clock.
 namespace vitrel::bench {
 

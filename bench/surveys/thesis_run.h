@@ -9,6 +9,7 @@
 #include "core/state/stage.h"
 #include "edmd/engine.h"
 
+/// @file
 /// The simulations of chapter 4 of the thesis (thesis-elliptic-disks), with its program and with this one.
 namespace vitrel::bench {
 

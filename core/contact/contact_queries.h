@@ -4,6 +4,7 @@
 #include "core/contact/ellipsoid_gap.h"
 #include "core/contact/first_contact.h"
 
+/// @file
 /// Separation, support gap and surface point as functions of poses, with one signature for all bodies, for neighbour
 /// lists and the event loop. d runs from centre 1 to centre 2, image shift included.
 namespace vitrel {

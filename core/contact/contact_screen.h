@@ -7,11 +7,14 @@
 #include "core/contact/first_root.h"
 #include "core/contact/simd_batch.h"
 
+/// @file
 /// Lower bounds of the contact times of one body with several partners at one instant.
 ///
 /// Most pairs that an event-driven run asks about do not touch before another event happens to one of
 /// them. The screen settles these in SIMD batches, by one parabola per pair,
+///
 ///     g(n, t + s) ≥ g + ġ s − ½ M s²   (first_contact.h),
+///
 /// along an axis n that is kept from one evaluation to the next; each evaluation turns it by one Newton
 /// step towards the maximum of the gap. Disks and spheres need no axis: their contact time is known in
 /// closed form. Ellipses: ellipse_contact_screen.h; ellipsoids: ellipsoid_contact_screen.h.
@@ -55,13 +58,14 @@ class CandidateTimes {
 
 /// The screen of a body against up to `lanes` partners. A growing body is its `BaseShape<B>` times the
 /// common size.
-///   set(k, pose, motion, coefficients, warm_start, horizon)  fills lane k: pose relative to the centre of
-///                     the body, current motion, and time up to which to screen
-///   evaluate(count)   computes the times of the first `count` lanes: infinite if there is no contact up to
-///                     the horizon, 0 if the axis does not separate the pair
-///   earliest, discard the lanes in the order of their times
-///   warm_start(k)     what to pass to `set` next time
-///   is_exact          whether a time other than 0 is the contact time itself
+///
+///     set(k, pose, motion, coefficients, warm_start, horizon)  fills lane k: pose relative to the centre of
+///                       the body, current motion, and time up to which to screen
+///     evaluate(count)   computes the times of the first `count` lanes: infinite if there is no contact up to
+///                       the horizon, 0 if the axis does not separate the pair
+///     earliest, discard the lanes in the order of their times
+///     warm_start(k)     what to pass to `set` next time
+///     is_exact          whether a time other than 0 is the contact time itself
 template <Body B>
 class ContactScreen;
 

@@ -5,6 +5,7 @@
 #include "core/contact/contact_screen.h"
 #include "core/contact/ellipse_pair.h"
 
+/// @file
 /// The contact screen (contact_screen.h) of ellipses.
 namespace vitrel {
 

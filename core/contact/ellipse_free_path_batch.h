@@ -7,14 +7,19 @@
 
 #include "core/contact/ellipse_overlap_batch.h"
 
+/// @file
 /// How far can one ellipse move along x or y, at a fixed angle, before it touches another at rest? The free path of
 /// event-chain Monte Carlo, in SIMD batches.
 ///
 /// Let x point along the path and y across it. An ellipse has the half height h = √Σ_yy, the shear k = Σ_xy/h and
 /// the half chord w = a b/h along the path through its centre, so that its support function along n = (c, s) is
+///
 ///     η(n) = √(w²c² + (h s + k c)²).
+///
 /// With d from centre 1 to centre 2 and any n with c > 0, the gap along n stays positive up to the path length
+///
 ///     f(n) = (n·d − η₁(n) − η₂(n))/c:
+///
 /// every n proves a free path. f is concave in s/c, and its maximum is the contact.
 ///
 /// Steps:

@@ -5,6 +5,7 @@
 
 #include "core/contact/ellipse_pair.h"
 
+/// @file
 /// The support gap of two ellipses. For a unit vector n, g(n) = n·d − h₁(n) − h₂(n) with the support functions
 /// h(n) = √(b² + (a² − b²)(u·n)²), u along the major axis and d from centre 1 to centre 2. If g(n) > 0, n separates
 /// the ellipses. max g is their distance, attained at the normal of the closest points.

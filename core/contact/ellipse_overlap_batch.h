@@ -5,6 +5,7 @@
 #include "core/contact/ellipse_gap.h"
 #include "core/contact/simd_batch.h"
 
+/// @file
 /// Does one ellipse keep a margin to all of several others at rest? The overlap test of trial moves, in SIMD
 /// batches. Each answer is proved; the cheapest proofs come first.
 ///

@@ -57,10 +57,14 @@ VITREL_INLINE SupportAlong<T> support_along(const T& bb, const T& aa_minus_bb, c
 ///
 /// The body rotates by Δ = ω t, and |u·n| changes from p = |u·n| with the initial slope
 /// r = −ω (u·dn/dφ) sgn(u·n); from cos Δ ≥ 1 − Δ²/2 and, where it is positive, 0 ≤ sin |Δ| ≤ |Δ|,
+///
 ///     |u·n| ≥ max(0, p (1 − Δ²/2) + min(0, r t)),
+///
 /// which bounds h² = b² + (a² − b²)(u·n)² from below. With q the ratio of that bound to h² now, ρ = a²b²/h³ rises
 /// to at most q^(−3/2) ρ ≤ ρ/q², and h falls to at least q^(1/2) h ≥ q h, so that
+///
 ///     h'' ≤ K = min(ρ/q² − q h, (a² − b²)/b),
+///
 /// the latter its global maximum. K may be negative.
 template <class T>
 VITREL_INLINE T support_acceleration_bound(const SupportAlong<T>& s, const T& bb,

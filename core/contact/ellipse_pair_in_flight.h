@@ -114,7 +114,9 @@ class EllipsePairInFlight {
   /// the sizes stay ≥ 0.
   ///
   /// With K ω² of support_acceleration_bound and growth by the factor σ + γ s,
+  ///
   ///     (σ + γ s)(h − ω h' s + ½ ω² K s²)
+  ///
   /// has the coefficient ½ σ ω² K − γ ω h' of s² and ½ γ ω² K of s³. Both K and γ s may be negative.
   double acceleration_bound(const GapAlongAxis& g, double duration) const {
     const PairArray rotation = support_acceleration_bound<PairArray>(

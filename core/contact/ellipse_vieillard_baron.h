@@ -2,6 +2,7 @@
 
 #include "core/geometry/ellipse.h"
 
+/// @file
 /// The contact function of Vieillard-Baron (1972) for two ellipses of any sizes, with the complete
 /// criterion: two ellipses are disjoint iff
 ///

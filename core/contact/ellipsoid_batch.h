@@ -3,6 +3,7 @@
 #include "core/contact/ellipsoid_pair.h"
 #include "core/contact/simd_batch.h"
 
+/// @file
 /// Vectors and ellipsoids in SIMD batches.
 namespace vitrel {
 

@@ -5,6 +5,7 @@
 #include "core/contact/contact_screen.h"
 #include "core/contact/ellipsoid_batch.h"
 
+/// @file
 /// The contact screen (contact_screen.h) of ellipsoids.
 namespace vitrel {
 

@@ -4,6 +4,7 @@
 
 #include "core/geometry/ellipsoid.h"
 
+/// @file
 /// The characteristic polynomial of two ellipsoids and its criterion of overlap by five signs, η₁ … η₅
 /// (Wang, Wang & Kim 2001; Jia et al. 2011; Ghossein & Lévesque 2013), completed.
 ///
@@ -108,7 +109,9 @@ EllipsoidEta<Real> ellipsoid_eta(const EllipsoidAxes<Real>& one, const Ellipsoid
 /// Where two ellipsoids that touch from outside do so. With the double root λ of the characteristic
 /// polynomial the point x, relative to centre 1, is the solution of (λA₁ + A₂) x = 0 for the 4 × 4 quadrics
 /// (the article's equation 14 has a minus), in three dimensions
+///
 ///     x = Σ₁y,   y = (Σ₁ + λΣ₂)⁻¹d,   normal y/|y|, from 1 to 2.
+///
 /// The double root is where F is largest, and λ is taken there in any case: the normal of disjoint
 /// ellipsoids separates them (F > 1, and the inequality of Cauchy and Schwarz). The centres must differ.
 template <class Real>

@@ -2,6 +2,7 @@
 
 #include "core/contact/ellipsoid_pair.h"
 
+/// @file
 /// The support gap of two ellipsoids, as of ellipses (ellipse_gap.h): for a unit vector n,
 /// g(n) = n·d − h₁(n) − h₂(n) with h(n) = √(nᵀΣn). If g(n) > 0, n separates the ellipsoids. max g is their distance,
 /// attained at the normal of the closest points.
@@ -9,7 +10,9 @@
 /// The directions with g > 0 form a convex cone, on which g is strictly concave along great circles: Newton's
 /// method on the sphere converges quadratically to the only maximum. The Perram–Wertheim function (1985),
 /// F(λ) = λ(1−λ) dᵀC⁻¹d with C = (1−λ)Σ₁ + λΣ₂ and w = C⁻¹d, gives a start: where F > 1, w separates, and
+///
 ///     dF/dλ = (1−λ)² wᵀΣ₁w − λ² wᵀΣ₂w,
+///
 /// so that at the maximum λ : 1−λ = h₁(w) : h₂(w).
 namespace vitrel {
 

@@ -105,11 +105,17 @@ VITREL_INLINE SupportRates<T> support_rates(const SupportOf<T>& s, const SpinOf<
 /// In the frame of the body n rotates about u = ω/|ω| at a constant angle α. Let S be the shape matrix in that
 /// frame, Δ ≤ a² − c² the difference of its eigenvalues in the plane normal to u, and τ = |S u − u (u·S u)|. With
 /// φ = |ω| t
+///
 ///     h² = const + sin 2α τ cos(φ − φ₁) + ½ sin²α Δ cos 2(φ − φ₂),
+///
 /// so that, with Q = |sin α cos α| τ + sin²α Δ,
+///
 ///     |(h²)''|/2 ≤ ω² Q,   |(h²)'''|/2 ≤ 2 ω³ Q.
+///
 /// Hence ḧ = ((h²)''/2 − ḣ²)/h is at most q/h_min with
+///
 ///     q = min(ω² Q, h ḧ + ḣ² + 2 |ω|³ Q t) now,   h_min² = max(c², h² − 2 |h ḣ| t − ω² Q t²),
+///
 /// where c is the shortest semi-axis, the term |h ḣ| counts only if h decreases, and negative q counts as 0. A
 /// spheroid that rotates about an axis normal to its own has τ = 0.
 template <class T>

@@ -113,7 +113,9 @@ class EllipsoidPairInFlight {
 
   /// M with g(t + s) ≥ g + ġ s − ½ M s² for all s from 0 to `duration`, which may be negative (backwards), as long as
   /// the sizes stay ≥ 0. With the bound K of support_acceleration_bound,
+  ///
   ///     (σ + γ s)(h + ḣ s + ½ K s²)
+  ///
   /// has the coefficient ½ σ K + γ ḣ of s² and ½ γ K of s³.
   double acceleration_bound(const Gap& g, double duration) const {
     const PairArray acceleration = support_acceleration_bound<PairArray>(

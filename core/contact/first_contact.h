@@ -6,11 +6,14 @@
 #include "core/geometry/growing.h"
 #include "core/geometry/sphere.h"
 
+/// @file
 /// The time at which two bodies in free flight, possibly growing, first touch.
 ///
 /// Ellipses: conservative advancement along a separating axis. At time t the search finds an axis n with
 /// g(n, t) > 0 (support gap). For this fixed n
+///
 ///     g(n, t + s) ≥ g + ġ s − ½ M s²,   M ≥ −g̈ over the step (ellipse_pair_in_flight.h),
+///
 /// and the first root of the parabola is a time before which contact is impossible. These times approach the
 /// first contact from below: the search cannot skip a contact and needs no bracket.
 ///

@@ -6,6 +6,7 @@
 
 #include "core/contact/simd_batch.h"
 
+/// @file
 /// First roots of quadratic functions of time, in forms without cancellation.
 namespace vitrel::detail {
 

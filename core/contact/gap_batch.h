@@ -4,6 +4,7 @@
 
 #include "core/contact/simd_batch.h"
 
+/// @file
 /// Lower bounds of the gaps between one body and several others, all at rest: for disks and spheres the
 /// distances of the surfaces, for ellipses (ellipse_gap_batch.h) and ellipsoids (ellipsoid_gap_batch.h) the
 /// support gap along a good axis (ellipse_gap.h).

@@ -3,6 +3,7 @@
 #include "core/geometry/ellipse.h"
 #include "core/geometry/ellipsoid.h"
 
+/// @file
 /// The contact function of Perram and Wertheim (1985) for two ellipses or ellipsoids:
 ///
 ///     F(λ) = λ(1−λ) dᵀ C(λ)⁻¹ d,   C(λ) = (1−λ)Σ₁ + λΣ₂,   0 < λ < 1,
@@ -15,12 +16,16 @@
 /// root; bracketed Newton iteration in ln t finds it.
 ///
 /// Ellipses: with Dᵢ = aᵢ²bᵢ², pᵢ = dᵀ adj(Σᵢ) d and m = tr(Σ₁ adj Σ₂), all sums of positive terms,
+///
 ///     F = t (p₁ + p₂t) / ((1 + t)(D₁ + m t + D₂t²)).
+///
 /// Accuracy: about 10 κ ε of F, that is, 10 κ ε (a₁ + a₂) of the distance of the surfaces.
 ///
 /// Ellipsoids: with y = (Σ₁ + tΣ₂)⁻¹d, hᵢ² = yᵀΣᵢy and e = yᵀΣ₂(Σ₁ + tΣ₂)⁻¹Σ₂y,
+///
 ///     d ln F/d ln t = (h₁² − t²h₂²)/((1 + t) d·y),   d·y = h₁² + t h₂²,
 ///     −d² ln F/d(ln t)² = t/(1 + t)² + w − 2t²e/d·y + w²,   w = t h₂²/d·y.
+///
 /// Finally F = (n·d/(h₁(n) + h₂(n)))², the maximum over all unit vectors n: an error of n enters squared.
 /// Accuracy: a few ε (a₁ + a₂) of the distance of the surfaces, a the longest semi-axes.
 /// Source: perram1985.

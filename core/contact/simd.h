@@ -4,6 +4,7 @@
 #include <cmath>
 #include <experimental/simd>
 
+/// @file
 /// Arithmetic on the two bodies of a pair at once, and on a SIMD batch of pairs. Formulas are templates over the
 /// two types.
 namespace vitrel {

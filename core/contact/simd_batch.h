@@ -8,6 +8,7 @@
 #include "core/geometry/ellipsoid.h"
 #include "core/geometry/sphere.h"
 
+/// @file
 /// What all SIMD batches share: precomputed shape coefficients, and buffers that are filled lane by lane. One
 /// lane holds one pair.
 namespace vitrel {

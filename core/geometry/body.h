@@ -8,10 +8,10 @@ namespace vitrel {
 
 /// The interface of a hard particle: a convex, centrally symmetric shape in `dimension` dimensions.
 ///
-///   circumradius, inradius  radii of the smallest enclosing and the largest enclosed circle (sphere)
-///   volume                  area in two dimensions
-///   max_support_rate        maximum rate of the support function per unit of angular speed,
-///                           max |dh/dt|/|ω| (0 for a round body)
+///     circumradius, inradius  radii of the smallest enclosing and the largest enclosed circle (sphere)
+///     volume                  area in two dimensions
+///     max_support_rate        maximum rate of the support function per unit of angular speed,
+///                             max |dh/dt|/|ω| (0 for a round body)
 ///
 /// Models: `Disk`, `Ellipse`, `Sphere`, `Ellipsoid`, and growing bodies (growing.h).
 template <class B>

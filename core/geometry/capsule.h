@@ -4,6 +4,7 @@
 
 #include "core/geometry/ellipsoid.h"
 
+/// @file
 /// Bounding capsules of ellipsoids: a cheap test that separates long bodies.
 ///
 /// With semi-axes a ≥ b ≥ c, the ellipsoid lies within b of the segment of half-length (a² − b²)/a along its longest

@@ -9,7 +9,9 @@ namespace vitrel {
 
 /// A body that grows or shrinks self-similarly at a constant rate: at time t its lengths are those of
 /// `shape` times
+///
 ///     size(t) = size + growth_rate · t ≥ 0,   t counted from the start of its flight.
+///
 /// It may start from a point, size = 0.
 template <Body Shape>
 struct Growing {

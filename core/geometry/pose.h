@@ -5,6 +5,7 @@
 
 #include "core/geometry/vector.h"
 
+/// @file
 /// Where a body is and how it moves. Free flight between events is r + v t with a constant angular
 /// velocity ω.
 ///

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 
+/// @file
 /// Small fixed-size vectors. Lengths are in the program's unit of length (the reference species has
 /// semi-axes a b = 1), whole box lengths are counted in `Shift`.
 namespace vitrel {

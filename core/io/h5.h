@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+/// @file
 /// A thin, owning layer over the HDF5 C library: files, groups, datasets and attributes that close
 /// themselves. HDF5's own messages are silenced; every failure becomes one FileError that names the
 /// file, the operation and the reason the operating system gave.

@@ -8,6 +8,7 @@
 #include "core/io/h5.h"
 #include "core/io/transactional_file.h"
 
+/// @file
 /// What the objects of h5.h have in common: the open file, and one way to report a failure.
 namespace vitrel::h5 {
 

@@ -14,25 +14,26 @@
 #include "core/state/configuration.h"
 #include "core/state/observer.h"
 
+/// @file
 /// Trajectories in H5MD 1.1 (de Buyl, Colberg & Höfling, Comput. Phys. Commun. 185, 1546, 2014).
 /// The file is always three-dimensional, because readers of two-dimensional files are rare:
 /// ellipses lie in the plane z = 0, their third semi-axis is stored as 0, and the box is 1 high and
 /// not periodic in z. Ellipsoids, in three dimensions, fill all of it. `parameters` tells which.
 ///
-///   particles/all/
-///     position, image             wrapped, box centred at the origin;
-///                                 unwrapped = position + image · edges
-///     orientation                 quaternion w, x, y, z; in 2-D (cos θ/2, 0, 0, sin θ/2)
-///     angle                       θ, unwrapped, radians; in 2-D only
-///     velocity, angular_velocity  if asked for, both in the axes of space
-///     box/edges                   rows are the cell vectors
-///     species, id, mass, semiaxes the same in all frames
-///   observables/<name>            one number per frame
-///   particles/all/close_pairs/    of soft particles, if asked for; those of frame k are the rows from
-///                                 end[k − 1], or 0, to end[k]:
-///     pair, lag, distance         (i, j); the shift of j's image, between unwrapped positions; how
-///                                 close they may be
-///   parameters                    provenance
+///     particles/all/
+///       position, image             wrapped, box centred at the origin;
+///                                   unwrapped = position + image · edges
+///       orientation                 quaternion w, x, y, z; in 2-D (cos θ/2, 0, 0, sin θ/2)
+///       angle                       θ, unwrapped, radians; in 2-D only
+///       velocity, angular_velocity  if asked for, both in the axes of space
+///       box/edges                   rows are the cell vectors
+///       species, id, mass, semiaxes the same in all frames
+///     observables/<name>            one number per frame
+///     particles/all/close_pairs/    of soft particles, if asked for; those of frame k are the rows from
+///                                   end[k − 1], or 0, to end[k]:
+///       pair, lag, distance         (i, j); the shift of j's image, between unwrapped positions; how
+///                                   close they may be
+///     parameters                    provenance
 ///
 /// Velocities of soft particles in contact are those of after it: a run that starts from a frame finds
 /// no contacts under way, but the pairs that are still close.

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+/// @file
 /// JSON to and from text, compiled in one source file: the parser and the writer of nlohmann::json take long.
 namespace vitrel {
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 
+/// @file
 /// Numbers as people read them.
 namespace vitrel {
 

@@ -14,13 +14,14 @@
 #include "core/error.h"
 #include "core/io/toml.h"
 
+/// @file
 /// Parameters are plain structs. One function per struct, describe(struct, visitor), names its
 /// fields; from it come the reading of TOML, the effective parameters as TOML text, the commented
 /// template and the reference page:
 ///
-///   void describe(Dynamics& p, FieldVisitor& visit) {
-///     visit.field({"duration", "time", "Length of the sampled part of the run."}, p.duration);
-///   }
+///     void describe(Dynamics& p, FieldVisitor& visit) {
+///       visit.field({"duration", "time", "Length of the sampled part of the run."}, p.duration);
+///     }
 namespace vitrel {
 
 struct Field {

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+/// @file
 /// Numbers with a unit in text: "2 kN/m", "1140 kg/m^3", "1e-4 s".
 namespace vitrel {
 

@@ -62,7 +62,9 @@ struct Neighbor : NeighborImage<B::dimension> {
 /// `margin`. While it stays inside, it can touch only particles whose neighbourhoods overlap its own; when it
 /// leaves, only its own reference pose and list are updated. A body displaced by Δr, rotated by Δθ and grown by Δσ
 /// is inside its neighbourhood if
+///
 ///     |Δr| + σ max_support_rate |Δθ| + max(Δσ, 0) circumradius ≤ margin,
+///
 /// since its support function has grown by no more than that in any direction. Two neighbourhoods are disjoint if
 /// the bodies at their reference poses are 2 margin apart.
 ///

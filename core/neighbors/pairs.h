@@ -3,6 +3,7 @@
 #include "core/neighbors/cell_grid.h"
 #include "core/state/configuration.h"
 
+/// @file
 /// The pairs of a configuration that are close to each other.
 namespace vitrel {
 

@@ -6,6 +6,7 @@
 
 #include "core/state/configuration.h"
 
+/// @file
 /// The exact check of a whole state: which hard particles overlap, judged from the stored doubles
 /// in 80-bit arithmetic, over all images, with tolerance zero and without any code of the engine.
 ///

@@ -7,6 +7,7 @@
 #include "core/contact/ellipsoid_eta.h"
 #include "core/state/configuration.h"
 
+/// @file
 /// Two particles in 80-bit arithmetic, as the exact check (check.h) judges and measures them.
 namespace vitrel::exact {
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+/// @file
 /// The species of a system, and how their shapes are drawn.
 namespace vitrel {
 

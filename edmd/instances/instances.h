@@ -4,6 +4,7 @@
 
 #include "edmd/engine.h"
 
+/// @file
 /// One explicit instantiation of Simulation per file, so that the event loop is compiled once per
 /// body.
 namespace vitrel {

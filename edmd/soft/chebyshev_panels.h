@@ -14,6 +14,7 @@
 
 #include "core/parallel.h"
 
+/// @file
 /// Piecewise Chebyshev approximation of a smooth function on a box by polynomials on panels, which are halved until
 /// they meet a tolerance.
 ///

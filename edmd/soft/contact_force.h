@@ -3,6 +3,7 @@
 #include <concepts>
 #include <string_view>
 
+/// @file
 /// Forces between two soft, frictionless spheres (disks) in contact, and their natural scales.
 ///
 /// A force is a value type: the parameters of a material in SI units and the functions of `ContactForce`. To add one,

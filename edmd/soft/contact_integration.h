@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "edmd/soft/restitution.h"
 
+/// @file
 /// The integration described in restitution.h; included by the sources that instantiate a force.
 namespace vitrel {
 

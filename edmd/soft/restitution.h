@@ -2,6 +2,7 @@
 
 #include "edmd/soft/contact_force.h"
 
+/// @file
 /// The restitution matrix: the effect of a collision of finite duration on two soft spheres.
 ///
 /// While in contact, the pair moves in a plane about its centre of mass; r is the distance of the centres and φ the angle

@@ -14,6 +14,7 @@
 #include "edmd/soft/chebyshev_panels.h"
 #include "edmd/soft/restitution.h"
 
+/// @file
 /// The restitution matrix from a table, in a small fraction of the time of an integration.
 ///
 /// Variables: those of the source, in which the impacts of all materials, radii and speeds of given

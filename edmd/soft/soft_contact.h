@@ -8,24 +8,30 @@
 #include "edmd/engine.h"
 #include "edmd/soft/restitution.h"
 
+/// @file
 /// Collisions of soft spheres and disks in event-driven dynamics.
 ///
 /// A contact takes a time τ, during which the line of centres rotates; the restitution matrix (restitution.h) maps the
 /// state at its start to that at its end. A collision consists of three events:
-///   E^φ  at first contact: the pair is rotated and rescaled about its centre of mass to its configuration at the end of
-///        the contact, and both particles continue with the velocity of the centre of mass;
-///   E^v  a time τ later, one for each particle: the particle takes its velocity after the contact.
+///
+///     E^φ  at first contact: the pair is rotated and rescaled about its centre of mass to its configuration at the end of
+///          the contact, and both particles continue with the velocity of the centre of mass;
+///     E^v  a time τ later, one for each particle: the particle takes its velocity after the contact.
+///
 /// From then on the trajectories are exact. Two exceptions, both counted:
-///   (a)  in its new position one of the pair would be closer than contact to a third particle (and closer than before):
-///        the two collide as hard spheres, with the coefficient of restitution −ε_ṙ;
-///   (b)  a third particle hits one of the pair before τ has passed: its E^v is executed first.
+///
+///     (a)  in its new position one of the pair would be closer than contact to a third particle (and closer than before):
+///          the two collide as hard spheres, with the coefficient of restitution −ε_ṙ;
+///     (b)  a third particle hits one of the pair before τ has passed: its E^v is executed first.
 ///
 /// Conserved to rounding: momentum; energy, if elastic; angular momentum, except in (b), since the distance of the pair
 /// has changed when the partner is released later. Nothing is lost if both are released together.
 ///
 /// While in contact, particles count with the velocities after the contact. The energy of an elastic gas, potential energy
 /// included, therefore equals its kinetic energy. For the pressure a contact counts as
+///
 ///     ∫ (d·F + m_eff v²) dt − τ m_eff v'² = [m_eff d·v]₀^τ − τ m_eff v'²,
+///
 /// d the distance, v the relative velocity and v' that after the contact; this is exact together with the kinetic energy.
 ///
 /// With damping a pair leaves contact closer than the sum of its radii. While it separates it does not collide. If a third
@@ -76,6 +82,7 @@ struct RelativeMotion {
 
 /// The relative motion after a contact, from that at first contact. With n = r/|r|, t the direction of the tangential
 /// velocity, and u and w the speeds along −n and t:
+///
 ///     r' = ε_r |r| n',   v' = −ε_ṙ u n' + (w/ε_r) t',
 ///     n' = cos ε_φ n + sin ε_φ t,   t' = cos ε_φ t − sin ε_φ n
 template <int Dim>

@@ -13,6 +13,7 @@
 #include "core/io/json.h"
 #include "core/io/provenance.h"
 
+/// @file
 /// The analysis of one saved run.
 namespace vitrel {
 

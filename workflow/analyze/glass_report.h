@@ -7,6 +7,7 @@
 #include "analysis/glass/glass_study.h"
 #include "core/io/json.h"
 
+/// @file
 /// Glass runs and glass studies in words and as JSON.
 namespace vitrel {
 

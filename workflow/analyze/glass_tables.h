@@ -7,6 +7,7 @@
 #include "analysis/glass/glass_study.h"
 #include "analysis/results.h"
 
+/// @file
 /// Glass runs and glass studies as tables of results.
 namespace vitrel {
 

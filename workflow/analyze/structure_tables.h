@@ -10,6 +10,7 @@
 #include "analysis/trajectory.h"
 #include "core/parallel.h"
 
+/// @file
 /// The structure of a run, averaged over its frames.
 namespace vitrel {
 

@@ -17,6 +17,7 @@
 #include "workflow/configuration/system_parameters.h"
 #include "workflow/stages/stage.h"
 
+/// @file
 /// The parameter file: what it holds, how it is read, and the texts that describe it. All commands
 /// read the same file; each uses the sections it needs.
 namespace vitrel {

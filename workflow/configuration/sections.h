@@ -3,6 +3,7 @@
 #include "workflow/configuration/parameters.h"
 #include "workflow/configuration/rules.h"
 
+/// @file
 /// The sections of the parameter file. For each there is a function that names its fields and one that throws
 /// BadValue for the first impossible value.
 namespace vitrel {

@@ -8,6 +8,7 @@
 #include "workflow/configuration/parameters.h"
 #include "workflow/log.h"
 
+/// @file
 /// From the parameters of soft particles to their contacts in a run.
 namespace vitrel {
 

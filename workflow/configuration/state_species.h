@@ -7,6 +7,7 @@
 #include "core/state/configuration.h"
 #include "workflow/configuration/parameters.h"
 
+/// @file
 /// Whether parameters describe the particles of a state that a run starts from.
 namespace vitrel {
 

@@ -14,10 +14,10 @@ namespace vitrel {
 /// Writes a file of GSD, the general simulation data of HOOMD-blue, file layer 2.0
 /// (https://gsd.readthedocs.io/en/stable/file-layer.html): frames of named arrays, "chunks".
 ///
-///   header    256 bytes: what the file is, and where the two blocks below lie
-///   chunks    the bare numbers, row by row, one after the other
-///   names     of the chunks, each ended by a zero byte, in units of 64 bytes
-///   index     32 bytes per chunk, by frame and then by name: place, shape and type
+///     header    256 bytes: what the file is, and where the two blocks below lie
+///     chunks    the bare numbers, row by row, one after the other
+///     names     of the chunks, each ended by a zero byte, in units of 64 bytes
+///     index     32 bytes per chunk, by frame and then by name: place, shape and type
 ///
 /// Names and index come last, so that nothing needs to be known beforehand; memory grows by an
 /// index entry per chunk.

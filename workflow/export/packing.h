@@ -6,6 +6,7 @@
 #include "analysis/structure/packing_images.h"
 #include "core/state/configuration.h"
 
+/// @file
 /// One period of a packing of ellipsoids in the formats of mesh generators, solvers on grids and viewers.
 /// All of them get the bodies that meet the box, images included; the box is centred at the origin.
 /// Throws FileError.
@@ -39,12 +40,12 @@ void write_vtp(const std::filesystem::path& path, const Packing& packing);
 /// A table with a line for every body, after one line of `name [unit]`, every number with the digits, 17 at
 /// most, that give the same double back:
 ///
-///   particle, species                from 0; the name
-///   image_x, image_y, image_z        centre = position of the particle + image ∘ box
-///   x, y, z                          centre
-///   a, b, c                          semi-axes along the own x, y and z axes
-///   qw, qx, qy, qz                   quaternion that turns the own axes into those of space
-///   box_x, box_y, box_z
+///     particle, species                from 0; the name
+///     image_x, image_y, image_z        centre = position of the particle + image ∘ box
+///     x, y, z                          centre
+///     a, b, c                          semi-axes along the own x, y and z axes
+///     qw, qx, qy, qz                   quaternion that turns the own axes into those of space
+///     box_x, box_y, box_z
 void write_packing_csv(const std::filesystem::path& path, const Packing& packing);
 
 }  // namespace vitrel

@@ -9,6 +9,7 @@
 #include "workflow/prepare/prepare.h"
 #include "workflow/prepare/quality_row.h"
 
+/// @file
 /// How good a prepared state of three dimensions is.
 namespace vitrel {
 

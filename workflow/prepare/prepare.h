@@ -12,11 +12,12 @@
 #include "workflow/log.h"
 #include "workflow/stages/stage_record.h"
 
+/// @file
 /// From parameters to a first state: particles are drawn, then the stages of [prepare] follow each other.
 ///
-///   const Preparation<2> preparation = prepare<2>({parameters, "state.h5"}, {}, {});
-///   write_state("state.h5", preparation.configuration, provenance);
-///   forget_preparation("state.h5");
+///     const Preparation<2> preparation = prepare<2>({parameters, "state.h5"}, {}, {});
+///     write_state("state.h5", preparation.configuration, provenance);
+///     forget_preparation("state.h5");
 namespace vitrel {
 
 struct PrepareRequest {

@@ -11,6 +11,7 @@
 #include "workflow/prepare/prepare.h"
 #include "workflow/prepare/quality_row.h"
 
+/// @file
 /// How good a prepared state is.
 namespace vitrel {
 

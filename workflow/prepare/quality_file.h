@@ -5,6 +5,7 @@
 #include "core/io/json.h"
 #include "workflow/prepare/quality.h"
 
+/// @file
 /// The quality of a state on file, beside the state itself.
 namespace vitrel {
 

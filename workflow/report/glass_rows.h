@@ -4,6 +4,7 @@
 
 #include "analysis/results.h"
 
+/// @file
 /// The glass study as HTML: the rows of two tables of the page, and the notes below them.
 namespace vitrel {
 

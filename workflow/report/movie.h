@@ -9,6 +9,7 @@
 #include "core/io/json.h"
 #include "core/state/configuration.h"
 
+/// @file
 /// The moving particles of a run, packed small enough to travel inside a page.
 namespace vitrel {
 

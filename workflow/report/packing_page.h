@@ -7,6 +7,7 @@
 #include "workflow/report/html.h"
 #include "workflow/report/packing_scene.h"
 
+/// @file
 /// The report of one packing of ellipsoids: one HTML page that needs nothing beside it.
 namespace vitrel {
 

@@ -9,6 +9,7 @@
 #include "core/state/check.h"
 #include "core/state/configuration.h"
 
+/// @file
 /// A packing, packed small enough to travel inside a page.
 namespace vitrel {
 

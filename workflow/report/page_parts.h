@@ -9,6 +9,7 @@
 #include "core/io/json.h"
 #include "workflow/report/html.h"
 
+/// @file
 /// What the pages are put together from.
 namespace vitrel {
 

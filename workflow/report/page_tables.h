@@ -5,6 +5,7 @@
 #include "analysis/results.h"
 #include "core/io/json.h"
 
+/// @file
 /// Tables of results, as the pages carry and show them.
 namespace vitrel {
 

@@ -8,6 +8,7 @@
 #include "workflow/report/html.h"
 #include "workflow/report/movie.h"
 
+/// @file
 /// The report: one HTML page that needs nothing beside it, neither files nor a network.
 namespace vitrel {
 

@@ -7,6 +7,7 @@
 #include "core/state/configuration.h"
 #include "workflow/report/html.h"
 
+/// @file
 /// The report of one prepared state: one HTML page that needs nothing beside it.
 namespace vitrel {
 

@@ -8,6 +8,7 @@
 #include "analysis/results.h"
 #include "workflow/configuration/parameters.h"
 
+/// @file
 /// The correlations that a run measures on the fly, and the file `<output>.correlations.h5` they are
 /// written to with every checkpoint. It has the form of results.h: a table correlations_<group> for all
 /// particles and every species, and the table wave_numbers, whose row k is the q of the column fs_k.

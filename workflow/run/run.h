@@ -10,12 +10,13 @@
 #include "workflow/configuration/parameters.h"
 #include "workflow/log.h"
 
+/// @file
 /// The event-driven run with its files. The trajectory run.h5 has a checkpoint run.h5.checkpoint
 /// beside it, and run.h5.correlations.h5 if the run correlates on the fly; the same request starts the
 /// run, continues it, or finds it complete. The datasets of a run that was killed at any moment and continued
 /// are bit-identical to those of one that was not.
 ///
-///   const RunOutcome<2> outcome = run_simulation<2>({parameters, "run.h5"}, {}, {});
+///     const RunOutcome<2> outcome = run_simulation<2>({parameters, "run.h5"}, {}, {});
 namespace vitrel {
 
 struct RunRequest {

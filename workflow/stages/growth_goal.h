@@ -7,6 +7,7 @@
 
 #include "workflow/stages/stage_interface.h"
 
+/// @file
 /// The goal of the stages `grow` and `hybrid`: a packing fraction (by default that of the system), a reduced
 /// pressure, or whichever of the two comes first.
 namespace vitrel {

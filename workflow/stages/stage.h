@@ -12,6 +12,7 @@
 #include "workflow/stages/sample_stage.h"
 #include "workflow/stages/swell_stage.h"
 
+/// @file
 /// The stages of a preparation, as the parameter file describes them.
 namespace vitrel {
 

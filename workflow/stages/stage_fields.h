@@ -6,6 +6,7 @@
 #include "mc/options.h"
 #include "workflow/stages/stage_interface.h"
 
+/// @file
 /// Keys shared by several stages.
 namespace vitrel {
 

@@ -8,18 +8,19 @@
 #include "workflow/configuration/rules.h"
 #include "workflow/configuration/system_parameters.h"
 
+/// @file
 /// The interface of the stages of a preparation. A stage is a type whose members are the options, with their defaults.
 /// It also has
 ///
-///   method, summary       its name in the parameter file, and a description
-///   State                 its progress; together with the configuration, all it needs to continue
-///   fields()              its keys in the parameter file (stage_fields.h)
-///   validate              throws BadValue for an invalid option
-///   ending, end           the kind of its end, and the packing fraction there
-///   description           a short description with these options
-///   advance               runs it, for each dimension that it supports
-///   each_item             names the items of its state in a checkpoint
-///   record                adds its results to the record of the stage
+///     method, summary       its name in the parameter file, and a description
+///     State                 its progress; together with the configuration, all it needs to continue
+///     fields()              its keys in the parameter file (stage_fields.h)
+///     validate              throws BadValue for an invalid option
+///     ending, end           the kind of its end, and the packing fraction there
+///     description           a short description with these options
+///     advance               runs it, for each dimension that it supports
+///     each_item             names the items of its state in a checkpoint
+///     record                adds its results to the record of the stage
 ///
 /// and overrides members of StageDefaults where needed. To add a stage, write such a type in files of its own and add
 /// it to the list in stage.h. Its header contains no algorithm, so that code that reads parameters compiles none.

@@ -10,6 +10,7 @@
 #include "workflow/stages/stage.h"
 #include "workflow/stages/stage_record.h"
 
+/// @file
 /// Execution of stages.
 namespace vitrel {
 

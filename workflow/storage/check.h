@@ -9,6 +9,7 @@
 #include "core/state/configuration.h"
 #include "core/state/stage.h"
 
+/// @file
 /// The exact check of files: overlaps and integrity of saved states.
 namespace vitrel {
 

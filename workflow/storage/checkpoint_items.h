@@ -7,6 +7,7 @@
 
 #include "core/io/checkpoint.h"
 
+/// @file
 /// What a plain value consists of is named once, by a function template that hands every item with its
 /// name to one of these: one writes it into a checkpoint, the other reads it from there.
 namespace vitrel {

@@ -2,6 +2,7 @@
 
 #include <string>
 
+/// @file
 /// The items that runs and stages have in common in their checkpoints. `visit` is an ItemWriter or an
 /// ItemReader (checkpoint_items.h), and every name begins with `path`.
 namespace vitrel {

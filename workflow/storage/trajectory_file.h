@@ -9,6 +9,7 @@
 #include "core/io/h5md.h"
 #include "core/state/observer.h"
 
+/// @file
 /// A run on file: what the program writes with every frame, and how the analysis sees it.
 namespace vitrel {
 

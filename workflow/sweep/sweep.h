@@ -10,15 +10,16 @@
 #include "workflow/configuration/parameters.h"
 #include "workflow/sweep/sweep_jobs.h"
 
+/// @file
 /// Many runs from one parameter file. Every job has a folder of its own:
 ///
-///   sweep/<id>/params.json      the job's values of the grid, and its id
-///             /parameters.toml  all its parameters
-///             /state.h5 run.h5 results.h5
-///                               made by prepare, run, analyze, each in a process of its own
-///             /prepare.json run.json analyze.json log.txt
-///                               what these said
-///             /done.json        written last
+///     sweep/<id>/params.json      the job's values of the grid, and its id
+///               /parameters.toml  all its parameters
+///               /state.h5 run.h5 results.h5
+///                                 made by prepare, run, analyze, each in a process of its own
+///               /prepare.json run.json analyze.json log.txt
+///                                 what these said
+///               /done.json        written last
 ///
 /// Every step may be repeated: what is complete is left alone, a preparation or a run that was cut off is
 /// continued. So the same command continues a sweep that was stopped or killed. To equilibrate is the

@@ -7,6 +7,7 @@
 #include "core/io/json.h"
 #include "workflow/configuration/parameters.h"
 
+/// @file
 /// The jobs of a sweep. The keys of [sweep.together] are one axis, every key of [sweep.grid] is
 /// another; each combination of the axes' values is a job.
 namespace vitrel {

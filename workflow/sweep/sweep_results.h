@@ -6,6 +6,7 @@
 #include "workflow/analyze/analyze.h"
 #include "workflow/sweep/sweep.h"
 
+/// @file
 /// What the runs of a sweep say together.
 namespace vitrel {
 
