@@ -167,7 +167,7 @@ Json exceptions_at(double packing_fraction, double modulus, const Effort& effort
   return {{"packing_fraction", packing_fraction},
           {"modulus", modulus},
           {"collisions", since(relaxed, &RunCounters::collisions)},
-          {"refused_turns", row(&RunCounters::blocked_rotations, refused)},
+          {"blocked_rotations", row(&RunCounters::blocked_rotations, refused)},
           {"early_releases", row(&RunCounters::early_releases, early)}};
 }
 
@@ -261,7 +261,7 @@ Json event_driven(const Race& race, const char* name, const EngineOptions& optio
   }
   Json row = result_json(race, name, best, state.configuration);
   row["collisions"] = state.counters.collisions;
-  row["refused_turns"] = state.counters.blocked_rotations;
+  row["blocked_rotations"] = state.counters.blocked_rotations;
   row["early_releases"] = state.counters.early_releases;
   return row;
 }
@@ -396,7 +396,7 @@ Json conservation_in(const Force& force, const char* name, const Effort& effort)
   run_on(state, tabulated(force), effort.long_run * mean_free_time(start));
   return {{"gas", name},
           {"collisions", state.counters.collisions},
-          {"refused_turns", state.counters.blocked_rotations},
+          {"blocked_rotations", state.counters.blocked_rotations},
           {"early_releases", state.counters.early_releases},
           {"momentum", state.largest_momentum / momentum_scale(start)},
           {"energy", state.energy_drift}};
@@ -442,7 +442,7 @@ Json conservation_of_clusters(EarlyRelease early_release, const Effort& effort) 
           {"clusters", effort.clusters},
           {"particles", effort.few_sites.prod()},
           {"collisions", sum.collisions},
-          {"refused_turns", sum.blocked_rotations},
+          {"blocked_rotations", sum.blocked_rotations},
           {"early_releases", sum.early_releases},
           {"momentum", std::ranges::max(momentum)},
           {"energy", std::ranges::max(energy)},

@@ -14,14 +14,14 @@
 /// A contact takes a time τ, during which the line of centres rotates; the restitution matrix (restitution.h) maps the
 /// state at its start to that at its end. A collision consists of three events:
 ///
-///     E^φ  at first contact: the pair is rotated and rescaled about its centre of mass to its configuration at the end of
-///          the contact, and both particles continue with the velocity of the centre of mass;
+///     E^φ  at first contact: the pair is rotated and rescaled about its centre of mass to its configuration at the
+///          end of the contact, and both particles continue with the velocity of the centre of mass;
 ///     E^v  a time τ later, one for each particle: the particle takes its velocity after the contact.
 ///
 /// From then on the trajectories are exact. Two exceptions, both counted:
 ///
-///     (a)  in its new position one of the pair would be closer than contact to a third particle (and closer than before):
-///          the two collide as hard spheres, with the coefficient of restitution −ε_ṙ;
+///     (a)  in its new position one of the pair would be closer than contact to a third particle (and closer than
+///          before): the two collide as hard spheres, with the coefficient of restitution −ε_ṙ;
 ///     (b)  a third particle hits one of the pair before τ has passed: its E^v is executed first.
 ///
 /// Conserved to rounding: momentum; energy, if elastic; angular momentum, except in (b), since the distance of the pair

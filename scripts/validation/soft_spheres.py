@@ -22,7 +22,7 @@ SLOPE_ERROR = 0.03
 MAX_DRIFT, MAX_ANGULAR_DRIFT = 1e-11, 1e-12
 
 NAMES = {"viscoelastic": "viscoelastic", "linear_dashpot": "linear dashpot"}
-EXCEPTIONS = {"early_releases": "early releases", "refused_turns": "refused rotations"}
+EXCEPTIONS = {"early_releases": "early releases", "blocked_rotations": "blocked rotations"}
 WAYS = {"tables": "event-driven, tables", "integration": "event-driven, integration",
         "classical": "classical rule", "force-based": "force-based", "clusterwise": "force-based, adaptive"}
 
@@ -62,7 +62,7 @@ def expected_exceptions(packing_fraction, modulus):
     free = 1 / (number_density * math.pi * (2 * radius) ** 2 * 4 * speed / math.sqrt(2 * math.pi))
     hit, in_the_way = 3 * math.sqrt(3) / 4, math.pi / 6 + math.sqrt(3) / 16
     return {"early_releases": hit * contact / free,
-            "refused_turns": (in_the_way + refused_after_hit() * hit) * contact / free}
+            "blocked_rotations": (in_the_way + refused_after_hit() * hit) * contact / free}
 
 
 def exceptions_of(rows, key, fixed, value):
@@ -233,7 +233,7 @@ def drift(value):
 
 
 def counts(row):
-    return [row["collisions"], row["refused_turns"], row["early_releases"]]
+    return [row["collisions"], row["blocked_rotations"], row["early_releases"]]
 
 
 def gas_rows(gases):
@@ -273,17 +273,17 @@ Y = 1 GPa, the thermal speed √(2kT/m) is 2 m/s, and the box is periodic. Times
 ### Exceptions (figure 7)
 
 {data['exceptions']['particles']} elastic spheres start from a crystal; errors are estimated by blocking. An *early release* is a contact in which a
-third particle hits one of the pair. A *refused rotation* is a contact whose rotation a neighbour blocks. Dashed lines show
+third particle hits one of the pair. A *blocked rotation* is a contact whose rotation a neighbour blocks. Dashed lines show
 the kinetic theory of a dilute gas of nearly hard spheres, with the mean contact duration τ and the mean free time τ_f. A
 third particle hits one of the pair in a fraction (3√3/4) τ/τ_f of the collisions; it blocks the rotation in a fraction
 (π/6 + √3/16) τ/τ_f. In addition, after an early release the former partner can block the rotation of the released particle
 with the third one. Random sampling of such encounters gives a fraction of {refused_after_hit():.3f} of the early releases. At Y = 1 GPa and
-η = 0.001 there are {1e3 * usual['early_releases']['mean']:.2f} early releases and {1e3 * usual['refused_turns']['mean']:.2f} refused rotations per 1000 collisions. Both vanish in the dilute limit and in
+η = 0.001 there are {1e3 * usual['early_releases']['mean']:.2f} early releases and {1e3 * usual['blocked_rotations']['mean']:.2f} blocked rotations per 1000 collisions. Both vanish in the dilute limit and in
 the hard limit.
 
 ![Exceptions against packing fraction and Young's modulus]({FIGURES}/exceptions.svg)
 
-{table(["η", "Y (GPa)", "collisions", "early releases, ‰", "theory", "refused rotations, ‰", "theory"], list(exception_rows(exceptions)))}
+{table(["η", "Y (GPa)", "collisions", "early releases, ‰", "theory", "blocked rotations, ‰", "theory"], list(exception_rows(exceptions)))}
 
 ### Accuracy against computing time
 

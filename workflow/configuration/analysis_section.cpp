@@ -24,7 +24,7 @@ void describe_analysis(DisplacementOptions& p, FieldVisitor& visit) {
   visit.field({"max_origins", "",
                "Maximum number of time origins per time difference; if there are more, they are "
                "thinned evenly.",
-               "max_origins"},
+               "most_origins"},
               p.axis.max_origins);
   visit.field(
       {"wave_numbers", "1/length",

@@ -375,7 +375,7 @@ Json run_summary(const RunRequest& request, const RunOutcome<Dim>& outcome) {
       {"wall_seconds", outcome.wall_seconds},
       {"collisions_per_second", collisions / outcome.wall_seconds}};
   if (request.parameters.dynamics.contact) {
-    summary["refused_turns"] = counters.blocked_rotations;
+    summary["blocked_rotations"] = counters.blocked_rotations;
     summary["early_releases"] = counters.early_releases;
     summary["integrated_contacts"] = counters.integrations;
     summary["dissipated_energy"] = counters.dissipated;
