@@ -6,7 +6,7 @@ from validation.common import expect, output_of, table
 
 TITLE = "Collision time: the default method on every class"
 PAIRS = 800_000  # of each class, all its aspect ratios taken together
-LEAST_PAIRS = 10_000_000  # in total, if PAIRS has its regular value
+MIN_PAIRS = 10_000_000  # in total, if PAIRS has its regular value
 TIME_TOLERANCE = 1e-12  # of the horizon
 
 # core/contact/first_contact.h declares a contact at a gap of at most 1.25 contact gaps. A contact gap is
@@ -51,7 +51,7 @@ def row(measured):
 def measure(build):
     measured = rows(build)
     pairs = sum(one["pairs"] for one in measured)
-    expect(PAIRS < 800_000 or pairs >= LEAST_PAIRS, f"only {pairs} pairs in total")
+    expect(PAIRS < 800_000 or pairs >= MIN_PAIRS, f"only {pairs} pairs in total")
     head = ["class", "largest κ", "pairs", "contacts", "degenerate", "largest error", "largest gap"]
     return f"""`vitrel-bench collision-time` runs the default method on {pairs} pairs of {len(measured)} classes and compares every answer with
 the reference in 80-bit interval arithmetic. Required: no answer is late, missed, false or lacking, and none is early by
