@@ -58,7 +58,7 @@ double ratio(std::uint64_t part, std::uint64_t whole) {
 Configuration2 disks_of_two_sizes(const State& state) {
   constexpr double dilute = 0.2;
   Species small, large;
-  small.name = "A", large.name = "B";
+  small.name = std::string("A"), large.name = std::string("B");
   small.fraction = large.fraction = 0.5;
   small.size = Distribution{.mean = 1};
   large.size = Distribution{.mean = state.size_ratio};

@@ -9,8 +9,13 @@
 /// two types.
 namespace vitrel {
 
-/// For short functions, whose vector arguments would otherwise pass through memory.
+/// For short functions, whose vector arguments would otherwise pass through memory. With sanitizers their code would be
+/// too large.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define VITREL_INLINE inline
+#else
 #define VITREL_INLINE [[gnu::always_inline]] inline
+#endif
 
 /// One number for each of the two bodies of a pair.
 using PairArray = Eigen::Array2d;

@@ -150,9 +150,9 @@ TEST(ContactScreenOfDisks, APairThatTouchesMeetsAtOnceIfItApproachesAndNeverIfIt
 // ---- Lanes ----
 
 template <class B>
-class LookLanes : public testing::Test {};
+class LanesOfAScreen : public testing::Test {};
 using Bodies = testing::Types<Disk, Ellipse, GrowingEllipse>;
-TYPED_TEST_SUITE(LookLanes, Bodies);
+TYPED_TEST_SUITE(LanesOfAScreen, Bodies);
 
 template <class B>
 BaseShape<B> round_shape(double radius) {
@@ -164,7 +164,7 @@ BaseShape<B> round_shape(double radius) {
 
 // Earlier contents of a lane, and empty lanes, have no effect: bodies that touch
 // at once stand in all of them.
-TYPED_TEST(LookLanes, BeyondTheCountNeverWin) {
+TYPED_TEST(LanesOfAScreen, BeyondTheCountNeverWin) {
   constexpr int lanes = ContactScreen<TypeParam>::lanes;
   const auto shape = round_shape<TypeParam>(1);
   const ShapeCoefficients<BaseShape<TypeParam>> coefficients(shape);

@@ -115,9 +115,9 @@ void check(const Scene& scene, double max_length, int& partner, int& free) {
   ASSERT_NEAR(end.offset_at_contact, d.dot(e), rounding);
 }
 
-class PathLookAt : public testing::TestWithParam<Class> {};
+class FreePathBatchOfEllipses : public testing::TestWithParam<Class> {};
 
-TEST_P(PathLookAt, EndsAtTheFirstContact) {
+TEST_P(FreePathBatchOfEllipses, EndsAtTheFirstContact) {
   Stream draw(71, Purpose::tests);
   int partner = 0, free = 0;
   constexpr int scenes = 10'000;
@@ -134,7 +134,7 @@ TEST_P(PathLookAt, EndsAtTheFirstContact) {
   EXPECT_GT(free, scenes / 20);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, PathLookAt,
+INSTANTIATE_TEST_SUITE_P(Shapes, FreePathBatchOfEllipses,
                          testing::Values(Class{1, 1}, Class{1, 100}, Class{2, 1}, Class{6, 1},
                                          Class{10, 3}, Class{100, 1}, Class{100, 100}));
 

@@ -86,12 +86,12 @@ double rounding(const PosedPair& pair) {
   return 1e-14 * (pair.one.a + pair.two.a + pair.d.norm());
 }
 
-class OverlapLookAt : public testing::TestWithParam<Class> {};
+class OverlapBatchOfEllipses : public testing::TestWithParam<Class> {};
 
 // Clear is never said of a pair that overlaps, with tolerance zero; and overlap never of a pair
 // farther apart than the margin, but for rounding. Changing places changes nothing, but within that
 // rounding of the margin.
-TEST_P(OverlapLookAt, IsRightAboutEveryPair) {
+TEST_P(OverlapBatchOfEllipses, IsRightAboutEveryPair) {
   Stream draw(61, Purpose::tests);
   constexpr int pairs = 100'000;
   int clear = 0, near = 0;
@@ -118,7 +118,7 @@ TEST_P(OverlapLookAt, IsRightAboutEveryPair) {
   EXPECT_GT(near, pairs / 10);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, OverlapLookAt,
+INSTANTIATE_TEST_SUITE_P(Shapes, OverlapBatchOfEllipses,
                          testing::Values(Class{1, 1}, Class{1, 100}, Class{2, 1}, Class{6, 1},
                                          Class{10, 3}, Class{100, 1}, Class{100, 100}));
 

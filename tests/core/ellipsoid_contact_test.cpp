@@ -161,7 +161,7 @@ TEST(EllipsoidPairInFlight, RatesAreDerivatives) {
 
 // The gap batch gives a lower bound of the gap, mostly a tight one; and no ellipsoid closer than
 // the limit is said to be far by the capsules.
-TEST(GapLookAtEllipsoids, BoundsTheGapFromBelow) {
+TEST(GapBatchOfEllipsoids, BoundsTheGapFromBelow) {
   Stream draw(6, Purpose::tests);
   constexpr int lanes = GapBatch<Ellipsoid>::lanes;
   int disjoint = 0, loose = 0, far = 0;
@@ -178,9 +178,8 @@ TEST(GapLookAtEllipsoids, BoundsTheGapFromBelow) {
       } others[lanes];
       for (int count = 0; count < lanes;) {
         Other& other = others[count];
-        other = {trial % 2 ? prolate(aspect) : random_ellipsoid(draw, aspect),
-                 random_orientation(draw),
-                 {}};
+        other.shape = trial % 2 ? prolate(aspect) : random_ellipsoid(draw, aspect);
+        other.q = random_orientation(draw);
         other.d = draw.uniform(0.1, 1.2) * (one.circumradius() + other.shape.circumradius()) *
                   random_direction(draw);
         if (farther_apart(CapsuleOf(one).at(q1, 1), CapsuleOf(other.shape).at(other.q, 1), other.d,

@@ -94,7 +94,7 @@ INSTANTIATE_TEST_SUITE_P(Classes, GapBatchOfEllipses,
                                          Class{20, 0.3, 1.2}, Class{6, 1, 5}));
 
 // Distances of circles: |d| − r₁ − r₂.
-TEST(GapLookAtDisks, IsTheDistance) {
+TEST(GapBatchOfDisks, IsTheDistance) {
   constexpr int lanes = GapBatch<Disk>::lanes;
   Stream draw(52, Purpose::tests);
   for (int trial = 0; trial < 1'000; ++trial) {
