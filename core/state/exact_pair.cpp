@@ -85,6 +85,13 @@ Eigen::Matrix<Real, 3, 2> tangents(const Point<3>& n) {
   return t;
 }
 
+/// The solution of m x = y for a positive definite m, by Cholesky's decomposition.
+Point<2> solved(const Eigen::Matrix<Real, 2, 2>& m, const Point<2>& y) {
+  const Real l00 = std::sqrt(m(0, 0)), l10 = m(1, 0) / l00, l11 = std::sqrt(m(1, 1) - l10 * l10);
+  const Real z0 = y[0] / l00, z1 = (y[1] - l10 * z0) / l11, x1 = z1 / l11;
+  return {(z0 - l10 * x1) / l00, x1};
+}
+
 /// On the sphere the second derivatives are those in space less g times the unit matrix, since all terms
 /// of g are homogeneous in n.
 Separation<3> separation_along(const Particle<3>& one, const Particle<3>& two, const Point<3>& d,
@@ -97,7 +104,7 @@ Separation<3> separation_along(const Particle<3>& one, const Particle<3>& two, c
   Eigen::Matrix<Real, 2, 2> bend = t.transpose() * (first.bend + second.bend) * t;
   bend.diagonal().array() += gap;
   const bool concave = bend(0, 0) > 0 && bend.determinant() > 0;
-  Point<2> turn = concave ? Point<2>(bend.inverse() * slope) : slope;
+  Point<2> turn = concave ? solved(bend, slope) : slope;
   const Real length = turn.norm();
   if (length > longest_step || (!concave && length > 0)) turn *= longest_step / length;
   return {gap, t * turn};
