@@ -137,7 +137,7 @@ FreePath EventChain::next_contact(std::size_t i, double remaining) const {
   const std::size_t own = cells_.group_index(i);
   const typename PathBatch<direction>::Mask all(true);
   typename PathBatch<direction>::Mask others(true);
-  others[static_cast<std::size_t>(cells_.lane_of(i))] = false;
+  others.set(cells_.lane_of(i), false);
   const auto columns = board_->near_columns(cell.x), rows = board_->near_rows(cell.y);
   for (const Checkerboard::NearLine& one : direction == 0 ? columns : rows) {
     const double last_after = into[direction] + paths.reach_ahead(largest_);

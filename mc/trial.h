@@ -44,7 +44,7 @@ inline bool clear_of_others(const Checkerboard& board, const SimdCells& cells, s
   const std::size_t own = cells.group_index(i);
   const OverlapBatch::Mask all(true);
   OverlapBatch::Mask others(true);
-  others[static_cast<std::size_t>(cells.lane_of(i))] = false;
+  others.set(cells.lane_of(i), false);
   for (const Checkerboard::NearLine& column : board.near_columns(cell.x))
     for (const Checkerboard::NearLine& row : board.near_rows(cell.y)) {
       const Vec2 offset = Vec2(column.translation, row.translation) - position;

@@ -41,13 +41,12 @@ class CandidateTimes {
     return {time, find_first_set(times_ == time)};
   }
   /// Removes a lane that has been dealt with.
-  void discard(int lane) { where(lane_indices<lanes> == lane, times_) = Simd<lanes>(no_contact); }
+  void discard(int lane) { times_ = select(lane_indices<lanes>() == lane, no_contact, times_); }
 
  protected:
   /// Sets the first `count` lanes; the others have no contact.
   VITREL_INLINE void set_times(const Simd<lanes>& times, int count) {
-    times_ = times;
-    where(lane_indices<lanes> >= count, times_) = Simd<lanes>(no_contact);
+    times_ = select(lane_indices<lanes>() < count, times, no_contact);
   }
 
  private:
@@ -106,37 +105,36 @@ class ContactScreen<B> : public detail::CandidateTimes<8> {
   WarmStart warm_start(int) const { return {}; }
 
   [[gnu::flatten]] void evaluate(int count) {
-    using Simd = detail::Simd<lanes>;
-    const Simd radii = other_radius_.load() + radius_;
-    Simd reach = radii + contact_gap_;
+    using Batch = Simd<lanes>;
+    const Batch radii = other_radius_.load() + radius_;
+    Batch reach = radii + contact_gap_;
     if constexpr (grows<B>) reach = common_.size * radii + contact_gap_;
-    const Simd c = product(d_, d_) - reach * reach;
-    Simd b = product(d_, v_), a = product(v_, v_);
+    const Batch c = product(d_, d_) - reach * reach;
+    Batch b = product(d_, v_), a = product(v_, v_);
     if constexpr (grows<B>) {
-      const Simd growth = common_.growth_rate * radii;
+      const Batch growth = common_.growth_rate * radii;
       b -= reach * growth;
       a -= growth * growth;
     }
-    const Simd discriminant = b * b - a * c;
-    const Simd root = sqrt(max(discriminant, Simd(0)));
-    Simd time = detail::closing_time(b, c, root);
+    const Batch discriminant = b * b - a * c;
+    const Batch root = sqrt(max(discriminant, Batch(0)));
+    Batch time = detail::closing_time(b, c, root);
     auto misses = !(b < 0);
     if constexpr (grows<B>) {
       // The centres recede, but the surfaces grow faster.
-      where(misses && a < 0, time) = max(detail::overtaking_time(a, b, root), Simd(0));
+      time = select(misses && a < 0, max(detail::overtaking_time(a, b, root), Batch(0)), time);
       misses = misses && !(a < 0);
     }
-    where(misses || !(discriminant >= 0) || !(time < horizon_.load()), time) =
-        Simd(detail::no_contact);
-    set_times(time, count);
+    const auto hits = !misses && discriminant >= 0 && time < horizon_.load();
+    set_times(select(hits, time, detail::no_contact), count);
   }
 
  private:
   using Numbers = detail::BatchBuffer<lanes>;
 
-  VITREL_INLINE static detail::Simd<lanes> product(const Numbers (&u)[dimension],
-                                                   const Numbers (&v)[dimension]) {
-    detail::Simd<lanes> sum = u[0].load() * v[0].load() + u[1].load() * v[1].load();
+  VITREL_INLINE static Simd<lanes> product(const Numbers (&u)[dimension],
+                                           const Numbers (&v)[dimension]) {
+    Simd<lanes> sum = u[0].load() * v[0].load() + u[1].load() * v[1].load();
     if constexpr (dimension == 3) sum += u[2].load() * v[2].load();
     return sum;
   }

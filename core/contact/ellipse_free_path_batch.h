@@ -80,7 +80,7 @@ VITREL_INLINE SimdBatch component(const BatchBuffer<simd_width>& x,
 template <int direction>
 class FreePathBatch {
  public:
-  using Mask = SimdBatch::mask_type;
+  using Mask = SimdBatch::Mask;
 
   /// `axis` is the unit vector along the major axis; `max_length` > 0 limits the path.
   FreePathBatch(const Ellipse& shape, const Vec2& axis, double gap, double max_length)
@@ -177,7 +177,7 @@ class FreePathBatch {
     SimdBatch v = dy * inverse, low(-1), high(1);
     SimdBatch free_length(-std::numeric_limits<double>::infinity());
     const Mask mask =
-        detail::lane_indices<simd_width> < pending_ && earliest_.load() < upper_bound_;
+        detail::lane_indices<simd_width>() < pending_ && earliest_.load() < upper_bound_;
     for (int step = 0; step < max_steps; ++step) {
       const SimdBatch c = sqrt(max(1. - v * v, SimdBatch(0)));
       const SimdBatch s = (width * v - middle * c) * inverse;
@@ -187,18 +187,17 @@ class FreePathBatch {
       const SimdBatch support2 = sqrt(across2 * across2 + along2 * along2);
       const SimdBatch inverse1 = 1. / support1, inverse2 = 1. / support2;
       const SimdBatch now = dx + (s * dy - support1 - support2) / c;
-      where(now > free_length, free_length) = now;
+      free_length = select(now > free_length, now, free_length);
       // df/d(s/c), and minus its derivative.
       const SimdBatch slope = dy - height_ * along1 * inverse1 - height * along2 * inverse2;
       const SimdBatch curvature = curvature1 * (inverse1 * inverse1 * inverse1) +
                                   curvature2 * (inverse2 * inverse2 * inverse2);
       const Mask converged = slope * slope <= 2 * tolerance_ * curvature * (c * c * c);
       if (none_of(mask && !converged && free_length < end_.length)) break;
-      where(slope > 0., low) = v;
-      where(!(slope > 0.), high) = v;
-      SimdBatch next = v + slope / (curvature * width * inverse);
-      where(!(next > low && next < high), next) = 0.5 * (low + high);
-      v = next;
+      low = select(slope > 0., v, low);
+      high = select(slope > 0., high, v);
+      const SimdBatch next = v + slope / (curvature * width * inverse);
+      v = select(next > low && next < high, next, 0.5 * (low + high));
     }
     for (int lane = 0; lane < pending_; ++lane) {
       const double length = std::max<double>(free_length[lane], 0);
@@ -222,7 +221,7 @@ class FreePathBatch {
 template <int direction>
 class RoundFreePathBatch {
  public:
-  using Mask = SimdBatch::mask_type;
+  using Mask = SimdBatch::Mask;
 
   RoundFreePathBatch(const Ellipse& shape, const Vec2& /*axis*/, double gap, double max_length)
       : radius_(shape.a + gap), max_length_(max_length), length_(max_length) {}
@@ -240,9 +239,9 @@ class RoundFreePathBatch {
     const SimdBatch chord_squared = reach * reach - dy * dy;
     const SimdBatch free_length = dx - sqrt(max(chord_squared, SimdBatch(0)));
     const Mask sooner = mask && chord_squared > 0. && dx > 0. && free_length < length_;
-    where(sooner, length_) = free_length;
-    where(sooner, dx_) = dx;
-    where(sooner, id_) = detail::lane_indices<simd_width> + static_cast<double>(first_id);
+    length_ = select(sooner, free_length, length_);
+    dx_ = select(sooner, dx, dx_);
+    id_ = select(sooner, detail::lane_indices<simd_width>() + static_cast<double>(first_id), id_);
   }
 
   FreePath end() const {

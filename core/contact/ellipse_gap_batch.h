@@ -41,8 +41,8 @@ class GapBatch<Ellipse> {
     detail::newton_rotate(turned_nx, turned_ny, first.slope, first.curvature);
     const Gap second = gap_along(one, two, dx, dy, turned_nx, turned_ny);
     const auto better = second.gap > first.gap;
-    where(better, nx) = turned_nx;
-    where(better, ny) = turned_ny;
+    nx = select(better, turned_nx, nx);
+    ny = select(better, turned_ny, ny);
     gap_.store(max(first.gap, second.gap));
     nx_.store(nx);
     ny_.store(ny);

@@ -54,7 +54,7 @@ struct EllipseBatch {
 class OverlapBatch {
  public:
   /// PairArray of a batch.
-  using Mask = SimdBatch::mask_type;
+  using Mask = SimdBatch::Mask;
 
   /// `axis` is the unit vector along the major axis; margin ≥ 0.
   OverlapBatch(const Ellipse& shape, const Vec2& axis, double margin)

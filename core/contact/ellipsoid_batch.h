@@ -69,11 +69,11 @@ VITREL_INLINE BatchVec3 turned(const AxisOf<SimdBatch>& axis, const SimdBatch& s
   const SimdBatch det = c11 * c22 - c12 * c12;
   const auto peaked = det > 0 && c11 + c22 > 0;
   SimdBatch step1 = s1, step2 = s2;
-  where(peaked, step1) = (c22 * s1 - c12 * s2) / det;
-  where(peaked, step2) = (c11 * s2 - c12 * s1) / det;
+  step1 = select(peaked, (c22 * s1 - c12 * s2) / det, step1);
+  step2 = select(peaked, (c11 * s2 - c12 * s1) / det, step2);
   const SimdBatch length = sqrt(step1 * step1 + step2 * step2);
   SimdBatch kept = 1;
-  where(length > longest, kept) = longest / length;
+  kept = select(length > longest, longest / length, kept);
   step1 *= kept;
   step2 *= kept;
   const SimdBatch q = 0.25 * (step1 * step1 + step2 * step2);

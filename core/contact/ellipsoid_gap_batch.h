@@ -36,10 +36,10 @@ class GapBatch<Ellipsoid> {
       const auto two = support_along<SimdBatch>(partners, axis);
       const SimdBatch gap = dot(axis.n, d) - (one.height + two.height);
       const auto better = gap > largest;
-      where(better, largest) = gap;
-      where(better, best.x) = trial.x;
-      where(better, best.y) = trial.y;
-      where(better, best.z) = trial.z;
+      largest = select(better, gap, largest);
+      best.x = select(better, trial.x, best.x);
+      best.y = select(better, trial.y, best.y);
+      best.z = select(better, trial.z, best.z);
       if (all_of(largest > limit_)) break;
       trial = detail::turned(axis, dot(axis.e1, d) - (one.s1 + two.s1),
                              dot(axis.e2, d) - (one.s2 + two.s2), gap + (one.h11 + two.h11),

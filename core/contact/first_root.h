@@ -46,12 +46,9 @@ VITREL_INLINE SimdBatch first_root(const SimdBatch& gap, const SimdBatch& rate,
   constexpr double min_acceleration = 1e-300;
   const SimdBatch acceleration = max(acceleration_bound, SimdBatch(min_acceleration));
   const SimdBatch root = sqrt(rate * rate + 2. * acceleration * max(gap, SimdBatch(0)));
-  SimdBatch time = 2. * gap / (root - rate);
-  where(rate > 0, time) = (rate + root) / acceleration;
+  const SimdBatch time = select(rate > 0, (rate + root) / acceleration, 2. * gap / (root - rate));
   const SimdBatch end = gap + horizon * (rate - 0.5 * acceleration * horizon);
-  where(end > 0, time) = SimdBatch(no_contact);
-  where(!(gap > 0), time) = SimdBatch(0);
-  return time;
+  return select(gap > 0, select(end > 0, no_contact, time), 0);
 }
 
 }  // namespace vitrel::detail

@@ -34,7 +34,7 @@ class GapBatch<Shape> {
   }
 
   void evaluate() {
-    detail::Simd<lanes> square = d_[0].load() * d_[0].load() + d_[1].load() * d_[1].load();
+    Simd<lanes> square = d_[0].load() * d_[0].load() + d_[1].load() * d_[1].load();
     if constexpr (dimension == 3) square += d_[2].load() * d_[2].load();
     gap_.store(sqrt(square) - (radii_.load() + radius_));
   }

@@ -1,12 +1,23 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <bit>
 #include <cmath>
-#include <experimental/simd>
+#include <cstring>
+#if defined(__AVX__)
+#include <immintrin.h>
+#elif defined(__SSE2__)
+#include <emmintrin.h>
+#endif
 
 /// @file
 /// Arithmetic on the two bodies of a pair at once, and on a SIMD batch of pairs. Formulas are templates over the
 /// two types.
+///
+/// The number of lanes is fixed, and every lane is rounded as a number alone would be: results do not depend on the
+/// instruction set. std::experimental::simd does the same, but takes several times as long to compile, and not every
+/// compiler has it.
 namespace vitrel {
 
 /// For short functions, whose vector arguments would otherwise pass through memory. With sanitizers their code would be
@@ -20,9 +31,205 @@ namespace vitrel {
 /// One number for each of the two bodies of a pair.
 using PairArray = Eigen::Array2d;
 
-/// One number for each of `simd_width` pairs.
+namespace detail {
+
+#ifdef __AVX__
+constexpr int register_lanes = 4;
+#else
+constexpr int register_lanes = 2;
+#endif
+using Register [[gnu::vector_size(register_lanes * sizeof(double))]] = double;
+using MaskRegister = decltype(Register{} < Register{});  // every lane 0 or −1
+
+VITREL_INLINE Register square_root(const Register& x) {
+#if defined(__AVX__)
+  return _mm256_sqrt_pd(x);
+#elif defined(__SSE2__)
+  return _mm_sqrt_pd(x);
+#else
+  Register root;
+  for (int k = 0; k < register_lanes; ++k) root[k] = std::sqrt(x[k]);
+  return root;
+#endif
+}
+
+/// Bit k is lane k.
+VITREL_INLINE unsigned bits(const MaskRegister& mask) {
+#if defined(__AVX__)
+  return static_cast<unsigned>(_mm256_movemask_pd(std::bit_cast<__m256d>(mask)));
+#elif defined(__SSE2__)
+  return static_cast<unsigned>(_mm_movemask_pd(std::bit_cast<__m128d>(mask)));
+#else
+  unsigned all = 0;
+  for (int k = 0; k < register_lanes; ++k) all |= static_cast<unsigned>(mask[k] & 1) << k;
+  return all;
+#endif
+}
+
+}  // namespace detail
+
+/// One truth value for each of several pairs. Both sides of && and || are evaluated.
+template <int lanes>
+struct alignas(lanes * sizeof(double)) SimdMask {
+  static constexpr int parts = lanes / detail::register_lanes;
+  detail::MaskRegister part[parts];
+
+  SimdMask() = default;
+  explicit SimdMask(bool value) {
+    for (auto& one : part) one = detail::MaskRegister{} - static_cast<int>(value);
+  }
+
+  bool operator[](int k) const {
+    return part[k / detail::register_lanes][k % detail::register_lanes] != 0;
+  }
+  void set(int k, bool value) {
+    part[k / detail::register_lanes][k % detail::register_lanes] = -static_cast<int>(value);
+  }
+
+  VITREL_INLINE friend SimdMask operator!(const SimdMask& x) {
+    SimdMask result;
+    for (int p = 0; p < parts; ++p) result.part[p] = ~x.part[p];
+    return result;
+  }
+  VITREL_INLINE friend SimdMask operator&&(const SimdMask& x, const SimdMask& y) {
+    SimdMask result;
+    for (int p = 0; p < parts; ++p) result.part[p] = x.part[p] & y.part[p];
+    return result;
+  }
+  VITREL_INLINE friend SimdMask operator||(const SimdMask& x, const SimdMask& y) {
+    SimdMask result;
+    for (int p = 0; p < parts; ++p) result.part[p] = x.part[p] | y.part[p];
+    return result;
+  }
+
+  /// Bit k is lane k.
+  VITREL_INLINE unsigned bits() const {
+    unsigned all = 0;
+    for (int p = 0; p < parts; ++p) all |= detail::bits(part[p]) << (p * detail::register_lanes);
+    return all;
+  }
+  VITREL_INLINE friend bool any_of(const SimdMask& x) { return x.bits() != 0; }
+  VITREL_INLINE friend bool none_of(const SimdMask& x) { return x.bits() == 0; }
+  VITREL_INLINE friend bool all_of(const SimdMask& x) { return x.bits() == (1u << lanes) - 1; }
+  /// The first true lane; there must be one.
+  VITREL_INLINE friend int find_first_set(const SimdMask& x) { return std::countr_zero(x.bits()); }
+};
+
+/// One number for each of several pairs.
+template <int lanes>
+struct alignas(lanes * sizeof(double)) Simd {
+  static constexpr int parts = lanes / detail::register_lanes;
+  using Mask = SimdMask<lanes>;
+  detail::Register part[parts];
+
+  Simd() = default;
+  VITREL_INLINE explicit(false) Simd(double value) {
+    for (auto& one : part) one = value - detail::Register{};
+  }
+  /// From and to `lanes` numbers in a row.
+  VITREL_INLINE static Simd load(const double* from) {
+    Simd result;
+    std::memcpy(result.part, from, sizeof result.part);
+    return result;
+  }
+  VITREL_INLINE void store(double* to) const { std::memcpy(to, part, sizeof part); }
+
+  VITREL_INLINE double operator[](int k) const {
+    return part[k / detail::register_lanes][k % detail::register_lanes];
+  }
+
+  VITREL_INLINE friend Simd operator-(const Simd& x) {
+    Simd result;
+    for (int p = 0; p < parts; ++p) result.part[p] = -x.part[p];
+    return result;
+  }
+  VITREL_INLINE friend Simd operator+(const Simd& x, const Simd& y) {
+    Simd result;
+    for (int p = 0; p < parts; ++p) result.part[p] = x.part[p] + y.part[p];
+    return result;
+  }
+  VITREL_INLINE friend Simd operator-(const Simd& x, const Simd& y) {
+    Simd result;
+    for (int p = 0; p < parts; ++p) result.part[p] = x.part[p] - y.part[p];
+    return result;
+  }
+  VITREL_INLINE friend Simd operator*(const Simd& x, const Simd& y) {
+    Simd result;
+    for (int p = 0; p < parts; ++p) result.part[p] = x.part[p] * y.part[p];
+    return result;
+  }
+  VITREL_INLINE friend Simd operator/(const Simd& x, const Simd& y) {
+    Simd result;
+    for (int p = 0; p < parts; ++p) result.part[p] = x.part[p] / y.part[p];
+    return result;
+  }
+  VITREL_INLINE Simd& operator+=(const Simd& x) { return *this = *this + x; }
+  VITREL_INLINE Simd& operator-=(const Simd& x) { return *this = *this - x; }
+  VITREL_INLINE Simd& operator*=(const Simd& x) { return *this = *this * x; }
+
+  VITREL_INLINE friend Mask operator<(const Simd& x, const Simd& y) {
+    Mask result;
+    for (int p = 0; p < parts; ++p) result.part[p] = x.part[p] < y.part[p];
+    return result;
+  }
+  VITREL_INLINE friend Mask operator<=(const Simd& x, const Simd& y) {
+    Mask result;
+    for (int p = 0; p < parts; ++p) result.part[p] = x.part[p] <= y.part[p];
+    return result;
+  }
+  VITREL_INLINE friend Mask operator==(const Simd& x, const Simd& y) {
+    Mask result;
+    for (int p = 0; p < parts; ++p) result.part[p] = x.part[p] == y.part[p];
+    return result;
+  }
+  VITREL_INLINE friend Mask operator>(const Simd& x, const Simd& y) { return y < x; }
+  VITREL_INLINE friend Mask operator>=(const Simd& x, const Simd& y) { return y <= x; }
+
+  /// x where the mask is true, y elsewhere.
+  VITREL_INLINE friend Simd select(const Mask& mask, const Simd& x, const Simd& y) {
+    Simd result;
+    for (int p = 0; p < parts; ++p) result.part[p] = mask.part[p] ? x.part[p] : y.part[p];
+    return result;
+  }
+  /// y if either is not a number.
+  VITREL_INLINE friend Simd min(const Simd& x, const Simd& y) {
+    Simd result;
+    for (int p = 0; p < parts; ++p) result.part[p] = x.part[p] < y.part[p] ? x.part[p] : y.part[p];
+    return result;
+  }
+  VITREL_INLINE friend Simd max(const Simd& x, const Simd& y) {
+    Simd result;
+    for (int p = 0; p < parts; ++p) result.part[p] = x.part[p] > y.part[p] ? x.part[p] : y.part[p];
+    return result;
+  }
+  VITREL_INLINE friend Simd sqrt(const Simd& x) {
+    Simd result;
+    for (int p = 0; p < parts; ++p) result.part[p] = detail::square_root(x.part[p]);
+    return result;
+  }
+  VITREL_INLINE friend Simd abs(const Simd& x) { return copysign(x, Simd(0)); }
+  /// |x| with the sign of y.
+  VITREL_INLINE friend Simd copysign(const Simd& x, const Simd& y) {
+    const auto sign = std::bit_cast<detail::MaskRegister>(-detail::Register{});  // of −0.0
+    Simd result;
+    for (int p = 0; p < parts; ++p)
+      result.part[p] =
+          std::bit_cast<detail::Register>((std::bit_cast<detail::MaskRegister>(x.part[p]) & ~sign) |
+                                          (std::bit_cast<detail::MaskRegister>(y.part[p]) & sign));
+    return result;
+  }
+  /// The smallest lane.
+  VITREL_INLINE friend double hmin(const Simd& x) {
+    detail::Register least = x.part[0];
+    for (int p = 1; p < parts; ++p) least = least < x.part[p] ? least : x.part[p];
+    double result = least[0];
+    for (int k = 1; k < detail::register_lanes; ++k) result = std::min(result, least[k]);
+    return result;
+  }
+};
+
 constexpr int simd_width = 4;
-using SimdBatch = std::experimental::fixed_size_simd<double, simd_width>;
+using SimdBatch = Simd<simd_width>;
 
 namespace detail {
 
@@ -88,12 +295,20 @@ VITREL_INLINE T cosine_series(const T& xx) {
 /// As `directions`, by the standard library: for angles so large that subtracting multiples of π is no longer
 /// exact.
 constexpr double max_reducible_angle = 1e6;
-template <class T>
-[[gnu::noinline]] void library_directions(const T& angle, T& x, T& y) {
-  for (int k = 0; k < static_cast<int>(angle.size()); ++k) {
-    x[k] = std::cos(static_cast<double>(angle[k]));
-    y[k] = std::sin(static_cast<double>(angle[k]));
+[[gnu::noinline]] inline void library_directions(const PairArray& angle, PairArray& x,
+                                                 PairArray& y) {
+  x = {std::cos(angle[0]), std::cos(angle[1])};
+  y = {std::sin(angle[0]), std::sin(angle[1])};
+}
+[[gnu::noinline]] inline void library_directions(const SimdBatch& angle, SimdBatch& x,
+                                                 SimdBatch& y) {
+  double cosine[simd_width], sine[simd_width];
+  for (int k = 0; k < simd_width; ++k) {
+    cosine[k] = std::cos(angle[k]);
+    sine[k] = std::sin(angle[k]);
   }
+  x = SimdBatch::load(cosine);
+  y = SimdBatch::load(sine);
 }
 
 }  // namespace detail

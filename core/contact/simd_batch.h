@@ -1,6 +1,5 @@
 #pragma once
 
-#include <experimental/simd>
 #include <limits>
 
 #include "core/contact/ellipse_pair.h"
@@ -53,22 +52,22 @@ struct ShapeCoefficients<Ellipse> {
 
 namespace detail {
 
-template <int lanes>
-using Simd = std::experimental::fixed_size_simd<double, lanes>;
-
 /// One number per lane; written lane by lane, loaded and stored as a batch.
 template <int lanes>
 struct BatchBuffer {
-  alignas(std::experimental::memory_alignment_v<Simd<lanes>>) double lane[lanes] = {};
+  alignas(Simd<lanes>) double lane[lanes] = {};
   double& operator[](int k) { return lane[k]; }
   double operator[](int k) const { return lane[k]; }
-  Simd<lanes> load() const { return {lane, std::experimental::vector_aligned}; }
-  void store(const Simd<lanes>& x) { x.copy_to(lane, std::experimental::vector_aligned); }
+  Simd<lanes> load() const { return Simd<lanes>::load(lane); }
+  void store(const Simd<lanes>& x) { x.store(lane); }
 };
 
 /// 0, 1, 2 …
 template <int lanes>
-const Simd<lanes> lane_indices([](int k) { return k; });
+VITREL_INLINE Simd<lanes> lane_indices() {
+  static constexpr double indices[] = {0, 1, 2, 3, 4, 5, 6, 7};
+  return Simd<lanes>::load(indices);
+}
 
 /// Rotates unit vectors by one Newton step in the angle, at most 1/2.
 VITREL_INLINE void newton_rotate(SimdBatch& nx, SimdBatch& ny, const SimdBatch& slope,

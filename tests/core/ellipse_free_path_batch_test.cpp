@@ -176,7 +176,7 @@ TEST(FreePathBatch, TouchesAtOnceWhatIsAhead) {
   EllipseBatch group;
   group.set(2, shape, Vec2(4.5, 0), Vec2(1, 0));
   FreePathBatch<0>::Mask mask(true);
-  mask[2] = false;
+  mask.set(2, false);
   paths.add(group, 0, Vec2::Zero(), mask);
   EXPECT_EQ(paths.end().partner, FreePath::none);
 }
