@@ -136,8 +136,7 @@ FreePath EventChain::next_contact(std::size_t i, double remaining) const {
   const double lowest = into[across] - aside, highest = into[across] + aside;
   const std::size_t own = cells_.group_index(i);
   const typename PathBatch<direction>::Mask all(true);
-  typename PathBatch<direction>::Mask others(true);
-  others.set(cells_.lane_of(i), false);
+  const typename PathBatch<direction>::Mask others = detail::all_lanes_but(cells_.lane_of(i));
   const auto columns = board_->near_columns(cell.x), rows = board_->near_rows(cell.y);
   for (const Checkerboard::NearLine& one : direction == 0 ? columns : rows) {
     const double last_after = into[direction] + paths.reach_ahead(largest_);

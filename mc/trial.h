@@ -42,9 +42,8 @@ inline bool clear_of_others(const Checkerboard& board, const SimdCells& cells, s
                             const Checkerboard::Cell& cell, OverlapTestCounts& tests) {
   // Skips the particle itself and its images.
   const std::size_t own = cells.group_index(i);
-  const OverlapBatch::Mask all(true);
-  OverlapBatch::Mask others(true);
-  others.set(cells.lane_of(i), false);
+  constexpr OverlapBatch::Lanes all = OverlapBatch::all_lanes;
+  const OverlapBatch::Lanes others = all & ~(1u << cells.lane_of(i));
   for (const Checkerboard::NearLine& column : board.near_columns(cell.x))
     for (const Checkerboard::NearLine& row : board.near_rows(cell.y)) {
       const Vec2 offset = Vec2(column.translation, row.translation) - position;

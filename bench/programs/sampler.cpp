@@ -222,7 +222,7 @@ bool clear_in_batches(const Question& asked, double margin) {
   const OverlapBatch batch(asked.shape, asked.axis, margin);
   std::uint64_t alone = 0;
   return std::ranges::all_of(asked.groups, [&](const EllipseBatch& group) {
-    return batch.clear_of(group, Vec2::Zero(), OverlapBatch::Mask(true), alone);
+    return batch.clear_of(group, Vec2::Zero(), OverlapBatch::all_lanes, alone);
   });
 }
 

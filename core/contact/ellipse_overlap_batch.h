@@ -53,8 +53,9 @@ struct EllipseBatch {
 
 class OverlapBatch {
  public:
-  /// PairArray of a batch.
-  using Mask = SimdBatch::Mask;
+  /// Bit k is lane k: these are combined and tested, but never select.
+  using Lanes = unsigned;
+  static constexpr Lanes all_lanes = (1u << simd_width) - 1;
 
   /// `axis` is the unit vector along the major axis; margin ≥ 0.
   OverlapBatch(const Ellipse& shape, const Vec2& axis, double margin)
@@ -65,28 +66,28 @@ class OverlapBatch {
         aa_minus_bb_(shape.aa_minus_bb()),
         enlargement_(1 + margin / shape.b) {}
 
-  /// Whether the body keeps the margin to all ellipses in the lanes of `mask`; the separations d are `offset` +
+  /// Whether the body keeps the margin to all ellipses in these lanes; the separations d are `offset` +
   /// their positions. Adds the number of pairs that step 4 decided to `scalar_tests`.
-  VITREL_INLINE bool clear_of(const EllipseBatch& group, const Vec2& offset, Mask mask,
+  VITREL_INLINE bool clear_of(const EllipseBatch& group, const Vec2& offset, Lanes lanes,
                               std::uint64_t& scalar_tests) const {
     const SimdBatch dx = group.x.load() + offset.x(), dy = group.y.load() + offset.y();
     const SimdBatch distance_squared = dx * dx + dy * dy;
     const SimdBatch a = group.a.load();
     const SimdBatch outer = a + (shape_.a + margin_);
-    Mask undecided = mask && distance_squared < outer * outer;
-    if (none_of(undecided)) return true;
+    Lanes undecided = lanes & (distance_squared < outer * outer).bits();
+    if (!undecided) return true;
     const SimdBatch b = group.b.load();
     const SimdBatch inner = b + shape_.b;
-    if (any_of(undecided && distance_squared < inner * inner)) return false;
+    if (undecided & (distance_squared < inner * inner).bits()) return false;
 
     const SimdBatch bb = b * b, aa_minus_bb = (a - b) * (a + b);
     const Pairs pairs(*this, group.ux.load(), group.uy.load(), bb, aa_minus_bb, dx, dy);
     Heights heights;
     if (!pairs.decide(SimdBatch(1), SimdBatch(1), heights, undecided)) return false;
-    if (none_of(undecided)) return true;
+    if (!undecided) return true;
     const SimdBatch weight1 = heights.two, weight2 = heights.one;
     if (!pairs.decide(weight1, weight2, heights, undecided)) return false;
-    return none_of(undecided) || clear_by_scalar_tests(group, offset, undecided, scalar_tests);
+    return !undecided || clear_by_scalar_tests(group, offset, undecided, scalar_tests);
   }
 
  private:
@@ -122,7 +123,7 @@ class OverlapBatch {
 
     // False if an undecided pair is proved to overlap; removes the pairs that are proved separated.
     VITREL_INLINE bool decide(const SimdBatch& weight1, const SimdBatch& weight2, Heights& heights,
-                              Mask& undecided) const {
+                              Lanes& undecided) const {
       const SimdBatch beta = weight1 * body.bb_ + weight2 * bb;
       const SimdBatch along1 = weight1 * body.aa_minus_bb_, along2 = weight2 * aa_minus_bb;
       const SimdBatch det = beta * (beta + along1 + along2) + along1 * along2 * sine_squared;
@@ -135,17 +136,17 @@ class OverlapBatch {
       heights.one = sqrt(body.bb_ * square + body.aa_minus_bb_ * (n1 * n1));
       heights.two = sqrt(bb * square + aa_minus_bb * (n2 * n2));
       const SimdBatch limit = overlap_safety * det;
-      if (any_of(undecided && weight1 * heights.one <= limit && weight2 * heights.two <= limit))
+      if (undecided & (weight1 * heights.one <= limit && weight2 * heights.two <= limit).bits())
         return false;
-      undecided = undecided && !(nx * dx + ny * dy > body.enlargement_ * heights.one + heights.two);
+      undecided &= ~(nx * dx + ny * dy > body.enlargement_ * heights.one + heights.two).bits();
       return true;
     }
   };
 
   [[gnu::noinline]] bool clear_by_scalar_tests(const EllipseBatch& group, const Vec2& offset,
-                                               Mask undecided, std::uint64_t& scalar_tests) const {
+                                               Lanes undecided, std::uint64_t& scalar_tests) const {
     for (int lane = 0; lane < simd_width; ++lane) {
-      if (!undecided[lane]) continue;
+      if (!(undecided & (1u << lane))) continue;
       ++scalar_tests;
       if (!separated(shape_, axis_, group.shape(lane), group.axis(lane),
                      group.position(lane) + offset, margin_))

@@ -82,9 +82,6 @@ struct alignas(lanes * sizeof(double)) SimdMask {
   bool operator[](int k) const {
     return part[k / detail::register_lanes][k % detail::register_lanes] != 0;
   }
-  void set(int k, bool value) {
-    part[k / detail::register_lanes][k % detail::register_lanes] = -static_cast<int>(value);
-  }
 
   VITREL_INLINE friend SimdMask operator!(const SimdMask& x) {
     SimdMask result;
@@ -129,10 +126,14 @@ struct alignas(lanes * sizeof(double)) Simd {
   /// From and to `lanes` numbers in a row.
   VITREL_INLINE static Simd load(const double* from) {
     Simd result;
-    std::memcpy(result.part, from, sizeof result.part);
+    for (int p = 0; p < parts; ++p)
+      std::memcpy(&result.part[p], from + p * detail::register_lanes, sizeof(detail::Register));
     return result;
   }
-  VITREL_INLINE void store(double* to) const { std::memcpy(to, part, sizeof part); }
+  VITREL_INLINE void store(double* to) const {
+    for (int p = 0; p < parts; ++p)
+      std::memcpy(to + p * detail::register_lanes, &part[p], sizeof(detail::Register));
+  }
 
   VITREL_INLINE double operator[](int k) const {
     return part[k / detail::register_lanes][k % detail::register_lanes];

@@ -69,6 +69,11 @@ VITREL_INLINE Simd<lanes> lane_indices() {
   return Simd<lanes>::load(indices);
 }
 
+/// True in all lanes but one.
+VITREL_INLINE SimdBatch::Mask all_lanes_but(int lane) {
+  return !(lane_indices<simd_width>() == lane);
+}
+
 /// Rotates unit vectors by one Newton step in the angle, at most 1/2.
 VITREL_INLINE void newton_rotate(SimdBatch& nx, SimdBatch& ny, const SimdBatch& slope,
                                  const SimdBatch& curvature) {

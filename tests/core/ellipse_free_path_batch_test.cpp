@@ -175,9 +175,7 @@ TEST(FreePathBatch, TouchesAtOnceWhatIsAhead) {
   FreePathBatch<0> paths(shape, Vec2(1, 0), gap, 1);
   EllipseBatch group;
   group.set(2, shape, Vec2(4.5, 0), Vec2(1, 0));
-  FreePathBatch<0>::Mask mask(true);
-  mask.set(2, false);
-  paths.add(group, 0, Vec2::Zero(), mask);
+  paths.add(group, 0, Vec2::Zero(), detail::all_lanes_but(2));
   EXPECT_EQ(paths.end().partner, FreePath::none);
 }
 
