@@ -5,7 +5,9 @@
 #include <limits>
 #include <numbers>
 
+#include "core/contact/ellipse_free_path_batch.h"
 #include "mc/hard_core.h"
+#include "mc/trial.h"
 
 namespace vitrel {
 

@@ -4,15 +4,15 @@
 #include <optional>
 #include <vector>
 
-#include "core/contact/ellipse_free_path_batch.h"
 #include "core/random/stream.h"
 #include "core/state/configuration.h"
 #include "mc/checkerboard.h"
 #include "mc/simd_cells.h"
 #include "mc/sweep_state.h"
-#include "mc/trial.h"
 
 namespace vitrel {
+
+struct FreePath;
 
 /// Targets for the tuning of event chains. The defaults come from bench/event_chain.md.
 struct EventChainOptions {

@@ -13,6 +13,7 @@
 #include "core/contact/ellipse_gap.h"
 #include "core/parallel.h"
 #include "mc/hard_core.h"
+#include "mc/trial.h"
 
 namespace vitrel {
 

@@ -9,9 +9,10 @@
 #include "mc/checkerboard.h"
 #include "mc/simd_cells.h"
 #include "mc/sweep_state.h"
-#include "mc/trial.h"
 
 namespace vitrel {
+
+class OverlapBatch;
 
 /// Metropolis Monte Carlo of hard ellipses at constant N, box and temperature, on any number of threads.
 ///

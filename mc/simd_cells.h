@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/contact/ellipse_overlap_batch.h"
+#include "core/contact/ellipse_batch.h"
 
 namespace vitrel {
 

@@ -21,6 +21,12 @@ struct TrialCounts {
   }
 };
 
+/// Counts of overlap tests.
+struct OverlapTestCounts {
+  std::uint64_t batches = 0;       ///< batches of up to `simd_width` ellipses
+  std::uint64_t scalar_pairs = 0;  ///< pairs decided one by one
+};
+
 /// A trial step size, adapted to the acceptance.
 struct StepSize {
   double size;

@@ -6,6 +6,7 @@
 #include "core/contact/ellipse_overlap_batch.h"
 #include "mc/checkerboard.h"
 #include "mc/simd_cells.h"
+#include "mc/sweep_state.h"
 
 /// @file
 /// Common parts of trial moves of one particle.
@@ -28,12 +29,6 @@ inline Vec2 axis_at(double angle) {
   directions<PairArray>({angle, angle}, x, y);
   return {x[0], y[0]};
 }
-
-/// Counts of overlap tests.
-struct OverlapTestCounts {
-  std::uint64_t batches = 0;       ///< batches of up to `simd_width` ellipses
-  std::uint64_t scalar_pairs = 0;  ///< pairs decided one by one
-};
 
 /// Whether particle i, with the shape and axis of `batch`, keeps the margin to all others at this position in this
 /// cell.
