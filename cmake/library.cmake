@@ -22,7 +22,7 @@ endfunction()
 set(VITREL_PRECOMPILED
     <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <fstream> <functional> <iostream> <limits> <map>
     <memory> <numeric> <optional> <random> <set> <span> <sstream> <string> <unordered_map> <variant> <vector>
-    <Eigen/Geometry> <fmt/core.h> "${PROJECT_SOURCE_DIR}/core/state/configuration.h")
+    <Eigen/Geometry> <fmt/format.h> "${PROJECT_SOURCE_DIR}/core/state/configuration.h")
 vitrel_precompiled(vitrel_precompiled HEADERS ${VITREL_PRECOMPILED})
 
 # vitrel_library(<name> SOURCES … [COLD …] HEADERS … LINK … [PRIVATE_LINK …]): one static library per folder

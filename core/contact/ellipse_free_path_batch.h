@@ -102,7 +102,7 @@ class FreePathBatch {
   /// Adds the ellipses in the lanes of `mask`; the separations d are `offset` + their positions, and their ids
   /// are `first_id` + lane.
   VITREL_INLINE void add(const EllipseBatch& group, std::uint32_t first_id, const Vec2& offset,
-                         Mask mask) {
+                         const Mask& mask) {
     using detail::component;
     const SimdBatch dx = component<direction>(group.x, group.y) + offset[direction];
     const SimdBatch dy = component<across>(group.x, group.y) + offset[across];
@@ -231,7 +231,7 @@ class RoundFreePathBatch {
   double reach_ahead(double largest) const { return max_length_ + radius_ + largest; }
 
   VITREL_INLINE void add(const EllipseBatch& group, std::uint32_t first_id, const Vec2& offset,
-                         Mask mask) {
+                         const Mask& mask) {
     using detail::component;
     const SimdBatch dx = component<direction>(group.x, group.y) + offset[direction];
     const SimdBatch dy = component<1 - direction>(group.x, group.y) + offset[1 - direction];

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
+#include <gsl/gsl_poly.h>
+
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
@@ -32,6 +33,20 @@ PerramWertheim<3> f_of(const PosedSolids& p) {
 SupportGap3 gap_of(const PosedSolids& p) {
   return support_gap(p.one, p.turn1, p.two, p.turn2, p.d);
 }
+
+// Of Σ cₖ xᵏ.
+std::array<std::complex<double>, 4> roots(const std::array<double, 5>& coefficients) {
+  gsl_poly_complex_workspace* workspace = gsl_poly_complex_workspace_alloc(coefficients.size());
+  double parts[8];
+  const int status =
+      gsl_poly_complex_solve(coefficients.data(), coefficients.size(), workspace, parts);
+  gsl_poly_complex_workspace_free(workspace);
+  EXPECT_EQ(status, 0);
+  std::array<std::complex<double>, 4> result;
+  for (std::size_t k = 0; k < 4; ++k) result[k] = {parts[2 * k], parts[2 * k + 1]};
+  return result;
+}
+
 double contact_distance_of(const PosedSolids& p) {
   return contact_distance(p.one, p.turn1, p.two, p.turn2, p.d);
 }
@@ -230,18 +245,16 @@ TEST(EllipsoidEta, PolynomialAndEtaByTheirDefinitions) {
           << pair;
     }
 
-    Eigen::Matrix4d companion = Eigen::Matrix4d::Zero();
-    companion.diagonal(-1).setOnes();
-    for (int i = 0; i < 4; ++i) companion(i, 3) = -q.coefficient(i);
-    const Eigen::Vector4cd x = companion.eigenvalues();
-    const auto square = [&](int i, int j) { return (x[i] - x[j]) * (x[i] - x[j]); };
+    const std::array<std::complex<double>, 4> x =
+        roots({q.coefficient(0), q.coefficient(1), q.coefficient(2), q.coefficient(3), 1});
+    const auto square = [&](std::size_t i, std::size_t j) { return (x[i] - x[j]) * (x[i] - x[j]); };
     std::complex<double> product = 1, triples = 0, pairs = 0;
     double large = 0;
-    for (int i = 0; i < 4; ++i) large = std::max(large, std::abs(x[i]));
-    for (int i = 0; i < 4; ++i)
-      for (int j = 0; j < i; ++j) product *= square(i, j), pairs += square(i, j);
-    for (int without = 0; without < 4; ++without) {
-      const int i = (without + 1) % 4, j = (without + 2) % 4, l = (without + 3) % 4;
+    for (std::size_t i = 0; i < 4; ++i) large = std::max(large, std::abs(x[i]));
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t j = 0; j < i; ++j) product *= square(i, j), pairs += square(i, j);
+    for (std::size_t without = 0; without < 4; ++without) {
+      const std::size_t i = (without + 1) % 4, j = (without + 2) % 4, l = (without + 3) % 4;
       triples += square(i, j) * square(j, l) * square(l, i);
     }
     const EllipsoidEta<double> eta = eta_of(pair);

@@ -1,0 +1,155 @@
+// Every operation on a batch against the same on each number.
+
+#include "core/contact/simd.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "core/random/stream.h"
+
+namespace vitrel {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+template <class Batch>
+struct SimdTest : testing::Test {
+  static constexpr int lanes = sizeof(Batch) / sizeof(double);
+
+  // Pairs of numbers, among them zeros of both signs, infinities and what is not a number.
+  void SetUp() override {
+    std::vector<double> values = {0., -0., 1., -1., infinity, -infinity, std::nan("")};
+    Stream draw(1, Purpose::tests);
+    while (values.size() % lanes != 0 || values.size() < 24) values.push_back(draw.uniform(-3, 3));
+    for (const double one : values)
+      for (const double two : values) {
+        x_.push_back(one);
+        y_.push_back(two);
+      }
+  }
+
+  // op(batch, batch) must give in each lane what scalar(number, number) gives, signs of zeros included.
+  template <class Op, class Scalar>
+  void expect_same(Op op, Scalar scalar) const {
+    for (std::size_t i = 0; i < x_.size(); i += lanes) {
+      const auto result = op(Batch::load(&x_[i]), Batch::load(&y_[i]));
+      for (int k = 0; k < lanes; ++k) {
+        const double a = x_[i + static_cast<std::size_t>(k)],
+                     b = y_[i + static_cast<std::size_t>(k)];
+        const double expected = scalar(a, b), found = result[k];
+        if (std::isnan(expected)) {
+          ASSERT_TRUE(std::isnan(found)) << a << ' ' << b;
+        } else {
+          ASSERT_EQ(found, expected) << a << ' ' << b;
+          ASSERT_EQ(std::signbit(found), std::signbit(expected)) << a << ' ' << b;
+        }
+      }
+    }
+  }
+
+  std::vector<double> x_, y_;
+};
+
+using Batches = testing::Types<Simd<4>, Simd<8>>;
+TYPED_TEST_SUITE(SimdTest, Batches);
+
+TYPED_TEST(SimdTest, Arithmetic) {
+  this->expect_same(std::plus<>(), std::plus<>());
+  this->expect_same(std::minus<>(), std::minus<>());
+  this->expect_same(std::multiplies<>(), std::multiplies<>());
+  this->expect_same(std::divides<>(), std::divides<>());
+  const auto scaled = [](const auto& x, const auto& y) { return 1. - 2 * x + y * 0.5; };
+  this->expect_same(scaled, scaled);
+  const auto negative = [](const auto& x, const auto&) { return -x; };
+  this->expect_same(negative, negative);
+}
+
+TYPED_TEST(SimdTest, Functions) {
+  this->expect_same([](auto x, auto) { return sqrt(x); },
+                    [](double x, double) { return std::sqrt(x); });
+  this->expect_same([](auto x, auto) { return abs(x); },
+                    [](double x, double) { return std::abs(x); });
+  this->expect_same([](auto x, auto y) { return copysign(x, y); },
+                    [](double x, double y) { return std::copysign(x, y); });
+  this->expect_same([](auto x, auto y) { return min(x, y); },
+                    [](double x, double y) { return x < y ? x : y; });
+  this->expect_same([](auto x, auto y) { return max(x, y); },
+                    [](double x, double y) { return x > y ? x : y; });
+}
+
+TYPED_TEST(SimdTest, Masks) {
+  using Batch = TypeParam;
+  const auto chosen = [](auto condition) {
+    return [condition](const auto& x, const auto& y) {
+      if constexpr (std::is_same_v<std::decay_t<decltype(x)>, double>)
+        return condition(x, y) ? x : y;
+      else
+        return select(condition(x, y), x, y);
+    };
+  };
+  const auto test = [&](auto condition) {
+    this->expect_same(chosen(condition), chosen(condition));
+  };
+  test(std::less<>());
+  test(std::less_equal<>());
+  test(std::greater<>());
+  test(std::greater_equal<>());
+  test(std::equal_to<>());
+  test([](const auto& x, const auto& y) { return !(x < y) && x > 0.; });
+  test([](const auto& x, const auto& y) { return x < y || y < 0.; });
+
+  constexpr int lanes = TestFixture::lanes;
+  double numbers[lanes];
+  for (int k = 0; k < lanes; ++k) numbers[k] = k;
+  const Batch indices = Batch::load(numbers);
+  EXPECT_TRUE(all_of(indices >= 0));
+  EXPECT_FALSE(all_of(indices > 0));
+  EXPECT_TRUE(none_of(indices > lanes));
+  EXPECT_FALSE(none_of(indices == lanes - 1));
+  EXPECT_TRUE(any_of(indices == lanes - 1));
+  EXPECT_FALSE(any_of(indices < 0));
+  EXPECT_TRUE(all_of(SimdMask<lanes>(true)));
+  EXPECT_TRUE(none_of(SimdMask<lanes>(false)));
+  for (int k = 0; k < lanes; ++k) {
+    EXPECT_EQ((indices == k).bits(), 1u << k);
+    EXPECT_EQ(find_first_set(indices >= k), k);
+    EXPECT_TRUE((indices == k)[k]);
+    EXPECT_FALSE((!(indices == k))[k]);
+  }
+}
+
+TYPED_TEST(SimdTest, SmallestLaneAndStore) {
+  constexpr int lanes = TestFixture::lanes;
+  for (int smallest = 0; smallest < lanes; ++smallest) {
+    double numbers[lanes], copy[lanes];
+    for (int k = 0; k < lanes; ++k) numbers[k] = 1 + std::abs(k - smallest);
+    const TypeParam batch = TypeParam::load(numbers);
+    EXPECT_EQ(hmin(batch), 1);
+    batch.store(copy);
+    EXPECT_TRUE(std::ranges::equal(numbers, copy));
+  }
+}
+
+// At all sizes, also where multiples of π are subtracted, and beyond.
+TEST(Simd, Directions) {
+  Stream draw(2, Purpose::tests);
+  for (int trial = 0; trial < 20'000; ++trial) {
+    const double size = std::pow(10, draw.uniform(-3, 7));
+    double angle[simd_width];
+    for (double& one : angle) one = draw.uniform(-size, size);
+    SimdBatch x, y;
+    directions<SimdBatch>(SimdBatch::load(angle), x, y);
+    for (int k = 0; k < simd_width; ++k) {
+      ASSERT_NEAR(x[k], std::cos(angle[k]), 1e-15) << angle[k];
+      ASSERT_NEAR(y[k], std::sin(angle[k]), 1e-15) << angle[k];
+    }
+  }
+}
+
+}  // namespace
+}  // namespace vitrel
