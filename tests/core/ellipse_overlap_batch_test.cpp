@@ -18,8 +18,6 @@
 namespace vitrel {
 namespace {
 
-using Mask = OverlapBatch::Mask;
-
 constexpr double pi = std::numbers::pi;
 
 double extent(const PosedPair& pair) {
@@ -78,7 +76,7 @@ bool looks_clear(const PosedPair& pair, int lane, std::uint64_t& scalar_tests) {
   const Vec2 offset(0.3, -0.2);
   group.set(lane, pair.two, pair.d - offset, direction(pair.angle2));
   return OverlapBatch(pair.one, direction(pair.angle1), margin(pair))
-      .clear_of(group, offset, Mask(true), scalar_tests);
+      .clear_of(group, offset, OverlapBatch::all_lanes, scalar_tests);
 }
 
 /// What the coordinates' rounding may do to a gap.
@@ -141,9 +139,11 @@ TEST(OverlapBatch, AnswersOfAGroupAreThoseOfItsPairs) {
       group.set(lane, other.two, place, direction(other.angle2));
       EllipseBatch single;
       single.set((lane + k) % simd_width, other.two, place, direction(other.angle2));
-      each_clear = each_clear && batch.clear_of(single, Vec2::Zero(), Mask(true), scalar_tests);
+      each_clear =
+          each_clear && batch.clear_of(single, Vec2::Zero(), OverlapBatch::all_lanes, scalar_tests);
     }
-    const bool answer = batch.clear_of(group, Vec2::Zero(), Mask(true), alone_in_group);
+    const bool answer =
+        batch.clear_of(group, Vec2::Zero(), OverlapBatch::all_lanes, alone_in_group);
     ASSERT_EQ(answer, each_clear);
     if (answer) {
       ASSERT_EQ(alone_in_group, scalar_tests);
