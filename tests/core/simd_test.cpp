@@ -103,19 +103,19 @@ TYPED_TEST(SimdTest, Masks) {
   test([](const auto& x, const auto& y) { return !(x < y) && x > 0.; });
   test([](const auto& x, const auto& y) { return x < y || y < 0.; });
 
-  constexpr int lanes = TestFixture::lanes;
-  double numbers[lanes];
-  for (int k = 0; k < lanes; ++k) numbers[k] = k;
+  constexpr int count = TestFixture::lanes;
+  double numbers[count];
+  for (int k = 0; k < count; ++k) numbers[k] = k;
   const Batch indices = Batch::load(numbers);
   EXPECT_TRUE(all_of(indices >= 0));
   EXPECT_FALSE(all_of(indices > 0));
-  EXPECT_TRUE(none_of(indices > lanes));
-  EXPECT_FALSE(none_of(indices == lanes - 1));
-  EXPECT_TRUE(any_of(indices == lanes - 1));
+  EXPECT_TRUE(none_of(indices > count));
+  EXPECT_FALSE(none_of(indices == count - 1));
+  EXPECT_TRUE(any_of(indices == count - 1));
   EXPECT_FALSE(any_of(indices < 0));
-  EXPECT_TRUE(all_of(SimdMask<lanes>(true)));
-  EXPECT_TRUE(none_of(SimdMask<lanes>(false)));
-  for (int k = 0; k < lanes; ++k) {
+  EXPECT_TRUE(all_of(SimdMask<count>(true)));
+  EXPECT_TRUE(none_of(SimdMask<count>(false)));
+  for (int k = 0; k < count; ++k) {
     EXPECT_EQ((indices == k).bits(), 1u << k);
     EXPECT_EQ(find_first_set(indices >= k), k);
     EXPECT_TRUE((indices == k)[k]);
@@ -124,10 +124,10 @@ TYPED_TEST(SimdTest, Masks) {
 }
 
 TYPED_TEST(SimdTest, SmallestLaneAndStore) {
-  constexpr int lanes = TestFixture::lanes;
-  for (int smallest = 0; smallest < lanes; ++smallest) {
-    double numbers[lanes], copy[lanes];
-    for (int k = 0; k < lanes; ++k) numbers[k] = 1 + std::abs(k - smallest);
+  constexpr int count = TestFixture::lanes;
+  for (int smallest = 0; smallest < count; ++smallest) {
+    double numbers[count], copy[count];
+    for (int k = 0; k < count; ++k) numbers[k] = 1 + std::abs(k - smallest);
     const TypeParam batch = TypeParam::load(numbers);
     EXPECT_EQ(hmin(batch), 1);
     batch.store(copy);
