@@ -70,7 +70,7 @@ class Insertion {
       if (!fits(i, pose)) continue;
       configuration_.set_pose(i, pose);
       configuration_.image[i] = Shift<Dim>::Zero();
-      cells_.insert(i, {pose.position});
+      cells_.insert(i, pose.position);
       return true;
     }
     return false;

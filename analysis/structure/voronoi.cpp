@@ -63,7 +63,7 @@ Voronoi::Voronoi(const Configuration2& configuration)
       reach_(3 * std::sqrt(configuration.box.volume() / static_cast<double>(configuration.size()))),
       centres_(configuration.box, reach_, configuration.size()) {
   for (std::size_t i = 0; i < configuration.size(); ++i)
-    centres_.insert(i, {configuration.position[i]});
+    centres_.insert(i, configuration.position[i]);
 }
 
 VoronoiCell Voronoi::cell(std::size_t i) const {
@@ -72,7 +72,7 @@ VoronoiCell Voronoi::cell(std::size_t i) const {
   for (double reach = 0, next = reach_; reach < next; next = 2 * farthest(corners)) {
     corners = rectangle(lengths_);
     near.clear();
-    centres_.for_each_near(centres_[i].position, reach = next,
+    centres_.for_each_near(centres_[i], reach = next,
                            [&](std::size_t j, const Shift<2>& shift, const Vec2& d) {
                              // The four nearest own images are the sides of the box.
                              if (j != i || shift.squaredNorm() > 1) near.push_back(d);

@@ -78,43 +78,25 @@ class GapBatch<bench::RoundListedEllipse> : public GapBatch<Ellipse> {
 
 // The margin of lists shaped like the particles.
 template <>
-double Neighborhoods<bench::RoundListedEllipse>::choose_gap(std::vector<Pair>,
-                                                            double wanted) const {
+double Neighborhoods<bench::RoundListedEllipse>::choose_gap(double target) {
   const std::vector<Ellipse> shapes(shapes_.begin(), shapes_.end());
   std::vector<Pose2> poses;
-  for (std::size_t i = 0; i < references_.size(); ++i)
-    poses.push_back({references_[i].position, references_[i].orientation()});
-  return 2 * Neighborhoods<Ellipse>(box_, shapes, type_index_, poses, wanted).margin();
-}
-
-// As for every body, but without the limit of the partner's entry.
-template <>
-template <>
-std::size_t Simulation<bench::UnlimitedEllipse>::gather<
-    Simulation<bench::UnlimitedEllipse>::Scope::all_neighbors>(Index i, const Pose2& mine,
-                                                               double latest, std::size_t next,
-                                                               ScreenBatch& batch) {
-  constexpr double forever = 1e100;
-  const auto neighbors = neighborhoods_->of(i);
-  int k = 0;
-  for (; next < neighbors.size() && k < ContactScreen<Ellipse>::lanes; ++next, ++k) {
-    auto& neighbor = neighbors[next];
-    const Particle& partner = particles_[neighbor.other];
-    batch.horizon[k] = latest;
-    Pose2 pose = partner.pose_at(now_);
-    pose.position += box_.translation(neighbor.shift()) - mine.position;
-    batch.screen.set(k, pose, partner.motion(), type(neighbor.other).coefficients,
-                     neighbor.warm_start, std::min(latest - now_, forever));
-    batch.neighbor[k] = &neighbor;
-  }
-  batch.count = k;
-  return next;
+  for (const Reference& reference : references_)
+    poses.push_back({reference.position, reference.orientation()});
+  return 2 * Neighborhoods<Ellipse>(box_, shapes, type_index_, poses, target).margin();
 }
 
 template <>
-double Simulation<bench::WindowedEllipse>::mean_free_time() const {
-  const auto particles = static_cast<double>(particles_.size());
-  const double free_time = collisions_ < particles ? never : 0.5 * particles * now_ / collisions_;
+double ContactPredictor<bench::UnlimitedEllipse>::partner_horizon(Index, double latest) const {
+  return latest;
+}
+
+template <>
+double ContactPredictor<bench::WindowedEllipse>::mean_free_time() const {
+  const auto particles = static_cast<double>(state_.size());
+  const double free_time = state_.collisions < particles
+                               ? State::never
+                               : 0.5 * particles * state_.now / state_.collisions;
   return bench::search_window * free_time;
 }
 
@@ -131,25 +113,25 @@ Flight<Ellipse> plain(const Flight<B>& flight) {
 // The event loop calls these instead of the predictor for ellipses.
 Prediction2 first_contact(const Flight<SearchedEllipse>& one, const Flight<SearchedEllipse>& two,
                           double horizon, double contact_gap,
-                          const ContactScreen<SearchedEllipse>::WarmStart& /*warm_start*/) {
+                          const WarmStart<SearchedEllipse>& /*warm_start*/) {
   return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap);
 }
 
 Prediction2 first_contact(const Flight<UnlimitedEllipse>& one, const Flight<UnlimitedEllipse>& two,
                           double horizon, double contact_gap,
-                          const ContactScreen<Ellipse>::WarmStart& warm_start) {
+                          const WarmStart<Ellipse>& warm_start) {
   return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, warm_start);
 }
 
 Prediction2 first_contact(const Flight<RoundListedEllipse>& one,
                           const Flight<RoundListedEllipse>& two, double horizon, double contact_gap,
-                          const ContactScreen<Ellipse>::WarmStart& warm_start) {
+                          const WarmStart<Ellipse>& warm_start) {
   return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, warm_start);
 }
 
 Prediction2 first_contact(const Flight<WindowedEllipse>& one, const Flight<WindowedEllipse>& two,
                           double horizon, double contact_gap,
-                          const ContactScreen<Ellipse>::WarmStart& warm_start) {
+                          const WarmStart<Ellipse>& warm_start) {
   return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, warm_start);
 }
 

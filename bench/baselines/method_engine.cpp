@@ -41,7 +41,7 @@ namespace {
 // is no contact.
 Prediction2 first_contact(const Flight<PredictedEllipse>& one, const Flight<PredictedEllipse>& two,
                           double horizon, double /*contact_gap*/,
-                          const ContactScreen<PredictedEllipse>::WarmStart& /*warm_start*/) {
+                          const WarmStart<PredictedEllipse>& /*warm_start*/) {
   const auto plain = [](const Flight<PredictedEllipse>& flight) {
     return of_constant_size({flight.body, flight.pose, flight.motion});
   };

@@ -43,7 +43,7 @@ void SequentialSampler::translate(std::size_t i, Stream& draw) {
   ++counts_.translations_accepted;
   configuration_.position[i] = position;
   configuration_.image[i] += crossed;
-  cells_.move(i, {position});
+  cells_.move(i, position);
 }
 
 void SequentialSampler::rotate(std::size_t i, Stream& draw) {

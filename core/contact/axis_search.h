@@ -81,7 +81,7 @@ class AxisSearch {
   };
 
   /// Flattened, because the search is so short that calls would dominate.
-  [[gnu::flatten]] Result run(double horizon, const Axis* initial_axis) {
+  VITREL_FLATTEN Result run(double horizon, const Axis* initial_axis) {
     const detail::Interval near = detail::time_within(
         flight_.d0(), flight_.v(), flight_.reach() + detail::touching * contact_gap_,
         flight_.reach_growth(), std::min(horizon, detail::max_time));

@@ -11,20 +11,13 @@ namespace vitrel {
 
 template <Body B>
 requires std::same_as<BaseShape<B>, Ellipse>
-class ContactScreen<B> : public detail::CandidateTimes<simd_width> {
+class ContactScreen<B> : public detail::CandidateTimes {
   /// A pair counts as open while its gap stays above this fraction of the contact gap, so that a pair that
   /// has just collided and now separates is settled too.
   static constexpr double min_gap_fraction = 0.5;
 
  public:
   static constexpr int lanes = simd_width;
-  static constexpr bool is_exact = false;
-  /// The axis of the last evaluation.
-  struct WarmStart {
-    Vec2 axis;
-    /// The same seen from the other body.
-    friend WarmStart reversed(const WarmStart& warm_start) { return {-warm_start.axis}; }
-  };
 
   ContactScreen(const ShapeCoefficients<Ellipse>& coefficients, const Pose2& pose,
                 const Motion2& motion, const CommonSize& common, double contact_gap)
@@ -40,7 +33,7 @@ class ContactScreen<B> : public detail::CandidateTimes<simd_width> {
 
   VITREL_INLINE void set(int k, const Pose2& pose, const Motion2& motion,
                          const ShapeCoefficients<Ellipse>& coefficients,
-                         const WarmStart& warm_start, double horizon) {
+                         const WarmStart<B>& warm_start, double horizon) {
     dx_[k] = pose.position.x();
     dy_[k] = pose.position.y();
     vx_[k] = motion.velocity.x() - motion_.velocity.x();
@@ -55,9 +48,9 @@ class ContactScreen<B> : public detail::CandidateTimes<simd_width> {
     ny_[k] = warm_start.axis.y();
     horizon_[k] = horizon;
   }
-  WarmStart warm_start(int k) const { return {{nx_[k], ny_[k]}}; }
+  WarmStart<B> warm_start(int k) const { return {{nx_[k], ny_[k]}}; }
 
-  [[gnu::flatten]] void evaluate(int count) {
+  VITREL_FLATTEN void evaluate(int count) {
     const SimdBatch nx = nx_.load(), ny = ny_.load(), dx = dx_.load(), dy = dy_.load();
     const SimdBatch bb = bb_.load(), aa_minus_bb = aa_minus_bb_.load(), omega2 = omega_.load();
     const SimdBatch omega1 = motion_.angular_velocity, horizon = horizon_.load();

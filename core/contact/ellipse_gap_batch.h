@@ -29,7 +29,7 @@ class GapBatch<Ellipse> {
     aabb_[k] = shape.a * shape.a * bb;
   }
 
-  [[gnu::flatten]] void evaluate() {
+  VITREL_FLATTEN void evaluate() {
     const Body one{coefficients_.bb, coefficients_.aa_minus_bb, coefficients_.aabb, ux_, uy_};
     Body two{bb_.load(), aa_minus_bb_.load(), aabb_.load(), {}, {}};
     directions<SimdBatch>(angle_.load(), two.ux, two.uy);

@@ -11,17 +11,12 @@ namespace vitrel {
 
 template <Body B>
 requires std::same_as<BaseShape<B>, Ellipsoid>
-class ContactScreen<B> : public detail::CandidateTimes<simd_width> {
+class ContactScreen<B> : public detail::CandidateTimes {
   /// As for ellipses (ellipse_contact_screen.h).
   static constexpr double min_gap_fraction = 0.5;
 
  public:
   static constexpr int lanes = simd_width;
-  static constexpr bool is_exact = false;
-  struct WarmStart {
-    Vec3 axis;
-    friend WarmStart reversed(const WarmStart& warm_start) { return {-warm_start.axis}; }
-  };
 
   ContactScreen(const ShapeCoefficients<Ellipsoid>& coefficients, const Pose3& pose,
                 const Motion3& motion, const CommonSize& common, double contact_gap)
@@ -37,7 +32,7 @@ class ContactScreen<B> : public detail::CandidateTimes<simd_width> {
 
   VITREL_INLINE void set(int k, const Pose3& pose, const Motion3& motion,
                          const ShapeCoefficients<Ellipsoid>& coefficients,
-                         const WarmStart& warm_start, double horizon) {
+                         const WarmStart<B>& warm_start, double horizon) {
     d_.set(k, pose.position);
     v_.set(k, motion.velocity - motion_.velocity);
     partners_.set(k, pose.orientation, coefficients.semi_axes);
@@ -47,9 +42,9 @@ class ContactScreen<B> : public detail::CandidateTimes<simd_width> {
     n_.set(k, warm_start.axis);
     horizon_[k] = horizon;
   }
-  WarmStart warm_start(int k) const { return {n_[k]}; }
+  WarmStart<B> warm_start(int k) const { return {n_[k]}; }
 
-  [[gnu::flatten]] void evaluate(int count) {
+  VITREL_FLATTEN void evaluate(int count) {
     using detail::BatchVec3;
     const AxisOf<SimdBatch> axis = completed(n_.load());
     const BatchVec3 d = d_.load(), omega = omega_.load(), lengths = partners_.semi_axes.load();

@@ -23,7 +23,7 @@ class GapBatch<Ellipsoid> {
     partners_.set(k, orientation, shape.semi_axes);
   }
 
-  [[gnu::flatten]] void evaluate() {
+  VITREL_FLATTEN void evaluate() {
     constexpr int steps = 2;
     const detail::BatchVec3 d = d_.load();
     const AxesOf<SimdBatch> partners =

@@ -20,12 +20,14 @@
 /// compiler has it.
 namespace vitrel {
 
-/// For short functions, whose vector arguments would otherwise pass through memory. With sanitizers their code would be
-/// too large.
+/// For short functions, whose vector arguments would otherwise pass through memory, and for functions that call many of
+/// them. With sanitizers their code would be too large.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define VITREL_INLINE inline
+#define VITREL_FLATTEN
 #else
 #define VITREL_INLINE [[gnu::always_inline]] inline
+#define VITREL_FLATTEN [[gnu::flatten]]
 #endif
 
 /// One number for each of the two bodies of a pair.
@@ -62,6 +64,20 @@ VITREL_INLINE unsigned bits(const MaskRegister& mask) {
 #else
   unsigned all = 0;
   for (int k = 0; k < register_lanes; ++k) all |= static_cast<unsigned>(mask[k] & 1) << k;
+  return all;
+#endif
+}
+
+/// Four numbers in single precision.
+using FloatRegister [[gnu::vector_size(16)]] = float;
+using FloatMaskRegister = decltype(FloatRegister{} < FloatRegister{});
+
+VITREL_INLINE unsigned bits(const FloatMaskRegister& mask) {
+#if defined(__SSE2__)
+  return static_cast<unsigned>(_mm_movemask_ps(std::bit_cast<__m128>(mask)));
+#else
+  unsigned all = 0;
+  for (int k = 0; k < 4; ++k) all |= static_cast<unsigned>(mask[k] & 1) << k;
   return all;
 #endif
 }
@@ -137,6 +153,9 @@ struct alignas(lanes * sizeof(double)) Simd {
 
   VITREL_INLINE double operator[](int k) const {
     return part[k / detail::register_lanes][k % detail::register_lanes];
+  }
+  VITREL_INLINE void set(int k, double value) {
+    part[k / detail::register_lanes][k % detail::register_lanes] = value;
   }
 
   VITREL_INLINE friend Simd operator-(const Simd& x) {
@@ -231,6 +250,27 @@ struct alignas(lanes * sizeof(double)) Simd {
 
 constexpr int simd_width = 4;
 using SimdBatch = Simd<simd_width>;
+
+/// Reads four records of numbers: lane k of column r is number r of record k. `rows` is even.
+template <int rows>
+VITREL_INLINE void load_columns(const double* const (&record)[4], SimdBatch (&column)[rows]) {
+  using Two [[gnu::vector_size(2 * sizeof(double))]] = double;
+  for (int r = 0; r < rows; r += 2) {
+    Two two[4];
+    for (int k = 0; k < 4; ++k) std::memcpy(&two[k], record[k] + r, sizeof(Two));
+#ifdef __AVX__
+    const detail::Register even = __builtin_shufflevector(two[0], two[2], 0, 1, 2, 3);
+    const detail::Register odd = __builtin_shufflevector(two[1], two[3], 0, 1, 2, 3);
+    column[r].part[0] = __builtin_shufflevector(even, odd, 0, 4, 2, 6);
+    column[r + 1].part[0] = __builtin_shufflevector(even, odd, 1, 5, 3, 7);
+#else
+    for (int half = 0; half < 2; ++half) {
+      column[r].part[half] = __builtin_shufflevector(two[2 * half], two[2 * half + 1], 0, 2);
+      column[r + 1].part[half] = __builtin_shufflevector(two[2 * half], two[2 * half + 1], 1, 3);
+    }
+#endif
+  }
+}
 
 namespace detail {
 

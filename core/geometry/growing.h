@@ -1,5 +1,7 @@
 #pragma once
 
+#include <concepts>
+
 #include "core/geometry/disk.h"
 #include "core/geometry/ellipse.h"
 #include "core/geometry/ellipsoid.h"
@@ -51,5 +53,10 @@ template <class B>
 using BaseShape = typename ShapeOf<B>::type;
 template <class B>
 inline constexpr bool grows = ShapeOf<B>::grows;
+
+/// Disks and spheres, also growing ones.
+template <class B>
+concept RoundBody = Body<B> &&
+    (std::same_as<BaseShape<B>, Disk> || std::same_as<BaseShape<B>, Sphere>);
 
 }  // namespace vitrel

@@ -8,24 +8,15 @@
 #include <vector>
 
 #include "core/geometry/periodic_box.h"
-#include "core/neighbors/prefetch.h"
 
 namespace vitrel {
-
-/// A point of a cell grid. Types with further members may replace it, so that a query reads all it needs of a
-/// point at once; they must have these two.
-template <int Dim>
-struct CellPoint {
-  Vec<Dim> position;       // wrapped into the box
-  std::uint32_t next = 0;  // next point of the same cell; set by the grid
-};
 
 /// A cell list: points in the cells of a periodic box.
 ///
 /// A query visits the cells that its reach covers in unwrapped cell coordinates. A cell outside the box is the
 /// image of one inside, and the number of boxes between them is the shift. So each image (j, shift) within reach is
 /// found exactly once, in boxes of any size, down to a single cell. Insert and move cost O(1).
-template <int Dim, class Point = CellPoint<Dim>>
+template <int Dim>
 class CellGrid {
  public:
   /// For about `particles` points and queries of about `reach`.
@@ -45,24 +36,22 @@ class CellGrid {
     points_.reserve(particles);
   }
 
-  /// Adds point i. Points are numbered 0, 1, 2 …
-  void insert(std::size_t i, const Point& point) {
+  /// Adds point i, wrapped into the box. Points are numbered 0, 1, 2 …
+  void insert(std::size_t i, const Vec<Dim>& position) {
     if (points_.size() <= i) points_.resize(i + 1);
-    points_[i] = point;
-    enter(static_cast<Index>(i), cell_of(point.position));
+    points_[i].position = position;
+    enter(static_cast<Index>(i), cell_of(position));
   }
 
-  void move(std::size_t i, const Point& point) {
-    const std::size_t from = cell_of(points_[i].position), to = cell_of(point.position);
+  void move(std::size_t i, const Vec<Dim>& position) {
+    const std::size_t from = cell_of(points_[i].position), to = cell_of(position);
     if (from != to) leave(static_cast<Index>(i), from);
-    const Index next = points_[i].next;
-    points_[i] = point;
-    points_[i].next = next;
+    points_[i].position = position;
     if (from != to) enter(static_cast<Index>(i), to);
   }
 
   std::size_t size() const { return points_.size(); }
-  const Point& operator[](std::size_t i) const { return points_[i]; }
+  const Vec<Dim>& operator[](std::size_t i) const { return points_[i].position; }
 
   /// Calls visit(j, shift, separation) for every image r_j + shift ∘ L within `reach` of
   /// `position`, which may lie outside the box; separation = r_j + shift ∘ L − position. A point at
@@ -81,23 +70,13 @@ class CellGrid {
     });
   }
 
-  /// Prefetches what a query reads: the cells and, in a later call, the first point of each.
-  void prefetch_cells(const Vec<Dim>& position, double reach) const {
-    for_each_cell(position, reach, [&](std::size_t cell, const Shift<Dim>&) {
-      prefetch_line(&first_[cell]);
-      return true;
-    });
-  }
-  void prefetch_points(const Vec<Dim>& position, double reach) const {
-    for_each_cell(position, reach, [&](std::size_t cell, const Shift<Dim>&) {
-      if (first_[cell] != none) prefetch_line(&points_[first_[cell]]);
-      return true;
-    });
-  }
-
  private:
   using Index = std::uint32_t;
   static constexpr Index none = std::numeric_limits<Index>::max();
+  struct Point {
+    Vec<Dim> position;
+    Index next = none;  // of the same cell
+  };
   struct Range {
     std::int64_t low, high;
   };

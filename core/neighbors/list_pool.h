@@ -57,6 +57,8 @@ class ListPool {
   }
 
   void clear(std::size_t list) { headers_[list].count = 0; }
+  /// Keeps the first `count` entries.
+  void truncate(std::size_t list, std::uint32_t count) { headers_[list].count = count; }
 
   /// Removes the entries for which `unwanted` holds; the order of the others stays.
   template <class Predicate>

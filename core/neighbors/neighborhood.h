@@ -16,7 +16,7 @@
 #include "core/contact/ellipsoid_gap_batch.h"
 #include "core/geometry/capsule.h"
 #include "core/geometry/periodic_box.h"
-#include "core/neighbors/cell_grid.h"
+#include "core/neighbors/inline_cell_list.h"
 #include "core/neighbors/list_pool.h"
 #include "core/neighbors/prefetch.h"
 #include "core/neighbors/type_index.h"
@@ -39,6 +39,11 @@ struct NeighborImage {
     for (int k = 0; k < Dim; ++k) wide[k] = boxes[k];
     return wide;
   }
+  bool is_shifted() const {
+    bool shifted = false;
+    for (int k = 0; k < Dim; ++k) shifted = shifted || boxes[k] != 0;
+    return shifted;
+  }
   /// The image of particle i that is a neighbour of the other particle.
   NeighborImage reversed_image(std::size_t i) const { return {i, -shift()}; }
   bool operator==(const NeighborImage& image) const {
@@ -51,7 +56,7 @@ struct NeighborImage {
 /// A neighbour: an image, with the warm start of the contact screen for this pair.
 template <Body B>
 struct Neighbor : NeighborImage<B::dimension> {
-  [[no_unique_address]] typename ContactScreen<B>::WarmStart warm_start;
+  [[no_unique_address]] WarmStart<B> warm_start;
 
   bool is(const NeighborImage<B::dimension>& image) const { return image == *this; }
 };
@@ -92,20 +97,22 @@ class Neighborhoods {
         shapes_(shapes),
         type_index_(type_index),
         largest_(largest_circumradius()),
-        references_(box, cell_reach(poses.size()), poses.size()) {
+        smallest_(smallest_inradius()),
+        cells_(box, cell_width(poses.size()), poses.size()) {
     if constexpr (has_capsule) capsules_ = std::vector<CapsuleOf>(shapes.begin(), shapes.end());
-    for (std::size_t i = 0; i < poses.size(); ++i) references_.insert(i, reference(i, poses[i], 1));
-    const double max_candidate_gap = max_gap(target_neighbors);
-    const std::vector<Pair> pairs = pairs_closer_than(max_candidate_gap);
-    margin_ = 0.5 * choose_gap(pairs, target_neighbors);
+    references_.reserve(poses.size());
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      references_.push_back(reference(i, poses[i], 1));
+      cells_.insert(i, poses[i].position);
+    }
+    margin_ = 0.5 * choose_gap(target_neighbors);
+    const std::vector<Pair> pairs = pairs_closer_than(2 * margin_);
     std::vector<std::uint32_t> counts(poses.size());
-    const auto near = [&](const Pair& pair) { return pair.gap < 2 * margin_; };
-    for (const Pair& pair : pairs)
-      if (near(pair)) ++counts[pair.i], ++counts[pair.image.other];
+    for (const Pair& pair : pairs) ++counts[pair.i], ++counts[pair.image.other];
     lists_.reserve(counts);
-    for (const Pair& pair : pairs)
-      if (near(pair)) link(lists_, pair.i, Neighbor<B>{pair.image, {pair.axis}});
-    if (needs_outer_layer()) outer_ = std::make_unique<OuterLayer>(*this, pairs, max_candidate_gap);
+    for (const Pair& pair : pairs) link(lists_, pair.i, Neighbor<B>{pair.image, {pair.axis}});
+    if (needs_outer_layer())
+      outer_ = std::make_unique<OuterLayer>(*this, max_gap(target_neighbors));
   }
 
   std::span<Neighbor<B>> of(std::size_t i) { return lists_[i]; }
@@ -124,26 +131,17 @@ class Neighborhoods {
     store(with.other, with.reversed_image(i), -normal);
   }
 
-  /// Sets a new reference pose (wrapped into the box) and size of particle i, and updates its list.
-  void update(std::size_t i, const Pose<dimension>& pose, double size) {
-    references_.move(i, reference(i, pose, static_cast<float>(size)));
+  /// Sets a new reference pose (wrapped into the box) and size of particle i, and updates its list and those of the
+  /// neighbours that it gains or loses. Returns the number of neighbours that stay, which come first in its list.
+  std::size_t update(std::size_t i, const Pose<dimension>& pose, double size) {
+    const Reference before = references_[i];
+    references_[i] = reference(i, pose, static_cast<float>(size));
+    cells_.move(i, before.position, pose.position);
     if (outer_) outer_->update(i);
-    candidates_.clear();
-    visit_near(i, 2 * margin_, 0, [&](const Pair& pair) { candidates_.push_back(pair); });
-    // Most neighbours stay; only the lists of added and removed neighbours change.
-    previous_.assign(lists_[i].begin(), lists_[i].end());
-    lists_.clear(i);
-    for (const Pair& pair : candidates_)
-      if (const auto known = std::find(previous_.begin(), previous_.end(), pair.image);
-          known != previous_.end()) {
-        lists_.add(i, *known);
-        *known = previous_.back();
-        previous_.pop_back();
-      } else {
-        link(lists_, i, Neighbor<B>{pair.image, {pair.axis}});
-      }
-    for (const Neighbor<B>& gone : previous_)
-      if (gone.other != i) unlink(lists_, i, gone);
+    remove_far(i);
+    const std::size_t kept = lists_[i].size();
+    add_near(i, before);
+    return kept;
   }
 
   /// Prefetches what a prediction for particle i reads: the header of its list and, in a later call, the list.
@@ -152,12 +150,13 @@ class Neighborhoods {
     prefetch_line(&references_[i]);
   }
   void prefetch_list(std::size_t i) const { lists_.prefetch_list_header(i); }
-  /// Prefetches what an update at this position reads: the cells and, in a later call, the references in them.
-  void prefetch_cells(std::size_t i, const Vector& position) const {
-    references_.prefetch_cells(position, reach_of(references_, i, 2 * margin_));
+  /// Prefetches what an update at this position reads: the cells and, in a later call, the references of the
+  /// neighbours.
+  void prefetch_cells(std::size_t i, const Vector& position) {
+    cells_.prefetch(position, reach_of(references_[i], i, 2 * margin_));
   }
-  void prefetch_references(std::size_t i, const Vector& position) const {
-    references_.prefetch_points(position, reach_of(references_, i, 2 * margin_));
+  void prefetch_references(std::size_t i) const {
+    for (const Image& neighbor : lists_[i]) prefetch_line(&references_[neighbor.other]);
   }
 
   /// A time until which particle i, now at `pose` and of the common size, stays inside its neighbourhood; without
@@ -191,7 +190,6 @@ class Neighborhoods {
   struct alignas(32) Reference {
     Vector position;
     [[no_unique_address]] std::conditional_t<has_capsule, Capsule, Empty> capsule;
-    std::uint32_t next = 0;  // set by the grid
     float size = 1;
     [[no_unique_address]] std::conditional_t<is_sphere, Empty, Orientation<dimension>> rotated;
 
@@ -202,7 +200,8 @@ class Neighborhoods {
         return rotated;
     }
   };
-  using References = CellGrid<dimension, Reference>;
+  using References = std::vector<Reference>;
+  using Cells = InlineCellList<dimension>;
   struct Pair {
     double gap;
     Vector axis;
@@ -213,14 +212,15 @@ class Neighborhoods {
   /// The outer layer: larger neighbourhoods and the lists of those that overlap.
   class OuterLayer {
    public:
-    /// `pairs` are all pairs closer than `reach`.
-    OuterLayer(const Neighborhoods& inner, std::span<const Pair> pairs, double reach)
+    /// The margin is at most half of `max_gap`.
+    OuterLayer(Neighborhoods& inner, double max_gap)
         : inner_(inner),
-          margin_(std::min(times * inner.margin_, 0.5 * reach)),
+          margin_(std::min(times * inner.margin_, 0.5 * max_gap)),
           references_(inner.references_),
+          cells_(inner.cells_),
           lists_(references_.size()) {
-      for (const Pair& pair : pairs)
-        if (pair.gap < 2 * margin_) link(lists_, pair.i, pair.image);
+      for (const Pair& pair : inner.pairs_closer_than(2 * margin_))
+        link(lists_, pair.i, pair.image);
     }
 
     /// Outer margin over inner margin.
@@ -231,11 +231,15 @@ class Neighborhoods {
     /// Follows an update of the inner neighbourhood of i.
     void update(std::size_t i) {
       if (contains(i, inner_.references_[i])) return;
-      references_.move(i, inner_.references_[i]);
+      cells_.move(i, references_[i].position, inner_.references_[i].position);
+      references_[i] = inner_.references_[i];
       for (const Image& image : lists_[i])
         if (image.other != i) unlink(lists_, i, image);
       lists_.clear(i);
-      for_each_near(i, [&](const Image& image) { link(lists_, i, image); });
+      inner_.for_each_near(cells_, references_, i, 2 * margin_, {},
+                           [&](std::size_t j, const Shift<dimension>& shift, const Vector&) {
+                             link(lists_, i, Image(j, shift));
+                           });
     }
 
    private:
@@ -251,22 +255,15 @@ class Neighborhoods {
       return moved <= margin_ - inner_.margin_;
     }
 
-    template <class Visit>
-    void for_each_near(std::size_t i, Visit&& visit) const {
-      inner_.for_each_near(references_, i, 2 * margin_, 0,
-                           [&](std::size_t j, const Shift<dimension>& shift, const Vector&) {
-                             visit(Image(j, shift));
-                           });
-    }
-
-    const Neighborhoods& inner_;
+    Neighborhoods& inner_;
     double margin_;
     References references_;
+    Cells cells_;
     ListPool<Image> lists_;
   };
 
   Reference reference(std::size_t i, const Pose<dimension>& pose, float size) const {
-    Reference made{pose.position, {}, 0, size, {}};
+    Reference made{pose.position, {}, size, {}};
     if constexpr (!is_sphere) made.rotated = orientation_of(pose);
     if constexpr (has_capsule) made.capsule = capsules_[type_index_[i]].at(made.rotated, size);
     return made;
@@ -315,11 +312,17 @@ class Neighborhoods {
     return largest;
   }
 
-  // The reach that gives cells with a quarter of a particle on average, or of the size of a particle if larger.
-  double cell_reach(std::size_t particles) const {
-    const double spacing =
-        std::pow(box_.volume() / static_cast<double>(particles), 1.0 / dimension);
-    return 2 * std::max(0.5 * largest_, spacing);
+  double smallest_inradius() const {
+    double smallest = largest_;
+    for (const Shape& shape : shapes_) smallest = std::min(smallest, shape.inradius());
+    return smallest;
+  }
+
+  // Cells of the size of the largest particle, or with about this number of particles if they are larger.
+  double cell_width(std::size_t particles) const {
+    static const double particles_per_cell = getenv("PC") ? atof(getenv("PC")) : 1;
+    const double volume = particles_per_cell * box_.volume() / static_cast<double>(particles);
+    return std::max(0.5 * largest_, std::pow(volume, 1.0 / dimension));
   }
 
   // A gap within which, at the mean density, there are certainly more neighbours than the target.
@@ -327,21 +330,25 @@ class Neighborhoods {
     const double density = static_cast<double>(references_.size()) / box_.volume();
     const double of_unit = dimension == 2 ? std::numbers::pi : 4 * std::numbers::pi / 3;
     const double reach = std::pow(2 * target / (of_unit * density), 1.0 / dimension);
-    double smallest = largest_;
-    for (const Shape& shape : shapes_) smallest = std::min(smallest, shape.inradius());
-    return std::clamp(reach - 2 * smallest, smallest, 4 * largest_);
+    return std::clamp(reach - 2 * smallest_, smallest_, 4 * largest_);
   }
 
-  double choose_gap(std::vector<Pair> pairs, double target) const {
-    const auto rank =
-        static_cast<std::size_t>(0.5 * target * static_cast<double>(references_.size()));
-    if (rank >= pairs.size()) return max_gap(target);
-    const auto nth = pairs.begin() + static_cast<std::ptrdiff_t>(rank);
-    std::nth_element(pairs.begin(), nth, pairs.end(),
-                     [](const Pair& one, const Pair& two) { return one.gap < two.gap; });
+  // The gap within which the particles of a sample have the target number of neighbours on average.
+  double choose_gap(double target) {
+    constexpr std::size_t max_sampled = 512;
+    const std::size_t stride = 1 + (references_.size() - 1) / max_sampled;
+    const double limit = max_gap(target);
+    std::vector<double> gaps;
+    std::size_t sampled = 0;
+    for (std::size_t i = 0; i < references_.size(); i += stride, ++sampled)
+      visit_near(i, limit, [&](const Pair& pair) { gaps.push_back(pair.gap); });
+    const auto rank = static_cast<std::size_t>(target * static_cast<double>(sampled));
+    if (rank >= gaps.size()) return limit;
+    const auto nth = gaps.begin() + static_cast<std::ptrdiff_t>(rank);
+    std::ranges::nth_element(gaps, nth);
     // In a jammed packing the gaps vanish; a neighbourhood must still leave room to move.
     const double min_gap = 1e-4 * largest_;
-    return std::max(nth->gap, min_gap);
+    return std::max(*nth, min_gap);
   }
 
   // Whether cells return so many candidates that an outer layer is worthwhile, and the box is wide enough for it.
@@ -354,52 +361,40 @@ class Neighborhoods {
 
   // The maximum distance of images closer to particle i than `limit`. Other references are older, with sizes
   // between 1 and that of i.
-  double reach_of(const References& references, std::size_t i, double limit) const {
-    const double size = references[i].size;
+  double reach_of(const Reference& reference, std::size_t i, double limit) const {
+    const double size = reference.size;
     return size * shape(i).circumradius() + std::max(size, 1.0) * largest_ + limit;
   }
 
-  // Calls visit(pair) for the images of particles `first` and later that are closer to particle i than `limit` at
-  // their reference poses; own images once per unordered pair.
-  template <class Visit>
-  void visit_near(std::size_t i, double limit, std::size_t first, Visit&& visit) const {
-    const Reference& mine = references_[i];
-    const Shape one = scaled(shape(i), mine.size);
-    GapBatch<Shape> batch(one, mine.orientation(), limit);
-    Image image[GapBatch<Shape>::lanes];
-    int count = 0;
-    const auto flush = [&] {
-      batch.evaluate();
-      for (int k = 0; k < count; ++k)
-        if (batch.gap(k) < limit)
-          visit(Pair{batch.gap(k), batch.axis(k), static_cast<std::uint32_t>(i), image[k]});
-      count = 0;
-    };
-    const auto add = [&](std::size_t j, const Shift<dimension>& shift, const Vector& d) {
-      const Reference& other = references_[j];
-      batch.set(count, scaled(shape(j), other.size), other.orientation(), d);
-      image[count++] = {j, shift};
-      if (count == GapBatch<Shape>::lanes) flush();
-    };
-    if (outer_)
-      for_each_in_outer_layer(i, limit, add);
-    else
-      for_each_near(references_, i, limit, first, add);
-    if (count > 0) flush();
+  /// A region whose particles are neighbours already: a ball around the particle's previous position.
+  struct Known {
+    Vector offset = Vector::Zero();  // from the present position
+    double radius = 0;
+  };
+  // The particles that a body at this reference certainly had as neighbours.
+  Known known_at(const Reference& before, std::size_t i) const {
+    const Reference& now = references_[i];
+    const double size = std::min({before.size, now.size, 1.f});
+    return {before.position - now.position, size * (shape(i).inradius() + smallest_) + 2 * margin_};
   }
 
-  // Calls visit(j, shift, separation) for the images that circumspheres and capsules do not prove to be `limit`
-  // apart from particle i; own images once per unordered pair.
+  // Calls visit(j, shift, separation) for the images of other particles that circumspheres and capsules do not prove
+  // to be `limit` apart from particle i, and that are not known; own images once per unordered pair.
   template <class Visit>
-  void for_each_near(const References& references, std::size_t i, double limit, std::size_t first,
-                     Visit&& visit) const {
+  void for_each_near(Cells& cells, const References& references, std::size_t i, double limit,
+                     const Known& known, Visit&& visit) const {
     const Reference& mine = references[i];
-    references.for_each_near(mine.position, reach_of(references, i, limit),
-                             [&](std::size_t j, const Shift<dimension>& shift, const Vector& d) {
-                               if (j >= first && (j != i || is_positive_shift(shift)) &&
-                                   !are_far(mine, references[j], d, limit))
-                                 visit(j, shift, d);
-                             });
+    const double reach = reach_of(mine, i, limit);
+    cells.for_each_in_shell(mine.position, reach, known.offset, known.radius,
+                            [&](std::size_t j, const Shift<dimension>& shift) {
+                              if (j == i) return;
+                              const Vector d = separation(references, mine, j, shift);
+                              if (!are_far(mine, references[j], d, limit)) visit(j, shift, d);
+                            });
+    if (box_.lengths().minCoeff() > reach) return;
+    box_.for_each_image(Vector::Zero(), reach, [&](const Shift<dimension>& shift, const Vector& d) {
+      if (is_positive_shift(shift) && !are_far(mine, mine, d, limit)) visit(i, shift, d);
+    });
   }
 
   // The same for the candidates of the outer layer, with a limit of two margins.
@@ -408,10 +403,89 @@ class Neighborhoods {
     const Reference& mine = references_[i];
     for (const Image& image : outer_->of(i)) {
       const Shift<dimension> shift = image.shift();
-      const Vector d =
-          references_[image.other].position + box_.translation(shift) - references_[i].position;
+      const Vector d = separation(references_, mine, image.other, shift);
       if (!are_far(mine, references_[image.other], d, limit)) visit(image.other, shift, d);
     }
+  }
+
+  Vector separation(const References& references, const Reference& from, std::size_t j,
+                    const Shift<dimension>& shift) const {
+    return references[j].position + box_.translation(shift) - from.position;
+  }
+
+  // Calls visit(pair) with the gap at the reference poses for each (j, shift, separation) that `for_each` passes on;
+  // axes are improved until gaps exceed `limit`.
+  template <class ForEach, class Visit>
+  void visit_gaps(std::size_t i, double limit, ForEach&& for_each, Visit&& visit) const {
+    const Reference& mine = references_[i];
+    GapBatch<Shape> batch(scaled(shape(i), mine.size), mine.orientation(), limit);
+    Image image[GapBatch<Shape>::lanes];
+    int count = 0;
+    const auto flush = [&] {
+      batch.evaluate();
+      for (int k = 0; k < count; ++k)
+        visit(Pair{batch.gap(k), batch.axis(k), static_cast<std::uint32_t>(i), image[k]});
+      count = 0;
+    };
+    for_each([&](std::size_t j, const Shift<dimension>& shift, const Vector& d) {
+      const Reference& other = references_[j];
+      batch.set(count, scaled(shape(j), other.size), other.orientation(), d);
+      image[count++] = {j, shift};
+      if (count == GapBatch<Shape>::lanes) flush();
+    });
+    if (count > 0) flush();
+  }
+
+  // Calls visit(pair) for all images closer to particle i than `limit`.
+  template <class Visit>
+  void visit_near(std::size_t i, double limit, Visit&& visit) {
+    visit_gaps(
+        i, limit, [&](auto&& add) { for_each_near(cells_, references_, i, limit, {}, add); },
+        [&](const Pair& pair) {
+          if (pair.gap < limit) visit(pair);
+        });
+  }
+
+  void remove_far(std::size_t i) {
+    const std::span<Neighbor<B>> neighbors = lists_[i];
+    const auto for_each_neighbor = [&](auto&& add) {
+      for (const Image& image : neighbors) {
+        const Shift<dimension> shift = image.shift();
+        add(image.other, shift,
+            image.other == i ? Vector(box_.translation(shift))
+                             : separation(references_, references_[i], image.other, shift));
+      }
+    };
+    std::size_t seen = 0;
+    std::uint32_t kept = 0;
+    visit_gaps(i, 2 * margin_, for_each_neighbor, [&](const Pair& pair) {
+      if (pair.gap < 2 * margin_)
+        neighbors[kept++] = neighbors[seen];
+      else if (pair.image.other != i)
+        unlink(lists_, i, pair.image);
+      ++seen;
+    });
+    lists_.truncate(i, kept);
+  }
+
+  void add_near(std::size_t i, const Reference& before) {
+    const double limit = 2 * margin_;
+    const auto is_listed = [&](std::size_t j, const Shift<dimension>& shift) {
+      const Image image(j, shift);
+      return std::ranges::any_of(lists_[i], [&](const Image& known) { return known == image; });
+    };
+    const auto for_each_candidate = [&](auto&& add) {
+      const auto add_unlisted = [&](std::size_t j, const Shift<dimension>& shift, const Vector& d) {
+        if (!is_listed(j, shift)) add(j, shift, d);
+      };
+      if (outer_)
+        for_each_in_outer_layer(i, limit, add_unlisted);
+      else
+        for_each_near(cells_, references_, i, limit, known_at(before, i), add_unlisted);
+    };
+    visit_gaps(i, limit, for_each_candidate, [&](const Pair& pair) {
+      if (pair.gap < limit) link(lists_, i, Neighbor<B>{pair.image, {pair.axis}});
+    });
   }
 
   static bool are_far(const Reference& one, const Reference& two, const Vector& d, double limit) {
@@ -421,10 +495,12 @@ class Neighborhoods {
       return false;
   }
 
-  std::vector<Pair> pairs_closer_than(double limit) const {
+  std::vector<Pair> pairs_closer_than(double limit) {
     std::vector<Pair> pairs;
     for (std::size_t i = 0; i < references_.size(); ++i)
-      visit_near(i, limit, i, [&](const Pair& pair) { pairs.push_back(pair); });
+      visit_near(i, limit, [&](const Pair& pair) {
+        if (pair.image.other >= i) pairs.push_back(pair);
+      });
     return pairs;
   }
 
@@ -441,9 +517,9 @@ class Neighborhoods {
     if (i != entry.other) lists.add(entry.other, reversed_image(i, entry));
   }
   template <class Entry>
-  static void unlink(ListPool<Entry>& lists, std::size_t i, const Entry& entry) {
-    const Image mine = entry.reversed_image(i);
-    lists.remove_if(entry.other, [&](const Image& known) { return known == mine; });
+  static void unlink(ListPool<Entry>& lists, std::size_t i, const Image& image) {
+    const Image mine = image.reversed_image(i);
+    lists.remove_if(image.other, [&](const Image& known) { return known == mine; });
   }
 
   const Shape& shape(std::size_t i) const { return shapes_[type_index_[i]]; }
@@ -453,10 +529,9 @@ class Neighborhoods {
   const TypeIndex& type_index_;
   ListPool<Neighbor<B>> lists_;
   std::vector<CapsuleOf> capsules_;  // of each type
-  std::vector<Pair> candidates_;     // of an update
-  std::vector<Neighbor<B>> previous_;
-  double largest_;
+  double largest_, smallest_;        // circumradius and inradius
   References references_;
+  Cells cells_;
   double margin_ = 0;
   std::unique_ptr<OuterLayer> outer_;
 };

@@ -34,8 +34,8 @@ TEST(CellGrid, FindsEveryImageOnceInBoxesOfAnySize) {
     const auto place = [&] {
       return Vec2(draw.uniform(-0.5, 0.5) * side, draw.uniform(-0.5, 0.5) * 1.7 * side);
     };
-    for (std::size_t i = 0; i < n; ++i) grid.insert(i, {points[i] = place()});
-    for (std::size_t i = 0; i < 3 * n; i += 2) grid.move(i % n, {points[i % n] = place()});
+    for (std::size_t i = 0; i < n; ++i) grid.insert(i, points[i] = place());
+    for (std::size_t i = 0; i < 3 * n; i += 2) grid.move(i % n, points[i % n] = place());
     for (int query = 0; query < 200; ++query) {
       const Vec2 at = 1.5 * place();
       const double within = draw.uniform(0.1, 1.5) * reach;
@@ -53,7 +53,7 @@ TEST(CellGrid, FindsEveryImageOnceInBoxesOfAnySize) {
 TEST(CellGrid, SeparationsBelongToTheImages) {
   const PeriodicBox<2> box(Vec2(3, 3));
   CellGrid<2> grid(box, 1, 1);
-  grid.insert(0, {Vec2(1.4, 0)});
+  grid.insert(0, Vec2(1.4, 0));
   int visits = 0;
   grid.for_each_near(Vec2(-1.4, 0), 1, [&](std::size_t, const Shift<2>& shift, const Vec2& d) {
     ++visits;
@@ -71,7 +71,7 @@ TEST(CellGrid, PointsOnCellFacesAreNotLost) {
   std::vector<Vec2> points;
   for (int x = -4; x < 4; ++x)
     for (int y = -4; y < 4; ++y) points.push_back(Vec2(x, y));
-  for (std::size_t i = 0; i < points.size(); ++i) grid.insert(i, {points[i]});
+  for (std::size_t i = 0; i < points.size(); ++i) grid.insert(i, points[i]);
   // Sites of the square lattice within 1, 2 and 3 spacings.
   const std::size_t sites[] = {5, 13, 29};
   for (const Vec2& point : points)
@@ -82,7 +82,7 @@ TEST(CellGrid, PointsOnCellFacesAreNotLost) {
 TEST(CellGrid, AVisitThatReturnsFalseEndsTheQuery) {
   const PeriodicBox<2> box(Vec2(5, 5));
   CellGrid<2> grid(box, 1, 10);
-  for (std::size_t i = 0; i < 10; ++i) grid.insert(i, {Vec2(0.1 * static_cast<double>(i), 0)});
+  for (std::size_t i = 0; i < 10; ++i) grid.insert(i, Vec2(0.1 * static_cast<double>(i), 0));
   int visits = 0;
   const auto stop_at_third = [&](std::size_t, const Shift<2>&, const Vec2&) {
     return ++visits < 3;

@@ -1,4 +1,4 @@
-// The contact screen: disks in closed form, pairs that have just collided, axes, lanes. That it is
+// The contact screen: pairs that have just collided, axes, lanes. That it is
 // never late whatever the axis is judged in tests/bench/contact_screen_truth_test.cpp.
 
 #include "core/contact/ellipse_contact_screen.h"
@@ -43,131 +43,18 @@ std::vector<double> times_of(Screen screen, int count) {
   return times;
 }
 
-// ---- Disks ----
-
-struct DiskPair {
-  Disk one, two;
-  Vec2 d;
-  Motion2 motion1, motion2;
-};
-
-DiskPair random_disks(Stream& draw) {
-  DiskPair pair;
-  pair.one.radius = draw.uniform(0.5, 1.5);
-  pair.two.radius = draw.uniform(0.1, 3);
-  const double reach = pair.one.radius + pair.two.radius;
-  pair.d = reach * (1 + std::pow(10, draw.uniform(-6, 1))) * random_direction(draw);
-  pair.motion1 = {{draw.normal(), draw.normal()}, 0};
-  pair.motion2 = {{draw.normal(), draw.normal()}, 0};
-  return pair;
-}
-
-/// The first time at which the centres are the reach apart, from |d + v t|² = reach²; infinite
-/// without. `height`: of the discriminant over b², small for a graze, which rounding may turn into a
-/// miss.
-struct Meeting {
-  long double time, height;
-};
-Meeting meeting(const DiskPair& pair, double contact_gap) {
-  using Real = long double;
-  const Real dx = pair.d.x(), dy = pair.d.y();
-  const Real vx = Real(pair.motion2.velocity.x()) - pair.motion1.velocity.x();
-  const Real vy = Real(pair.motion2.velocity.y()) - pair.motion1.velocity.y();
-  const Real reach = Real(pair.one.radius) + pair.two.radius + contact_gap;
-  const Real a = vx * vx + vy * vy, b = dx * vx + dy * vy, c = dx * dx + dy * dy - reach * reach;
-  const Real discriminant = b * b - a * c;
-  if (b >= 0 || discriminant < 0) return {infinity, std::abs(discriminant) / (b * b)};
-  return {(-b - std::sqrt(discriminant)) / a, discriminant / (b * b)};
-}
-
-// Of the sum in c = d² − reach² rounding leaves 3 ε d², of the products in the discriminant as much;
-// near a graze, at a height η of the discriminant, that makes the relative error ~ 8 ε (d²/c + 1/η).
-TEST(ContactScreenOfDisks, TellsTheTimeOfContact) {
-  constexpr double epsilon = std::numeric_limits<double>::epsilon();
-  constexpr int lanes = ContactScreen<Disk>::lanes;
-  Stream draw(31, Purpose::tests);
-  int met = 0, grazing = 0;
-  for (int trial = 0; trial < 3'000; ++trial) {
-    DiskPair of[lanes];
-    const DiskPair first = random_disks(draw);
-    const double contact_gap = tolerance::contact_gap(20);
-    ContactScreen<Disk> screen(ShapeCoefficients<Disk>(first.one), {Vec2::Zero(), 0}, first.motion1,
-                               {}, contact_gap);
-    double horizon[lanes];
-    for (int k = 0; k < lanes; ++k) {
-      of[k] = random_disks(draw);
-      of[k].one = first.one;
-      of[k].motion1 = first.motion1;
-      const double apart = of[k].one.radius + of[k].two.radius;
-      of[k].d *= std::max(1.0, 1.000001 * apart / of[k].d.norm());
-      horizon[k] = k % 2 ? 1e100 : draw.uniform(0, 5);
-      screen.set(k, {of[k].d, 3.0 * k}, of[k].motion2, ShapeCoefficients<Disk>(of[k].two), {},
-                 horizon[k]);
-    }
-    screen.evaluate(lanes);
-    const std::vector<double> times = times_of(screen, lanes);
-    for (int k = 0; k < lanes; ++k) {
-      const Meeting truth = meeting(of[k], contact_gap);
-      if (truth.height < 1e-9) {
-        ++grazing;
-        continue;
-      }
-      if (truth.time >= horizon[k]) {
-        EXPECT_EQ(times[k], infinity);
-        continue;
-      }
-      ++met;
-      const double reach = of[k].one.radius + of[k].two.radius;
-      const double c = of[k].d.squaredNorm() - reach * reach;
-      const double relative =
-          8 * epsilon * (of[k].d.squaredNorm() / c + 1 / static_cast<double>(truth.height));
-      EXPECT_NEAR(times[k], static_cast<double>(truth.time),
-                  relative * static_cast<double>(truth.time));
-    }
-  }
-  EXPECT_GT(met, 3'000);
-  EXPECT_LT(grazing, 5);
-}
-
-TEST(ContactScreenOfDisks, APairThatTouchesMeetsAtOnceIfItApproachesAndNeverIfItLeaves) {
-  const double contact_gap = tolerance::contact_gap(10);
-  for (const double gap : {1.2 * contact_gap, 0.8 * contact_gap, 0.0, -1e-9, -0.5}) {
-    ContactScreen<Disk> screen(ShapeCoefficients<Disk>({1}), {Vec2::Zero(), 0}, {Vec2::Zero(), 0},
-                               {}, contact_gap);
-    const Vec2 d(2 + gap, 0);
-    screen.set(0, {d, 0}, {Vec2(-0.1, 0.2), 0}, ShapeCoefficients<Disk>({1}), {}, infinity);
-    screen.set(1, {d, 0}, {Vec2(0.1, 0.2), 0}, ShapeCoefficients<Disk>({1}), {}, infinity);
-    screen.set(2, {d, 0}, {Vec2(0, 0), 0}, ShapeCoefficients<Disk>({1}), {}, infinity);
-    screen.evaluate(3);
-    const std::vector<double> times = times_of(screen, 3);
-    EXPECT_GE(times[0], 0);
-    EXPECT_LE(times[0], gap > contact_gap ? 10 * 0.2 * contact_gap + 1e-15 : 0);
-    EXPECT_EQ(times[1], infinity);
-    EXPECT_EQ(times[2], infinity);
-  }
-}
-
 // ---- Lanes ----
 
 template <class B>
 class LanesOfAScreen : public testing::Test {};
-using Bodies = testing::Types<Disk, Ellipse, GrowingEllipse>;
+using Bodies = testing::Types<Ellipse, GrowingEllipse>;
 TYPED_TEST_SUITE(LanesOfAScreen, Bodies);
-
-template <class B>
-BaseShape<B> round_shape(double radius) {
-  if constexpr (std::is_same_v<B, Disk>)
-    return {radius};
-  else
-    return {radius, radius};
-}
 
 // Earlier contents of a lane, and empty lanes, have no effect: bodies that touch
 // at once stand in all of them.
 TYPED_TEST(LanesOfAScreen, BeyondTheCountNeverWin) {
   constexpr int lanes = ContactScreen<TypeParam>::lanes;
-  const auto shape = round_shape<TypeParam>(1);
-  const ShapeCoefficients<BaseShape<TypeParam>> coefficients(shape);
+  const ShapeCoefficients<Ellipse> coefficients(Ellipse{1, 1});
   for (const bool filled : {true, false})
     for (int count = 0; count <= lanes; ++count) {
       ContactScreen<TypeParam> screen(coefficients, {Vec2::Zero(), 0}, {Vec2::Zero(), 0}, {},

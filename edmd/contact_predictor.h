@@ -1,0 +1,252 @@
+#pragma once
+
+#include <algorithm>
+#include <span>
+
+#include "core/contact/contact_queries.h"
+#include "core/contact/ellipse_contact_screen.h"
+#include "core/contact/ellipsoid_contact_screen.h"
+#include "core/contact/round_contacts.h"
+#include "edmd/engine.h"
+#include "edmd/event.h"
+
+/// @file
+/// The first contact of a particle with its neighbours.
+///
+/// Of every pair of neighbours (i, j), one has predicted an event no later than their first contact. A prediction for i
+/// therefore never searches beyond the time up to which the contacts of j are known. A predicted contact whose partner
+/// has changed its motion in the meantime is stale: when its time comes, the particle is predicted again.
+namespace vitrel {
+
+/// The neighbours that a prediction tests: all, up to the time that they know themselves; or, when all particles are
+/// predicted in parallel, only those with higher indices, so that each pair is tested once.
+enum class PredictionScope { all_neighbors, higher_indices };
+
+/// A pair whose contact time needs a search, or which overlaps.
+template <Body B>
+class ContactSearch {
+ public:
+  using State = SimulationState<B>;
+  using Index = typename State::Index;
+  static constexpr int dimension = State::dimension;
+
+  ContactSearch(const State& state, OnOverlap on_overlap)
+      : state_(state), on_overlap_(on_overlap) {}
+
+  /// Replaces `best` by the first contact with this neighbour, if that is earlier than `best` and the horizon.
+  void search(Index i, const Pose<dimension>& mine, const Neighbor<B>& neighbor, double horizon,
+              TimedEvent<B>& best, RunCounters& counters) const {
+    const Index j = neighbor.other;
+    const auto flight = [&](Index k, const Pose<dimension>& pose) {
+      return Flight<B>{body_now(k), pose, state_.particles[k].motion()};
+    };
+    Pose<dimension> theirs = state_.pose_now(j);
+    theirs.position += state_.box.translation(neighbor.shift());
+    const Prediction<dimension> contact =
+        first_contact(flight(i, mine), flight(j, theirs), std::min(horizon, best.time) - state_.now,
+                      state_.contact_gap, neighbor.warm_start);
+    ++counters.searches;
+    counters.steps += static_cast<std::uint64_t>(contact.steps);
+    if (contact.outcome == Outcome::none) return;
+    using Type = typename Event<B>::Type;
+    Type type = Type::collision;
+    double time = state_.now + contact.time;
+    if (contact.outcome == Outcome::not_converged) type = Type::repredict;
+    if (contact.outcome == Outcome::overlap) {
+      const double watch = time_to_watch(i, j, theirs.position - mine.position);
+      type = watch > 0 ? Type::repredict : Type::overlap;
+      time = state_.now + watch;
+    }
+    if (time < best.time)
+      best = {time, Event<B>::with(type, neighbor, state_.version[j], contact.normal)};
+  }
+
+ private:
+  B body_now(Index i) const {
+    if constexpr (grows<B>)
+      return {state_.shape(i), state_.size_now().size, state_.size_now().growth_rate};
+    else
+      return {state_.shape(i)};
+  }
+
+  // While the centres of an overlapping pair recede, the correction waits: for this fraction of the time in which they
+  // move by their own width.
+  double time_to_watch(Index i, Index j, const Vec<dimension>& d) const {
+    constexpr double fraction = 0.05;
+    const Vec<dimension> relative = state_.particles[j].velocity - state_.particles[i].velocity;
+    if (on_overlap_ == OnOverlap::stop || !(d.dot(relative) > 0)) return 0;
+    return fraction * (state_.shape(i).inradius() + state_.shape(j).inradius()) / relative.norm();
+  }
+
+  const State& state_;
+  OnOverlap on_overlap_;
+};
+
+/// Bodies that are not round. All neighbours are screened (contact_screen.h), and only the candidates that could come
+/// first are searched, in the order of their lower bounds. A contact whose lower bound is far ahead is not searched,
+/// because other events overtake most of these; the particle is predicted again at that time.
+template <Body B>
+class ContactPredictor {
+ public:
+  using State = SimulationState<B>;
+  using Index = typename State::Index;
+  using Scope = PredictionScope;
+  static constexpr int dimension = State::dimension;
+
+  ContactPredictor(State& state, OnOverlap on_overlap)
+      : state_(state), search_(state, on_overlap) {}
+
+  /// The earlier of `known` and the first contact of particle i with its neighbours from number `first` on, before the
+  /// horizon.
+  template <Scope scope>
+  TimedEvent<B> predict(Index i, const TimedEvent<B>& known, std::size_t first, double horizon,
+                        RunCounters& counters) const {
+    TimedEvent<B> best = known;
+    const Pose<dimension> mine = state_.pose_now(i);
+    Batch batch{ContactScreen<B>(state_.type(i).coefficients, mine, state_.particles[i].motion(),
+                                 state_.size_now(), state_.contact_gap)};
+    const std::size_t neighbors = state_.neighborhoods->of(i).size();
+    for (std::size_t next = first; next < neighbors;) {
+      next = gather<scope>(i, mine, std::min(best.time, horizon), next, batch);
+      batch.screen.evaluate(batch.count);
+      counters.predictions += static_cast<std::uint64_t>(batch.count);
+      for (int k = 0; k < batch.count; ++k)
+        batch.neighbor[k]->warm_start = batch.screen.warm_start(k);
+      search_earliest_first(i, mine, batch, best, counters);
+    }
+    return best;
+  }
+
+ private:
+  /// A screen in progress, with the neighbours in its lanes.
+  struct Batch {
+    ContactScreen<B> screen;
+    Neighbor<B>* neighbor[ContactScreen<B>::lanes] = {};
+    double horizon[ContactScreen<B>::lanes] = {};  // contacts after these times do not matter
+    int count = 0;
+  };
+
+  // Fills the batch starting at neighbour `next`; returns the first neighbour not included.
+  template <Scope scope>
+  std::size_t gather(Index i, const Pose<dimension>& mine, double latest, std::size_t next,
+                     Batch& batch) const {
+    constexpr double forever = 1e100;
+    const std::span<Neighbor<B>> neighbors = state_.neighborhoods->of(i);
+    int k = 0;
+    for (; next < neighbors.size() && k < ContactScreen<B>::lanes; ++next) {
+      Neighbor<B>& neighbor = neighbors[next];
+      const Index j = neighbor.other;
+      if (scope == Scope::higher_indices && j < i) continue;
+      batch.horizon[k] = scope == Scope::all_neighbors ? partner_horizon(j, latest) : latest;
+      Pose<dimension> pose = state_.pose_now(j);
+      pose.position += state_.box.translation(neighbor.shift()) - mine.position;
+      batch.screen.set(k, pose, state_.particles[j].motion(), state_.type(j).coefficients,
+                       neighbor.warm_start, std::min(batch.horizon[k] - state_.now, forever));
+      batch.neighbor[k++] = &neighbor;
+    }
+    batch.count = k;
+    return next;
+  }
+
+  double partner_horizon(Index j, double latest) const {
+    return std::min(latest, state_.particles[j].known_until);
+  }
+
+  void search_earliest_first(Index i, const Pose<dimension>& mine, Batch& batch,
+                             TimedEvent<B>& best, RunCounters& counters) const {
+    for (int done = 0; done < batch.count; ++done) {
+      const auto [wait, k] = batch.screen.earliest();
+      if (!(state_.now + wait < best.time)) return;
+      if (wait > mean_free_time())
+        best = {state_.now + wait, {}};  // predict again then
+      else
+        search_.search(i, mine, *batch.neighbor[k], batch.horizon[k], best, counters);
+      batch.screen.discard(k);
+    }
+  }
+
+  // The mean time between two collisions of a particle in this block, once it is known. A contact that cannot
+  // occur within this time is not searched yet. The speed-up has a flat maximum around one mean free time
+  // (bench/engine.md).
+  double mean_free_time() const {
+    const auto particles = static_cast<double>(state_.size());
+    return state_.collisions < particles ? State::never
+                                         : 0.5 * particles * state_.now / state_.collisions;
+  }
+
+  State& state_;
+  ContactSearch<B> search_;
+};
+
+/// Disks and spheres: all contacts are computed, also those after the particle leaves its neighbourhood. When it does,
+/// only contacts with new neighbours remain to be predicted.
+template <RoundBody B>
+class ContactPredictor<B> {
+ public:
+  using State = SimulationState<B>;
+  using Index = typename State::Index;
+  using Scope = PredictionScope;
+  static constexpr int dimension = State::dimension;
+
+  ContactPredictor(State& state, OnOverlap on_overlap)
+      : state_(state), search_(state, on_overlap) {}
+
+  /// As above.
+  template <Scope scope>
+  TimedEvent<B> predict(Index i, const TimedEvent<B>& known, std::size_t first, double horizon,
+                        RunCounters& counters) const {
+    const Pose<dimension> mine = state_.pose_now(i);
+    const std::span<const Neighbor<B>> neighbors = state_.neighborhoods->of(i);
+    EarliestRoundContact<B> earliest(state_.type(i).coefficients.radius, mine.position,
+                                     state_.particles[i].velocity, state_.now, state_.size_now(),
+                                     state_.contact_gap);
+    for (std::size_t next = first; next < neighbors.size(); next += lanes)
+      test<scope>(i, neighbors, next, earliest);
+    counters.predictions += neighbors.size() - first;
+    const auto [wait, number] = earliest.earliest();
+    const double time = state_.now + wait;
+    if (!(time < std::min(known.time, horizon))) return known;
+    const Neighbor<B>& neighbor = neighbors[std::min(number, neighbors.size() - 1)];
+    TimedEvent<B> best = known;
+    if (wait > 0)
+      best = {time, Event<B>::with(Event<B>::Type::collision, neighbor,
+                                   state_.version[neighbor.other], Vec<dimension>::Zero())};
+    else
+      search_.search(i, mine, neighbor, horizon, best, counters);  // touches or overlaps
+    return best;
+  }
+
+ private:
+  static constexpr int lanes = simd_width;
+  using Particle = typename State::Particle;
+  static_assert(offsetof(Particle, known_until) ==
+                (EarliestRoundContact<B>::record_size - 1) * sizeof(double));
+
+  // Tests up to four neighbours; if there are fewer, the last one several times.
+  template <Scope scope>
+  void test(Index i, std::span<const Neighbor<B>> neighbors, std::size_t first,
+            EarliestRoundContact<B>& earliest) const {
+    const double* record[lanes];
+    Particle copy[lanes];
+    SimdBatch radius(state_.type(i).coefficients.radius);
+    for (int k = 0; k < lanes; ++k) {
+      const Neighbor<B>& neighbor = neighbors[std::min(first + k, neighbors.size() - 1)];
+      const Particle* partner = &state_.particles[neighbor.other];
+      if (scope == Scope::higher_indices || neighbor.is_shifted()) {
+        copy[k] = *partner;
+        copy[k].position += state_.box.translation(neighbor.shift());
+        if (scope == Scope::higher_indices)
+          copy[k].known_until = neighbor.other < i ? -State::never : State::never;
+        partner = &copy[k];
+      }
+      record[k] = partner->position.data();
+      if (state_.types.size() > 1) radius.set(k, state_.type(neighbor.other).coefficients.radius);
+    }
+    earliest.test(record, radius, first);
+  }
+
+  State& state_;
+  ContactSearch<B> search_;
+};
+
+}  // namespace vitrel
