@@ -22,6 +22,38 @@ namespace vitrel {
 /// predicted in parallel, only those with higher indices, so that each pair is tested once.
 enum class PredictionScope { all_neighbors, higher_indices };
 
+/// Four neighbours of a particle from number `first` on; if there are fewer, the last one several times.
+template <Body B>
+class NeighborBatch {
+ public:
+  static constexpr int lanes = simd_width;
+  const FlightRecord<B>*
+      partner[lanes];  ///< at their images; contacts after `known_until` do not matter
+  const WarmStart<B>* warm_start[lanes];
+  int count;
+
+  template <PredictionScope scope>
+  VITREL_INLINE void load(const SimulationState<B>& state, std::uint32_t i,
+                          std::span<const Neighbor<B>> neighbors, std::size_t first) {
+    count = static_cast<int>(std::min<std::size_t>(lanes, neighbors.size() - first));
+    for (int k = 0; k < lanes; ++k) {
+      const Neighbor<B>& neighbor = neighbors[std::min(first + k, neighbors.size() - 1)];
+      partner[k] = &state.particles[neighbor.other];
+      warm_start[k] = &neighbor.warm_start;
+      if (scope == PredictionScope::all_neighbors && !neighbor.is_shifted()) continue;
+      copy_[k] = *partner[k];
+      copy_[k].position += state.box.translation(neighbor.shift());
+      if (scope == PredictionScope::higher_indices)
+        copy_[k].known_until =
+            neighbor.other < i ? -SimulationState<B>::never : SimulationState<B>::never;
+      partner[k] = &copy_[k];
+    }
+  }
+
+ private:
+  FlightRecord<B> copy_[lanes];
+};
+
 /// A pair whose contact time needs a search, or which overlaps.
 template <Body B>
 class ContactSearch {
@@ -102,66 +134,44 @@ class ContactPredictor {
   TimedEvent<B> predict(Index i, const TimedEvent<B>& known, std::size_t first, double horizon,
                         RunCounters& counters) const {
     TimedEvent<B> best = known;
-    const Pose<dimension> mine = state_.pose_now(i);
-    Batch batch{ContactScreen<B>(state_.type(i).coefficients, mine, state_.particles[i].motion(),
-                                 state_.size_now(), state_.contact_gap)};
-    const std::size_t neighbors = state_.neighborhoods->of(i).size();
-    for (std::size_t next = first; next < neighbors;) {
-      next = gather<scope>(i, mine, std::min(best.time, horizon), next, batch);
-      batch.screen.evaluate(batch.count);
+    const typename State::Particle& particle = state_.particles[i];
+    const auto mine = flight_record<B>(particle.pose_at(state_.now), particle.motion(), state_.now);
+    ContactScreen<B> screen(state_.type(i).coefficients, mine, state_.now, state_.size_now(),
+                            state_.contact_gap);
+    const std::span<Neighbor<B>> neighbors = state_.neighborhoods->of(i);
+    NeighborBatch<B> batch;
+    for (std::size_t next = first; next < neighbors.size(); next += lanes) {
+      batch.template load<scope>(state_, i, neighbors, next);
+      if (state_.types.size() > 1)
+        for (int k = 0; k < batch.count; ++k)
+          screen.set_shape(k, state_.type(neighbors[next + k].other).coefficients);
+      const double latest = std::min(best.time, horizon);
+      screen.load(batch.partner, batch.warm_start, latest);
+      screen.evaluate(batch.count);
       counters.predictions += static_cast<std::uint64_t>(batch.count);
-      for (int k = 0; k < batch.count; ++k)
-        batch.neighbor[k]->warm_start = batch.screen.warm_start(k);
-      search_earliest_first(i, mine, batch, best, counters);
+      for (int k = 0; k < batch.count; ++k) neighbors[next + k].warm_start = screen.warm_start(k);
+      search_earliest_first(i, mine.pose(), neighbors.subspan(next), batch, latest, screen, best,
+                            counters);
     }
     return best;
   }
 
  private:
-  /// A screen in progress, with the neighbours in its lanes.
-  struct Batch {
-    ContactScreen<B> screen;
-    Neighbor<B>* neighbor[ContactScreen<B>::lanes] = {};
-    double horizon[ContactScreen<B>::lanes] = {};  // contacts after these times do not matter
-    int count = 0;
-  };
+  static constexpr int lanes = simd_width;
 
-  // Fills the batch starting at neighbour `next`; returns the first neighbour not included.
-  template <Scope scope>
-  std::size_t gather(Index i, const Pose<dimension>& mine, double latest, std::size_t next,
-                     Batch& batch) const {
-    constexpr double forever = 1e100;
-    const std::span<Neighbor<B>> neighbors = state_.neighborhoods->of(i);
-    int k = 0;
-    for (; next < neighbors.size() && k < ContactScreen<B>::lanes; ++next) {
-      Neighbor<B>& neighbor = neighbors[next];
-      const Index j = neighbor.other;
-      if (scope == Scope::higher_indices && j < i) continue;
-      batch.horizon[k] = scope == Scope::all_neighbors ? partner_horizon(j, latest) : latest;
-      Pose<dimension> pose = state_.pose_now(j);
-      pose.position += state_.box.translation(neighbor.shift()) - mine.position;
-      batch.screen.set(k, pose, state_.particles[j].motion(), state_.type(j).coefficients,
-                       neighbor.warm_start, std::min(batch.horizon[k] - state_.now, forever));
-      batch.neighbor[k++] = &neighbor;
-    }
-    batch.count = k;
-    return next;
-  }
-
-  double partner_horizon(Index j, double latest) const {
-    return std::min(latest, state_.particles[j].known_until);
-  }
-
-  void search_earliest_first(Index i, const Pose<dimension>& mine, Batch& batch,
-                             TimedEvent<B>& best, RunCounters& counters) const {
+  void search_earliest_first(Index i, const Pose<dimension>& mine,
+                             std::span<const Neighbor<B>> neighbors, const NeighborBatch<B>& batch,
+                             double latest, ContactScreen<B>& screen, TimedEvent<B>& best,
+                             RunCounters& counters) const {
     for (int done = 0; done < batch.count; ++done) {
-      const auto [wait, k] = batch.screen.earliest();
+      const auto [wait, k] = screen.earliest();
       if (!(state_.now + wait < best.time)) return;
       if (wait > mean_free_time())
         best = {state_.now + wait, {}};  // predict again then
       else
-        search_.search(i, mine, *batch.neighbor[k], batch.horizon[k], best, counters);
-      batch.screen.discard(k);
+        search_.search(i, mine, neighbors[k], std::min(latest, batch.partner[k]->known_until), best,
+                       counters);
+      screen.discard(k);
     }
   }
 
@@ -200,8 +210,15 @@ class ContactPredictor<B> {
     EarliestRoundContact<B> earliest(state_.type(i).coefficients.radius, mine.position,
                                      state_.particles[i].velocity, state_.now, state_.size_now(),
                                      state_.contact_gap);
-    for (std::size_t next = first; next < neighbors.size(); next += lanes)
-      test<scope>(i, neighbors, next, earliest);
+    SimdBatch radius(state_.type(i).coefficients.radius);
+    NeighborBatch<B> batch;
+    for (std::size_t next = first; next < neighbors.size(); next += simd_width) {
+      batch.template load<scope>(state_, i, neighbors, next);
+      if (state_.types.size() > 1)
+        for (int k = 0; k < batch.count; ++k)
+          radius.set(k, state_.type(neighbors[next + k].other).coefficients.radius);
+      earliest.test(batch.partner, radius, next);
+    }
     counters.predictions += neighbors.size() - first;
     const auto [wait, number] = earliest.earliest();
     const double time = state_.now + wait;
@@ -217,34 +234,6 @@ class ContactPredictor<B> {
   }
 
  private:
-  static constexpr int lanes = simd_width;
-  using Particle = typename State::Particle;
-  static_assert(offsetof(Particle, known_until) ==
-                (EarliestRoundContact<B>::record_size - 1) * sizeof(double));
-
-  // Tests up to four neighbours; if there are fewer, the last one several times.
-  template <Scope scope>
-  void test(Index i, std::span<const Neighbor<B>> neighbors, std::size_t first,
-            EarliestRoundContact<B>& earliest) const {
-    const double* record[lanes];
-    Particle copy[lanes];
-    SimdBatch radius(state_.type(i).coefficients.radius);
-    for (int k = 0; k < lanes; ++k) {
-      const Neighbor<B>& neighbor = neighbors[std::min(first + k, neighbors.size() - 1)];
-      const Particle* partner = &state_.particles[neighbor.other];
-      if (scope == Scope::higher_indices || neighbor.is_shifted()) {
-        copy[k] = *partner;
-        copy[k].position += state_.box.translation(neighbor.shift());
-        if (scope == Scope::higher_indices)
-          copy[k].known_until = neighbor.other < i ? -State::never : State::never;
-        partner = &copy[k];
-      }
-      record[k] = partner->position.data();
-      if (state_.types.size() > 1) radius.set(k, state_.type(neighbor.other).coefficients.radius);
-    }
-    earliest.test(record, radius, first);
-  }
-
   State& state_;
   ContactSearch<B> search_;
 };

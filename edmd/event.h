@@ -20,12 +20,12 @@ struct alignas(32) Event {
   struct ContactNormal {
     Vector value = Vector::Zero();
   };
+  struct Empty {};
 
   Type type = Type::repredict;
   std::uint32_t partner_version = 0;
   typename State::Image partner;
-  [[no_unique_address]] std::conditional_t<State::is_round, typename State::Empty, ContactNormal>
-      normal;
+  [[no_unique_address]] std::conditional_t<State::is_round, Empty, ContactNormal> normal;
 
   static Event with(Type type, const typename State::Image& partner, std::uint32_t version,
                     const Vector& normal) {

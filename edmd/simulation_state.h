@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/contact/contact_screen.h"
+#include "core/contact/flight_record.h"
 #include "core/neighbors/neighborhood.h"
 #include "core/neighbors/spatial_order.h"
 #include "core/state/configuration.h"
@@ -32,51 +33,13 @@ struct SimulationState {
   /// Disks and spheres: contacts are known in closed form.
   static constexpr bool is_round = RoundBody<B>;
 
-  struct Empty {};  // replaces members that a body does not have
-
+  using Particle = FlightRecord<B>;
+  /// Of a sphere; other bodies have theirs in the record.
   struct Rotation {
     Orientation<dimension> orientation;
     AngularVelocity<dimension> angular_velocity;
   };
-  /// Spheres rotate uniformly, and no event depends on it: predictions need not read their rotation.
-  static constexpr bool rotation_is_separate = dimension == 3 && is_round;
 
-  /// The part of a particle that predictions read: one cache line, for ellipsoids two.
-  struct alignas(64) Particle {
-    Vector position, velocity;
-    double time;         // local clock of position and orientation
-    double known_until;  // its contacts up to this time are known
-    [[no_unique_address]] std::conditional_t<rotation_is_separate, Empty, Rotation> rotation;
-
-    Orientation<dimension> orientation() const {
-      if constexpr (rotation_is_separate)
-        return Orientation<dimension>::Identity();
-      else
-        return rotation.orientation;
-    }
-    AngularVelocity<dimension> angular_velocity() const {
-      if constexpr (rotation_is_separate)
-        return AngularVelocity<dimension>::Zero();
-      else
-        return rotation.angular_velocity;
-    }
-    Pose<dimension> pose() const { return {position, orientation()}; }
-    Pose<dimension> pose_at(double t) const {
-      if constexpr (rotation_is_separate)
-        return {position + (t - time) * velocity, orientation()};
-      else
-        return advanced(pose(), motion(), t - time);
-    }
-    Motion<dimension> motion() const { return {velocity, angular_velocity()}; }
-    void set_pose(const Pose<dimension>& pose) {
-      position = pose.position;
-      if constexpr (!rotation_is_separate) rotation.orientation = orientation_of(pose);
-    }
-    void set_motion(const Motion<dimension>& motion) {
-      velocity = motion.velocity;
-      if constexpr (!rotation_is_separate) rotation.angular_velocity = motion.angular_velocity;
-    }
-  };
   /// The data shared by all particles of one shape and mass.
   struct ParticleType {
     ShapeCoefficients<Shape> coefficients;
@@ -219,18 +182,13 @@ void SimulationState<B>::load_particles(const Configuration<dimension>& configur
   image.clear();
   version.assign(external_id.size(), 0);
   for (const Index k : external_id) {
-    Vector position = configuration.position[k];
+    Pose<dimension> pose = configuration.pose(k);
     Shift<dimension> boxes = configuration.image[k];
-    box.wrap(position, boxes);
-    const Rotation rotation{orientation_of(configuration.pose(k)),
-                            configuration.angular_velocity[k]};
-    const Vector& velocity = configuration.velocity[k];
-    if constexpr (rotation_is_separate) {
-      particles.push_back({position, velocity, 0, never, {}});
-      rotations.push_back(rotation);
-    } else {
-      particles.push_back({position, velocity, 0, never, rotation});
-    }
+    box.wrap(pose.position, boxes);
+    const AngularVelocity<dimension>& angular_velocity = configuration.angular_velocity[k];
+    particles.push_back(flight_record<B>(pose, {configuration.velocity[k], angular_velocity}));
+    if constexpr (!Particle::has_rotation)
+      rotations.push_back({orientation_of(pose), angular_velocity});
     image.push_back(boxes);
   }
 }
@@ -272,7 +230,7 @@ void SimulationState<B>::write(Configuration<dimension>& configuration) const {
     const Index k = external_id[i];
     Pose<dimension> pose = pose_now(i);
     configuration.angular_velocity[k] = particles[i].angular_velocity();
-    if constexpr (rotation_is_separate) {
+    if constexpr (!Particle::has_rotation) {
       const Rotation rotation = rotation_now(i);
       pose.orientation = rotation.orientation;
       configuration.angular_velocity[k] = rotation.angular_velocity;
@@ -291,7 +249,7 @@ void SimulationState<B>::set_velocities(const Configuration<dimension>& configur
   for (Index i = 0; i < size(); ++i) {
     const Motion<dimension> motion{configuration.velocity[external_id[i]],
                                    configuration.angular_velocity[external_id[i]]};
-    if constexpr (rotation_is_separate)
+    if constexpr (!Particle::has_rotation)
       rotations[i] = {rotation_now(i).orientation, motion.angular_velocity};
     advance_to_now(i);
     particles[i].set_motion(motion);

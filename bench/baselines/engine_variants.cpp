@@ -31,9 +31,9 @@ template <>
 struct ShapeOf<bench::WindowedEllipse> : ShapeOf<Ellipse> {};
 
 template <>
-class ContactScreen<bench::SearchedEllipse> : public bench::NoLowerBound {
+class ContactScreen<bench::SearchedEllipse> : public bench::NoLowerBound<bench::SearchedEllipse> {
  public:
-  using NoLowerBound::NoLowerBound;
+  using NoLowerBound<bench::SearchedEllipse>::NoLowerBound;
 };
 
 template <>
@@ -86,9 +86,21 @@ double Neighborhoods<bench::RoundListedEllipse>::choose_gap(double target) {
   return 2 * Neighborhoods<Ellipse>(box_, shapes, type_index_, poses, target).margin();
 }
 
+// As for every body, but what the partners know is no limit.
 template <>
-double ContactPredictor<bench::UnlimitedEllipse>::partner_horizon(Index, double latest) const {
-  return latest;
+template <>
+void NeighborBatch<bench::UnlimitedEllipse>::load<PredictionScope::all_neighbors>(
+    const SimulationState<bench::UnlimitedEllipse>& state, std::uint32_t /*i*/,
+    std::span<const Neighbor<bench::UnlimitedEllipse>> neighbors, std::size_t first) {
+  count = static_cast<int>(std::min<std::size_t>(lanes, neighbors.size() - first));
+  for (std::size_t k = 0; k < lanes; ++k) {
+    const auto& neighbor = neighbors[std::min(first + k, neighbors.size() - 1)];
+    copy_[k] = state.particles[neighbor.other];
+    copy_[k].position += state.box.translation(neighbor.shift());
+    copy_[k].known_until = std::numeric_limits<double>::infinity();
+    partner[k] = &copy_[k];
+    warm_start[k] = &neighbor.warm_start;
+  }
 }
 
 template <>

@@ -27,9 +27,9 @@ struct ShapeOf<bench::PredictedEllipse> : ShapeOf<Ellipse> {};
 
 /// Every pair is the method's to judge.
 template <>
-class ContactScreen<bench::PredictedEllipse> : public bench::NoLowerBound {
+class ContactScreen<bench::PredictedEllipse> : public bench::NoLowerBound<bench::PredictedEllipse> {
  public:
-  using NoLowerBound::NoLowerBound;
+  using NoLowerBound<bench::PredictedEllipse>::NoLowerBound;
 };
 
 }  // namespace vitrel

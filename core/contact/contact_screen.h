@@ -4,6 +4,7 @@
 
 #include "core/contact/first_contact.h"
 #include "core/contact/first_root.h"
+#include "core/contact/flight_record.h"
 #include "core/contact/simd_batch.h"
 
 /// @file
@@ -44,19 +45,26 @@ class CandidateTimes {
   }
 
  protected:
-  /// Sets the first `count` lanes; the others have no contact.
-  VITREL_INLINE void set_times(const SimdBatch& times, int count) {
-    times_ = select(lane_indices<simd_width>() < count, times, no_contact);
+  /// Sets the first `count` lanes with a horizon that is not past; the others have no contact.
+  VITREL_INLINE void set_times(const SimdBatch& times, const SimdBatch& horizon, int count) {
+    times_ = select(lane_indices<simd_width>() < count && horizon >= 0, times, no_contact);
   }
 
  private:
   SimdBatch times_;
 };
 
+/// From now to the earlier of `latest` and `known_until`, but finite.
+VITREL_INLINE SimdBatch horizon_of(const SimdBatch& known_until, double latest, double now) {
+  constexpr double forever = 1e100;
+  return min(min(known_until, SimdBatch(latest)) - now, SimdBatch(forever));
+}
+
 /// The axis along which a pair was screened last.
 template <int Dim>
 struct ScreenAxis {
   Vec<Dim> axis;
+  const double* numbers() const { return axis.data(); }
   /// The same seen from the other body.
   friend ScreenAxis reversed(const ScreenAxis& known) { return {-known.axis}; }
 };
@@ -74,15 +82,16 @@ template <Body B>
 using WarmStart = std::conditional_t<RoundBody<B>, detail::NoAxis<B::dimension>,
                                      detail::ScreenAxis<B::dimension>>;
 
-/// The screen of a body against up to `lanes` partners. A growing body is its `BaseShape<B>` times the
-/// common size.
+/// The screen of a body against four partners. A growing body is its `BaseShape<B>` times the common size.
 ///
-///     set(k, pose, motion, coefficients, warm_start, horizon)  fills lane k: pose relative to the centre of
-///                       the body, current motion, and time up to which to screen
-///     evaluate(count)   computes the times of the first `count` lanes: infinite if there is no contact up to
-///                       the horizon, 0 if the axis does not separate the pair
+///     (coefficients, mine, now, common size, contact gap)  partners have the same coefficients
+///     set_shape(k, coefficients)   unless they have others
+///     load(partners, warm starts, latest)   screens each up to the earlier of `latest` and the time up to which it
+///                                  knows its contacts; positions relative to the same box as `mine`
+///     evaluate(count)   computes the times of the first `count` lanes from now: infinite if there is no contact, 0
+///                       if the axis does not separate the pair
 ///     earliest, discard the lanes in the order of their times
-///     warm_start(k)     what to pass to `set` next time
+///     warm_start(k)     what to pass to `load` next time
 template <Body B>
 class ContactScreen;
 

@@ -19,69 +19,78 @@ class ContactScreen<B> : public detail::CandidateTimes {
  public:
   static constexpr int lanes = simd_width;
 
-  ContactScreen(const ShapeCoefficients<Ellipse>& coefficients, const Pose2& pose,
-                const Motion2& motion, const CommonSize& common, double contact_gap)
+  /// `mine` at the time `now`.
+  ContactScreen(const ShapeCoefficients<Ellipse>& coefficients, const FlightRecord<B>& mine,
+                double now, const CommonSize& common, double contact_gap)
       : coefficients_(coefficients),
-        motion_(motion),
+        mine_(mine),
+        now_(now),
         common_(common),
-        min_gap_(min_gap_fraction * contact_gap) {
+        min_gap_(min_gap_fraction * contact_gap),
+        bb_(coefficients.bb),
+        aa_minus_bb_(coefficients.aa_minus_bb),
+        aabb_(coefficients.aabb),
+        max_second_derivative_(coefficients.max_second_derivative) {
     PairArray x, y;
-    directions<PairArray>({pose.angle, pose.angle}, x, y);
+    directions<PairArray>({mine.orientation(), mine.orientation()}, x, y);
     ux_ = x[0];
     uy_ = y[0];
   }
 
-  VITREL_INLINE void set(int k, const Pose2& pose, const Motion2& motion,
-                         const ShapeCoefficients<Ellipse>& coefficients,
-                         const WarmStart<B>& warm_start, double horizon) {
-    dx_[k] = pose.position.x();
-    dy_[k] = pose.position.y();
-    vx_[k] = motion.velocity.x() - motion_.velocity.x();
-    vy_[k] = motion.velocity.y() - motion_.velocity.y();
-    angle_[k] = pose.angle;
-    omega_[k] = motion.angular_velocity;
-    bb_[k] = coefficients.bb;
-    aa_minus_bb_[k] = coefficients.aa_minus_bb;
-    aabb_[k] = coefficients.aabb;
-    max_second_derivative_[k] = coefficients.max_second_derivative;
-    nx_[k] = warm_start.axis.x();
-    ny_[k] = warm_start.axis.y();
-    horizon_[k] = horizon;
+  void set_shape(int k, const ShapeCoefficients<Ellipse>& coefficients) {
+    bb_.set(k, coefficients.bb);
+    aa_minus_bb_.set(k, coefficients.aa_minus_bb);
+    aabb_.set(k, coefficients.aabb);
+    max_second_derivative_.set(k, coefficients.max_second_derivative);
+  }
+
+  VITREL_INLINE void load(const FlightRecord<B>* const (&partner)[lanes],
+                          const WarmStart<B>* const (&warm_start)[lanes], double latest) {
+    using Layout = RecordLayout<2>;
+    SimdBatch record[Layout::size], axis[2];
+    detail::load_columns(partner, record);
+    detail::load_columns(warm_start, axis);
+    const SimdBatch since = now_ - record[Layout::time];
+    const SimdBatch &vx = record[Layout::velocity], &vy = record[Layout::velocity + 1];
+    omega_ = record[Layout::angular_velocity];
+    dx_ = (record[0] + since * vx) - mine_.position.x();
+    dy_ = (record[1] + since * vy) - mine_.position.y();
+    vx_ = vx - mine_.velocity.x();
+    vy_ = vy - mine_.velocity.y();
+    angle_ = record[Layout::orientation] + since * omega_;
+    horizon_ = detail::horizon_of(record[Layout::known_until], latest, now_);
+    nx_ = axis[0];
+    ny_ = axis[1];
   }
   WarmStart<B> warm_start(int k) const { return {{nx_[k], ny_[k]}}; }
 
   VITREL_FLATTEN void evaluate(int count) {
-    const SimdBatch nx = nx_.load(), ny = ny_.load(), dx = dx_.load(), dy = dy_.load();
-    const SimdBatch bb = bb_.load(), aa_minus_bb = aa_minus_bb_.load(), omega2 = omega_.load();
-    const SimdBatch omega1 = motion_.angular_velocity, horizon = horizon_.load();
+    const SimdBatch nx = nx_, ny = ny_, horizon = horizon_;
+    const SimdBatch omega1 = mine_.angular_velocity(), omega2 = omega_;
     SimdBatch ux, uy;
-    directions<SimdBatch>(angle_.load(), ux, uy);
+    directions<SimdBatch>(angle_, ux, uy);
     const auto one = support_along<SimdBatch>(coefficients_.bb, coefficients_.aa_minus_bb,
                                               coefficients_.aabb, ux_, uy_, nx, ny);
-    const auto two = support_along<SimdBatch>(bb, aa_minus_bb, aabb_.load(), ux, uy, nx, ny);
+    const auto two = support_along<SimdBatch>(bb_, aa_minus_bb_, aabb_, ux, uy, nx, ny);
     const SimdBatch heights = one.height + two.height;
     const SimdBatch spin = omega1 * one.turning + omega2 * two.turning;
-    const SimdBatch gap = nx * dx + ny * dy - sized(heights);
-    SimdBatch rate = nx * vx_.load() + ny * vy_.load() + sized(spin);
+    const SimdBatch gap = nx * dx_ + ny * dy_ - sized(heights);
+    SimdBatch rate = nx * vx_ + ny * vy_ + sized(spin);
     SimdBatch acceleration =
         support_acceleration_bound<SimdBatch>(
             one, coefficients_.bb, coefficients_.aa_minus_bb, omega1,
             omega1 * omega1 * coefficients_.max_second_derivative, horizon) +
-        support_acceleration_bound<SimdBatch>(
-            two, bb, aa_minus_bb, omega2, omega2 * omega2 * max_second_derivative_.load(), horizon);
+        support_acceleration_bound<SimdBatch>(two, bb_, aa_minus_bb_, omega2,
+                                              omega2 * omega2 * max_second_derivative_, horizon);
     if constexpr (grows<B>) {
       const double growth = common_.growth_rate;
       rate -= growth * heights;
       acceleration = common_.size * acceleration + std::abs(growth) * horizon * abs(acceleration) -
                      2 * growth * spin;
     }
-    set_times(detail::first_root(gap - min_gap_, rate, acceleration, horizon), count);
-    SimdBatch turned_nx = nx, turned_ny = ny;
-    detail::newton_rotate(turned_nx, turned_ny,
-                          nx * dy - ny * dx - sized(one.turning + two.turning),
+    set_times(detail::first_root(gap - min_gap_, rate, acceleration, horizon), horizon, count);
+    detail::newton_rotate(nx_, ny_, nx * dy_ - ny * dx_ - sized(one.turning + two.turning),
                           gap + sized(one.radius + two.radius));
-    nx_.store(turned_nx);
-    ny_.store(turned_ny);
   }
 
  private:
@@ -90,15 +99,14 @@ class ContactScreen<B> : public detail::CandidateTimes {
     return x;
   }
 
-  using Numbers = detail::BatchBuffer<simd_width>;
-
   ShapeCoefficients<Ellipse> coefficients_;
-  Motion2 motion_;
+  FlightRecord<B> mine_;
+  double now_;
   CommonSize common_;
   double min_gap_;
   double ux_, uy_;
-  Numbers dx_, dy_, vx_, vy_, angle_, omega_, bb_, aa_minus_bb_, aabb_, max_second_derivative_, nx_,
-      ny_, horizon_;
+  SimdBatch dx_, dy_, vx_, vy_, angle_, omega_, nx_, ny_, horizon_;
+  SimdBatch bb_, aa_minus_bb_, aabb_, max_second_derivative_;
 };
 
 }  // namespace vitrel

@@ -20,6 +20,41 @@ struct Vec3Buffer {
   void store(const BatchVec3& v) { x.store(v.x), y.store(v.y), z.store(v.z); }
 };
 
+struct BatchQuaternion {
+  SimdBatch w;
+  BatchVec3 xyz;
+};
+
+/// Unit vectors along the axes.
+VITREL_INLINE AxesOf<SimdBatch> directions_of(const BatchQuaternion& q) {
+  const auto& [x, y, z] = q.xyz;
+  const SimdBatch x2 = 2. * x, y2 = 2. * y, z2 = 2. * z;
+  const SimdBatch xx = x * x2, yy = y * y2, zz = z * z2;
+  const SimdBatch xy = x * y2, xz = x * z2, yz = y * z2;
+  const SimdBatch wx = q.w * x2, wy = q.w * y2, wz = q.w * z2;
+  return {{1. - (yy + zz), xy + wz, xz - wy},
+          {xy - wz, 1. - (xx + zz), yz + wx},
+          {xz + wy, yz - wx, 1. - (xx + yy)}};
+}
+
+/// The orientation after rotating by ω t: exp(ω t/2) q, normalised.
+VITREL_INLINE BatchQuaternion rotated(const BatchQuaternion& q, const BatchVec3& omega,
+                                      const SimdBatch& time) {
+  constexpr double at_rest = 1e-300;
+  const SimdBatch speed = sqrt(dot(omega, omega));
+  SimdBatch cosine, sine;
+  directions<SimdBatch>(0.5 * speed * time, cosine, sine);
+  const SimdBatch along = sine / max(speed, SimdBatch(at_rest));
+  const BatchVec3 u{along * omega.x, along * omega.y, along * omega.z};
+  const auto& [x, y, z] = q.xyz;
+  const BatchQuaternion product{
+      cosine * q.w - (u.x * x + u.y * y + u.z * z),
+      {cosine * x + q.w * u.x + (u.y * z - u.z * y), cosine * y + q.w * u.y + (u.z * x - u.x * z),
+       cosine * z + q.w * u.z + (u.x * y - u.y * x)}};
+  const SimdBatch scale = 1. / sqrt(product.w * product.w + dot(product.xyz, product.xyz));
+  return {scale * product.w, {scale * product.xyz.x, scale * product.xyz.y, scale * product.xyz.z}};
+}
+
 /// One ellipsoid per lane.
 struct EllipsoidBuffer {
   BatchBuffer<simd_width> w;  ///< of the quaternions; xyz is their vector part
@@ -29,18 +64,7 @@ struct EllipsoidBuffer {
     xyz.set(k, q.vec());
     semi_axes.set(k, axes);
   }
-
-  /// Unit vectors along the axes.
-  VITREL_INLINE AxesOf<SimdBatch> directions() const {
-    const SimdBatch qw = w.load(), x = xyz.x.load(), y = xyz.y.load(), z = xyz.z.load();
-    const SimdBatch x2 = 2. * x, y2 = 2. * y, z2 = 2. * z;
-    const SimdBatch xx = x * x2, yy = y * y2, zz = z * z2;
-    const SimdBatch xy = x * y2, xz = x * z2, yz = y * z2;
-    const SimdBatch wx = qw * x2, wy = qw * y2, wz = qw * z2;
-    return {{1. - (yy + zz), xy + wz, xz - wy},
-            {xy - wz, 1. - (xx + zz), yz + wx},
-            {xz + wy, yz - wx, 1. - (xx + yy)}};
-  }
+  BatchQuaternion orientations() const { return {w.load(), xyz.load()}; }
 };
 
 template <class T>

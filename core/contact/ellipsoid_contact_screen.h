@@ -18,60 +18,79 @@ class ContactScreen<B> : public detail::CandidateTimes {
  public:
   static constexpr int lanes = simd_width;
 
-  ContactScreen(const ShapeCoefficients<Ellipsoid>& coefficients, const Pose3& pose,
-                const Motion3& motion, const CommonSize& common, double contact_gap)
+  /// `mine` at the time `now`.
+  ContactScreen(const ShapeCoefficients<Ellipsoid>& coefficients, const FlightRecord<B>& mine,
+                double now, const CommonSize& common, double contact_gap)
       : coefficients_(coefficients),
-        motion_(motion),
+        mine_(mine),
+        now_(now),
         common_(common),
-        min_gap_(min_gap_fraction * contact_gap) {
-    axes_ = detail::axes_of(pose.orientation, coefficients.semi_axes);
-    const Vec3 own = pose.orientation.conjugate() * motion.angular_velocity;
-    const Vec3 squares = coefficients.semi_axes.cwiseAbs2();
+        min_gap_(min_gap_fraction * contact_gap),
+        aa_minus_cc_(coefficients.aa_minus_cc),
+        cc_(coefficients.cc) {
+    const Vec3 &lengths = coefficients.semi_axes, squares = lengths.cwiseAbs2();
+    lengths_ = {lengths[0], lengths[1], lengths[2]};
+    axes_ = detail::axes_of(mine.orientation(), lengths);
+    const Vec3 own = mine.orientation().conjugate() * mine.angular_velocity();
     tau_ = tumbling<double>(components(own.normalized()), components(squares));
   }
 
-  VITREL_INLINE void set(int k, const Pose3& pose, const Motion3& motion,
-                         const ShapeCoefficients<Ellipsoid>& coefficients,
-                         const WarmStart<B>& warm_start, double horizon) {
-    d_.set(k, pose.position);
-    v_.set(k, motion.velocity - motion_.velocity);
-    partners_.set(k, pose.orientation, coefficients.semi_axes);
-    omega_.set(k, motion.angular_velocity);
-    aa_minus_cc_[k] = coefficients.aa_minus_cc;
-    cc_[k] = coefficients.cc;
-    n_.set(k, warm_start.axis);
-    horizon_[k] = horizon;
+  void set_shape(int k, const ShapeCoefficients<Ellipsoid>& coefficients) {
+    lengths_.x.set(k, coefficients.semi_axes[0]);
+    lengths_.y.set(k, coefficients.semi_axes[1]);
+    lengths_.z.set(k, coefficients.semi_axes[2]);
+    aa_minus_cc_.set(k, coefficients.aa_minus_cc);
+    cc_.set(k, coefficients.cc);
+  }
+
+  VITREL_INLINE void load(const FlightRecord<B>* const (&partner)[lanes],
+                          const WarmStart<B>* const (&warm_start)[lanes], double latest) {
+    using Layout = RecordLayout<3>;
+    SimdBatch record[Layout::size];
+    detail::load_columns(partner, record);
+    const SimdBatch since = now_ - record[Layout::time];
+    const auto vector = [&](int first) {
+      return detail::BatchVec3{record[first], record[first + 1], record[first + 2]};
+    };
+    const detail::BatchVec3 r = vector(Layout::position), v = vector(Layout::velocity);
+    omega_ = vector(Layout::angular_velocity);
+    d_ = {(r.x + since * v.x) - mine_.position.x(), (r.y + since * v.y) - mine_.position.y(),
+          (r.z + since * v.z) - mine_.position.z()};
+    v_ = {v.x - mine_.velocity.x(), v.y - mine_.velocity.y(), v.z - mine_.velocity.z()};
+    q_ = detail::rotated({record[Layout::orientation + 3], vector(Layout::orientation)}, omega_,
+                         since);
+    horizon_ = detail::horizon_of(record[Layout::known_until], latest, now_);
+    for (int k = 0; k < lanes; ++k) n_.set(k, warm_start[k]->axis);
   }
   WarmStart<B> warm_start(int k) const { return {n_[k]}; }
 
   VITREL_FLATTEN void evaluate(int count) {
     using detail::BatchVec3;
     const AxisOf<SimdBatch> axis = completed(n_.load());
-    const BatchVec3 d = d_.load(), omega = omega_.load(), lengths = partners_.semi_axes.load();
-    const AxesOf<SimdBatch> directions = partners_.directions();
+    const BatchVec3 &d = d_, &omega = omega_, &lengths = lengths_;
+    const AxesOf<SimdBatch> directions = detail::directions_of(q_);
     const auto one = support_along<SimdBatch>(axes_, axis);
     const auto two = support_along<SimdBatch>(detail::scaled(directions, lengths), axis);
-    const auto spin1 = spin_along<SimdBatch>(components(motion_.angular_velocity), axis);
+    const auto spin1 = spin_along<SimdBatch>(components(mine_.angular_velocity()), axis);
     const auto spin2 = spin_along<SimdBatch>(omega, axis);
     const auto rates1 = support_rates<SimdBatch>(one, spin1),
                rates2 = support_rates<SimdBatch>(two, spin2);
-    const SimdBatch horizon = horizon_.load();
+    const SimdBatch& horizon = horizon_;
     const SimdBatch heights = one.height + two.height, turning = rates1.rate + rates2.rate;
     const SimdBatch gap = dot(axis.n, d) - sized(heights);
-    SimdBatch rate = dot(axis.n, v_.load()) - sized(turning);
+    SimdBatch rate = dot(axis.n, v_) - sized(turning);
     SimdBatch acceleration =
         support_acceleration_bound<SimdBatch>(one, rates1, spin1, coefficients_.aa_minus_cc, tau_,
                                               coefficients_.cc, horizon) +
-        support_acceleration_bound<SimdBatch>(two, rates2, spin2, aa_minus_cc_.load(),
-                                              tau_of(directions, omega, lengths), cc_.load(),
-                                              horizon);
+        support_acceleration_bound<SimdBatch>(two, rates2, spin2, aa_minus_cc_,
+                                              tau_of(directions, omega, lengths), cc_, horizon);
     if constexpr (grows<B>) {
       const double growth = common_.growth_rate;
       rate -= growth * heights;
       acceleration =
           (common_.size + std::abs(growth) * horizon) * acceleration + 2 * growth * turning;
     }
-    set_times(detail::first_root(gap - min_gap_, rate, acceleration, horizon), count);
+    set_times(detail::first_root(gap - min_gap_, rate, acceleration, horizon), horizon, count);
     n_.store(detail::turned(
         axis, dot(axis.e1, d) - sized(one.s1 + two.s1), dot(axis.e2, d) - sized(one.s2 + two.s2),
         gap + sized(one.h11 + two.h11), sized(one.h12 + two.h12), gap + sized(one.h22 + two.h22)));
@@ -95,14 +114,16 @@ class ContactScreen<B> : public detail::CandidateTimes {
   }
 
   ShapeCoefficients<Ellipsoid> coefficients_;
-  Motion3 motion_;
+  FlightRecord<B> mine_;
+  double now_;
   CommonSize common_;
   double min_gap_;
   AxesOf<double> axes_;
   double tau_;
-  detail::Vec3Buffer d_, v_, omega_, n_;
-  detail::EllipsoidBuffer partners_;
-  detail::BatchBuffer<simd_width> aa_minus_cc_, cc_, horizon_;
+  detail::BatchVec3 d_, v_, omega_, lengths_;
+  detail::BatchQuaternion q_;
+  detail::Vec3Buffer n_;
+  SimdBatch aa_minus_cc_, cc_, horizon_;
 };
 
 }  // namespace vitrel

@@ -27,7 +27,7 @@ class GapBatch<Ellipsoid> {
     constexpr int steps = 2;
     const detail::BatchVec3 d = d_.load();
     const AxesOf<SimdBatch> partners =
-        detail::scaled(partners_.directions(), partners_.semi_axes.load());
+        detail::scaled(detail::directions_of(partners_.orientations()), partners_.semi_axes.load());
     detail::BatchVec3 trial = initial_axes(partners, d), best = trial;
     SimdBatch largest = -std::numeric_limits<double>::infinity();
     for (int step = 0; step <= steps; ++step) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/contact/contact_screen.h"
+#include "core/contact/flight_record.h"
 
 namespace vitrel {
 
@@ -12,10 +13,6 @@ class EarliestRoundContact {
   using Vector = Vec<dimension>;
 
  public:
-  /// What is read of a partner, in this order: position, velocity, local clock, and the time after which its contacts
-  /// do not matter.
-  static constexpr int record_size = 2 * dimension + 2;
-
   EarliestRoundContact(double radius, const Vector& position, const Vector& velocity, double now,
                        const CommonSize& common, double contact_gap)
       : radius_(radius), now_(now), common_(common), contact_gap_(contact_gap) {
@@ -25,18 +22,18 @@ class EarliestRoundContact {
     }
   }
 
-  /// Tests four partners, which get the numbers first, first + 1 …
-  VITREL_INLINE void test(const double* const (&record)[4], const SimdBatch& radius,
-                          std::size_t first) {
-    SimdBatch column[record_size];
-    load_columns(record, column);
-    const SimdBatch& time = column[2 * dimension];
-    const SimdBatch since = now_ - time;
-    const SimdBatch horizon = column[2 * dimension + 1] - now_;
+  /// Tests four partners, which get the numbers first, first + 1 … Contacts that a partner knows do not matter.
+  VITREL_INLINE void test(const FlightRecord<B>* const (&partner)[simd_width],
+                          const SimdBatch& radius, std::size_t first) {
+    using Layout = RecordLayout<dimension>;
+    SimdBatch column[Layout::translation_size];
+    detail::load_columns(partner, column);
+    const SimdBatch since = now_ - column[Layout::time];
+    const SimdBatch horizon = column[Layout::known_until] - now_;
     SimdBatch dd(0), b(0), a(0);
     for (int x = 0; x < dimension; ++x) {
-      const SimdBatch& velocity = column[dimension + x];
-      const SimdBatch d = (column[x] + since * velocity) - position_[x];
+      const SimdBatch& velocity = column[Layout::velocity + x];
+      const SimdBatch d = (column[Layout::position + x] + since * velocity) - position_[x];
       const SimdBatch v = velocity - velocity_[x];
       dd += d * d;
       b += d * v;

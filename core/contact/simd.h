@@ -251,27 +251,6 @@ struct alignas(lanes * sizeof(double)) Simd {
 constexpr int simd_width = 4;
 using SimdBatch = Simd<simd_width>;
 
-/// Reads four records of numbers: lane k of column r is number r of record k. `rows` is even.
-template <int rows>
-VITREL_INLINE void load_columns(const double* const (&record)[4], SimdBatch (&column)[rows]) {
-  using Two [[gnu::vector_size(2 * sizeof(double))]] = double;
-  for (int r = 0; r < rows; r += 2) {
-    Two two[4];
-    for (int k = 0; k < 4; ++k) std::memcpy(&two[k], record[k] + r, sizeof(Two));
-#ifdef __AVX__
-    const detail::Register even = __builtin_shufflevector(two[0], two[2], 0, 1, 2, 3);
-    const detail::Register odd = __builtin_shufflevector(two[1], two[3], 0, 1, 2, 3);
-    column[r].part[0] = __builtin_shufflevector(even, odd, 0, 4, 2, 6);
-    column[r + 1].part[0] = __builtin_shufflevector(even, odd, 1, 5, 3, 7);
-#else
-    for (int half = 0; half < 2; ++half) {
-      column[r].part[half] = __builtin_shufflevector(two[2 * half], two[2 * half + 1], 0, 2);
-      column[r + 1].part[half] = __builtin_shufflevector(two[2 * half], two[2 * half + 1], 1, 3);
-    }
-#endif
-  }
-}
-
 namespace detail {
 
 /// ±1, the sign bit of each lane.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstring>
 #include <limits>
 
 #include "core/contact/ellipse_pair.h"
@@ -51,6 +52,35 @@ struct ShapeCoefficients<Ellipse> {
 };
 
 namespace detail {
+
+/// Reads four records of at least `rows` numbers (rows even): lane k of column r is number r of record k.
+template <int rows>
+VITREL_INLINE void load_columns(const double* const (&record)[simd_width],
+                                SimdBatch (&column)[rows]) {
+  using Two [[gnu::vector_size(2 * sizeof(double))]] = double;
+  for (int r = 0; r < rows; r += 2) {
+    Two two[simd_width];
+    for (int k = 0; k < simd_width; ++k) std::memcpy(&two[k], record[k] + r, sizeof(Two));
+#ifdef __AVX__
+    const Register even = __builtin_shufflevector(two[0], two[2], 0, 1, 2, 3);
+    const Register odd = __builtin_shufflevector(two[1], two[3], 0, 1, 2, 3);
+    column[r].part[0] = __builtin_shufflevector(even, odd, 0, 4, 2, 6);
+    column[r + 1].part[0] = __builtin_shufflevector(even, odd, 1, 5, 3, 7);
+#else
+    for (int half = 0; half < 2; ++half) {
+      column[r].part[half] = __builtin_shufflevector(two[2 * half], two[2 * half + 1], 0, 2);
+      column[r + 1].part[half] = __builtin_shufflevector(two[2 * half], two[2 * half + 1], 1, 3);
+    }
+#endif
+  }
+}
+template <int rows, class Record>
+VITREL_INLINE void load_columns(const Record* const (&record)[simd_width],
+                                SimdBatch (&column)[rows]) {
+  const double* numbers[simd_width];
+  for (int k = 0; k < simd_width; ++k) numbers[k] = record[k]->numbers();
+  load_columns(numbers, column);
+}
 
 /// One number per lane; written lane by lane, loaded and stored as a batch.
 template <int lanes>

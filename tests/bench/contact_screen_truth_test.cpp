@@ -15,6 +15,7 @@
 #include "core/contact/ellipse_gap.h"
 #include "core/random/stream.h"
 #include "core/tolerances.h"
+#include "tests/support/screen_partners.h"
 
 namespace vitrel {
 namespace {
@@ -91,13 +92,16 @@ Scene random_scene(Stream& draw, double largest_aspect_ratio, double growth) {
 
 template <class B>
 ContactScreen<B> evaluated(const Scene& scene) {
-  ContactScreen<B> screen(ShapeCoefficients<Ellipse>(scene.shape), scene.pose, scene.motion,
-                          scene.common, scene.contact_gap());
+  ContactScreen<B> screen(ShapeCoefficients<Ellipse>(scene.shape),
+                          flight_record<B>(scene.pose, scene.motion), 0, scene.common,
+                          scene.contact_gap());
+  ScreenPartners<B> partners;
   for (int k = 0; k < simd_width; ++k) {
     const Partner& partner = scene.partners[k];
-    screen.set(k, partner.pose, partner.motion, ShapeCoefficients<Ellipse>(partner.shape),
-               {partner.axis}, partner.horizon);
+    partners.set(k, partner.pose, partner.motion, partner.axis, 0, partner.horizon);
+    screen.set_shape(k, ShapeCoefficients<Ellipse>(partner.shape));
   }
+  partners.load_into(screen);
   screen.evaluate(simd_width);
   return screen;
 }

@@ -13,8 +13,10 @@
 #include <vector>
 
 #include "core/contact/ellipse_gap.h"
+#include "core/contact/ellipsoid_contact_screen.h"
 #include "core/random/stream.h"
 #include "core/tolerances.h"
+#include "tests/support/screen_partners.h"
 
 namespace vitrel {
 namespace {
@@ -50,22 +52,111 @@ class LanesOfAScreen : public testing::Test {};
 using Bodies = testing::Types<Ellipse, GrowingEllipse>;
 TYPED_TEST_SUITE(LanesOfAScreen, Bodies);
 
-// Earlier contents of a lane, and empty lanes, have no effect: bodies that touch
-// at once stand in all of them.
+// Lanes beyond the count, with bodies that touch at once, have no effect.
 TYPED_TEST(LanesOfAScreen, BeyondTheCountNeverWin) {
-  constexpr int lanes = ContactScreen<TypeParam>::lanes;
   const ShapeCoefficients<Ellipse> coefficients(Ellipse{1, 1});
-  for (const bool filled : {true, false})
-    for (int count = 0; count <= lanes; ++count) {
-      ContactScreen<TypeParam> screen(coefficients, {Vec2::Zero(), 0}, {Vec2::Zero(), 0}, {},
-                                      1e-12);
-      for (int k = 0; k < (filled ? lanes : count); ++k)
-        screen.set(k, {Vec2(k < count ? 3 + k : 2.001, 0), 0}, {Vec2(-1, 0), 0}, coefficients,
-                   {Vec2(1, 0)}, 100);
-      screen.evaluate(count);
-      const std::vector<double> times = times_of(screen, count);
-      for (int k = 0; k < count; ++k) EXPECT_NEAR(times[k], 1 + k, 1e-9);
+  for (int count = 0; count <= simd_width; ++count) {
+    ContactScreen<TypeParam> screen(
+        coefficients, flight_record<TypeParam>({Vec2::Zero(), 0}, {Vec2::Zero(), 0}), 0, {}, 1e-12);
+    ScreenPartners<TypeParam> partners;
+    for (int k = 0; k < simd_width; ++k)
+      partners.set(k, {Vec2(k < count ? 3 + k : 2.001, 0), 0}, {Vec2(-1, 0), 0}, Vec2(1, 0));
+    partners.load_into(screen, 100);
+    screen.evaluate(count);
+    const std::vector<double> times = times_of(screen, count);
+    for (int k = 0; k < count; ++k) EXPECT_NEAR(times[k], 1 + k, 1e-9);
+  }
+}
+
+// Contacts that a partner knows itself, or all if it knows everything, do not matter.
+TYPED_TEST(LanesOfAScreen, EndAtWhatThePartnerKnows) {
+  const ShapeCoefficients<Ellipse> coefficients(Ellipse{1, 1});
+  ContactScreen<TypeParam> screen(
+      coefficients, flight_record<TypeParam>({Vec2::Zero(), 0}, {Vec2::Zero(), 0}), 0, {}, 1e-12);
+  ScreenPartners<TypeParam> partners;
+  const double known_until[simd_width] = {infinity, 0.9, 1.1, -infinity};
+  for (int k = 0; k < simd_width; ++k)
+    partners.set(k, {Vec2(3, 0), 0}, {Vec2(-1, 0), 0}, Vec2(1, 0), 0, known_until[k]);
+  partners.load_into(screen);
+  screen.evaluate(simd_width);
+  const std::vector<double> times = times_of(screen, simd_width);
+  EXPECT_NEAR(times[0], 1, 1e-9);
+  EXPECT_EQ(times[1], infinity);
+  EXPECT_NEAR(times[2], 1, 1e-9);
+  EXPECT_EQ(times[3], infinity);
+}
+
+template <class B>
+class ClocksOfPartners : public testing::Test {};
+using AllBodies = testing::Types<Ellipse, GrowingEllipse, Ellipsoid, GrowingEllipsoid>;
+TYPED_TEST_SUITE(ClocksOfPartners, AllBodies);
+
+Pose2 random_pose(Stream& draw, double distance, Vec2& n) {
+  n = random_direction(draw);
+  return {distance * n, draw.uniform(-10, 10)};
+}
+Pose3 random_pose(Stream& draw, double distance, Vec3& n) {
+  n = Vec3(draw.normal(), draw.normal(), draw.normal()).normalized();
+  return {distance * n,
+          Quaternion(draw.normal(), draw.normal(), draw.normal(), draw.normal()).normalized()};
+}
+Motion2 random_motion(Stream& draw, const Vec2& n) {
+  return {-n + 0.3 * random_direction(draw), 2 * draw.normal()};
+}
+Motion3 random_motion(Stream& draw, const Vec3& n) {
+  const Vec3 turn(draw.normal(), draw.normal(), draw.normal());
+  return {-n + 0.3 * turn.normalized(), draw.uniform() < 0.1 ? Vec3(0, 0, 0) : 2 * turn};
+}
+
+// Partners with clocks of their own, and with shapes of their own, count as those advanced to the present.
+TYPED_TEST(ClocksOfPartners, AreAdvancedToThePresent) {
+  constexpr int dim = TypeParam::dimension;
+  using Shape = BaseShape<TypeParam>;
+  Stream draw(37, Purpose::tests);
+  const auto shape = [&] {
+    if constexpr (dim == 2)
+      return Shape{draw.uniform(1, 2), draw.uniform(0.5, 1)};
+    else
+      return Shape{Vec3(draw.uniform(1, 2), draw.uniform(0.5, 1), draw.uniform(0.5, 1))};
+  };
+  const CommonSize common = grows<TypeParam> ? CommonSize{0.9, 0.1} : CommonSize{};
+  const double now = 2.5;
+  int contacts = 0;
+  for (int trial = 0; trial < 500; ++trial) {
+    Vec<dim> n;
+    const ShapeCoefficients<Shape> coefficients(shape());
+    const Pose<dim> pose = random_pose(draw, 0, n);
+    const Motion<dim> motion = random_motion(draw, n);
+    const auto screen_at = [&](double present) {
+      return ContactScreen<TypeParam>(coefficients, flight_record<TypeParam>(pose, motion, present),
+                                      present, common, 1e-12);
+    };
+    ContactScreen<TypeParam> late = screen_at(now), early = screen_at(0);
+    ScreenPartners<TypeParam> with_clocks, advanced_partners;
+    for (int k = 0; k < simd_width; ++k) {
+      const double ago = draw.uniform(0, 2);
+      const Pose<dim> there = random_pose(draw, 5, n);
+      const Motion<dim> theirs = random_motion(draw, n);
+      const ShapeCoefficients<Shape> other(shape());
+      late.set_shape(k, other);
+      early.set_shape(k, other);
+      with_clocks.set(k, advanced(there, theirs, -ago), theirs, n, now - ago, now + 3);
+      advanced_partners.set(k, there, theirs, n, 0, 3);
     }
+    with_clocks.load_into(late);
+    advanced_partners.load_into(early);
+    late.evaluate(simd_width);
+    early.evaluate(simd_width);
+    const std::vector<double> times = times_of(late, simd_width),
+                              expected = times_of(early, simd_width);
+    for (int k = 0; k < simd_width; ++k) {
+      EXPECT_LT((late.warm_start(k).axis - early.warm_start(k).axis).norm(), 1e-12);
+      if (expected[k] == infinity) continue;
+      EXPECT_NEAR(times[k], expected[k], 1e-9);
+      ++contacts;
+    }
+  }
+  EXPECT_GT(contacts, 500);
 }
 
 // ---- Ellipses ----
@@ -97,9 +188,12 @@ EllipsePairAt random_pair(Stream& draw, double largest_aspect_ratio, double gap,
 template <class B>
 ContactScreen<B> evaluated(const EllipsePairAt& pair, const CommonSize& common, double contact_gap,
                            const Vec2& axis, double horizon) {
-  ContactScreen<B> screen(ShapeCoefficients<Ellipse>(pair.one), pair.pose1, pair.motion1, common,
-                          contact_gap);
-  screen.set(0, pair.pose2, pair.motion2, ShapeCoefficients<Ellipse>(pair.two), {axis}, horizon);
+  ContactScreen<B> screen(ShapeCoefficients<Ellipse>(pair.one),
+                          flight_record<B>(pair.pose1, pair.motion1), 0, common, contact_gap);
+  ScreenPartners<B> partners;
+  for (int k = 0; k < simd_width; ++k) partners.set(k, pair.pose2, pair.motion2, axis);
+  screen.set_shape(0, ShapeCoefficients<Ellipse>(pair.two));
+  partners.load_into(screen, horizon);
   screen.evaluate(1);
   return screen;
 }
@@ -206,11 +300,14 @@ TEST(ContactScreenOfEllipses, AxesStayUnitVectors) {
     return largest;
   };
   for (int turn = 1; turn <= 100'000; ++turn) {
-    ContactScreen<Ellipse> screen(coefficients, {Vec2::Zero(), draw.uniform(-3, 3)}, {{0.1, 0}, 1},
-                                  {}, 1e-12);
+    ContactScreen<Ellipse> screen(
+        coefficients, flight_record<Ellipse>({Vec2::Zero(), draw.uniform(-3, 3)}, {{0.1, 0}, 1}), 0,
+        {}, 1e-12);
+    ScreenPartners<Ellipse> partners;
     for (int k = 0; k < simd_width; ++k)
-      screen.set(k, {2.9 * random_direction(draw), draw.uniform(-3, 3)}, {{0.3, 0.2}, -1},
-                 coefficients, {axes[k]}, 1);
+      partners.set(k, {2.9 * random_direction(draw), draw.uniform(-3, 3)}, {{0.3, 0.2}, -1},
+                   axes[k]);
+    partners.load_into(screen, 1);
     screen.evaluate(simd_width);
     for (int k = 0; k < simd_width; ++k) axes[k] = screen.warm_start(k).axis;
     if (turn == 100) {

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -25,13 +24,9 @@ class RoundContacts : public testing::Test {
 
   struct Partner {
     double radius;
-    std::array<double, EarliestRoundContact<B>::record_size> record;
+    FlightRecord<B> record;
 
-    Vector position_at(double time) const {
-      return Vector(record.data()) + (time - record[2 * dimension]) * velocity();
-    }
-    Vector velocity() const { return Vector(record.data() + dimension); }
-    double known_until() const { return record[2 * dimension + 1]; }
+    Vector position_at(double time) const { return record.pose_at(time).position; }
   };
 
   static Vector random_direction(Stream& draw) {
@@ -41,14 +36,11 @@ class RoundContacts : public testing::Test {
   }
   static Partner at(double radius, const Vector& position, const Vector& velocity, double time,
                     double known_until) {
-    Partner partner{radius, {}};
-    for (int k = 0; k < dimension; ++k) {
-      partner.record[k] = position[k];
-      partner.record[dimension + k] = velocity[k];
-    }
-    partner.record[2 * dimension] = time;
-    partner.record[2 * dimension + 1] = known_until;
-    return partner;
+    Pose<dimension> pose;
+    Motion<dimension> motion;
+    pose.position = position;
+    motion.velocity = velocity;
+    return {radius, flight_record<B>(pose, motion, time, known_until)};
   }
 };
 using Bodies = testing::Types<Disk, Sphere, GrowingSphere>;
@@ -119,10 +111,10 @@ TYPED_TEST(RoundContacts, TellTheEarliestAndItsTime) {
     }
     if (grazes) continue;
     for (int g = 0; g < groups; ++g) {
-      const double* record[simd_width];
+      const FlightRecord<TypeParam>* record[simd_width];
       SimdBatch radii(0);
       for (int k = 0; k < simd_width; ++k) {
-        record[k] = partners[simd_width * g + k].record.data();
+        record[k] = &partners[simd_width * g + k].record;
         radii.set(k, partners[simd_width * g + k].radius);
       }
       earliest.test(record, radii, static_cast<std::size_t>(simd_width * g));
@@ -156,9 +148,8 @@ TYPED_TEST(RoundContacts, APairThatTouchesMeetsAtOnceIfItApproachesAndNeverIfItR
     v[1] = along == 0 ? 0 : 0.2;
     EarliestRoundContact<TypeParam> earliest(1, Vector::Zero(), Vector::Zero(), 0, {}, contact_gap);
     const auto partner = this->at(1, d, v, 0, infinity);
-    const double* const record[] = {partner.record.data(), partner.record.data(),
-                                    partner.record.data(), partner.record.data()};
-    earliest.test(record, SimdBatch(1), 0);
+    earliest.test({&partner.record, &partner.record, &partner.record, &partner.record},
+                  SimdBatch(1), 0);
     return earliest.earliest().wait;
   };
   for (const double gap : {1.2 * contact_gap, 0.8 * contact_gap, 0.0, -1e-9, -0.5}) {

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <type_traits>
+
+#include "core/geometry/growing.h"
+
+namespace vitrel {
+
+namespace detail {
+
+template <int dimension, bool has_rotation_>
+struct alignas(64) FlightRecord {
+  static constexpr bool has_rotation = has_rotation_;
+
+  struct Rotation {
+    AngularVelocity<dimension> angular_velocity;
+    Orientation<dimension> orientation;
+  };
+  struct Empty {};
+
+  Vec<dimension> position, velocity;
+  double time = 0;  ///< local clock of position and orientation
+  /// Its contacts up to this time are known.
+  double known_until = std::numeric_limits<double>::infinity();
+  [[no_unique_address]] std::conditional_t<has_rotation, Rotation, Empty> rotation;
+
+  Orientation<dimension> orientation() const {
+    if constexpr (has_rotation)
+      return rotation.orientation;
+    else
+      return Orientation<dimension>::Identity();
+  }
+  AngularVelocity<dimension> angular_velocity() const {
+    if constexpr (has_rotation)
+      return rotation.angular_velocity;
+    else
+      return AngularVelocity<dimension>::Zero();
+  }
+  Pose<dimension> pose() const { return {position, orientation()}; }
+  Pose<dimension> pose_at(double t) const {
+    if constexpr (has_rotation)
+      return advanced(pose(), motion(), t - time);
+    else
+      return {position + (t - time) * velocity, orientation()};
+  }
+  Motion<dimension> motion() const { return {velocity, angular_velocity()}; }
+  void set_pose(const Pose<dimension>& pose) {
+    position = pose.position;
+    if constexpr (has_rotation) rotation.orientation = orientation_of(pose);
+  }
+  void set_motion(const Motion<dimension>& motion) {
+    velocity = motion.velocity;
+    if constexpr (has_rotation) rotation.angular_velocity = motion.angular_velocity;
+  }
+
+  const double* numbers() const { return position.data(); }
+};
+
+}  // namespace detail
+
+/// What predictions read of a particle in flight: one cache line, for ellipsoids two. Its numbers are in a row, so that
+/// the records of several partners can be transposed in registers (simd_batch.h).
+///
+/// Spheres rotate uniformly, and no event depends on it: their rotation is not part of the record.
+template <Body B>
+using FlightRecord = detail::FlightRecord<B::dimension, B::dimension == 2 || !RoundBody<B>>;
+
+/// A record at time 0, or at the given time.
+template <Body B>
+FlightRecord<B> flight_record(const Pose<B::dimension>& pose, const Motion<B::dimension>& motion,
+                              double time = 0,
+                              double known_until = std::numeric_limits<double>::infinity()) {
+  FlightRecord<B> record;
+  record.time = time;
+  record.known_until = known_until;
+  record.set_pose(pose);
+  record.set_motion(motion);
+  return record;
+}
+
+/// Where the numbers of a record are, counted from its first.
+template <int Dim>
+struct RecordLayout {
+  static constexpr int position = 0, velocity = Dim, time = 2 * Dim, known_until = 2 * Dim + 1;
+  static constexpr int angular_velocity = 2 * Dim + 2;
+  static constexpr int orientation =
+      angular_velocity + (Dim == 2 ? 1 : 4);  // quaternion: x, y, z, w
+  static constexpr int translation_size = 2 * Dim + 2, size = Dim == 2 ? 8 : 16;
+};
+static_assert(sizeof(FlightRecord<Disk>) == 64 && sizeof(FlightRecord<Sphere>) == 64);
+static_assert(sizeof(FlightRecord<Ellipse>) == 64 && sizeof(FlightRecord<Ellipsoid>) == 128);
+static_assert(offsetof(FlightRecord<Ellipse>, rotation) == 6 * sizeof(double));
+static_assert(offsetof(FlightRecord<Ellipsoid>, rotation) == 8 * sizeof(double));
+static_assert(offsetof(FlightRecord<Ellipsoid>::Rotation, orientation) == 4 * sizeof(double));
+
+}  // namespace vitrel
