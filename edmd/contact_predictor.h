@@ -30,7 +30,8 @@ class NeighborBatch {
   const FlightRecord<B>*
       partner[lanes];  ///< at their images; contacts after `known_until` do not matter
   const WarmStart<B>* warm_start[lanes];
-  int count;
+  std::uint32_t other[lanes];  ///< particle numbers
+  int count;                   ///< of different neighbours
 
   template <PredictionScope scope>
   VITREL_INLINE void load(const SimulationState<B>& state, std::uint32_t i,
@@ -40,6 +41,7 @@ class NeighborBatch {
       const Neighbor<B>& neighbor = neighbors[std::min(first + k, neighbors.size() - 1)];
       partner[k] = &state.particles[neighbor.other];
       warm_start[k] = &neighbor.warm_start;
+      other[k] = neighbor.other;
       if (scope == PredictionScope::all_neighbors && !neighbor.is_shifted()) continue;
       copy_[k] = *partner[k];
       copy_[k].position += state.box.translation(neighbor.shift());
@@ -143,8 +145,8 @@ class ContactPredictor {
     for (std::size_t next = first; next < neighbors.size(); next += lanes) {
       batch.template load<scope>(state_, i, neighbors, next);
       if (state_.types.size() > 1)
-        for (int k = 0; k < batch.count; ++k)
-          screen.set_shape(k, state_.type(neighbors[next + k].other).coefficients);
+        for (int k = 0; k < lanes; ++k)
+          screen.set_shape(k, state_.type(batch.other[k]).coefficients);
       const double latest = std::min(best.time, horizon);
       screen.load(batch.partner, batch.warm_start, latest);
       screen.evaluate(batch.count);
@@ -215,8 +217,8 @@ class ContactPredictor<B> {
     for (std::size_t next = first; next < neighbors.size(); next += simd_width) {
       batch.template load<scope>(state_, i, neighbors, next);
       if (state_.types.size() > 1)
-        for (int k = 0; k < batch.count; ++k)
-          radius.set(k, state_.type(neighbors[next + k].other).coefficients.radius);
+        for (int k = 0; k < simd_width; ++k)
+          radius.set(k, state_.type(batch.other[k]).coefficients.radius);
       earliest.test(batch.partner, radius, next);
     }
     counters.predictions += neighbors.size() - first;

@@ -100,6 +100,7 @@ void NeighborBatch<bench::UnlimitedEllipse>::load<PredictionScope::all_neighbors
     copy_[k].known_until = std::numeric_limits<double>::infinity();
     partner[k] = &copy_[k];
     warm_start[k] = &neighbor.warm_start;
+    other[k] = neighbor.other;
   }
 }
 
