@@ -50,8 +50,11 @@ class EarliestRoundContact {
     const SimdBatch c = dd - reach * reach;
     const SimdBatch discriminant = b * b - a * c;
     auto hits = b < 0 && discriminant >= 0;
-    if constexpr (!grows<B>)
+    if constexpr (!grows<B>) {
+      // The contact is no earlier than c/(−2 b).
+      hits = hits && c < -2. * b * min(horizon, wait_);
       if (none_of(hits)) return;
+    }
     const SimdBatch root = sqrt(max(discriminant, SimdBatch(0)));
     SimdBatch wait = detail::closing_time(b, c, root);
     if constexpr (grows<B>) {
