@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 #include <numbers>
 
 #include "analysis/statistics/blocking.h"
@@ -51,7 +53,8 @@ std::vector<std::string> column_names(const Table& table) {
 }
 
 bool same_bits(const std::vector<double>& x, const std::vector<double>& y) {
-  return x.size() == y.size() && std::memcmp(x.data(), y.data(), x.size() * sizeof(double)) == 0;
+  const auto bits = [](double number) { return std::bit_cast<std::uint64_t>(number); };
+  return std::ranges::equal(x, y, {}, bits, bits);
 }
 
 // 100 frames, one in three of them measured, 32 at a time.
