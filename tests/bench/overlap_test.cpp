@@ -95,7 +95,7 @@ TEST(OverlapCases, ArePureFunctionsOfTheirArgumentsAndOfTheirClass) {
 }
 
 TEST(OverlapSurvey, ExactCriteriaAreNeverWrongAndTheOthersWhereExpected) {
-  OverlapSurveyRequest request{overlap_criteria(), overlap_classes(), 20000, 0.5, 7};
+  OverlapSurveyRequest request{overlap_criteria(), overlap_classes(), 20000, 600, 7};
   const OverlapSurvey survey = survey_overlap(request, {});
   EXPECT_FALSE(survey.stopped);
   ASSERT_EQ(survey.rows.size(), request.criteria.size() * request.classes.size());
