@@ -32,11 +32,13 @@ class NeighborBatch {
   const WarmStart<B>* warm_start[lanes];
   std::uint32_t other[lanes];  ///< particle numbers
   int count;                   ///< of different neighbours
+  std::uint64_t tested;        ///< of these, without pairs that are tested from the other side
 
   template <PredictionScope scope>
   VITREL_INLINE void load(const SimulationState<B>& state, std::uint32_t i,
                           std::span<const Neighbor<B>> neighbors, std::size_t first) {
     count = static_cast<int>(std::min<std::size_t>(lanes, neighbors.size() - first));
+    tested = static_cast<std::uint64_t>(count);
     for (int k = 0; k < lanes; ++k) {
       const Neighbor<B>& neighbor = neighbors[std::min(first + k, neighbors.size() - 1)];
       partner[k] = &state.particles[neighbor.other];
@@ -45,9 +47,11 @@ class NeighborBatch {
       if (scope == PredictionScope::all_neighbors && !neighbor.is_shifted()) continue;
       copy_[k] = *partner[k];
       copy_[k].position += state.box.translation(neighbor.shift());
-      if (scope == PredictionScope::higher_indices)
-        copy_[k].known_until =
-            neighbor.other < i ? -SimulationState<B>::never : SimulationState<B>::never;
+      if (scope == PredictionScope::higher_indices) {
+        const bool is_tested = neighbor.other >= i;
+        copy_[k].known_until = is_tested ? SimulationState<B>::never : -SimulationState<B>::never;
+        if (k < count && !is_tested) --tested;
+      }
       partner[k] = &copy_[k];
     }
   }
@@ -150,7 +154,7 @@ class ContactPredictor {
       const double latest = std::min(best.time, horizon);
       screen.load(batch.partner, batch.warm_start, latest);
       screen.evaluate(batch.count);
-      counters.predictions += static_cast<std::uint64_t>(batch.count);
+      counters.predictions += batch.tested;
       for (int k = 0; k < batch.count; ++k) neighbors[next + k].warm_start = screen.warm_start(k);
       search_earliest_first(i, mine.pose(), neighbors.subspan(next), batch, latest, screen, best,
                             counters);
@@ -220,8 +224,8 @@ class ContactPredictor<B> {
         for (int k = 0; k < simd_width; ++k)
           radius.set(k, state_.type(batch.other[k]).coefficients.radius);
       earliest.test(batch.partner, radius, next);
+      counters.predictions += batch.tested;
     }
-    counters.predictions += neighbors.size() - first;
     const auto [wait, number] = earliest.earliest();
     const double time = state_.now + wait;
     if (!(time < std::min(known.time, horizon))) return known;

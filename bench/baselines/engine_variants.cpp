@@ -93,6 +93,7 @@ void NeighborBatch<bench::UnlimitedEllipse>::load<PredictionScope::all_neighbors
     const SimulationState<bench::UnlimitedEllipse>& state, std::uint32_t /*i*/,
     std::span<const Neighbor<bench::UnlimitedEllipse>> neighbors, std::size_t first) {
   count = static_cast<int>(std::min<std::size_t>(lanes, neighbors.size() - first));
+  tested = static_cast<std::uint64_t>(count);
   for (std::size_t k = 0; k < lanes; ++k) {
     const auto& neighbor = neighbors[std::min(first + k, neighbors.size() - 1)];
     copy_[k] = state.particles[neighbor.other];

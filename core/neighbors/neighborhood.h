@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <concepts>
 #include <limits>
@@ -10,56 +9,18 @@
 #include <span>
 #include <vector>
 
-#include "core/contact/ellipse_contact_screen.h"
 #include "core/contact/ellipse_gap_batch.h"
-#include "core/contact/ellipsoid_contact_screen.h"
 #include "core/contact/ellipsoid_gap_batch.h"
 #include "core/geometry/capsule.h"
 #include "core/geometry/periodic_box.h"
+#include "core/neighbors/exit_time.h"
 #include "core/neighbors/inline_cell_list.h"
 #include "core/neighbors/list_pool.h"
+#include "core/neighbors/neighbor.h"
 #include "core/neighbors/prefetch.h"
 #include "core/neighbors/type_index.h"
 
 namespace vitrel {
-
-/// The image (j, shift) of another particle, at r_j + shift ∘ L.
-template <int Dim>
-struct NeighborImage {
-  std::uint32_t other = 0;
-  std::array<std::int16_t, Dim> boxes{};  // compact, because lists are read in every prediction
-
-  NeighborImage() = default;
-  NeighborImage(std::size_t j, const Shift<Dim>& shift) : other(static_cast<std::uint32_t>(j)) {
-    for (int k = 0; k < Dim; ++k) boxes[k] = static_cast<std::int16_t>(shift[k]);
-  }
-
-  Shift<Dim> shift() const {
-    Shift<Dim> wide;
-    for (int k = 0; k < Dim; ++k) wide[k] = boxes[k];
-    return wide;
-  }
-  bool is_shifted() const {
-    bool shifted = false;
-    for (int k = 0; k < Dim; ++k) shifted = shifted || boxes[k] != 0;
-    return shifted;
-  }
-  /// The image of particle i that is a neighbour of the other particle.
-  NeighborImage reversed_image(std::size_t i) const { return {i, -shift()}; }
-  bool operator==(const NeighborImage& image) const {
-    bool same = other == image.other;
-    for (int k = 0; k < Dim; ++k) same = same && boxes[k] == image.boxes[k];
-    return same;
-  }
-};
-
-/// A neighbour: an image, with the warm start of the contact screen for this pair.
-template <Body B>
-struct Neighbor : NeighborImage<B::dimension> {
-  [[no_unique_address]] WarmStart<B> warm_start;
-
-  bool is(const NeighborImage<B::dimension>& image) const { return image == *this; }
-};
 
 /// Near-neighbour lists with neighbourhoods shaped like the particles (after Donev, Torquato & Stillinger, 2005).
 ///
@@ -173,10 +134,10 @@ class Neighborhoods {
     const Vector moved = pose.position - reference.position;
     const double slack = margin_ - radius * std::max(common.size - reference.size, 0.0);
     const double slack_rate = radius * growing;
+    const double rotated =
+        max_support_rate * detail::rotation_angle(reference.orientation(), orientation_of(pose));
     const double exit =
-        crossing(moved, motion,
-                 max_support_rate * rotation_angle(reference.orientation(), orientation_of(pose)),
-                 max_support_rate, slack, slack_rate);
+        detail::exit_time(moved, motion, rotated, max_support_rate, slack, slack_rate);
     return growing > 0 ? std::min(exit, growth_at_once / growing) : exit;
   }
 
@@ -248,10 +209,11 @@ class Neighborhoods {
       const Reference& mine = references_[i];
       const auto& shape = inner_.shape(i);
       const double size = std::max(body.size, mine.size);
-      const double moved = (body.position - mine.position).norm() +
-                           size * shape.max_support_rate() *
-                               std::abs(rotation_angle(mine.orientation(), body.orientation())) +
-                           std::max(body.size - mine.size, 0.f) * shape.circumradius();
+      const double moved =
+          (body.position - mine.position).norm() +
+          size * shape.max_support_rate() *
+              std::abs(detail::rotation_angle(mine.orientation(), body.orientation())) +
+          std::max(body.size - mine.size, 0.f) * shape.circumradius();
       return moved <= margin_ - inner_.margin_;
     }
 
@@ -269,43 +231,6 @@ class Neighborhoods {
     return made;
   }
 
-  // The rotation angle between two orientations: signed in two dimensions, the smallest one in three.
-  static double rotation_angle(double from, double to) { return to - from; }
-  static double rotation_angle(const Quaternion& from, const Quaternion& to) {
-    return from.angularDistance(to);
-  }
-
-  // The time at which displacement and rotation together use up the slack: in two dimensions the body may
-  // continue in either sense, in three the bound is rotation away from the reference.
-  static double crossing(const Vector& moved, const Motion2& motion, double rotated,
-                         double max_support_rate, double slack, double slack_rate) {
-    const double turning = max_support_rate * motion.angular_velocity;
-    const double exit = crossing(moved, motion.velocity, slack - rotated, -turning - slack_rate);
-    return max_support_rate == 0 ? exit
-                                 : std::min(exit, crossing(moved, motion.velocity, slack + rotated,
-                                                           turning - slack_rate));
-  }
-  static double crossing(const Vector& moved, const Motion3& motion, double rotated,
-                         double max_support_rate, double slack, double slack_rate) {
-    return crossing(moved, motion.velocity, slack - rotated,
-                    -max_support_rate * motion.angular_velocity.norm() - slack_rate);
-  }
-
-  // The first s ≥ 0 with |r + v s| = slack + growth s, for |r| ≤ slack; 0 if already outside.
-  static double crossing(const Vector& r, const Vector& v, double slack, double growth) {
-    const double c = r.squaredNorm() - slack * slack;
-    if (!(slack > 0) || c >= 0) return 0;
-    const double a = v.squaredNorm() - growth * growth;
-    const double b = r.dot(v) - slack * growth;
-    // a s² + 2 b s + c = 0 with c < 0: the first positive root, without cancellation.
-    const double discriminant = b * b - a * c;
-    if (discriminant < 0) return std::numeric_limits<double>::infinity();
-    const double root = std::sqrt(discriminant);
-    const double below = b + root;
-    const double time = below > 0 ? -c / below : (root - b) / a;
-    return time > 0 ? time : std::numeric_limits<double>::infinity();
-  }
-
   double largest_circumradius() const {
     double largest = 0;
     for (const Shape& shape : shapes_) largest = std::max(largest, shape.circumradius());
@@ -320,7 +245,7 @@ class Neighborhoods {
 
   // Cells of the size of the largest particle, or with about this number of particles if they are larger.
   double cell_width(std::size_t particles) const {
-    static const double particles_per_cell = getenv("PC") ? atof(getenv("PC")) : 1;
+    constexpr double particles_per_cell = 2;
     const double volume = particles_per_cell * box_.volume() / static_cast<double>(particles);
     return std::max(0.5 * largest_, std::pow(volume, 1.0 / dimension));
   }

@@ -17,15 +17,14 @@ template <class D>
 class InlineCells : public testing::Test {
  protected:
   static constexpr int dimension = D::value;
-  using Vector = Vec<dimension>;
 
-  static Vector random_position(Stream& draw, const Vector& lengths) {
-    Vector position;
+  static Vec<dimension> random_position(Stream& draw, const Vec<dimension>& lengths) {
+    Vec<dimension> position;
     for (int k = 0; k < dimension; ++k) position[k] = draw.uniform(-0.5, 0.5) * lengths[k];
     return position;
   }
-  static Vector lengths_of(double side) {
-    Vector lengths;
+  static Vec<dimension> lengths_of(double side) {
+    Vec<dimension> lengths;
     for (int k = 0; k < dimension; ++k) lengths[k] = side * (1 + 0.4 * k);
     return lengths;
   }

@@ -20,7 +20,7 @@ def native(files, *arguments):
             path.parent.mkdir(exist_ok=True)
             path.write_text("cmake_minimum_required(VERSION 3.25)\n" + text, encoding="utf-8")
         build = pathlib.Path(folder, "build")
-        subprocess.run(["cmake", "-S", folder, "-B", build, *arguments], check=True, capture_output=True)
+        subprocess.run(["cmake", "-G", "Ninja", "-S", folder, "-B", build, *arguments], check=True, capture_output=True)
         cache = (build / "CMakeCache.txt").read_text(encoding="utf-8")
     return next(line.split("=")[1] for line in cache.splitlines() if line.startswith("VITREL_NATIVE:"))
 

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/geometry/pose.h"
+
+/// @file
+/// When a moving body leaves a neighbourhood (neighborhood.h).
+namespace vitrel::detail {
+
+/// The rotation angle between two orientations: signed in two dimensions, the smallest one in three.
+inline double rotation_angle(double from, double to) {
+  return to - from;
+}
+inline double rotation_angle(const Quaternion& from, const Quaternion& to) {
+  return from.angularDistance(to);
+}
+
+/// The first s ≥ 0 with |r + v s| = slack + growth s, for |r| ≤ slack; 0 if already outside.
+template <class Vector>
+double crossing(const Vector& r, const Vector& v, double slack, double growth) {
+  const double c = r.squaredNorm() - slack * slack;
+  if (!(slack > 0) || c >= 0) return 0;
+  const double a = v.squaredNorm() - growth * growth;
+  const double b = r.dot(v) - slack * growth;
+  // a s² + 2 b s + c = 0 with c < 0: the first positive root, without cancellation.
+  const double discriminant = b * b - a * c;
+  if (discriminant < 0) return std::numeric_limits<double>::infinity();
+  const double root = std::sqrt(discriminant);
+  const double below = b + root;
+  const double time = below > 0 ? -c / below : (root - b) / a;
+  return time > 0 ? time : std::numeric_limits<double>::infinity();
+}
+
+/// The time at which displacement and rotation together use up the slack: in two dimensions the body may
+/// continue in either sense, in three the bound is rotation away from the reference.
+inline double exit_time(const Vec2& moved, const Motion2& motion, double rotated,
+                        double max_support_rate, double slack, double slack_rate) {
+  const double turning = max_support_rate * motion.angular_velocity;
+  const double exit = crossing(moved, motion.velocity, slack - rotated, -turning - slack_rate);
+  return max_support_rate == 0 ? exit
+                               : std::min(exit, crossing(moved, motion.velocity, slack + rotated,
+                                                         turning - slack_rate));
+}
+inline double exit_time(const Vec3& moved, const Motion3& motion, double rotated,
+                        double max_support_rate, double slack, double slack_rate) {
+  return crossing(moved, motion.velocity, slack - rotated,
+                  -max_support_rate * motion.angular_velocity.norm() - slack_rate);
+}
+
+}  // namespace vitrel::detail
