@@ -1,6 +1,7 @@
 #include "edmd/run.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -52,7 +53,7 @@ class EventDrivenRun {
                              (options_.engine.soft_contact
                                   ? "too dense or too strongly damped for event-driven contacts?)"
                                   : "inelastic collapse?)"));
-      if (plan_.at_block_end) plan_.at_block_end(state_);
+      if (plan_.at_block_end) timed_output([&] { plan_.at_block_end(state_); });
       control_.report_progress({progress(), state_.configuration.time, "time"});
       if (finished) return {StageEnd::reached, "the end of the run was reached"};
       if (control_.stop_requested()) return {StageEnd::stopped, "stopped at the end of a block"};
@@ -98,9 +99,17 @@ class EventDrivenRun {
     engine_->write(state_.configuration);
     state_.configuration.time = time;
     const Tally tally{state_.counters.collisions, state_.counters.virial};
-    if (observer)
-      observer->observe({static_cast<std::int64_t>(number), state_.configuration, tally});
+    const Frame<Dim> frame{static_cast<std::int64_t>(number), state_.configuration, tally};
+    if (observer) timed_output([&] { observer->observe(frame); });
     ++number;
+  }
+
+  template <class Work>
+  void timed_output(Work&& work) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+    state_.output_seconds += spent.count();
   }
 
   void redraw_velocities() {

@@ -25,6 +25,8 @@ struct RunState {
   double flight_energy = 0;     ///< energy + dissipated energy after the last draw of velocities
   double energy_drift = 0;      ///< largest |change of energy + dissipated|/energy between draws
   double largest_momentum = 0;  ///< largest |Σ m v| between draws
+  double output_seconds =
+      0;  ///< wall time of observers and at block ends, outside of the event loop
 };
 
 /// The state at the start of a run from a configuration with its velocities set.

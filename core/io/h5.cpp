@@ -204,7 +204,7 @@ void Dataset::resize(std::uint64_t frames) {
   });
 }
 
-Object::Handle Dataset::frame_selection(std::uint64_t frame, std::uint64_t count) const {
+Dataset::FrameSpaces Dataset::frame_spaces(std::uint64_t frame, std::uint64_t count) const {
   Shape block = shape();
   if (block.empty() || frame >= block[0])
     throw_file_error(file_->path(), "access frame " + std::to_string(frame) + " of", name_,
@@ -219,28 +219,27 @@ Object::Handle Dataset::frame_selection(std::uint64_t frame, std::uint64_t count
   Handle space(file_->run("inspect", name_, [&] { return H5Dget_space(handle_.id()); }));
   H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, reinterpret_cast<const hsize_t*>(start.data()),
                       nullptr, reinterpret_cast<const hsize_t*>(block.data()), nullptr);
-  return space;
+  // Of the same shape: between spaces of different ranks HDF5 goes element by element.
+  return {std::move(space),
+          Handle(H5Screate_simple(static_cast<int>(block.size()),
+                                  reinterpret_cast<const hsize_t*>(block.data()), nullptr))};
 }
 
 template <class T>
 void Dataset::write_frame(std::uint64_t frame, std::span<const T> values) {
-  const Handle target = frame_selection(frame, values.size());
-  const hsize_t count = values.size();
-  const Handle source(H5Screate_simple(1, &count, nullptr));
+  const FrameSpaces spaces = frame_spaces(frame, values.size());
   file_->run("write", name_, [&] {
-    return H5Dwrite(handle_.id(), native_type<T>(), source.id(), target.id(), H5P_DEFAULT,
-                    values.data());
+    return H5Dwrite(handle_.id(), native_type<T>(), spaces.memory.id(), spaces.file.id(),
+                    H5P_DEFAULT, values.data());
   });
 }
 
 template <class T>
 void Dataset::read_frame(std::uint64_t frame, std::span<T> values) const {
-  const Handle source = frame_selection(frame, values.size());
-  const hsize_t count = values.size();
-  const Handle target(H5Screate_simple(1, &count, nullptr));
+  const FrameSpaces spaces = frame_spaces(frame, values.size());
   file_->run("read", name_, [&] {
-    return H5Dread(handle_.id(), native_type<T>(), target.id(), source.id(), H5P_DEFAULT,
-                   values.data());
+    return H5Dread(handle_.id(), native_type<T>(), spaces.memory.id(), spaces.file.id(),
+                   H5P_DEFAULT, values.data());
   });
 }
 
@@ -390,21 +389,22 @@ Dataset Group::create_enumeration(const std::string& name, std::span<const std::
 }
 
 template <class T>
-Dataset Group::create_series(const std::string& name, const Shape& frame_shape, bool packed) {
+Dataset Group::create_series(const std::string& name, const Shape& frame_shape,
+                             SeriesStorage storage) {
   Shape extent{0};
   extent.insert(extent.end(), frame_shape.begin(), frame_shape.end());
   Shape limit = extent, chunk = extent;
   limit[0] = H5S_UNLIMITED;
-  chunk[0] = packed ? 1 : entries_per_chunk;
+  chunk[0] = storage == SeriesStorage::shared_chunks ? entries_per_chunk : 1;
 
   const int rank = static_cast<int>(extent.size());
   const Handle space(H5Screate_simple(rank, reinterpret_cast<const hsize_t*>(extent.data()),
                                       reinterpret_cast<const hsize_t*>(limit.data())));
   const Handle properties(H5Pcreate(H5P_DATASET_CREATE));
   H5Pset_chunk(properties.id(), rank, reinterpret_cast<const hsize_t*>(chunk.data()));
-  if (packed) {
+  if (storage == SeriesStorage::compressed_chunks) {
     H5Pset_shuffle(properties.id());
-    H5Pset_deflate(properties.id(), 4);
+    H5Pset_deflate(properties.id(), 1);
   }
   H5Pset_fletcher32(properties.id());
   return create(name, stored_type<T>(), space.id(), properties.id());
@@ -458,7 +458,7 @@ void File::close() {
   template void Dataset::write_frame<T>(std::uint64_t, std::span<const T>);                      \
   template void Dataset::read_frame<T>(std::uint64_t, std::span<T>) const;                       \
   template Dataset Group::create_array<T>(const std::string&, const Shape&, std::span<const T>); \
-  template Dataset Group::create_series<T>(const std::string&, const Shape&, bool);
+  template Dataset Group::create_series<T>(const std::string&, const Shape&, SeriesStorage);
 
 VITREL_H5_INSTANTIATE(double)
 VITREL_H5_INSTANTIATE(std::int32_t)

@@ -100,7 +100,18 @@ class Dataset : public Object {
   friend class Group;
   Dataset(std::shared_ptr<OpenFile> file, Handle handle, std::string name)
       : Object(std::move(file), std::move(handle), std::move(name)) {}
-  Handle frame_selection(std::uint64_t frame, std::uint64_t count) const;
+  struct FrameSpaces {
+    Handle file, memory;
+  };
+  FrameSpaces frame_spaces(std::uint64_t frame, std::uint64_t count) const;
+};
+
+/// How the frames of a series are stored; all have a checksum. Chunks are written once or keep their size and
+/// place in the file, so that adding a frame never moves the earlier ones.
+enum class SeriesStorage {
+  shared_chunks,     ///< many small frames per chunk
+  plain_chunks,      ///< one frame per chunk: real numbers, of which compression would save a tenth
+  compressed_chunks  ///< one frame per chunk, shuffled and deflated: mostly zeros or small integers
 };
 
 class Group : public Object {
@@ -123,11 +134,9 @@ class Group : public Object {
   /// An array of names out of `names`, stored as the index into it.
   Dataset create_enumeration(const std::string& name, std::span<const std::string> names,
                              std::span<const std::int32_t> values);
-  /// A series with no frame yet. `packed`: shuffle, deflate and checksum, one frame per chunk, each
-  /// written once. Otherwise a checksum only, many frames per chunk: such a chunk keeps its size
-  /// and its place in the file, so that adding a frame never moves the earlier ones.
+  /// A series with no frame yet.
   template <class T>
-  Dataset create_series(const std::string& name, const Shape& frame_shape, bool packed);
+  Dataset create_series(const std::string& name, const Shape& frame_shape, SeriesStorage storage);
   /// A second name for a member of the file; `target` is its path from the root.
   void link(const std::string& name, const std::string& target);
 

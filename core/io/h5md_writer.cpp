@@ -17,6 +17,10 @@ const std::string all = "particles/all";
 /// The z edge of the box of a two-dimensional system, which means nothing but must not be 0.
 constexpr double height = 1;
 
+constexpr auto shared = h5::SeriesStorage::shared_chunks;
+constexpr auto plain = h5::SeriesStorage::plain_chunks;
+constexpr auto compressed = h5::SeriesStorage::compressed_chunks;
+
 std::string series_path(const std::string& element) {
   return all + '/' + element + "/value";
 }
@@ -24,18 +28,18 @@ std::string series_path(const std::string& element) {
 /// A series `element`/{step, time, value} that shares the position's step and time.
 template <class T>
 void create_element(h5::Group& parent, const std::string& element, const h5::Shape& frame_shape,
-                    bool packed) {
+                    h5::SeriesStorage storage) {
   h5::Group group = parent.create_group(element);
-  group.create_series<T>("value", frame_shape, packed);
+  group.create_series<T>("value", frame_shape, storage);
   group.link("step", all + "/position/step");
   group.link("time", all + "/position/time");
 }
 
 void create_position(h5::Group& particles, std::uint64_t n) {
   h5::Group position = particles.create_group("position");
-  position.create_series<std::int64_t>("step", {}, false);
-  position.create_series<double>("time", {}, false);
-  position.create_series<double>("value", {n, 3}, true);
+  position.create_series<std::int64_t>("step", {}, shared);
+  position.create_series<double>("time", {}, shared);
+  position.create_series<double>("value", {n, 3}, plain);
 }
 
 void create_box(h5::Group& particles, int dimension) {
@@ -44,7 +48,7 @@ void create_box(h5::Group& particles, int dimension) {
   const std::array<std::string, 3> boundary{"periodic", "periodic",
                                             dimension == 3 ? "periodic" : "none"};
   box.set_attribute("boundary", boundary, 8);
-  create_element<double>(box, "edges", {3, 3}, false);
+  create_element<double>(box, "edges", {3, 3}, shared);
 }
 
 /// Adds the components of a vector, as three: in two dimensions the last is 0.
@@ -76,10 +80,10 @@ Quaternion orientation(const Configuration3& configuration, std::size_t i) {
 
 void create_close_pairs(h5::Group& particles) {
   h5::Group pairs = particles.create_group("close_pairs");
-  pairs.create_series<std::int64_t>("end", {}, false);
-  pairs.create_series<std::int64_t>("pair", {2}, false);
-  pairs.create_series<std::int32_t>("lag", {3}, false);
-  pairs.create_series<double>("distance", {}, false);
+  pairs.create_series<std::int64_t>("end", {}, shared);
+  pairs.create_series<std::int64_t>("pair", {2}, shared);
+  pairs.create_series<std::int32_t>("lag", {3}, shared);
+  pairs.create_series<double>("distance", {}, shared);
 }
 
 template <int Dim>
@@ -117,18 +121,18 @@ h5::File create_layout(const fs::path& path, const Configuration<Dim>& configura
   h5::Group particles = root.create_group("particles").create_group("all");
   create_position(particles, n);
   create_box(particles, Dim);
-  create_element<std::int32_t>(particles, "image", {n, 3}, true);
-  create_element<double>(particles, "orientation", {n, 4}, true);
-  if (Dim == 2) create_element<double>(particles, "angle", {n}, true);
+  create_element<std::int32_t>(particles, "image", {n, 3}, compressed);
+  create_element<double>(particles, "orientation", {n, 4}, plain);
+  if (Dim == 2) create_element<double>(particles, "angle", {n}, plain);
   if (options.velocities) {
-    create_element<double>(particles, "velocity", {n, 3}, true);
-    create_element<double>(particles, "angular_velocity", {n, 3}, true);
+    create_element<double>(particles, "velocity", {n, 3}, plain);
+    create_element<double>(particles, "angular_velocity", {n, 3}, Dim == 2 ? compressed : plain);
   }
   if (options.close_pairs) create_close_pairs(particles);
   create_fixed_arrays(particles, configuration);
   h5::Group observables = root.create_group("observables");
   for (const std::string& name : options.observables)
-    create_element<double>(observables, name, {}, false);
+    create_element<double>(observables, name, {}, shared);
   h5::Group parameters = root.create_group("parameters");
   write_provenance(parameters, provenance);
   return file;

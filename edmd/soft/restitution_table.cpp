@@ -80,7 +80,8 @@ std::string key_of(const ForceForm& form, const RestitutionDomain& domain,
 /// An array with a checksum.
 template <class T>
 void write_array(h5::Group& group, const std::string& name, const std::vector<T>& values) {
-  h5::Dataset series = group.create_series<T>(name, {values.size()}, true);
+  h5::Dataset series =
+      group.create_series<T>(name, {values.size()}, h5::SeriesStorage::plain_chunks);
   series.resize(1);
   series.write_frame(0, std::span<const T>(values));
 }

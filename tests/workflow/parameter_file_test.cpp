@@ -312,6 +312,19 @@ TEST(ParameterFile, KeysOfEarlierVersionsAreStillRead) {
   EXPECT_EQ(forbidden_change(recorded, before, Work::preparation), std::nullopt);
 }
 
+TEST(ParameterFile, SampleIntervalFollowsTheDurationUnlessGiven) {
+  const auto interval = [](const std::string& text) {
+    const Parameters parameters = parse_parameters(text, "file.toml");
+    const double found = sample_interval(parameters);
+    EXPECT_EQ(parse_parameters(effective_parameters(parameters), "again").output.interval, found);
+    return found;
+  };
+  EXPECT_EQ(interval("[dynamics]\nduration = 5000"), 25);
+  EXPECT_EQ(interval("[dynamics]\nduration = 3"), 0.1);
+  EXPECT_EQ(interval("[dynamics]\nduration = 0.05"), 0.05);
+  EXPECT_EQ(interval("[dynamics]\nduration = 5000\n[output]\nsamples = { interval = 2 }"), 2);
+}
+
 TEST(ParameterFile, OnlyHarmlessChangesAreAllowedWhenContinuing) {
   Parameters before, after;
   after.output.checkpoint_interval = 1;

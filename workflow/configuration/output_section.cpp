@@ -13,7 +13,11 @@ void describe_samples(OutputParameters& p, FieldVisitor& visit) {
   using Spacing = OutputParameters::Spacing;
   visit.field({"spacing", "", "Spacing of the sample times."}, p.spacing, spacing_names);
   visit.when(p.spacing == Spacing::linear, "spacing = \"linear\"", [&](FieldVisitor& in) {
-    in.field({"interval", "time", "Time between samples."}, p.interval);
+    in.optional(
+        {"interval", "time",
+         "Time between samples. By default a 200th of dynamics.duration, but at least 0.1 (or "
+         "all of a shorter run)."},
+        p.interval, 0.1);
   });
   visit.when(p.spacing == Spacing::logarithmic, "spacing = \"logarithmic\"", [&](FieldVisitor& in) {
     in.field({"first", "time", "First sample after the one at time 0."}, p.first);
@@ -78,10 +82,11 @@ void validate_output(const Parameters& parameters) {
                                 show(duration)));
   };
   if (p.spacing == OutputParameters::Spacing::linear) {
-    within(p.interval, "interval");
-    samples.require(duration / p.interval <= 1e8, "interval",
+    const double interval = sample_interval(parameters);
+    within(interval, "interval");
+    samples.require(duration / interval <= 1e8, "interval",
                     fmt::format("is {}, which makes {:.3g} samples; at most 1e8 are possible",
-                                show(p.interval), duration / p.interval));
+                                show(interval), duration / interval));
   } else {
     within(p.first, "first");
     samples.at_least(p.per_decade, 1, "per_decade");

@@ -143,6 +143,7 @@ std::optional<std::string> place_of(const Parameters& parameters, const std::str
 
 std::string effective_parameters(const Parameters& parameters) {
   Parameters copy = parameters;
+  copy.output.interval = sample_interval(parameters);
   Sections all_but_sweep;
   all_but_sweep.sweep = false;
   return write_parameters(fields(copy, all_but_sweep));
@@ -204,11 +205,16 @@ DynamicsOptions dynamics_options(const Parameters& parameters) {
   return options;
 }
 
+double sample_interval(const Parameters& parameters) {
+  const double duration = parameters.dynamics.duration;
+  return parameters.output.interval.value_or(std::min(std::max(0.1, duration / 200), duration));
+}
+
 std::vector<double> sample_times(const Parameters& parameters) {
   const OutputParameters& p = parameters.output;
   const double duration = parameters.dynamics.duration;
   return p.spacing == OutputParameters::Spacing::linear
-             ? linear_times(p.interval, duration)
+             ? linear_times(sample_interval(parameters), duration)
              : logarithmic_times(p.first, p.per_decade, duration);
 }
 

@@ -64,7 +64,7 @@ struct OutputParameters {
   enum class Spacing { linear, logarithmic };
 
   Spacing spacing = Spacing::linear;
-  double interval = 0.1;
+  std::optional<double> interval;  ///< none: sample_interval
   double first = 0.01;
   int per_decade = 20;
   bool velocities = true;
@@ -141,6 +141,9 @@ std::optional<ParameterDifference> forbidden_change(const std::string& before,
 /// The same parameters in the form the engine takes them, without the contact of soft particles
 /// (soft_particles.h).
 DynamicsOptions dynamics_options(const Parameters& parameters);
+/// The time between samples with linear spacing; by default a 200th of the duration, but at least 0.1 (or all of a
+/// shorter run), so that the default output of a long run costs little.
+double sample_interval(const Parameters& parameters);
 /// Sample times, from 0 to the duration.
 std::vector<double> sample_times(const Parameters& parameters);
 

@@ -42,7 +42,7 @@ void require_fit(const Configuration<Dim>& state, const Parameters& parameters,
   const double fraction = packing_fraction(state);
   if (std::abs(fraction - parameters.system.packing_fraction) > 1e-9)
     throw UserError(
-        fmt::format("{}: has the packing fraction {}, but system.packing_fraction is {}; "
+        fmt::format("{}: has the packing fraction {:.10g}, but system.packing_fraction is {}; "
                     "make them equal",
                     file.string(), fraction, parameters.system.packing_fraction));
 }
@@ -83,6 +83,9 @@ RunCheckpoint<Dim> stored_run(RunRequest& request, const Checkpoint& checkpoint)
   const auto* state = std::get_if<Configuration<Dim>>(&checkpoint.configuration);
   if (request.from && state)
     take_species(request.parameters, *state, {file.string(), checkpoint.parameters});
+  // Its default is not the same in all versions.
+  if (std::optional<double>& interval = request.parameters.output.interval; !interval)
+    interval = parse_parameters(checkpoint.parameters, file.string()).output.interval;
   refuse_changes(request.parameters, checkpoint.parameters, request.output);
   RunCheckpoint<Dim> run = run_from_checkpoint<Dim>(checkpoint, file);
   require_trajectory(run, request.output);
@@ -373,7 +376,8 @@ Json run_summary(const RunRequest& request, const RunOutcome<Dim>& outcome) {
       {"compressibility_factor_error", z.mean.error},
       {"overlaps", exact_check(state.configuration).overlaps.size()},
       {"wall_seconds", outcome.wall_seconds},
-      {"collisions_per_second", collisions / outcome.wall_seconds}};
+      {"collisions_per_second", collisions / (outcome.wall_seconds - state.output_seconds)},
+      {"collisions_per_second_with_output", collisions / outcome.wall_seconds}};
   if (request.parameters.dynamics.contact) {
     summary["blocked_rotations"] = counters.blocked_rotations;
     summary["early_releases"] = counters.early_releases;

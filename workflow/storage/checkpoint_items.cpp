@@ -41,4 +41,9 @@ void ItemReader::operator()(const std::string& name, std::vector<double>& value)
   value = find(checkpoint_.series, name, file_);
 }
 
+void ItemReader::if_recorded(const std::string& name, double& value) const {
+  if (const auto found = checkpoint_.reals.find(name); found != checkpoint_.reals.end())
+    value = found->second;
+}
+
 }  // namespace vitrel
