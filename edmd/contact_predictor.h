@@ -134,19 +134,17 @@ class ContactPredictor {
   ContactPredictor(State& state, OnOverlap on_overlap)
       : state_(state), search_(state, on_overlap) {}
 
-  /// The earlier of `known` and the first contact of particle i with its neighbours from number `first` on, before the
-  /// horizon.
+  /// The earlier of `known` and the first contact of particle i with these neighbours before the horizon.
   template <Scope scope>
-  TimedEvent<B> predict(Index i, const TimedEvent<B>& known, std::size_t first, double horizon,
-                        RunCounters& counters) const {
+  TimedEvent<B> predict(Index i, const TimedEvent<B>& known, std::span<Neighbor<B>> neighbors,
+                        double horizon, RunCounters& counters) const {
     TimedEvent<B> best = known;
     const typename State::Particle& particle = state_.particles[i];
     const auto mine = flight_record<B>(particle.pose_at(state_.now), particle.motion(), state_.now);
     ContactScreen<B> screen(state_.type(i).coefficients, mine, state_.now, state_.size_now(),
                             state_.contact_gap);
-    const std::span<Neighbor<B>> neighbors = state_.neighborhoods->of(i);
     NeighborBatch<B> batch;
-    for (std::size_t next = first; next < neighbors.size(); next += lanes) {
+    for (std::size_t next = 0; next < neighbors.size(); next += lanes) {
       batch.template load<scope>(state_, i, neighbors, next);
       if (state_.types.size() > 1)
         for (int k = 0; k < lanes; ++k)
@@ -209,16 +207,15 @@ class ContactPredictor<B> {
 
   /// As above.
   template <Scope scope>
-  TimedEvent<B> predict(Index i, const TimedEvent<B>& known, std::size_t first, double horizon,
-                        RunCounters& counters) const {
+  TimedEvent<B> predict(Index i, const TimedEvent<B>& known, std::span<Neighbor<B>> neighbors,
+                        double horizon, RunCounters& counters) const {
     const Pose<dimension> mine = state_.pose_now(i);
-    const std::span<const Neighbor<B>> neighbors = state_.neighborhoods->of(i);
     EarliestRoundContact<B> earliest(state_.type(i).coefficients.radius, mine.position,
                                      state_.particles[i].velocity, state_.now, state_.size_now(),
                                      state_.contact_gap);
     SimdBatch radius(state_.type(i).coefficients.radius);
     NeighborBatch<B> batch;
-    for (std::size_t next = first; next < neighbors.size(); next += simd_width) {
+    for (std::size_t next = 0; next < neighbors.size(); next += simd_width) {
       batch.template load<scope>(state_, i, neighbors, next);
       if (state_.types.size() > 1)
         for (int k = 0; k < simd_width; ++k)

@@ -41,10 +41,10 @@ struct RunCounters {
 /// Event-driven dynamics of N hard bodies, or soft round ones, in a periodic box: the run-time interface of
 /// Simulation<Body>.
 ///
-/// Events run in blocks of a fixed count, or of the time in which the fastest particle crosses half the box. `load`
-/// begins a block and derives all internal state from the configuration: a run continued from a configuration
-/// written at the end of a block is bit-identical to the uninterrupted one. Virtual calls are per block, sample or
-/// Brownian step, never per event.
+/// Events run in blocks of a fixed count, which also end, if there are neighbour lists, when the fastest particle has
+/// crossed half the box. `load` begins a block and derives all internal state from the configuration: a run continued
+/// from a configuration written at the end of a block is bit-identical to the uninterrupted one. Virtual calls are per
+/// block, sample or Brownian step, never per event.
 template <int Dim>
 class Engine {
  public:

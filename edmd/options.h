@@ -18,6 +18,12 @@ enum class OnOverlap { stop, correct };
 /// (soft/soft_contact.h).
 enum class EarlyRelease { alone, together };
 
+/// How an event-driven run finds neighbours; the motion does not depend on it.
+enum class NeighborSearch {
+  lists,  ///< core/neighbors/neighborhood.h
+  cells,  ///< core/neighbors/cell_neighbors.h: round particles that do not grow
+};
+
 struct EngineOptions {
   double restitution = 1;
   OnOverlap on_overlap = OnOverlap::stop;
@@ -27,6 +33,7 @@ struct EngineOptions {
   /// If set, the particles are soft: round, and not growing. `restitution` then has no effect.
   std::shared_ptr<SoftContact> soft_contact;
   EarlyRelease early_release = EarlyRelease::alone;
+  std::optional<NeighborSearch> neighbors = {};  ///< none: by density
   /// Threads that predict all particles; results do not depend on their number.
   int threads = 1;
 };

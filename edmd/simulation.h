@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -61,13 +62,17 @@ class Simulation final : public Engine<B::dimension> {
   static constexpr std::size_t cached_particles = dimension == 2 ? 32768 : 2048;
   static constexpr std::uint64_t prefetch_stages = 4, events_per_stage = 4;
 
-  bool uses_prefetch() const { return state_.size() > cached_particles; }
+  bool uses_prefetch() const { return state_.size() > cached_particles && state_.neighborhoods; }
 
   void predict_all(double horizon, RunCounters& counters);
+  void schedule(const std::vector<double>& times);
+  void reset_clocks();
   void predict(Index i, RunCounters& counters);
-  void predict(Index i, const TimedEvent<B>& known, std::size_t first, RunCounters& counters);
+  void predict(Index i, const TimedEvent<B>& known, std::span<Neighbor<B>> neighbors,
+               RunCounters& counters);
   template <PredictionScope scope>
-  double next_event(Index i, TimedEvent<B> known, std::size_t first, RunCounters& counters);
+  double next_event(Index i, TimedEvent<B> known, std::span<Neighbor<B>> neighbors,
+                    RunCounters& counters);
   void process(Index i, RunCounters& counters);
   void process_exit(Index i, RunCounters& counters);
   void execute_contact(Index i, const Event<B>& event, RunCounters& counters);
@@ -85,7 +90,7 @@ class Simulation final : public Engine<B::dimension> {
   std::vector<Event<B>> events_;
   double horizon_ = never;         // nothing later is predicted
   std::uint64_t events_left_ = 0;  // until the block ends,
-  double longest_block_ = never;   // which it also does after this time
+  double longest_time_ = never;    // of the clocks: then they are reset, or the block ends
   std::uint64_t prefetched_ = 0;   // upcoming particles already prefetched
   bool predicted_ = false;
 };
@@ -94,13 +99,12 @@ class Simulation final : public Engine<B::dimension> {
 
 template <Body B>
 void Simulation<B>::load(const Configuration<dimension>& configuration, double horizon) {
-  state_.load(configuration);
+  state_.load(configuration, options_.neighbors.value_or(NeighborSearch::lists), target_neighbors);
   soft_.load(configuration);
-  state_.find_neighbors(target_neighbors);
   executor_.begin_block();
   horizon_ = horizon - state_.base;
-  // Times are rounded as well as positions; within a block nothing moves farther than the coordinates extend.
-  longest_block_ = state_.fastest > 0 ? state_.extent / state_.fastest : never;
+  // Times are rounded as well as positions: meanwhile nothing moves farther than the extent.
+  longest_time_ = state_.fastest > 0 ? state_.extent / state_.fastest : never;
   events_.assign(state_.size(), {});
   events_left_ = std::max(events_per_particle_and_block * state_.size(), min_events_per_block);
   predicted_ = false;
@@ -109,8 +113,13 @@ void Simulation<B>::load(const Configuration<dimension>& configuration, double h
 template <Body B>
 typename Simulation<B>::Stop Simulation<B>::advance(double until, RunCounters& counters) {
   if (!predicted_) predict_all(horizon_, counters);
-  const double end = until - state_.base;
-  while (events_left_ > 0 && state_.now < longest_block_) {
+  double end = until - state_.base;
+  while (events_left_ > 0) {
+    if (state_.now >= longest_time_) {
+      if (!state_.cells) break;
+      reset_clocks();
+      end = until - state_.base;
+    }
     const auto i = static_cast<Index>(calendar_.earliest());
     const double time = calendar_.time(i);
     if (time > end) {
@@ -149,33 +158,49 @@ void Simulation<B>::predict_all(double horizon, RunCounters& counters) {
   in_parallel(state_.size(), options_.threads, [&](std::size_t begin, std::size_t end) {
     RunCounters mine;
     for (auto i = static_cast<Index>(begin); i < end; ++i)
-      times[i] = next_event<PredictionScope::higher_indices>(i, {}, 0, mine);
+      times[i] = next_event<PredictionScope::higher_indices>(i, {}, state_.neighbors(i), mine);
     const std::lock_guard lock(adding);
     counters.add_predictions(mine);
   });
-  calendar_ = Calendar(state_.size(), uses_prefetch() ? prefetch_stages * events_per_stage : 1);
-  prefetched_ = 0;
-  for (Index i = 0; i < state_.size(); ++i) calendar_.set(i, times[i]);
+  schedule(times);
   predicted_ = true;
 }
 
 template <Body B>
-void Simulation<B>::predict(Index i, RunCounters& counters) {
-  predict(i, {}, 0, counters);
+void Simulation<B>::schedule(const std::vector<double>& times) {
+  calendar_ = Calendar(state_.size(), uses_prefetch() ? prefetch_stages * events_per_stage : 1);
+  prefetched_ = 0;
+  for (Index i = 0; i < state_.size(); ++i) calendar_.set(i, times[i]);
 }
 
-// With neighbours from number `first` on; `known` is the first contact with the others.
+// In a gas the clocks run out long before a block ends.
 template <Body B>
-void Simulation<B>::predict(Index i, const TimedEvent<B>& known, std::size_t first,
+void Simulation<B>::reset_clocks() {
+  const double elapsed = state_.reset_clocks();
+  soft_.reset_clocks(elapsed);
+  horizon_ -= elapsed;
+  std::vector<double> times(state_.size());
+  for (Index i = 0; i < state_.size(); ++i) times[i] = calendar_.time(i) - elapsed;
+  schedule(times);
+}
+
+template <Body B>
+void Simulation<B>::predict(Index i, RunCounters& counters) {
+  predict(i, {}, state_.neighbors(i), counters);
+}
+
+// With these neighbours; `known` is the first contact with the others.
+template <Body B>
+void Simulation<B>::predict(Index i, const TimedEvent<B>& known, std::span<Neighbor<B>> neighbors,
                             RunCounters& counters) {
-  calendar_.set(i, next_event<PredictionScope::all_neighbors>(i, known, first, counters));
+  calendar_.set(i, next_event<PredictionScope::all_neighbors>(i, known, neighbors, counters));
 }
 
 // Sets the contact of particle i that is known next and returns the time of its next event. Searches end where the
 // particle leaves its neighbourhood; closed forms do not, so that the contact is known beyond.
 template <Body B>
 template <PredictionScope scope>
-double Simulation<B>::next_event(Index i, TimedEvent<B> known, std::size_t first,
+double Simulation<B>::next_event(Index i, TimedEvent<B> known, std::span<Neighbor<B>> neighbors,
                                  RunCounters& counters) {
   double end = std::min(state_.next_exit(i), soft_.release_time(i));
   if (end > horizon_) end = never;
@@ -184,7 +209,7 @@ double Simulation<B>::next_event(Index i, TimedEvent<B> known, std::size_t first
     known.event.type = EventType::exit;
   }
   const TimedEvent<B> contact =
-      predictor_.template predict<scope>(i, known, first, horizon_, counters);
+      predictor_.template predict<scope>(i, known, neighbors, horizon_, counters);
   events_[i] = contact.event;
   state_.particles[i].known_until = contact.time;
   return std::min(end, contact.time);
@@ -212,9 +237,9 @@ template <Body B>
 void Simulation<B>::process_exit(Index i, RunCounters& counters) {
   ++counters.list_updates;
   const Index version = state_.version[i];
-  const std::size_t kept = state_.leave_neighborhood(i);
+  const std::span<Neighbor<B>> gained = state_.leave_neighborhood(i);
   if (State::is_round && state_.version[i] == version)
-    return predict(i, {state_.particles[i].known_until, events_[i]}, kept, counters);
+    return predict(i, {state_.particles[i].known_until, events_[i]}, gained, counters);
   state_.particles[i].known_until = never;
   predict(i, counters);
 }

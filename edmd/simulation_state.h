@@ -5,21 +5,24 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/contact/contact_screen.h"
 #include "core/contact/flight_record.h"
+#include "core/neighbors/cell_neighbors.h"
 #include "core/neighbors/neighborhood.h"
 #include "core/neighbors/spatial_order.h"
 #include "core/state/configuration.h"
 #include "core/tolerances.h"
 #include "edmd/collision_rule.h"
+#include "edmd/options.h"
 
 namespace vitrel {
 
 /// The particles of a simulation, their neighbour lists and the clock: what predictor and executor share.
 ///
-/// Times are relative to the start of the block, and every particle has its own clock. Particles are numbered so that
+/// Times are relative to `base`, and every particle has its own clock. Particles are numbered so that
 /// neighbours are near in memory.
 template <Body B>
 struct SimulationState {
@@ -32,6 +35,8 @@ struct SimulationState {
 
   /// Disks and spheres: contacts are known in closed form.
   static constexpr bool is_round = RoundBody<B>;
+  /// They may do without lists.
+  static constexpr bool has_cells = is_round && !grows<B>;
 
   using Particle = FlightRecord<B>;
   /// Of a sphere; other bodies have theirs in the record.
@@ -48,7 +53,7 @@ struct SimulationState {
 
   PeriodicBox<dimension> box;
   double growth_rate = 0;
-  double base = 0;        // simulated time at the start of the block
+  double base = 0;        // simulated time when the clocks were at 0
   double now = 0;         // since then
   double collisions = 0;  // since then
   double extent = 0;      // magnitude of the coordinates
@@ -64,6 +69,7 @@ struct SimulationState {
   std::vector<Shift<dimension>> image;
   std::vector<Index> version;  // changes of motion or image so far
   std::optional<Neighborhoods<B>> neighborhoods;
+  std::optional<CellNeighbors<B>> cells;  // instead of neighbourhoods; of round bodies
 
   std::size_t size() const { return particles.size(); }
   const ParticleType& type(Index i) const { return types[type_index[i]]; }
@@ -86,23 +92,36 @@ struct SimulationState {
     return particles[partner.other].position + box.translation(partner.shift()) -
            particles[i].position;
   }
+  /// Valid until the next call in the same thread.
+  std::span<Neighbor<B>> neighbors(Index i) {
+    if constexpr (has_cells)
+      if (cells) return cells->of(i);
+    return neighborhoods->of(i);
+  }
+  /// When particle i leaves its neighbourhood, or its cell.
   double next_exit(Index i) const {
+    if constexpr (has_cells)
+      if (cells) return now + cells->exit_time(i, pose_now(i).position, particles[i].velocity);
     return now + neighborhoods->exit_time(i, pose_now(i), particles[i].motion(), size_now());
   }
 
-  /// Begins a block, without neighbour lists: `find_neighbors` follows.
-  void load(const Configuration<dimension>& configuration);
-  void find_neighbors(double target);
+  /// Begins a block; `target_neighbors` is the mean length of lists.
+  void load(const Configuration<dimension>& configuration, NeighborSearch method,
+            double target_neighbors);
   void write(Configuration<dimension>& configuration) const;
   void set_velocities(const Configuration<dimension>& configuration);
-  /// Renews the neighbourhood of a particle that leaves it. Returns the number of neighbours that it keeps, which come
-  /// first in its list.
-  std::size_t leave_neighborhood(Index i);
+  /// Sets the clocks back to 0, since times are rounded as well as positions. Returns the time taken off.
+  double reset_clocks();
+  /// Renews the neighbourhood of a particle that leaves it. Returns the neighbours that it gains, valid until the next
+  /// call in the same thread.
+  std::span<Neighbor<B>> leave_neighborhood(Index i);
 
  private:
   void load_particles(const Configuration<dimension>& configuration);
   void load_types(const Configuration<dimension>& configuration);
+  void find_neighbors(NeighborSearch method, double target);
   Rotation rotation_now(Index i) const;
+  std::span<Neighbor<B>> renew_neighbors(Index i);
 };
 
 namespace detail {
@@ -152,7 +171,8 @@ inline double spin_magnitude(const Vec3& angular_velocity) {
 // ---------------------------------------------------------------------------------------------------
 
 template <Body B>
-void SimulationState<B>::load(const Configuration<dimension>& configuration) {
+void SimulationState<B>::load(const Configuration<dimension>& configuration, NeighborSearch method,
+                              double target_neighbors) {
   box = configuration.box;
   base = configuration.time;
   now = collisions = 0;
@@ -171,6 +191,7 @@ void SimulationState<B>::load(const Configuration<dimension>& configuration) {
                            max_support_rate * detail::spin_magnitude(particle.angular_velocity()));
   }
   contact_gap = tolerance::contact_gap(extent);
+  find_neighbors(method, target_neighbors);
 }
 
 template <Body B>
@@ -215,7 +236,15 @@ void SimulationState<B>::load_types(const Configuration<dimension>& configuratio
 }
 
 template <Body B>
-void SimulationState<B>::find_neighbors(double target) {
+void SimulationState<B>::find_neighbors(NeighborSearch method, double target) {
+  if constexpr (has_cells) {
+    if (method == NeighborSearch::cells) {
+      std::vector<Vector> positions;
+      for (const Particle& particle : particles) positions.push_back(particle.position);
+      cells.emplace(box, std::ranges::max(shapes, {}, &Shape::radius).radius, positions);
+      return;
+    }
+  }
   std::vector<Pose<dimension>> poses;
   poses.reserve(size());
   for (const Particle& particle : particles) poses.push_back(particle.pose());
@@ -258,6 +287,19 @@ void SimulationState<B>::set_velocities(const Configuration<dimension>& configur
   rotation_time = now;
 }
 
+template <Body B>
+double SimulationState<B>::reset_clocks() {
+  const double elapsed = now;
+  base += elapsed;
+  now = collisions = 0;
+  rotation_time -= elapsed;
+  for (Particle& particle : particles) {
+    particle.time -= elapsed;
+    particle.known_until -= elapsed;
+  }
+  return elapsed;
+}
+
 // Of a sphere.
 template <Body B>
 typename SimulationState<B>::Rotation SimulationState<B>::rotation_now(Index i) const {
@@ -268,14 +310,30 @@ typename SimulationState<B>::Rotation SimulationState<B>::rotation_now(Index i) 
 }
 
 template <Body B>
-std::size_t SimulationState<B>::leave_neighborhood(Index i) {
+std::span<Neighbor<B>> SimulationState<B>::leave_neighborhood(Index i) {
   advance_to_now(i);
-  Particle& particle = particles[i];
   const Shift<dimension> before = image[i];
-  box.wrap(particle.position, image[i]);
+  const std::span<Neighbor<B>> gained = renew_neighbors(i);
   // Collisions scheduled with its old image are stale.
   if (image[i] != before) ++version[i];
-  return neighborhoods->update(i, particle.pose(), size_now().size);
+  return gained;
+}
+
+// Wraps particle i into the box, which is where its neighbours are found. Returns those gained.
+template <Body B>
+std::span<Neighbor<B>> SimulationState<B>::renew_neighbors(Index i) {
+  Particle& particle = particles[i];
+  if constexpr (has_cells) {
+    if (cells) {
+      const auto crossing = cells->cross(i, particle.position, particle.velocity);
+      particle.position -= box.translation(crossing.boxes);
+      image[i] += crossing.boxes;
+      return crossing.gained;
+    }
+  }
+  box.wrap(particle.position, image[i]);
+  const std::size_t kept = neighborhoods->update(i, particle.pose(), size_now().size);
+  return neighborhoods->of(i).subspan(kept);
 }
 
 }  // namespace vitrel

@@ -26,6 +26,7 @@ class NoSoftContacts {
   void load(const Configuration<B::dimension>&) {}
   void write(Configuration<B::dimension>&) const {}
   static constexpr double release_time(Index) { return State::never; }
+  void reset_clocks(double) {}
   void release(Index) {}
   static bool is_close_pair(Index, const typename State::Image&) { return false; }
   const std::vector<Index>& collide_pair(Index, const Event<B>&, CollisionExecutor<B>&,
@@ -56,6 +57,10 @@ class SoftContacts {
   /// When a particle in contact takes its velocity after the contact.
   double release_time(Index i) const { return is_active() ? releases_[i].time : State::never; }
   void release(Index i);
+  /// As the state's, by this time.
+  void reset_clocks(double elapsed) {
+    for (Release& release : releases_) release.time -= elapsed;
+  }
 
   /// Pairs that separate, still closer than the sum of their radii.
   bool is_close_pair(Index i, const Image& partner) const {
@@ -232,7 +237,7 @@ bool SoftContacts<B>::try_displace(const UnwrappedPair& pair, const Vector& disp
 template <Body B>
 void SoftContacts<B>::displace(Index i, const Vector& displacement) {
   state_.particles[i].position += displacement;
-  if (!(state_.next_exit(i) > state_.now)) state_.leave_neighborhood(i);
+  while (!(state_.next_exit(i) > state_.now)) state_.leave_neighborhood(i);
 }
 
 // No third particle is closer than contact, or closer than before the displacement. In a small box this includes
@@ -245,7 +250,7 @@ bool SoftContacts<B>::has_clearance(Index i, const UnwrappedPair& pair, const Ve
     if (k == pair.j) return displacement2;
     return Vector::Zero();
   };
-  for (const Image& neighbor : state_.neighborhoods->of(i)) {
+  for (const Image& neighbor : state_.neighbors(i)) {
     const Index k = neighbor.other;
     if (unwrapped_pair(i, neighbor).ascending() == pair.ascending()) continue;
     const Vector d = state_.pose_now(k).position + state_.box.translation(neighbor.shift()) -

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "edmd/engine.h"
 
@@ -8,6 +9,13 @@
 /// One explicit instantiation of Simulation per file, so that the event loop is compiled once per
 /// body.
 namespace vitrel {
+
+/// Completes the description of an engine of round particles.
+inline std::string neighbor_text(const EngineOptions& options) {
+  return options.neighbors == NeighborSearch::cells
+             ? "; cells without neighbour lists, since they are not dense"
+             : "";
+}
 
 std::unique_ptr<Engine2> make_disk_engine(const EngineOptions& options);
 std::unique_ptr<Engine2> make_ellipse_engine(const EngineOptions& options);

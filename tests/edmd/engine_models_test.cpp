@@ -12,6 +12,7 @@
 #include <ostream>
 #include <vector>
 
+#include "core/neighbors/cell_neighbors.h"
 #include "core/state/check.h"
 #include "edmd/instances/instances.h"
 #include "edmd/run.h"
@@ -86,6 +87,34 @@ TEST(Models, InelasticDisksMoveAsInelasticEllipses) {
   EngineOptions options;
   options.restitution = 0.8;
   expect_same_motion(disks(), *make_disk_engine(options), *make_ellipse_engine(options));
+}
+
+// Also in a box of only three cells.
+TEST(Models, DisksWithCellsMoveAsThoseWithLists) {
+  EngineOptions cells, lists;
+  cells.neighbors = NeighborSearch::cells;
+  lists.neighbors = NeighborSearch::lists;
+  for (const double restitution : {1., 0.9}) {
+    cells.restitution = lists.restitution = restitution;
+    expect_same_motion(disks(), *make_disk_engine(cells), *make_disk_engine(lists));
+  }
+  const Configuration2 few =
+      moving(square_lattice(4, 0.7, 0, [](std::size_t) { return Ellipse{1, 1}; }));
+  ASSERT_LT(few.box.lengths().x(), 4 * min_cell_width(1));
+  expect_same_motion(few, *make_disk_engine(cells), *make_disk_engine(lists));
+}
+
+TEST(Models, GasesHaveCellsAndLiquidsLists) {
+  const auto engine = [](double packing_fraction) {
+    const Configuration2 start =
+        square_lattice(8, packing_fraction, 0, [](std::size_t) { return Ellipse{1, 1}; });
+    return make_engine(start, {})->description();
+  };
+  EngineOptions cells;
+  cells.neighbors = NeighborSearch::cells;
+  EXPECT_NE(make_disk_engine(cells)->description(), make_disk_engine({})->description());
+  EXPECT_EQ(engine(0.4), make_disk_engine(cells)->description());
+  EXPECT_EQ(engine(0.45), make_disk_engine({})->description());
 }
 
 // A model that holds for more scenes than one is told by the scene.

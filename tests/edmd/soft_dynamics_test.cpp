@@ -331,9 +331,9 @@ Watched watched_run(const Configuration3& start, double end, const DynamicsOptio
 }
 
 TEST(SoftGas, ElasticKeepsItsEnergyAndNoUnintendedOverlap) {
-  const Configuration3 start = gas(10, 0.1);
+  const Configuration3 start = gas(8, 0.1);
   for (const EarlyRelease early : {EarlyRelease::alone, EarlyRelease::together}) {
-    const Watched watched = watched_run(start, 8, soft(Viscoelastic{1e8, 0.4}, early));
+    const Watched watched = watched_run(start, 16, soft(Viscoelastic{1e8, 0.4}, early));
     const RunState3& state = watched.state;
     EXPECT_GT(state.counters.collisions, 20'000u);
     EXPECT_GT(watched.blocks, 2u);
@@ -418,7 +418,7 @@ TEST(SoftGas, ContinuesBitByBit) {
   RunState2 whole = begin_run(soft_disks(), 0);
   std::vector<RunState2> interruptions;
   RunPlan2 plan;
-  plan.end_time = 60;
+  plan.end_time = 240;
   plan.at_block_end = [&](const RunState2& state) { interruptions.push_back(state); };
   run(whole, options, plan, {});
   plan.at_block_end = nullptr;

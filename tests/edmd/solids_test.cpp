@@ -138,6 +138,13 @@ TEST(ModelsOfSolids, SpheresMoveAsThoseThatDoNotGrow) {
   expect_same_motion(spheres(), *make_sphere_engine({}), *make_growing_sphere_engine({}));
 }
 
+TEST(ModelsOfSolids, SpheresWithCellsMoveAsThoseWithLists) {
+  EngineOptions cells, lists;
+  cells.neighbors = NeighborSearch::cells;
+  lists.neighbors = NeighborSearch::lists;
+  expect_same_motion(spheres(), *make_sphere_engine(cells), *make_sphere_engine(lists));
+}
+
 TEST(ModelsOfSolids, EllipsoidsMoveAsThoseThatDoNotGrow) {
   expect_same_motion(spheroids(), *make_ellipsoid_engine({}), *make_growing_ellipsoid_engine({}));
   expect_same_motion(scalene(), *make_ellipsoid_engine({}), *make_growing_ellipsoid_engine({}));
