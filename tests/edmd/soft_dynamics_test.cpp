@@ -414,7 +414,7 @@ Configuration2 kept(const Configuration2& configuration) {
 }
 
 TEST(SoftGas, ContinuesBitByBit) {
-  const DynamicsOptions options = soft(LinearDashpot{200, 1});
+  const DynamicsOptions options = soft(LinearDashpot{200, 0.1});
   RunState2 whole = begin_run(soft_disks(), 0);
   std::vector<RunState2> interruptions;
   RunPlan2 plan;
