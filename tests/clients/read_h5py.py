@@ -58,9 +58,11 @@ def check_fixed(file):
 def check_storage(file):
     value = file["particles/all/position/value"]
     assert value.chunks == (1, sample.N, 3) and value.dtype == np.dtype("<f8")
-    assert value.shuffle and value.fletcher32 and value.compression_opts == 4
+    assert value.fletcher32 and value.compression is None
+    image = file["particles/all/image/value"]
+    assert image.chunks == (1, sample.N, 3) and image.dtype == np.dtype("<i4")
+    assert image.fletcher32 and image.shuffle and image.compression == "gzip"
     assert file["particles/all/position/step"].dtype == np.dtype("<i8")
-    assert file["particles/all/image/value"].dtype == np.dtype("<i4")
 
 
 def check_parameters(file):
