@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <vector>
 
 #include "core/error.h"
 #include "edmd/collision_rule.h"
+#include "edmd/correction_move.h"
 #include "edmd/engine.h"
 #include "edmd/event.h"
+#include "edmd/inelastic_collapse.h"
 
 namespace vitrel {
 
@@ -24,7 +25,7 @@ class CollisionExecutor {
   CollisionExecutor(State& state, const EngineOptions& options)
       : state_(state), options_(options) {}
 
-  void begin_block() { collapse_count_.assign(state_.size(), 0); }
+  void begin_block() { collapse_.begin_block(); }
 
   /// The collision of particle i with the partner of its event. Predictions for both must follow.
   void collide_pair(Index i, const Event<B>& event, RunCounters& counters) {
@@ -33,7 +34,7 @@ class CollisionExecutor {
     const Vector d = meet(i, event);
     const Vector normal = event.normal_along(d);
     const double speed = impact(i, j, d, normal, options_.restitution, counters);
-    if (options_.restitution < 1) detect_inelastic_collapse(i, j, speed * since);
+    if (options_.restitution < 1) collapse_.detect(i, j, speed * since);
     if constexpr (!State::is_round) state_.neighborhoods->store_axis(i, event.partner, normal);
   }
 
@@ -112,23 +113,6 @@ class CollisionExecutor {
     return {speed, impulse};
   }
 
-  // Inelastic collapse: infinitely many collisions of a few particles in a finite time; or of one pair, like a
-  // bouncing ball, whose rotation brings the surfaces together again. The criterion: the distances travelled
-  // between collisions stay below the contact gap several times in a row.
-  void detect_inelastic_collapse(Index i, Index j, double displacement) {
-    constexpr int max_count = 10;
-    for (const Index k : {i, j})
-      collapse_count_[k] = std::abs(displacement) < state_.contact_gap
-                               ? std::min(collapse_count_[k] + 1, max_count)
-                               : 0;
-    if (std::min(collapse_count_[i], collapse_count_[j]) < max_count) return;
-    throw InvariantError(
-        "inelastic collapse at time " + std::to_string(state_.base + state_.now) + ": particles " +
-        std::to_string(state_.external_id[i]) + " and " + std::to_string(state_.external_id[j]) +
-        " collide repeatedly without moving; use a coefficient of restitution closer to 1 "
-        "or a shorter run");
-  }
-
   [[noreturn]] void report_self_overlap(Index i) const {
     throw InvariantError(
         "particle " + std::to_string(state_.external_id[i]) + " grew into its own image at time " +
@@ -137,7 +121,7 @@ class CollisionExecutor {
 
   State& state_;
   const EngineOptions& options_;
-  std::vector<std::uint8_t> collapse_count_;  // consecutive collisions without progress
+  InelasticCollapse<B> collapse_{state_};
 };
 
 }  // namespace vitrel

@@ -6,7 +6,6 @@
 #include "core/contact/contact_queries.h"
 #include "core/contact/ellipse_contact_screen.h"
 #include "core/contact/ellipsoid_contact_screen.h"
-#include "core/contact/round_contacts.h"
 #include "edmd/engine.h"
 #include "edmd/event.h"
 
@@ -188,55 +187,6 @@ class ContactPredictor {
                                          : 0.5 * particles * state_.now / state_.collisions;
   }
 
-  State& state_;
-  ContactSearch<B> search_;
-};
-
-/// Disks and spheres: all contacts are computed, also those after the particle leaves its neighbourhood. When it does,
-/// only contacts with new neighbours remain to be predicted.
-template <RoundBody B>
-class ContactPredictor<B> {
- public:
-  using State = SimulationState<B>;
-  using Index = typename State::Index;
-  using Scope = PredictionScope;
-  static constexpr int dimension = State::dimension;
-
-  ContactPredictor(State& state, OnOverlap on_overlap)
-      : state_(state), search_(state, on_overlap) {}
-
-  /// As above.
-  template <Scope scope>
-  TimedEvent<B> predict(Index i, const TimedEvent<B>& known, std::span<Neighbor<B>> neighbors,
-                        double horizon, RunCounters& counters) const {
-    const Pose<dimension> mine = state_.pose_now(i);
-    EarliestRoundContact<B> earliest(state_.type(i).coefficients.radius, mine.position,
-                                     state_.particles[i].velocity, state_.now, state_.size_now(),
-                                     state_.contact_gap);
-    SimdBatch radius(state_.type(i).coefficients.radius);
-    NeighborBatch<B> batch;
-    for (std::size_t next = 0; next < neighbors.size(); next += simd_width) {
-      batch.template load<scope>(state_, i, neighbors, next);
-      if (state_.types.size() > 1)
-        for (int k = 0; k < simd_width; ++k)
-          radius.set(k, state_.type(batch.other[k]).coefficients.radius);
-      earliest.test(batch.partner, radius, next);
-      counters.predictions += batch.tested;
-    }
-    const auto [wait, number] = earliest.earliest();
-    const double time = state_.now + wait;
-    if (!(time < std::min(known.time, horizon))) return known;
-    const Neighbor<B>& neighbor = neighbors[std::min(number, neighbors.size() - 1)];
-    TimedEvent<B> best = known;
-    if (wait > 0)
-      best = {time, Event<B>::with(Event<B>::Type::collision, neighbor,
-                                   state_.version[neighbor.other], Vec<dimension>::Zero())};
-    else
-      search_.search(i, mine, neighbor, horizon, best, counters);  // touches or overlaps
-    return best;
-  }
-
- private:
   State& state_;
   ContactSearch<B> search_;
 };

@@ -11,7 +11,7 @@ namespace vitrel {
 class SoftContact;
 
 /// What to do with a pair found overlapping. A hard run never produces one: `stop` throws InvariantError; `correct`
-/// applies the correction move of the thesis (collision_rule.h) and counts it.
+/// applies the correction move of the thesis (correction_move.h) and counts it.
 enum class OnOverlap { stop, correct };
 
 /// Whether a soft particle that is hit while in contact is released alone or together with its partner

@@ -8,13 +8,15 @@
 #include <vector>
 
 #include "core/error.h"
-#include "core/neighbors/prefetch.h"
 #include "core/parallel.h"
 #include "edmd/calendar.h"
 #include "edmd/collision_executor.h"
 #include "edmd/contact_predictor.h"
 #include "edmd/engine.h"
+#include "edmd/event_prefetcher.h"
+#include "edmd/round_contact_predictor.h"
 #include "edmd/soft_contacts.h"
+#include "edmd/state_transfer.h"
 
 namespace vitrel {
 
@@ -56,13 +58,6 @@ class Simulation final : public Engine<B::dimension> {
   static constexpr double target_neighbors = dimension == 2 ? 7 : 14;
   static constexpr std::uint64_t events_per_particle_and_block = 128;
   static constexpr std::uint64_t min_events_per_block = 4096;
-  /// Systems with more particles exceed the caches, and consecutive events are far apart in memory: the loop
-  /// prefetches what an event will read, in stages this many events apart. For smaller systems this costs more
-  /// than it saves. In three dimensions a particle has twice the neighbours.
-  static constexpr std::size_t cached_particles = dimension == 2 ? 32768 : 2048;
-  static constexpr std::uint64_t prefetch_stages = 4, events_per_stage = 4;
-
-  bool uses_prefetch() const { return state_.size() > cached_particles && state_.neighborhoods; }
 
   void predict_all(double horizon, RunCounters& counters);
   void schedule(const std::vector<double>& times);
@@ -76,8 +71,6 @@ class Simulation final : public Engine<B::dimension> {
   void process(Index i, RunCounters& counters);
   void process_exit(Index i, RunCounters& counters);
   void execute_contact(Index i, const Event<B>& event, RunCounters& counters);
-  void prefetch_events();
-  void prefetch_event(Index i, int stage);
   [[noreturn]] void report_overlap(Index i, Index j) const;
 
   EngineOptions options_;
@@ -88,10 +81,10 @@ class Simulation final : public Engine<B::dimension> {
   SoftContactPolicy<B> soft_{state_, options_};
   Calendar calendar_;
   std::vector<Event<B>> events_;
+  EventPrefetcher<B> prefetcher_{state_, calendar_, events_};
   double horizon_ = never;         // nothing later is predicted
   std::uint64_t events_left_ = 0;  // until the block ends,
   double longest_time_ = never;    // of the clocks: then they are reset, or the block ends
-  std::uint64_t prefetched_ = 0;   // upcoming particles already prefetched
   bool predicted_ = false;
 };
 
@@ -129,7 +122,7 @@ typename Simulation<B>::Stop Simulation<B>::advance(double until, RunCounters& c
     state_.now = time;
     --events_left_;
     ++counters.events;
-    if (uses_prefetch()) prefetch_events();
+    if (prefetcher_.is_useful()) prefetcher_.advance();
     process(i, counters);
   }
   return Stop::block_end;
@@ -168,8 +161,8 @@ void Simulation<B>::predict_all(double horizon, RunCounters& counters) {
 
 template <Body B>
 void Simulation<B>::schedule(const std::vector<double>& times) {
-  calendar_ = Calendar(state_.size(), uses_prefetch() ? prefetch_stages * events_per_stage : 1);
-  prefetched_ = 0;
+  calendar_ = Calendar(state_.size(), prefetcher_.lookahead());
+  prefetcher_.restart();
   for (Index i = 0; i < state_.size(); ++i) calendar_.set(i, times[i]);
 }
 
@@ -264,47 +257,6 @@ void Simulation<B>::execute_contact(Index i, const Event<B>& event, RunCounters&
   state_.particles[i].known_until = state_.particles[j].known_until = never;  // neither is known
   predict(i, counters);
   if (i != j) predict(j, counters);
-}
-
-template <Body B>
-void Simulation<B>::prefetch_events() {
-  for (; prefetched_ < calendar_.upcoming_count(); ++prefetched_)
-    for (std::uint64_t stage = 0;
-         stage < prefetch_stages && stage * events_per_stage <= prefetched_; ++stage)
-      prefetch_event(static_cast<Index>(calendar_.upcoming(prefetched_ - stage * events_per_stage)),
-                     static_cast<int>(stage));
-}
-
-// Each stage uses the data that the preceding stage has prefetched.
-template <Body B>
-void Simulation<B>::prefetch_event(Index i, int stage) {
-  Neighborhoods<B>& neighborhoods = *state_.neighborhoods;
-  const auto prefetch_own = [&](Index k) {
-    prefetch_line(&state_.particles[k]);
-    prefetch_line(&events_[k]);
-    prefetch_line(&state_.version[k]);
-    calendar_.prefetch(k);
-    neighborhoods.prefetch_list_header(k);
-  };
-  const auto prefetch_partners = [&](Index k) {
-    for (const auto& neighbor : neighborhoods.of(k))
-      prefetch_line(&state_.particles[neighbor.other]);
-  };
-  if (stage == 0) return prefetch_own(i);
-  if (stage == 1) neighborhoods.prefetch_list(i);
-  if (stage == 2) prefetch_partners(i);
-  const double time = calendar_.time(i);
-  if (events_[i].type == EventType::exit || time < state_.particles[i].known_until) {
-    if (time == never) return;
-    if (stage == 1) prefetch_line(&state_.image[i]);
-    if (stage == 1) neighborhoods.prefetch_cells(i, state_.particles[i].pose_at(time).position);
-    if (stage == 2) neighborhoods.prefetch_references(i);
-  } else {
-    const Index j = events_[i].partner.other;
-    if (stage == 1) prefetch_own(j);
-    if (stage == 2) neighborhoods.prefetch_list(j);
-    if (stage == 3) prefetch_partners(j);
-  }
 }
 
 template <Body B>

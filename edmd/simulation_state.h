@@ -1,9 +1,6 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
-#include <map>
 #include <optional>
 #include <span>
 #include <vector>
@@ -12,9 +9,7 @@
 #include "core/contact/flight_record.h"
 #include "core/neighbors/cell_neighbors.h"
 #include "core/neighbors/neighborhood.h"
-#include "core/neighbors/spatial_order.h"
 #include "core/state/configuration.h"
-#include "core/tolerances.h"
 #include "edmd/collision_rule.h"
 #include "edmd/options.h"
 
@@ -124,168 +119,7 @@ struct SimulationState {
   std::span<Neighbor<B>> renew_neighbors(Index i);
 };
 
-namespace detail {
-
-/// The shape at size 1 for the semi-axes in a configuration.
-template <class Shape, class Axes>
-Shape shape_from(const Axes& semi_axes) {
-  if constexpr (std::is_convertible_v<Axes, Shape>)
-    return semi_axes;
-  else
-    return {semi_axes.circumradius()};
-}
-
-inline Ellipse particle_shape(const Ellipse& shape) {
-  return shape;
-}
-inline Ellipsoid particle_shape(const Ellipsoid& shape) {
-  return shape;
-}
-inline Ellipsoid particle_shape(const Sphere& shape) {
-  return {Vec3::Constant(shape.radius)};
-}
-
-inline std::vector<double> semi_axis_values(const Ellipse& shape) {
-  return {shape.a, shape.b};
-}
-inline std::vector<double> semi_axis_values(const Ellipsoid& shape) {
-  return {shape.semi_axes[0], shape.semi_axes[1], shape.semi_axes[2]};
-}
-
-/// The magnitude of an angle, which determines its rounding error: unwrapped angles grow, quaternions stay normalised.
-inline double angle_magnitude(double angle) {
-  return std::abs(angle);
-}
-inline double angle_magnitude(const Quaternion&) {
-  return 1;
-}
-inline double spin_magnitude(double angular_velocity) {
-  return std::abs(angular_velocity);
-}
-inline double spin_magnitude(const Vec3& angular_velocity) {
-  return angular_velocity.norm();
-}
-
-}  // namespace detail
-
 // ---------------------------------------------------------------------------------------------------
-
-template <Body B>
-void SimulationState<B>::load(const Configuration<dimension>& configuration, NeighborSearch method,
-                              double target_neighbors) {
-  box = configuration.box;
-  base = configuration.time;
-  now = collisions = 0;
-  load_particles(configuration);
-  load_types(configuration);
-  extent = 0.5 * box.lengths().maxCoeff();
-  fastest = 0;
-  for (Index i = 0; i < size(); ++i) {
-    const Particle& particle = particles[i];
-    const double max_support_rate = shape(i).max_support_rate();
-    // Angles are also rounded, which moves the surface by up to max_support_rate times the rounding error.
-    extent = std::max({extent, shape(i).circumradius(),
-                       max_support_rate * detail::angle_magnitude(particle.orientation())});
-    fastest = std::max(fastest,
-                       particle.velocity.norm() +
-                           max_support_rate * detail::spin_magnitude(particle.angular_velocity()));
-  }
-  contact_gap = tolerance::contact_gap(extent);
-  find_neighbors(method, target_neighbors);
-}
-
-template <Body B>
-void SimulationState<B>::load_particles(const Configuration<dimension>& configuration) {
-  external_id = spatial_order<dimension>(box, configuration.position);
-  particles.clear();
-  rotations.clear();
-  rotation_time = 0;
-  image.clear();
-  version.assign(external_id.size(), 0);
-  for (const Index k : external_id) {
-    Pose<dimension> pose = configuration.pose(k);
-    Shift<dimension> boxes = configuration.image[k];
-    box.wrap(pose.position, boxes);
-    const AngularVelocity<dimension>& angular_velocity = configuration.angular_velocity[k];
-    particles.push_back(flight_record<B>(pose, {configuration.velocity[k], angular_velocity}));
-    if constexpr (!Particle::has_rotation)
-      rotations.push_back({orientation_of(pose), angular_velocity});
-    image.push_back(boxes);
-  }
-}
-
-template <Body B>
-void SimulationState<B>::load_types(const Configuration<dimension>& configuration) {
-  std::map<std::vector<double>, std::uint32_t> known;
-  shapes.clear();
-  types.clear();
-  std::vector<std::uint32_t> index;
-  for (const Index k : external_id) {
-    const Solid<dimension>& semi_axes = configuration.shape[k];
-    const double mass = configuration.mass[k];
-    std::vector<double> numbers = detail::semi_axis_values(semi_axes);
-    numbers.push_back(mass);
-    const auto [place, is_new] = known.try_emplace(std::move(numbers), types.size());
-    index.push_back(place->second);
-    if (!is_new) continue;
-    const auto shape = detail::shape_from<Shape>(semi_axes);
-    shapes.push_back(shape);
-    types.push_back({ShapeCoefficients<Shape>(shape), inertia_of(semi_axes, mass)});
-  }
-  type_index = TypeIndex(std::move(index), types.size());
-}
-
-template <Body B>
-void SimulationState<B>::find_neighbors(NeighborSearch method, double target) {
-  if constexpr (has_cells) {
-    if (method == NeighborSearch::cells) {
-      std::vector<Vector> positions;
-      for (const Particle& particle : particles) positions.push_back(particle.position);
-      cells.emplace(box, std::ranges::max(shapes, {}, &Shape::radius).radius, positions);
-      return;
-    }
-  }
-  std::vector<Pose<dimension>> poses;
-  poses.reserve(size());
-  for (const Particle& particle : particles) poses.push_back(particle.pose());
-  neighborhoods.emplace(box, shapes, type_index, poses, target);
-}
-
-template <Body B>
-void SimulationState<B>::write(Configuration<dimension>& configuration) const {
-  configuration.time = base + now;
-  const double size_factor = size_now().size;
-  for (Index i = 0; i < size(); ++i) {
-    const Index k = external_id[i];
-    Pose<dimension> pose = pose_now(i);
-    configuration.angular_velocity[k] = particles[i].angular_velocity();
-    if constexpr (!Particle::has_rotation) {
-      const Rotation rotation = rotation_now(i);
-      pose.orientation = rotation.orientation;
-      configuration.angular_velocity[k] = rotation.angular_velocity;
-    }
-    configuration.set_pose(k, pose);
-    configuration.image[k] = image[i];
-    box.wrap(configuration.position[k], configuration.image[k]);
-    configuration.velocity[k] = particles[i].velocity;
-    if constexpr (grows<B>)
-      configuration.shape[k] = detail::particle_shape(scaled(shape(i), size_factor));
-  }
-}
-
-template <Body B>
-void SimulationState<B>::set_velocities(const Configuration<dimension>& configuration) {
-  for (Index i = 0; i < size(); ++i) {
-    const Motion<dimension> motion{configuration.velocity[external_id[i]],
-                                   configuration.angular_velocity[external_id[i]]};
-    if constexpr (!Particle::has_rotation)
-      rotations[i] = {rotation_now(i).orientation, motion.angular_velocity};
-    advance_to_now(i);
-    particles[i].set_motion(motion);
-    fastest = std::max(fastest, motion.velocity.norm());
-  }
-  rotation_time = now;
-}
 
 template <Body B>
 double SimulationState<B>::reset_clocks() {
@@ -298,15 +132,6 @@ double SimulationState<B>::reset_clocks() {
     particle.known_until -= elapsed;
   }
   return elapsed;
-}
-
-// Of a sphere.
-template <Body B>
-typename SimulationState<B>::Rotation SimulationState<B>::rotation_now(Index i) const {
-  const auto& [orientation, angular_velocity] = rotations[i];
-  const Pose<dimension> pose{Vector::Zero(), orientation};
-  const Motion<dimension> motion{Vector::Zero(), angular_velocity};
-  return {orientation_of(advanced(pose, motion, now - rotation_time)), angular_velocity};
 }
 
 template <Body B>

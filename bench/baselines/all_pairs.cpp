@@ -9,7 +9,7 @@
 #include "core/contact/first_contact.h"
 #include "core/error.h"
 #include "core/tolerances.h"
-#include "edmd/collision_rule.h"
+#include "edmd/correction_move.h"
 
 namespace vitrel::bench {
 namespace {

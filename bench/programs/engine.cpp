@@ -34,6 +34,7 @@ struct Effort {
   double stretch = 1;  // seconds of a repeat, at least
   int disks = 4096, ellipses = 1024;
   int tile = 1000;  // particles
+  int gas = 2000, large_gas = 100'000;
   std::vector<std::pair<int, int>> tilings = {{1, 1}, {5, 2}, {10, 10}, {40, 25}};
   std::vector<int> chart_sizes = {10, 30, 100, 300, 1000, 3000, 10000};
   int largest_all_pairs = 3000;  // its tables take 88 bytes for each pair
@@ -41,7 +42,7 @@ struct Effort {
   double all_pairs_seconds = 8;
   int largest = 1'000'000;
 };
-const Effort quick{2, 0.01, 100, 64, 64, {{1, 1}, {2, 2}}, {10, 30}, 30, 30, 0.02};
+const Effort quick{2, 0.01, 100, 64, 64, 200, 400, {{1, 1}, {2, 2}}, {10, 30}, 30, 30, 0.02};
 
 /// A liquid that has also moved by event-driven dynamics.
 Configuration2 relaxed(const FluidScene& scene, double seconds) {
@@ -197,6 +198,48 @@ Json measure_brownian(const Effort& effort) {
   return rows;
 }
 
+// ---- gases of disks and spheres: cells or lists -----------------------------------------------------
+
+template <int Dim>
+void measure_gas(const Effort& effort, int particles, double packing_fraction, Json& rows) {
+  say(fmt::format("gas: {} dimensions, N = {}, phi = {}", Dim, particles, packing_fraction));
+  const Configuration<Dim> start = gas<Dim>(particles, packing_fraction);
+  const auto engine = [&](std::optional<NeighborSearch> neighbors) {
+    EngineOptions options;
+    options.neighbors = neighbors;
+    return make_engine(start, options);
+  };
+  TimedRun<Dim> cells(engine(NeighborSearch::cells), start),
+      lists(engine(NeighborSearch::lists), start);
+  Repeats of_cells, of_lists;
+  for (int k = 0; k < effort.repeats; ++k) {
+    of_cells.add(cells.blocks(0.5 * effort.stretch));
+    of_lists.add(lists.blocks(0.5 * effort.stretch));
+  }
+  const bool chooses_cells =
+      engine({})->description() == engine(NeighborSearch::cells)->description();
+  rows.push_back({{"dimension", Dim},
+                  {"particles", particles},
+                  {"packing_fraction", packing_fraction},
+                  {"chosen", chooses_cells ? "cells" : "lists"},
+                  {"cells", of_cells.json()},
+                  {"lists", of_lists.json()}});
+}
+
+Json measure_gases(const Effort& effort) {
+  Json rows = Json::array();
+  for (const double phi : {0.001, 0.01, 0.1, 0.2, 0.3, 0.4, 0.5})
+    measure_gas<2>(effort, effort.gas, phi, rows);
+  for (const double phi : {0.001, 0.01, 0.1, 0.2, 0.25, 0.3})
+    measure_gas<3>(effort, effort.gas, phi, rows);
+  for (const double phi : {0.1, 0.2}) {
+    if (effort.large_gas > effort.largest) break;
+    measure_gas<2>(effort, effort.large_gas, phi, rows);
+    measure_gas<3>(effort, effort.large_gas, phi, rows);
+  }
+  return rows;
+}
+
 // ---- what each device gains -------------------------------------------------------------------------
 
 using MakeEngine = std::function<std::unique_ptr<Engine2>()>;
@@ -300,10 +343,10 @@ Json measure_lazy_refinement(const Effort& effort) {
 
 // -----------------------------------------------------------------------------------------------------
 
-const BenchParts<Effort> parts = {
-    {"speed", measure_speed},         {"sizes", measure_sizes},
-    {"all_pairs", measure_all_pairs}, {"brownian", measure_brownian},
-    {"devices", measure_devices},     {"lazy", measure_lazy_refinement}};
+const BenchParts<Effort> parts = {{"speed", measure_speed},         {"sizes", measure_sizes},
+                                  {"all_pairs", measure_all_pairs}, {"brownian", measure_brownian},
+                                  {"gases", measure_gases},         {"devices", measure_devices},
+                                  {"lazy", measure_lazy_refinement}};
 
 }  // namespace
 

@@ -63,6 +63,19 @@ Configuration2 fluid(const FluidScene& scene) {
   return c;
 }
 
+template <int Dim>
+Configuration<Dim> gas(int particles, double packing_fraction, std::uint64_t seed) {
+  Configuration<Dim> c;
+  c.resize(static_cast<std::size_t>(particles));
+  c.species_names = {"A"};
+  must_reach(insert_particles(c, {packing_fraction}, seed, {}));
+  draw_velocities(c, seed, Purpose::velocities, 0, Temperature::total);
+  return c;
+}
+
+template Configuration2 gas<2>(int, double, std::uint64_t);
+template Configuration3 gas<3>(int, double, std::uint64_t);
+
 Configuration2 tiled(const Configuration2& tile, int columns, int rows) {
   const Vec2 lengths = tile.box.lengths();
   const std::size_t copies = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);

@@ -23,6 +23,10 @@ struct FluidScene {
 /// sweeps of Monte Carlo; velocities at kT = 1. A liquid, not a melted crystal.
 Configuration2 fluid(const FluidScene& scene);
 
+/// N disks or spheres of radius 1, inserted at random, with velocities at kT = 1.
+template <int Dim>
+Configuration<Dim> gas(int particles, double packing_fraction, std::uint64_t seed = 1);
+
 /// Columns × rows copies of a configuration, the particles numbered at random, with velocities of
 /// their own. No more a periodic one after some collisions of each.
 Configuration2 tiled(const Configuration2& tile, int columns, int rows);

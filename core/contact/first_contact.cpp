@@ -1,12 +1,11 @@
 #include "core/contact/first_contact.h"
 
-#include <algorithm>
-#include <cmath>
+#include <type_traits>
 
 #include "core/contact/axis_search.h"
 #include "core/contact/ellipse_pair_in_flight.h"
 #include "core/contact/ellipsoid_pair_in_flight.h"
-#include "core/contact/first_root.h"
+#include "core/contact/round_contact.h"
 
 namespace vitrel {
 
@@ -46,64 +45,14 @@ Prediction<B::dimension> search(const Flight<B>& one, const Flight<B>& two, doub
   return found;
 }
 
-/// A disk or a sphere.
-struct Round {
-  double radius, growth;
-};
-
-template <class B>
-Prediction<B::dimension> round_contact(const Flight<B>& one, const Round& round1,
-                                       const Flight<B>& two, const Round& round2, double horizon,
-                                       double contact_gap) {
-  const Vec<B::dimension> d = two.pose.position - one.pose.position;
-  const Vec<B::dimension> v = two.motion.velocity - one.motion.velocity;
-  const double touch = round1.radius + round2.radius;
-  if (d.squaredNorm() < touch * touch)
-    return {Outcome::overlap, 0, d.normalized(), one.pose.position, 1};
-  const double reach = touch + contact_gap;
-  const double growth = round1.growth + round2.growth;
-  const double distance = d.norm();
-  const double c = (distance - reach) * (distance + reach);
-  const double b = d.dot(v) - reach * growth;
-  const double a = v.squaredNorm() - growth * growth;  // a t² + 2 b t + c ≤ 0 while within reach
-  const double discriminant = b * b - a * c;
-  if (b >= 0 && a >= 0) return {};
-  if (c > 0 && discriminant < 0) return {};
-  const double root = std::sqrt(std::max(discriminant, 0.0));
-  const double time =
-      b < 0 ? detail::closing_time(b, c, root) : detail::overtaking_time(a, b, root);
-  if (!(time <= horizon)) return {};
-  const Vec<B::dimension> normal = (d + v * time).normalized();
-  const double radius1 = round1.radius + round1.growth * time;
-  return {Outcome::contact, time, normal,
-          one.pose.position + one.motion.velocity * time + radius1 * normal, 1};
-}
-
-template <class Shape>
-bool is_round(const Shape& shape) {
-  return shape.is_round();
-}
-template <class Shape>
-bool is_round(const Growing<Shape>& body) {
-  return body.shape.is_round();
-}
-
-template <class Shape>
-Round as_round(const Shape& shape) {
-  return {shape.circumradius(), 0};
-}
-template <class Shape>
-Round as_round(const Growing<Shape>& body) {
-  return {body.circumradius(), body.growth_rate * body.shape.circumradius()};
-}
-
 template <class B>
 Prediction<B::dimension> contact_of(const Flight<B>& one, const Flight<B>& two, double horizon,
                                     double contact_gap, const Vec<B::dimension>* initial_axis) {
   if constexpr (!std::is_same_v<BaseShape<B>, Disk> && !std::is_same_v<BaseShape<B>, Sphere>)
-    if (!is_round(one.body) || !is_round(two.body))
+    if (!detail::is_round(one.body) || !detail::is_round(two.body))
       return search(one, two, horizon, contact_gap, initial_axis);
-  return round_contact(one, as_round(one.body), two, as_round(two.body), horizon, contact_gap);
+  return detail::round_contact(one, detail::as_round(one.body), two, detail::as_round(two.body),
+                               horizon, contact_gap);
 }
 
 }  // namespace

@@ -12,23 +12,6 @@ namespace vitrel::detail {
 
 constexpr double no_contact = std::numeric_limits<double>::infinity();
 
-/// The first t ≥ 0 with |d + v t| = r + γ t, for circles or spheres. With a = v² − γ², b = d·v − r γ and
-/// c = d² − r² it is a root of a t² + 2 b t + c; root = √(b² − a c).
-/// b < 0: the surfaces approach; 0 if they already touch (c ≤ 0).
-///
-/// What precedes these formulas is written out where they are used: first_contact.cpp computes c as
-/// (|d| − r)(|d| + r), which is more accurate near contact; contact_screen.h saves the square root of d².
-template <class T>
-VITREL_INLINE T closing_time(const T& b, const T& c, const T& root) {
-  using std::max;
-  return max(c / (root - b), T(0));
-}
-/// b ≥ 0 and a < 0: the centres recede, but the radii grow faster.
-template <class T>
-VITREL_INLINE T overtaking_time(const T& a, const T& b, const T& root) {
-  return (b + root) / -a;
-}
-
 /// The first root of gap + rate s − ½ M s² for gap ≥ 0 and any M; infinity if there is none.
 inline double first_root(double gap, double rate, double acceleration) {
   const double discriminant = rate * rate + 2 * acceleration * gap;

@@ -2,6 +2,7 @@
 
 #include "core/contact/contact_screen.h"
 #include "core/contact/flight_record.h"
+#include "core/contact/round_contact.h"
 
 namespace vitrel {
 

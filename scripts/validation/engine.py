@@ -147,6 +147,17 @@ def brownian(rows):
     return table(["τ_B", "one thread", "two threads", "gain", "collisions per step", "predictions per step"], lines)
 
 
+def gases(rows):
+    lines = []
+    for row in rows:
+        ratio = row["lists"]["ns_per_collision"] / row["cells"]["ns_per_collision"]
+        lines.append(["disks" if row["dimension"] == 2 else "spheres", row["particles"], row["packing_fraction"],
+                      *(f"{row[of]['ns_per_collision']:.0f} ns" for of in ("lists", "cells")), f"**{ratio:.2f}**",
+                      *(f"{row['lists'][key]:.1f} / {row['cells'][key]:.1f}" for key in ("events", "predictions")),
+                      row["chosen"]])
+    return table(["", "N", "φ", "lists", "cells", "gain", "events", "predictions", "chosen"], lines)
+
+
 def device_gain(row):
     return row["without"]["ns_per_collision"] / row["with"]["ns_per_collision"]
 
@@ -232,6 +243,15 @@ unit of simulated time. The slow programs run for 2000 collisions or eight secon
 predicts the collisions of all neighbouring pairs, on one or two threads. Results do not depend on the number of threads.
 
 {brownian(native["brownian"])}
+
+## Gases
+
+Disks and spheres have neighbour lists or cells without lists ([cell_neighbors.h](../core/neighbors/cell_neighbors.h)). In a
+gas, lists are renewed many times between two collisions; in a liquid they spare predictions. The engine chooses by the
+number of particles in a cell of the least width, with a lower limit for systems that exceed the caches. Particles are
+inserted at random; both run alternately in the same process. Counts: with lists / with cells, per collision.
+
+{gases(native["gases"])}
 
 ## Speed-up by each specialisation and optimisation
 

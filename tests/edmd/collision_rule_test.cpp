@@ -4,7 +4,7 @@
 
 #include "core/contact/first_contact.h"
 #include "core/random/stream.h"
-#include "edmd/collision_rule.h"
+#include "edmd/correction_move.h"
 
 namespace vitrel {
 namespace {

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "edmd/simulation_state.h"
+
+namespace vitrel {
+
+/// Inelastic collapse: infinitely many collisions of a few particles in a finite time; or of one pair, like a bouncing
+/// ball, whose rotation brings the surfaces together again. The criterion: the distances travelled between collisions
+/// stay below the contact gap several times in a row.
+template <Body B>
+class InelasticCollapse {
+ public:
+  using Index = typename SimulationState<B>::Index;
+
+  explicit InelasticCollapse(const SimulationState<B>& state) : state_(state) {}
+
+  void begin_block() { count_.assign(state_.size(), 0); }
+
+  /// After a collision that came after this displacement of the surfaces. Throws InvariantError if it collapses.
+  void detect(Index i, Index j, double displacement) {
+    for (const Index k : {i, j})
+      count_[k] =
+          std::abs(displacement) < state_.contact_gap ? std::min(count_[k] + 1, max_count) : 0;
+    if (std::min(count_[i], count_[j]) == max_count) report(i, j);
+  }
+
+ private:
+  static constexpr int max_count = 10;
+
+  [[noreturn]] void report(Index i, Index j) const {
+    throw InvariantError(
+        "inelastic collapse at time " + std::to_string(state_.base + state_.now) + ": particles " +
+        std::to_string(state_.external_id[i]) + " and " + std::to_string(state_.external_id[j]) +
+        " collide repeatedly without moving; use a coefficient of restitution closer to 1 "
+        "or a shorter run");
+  }
+
+  const SimulationState<B>& state_;
+  std::vector<std::uint8_t> count_;  // consecutive collisions without progress
+};
+
+}  // namespace vitrel
