@@ -22,7 +22,7 @@ void require_round(const Configuration<Dim>& configuration, const EngineOptions&
 /// the loop prefetches lists only, the limit is lower.
 double max_particles_per_cell(std::size_t particles) {
   constexpr std::size_t cached_particles = 32768;
-  return particles <= cached_particles ? 0.65 : 0.25;
+  return particles <= cached_particles ? 0.65 : 0.32;
 }
 
 template <int Dim>

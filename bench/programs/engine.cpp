@@ -201,7 +201,8 @@ Json measure_brownian(const Effort& effort) {
 // ---- gases of disks and spheres: cells or lists -----------------------------------------------------
 
 template <int Dim>
-void measure_gas(const Effort& effort, int particles, double packing_fraction, Json& rows) {
+void measure_gas(const Effort& effort, int repeats, int particles, double packing_fraction,
+                 Json& rows) {
   say(fmt::format("gas: {} dimensions, N = {}, phi = {}", Dim, particles, packing_fraction));
   const Configuration<Dim> start = gas<Dim>(particles, packing_fraction);
   const auto engine = [&](std::optional<NeighborSearch> neighbors) {
@@ -212,7 +213,7 @@ void measure_gas(const Effort& effort, int particles, double packing_fraction, J
   TimedRun<Dim> cells(engine(NeighborSearch::cells), start),
       lists(engine(NeighborSearch::lists), start);
   Repeats of_cells, of_lists;
-  for (int k = 0; k < effort.repeats; ++k) {
+  for (int k = 0; k < repeats; ++k) {
     of_cells.add(cells.blocks(0.5 * effort.stretch));
     of_lists.add(lists.blocks(0.5 * effort.stretch));
   }
@@ -227,15 +228,16 @@ void measure_gas(const Effort& effort, int particles, double packing_fraction, J
 }
 
 Json measure_gases(const Effort& effort) {
+  constexpr int large_repeats = 2;  // a block takes seconds
   Json rows = Json::array();
   for (const double phi : {0.001, 0.01, 0.1, 0.2, 0.3, 0.4, 0.5})
-    measure_gas<2>(effort, effort.gas, phi, rows);
+    measure_gas<2>(effort, effort.repeats, effort.gas, phi, rows);
   for (const double phi : {0.001, 0.01, 0.1, 0.2, 0.25, 0.3})
-    measure_gas<3>(effort, effort.gas, phi, rows);
+    measure_gas<3>(effort, effort.repeats, effort.gas, phi, rows);
   for (const double phi : {0.1, 0.2}) {
     if (effort.large_gas > effort.largest) break;
-    measure_gas<2>(effort, effort.large_gas, phi, rows);
-    measure_gas<3>(effort, effort.large_gas, phi, rows);
+    measure_gas<2>(effort, large_repeats, effort.large_gas, phi, rows);
+    measure_gas<3>(effort, large_repeats, effort.large_gas, phi, rows);
   }
   return rows;
 }
