@@ -64,8 +64,8 @@ class ListPool {
   template <class Predicate>
   void remove_if(std::size_t list, Predicate unwanted) {
     const std::span<T> entries = (*this)[list];
-    headers_[list].count -=
-        static_cast<std::uint32_t>(std::ranges::remove_if(entries, unwanted).size());
+    const auto end = std::remove_if(entries.begin(), entries.end(), unwanted);
+    headers_[list].count = static_cast<std::uint32_t>(end - entries.begin());
   }
 
  private:
