@@ -250,15 +250,14 @@ bool SoftContacts<B>::has_clearance(Index i, const UnwrappedPair& pair, const Ve
     if (k == pair.j) return displacement2;
     return Vector::Zero();
   };
-  for (const Image& neighbor : state_.neighbors(i)) {
+  return std::ranges::all_of(state_.neighbors(i), [&](const Image& neighbor) {
     const Index k = neighbor.other;
-    if (unwrapped_pair(i, neighbor).ascending() == pair.ascending()) continue;
+    if (unwrapped_pair(i, neighbor).ascending() == pair.ascending()) return true;
     const Vector d = state_.pose_now(k).position + state_.box.translation(neighbor.shift()) -
                      state_.particles[i].position;
     const Vector before = d + displacement_of(i) - displacement_of(k);
-    if (d.norm() < std::min(sum_of_radii(i, k) + state_.contact_gap, before.norm())) return false;
-  }
-  return true;
+    return d.norm() >= std::min(sum_of_radii(i, k) + state_.contact_gap, before.norm());
+  });
 }
 
 template <Body B>

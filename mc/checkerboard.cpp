@@ -34,7 +34,7 @@ Checkerboard::Line::Line(double length, double reach, std::size_t particles)
   last_ = count - 1;
   domains_ = count_domains(cells());
   const int layers = static_cast<int>(std::ceil(rounding_margin * reach * cells_per_length_));
-  images_ = static_cast<std::size_t>(2 * layers + 1);
+  images_ = 2 * static_cast<std::size_t>(layers) + 1;
   const auto add = [&](int cell, int away) {
     const int unwrapped = cell + away;
     const int boxes = static_cast<int>(std::floor(static_cast<double>(unwrapped) / count));

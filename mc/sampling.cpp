@@ -25,7 +25,7 @@ StageEnd run_sweeps(AnySampler& sampler, State& state, std::uint64_t sweeps,
 }
 
 std::string end_text(const ChainCounts& counts) {
-  const std::string all = "all sweeps were completed";
+  std::string all = "all sweeps were completed";
   if (counts.cut_short == 0) return all;
   return all + ", but " + std::to_string(counts.cut_short) + " of " +
          std::to_string(counts.chains) +

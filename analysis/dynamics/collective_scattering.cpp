@@ -43,7 +43,7 @@ class Powers {
     imaginary_[block + p] = std::sin(phase);
   }
   void multiply() {
-    const double *re = &real_[0], *im = &imaginary_[0];
+    const double *re = real_.data(), *im = imaginary_.data();
     for (std::size_t from = block; from + block < real_.size(); from += block)
       for (std::size_t p = 0; p < block; ++p) {
         const double c = re[from + p], s = im[from + p];

@@ -29,7 +29,7 @@ struct Correlation {
   /// The next longer time difference. Where there are no blocks the error is the spread of the
   /// particles, widened by √(particles that move together): the quotient of both errors where both
   /// are known, at the sixteen longest time differences of that kind (root mean square), or 1.
-  void push_back(const PointEstimate& estimate);
+  void push_back(const PointEstimate& point);
 
  private:
   double cooperation() const;

@@ -22,7 +22,7 @@ std::mutex planning;
 /// Executes a plan once.
 void transform(fftw_plan (*plan)(double*, std::size_t), double* numbers, std::size_t length) {
   std::unique_lock lock(planning);
-  const fftw_plan ready = plan(numbers, length);
+  fftw_plan ready = plan(numbers, length);
   lock.unlock();
   fftw_execute(ready);
   lock.lock();

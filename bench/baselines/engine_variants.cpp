@@ -14,7 +14,8 @@ thread_local double search_window = 1;  // in mean free times
 
 struct RoundListedEllipse : Ellipse {
   RoundListedEllipse() = default;
-  explicit(false) RoundListedEllipse(const Ellipse& ellipse) : Ellipse(ellipse) {}
+  // NOLINTNEXTLINE(google-explicit-constructor): the same ellipse, listed otherwise
+  RoundListedEllipse(const Ellipse& ellipse) : Ellipse(ellipse) {}
   double max_support_rate() const { return 0; }  // of its neighbourhood
 };
 

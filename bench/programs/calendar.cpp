@@ -167,7 +167,7 @@ void measure(std::size_t n, bool shuffled, int repeats) {
     nothing.run_timed(events);
     each([&](auto& loop) { loop.run_timed(events); });
   }
-  const auto& [fast, heap, tournament, sorted] = loops;
+  const auto& fast = std::get<0>(loops);
   each([&, now = fast.now()](const auto& loop) {
     if (loop.now() != now) throw std::logic_error("two calendars disagree about the same run");
   });

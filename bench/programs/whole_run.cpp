@@ -75,9 +75,9 @@ std::vector<WholeRun> measure_whole_runs(const WholeRunOptions& options, Report&
   return runs;
 }
 
-Json whole_runs_json(const std::vector<WholeRun>& rows) {
+Json whole_runs_json(const std::vector<WholeRun>& runs) {
   Json list = Json::array();
-  for (const WholeRun& run : rows)
+  for (const WholeRun& run : runs)
     list.push_back({{"method", run.method},
                     {"tolerance", run.tolerance},
                     {"simulated_time", run.simulated_time},

@@ -71,7 +71,8 @@ struct ScreenAxis {
 template <int Dim>
 struct NoAxis {
   NoAxis() = default;
-  explicit(false) NoAxis(const Vec<Dim>&) {}
+  // NOLINTNEXTLINE(google-explicit-constructor): any axis is as good as none
+  NoAxis(const Vec<Dim>&) {}
   friend NoAxis reversed(const NoAxis& none) { return none; }
 };
 

@@ -5,9 +5,7 @@
 
 /// @file
 /// Vectors and ellipsoids in SIMD batches.
-namespace vitrel {
-
-namespace detail {
+namespace vitrel::detail {
 
 using BatchVec3 = Vec3Of<SimdBatch>;
 
@@ -108,6 +106,4 @@ VITREL_INLINE BatchVec3 turned(const AxisOf<SimdBatch>& axis, const SimdBatch& s
           on * axis.n.z + f1 * axis.e1.z + f2 * axis.e2.z};
 }
 
-}  // namespace detail
-
-}  // namespace vitrel
+}  // namespace vitrel::detail

@@ -10,9 +10,9 @@ namespace vitrel {
 
 namespace detail {
 
-template <int dimension, bool has_rotation_>
+template <int dimension, bool rotates>
 struct alignas(64) FlightRecord {
-  static constexpr bool has_rotation = has_rotation_;
+  static constexpr bool has_rotation = rotates;
 
   struct Rotation {
     AngularVelocity<dimension> angular_velocity;

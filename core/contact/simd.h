@@ -136,19 +136,20 @@ struct alignas(lanes * sizeof(double)) Simd {
   detail::Register part[parts];
 
   Simd() = default;
-  VITREL_INLINE explicit(false) Simd(double value) {
+  // NOLINTNEXTLINE(google-explicit-constructor): a number stands for equal numbers in all lanes
+  VITREL_INLINE Simd(double value) {
     for (auto& one : part) one = value - detail::Register{};
   }
   /// From and to `lanes` numbers in a row.
   VITREL_INLINE static Simd load(const double* from) {
     Simd result;
-    for (int p = 0; p < parts; ++p)
-      std::memcpy(&result.part[p], from + p * detail::register_lanes, sizeof(detail::Register));
+    for (int p = 0; p < parts; ++p, from += detail::register_lanes)
+      std::memcpy(&result.part[p], from, sizeof(detail::Register));
     return result;
   }
   VITREL_INLINE void store(double* to) const {
-    for (int p = 0; p < parts; ++p)
-      std::memcpy(to + p * detail::register_lanes, &part[p], sizeof(detail::Register));
+    for (int p = 0; p < parts; ++p, to += detail::register_lanes)
+      std::memcpy(to, &part[p], sizeof(detail::Register));
   }
 
   VITREL_INLINE double operator[](int k) const {

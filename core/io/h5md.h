@@ -159,7 +159,7 @@ class TrajectoryReader {
   std::size_t particles() const;
   int dimension() const { return fixed_.index() == 0 ? 2 : 3; }
   /// Throws FileError if the file has the other one.
-  void require_dimension(int dimension) const;
+  void require_dimension(int wanted) const;
   /// One entry per frame.
   const std::vector<double>& times() const { return times_; }
   const std::vector<std::int64_t>& steps() const { return steps_; }

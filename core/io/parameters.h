@@ -28,7 +28,7 @@ struct Field {
   std::string key;
   std::string unit;             ///< "" for pure numbers, words and flags
   std::string sentence;         ///< what the field means
-  std::string former_key = "";  ///< of earlier versions, still read; "" for none
+  std::string former_key = {};  ///< of earlier versions, still read; "" for none
 };
 
 /// Dotted keys and the values each of them takes, as TOML text ("0.5", "\"brownian\"").

@@ -108,7 +108,7 @@ class InlineCellList {
     Index continuation() const { return index[lanes - 1] & ~link; }
     /// The lane of a point, or −1.
     int lane_of(Index i) const {
-      const auto found = std::ranges::find(index, i);
+      const auto* const found = std::ranges::find(index, i);
       return found == index.end() ? -1 : static_cast<int>(found - index.begin());
     }
     /// The lanes with points inside the shell.
@@ -228,7 +228,7 @@ class InlineCellList {
     std::int32_t shift = 0, wrapped = low;
     for (; wrapped < 0; wrapped += count_[k]) --shift;
     for (; wrapped >= count_[k]; wrapped -= count_[k]) ++shift;
-    layers_[k].resize(static_cast<std::size_t>(high - low + 1));
+    layers_[k].resize(static_cast<std::size_t>(high - low) + 1);
     const auto width = static_cast<float>(width_[k]);
     auto c = static_cast<double>(low);
     for (Layer& layer : layers_[k]) {

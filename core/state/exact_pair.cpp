@@ -158,12 +158,12 @@ Point<2> separating_direction(const Particle<2>& one, const Particle<2>& two, co
 template <int Dim>
 constexpr int sample_count = Dim == 2 ? 64 : 512;
 
-Point<2> sample_point(int k, Point<2>) {
+Point<2> sample_point(int k, const Point<2>&) {
   const Real angle = 2 * std::numbers::pi_v<Real> * k / sample_count<2>;
   return {std::cos(angle), std::sin(angle)};
 }
 
-Point<3> sample_point(int k, Point<3>) {
+Point<3> sample_point(int k, const Point<3>&) {
   const Real z = 1 - (2 * k + 1) / static_cast<Real>(sample_count<3>);
   const Real angle = 2 * std::numbers::pi_v<Real> * k / std::numbers::phi_v<Real>;
   const Real radius = std::sqrt(1 - z * z);

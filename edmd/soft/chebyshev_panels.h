@@ -89,7 +89,10 @@ class ChebyshevPanels {
     return exponent == 0 ? 1 : base * power(base, exponent - 1);
   }
   static constexpr int terms = power(Nodes, Dim);
-  static constexpr int panel_size = 2 * Dim + terms * Values;
+  static constexpr int coefficient_count = terms * Values;
+  static constexpr int row_size = Nodes * Values;  // of all powers of the last variable
+  static constexpr int head_size = 2 * Dim;        // centre and scale, before the coefficients
+  static constexpr int panel_size = head_size + coefficient_count;
   static constexpr int test_points = 16 * Dim * Dim;
 
   struct Trial {
@@ -107,7 +110,7 @@ class ChebyshevPanels {
   static Point at(const Box<Dim>& box, const Point& scaled);
   static Trial interpolate(const Box<Dim>& box, const Function& function, double tolerance);
   static std::vector<double> sample(const Box<Dim>& box, const Function& function);
-  static void transform(double* values, int stride);
+  static void transform(double* values, std::ptrdiff_t stride);
   static double tail(const std::vector<double>& coefficients, int stride);
   static bool agrees(const Box<Dim>& box, const Function& function, const double* panel,
                      double tolerance);
@@ -170,10 +173,10 @@ auto ChebyshevPanels<Dim, Nodes, Values>::sum(const double* panel, const Point& 
   for (int axis = 0; axis < Dim; ++axis)
     t[axis] = chebyshev((x[axis] - panel[axis]) * panel[Dim + axis]);
   // Along the last variable all powers and values at once.
-  using Row = Eigen::Matrix<double, Nodes * Values, 1>;
-  const double* row = panel + 2 * Dim;
+  using Row = Eigen::Matrix<double, row_size, 1>;
+  const double* row = panel + head_size;
   Row rows = Row::Zero();
-  for (int i = 0; i < terms / Nodes; ++i, row += Nodes * Values) {
+  for (int i = 0; i < terms / Nodes; ++i, row += row_size) {
     double weight = t[Dim - 2][i % Nodes];
     if constexpr (Dim == 3) weight *= t[0][i / Nodes];
     rows += weight * Eigen::Map<const Row>(row);
@@ -208,7 +211,7 @@ template <int Dim, int Nodes, int Values>
 std::vector<double> ChebyshevPanels<Dim, Nodes, Values>::sample(const Box<Dim>& box,
                                                                 const Function& function) {
   std::vector<double> values;
-  values.reserve(terms * Values);
+  values.reserve(coefficient_count);
   for (int term = 0; term < terms; ++term) {
     Point scaled;
     for (int axis = Dim - 1, rest = term; axis >= 0; --axis, rest /= Nodes)
@@ -221,7 +224,7 @@ std::vector<double> ChebyshevPanels<Dim, Nodes, Values>::sample(const Box<Dim>& 
 
 // Values at the zeros of T_Nodes, `stride` apart, become coefficients.
 template <int Dim, int Nodes, int Values>
-void ChebyshevPanels<Dim, Nodes, Values>::transform(double* values, int stride) {
+void ChebyshevPanels<Dim, Nodes, Values>::transform(double* values, std::ptrdiff_t stride) {
   std::array<double, Nodes> coefficients{};
   for (int j = 0; j < Nodes; ++j)
     for (int i = 0; i < Nodes; ++i)
@@ -235,7 +238,7 @@ template <int Dim, int Nodes, int Values>
 double ChebyshevPanels<Dim, Nodes, Values>::tail(const std::vector<double>& coefficients,
                                                  int stride) {
   double largest = 0;
-  for (int k = 0; k < terms * Values; ++k)
+  for (int k = 0; k < coefficient_count; ++k)
     if (k / stride % Nodes >= Nodes - 2) largest = std::max(largest, std::abs(coefficients[k]));
   return largest;
 }
@@ -266,8 +269,8 @@ auto ChebyshevPanels<Dim, Nodes, Values>::interpolate(const Box<Dim>& box, const
   std::vector<double> coefficients = sample(box, function);
   Trial trial;
   double largest_tail = 0;
-  for (int stride = Values; stride < terms * Values; stride *= Nodes)
-    for (int k = 0; k < terms * Values; ++k)
+  for (int stride = Values; stride < coefficient_count; stride *= Nodes)
+    for (int k = 0; k < coefficient_count; ++k)
       if (k / stride % Nodes == 0) transform(&coefficients[k], stride);
   for (int axis = Dim - 1, stride = Values; axis >= 0; --axis, stride *= Nodes)
     if (const double of_axis = tail(coefficients, stride); of_axis > largest_tail) {

@@ -22,7 +22,7 @@ Configuration2 triangular_lattice(int columns, int half_rows, double stretch) {
   const double spacing = 2 + gap;
   Configuration2 c;
   c.box = PeriodicBox<2>(Vec2(columns * spacing * stretch, half_rows * std::sqrt(3.0) * spacing));
-  c.resize(static_cast<std::size_t>(2 * columns * half_rows));
+  c.resize(static_cast<std::size_t>(columns) * 2 * half_rows);
   std::size_t i = 0;
   for (int row = 0; row < 2 * half_rows; ++row)
     for (int column = 0; column < columns; ++column, ++i) {

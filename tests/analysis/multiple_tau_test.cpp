@@ -136,9 +136,10 @@ void expect_direct(const CorrelatedGroup& group, const std::vector<Configuration
     EXPECT_NEAR(column(group, "time").value[k], step * static_cast<double>(lags[k].frames), 1e-12);
     EXPECT_EQ(column(group, "origins").value[k], static_cast<double>(lags[k].origins));
     for (const auto& [name, pair] : definitions) {
-      if (is_of_rotors(name) && group.rotors == 0) continue;
+      const bool of_rotors = is_of_rotors(name);
+      if (of_rotors && group.rotors == 0) continue;
       const auto counts = [&](std::size_t i) {
-        return is_member(i) && (!is_of_rotors(name) || !frames[0].shape[i].is_round());
+        return is_member(i) && !(of_rotors && frames[0].shape[i].is_round());
       };
       const Estimate direct =
           block_average(direct_series(frames, lags[k], counts, pair), lags[k].shortest_block());
@@ -287,12 +288,12 @@ TEST(MultipleTau, MemoryIsBoundedByTheLevels) {
   };
   const std::size_t levels = 6;  // lags up to 4 · 2⁵ steps
   const double longest = 128 * step;
-  EXPECT_EQ(MultipleTau::sample_bytes(n, {step, longest, {}}), 5 * 8 * 8 * levels * n);
-  const std::size_t samples_part = 3 * 8 * levels * n;
+  EXPECT_EQ(MultipleTau::sample_bytes(n, {step, longest, {}}), levels * n * 5 * 8 * 8);
+  const std::size_t samples_part = levels * n * 3 * 8;
   // Level 0 has 7 lags, 1 … 4 have 4, and the last 1; 4 correlations each.
   const auto sums_part = [](std::size_t samples) {
     const auto block_levels = static_cast<std::size_t>(std::log2(samples)) + 1;
-    return (7 + 4 * 4 + 1) * 4 * (1 + 4 * block_levels);
+    return (1 + 4 * block_levels) * 4 * (7 + 4 * 4 + 1);
   };
   for (const std::size_t samples : {1000u, 4000u}) {
     EXPECT_GE(state_size(samples, longest), samples_part);

@@ -34,7 +34,7 @@ Configuration2 triangular_lattice(int columns, int half_rows, double stretch) {
   Configuration2 c;
   const Vec2 lengths(columns * stretch, half_rows * std::sqrt(3.0));
   c.box = PeriodicBox<2>(lengths);
-  c.resize(static_cast<std::size_t>(2 * columns * half_rows));
+  c.resize(static_cast<std::size_t>(columns) * 2 * half_rows);
   std::size_t i = 0;
   for (int row = 0; row < 2 * half_rows; ++row)
     for (int column = 0; column < columns; ++column, ++i) {

@@ -52,7 +52,7 @@ TEST(PairCorrelation, IsThatOfALoopOverAllPairs) {
       for (std::size_t k = 0; k < bins; ++k) {
         const double r = 0.5 * static_cast<double>(k);
         const double ring = pi * ((r + 0.5) * (r + 0.5) - r * r);
-        EXPECT_NEAR(fast.g[k], pairs[k] * lengths.prod() / (120 * 119 / 2 * ring), 1e-10);
+        EXPECT_NEAR(fast.g[k], pairs[k] * lengths.prod() / (120 * 119 / 2. * ring), 1e-10);
         EXPECT_NEAR(fast.distance[k], r + 0.25, 1e-12);
         EXPECT_EQ(fast.rotor_pairs[k], rotors[k]);
         if (rotors[k] == 0) continue;
@@ -141,7 +141,7 @@ TEST(PairCorrelation, IsThatOfALoopOverAllPairsInThreeDimensions) {
         }
       for (std::size_t k = 0; k < bins; ++k) {
         const double r = 0.25 * static_cast<double>(k);
-        EXPECT_NEAR(fast.g[k], pairs[k] * lengths.prod() / (150 * 149 / 2 * shell(r, r + 0.25)),
+        EXPECT_NEAR(fast.g[k], pairs[k] * lengths.prod() / (150 * 149 / 2. * shell(r, r + 0.25)),
                     1e-10);
         EXPECT_NEAR(fast.distance[k], r + 0.125, 1e-12);
       }

@@ -180,7 +180,7 @@ TEST(StructureFactor, OfAFaceCentredCubicLatticeHasPeaksOfHeightN) {
 TEST(StructureFactor, OfATriangularLatticeHasPeaksOfHeightN) {
   const double d = 2.1, h = std::sqrt(0.75) * d;
   Configuration2 c;
-  c.resize(32 * 32);
+  c.resize(1024);  // 32²
   c.box = PeriodicBox<2>(Vec2(32 * d, 32 * h));
   for (int row = 0, i = 0; row < 32; ++row)
     for (int column = 0; column < 32; ++column, ++i) {
@@ -202,8 +202,8 @@ void expect_one_in_a_gas(const Vec<Dim>& lengths, const ShellOptions& options) {
   std::vector<std::vector<std::vector<double>>> values(Dim == 2 ? 5 : 4);
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     const StructureFactor s = shells.structure_factor(gas<Dim>(150, lengths, seed));
-    const std::vector<double>* rows[5] = {&s.total, &s.partial[0], &s.partial[1], &s.partial[2],
-                                          &s.orientation};
+    const std::vector<double>* rows[5] = {&s.total, &s.partial.front(), &s.partial[1],
+                                          &s.partial[2], &s.orientation};
     for (std::size_t m = 0; m < values.size(); ++m) {
       values[m].resize(s.q.size());
       for (std::size_t k = 0; k < s.q.size(); ++k) values[m][k].push_back(rows[m]->at(k));

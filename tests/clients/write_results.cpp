@@ -32,7 +32,7 @@ std::vector<double> each(const std::vector<double>& x, Function&& function) {
 }
 
 std::vector<double> equal(const std::vector<double>& x, double value) {
-  return std::vector<double>(x.size(), value);
+  return each(x, [&](double) { return value; });
 }
 
 /// Unknown for the last ones.

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <cstdint>
 #include <string>
 
 #include "core/io/h5md.h"
@@ -70,6 +71,7 @@ int main(int, char** arguments) {
   auto writer = TrajectoryWriter::create(
       arguments[1], sample(kind, 0), provenance,
       {.velocities = kind != "monodisperse", .observables = {"collisions"}, .overwrite = true});
-  for (int k = 0; k < 4; ++k) writer.write(sample(kind, k), 10 * k, {{"collisions", 100.0 * k}});
+  for (int k = 0; k < 4; ++k)
+    writer.write(sample(kind, k), std::int64_t{10} * k, {{"collisions", 100.0 * k}});
   writer.close();
 }

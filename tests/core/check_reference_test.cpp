@@ -65,12 +65,12 @@ void expect_equal_to_scan(const Configuration<Dim>& state, int boxes) {
   expect_equal(exact_check(state, 0), expected);  // cells
 }
 
-Ellipse random_shape(Stream& draw, double round_share, Ellipse) {
+Ellipse random_shape(Stream& draw, double round_share, const Ellipse&) {
   const double b = draw.uniform(0.2, 1);
   return draw.uniform(0, 1) < round_share ? Ellipse{b, b} : Ellipse{b * draw.uniform(1, 6), b};
 }
 
-Ellipsoid random_shape(Stream& draw, double round_share, Ellipsoid) {
+Ellipsoid random_shape(Stream& draw, double round_share, const Ellipsoid&) {
   const double size = draw.uniform(0.2, 1);
   if (draw.uniform(0, 1) < round_share) return {Vec3::Constant(size)};
   return scaled(random_ellipsoid(draw, 6), size);

@@ -462,15 +462,17 @@ TEST(SpatialOrder, FillsSquareAfterSquare) {
   Stream draw(72, Purpose::tests);
   for (std::size_t k = sites.size() - 1; k > 0; --k) std::swap(sites[k], sites[draw.below(k + 1)]);
   const std::vector<std::uint32_t> order = spatial_order<2>(box, sites);
-  for (int length = 2; length <= side; length *= 2)
-    for (std::size_t first = 0; first < order.size(); first += length * length) {
+  for (int length = 2; length <= side; length *= 2) {
+    const int points = length * length;
+    for (std::size_t first = 0; first < order.size(); first += points) {
       Vec2 low = sites[order[first]], high = low;
-      for (int k = 0; k < length * length; ++k) {
+      for (int k = 0; k < points; ++k) {
         low = low.cwiseMin(sites[order[first + k]]);
         high = high.cwiseMax(sites[order[first + k]]);
       }
       EXPECT_EQ(high - low, Vec2(length - 1, length - 1));
     }
+  }
 }
 
 }  // namespace

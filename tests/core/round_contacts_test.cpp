@@ -117,7 +117,7 @@ TYPED_TEST(RoundContacts, TellTheEarliestAndItsTime) {
         record[k] = &partners[simd_width * g + k].record;
         radii.set(k, partners[simd_width * g + k].radius);
       }
-      earliest.test(record, radii, static_cast<std::size_t>(simd_width * g));
+      earliest.test(record, radii, simd_width * static_cast<std::size_t>(g));
     }
     const auto [wait, number] = earliest.earliest();
     if (first.time == infinity) {

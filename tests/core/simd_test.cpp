@@ -28,19 +28,18 @@ struct SimdTest : testing::Test {
     while (values.size() % lanes != 0 || values.size() < 24) values.push_back(draw.uniform(-3, 3));
     for (const double one : values)
       for (const double two : values) {
-        x_.push_back(one);
-        y_.push_back(two);
+        x.push_back(one);
+        y.push_back(two);
       }
   }
 
   // op(batch, batch) must give in each lane what scalar(number, number) gives, signs of zeros included.
   template <class Op, class Scalar>
   void expect_same(Op op, Scalar scalar) const {
-    for (std::size_t i = 0; i < x_.size(); i += lanes) {
-      const auto result = op(Batch::load(&x_[i]), Batch::load(&y_[i]));
+    for (std::size_t i = 0; i < x.size(); i += lanes) {
+      const auto result = op(Batch::load(&x[i]), Batch::load(&y[i]));
       for (int k = 0; k < lanes; ++k) {
-        const double a = x_[i + static_cast<std::size_t>(k)],
-                     b = y_[i + static_cast<std::size_t>(k)];
+        const double a = x[i + static_cast<std::size_t>(k)], b = y[i + static_cast<std::size_t>(k)];
         const double expected = scalar(a, b), found = result[k];
         if (std::isnan(expected)) {
           ASSERT_TRUE(std::isnan(found)) << a << ' ' << b;
@@ -52,7 +51,7 @@ struct SimdTest : testing::Test {
     }
   }
 
-  std::vector<double> x_, y_;
+  std::vector<double> x, y;
 };
 
 using Batches = testing::Types<Simd<4>, Simd<8>>;

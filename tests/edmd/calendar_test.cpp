@@ -49,7 +49,7 @@ class CalendarPair {
 template <class C>
 class CalendarTest : public testing::Test {
  protected:
-  const std::vector<std::size_t> sizes = {1, 2, 3, 5, 8, 9, 17, 64, 65, 1000};
+  const std::vector<std::size_t> sizes_ = {1, 2, 3, 5, 8, 9, 17, 64, 65, 1000};
 };
 
 /// One that looks ahead.
@@ -67,7 +67,7 @@ double exponential(Stream& draw) {
 }
 
 TYPED_TEST(CalendarTest, NothingIsPlannedAtTheStart) {
-  for (const std::size_t n : this->sizes) {
+  for (const std::size_t n : this->sizes_) {
     TypeParam calendar(n);
     ASSERT_EQ(calendar.size(), n);
     EXPECT_EQ(calendar.earliest(), 0U);
@@ -76,7 +76,7 @@ TYPED_TEST(CalendarTest, NothingIsPlannedAtTheStart) {
 }
 
 TYPED_TEST(CalendarTest, EqualTimesAreInOrderOfParticles) {
-  for (const std::size_t n : this->sizes) {
+  for (const std::size_t n : this->sizes_) {
     TypeParam calendar(n);
     for (std::size_t i = n; i-- > 0;) calendar.set(i, 1);
     for (std::size_t i = 0; i < n; ++i) {
@@ -89,7 +89,7 @@ TYPED_TEST(CalendarTest, EqualTimesAreInOrderOfParticles) {
 
 TYPED_TEST(CalendarTest, OrderOfTimesSetInAnyOrder) {
   Stream draw(3, Purpose::tests);
-  for (const std::size_t n : this->sizes) {
+  for (const std::size_t n : this->sizes_) {
     std::vector<double> times(n);
     for (double& time : times) time = std::exp(draw.uniform(-28, 14));  // 1e-12 … 1e6
     TypeParam calendar(n);
@@ -106,7 +106,7 @@ TYPED_TEST(CalendarTest, OrderOfTimesSetInAnyOrder) {
 
 // Few distinct times, so that ties are common, and not in order of time: the present does not exist.
 TYPED_TEST(CalendarTest, EqualsASortedSetThroughUnorderedChanges) {
-  for (const std::size_t n : this->sizes) {
+  for (const std::size_t n : this->sizes_) {
     CalendarPair<TypeParam> both(n);
     Stream draw(n, Purpose::tests, 1);
     for (int change = 0; change < 20'000; ++change) {
@@ -122,7 +122,7 @@ TYPED_TEST(CalendarTest, EqualsASortedSetThroughUnorderedChanges) {
 // As the event loop does it: the earliest is always changed, often to the same time or a little later,
 // often never; some others become sooner or later.
 TYPED_TEST(CalendarTest, EqualsASortedSetThroughARun) {
-  for (const std::size_t n : this->sizes) {
+  for (const std::size_t n : this->sizes_) {
     CalendarPair<TypeParam> both(n);
     Stream draw(n, Purpose::tests, 2);
     for (std::size_t i = 0; i < n; ++i) both.set(i, exponential(draw));

@@ -107,7 +107,7 @@ TEST(ChebyshevPanels, KnowsATreeFromAnythingElse) {
       },
       {1e-8, 1e-3}, 1);
   ASSERT_GT(panels.size(), 1);
-  const Plane::Content content = panels.content();
+  const Plane::Content& content = panels.content();
   EXPECT_TRUE(Plane::is_valid(content));
   const auto spoilt = [&](auto change) {
     Plane::Content other = content;

@@ -98,16 +98,18 @@ TEST(Models, DisksWithCellsMoveAsThoseWithLists) {
     cells.restitution = lists.restitution = restitution;
     expect_same_motion(disks(), *make_disk_engine(cells), *make_disk_engine(lists));
   }
-  const Configuration2 few =
-      moving(square_lattice(4, 0.7, 0, [](std::size_t) { return Ellipse{1, 1}; }));
+  const Configuration2 few = moving(square_lattice(4, 0.7, 0, [](std::size_t) {
+    return Ellipse{1, 1};
+  }));
   ASSERT_LT(few.box.lengths().x(), 4 * min_cell_width(1));
   expect_same_motion(few, *make_disk_engine(cells), *make_disk_engine(lists));
 }
 
 TEST(Models, GasesHaveCellsAndLiquidsLists) {
   const auto engine = [](double packing_fraction) {
-    const Configuration2 start =
-        square_lattice(8, packing_fraction, 0, [](std::size_t) { return Ellipse{1, 1}; });
+    const Configuration2 start = square_lattice(8, packing_fraction, 0, [](std::size_t) {
+      return Ellipse{1, 1};
+    });
     return make_engine(start, {})->description();
   };
   EngineOptions cells;
@@ -193,12 +195,13 @@ TEST_P(Invariance, TheOrderOfTheParticlesChangesNoCollision) {
 constexpr int times = 23;
 Configuration2 repeated(const Configuration2& tile) {
   Configuration2 c;
-  c.resize(tile.size() * static_cast<std::size_t>(times * times));
+  c.resize(tile.size() * times * times);
   c.species_names = tile.species_names;
   c.box = PeriodicBox<2>(tile.box.lengths() * times);
   for (std::size_t k = 0; k < c.size(); ++k) {
     const std::size_t i = k % tile.size(), copy = k / tile.size();
-    const Vec2 corner(static_cast<double>(copy % times), static_cast<double>(copy / times));
+    const std::size_t row = copy / times;
+    const Vec2 corner(static_cast<double>(copy % times), static_cast<double>(row));
     c.position[k] = tile.position[i] + corner.cwiseProduct(tile.box.lengths());
     c.box.wrap(c.position[k], c.image[k]);
     c.angle[k] = tile.angle[i];
@@ -222,7 +225,7 @@ TEST_P(Invariance, ManyCopiesMoveAsOne) {
   for (double until = 0.02; of_one.collisions < 3 * one.size(); until += 0.02) {
     advance(*small, one, until, of_one);
     advance(*large, many, until, of_many);
-    ASSERT_EQ(of_many.collisions, times * times * of_one.collisions) << "up to " << until;
+    ASSERT_EQ(of_many.collisions, of_one.collisions * times * times) << "up to " << until;
     Configuration2 copy = tile;
     for (std::size_t k = 0; k < many.size(); ++k) {
       const std::size_t i = k % one.size();

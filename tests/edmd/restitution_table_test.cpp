@@ -148,7 +148,7 @@ TYPED_TEST(TabulatedForce, DomainOfAScene) {
     const auto found = of_all(of);
     ASSERT_TRUE(found);
     expect_near(*found, form.integrate(of), of);
-    EXPECT_EQ(of_one(of).has_value(), &pair == &pairs[0]);
+    EXPECT_EQ(of_one(of).has_value(), &pair == &pairs.front());
   }
 }
 

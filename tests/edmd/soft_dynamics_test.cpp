@@ -252,7 +252,8 @@ TEST(SoftException, OnlyLoneReleasesCostAngularMomentum) {
   std::vector<Vec2> positions, velocities;
   Stream draw(6, Purpose::tests);
   for (int k = 0; k < 64; ++k) {
-    positions.push_back({0.23 * (k % 8 - 3.5), 0.23 * (k / 8 - 3.5)});
+    const int row = k / 8;
+    positions.push_back({0.23 * (k % 8 - 3.5), 0.23 * (row - 3.5)});
     velocities.push_back({draw.normal(), draw.normal()});
   }
   const Configuration2 start = few<2>(std::vector<double>(64, 0.1), positions, velocities);

@@ -203,9 +203,8 @@ TEST(SolidsInMotion, ShareTheirEnergyEvenly) {
     Ellipsoid shape;
     double rotations;
   };
-  for (const auto& [shape, rotations] :
-       {Case{prolate(2), 2}, Case{oblate(2), 2}, Case{{{1.4, 1, 0.7}}, 3}}) {
-    Configuration3 start = cubic_lattice(6, 0.1, [&](std::size_t) { return shape; });
+  for (const Case& of : {Case{prolate(2), 2}, Case{oblate(2), 2}, Case{{{1.4, 1, 0.7}}, 3}}) {
+    Configuration3 start = cubic_lattice(6, 0.1, [&](std::size_t) { return of.shape; });
     set_initial_velocities(start, 5, InitialVelocities::translation, Temperature::relative);
     RunState3 state = begin_run(start, -60.);
     double rotation = 0, translation = 0;
@@ -222,7 +221,7 @@ TEST(SolidsInMotion, ShareTheirEnergyEvenly) {
     for (int k = 0; k < 100; ++k) times.push_back(k);
     run(state, {}, {times, 100, &sum, {}}, {});
     const double n = static_cast<double>(start.size());
-    const double wanted = rotations * n / (3 * (n - 1));
+    const double wanted = of.rotations * n / (3 * (n - 1));
     // Fluctuations of the ratio per sample: √(2/f) of some 600 degrees of freedom each; samples hardly
     // depend on each other.
     EXPECT_NEAR(rotation / translation, wanted, 4 * wanted * std::sqrt(4 / (3 * n) / 60));

@@ -44,7 +44,7 @@ struct Measured {
 std::map<std::string, Measured> measured(const Displacements& found) {
   const DisplacementGroup& all = found.groups.front();
   const std::map<std::string, const Correlation*> curves = {
-      {"MSD", &all.translation}, {"F_s", &all.self_scattering[0]},
+      {"MSD", &all.translation}, {"F_s", &all.self_scattering.front()},
       {"MSR", &all.rotation},    {"L_2", &all.orientation.front()},
       {"Q", &found.overlap},     {"alpha_2", &all.non_gaussian}};
   std::map<std::string, Measured> result;

@@ -67,10 +67,10 @@ class DiluteEllipsoids : public testing::TestWithParam<Shape> {};
 
 // B₃ is taken as 0.6 B₂², to within 0.1 of it: at φ = 0.005 that is 0.25 % of Z − 1.
 TEST_P(DiluteEllipsoids, CollideAsTheSecondVirialCoefficientSays) {
-  const auto& [name, body, b2] = GetParam();
-  const double phi = 0.005, x = b2 * phi;
+  const Shape& shape = GetParam();
+  const double phi = 0.005, x = shape.b2 * phi;
   const Configuration3 c = cubic_lattice(
-      12, phi, [&](std::size_t) { return body; }, 7);
+      12, phi, [&](std::size_t) { return shape.body; }, 7);
   const Measured found = measure(at_temperature_one(c, 8), 20, 800);
   RecordProperty("B2 over V", std::to_string(found.virial / (1 + 0.6 * x) / phi));
   EXPECT_NEAR(found.virial / (x + 0.6 * x * x), 1, 0.025);

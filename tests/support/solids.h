@@ -35,7 +35,8 @@ template <class ShapeOf>
 Configuration3 cubic_lattice(int n, double packing_fraction, ShapeOf shape_of,
                              std::uint64_t seed = 1) {
   Configuration3 c;
-  c.resize(static_cast<std::size_t>(n * n * n));
+  const int particles = n * n * n;
+  c.resize(static_cast<std::size_t>(particles));
   c.species_names = {"A"};
   double volume = 0;
   for (std::size_t i = 0; i < c.size(); ++i) {
@@ -46,11 +47,11 @@ Configuration3 cubic_lattice(int n, double packing_fraction, ShapeOf shape_of,
   const double length = std::cbrt(volume / packing_fraction);
   c.box = PeriodicBox<3>(Vec3::Constant(length));
   Stream draw(seed, Purpose::tests, 999);
-  for (std::size_t i = 0; i < c.size(); ++i) {
-    const int k = static_cast<int>(i);
-    c.position[i] = (Vec3(k % n, k / n % n, k / n / n) + Vec3::Constant(0.5)) * (length / n) -
+  for (int k = 0; k < particles; ++k) {
+    const int row = k / n, layer = row / n;
+    c.position[k] = (Vec3(k % n, row % n, layer) + Vec3::Constant(0.5)) * (length / n) -
                     Vec3::Constant(0.5 * length);
-    c.orientation[i] = random_orientation(draw);
+    c.orientation[k] = random_orientation(draw);
   }
   return c;
 }

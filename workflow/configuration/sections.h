@@ -13,29 +13,29 @@ FieldVisitor::Inside section_of(auto& part, auto describe) {
   return [&part, describe](FieldVisitor& visit) { describe(part, visit); };
 }
 
-void describe_system(SystemParameters& system, FieldVisitor& visit);
-void validate_system(const SystemParameters& system);
+void describe_system(SystemParameters& p, FieldVisitor& visit);
+void validate_system(const SystemParameters& p);
 
-void describe_species(Species& species, FieldVisitor& visit);
+void describe_species(Species& p, FieldVisitor& visit);
 void validate_species(const std::vector<Species>& species, int dimension);
 Species default_species();
 /// Whether all its particles are disks or spheres.
-bool is_round(const Species& species);
+bool is_round(const Species& p);
 
-void describe_dynamics(DynamicsParameters& dynamics, FieldVisitor& visit);
-void validate_dynamics(const DynamicsParameters& dynamics);
+void describe_dynamics(DynamicsParameters& p, FieldVisitor& visit);
+void validate_dynamics(const DynamicsParameters& p);
 /// Of soft particles, which the species and the dynamics must fit.
 void validate_contact(const Parameters& parameters);
 
-void describe_output(OutputParameters& output, FieldVisitor& visit);
+void describe_output(OutputParameters& p, FieldVisitor& visit);
 void validate_output(const Parameters& parameters);
 
-void describe_analysis(DisplacementOptions& analysis, FieldVisitor& visit);
-void validate_analysis(const DisplacementOptions& analysis);
+void describe_analysis(DisplacementOptions& p, FieldVisitor& visit);
+void validate_analysis(const DisplacementOptions& p);
 
-void describe_structure(StructureOptions& structure, FieldVisitor& visit);
-void validate_structure(const StructureOptions& structure);
+void describe_structure(StructureOptions& p, FieldVisitor& visit);
+void validate_structure(const StructureOptions& p);
 
-void validate_sweep(const SweepParameters& sweep);
+void validate_sweep(const SweepParameters& p);
 
 }  // namespace vitrel

@@ -214,11 +214,11 @@ Packing moved(Configuration3 configuration, const Vec3& translation) {
 
 }  // namespace
 
-void write_geo(const std::filesystem::path& path, const Packing& given) {
-  const Vec3 translation = clean_cut(given.configuration);
-  const Packing packing = moved(given.configuration, translation);
-  const Configuration3& configuration = packing.configuration;
-  const std::vector<Slices> particles = slices_of(packing);
+void write_geo(const std::filesystem::path& path, const Packing& packing) {
+  const Vec3 translation = clean_cut(packing.configuration);
+  const Packing cut = moved(packing.configuration, translation);
+  const Configuration3& configuration = cut.configuration;
+  const std::vector<Slices> particles = slices_of(cut);
   OutputFile file(path);
   file.write(head(configuration, translation));
   file.write(macros);
@@ -226,7 +226,7 @@ void write_geo(const std::filesystem::path& path, const Packing& given) {
     file.write("\ninclusions() = {};\n");
     for (const Slices& slices : particles)
       if (configuration.species[slices.begin->particle] == static_cast<std::int32_t>(k))
-        file.write(particle(packing, slices));
+        file.write(particle(cut, slices));
     file.write(fmt::format("inclusions_{}() = inclusions();\n", k));
   }
   file.write(assembly);

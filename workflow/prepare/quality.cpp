@@ -1,5 +1,4 @@
 #include "workflow/prepare/quality.h"
-#include "core/io/number_text.h"
 
 #include <fmt/format.h>
 

@@ -24,7 +24,7 @@ class Hybrid {
   StageReport run() {
     while (true) {
       const bool grows = state_.stretches % 2 == 0;
-      const StageReport report = grows ? growth() : sampling();
+      StageReport report = grows ? growth() : sampling();
       if (report.end != StageEnd::reached || (grows && at_goal())) return report;
       ++state_.stretches;
       state_.stretch_end = 0;
