@@ -61,7 +61,7 @@ class EnginePage(unittest.TestCase):
     def test_page_is_well_formed(self):
         page = engine.page(self.data, self.data)
         self.assertNotIn("nan", page)
-        self.assertEqual(page.count("\n## "), 6)
+        self.assertEqual(page.count("\n## "), 8)
         for block in page.split("\n\n"):
             if block.startswith("| "):
                 columns = {line.count("|") for line in block.splitlines()}
