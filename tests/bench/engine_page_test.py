@@ -55,6 +55,10 @@ class EnginePage(unittest.TestCase):
         self.assertAlmostEqual(screen["without"]["searches"], screen["without"]["predictions"])
         self.assertGreater(horizon["without"]["searches"], horizon["with"]["searches"])
         self.assertGreater(lists["without"]["predictions"], 2 * lists["with"]["predictions"])
+        for row in self.data["gases"]:
+            self.assertIn(row["chosen"], ("cells", "lists"))
+            if row["packing_fraction"] < 0.01:
+                self.assertLess(row["cells"]["events"], row["lists"]["events"])
         for row in self.data["lazy"]:
             self.assertLess(row["lazy"][0]["searches"], row["eager"]["searches"])
 
