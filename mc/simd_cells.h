@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -45,10 +46,7 @@ class SimdCells {
   }
 
   /// Empties a cell before it is refilled.
-  void clear(std::size_t cell) {
-    groups_[cell] = Group();
-    groups_[cell].cell = static_cast<Index>(cell);
-  }
+  void clear(std::size_t cell) { empty(static_cast<Index>(cell), static_cast<Index>(cell)); }
 
   /// The free groups of the domain that holds the particles begin … end − 1 of all domains.
   FreeList free_groups(std::size_t begin, std::size_t end) {
@@ -113,11 +111,13 @@ class SimdCells {
   }
 
  private:
+  // In place: a new group would be copied.
+  void empty(Index group, Index cell) { std::construct_at(&groups_[group])->cell = cell; }
+
   Index append(Index to, FreeList& free_list) {
     const Index added = free_list.first_, cell = groups_[to].cell;
     free_list.first_ = groups_[added].next;
-    groups_[added] = Group();
-    groups_[added].cell = cell;
+    empty(added, cell);
     groups_[to].next = added;
     return added;
   }
