@@ -5,15 +5,36 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#ifdef __SANITIZE_THREAD__
+#include <atomic>
+#include <future>
+#include <vector>
+#endif
 
 namespace vitrel {
 
-void in_parallel(std::size_t count, int threads,
-                 const std::function<void(std::size_t begin, std::size_t end)>& work) {
-  threads = std::min(threads, tbb::this_task_arena::max_concurrency());
-  if (threads <= 1) return work(0, count);
-  // Several parts per thread, so that none waits long for another.
-  const std::size_t part = count / (4 * static_cast<std::size_t>(threads)) + 1;
+namespace {
+
+using Work = std::function<void(std::size_t begin, std::size_t end)>;
+
+#ifdef __SANITIZE_THREAD__
+
+// The thread sanitizer does not see how threads of oneTBB wait for each other, and would take its tasks for data races.
+void run_parts(std::size_t count, std::size_t part, int threads, const Work& work) {
+  std::atomic<std::size_t> next = 0;
+  const auto run = [&] {
+    for (std::size_t begin = next.fetch_add(part, std::memory_order_relaxed); begin < count;
+         begin = next.fetch_add(part, std::memory_order_relaxed))
+      work(begin, std::min(begin + part, count));
+  };
+  std::vector<std::future<void>> running;
+  for (int k = 0; k < threads; ++k) running.push_back(std::async(std::launch::async, run));
+  for (std::future<void>& one : running) one.get();
+}
+
+#else
+
+void run_parts(std::size_t count, std::size_t part, int threads, const Work& work) {
   thread_local tbb::task_arena arena;  // kept: to make one takes as long as a small piece of work
   if (!arena.is_active() || arena.max_concurrency() != threads) {
     arena.terminate();
@@ -25,6 +46,17 @@ void in_parallel(std::size_t count, int threads,
         [&](const tbb::blocked_range<std::size_t>& range) { work(range.begin(), range.end()); },
         tbb::simple_partitioner());
   });
+}
+
+#endif
+
+}  // namespace
+
+void in_parallel(std::size_t count, int threads, const Work& work) {
+  threads = std::min(threads, tbb::this_task_arena::max_concurrency());
+  if (threads <= 1) return work(0, count);
+  // Several parts per thread, so that none waits long for another.
+  run_parts(count, count / (4 * static_cast<std::size_t>(threads)) + 1, threads, work);
 }
 
 }  // namespace vitrel

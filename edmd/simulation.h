@@ -65,9 +65,13 @@ class Simulation final : public Engine<B::dimension> {
   void predict(Index i, RunCounters& counters);
   void predict(Index i, const TimedEvent<B>& known, std::span<Neighbor<B>> neighbors,
                RunCounters& counters);
+  struct Next {
+    double time;         // of the next event of the particle
+    double known_until;  // of its contacts
+  };
   template <PredictionScope scope>
-  double next_event(Index i, TimedEvent<B> known, std::span<Neighbor<B>> neighbors,
-                    RunCounters& counters);
+  Next next_event(Index i, TimedEvent<B> known, std::span<Neighbor<B>> neighbors,
+                  RunCounters& counters);
   void process(Index i, RunCounters& counters);
   void process_exit(Index i, RunCounters& counters);
   void execute_contact(Index i, const Event<B>& event, RunCounters& counters);
@@ -142,19 +146,25 @@ void Simulation<B>::set_velocities(const Configuration<dimension>& configuration
   predict_all(horizon - state_.base, counters);
 }
 
-// Predicts all particles, testing every pair once; the predictions are independent of each other.
+// Predicts all particles, testing every pair once. The predictions are independent of each other; the records, which
+// they share, change only afterwards.
 template <Body B>
 void Simulation<B>::predict_all(double horizon, RunCounters& counters) {
   horizon_ = horizon;
-  std::vector<double> times(state_.size());
+  std::vector<double> times(state_.size()), known_until(state_.size());
   std::mutex adding;
   in_parallel(state_.size(), options_.threads, [&](std::size_t begin, std::size_t end) {
     RunCounters mine;
-    for (auto i = static_cast<Index>(begin); i < end; ++i)
-      times[i] = next_event<PredictionScope::higher_indices>(i, {}, state_.neighbors(i), mine);
+    for (auto i = static_cast<Index>(begin); i < end; ++i) {
+      const Next next =
+          next_event<PredictionScope::higher_indices>(i, {}, state_.neighbors(i), mine);
+      times[i] = next.time;
+      known_until[i] = next.known_until;
+    }
     const std::lock_guard lock(adding);
     counters.add_predictions(mine);
   });
+  for (Index i = 0; i < state_.size(); ++i) state_.particles[i].known_until = known_until[i];
   schedule(times);
   predicted_ = true;
 }
@@ -186,15 +196,18 @@ void Simulation<B>::predict(Index i, RunCounters& counters) {
 template <Body B>
 void Simulation<B>::predict(Index i, const TimedEvent<B>& known, std::span<Neighbor<B>> neighbors,
                             RunCounters& counters) {
-  calendar_.set(i, next_event<PredictionScope::all_neighbors>(i, known, neighbors, counters));
+  const Next next = next_event<PredictionScope::all_neighbors>(i, known, neighbors, counters);
+  state_.particles[i].known_until = next.known_until;
+  calendar_.set(i, next.time);
 }
 
-// Sets the contact of particle i that is known next and returns the time of its next event. Searches end where the
+// Sets the contact of particle i that is known next. Searches end where the
 // particle leaves its neighbourhood; closed forms do not, so that the contact is known beyond.
 template <Body B>
 template <PredictionScope scope>
-double Simulation<B>::next_event(Index i, TimedEvent<B> known, std::span<Neighbor<B>> neighbors,
-                                 RunCounters& counters) {
+typename Simulation<B>::Next Simulation<B>::next_event(Index i, TimedEvent<B> known,
+                                                       std::span<Neighbor<B>> neighbors,
+                                                       RunCounters& counters) {
   double end = std::min(state_.next_exit(i), soft_.release_time(i));
   if (end > horizon_) end = never;
   if constexpr (!State::is_round) {
@@ -204,8 +217,7 @@ double Simulation<B>::next_event(Index i, TimedEvent<B> known, std::span<Neighbo
   const TimedEvent<B> contact =
       predictor_.template predict<scope>(i, known, neighbors, horizon_, counters);
   events_[i] = contact.event;
-  state_.particles[i].known_until = contact.time;
-  return std::min(end, contact.time);
+  return {std::min(end, contact.time), contact.time};
 }
 
 template <Body B>
