@@ -21,11 +21,10 @@ namespace vitrel {
 /// predicted in parallel, only those with higher indices, so that each pair is tested once.
 enum class PredictionScope { all_neighbors, higher_indices };
 
-/// Four neighbours of a particle from number `first` on; if there are fewer, the last one several times.
-template <Body B>
+/// Neighbours of a particle from number `first` on; if there are fewer, the last one several times.
+template <Body B, int lanes>
 class NeighborBatch {
  public:
-  static constexpr int lanes = simd_width;
   const FlightRecord<B>*
       partner[lanes];  ///< at their images; contacts after `known_until` do not matter
   const WarmStart<B>* warm_start[lanes];
@@ -70,9 +69,10 @@ class ContactSearch {
   ContactSearch(const State& state, OnOverlap on_overlap)
       : state_(state), on_overlap_(on_overlap) {}
 
-  /// Replaces `best` by the first contact with this neighbour, if that is earlier than `best` and the horizon.
-  void search(Index i, const Pose<dimension>& mine, const Neighbor<B>& neighbor, double horizon,
-              TimedEvent<B>& best, RunCounters& counters) const {
+  /// Replaces `best` by the first contact with this neighbour, if that is earlier than `best` and the horizon. There is
+  /// none for `screened`.
+  void search(Index i, const Pose<dimension>& mine, const Neighbor<B>& neighbor, double screened,
+              double horizon, TimedEvent<B>& best, RunCounters& counters) const {
     const Index j = neighbor.other;
     const auto flight = [&](Index k, const Pose<dimension>& pose) {
       return Flight<B>{body_now(k), pose, state_.particles[k].motion()};
@@ -81,7 +81,7 @@ class ContactSearch {
     theirs.position += state_.box.translation(neighbor.shift());
     const Prediction<dimension> contact =
         first_contact(flight(i, mine), flight(j, theirs), std::min(horizon, best.time) - state_.now,
-                      state_.contact_gap, neighbor.warm_start);
+                      state_.contact_gap, screened, neighbor.warm_start);
     ++counters.searches;
     counters.steps += static_cast<std::uint64_t>(contact.steps);
     if (contact.outcome == Outcome::none) return;
@@ -142,7 +142,7 @@ class ContactPredictor {
     const auto mine = flight_record<B>(particle.pose_at(state_.now), particle.motion(), state_.now);
     ContactScreen<B> screen(state_.type(i).coefficients, mine, state_.now, state_.size_now(),
                             state_.contact_gap);
-    NeighborBatch<B> batch;
+    Batch batch;
     for (std::size_t next = 0; next < neighbors.size(); next += lanes) {
       batch.template load<scope>(state_, i, neighbors, next);
       if (state_.types.size() > 1)
@@ -160,11 +160,12 @@ class ContactPredictor {
   }
 
  private:
-  static constexpr int lanes = simd_width;
+  static constexpr int lanes = ContactScreen<B>::lanes;
+  using Batch = NeighborBatch<B, lanes>;
 
   void search_earliest_first(Index i, const Pose<dimension>& mine,
-                             std::span<const Neighbor<B>> neighbors, const NeighborBatch<B>& batch,
-                             double latest, ContactScreen<B>& screen, TimedEvent<B>& best,
+                             std::span<const Neighbor<B>> neighbors, const Batch& batch, double latest,
+                             ContactScreen<B>& screen, TimedEvent<B>& best,
                              RunCounters& counters) const {
     for (int done = 0; done < batch.count; ++done) {
       const auto [wait, k] = screen.earliest();
@@ -172,8 +173,8 @@ class ContactPredictor {
       if (wait > mean_free_time())
         best = {state_.now + wait, {}};  // predict again then
       else
-        search_.search(i, mine, neighbors[k], std::min(latest, batch.partner[k]->known_until), best,
-                       counters);
+        search_.search(i, mine, neighbors[k], wait,
+                       std::min(latest, batch.partner[k]->known_until), best, counters);
       screen.discard(k);
     }
   }

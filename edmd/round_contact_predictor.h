@@ -30,7 +30,7 @@ class ContactPredictor<B> {
                                      state_.particles[i].velocity, state_.now, state_.size_now(),
                                      state_.contact_gap);
     SimdBatch radius(state_.type(i).coefficients.radius);
-    NeighborBatch<B> batch;
+    NeighborBatch<B, simd_width> batch;
     for (std::size_t next = 0; next < neighbors.size(); next += simd_width) {
       batch.template load<scope>(state_, i, neighbors, next);
       if (state_.types.size() > 1)
@@ -48,7 +48,7 @@ class ContactPredictor<B> {
       best = {time, Event<B>::with(Event<B>::Type::collision, neighbor,
                                    state_.version[neighbor.other], Vec<dimension>::Zero())};
     else
-      search_.search(i, mine, neighbor, horizon, best, counters);  // touches or overlaps
+      search_.search(i, mine, neighbor, 0, horizon, best, counters);  // touches or overlaps
     return best;
   }
 

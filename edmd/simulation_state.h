@@ -157,7 +157,8 @@ std::span<Neighbor<B>> SimulationState<B>::renew_neighbors(Index i) {
     }
   }
   box.wrap(particle.position, image[i]);
-  const std::size_t kept = neighborhoods->update(i, particle.pose(), size_now().size);
+  const std::size_t kept =
+      neighborhoods->update(i, particle.pose(), particle.motion(), size_now().size);
   return neighborhoods->of(i).subspan(kept);
 }
 

@@ -80,14 +80,20 @@ class AxisSearch {
     int steps;
   };
 
-  /// Flattened, because the search is so short that calls would dominate.
-  VITREL_FLATTEN Result run(double horizon, const Axis* initial_axis) {
+  /// From `begin`, up to which the bodies are disjoint, to the horizon. Flattened, because the search is so short that
+  /// calls would dominate.
+  VITREL_FLATTEN Result run(double begin, double horizon, const Axis* initial_axis) {
     const detail::Interval near = detail::time_within(
         flight_.d0(), flight_.v(), flight_.reach() + detail::touching * contact_gap_,
         flight_.reach_growth(), std::min(horizon, detail::max_time));
-    if (near.empty()) return {Outcome::none, 0};
-    flight_.start_at(near.begin);
+    if (near.empty() || begin > near.end) return {Outcome::none, 0};
+    flight_.start_at(std::max(begin, near.begin));
     set_axis(initial_axis ? *initial_axis : flight_.initial_axis());
+    // There the pair may be closer than the contact gap.
+    if (begin > near.begin && here_.gap < contact_gap_) {
+      flight_.start_at(near.begin);
+      set_axis(n_);
+    }
     if (!has_separating_axis()) return Result{Outcome::overlap, 1};
 
     for (int step = 1; step <= detail::max_steps; ++step) {

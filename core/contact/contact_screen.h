@@ -29,6 +29,7 @@ struct CommonSize {
 namespace detail {
 
 /// The candidate time of each lane, and the earliest of them.
+template <int lanes>
 class CandidateTimes {
  public:
   struct Candidate {
@@ -41,23 +42,24 @@ class CandidateTimes {
   }
   /// Removes a lane that has been dealt with.
   void discard(int lane) {
-    times_ = select(lane_indices<simd_width>() == lane, no_contact, times_);
+    times_ = select(lane_indices<lanes>() == lane, no_contact, times_);
   }
 
  protected:
   /// Sets the first `count` lanes with a horizon that is not past; the others have no contact.
-  VITREL_INLINE void set_times(const SimdBatch& times, const SimdBatch& horizon, int count) {
-    times_ = select(lane_indices<simd_width>() < count && horizon >= 0, times, no_contact);
+  VITREL_INLINE void set_times(const Simd<lanes>& times, const Simd<lanes>& horizon, int count) {
+    times_ = select(lane_indices<lanes>() < count && horizon >= 0, times, no_contact);
   }
 
  private:
-  SimdBatch times_;
+  Simd<lanes> times_;
 };
 
 /// From now to the earlier of `latest` and `known_until`, but finite.
-VITREL_INLINE SimdBatch horizon_of(const SimdBatch& known_until, double latest, double now) {
+template <class T>
+VITREL_INLINE T horizon_of(const T& known_until, double latest, double now) {
   constexpr double forever = 1e100;
-  return min(min(known_until, SimdBatch(latest)) - now, SimdBatch(forever));
+  return min(min(known_until, T(latest)) - now, T(forever));
 }
 
 /// The axis along which a pair was screened last.
@@ -96,14 +98,15 @@ using WarmStart = std::conditional_t<RoundBody<B>, detail::NoAxis<B::dimension>,
 template <Body B>
 class ContactScreen;
 
-/// first_contact, starting from the axis that the screen found.
+/// first_contact, starting from the time and the axis that the screen found.
 template <Body B>
 Prediction<B::dimension> first_contact(const Flight<B>& one, const Flight<B>& two, double horizon,
-                                       double contact_gap, const WarmStart<B>& warm_start) {
+                                       double contact_gap, double screened_until,
+                                       const WarmStart<B>& warm_start) {
   if constexpr (RoundBody<B>)
     return first_contact(one, two, horizon, contact_gap);
   else
-    return first_contact(one, two, horizon, contact_gap, warm_start.axis);
+    return first_contact(one, two, horizon, contact_gap, {screened_until, warm_start.axis});
 }
 
 }  // namespace vitrel

@@ -11,13 +11,14 @@ namespace vitrel {
 
 template <Body B>
 requires std::same_as<BaseShape<B>, Ellipse>
-class ContactScreen<B> : public detail::CandidateTimes {
+class ContactScreen<B> : public detail::CandidateTimes<2 * simd_width> {
   /// A pair counts as open while its gap stays above this fraction of the contact gap, so that a pair that
   /// has just collided and now separates is settled too.
   static constexpr double min_gap_fraction = 0.5;
+  using Batch = Simd<2 * simd_width>;
 
  public:
-  static constexpr int lanes = simd_width;
+  static constexpr int lanes = 2 * simd_width;
 
   /// `mine` at the time `now`.
   ContactScreen(const ShapeCoefficients<Ellipse>& coefficients, const FlightRecord<B>& mine,
@@ -31,10 +32,9 @@ class ContactScreen<B> : public detail::CandidateTimes {
         aa_minus_bb_(coefficients.aa_minus_bb),
         aabb_(coefficients.aabb),
         max_second_derivative_(coefficients.max_second_derivative) {
-    PairArray x, y;
-    directions<PairArray>({mine.orientation(), mine.orientation()}, x, y);
-    ux_ = x[0];
-    uy_ = y[0];
+    const Vec2 u = direction(mine.orientation());
+    ux_ = u.x();
+    uy_ = u.y();
   }
 
   void set_shape(int k, const ShapeCoefficients<Ellipse>& coefficients) {
@@ -47,11 +47,11 @@ class ContactScreen<B> : public detail::CandidateTimes {
   VITREL_INLINE void load(const FlightRecord<B>* const (&partner)[lanes],
                           const WarmStart<B>* const (&warm_start)[lanes], double latest) {
     using Layout = RecordLayout<2>;
-    SimdBatch record[Layout::size], axis[2];
+    Batch record[Layout::size], axis[2];
     detail::load_columns(partner, record);
     detail::load_columns(warm_start, axis);
-    const SimdBatch since = now_ - record[Layout::time];
-    const SimdBatch &vx = record[Layout::velocity], &vy = record[Layout::velocity + 1];
+    const Batch since = now_ - record[Layout::time];
+    const Batch &vx = record[Layout::velocity], &vy = record[Layout::velocity + 1];
     omega_ = record[Layout::angular_velocity];
     dx_ = (record[0] + since * vx) - mine_.position.x();
     dy_ = (record[1] + since * vy) - mine_.position.y();
@@ -65,23 +65,23 @@ class ContactScreen<B> : public detail::CandidateTimes {
   WarmStart<B> warm_start(int k) const { return {{nx_[k], ny_[k]}}; }
 
   VITREL_FLATTEN void evaluate(int count) {
-    const SimdBatch nx = nx_, ny = ny_, horizon = horizon_;
-    const SimdBatch omega1 = mine_.angular_velocity(), omega2 = omega_;
-    SimdBatch ux, uy;
-    directions<SimdBatch>(angle_, ux, uy);
-    const auto one = support_along<SimdBatch>(coefficients_.bb, coefficients_.aa_minus_bb,
-                                              coefficients_.aabb, ux_, uy_, nx, ny);
-    const auto two = support_along<SimdBatch>(bb_, aa_minus_bb_, aabb_, ux, uy, nx, ny);
-    const SimdBatch heights = one.height + two.height;
-    const SimdBatch spin = omega1 * one.turning + omega2 * two.turning;
-    const SimdBatch gap = nx * dx_ + ny * dy_ - sized(heights);
-    SimdBatch rate = nx * vx_ + ny * vy_ + sized(spin);
-    SimdBatch acceleration =
-        support_acceleration_bound<SimdBatch>(
-            one, coefficients_.bb, coefficients_.aa_minus_bb, omega1,
-            omega1 * omega1 * coefficients_.max_second_derivative, horizon) +
-        support_acceleration_bound<SimdBatch>(two, bb_, aa_minus_bb_, omega2,
-                                              omega2 * omega2 * max_second_derivative_, horizon);
+    const Batch nx = nx_, ny = ny_, horizon = horizon_;
+    const Batch omega1 = mine_.angular_velocity(), omega2 = omega_;
+    Batch ux, uy;
+    directions<Batch>(angle_, ux, uy);
+    const auto one = support_along<Batch>(coefficients_.bb, coefficients_.aa_minus_bb,
+                                          coefficients_.aabb, ux_, uy_, nx, ny);
+    const auto two = support_along<Batch>(bb_, aa_minus_bb_, aabb_, ux, uy, nx, ny);
+    const Batch heights = one.height + two.height;
+    const Batch spin = omega1 * one.turning + omega2 * two.turning;
+    const Batch gap = nx * dx_ + ny * dy_ - sized(heights);
+    Batch rate = nx * vx_ + ny * vy_ + sized(spin);
+    Batch acceleration =
+        support_acceleration_bound<Batch>(one, coefficients_.bb, coefficients_.aa_minus_bb, omega1,
+                                          omega1 * omega1 * coefficients_.max_second_derivative,
+                                          horizon) +
+        support_acceleration_bound<Batch>(two, bb_, aa_minus_bb_, omega2,
+                                          omega2 * omega2 * max_second_derivative_, horizon);
     if constexpr (grows<B>) {
       const double growth = common_.growth_rate;
       rate -= growth * heights;
@@ -94,7 +94,7 @@ class ContactScreen<B> : public detail::CandidateTimes {
   }
 
  private:
-  VITREL_INLINE SimdBatch sized(const SimdBatch& x) const {
+  VITREL_INLINE Batch sized(const Batch& x) const {
     if constexpr (grows<B>) return common_.size * x;
     return x;
   }
@@ -105,8 +105,8 @@ class ContactScreen<B> : public detail::CandidateTimes {
   CommonSize common_;
   double min_gap_;
   double ux_, uy_;
-  SimdBatch dx_, dy_, vx_, vy_, angle_, omega_, nx_, ny_, horizon_;
-  SimdBatch bb_, aa_minus_bb_, aabb_, max_second_derivative_;
+  Batch dx_, dy_, vx_, vy_, angle_, omega_, nx_, ny_, horizon_;
+  Batch bb_, aa_minus_bb_, aabb_, max_second_derivative_;
 };
 
 }  // namespace vitrel

@@ -5,10 +5,6 @@
 
 namespace vitrel {
 
-Vec2 direction(double angle) {
-  return {std::cos(angle), std::sin(angle)};
-}
-
 namespace {
 
 // In two dimensions F(λ) needs no inverse: with w_i = adj(Σ_i) d and μ = 1 − λ,
@@ -83,16 +79,6 @@ constexpr int max_lambda_steps = 100;
 constexpr int max_newton_steps = 60;
 
 }  // namespace
-
-double support(const Ellipse& ellipse, const Vec2& u, const Vec2& n) {
-  const double along = u.dot(n);
-  return std::sqrt(ellipse.b * ellipse.b + ellipse.aa_minus_bb() * along * along);
-}
-
-Vec2 surface_point(const Ellipse& ellipse, const Vec2& u, const Vec2& n) {
-  const Vec2 sigma_n = ellipse.b * ellipse.b * n + ellipse.aa_minus_bb() * u.dot(n) * u;
-  return sigma_n / support(ellipse, u, n);
-}
 
 namespace detail {
 

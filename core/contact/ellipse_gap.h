@@ -17,11 +17,11 @@
 /// ellipses.
 namespace vitrel {
 
-/// Unit vector at `angle`.
-Vec2 direction(double angle);
-
 /// Support function of an ellipse with unit major axis u along the unit vector n.
-double support(const Ellipse& ellipse, const Vec2& u, const Vec2& n);
+inline double support(const Ellipse& ellipse, const Vec2& u, const Vec2& n) {
+  const double along = u.dot(n);
+  return std::sqrt(ellipse.b * ellipse.b + ellipse.aa_minus_bb() * along * along);
+}
 
 struct SupportGap {
   double
@@ -44,7 +44,10 @@ bool separated(const Ellipse& one, const Vec2& u1, const Ellipse& two, const Vec
                const Vec2& d, double margin);
 
 /// The point of the first ellipse's surface with outward unit normal n, relative to its centre.
-Vec2 surface_point(const Ellipse& ellipse, const Vec2& u, const Vec2& n);
+inline Vec2 surface_point(const Ellipse& ellipse, const Vec2& u, const Vec2& n) {
+  const Vec2 sigma_n = ellipse.b * ellipse.b * n + ellipse.aa_minus_bb() * u.dot(n) * u;
+  return sigma_n / support(ellipse, u, n);
+}
 
 namespace detail {
 

@@ -9,14 +9,15 @@ namespace vitrel {
 /// one Newton step; the larger of the two.
 template <>
 class GapBatch<Ellipse> {
+  using Batch = Simd<2 * simd_width>;
+
  public:
-  static constexpr int lanes = simd_width;
+  static constexpr int lanes = 2 * simd_width;
 
   GapBatch(const Ellipse& shape, double angle, double /*limit*/) : coefficients_(shape) {
-    PairArray x, y;
-    directions<PairArray>({angle, angle}, x, y);
-    ux_ = x[0];
-    uy_ = y[0];
+    const Vec2 u = direction(angle);
+    ux_ = u.x();
+    uy_ = u.y();
   }
 
   VITREL_INLINE void set(int k, const Ellipse& shape, double angle, const Vec2& d) {
@@ -32,12 +33,12 @@ class GapBatch<Ellipse> {
   VITREL_FLATTEN void evaluate() {
     const Body one{coefficients_.bb, coefficients_.aa_minus_bb, coefficients_.aabb, ux_, uy_};
     Body two{bb_.load(), aa_minus_bb_.load(), aabb_.load(), {}, {}};
-    directions<SimdBatch>(angle_.load(), two.ux, two.uy);
-    const SimdBatch dx = dx_.load(), dy = dy_.load();
-    SimdBatch nx, ny;
+    directions<Batch>(angle_.load(), two.ux, two.uy);
+    const Batch dx = dx_.load(), dy = dy_.load();
+    Batch nx, ny;
     initial_axes(one, two, dx, dy, nx, ny);
     const Gap first = gap_along(one, two, dx, dy, nx, ny);
-    SimdBatch turned_nx = nx, turned_ny = ny;
+    Batch turned_nx = nx, turned_ny = ny;
     detail::newton_rotate(turned_nx, turned_ny, first.slope, first.curvature);
     const Gap second = gap_along(one, two, dx, dy, turned_nx, turned_ny);
     const auto better = second.gap > first.gap;
@@ -53,50 +54,48 @@ class GapBatch<Ellipse> {
 
  private:
   struct Body {
-    SimdBatch bb, aa_minus_bb, aabb, ux, uy;
+    Batch bb, aa_minus_bb, aabb, ux, uy;
   };
   struct Gap {
-    SimdBatch gap, slope, curvature;
+    Batch gap, slope, curvature;
   };
 
-  VITREL_INLINE static Gap gap_along(const Body& one, const Body& two, const SimdBatch& dx,
-                                     const SimdBatch& dy, const SimdBatch& nx,
-                                     const SimdBatch& ny) {
+  VITREL_INLINE static Gap gap_along(const Body& one, const Body& two, const Batch& dx,
+                                     const Batch& dy, const Batch& nx, const Batch& ny) {
     const auto h1 =
-        support_along<SimdBatch>(one.bb, one.aa_minus_bb, one.aabb, one.ux, one.uy, nx, ny);
+        support_along<Batch>(one.bb, one.aa_minus_bb, one.aabb, one.ux, one.uy, nx, ny);
     const auto h2 =
-        support_along<SimdBatch>(two.bb, two.aa_minus_bb, two.aabb, two.ux, two.uy, nx, ny);
-    const SimdBatch gap = nx * dx + ny * dy - (h1.height + h2.height);
+        support_along<Batch>(two.bb, two.aa_minus_bb, two.aabb, two.ux, two.uy, nx, ny);
+    const Batch gap = nx * dx + ny * dy - (h1.height + h2.height);
     return {gap, nx * dy - ny * dx - (h1.turning + h2.turning), gap + (h1.radius + h2.radius)};
   }
 
   // w = adj(Σ) d and p = d·w.
-  VITREL_INLINE static void adjugate_times(const Body& body, const SimdBatch& dx,
-                                           const SimdBatch& dy, SimdBatch& wx, SimdBatch& wy,
-                                           SimdBatch& p) {
-    const SimdBatch along = body.ux * dx + body.uy * dy;
-    const SimdBatch across = body.ux * dy - body.uy * dx;
-    const SimdBatch b = body.bb * along, a = (body.bb + body.aa_minus_bb) * across;
+  VITREL_INLINE static void adjugate_times(const Body& body, const Batch& dx, const Batch& dy,
+                                           Batch& wx, Batch& wy, Batch& p) {
+    const Batch along = body.ux * dx + body.uy * dy;
+    const Batch across = body.ux * dy - body.uy * dx;
+    const Batch b = body.bb * along, a = (body.bb + body.aa_minus_bb) * across;
     wx = b * body.ux - a * body.uy;
     wy = b * body.uy + a * body.ux;
     p = b * along + a * across;
   }
 
-  VITREL_INLINE static void initial_axes(const Body& one, const Body& two, const SimdBatch& dx,
-                                         const SimdBatch& dy, SimdBatch& nx, SimdBatch& ny) {
-    SimdBatch wx1, wy1, p1, wx2, wy2, p2;
+  VITREL_INLINE static void initial_axes(const Body& one, const Body& two, const Batch& dx,
+                                         const Batch& dy, Batch& nx, Batch& ny) {
+    Batch wx1, wy1, p1, wx2, wy2, p2;
     adjugate_times(one, dx, dy, wx1, wy1, p1);
     adjugate_times(two, dx, dy, wx2, wy2, p2);
-    const SimdBatch x = two.aabb * p1, y = one.aabb * p2;
-    const SimdBatch weight1 = 3. * x + y, weight2 = x + 3. * y;
+    const Batch x = two.aabb * p1, y = one.aabb * p2;
+    const Batch weight1 = 3. * x + y, weight2 = x + 3. * y;
     nx = weight1 * wx1 + weight2 * wx2;
     ny = weight1 * wy1 + weight2 * wy2;
-    const SimdBatch scale = 1. / sqrt(nx * nx + ny * ny);
+    const Batch scale = 1. / sqrt(nx * nx + ny * ny);
     nx *= scale;
     ny *= scale;
   }
 
-  using Numbers = detail::BatchBuffer<simd_width>;
+  using Numbers = detail::BatchBuffer<lanes>;
 
   ShapeCoefficients<Ellipse> coefficients_;
   double ux_, uy_;

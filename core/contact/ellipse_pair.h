@@ -5,6 +5,13 @@
 
 namespace vitrel {
 
+/// The unit vector at `angle` (directions in simd.h).
+VITREL_INLINE Vec2 direction(double angle) {
+  PairArray x, y;
+  directions<PairArray>({angle, angle}, x, y);
+  return {x[0], y[0]};
+}
+
 /// Two ellipses at one instant, in the form that the support gap uses. Element 0 is body 1.
 struct EllipsePair {
   PairArray bb;           ///< b²

@@ -11,7 +11,7 @@ namespace vitrel {
 
 template <Body B>
 requires std::same_as<BaseShape<B>, Ellipsoid>
-class ContactScreen<B> : public detail::CandidateTimes {
+class ContactScreen<B> : public detail::CandidateTimes<simd_width> {
   /// As for ellipses (ellipse_contact_screen.h).
   static constexpr double min_gap_fraction = 0.5;
 

@@ -30,12 +30,13 @@ using PairInFlight =
 
 template <class B>
 Prediction<B::dimension> search(const Flight<B>& one, const Flight<B>& two, double horizon,
-                                double contact_gap, const Vec<B::dimension>* initial_axis) {
+                                double contact_gap, const SearchStart<B::dimension>* start) {
   using Pair = PairInFlight<B>;
   AxisSearch<Pair> pair(one, two, contact_gap);
   typename Pair::Axis likely;
-  if (initial_axis) likely = axis_from(*initial_axis);
-  const auto [outcome, steps] = pair.run(horizon, initial_axis ? &likely : nullptr);
+  if (start) likely = axis_from(start->axis);
+  const auto [outcome, steps] =
+      pair.run(start ? start->time : 0, horizon, start ? &likely : nullptr);
   if (steps == 0) return {};
   Prediction<B::dimension> found{outcome, pair.time(), direction_of(pair.axis()),
                                  Vec<B::dimension>::Zero(), steps};
@@ -47,10 +48,10 @@ Prediction<B::dimension> search(const Flight<B>& one, const Flight<B>& two, doub
 
 template <class B>
 Prediction<B::dimension> contact_of(const Flight<B>& one, const Flight<B>& two, double horizon,
-                                    double contact_gap, const Vec<B::dimension>* initial_axis) {
+                                    double contact_gap, const SearchStart<B::dimension>* start) {
   if constexpr (!std::is_same_v<BaseShape<B>, Disk> && !std::is_same_v<BaseShape<B>, Sphere>)
     if (!detail::is_round(one.body) || !detail::is_round(two.body))
-      return search(one, two, horizon, contact_gap, initial_axis);
+      return search(one, two, horizon, contact_gap, start);
   return detail::round_contact(one, detail::as_round(one.body), two, detail::as_round(two.body),
                                horizon, contact_gap);
 }
@@ -65,8 +66,8 @@ Prediction<B::dimension> first_contact(const Flight<B>& one, const Flight<B>& tw
 
 template <Body B>
 Prediction<B::dimension> first_contact(const Flight<B>& one, const Flight<B>& two, double horizon,
-                                       double contact_gap, const Vec<B::dimension>& initial_axis) {
-  return contact_of(one, two, horizon, contact_gap, &initial_axis);
+                                       double contact_gap, const SearchStart<B::dimension>& start) {
+  return contact_of(one, two, horizon, contact_gap, &start);
 }
 
 template Prediction2 first_contact(const Flight<Disk>&, const Flight<Disk>&, double, double);
@@ -81,12 +82,12 @@ template Prediction3 first_contact(const Flight<Ellipsoid>&, const Flight<Ellips
 template Prediction3 first_contact(const Flight<GrowingEllipsoid>&, const Flight<GrowingEllipsoid>&,
                                    double, double);
 template Prediction2 first_contact(const Flight<Ellipse>&, const Flight<Ellipse>&, double, double,
-                                   const Vec2&);
+                                   const SearchStart<2>&);
 template Prediction2 first_contact(const Flight<GrowingEllipse>&, const Flight<GrowingEllipse>&,
-                                   double, double, const Vec2&);
+                                   double, double, const SearchStart<2>&);
 template Prediction3 first_contact(const Flight<Ellipsoid>&, const Flight<Ellipsoid>&, double,
-                                   double, const Vec3&);
+                                   double, const SearchStart<3>&);
 template Prediction3 first_contact(const Flight<GrowingEllipsoid>&, const Flight<GrowingEllipsoid>&,
-                                   double, double, const Vec3&);
+                                   double, double, const SearchStart<3>&);
 
 }  // namespace vitrel

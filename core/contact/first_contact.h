@@ -57,9 +57,16 @@ using Prediction3 = Prediction<3>;
 template <Body B>
 Prediction<B::dimension> first_contact(const Flight<B>& one, const Flight<B>& two, double horizon,
                                        double contact_gap);
-/// The same, for bodies that are not round, starting from an axis that probably separates them at the start.
+
+/// Where a search may begin.
+template <int Dim>
+struct SearchStart {
+  double time;     ///< until then the bodies are disjoint
+  Vec<Dim> axis;  ///< probably separates them
+};
+/// The same, for bodies that are not round.
 template <Body B>
 Prediction<B::dimension> first_contact(const Flight<B>& one, const Flight<B>& two, double horizon,
-                                       double contact_gap, const Vec<B::dimension>& initial_axis);
+                                       double contact_gap, const SearchStart<B::dimension>& start);
 
 }  // namespace vitrel

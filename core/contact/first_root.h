@@ -24,14 +24,17 @@ inline double first_root(double gap, double rate, double acceleration) {
 /// The same in a batch, with M < 0 replaced by 0: infinity if the root lies beyond the horizon, 0 if the gap
 /// is not positive. The scalar form makes use of M < 0, which lengthens its steps; here the branch would
 /// cost more than it gains.
-VITREL_INLINE SimdBatch first_root(const SimdBatch& gap, const SimdBatch& rate,
-                                   const SimdBatch& acceleration_bound, const SimdBatch& horizon) {
+template <class T>
+VITREL_INLINE T first_root(const T& gap, const T& rate, const T& acceleration_bound,
+                           const T& horizon) {
   constexpr double min_acceleration = 1e-300;
-  const SimdBatch acceleration = max(acceleration_bound, SimdBatch(min_acceleration));
-  const SimdBatch root = sqrt(rate * rate + 2. * acceleration * max(gap, SimdBatch(0)));
-  const SimdBatch time = select(rate > 0, (rate + root) / acceleration, 2. * gap / (root - rate));
-  const SimdBatch end = gap + horizon * (rate - 0.5 * acceleration * horizon);
-  return select(gap > 0, select(end > 0, no_contact, time), 0);
+  const T acceleration = max(acceleration_bound, T(min_acceleration));
+  const T root = sqrt(rate * rate + 2. * acceleration * max(gap, T(0)));
+  const auto opening = rate > T(0);
+  const T time =
+      select(opening, rate + root, 2. * gap) / select(opening, acceleration, root - rate);
+  const T end = gap + horizon * (rate - 0.5 * acceleration * horizon);
+  return select(gap > T(0), select(end > T(0), T(no_contact), time), T(0));
 }
 
 }  // namespace vitrel::detail

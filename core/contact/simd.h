@@ -258,10 +258,10 @@ namespace detail {
 VITREL_INLINE PairArray signs(const PairArray& x) {
   return {std::copysign(1.0, x[0]), std::copysign(1.0, x[1])};
 }
-VITREL_INLINE SimdBatch signs(const SimdBatch& x) {
-  return copysign(SimdBatch(1), x);
+template <int lanes>
+VITREL_INLINE Simd<lanes> signs(const Simd<lanes>& x) {
+  return copysign(Simd<lanes>(1), x);
 }
-
 inline double signs(double x) {
   return std::copysign(1.0, x);
 }
@@ -269,21 +269,24 @@ inline double signs(double x) {
 VITREL_INLINE PairArray minimum(const PairArray& x, const PairArray& y) {
   return x.min(y);
 }
-VITREL_INLINE SimdBatch minimum(const SimdBatch& x, const SimdBatch& y) {
+template <int lanes>
+VITREL_INLINE Simd<lanes> minimum(const Simd<lanes>& x, const Simd<lanes>& y) {
   return min(x, y);
 }
 
 VITREL_INLINE PairArray positive_part(const PairArray& x) {
   return x.max(0);
 }
-VITREL_INLINE SimdBatch positive_part(const SimdBatch& x) {
-  return max(x, SimdBatch(0));
+template <int lanes>
+VITREL_INLINE Simd<lanes> positive_part(const Simd<lanes>& x) {
+  return max(x, Simd<lanes>(0));
 }
 
 VITREL_INLINE bool all_below(const PairArray& x, double limit) {
   return x.maxCoeff() < limit;
 }
-VITREL_INLINE bool all_below(const SimdBatch& x, double limit) {
+template <int lanes>
+VITREL_INLINE bool all_below(const Simd<lanes>& x, double limit) {
   return all_of(x < limit);
 }
 
@@ -321,15 +324,16 @@ constexpr double max_reducible_angle = 1e6;
   x = {std::cos(angle[0]), std::cos(angle[1])};
   y = {std::sin(angle[0]), std::sin(angle[1])};
 }
-[[gnu::noinline]] inline void library_directions(const SimdBatch& angle, SimdBatch& x,
-                                                 SimdBatch& y) {
-  double cosine[simd_width], sine[simd_width];
-  for (int k = 0; k < simd_width; ++k) {
+template <int lanes>
+[[gnu::noinline]] void library_directions(const Simd<lanes>& angle, Simd<lanes>& x,
+                                          Simd<lanes>& y) {
+  double cosine[lanes], sine[lanes];
+  for (int k = 0; k < lanes; ++k) {
     cosine[k] = std::cos(angle[k]);
     sine[k] = std::sin(angle[k]);
   }
-  x = SimdBatch::load(cosine);
-  y = SimdBatch::load(sine);
+  x = Simd<lanes>::load(cosine);
+  y = Simd<lanes>::load(sine);
 }
 
 }  // namespace detail

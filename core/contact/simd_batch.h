@@ -74,12 +74,17 @@ VITREL_INLINE void load_columns(const double* const (&record)[simd_width],
 #endif
   }
 }
-template <int rows, class Record>
-VITREL_INLINE void load_columns(const Record* const (&record)[simd_width],
-                                SimdBatch (&column)[rows]) {
-  const double* numbers[simd_width];
-  for (int k = 0; k < simd_width; ++k) numbers[k] = record[k]->numbers();
-  load_columns(numbers, column);
+template <int rows, int lanes, class Record>
+VITREL_INLINE void load_columns(const Record* const (&record)[lanes], Simd<lanes> (&column)[rows]) {
+  for (int first = 0; first < lanes; first += simd_width) {
+    const double* numbers[simd_width];
+    for (int k = 0; k < simd_width; ++k) numbers[k] = record[first + k]->numbers();
+    SimdBatch four[rows];
+    load_columns(numbers, four);
+    for (int r = 0; r < rows; ++r)
+      for (int p = 0; p < SimdBatch::parts; ++p)
+        column[r].part[first / register_lanes + p] = four[r].part[p];
+  }
 }
 
 /// One number per lane; written lane by lane, loaded and stored as a batch.
@@ -105,13 +110,13 @@ VITREL_INLINE SimdBatch::Mask all_lanes_but(int lane) {
 }
 
 /// Rotates unit vectors by one Newton step in the angle, at most 1/2.
-VITREL_INLINE void newton_rotate(SimdBatch& nx, SimdBatch& ny, const SimdBatch& slope,
-                                 const SimdBatch& curvature) {
-  const SimdBatch angle = min(max(slope / curvature, SimdBatch(-0.5)), SimdBatch(0.5));
-  const SimdBatch q = 0.5 * angle;
-  const SimdBatch scale = 1. / (1. + q * q);
-  const SimdBatch cosine = (1. - q * q) * scale, sine = angle * scale;
-  const SimdBatch old_nx = nx;
+template <class T>
+VITREL_INLINE void newton_rotate(T& nx, T& ny, const T& slope, const T& curvature) {
+  const T angle = min(max(slope / curvature, T(-0.5)), T(0.5));
+  const T q = 0.5 * angle;
+  const T scale = 1. / (1. + q * q);
+  const T cosine = (1. - q * q) * scale, sine = angle * scale;
+  const T old_nx = nx;
   nx = cosine * nx - sine * ny;
   ny = cosine * ny + sine * old_nx;
 }

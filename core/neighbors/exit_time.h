@@ -18,6 +18,13 @@ inline double rotation_angle(const Quaternion& from, const Quaternion& to) {
   return from.angularDistance(to);
 }
 
+inline double magnitude(double angular_velocity) {
+  return std::abs(angular_velocity);
+}
+inline double magnitude(const Vec3& angular_velocity) {
+  return angular_velocity.norm();
+}
+
 /// The first s ≥ 0 with |r + v s| = slack + growth s, for |r| ≤ slack; 0 if already outside.
 template <class Vector>
 double crossing(const Vector& r, const Vector& v, double slack, double growth) {
@@ -38,16 +45,18 @@ double crossing(const Vector& r, const Vector& v, double slack, double growth) {
 /// continue in either sense, in three the bound is rotation away from the reference.
 inline double exit_time(const Vec2& moved, const Motion2& motion, double rotated,
                         double max_support_rate, double slack, double slack_rate) {
-  const double turning = max_support_rate * motion.angular_velocity;
-  const double exit = crossing(moved, motion.velocity, slack - rotated, -turning - slack_rate);
-  return max_support_rate == 0 ? exit
-                               : std::min(exit, crossing(moved, motion.velocity, slack + rotated,
-                                                         turning - slack_rate));
+  const double turning = max_support_rate * magnitude(motion.angular_velocity);
+  const double away = std::copysign(1.0, motion.angular_velocity) * rotated;
+  const double exit = crossing(moved, motion.velocity, slack - away, -turning - slack_rate);
+  // A body that rotates back passes the reference before it leaves in the other sense.
+  return away >= 0
+             ? exit
+             : std::min(exit, crossing(moved, motion.velocity, slack + away, turning - slack_rate));
 }
 inline double exit_time(const Vec3& moved, const Motion3& motion, double rotated,
                         double max_support_rate, double slack, double slack_rate) {
   return crossing(moved, motion.velocity, slack - rotated,
-                  -max_support_rate * motion.angular_velocity.norm() - slack_rate);
+                  -max_support_rate * magnitude(motion.angular_velocity) - slack_rate);
 }
 
 }  // namespace vitrel::detail

@@ -26,7 +26,8 @@ namespace vitrel {
 ///
 /// Every particle carries a fixed neighbourhood: its own shape at a reference pose, expanded on all sides by
 /// `margin`. While it stays inside, it can touch only particles whose neighbourhoods overlap its own; when it
-/// leaves, only its own reference pose and list are updated. A body displaced by Δr, rotated by Δθ and grown by Δσ
+/// leaves, only its own reference pose and list are updated; the new reference pose lies ahead of it, so that it stays
+/// inside for longer. A body displaced by Δr, rotated by Δθ and grown by Δσ
 /// is inside its neighbourhood if
 ///
 ///     |Δr| + σ max_support_rate |Δθ| + max(Δσ, 0) circumradius ≤ margin,
@@ -92,12 +93,13 @@ class Neighborhoods {
     store(with.other, with.reversed_image(i), -normal);
   }
 
-  /// Sets a new reference pose (wrapped into the box) and size of particle i, and updates its list and those of the
+  /// Sets a new neighbourhood around particle i, which is inside the box, and updates its list and those of the
   /// neighbours that it gains or loses. Returns the number of neighbours that stay, which come first in its list.
-  std::size_t update(std::size_t i, const Pose<dimension>& pose, double size) {
+  std::size_t update(std::size_t i, const Pose<dimension>& pose, const Motion<dimension>& motion,
+                     double size) {
     const Reference before = references_[i];
-    references_[i] = reference(i, pose, static_cast<float>(size));
-    cells_.move(i, before.position, pose.position);
+    references_[i] = reference(i, ahead_of(i, pose, motion), static_cast<float>(size));
+    cells_.move(i, before.position, references_[i].position);
     if (outer_) outer_->update(i);
     remove_far(i);
     const std::size_t kept = lists_[i].size();
@@ -229,6 +231,20 @@ class Neighborhoods {
     if constexpr (!is_sphere) made.rotated = orientation_of(pose);
     if constexpr (has_capsule) made.capsule = capsules_[type_index_[i]].at(made.rotated, size);
     return made;
+  }
+
+  // The pose in which the body will have used up a part of the margin, or would have without the faces of the box.
+  // Farther ahead, a collision before that costs more than is gained.
+  Pose<dimension> ahead_of(std::size_t i, const Pose<dimension>& pose,
+                           const Motion<dimension>& motion) const {
+    constexpr double part = 0.3;
+    const double rate = motion.velocity.norm() +
+                        shape(i).max_support_rate() * detail::magnitude(motion.angular_velocity);
+    if (!(rate > 0)) return pose;
+    Pose<dimension> ahead = advanced(pose, motion, part * margin_ / rate);
+    const Vector half = 0.5 * box_.lengths();
+    ahead.position = ahead.position.cwiseMax(-half).cwiseMin(half);
+    return ahead;
   }
 
   double largest_circumradius() const {
