@@ -69,10 +69,6 @@ class CollisionExecutor {
   }
 
  private:
-  struct Impact {
-    double speed, impulse;
-  };
-
   // Brings both to the present. Returns their separation.
   Vector meet(Index i, const Event<B>& event) {
     state_.advance_to_now(i);
@@ -105,12 +101,9 @@ class CollisionExecutor {
     const Vector arm1 = arm(i, n), arm2 = arm(j, -n);
     const double growth = size.growth_rate / size.size * (arm1 - arm2).dot(n);
     const ContactGeometry<dimension> contact{n, cross(arm1, n), cross(arm2, n), growth};
-    const double speed = approach_speed(motion1, motion2, contact);
-    const double impulse =
-        i == j ? collide_with_own_image(motion1, state_.inertia_now(i), contact, restitution)
-               : collide(motion1, state_.inertia_now(i), motion2, state_.inertia_now(j), contact,
-                         restitution);
-    return {speed, impulse};
+    return i == j ? collide_with_own_image(motion1, state_.inertia_now(i), contact, restitution)
+                  : collide(motion1, state_.inertia_now(i), motion2, state_.inertia_now(j), contact,
+                            restitution);
   }
 
   [[noreturn]] void report_self_overlap(Index i) const {

@@ -40,7 +40,7 @@ double approach_speed(const Motion<Dim>& one, const Motion<Dim>& two,
 }
 
 template <int Dim>
-double collide(Motion<Dim>& one, const Inertia<Dim>& inertia1, Motion<Dim>& two,
+Impact collide(Motion<Dim>& one, const Inertia<Dim>& inertia1, Motion<Dim>& two,
                const Inertia<Dim>& inertia2, const ContactGeometry<Dim>& contact,
                double restitution) {
   const AngularVelocity<Dim> spin1 = inertia1.inverse_moment * contact.arm1;
@@ -49,40 +49,41 @@ double collide(Motion<Dim>& one, const Inertia<Dim>& inertia1, Motion<Dim>& two,
   const double compliance =
       (inertia1.inverse_mass + inertia2.inverse_mass) * contact.normal.squaredNorm() +
       product(spin1, contact.arm1) + product(spin2, contact.arm2);
-  const double impulse = (1 + restitution) * approach_speed(one, two, contact) / compliance;
+  const double speed = approach_speed(one, two, contact);
+  const double impulse = (1 + restitution) * speed / compliance;
   one.velocity -= impulse * inertia1.inverse_mass * contact.normal;
   two.velocity += impulse * inertia2.inverse_mass * contact.normal;
   one.angular_velocity -= impulse * spin1;
   two.angular_velocity += impulse * spin2;
-  return impulse;
+  return {speed, impulse};
 }
 
 // Without growth ω becomes −e ω exactly.
-double collide_with_own_image(Motion2& motion, const Inertia<2>& inertia,
+Impact collide_with_own_image(Motion2& motion, const Inertia<2>& inertia,
                               const ContactGeometry<2>& contact, double restitution) {
   const double arm = contact.arm1 - contact.arm2;
   const double speed = motion.angular_velocity * arm + contact.growth;
   motion.angular_velocity =
       -restitution * motion.angular_velocity - (1 + restitution) * contact.growth / arm;
-  return (1 + restitution) * speed / (inertia.inverse_moment * arm * arm);
+  return {speed, (1 + restitution) * speed / (inertia.inverse_moment * arm * arm)};
 }
 
-double collide_with_own_image(Motion3& motion, const Inertia<3>& inertia,
+Impact collide_with_own_image(Motion3& motion, const Inertia<3>& inertia,
                               const ContactGeometry<3>& contact, double restitution) {
   const Vec3 arm = contact.arm1 - contact.arm2;
   const Vec3 spin = inertia.inverse_moment * arm;
   const double speed = motion.angular_velocity.dot(arm) + contact.growth;
   const double impulse = (1 + restitution) * speed / spin.dot(arm);
   motion.angular_velocity -= impulse * spin;
-  return impulse;
+  return {speed, impulse};
 }
 
 template double approach_speed(const Motion<2>&, const Motion<2>&, const ContactGeometry<2>&);
-template double collide(Motion<2>&, const Inertia<2>&, Motion<2>&, const Inertia<2>&,
+template Impact collide(Motion<2>&, const Inertia<2>&, Motion<2>&, const Inertia<2>&,
                         const ContactGeometry<2>&, double);
 
 template double approach_speed(const Motion<3>&, const Motion<3>&, const ContactGeometry<3>&);
-template double collide(Motion<3>&, const Inertia<3>&, Motion<3>&, const Inertia<3>&,
+template Impact collide(Motion<3>&, const Inertia<3>&, Motion<3>&, const Inertia<3>&,
                         const ContactGeometry<3>&, double);
 
 }  // namespace vitrel

@@ -41,17 +41,22 @@ template <int Dim>
 double approach_speed(const Motion<Dim>& one, const Motion<Dim>& two,
                       const ContactGeometry<Dim>& contact);
 
-/// Changes the motions of two different bodies and returns the impulse J.
+struct Impact {
+  double speed;    ///< u_n before
+  double impulse;  ///< J
+};
+
+/// Changes the motions of two different bodies.
 template <int Dim>
-double collide(Motion<Dim>& one, const Inertia<Dim>& inertia1, Motion<Dim>& two,
+Impact collide(Motion<Dim>& one, const Inertia<Dim>& inertia1, Motion<Dim>& two,
                const Inertia<Dim>& inertia2, const ContactGeometry<Dim>& contact,
                double restitution);
 
 /// The collision of a body with its own periodic image: both sides act on the same body, its velocity does not change,
-/// and u_n = ω·k + s with k = k₁ − k₂; ω −= J I⁻¹k. Returns the impulse J.
-double collide_with_own_image(Motion2& motion, const Inertia<2>& inertia,
+/// and u_n = ω·k + s with k = k₁ − k₂; ω −= J I⁻¹k.
+Impact collide_with_own_image(Motion2& motion, const Inertia<2>& inertia,
                               const ContactGeometry<2>& contact, double restitution);
-double collide_with_own_image(Motion3& motion, const Inertia<3>& inertia,
+Impact collide_with_own_image(Motion3& motion, const Inertia<3>& inertia,
                               const ContactGeometry<3>& contact, double restitution);
 
 }  // namespace vitrel

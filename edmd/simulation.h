@@ -88,7 +88,7 @@ class Simulation final : public Engine<B::dimension> {
   EventPrefetcher<B> prefetcher_{state_, calendar_, events_};
   double horizon_ = never;         // nothing later is predicted
   std::uint64_t events_left_ = 0;  // until the block ends,
-  double longest_time_ = never;    // of the clocks: then they are reset, or the block ends
+  double longest_time_ = never;    // of the clocks: then they are reset, or with growth the block ends
   bool predicted_ = false;
 };
 
@@ -113,7 +113,7 @@ typename Simulation<B>::Stop Simulation<B>::advance(double until, RunCounters& c
   double end = until - state_.base;
   while (events_left_ > 0) {
     if (state_.now >= longest_time_) {
-      if (!state_.cells) break;
+      if (grows<B>) break;
       reset_clocks();
       end = until - state_.base;
     }
@@ -176,7 +176,7 @@ void Simulation<B>::schedule(const std::vector<double>& times) {
   for (Index i = 0; i < state_.size(); ++i) calendar_.set(i, times[i]);
 }
 
-// In a gas the clocks run out long before a block ends.
+// In a gas, and with long bodies, whose ends are fast, the clocks run out long before a block ends.
 template <Body B>
 void Simulation<B>::reset_clocks() {
   const double elapsed = state_.reset_clocks();

@@ -90,10 +90,13 @@ double Neighborhoods<bench::RoundListedEllipse>::choose_gap(double target) {
 // As for every body, but what the partners know is no limit.
 template <>
 template <>
-void NeighborBatch<bench::UnlimitedEllipse>::load<PredictionScope::all_neighbors>(
-    const SimulationState<bench::UnlimitedEllipse>& state, std::uint32_t /*i*/,
-    std::span<const Neighbor<bench::UnlimitedEllipse>> neighbors, std::size_t first) {
-  count = static_cast<int>(std::min<std::size_t>(lanes, neighbors.size() - first));
+void NeighborBatch<bench::UnlimitedEllipse, ContactScreen<bench::UnlimitedEllipse>::lanes>::load<
+    PredictionScope::all_neighbors>(const SimulationState<bench::UnlimitedEllipse>& state,
+                                    std::uint32_t /*i*/,
+                                    std::span<const Neighbor<bench::UnlimitedEllipse>> neighbors,
+                                    std::size_t first) {
+  constexpr std::size_t lanes = ContactScreen<bench::UnlimitedEllipse>::lanes;
+  count = static_cast<int>(std::min(lanes, neighbors.size() - first));
   tested = static_cast<std::uint64_t>(count);
   for (std::size_t k = 0; k < lanes; ++k) {
     const auto& neighbor = neighbors[std::min(first + k, neighbors.size() - 1)];
@@ -127,27 +130,30 @@ Flight<Ellipse> plain(const Flight<B>& flight) {
 
 // The event loop calls these instead of the predictor for ellipses.
 Prediction2 first_contact(const Flight<SearchedEllipse>& one, const Flight<SearchedEllipse>& two,
-                          double horizon, double contact_gap,
+                          double horizon, double contact_gap, double /*screened_until*/,
                           const WarmStart<SearchedEllipse>& /*warm_start*/) {
   return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap);
 }
 
 Prediction2 first_contact(const Flight<UnlimitedEllipse>& one, const Flight<UnlimitedEllipse>& two,
-                          double horizon, double contact_gap,
+                          double horizon, double contact_gap, double screened_until,
                           const WarmStart<Ellipse>& warm_start) {
-  return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, warm_start);
+  return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap,
+                               {screened_until, warm_start.axis});
 }
 
 Prediction2 first_contact(const Flight<RoundListedEllipse>& one,
                           const Flight<RoundListedEllipse>& two, double horizon, double contact_gap,
-                          const WarmStart<Ellipse>& warm_start) {
-  return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, warm_start);
+                          double screened_until, const WarmStart<Ellipse>& warm_start) {
+  return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap,
+                               {screened_until, warm_start.axis});
 }
 
 Prediction2 first_contact(const Flight<WindowedEllipse>& one, const Flight<WindowedEllipse>& two,
-                          double horizon, double contact_gap,
+                          double horizon, double contact_gap, double screened_until,
                           const WarmStart<Ellipse>& warm_start) {
-  return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap, warm_start);
+  return vitrel::first_contact(plain(one), plain(two), horizon, contact_gap,
+                               {screened_until, warm_start.axis});
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ namespace {
 // Found by Simulation<PredictedEllipse> in place of the default predictor. An answer that did not come
 // is no contact.
 Prediction2 first_contact(const Flight<PredictedEllipse>& one, const Flight<PredictedEllipse>& two,
-                          double horizon, double /*contact_gap*/,
+                          double horizon, double /*contact_gap*/, double /*screened_until*/,
                           const WarmStart<PredictedEllipse>& /*warm_start*/) {
   const auto plain = [](const Flight<PredictedEllipse>& flight) {
     return of_constant_size({flight.body, flight.pose, flight.motion});

@@ -83,9 +83,13 @@ class AxisSearch {
   /// From `begin`, up to which the bodies are disjoint, to the horizon. Flattened, because the search is so short that
   /// calls would dominate.
   VITREL_FLATTEN Result run(double begin, double horizon, const Axis* initial_axis) {
-    const detail::Interval near = detail::time_within(
-        flight_.d0(), flight_.v(), flight_.reach() + detail::touching * contact_gap_,
-        flight_.reach_growth(), std::min(horizon, detail::max_time));
+    const double end = std::min(horizon, detail::max_time);
+    // A pair that was screened is usually near at once.
+    const detail::Interval near =
+        begin > 0 ? detail::Interval{0, end}
+                  : detail::time_within(flight_.d0(), flight_.v(),
+                                        flight_.reach() + detail::touching * contact_gap_,
+                                        flight_.reach_growth(), end);
     if (near.empty() || begin > near.end) return {Outcome::none, 0};
     flight_.start_at(std::max(begin, near.begin));
     set_axis(initial_axis ? *initial_axis : flight_.initial_axis());

@@ -85,7 +85,7 @@ template <Body B>
 using WarmStart = std::conditional_t<RoundBody<B>, detail::NoAxis<B::dimension>,
                                      detail::ScreenAxis<B::dimension>>;
 
-/// The screen of a body against four partners. A growing body is its `BaseShape<B>` times the common size.
+/// The screen of a body against `lanes` partners. A growing body is its `BaseShape<B>` times the common size.
 ///
 ///     (coefficients, mine, now, common size, contact gap)  partners have the same coefficients
 ///     set_shape(k, coefficients)   unless they have others

@@ -26,8 +26,7 @@ namespace vitrel {
 ///
 /// Every particle carries a fixed neighbourhood: its own shape at a reference pose, expanded on all sides by
 /// `margin`. While it stays inside, it can touch only particles whose neighbourhoods overlap its own; when it
-/// leaves, only its own reference pose and list are updated; the new reference pose lies ahead of it, so that it stays
-/// inside for longer. A body displaced by Δr, rotated by Δθ and grown by Δσ
+/// leaves, only its own reference pose and list are updated. A body displaced by Δr, rotated by Δθ and grown by Δσ
 /// is inside its neighbourhood if
 ///
 ///     |Δr| + σ max_support_rate |Δθ| + max(Δσ, 0) circumradius ≤ margin,
@@ -60,7 +59,8 @@ class Neighborhoods {
         type_index_(type_index),
         largest_(largest_circumradius()),
         smallest_(smallest_inradius()),
-        cells_(box, cell_width(poses.size()), poses.size()) {
+        cells_(box, cell_width(poses.size()), poses.size()),
+        listed_at_(poses.size()) {
     if constexpr (has_capsule) capsules_ = std::vector<CapsuleOf>(shapes.begin(), shapes.end());
     references_.reserve(poses.size());
     for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -93,13 +93,27 @@ class Neighborhoods {
     store(with.other, with.reversed_image(i), -normal);
   }
 
-  /// Sets a new neighbourhood around particle i, which is inside the box, and updates its list and those of the
-  /// neighbours that it gains or loses. Returns the number of neighbours that stay, which come first in its list.
-  std::size_t update(std::size_t i, const Pose<dimension>& pose, const Motion<dimension>& motion,
-                     double size) {
+  /// The pose in which particle i, in the box, will have used up a part of the margin, or would have without the faces
+  /// of the box. Around it, the next neighbourhood lasts longer than around the present pose; farther ahead, a collision
+  /// before that costs more than is gained.
+  Pose<dimension> ahead_of(std::size_t i, const Pose<dimension>& pose,
+                           const Motion<dimension>& motion) const {
+    constexpr double part = 0.4;
+    const double rate = motion.velocity.norm() +
+                        shape(i).max_support_rate() * detail::magnitude(motion.angular_velocity);
+    if (!(rate > 0)) return pose;
+    Pose<dimension> ahead = advanced(pose, motion, part * margin_ / rate);
+    const Vector half = 0.5 * box_.lengths();
+    ahead.position = ahead.position.cwiseMax(-half).cwiseMin(half);
+    return ahead;
+  }
+
+  /// Sets a new reference pose (in the box) and size of particle i, and updates its list and those of the neighbours
+  /// that it gains or loses. Returns the number of neighbours that stay, which come first in its list.
+  std::size_t update(std::size_t i, const Pose<dimension>& pose, double size) {
     const Reference before = references_[i];
-    references_[i] = reference(i, ahead_of(i, pose, motion), static_cast<float>(size));
-    cells_.move(i, before.position, references_[i].position);
+    references_[i] = reference(i, pose, static_cast<float>(size));
+    cells_.move(i, before.position, pose.position);
     if (outer_) outer_->update(i);
     remove_far(i);
     const std::size_t kept = lists_[i].size();
@@ -231,20 +245,6 @@ class Neighborhoods {
     if constexpr (!is_sphere) made.rotated = orientation_of(pose);
     if constexpr (has_capsule) made.capsule = capsules_[type_index_[i]].at(made.rotated, size);
     return made;
-  }
-
-  // The pose in which the body will have used up a part of the margin, or would have without the faces of the box.
-  // Farther ahead, a collision before that costs more than is gained.
-  Pose<dimension> ahead_of(std::size_t i, const Pose<dimension>& pose,
-                           const Motion<dimension>& motion) const {
-    constexpr double part = 0.3;
-    const double rate = motion.velocity.norm() +
-                        shape(i).max_support_rate() * detail::magnitude(motion.angular_velocity);
-    if (!(rate > 0)) return pose;
-    Pose<dimension> ahead = advanced(pose, motion, part * margin_ / rate);
-    const Vector half = 0.5 * box_.lengths();
-    ahead.position = ahead.position.cwiseMax(-half).cwiseMin(half);
-    return ahead;
   }
 
   double largest_circumradius() const {
@@ -399,10 +399,12 @@ class Neighborhoods {
     };
     std::size_t seen = 0;
     std::uint32_t kept = 0;
+    ++updates_;
     visit_gaps(i, 2 * margin_, for_each_neighbor, [&](const Pair& pair) {
-      if (pair.gap < 2 * margin_)
+      if (pair.gap < 2 * margin_) {
+        listed_at_[pair.image.other] = updates_;
         neighbors[kept++] = neighbors[seen];
-      else if (pair.image.other != i)
+      } else if (pair.image.other != i)
         unlink(lists_, i, pair.image);
       ++seen;
     });
@@ -412,6 +414,7 @@ class Neighborhoods {
   void add_near(std::size_t i, const Reference& before) {
     const double limit = 2 * margin_;
     const auto is_listed = [&](std::size_t j, const Shift<dimension>& shift) {
+      if (listed_at_[j] != updates_) return false;
       const Image image(j, shift);
       return std::ranges::any_of(lists_[i], [&](const Image& known) { return known == image; });
     };
@@ -473,6 +476,8 @@ class Neighborhoods {
   double largest_, smallest_;        // circumradius and inradius
   References references_;
   Cells cells_;
+  std::vector<std::uint32_t> listed_at_;  // the last update in which each was a neighbour that stayed
+  std::uint32_t updates_ = 0;
   double margin_ = 0;
   std::unique_ptr<OuterLayer> outer_;
 };

@@ -20,6 +20,8 @@
 namespace vitrel {
 namespace {
 
+constexpr int lanes = ContactScreen<Ellipse>::lanes;
+
 using bench::true_first_contact;
 using Truth = bench::TrueContact::Outcome;
 
@@ -75,7 +77,7 @@ Scene random_scene(Stream& draw, double largest_aspect_ratio, double growth) {
   scene.pose = {Vec2::Zero(), draw.uniform(-10, 10)};
   scene.motion = random_motion(draw);
   if (growth != 0) scene.common = {draw.uniform(0.3, 1.2), growth * draw.uniform(-1, 1)};
-  for (int k = 0; k < simd_width; ++k) {
+  for (int k = 0; k < lanes; ++k) {
     Partner partner;
     partner.shape = random_ellipse(draw, largest_aspect_ratio);
     const double reach = scene.common.size * (scene.shape.a + partner.shape.a);
@@ -96,13 +98,13 @@ ContactScreen<B> evaluated(const Scene& scene) {
                           flight_record<B>(scene.pose, scene.motion), 0, scene.common,
                           scene.contact_gap());
   ScreenPartners<B> partners;
-  for (int k = 0; k < simd_width; ++k) {
+  for (int k = 0; k < lanes; ++k) {
     const Partner& partner = scene.partners[k];
     partners.set(k, partner.pose, partner.motion, partner.axis, 0, partner.horizon);
     screen.set_shape(k, ShapeCoefficients<Ellipse>(partner.shape));
   }
   partners.load_into(screen);
-  screen.evaluate(simd_width);
+  screen.evaluate(lanes);
   return screen;
 }
 
@@ -117,11 +119,11 @@ bench::TrueContact truth_of(const Scene& scene, const Partner& partner) {
 
 /// The time of every lane, asked for as a run does: the most urgent first.
 template <class B>
-std::array<double, simd_width> times_of(ContactScreen<B> screen) {
-  std::array<double, simd_width> times;
+std::array<double, lanes> times_of(ContactScreen<B> screen) {
+  std::array<double, lanes> times;
   times.fill(detail::no_contact);
   double last = 0;
-  for (int done = 0; done < simd_width; ++done) {
+  for (int done = 0; done < lanes; ++done) {
     const auto [time, lane] = screen.earliest();
     if (time == detail::no_contact) break;
     EXPECT_GE(time, last);
@@ -151,8 +153,8 @@ struct Counts {
 // rounding. Pairs that are undecided touch to within rounding, and either answer is right.
 template <class B>
 void assess(const Scene& scene, Counts& counts) {
-  const std::array<double, simd_width> times = times_of(evaluated<B>(scene));
-  for (int k = 0; k < simd_width; ++k) {
+  const std::array<double, lanes> times = times_of(evaluated<B>(scene));
+  for (int k = 0; k < lanes; ++k) {
     const bench::TrueContact truth = truth_of(scene, scene.partners[k]);
     switch (truth.outcome) {
       case Truth::overlap_at_start:

@@ -54,12 +54,13 @@ TYPED_TEST_SUITE(LanesOfAScreen, Bodies);
 
 // Lanes beyond the count, with bodies that touch at once, have no effect.
 TYPED_TEST(LanesOfAScreen, BeyondTheCountNeverWin) {
+  constexpr int lanes = ContactScreen<TypeParam>::lanes;
   const ShapeCoefficients<Ellipse> coefficients(Ellipse{1, 1});
-  for (int count = 0; count <= simd_width; ++count) {
+  for (int count = 0; count <= lanes; ++count) {
     ContactScreen<TypeParam> screen(
         coefficients, flight_record<TypeParam>({Vec2::Zero(), 0}, {Vec2::Zero(), 0}), 0, {}, 1e-12);
     ScreenPartners<TypeParam> partners;
-    for (int k = 0; k < simd_width; ++k)
+    for (int k = 0; k < lanes; ++k)
       partners.set(k, {Vec2(k < count ? 3 + k : 2.001, 0), 0}, {Vec2(-1, 0), 0}, Vec2(1, 0));
     partners.load_into(screen, 100);
     screen.evaluate(count);
@@ -70,20 +71,23 @@ TYPED_TEST(LanesOfAScreen, BeyondTheCountNeverWin) {
 
 // Contacts that a partner knows itself, or all if it knows everything, do not matter.
 TYPED_TEST(LanesOfAScreen, EndAtWhatThePartnerKnows) {
+  constexpr int lanes = ContactScreen<TypeParam>::lanes;
   const ShapeCoefficients<Ellipse> coefficients(Ellipse{1, 1});
   ContactScreen<TypeParam> screen(
       coefficients, flight_record<TypeParam>({Vec2::Zero(), 0}, {Vec2::Zero(), 0}), 0, {}, 1e-12);
   ScreenPartners<TypeParam> partners;
-  const double known_until[simd_width] = {infinity, 0.9, 1.1, -infinity};
-  for (int k = 0; k < simd_width; ++k)
-    partners.set(k, {Vec2(3, 0), 0}, {Vec2(-1, 0), 0}, Vec2(1, 0), 0, known_until[k]);
+  const double known_until[] = {infinity, 0.9, 1.1, -infinity};
+  for (int k = 0; k < lanes; ++k)
+    partners.set(k, {Vec2(3, 0), 0}, {Vec2(-1, 0), 0}, Vec2(1, 0), 0, known_until[k % 4]);
   partners.load_into(screen);
-  screen.evaluate(simd_width);
-  const std::vector<double> times = times_of(screen, simd_width);
-  EXPECT_NEAR(times[0], 1, 1e-9);
-  EXPECT_EQ(times[1], infinity);
-  EXPECT_NEAR(times[2], 1, 1e-9);
-  EXPECT_EQ(times[3], infinity);
+  screen.evaluate(lanes);
+  const std::vector<double> times = times_of(screen, lanes);
+  for (int k = 0; k < lanes; k += 4) {
+    EXPECT_NEAR(times[k], 1, 1e-9);
+    EXPECT_EQ(times[k + 1], infinity);
+    EXPECT_NEAR(times[k + 2], 1, 1e-9);
+    EXPECT_EQ(times[k + 3], infinity);
+  }
 }
 
 template <class B>
@@ -110,7 +114,7 @@ Motion3 random_motion(Stream& draw, const Vec3& n) {
 
 // Partners with clocks of their own, and with shapes of their own, count as those advanced to the present.
 TYPED_TEST(ClocksOfPartners, AreAdvancedToThePresent) {
-  constexpr int dim = TypeParam::dimension;
+  constexpr int dim = TypeParam::dimension, lanes = ContactScreen<TypeParam>::lanes;
   using Shape = BaseShape<TypeParam>;
   Stream draw(37, Purpose::tests);
   const auto shape = [&] {
@@ -133,7 +137,7 @@ TYPED_TEST(ClocksOfPartners, AreAdvancedToThePresent) {
     };
     ContactScreen<TypeParam> late = screen_at(now), early = screen_at(0);
     ScreenPartners<TypeParam> with_clocks, advanced_partners;
-    for (int k = 0; k < simd_width; ++k) {
+    for (int k = 0; k < lanes; ++k) {
       const double ago = draw.uniform(0, 2);
       const Pose<dim> there = random_pose(draw, 5, n);
       const Motion<dim> theirs = random_motion(draw, n);
@@ -145,11 +149,10 @@ TYPED_TEST(ClocksOfPartners, AreAdvancedToThePresent) {
     }
     with_clocks.load_into(late);
     advanced_partners.load_into(early);
-    late.evaluate(simd_width);
-    early.evaluate(simd_width);
-    const std::vector<double> times = times_of(late, simd_width),
-                              expected = times_of(early, simd_width);
-    for (int k = 0; k < simd_width; ++k) {
+    late.evaluate(lanes);
+    early.evaluate(lanes);
+    const std::vector<double> times = times_of(late, lanes), expected = times_of(early, lanes);
+    for (int k = 0; k < lanes; ++k) {
       EXPECT_LT((late.warm_start(k).axis - early.warm_start(k).axis).norm(), 1e-12);
       if (expected[k] == infinity) continue;
       EXPECT_NEAR(times[k], expected[k], 1e-9);
@@ -191,7 +194,8 @@ ContactScreen<B> evaluated(const EllipsePairAt& pair, const CommonSize& common, 
   ContactScreen<B> screen(ShapeCoefficients<Ellipse>(pair.one),
                           flight_record<B>(pair.pose1, pair.motion1), 0, common, contact_gap);
   ScreenPartners<B> partners;
-  for (int k = 0; k < simd_width; ++k) partners.set(k, pair.pose2, pair.motion2, axis);
+  for (int k = 0; k < ScreenPartners<B>::lanes; ++k)
+    partners.set(k, pair.pose2, pair.motion2, axis);
   screen.set_shape(0, ShapeCoefficients<Ellipse>(pair.two));
   partners.load_into(screen, horizon);
   screen.evaluate(1);
@@ -292,7 +296,8 @@ TEST(ContactScreenOfEllipses, AxesStayUnitVectors) {
   Stream draw(35, Purpose::tests);
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
   const ShapeCoefficients<Ellipse> coefficients(Ellipse{2, 0.7});
-  std::array<Vec2, simd_width> axes;
+  constexpr int lanes = ContactScreen<Ellipse>::lanes;
+  std::array<Vec2, lanes> axes;
   for (Vec2& axis : axes) axis = random_direction(draw);
   const auto largest_error = [&] {
     double largest = 0;
@@ -304,12 +309,12 @@ TEST(ContactScreenOfEllipses, AxesStayUnitVectors) {
         coefficients, flight_record<Ellipse>({Vec2::Zero(), draw.uniform(-3, 3)}, {{0.1, 0}, 1}), 0,
         {}, 1e-12);
     ScreenPartners<Ellipse> partners;
-    for (int k = 0; k < simd_width; ++k)
+    for (int k = 0; k < lanes; ++k)
       partners.set(k, {2.9 * random_direction(draw), draw.uniform(-3, 3)}, {{0.3, 0.2}, -1},
                    axes[k]);
     partners.load_into(screen, 1);
-    screen.evaluate(simd_width);
-    for (int k = 0; k < simd_width; ++k) axes[k] = screen.warm_start(k).axis;
+    screen.evaluate(lanes);
+    for (int k = 0; k < lanes; ++k) axes[k] = screen.warm_start(k).axis;
     if (turn == 100) {
       EXPECT_LT(largest_error(), 16 * epsilon);
     }

@@ -206,21 +206,32 @@ TEST(FirstContact, EllipsesThatDoNotGrowAreEllipses) {
   EXPECT_EQ(still.normal, growing.normal);
 }
 
+struct Flights {
+  Flight<Ellipse> one, two;
+};
+Flights random_flights(Stream& draw) {
+  const auto shape = [&] {
+    const double b = draw.uniform(0.3, 1);
+    return Ellipse{b * std::pow(10, draw.uniform(0, 1.3)), b};
+  };
+  const auto flight = [&](const Ellipse& body, const Vec2& position) {
+    return Flight<Ellipse>{body,
+                           {position, draw.uniform(0, 2 * pi)},
+                           {{draw.normal(), draw.normal()}, 2 * draw.normal()}};
+  };
+  const Ellipse one = shape(), two = shape();
+  const Vec2 d = draw.uniform(0.2, 1.2) * (one.a + two.a) * direction(draw.uniform(0, 2 * pi));
+  return {flight(one, {0, 0}), flight(two, d)};
+}
+
 // Independent slow computation: a fine scan of the support gap. A predicted contact is a contact,
 // and the gap is nowhere negative before it (or before the horizon, if there is none).
 TEST(FirstContact, NeverLateNeverMissedAgainstAScan) {
   Stream draw(5, Purpose::tests);
   int contacts = 0, misses = 0;
   for (int trial = 0; trial < 4000; ++trial) {
-    const double b1 = draw.uniform(0.3, 1), b2 = draw.uniform(0.3, 1);
-    const Ellipse e1{b1 * std::pow(10, draw.uniform(0, 1.3)), b1};
-    const Ellipse e2{b2 * std::pow(10, draw.uniform(0, 1.3)), b2};
-    const double reach = e1.a + e2.a;
-    const Vec2 d = draw.uniform(0.2, 1.2) * reach * direction(draw.uniform(0, 2 * pi));
-    const Flight<Ellipse> one{
-        e1, {{0, 0}, draw.uniform(0, 2 * pi)}, {{draw.normal(), draw.normal()}, 2 * draw.normal()}};
-    const Flight<Ellipse> two{
-        e2, {d, draw.uniform(0, 2 * pi)}, {{draw.normal(), draw.normal()}, 2 * draw.normal()}};
+    const auto [one, two] = random_flights(draw);
+    const double reach = one.body.a + two.body.a;
     const double horizon = 2;
     const bool overlapping = gap_at(one, two, 0) <= 0;
     const Prediction2 touch = predict(one, two, horizon);
@@ -236,6 +247,37 @@ TEST(FirstContact, NeverLateNeverMissedAgainstAScan) {
       ++misses;
     }
     for (int k = 0; k < 500; ++k) ASSERT_GT(gap_at(one, two, until * k / 500), 0) << trial;
+  }
+  EXPECT_GT(contacts, 500);
+  EXPECT_GT(misses, 500);
+}
+
+// A search that begins later, up to the contact itself and with an axis that is about right, finds the same.
+TEST(FirstContact, MayBeginWhereThePairIsKnownToBeApart) {
+  Stream draw(6, Purpose::tests);
+  constexpr double horizon = 2;
+  int contacts = 0, misses = 0;
+  for (int trial = 0; trial < 4000; ++trial) {
+    const auto [one, two] = random_flights(draw);
+    const double gap = tolerance::contact_gap(one.body.a + two.body.a);
+    const Prediction2 whole = first_contact(one, two, horizon, gap);
+    if (whole.outcome == Outcome::overlap) continue;
+    const bool touch = whole.outcome == Outcome::contact;
+    ++(touch ? contacts : misses);
+    for (const double share : {0.5, 0.99, 1 - 1e-12, 1.0}) {
+      const double begin = share * (touch ? whole.time : horizon);
+      const Pose2 pose1 = advanced(one.pose, one.motion, begin),
+                  pose2 = advanced(two.pose, two.motion, begin);
+      const Vec2 best =
+          support_gap(one.body, pose1.angle, two.body, pose2.angle, pose2.position - pose1.position)
+              .normal;
+      const Vec2 axis = detail::turned(best, 0.1 * draw.normal());
+      const Prediction2 rest = first_contact(one, two, horizon, gap, {begin, axis});
+      ASSERT_EQ(rest.outcome, whole.outcome) << trial << " from " << begin;
+      if (!touch) continue;
+      EXPECT_NEAR(rest.time, whole.time, 1e-6);
+      EXPECT_NEAR(gap_at(one, two, rest.time), gap, 0.5 * gap);
+    }
   }
   EXPECT_GT(contacts, 500);
   EXPECT_GT(misses, 500);

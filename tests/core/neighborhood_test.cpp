@@ -396,6 +396,29 @@ TYPED_TEST(Exits, ComeAtOnceOutsideAndNeverAtRest) {
             std::numeric_limits<double>::infinity());
 }
 
+// A neighbourhood around the pose ahead lasts longer by the part of the margin that lies between, unless a face of the
+// box is in the way.
+TYPED_TEST(Exits, ComeLaterFromANeighborhoodAhead) {
+  Stream draw(73, Purpose::tests);
+  int unhindered = 0;
+  for (int trial = 0; trial < 500; ++trial) {
+    const Vec2 lengths(9, 7);
+    Crowd<TypeParam> crowd(draw, lengths, 6, 5);
+    const Pose2 pose = crowd.poses[0];
+    const Motion2 motion{{draw.normal(), draw.normal()}, 3 * draw.normal()};
+    const double present = crowd.lists.exit_time(0, pose, motion, {1, 0});
+    const Pose2 ahead = crowd.lists.ahead_of(0, pose, motion);
+    EXPECT_TRUE((ahead.position.array().abs() <= 0.5 * lengths.array()).all());
+    crowd.update(0, ahead, 1);
+    const double later = crowd.lists.exit_time(0, pose, motion, {1, 0});
+    EXPECT_GT(later, present);
+    if ((ahead.position.array().abs() == 0.5 * lengths.array()).any()) continue;
+    EXPECT_NEAR(later, 1.4 * present, 1e-9 * present);
+    ++unhindered;
+  }
+  EXPECT_GT(unhindered, 300);
+}
+
 // ---- What lists are kept in ----
 
 TEST(ListPool, HoldsWhatVectorsHold) {

@@ -26,7 +26,8 @@ struct TwoBodies {
                                      cross(touch.point - one.pose.position, touch.normal),
                                      cross(touch.point - two.pose.position, touch.normal)};
     if (speed) *speed = approach_speed(one.motion, two.motion, contact);
-    const double j = collide(one.motion, inertia1(), two.motion, inertia2(), contact, restitution);
+    const double j =
+        collide(one.motion, inertia1(), two.motion, inertia2(), contact, restitution).impulse;
     if (impulse) *impulse = j;
     return true;
   }
@@ -96,7 +97,7 @@ TEST(CollisionRule, OwnImageReversesTheSpin) {
   Motion2 motion{{0.3, 0.1}, 2};
   const Inertia<2> inertia = inertia_of({2, 1}, 1);
   const ContactGeometry<2> contact{{1, 0}, 0.4, -0.4};
-  const double impulse = collide_with_own_image(motion, inertia, contact, 1);
+  const double impulse = collide_with_own_image(motion, inertia, contact, 1).impulse;
   EXPECT_EQ(motion.angular_velocity, -2);
   EXPECT_EQ(motion.velocity, Vec2(0.3, 0.1));
   // The general rule for the spin: both sides' impulses act on the one body.

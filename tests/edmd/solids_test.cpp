@@ -95,7 +95,8 @@ TEST(CollisionOfSolids, TheImpulseDoesTheWorkOfGrowthAndRestitution) {
     const double growth = draw.uniform(0, 1), restitution = draw.uniform(0, 1);
     TwoBodies b = random_contact(draw, growth);
     const double before = b.energy(), speed = approach_speed(b.one, b.two, b.contact);
-    const double impulse = collide(b.one, b.inertia1, b.two, b.inertia2, b.contact, restitution);
+    const double impulse =
+        collide(b.one, b.inertia1, b.two, b.inertia2, b.contact, restitution).impulse;
     EXPECT_NEAR(b.energy() - before, impulse * (growth - 0.5 * speed * (1 - restitution)), 1e-12);
   }
 }

@@ -4,10 +4,10 @@
 
 namespace vitrel {
 
-/// Four partners of a contact screen, from the same box as the body itself.
+/// The partners of a contact screen, from the same box as the body itself.
 template <Body B>
 struct ScreenPartners {
-  static constexpr int dimension = B::dimension;
+  static constexpr int dimension = B::dimension, lanes = ContactScreen<B>::lanes;
 
   /// The pose at `time`. Its own axis starts the search.
   void set(int k, const Pose<dimension>& pose, const Motion<dimension>& motion,
@@ -18,12 +18,17 @@ struct ScreenPartners {
   }
   void load_into(ContactScreen<B>& screen,
                  double latest = std::numeric_limits<double>::infinity()) const {
-    screen.load({&records[0], &records[1], &records[2], &records[3]},
-                {&axes[0], &axes[1], &axes[2], &axes[3]}, latest);
+    const FlightRecord<B>* partner[lanes];
+    const WarmStart<B>* warm_start[lanes];
+    for (int k = 0; k < lanes; ++k) {
+      partner[k] = &records[k];
+      warm_start[k] = &axes[k];
+    }
+    screen.load(partner, warm_start, latest);
   }
 
-  FlightRecord<B> records[simd_width];
-  WarmStart<B> axes[simd_width];
+  FlightRecord<B> records[lanes];
+  WarmStart<B> axes[lanes];
 };
 
 }  // namespace vitrel
