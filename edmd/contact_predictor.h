@@ -164,8 +164,8 @@ class ContactPredictor {
   using Batch = NeighborBatch<B, lanes>;
 
   void search_earliest_first(Index i, const Pose<dimension>& mine,
-                             std::span<const Neighbor<B>> neighbors, const Batch& batch, double latest,
-                             ContactScreen<B>& screen, TimedEvent<B>& best,
+                             std::span<const Neighbor<B>> neighbors, const Batch& batch,
+                             double latest, ContactScreen<B>& screen, TimedEvent<B>& best,
                              RunCounters& counters) const {
     for (int done = 0; done < batch.count; ++done) {
       const auto [wait, k] = screen.earliest();
@@ -173,8 +173,8 @@ class ContactPredictor {
       if (wait > mean_free_time())
         best = {state_.now + wait, {}};  // predict again then
       else
-        search_.search(i, mine, neighbors[k], wait,
-                       std::min(latest, batch.partner[k]->known_until), best, counters);
+        search_.search(i, mine, neighbors[k], wait, std::min(latest, batch.partner[k]->known_until),
+                       best, counters);
       screen.discard(k);
     }
   }

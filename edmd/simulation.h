@@ -88,7 +88,8 @@ class Simulation final : public Engine<B::dimension> {
   EventPrefetcher<B> prefetcher_{state_, calendar_, events_};
   double horizon_ = never;         // nothing later is predicted
   std::uint64_t events_left_ = 0;  // until the block ends,
-  double longest_time_ = never;    // of the clocks: then they are reset, or with growth the block ends
+  double longest_time_ =
+      never;  // of the clocks: then they are reset, or with growth the block ends
   bool predicted_ = false;
 };
 

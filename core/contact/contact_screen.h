@@ -41,9 +41,7 @@ class CandidateTimes {
     return {time, find_first_set(times_ == time)};
   }
   /// Removes a lane that has been dealt with.
-  void discard(int lane) {
-    times_ = select(lane_indices<lanes>() == lane, no_contact, times_);
-  }
+  void discard(int lane) { times_ = select(lane_indices<lanes>() == lane, no_contact, times_); }
 
  protected:
   /// Sets the first `count` lanes with a horizon that is not past; the others have no contact.

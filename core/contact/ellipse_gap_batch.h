@@ -62,10 +62,8 @@ class GapBatch<Ellipse> {
 
   VITREL_INLINE static Gap gap_along(const Body& one, const Body& two, const Batch& dx,
                                      const Batch& dy, const Batch& nx, const Batch& ny) {
-    const auto h1 =
-        support_along<Batch>(one.bb, one.aa_minus_bb, one.aabb, one.ux, one.uy, nx, ny);
-    const auto h2 =
-        support_along<Batch>(two.bb, two.aa_minus_bb, two.aabb, two.ux, two.uy, nx, ny);
+    const auto h1 = support_along<Batch>(one.bb, one.aa_minus_bb, one.aabb, one.ux, one.uy, nx, ny);
+    const auto h2 = support_along<Batch>(two.bb, two.aa_minus_bb, two.aabb, two.ux, two.uy, nx, ny);
     const Batch gap = nx * dx + ny * dy - (h1.height + h2.height);
     return {gap, nx * dy - ny * dx - (h1.turning + h2.turning), gap + (h1.radius + h2.radius)};
   }

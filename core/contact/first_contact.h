@@ -61,7 +61,7 @@ Prediction<B::dimension> first_contact(const Flight<B>& one, const Flight<B>& tw
 /// Where a search may begin.
 template <int Dim>
 struct SearchStart {
-  double time;     ///< until then the bodies are disjoint
+  double time;    ///< until then the bodies are disjoint
   Vec<Dim> axis;  ///< probably separates them
 };
 /// The same, for bodies that are not round.

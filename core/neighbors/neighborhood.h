@@ -476,7 +476,8 @@ class Neighborhoods {
   double largest_, smallest_;        // circumradius and inradius
   References references_;
   Cells cells_;
-  std::vector<std::uint32_t> listed_at_;  // the last update in which each was a neighbour that stayed
+  std::vector<std::uint32_t>
+      listed_at_;  // the last update in which each was a neighbour that stayed
   std::uint32_t updates_ = 0;
   double margin_ = 0;
   std::unique_ptr<OuterLayer> outer_;
