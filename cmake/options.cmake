@@ -18,14 +18,20 @@ option(VITREL_NATIVE "Use every instruction of this machine's processor" ${nativ
 set(VITREL_SANITIZE "" CACHE STRING "Sanitizers, for example address,undefined")
 
 # These reach the users of an installed library too: functions defined in headers are compiled there
-# again and must compute the same, and the alignment of Eigen's types depends on -march.
+# again and must compute the same. Trajectories have the same bits whatever instructions are used, therefore no fused
+# multiply-add: neither contracted expressions nor those that Eigen writes out where the processor has it. The
+# alignment of Eigen's types would depend on the instructions too.
 add_library(vitrel_options INTERFACE)
 add_library(vitrel::options ALIAS vitrel_options)
 set_target_properties(vitrel_options PROPERTIES EXPORT_NAME options)
 target_compile_features(vitrel_options INTERFACE cxx_std_20)
 target_compile_options(vitrel_options INTERFACE -ffp-contract=off)
+target_compile_definitions(vitrel_options INTERFACE EIGEN_MAX_STATIC_ALIGN_BYTES=16)
 if(VITREL_NATIVE)
   set(VITREL_NATIVE_FLAGS -march=native)
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    list(APPEND VITREL_NATIVE_FLAGS -mno-fma)
+  endif()
   # With AVX-512, GCC 12.2 vectorises initialisers wrongly at -O3: of a struct of four doubles it stores the third one
   # twice (found by the test Verdict.DegenerateContactCountsByItsGap).
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")

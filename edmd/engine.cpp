@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.h"
 #include "core/error.h"
 #include "core/neighbors/cell_neighbors.h"
 #include "edmd/instances/instances.h"
@@ -32,7 +33,7 @@ EngineOptions with_neighbor_search(const Configuration<Dim>& configuration, Engi
   for (const Solid<Dim>& shape : configuration.shape)
     max_radius = std::max(max_radius, shape.circumradius());
   const double per_cell = static_cast<double>(configuration.size()) / configuration.box.volume() *
-                          std::pow(min_cell_width(max_radius), Dim);
+                          power(min_cell_width(max_radius), Dim);
   const bool is_gas = cells_fit(configuration.box, max_radius) &&
                       per_cell < max_particles_per_cell(configuration.size());
   options.neighbors = is_gas ? NeighborSearch::cells : NeighborSearch::lists;

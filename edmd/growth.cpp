@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/elementary.h"
 #include "core/error.h"
 #include "core/tolerances.h"
 #include "edmd/brownian.h"
@@ -24,7 +25,7 @@ constexpr double min_pressure_growth = 0.005;
 /// The time average of a temperature that rises exponentially from 1 to `end`.
 double mean_of_rise(double end) {
   const double rise = end - 1;
-  return rise == 0 ? 1 : rise / std::log1p(rise);
+  return rise == 0 ? 1 : rise / logarithm_of_one_plus(rise);
 }
 
 /// sqrt(target/energy), or 1 where there is no energy to scale.
@@ -121,7 +122,7 @@ class Growth {
                                 state_.reduced_pressure == 0 ||
                                 grown >= std::min(0.5 * step_growth(), min_pressure_growth);
     if (time > 0 && is_significant) record_pressure(state_.counters.virial - virial, time);
-    state_.time += std::log1p(rate() * time / size) / rate();
+    state_.time += logarithm_of_one_plus(rate() * time / size) / rate();
     rescale_velocities();
     return stop;
   }
@@ -138,7 +139,7 @@ class Growth {
 
   double time_to_goal() const {
     if (!options_.packing_fraction) return std::numeric_limits<double>::infinity();
-    return (std::pow(*options_.packing_fraction / packing_fraction(), 1.0 / Dim) - 1) / rate();
+    return (root(*options_.packing_fraction / packing_fraction(), Dim) - 1) / rate();
   }
 
   void record_pressure(double virial, double time) {

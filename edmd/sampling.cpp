@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+
+#include "core/elementary.h"
 
 namespace vitrel {
 
@@ -30,7 +33,8 @@ std::vector<double> linear_times(double interval, double duration) {
 std::vector<double> logarithmic_times(double first, int per_decade, double duration) {
   std::vector<double> times{0.0};
   for (int k = 0;; ++k) {
-    const double time = first * std::pow(10.0, static_cast<double>(k) / per_decade);
+    const double within = std::numbers::ln10 * (k % per_decade) / per_decade;
+    const double time = first * power(10, k / per_decade) * exponential(within);
     if (time > duration * (1 + slack)) return times;
     times.push_back(std::min(time, duration));
   }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/elementary.h"
 #include "mc/hard_core.h"
 
 namespace vitrel {
@@ -38,15 +39,15 @@ void PressureSampler::sweep() {
 
 void PressureSampler::try_box(Stream draw) {
   const double growth = draw.uniform(-box_.step.size, box_.step.size);  // of ln V
-  Vec2 factors = Vec2::Constant(std::exp(0.5 * growth));
+  Vec2 factors = Vec2::Constant(exponential(0.5 * growth));
   if (change_ == BoxChange::anisotropic) {
     factors = Vec2::Ones();
-    factors[static_cast<Eigen::Index>(draw.below(2))] = std::exp(growth);
+    factors[static_cast<Eigen::Index>(draw.below(2))] = exponential(growth);
   }
   const double volume = configuration_.box.volume();
   const auto exponent = static_cast<double>(configuration_.size() + 1);
-  const double weight = exponent * growth - pressure_ * volume * std::expm1(growth);
-  const bool accepted = draw.uniform() < std::exp(weight) && change_box(factors);
+  const double weight = exponent * growth - pressure_ * volume * exponential_minus_one(growth);
+  const bool accepted = draw.uniform() < exponential(weight) && change_box(factors);
   ++box_.tried;
   box_.accepted += accepted;
   box_.step.count(1, accepted);

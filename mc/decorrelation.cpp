@@ -1,7 +1,9 @@
 #include "mc/decorrelation.h"
 
 #include <cmath>
+#include <numbers>
 
+#include "core/elementary.h"
 #include "mc/contact_pressure.h"
 #include "mc/sampler.h"
 
@@ -11,13 +13,14 @@ namespace {
 
 constexpr std::uint64_t tuning_share = 5;  // a fifth of the sweeps
 constexpr std::uint64_t sweeps_between_tunings = 5, sweeps_per_pressure = 5;
-const double spacing = std::pow(10, 1.0 / 30) * (1 - 1e-9);
+constexpr double spacing = 1.0797751623277097 * (1 - 1e-9);  // 30 per decade
 
 /// C₂ between two configurations of the same particles.
 double orientation_correlation(const Configuration2& before, const Configuration2& now) {
   double sum = 0;
   for (std::size_t i = 0; i < now.size(); ++i)
-    if (!now.shape[i].is_round()) sum += std::cos(2 * (now.angle[i] - before.angle[i]));
+    if (!now.shape[i].is_round())
+      sum += cosine_and_sine(2 * (now.angle[i] - before.angle[i])).cosine;
   return sum / static_cast<double>(rotor_count(now));
 }
 
@@ -40,7 +43,7 @@ class Comparison {
     const double moved = displacement_in_widths(start_, now);
     if (!result_.displacement_time && moved > 1) result_.displacement_time = t;
     const double kept = rotors_ ? orientation_correlation(start_, now) : 1;
-    if (!result_.orientation_time && kept < std::exp(-1)) result_.orientation_time = t;
+    if (!result_.orientation_time && kept < 1 / std::numbers::e) result_.orientation_time = t;
     result_.measured = t;
     const auto time = static_cast<double>(t);
     if (!result_.sweeps.empty() && time < spacing * result_.sweeps.back()) return;

@@ -11,6 +11,8 @@
 #include <emmintrin.h>
 #endif
 
+#include "core/elementary.h"
+
 /// @file
 /// Arithmetic on the two bodies of a pair at once, and on a SIMD batch of pairs. Formulas are templates over the
 /// two types.
@@ -290,50 +292,22 @@ VITREL_INLINE bool all_below(const Simd<lanes>& x, double limit) {
   return all_of(x < limit);
 }
 
-// Taylor series of sine and cosine for |x| ≤ π/2, to 2e-17, split into independent parts (Estrin's scheme).
-// xx = x².
-template <class T>
-VITREL_INLINE T sine_series(const T& x, const T& xx) {
-  const T x4 = xx * xx;
-  const T part1 = 1. / 120 * xx - 1. / 6;
-  const T part2 = 1. / 362880 * xx - 1. / 5040;
-  const T part3 = 1. / 6227020800 * xx - 1. / 39916800;
-  const T part4 = 1. / 355687428096000 * xx - 1. / 1307674368000;
-  const T part5 = 1. / 51090942171709440000. * xx - 1. / 121645100408832000;
-  const T x8 = x4 * x4;
-  return x + x * xx * ((part1 + x4 * part2) + x8 * ((part3 + x4 * part4) + x8 * part5));
-}
-
-template <class T>
-VITREL_INLINE T cosine_series(const T& xx) {
-  const T x4 = xx * xx;
-  const T part1 = 1. / 24 - 1. / 720 * xx;
-  const T part2 = 1. / 40320 - 1. / 3628800 * xx;
-  const T part3 = 1. / 479001600 - 1. / 87178291200 * xx;
-  const T part4 = 1. / 20922789888000 - 1. / 6402373705728000 * xx;
-  const T x8 = x4 * x4;
-  const T part5 = x8 * (1. / 2432902008176640000);
-  return (1 - 0.5 * xx) + x4 * ((part1 + x4 * part2) + x8 * ((part3 + x4 * part4) + part5));
-}
-
-/// As `directions`, by the standard library: for angles so large that subtracting multiples of π is no longer
-/// exact.
-constexpr double max_reducible_angle = 1e6;
-[[gnu::noinline]] inline void library_directions(const PairArray& angle, PairArray& x,
-                                                 PairArray& y) {
-  x = {std::cos(angle[0]), std::cos(angle[1])};
-  y = {std::sin(angle[0]), std::sin(angle[1])};
+/// As `directions`, one by one.
+[[gnu::noinline]] inline void single_directions(const PairArray& angle, PairArray& x,
+                                                PairArray& y) {
+  for (int k = 0; k < 2; ++k) {
+    const CosineAndSine one = cosine_and_sine(angle[k]);
+    x[k] = one.cosine;
+    y[k] = one.sine;
+  }
 }
 template <int lanes>
-[[gnu::noinline]] void library_directions(const Simd<lanes>& angle, Simd<lanes>& x,
-                                          Simd<lanes>& y) {
-  double cosine[lanes], sine[lanes];
+[[gnu::noinline]] void single_directions(const Simd<lanes>& angle, Simd<lanes>& x, Simd<lanes>& y) {
   for (int k = 0; k < lanes; ++k) {
-    cosine[k] = std::cos(angle[k]);
-    sine[k] = std::sin(angle[k]);
+    const CosineAndSine one = cosine_and_sine(angle[k]);
+    x.set(k, one.cosine);
+    y.set(k, one.sine);
   }
-  x = Simd<lanes>::load(cosine);
-  y = Simd<lanes>::load(sine);
 }
 
 }  // namespace detail
@@ -342,21 +316,8 @@ template <int lanes>
 template <class T>
 VITREL_INLINE void directions(const T& angle, T& x, T& y) {
   if (!detail::all_below(abs(angle), detail::max_reducible_angle))
-    return detail::library_directions(angle, x, y);
-  // Adding and subtracting this number rounds to an integer. π is subtracted in three parts, so that multiples
-  // of the first are exact.
-  constexpr double rounder = 0x1.8p52;
-  constexpr double pi_high = 0x1.921fb544p1;
-  constexpr double pi_middle = 0x1.0b4611a6p-33;
-  constexpr double pi_low = 0x1.3198a2e037073p-68;
-  const T k = (angle * 0.31830988618379067154 + rounder) - rounder;
-  const T rest = ((angle - k * pi_high) - k * pi_middle) - k * pi_low;
-  const T half = (0.5 * k + rounder) - rounder;
-  const T odd = k - 2 * half;
-  const T sign = 1 - 2 * abs(odd);
-  const T square = rest * rest;
-  x = sign * detail::cosine_series<T>(square);
-  y = sign * detail::sine_series<T>(rest, square);
+    return detail::single_directions(angle, x, y);
+  detail::reduced_cosine_and_sine<T>(angle, x, y);
 }
 
 constexpr double max_small_angle = 1.5;

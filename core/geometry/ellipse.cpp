@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/elementary.h"
+
 namespace vitrel {
 
 double perimeter(const Ellipse& ellipse) {
@@ -10,8 +12,7 @@ double perimeter(const Ellipse& ellipse) {
 }
 
 Mat2 shape_matrix(const Ellipse& ellipse, double angle) {
-  const double c = std::cos(angle);
-  const double s = std::sin(angle);
+  const auto [c, s] = cosine_and_sine(angle);
   const double aa = ellipse.a * ellipse.a;
   const double bb = ellipse.b * ellipse.b;
   Mat2 sigma;
@@ -25,8 +26,7 @@ Mat2 shape_matrix(const Ellipse& ellipse, double angle) {
 // ṗ = −w − ω J p, where w = Rᵀ v and J p = (−p_y, p_x). All derivatives follow from those of p.
 EllipseFunction ellipse_function(const Flight<Ellipse>& flight, double time, const Vec2& point) {
   const Pose2 pose = advanced(flight.pose, flight.motion, time);
-  const double c = std::cos(pose.angle);
-  const double s = std::sin(pose.angle);
+  const auto [c, s] = cosine_and_sine(pose.angle);
   Mat2 rotation;
   rotation << c, -s, s, c;
   const double omega = flight.motion.angular_velocity;

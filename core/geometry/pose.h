@@ -3,6 +3,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "core/elementary.h"
 #include "core/geometry/vector.h"
 
 /// @file
@@ -70,9 +71,10 @@ using Motion3 = Motion<3>;
 inline Quaternion rotation(const Vec3& turn) {
   const double half = 0.5 * turn.norm();
   // sin(x)/x to rounding where the quotient would be lost.
-  const double sinc = half < 1e-8 ? 1 : std::sin(half) / half;
+  const auto [cosine, sine] = cosine_and_sine(half);
+  const double sinc = half < 1e-8 ? 1 : sine / half;
   Quaternion q;
-  q.w() = std::cos(half);
+  q.w() = cosine;
   q.vec() = 0.5 * sinc * turn;
   return q;
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/elementary.h"
 #include "core/error.h"
 #include "core/io/h5md.h"
 
@@ -268,7 +269,7 @@ void TrajectoryReader::read_orientations(std::uint64_t frame, Configuration2& co
     if (q[1] != 0 || q[2] != 0)
       fail("particle " + std::to_string(i) +
            " is turned out of the plane, but the system is two-dimensional");
-    configuration.angle[i] = 2 * std::atan2(q[3], q[0]);
+    configuration.angle[i] = 2 * polar_angle(q[3], q[0]);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/elementary.h"
 #include "core/error.h"
 #include "core/io/atomic_file.h"
 #include "core/io/h5md.h"
@@ -72,7 +73,8 @@ void append(std::vector<double>& row, const Quaternion& q) {
 
 Quaternion orientation(const Configuration2& configuration, std::size_t i) {
   const double half = 0.5 * configuration.angle[i];
-  return {std::cos(half), 0, 0, std::sin(half)};
+  const auto [cosine, sine] = cosine_and_sine(half);
+  return {cosine, 0, 0, sine};
 }
 Quaternion orientation(const Configuration3& configuration, std::size_t i) {
   return configuration.orientation[i];

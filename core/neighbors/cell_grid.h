@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "core/elementary.h"
 #include "core/geometry/periodic_box.h"
 
 namespace vitrel {
@@ -23,8 +24,7 @@ class CellGrid {
   CellGrid(const PeriodicBox<Dim>& box, double reach, std::size_t particles) : box_(box) {
     constexpr double cells_per_particle = 4;
     const auto max_count =
-        static_cast<std::int64_t>(std::ceil(std::pow(cells_per_particle * particles, 1.0 / Dim))) +
-        1;
+        static_cast<std::int64_t>(std::ceil(root(cells_per_particle * particles, Dim))) + 1;
     std::int64_t cells = 1;
     for (int k = 0; k < Dim; ++k) {
       const auto target = static_cast<std::int64_t>(box.lengths()[k] / (0.5 * reach));

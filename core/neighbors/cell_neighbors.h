@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "core/elementary.h"
 #include "core/geometry/pose.h"
 #include "core/neighbors/list_pool.h"
 #include "core/neighbors/neighbor.h"
@@ -45,7 +46,7 @@ class CellNeighbors {
       : lower_(-0.5 * box.lengths()) {
     assert(cells_fit(box, max_radius));
     const double volume = particles_per_cell * box.volume() / static_cast<double>(positions.size());
-    const double width = std::max(min_cell_width(max_radius), std::pow(volume, 1.0 / dimension));
+    const double width = std::max(min_cell_width(max_radius), root(volume, dimension));
     std::size_t cells = 1;
     for (int k = 0; k < dimension; ++k) {
       count_[k] = std::max(3, static_cast<std::int32_t>(box.lengths()[k] / width));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/elementary.h"
 #include "core/geometry/pose.h"
 
 /// @file
@@ -15,7 +16,8 @@ inline double rotation_angle(double from, double to) {
   return to - from;
 }
 inline double rotation_angle(const Quaternion& from, const Quaternion& to) {
-  return from.angularDistance(to);
+  const Quaternion turn = from.conjugate() * to;
+  return 2 * polar_angle(turn.vec().norm(), std::abs(turn.w()));
 }
 
 inline double magnitude(double angular_velocity) {

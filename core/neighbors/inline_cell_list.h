@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/contact/simd.h"
+#include "core/elementary.h"
 #include "core/geometry/periodic_box.h"
 #include "core/neighbors/prefetch.h"
 
@@ -30,7 +31,7 @@ class InlineCellList {
   InlineCellList(const PeriodicBox<Dim>& box, double min_width, std::size_t points) : box_(box) {
     constexpr double cells_per_point = 4;
     const double max_count =
-        std::ceil(std::pow(cells_per_point * static_cast<double>(points), 1.0 / Dim)) + 1;
+        std::ceil(root(cells_per_point * static_cast<double>(points), Dim)) + 1;
     std::int64_t cells = 1;
     for (int k = Dim - 1; k >= 0; --k) {
       count_[k] =

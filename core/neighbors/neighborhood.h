@@ -11,6 +11,7 @@
 
 #include "core/contact/ellipse_gap_batch.h"
 #include "core/contact/ellipsoid_gap_batch.h"
+#include "core/elementary.h"
 #include "core/geometry/capsule.h"
 #include "core/geometry/periodic_box.h"
 #include "core/neighbors/exit_time.h"
@@ -263,14 +264,14 @@ class Neighborhoods {
   double cell_width(std::size_t particles) const {
     constexpr double particles_per_cell = 2;
     const double volume = particles_per_cell * box_.volume() / static_cast<double>(particles);
-    return std::max(0.5 * largest_, std::pow(volume, 1.0 / dimension));
+    return std::max(0.5 * largest_, root(volume, dimension));
   }
 
   // A gap within which, at the mean density, there are certainly more neighbours than the target.
   double max_gap(double target) const {
     const double density = static_cast<double>(references_.size()) / box_.volume();
     const double of_unit = dimension == 2 ? std::numbers::pi : 4 * std::numbers::pi / 3;
-    const double reach = std::pow(2 * target / (of_unit * density), 1.0 / dimension);
+    const double reach = root(2 * target / (of_unit * density), dimension);
     return std::clamp(reach - 2 * smallest_, smallest_, 4 * largest_);
   }
 
@@ -296,7 +297,7 @@ class Neighborhoods {
   bool needs_outer_layer() const {
     constexpr double many_candidates = 400;
     const double density = static_cast<double>(references_.size()) / box_.volume();
-    return density * std::pow(4 * (largest_ + margin_), dimension) > many_candidates &&
+    return density * power(4 * (largest_ + margin_), dimension) > many_candidates &&
            OuterLayer::times * margin_ < 0.25 * box_.lengths().minCoeff();
   }
 

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "core/elementary.h"
+
 namespace vitrel {
 
 namespace {
@@ -22,7 +24,7 @@ std::uint64_t spread(std::uint64_t bits) {
 template <int Dim>
 std::vector<std::uint32_t> spatial_order(const PeriodicBox<Dim>& box,
                                          std::span<const Vec<Dim>> positions) {
-  const double cells = std::ceil(std::pow(static_cast<double>(positions.size()), 1.0 / Dim));
+  const double cells = std::ceil(root(static_cast<double>(positions.size()), Dim));
   const auto cell = [&](const Vec<Dim>& position, int k) {
     const double at = (position[k] / box.lengths()[k] + 0.5) * cells;
     return static_cast<std::uint64_t>(std::clamp(at, 0.0, cells - 1));

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/elementary.h"
+
 namespace vitrel {
 
 Stream::Stream(std::uint64_t seed, Purpose purpose, std::uint64_t step, std::uint64_t particle)
@@ -48,11 +50,11 @@ double Stream::normal() {
     has_spare_ = false;
     return spare_normal_;
   }
-  const double radius = std::sqrt(-2 * std::log(1 - uniform()));
-  const double phase = 2 * std::numbers::pi * uniform();
-  spare_normal_ = radius * std::sin(phase);
+  const double radius = std::sqrt(-2 * logarithm(1 - uniform()));
+  const auto [cosine, sine] = cosine_and_sine(2 * std::numbers::pi * uniform());
+  spare_normal_ = radius * sine;
   has_spare_ = true;
-  return radius * std::cos(phase);
+  return radius * cosine;
 }
 
 }  // namespace vitrel

@@ -9,6 +9,7 @@
 #include <string>
 #include <tuple>
 
+#include "core/elementary.h"
 #include "core/error.h"
 #include "core/state/exact_pair.h"
 
@@ -297,7 +298,7 @@ ExactCheck<Dim> exact_check(const Configuration<Dim>& configuration,
   validate(configuration);
   const std::size_t size = configuration.size();
   Examination<Dim> examination(configuration);
-  const double cells = size <= brute_force_limit ? 1 : std::ceil(std::pow(size, 1.0 / Dim));
+  const double cells = size <= brute_force_limit ? 1 : std::ceil(root(size, Dim));
   Cells<Dim>(examination, cells).for_each_pair([&](const auto& one, const auto& two) {
     examination.examine(one, two);
   });

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/elementary.h"
 #include "core/error.h"
 #include "core/random/stream.h"
 #include "core/state/configuration.h"
@@ -21,8 +22,8 @@ double draw_once(const Distribution& d, Stream& stream) {
     case Distribution::Kind::lognormal: {
       // ln x has variance s² = ln(1 + (σ/⟨x⟩)²) and mean ln⟨x⟩ − s²/2.
       const double ratio = d.standard_deviation / d.mean;
-      const double variance = std::log1p(ratio * ratio);
-      return d.mean * std::exp(std::sqrt(variance) * stream.normal() - 0.5 * variance);
+      const double variance = logarithm_of_one_plus(ratio * ratio);
+      return d.mean * exponential(std::sqrt(variance) * stream.normal() - 0.5 * variance);
     }
     case Distribution::Kind::uniform:
       return stream.uniform(d.low, d.high);

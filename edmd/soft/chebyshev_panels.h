@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/elementary.h"
 #include "core/parallel.h"
 
 /// @file
@@ -215,7 +216,7 @@ std::vector<double> ChebyshevPanels<Dim, Nodes, Values>::sample(const Box<Dim>& 
   for (int term = 0; term < terms; ++term) {
     Point scaled;
     for (int axis = Dim - 1, rest = term; axis >= 0; --axis, rest /= Nodes)
-      scaled[axis] = std::cos(std::numbers::pi * (rest % Nodes + 0.5) / Nodes);
+      scaled[axis] = cosine_and_sine(std::numbers::pi * (rest % Nodes + 0.5) / Nodes).cosine;
     const Value value = function(at(box, scaled));
     values.insert(values.end(), value.begin(), value.end());
   }
@@ -229,7 +230,7 @@ void ChebyshevPanels<Dim, Nodes, Values>::transform(double* values, std::ptrdiff
   for (int j = 0; j < Nodes; ++j)
     for (int i = 0; i < Nodes; ++i)
       coefficients[j] += (j == 0 ? 1.0 : 2.0) / Nodes * values[i * stride] *
-                         std::cos(std::numbers::pi * j * (i + 0.5) / Nodes);
+                         cosine_and_sine(std::numbers::pi * j * (i + 0.5) / Nodes).cosine;
   for (int j = 0; j < Nodes; ++j) values[j * stride] = coefficients[j];
 }
 
@@ -251,9 +252,9 @@ bool ChebyshevPanels<Dim, Nodes, Values>::agrees(const Box<Dim>& box, const Func
   for (int k = 1; k <= test_points; ++k) {
     Point scaled;
     for (int axis = 0; axis < Dim; ++axis) {
-      const double along = k * std::pow(ratio, -1 - axis);
-      scaled[axis] = std::cos(std::numbers::pi *
-                              std::floor((along - std::floor(along)) * (Nodes + 1)) / Nodes);
+      const double along = k / power(ratio, 1 + axis);
+      const double node = std::floor((along - std::floor(along)) * (Nodes + 1));
+      scaled[axis] = cosine_and_sine(std::numbers::pi * node / Nodes).cosine;
     }
     const Point x = at(box, scaled);
     const Value expected = function(x), found = sum(panel, x);

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/elementary.h"
 #include "core/error.h"
 #include "core/io/atomic_file.h"
 #include "core/io/h5.h"
@@ -36,16 +37,17 @@ struct Variables {
 
 Variables variables_of(const ForceForm& form, const ScaledImpact& impact) {
   const double tangent = impact.angular_momentum / impact.distance;
-  const double size = std::log(impact.distance);
-  return {std::log(tangent), size - form.length_exponent * std::log1p(tangent * tangent),
-          std::log(impact.damping) + form.damping_exponent * size};
+  const double size = logarithm(impact.distance);
+  return {logarithm(tangent),
+          size - form.length_exponent * logarithm_of_one_plus(tangent * tangent),
+          logarithm(impact.damping) + form.damping_exponent * size};
 }
 
 ScaledImpact impact_of(const ForceForm& form, const Variables& at) {
-  const double tangent = std::exp(at.g);
-  const double size = at.m + form.length_exponent * std::log1p(tangent * tangent);
-  const double distance = std::exp(size);
-  return {distance, distance * tangent, std::exp(at.d - form.damping_exponent * size)};
+  const double tangent = exponential(at.g);
+  const double size = at.m + form.length_exponent * logarithm_of_one_plus(tangent * tangent);
+  const double distance = exponential(size);
+  return {distance, distance * tangent, exponential(at.d - form.damping_exponent * size)};
 }
 
 using Logarithms = std::array<double, 3>;
@@ -53,17 +55,17 @@ using Logarithms = std::array<double, 3>;
 Logarithms logarithms(const ForceForm& form, const Variables& at) {
   const ScaledImpact impact = impact_of(form, at);
   const Restitution found = form.integrate(impact);
-  return {std::log(-found.rate), std::log(found.duration),
-          std::log(found.angle * impact.distance * impact.distance / impact.angular_momentum)};
+  return {logarithm(-found.rate), logarithm(found.duration),
+          logarithm(found.angle * impact.distance * impact.distance / impact.angular_momentum)};
 }
 
 Restitution restitution_of(const ForceForm& form, const ScaledImpact& impact,
                            const Logarithms& of) {
   const double angle =
-      std::exp(of[2]) * impact.angular_momentum / (impact.distance * impact.distance);
-  const double duration = std::exp(of[1]);
+      exponential(of[2]) * impact.angular_momentum / (impact.distance * impact.distance);
+  const double duration = exponential(of[1]);
   if (impact.damping == 0) return {1, angle, duration, -1};
-  const double rate = -std::exp(of[0]);
+  const double rate = -exponential(of[0]);
   const double s = form.elastic_inverse(-impact.damping * rate);
   return {1 - s * s / impact.distance, angle, duration, rate};
 }

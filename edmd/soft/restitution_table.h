@@ -11,6 +11,7 @@
 #include <utility>
 #include <variant>
 
+#include "core/elementary.h"
 #include "edmd/soft/chebyshev_panels.h"
 #include "edmd/soft/restitution.h"
 
@@ -150,10 +151,10 @@ RestitutionDomain restitution_domain(const Force& force, std::span<const Contact
   };
   for (const ContactPair& pair : pairs) {
     for (const double speed : {slowest, fastest})
-      extend(domain.m, std::log(pair.distance / force.scales(speed, pair).length));
+      extend(domain.m, logarithm(pair.distance / force.scales(speed, pair).length));
     const ScaledImpact impact = scaled_impact(force, pair, fastest, 0);
     extend(domain.d,
-           std::log(impact.damping) + Force::damping_exponent * std::log(impact.distance));
+           logarithm(impact.damping) + Force::damping_exponent * logarithm(impact.distance));
   }
   return domain;
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "core/elementary.h"
 #include "core/geometry/pose.h"
 #include "edmd/engine.h"
 #include "edmd/soft/restitution.h"
@@ -94,7 +95,7 @@ RelativeMotion<Dim> after_contact(const RelativeMotion<Dim>& before,
   const Vec<Dim> across = before.velocity + approach * n;
   const double speed = across.norm();
   const Vec<Dim> t = speed > 0 ? Vec<Dim>(across / speed) : Vec<Dim>::Zero();
-  const double c = std::cos(restitution.angle), s = std::sin(restitution.angle);
+  const auto [c, s] = cosine_and_sine(restitution.angle);
   const Vec<Dim> turned = c * n + s * t;
   return {restitution.distance * distance * turned,
           -restitution.rate * approach * turned + speed / restitution.distance * (c * t - s * n)};

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/elementary.h"
 #include "edmd/soft/contact_force.h"
 
 namespace vitrel {
@@ -33,7 +34,8 @@ struct Viscoelastic {
     return stiffness(pair) * std::sqrt(compression) * (compression + 1.5 * dissipative_time * rate);
   }
   ContactScales scales(double speed, const ContactPair& pair) const {
-    const double time = std::pow(stiffness(pair) / pair.mass, -0.4) * std::pow(speed, -0.2);
+    const double time =
+        exponential(-0.4 * logarithm(stiffness(pair) / pair.mass) - 0.2 * logarithm(speed));
     return {time, speed * time, 1.5 * dissipative_time / time};
   }
 

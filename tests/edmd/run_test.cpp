@@ -121,7 +121,7 @@ struct Interruption {
 
 // The state handed out at every block end continues to the same bits.
 void expect_continues_exactly(const DynamicsOptions& options) {
-  const double end = 60;
+  const double end = 200;
   RunState2 state = begin_run(thesis_scene(), -2);
   Recorder whole;
   Clock clock;

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/elementary.h"
 #include "edmd/soft/restitution_table.h"
 
 namespace vitrel {
@@ -108,7 +109,7 @@ ContactPair reference_pair(const ContactParameters& p) {
 }  // namespace
 
 UnitsOfRun units_of_run(const ContactParameters& p) {
-  return {p.radius, p.density * 4 * std::numbers::pi / 3 * std::pow(p.radius, 3),
+  return {p.radius, p.density * 4 * std::numbers::pi / 3 * power(p.radius, 3),
           p.radius / p.thermal_speed};
 }
 

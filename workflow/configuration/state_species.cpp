@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.h"
+
 namespace vitrel {
 namespace {
 
@@ -247,7 +249,7 @@ std::vector<Species> completed(const Parameters& parameters, const std::vector<S
     if (const auto& axes = other[k].semi_axes) {
       double product = 1;
       for (const double axis : *axes) product *= axis;
-      species[k].size = constant(std::pow(product, 1 / static_cast<double>(axes->size())));
+      species[k].size = constant(root(product, static_cast<int>(axes->size())));
     } else {
       species[k].size = other[k].size;
     }

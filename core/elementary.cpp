@@ -1,0 +1,114 @@
+#include "core/elementary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace vitrel {
+
+namespace {
+
+constexpr double ln2_high = 0x1.62e42fefa38p-1,
+                 ln2_low = 0x1.ef35793c7673p-45;  // k · ln2_high is exact
+
+// For |r| ≤ ln 2/2, eʳ − 1.
+double exponential_series(double r) {
+  double sum = 1. / 87178291200;  // 1/14!
+  double factorial = 6227020800;
+  for (int n = 13; n >= 2; --n) {
+    sum = 1 / factorial + r * sum;
+    factorial /= n;
+  }
+  return r + r * r * sum;
+}
+
+// The angle between −π and π for |angle| ≤ 2⁵³. Products of halves of the number of turns with parts of 2π are exact, and
+// their sum is kept as that of two numbers.
+double without_turns(double angle) {
+  constexpr double parts[] = {0x1.921fb5p+2, 0x1.110b46p-24, 0x1.1a6262p-52, 0x1.3145c0p-76,
+                              0x1.b839a2p-102};  // of 26 bits each
+  constexpr double split = 0x1p27;
+  const double turns = std::nearbyint(angle * (0.5 * std::numbers::inv_pi));
+  const double high = split * std::nearbyint(turns / split), low = turns - high;
+  double sum = angle, rest = 0;
+  const auto subtract = [&](double product) {
+    const double next = sum - product, back = next - sum;
+    rest += (sum - (next - back)) - (product + back);
+    sum = next;
+  };
+  for (const double part : parts) {
+    subtract(high * part);
+    subtract(low * part);
+  }
+  return sum + rest;
+}
+
+}  // namespace
+
+CosineAndSine cosine_and_sine(double angle) {
+  constexpr double largest = 0x1p53;
+  if (!(std::abs(angle) <= largest)) return {std::cos(angle), std::sin(angle)};
+  if (!(std::abs(angle) < detail::max_reducible_angle)) angle = without_turns(angle);
+  CosineAndSine result;
+  detail::reduced_cosine_and_sine<double>(angle, result.cosine, result.sine);
+  return result;
+}
+
+// With x = 2ᵏ (1 + f), √½ ≤ 1 + f < √2 and s = f/(2 + f): ln(1 + f) = f − f²/2 + s (f²/2 + R),
+// R = 2/3 s² + 2/5 s⁴ + …
+double logarithm(double x) {
+  if (x == 0) return -std::numeric_limits<double>::infinity();
+  if (!(x > 0 && x <= std::numeric_limits<double>::max()))
+    return x > 0 ? x : std::numeric_limits<double>::quiet_NaN();
+  int k;
+  double m = std::frexp(x, &k);
+  if (m < std::numbers::sqrt2 / 2) {
+    m *= 2;
+    --k;
+  }
+  const double f = m - 1, s = f / (2 + f), z = s * s, half_square = 0.5 * f * f;
+  double r = 0;
+  for (int n = 23; n >= 3; n -= 2) r = z * (2. / n + r);
+  return k * ln2_high - ((half_square - (s * (half_square + r) + k * ln2_low)) - f);
+}
+
+double logarithm_of_one_plus(double x) {
+  const double sum = 1 + x;
+  if (!(sum > 0 && sum <= std::numeric_limits<double>::max())) return logarithm(sum);
+  return logarithm(sum) - ((sum - 1) - x) / sum;
+}
+
+double exponential(double x) {
+  constexpr double too_large = 710, too_small = -746;
+  if (!(x < too_large)) return x > 0 ? std::numeric_limits<double>::infinity() : x;
+  if (x < too_small) return 0;
+  const double k = std::nearbyint(x * std::numbers::log2e);
+  const double r = (x - k * ln2_high) - k * ln2_low;
+  return std::ldexp(1 + exponential_series(r), static_cast<int>(k));
+}
+
+double exponential_minus_one(double x) {
+  return std::abs(x) < std::numbers::ln2 / 2 ? exponential_series(x) : exponential(x) - 1;
+}
+
+// An approximation to 2e-3, corrected by the angle between it and the vector: asin(d) to the seventh power.
+double polar_angle(double y, double x) {
+  const double a = std::abs(x), b = std::abs(y), larger = std::max(a, b);
+  if (larger == 0) return 0;
+  const double p = a / larger, q = b / larger, t = std::min(p, q);
+  const double within = t * (std::numbers::pi / 4 + (1 - t) * (0.2447 + 0.0663 * t));
+  const double near = q <= p ? within : std::numbers::pi / 2 - within;
+  const auto [cosine, sine] = cosine_and_sine(near);
+  const double d = (q * cosine - p * sine) / std::sqrt(p * p + q * q), dd = d * d;
+  const double angle = near + (d + d * dd * (1. / 6 + dd * (3. / 40 + dd * (15. / 336))));
+  return std::copysign(x < 0 ? std::numbers::pi - angle : angle, y);
+}
+
+double root(double x, int n) {
+  if (n == 2) return std::sqrt(x);
+  const double near = std::cbrt(x), square = near * near;
+  return x == 0 ? 0 : near - (near * square - x) / (3 * square);
+}
+
+}  // namespace vitrel
