@@ -77,8 +77,9 @@ double polar_angle(double y, double x);
 /// The square root for n = 2, the cubic root for n = 3, to within 1 unit.
 double root(double x, int n);
 /// xⁿ for n ≥ 0, by n products.
-constexpr double power(double x, int n) {
-  double result = 1;
+template <class T>
+constexpr T power(T x, int n) {
+  T result = 1;
   for (int k = 0; k < n; ++k) result *= x;
   return result;
 }

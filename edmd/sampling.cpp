@@ -34,7 +34,7 @@ std::vector<double> logarithmic_times(double first, int per_decade, double durat
   std::vector<double> times{0.0};
   for (int k = 0;; ++k) {
     const double within = std::numbers::ln10 * (k % per_decade) / per_decade;
-    const double time = first * power(10, k / per_decade) * exponential(within);
+    const double time = first * power(10., k / per_decade) * exponential(within);
     if (time > duration * (1 + slack)) return times;
     times.push_back(std::min(time, duration));
   }

@@ -86,9 +86,6 @@ class ChebyshevPanels {
   static bool is_valid(const Content& content);
 
  private:
-  static constexpr int power(int base, int exponent) {
-    return exponent == 0 ? 1 : base * power(base, exponent - 1);
-  }
   static constexpr int terms = power(Nodes, Dim);
   static constexpr int coefficient_count = terms * Values;
   static constexpr int row_size = Nodes * Values;  // of all powers of the last variable

@@ -276,7 +276,7 @@ TEST(GrowthLimits, ShrinksWithANegativeRate) {
 
 // Stopped at every block end and resumed, growth ends in the same bits.
 TEST(GrowthLimits, ResumesBitByBit) {
-  const GrowthOptions options{0.01, {}, 1e3, 5};
+  const GrowthOptions options{0.005, {}, 1e3, 5};
   Configuration2 whole = dilute(materials[4], 5), parts = whole;
   const BaseShape uninterrupted = grown(whole, options);
   int asked = 0, calls = 1;
