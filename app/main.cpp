@@ -1,5 +1,5 @@
-#include "app/command_line.h"
+#include "app/program.h"
 
 int main(int count, char** words) {
-  return vitrel::run_command_line(count, words);
+  return vitrel_main(count, words);
 }

@@ -9,12 +9,13 @@ if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release)
 endif()
 
-# Who builds the project mostly runs it on the same machine; packages turn it off (preset "portable").
-set(native_by_default ${PROJECT_IS_TOP_LEVEL})
-if(CMAKE_CROSSCOMPILING)
-  set(native_by_default OFF)
+# Who builds the project mostly runs it on the same machine. Presets "portable" and "x86-64-v3" are for packages.
+set(processor_by_default "")
+if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CROSSCOMPILING)
+  set(processor_by_default native)
 endif()
-option(VITREL_NATIVE "Use every instruction of this machine's processor" ${native_by_default})
+set(VITREL_PROCESSOR "${processor_by_default}" CACHE STRING
+    "Whose instructions to use, as in -march: native, x86-64-v3 ...; empty: those of all processors of the family")
 set(VITREL_SANITIZE "" CACHE STRING "Sanitizers, for example address,undefined")
 
 # These reach the users of an installed library too: functions defined in headers are compiled there
@@ -27,17 +28,17 @@ set_target_properties(vitrel_options PROPERTIES EXPORT_NAME options)
 target_compile_features(vitrel_options INTERFACE cxx_std_20)
 target_compile_options(vitrel_options INTERFACE -ffp-contract=off)
 target_compile_definitions(vitrel_options INTERFACE EIGEN_MAX_STATIC_ALIGN_BYTES=16)
-if(VITREL_NATIVE)
-  set(VITREL_NATIVE_FLAGS -march=native)
+if(VITREL_PROCESSOR)
+  set(VITREL_PROCESSOR_FLAGS -march=${VITREL_PROCESSOR})
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-    list(APPEND VITREL_NATIVE_FLAGS -mno-fma)
+    list(APPEND VITREL_PROCESSOR_FLAGS -mno-fma)
+    # With AVX-512, GCC 12.2 vectorises initialisers wrongly at -O3: of a struct of four doubles it stores the third
+    # one twice (found by the test Verdict.DegenerateContactCountsByItsGap).
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+      list(APPEND VITREL_PROCESSOR_FLAGS -mno-avx512f)
+    endif()
   endif()
-  # With AVX-512, GCC 12.2 vectorises initialisers wrongly at -O3: of a struct of four doubles it stores the third one
-  # twice (found by the test Verdict.DegenerateContactCountsByItsGap).
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-    list(APPEND VITREL_NATIVE_FLAGS -mno-avx512f)
-  endif()
-  target_compile_options(vitrel_options INTERFACE ${VITREL_NATIVE_FLAGS})
+  target_compile_options(vitrel_options INTERFACE ${VITREL_PROCESSOR_FLAGS})
 endif()
 if(VITREL_SANITIZE)
   target_compile_options(vitrel_options INTERFACE -fsanitize=${VITREL_SANITIZE} -fno-omit-frame-pointer)

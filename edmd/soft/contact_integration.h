@@ -5,12 +5,12 @@
 #include <boost/math/tools/roots.hpp>
 #include <boost/numeric/odeint/algebra/array_algebra.hpp>
 #include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
-#include <boost/numeric/odeint/stepper/generation.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
 
+#include "core/elementary.h"
 #include "core/error.h"
 #include "edmd/soft/restitution.h"
 
@@ -27,7 +27,7 @@ class ContactIntegration {
         kappa_(impact.damping >= 1 ? 1 / impact.damping : 0) {}
 
   Restitution operator()() const {
-    auto stepper = boost::numeric::odeint::make_controlled(min_error, step_error, blank);
+    ControlledStepper stepper({min_error, step_error}, {}, blank);
     const auto motion = [this](const State& x, State& slope, double) { set_slope(x, slope); };
     State x{0, 1, 1, 0, 0};
     double at = 0, step = 0.1 / (1 + std::sqrt(centrifugal(1)) + impact_.damping);
@@ -46,6 +46,23 @@ class ContactIntegration {
   using Stepper =
       boost::numeric::odeint::runge_kutta_fehlberg78<State, double, State, double,
                                                      boost::numeric::odeint::array_algebra>;
+  // That of the library takes std::pow, whose bits depend on the processor.
+  struct StepAdjuster : boost::numeric::odeint::default_step_adjuster<double, double> {
+    static double factor(double error, int order) {
+      return 0.9 * exponential(-logarithm(error) / order);
+    }
+    double decrease_step(double step, double error, int error_order) const {
+      return step * std::max(factor(error, error_order - 1), 0.2);
+    }
+    double increase_step(double step, double error, int order) const {
+      return error < 0.5 ? step * factor(std::max(error, power(0.2, order)), order) : step;
+    }
+  };
+  using ErrorChecker =
+      boost::numeric::odeint::default_error_checker<double, boost::numeric::odeint::array_algebra,
+                                                    boost::numeric::odeint::default_operations>;
+  using ControlledStepper =
+      boost::numeric::odeint::controlled_runge_kutta<Stepper, ErrorChecker, StepAdjuster>;
 
   // Steppers are copied with their scratch memory; as a static object it is initialised.
   static inline const Stepper blank{};

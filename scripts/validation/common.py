@@ -13,6 +13,8 @@ import time
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 PARAMS = ROOT / "params"
+# An environment in which glibc does as on a processor without AVX and fused multiply-add; elsewhere it has no effect.
+OLD_PROCESSOR = {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX,-AVX2,-FMA,-FMA4,-AVX512F"}
 
 
 class Failure(Exception):

@@ -1,0 +1,7 @@
+#include "app/program.h"
+
+#include "app/command_line.h"
+
+int vitrel_main(int count, char** words) {
+  return vitrel::run_command_line(count, words);
+}
