@@ -88,7 +88,7 @@ TEST_P(Haff, CoolingFollowsTheCollisionRate) {
   const double rate = 4 * excess / diameter / std::sqrt(std::numbers::pi);
   const double tau = 4 / ((1 - e * e) * rate * (1 + 3. / 16 * a2));
   std::vector<double> roots, logs;
-  for (std::uint64_t seed = 1; seed <= 16; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 32; ++seed) {
     const Cooling cooled = cool(seed, e, tau);
     roots.push_back(cooled.inverse_root);
     logs.push_back(cooled.log_per_collision);
