@@ -10,24 +10,19 @@
 /// batches. Each answer is proved; the cheapest proofs come first.
 ///
 ///   1. Circumcircles a margin apart prove the pair separated; overlapping incircles prove an overlap.
-///   2. For weights w₁, w₂ > 0 let C = w₁Σ₁ + w₂Σ₂, n = C⁻¹d, hᵢ = √(nᵀΣᵢn), d from centre 1 to 2.
-///      Separated if n·d > h₁ + h₂ + margin |n|: any such n separates (ellipse_gap.h).
-///      Overlap if w₁h₁ ≤ 1 and w₂h₂ ≤ 1: w₁Σ₁n = d − w₂Σ₂n is a point of both ellipses.
-///      The first weights are w₁ = w₂; they decide most pairs.
-///   3. Repeat with w₁ : w₂ = h₂ : h₁, towards the maximum of the Perram–Wertheim function. At the maximum
-///      one of the two proofs holds, or the gap is between 0 and the margin.
-///      1 to 3 % of all pairs with overlapping circumcircles remain.
-///   4. separated() decides these one by one.
-///
-/// Since |n| ≤ hᵢ/bᵢ, margin |n| is replaced by margin h₁/b₁: this saves a square root and is still a proof. The
-/// proof of an overlap must hold with a safety margin of 1e-10, far above the rounding of C⁻¹ up to aspect
-/// ratios of 1000: every pair reported as overlapping has a common point. C⁻¹ det C and det C are sums of
-/// positive terms, without cancellation.
+///   2. The complete criterion of Vieillard-Baron (ellipse_vieillard_baron.h), free of divisions and roots:
+///      with Kᵢ = aᵢ²bᵢ², g₁ = K₂G₁ and g₂ = K₁G₂,
+///          (K₁K₂)² Ψ = (g₁g₂)² + 18 K₁K₂ g₁g₂ − 4 (K₁g₁³ + K₂g₂³) − 27 (K₁K₂)².
+///      It does not decide if this is so small that rounding or the margin might change its sign. Both act as relative
+///      errors η of the terms of g₁ and g₂, which change a sum of their products by no more than 4η Σ, where Σ is the
+///      same sum with all signs positive; η ≤ 2 margin/b for the margin, and 10⁻¹¹ is far above the rounding up to
+///      aspect ratios of 1000.
+///   3. separated() (ellipse_gap.h) decides the rest one by one: pairs that touch to about nine digits.
 ///
 /// Every step therefore gives the answer of separated(): the largest support gap is at least the margin, to the
 /// rounding of the gap. The answer depends on the pair alone, not on the other lanes. Exchanging the bodies
 /// changes it only where the gap equals the margin to rounding.
-/// Source: perram1985.
+/// Source: vieillardbaron1972.
 namespace vitrel {
 
 class OverlapBatch {
@@ -41,9 +36,9 @@ class OverlapBatch {
       : shape_(shape),
         axis_(axis),
         margin_(margin),
+        aa_(shape.a * shape.a),
         bb_(shape.b * shape.b),
-        aa_minus_bb_(shape.aa_minus_bb()),
-        enlargement_(1 + margin / shape.b) {}
+        aa_minus_bb_(shape.aa_minus_bb()) {}
 
   /// Whether the body keeps the margin to all ellipses in these lanes; the separations d are `offset` +
   /// their positions. Adds the number of pairs that step 4 decided to `scalar_tests`.
@@ -59,68 +54,49 @@ class OverlapBatch {
     const SimdBatch inner = b + shape_.b;
     if (undecided & (distance_squared < inner * inner).bits()) return false;
 
-    const SimdBatch bb = b * b, aa_minus_bb = (a - b) * (a + b);
-    const Pairs pairs(*this, group.ux.load(), group.uy.load(), bb, aa_minus_bb, dx, dy);
-    Heights heights;
-    if (!pairs.decide(SimdBatch(1), SimdBatch(1), heights, undecided)) return false;
-    if (!undecided) return true;
-    const SimdBatch weight1 = heights.two, weight2 = heights.one;
-    if (!pairs.decide(weight1, weight2, heights, undecided)) return false;
+    const Verdict verdict = compare(group, dx, dy, a, b);
+    if (undecided & verdict.certain & ~verdict.disjoint) return false;
+    undecided &= ~verdict.certain;
     return !undecided || clear_by_scalar_tests(group, offset, undecided, scalar_tests);
   }
 
  private:
-  static constexpr double overlap_safety = 1 - 1e-10;
+  // Of Ψ, relative to the sum of its terms; from the margin, in units of margin/b.
+  static constexpr double psi_error = 1e-10, psi_error_of_margin = 16;
 
-  struct Heights {
-    SimdBatch one, two;
+  struct Verdict {
+    Lanes certain, disjoint;
   };
 
-  // The body and the ellipses of a batch: what does not depend on the weights.
-  struct Pairs {
-    const OverlapBatch& body;
-    SimdBatch ux, uy, bb, aa_minus_bb, dx, dy;
-    SimdBatch across1, across2;  // components of d across the major axes
-    SimdBatch sine_squared;      // of the angle between the axes
-
-    VITREL_INLINE Pairs(const OverlapBatch& one, const SimdBatch& group_ux,
-                        const SimdBatch& group_uy, const SimdBatch& group_bb,
-                        const SimdBatch& group_stretch, const SimdBatch& group_dx,
-                        const SimdBatch& group_dy)
-        : body(one),
-          ux(group_ux),
-          uy(group_uy),
-          bb(group_bb),
-          aa_minus_bb(group_stretch),
-          dx(group_dx),
-          dy(group_dy),
-          across1(one.axis_.x() * dy - one.axis_.y() * dx),
-          across2(ux * dy - uy * dx) {
-      const SimdBatch sine = one.axis_.x() * uy - one.axis_.y() * ux;
-      sine_squared = sine * sine;
-    }
-
-    // False if an undecided pair is proved to overlap; removes the pairs that are proved separated.
-    VITREL_INLINE bool decide(const SimdBatch& weight1, const SimdBatch& weight2, Heights& heights,
-                              Lanes& undecided) const {
-      const SimdBatch beta = weight1 * body.bb_ + weight2 * bb;
-      const SimdBatch along1 = weight1 * body.aa_minus_bb_, along2 = weight2 * aa_minus_bb;
-      const SimdBatch det = beta * (beta + along1 + along2) + along1 * along2 * sine_squared;
-      // det C times C⁻¹d
-      const SimdBatch turned1 = along1 * across1, turned2 = along2 * across2;
-      const SimdBatch nx = beta * dx - turned1 * body.axis_.y() - turned2 * uy;
-      const SimdBatch ny = beta * dy + turned1 * body.axis_.x() + turned2 * ux;
-      const SimdBatch square = nx * nx + ny * ny;
-      const SimdBatch n1 = nx * body.axis_.x() + ny * body.axis_.y(), n2 = nx * ux + ny * uy;
-      heights.one = sqrt(body.bb_ * square + body.aa_minus_bb_ * (n1 * n1));
-      heights.two = sqrt(bb * square + aa_minus_bb * (n2 * n2));
-      const SimdBatch limit = overlap_safety * det;
-      if (undecided & (weight1 * heights.one <= limit && weight2 * heights.two <= limit).bits())
-        return false;
-      undecided &= ~(nx * dx + ny * dy > body.enlargement_ * heights.one + heights.two).bits();
-      return true;
-    }
-  };
+  VITREL_INLINE Verdict compare(const EllipseBatch& group, const SimdBatch& dx, const SimdBatch& dy,
+                                const SimdBatch& a, const SimdBatch& b) const {
+    const SimdBatch ux = group.ux.load(), uy = group.uy.load();
+    const SimdBatch along1 = axis_.x() * dx + axis_.y() * dy,
+                    across1 = axis_.x() * dy - axis_.y() * dx;
+    const SimdBatch along2 = ux * dx + uy * dy, across2 = ux * dy - uy * dx;
+    const SimdBatch sine = axis_.x() * uy - axis_.y() * ux;
+    const SimdBatch aa = a * a, bb = b * b;
+    const SimdBatch k2 = aa * bb;
+    const double k1 = aa_ * bb_;
+    // K₂ tr(Σ₁A₂) = K₁ tr(Σ₂A₁)
+    const SimdBatch trace =
+        aa_ * bb + bb_ * aa + sine * sine * (aa_minus_bb_ * ((a - b) * (a + b)));
+    const SimdBatch quadric1 = bb_ * (along1 * along1) + aa_ * (across1 * across1);
+    const SimdBatch quadric2 = bb * (along2 * along2) + aa * (across2 * across2);
+    const SimdBatch sum1 = k2 + trace, sum2 = k1 + trace;
+    const SimdBatch g1 = sum1 - quadric2, g2 = sum2 - quadric1;
+    const SimdBatch m1 = sum1 + quadric2, m2 = sum2 + quadric1;
+    const SimdBatch kk = k1 * k2, constant = 27 * (kk * kk);
+    const SimdBatch gg = g1 * g2, mm = m1 * m2;
+    const SimdBatch psi =
+        gg * (gg + 18 * kk) - 4 * (k1 * (g1 * g1 * g1) + k2 * (g2 * g2 * g2)) - constant;
+    const SimdBatch terms =
+        mm * (mm + 18 * kk) + 4 * (k1 * (m1 * m1 * m1) + k2 * (m2 * m2 * m2)) + constant;
+    const SimdBatch width = detail::minimum(b, SimdBatch(shape_.b));
+    const SimdBatch limit = (psi_error * width + psi_error_of_margin * margin_) * terms;
+    return {(abs(psi) * width > limit).bits(),
+            (psi > 0).bits() & ((g1 < 0).bits() | (g2 < 0).bits())};
+  }
 
   [[gnu::noinline]] bool clear_by_scalar_tests(const EllipseBatch& group, const Vec2& offset,
                                                Lanes undecided, std::uint64_t& scalar_tests) const {
@@ -137,8 +113,7 @@ class OverlapBatch {
   Ellipse shape_;
   Vec2 axis_;
   double margin_;
-  double bb_, aa_minus_bb_;  // b², a² − b²
-  double enlargement_;       // 1 + margin/b
+  double aa_, bb_, aa_minus_bb_;  // a², b², a² − b²
 };
 
 }  // namespace vitrel

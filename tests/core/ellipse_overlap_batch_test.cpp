@@ -114,11 +114,15 @@ TEST_P(OverlapBatchOfEllipses, IsRightAboutEveryPair) {
   EXPECT_GT(clear, pairs / 4);
   EXPECT_LT(clear, 3 * pairs / 4);
   EXPECT_GT(near, pairs / 10);
+  if (GetParam().largest_aspect_ratio > 1) {
+    EXPECT_GT(scalar_tests, pairs / 100u);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, OverlapBatchOfEllipses,
                          testing::Values(Class{1, 1}, Class{1, 100}, Class{2, 1}, Class{6, 1},
-                                         Class{10, 3}, Class{100, 1}, Class{100, 100}));
+                                         Class{10, 3}, Class{100, 1}, Class{100, 100},
+                                         Class{1000, 1}));
 
 // The same pair in another lane, beside others and beside nobody.
 TEST(OverlapBatch, AnswersOfAGroupAreThoseOfItsPairs) {
@@ -157,8 +161,7 @@ TEST(OverlapBatch, AnswersOfAGroupAreThoseOfItsPairs) {
 // Of pairs at random places within the circumcircles nearly all are decided in batches: what the speed
 // rests on.
 TEST(OverlapBatch, FewPairsAreLeftToBeDecidedAlone) {
-  for (const auto& [kappa, most] :
-       {std::pair{1.5, 0.01}, std::pair{2., 0.02}, std::pair{6., 0.04}}) {
+  for (const double kappa : {1.5, 2., 6., 100.}) {
     Stream draw(63, Purpose::tests);
     const Ellipse shape{std::sqrt(kappa), 1 / std::sqrt(kappa)};
     constexpr int pairs = 100'000;
@@ -169,9 +172,7 @@ TEST(OverlapBatch, FewPairsAreLeftToBeDecidedAlone) {
                            distance * direction(draw.uniform(-pi, pi))};
       looks_clear(pair, 0, scalar_tests);
     }
-    RecordProperty("kappa_" + std::to_string(kappa), static_cast<int>(scalar_tests));
-    EXPECT_LT(static_cast<double>(scalar_tests), most * pairs) << "κ = " << kappa;
-    EXPECT_GT(scalar_tests, 0u) << "κ = " << kappa;
+    EXPECT_LT(static_cast<double>(scalar_tests), 1e-4 * pairs) << "κ = " << kappa;
   }
 }
 
