@@ -1,7 +1,9 @@
 #include "core/elementary.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 
@@ -58,19 +60,26 @@ CosineAndSine cosine_and_sine(double angle) {
 // With x = 2ᵏ (1 + f), √½ ≤ 1 + f < √2 and s = f/(2 + f): ln(1 + f) = f − f²/2 + s (f²/2 + R),
 // R = 2/3 s² + 2/5 s⁴ + …
 double logarithm(double x) {
-  if (x == 0) return -std::numeric_limits<double>::infinity();
-  if (!(x > 0 && x <= std::numeric_limits<double>::max()))
-    return x > 0 ? x : std::numeric_limits<double>::quiet_NaN();
-  int k;
-  double m = std::frexp(x, &k);
-  if (m < std::numbers::sqrt2 / 2) {
-    m *= 2;
-    --k;
+  using Limits = std::numeric_limits<double>;
+  if (!(x >= Limits::min() && x <= Limits::max())) {
+    constexpr int digits = Limits::digits;
+    if (x > 0 && x < 1) return logarithm(std::ldexp(x, digits)) - digits * std::numbers::ln2;
+    if (x == 0) return -Limits::infinity();
+    return x > 0 ? x : Limits::quiet_NaN();
   }
-  const double f = m - 1, s = f / (2 + f), z = s * s, half_square = 0.5 * f * f;
-  double r = 0;
-  for (int n = 23; n >= 3; n -= 2) r = z * (2. / n + r);
-  return k * ln2_high - ((half_square - (s * (half_square + r) + k * ln2_low)) - f);
+  constexpr int fraction_bits = 52;
+  const auto bits = std::bit_cast<std::int64_t>(x);
+  const auto k = (bits - std::bit_cast<std::int64_t>(std::numbers::sqrt2 / 2)) >> fraction_bits;
+  const double f = std::bit_cast<double>(bits - (k << fraction_bits)) - 1;
+  const double s = f / (2 + f), half_square = 0.5 * f * f;
+  // Split into independent parts (Estrin's scheme).
+  const double z = s * s, z2 = z * z, z4 = z2 * z2;
+  const double part1 = 2. / 3 + z * (2. / 5), part2 = 2. / 7 + z * (2. / 9);
+  const double part3 = 2. / 11 + z * (2. / 13), part4 = 2. / 15 + z * (2. / 17);
+  const double part5 = 2. / 19 + z * (2. / 21);
+  const double r = z * ((part1 + z2 * part2) + z4 * ((part3 + z2 * part4) + z4 * part5));
+  const auto exponent = static_cast<double>(k);
+  return exponent * ln2_high - ((half_square - (s * (half_square + r) + exponent * ln2_low)) - f);
 }
 
 double logarithm_of_one_plus(double x) {
