@@ -146,7 +146,7 @@ Json measure_speed(const Effort& effort) {
     row["translations_accepted"] = accepted.translation;
     row["rotations_accepted"] = accepted.rotation;
     row["groups"] = ratio(sampler.overlap_tests().batches - tests.batches, tried);
-    row["alone"] = ratio(sampler.overlap_tests().scalar_pairs - tests.scalar_pairs, tried);
+    row["single"] = ratio(sampler.overlap_tests().scalar_pairs - tests.scalar_pairs, tried);
     row["plain"] = of_baseline.json();
     row["plain"]["translations_accepted"] = baseline_accepted.translation;
     row["plain"]["rotations_accepted"] = baseline_accepted.rotation;

@@ -41,7 +41,7 @@ class OverlapBatch {
         aa_minus_bb_(shape.aa_minus_bb()) {}
 
   /// Whether the body keeps the margin to all ellipses in these lanes; the separations d are `offset` +
-  /// their positions. Adds the number of pairs that step 4 decided to `scalar_tests`.
+  /// their positions. Adds the number of pairs that step 3 decided to `scalar_tests`.
   VITREL_INLINE bool clear_of(const EllipseBatch& group, const Vec2& offset, Lanes lanes,
                               std::uint64_t& scalar_tests) const {
     const SimdBatch dx = group.x.load() + offset.x(), dy = group.y.load() + offset.y();

@@ -57,8 +57,8 @@ def work(native):
                       rotations(row, row["rotation_step"]),
                       f"{row['translations_accepted']:.3f} / {plain['translations_accepted']:.3f}",
                       f"{rotations(row, row['rotations_accepted'])} / {rotations(row, plain['rotations_accepted'])}",
-                      f"{row['groups']:.2f}", f"{row['alone']:.3f}", f"{plain['decisions']:.2f}"])
-    return table(["", "φ", "translation", "rotation", "translations accepted", "rotations accepted", "batches", "single",
+                      f"{row['groups']:.2f}", f"{plain['decisions']:.2f}"])
+    return table(["", "φ", "translation", "rotation", "translations accepted", "rotations accepted", "batches",
                   "tests of the baseline"], lines)
 
 
@@ -112,8 +112,8 @@ particles and tests every pair with overlapping circumcircles separately.
 {speed(native, portable)}
 
 The next table lists the step sizes and the acceptance (sampler / baseline, at the same step sizes; the sampler rejects moves
-across a domain boundary). Per trial it lists the *batches* of up to four other particles tested, the pairs of these that
-needed a *single* test, and the pairs that the baseline tested.
+across a domain boundary). Per trial it lists the *batches* of up to four other particles tested, and the pairs that the
+baseline tested.
 
 {work(native)}
 
