@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/neighbors/large_vector.h"
 #include "core/neighbors/prefetch.h"
 
 namespace vitrel {
@@ -280,9 +281,9 @@ class Calendar {
   std::size_t lookahead_;
   std::uint64_t upcoming_count_ = 0;
   std::array<Index, upcoming_capacity> upcoming_{};
-  std::vector<Entry> entries_;
-  std::vector<Line> slots_;             // the first line of each
-  std::vector<Line> overflow_;          // further ones
+  LargeVector<Entry> entries_;
+  LargeVector<Line> slots_;             // the first line of each
+  LargeVector<Line> overflow_;          // further ones
   std::array<SlotEntry, 4> delayed_{};  // not yet stored
   std::array<double, 256> sample_{};    // of times, to fit the window
   std::uint64_t delayed_count_ = 0;
@@ -290,7 +291,7 @@ class Calendar {
   double begin_ = -never;
   double slots_per_time_ = 1;
   std::int64_t changes_left_ = 1;  // until the next reset
-  std::vector<HeapEntry> heap_;
+  LargeVector<HeapEntry> heap_;
 };
 
 }  // namespace vitrel

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/neighbors/large_vector.h"
 #include "core/neighbors/prefetch.h"
 #include "edmd/calendar.h"
 #include "edmd/event.h"
@@ -18,7 +19,7 @@ class EventPrefetcher {
   using State = SimulationState<B>;
   using Index = typename State::Index;
 
-  EventPrefetcher(State& state, const Calendar& calendar, const std::vector<Event<B>>& events)
+  EventPrefetcher(State& state, const Calendar& calendar, const LargeVector<Event<B>>& events)
       : state_(state), calendar_(calendar), events_(events) {}
 
   /// Whether it pays: below this size it costs more than it saves. In three dimensions a particle has twice the
@@ -73,7 +74,7 @@ class EventPrefetcher {
 
   State& state_;
   const Calendar& calendar_;
-  const std::vector<Event<B>>& events_;
+  const LargeVector<Event<B>>& events_;
   std::uint64_t prefetched_ = 0;  // upcoming particles so far
 };
 

@@ -84,7 +84,7 @@ class Simulation final : public Engine<B::dimension> {
   CollisionExecutor<B> executor_{state_, options_};
   SoftContactPolicy<B> soft_{state_, options_};
   Calendar calendar_;
-  std::vector<Event<B>> events_;
+  LargeVector<Event<B>> events_;
   EventPrefetcher<B> prefetcher_{state_, calendar_, events_};
   double horizon_ = never;         // nothing later is predicted
   std::uint64_t events_left_ = 0;  // until the block ends,

@@ -8,6 +8,7 @@
 #include "core/contact/contact_screen.h"
 #include "core/contact/flight_record.h"
 #include "core/neighbors/cell_neighbors.h"
+#include "core/neighbors/large_vector.h"
 #include "core/neighbors/neighborhood.h"
 #include "core/state/configuration.h"
 #include "edmd/collision_rule.h"
@@ -58,11 +59,11 @@ struct SimulationState {
   std::vector<Shape> shapes;       // by type, at size 1
   std::vector<ParticleType> types;
   TypeIndex type_index;
-  std::vector<Particle> particles;
-  std::vector<Rotation> rotations;  // of spheres, at rotation_time
+  LargeVector<Particle> particles;
+  LargeVector<Rotation> rotations;  // of spheres, at rotation_time
   double rotation_time = 0;
-  std::vector<Shift<dimension>> image;
-  std::vector<Index> version;  // changes of motion or image so far
+  LargeVector<Shift<dimension>> image;
+  LargeVector<Index> version;  // changes of motion or image so far
   std::optional<Neighborhoods<B>> neighborhoods;
   std::optional<CellNeighbors<B>> cells;  // instead of neighbourhoods; of round bodies
 

@@ -11,6 +11,7 @@
 
 #include "core/elementary.h"
 #include "core/geometry/pose.h"
+#include "core/neighbors/large_vector.h"
 #include "core/neighbors/list_pool.h"
 #include "core/neighbors/neighbor.h"
 
@@ -175,7 +176,7 @@ class CellNeighbors {
   Cell count_;    // of cells
   std::array<std::size_t, dimension> stride_;
   Vector width_;
-  std::vector<Cell> cell_;            // of each particle
+  LargeVector<Cell> cell_;            // of each particle
   ListPool<std::uint32_t> contents_;  // of each cell
 };
 

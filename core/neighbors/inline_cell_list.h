@@ -12,6 +12,7 @@
 #include "core/contact/simd.h"
 #include "core/elementary.h"
 #include "core/geometry/periodic_box.h"
+#include "core/neighbors/large_vector.h"
 #include "core/neighbors/prefetch.h"
 
 namespace vitrel {
@@ -245,7 +246,7 @@ class InlineCellList {
   std::int32_t count_[Dim];   // of cells
   std::int64_t stride_[Dim];  // of cell numbers
   double width_[Dim], per_width_[Dim];
-  std::vector<Cell> cells_, overflow_;
+  LargeVector<Cell> cells_, overflow_;
   std::vector<Layer> layers_[Dim];  // of the current query
 };
 

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/neighbors/large_vector.h"
 #include "core/neighbors/prefetch.h"
 
 namespace vitrel {
@@ -86,8 +87,8 @@ class ListPool {
     header = {begin, header.count, capacity};
   }
 
-  std::vector<Header> headers_;
-  std::vector<T> entries_;
+  LargeVector<Header> headers_;
+  LargeVector<T> entries_;
 };
 
 }  // namespace vitrel

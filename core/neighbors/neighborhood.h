@@ -16,6 +16,7 @@
 #include "core/geometry/periodic_box.h"
 #include "core/neighbors/exit_time.h"
 #include "core/neighbors/inline_cell_list.h"
+#include "core/neighbors/large_vector.h"
 #include "core/neighbors/list_pool.h"
 #include "core/neighbors/neighbor.h"
 #include "core/neighbors/prefetch.h"
@@ -178,7 +179,7 @@ class Neighborhoods {
         return rotated;
     }
   };
-  using References = std::vector<Reference>;
+  using References = LargeVector<Reference>;
   using Cells = InlineCellList<dimension>;
   struct Pair {
     double gap;
