@@ -78,7 +78,8 @@ template Configuration3 gas<3>(int, double, std::uint64_t);
 
 Configuration2 tiled(const Configuration2& tile, int columns, int rows) {
   const Vec2 lengths = tile.box.lengths();
-  const std::size_t copies = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+  const auto per_row = static_cast<std::size_t>(columns);
+  const std::size_t copies = per_row * static_cast<std::size_t>(rows);
   const std::vector<std::size_t> place = random_order(copies * tile.size());
   Configuration2 c;
   c.box = PeriodicBox<2>(Vec2(columns * lengths.x(), rows * lengths.y()));
@@ -86,8 +87,8 @@ Configuration2 tiled(const Configuration2& tile, int columns, int rows) {
   c.species_names = tile.species_names;
   for (std::size_t k = 0; k < place.size(); ++k) {
     const std::size_t i = k % tile.size(), copy = k / tile.size();
-    const Vec2 corner(static_cast<double>(copy % static_cast<std::size_t>(columns)),
-                      static_cast<double>(copy / static_cast<std::size_t>(columns)));
+    const std::size_t column = copy % per_row, row = copy / per_row;
+    const Vec2 corner(static_cast<double>(column), static_cast<double>(row));
     const std::size_t at = place[k];
     c.position[at] = tile.position[i] + corner.cwiseProduct(lengths);
     c.box.wrap(c.position[at], c.image[at]);
@@ -144,7 +145,8 @@ Work TimedRun<Dim>::parts(double seconds, double first_collisions,
 }
 
 template class TimedRun<2>;
-template class TimedRun<3>;
+template TimedRun<3>::TimedRun(std::unique_ptr<Engine<3>>, Configuration<3>);
+template Work TimedRun<3>::blocks(double);
 
 double expected_collision_rate(const Configuration2& c) {
   // N/2 · 4 (Z − 1)/σ · √(kT/(π m)) with σ = 2, and Z − 1 = 2 φ g(σ).

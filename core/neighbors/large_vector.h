@@ -15,10 +15,11 @@ namespace vitrel {
 template <class T>
 class HugePageAllocator {
  public:
-  using value_type = T;
+  using value_type = T;  // NOLINT(readability-identifier-naming): as the library has it
 
   HugePageAllocator() = default;
   template <class U>
+  // NOLINTNEXTLINE(google-explicit-constructor): of other elements, as the library asks for
   HugePageAllocator(const HugePageAllocator<U>&) {}
 
   T* allocate(std::size_t count) {
