@@ -17,47 +17,55 @@ using ProgressReport = std::function<void(const Progress&)>;
 
 /// A sequence of configurations of the same particles, read one at a time: no method of the
 /// analysis needs more than one of them in memory at once.
+template <int Dim>
 class Trajectory {
  public:
   virtual ~Trajectory() = default;
   /// Strictly increasing sample times.
   virtual const std::vector<double>& times() const = 0;
   /// Frame k; the reference is valid until the next call.
-  virtual const Configuration2& read(std::size_t k) = 0;
+  virtual const Configuration<Dim>& read(std::size_t k) = 0;
   std::size_t frames() const { return times().size(); }
 };
 
 /// A trajectory held in memory.
-class MemoryTrajectory : public Trajectory {
+template <int Dim>
+class MemoryTrajectory : public Trajectory<Dim> {
  public:
   /// `frames` in order of time; each carries its own time.
-  explicit MemoryTrajectory(std::vector<Configuration2> frames) : frames_(std::move(frames)) {
-    for (const Configuration2& frame : frames_) times_.push_back(frame.time);
+  explicit MemoryTrajectory(std::vector<Configuration<Dim>> frames) : frames_(std::move(frames)) {
+    for (const Configuration<Dim>& frame : frames_) times_.push_back(frame.time);
   }
   const std::vector<double>& times() const override { return times_; }
-  const Configuration2& read(std::size_t k) override { return frames_.at(k); }
+  const Configuration<Dim>& read(std::size_t k) override { return frames_.at(k); }
 
  private:
-  std::vector<Configuration2> frames_;
+  std::vector<Configuration<Dim>> frames_;
   std::vector<double> times_;
 };
 
 /// Frames `begin` … `end` − 1 of another trajectory, which must outlive it.
-class TrajectoryPart : public Trajectory {
+template <int Dim>
+class TrajectoryPart : public Trajectory<Dim> {
  public:
-  TrajectoryPart(Trajectory& whole, std::size_t begin, std::size_t end)
+  TrajectoryPart(Trajectory<Dim>& whole, std::size_t begin, std::size_t end)
       : whole_(whole),
         begin_(begin),
         times_(whole.times().begin() + static_cast<std::ptrdiff_t>(begin),
                whole.times().begin() + static_cast<std::ptrdiff_t>(end)) {}
   const std::vector<double>& times() const override { return times_; }
-  const Configuration2& read(std::size_t k) override { return whole_.read(begin_ + k); }
+  const Configuration<Dim>& read(std::size_t k) override { return whole_.read(begin_ + k); }
 
  private:
-  Trajectory& whole_;
+  Trajectory<Dim>& whole_;
   std::size_t begin_;
   std::vector<double> times_;
 };
+
+using Trajectory2 = Trajectory<2>;
+using Trajectory3 = Trajectory<3>;
+using MemoryTrajectory2 = MemoryTrajectory<2>;
+using MemoryTrajectory3 = MemoryTrajectory<3>;
 
 /// Whether the times are equally spaced up to rounding to single precision, in which many programs
 /// write them: none is farther from its place between the first and the last than 2⁻²³ of the

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <type_traits>
 #include <vector>
 
 namespace vitrel {
@@ -34,5 +35,15 @@ class BesselJ0 {
   };
   std::vector<Node> nodes_;
 };
+
+/// The spherical Bessel function j_0(x) = sin x/x, ⟨exp(i q·r)⟩ over all directions of r in three dimensions with
+/// x = q |r|. To rounding: below 1e-4 the omitted term x⁴/120 is smaller.
+struct SphericalBesselJ0 {
+  double operator()(double x) const { return x < 1e-4 ? 1 - x * x / 6 : std::sin(x) / x; }
+};
+
+/// ⟨exp(i q·r)⟩ over all directions of r, of x = q |r|.
+template <int Dim>
+using DirectionAverage = std::conditional_t<Dim == 2, BesselJ0, SphericalBesselJ0>;
 
 }  // namespace vitrel

@@ -21,12 +21,15 @@ constexpr std::size_t frames_at_once = 32;
 /// Particles whose phases stay in the cache.
 constexpr std::size_t block = 32;
 
-Vec2 reciprocal(const PeriodicBox<2>& box) {
+template <int Dim>
+Vec<Dim> reciprocal(const PeriodicBox<Dim>& box) {
   return 2 * std::numbers::pi * box.lengths().cwiseInverse();
 }
 
-double length_of(const std::array<int, 2>& n, const Vec2& unit) {
-  return std::hypot(n[0] * unit.x(), n[1] * unit.y());
+template <int Dim>
+double length_of(const std::array<int, Dim>& n, const Vec<Dim>& unit) {
+  if constexpr (Dim == 2) return std::hypot(n[0] * unit[0], n[1] * unit[1]);
+  else return std::hypot(n[0] * unit[0], n[1] * unit[1], n[2] * unit[2]);
 }
 
 /// exp(i n φ) of a block of particles for n = 0 … order; real and imaginary parts apart.
@@ -59,63 +62,77 @@ class Powers {
 };
 
 /// ρ_q of one frame for all wave vectors.
+template <int Dim>
 class Modes {
  public:
-  Modes(const std::vector<std::array<int, 2>>& vectors, const Vec2& unit)
-      : vectors_(vectors), unit_(unit) {
-    for (const auto& n : vectors)
-      for (const std::size_t d : {0, 1}) order_[d] = std::max(order_[d], std::abs(n[d]));
+  using Index = std::array<int, Dim>;
+
+  Modes(const std::vector<Index>& vectors, const Vec<Dim>& unit) : vectors_(vectors), unit_(unit) {
+    for (const Index& n : vectors)
+      for (std::size_t d = 0; d < Dim; ++d) order_[d] = std::max(order_[d], std::abs(n[d]));
   }
 
-  std::vector<std::complex<double>> of(const std::vector<Vec2>& positions) const {
+  std::vector<std::complex<double>> of(const std::vector<Vec<Dim>>& positions) const {
     std::vector<std::complex<double>> sums(vectors_.size());
-    Powers x(order_[0]), y(order_[1]);
+    std::vector<Powers> powers(order_.begin(), order_.end());
     for (std::size_t begin = 0; begin < positions.size(); begin += block) {
       const std::size_t count = std::min(block, positions.size() - begin);
-      for (std::size_t p = 0; p < count; ++p) {
-        x.set(p, unit_.x() * positions[begin + p].x());
-        y.set(p, unit_.y() * positions[begin + p].y());
+      for (std::size_t d = 0; d < Dim; ++d) {
+        const int axis = static_cast<int>(d);
+        for (std::size_t p = 0; p < count; ++p)
+          powers[d].set(p, unit_[axis] * positions[begin + p][axis]);
+        powers[d].multiply();
       }
-      x.multiply();
-      y.multiply();
-      for (std::size_t v = 0; v < vectors_.size(); ++v) sums[v] += sum(x, y, vectors_[v], count);
+      for (std::size_t v = 0; v < vectors_.size(); ++v) sums[v] += sum(powers, vectors_[v], count);
     }
     return sums;
   }
 
  private:
-  static std::complex<double> sum(const Powers& x, const Powers& y, const std::array<int, 2>& n,
+  static std::complex<double> sum(const std::vector<Powers>& powers, const Index& n,
                                   std::size_t count) {
-    const double *xr = x.real(n[0]), *xi = x.imaginary(n[0]);
-    const double *yr = y.real(std::abs(n[1])), *yi = y.imaginary(std::abs(n[1]));
-    const double sign = n[1] < 0 ? -1 : 1;
+    std::array<const double*, Dim> real_parts, imaginary_parts;
+    std::array<double, Dim> sign;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      real_parts[d] = powers[d].real(std::abs(n[d]));
+      imaginary_parts[d] = powers[d].imaginary(std::abs(n[d]));
+      sign[d] = n[d] < 0 ? -1 : 1;
+    }
     double real[2] = {}, imaginary[2] = {};  // even and odd particles, added at once
     for (std::size_t p = 0; p < count; ++p) {
-      real[p % 2] += xr[p] * yr[p] - sign * xi[p] * yi[p];
-      imaginary[p % 2] += xi[p] * yr[p] + sign * xr[p] * yi[p];
+      double re = real_parts[0][p], im = sign[0] * imaginary_parts[0][p];
+      for (std::size_t d = 1; d < Dim; ++d) {
+        const double c = real_parts[d][p], s = sign[d] * imaginary_parts[d][p];
+        const double next = re * c - im * s;
+        im = re * s + im * c;
+        re = next;
+      }
+      real[p % 2] += re;
+      imaginary[p % 2] += im;
     }
     return {real[0] + real[1], imaginary[0] + imaginary[1]};
   }
 
-  const std::vector<std::array<int, 2>>& vectors_;
-  Vec2 unit_;
-  std::array<int, 2> order_{};
+  const std::vector<Index>& vectors_;
+  Vec<Dim> unit_;
+  Index order_{};
 };
 
 /// ρ(t) of every wave vector: [vector][frame].
 using Series = std::vector<std::vector<std::complex<double>>>;
 
-Series read_modes(Trajectory& trajectory, const std::vector<std::array<int, 2>>& vectors,
+template <int Dim>
+Series read_modes(Trajectory<Dim>& trajectory, const std::vector<std::array<int, Dim>>& vectors,
                   int threads, const ProgressReport& report) {
   const std::size_t frames = trajectory.frames();
-  const Vec2 lengths = trajectory.read(0).box.lengths();
-  const Modes modes(vectors, reciprocal(PeriodicBox<2>(lengths)));
+  const Vec<Dim> lengths = trajectory.read(0).box.lengths();
+  const Modes<Dim> modes(vectors, reciprocal(PeriodicBox<Dim>(lengths)));
   Series series(vectors.size(), std::vector<std::complex<double>>(frames));
-  std::vector<std::vector<Vec2>> positions(frames_at_once);
+  std::vector<std::vector<Vec<Dim>>> positions(frames_at_once);
   for (std::size_t begin = 0; begin < frames; begin += frames_at_once) {
     const std::size_t count = std::min(frames_at_once, frames - begin);
     for (std::size_t k = 0; k < count; ++k) {
-      const Configuration2& frame = trajectory.read(begin + k);
+      const Configuration<Dim>& frame = trajectory.read(begin + k);
       if (frame.box.lengths() != lengths)
         throw UserError("collective scattering: the box of frame " + std::to_string(begin + k) +
                         " differs from that of the first; it must stay the same");
@@ -173,58 +190,85 @@ Correlation correlate(const Series& series, std::size_t first, std::size_t count
   return result;
 }
 
+/// Calls visit(n) for all |n_d| ≤ max_d of which the first that is not 0 is positive, in ascending order.
+template <int Dim, class Visit>
+void for_each_half(const std::array<int, Dim>& max, Visit&& visit) {
+  std::array<int, Dim> n;
+  const auto choose = [&](auto&& self, std::size_t d, bool positive) -> void {
+    if (d == Dim) {
+      if (positive) visit(n);
+      return;
+    }
+    for (n[d] = positive ? -max[d] : 0; n[d] <= max[d]; ++n[d]) self(self, d + 1, positive || n[d] > 0);
+  };
+  choose(choose, 0, false);
+}
+
 }  // namespace
 
-WaveVectorShell wave_vector_shell(const PeriodicBox<2>& box, double wave_number) {
-  const Vec2 unit = reciprocal(box);
+template <int Dim>
+WaveVectorShell<Dim> wave_vector_shell(const PeriodicBox<Dim>& box, double wave_number) {
+  const Vec<Dim> unit = reciprocal(box);
   const double reach = 0.5 * unit.minCoeff();
-  const int max_x = static_cast<int>((wave_number + reach) / unit.x());
-  const int max_y = static_cast<int>((wave_number + reach) / unit.y());
-  const auto away = [&](const std::array<int, 2>& n) {
-    return std::abs(length_of(n, unit) - wave_number);
+  std::array<int, Dim> max;
+  for (int d = 0; d < Dim; ++d)
+    max[static_cast<std::size_t>(d)] = static_cast<int>((wave_number + reach) / unit[d]);
+  const auto away = [&](const std::array<int, Dim>& n) {
+    return std::abs(length_of<Dim>(n, unit) - wave_number);
   };
-  WaveVectorShell shell{{}, 0};
-  for (int x = 0; x <= max_x; ++x)
-    for (int y = x == 0 ? 1 : -max_y; y <= max_y; ++y)
-      if (away({x, y}) <= reach) shell.n.push_back({x, y});
+  WaveVectorShell<Dim> shell{{}, 0};
+  for_each_half<Dim>(max, [&](const std::array<int, Dim>& n) {
+    if (away(n) <= reach) shell.n.push_back(n);
+  });
   if (shell.n.empty())
     throw UserError(
         "the wave number " + std::to_string(wave_number) +
         " is too small for the box; the smallest is 2π/L = " + std::to_string(unit.minCoeff()));
-  std::stable_sort(shell.n.begin(), shell.n.end(),
-                   [&](const auto& a, const auto& b) { return away(a) < away(b); });
+  std::ranges::stable_sort(shell.n, {}, away);
   if (shell.n.size() > max_vectors) shell.n.resize(max_vectors);
-  for (const auto& n : shell.n) shell.wave_number += length_of(n, unit);
+  for (const auto& n : shell.n) shell.wave_number += length_of<Dim>(n, unit);
   shell.wave_number /= static_cast<double>(shell.n.size());
   return shell;
 }
 
-CollectiveScattering collective_scattering(Trajectory& trajectory,
+template <int Dim>
+CollectiveScattering collective_scattering(Trajectory<Dim>& trajectory,
                                            std::span<const double> wave_numbers,
                                            const TimeAxisOptions& axis,
                                            const ProgressReport& report, int threads) {
   const std::vector<double>& times = trajectory.times();
   if (times.empty()) throw UserError("collective scattering: the run holds no frames");
   CollectiveScattering result;
-  std::vector<std::array<int, 2>> vectors;
-  const Configuration2& first = trajectory.read(0);
+  std::vector<std::array<int, Dim>> vectors;
+  const Configuration<Dim>& first = trajectory.read(0);
   const std::size_t particles = first.size();
   for (const double q : wave_numbers) {
-    result.shells.push_back(wave_vector_shell(first.box, q));
-    vectors.insert(vectors.end(), result.shells.back().n.begin(), result.shells.back().n.end());
+    const WaveVectorShell<Dim> shell = wave_vector_shell(first.box, q);
+    result.wave_numbers.push_back(shell.wave_number);
+    result.modes.push_back(shell.n.size());
+    vectors.insert(vectors.end(), shell.n.begin(), shell.n.end());
   }
-  const Series series = read_modes(trajectory, vectors, threads, report);
+  const Series series = read_modes<Dim>(trajectory, vectors, threads, report);
   const std::vector<Lag> lags = lags_from_zero(times, axis);
   for (const Lag& lag : lags) {
     result.lag.push_back(lag.time);
     result.origins.push_back(lag.origins);
   }
   std::size_t begin = 0;
-  for (const WaveVectorShell& shell : result.shells) {
-    result.scattering.push_back(correlate(series, begin, shell.n.size(), lags, particles));
-    begin += shell.n.size();
+  for (const std::size_t count : result.modes) {
+    result.scattering.push_back(correlate(series, begin, count, lags, particles));
+    begin += count;
   }
   return result;
 }
+
+template WaveVectorShell<2> wave_vector_shell(const PeriodicBox<2>&, double);
+template WaveVectorShell<3> wave_vector_shell(const PeriodicBox<3>&, double);
+template CollectiveScattering collective_scattering(Trajectory2&, std::span<const double>,
+                                                    const TimeAxisOptions&, const ProgressReport&,
+                                                    int);
+template CollectiveScattering collective_scattering(Trajectory3&, std::span<const double>,
+                                                    const TimeAxisOptions&, const ProgressReport&,
+                                                    int);
 
 }  // namespace vitrel

@@ -12,20 +12,24 @@
 
 namespace vitrel {
 
-/// Wave vectors q = 2π (n_x/L_x, n_y/L_y) of a box whose lengths are about the same; of q and −q one.
+/// Wave vectors q = 2π (n_x/L_x, n_y/L_y …) of a box whose lengths are about the same; of q and −q the one
+/// whose first component that is not 0 is positive.
+template <int Dim>
 struct WaveVectorShell {
-  std::vector<std::array<int, 2>> n;  ///< n_x ≥ 0
-  double wave_number;                 ///< mean |q|
+  std::vector<std::array<int, Dim>> n;
+  double wave_number;  ///< mean |q|
 };
 
 /// The wave vectors with |q| nearest to a wave number, 32 at most, and none farther from it than half
-/// the distance π/L of wave vectors along the longer side. Throws UserError if there is none: below π/L.
-WaveVectorShell wave_vector_shell(const PeriodicBox<2>& box, double wave_number);
+/// the distance π/L of wave vectors along the longest side. Throws UserError if there is none: below π/L.
+template <int Dim>
+WaveVectorShell<Dim> wave_vector_shell(const PeriodicBox<Dim>& box, double wave_number);
 
 struct CollectiveScattering {
   std::vector<double> lag;           ///< time differences t, from 0
   std::vector<std::size_t> origins;  ///< time origins averaged over, for every lag
-  std::vector<WaveVectorShell> shells;
+  std::vector<double> wave_numbers;     ///< mean |q| of every shell
+  std::vector<std::size_t> modes;       ///< wave vectors of every shell
   std::vector<Correlation> scattering;  ///< F(q, t), one for every shell
 };
 
@@ -44,7 +48,8 @@ struct CollectiveScattering {
 ///
 /// The box must be the same in all frames, else UserError. Cost about N × (32 + q L/π) per frame and
 /// wave number.
-CollectiveScattering collective_scattering(Trajectory& trajectory,
+template <int Dim>
+CollectiveScattering collective_scattering(Trajectory<Dim>& trajectory,
                                            std::span<const double> wave_numbers,
                                            const TimeAxisOptions& axis = {},
                                            const ProgressReport& report = {},

@@ -1,26 +1,33 @@
 #pragma once
 
+#include <type_traits>
 #include <vector>
 
 #include "analysis/trajectory.h"
 
 namespace vitrel {
 
-/// A trajectory as seen from its director: angles are those to the director of each frame (order.h), whose
-/// turns are followed from frame to frame, so that angles stay unwrapped; the rest is that of the whole,
-/// which must outlive it. In a box of R particles that are not round the director of a nematic is free
+/// A trajectory as seen from its director: orientations are those to the director of each frame (order.h,
+/// orientation_tensor.h), which is followed from frame to frame; the rest is that of the whole, which
+/// must outlive it. In the plane the turns of the director are counted, so that angles stay unwrapped; in
+/// space every frame is turned by the shortest rotations that carry the director back to the one before
+/// and so on to the first. In a box of R particles that are not round the director of a nematic is free
 /// to turn, slowly, as a whole: rotation in this frame is that beside it. One pass over all frames when
 /// made. Valid where the director turns by less than a right angle between two frames.
-class DirectorFrame : public Trajectory {
+template <int Dim>
+class DirectorFrame : public Trajectory<Dim> {
  public:
-  explicit DirectorFrame(Trajectory& whole);
+  explicit DirectorFrame(Trajectory<Dim>& whole);
   const std::vector<double>& times() const override { return whole_.times(); }
-  const Configuration2& read(std::size_t k) override;
+  const Configuration<Dim>& read(std::size_t k) override;
 
  private:
-  Trajectory& whole_;
-  std::vector<double> director_;
-  Configuration2 frame_;
+  /// An angle, or the rotation from the frame of the first director.
+  using Turn = std::conditional_t<Dim == 2, double, Quaternion>;
+
+  Trajectory<Dim>& whole_;
+  std::vector<Turn> turn_;
+  Configuration<Dim> frame_;
 };
 
 }  // namespace vitrel

@@ -21,21 +21,23 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t paths_at_once = 16;
 
 /// Particles of one species, or all of them.
+template <int Dim>
 struct Members {
   std::string name;
   std::size_t particles = 0, rotors = 0;
-  std::vector<LagSums> sums;  ///< one per lag
+  std::vector<LagSums<Dim>> sums = {};  ///< one per lag
 
-  void make_room(const std::vector<Lag>& lags, const TrackQuantities& quantities) {
+  void make_room(const std::vector<Lag>& lags, const TrackQuantities<Dim>& quantities) {
     for (const Lag& lag : lags) sums.emplace_back(lag, quantities, rotors > 0);
   }
 };
 
-std::vector<Members> species_of(const Configuration2& first) {
-  std::vector<Members> species;
-  for (const std::string& name : first.species_names) species.push_back({name, 0, 0, {}});
+template <int Dim>
+std::vector<Members<Dim>> species_of(const Configuration<Dim>& first) {
+  std::vector<Members<Dim>> species;
+  for (const std::string& name : first.species_names) species.push_back({name});
   for (std::size_t i = 0; i < first.size(); ++i) {
-    Members& members = species.at(static_cast<std::size_t>(first.species[i]));
+    Members<Dim>& members = species.at(static_cast<std::size_t>(first.species[i]));
     ++members.particles;
     if (!first.shape[i].is_round()) ++members.rotors;
   }
@@ -43,25 +45,27 @@ std::vector<Members> species_of(const Configuration2& first) {
 }
 
 /// Sums of all particles from those of the species.
-Members together(const std::vector<Members>& species, const std::vector<Lag>& lags,
-                 const TrackQuantities& quantities) {
-  Members all{"all", 0, 0, {}};
-  for (const Members& members : species) {
+template <int Dim>
+Members<Dim> together(const std::vector<Members<Dim>>& species, const std::vector<Lag>& lags,
+                      const TrackQuantities<Dim>& quantities) {
+  Members<Dim> all{"all"};
+  for (const Members<Dim>& members : species) {
     all.particles += members.particles;
     all.rotors += members.rotors;
   }
   all.make_room(lags, quantities);
-  for (const Members& members : species)
+  for (const Members<Dim>& members : species)
     for (std::size_t l = 0; l < members.sums.size(); ++l) all.sums[l].add(members.sums[l]);
   return all;
 }
 
 /// One pass over all particles, a batch of tracks at a time.
+template <int Dim>
 class Pass {
  public:
-  Pass(Trajectory& trajectory, const DisplacementOptions& options, const std::vector<Lag>& lags,
-       const TrackQuantities& quantities, std::vector<Members>& species,
-       const ProgressReport& report)
+  Pass(Trajectory<Dim>& trajectory, const DisplacementOptions& options,
+       const std::vector<Lag>& lags, const TrackQuantities<Dim>& quantities,
+       std::vector<Members<Dim>>& species, const ProgressReport& report)
       : trajectory_(trajectory),
         threads_(options.threads),
         lags_(lags),
@@ -74,6 +78,8 @@ class Pass {
     for (std::size_t begin = 0; begin < first_.size(); begin += batch)
       add_batch(begin, std::min(begin + batch, first_.size()));
   }
+  /// Of any particle between two frames.
+  double largest_turn() const { return largest_turn_; }
 
  private:
   /// Reading a batch counts as much as summing it.
@@ -83,7 +89,7 @@ class Pass {
   }
 
   void add_batch(std::size_t begin, std::size_t end) {
-    const std::vector<Track> tracks =
+    const std::vector<Track<Dim>> tracks =
         read_tracks(trajectory_, begin, end, [&](double read) { tell(begin, end, 0.5 * read); });
     for (std::size_t i = begin; i < end; i += paths_at_once) {
       add_paths(tracks, begin, i, std::min(i + paths_at_once, end));
@@ -93,14 +99,14 @@ class Pass {
   }
 
   /// Threads share the lags, so that every sum adds up its particles in their order.
-  void add_paths(const std::vector<Track>& tracks, std::size_t batch, std::size_t begin,
+  void add_paths(const std::vector<Track<Dim>>& tracks, std::size_t batch, std::size_t begin,
                  std::size_t end) {
-    std::vector<std::optional<Path>> paths(end - begin);
+    std::vector<std::optional<Path<Dim>>> paths(end - begin);
     in_parallel(paths.size(), threads_, [&](std::size_t from, std::size_t to) {
       for (std::size_t p = from; p < to; ++p)
-        paths[p].emplace(tracks[begin + p - batch], !first_.shape[begin + p].is_round(),
-                         quantities_.orders);
+        paths[p].emplace(tracks[begin + p - batch], first_.shape[begin + p], quantities_.axes);
     });
+    for (const auto& path : paths) largest_turn_ = std::max(largest_turn_, path->largest_turn);
     in_parallel(lags_.size(), threads_, [&](std::size_t from, std::size_t to) {
       for (std::size_t l = from; l < to; ++l)
         for (std::size_t p = 0; p < paths.size(); ++p)
@@ -108,72 +114,93 @@ class Pass {
     });
   }
 
-  Trajectory& trajectory_;
+  Trajectory<Dim>& trajectory_;
   int threads_;
   const std::vector<Lag>& lags_;
-  const TrackQuantities& quantities_;
-  const Configuration2 first_;
-  std::vector<Members>& species_;
+  const TrackQuantities<Dim>& quantities_;
+  const Configuration<Dim> first_;
+  std::vector<Members<Dim>>& species_;
   const ProgressReport& report_;
+  double largest_turn_ = 0;
 };
 
-void evaluate_rotation(DisplacementGroup& group, const LagSums::Rotation& sums, const Lag& lag) {
+template <int Dim>
+void evaluate_rotation(DisplacementGroup& group, const LagSums<Dim>& all_sums, const Lag& lag) {
+  const typename LagSums<Dim>::Rotation& sums = all_sums.rotation();
   const std::size_t n = group.rotors;
   group.parallel.push_back(sums.parallel.estimate(lag, n));
   group.perpendicular.push_back(sums.perpendicular.estimate(lag, n));
   group.rotation.push_back(sums.turn.square.estimate(lag, n));
   group.quartic_rotation.push_back(sums.turn.quartic.estimate(lag, n));
-  group.non_gaussian_rotation.push_back(sums.turn.non_gaussian(1.0 / 3, lag, n));
+  group.non_gaussian_rotation.push_back(
+      sums.turn.non_gaussian(LagSums<Dim>::normal_rotation, lag, n));
   for (std::size_t j = 0; j < sums.orientation.size(); ++j)
     group.orientation[j].push_back(sums.orientation[j].estimate(lag, n));
 }
 
-DisplacementGroup evaluate(const Members& members, const std::vector<Lag>& lags,
-                           const TrackQuantities& quantities) {
+template <int Dim>
+DisplacementGroup evaluate(const Members<Dim>& members, const std::vector<Lag>& lags,
+                           const TrackQuantities<Dim>& quantities) {
   DisplacementGroup group;
   group.name = members.name;
   group.particles = members.particles;
   group.rotors = members.rotors;
   group.self_scattering.resize(quantities.wave_numbers.size());
-  if (group.rotors > 0) group.orientation.resize(quantities.orders.size());
+  if (group.rotors > 0) 
+    group.orientation.resize(quantities.axes * quantities.orders.size());
   for (std::size_t l = 0; l < lags.size(); ++l) {
-    const LagSums& sums = members.sums[l];
+    const LagSums<Dim>& sums = members.sums[l];
     const std::size_t n = group.particles;
     group.translation.push_back(sums.translation().square.estimate(lags[l], n));
     group.quartic.push_back(sums.translation().quartic.estimate(lags[l], n));
-    group.non_gaussian.push_back(sums.translation().non_gaussian(1.0 / 2, lags[l], n));
+    group.non_gaussian.push_back(
+        sums.translation().non_gaussian(LagSums<Dim>::normal_translation, lags[l], n));
     for (std::size_t j = 0; j < group.self_scattering.size(); ++j)
       group.self_scattering[j].push_back(sums.scattering()[j].estimate(lags[l], n));
-    if (group.rotors > 0) evaluate_rotation(group, sums.rotation(), lags[l]);
+    if (group.rotors > 0) evaluate_rotation(group, sums, lags[l]);
   }
   return group;
 }
 
+void forget_rotation(DisplacementGroup& group) {
+  group.rotation = group.quartic_rotation = group.non_gaussian_rotation = {};
+}
+
+std::vector<double> orders_or_default(std::vector<double> given, int dimension) {
+  if (given.empty()) given = dimension == 2 ? std::vector{2.0, 4.0} : std::vector{1.0, 2.0};
+  return given;
+}
+
 }  // namespace
 
-Displacements displacements(Trajectory& trajectory, const DisplacementOptions& options,
+template <int Dim>
+Displacements displacements(Trajectory<Dim>& trajectory, const DisplacementOptions& options,
                             const ProgressReport& report) {
   const std::vector<double>& times = trajectory.times();
   if (times.size() < 2)
     throw UserError("displacements: the run holds " + std::to_string(times.size()) +
                     " frame(s); a displacement needs at least two");
   const std::vector<Lag> lags = time_axis(times, options.axis);
-  const Configuration2& first = trajectory.read(0);
-  const TrackQuantities quantities{wave_numbers_or_main(options.wave_numbers, first),
-                                   options.orders,
-                                   options.overlap_distance,
-                                   {}};
-  std::vector<Members> species = species_of(first);
-  for (Members& members : species)
+  const Configuration<Dim>& first = trajectory.read(0);
+  const TrackQuantities<Dim> quantities{wave_numbers_or_main(options.wave_numbers, first),
+                                        orders_or_default(options.orders, Dim),
+                                        axis_count(first),
+                                        options.overlap_distance,
+                                        {}};
+  std::vector<Members<Dim>> species = species_of(first);
+  for (Members<Dim>& members : species)
     if (members.particles > 0) members.make_room(lags, quantities);
-  const std::size_t batch = options.memory / track_bytes(times.size());
-  Pass(trajectory, options, lags, quantities, species, report).run(std::max<std::size_t>(1, batch));
+  const std::size_t batch = options.memory / track_bytes<Dim>(times.size());
+  Pass<Dim> pass(trajectory, options, lags, quantities, species, report);
+  pass.run(std::max<std::size_t>(1, batch));
 
   Displacements result;
+  result.dimension = Dim;
   result.wave_numbers = quantities.wave_numbers;
   result.orders = quantities.orders;
+  result.axes = quantities.axes;
   result.overlap_distance = quantities.overlap_distance;
-  const Members all = together(species, lags, quantities);
+  const Members<Dim> all = together(species, lags, quantities);
   for (std::size_t l = 0; l < lags.size(); ++l) {
     result.lag.push_back(lags[l].time);
     result.origins.push_back(lags[l].origins);
@@ -182,23 +209,41 @@ Displacements displacements(Trajectory& trajectory, const DisplacementOptions& o
     result.susceptibility.push_back(susceptibility(overlap, lags[l], all.particles));
   }
   result.groups.push_back(evaluate(all, lags, quantities));
-  std::erase_if(species, [](const Members& members) { return members.particles == 0; });
+  std::erase_if(species, [](const Members<Dim>& members) { return members.particles == 0; });
   if (species.size() > 1)
-    for (const Members& members : species)
+    for (const Members<Dim>& members : species)
       result.groups.push_back(evaluate(members, lags, quantities));
+  if (!turns_are_known(pass.largest_turn())) {
+    result.unknown_turns =
+        "some particles turn by about half a turn between two frames, which cannot be told from a "
+        "turn the other way; sample more often ([output] samples)";
+    for (DisplacementGroup& group : result.groups) forget_rotation(group);
+  }
   return result;
 }
 
-double main_wave_number(const Configuration2& configuration) {
-  const Vec2& lengths = configuration.box.lengths();
-  const double density = static_cast<double>(configuration.size()) / (lengths.x() * lengths.y());
-  return 2 * std::numbers::pi * std::sqrt(2 * density / std::sqrt(3.0));
+template <int Dim>
+double main_wave_number(const Configuration<Dim>& configuration) {
+  using std::numbers::pi;
+  const double density = static_cast<double>(configuration.size()) / configuration.box.volume();
+  return Dim == 2 ? 2 * pi * std::sqrt(2 * density / std::sqrt(3.0))
+                  : 2 * pi * std::sqrt(3.0) * std::cbrt(density / 4);
 }
 
-std::vector<double> wave_numbers_or_main(std::vector<double> wanted,
-                                         const Configuration2& configuration) {
-  if (wanted.empty()) wanted = {main_wave_number(configuration)};
-  return wanted;
+template <int Dim>
+std::vector<double> wave_numbers_or_main(std::vector<double> given,
+                                         const Configuration<Dim>& configuration) {
+  if (given.empty()) given = {main_wave_number(configuration)};
+  return given;
 }
+
+template Displacements displacements(Trajectory2&, const DisplacementOptions&,
+                                     const ProgressReport&);
+template Displacements displacements(Trajectory3&, const DisplacementOptions&,
+                                     const ProgressReport&);
+template double main_wave_number(const Configuration2&);
+template double main_wave_number(const Configuration3&);
+template std::vector<double> wave_numbers_or_main(std::vector<double>, const Configuration2&);
+template std::vector<double> wave_numbers_or_main(std::vector<double>, const Configuration3&);
 
 }  // namespace vitrel

@@ -12,35 +12,41 @@
 
 /// @file
 /// Correlations of single particles: how far each has moved and turned in a time t, from unwrapped
-/// positions and angles. Δr = r(t) − r(0), Δθ = θ(t) − θ(0); lengths in units where a b = 1, angles
-/// in radians.
+/// positions and turns. Δr = r(t) − r(0); Δφ is the change of the angle in the plane, and of the
+/// rotation vector (path.h) in space; lengths in units where a b = 1 (a b c = 1), angles in radians.
 namespace vitrel {
 
 struct DisplacementGroup {
   std::string name;  ///< "all", or the name of a species
   std::size_t particles = 0;
-  std::size_t rotors =
-      0;  ///< particles that are not round; the rotation of round ones is not modelled
+  /// Particles that are not round; the rotation of round ones is not modelled.
+  std::size_t rotors = 0;
   Correlation translation;   ///< ⟨|Δr|²⟩, the mean squared displacement (MSD)
   Correlation quartic;       ///< ⟨|Δr|⁴⟩
-  Correlation non_gaussian;  ///< α₂ = ⟨|Δr|⁴⟩/(2⟨|Δr|²⟩²) − 1
-  /// F_s(q, t) = ⟨J₀(q |Δr|)⟩ for every wave number: the average of exp(iq·Δr) over all directions
-  /// of q in the plane, exact but for 1e-10 (bessel_j0.h).
+  Correlation non_gaussian;  ///< α₂ = d ⟨|Δr|⁴⟩/((d + 2)⟨|Δr|²⟩²) − 1 in d dimensions
+  /// F_s(q, t), the average of exp(iq·Δr) over all directions of q, for every wave number: ⟨J₀(q |Δr|)⟩
+  /// in the plane (but for 1e-10, bessel_j0.h), ⟨sin(q |Δr|)/(q |Δr|)⟩ in space.
   std::vector<Correlation> self_scattering;
   // The rest is that of the rotors, and empty without any.
-  Correlation parallel;          ///< ⟨(Δr·u)²⟩, u along the long axis at the origin of time
-  Correlation perpendicular;     ///< the same, u along the short axis
-  Correlation rotation;          ///< ⟨Δθ²⟩, the mean squared rotation (MSR)
-  Correlation quartic_rotation;  ///< ⟨Δθ⁴⟩
-  Correlation non_gaussian_rotation;     ///< ⟨Δθ⁴⟩/(3⟨Δθ²⟩²) − 1
-  std::vector<Correlation> orientation;  ///< L_n(t) = ⟨cos nΔθ⟩ for every order n
+  Correlation parallel;       ///< ⟨(Δr·u)²⟩, u along the axis (path.h) at the origin of time
+  Correlation perpendicular;  ///< ⟨|Δr|² − (Δr·u)²⟩
+  // Of turns; empty where these are not known (Displacements::unknown_turns).
+  Correlation rotation;              ///< ⟨|Δφ|²⟩, the mean squared rotation (MSR)
+  Correlation quartic_rotation;      ///< ⟨|Δφ|⁴⟩
+  Correlation non_gaussian_rotation; ///< like α₂, with one dimension in the plane and three in space
+  /// L_n(t) for every order n of the first axis, of the second …: ⟨cos nΔθ⟩ in the plane, Legendre's
+  /// ⟨P_n(u(0)·u(t))⟩ in space.
+  std::vector<Correlation> orientation;
 };
 
 struct Displacements {
+  int dimension = 2;
   std::vector<double> lag;           ///< time differences t > 0
   std::vector<std::size_t> origins;  ///< time origins averaged over, for every lag
   std::vector<double> wave_numbers;  ///< those of self_scattering
   std::vector<double> orders;        ///< those of orientation
+  std::size_t axes = 1;              ///< that of orientation (axis_count in path.h)
+  std::string unknown_turns;         ///< why rotations are not given; else empty
   double overlap_distance = 0;       ///< that of overlap
   /// "all" first, then every species that has particles, if there is more than one.
   std::vector<DisplacementGroup> groups;
@@ -59,14 +65,18 @@ struct Displacements {
 /// the result depends neither on it nor on the number of threads, which share the lags. Besides, the
 /// sums take 8 bytes per lag, origin, species and quantity. Cost about (lags) × (origins) × N × 25 ns.
 /// Throws UserError for fewer than two frames.
-Displacements displacements(Trajectory& trajectory, const DisplacementOptions& options = {},
+template <int Dim>
+Displacements displacements(Trajectory<Dim>& trajectory, const DisplacementOptions& options = {},
                             const ProgressReport& report = {});
 
-/// Where the main peak of the structure factor of a dense liquid is, about: the first Bragg peak
-/// of the triangular lattice of the same number density ρ, q = 2π √(2ρ/√3).
-double main_wave_number(const Configuration2& configuration);
-/// The wanted wave numbers, or that of main_wave_number if none is.
-std::vector<double> wave_numbers_or_main(std::vector<double> wanted,
-                                         const Configuration2& configuration);
+/// Where the main peak of the structure factor of a dense liquid is, about: the first Bragg peak of
+/// the closest packing with the same number density ρ, q = 2π √(2ρ/√3) of the triangular lattice in the
+/// plane, q = 2π √3 (ρ/4)^⅓ of the face-centred cubic one in space.
+template <int Dim>
+double main_wave_number(const Configuration<Dim>& configuration);
+/// The given wave numbers, or that of main_wave_number if there are none.
+template <int Dim>
+std::vector<double> wave_numbers_or_main(std::vector<double> given,
+                                         const Configuration<Dim>& configuration);
 
 }  // namespace vitrel

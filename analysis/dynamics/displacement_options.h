@@ -12,7 +12,8 @@ struct DisplacementOptions {
   TimeAxisOptions axis = {};
   /// q of F_s and F; empty: that of main_wave_number alone.
   std::vector<double> wave_numbers = {};
-  std::vector<double> orders = {2, 4};        ///< n of L_n
+  /// n of L_n; empty: 2 and 4 in the plane, 1 and 2 in space.
+  std::vector<double> orders = {};
   double overlap_distance = 0.3;              ///< a of the overlap Q
   std::size_t memory = std::size_t{1} << 30;  ///< bytes for particle tracks
   int threads = all_cores;                    ///< at most; the result does not depend on it

@@ -6,12 +6,13 @@
 
 namespace vitrel {
 
-EnergySeries energies(Trajectory& trajectory) {
+template <int Dim>
+EnergySeries energies(Trajectory<Dim>& trajectory) {
   EnergySeries series;
   series.time = trajectory.times();
   for (std::size_t k = 0; k < trajectory.frames(); ++k) {
-    const Configuration2& frame = trajectory.read(k);
-    const Mechanics sums = mechanics(frame);
+    const Configuration<Dim>& frame = trajectory.read(k);
+    const Mechanics<Dim> sums = mechanics(frame);
     const double n = static_cast<double>(frame.size());
     series.translational.push_back(sums.translational_energy / n);
     series.rotational.push_back(sums.rotational_energy / n);
@@ -19,6 +20,9 @@ EnergySeries energies(Trajectory& trajectory) {
   }
   return series;
 }
+
+template EnergySeries energies(Trajectory2&);
+template EnergySeries energies(Trajectory3&);
 
 Estimate time_average(const std::vector<double>& time, const std::vector<double>& series) {
   Estimate estimate = block_average(series);

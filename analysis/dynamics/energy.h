@@ -22,7 +22,8 @@ struct EnergySeries {
 };
 
 /// From the velocities of every frame.
-EnergySeries energies(Trajectory& trajectory);
+template <int Dim>
+EnergySeries energies(Trajectory<Dim>& trajectory);
 
 /// Mean over the run by blocking; without an error if the series is not evenly spaced in time.
 Estimate time_average(const std::vector<double>& time, const std::vector<double>& series);

@@ -12,24 +12,52 @@ namespace {
 constexpr std::size_t chunk = 256;
 using Chunk = std::array<double, chunk>;
 
+template <std::size_t Count>
+double squared_change(const std::array<FrameSeries, Count>& series, std::size_t from,
+                      std::size_t to) {
+  double sum = 0;
+  for (const FrameSeries& component : series) {
+    const double change = component[to] - component[from];
+    sum += change * change;
+  }
+  return sum;
+}
+
+/// The polynomials Q_n of the orientational correlations ⟨Q_n(u(0)·u(t))⟩, n = 0, 1, 2 … at once:
+/// Chebyshev's T_n(cos Δθ) = cos nΔθ in the plane, Legendre's P_n in space.
+template <int Dim>
+class Polynomials {
+ public:
+  Polynomials(const Chunk& x, std::size_t count) : x_(x), count_(count) {
+    before_.fill(1);
+    now_ = x;
+  }
+
+  /// Q_n; n must not be smaller than at the call before, and at least 1.
+  const Chunk& of(double n) {
+    for (; order_ < n; order_ += 1)
+      for (std::size_t k = 0; k < count_; ++k) {
+        const double next = Dim == 2 ? 2 * x_[k] * now_[k] - before_[k]
+                                     : ((2 * order_ + 1) * x_[k] * now_[k] - order_ * before_[k]) /
+                                           (order_ + 1);
+        before_[k] = now_[k];
+        now_[k] = next;
+      }
+    return now_;
+  }
+
+ private:
+  const Chunk& x_;
+  std::size_t count_;
+  double order_ = 1;
+  Chunk before_, now_;
+};
+
 }  // namespace
 
-Phase::Phase(const std::vector<double>& angle, double n) {
-  for (const double theta : angle) {
-    cosine.push_back(std::cos(n * theta));
-    sine.push_back(std::sin(n * theta));
-  }
-}
-
-Path::Path(const Track& its_track, bool is_rotor, const std::vector<double>& orders)
-    : track(&its_track) {
-  if (!is_rotor) return;
-  axis.emplace(track->angle, 1);
-  for (const double n : orders) phases.emplace_back(track->angle, n);
-}
-
 /// Consecutive origins of a lag.
-class LagSums::Part {
+template <int Dim>
+class LagSums<Dim>::Part {
  public:
   Part(const Lag& lag, std::size_t begin)
       : first(begin), count(std::min(chunk, lag.origins - begin)), lag_(lag) {}
@@ -58,7 +86,8 @@ class LagSums::Part {
   const Lag& lag_;
 };
 
-LagSums::LagSums(const Lag& lag, const TrackQuantities& quantities, bool rotors)
+template <int Dim>
+LagSums<Dim>::LagSums(const Lag& lag, const TrackQuantities<Dim>& quantities, bool rotors)
     : lag_(&lag),
       quantities_(&quantities),
       translation_(lag.origins),
@@ -66,24 +95,28 @@ LagSums::LagSums(const Lag& lag, const TrackQuantities& quantities, bool rotors)
       scattering_(quantities.wave_numbers.size(), CorrelationSum(lag.origins)) {
   const CorrelationSum empty(lag.origins);
   if (rotors)
-    rotation_ = Rotation{empty, empty, MomentSum(lag.origins),
-                         std::vector<CorrelationSum>(quantities.orders.size(), empty)};
+    rotation_ = Rotation{
+        empty, empty, MomentSum(lag.origins),
+        std::vector<CorrelationSum>(quantities.axes * quantities.orders.size(), empty)};
 }
 
-void LagSums::add(const Path& path) {
+template <int Dim>
+void LagSums<Dim>::add(const Path<Dim>& path) {
   for (std::size_t begin = 0; begin < lag_->origins; begin += chunk) {
     const Part part(*lag_, begin);
-    add_translation(*path.track, part);
-    if (path.axis) add_rotation(path, part);
+    add_translation(path, part);
+    if (!path.is_rotor()) continue;
+    add_rotation(path, part);
+    add_orientation(path, part);
   }
-  finish_particle(path.axis.has_value());
+  finish_particle(path.is_rotor());
 }
 
-void LagSums::add_translation(const Track& track, const Part& part) {
+template <int Dim>
+void LagSums<Dim>::add_translation(const Path<Dim>& path, const Part& part) {
   Chunk squares, values;
   part.at_frames(squares, [&](std::size_t from, std::size_t to) {
-    const double dx = track.x[to] - track.x[from], dy = track.y[to] - track.y[from];
-    return dx * dx + dy * dy;
+    return squared_change(path.track->position, from, to);
   });
   part.at_origins(values, [&](std::size_t k) { return squares[k] * squares[k]; });
   translation_.add(part.first, part.of(squares), part.of(values));
@@ -94,43 +127,55 @@ void LagSums::add_translation(const Track& track, const Part& part) {
   part.at_origins(distances, [&](std::size_t k) { return std::sqrt(squares[k]); });
   for (std::size_t j = 0; j < scattering_.size(); ++j) {
     const double q = quantities_->wave_numbers[j];
-    part.at_origins(values, [&](std::size_t k) { return quantities_->bessel(q * distances[k]); });
+    part.at_origins(values,
+                    [&](std::size_t k) { return quantities_->direction_average(q * distances[k]); });
     scattering_[j].add(part.first, part.of(values));
   }
 }
 
-void LagSums::add_rotation(const Path& path, const Part& part) {
-  const Track& track = *path.track;
-  const Phase& axis = *path.axis;
+template <int Dim>
+void LagSums<Dim>::add_rotation(const Path<Dim>& path, const Part& part) {
+  const auto& position = path.track->position;
+  const DirectionSeries<Dim>& axis = path.directions.front();
   Chunk values, fourth_powers;
   part.at_frames(values, [&](std::size_t from, std::size_t to) {
-    const double along = axis.cosine[from] * (track.x[to] - track.x[from]) +
-                         axis.sine[from] * (track.y[to] - track.y[from]);
+    double along = 0;
+    for (std::size_t d = 0; d < Dim; ++d)
+      along += axis[d][from] * (position[d][to] - position[d][from]);
     return along * along;
   });
   rotation_->parallel.add(part.first, part.of(values));
-  part.at_frames(values, [&](std::size_t from, std::size_t to) {
-    const double across = axis.cosine[from] * (track.y[to] - track.y[from]) -
-                          axis.sine[from] * (track.x[to] - track.x[from]);
-    return across * across;
+  Chunk squares;
+  part.at_frames(squares, [&](std::size_t from, std::size_t to) {
+    return squared_change(position, from, to);
   });
+  part.at_origins(values, [&](std::size_t k) { return squares[k] - values[k]; });
   rotation_->perpendicular.add(part.first, part.of(values));
   part.at_frames(values, [&](std::size_t from, std::size_t to) {
-    const double turn = track.angle[to] - track.angle[from];
-    return turn * turn;
+    return squared_change(path.turn, from, to);
   });
   part.at_origins(fourth_powers, [&](std::size_t k) { return values[k] * values[k]; });
   rotation_->turn.add(part.first, part.of(values), part.of(fourth_powers));
-  for (std::size_t j = 0; j < path.phases.size(); ++j) {
-    const Phase& phase = path.phases[j];
-    part.at_frames(values, [&](std::size_t from, std::size_t to) {
-      return phase.cosine[from] * phase.cosine[to] + phase.sine[from] * phase.sine[to];
+}
+
+template <int Dim>
+void LagSums<Dim>::add_orientation(const Path<Dim>& path, const Part& part) {
+  std::size_t next = 0;
+  for (const DirectionSeries<Dim>& axis : path.directions) {
+    Chunk cosines;
+    part.at_frames(cosines, [&](std::size_t from, std::size_t to) {
+      double cosine = 0;
+      for (std::size_t d = 0; d < Dim; ++d) cosine += axis[d][from] * axis[d][to];
+      return cosine;
     });
-    rotation_->orientation[j].add(part.first, part.of(values));
+    Polynomials<Dim> polynomials(cosines, part.count);
+    for (const double n : quantities_->orders)
+      rotation_->orientation[next++].add(part.first, part.of(polynomials.of(n)));
   }
 }
 
-void LagSums::finish_particle(bool rotor) {
+template <int Dim>
+void LagSums<Dim>::finish_particle(bool rotor) {
   translation_.finish_particle();
   overlap_.finish_particle();
   for (CorrelationSum& sum : scattering_) sum.finish_particle();
@@ -141,7 +186,8 @@ void LagSums::finish_particle(bool rotor) {
   for (CorrelationSum& sum : rotation_->orientation) sum.finish_particle();
 }
 
-void LagSums::add(const LagSums& other) {
+template <int Dim>
+void LagSums<Dim>::add(const LagSums& other) {
   translation_.add(other.translation_);
   overlap_.add(other.overlap_);
   for (std::size_t j = 0; j < scattering_.size(); ++j) scattering_[j].add(other.scattering_[j]);
@@ -152,5 +198,8 @@ void LagSums::add(const LagSums& other) {
   for (std::size_t j = 0; j < rotation_->orientation.size(); ++j)
     rotation_->orientation[j].add(other.rotation_->orientation[j]);
 }
+
+template class LagSums<2>;
+template class LagSums<3>;
 
 }  // namespace vitrel

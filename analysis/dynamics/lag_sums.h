@@ -5,60 +5,54 @@
 
 #include "analysis/dynamics/bessel_j0.h"
 #include "analysis/dynamics/correlation.h"
+#include "analysis/dynamics/path.h"
 #include "analysis/dynamics/time_axis.h"
-#include "analysis/dynamics/tracks.h"
 
 /// @file
 /// The inner part of displacement.h: what every particle adds at one lag.
 namespace vitrel {
 
+template <int Dim>
 struct TrackQuantities {
   std::vector<double> wave_numbers, orders;
+  std::size_t axes;  ///< whose directions are correlated
   double overlap_distance;
-  BesselJ0 bessel;
-};
-
-/// cos nθ and sin nθ along a track; their products give cos nΔθ.
-struct Phase {
-  Phase(const std::vector<double>& angle, double n);
-  std::vector<double> cosine, sine;
-};
-
-/// A track and, of a rotor, its phases: the direction of the long axis (n = 1), and one per order.
-struct Path {
-  Path(const Track& its_track, bool is_rotor, const std::vector<double>& orders);
-  const Track* track;
-  std::optional<Phase> axis;
-  std::vector<Phase> phases;
+  DirectionAverage<Dim> direction_average;
 };
 
 /// Sums over particles that are not told apart.
+template <int Dim>
 class LagSums {
  public:
   /// `rotors`: whether there may be any among the particles. `lag` and `quantities` must outlive the
   /// sums.
-  LagSums(const Lag& lag, const TrackQuantities& quantities, bool rotors);
-  void add(const Path& path);
+  LagSums(const Lag& lag, const TrackQuantities<Dim>& quantities, bool rotors);
+  void add(const Path<Dim>& path);
   void add(const LagSums& other);
 
   struct Rotation {
     CorrelationSum parallel, perpendicular;
     MomentSum turn;
-    std::vector<CorrelationSum> orientation;
+    std::vector<CorrelationSum> orientation;  ///< all orders of the first axis, of the second …
   };
   const MomentSum& translation() const { return translation_; }
   const CorrelationSum& overlap() const { return overlap_; }
   const std::vector<CorrelationSum>& scattering() const { return scattering_; }
   const Rotation& rotation() const { return *rotation_; }
 
+  /// ⟨s²⟩ = ⟨s⟩²/c of normally distributed displacements and rotations; s are their squares.
+  static constexpr double normal_translation = Dim / (Dim + 2.0);
+  static constexpr double normal_rotation = Path<Dim>::rotations / (Path<Dim>::rotations + 2.0);
+
  private:
   class Part;
-  void add_translation(const Track& track, const Part& part);
-  void add_rotation(const Path& path, const Part& part);
+  void add_translation(const Path<Dim>& path, const Part& part);
+  void add_rotation(const Path<Dim>& path, const Part& part);
+  void add_orientation(const Path<Dim>& path, const Part& part);
   void finish_particle(bool rotor);
 
   const Lag* lag_;
-  const TrackQuantities* quantities_;
+  const TrackQuantities<Dim>* quantities_;
   MomentSum translation_;
   CorrelationSum overlap_;
   std::vector<CorrelationSum> scattering_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <vector>
@@ -8,19 +9,29 @@
 
 namespace vitrel {
 
-/// The unwrapped path of one particle, one entry per frame.
+/// One number per frame.
+using FrameSeries = std::vector<double>;
+
+/// The path of one particle.
+template <int Dim>
 struct Track {
-  std::vector<double> x, y, angle;
+  static constexpr std::size_t orientation_numbers = Dim == 2 ? 1 : 4;
+
+  std::array<FrameSeries, Dim> position;  ///< unwrapped
+  /// In the plane the unwrapped angle; in space the quaternion w, x, y, z.
+  std::array<FrameSeries, orientation_numbers> orientation;
 };
 
 /// Bytes that the track of one particle takes.
-inline std::size_t track_bytes(std::size_t frames) {
-  return 3 * sizeof(double) * frames;
+template <int Dim>
+std::size_t track_bytes(std::size_t frames) {
+  return (Dim + Track<Dim>::orientation_numbers) * sizeof(double) * frames;
 }
 
 /// Tracks of the particles begin … end − 1, from one pass over the frames. `tell` hears how much of it
 /// is done, 0 … 1.
-std::vector<Track> read_tracks(Trajectory& trajectory, std::size_t begin, std::size_t end,
-                               const std::function<void(double)>& tell);
+template <int Dim>
+std::vector<Track<Dim>> read_tracks(Trajectory<Dim>& trajectory, std::size_t begin, std::size_t end,
+                                    const std::function<void(double)>& tell);
 
 }  // namespace vitrel

@@ -55,18 +55,20 @@ class Passes {
 };
 
 /// L_2 from a pass of its own.
-Decay orientation(Trajectory& seen, const DisplacementOptions& options,
+template <int Dim>
+Decay orientation(Trajectory<Dim>& seen, const DisplacementOptions& options,
                   const ProgressReport& report) {
   const Displacements found = displacements(seen, options, report);
   return decay(found, *l_2(found));
 }
 
-void add_halves(GlassRunData& data, Trajectory& trajectory, const DisplacementOptions& options,
+template <int Dim>
+void add_halves(GlassRunData& data, Trajectory<Dim>& trajectory, const DisplacementOptions& options,
                 Passes& passes) {
   const std::size_t middle = trajectory.frames() / 2;
   if (middle < 2) return;
-  TrajectoryPart early(trajectory, 0, middle);
-  TrajectoryPart late(trajectory, middle, trajectory.frames());
+  TrajectoryPart<Dim> early(trajectory, 0, middle);
+  TrajectoryPart<Dim> late(trajectory, middle, trajectory.frames());
   const Displacements first = displacements(early, options, passes.next());
   const Displacements second = displacements(late, options, passes.next());
   const DisplacementGroup& before = first.groups.front();
@@ -80,10 +82,11 @@ void add_halves(GlassRunData& data, Trajectory& trajectory, const DisplacementOp
 }
 
 /// What there is without another pass, but for L_2.
-GlassRunData known_data(const GlassSource& run, const std::vector<double>& times) {
+GlassRunData known_data(const GlassSource& run, int dimension, const std::vector<double>& times) {
   const Displacements& found = run.displacements;
   GlassRunData data{};
   data.name = run.name;
+  data.dimension = dimension;
   data.packing_fraction = run.packing_fraction;
   data.seed = run.seed;
   data.rotors = run.rotors;
@@ -94,23 +97,25 @@ GlassRunData known_data(const GlassSource& run, const std::vector<double>& times
   data.rotational_diffusion = run.rotational_diffusion;
   if (!run.compressibility.value.empty())
     data.series.push_back({"the compressibility factor", run.compressibility.value});
-  data.series.push_back({"the hexatic order", run.order.find("hexatic")->value});
-  if (run.rotors > 0) data.nematic_order = run.order.find("nematic")->value;
+  if (const Column* hexatic = run.order ? run.order->find("hexatic") : nullptr)
+    data.series.push_back({"the hexatic order", hexatic->value});
+  if (run.rotors > 0) data.nematic_order = run.order->find("nematic")->value;
   return data;
 }
 
 }  // namespace
 
-std::optional<GlassRunData> glass_run_data(Trajectory& trajectory, const GlassSource& run,
+template <int Dim>
+std::optional<GlassRunData> glass_run_data(Trajectory<Dim>& trajectory, const GlassSource& run,
                                            const DisplacementOptions& options,
                                            const ProgressReport& report) {
   if (!evenly_spaced(trajectory.times())) return std::nullopt;
   const Displacements& found = run.displacements;
   const DisplacementOptions wanted = of_glass(options, found);
-  GlassRunData data = known_data(run, trajectory.times());
-  std::optional<DirectorFrame> director;
+  GlassRunData data = known_data(run, Dim, trajectory.times());
+  std::optional<DirectorFrame<Dim>> director;
   if (is_nematic(data)) director.emplace(trajectory);
-  Trajectory& seen = director ? *director : trajectory;
+  Trajectory<Dim>& seen = director ? *director : trajectory;
   const Correlation* measured = director ? nullptr : l_2(found);
   const bool is_missing = run.rotors > 0 && !measured;
   Passes passes(is_missing ? 3 : 2, trajectory.read(0).size(), report);
@@ -119,5 +124,12 @@ std::optional<GlassRunData> glass_run_data(Trajectory& trajectory, const GlassSo
   add_halves(data, seen, wanted, passes);
   return data;
 }
+
+template std::optional<GlassRunData> glass_run_data(Trajectory2&, const GlassSource&,
+                                                    const DisplacementOptions&,
+                                                    const ProgressReport&);
+template std::optional<GlassRunData> glass_run_data(Trajectory3&, const GlassSource&,
+                                                    const DisplacementOptions&,
+                                                    const ProgressReport&);
 
 }  // namespace vitrel

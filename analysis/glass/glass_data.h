@@ -18,7 +18,7 @@ struct GlassSource {
   std::size_t rotors;
   const Displacements& displacements;
   const CompressibilitySeries& compressibility;
-  const Table& order;  ///< the table `order`
+  const Table* order;  ///< the table `order`; null without
   const DiffusionCoefficient& diffusion;
   const DiffusionCoefficient& rotational_diffusion;
 };
@@ -27,7 +27,8 @@ struct GlassSource {
 /// director), order, diffusion, and these curves once more from each half of the run. No value for runs
 /// that are not evenly sampled: these cannot be judged. `report` is called with the share of
 /// the particles of all passes that are done.
-std::optional<GlassRunData> glass_run_data(Trajectory& trajectory, const GlassSource& run,
+template <int Dim>
+std::optional<GlassRunData> glass_run_data(Trajectory<Dim>& trajectory, const GlassSource& run,
                                            const DisplacementOptions& options,
                                            const ProgressReport& report = {});
 

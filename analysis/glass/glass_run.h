@@ -16,6 +16,7 @@ namespace vitrel {
 /// What the analysis of one run hands over.
 struct GlassRunData {
   std::string name;
+  int dimension = 2;
   double packing_fraction;
   std::uint64_t seed;
   std::size_t rotors;

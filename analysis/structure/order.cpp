@@ -13,7 +13,7 @@ namespace vitrel {
 namespace {
 
 constexpr std::size_t max_origins = 4096;
-constexpr double min_order = 0.5;        // of a nematic
+constexpr double min_order_in_plane = 0.5, min_order_in_space = 0.4;  // of a nematic
 constexpr double well_above_chance = 3;  // in units of the order of as many rotors without any
 
 /// Centre and (cos 2θ, sin 2θ) of a particle that is not round.
@@ -75,12 +75,16 @@ double nematic_order(const Configuration2& configuration) {
   return order_tensor(configuration).order();
 }
 
-double nematic_order_by_chance(std::size_t rotors) {
-  return std::sqrt(std::numbers::pi / (4 * static_cast<double>(rotors)));
+double nematic_order_by_chance(std::size_t rotors, int dimension) {
+  using std::numbers::pi;
+  const double scatter = 1 / std::sqrt(static_cast<double>(rotors));
+  return scatter * (dimension == 2 ? std::sqrt(pi / 4) : 9.0 / 4 * std::sqrt(2 / (5 * pi)));
 }
 
-bool is_nematic(double order, std::size_t rotors) {
-  return order >= std::max(min_order, well_above_chance * nematic_order_by_chance(rotors));
+bool is_nematic(double order, std::size_t rotors, int dimension) {
+  const double min_order = dimension == 2 ? min_order_in_plane : min_order_in_space;
+  return order >=
+         std::max(min_order, well_above_chance * nematic_order_by_chance(rotors, dimension));
 }
 
 std::vector<double> orientation_distribution(const Configuration2& configuration,

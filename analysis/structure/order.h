@@ -31,16 +31,19 @@ OrderTensor order_tensor(const Configuration2& configuration);
 /// S, for short.
 double nematic_order(const Configuration2& configuration);
 
-/// Mean S of R independent angles, √(π/(4R)), the mean length of a random walk of R steps of length
-/// 1/R: what a finite system without any order shows. Good to 1 % from R = 10 on.
-double nematic_order_by_chance(std::size_t rotors);
+/// Mean S of R independent axes: what a finite system without any order shows. In two dimensions
+/// √(π/(4R)), the mean length of a random walk of R steps of length 1/R. In three (9/4) √(2/(5πR)), the
+/// mean largest eigenvalue of (3 T − 1)/2 with the fluctuations of T as in isotropic_ratio
+/// (orientation_tensor.h). Good to 1 % from R = 10 and R = 100 on.
+double nematic_order_by_chance(std::size_t rotors, int dimension = 2);
 
-/// Whether S, averaged over a run, is that of a nematic: above 0.5, and three times that of chance at
-/// least (R rotors of which g always turn together have √g times as much). In two dimensions order
-/// decays as a power of the distance, with an exponent of 1/4 at most (frenkel1985), hence S falls
-/// with the box; but as S² ≈ 1.1 (box/2 particles)^(−1/4) it is above 0.5 in every box shorter than
-/// some hundred particles.
-bool is_nematic(double order, std::size_t rotors);
+/// Whether S, averaged over a run, is that of a nematic: above 0.5 (0.4 in three dimensions), and three
+/// times that of chance at least (R rotors of which g always turn together have √g times as much). In two
+/// dimensions order decays as a power of the distance, with an exponent of 1/4 at most (frenkel1985),
+/// hence S falls with the box; but as S² ≈ 1.1 (box/2 particles)^(−1/4) it is above 0.5 in every box
+/// shorter than some hundred particles. In three, S jumps to 0.5 or more at the transition
+/// (frenkelmulder1985).
+bool is_nematic(double order, std::size_t rotors, int dimension = 2);
 
 /// Density of the angles of the particles that are not round, seen from the director, in bins of equal
 /// width from −π/2 to π/2; its integral is 1. The director is that of the same particles: without

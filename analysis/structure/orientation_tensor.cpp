@@ -72,6 +72,14 @@ double OrientationTensor::ratio() const {
   return axes < 3 || values[0] <= 1e-15 ? infinity : values[2] / values[0];
 }
 
+double OrientationTensor::nematic_order() const {
+  return axes == 0 ? 0 : 1.5 * eigenvalues()[2] - 0.5;
+}
+
+Vec3 OrientationTensor::director() const {
+  return Eigen::SelfAdjointEigenSolver<Mat3>(matrix).eigenvectors().col(2);
+}
+
 OrientationTensor orientation_tensor(const Configuration3& packing) {
   OrientationTensor tensor;
   for (std::size_t i = 0; i < packing.size(); ++i) {

@@ -24,6 +24,10 @@ struct OrientationTensor {
   Vec3 eigenvalues() const;
   /// ρ = λ_max/λ_min, from 1 to infinity (fewer than three axes); NaN without axes.
   double ratio() const;
+  /// Nematic order S = (3 λ_max − 1)/2: 1 if all axes are parallel; by chance about 1/√N (order.h).
+  double nematic_order() const;
+  /// The eigenvector of λ_max, either of two opposite ones.
+  Vec3 director() const;
 };
 OrientationTensor orientation_tensor(const Configuration3& packing);
 

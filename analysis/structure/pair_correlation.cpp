@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <numbers>
 
+#include "analysis/structure/orientation_tensor.h"
+
 namespace vitrel {
 
 namespace {
@@ -28,12 +30,20 @@ struct Point<2> {
   double rotor = 0;
 };
 
+/// director: the figure axis, or 0 of a round particle.
 template <>
 struct Point<3> {
   Point() = default;
-  Point(const Configuration3& configuration, std::size_t i) : position(configuration.position[i]) {}
+  Point(const Configuration3& configuration, std::size_t i) : position(configuration.position[i]) {
+    const Ellipsoid& shape = configuration.shape[i];
+    if (shape.is_round()) return;
+    director = figure_axis(shape, configuration.orientation[i]);
+    rotor = 1;
+  }
 
   Vec3 position = Vec3::Zero();
+  Vec3 director = Vec3::Zero();
+  double rotor = 0;
 };
 
 /// Points sorted by cells, along x, row after row: the neighbours of a point are one run of memory per
@@ -152,16 +162,25 @@ class SortedPoints {
 /// Sums over the pairs of a bin.
 struct Bin {
   double pairs = 0, rotor_pairs = 0;
-  double cosine = 0, squared_cosine = 0;  // of 2(θ_i − θ_j)
+  double first = 0, second = 0;  // powers of cos 2(θ_i − θ_j), or in space of (u_i·u_j)²
 
-  void add(const Point<2>& p, const Point<2>& q) {
+  template <int Dim>
+  void add(const Point<Dim>& p, const Point<Dim>& q) {
     const double between = p.director.dot(q.director);
+    const double power = Dim == 2 ? between : between * between;
     pairs += 1;
     rotor_pairs += p.rotor * q.rotor;
-    cosine += between;
-    squared_cosine += between * between;
+    first += power;
+    second += power * power;
   }
-  void add(const Point<3>&, const Point<3>&) { pairs += 1; }
+  double g_2(int dimension) const {
+    const double mean = first / rotor_pairs;
+    return dimension == 2 ? mean : 1.5 * mean - 0.5;
+  }
+  double g_4(int dimension) const {
+    const double mean = first / rotor_pairs, square = second / rotor_pairs;
+    return dimension == 2 ? 2 * square - 1 : (35 * square - 30 * mean + 3) / 8;
+  }
 };
 
 template <int Dim>
@@ -203,9 +222,8 @@ PairCorrelation pair_correlation(const Configuration<Dim>& configuration,
     const double inner = static_cast<double>(k) * step, outer = inner + step;
     result.distance.push_back(0.5 * (inner + outer));
     result.g.push_back(bins[k].pairs / (density * shell_volume<Dim>(inner, outer)));
-    if constexpr (Dim == 3) continue;
-    result.g_2.push_back(bins[k].cosine / bins[k].rotor_pairs);
-    result.g_4.push_back(2 * bins[k].squared_cosine / bins[k].rotor_pairs - 1);
+    result.g_2.push_back(bins[k].g_2(Dim));
+    result.g_4.push_back(bins[k].g_4(Dim));
     result.rotor_pairs.push_back(bins[k].rotor_pairs);
   }
   return result;

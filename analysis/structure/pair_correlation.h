@@ -17,9 +17,9 @@ struct PairCorrelation {
   /// N (N − 1)/2 · 4π(r₂³ − r₁³)/(3 L_x L_y L_z), those of N particles anywhere: 1 on the average at
   /// every r in an ideal gas, and far out in a liquid up to O(1/N).
   std::vector<double> g;
-  /// In two dimensions: g_n(r) = ⟨cos n(θ_i − θ_j)⟩ over the pairs of particles that are not round: 1
-  /// where all are parallel, 0 without order. Without two such particles NaN, as in a bin without such
-  /// pairs.
+  /// Over the pairs of particles that are not round: g_n(r) = ⟨cos n(θ_i − θ_j)⟩, in three dimensions
+  /// Legendre's ⟨P_n(u_i·u_j)⟩ of the figure axes u (orientation_tensor.h): 1 where all are parallel, 0
+  /// without order. Without two such particles NaN, as in a bin without such pairs.
   std::vector<double> g_2, g_4;
   std::vector<double> rotor_pairs;  ///< behind g_2 and g_4
 };

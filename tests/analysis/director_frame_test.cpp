@@ -12,7 +12,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 /// Three ellipses at −0.2, 0 and 0.2 from a director that turns by 0.7 per frame, and a disk.
-MemoryTrajectory turning_nematic() {
+MemoryTrajectory2 turning_nematic() {
   std::vector<Configuration2> frames;
   for (int k = 0; k < 20; ++k) {
     Configuration2 c;
@@ -27,13 +27,13 @@ MemoryTrajectory turning_nematic() {
     c.position[1] = Vec2(0.5, k);
     frames.push_back(c);
   }
-  return MemoryTrajectory(std::move(frames));
+  return MemoryTrajectory2(std::move(frames));
 }
 
 // The director is followed over more than four turns, so that angles beside it stand still.
 TEST(DirectorFrame, AnglesAreThoseToTheDirector) {
-  MemoryTrajectory trajectory = turning_nematic();
-  DirectorFrame seen(trajectory);
+  MemoryTrajectory2 trajectory = turning_nematic();
+  DirectorFrame<2> seen(trajectory);
   EXPECT_EQ(seen.times(), trajectory.times());
   for (std::size_t k = 0; k < seen.frames(); ++k) {
     const Configuration2& frame = seen.read(k);
@@ -44,13 +44,13 @@ TEST(DirectorFrame, AnglesAreThoseToTheDirector) {
 
 // Half a turn of a particle is a turn beside the director too: angles stay unwrapped.
 TEST(DirectorFrame, TurnsOfParticlesStay) {
-  MemoryTrajectory trajectory = turning_nematic();
+  MemoryTrajectory2 trajectory = turning_nematic();
   Configuration2 last = trajectory.read(19);
   last.time = 20;
   last.angle[2] += 3 * pi;
   std::vector<Configuration2> frames{trajectory.read(19), last};
-  MemoryTrajectory two(std::move(frames));
-  DirectorFrame seen(two);
+  MemoryTrajectory2 two(std::move(frames));
+  DirectorFrame<2> seen(two);
   EXPECT_NEAR(seen.read(1).angle[2] - seen.read(0).angle[2], 3 * pi, 1e-12);
 }
 

@@ -59,7 +59,7 @@ DisplacementOptions two_wave_numbers() {
 // Four standard errors: false-alarm rate 0.06 per mille for a normal variable, for each of 84 points.
 TEST(Displacement, FreeBrownianParticlesFollowTheClosedForms) {
   const Configuration2 start = ellipses(100);
-  MemoryTrajectory trajectory = free_brownian(start, 801, 1);
+  MemoryTrajectory2 trajectory = free_brownian(start, 801, 1);
   const Displacements result = displacements(trajectory, two_wave_numbers());
   ASSERT_EQ(result.groups.size(), 1u);
   EXPECT_EQ(result.groups[0].rotors, 100u);
@@ -103,7 +103,7 @@ std::size_t lag_of(const Displacements& result, double steps) {
 
 using CoverageTable = std::map<std::pair<std::string, int>, Coverage>;
 
-using Sampling = std::function<MemoryTrajectory(MemoryTrajectory&)>;
+using Sampling = std::function<MemoryTrajectory2(MemoryTrajectory2&)>;
 
 /// Of runs of so many steps, or of those of their frames that are sampled.
 CoverageTable coverage_of_free_runs(std::size_t length, const std::vector<int>& steps,
@@ -115,7 +115,7 @@ CoverageTable coverage_of_free_runs(std::size_t length, const std::vector<int>& 
   options.axis.every_lag_up_to = 1;
   options.axis.lags_per_decade = 10;
   for (int seed = 0; seed < seeds; ++seed) {
-    MemoryTrajectory trajectory = free_brownian(start, length + 1, 100 + seed);
+    MemoryTrajectory2 trajectory = free_brownian(start, length + 1, 100 + seed);
     if (sampled) trajectory = sampled(trajectory);
     const Displacements result = displacements(trajectory, options);
     for (const int n : steps) {
@@ -130,8 +130,8 @@ CoverageTable coverage_of_free_runs(std::size_t length, const std::vector<int>& 
 
 // All pairs of frames that many steps apart, one after another.
 TEST(Displacement, UnevenTimesAreAveragedOverAllPairsOfEqualDifference) {
-  MemoryTrajectory steps = free_brownian(ellipses(20), 161, 8);
-  MemoryTrajectory trajectory = cycles(steps);
+  MemoryTrajectory2 steps = free_brownian(ellipses(20), 161, 8);
+  MemoryTrajectory2 trajectory = cycles(steps);
   const Displacements result = displacements(trajectory, two_wave_numbers());
   ASSERT_GT(result.lag.size(), 20u);
   for (std::size_t l = 0; l < result.lag.size(); ++l) {
@@ -199,7 +199,7 @@ TEST(Displacement, BallisticMotionIsExactAndWrappingImmaterial) {
   std::vector<Configuration2> frames;
   for (int k = 0; k <= 60; ++k, fly(configuration, 0.25)) frames.push_back(configuration);
   ASSERT_NE(frames.back().image[1], Shift<2>(Shift<2>::Zero()));
-  MemoryTrajectory trajectory(std::move(frames));
+  MemoryTrajectory2 trajectory(std::move(frames));
   const Displacements result = displacements(trajectory);
   ASSERT_EQ(result.lag.size(), 30u);
   const double v2 = (5 + 9.25) / 3, w2 = (4 + 49 + 0.25) / 3;
@@ -220,7 +220,7 @@ TEST(Displacement, LogarithmicTimesUseAllPairsOfEqualDifference) {
     fly(configuration, t - configuration.time);
     frames.push_back(configuration);
   }
-  MemoryTrajectory trajectory(std::move(frames));
+  MemoryTrajectory2 trajectory(std::move(frames));
   const Displacements result = displacements(trajectory);
   ASSERT_EQ(result.lag.size(), 7u);
   // Squares t² {1, 4, 9, 16}: mean 7.5 t², variance 43 t⁴, and four particles behind the error.
@@ -248,7 +248,7 @@ TEST(Displacement, SpeciesApartAndRoundParticlesDoNotTurn) {
   Configuration2 configuration = mixture_of_ellipses_and_disks();
   std::vector<Configuration2> frames;
   for (int k = 0; k <= 4; ++k, fly(configuration, 1)) frames.push_back(configuration);
-  MemoryTrajectory trajectory(std::move(frames));
+  MemoryTrajectory2 trajectory(std::move(frames));
   const Displacements result = displacements(trajectory);
   ASSERT_EQ(result.groups.size(), 3u);
   EXPECT_EQ(result.groups[0].name, "all");
@@ -264,7 +264,7 @@ TEST(Displacement, SpeciesApartAndRoundParticlesDoNotTurn) {
 }
 
 TEST(Displacement, ResultDoesNotDependOnTheMemoryGranted) {
-  MemoryTrajectory trajectory = free_brownian(ellipses(7), 60, 3);
+  MemoryTrajectory2 trajectory = free_brownian(ellipses(7), 60, 3);
   const Displacements whole = displacements(trajectory);
   const Displacements single = displacements(trajectory, {.memory = 1});
   EXPECT_EQ(whole.groups[0].translation.value, single.groups[0].translation.value);
@@ -274,7 +274,7 @@ TEST(Displacement, ResultDoesNotDependOnTheMemoryGranted) {
 
 // Every sum is over the same numbers in the same order.
 TEST(Displacement, ResultDoesNotDependOnTheNumberOfThreads) {
-  MemoryTrajectory trajectory = free_brownian(ellipses(40), 300, 5);
+  MemoryTrajectory2 trajectory = free_brownian(ellipses(40), 300, 5);
   const Displacements one = displacements(trajectory, {.threads = 1});
   const Displacements two = displacements(trajectory, {.threads = 2});
   const auto judge_one = judged(one, 1, 1), judge_two = judged(two, 1, 1);
@@ -295,7 +295,7 @@ TEST(Displacement, PartsAlongAndAcrossTheLongAxisAtTheOriginOfTime) {
   std::vector<Configuration2> frames{configuration};
   fly(configuration, 0.5);
   frames.push_back(configuration);
-  MemoryTrajectory trajectory(std::move(frames));
+  MemoryTrajectory2 trajectory(std::move(frames));
   const DisplacementGroup all = displacements(trajectory).groups[0];
   EXPECT_NEAR(all.parallel.value[0], 0.5 * 2.25, 1e-13);
   EXPECT_NEAR(all.perpendicular.value[0], 0.5 * 1, 1e-13);
@@ -317,7 +317,7 @@ TEST(Displacement, SusceptibilityCountsParticlesThatMoveTogether) {
     for (Vec2& velocity : configuration.velocity) velocity = Vec2(jump, 0);
     fly(configuration, 1);
   }
-  MemoryTrajectory trajectory(std::move(frames));
+  MemoryTrajectory2 trajectory(std::move(frames));
   const Displacements result = displacements(trajectory);
   EXPECT_NEAR(result.overlap.value[0], 0.5, 2 * result.overlap.error[0]);
   EXPECT_NEAR(result.overlap.error[0], 0.5 / std::sqrt(2000), 0.2 * 0.5 / std::sqrt(2000));
@@ -329,13 +329,13 @@ TEST(Displacement, MainWaveNumberIsThatOfTheTriangularLattice) {
   const double spacing = std::sqrt(2 / (std::sqrt(3.0) * 70 / 35));
   EXPECT_NEAR(main_wave_number(ellipses(70)), 4 * std::numbers::pi / (std::sqrt(3.0) * spacing),
               1e-13);
-  MemoryTrajectory trajectory = free_brownian(ellipses(70), 3, 6);
+  MemoryTrajectory2 trajectory = free_brownian(ellipses(70), 3, 6);
   EXPECT_EQ(displacements(trajectory).wave_numbers,
             std::vector<double>{main_wave_number(ellipses(70))});
 }
 
 TEST(Displacement, OriginsAreThinnedEvenlyAndLongLagsLogarithmically) {
-  MemoryTrajectory trajectory = free_brownian(ellipses(1), 2001, 4);
+  MemoryTrajectory2 trajectory = free_brownian(ellipses(1), 2001, 4);
   const Displacements result = displacements(
       trajectory, {.axis = {.every_lag_up_to = 10, .lags_per_decade = 5, .max_origins = 100}});
   for (const std::size_t origins : result.origins) {
@@ -348,7 +348,7 @@ TEST(Displacement, OriginsAreThinnedEvenlyAndLongLagsLogarithmically) {
 }
 
 TEST(Displacement, OneFrameIsTheUsersMistake) {
-  MemoryTrajectory trajectory({ellipses(1)});
+  MemoryTrajectory2 trajectory({ellipses(1)});
   EXPECT_THROW(displacements(trajectory), UserError);
 }
 

@@ -22,7 +22,7 @@ Configuration2 an_ellipse_and_a_disk(double time) {
 
 // ½·2·(1 + (1 + t)²) + ½·3·4 and ½·2·(5/4)·9, each over two particles; the disk does not turn.
 TEST(Energy, PerParticleByHand) {
-  MemoryTrajectory trajectory({an_ellipse_and_a_disk(0), an_ellipse_and_a_disk(1)});
+  MemoryTrajectory2 trajectory({an_ellipse_and_a_disk(0), an_ellipse_and_a_disk(1)});
   const EnergySeries series = energies(trajectory);
   EXPECT_EQ(series.time, (std::vector<double>{0, 1}));
   EXPECT_DOUBLE_EQ(series.translational[0], 4);

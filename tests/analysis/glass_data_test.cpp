@@ -12,12 +12,12 @@ const DiffusionCoefficient diffusion{1, 0.1, 2, 3, ""}, rotational_diffusion{4, 
 
 /// The data of 30 particles whose nematic order is said to be S, and what is told meanwhile.
 struct Told {
-  Told(MemoryTrajectory& trajectory, double order) {
+  Told(MemoryTrajectory2& trajectory, double order) {
     const Displacements found = displacements(trajectory);
     const Table orders{"order", "", {{"nematic", "1", {order}, {}}, {"hexatic", "1", {0.1}, {}}}};
     const CompressibilitySeries no_pressure{};
     const GlassSource run{
-        "run", 1, 0.5, 30, found, no_pressure, orders, diffusion, rotational_diffusion};
+        "run", 1, 0.5, 30, found, no_pressure, &orders, diffusion, rotational_diffusion};
     data = glass_run_data(trajectory, run, {},
                           [&](const Progress& progress) { progresses.push_back(progress); });
   }
@@ -39,7 +39,7 @@ void expect_one_piece(const std::vector<Progress>& told, int passes) {
 }
 
 TEST(GlassRunData, TellsOfBothHalvesAsOne) {
-  MemoryTrajectory trajectory = free_brownian(ellipses(30), 80, 1);
+  MemoryTrajectory2 trajectory = free_brownian(ellipses(30), 80, 1);
   const auto [data, told] = Told(trajectory, 0.1);
   ASSERT_TRUE(data);
   EXPECT_EQ(data->halves.size(), 2u);
@@ -51,10 +51,10 @@ TEST(GlassRunData, TellsOfBothHalvesAsOne) {
 }
 
 TEST(GlassRunData, OfANematicTellsOfThePassFromTheDirectorToo) {
-  MemoryTrajectory trajectory = free_brownian(ellipses(30), 80, 1);
+  MemoryTrajectory2 trajectory = free_brownian(ellipses(30), 80, 1);
   const auto [data, told] = Told(trajectory, 0.9);
   ASSERT_TRUE(data);
-  DirectorFrame seen(trajectory);
+  DirectorFrame<2> seen(trajectory);
   EXPECT_EQ(data->orientation.value, displacements(seen).groups.front().orientation.front().value);
   expect_one_piece(told, 3);
 }

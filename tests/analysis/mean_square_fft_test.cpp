@@ -40,7 +40,7 @@ TEST(MeanSquareFft, EqualsTheDirectSumAtEveryLag) {
 
 // x and y of all particles together give what the direct pass over all origins does.
 TEST(MeanSquareFft, EqualsTheDisplacementsOfATrajectory) {
-  MemoryTrajectory trajectory = free_brownian(ellipses(5), 400, 1);
+  MemoryTrajectory2 trajectory = free_brownian(ellipses(5), 400, 1);
   const Displacements found = displacements(trajectory, {.axis = {.every_lag_up_to = 400}});
   std::vector<double> msd(400), msr(400);
   for (std::size_t i = 0; i < 5; ++i) {

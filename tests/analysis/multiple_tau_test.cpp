@@ -174,7 +174,7 @@ TEST(MultipleTau, EqualsTheDirectEvaluationOfStoredFrames) {
 TEST(MultipleTau, EqualsTheAnalysisOfTheSameFrames) {
   std::vector<Configuration2> frames = walk(ellipses(10), 1000, 2);
   const CorrelatedGroup found = correlator_of(frames).correlations().front();
-  MemoryTrajectory trajectory(std::move(frames));
+  MemoryTrajectory2 trajectory(std::move(frames));
   const Displacements direct = displacements(trajectory);
   for (std::size_t k = 0; k < 7; ++k) {
     EXPECT_EQ(column(found, "origins").value[k], static_cast<double>(direct.origins[k]));

@@ -109,13 +109,19 @@ TEST(PairCorrelation, OfACheckerboard) {
   EXPECT_TRUE(std::isnan(pairs.g_2[2]));
 }
 
+/// Two thirds of them spheroids, the others spheres.
 Configuration3 solid_gas(std::size_t n, const Vec3& lengths, std::uint64_t seed) {
   Configuration3 c;
   c.resize(n);
   c.box = PeriodicBox<3>(lengths);
   Stream draw(seed, Purpose::tests);
-  for (Vec3& position : c.position)
-    for (int k = 0; k < 3; ++k) position[k] = lengths[k] * draw.uniform(-0.5, 0.5);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (int k = 0; k < 3; ++k) c.position[i][k] = lengths[k] * draw.uniform(-0.5, 0.5);
+    if (i % 3 == 0) continue;
+    c.shape[i].semi_axes = Vec3(1, 1, 2);
+    c.orientation[i] =
+        Quaternion(draw.normal(), draw.normal(), draw.normal(), draw.normal()).normalized();
+  }
   return c;
 }
 
@@ -131,21 +137,30 @@ TEST(PairCorrelation, IsThatOfALoopOverAllPairsInThreeDimensions) {
       const auto bins =
           static_cast<std::size_t>(std::min(range, 0.5 * lengths.minCoeff()) / 0.25 + 1e-9);
       ASSERT_EQ(fast.g.size(), bins);
-      std::vector<double> pairs(bins);
+      std::vector<double> pairs(bins), rotor_pairs(bins), p_2(bins), p_4(bins);
       for (std::size_t i = 0; i < c.size(); ++i)
         for (std::size_t j = 0; j < i; ++j) {
           Vec3 d = c.position[j] - c.position[i];
           d += c.box.translation(c.box.nearest_shift(d));
           const auto bin = static_cast<std::size_t>(d.norm() / 0.25);
-          if (bin < bins) ++pairs[bin];
+          if (bin >= bins) continue;
+          ++pairs[bin];
+          if (i % 3 == 0 || j % 3 == 0) continue;
+          const double cosine = (c.orientation[i] * Vec3::UnitZ()).dot(c.orientation[j] * Vec3::UnitZ());
+          ++rotor_pairs[bin];
+          p_2[bin] += std::legendre(2, cosine);
+          p_4[bin] += std::legendre(4, cosine);
         }
       for (std::size_t k = 0; k < bins; ++k) {
         const double r = 0.25 * static_cast<double>(k);
         EXPECT_NEAR(fast.g[k], pairs[k] * lengths.prod() / (150 * 149 / 2. * shell(r, r + 0.25)),
                     1e-10);
         EXPECT_NEAR(fast.distance[k], r + 0.125, 1e-12);
+        EXPECT_EQ(fast.rotor_pairs[k], rotor_pairs[k]);
+        if (rotor_pairs[k] == 0) continue;
+        EXPECT_NEAR(fast.g_2[k], p_2[k] / rotor_pairs[k], 1e-12);
+        EXPECT_NEAR(fast.g_4[k], p_4[k] / rotor_pairs[k], 1e-12);
       }
-      EXPECT_TRUE(fast.g_2.empty() && fast.g_4.empty() && fast.rotor_pairs.empty());
     }
 }
 

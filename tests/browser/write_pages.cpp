@@ -15,7 +15,7 @@ namespace vitrel {
 namespace {
 
 StatePage state() {
-  MemoryTrajectory trajectory = report_example::lattice(5, 1);
+  MemoryTrajectory2 trajectory = report_example::lattice(5, 1);
   StatePage page;
   page.title = "state";
   page.rows = {{"packing fraction", "0.196", ""}};
@@ -99,7 +99,7 @@ ReportData one_run() {
 
 void write_pages(const std::filesystem::path& folder) {
   ReportData sweep = report_example::sweep(6, 12);
-  MemoryTrajectory final_state = report_example::lattice(6, 1);
+  MemoryTrajectory2 final_state = report_example::lattice(6, 1);
   sweep.runs[1].movie = film(final_state);
   write_text(folder / "sweep.html", report_page(sweep));
   write_text(folder / "run.html", report_page(one_run()));

@@ -31,7 +31,7 @@ Displacements dense_run(const Configuration2& start, std::uint64_t seed) {
   options.seed = seed;
   Recorder recorder;
   run(state, options, {linear_times(interval, duration), duration, &recorder, {}}, {});
-  MemoryTrajectory trajectory(std::move(recorder.frames));
+  MemoryTrajectory2 trajectory(std::move(recorder.frames));
   DisplacementOptions wanted;
   wanted.wave_numbers = {main_wave_number(start)};
   return displacements(trajectory, wanted);

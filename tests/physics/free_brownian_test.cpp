@@ -44,7 +44,7 @@ double msr(double steps) {
 // Three standard errors; lags share their frames, so that one false alarm in 0.3 % is about that of one
 // lag.
 TEST(FreeBrownian, DisplacementsEqualTheClosedForm) {
-  MemoryTrajectory trajectory(free_run(1, 400));
+  MemoryTrajectory2 trajectory(free_run(1, 400));
   const Displacements found = displacements(trajectory);
   const DisplacementGroup& all = found.groups.front();
   for (std::size_t k = 0; k < found.lag.size(); ++k) {
@@ -68,7 +68,7 @@ TEST(FreeBrownian, ErrorBarsCoverTheTruthAsOftenAsTheySay) {
   const std::vector<std::size_t> lags{1, 4, 20};  // at lag 1 · τ_B every step's ⟨v²⟩ is exact
   std::vector<int> covered_translation(lags.size()), covered_rotation(lags.size());
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
-    MemoryTrajectory trajectory(free_run(seed, 60));
+    MemoryTrajectory2 trajectory(free_run(seed, 60));
     const DisplacementGroup all = displacements(trajectory).groups.front();
     for (std::size_t k = 0; k < lags.size(); ++k) {
       const std::size_t at = lags[k] - 1;

@@ -45,7 +45,7 @@ inline void redraw_velocities(Configuration2& configuration, Stream& draw) {
 }
 
 /// The k-th frame follows k steps.
-inline MemoryTrajectory free_brownian(Configuration2 configuration, std::size_t frames,
+inline MemoryTrajectory2 free_brownian(Configuration2 configuration, std::size_t frames,
                                       std::uint64_t seed) {
   Stream draw(seed, Purpose::tests);
   std::vector<Configuration2> saved{configuration};
@@ -54,16 +54,16 @@ inline MemoryTrajectory free_brownian(Configuration2 configuration, std::size_t 
     fly(configuration, brownian_step);
     saved.push_back(configuration);
   }
-  return MemoryTrajectory(std::move(saved));
+  return MemoryTrajectory2(std::move(saved));
 }
 
 /// Frames 0, 1, 2, 5 and 10 steps after the start of every cycle of 20.
-inline MemoryTrajectory cycles(MemoryTrajectory& steps) {
+inline MemoryTrajectory2 cycles(MemoryTrajectory2& steps) {
   std::vector<Configuration2> frames;
   for (std::size_t k = 0; k < steps.frames(); ++k)
     for (const std::size_t sampled : {0, 1, 2, 5, 10})
       if (k % 20 == sampled) frames.push_back(steps.read(k));
-  return MemoryTrajectory(std::move(frames));
+  return MemoryTrajectory2(std::move(frames));
 }
 
 /// Mean squared displacement and rotation of mass 1 after a time of whole steps.

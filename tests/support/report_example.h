@@ -18,7 +18,7 @@ constexpr std::size_t overlapping_frame = 2;
 /// n² ellipses (κ = 2) on a square lattice of spacing 4, in two species by turns. In frame k all have
 /// moved by (1, 0.5) k, so that they cross the edges again and again, and turned by 0.1 k; in the
 /// overlapping frame particle 1 is on particle 0.
-inline MemoryTrajectory lattice(std::size_t n, std::size_t frames) {
+inline MemoryTrajectory2 lattice(std::size_t n, std::size_t frames) {
   const double side = 4.0 * static_cast<double>(n);
   Configuration2 state;
   state.box = PeriodicBox<2>(Vec2(side, side));
@@ -40,7 +40,7 @@ inline MemoryTrajectory lattice(std::size_t n, std::size_t frames) {
     }
     all.push_back(state);
   }
-  return MemoryTrajectory(std::move(all));
+  return MemoryTrajectory2(std::move(all));
 }
 
 inline std::vector<double> constant(std::size_t rows, double value) {
@@ -177,7 +177,7 @@ inline double relaxation_time(double phi) {
   return 0.1 * std::pow(0.8 - phi, -2);
 }
 
-inline ReportRun run(double phi, MemoryTrajectory trajectory) {
+inline ReportRun run(double phi, MemoryTrajectory2 trajectory) {
   ReportRun run;
   run.name = "run <1>";
   run.dynamics = "Brownian, step 0.1";

@@ -15,7 +15,7 @@ std::vector<std::string> names(const std::vector<Column>& columns) {
   return result;
 }
 
-Results tables_of(Trajectory& trajectory) {
+Results tables_of(Trajectory2& trajectory) {
   const std::vector<double> wave_numbers{2, 4};
   return {dynamics_tables({displacements(trajectory, {.wave_numbers = wave_numbers}),
                            collective_scattering(trajectory, wave_numbers)}),
@@ -25,7 +25,7 @@ Results tables_of(Trajectory& trajectory) {
 using Names = std::vector<std::string>;
 
 TEST(DynamicsTables, HaveTheColumnsThatOthersRelyOn) {
-  MemoryTrajectory trajectory = free_brownian(ellipses(20), 80, 1);
+  MemoryTrajectory2 trajectory = free_brownian(ellipses(20), 80, 1);
   const Results results = tables_of(trajectory);
   EXPECT_EQ(names(results.find("displacements_all")->columns),
             (Names{"time", "msd", "msd_parallel", "msd_perpendicular", "quartic", "non_gaussian",
@@ -50,7 +50,7 @@ TEST(DynamicsTables, RoundParticlesHaveNoAnglesAndOneOriginNoSusceptibility) {
   for (Ellipse& shape : disks.shape) shape = {1, 1};
   std::vector<Configuration2> frames(3, disks);
   for (std::size_t k = 0; k < 3; ++k) frames[k].time = static_cast<double>(k * k);
-  MemoryTrajectory trajectory(std::move(frames));
+  MemoryTrajectory2 trajectory(std::move(frames));
   const Results results = tables_of(trajectory);
   EXPECT_EQ(names(results.find("displacements_all")->columns),
             (Names{"time", "msd", "quartic", "non_gaussian", "origins"}));
@@ -59,14 +59,14 @@ TEST(DynamicsTables, RoundParticlesHaveNoAnglesAndOneOriginNoSusceptibility) {
 }
 
 TEST(DynamicsTables, SayWhichTimesTheyAreOf) {
-  MemoryTrajectory even = free_brownian(ellipses(1), 81, 1);
+  MemoryTrajectory2 even = free_brownian(ellipses(1), 81, 1);
   EXPECT_EQ(time_axis_text(even.times(), displacements(even)), "linear, every frame an origin");
   EXPECT_EQ(time_axis_text(even.times(), displacements(even, {.axis = {.max_origins = 10}})),
             "linear, up to 10 origins, evenly thinned");
   // Steps 0, 1, 2, 4, 8 … 64: seven lags, of two origins but for the longest.
   std::vector<Configuration2> frames{even.read(0)};
   for (std::size_t k = 1; k <= 64; k *= 2) frames.push_back(even.read(k));
-  MemoryTrajectory uneven(std::move(frames));
+  MemoryTrajectory2 uneven(std::move(frames));
   EXPECT_EQ(time_axis_text(uneven.times(), displacements(uneven)),
             "unevenly sampled: 7 lags with up to 2 origins");
 }

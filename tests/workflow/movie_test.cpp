@@ -44,7 +44,7 @@ double distance_on_circle(double x, double y, double period) {
 }
 
 TEST(Movie, PosesAreThoseOfTheTrajectoryToHalfAStep) {
-  MemoryTrajectory trajectory = lattice(5, 20);
+  MemoryTrajectory2 trajectory = lattice(5, 20);
   const Movie movie = film(trajectory);
   ASSERT_EQ(movie.frames(), 20u);
   ASSERT_EQ(movie.particles(), 25u);
@@ -64,7 +64,7 @@ TEST(Movie, PosesAreThoseOfTheTrajectoryToHalfAStep) {
 }
 
 TEST(Movie, ShortWaysNeedNoJumps) {
-  MemoryTrajectory trajectory = lattice(5, 100);
+  MemoryTrajectory2 trajectory = lattice(5, 100);
   const Movie movie = film(trajectory);
   // Particle 1 is on another one in the overlapping frame, 3.5 away: still a short way.
   EXPECT_TRUE(movie.jumps.empty());
@@ -74,7 +74,7 @@ TEST(Movie, ShortWaysNeedNoJumps) {
 }
 
 TEST(Movie, LongWaysAreToldByJumps) {
-  MemoryTrajectory trajectory = lattice(5, 200);
+  MemoryTrajectory2 trajectory = lattice(5, 200);
   MovieLimits limits;
   limits.frames = 5;  // 49.75 steps apart: two and a half boxes along x, more than one along y
   Movie movie = film(trajectory, limits);
@@ -90,7 +90,7 @@ TEST(Movie, LongWaysAreToldByJumps) {
 }
 
 TEST(Movie, OverlapsComeFromTheExactCheckOfEveryShownFrame) {
-  MemoryTrajectory trajectory = lattice(4, 6);
+  MemoryTrajectory2 trajectory = lattice(4, 6);
   const Movie movie = film(trajectory);
   for (std::size_t k = 0; k < 6; ++k) {
     const bool overlaps = k == overlapping_frame;
@@ -106,15 +106,15 @@ TEST(Movie, OverlapsAreSeenThatTheRoundedPosesHide) {
   state.box = PeriodicBox<2>(Vec2(15, 15));
   state.resize(2);
   state.position[1] = Vec2(2 - 1e-12, 0);
-  MemoryTrajectory touching({state});
+  MemoryTrajectory2 touching({state});
   EXPECT_EQ(film(touching).overlapping_pairs, std::vector<std::size_t>({1}));
   state.position[1] = Vec2(2 + 1e-12, 0);
-  MemoryTrajectory apart({state});
+  MemoryTrajectory2 apart({state});
   EXPECT_EQ(film(apart).overlapping_pairs, std::vector<std::size_t>({0}));
 }
 
 TEST(Movie, ThinnedFramesAreEvenAndHaveBothEnds) {
-  MemoryTrajectory trajectory = lattice(10, 101);
+  MemoryTrajectory2 trajectory = lattice(10, 101);
   MovieLimits limits;
   limits.poses = 100 * 11;
   const Movie movie = film(trajectory, limits);
@@ -127,7 +127,7 @@ TEST(Movie, ThinnedFramesAreEvenAndHaveBothEnds) {
 
 TEST(Movie, ManyJumpsCostFrames) {
   // One frame in 40: ways of two boxes, and every particle jumps in every frame.
-  MemoryTrajectory trajectory = lattice(3, 641);
+  MemoryTrajectory2 trajectory = lattice(3, 641);
   MovieLimits limits;
   limits.poses = 9 * 17;
   const Movie movie = film(trajectory, limits);
@@ -138,7 +138,7 @@ TEST(Movie, ManyJumpsCostFrames) {
 }
 
 TEST(Movie, OfManyParticlesThoseInTheMiddleAreShown) {
-  MemoryTrajectory trajectory = lattice(30, 3);
+  MemoryTrajectory2 trajectory = lattice(30, 3);
   MovieLimits limits;
   limits.particles = 200;
   const Movie movie = film(trajectory, limits);

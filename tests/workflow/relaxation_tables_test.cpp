@@ -28,7 +28,7 @@ double truth(double kind, double parameter) {
 
 // Four standard errors, and the 0.2 % by which a straight line may be wrong (relaxation.h): false-alarm rate
 // 0.06 per mille for each of 20 rows.
-void expect_closed_forms(Trajectory& trajectory) {
+void expect_closed_forms(Trajectory2& trajectory) {
   Results results;
   store_relaxation_times(displacements(trajectory, {.wave_numbers = {2, 3}}), results);
   const Table& table = *results.find("relaxation_times");
@@ -51,19 +51,19 @@ void expect_closed_forms(Trajectory& trajectory) {
 }
 
 TEST(RelaxationTables, FreeBrownianParticlesFollowTheClosedForms) {
-  MemoryTrajectory trajectory = free_brownian(ellipses_and_disks(), 801, 1);
+  MemoryTrajectory2 trajectory = free_brownian(ellipses_and_disks(), 801, 1);
   expect_closed_forms(trajectory);
 }
 
 TEST(RelaxationTables, SoTheyDoSampledInCycles) {
-  MemoryTrajectory steps = free_brownian(ellipses_and_disks(), 1601, 2);
-  MemoryTrajectory trajectory = cycles(steps);
+  MemoryTrajectory2 steps = free_brownian(ellipses_and_disks(), 1601, 2);
+  MemoryTrajectory2 trajectory = cycles(steps);
   expect_closed_forms(trajectory);
 }
 
 // τ of F_s is 20/q²: 8000 of a run of 10, and 0.0125 between frames 0.1 apart.
 TEST(RelaxationTables, SayWhyThereIsNoTime) {
-  MemoryTrajectory trajectory = free_brownian(ellipses(20), 101, 3);
+  MemoryTrajectory2 trajectory = free_brownian(ellipses(20), 101, 3);
   const Displacements found = displacements(trajectory, {.wave_numbers = {0.05, 40}, .orders = {}});
   Results results;
   store_relaxation_times(found, results);

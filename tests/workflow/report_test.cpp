@@ -48,7 +48,7 @@ TEST(ReportPage, TwoHundredFramesOfAThousandParticlesTakeTwoMegabytes) {
   data.runs = {report_example::run(0.7, report_example::lattice(32, 300))};
   data.runs.front().movie = {};
   const std::size_t without = report_page(data).size();
-  MemoryTrajectory trajectory = report_example::lattice(32, 300);
+  MemoryTrajectory2 trajectory = report_example::lattice(32, 300);
   data.runs.front().movie = film(trajectory);
   const Movie& movie = data.runs.front().movie;
   EXPECT_EQ(movie.particles(), 1024u);

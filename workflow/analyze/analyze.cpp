@@ -9,14 +9,14 @@
 #include <optional>
 
 #include "analysis/glass/glass_data.h"
+#include "analysis/observables/frame_observable.h"
+#include "analysis/structure/orientation_tensor.h"
 #include "core/error.h"
 #include "core/io/json.h"
 #include "workflow/analyze/dynamics_tables.h"
 #include "workflow/analyze/glass_report.h"
 #include "workflow/analyze/glass_tables.h"
-#include "workflow/analyze/packing_tables.h"
 #include "workflow/analyze/relaxation_tables.h"
-#include "workflow/analyze/structure_tables.h"
 #include "workflow/configuration/parameters.h"
 #include "workflow/configuration/species_names.h"
 #include "workflow/run/correlations_file.h"
@@ -29,9 +29,10 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// All that is measured, before it is put into tables.
 struct RunAnalysis {
-  std::size_t particles, rotors, frames;
+  std::size_t particles, rotors, rotations, frames;
   double packing_fraction, duration, collisions;
-  RunDynamics dynamics;
+  std::vector<Column> state;           ///< of the last frame, for the summary
+  std::optional<RunDynamics> dynamics; ///< of more than one frame
   EnergySeries energy;
   CompressibilitySeries compressibility;
   DiffusionCoefficient diffusion, rotational_diffusion;  ///< of all particles
@@ -45,11 +46,11 @@ Parameters analysis_parameters(const TrajectoryReader& reader, const AnalysisCho
   return parse_parameters(reader.provenance().parameters, reader.path().string(), choice.overrides);
 }
 
-/// What displacements need of a file; those of round particles need no angles.
+/// What displacements need of a file; those of round particles, and in space, need no angles.
 void require_tracks(const TrajectoryReader& reader, std::size_t rotors) {
   reader.require("image",
                  "displacements: positions in the box do not tell how often it was crossed");
-  if (rotors > 0)
+  if (rotors > 0 && reader.dimension() == 2)
     reader.require("angle", "rotations: orientations do not tell the number of turns");
 }
 
@@ -76,7 +77,8 @@ void begin(const AnalysisProgress& progress, const char* phase) {
 }
 
 /// The short part first: it refuses wave numbers that do not fit into the box.
-RunDynamics measure_dynamics(TrajectoryFile& trajectory, DisplacementOptions options,
+template <int Dim>
+RunDynamics measure_dynamics(TrajectoryFile<Dim>& trajectory, DisplacementOptions options,
                              const AnalysisProgress& progress) {
   options.wave_numbers = wave_numbers_or_main(std::move(options.wave_numbers), trajectory.read(0));
   RunDynamics dynamics;
@@ -88,12 +90,13 @@ RunDynamics measure_dynamics(TrajectoryFile& trajectory, DisplacementOptions opt
   return dynamics;
 }
 
-const Table& order_table(const std::vector<Table>& tables) {
-  return *std::find_if(tables.begin(), tables.end(),
-                       [](const Table& table) { return table.name == "order"; });
+/// Null without order.
+const Table* order_table(const std::vector<Table>& tables) {
+  const auto found = std::ranges::find(tables, "order", &Table::name);
+  return found == tables.end() ? nullptr : &*found;
 }
 
-/// Of a mean squared displacement (dimension 2) or rotation (1).
+/// Of a mean squared displacement or rotation in so many dimensions.
 DiffusionCoefficient long_time_diffusion(const Displacements& found, const Correlation& square,
                                          int dimension, const std::vector<double>& times) {
   const double duration = evenly_spaced(times) ? times.back() - times.front() : 0;
@@ -112,14 +115,15 @@ double collisions_between_frames(const TrajectoryReader& reader) {
 }
 
 /// Judged, if the run can be.
-std::optional<GlassRun> measure_glass(TrajectoryFile& trajectory, const std::string& name,
+template <int Dim>
+std::optional<GlassRun> measure_glass(TrajectoryFile<Dim>& trajectory, const std::string& name,
                                       const RunAnalysis& run, const DisplacementOptions& options,
                                       const AnalysisProgress& progress) {
   const GlassSource source{.name = name,
                            .seed = trajectory.reader().provenance().seed,
                            .packing_fraction = run.packing_fraction,
                            .rotors = run.rotors,
-                           .displacements = run.dynamics.displacements,
+                           .displacements = run.dynamics->displacements,
                            .compressibility = run.compressibility,
                            .order = order_table(run.structure),
                            .diffusion = run.diffusion,
@@ -130,29 +134,67 @@ std::optional<GlassRun> measure_glass(TrajectoryFile& trajectory, const std::str
   return judge_glass_run(*data);
 }
 
-RunAnalysis measure(TrajectoryFile& trajectory, const std::string& name,
+DiffusionCoefficient rotational_diffusion(const Displacements& found, std::size_t rotors,
+                                          int dimension, const std::vector<double>& times) {
+  if (rotors == 0) return no_diffusion("no particle can turn");
+  if (!found.unknown_turns.empty()) return no_diffusion(found.unknown_turns.c_str());
+  // Of bodies of revolution ⟨|Δφ|²⟩ = 4 D_r t: they do not spin about their axes.
+  const int rotations = dimension == 2 ? 1 : static_cast<int>(found.axes) == 3 ? 3 : 2;
+  return long_time_diffusion(found, found.groups.front().rotation, rotations, times);
+}
+
+/// What of a single configuration stands in the summary, in space.
+std::vector<Column> state_columns(const Configuration2&) {
+  return {};
+}
+
+std::vector<Column> state_columns(const Configuration3& state) {
+  const OrientationTensor tensor = orientation_tensor(state);
+  const IsotropicRatio isotropic = isotropic_ratio(tensor.axes);
+  const Vec3& box = state.box.lengths();
+  return {{"box_x", "length", {box.x()}, {}},
+          {"box_y", "length", {box.y()}, {}},
+          {"box_z", "length", {box.z()}, {}},
+          {"orientation_ratio", "1", {tensor.ratio()}, {}},
+          {"isotropic_ratio", "1", {isotropic.mean}, {}},
+          {"isotropic_ratio_deviation", "1", {isotropic.standard_deviation}, {}}};
+}
+
+template <int Dim>
+void describe_run(RunAnalysis& run, TrajectoryFile<Dim>& trajectory) {
+  const std::vector<double>& times = trajectory.times();
+  const Configuration<Dim>& state = trajectory.read(trajectory.frames() - 1);
+  run.particles = state.size();
+  run.rotors = rotor_count(state);
+  run.rotations = rotation_count(state);
+  run.packing_fraction = packing_fraction(state);
+  run.state = state_columns(state);
+  run.frames = trajectory.frames();
+  run.duration = times.back() - times.front();
+  run.collisions = collisions_between_frames(trajectory.reader());
+}
+
+template <int Dim>
+RunAnalysis measure(TrajectoryFile<Dim>& trajectory, const std::string& name,
                     const Parameters& parameters, const AnalysisProgress& progress) {
   const TrajectoryReader& reader = trajectory.reader();
   const std::vector<double>& times = trajectory.times();
   RunAnalysis run{};
-  const Configuration2& state = trajectory.read(trajectory.frames() - 1);
-  run.particles = state.size();
-  run.rotors = rotor_count(state);
-  run.packing_fraction = packing_fraction(state);
-  run.frames = trajectory.frames();
-  run.duration = times.back() - times.front();
-  run.collisions = collisions_between_frames(reader);
-  require_tracks(reader, run.rotors);
-  run.dynamics = measure_dynamics(trajectory, parameters.analysis, progress);
+  describe_run(run, trajectory);
+  const bool has_motion = run.frames > 1;
+  if (has_motion) {
+    require_tracks(reader, run.rotors);
+    run.dynamics = measure_dynamics(trajectory, parameters.analysis, progress);
+  }
   begin(progress, "structure");
   run.structure = structure_tables(trajectory, parameters.structure, all_cores, progress.report);
   run.energy = stored_energies(trajectory);
-  run.compressibility = stored_compressibility(reader, run.energy, run.rotors);
-  const Displacements& found = run.dynamics.displacements;
-  const DisplacementGroup& all = found.groups.front();
-  run.diffusion = long_time_diffusion(found, all.translation, 2, times);
-  run.rotational_diffusion = run.rotors > 0 ? long_time_diffusion(found, all.rotation, 1, times)
-                                            : no_diffusion("no particle can turn");
+  run.compressibility = stored_compressibility(reader, run.energy, run.rotations);
+  run.diffusion = run.rotational_diffusion = no_diffusion("a single frame");
+  if (!has_motion) return run;
+  const Displacements& found = run.dynamics->displacements;
+  run.diffusion = long_time_diffusion(found, found.groups.front().translation, Dim, times);
+  run.rotational_diffusion = rotational_diffusion(found, run.rotors, Dim, times);
   run.glass = measure_glass(trajectory, name, run, parameters.analysis, progress);
   return run;
 }
@@ -181,7 +223,8 @@ std::vector<Column> summary_columns(const RunAnalysis& run) {
   const Estimate translational = time_average(run.energy.time, run.energy.translational);
   const Estimate rotational = time_average(run.energy.time, run.energy.rotational);
   const Estimate& z = run.compressibility.mean;
-  return {{"packing_fraction", "1", {run.packing_fraction}, {}},
+  std::vector<Column> columns{
+          {"packing_fraction", "1", {run.packing_fraction}, {}},
           {"particles", "1", {static_cast<double>(run.particles)}, {}},
           {"rotors", "1", {static_cast<double>(run.rotors)}, {}},
           {"frames", "1", {static_cast<double>(run.frames)}, {}},
@@ -197,6 +240,8 @@ std::vector<Column> summary_columns(const RunAnalysis& run) {
                  run.rotational_diffusion.error),
           {"rotational_diffusion_from", "time", {run.rotational_diffusion.from}, {}},
           {"rotational_diffusion_to", "time", {run.rotational_diffusion.to}, {}}};
+  columns.insert(columns.end(), run.state.begin(), run.state.end());
+  return columns;
 }
 
 void add_tables(const EnergySeries& energy, const CompressibilitySeries& compressibility,
@@ -208,32 +253,57 @@ void add_tables(const EnergySeries& energy, const CompressibilitySeries& compres
 Results results_of(const RunAnalysis& run) {
   Results results;
   results.tables.push_back({"summary", "Averages over the run.", summary_columns(run)});
-  for (Table& table : dynamics_tables(run.dynamics)) results.tables.push_back(std::move(table));
+  if (run.dynamics)
+    for (Table& table : dynamics_tables(*run.dynamics)) results.tables.push_back(std::move(table));
   add_tables(run.energy, run.compressibility, results.tables);
   results.tables.insert(results.tables.end(), run.structure.begin(), run.structure.end());
   return results;
+}
+
+constexpr const char* no_energies =
+    "the file has neither velocities nor the observables translational_energy and "
+    "rotational_energy";
+
+void leave_out(Results& results, const std::string& what, const std::string& why) {
+  results.provenance.emplace_back("left_out_" + what, why);
+}
+
+/// What there is of more than one frame, besides tables.
+void add_motion(const RunAnalysis& run, const std::vector<double>& times, Results& results) {
+  const Displacements& found = run.dynamics->displacements;
+  results.provenance.emplace_back("time_axis", time_axis_text(times, found));
+  store_relaxation_times(found, results);
+  if (!found.unknown_turns.empty()) leave_out(results, "rotations", found.unknown_turns);
+  if (run.glass)
+    store_glass_run(*run.glass, results);
+  else
+    results.provenance.emplace_back(
+        "not_judged", "equilibration and relaxation: the samples are not evenly spaced in time");
 }
 
 std::filesystem::path csv_file(const std::filesystem::path& results, const std::string& table) {
   return results.parent_path() / fmt::format("{}_{}.csv", results.stem().string(), table);
 }
 
-// In three dimensions: the structure of the last frame, and what the file says of all frames.
-AnalysedRun analyze_solids(const std::filesystem::path& file, const AnalysisChoice& choice,
-                           const AnalysisProgress& progress) {
-  const TrajectoryReader reader(file);
+/// Of a run of this dimension.
+template <int Dim>
+Results analyze(const std::filesystem::path& file, const std::string& name,
+                const AnalysisChoice& choice, const AnalysisProgress& progress) {
+  TrajectoryFile<Dim> trajectory(file);
+  const TrajectoryReader& reader = trajectory.reader();
+  if (trajectory.frames() == 0)
+    throw UserError(file.string() + ": has no frames yet; continue the run");
   require_own_names(reader);
   const Parameters parameters = analysis_parameters(reader, choice);
-  begin(progress, "structure");
-  AnalysedRun analysed{file, {}};
-  const Configuration3 last = read_state<3>(file);
-  analysed.results.tables = packing_tables(last, parameters.structure);
-  const EnergySeries energy = observed_energies(reader);
-  add_tables(energy, stored_compressibility(reader, energy, rotation_count(last)),
-             analysed.results.tables);
-  analysed.results.provenance = provenance_rows(reader.provenance());
-  analysed.results.provenance.emplace_back("source", file.string());
-  return analysed;
+  const RunAnalysis run =
+      naming(file, [&] { return measure(trajectory, name, parameters, progress); });
+  Results results = results_of(run);
+  for (Table& table : on_the_fly_tables(file)) results.tables.push_back(std::move(table));
+  results.provenance = provenance_rows(reader.provenance());
+  results.provenance.emplace_back("source", file.string());
+  if (run.dynamics) add_motion(run, trajectory.times(), results);
+  if (run.energy.time.empty()) leave_out(results, "energies", no_energies);
+  return results;
 }
 
 }  // namespace
@@ -255,36 +325,10 @@ std::uint64_t AnalysedRun::seed() const {
 
 AnalysedRun analyze_run(const std::filesystem::path& file, const AnalysisChoice& choice,
                         const AnalysisProgress& progress) {
-  if (TrajectoryReader(file).dimension() == 3) return analyze_solids(file, choice, progress);
-  TrajectoryFile trajectory(file);
-  const TrajectoryReader& reader = trajectory.reader();
-  if (trajectory.frames() < 2)
-    throw UserError(
-        fmt::format("{}: has {} frame(s), but an analysis needs two or more; continue the "
-                    "run, or sample more often ([output] samples)",
-                    file.string(), trajectory.frames()));
-  require_own_names(reader);
   AnalysedRun analysed{file, {}};
-  const Parameters parameters = analysis_parameters(reader, choice);
-  const RunAnalysis run =
-      naming(file, [&] { return measure(trajectory, analysed.name(), parameters, progress); });
-  Results& results = analysed.results;
-  results = results_of(run);
-  for (Table& table : on_the_fly_tables(file)) results.tables.push_back(std::move(table));
-  results.provenance = provenance_rows(reader.provenance());
-  results.provenance.emplace_back("source", file.string());
-  results.provenance.emplace_back("time_axis",
-                                  time_axis_text(trajectory.times(), run.dynamics.displacements));
-  store_relaxation_times(run.dynamics.displacements, results);
-  if (run.energy.time.empty())
-    results.provenance.emplace_back("left_out",
-                                    "energies: the file has neither velocities nor the observables "
-                                    "translational_energy and rotational_energy");
-  if (run.glass)
-    store_glass_run(*run.glass, results);
-  else
-    results.provenance.emplace_back(
-        "not_judged", "equilibration and relaxation: the samples are not evenly spaced in time");
+  const bool is_plane = TrajectoryReader(file).dimension() == 2;
+  const auto analyze_it = is_plane ? analyze<2> : analyze<3>;
+  analysed.results = analyze_it(file, analysed.name(), choice, progress);
   return analysed;
 }
 

@@ -44,10 +44,9 @@ struct AnalysedRun {
 };
 
 /// Tables: a summary of one row, time correlations (dynamics_tables.h), relaxation times
-/// (relaxation_tables.h), energies, compressibility, structure (structure_tables.h), correlations measured
+/// (relaxation_tables.h), energies, compressibility, structure (frame_observable.h), correlations measured
 /// on the fly (correlations_file.h), and if the run can be judged (glass_data.h) its relaxation times and
-/// verdict. In three dimensions those of packing_tables.h of the last frame, and of a run its energies
-/// and compressibility. Throws FileError or UserError, naming the file.
+/// verdict. Of a single frame only what needs no motion. Throws FileError or UserError, naming the file.
 AnalysedRun analyze_run(const std::filesystem::path& file, const AnalysisChoice& choice,
                         const AnalysisProgress& progress = {});
 

@@ -19,25 +19,46 @@ std::vector<double> numbers(const std::vector<std::size_t>& counts) {
   return {counts.begin(), counts.end()};
 }
 
+/// What differs between the plane and space.
+struct Words {
+  const char *axis, *non_gaussian, *unit_length, *unit_time, *orientation, *orientation_column;
+};
+
+Words words_of(int dimension) {
+  if (dimension == 2)
+    return {"long axis",
+            "<r^4>/(2 <r^2>^2) - 1 and <turn^4>/(3 <turn^2>^2) - 1",
+            "a b",
+            "sqrt(m a b/kT)",
+            "L_n(t) = <cos n(angle(t) - angle(0))>",
+            "l"};
+  return {"axis of symmetry, of scalene bodies the longest,",
+          "3 <r^4>/(5 <r^2>^2) - 1 and 3 <turn^4>/(5 <turn^2>^2) - 1 of the rotation vector",
+          "a b c",
+          "sqrt(m (a b c)^(2/3)/kT)",
+          "<P_n(u(0).u(t))> (Legendre) of the axis u of symmetry; of scalene bodies that of the "
+          "longest, and of the middle and the shortest axis",
+          "p"};
+}
+
 Table displacement_table(const Displacements& found, const DisplacementGroup& group) {
+  const Words words = words_of(found.dimension);
   Table table;
   table.name = "displacements_" + identifier(group.name);
   table.description = fmt::format(
       "Displacements and rotations of {} particles ({}) against the time difference: mean squares, "
-      "also along and across the long axis at the origin of time, mean fourth powers, non-Gaussian "
-      "parameters <r^4>/(2 <r^2>^2) - 1 and <turn^4>/(3 <turn^2>^2) - 1; lengths in units where a "
-      "b "
-      "= 1 for the reference species, time in sqrt(m a b/kT).",
-      group.particles, group.name);
-  const bool turns = group.rotors > 0;
+      "also along and across the {} at the origin of time, mean fourth powers, non-Gaussian "
+      "parameters {}; lengths in units where {} = 1 for the reference species, time in {}.",
+      group.particles, group.name, words.axis, words.non_gaussian, words.unit_length,
+      words.unit_time);
   table.columns = {time_column(found.lag), column("msd", "length^2", group.translation)};
-  if (turns) {
+  if (group.rotors > 0) {
     table.columns.push_back(column("msd_parallel", "length^2", group.parallel));
     table.columns.push_back(column("msd_perpendicular", "length^2", group.perpendicular));
   }
   table.columns.push_back(column("quartic", "length^4", group.quartic));
   table.columns.push_back(column("non_gaussian", "1", group.non_gaussian));
-  if (turns) {
+  if (!group.rotation.value.empty()) {
     table.columns.push_back(column("msr", "rad^2", group.rotation));
     table.columns.push_back(column("quartic_rotation", "rad^4", group.quartic_rotation));
     table.columns.push_back(column("non_gaussian_rotation", "1", group.non_gaussian_rotation));
@@ -59,14 +80,17 @@ Table scattering_table(const Displacements& found, const DisplacementGroup& grou
 }
 
 Table orientation_table(const Displacements& found, const DisplacementGroup& group) {
+  constexpr const char* of_axis[] = {"", "_middle", "_short"};
+  const Words words = words_of(found.dimension);
   Table table{"orientation_" + identifier(group.name),
-              fmt::format("Orientational correlations L_n(t) = <cos n(angle(t) - angle(0))> of {} "
-                          "particles that are not round ({}).",
-                          group.rotors, group.name),
+              fmt::format("Orientational correlations {} of {} particles that are not round ({}).",
+                          words.orientation, group.rotors, group.name),
               {time_column(found.lag)}};
+  const std::size_t orders = found.orders.size();
   for (std::size_t k = 0; k < group.orientation.size(); ++k)
-    table.columns.push_back(
-        column(fmt::format("l_{:g}", found.orders[k]), "1", group.orientation[k]));
+    table.columns.push_back(column(fmt::format("{}_{:g}{}", words.orientation_column,
+                                               found.orders[k % orders], of_axis[k / orders]),
+                                   "1", group.orientation[k]));
   return table;
 }
 
@@ -88,10 +112,10 @@ Table wave_number_table(const RunDynamics& dynamics) {
       {}};
   Column index{"index", "1", {}, {}}, shell{"q_collective", "1/length", {}, {}},
       modes{"modes", "1", {}, {}};
-  for (const WaveVectorShell& vectors : dynamics.collective.shells) {
-    index.value.push_back(static_cast<double>(index.value.size() + 1));
-    shell.value.push_back(vectors.wave_number);
-    modes.value.push_back(static_cast<double>(vectors.n.size()));
+  for (std::size_t k = 0; k < dynamics.collective.modes.size(); ++k) {
+    index.value.push_back(static_cast<double>(k + 1));
+    shell.value.push_back(dynamics.collective.wave_numbers[k]);
+    modes.value.push_back(static_cast<double>(dynamics.collective.modes[k]));
   }
   table.columns = {index, {"q", "1/length", dynamics.displacements.wave_numbers, {}}, shell, modes};
   return table;

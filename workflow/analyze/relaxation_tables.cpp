@@ -13,7 +13,7 @@ Table empty_table() {
   return {
       "relaxation_times",
       "Relaxation times tau, when a correlation has fallen to 1/e. group: as in the provenance. "
-      "kind: 0 F_s(q, t), 1 L_n(t); parameter: its q or n. Without tau: a time that it outlives "
+      "kind: 0 F_s(q, t), 1 L_n(t), in three dimensions P_n of the first axis; parameter: its q or n. Without tau: a time that it outlives "
       "(least) or by which it has decayed (most), and the reason in the provenance.",
       {{"group", "1", {}, {}},
        {"kind", "1", {}, {}},
@@ -33,7 +33,8 @@ class RelaxationRows {
     results_.provenance.emplace_back(fmt::format("group_{}", number), group.name);
     for (std::size_t k = 0; k < group.self_scattering.size(); ++k)
       add(number, Kind::self_scattering, found_.wave_numbers[k], group.self_scattering[k]);
-    for (std::size_t k = 0; k < group.orientation.size(); ++k)
+    if (group.rotors == 0) return;
+    for (std::size_t k = 0; k < found_.orders.size(); ++k)
       add(number, Kind::orientation, found_.orders[k], group.orientation[k]);
   }
   Table table() && { return std::move(table_); }

@@ -44,7 +44,7 @@ std::vector<std::size_t> shown_particles(const Configuration2& state, const Vec2
 
 class Camera {
  public:
-  Camera(Trajectory& trajectory, const MovieLimits& limits)
+  Camera(Trajectory2& trajectory, const MovieLimits& limits)
       : trajectory_(trajectory), limits_(limits) {}
 
   /// Chooses the particles in the first frame, then takes the poses of all.
@@ -124,7 +124,7 @@ class Camera {
       movie_.jumps.push_back({movie_.frames() - 1, n, jump});
   }
 
-  Trajectory& trajectory_;
+  Trajectory2& trajectory_;
   MovieLimits limits_;
   Movie movie_;
   std::vector<std::size_t> frames_, shown_;
@@ -139,7 +139,7 @@ bool fits(const Movie& movie, const MovieLimits& limits) {
 
 }  // namespace
 
-Movie film(Trajectory& trajectory, const MovieLimits& limits) {
+Movie film(Trajectory2& trajectory, const MovieLimits& limits) {
   Camera camera(trajectory, limits);
   const std::size_t particles = std::max<std::size_t>(1, camera.take(1).particles());
   std::size_t wanted = std::min(limits.frames, limits.poses / particles);

@@ -54,7 +54,7 @@ struct Movie {
 /// Frames evenly thinned, the first and the last among them (with room for one, the last). Reads
 /// one frame at a time. If particles travel so far between frames that the jumps would take more
 /// than a tenth of the room, fewer frames are shown.
-Movie film(Trajectory& trajectory, const MovieLimits& limits = {});
+Movie film(Trajectory2& trajectory, const MovieLimits& limits = {});
 
 /// For the script of the page; null without particles.
 Json movie_data(const Movie& movie);

@@ -41,7 +41,7 @@ double collisions_per_second(const TrajectoryReader& reader) {
   return reader.observable("collisions").back() / seconds;
 }
 
-ReportRun report_run(const AnalysedRun& run, TrajectoryFile& trajectory, std::size_t movie_poses) {
+ReportRun report_run(const AnalysedRun& run, TrajectoryFile<2>& trajectory, std::size_t movie_poses) {
   const TrajectoryReader& reader = trajectory.reader();
   MovieLimits limits;
   limits.poses = movie_poses;
@@ -89,7 +89,7 @@ ReportData report_data(const std::vector<AnalysedRun>& runs, const std::string& 
   data.title = title;
   const std::vector<std::size_t> poses = movie_poses(runs.size());
   for (std::size_t k = 0; k < runs.size(); ++k) {
-    TrajectoryFile trajectory(runs[k].file);
+    TrajectoryFile<2> trajectory(runs[k].file);
     data.runs.push_back(report_run(runs[k], trajectory, poses[k]));
     if (k > 0) continue;
     const Configuration2& state = trajectory.read(0);

@@ -37,7 +37,7 @@ Json correlation(const NematicCorrelation& correlation) {
 }  // namespace
 
 std::string state_page(const StatePage& page) {
-  MemoryTrajectory state({page.state});
+  MemoryTrajectory2 state({page.state});
   const Json data = {{"label", page.title},
                      {"movie", movie_data(film(state))},
                      {"correlation", correlation(page.nematic_correlation)},

@@ -19,12 +19,15 @@ extern const std::vector<std::string> run_observables;
 template <int Dim>
 Observables measure_run(const Frame<Dim>& frame);
 
-/// A trajectory file as the analysis takes it.
-class TrajectoryFile final : public Trajectory {
+/// A trajectory file of this dimension as the analysis takes it.
+template <int Dim>
+class TrajectoryFile final : public Trajectory<Dim> {
  public:
-  explicit TrajectoryFile(const std::filesystem::path& path) : reader_(path) {}
+  explicit TrajectoryFile(const std::filesystem::path& path) : reader_(path) {
+    reader_.require_dimension(Dim);
+  }
   const std::vector<double>& times() const override { return reader_.times(); }
-  const Configuration2& read(std::size_t k) override {
+  const Configuration<Dim>& read(std::size_t k) override {
     reader_.read(k, frame_);
     return frame_;
   }
@@ -32,11 +35,12 @@ class TrajectoryFile final : public Trajectory {
 
  private:
   TrajectoryReader reader_;
-  Configuration2 frame_;
+  Configuration<Dim> frame_;
 };
 
 /// From the observables if the file has them, else from the velocities; empty if it has neither.
-EnergySeries stored_energies(TrajectoryFile& trajectory);
+template <int Dim>
+EnergySeries stored_energies(TrajectoryFile<Dim>& trajectory);
 /// From the observables; empty if the file has none.
 EnergySeries observed_energies(const TrajectoryReader& reader);
 

@@ -1,4 +1,4 @@
-#include "workflow/analyze/structure_tables.h"
+#include "analysis/observables/frame_observable.h"
 
 #include <gtest/gtest.h>
 
@@ -9,6 +9,8 @@
 #include <numbers>
 
 #include "analysis/statistics/blocking.h"
+#include "analysis/structure/pair_correlation.h"
+#include "analysis/structure/structure_factor.h"
 #include "analysis/structure/order.h"
 #include "core/random/stream.h"
 #include "tests/support/scenes.h"
@@ -59,7 +61,7 @@ bool same_bits(const std::vector<double>& x, const std::vector<double>& y) {
 
 // 100 frames, one in three of them measured, 32 at a time.
 TEST(StructureTables, TellHowFarTheyAre) {
-  MemoryTrajectory trajectory(gases(100, false));
+  MemoryTrajectory2 trajectory(gases(100, false));
   StructureOptions options;
   options.max_frames = 40;
   std::vector<double> frames;
@@ -72,7 +74,7 @@ TEST(StructureTables, TellHowFarTheyAre) {
 }
 
 TEST(StructureTables, HaveTheColumnsThatReadersRelyOn) {
-  MemoryTrajectory trajectory(gases(40, false));
+  MemoryTrajectory2 trajectory(gases(40, false));
   const std::vector<Table> tables = structure_tables(trajectory, {}, 1);
   ASSERT_EQ(tables.size(), 4u);
   EXPECT_EQ(column_names(named(tables, "structure_factor")),
@@ -100,7 +102,7 @@ TEST(StructureTables, OfDisksAreWithoutOrientations) {
     frame.species.assign(60, 0);
     frame.shape.assign(60, {1, 1});
   }
-  MemoryTrajectory trajectory(frames);
+  MemoryTrajectory2 trajectory(frames);
   const std::vector<Table> tables = structure_tables(trajectory, {}, 2);
   ASSERT_EQ(tables.size(), 3u);
   EXPECT_EQ(column_names(named(tables, "structure_factor")),
@@ -110,7 +112,7 @@ TEST(StructureTables, OfDisksAreWithoutOrientations) {
 }
 
 TEST(StructureTables, DoNotDependOnThreads) {
-  MemoryTrajectory trajectory(gases(41, true));
+  MemoryTrajectory2 trajectory(gases(41, true));
   const std::vector<Table> one = structure_tables(trajectory, {}, 1);
   for (const int threads : {2, 7}) {
     const std::vector<Table> many = structure_tables(trajectory, {}, threads);
@@ -142,7 +144,7 @@ TEST(StructureTables, AverageEveryThirdFrame) {
     pairs += pair.rotor_pairs[100];
     orders.push_back(nematic_order(frames[k]));
   }
-  MemoryTrajectory trajectory(frames);
+  MemoryTrajectory2 trajectory(frames);
   const std::vector<Table> tables = structure_tables(trajectory, options, 2);
   const Table& structure = named(tables, "structure_factor");
   const std::vector<double>& listed = structure.find("q")->value;
@@ -162,7 +164,7 @@ TEST(StructureTables, AverageEveryThirdFrame) {
 // An ideal gas in a box of two sizes in turn: S = g = 1 in both, also in shells that only one of the boxes
 // has wave vectors in. χ² with the tables' own errors; five standard deviations, of 60 rows or more.
 TEST(StructureTables, OfAChangingBoxAreAveragesOverItsFrames) {
-  MemoryTrajectory trajectory(gases(400, true));
+  MemoryTrajectory2 trajectory(gases(400, true));
   const std::vector<Table> tables = structure_tables(trajectory, {}, 2);
   for (const auto& [table, column] :
        {std::pair{"structure_factor", "s"}, std::pair{"structure_factor", "s_orientation"},

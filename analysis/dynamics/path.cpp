@@ -1,0 +1,96 @@
+#include "analysis/dynamics/path.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "analysis/structure/orientation_tensor.h"
+
+namespace vitrel {
+
+namespace {
+
+/// The vector α e of the rotation, 0 ≤ α ≤ π.
+Vec3 rotation_vector(Quaternion turn) {
+  if (turn.w() < 0) turn.coeffs() *= -1;
+  const double sine = turn.vec().norm();
+  if (sine == 0) return Vec3::Zero();
+  return 2 * std::atan2(sine, turn.w()) / sine * turn.vec();
+}
+
+Quaternion orientation_at(const Track<3>& track, std::size_t k) {
+  const auto& q = track.orientation;
+  return {q[0][k], q[1][k], q[2][k], q[3][k]};
+}
+
+bool is_scalene(const Ellipsoid& shape) {
+  return !shape.is_round() && shape.symmetry_axis() == Ellipsoid::none;
+}
+
+/// In the frame of the body: the figure axis, or all three from the longest to the shortest.
+std::vector<Vec3> body_axes(const Ellipsoid& shape, std::size_t count) {
+  if (count == 1) return {figure_axis(shape, Quaternion::Identity())};
+  std::array<int, 3> order{};
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, std::greater<>{}, [&](int k) { return shape.semi_axes[k]; });
+  std::vector<Vec3> axes;
+  for (const int k : order) axes.push_back(Vec3::Unit(k));
+  return axes;
+}
+
+void follow(Path<2>& path, const Ellipse&, std::size_t) {
+  const FrameSeries& angle = path.track->orientation[0];
+  path.turn[0] = angle;
+  DirectionSeries<2>& axis = path.directions.emplace_back();
+  for (const double theta : angle) {
+    axis[0].push_back(std::cos(theta));
+    axis[1].push_back(std::sin(theta));
+  }
+}
+
+void follow(Path<3>& path, const Ellipsoid& shape, std::size_t axes) {
+  const std::vector<Vec3> in_body = body_axes(shape, axes);
+  path.directions.resize(in_body.size());
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t k = 0; k < path.track->orientation[0].size(); ++k) {
+    const Quaternion orientation = orientation_at(*path.track, k);
+    if (k > 0) {
+      const Vec3 turn =
+          rotation_vector(orientation * orientation_at(*path.track, k - 1).conjugate());
+      path.largest_turn = std::max(path.largest_turn, turn.norm());
+      sum += turn;
+    }
+    for (std::size_t d = 0; d < 3; ++d) path.turn[d].push_back(sum[static_cast<int>(d)]);
+    for (std::size_t a = 0; a < in_body.size(); ++a) {
+      const Vec3 axis = orientation * in_body[a];
+      for (std::size_t d = 0; d < 3; ++d)
+        path.directions[a][d].push_back(axis[static_cast<int>(d)]);
+    }
+  }
+}
+
+}  // namespace
+
+template <>
+std::size_t axis_count(const Configuration2&) {
+  return 1;
+}
+
+template <>
+std::size_t axis_count(const Configuration3& configuration) {
+  const bool has_spheroids = std::ranges::any_of(configuration.shape, [](const Ellipsoid& shape) {
+    return !shape.is_round() && !is_scalene(shape);
+  });
+  return !has_spheroids && std::ranges::any_of(configuration.shape, is_scalene) ? 3 : 1;
+}
+
+template <int Dim>
+Path<Dim>::Path(const Track<Dim>& its_track, const Solid<Dim>& shape, std::size_t axes)
+    : track(&its_track) {
+  if (!shape.is_round()) follow(*this, shape, axes);
+}
+
+template struct Path<2>;
+template struct Path<3>;
+
+}  // namespace vitrel

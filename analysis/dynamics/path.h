@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "analysis/dynamics/tracks.h"
+
+/// @file
+/// What is correlated of the path of a particle.
+namespace vitrel {
+
+/// A unit vector at every frame.
+template <int Dim>
+using DirectionSeries = std::array<FrameSeries, Dim>;
+
+/// The axes of a body that are followed: of an ellipse the long one; in space the figure axis
+/// (orientation_tensor.h), and of bodies with three different axes also the middle and the short one.
+template <int Dim>
+std::size_t axis_count(const Configuration<Dim>& configuration);
+
+/// The path of a particle and, of one that is not round, its turns and axes.
+///
+/// In space the rotation vector is the sum of the rotations from frame to frame,
+///
+///     φ(t_k) = Σ_{l ≤ k} α_l e_l,   q_l q_{l−1}⁻¹ = (cos α_l/2, e_l sin α_l/2),   0 ≤ α_l ≤ π:
+///
+/// unbounded, as the angle is in the plane, and exact for a body that turns about a fixed axis by less
+/// than half a turn between two frames.
+template <int Dim>
+struct Path {
+  static constexpr std::size_t rotations = Dim == 2 ? 1 : 3;
+
+  /// `axes` as given by axis_count; `its_track` must outlive the path.
+  Path(const Track<Dim>& its_track, const Solid<Dim>& shape, std::size_t axes);
+
+  bool is_rotor() const { return !directions.empty(); }
+
+  const Track<Dim>* track;
+  std::array<FrameSeries, rotations> turn;       ///< the angle, or the rotation vector
+  std::vector<DirectionSeries<Dim>> directions;  ///< of the axes
+  double largest_turn = 0;                       ///< between two frames; in space
+};
+
+/// Whether turns between frames can be told from longer ones the other way: the largest one seen is
+/// well below half a turn.
+inline bool turns_are_known(double largest_turn) {
+  return largest_turn < 0.75 * 3.14159265358979324;
+}
+
+}  // namespace vitrel

@@ -1,0 +1,107 @@
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <numbers>
+
+#include "analysis/observables/frame_observable.h"
+#include "analysis/structure/order.h"
+#include "analysis/structure/orientation_tensor.h"
+
+namespace vitrel {
+
+namespace {
+
+/// Of the angles from the director: about 2° each, one of them in the middle around it.
+constexpr std::size_t angle_bins = 91;
+
+/// In the plane: the density of the angles from the director.
+class AngleDistribution final : public FrameObservable<2> {
+ public:
+  explicit AngleDistribution(const Configuration2& first) : rotors_(rotor_count(first)) {}
+
+  std::function<void()> measure(const Configuration2& frame) override {
+    return [this, density = orientation_distribution(frame, angle_bins)] {
+      ++frames_;
+      density_.add(density);
+    };
+  }
+
+  std::vector<Table> tables(bool is_even) const override {
+    std::vector<double> angle;
+    const double width = std::numbers::pi / static_cast<double>(angle_bins);
+    for (std::size_t k = 0; k < angle_bins; ++k)
+      angle.push_back((static_cast<double>(k) + 0.5) * width - std::numbers::pi / 2);
+    return {{"orientation_distribution",
+             fmt::format("Density of the angles from the director of each frame, averaged over {} "
+                         "frames; without order it is (1 + 2 S cos(2 angle))/pi, with the S of a "
+                         "finite system, about sqrt(pi/(4 R)) = {:.3g}.",
+                         frames_, nematic_order_by_chance(rotors_)),
+             {{"angle", "rad", std::move(angle), {}},
+              averaged("density", "1/rad", density_, is_even)}}};
+  }
+
+ private:
+  std::size_t rotors_, frames_ = 0;
+  FrameAverage density_;
+};
+
+/// In space: the orientation tensor.
+class TensorAverage final : public FrameObservable<3> {
+ public:
+  std::function<void()> measure(const Configuration3& frame) override {
+    return [this, tensor = orientation_tensor(frame)] {
+      ++frames_;
+      axes_ = tensor.axes;
+      // Rows x, y, z, of columns x, y, z.
+      tensor_.add(std::span(tensor.matrix.data(), 9));
+    };
+  }
+
+  std::vector<Table> tables(bool is_even) const override {
+    const Averages averages = tensor_.averages(is_even);
+    const Mat3 mean(averages.mean.data());
+    const Eigen::SelfAdjointEigenSolver<Mat3> solver(mean);
+    const Vec3& values = solver.eigenvalues();
+    const Mat3& vectors = solver.eigenvectors();
+    Table table{
+        "orientation_tensor",
+        fmt::format("T = <w w^T> of the axes w of the {} bodies that are not round: of symmetry, "
+                    "of scalene bodies the longest; averaged over {} frames. t_x, t_y, t_z: a row "
+                    "of T per line; beside it an eigenvalue, ascending, and its eigenvector.",
+                    axes_, frames_),
+        {}};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto rows = [k](const std::vector<double>& matrix) {
+        return std::vector(matrix.begin() + 3 * static_cast<std::ptrdiff_t>(k),
+                           matrix.begin() + 3 * static_cast<std::ptrdiff_t>(k) + 3);
+      };
+      table.columns.push_back(
+          {fmt::format("t_{}", "xyz"[k]), "1", rows(averages.mean), rows(averages.error)});
+    }
+    table.columns.push_back({"eigenvalue", "1", {values[0], values[1], values[2]}, {}});
+    for (int k = 0; k < 3; ++k)
+      table.columns.push_back({fmt::format("eigenvector_{}", "xyz"[k]),
+                               "1",
+                               {vectors(k, 0), vectors(k, 1), vectors(k, 2)},
+                               {}});
+    return {table};
+  }
+
+ private:
+  std::size_t axes_ = 0, frames_ = 0;
+  FrameAverage tensor_;
+};
+
+}  // namespace
+
+template <>
+std::unique_ptr<FrameObservable<2>> orientation_observable(const Configuration2& first) {
+  return std::make_unique<AngleDistribution>(first);
+}
+
+template <>
+std::unique_ptr<FrameObservable<3>> orientation_observable(const Configuration3&) {
+  return std::make_unique<TensorAverage>();
+}
+
+}  // namespace vitrel

@@ -1,0 +1,64 @@
+#include <fmt/format.h>
+
+#include "analysis/observables/frame_observable.h"
+#include "analysis/structure/pair_correlation.h"
+
+namespace vitrel {
+
+namespace {
+
+template <int Dim>
+class PairCorrelationObservable final : public FrameObservable<Dim> {
+ public:
+  PairCorrelationObservable(std::size_t rotors, const PairCorrelationOptions& options)
+      : has_rotor_pairs_(rotors > 1), options_(options) {}
+
+  std::function<void()> measure(const Configuration<Dim>& frame) override {
+    return [this, pairs = pair_correlation(frame, options_)] { add(pairs); };
+  }
+
+  std::vector<Table> tables(bool is_even) const override {
+    Table table{"pair_correlation",
+                fmt::format("Pair correlations by the distance r of the centres, in bins of width "
+                            "{:g} around r, averaged over {} frames: g is 1 in an ideal gas; g_n = "
+                            "{} over the pairs of particles that are not round.",
+                            options_.distance_step, frames_,
+                            Dim == 2 ? "<cos n(theta_i - theta_j)>" : "<P_n(u_i.u_j)>"),
+                {{"r", "length", distance_, {}}, averaged("g", "1", g_, is_even)}};
+    if (has_rotor_pairs_) {
+      table.columns.push_back(averaged("g_2", "1", g_2_, is_even));
+      table.columns.push_back(averaged("g_4", "1", g_4_, is_even));
+    }
+    return {table};
+  }
+
+ private:
+  void add(const PairCorrelation& pairs) {
+    ++frames_;
+    if (pairs.distance.size() > distance_.size()) distance_ = pairs.distance;
+    g_.add(pairs.g);
+    g_2_.add(pairs.g_2, pairs.rotor_pairs);
+    g_4_.add(pairs.g_4, pairs.rotor_pairs);
+  }
+
+  bool has_rotor_pairs_;
+  PairCorrelationOptions options_;
+  std::size_t frames_ = 0;
+  std::vector<double> distance_;
+  FrameAverage g_, g_2_, g_4_;
+};
+
+}  // namespace
+
+template <int Dim>
+std::unique_ptr<FrameObservable<Dim>> pair_correlation_observable(
+    const Configuration<Dim>& first, const PairCorrelationOptions& options) {
+  return std::make_unique<PairCorrelationObservable<Dim>>(rotor_count(first), options);
+}
+
+template std::unique_ptr<FrameObservable<2>> pair_correlation_observable(
+    const Configuration2&, const PairCorrelationOptions&);
+template std::unique_ptr<FrameObservable<3>> pair_correlation_observable(
+    const Configuration3&, const PairCorrelationOptions&);
+
+}  // namespace vitrel
