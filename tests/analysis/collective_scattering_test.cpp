@@ -87,8 +87,8 @@ TEST(CollectiveScattering, ErrorBarsCoverTheIdealGas) {
     const PeriodicBox<2> box = trajectory.read(0).box;
     for (std::size_t s = 0; s < 2; ++s)
       for (std::size_t l = 0; l < 5; ++l) {
-        const double truth = ideal_scattering(wave_vector_shell(box, wave_numbers[s]), box,
-                                              brownian_step * lags[l]);
+        const double truth =
+            ideal_scattering(wave_vector_shell(box, wave_numbers[s]), box, brownian_step * lags[l]);
         const double away = std::abs(found.scattering[s].value[lags[l]] - truth);
         one[s][l] += away < found.scattering[s].error[lags[l]];
         two[s][l] += away < 2 * found.scattering[s].error[lags[l]];

@@ -9,9 +9,9 @@
 #include <numbers>
 
 #include "analysis/statistics/blocking.h"
+#include "analysis/structure/order.h"
 #include "analysis/structure/pair_correlation.h"
 #include "analysis/structure/structure_factor.h"
-#include "analysis/structure/order.h"
 #include "core/random/stream.h"
 #include "tests/support/scenes.h"
 

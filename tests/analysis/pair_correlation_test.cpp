@@ -146,7 +146,8 @@ TEST(PairCorrelation, IsThatOfALoopOverAllPairsInThreeDimensions) {
           if (bin >= bins) continue;
           ++pairs[bin];
           if (i % 3 == 0 || j % 3 == 0) continue;
-          const double cosine = (c.orientation[i] * Vec3::UnitZ()).dot(c.orientation[j] * Vec3::UnitZ());
+          const double cosine =
+              (c.orientation[i] * Vec3::UnitZ()).dot(c.orientation[j] * Vec3::UnitZ());
           ++rotor_pairs[bin];
           p_2[bin] += std::legendre(2, cosine);
           p_4[bin] += std::legendre(4, cosine);

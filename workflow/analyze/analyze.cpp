@@ -246,7 +246,7 @@ std::vector<Column> summary_columns(const RunAnalysis& run) {
 
 void add_tables(const EnergySeries& energy, const CompressibilitySeries& compressibility,
                 std::vector<Table>& tables) {
-  if (!energy.time.empty()) tables.push_back(energy_table(energy));
+  if (energy.time.size() > 1) tables.push_back(energy_table(energy));
   if (!compressibility.value.empty()) tables.push_back(compressibility_table(compressibility));
 }
 
