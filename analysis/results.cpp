@@ -23,9 +23,8 @@ std::string csv_header(const Table& table) {
   std::string line;
   for (const Column& column : table.columns) {
     if (!line.empty()) line += ',';
-    line += fmt::format("{} [{}]", column.name, column.unit);
-    if (!column.error.empty())
-      line += fmt::format(",{}{} [{}]", column.name, error_suffix, column.unit);
+    line += column.name;
+    if (!column.error.empty()) line.append(",").append(column.name).append(error_suffix);
   }
   return line;
 }
@@ -35,11 +34,24 @@ std::string number(double value) {
   return std::isnan(value) ? "nan" : fmt::format("{:.17g}", value);
 }
 
+/// Quoted if need be.
+std::string csv_text(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
+  return quoted + '"';
+}
+
+std::string csv_cell(const Column& column, double value) {
+  const bool is_code = value >= 0 && value < static_cast<double>(column.labels.size());
+  return is_code ? csv_text(column.labels[static_cast<std::size_t>(value)]) : number(value);
+}
+
 std::string csv_row(const Table& table, std::size_t row) {
   std::string line;
   for (const Column& column : table.columns) {
     if (!line.empty()) line += ',';
-    line += number(column.value.at(row));
+    line += csv_cell(column, column.value.at(row));
     if (!column.error.empty()) line.append(",").append(number(column.error.at(row)));
   }
   return line;
@@ -49,10 +61,10 @@ std::string joined(const std::vector<std::string>& names) {
   return fmt::format("{}", fmt::join(names, ","));
 }
 
-std::vector<std::string> split(const std::string& names) {
+std::vector<std::string> split(const std::string& names, char separator = ',') {
   std::vector<std::string> parts;
   for (std::size_t begin = 0; begin < names.size();) {
-    const std::size_t end = std::min(names.find(',', begin), names.size());
+    const std::size_t end = std::min(names.find(separator, begin), names.size());
     parts.push_back(names.substr(begin, end - begin));
     begin = end + 1;
   }
@@ -72,6 +84,9 @@ void write_table(h5::Group& root, const Table& table) {
   for (const Column& column : table.columns) {
     names.push_back(column.name);
     write_numbers(group, column.name, column.unit, column.value);
+    if (!column.labels.empty())
+      group.dataset(column.name)
+          .set_attribute("labels", fmt::format("{}", fmt::join(column.labels, "\n")));
     if (!column.error.empty())
       write_numbers(group, column.name + error_suffix, column.unit, column.error);
   }
@@ -92,6 +107,8 @@ Table read_table(const h5::Group& root, const std::string& name) {
   for (const std::string& column : split(group.text_attribute("columns"))) {
     const h5::Dataset values = group.dataset(column);
     table.columns.push_back({column, values.text_attribute("unit"), values.read<double>(), {}});
+    if (values.has_attribute("labels"))
+      table.columns.back().labels = split(values.text_attribute("labels"), '\n');
     if (group.has_dataset(column + error_suffix))
       table.columns.back().error = group.dataset(column + error_suffix).read<double>();
   }
@@ -106,6 +123,16 @@ void write_provenance(h5::Group& root, const Results& results) {
     group.create_text(name, text);
   }
   group.set_attribute("entries", joined(names));
+}
+
+void write_text(const std::filesystem::path& path, const std::string& text) {
+  AtomicFile pending(path);
+  std::ofstream out(pending.partial(), std::ios::binary);
+  out << text;
+  out.close();
+  if (!out)
+    throw FileError(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(errno)));
+  pending.commit();
 }
 
 /// The names of today for those of files that earlier versions wrote.
@@ -146,14 +173,24 @@ std::string identifier(const std::string& name) {
 }
 
 void write_csv(const std::filesystem::path& path, const Table& table) {
-  AtomicFile pending(path);
-  std::ofstream out(pending.partial(), std::ios::binary);
-  out << csv_header(table) << '\n';
-  for (std::size_t row = 0; row < table.rows(); ++row) out << csv_row(table, row) << '\n';
-  out.close();
-  if (!out)
-    throw FileError(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(errno)));
-  pending.commit();
+  std::string text = csv_header(table) + '\n';
+  for (std::size_t row = 0; row < table.rows(); ++row) text += csv_row(table, row) + '\n';
+  write_text(path, text);
+}
+
+void write_csv_folder(const std::filesystem::path& folder, const Results& results) {
+  std::error_code failure;
+  std::filesystem::create_directories(folder, failure);
+  if (failure)
+    throw FileError(fmt::format("{}: cannot be made: {}", folder.string(), failure.message()));
+  std::string columns = "table,column,unit,description\n";
+  for (const Table& table : results.tables) {
+    write_csv(folder / (table.name + ".csv"), table);
+    for (const Column& column : table.columns)
+      columns += fmt::format("{},{},{},{}\n", table.name, column.name, csv_text(column.unit),
+                             csv_text(table.description));
+  }
+  write_text(folder / csv_columns, columns);
 }
 
 void write_results(const std::filesystem::path& path, const Results& results) {

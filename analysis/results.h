@@ -15,6 +15,8 @@ struct Column {
   std::string unit;  ///< "1" for pure numbers
   std::vector<double> value;
   std::vector<double> error;  ///< standard errors, NaN where unknown; empty: the column has none
+  /// What the values 0, 1, 2 … stand for, if they are codes; else empty.
+  std::vector<std::string> labels = {};
 };
 
 struct Table {
@@ -42,15 +44,21 @@ struct Results {
 /// letters and digits become underscores.
 std::string identifier(const std::string& name);
 
-/// CSV: one line per row with 17 significant digits (`nan` for an unknown number), after one header
-/// line of `name [unit]`; the column after one with errors is `name_error [unit]`. Written to a
+/// CSV: one line per row with 17 significant digits (`nan` for an unknown number, a label instead of a
+/// code), after one header line of names; the column after one with errors is `name_error`. Written to a
 /// temporary file beside `path` and renamed, so that readers never see half a table. Throws
 /// FileError.
 void write_csv(const std::filesystem::path& path, const Table& table);
 
+/// All tables as `<table>.csv` in a folder, which is made if it is not there, and beside them `columns.csv`: table,
+/// column, unit and description, a line for every column. Throws FileError.
+void write_csv_folder(const std::filesystem::path& folder, const Results& results);
+/// The name of the file of units.
+inline constexpr const char* csv_columns = "columns.csv";
+
 /// HDF5: a group per table with attribute `description`; in it an f64 dataset per column, with the
-/// attribute `unit`, and `<name>_error` beside it; the texts of the provenance in a group of
-/// that name. The order is kept in the attributes `tables`, `columns` and `entries`. Atomic like
+/// attributes `unit` and, of codes, `labels`, one a line, and `<name>_error` beside it; the texts of the
+/// provenance in a group of that name. The order is kept in the attributes `tables`, `columns` and `entries`. Atomic like
 /// write_csv. Throws FileError.
 void write_results(const std::filesystem::path& path, const Results& results);
 

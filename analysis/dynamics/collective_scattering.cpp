@@ -28,8 +28,10 @@ Vec<Dim> reciprocal(const PeriodicBox<Dim>& box) {
 
 template <int Dim>
 double length_of(const std::array<int, Dim>& n, const Vec<Dim>& unit) {
-  if constexpr (Dim == 2) return std::hypot(n[0] * unit[0], n[1] * unit[1]);
-  else return std::hypot(n[0] * unit[0], n[1] * unit[1], n[2] * unit[2]);
+  if constexpr (Dim == 2)
+    return std::hypot(n[0] * unit[0], n[1] * unit[1]);
+  else
+    return std::hypot(n[0] * unit[0], n[1] * unit[1], n[2] * unit[2]);
 }
 
 /// exp(i n φ) of a block of particles for n = 0 … order; real and imaginary parts apart.
@@ -199,7 +201,8 @@ void for_each_half(const std::array<int, Dim>& max, Visit&& visit) {
       if (positive) visit(n);
       return;
     }
-    for (n[d] = positive ? -max[d] : 0; n[d] <= max[d]; ++n[d]) self(self, d + 1, positive || n[d] > 0);
+    for (n[d] = positive ? -max[d] : 0; n[d] <= max[d]; ++n[d])
+      self(self, d + 1, positive || n[d] > 0);
   };
   choose(choose, 0, false);
 }

@@ -26,8 +26,8 @@ template <int Dim>
 WaveVectorShell<Dim> wave_vector_shell(const PeriodicBox<Dim>& box, double wave_number);
 
 struct CollectiveScattering {
-  std::vector<double> lag;           ///< time differences t, from 0
-  std::vector<std::size_t> origins;  ///< time origins averaged over, for every lag
+  std::vector<double> lag;              ///< time differences t, from 0
+  std::vector<std::size_t> origins;     ///< time origins averaged over, for every lag
   std::vector<double> wave_numbers;     ///< mean |q| of every shell
   std::vector<std::size_t> modes;       ///< wave vectors of every shell
   std::vector<Correlation> scattering;  ///< F(q, t), one for every shell

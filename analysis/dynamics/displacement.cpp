@@ -146,8 +146,7 @@ DisplacementGroup evaluate(const Members<Dim>& members, const std::vector<Lag>& 
   group.particles = members.particles;
   group.rotors = members.rotors;
   group.self_scattering.resize(quantities.wave_numbers.size());
-  if (group.rotors > 0) 
-    group.orientation.resize(quantities.axes * quantities.orders.size());
+  if (group.rotors > 0) group.orientation.resize(quantities.axes * quantities.orders.size());
   for (std::size_t l = 0; l < lags.size(); ++l) {
     const LagSums<Dim>& sums = members.sums[l];
     const std::size_t n = group.particles;

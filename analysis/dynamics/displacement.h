@@ -21,8 +21,8 @@ struct DisplacementGroup {
   std::size_t particles = 0;
   /// Particles that are not round; the rotation of round ones is not modelled.
   std::size_t rotors = 0;
-  Correlation translation;   ///< ⟨|Δr|²⟩, the mean squared displacement (MSD)
-  Correlation quartic;       ///< ⟨|Δr|⁴⟩
+  Correlation translation;  ///< ⟨|Δr|²⟩, the mean squared displacement (MSD)
+  Correlation quartic;      ///< ⟨|Δr|⁴⟩
   Correlation non_gaussian;  ///< α₂ = d ⟨|Δr|⁴⟩/((d + 2)⟨|Δr|²⟩²) − 1 in d dimensions
   /// F_s(q, t), the average of exp(iq·Δr) over all directions of q, for every wave number: ⟨J₀(q |Δr|)⟩
   /// in the plane (but for 1e-10, bessel_j0.h), ⟨sin(q |Δr|)/(q |Δr|)⟩ in space.
@@ -31,9 +31,10 @@ struct DisplacementGroup {
   Correlation parallel;       ///< ⟨(Δr·u)²⟩, u along the axis (path.h) at the origin of time
   Correlation perpendicular;  ///< ⟨|Δr|² − (Δr·u)²⟩
   // Of turns; empty where these are not known (Displacements::unknown_turns).
-  Correlation rotation;              ///< ⟨|Δφ|²⟩, the mean squared rotation (MSR)
-  Correlation quartic_rotation;      ///< ⟨|Δφ|⁴⟩
-  Correlation non_gaussian_rotation; ///< like α₂, with one dimension in the plane and three in space
+  Correlation rotation;          ///< ⟨|Δφ|²⟩, the mean squared rotation (MSR)
+  Correlation quartic_rotation;  ///< ⟨|Δφ|⁴⟩
+  Correlation
+      non_gaussian_rotation;  ///< like α₂, with one dimension in the plane and three in space
   /// L_n(t) for every order n of the first axis, of the second …: ⟨cos nΔθ⟩ in the plane, Legendre's
   /// ⟨P_n(u(0)·u(t))⟩ in space.
   std::vector<Correlation> orientation;

@@ -25,7 +25,7 @@ template EnergySeries energies(Trajectory2&);
 template EnergySeries energies(Trajectory3&);
 
 Estimate time_average(const std::vector<double>& time, const std::vector<double>& series) {
-  Estimate estimate = block_average(series);
+  Estimate estimate = slow_average(series);
   if (!evenly_spaced(time)) estimate = {estimate.mean, std::numeric_limits<double>::quiet_NaN(), 0};
   return estimate;
 }

@@ -37,9 +37,9 @@ class Polynomials {
   const Chunk& of(double n) {
     for (; order_ < n; order_ += 1)
       for (std::size_t k = 0; k < count_; ++k) {
-        const double next = Dim == 2 ? 2 * x_[k] * now_[k] - before_[k]
-                                     : ((2 * order_ + 1) * x_[k] * now_[k] - order_ * before_[k]) /
-                                           (order_ + 1);
+        const double next =
+            Dim == 2 ? 2 * x_[k] * now_[k] - before_[k]
+                     : ((2 * order_ + 1) * x_[k] * now_[k] - order_ * before_[k]) / (order_ + 1);
         before_[k] = now_[k];
         now_[k] = next;
       }
@@ -95,9 +95,9 @@ LagSums<Dim>::LagSums(const Lag& lag, const TrackQuantities<Dim>& quantities, bo
       scattering_(quantities.wave_numbers.size(), CorrelationSum(lag.origins)) {
   const CorrelationSum empty(lag.origins);
   if (rotors)
-    rotation_ = Rotation{
-        empty, empty, MomentSum(lag.origins),
-        std::vector<CorrelationSum>(quantities.axes * quantities.orders.size(), empty)};
+    rotation_ =
+        Rotation{empty, empty, MomentSum(lag.origins),
+                 std::vector<CorrelationSum>(quantities.axes * quantities.orders.size(), empty)};
 }
 
 template <int Dim>
@@ -127,8 +127,8 @@ void LagSums<Dim>::add_translation(const Path<Dim>& path, const Part& part) {
   part.at_origins(distances, [&](std::size_t k) { return std::sqrt(squares[k]); });
   for (std::size_t j = 0; j < scattering_.size(); ++j) {
     const double q = quantities_->wave_numbers[j];
-    part.at_origins(values,
-                    [&](std::size_t k) { return quantities_->direction_average(q * distances[k]); });
+    part.at_origins(
+        values, [&](std::size_t k) { return quantities_->direction_average(q * distances[k]); });
     scattering_[j].add(part.first, part.of(values));
   }
 }

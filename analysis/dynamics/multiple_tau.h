@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "analysis/dynamics/bessel_j0.h"
+#include "analysis/dynamics/path.h"
 #include "analysis/results.h"
 #include "analysis/statistics/blocking.h"
 #include "core/state/observer.h"
@@ -32,9 +34,12 @@ struct CorrelatedGroup {
 /// sample to the whole run, in a memory that grows with the logarithm of its length only:
 ///
 ///     msd   ⟨|r(t) − r(0)|²⟩, of unwrapped positions (length²)
-///     msr   ⟨(θ(t) − θ(0))²⟩, of unwrapped angles (rad²), over rotors
-///     fs_k  F_s(q_k, t) = ⟨J_0(q_k |r(t) − r(0)|)⟩, the average of exp(i q·Δr) over all directions of q
-///     l_n   L_n(t) = ⟨cos n(θ(t) − θ(0))⟩, n = 2 and 4, over rotors
+///     fs_k  F_s(q_k, t), the average of exp(i q·Δr) over all directions of q
+///     msr   ⟨|φ(t) − φ(0)|²⟩, of unwrapped angles or rotation vectors (path.h; rad²), over rotors
+///     l_n   in the plane ⟨cos n(θ(t) − θ(0))⟩, n = 2 and 4, over rotors
+///     p_n   in space Legendre's ⟨P_n(u(0)·u(t))⟩ of the figure axis, n = 1 and 2, over rotors
+///
+/// In space msr is left out if a rotor has turned by about half a turn between two samples (turns_are_known).
 ///
 /// Steps (multiple tau with p = `points` places per level and levels a factor m = 2 apart):
 /// 1. Level l keeps the last p of the samples 0, 2^l, 2 · 2^l … Every new one is paired with the older
@@ -54,23 +59,24 @@ struct CorrelatedGroup {
 /// that diffusion over t gives 2 d D (t − w/3), 8 % too little at the shortest lags of every level, and
 /// averaged angles do not determine ⟨cos nΔθ⟩ at all. Thinned samples keep every pair exact.
 ///
-/// Memory, with L = log_2(longest lag/interval) − 1 levels: 5 p L N numbers for the samples, that is
-/// 320 N L bytes (N = 500, L = 16: 2.6 MB), and about 2 p L log_2(samples) of them for every
-/// correlation and group. A checkpoint holds 3/5 of the former. A sample costs 11 pairs of samples on
+/// Memory, with L = log_2(longest lag/interval) − 1 levels: 5 p L N numbers for the samples (9 in space),
+/// that is 320 N L bytes (N = 500, L = 16: 2.6 MB), and about 2 p L log_2(samples) of them for every
+/// correlation and group. A checkpoint holds 3/5 of the former (all in space). A sample costs 11 pairs of samples on
 /// the average, 11 N evaluations of every correlation.
 /// Measured with one wave number: about 100 µs for a sample of N = 500, so that a Brownian run of κ = 6
 /// correlated at every step of τ_B = 0.1 takes 9 % longer at φ = 0.60, where a step takes 1.1 ms, and 3 %
 /// at 0.72 (2.1 ms).
 /// The results depend on nothing but the samples.
-class MultipleTau final : public Observer<2> {
+template <int Dim>
+class MultipleTau final : public Observer<Dim> {
  public:
   static constexpr std::size_t points = 8;
 
   /// `particles` gives species and shapes; they and their number may not change.
-  MultipleTau(const Configuration2& particles, MultipleTauOptions options);
+  MultipleTau(const Configuration<Dim>& particles, MultipleTauOptions options);
 
   /// The samples at 0, interval, 2 interval …
-  void observe(const Frame<2>& frame) override;
+  void observe(const Frame<Dim>& frame) override;
 
   const MultipleTauOptions& options() const { return options_; }
   std::uint64_t samples() const { return samples_; }
@@ -89,9 +95,15 @@ class MultipleTau final : public Observer<2> {
   static double sample_bytes(std::size_t particles, const MultipleTauOptions& options);
 
  private:
+  static constexpr std::size_t rotations = Path<Dim>::rotations;
+
   /// Of all particles, in the order of `order_`.
   struct Sample {
-    std::vector<double> x, y, angle, cosine, sine;
+    std::array<std::vector<double>, Dim> position;
+    std::array<std::vector<double>, rotations> turn;
+    std::array<std::vector<double>, Dim> axis;
+
+    explicit Sample(std::size_t particles = 0);
   };
   /// Neighbours in `order_`: the particles of one species, first its rotors.
   struct Range {
@@ -111,30 +123,45 @@ class MultipleTau final : public Observer<2> {
     std::vector<LagSums> lags;
   };
 
-  void make_groups(const Configuration2& particles);
+  void make_groups(const Configuration<Dim>& particles);
   void make_levels();
-  // msd and fs_k, then msr, l_2 and l_4.
+  // msd and fs_k, then msr and two of orientation.
   std::size_t translations() const { return 1 + options_.wave_numbers.size(); }
   std::size_t correlation_count() const { return translations() + 3; }
   /// How many samples a level has been shown, and how many of those it holds.
   std::uint64_t shown(std::size_t level) const;
   std::size_t held(std::size_t level) const;
 
-  void take(const Configuration2& configuration);
+  void take(const Configuration<Dim>& configuration);
+  void take_orientation(const Configuration<Dim>& configuration, std::size_t k);
+  void set_axis(Sample& sample, std::size_t k) const;
+  void restore_orientations(std::span<const double> numbers);
+  /// What of a sample a state holds.
+  template <class AnySample>
+  static auto stored(AnySample& sample) {
+    std::vector<decltype(sample.position.data())> series;
+    for (auto& values : sample.position) series.push_back(&values);
+    for (auto& values : sample.turn) series.push_back(&values);
+    if constexpr (Dim == 3)
+      for (auto& values : sample.axis) series.push_back(&values);
+    return series;
+  }
   void correlate(const Sample& from, const Sample& to, LagSums& lag);
   void sum_translation(const Sample& from, const Sample& to, const Range& range, double* sums);
   void sum_rotation(const Sample& from, const Sample& to, const Range& range, double* sums) const;
   CorrelatedGroup group_columns(std::size_t group) const;
 
   MultipleTauOptions options_;
-  BesselJ0 bessel_;
+  DirectionAverage<Dim> direction_average_;
   std::vector<std::size_t> order_;  ///< of the particles: by species, rotors first
   std::vector<Range> ranges_;
   std::vector<Group> groups_;
   std::vector<Level> levels_;
   std::uint64_t samples_ = 0;
   Sample now_;
-  std::vector<double> square_, sums_;  ///< working space
+  std::vector<Quaternion> orientation_;  ///< of the last sample, in space
+  double largest_turn_ = 0;              ///< between two samples, in space
+  std::vector<double> square_, sums_;    ///< working space
 };
 
 }  // namespace vitrel

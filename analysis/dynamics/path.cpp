@@ -10,14 +10,6 @@ namespace vitrel {
 
 namespace {
 
-/// The vector α e of the rotation, 0 ≤ α ≤ π.
-Vec3 rotation_vector(Quaternion turn) {
-  if (turn.w() < 0) turn.coeffs() *= -1;
-  const double sine = turn.vec().norm();
-  if (sine == 0) return Vec3::Zero();
-  return 2 * std::atan2(sine, turn.w()) / sine * turn.vec();
-}
-
 Quaternion orientation_at(const Track<3>& track, std::size_t k) {
   const auto& q = track.orientation;
   return {q[0][k], q[1][k], q[2][k], q[3][k]};
@@ -70,6 +62,13 @@ void follow(Path<3>& path, const Ellipsoid& shape, std::size_t axes) {
 }
 
 }  // namespace
+
+Vec3 rotation_vector(Quaternion turn) {
+  if (turn.w() < 0) turn.coeffs() *= -1;
+  const double sine = turn.vec().norm();
+  if (sine == 0) return Vec3::Zero();
+  return 2 * std::atan2(sine, turn.w()) / sine * turn.vec();
+}
 
 template <>
 std::size_t axis_count(const Configuration2&) {

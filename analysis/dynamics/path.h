@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <numbers>
 #include <vector>
 
 #include "analysis/dynamics/tracks.h"
@@ -17,6 +18,9 @@ using DirectionSeries = std::array<FrameSeries, Dim>;
 /// (orientation_tensor.h), and of bodies with three different axes also the middle and the short one.
 template <int Dim>
 std::size_t axis_count(const Configuration<Dim>& configuration);
+
+/// The vector α e of a rotation by α about e, 0 ≤ α ≤ π.
+Vec3 rotation_vector(Quaternion turn);
 
 /// The path of a particle and, of one that is not round, its turns and axes.
 ///
@@ -44,7 +48,7 @@ struct Path {
 /// Whether turns between frames can be told from longer ones the other way: the largest one seen is
 /// well below half a turn.
 inline bool turns_are_known(double largest_turn) {
-  return largest_turn < 0.75 * 3.14159265358979324;
+  return largest_turn < 0.75 * std::numbers::pi;
 }
 
 }  // namespace vitrel

@@ -14,6 +14,8 @@ inline constexpr std::array<std::string_view, 3> verdict_names = {"equilibrated"
                                                                   "not enough time"};
 inline constexpr std::array<std::string_view, 4> orientation_names = {
     "round", "relaxes", "nematic order", "does not relax"};
+inline constexpr std::array<std::string_view, 3> fit_verdict_names = {"found", "lower bound only",
+                                                                      "refused"};
 inline constexpr std::array<std::string_view, 2> law_names = {"power law", "Vogel–Fulcher"};
 inline constexpr std::array<std::string_view, 5> kind_names = {
     "translation, tau_alpha", "rotation, tau_2", "rotation in the nematic, tau_2", "diffusion, 1/D",

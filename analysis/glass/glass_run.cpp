@@ -55,8 +55,7 @@ void judge(GlassRun& run, const GlassRunData& data) {
 }  // namespace
 
 bool is_nematic(const GlassRunData& data) {
-  return data.rotors > 0 && 
-         is_nematic(mean_of(data.nematic_order), data.rotors, data.dimension);
+  return data.rotors > 0 && is_nematic(mean_of(data.nematic_order), data.rotors, data.dimension);
 }
 
 GlassRun judge_glass_run(const GlassRunData& data) {

@@ -32,6 +32,7 @@ FrameObservables<Dim> frame_observables(const Configuration<Dim>& first,
   observables.push_back(pair_correlation_observable(first, options.pairs));
   if (rotor_count(first) > 0) observables.push_back(orientation_observable(first));
   if (Dim == 2 || rotor_count(first) > 0) observables.push_back(order_observable(first));
+  if (mechanics(first).translational_energy > 0) observables.push_back(velocity_observable<Dim>());
   return observables;
 }
 

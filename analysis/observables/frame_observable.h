@@ -58,5 +58,8 @@ template <int Dim>
 std::unique_ptr<FrameObservable<Dim>> orientation_observable(const Configuration<Dim>& first);
 template <int Dim>
 std::unique_ptr<FrameObservable<Dim>> order_observable(const Configuration<Dim>& first);
+/// Of particles that move.
+template <int Dim>
+std::unique_ptr<FrameObservable<Dim>> velocity_observable();
 
 }  // namespace vitrel

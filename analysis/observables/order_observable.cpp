@@ -61,10 +61,11 @@ class SpaceOrder final : public FrameObservable<3> {
   std::vector<Table> tables(bool) const override {
     Table table{
         "order",
-        fmt::format("Order of single frames: nematic = (3 lambda - 1)/2 with the largest eigenvalue "
-                    "lambda of the orientation tensor, about {:.3g} for the {} axes without any "
-                    "order; director: its eigenvector, either of two opposite ones.",
-                    nematic_order_by_chance(rotors_, 3), rotors_),
+        fmt::format(
+            "Order of single frames: nematic = (3 lambda - 1)/2 with the largest eigenvalue "
+            "lambda of the orientation tensor, about {:.3g} for the {} axes without any "
+            "order; director: its eigenvector, either of two opposite ones.",
+            nematic_order_by_chance(rotors_, 3), rotors_),
         {{"time", "time", time_, {}}, {"nematic", "1", nematic_, {}}}};
     for (std::size_t k = 0; k < 3; ++k)
       table.columns.push_back({fmt::format("director_{}", "xyz"[k]), "1", director_[k], {}});

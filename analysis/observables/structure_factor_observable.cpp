@@ -28,7 +28,8 @@ class SharedShells {
  private:
   std::shared_ptr<const Shells> of(const Vec<Dim>& lengths) {
     const std::lock_guard lock(mutex_);
-    if (!shells_ || lengths != lengths_) shells_ = std::make_shared<const Shells>(lengths, options_);
+    if (!shells_ || lengths != lengths_)
+      shells_ = std::make_shared<const Shells>(lengths, options_);
     lengths_ = lengths;
     return shells_;
   }

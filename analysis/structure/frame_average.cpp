@@ -26,7 +26,7 @@ Estimate weighted_average(const std::vector<double>& value, const std::vector<do
   std::vector<double> deviation;
   for (std::size_t k = 0; k < value.size(); ++k)
     deviation.push_back(weight[k] * (value[k] - mean) * frames / weights);
-  Estimate estimate = block_average(deviation);
+  Estimate estimate = slow_average(deviation);
   estimate.mean = mean;
   return estimate;
 }

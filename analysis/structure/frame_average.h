@@ -21,7 +21,7 @@ class FrameAverage {
   void add(std::span<const double> row);
 
   /// ⟨w x⟩/⟨w⟩ for every place of the row, NaN where there is no weight. The error is that of a
-  /// ratio: by blocking (blocking.h) of the series w_k (x_k − mean)/⟨w⟩. It is NaN if the frames are
+  /// ratio: that of a slow series (slow_average in blocking.h), w_k (x_k − mean)/⟨w⟩. It is NaN if the frames are
   /// not evenly spaced in time, `even` then being false, or too few.
   Averages averages(bool even) const;
 

@@ -10,6 +10,7 @@
 #include "analysis/dynamics/displacement.h"
 #include "core/error.h"
 #include "core/random/stream.h"
+#include "tests/support/walking_solids.h"
 
 namespace vitrel {
 namespace {
@@ -60,15 +61,15 @@ std::vector<Configuration2> walk(Configuration2 c, std::size_t frames, std::uint
   return saved;
 }
 
-void show(MultipleTau& correlator, const std::vector<Configuration2>& frames, std::size_t begin,
+void show(MultipleTau<2>& correlator, const std::vector<Configuration2>& frames, std::size_t begin,
           std::size_t end) {
   for (std::size_t k = begin; k < end; ++k)
     correlator.observe({static_cast<std::int64_t>(k), frames[k], {}});
 }
 
-MultipleTau correlator_of(const std::vector<Configuration2>& frames) {
+MultipleTau<2> correlator_of(const std::vector<Configuration2>& frames) {
   const double duration = step * static_cast<double>(frames.size() - 1);
-  MultipleTau correlator(frames.front(), {step, 0.5 * duration, wave_numbers});
+  MultipleTau<2> correlator(frames.front(), {step, 0.5 * duration, wave_numbers});
   show(correlator, frames, 0, frames.size());
   return correlator;
 }
@@ -253,12 +254,12 @@ TEST(MultipleTau, FreeParticlesFollowTheClosedForms) {
 TEST(MultipleTau, StoppedAtAnySampleItContinuesBitByBit) {
   const std::vector<Configuration2> frames = walk(mixture(4), 300, 4);
   const MultipleTauOptions options{step, 0.5 * 299 * step, wave_numbers};
-  MultipleTau whole(frames.front(), options);
+  MultipleTau<2> whole(frames.front(), options);
   show(whole, frames, 0, frames.size());
   for (const std::size_t stop : {0u, 1u, 2u, 17u, 64u, 131u, 299u, 300u}) {
-    MultipleTau before(frames.front(), options);
+    MultipleTau<2> before(frames.front(), options);
     show(before, frames, 0, stop);
-    MultipleTau after(frames.front(), options);
+    MultipleTau<2> after(frames.front(), options);
     after.restore(before.state());
     EXPECT_EQ(after.samples(), stop);
     show(after, frames, stop, frames.size());
@@ -269,11 +270,69 @@ TEST(MultipleTau, StoppedAtAnySampleItContinuesBitByBit) {
   }
 }
 
+std::vector<Configuration3> spheroid_frames(std::size_t frames, double turn) {
+  MemoryTrajectory3 trajectory = walkers(6, frames, Vec3(2, 1, 1), turn, 9);
+  std::vector<Configuration3> all;
+  for (std::size_t k = 0; k < frames; ++k) all.push_back(trajectory.read(k));
+  return all;
+}
+
+void show(MultipleTau<3>& correlator, const std::vector<Configuration3>& frames, std::size_t begin,
+          std::size_t end) {
+  for (std::size_t k = begin; k < end; ++k)
+    correlator.observe({static_cast<std::int64_t>(k), frames[k], {}});
+}
+
+// As in the plane, on the level where all frames are origins.
+TEST(MultipleTau, InSpaceEqualsTheAnalysisOfTheSameFrames) {
+  std::vector<Configuration3> frames = spheroid_frames(600, 0.5);
+  MultipleTau<3> correlator(frames.front(), {0.5, 100, wave_numbers});
+  show(correlator, frames, 0, frames.size());
+  const CorrelatedGroup found = correlator.correlations().front();
+  MemoryTrajectory3 trajectory(std::move(frames));
+  const Displacements direct = displacements(trajectory, {.wave_numbers = wave_numbers});
+  const DisplacementGroup& all = direct.groups.front();
+  for (std::size_t k = 0; k < 7; ++k) {
+    const auto expect = [&](const char* name, const Correlation& right) {
+      EXPECT_NEAR(column(found, name).value[k], right.value[k], 1e-10) << name;
+      EXPECT_NEAR(column(found, name).error[k], right.error[k], 1e-10) << name;
+    };
+    expect("msd", all.translation);
+    expect("msr", all.rotation);
+    expect("fs_1", all.self_scattering[0]);
+    expect("p_1", all.orientation[0]);
+    expect("p_2", all.orientation[1]);
+  }
+}
+
+TEST(MultipleTau, InSpaceItContinuesBitIdenticalFromAnySample) {
+  const std::vector<Configuration3> frames = spheroid_frames(150, 0.5);
+  const MultipleTauOptions options{0.5, 30, wave_numbers};
+  MultipleTau<3> whole(frames.front(), options);
+  show(whole, frames, 0, frames.size());
+  for (const std::size_t stop : {0u, 1u, 17u, 64u, 150u}) {
+    MultipleTau<3> before(frames.front(), options), after(frames.front(), options);
+    show(before, frames, 0, stop);
+    after.restore(before.state());
+    show(after, frames, stop, frames.size());
+    EXPECT_EQ(after.state(), whole.state()) << stop;
+  }
+}
+
+TEST(MultipleTau, TurnsThatCannotBeToldApartAreLeftOut) {
+  const std::vector<Configuration3> frames = spheroid_frames(100, 3);
+  MultipleTau<3> correlator(frames.front(), {0.5, 10, {}});
+  show(correlator, frames, 0, frames.size());
+  const CorrelatedGroup found = correlator.correlations().front();
+  EXPECT_THROW(column(found, "msr"), std::out_of_range);
+  EXPECT_FALSE(column(found, "p_2").value.empty());
+}
+
 TEST(MultipleTau, RefusesTheStateOfAnother) {
-  const MultipleTau mine(ellipses(4), {step, 10, wave_numbers});
-  MultipleTau fewer_wave_numbers(ellipses(4), {step, 10, {1}});
+  const MultipleTau<2> mine(ellipses(4), {step, 10, wave_numbers});
+  MultipleTau<2> fewer_wave_numbers(ellipses(4), {step, 10, {1}});
   EXPECT_THROW(fewer_wave_numbers.restore(mine.state()), UserError);
-  MultipleTau other_interval(ellipses(4), {2 * step, 10, wave_numbers});
+  MultipleTau<2> other_interval(ellipses(4), {2 * step, 10, wave_numbers});
   EXPECT_THROW(other_interval.restore(mine.state()), UserError);
 }
 
@@ -282,13 +341,13 @@ TEST(MultipleTau, MemoryIsBoundedByTheLevels) {
   const std::size_t n = 50;
   const auto state_size = [&](std::size_t samples, double longest) {
     const std::vector<Configuration2> frames = walk(ellipses(n), samples, 5);
-    MultipleTau correlator(frames.front(), {step, longest, {}});
+    MultipleTau<2> correlator(frames.front(), {step, longest, {}});
     show(correlator, frames, 0, samples);
     return correlator.state().size();
   };
   const std::size_t levels = 6;  // lags up to 4 · 2⁵ steps
   const double longest = 128 * step;
-  EXPECT_EQ(MultipleTau::sample_bytes(n, {step, longest, {}}), levels * n * 5 * 8 * 8);
+  EXPECT_EQ(MultipleTau<2>::sample_bytes(n, {step, longest, {}}), levels * n * 5 * 8 * 8);
   const std::size_t samples_part = levels * n * 3 * 8;
   // Level 0 has 7 lags, 1 … 4 have 4, and the last 1; 4 correlations each.
   const auto sums_part = [](std::size_t samples) {

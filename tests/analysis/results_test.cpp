@@ -39,12 +39,39 @@ std::string text_of(const std::filesystem::path& path) {
   return text.str();
 }
 
-TEST_F(ResultsTest, CsvHasNamesUnitsAndErrorsInTheHeaderAndAllDigits) {
+TEST_F(ResultsTest, CsvHasPlainNamesAndAllDigits) {
   write_csv(folder_ / "msd.csv", displacement_table());
   EXPECT_EQ(text_of(folder_ / "msd.csv"),
-            "time [sqrt(m ab/kT)],all [ab],all_error [ab],A [ab]\n"
+            "time,all,all_error,A\n"
             "0.10000000000000001,2,0.25,4\n"
             "0.33333333333333331,1e-300,nan,8\n");
+}
+
+Table coded_table() {
+  return {
+      "verdicts", "Of runs.", {{"verdict", "1", {1, 0, none}, {}, {"found", "refused, \"why\""}}}};
+}
+
+TEST_F(ResultsTest, CodesAreWordsInCsv) {
+  write_csv(folder_ / "verdicts.csv", coded_table());
+  EXPECT_EQ(text_of(folder_ / "verdicts.csv"), "verdict\n\"refused, \"\"why\"\"\"\nfound\nnan\n");
+}
+
+TEST_F(ResultsTest, LabelsComeBackFromHdf5) {
+  write_results(folder_ / "results.h5", {{coded_table()}, {}});
+  const Column column = read_results(folder_ / "results.h5").tables.front().columns.front();
+  EXPECT_EQ(column.labels, coded_table().columns.front().labels);
+}
+
+TEST_F(ResultsTest, AFolderHasTheTablesAndTheirUnits) {
+  write_csv_folder(folder_ / "results", {{displacement_table(), coded_table()}, {}});
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "results" / "verdicts.csv"));
+  EXPECT_EQ(text_of(folder_ / "results" / csv_columns),
+            "table,column,unit,description\n"
+            "msd,time,sqrt(m ab/kT),Mean squared displacement; rows are time differences.\n"
+            "msd,all,ab,Mean squared displacement; rows are time differences.\n"
+            "msd,A,ab,Mean squared displacement; rows are time differences.\n"
+            "verdicts,verdict,1,Of runs.\n");
 }
 
 TEST_F(ResultsTest, Hdf5RoundTripKeepsEverythingBitByBit) {

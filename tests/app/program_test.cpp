@@ -84,7 +84,7 @@ TEST(Program, PrepareRunCheckAnalyzeAndReport) {
   EXPECT_TRUE(std::filesystem::exists(folder / "results.h5"));
   for (const char* table : {"displacements_all", "self_scattering_all", "orientation_all",
                             "wave_numbers", "collective_scattering", "susceptibility"})
-    EXPECT_TRUE(std::filesystem::exists(folder / (std::string("results_") + table + ".csv")))
+    EXPECT_TRUE(std::filesystem::exists(folder / (std::string("results/") + table + ".csv")))
         << table;
   EXPECT_EQ(run(folder.path(), {"report", "run.h5", "-o", "page.html", "-q"}).code, 0);
   EXPECT_GT(std::filesystem::file_size(folder / "page.html"), 10'000u);
@@ -102,7 +102,7 @@ TEST(Program, CorrelatesOnTheFly) {
   ASSERT_EQ(ran.code, 0) << ran.errors;
   EXPECT_EQ(Json::parse(ran.output)["correlations"], "run.h5.correlations.h5");
   ASSERT_EQ(run(folder.path(), {"analyze", "run.h5", "-o", "results.h5", "-q"}).code, 0);
-  EXPECT_TRUE(std::filesystem::exists(folder / "results_on_the_fly_all.csv"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "results/on_the_fly_all.csv"));
   const Results results = read_results(folder / "results.h5");
   const Table* measured = results.find("on_the_fly_all");
   const Table* stored = results.find("displacements_all");
@@ -464,9 +464,9 @@ TEST(Program, RunsInThreeDimensions) {
               1.5 * 20 + 20, 1e-9);
   EXPECT_EQ(run(folder.path(), {"check", "run.h5", "-q"}).code, 0);
   ASSERT_EQ(run(folder.path(), {"analyze", "run.h5", "-q"}).code, 0);
-  EXPECT_THAT(folder.read("run_results_energies.csv"), HasSubstr("translational"));
-  EXPECT_TRUE(std::filesystem::exists(folder / "run_results_compressibility_factor.csv"));
-  EXPECT_TRUE(std::filesystem::exists(folder / "run_results_structure_factor.csv"));
+  EXPECT_THAT(folder.read("run_results/energies.csv"), HasSubstr("translational"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "run_results/compressibility_factor.csv"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "run_results/structure_factor.csv"));
   EXPECT_EQ(run(folder.path(), {"report", "run.h5", "-q"}).code, 0);
 }
 
@@ -588,7 +588,7 @@ TEST(Program, ASweepWorksOffItsJobsAndContinues) {
   EXPECT_EQ(run(folder.path(), sweep).code, 0);
   EXPECT_EQ(std::filesystem::last_write_time(file), written);
   EXPECT_EQ(run(folder.path(), {"analyze", "sweep", "-q"}).code, 0);
-  EXPECT_TRUE(std::filesystem::exists(folder / "sweep/results_runs.csv"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "sweep/results/runs.csv"));
   EXPECT_EQ(run(folder.path(), {"report", "sweep", "-q"}).code, 0);
   EXPECT_TRUE(std::filesystem::exists(folder / "sweep/report.html"));
   std::vector<std::string> other = sweep;
@@ -662,11 +662,11 @@ TEST(Program, AStateWithoutItsSummaryIsMadeAgain) {
   const std::vector<std::string> sweep = {"sweep", "p.toml", "-o", "sweep", "-q"};
   ASSERT_EQ(run(folder.path(), sweep).code, 0);
   const auto job = folder / "sweep/job";
-  std::filesystem::copy(job, folder / "before");
+  std::filesystem::copy(job, folder / "before", std::filesystem::copy_options::recursive);
   for (const auto& entry : std::filesystem::directory_iterator(folder / "before"))
     if (const auto name = entry.path().filename();
         name != "state.h5" && name != "state.quality.json" && name != "parameters.toml")
-      std::filesystem::remove(job / name);
+      std::filesystem::remove_all(job / name);
   const Outcome again = run(folder.path(), sweep);
   ASSERT_EQ(again.code, 0) << again.errors;
   for (const char* file : {"state.h5", "run.h5"})
@@ -679,12 +679,12 @@ TEST(Program, AFinishedJobIsAnalyzedAnewWithOtherParametersOfTheAnalysis) {
   std::vector<std::string> sweep = {"sweep", "p.toml", "-o", "sweep", "-q"};
   ASSERT_EQ(run(folder.path(), sweep).code, 0);
   const auto job = folder / "sweep/job";
-  std::filesystem::copy(job, folder / "before");
+  std::filesystem::copy(job, folder / "before", std::filesystem::copy_options::recursive);
   sweep.insert(sweep.end(), {"--set", "analysis.longest_lag=0.1"});
   ASSERT_EQ(run(folder.path(), sweep).code, 0);
   EXPECT_THAT(differing_datasets(folder / "before/run.h5", job / "run.h5"), testing::IsEmpty());
   // Fewer time differences.
-  const char* table = "results_displacements_all.csv";
+  const char* table = "results/displacements_all.csv";
   EXPECT_LT(std::filesystem::file_size(job / table),
             std::filesystem::file_size(folder / "before" / table) / 2);
 }

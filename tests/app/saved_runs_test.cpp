@@ -85,10 +85,10 @@ TEST(SavedRuns, AnalysisOverwritesNothingButItsResults) {
   expect_refusal(folder, {"analyze", "run.h5", "-o", "."}, 2, ".: is a folder");
   expect_refusal(folder, {"analyze", "run.h5", "-o", "/dev/null"}, 2, "/dev/null: is a device");
   ASSERT_EQ(run(folder.path(), {"analyze", "run.h5", "-q"}).code, 0);
-  const std::string first = content(folder / "run_results_displacements_all.csv");
+  const std::string first = content(folder / "run_results/displacements_all.csv");
   ASSERT_EQ(
       run(folder.path(), {"analyze", "run.h5", "-q", "--set", "analysis.longest_lag=0.1"}).code, 0);
-  EXPECT_LT(content(folder / "run_results_displacements_all.csv").size(), first.size() / 2);
+  EXPECT_LT(content(folder / "run_results/displacements_all.csv").size(), first.size() / 2);
 }
 
 TEST(SavedRuns, AReportOverwritesNothingButPages) {
@@ -142,15 +142,15 @@ TEST(SavedRuns, AnEndingSlashNamesAFolderToo) {
 TEST(SavedRuns, OfTablesThatAreGoneNothingStays) {
   const Folder folder("gone_tables");
   write_run(folder);
-  folder.write("run_results_notes.csv", "mine");
   ASSERT_EQ(run(folder.path(), {"analyze", "run.h5", "-q"}).code, 0);
-  ASSERT_TRUE(fs::exists(folder / "run_results_on_the_fly_all.csv"));
+  folder.write("run_results/notes.csv", "mine");
+  ASSERT_TRUE(fs::exists(folder / "run_results/on_the_fly_all.csv"));
   fs::remove(folder / "run.h5.correlations.h5");
   ASSERT_EQ(run(folder.path(), {"analyze", "run.h5", "-q"}).code, 0);
-  EXPECT_FALSE(fs::exists(folder / "run_results_on_the_fly_all.csv"));
-  EXPECT_TRUE(fs::exists(folder / "run_results_notes.csv"));
+  EXPECT_FALSE(fs::exists(folder / "run_results/on_the_fly_all.csv"));
+  EXPECT_TRUE(fs::exists(folder / "run_results/notes.csv"));
   for (const Table& table : read_results(folder / "run_results.h5").tables)
-    EXPECT_TRUE(fs::exists(folder / ("run_results_" + table.name + ".csv"))) << table.name;
+    EXPECT_TRUE(fs::exists(folder / ("run_results/" + table.name + ".csv"))) << table.name;
 }
 
 // The input is no run, so that no message about the output can come after the work.
@@ -236,18 +236,17 @@ TEST_F(SavedSweep, RunsAreOrderedByDensityThenBySeed) {
 
 TEST_F(SavedSweep, OtherParametersOfTheAnalysisLeaveTheJobsAlone) {
   ASSERT_EQ(run(folder.path(), {"analyze", "sweep", "-q"}).code, 0);
-  const std::string plain = content(folder / "sweep/results_runs.csv");
+  const std::string plain = content(folder / "sweep/results/runs.csv");
   std::map<fs::path, std::string> before;
-  for (const auto& entry : fs::directory_iterator(job("packing_fraction-0.3_seed-2")))
-    before[entry.path()] = content(entry.path());
+  for (const auto& entry : fs::recursive_directory_iterator(job("packing_fraction-0.3_seed-2")))
+    if (entry.is_regular_file()) before[entry.path()] = content(entry.path());
   ASSERT_EQ(
       run(folder.path(), {"analyze", "sweep", "-q", "--set", "analysis.longest_lag=0.2"}).code, 0);
-  for (const auto& entry : fs::directory_iterator(job("packing_fraction-0.3_seed-2")))
-    EXPECT_EQ(content(entry.path()), before[entry.path()]) << entry.path();
+  for (const auto& [file, text] : before) EXPECT_EQ(content(file), text) << file;
   // Diffusion comes from the longest time differences.
-  EXPECT_NE(content(folder / "sweep/results_runs.csv"), plain);
+  EXPECT_NE(content(folder / "sweep/results/runs.csv"), plain);
   ASSERT_EQ(run(folder.path(), {"analyze", "sweep", "-q"}).code, 0);
-  EXPECT_EQ(content(folder / "sweep/results_runs.csv"), plain);
+  EXPECT_EQ(content(folder / "sweep/results/runs.csv"), plain);
 }
 
 TEST_F(SavedSweep, ItsOwnFilesAreNotOverwritten) {

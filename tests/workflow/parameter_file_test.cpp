@@ -90,8 +90,6 @@ const BadFile bad_files[] = {
      "file.toml:4:15: key 'dynamics.restitution' is for hard particles"},
     {"[[species]]\naspect_ratio = 1\n[dynamics]\non_overlap = \"correct\"\n[dynamics.contact]\n",
      "file.toml:4:14: key 'dynamics.on_overlap' is for hard particles"},
-    {"[system]\ndimension = 3\n[output]\ncorrelations = { interval = 1 }",
-     "file.toml:4:16: key 'output.correlations' is for two dimensions only"},
     {"[system]\nparticles = 0", "file.toml:2:13: key 'system.particles' is 0, but must lie"},
     {"[system]\npacking_fraction = 0.95",
      "file.toml:2:20: key 'system.packing_fraction' is 0.95, but"},

@@ -63,8 +63,10 @@ TEST(RelaxationTables, SoTheyDoSampledInCycles) {
 
 // τ of F_s is 20/q²: 8000 of a run of 10, and 0.0125 between frames 0.1 apart.
 TEST(RelaxationTables, SayWhyThereIsNoTime) {
-  MemoryTrajectory2 trajectory = free_brownian(ellipses(20), 101, 3);
-  const Displacements found = displacements(trajectory, {.wave_numbers = {0.05, 40}, .orders = {}});
+  Configuration2 disks = ellipses(20);
+  for (Ellipse& shape : disks.shape) shape = {1, 1};
+  MemoryTrajectory2 trajectory = free_brownian(disks, 101, 3);
+  const Displacements found = displacements(trajectory, {.wave_numbers = {0.05, 40}});
   Results results;
   store_relaxation_times(found, results);
   const Table& table = *results.find("relaxation_times");

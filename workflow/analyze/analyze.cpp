@@ -31,8 +31,8 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 struct RunAnalysis {
   std::size_t particles, rotors, rotations, frames;
   double packing_fraction, duration, collisions;
-  std::vector<Column> state;           ///< of the last frame, for the summary
-  std::optional<RunDynamics> dynamics; ///< of more than one frame
+  std::vector<Column> state;            ///< of the last frame, for the summary
+  std::optional<RunDynamics> dynamics;  ///< of more than one frame
   EnergySeries energy;
   CompressibilitySeries compressibility;
   DiffusionCoefficient diffusion, rotational_diffusion;  ///< of all particles
@@ -224,22 +224,22 @@ std::vector<Column> summary_columns(const RunAnalysis& run) {
   const Estimate rotational = time_average(run.energy.time, run.energy.rotational);
   const Estimate& z = run.compressibility.mean;
   std::vector<Column> columns{
-          {"packing_fraction", "1", {run.packing_fraction}, {}},
-          {"particles", "1", {static_cast<double>(run.particles)}, {}},
-          {"rotors", "1", {static_cast<double>(run.rotors)}, {}},
-          {"frames", "1", {static_cast<double>(run.frames)}, {}},
-          {"collisions", "1", {run.collisions}, {}},
-          {"duration", "time", {run.duration}, {}},
-          single("compressibility_factor", "1", z.mean, z.error),
-          single("translational_energy", "kT", translational.mean, translational.error),
-          single("rotational_energy", "kT", rotational.mean, rotational.error),
-          single("diffusion", "length^2/time", run.diffusion.value, run.diffusion.error),
-          {"diffusion_from", "time", {run.diffusion.from}, {}},
-          {"diffusion_to", "time", {run.diffusion.to}, {}},
-          single("rotational_diffusion", "rad^2/time", run.rotational_diffusion.value,
-                 run.rotational_diffusion.error),
-          {"rotational_diffusion_from", "time", {run.rotational_diffusion.from}, {}},
-          {"rotational_diffusion_to", "time", {run.rotational_diffusion.to}, {}}};
+      {"packing_fraction", "1", {run.packing_fraction}, {}},
+      {"particles", "1", {static_cast<double>(run.particles)}, {}},
+      {"rotors", "1", {static_cast<double>(run.rotors)}, {}},
+      {"frames", "1", {static_cast<double>(run.frames)}, {}},
+      {"collisions", "1", {run.collisions}, {}},
+      {"duration", "time", {run.duration}, {}},
+      single("compressibility_factor", "1", z.mean, z.error),
+      single("translational_energy", "kT", translational.mean, translational.error),
+      single("rotational_energy", "kT", rotational.mean, rotational.error),
+      single("diffusion", "length^2/time", run.diffusion.value, run.diffusion.error),
+      {"diffusion_from", "time", {run.diffusion.from}, {}},
+      {"diffusion_to", "time", {run.diffusion.to}, {}},
+      single("rotational_diffusion", "rad^2/time", run.rotational_diffusion.value,
+             run.rotational_diffusion.error),
+      {"rotational_diffusion_from", "time", {run.rotational_diffusion.from}, {}},
+      {"rotational_diffusion_to", "time", {run.rotational_diffusion.to}, {}}};
   columns.insert(columns.end(), run.state.begin(), run.state.end());
   return columns;
 }
@@ -281,8 +281,14 @@ void add_motion(const RunAnalysis& run, const std::vector<double>& times, Result
         "not_judged", "equilibration and relaxation: the samples are not evenly spaced in time");
 }
 
+/// Beside the file, with its name.
+std::filesystem::path csv_folder(const std::filesystem::path& results) {
+  if (!results.has_extension()) return results.string() + "_tables";
+  return std::filesystem::path(results).replace_extension();
+}
+
 std::filesystem::path csv_file(const std::filesystem::path& results, const std::string& table) {
-  return results.parent_path() / fmt::format("{}_{}.csv", results.stem().string(), table);
+  return csv_folder(results) / (table + ".csv");
 }
 
 /// Of a run of this dimension.
@@ -355,7 +361,7 @@ void write_all(const std::filesystem::path& file, const Results& results) {
   for (const std::string& table : former_tables(file))
     if (!results.find(table)) std::filesystem::remove(csv_file(file, table));
   write_results(file, results);
-  for (const Table& table : results.tables) write_csv(csv_file(file, table.name), table);
+  write_csv_folder(csv_folder(file), results);
 }
 
 Json analysis_summary(const AnalysedRun& run) {

@@ -54,8 +54,8 @@ AnalysedRun analyze_run(const std::filesystem::path& file, const AnalysisChoice&
 /// the results of an analysis, for which these must not take its place.
 std::vector<std::string> former_tables(const std::filesystem::path& file);
 
-/// Writes the HDF5 file and beside it one CSV file per table, `<name>_<table>.csv`; those of tables that
-/// only the former results in this file had are removed. Throws FileError, and UserError like
+/// Writes the HDF5 file and, into the folder of that name beside it, all tables as CSV (write_csv_folder);
+/// those of tables that only the former results in this file had are removed. Throws FileError, and UserError like
 /// former_tables.
 void write_all(const std::filesystem::path& file, const Results& results);
 

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "analysis/glass/glass_names.h"
 #include "analysis/structure/order.h"
 #include "core/error.h"
 
@@ -49,27 +50,31 @@ Entry plain(double value) {
 }
 
 constexpr const char* kinds_text =
-    "kind: 0 translation (tau_alpha), 1 rotation (tau_2), 2 rotation in the nematic (tau_2 of the "
-    "connected part), 3 diffusion (1/D), 4 rotational diffusion (1/D_r)";
+    "kind: of tau_alpha (translation), tau_2 (rotation; in the nematic of its connected part), 1/D "
+    "or "
+    "1/D_r";
+
+/// A column of codes.
+template <std::size_t Count>
+Column codes(const char* name, const std::array<std::string_view, Count>& labels) {
+  return {name, "1", {}, {}, {labels.begin(), labels.end()}};
+}
 
 Table relaxation_table(const GlassStudy& study) {
   Rows rows(
       "relaxation",
       "Relaxation times, one row per run. tau_translation: F_s = 1/e at wave_number; tau_rotation: "
-      "L_2 = 1/e, in a nematic its connected part, seen from the director. verdict: 0 "
-      "equilibrated, "
-      "1 ageing, 2 not enough time, from so many tests; verdict_translation, whatever rotation "
-      "does; "
-      "only equilibrated runs enter the fits, of translation by the latter. nematic_order: S, "
-      "beside that of as many "
-      "rotors without order; plateau: of L_2 by order, 0 if not nematic. orientation: 0 round, "
-      "1 relaxes, 2 nematic order, 3 does not relax.",
+      "L_2 = 1/e (P_2 in three dimensions), in a nematic its connected part, seen from the "
+      "director. verdict: from so many tests; verdict_translation: whatever rotation does; only "
+      "equilibrated runs enter the fits, of translation by the latter. nematic_order: S, beside "
+      "that of as many rotors without order; plateau: of L_2 by order, 0 if not nematic; "
+      "orientation: what becomes of it.",
       {{"packing_fraction", "1", {}, {}},
        {"seed", "1", {}, {}},
        {"duration", "time", {}, {}},
-       {"verdict", "1", {}, {}},
+       codes("verdict", verdict_names),
        {"tests", "1", {}, {}},
-       {"verdict_translation", "1", {}, {}},
+       codes("verdict_translation", verdict_names),
        {"tests_translation", "1", {}, {}},
        {"wave_number", "1/length", {}, {}},
        {"tau_translation", "time", {}, {}},
@@ -77,7 +82,7 @@ Table relaxation_table(const GlassStudy& study) {
        {"nematic_order", "1", {}, {}},
        {"nematic_by_chance", "1", {}, {}},
        {"plateau", "1", {}, {}},
-       {"orientation", "1", {}, {}}});
+       codes("orientation", orientation_names)});
   std::vector<bool> has_error(14, false);
   has_error[8] = has_error[9] = has_error[10] = true;
   for (const GlassRun& run : study.runs)
@@ -96,30 +101,30 @@ Table relaxation_table(const GlassStudy& study) {
 }
 
 Table fit_table(const GlassStudy& study) {
-  Rows rows(
-      "glass_fit",
-      fmt::format("Laws of the glass transition. {}. law: 0 tau = A (phi_c - phi)^-s, 1 tau = "
-                  "A exp(s phi/(phi_c - phi)). verdict: 0 found, 1 lower bound only, 2 "
-                  "refused. phi_c is above phi_c_least with a probability of 95 %; window: "
-                  "that of the greatest weight, and its fit.",
-                  kinds_text),
-      {{"kind", "1", {}, {}},
-       {"law", "1", {}, {}},
-       {"verdict", "1", {}, {}},
-       {"phi_c", "1", {}, {}},
-       {"phi_c_statistical", "1", {}, {}},
-       {"phi_c_spread", "1", {}, {}},
-       {"phi_c_least", "1", {}, {}},
-       {"exponent", "1", {}, {}},
-       {"window_low", "1", {}, {}},
-       {"window_high", "1", {}, {}},
-       {"densities", "1", {}, {}},
-       {"window_phi_c", "1", {}, {}},
-       {"window_exponent", "1", {}, {}},
-       {"window_log_prefactor", "ln(time)", {}, {}},
-       {"chi2", "1", {}, {}},
-       {"dof", "1", {}, {}},
-       {"scatter", "1", {}, {}}});
+  Rows rows("glass_fit",
+            fmt::format("Laws of the glass transition. {}. law: power law tau = A (phi_c - "
+                        "phi)^-s, Vogel-Fulcher tau = "
+                        "A exp(s phi/(phi_c - phi)). phi_c is above phi_c_least with a probability "
+                        "of 95 %; window: "
+                        "that of the greatest weight, and its fit.",
+                        kinds_text),
+            {codes("kind", kind_names),
+             codes("law", law_names),
+             codes("verdict", fit_verdict_names),
+             {"phi_c", "1", {}, {}},
+             {"phi_c_statistical", "1", {}, {}},
+             {"phi_c_spread", "1", {}, {}},
+             {"phi_c_least", "1", {}, {}},
+             {"exponent", "1", {}, {}},
+             {"window_low", "1", {}, {}},
+             {"window_high", "1", {}, {}},
+             {"densities", "1", {}, {}},
+             {"window_phi_c", "1", {}, {}},
+             {"window_exponent", "1", {}, {}},
+             {"window_log_prefactor", "ln(time)", {}, {}},
+             {"chi2", "1", {}, {}},
+             {"dof", "1", {}, {}},
+             {"scatter", "1", {}, {}}});
   std::vector<bool> has_error(17, false);
   has_error[3] = has_error[7] = true;
   for (const StudiedLaw& studied : study.laws) {
@@ -146,8 +151,8 @@ Table window_table(const GlassStudy& study) {
             fmt::format("The laws fitted to every window of densities. {}. law as in glass_fit; "
                         "phi_c_low and phi_c_high: where chi^2 is 1 above its minimum.",
                         kinds_text),
-            {{"kind", "1", {}, {}},
-             {"law", "1", {}, {}},
+            {codes("kind", kind_names),
+             codes("law", law_names),
              {"window_low", "1", {}, {}},
              {"window_high", "1", {}, {}},
              {"phi_c", "1", {}, {}},

@@ -12,11 +12,11 @@ enum class Kind { self_scattering, orientation };
 Table empty_table() {
   return {
       "relaxation_times",
-      "Relaxation times tau, when a correlation has fallen to 1/e. group: as in the provenance. "
-      "kind: 0 F_s(q, t), 1 L_n(t), in three dimensions P_n of the first axis; parameter: its q or n. Without tau: a time that it outlives "
-      "(least) or by which it has decayed (most), and the reason in the provenance.",
+      "Relaxation times tau, when a correlation has fallen to 1/e. kind: F_s(q, t), or L_n(t), in "
+      "three dimensions P_n of the first axis; parameter: its q or n. Without tau: a time that it "
+      "outlives (least) or by which it has decayed (most), and the reason in the provenance.",
       {{"group", "1", {}, {}},
-       {"kind", "1", {}, {}},
+       {"kind", "1", {}, {}, {"self scattering", "orientation"}},
        {"parameter", "1/length or 1", {}, {}},
        {"tau", "time", {}, {}},
        {"least", "time", {}, {}},
@@ -31,6 +31,7 @@ class RelaxationRows {
   void add_group(std::size_t number) {
     const DisplacementGroup& group = found_.groups[number];
     results_.provenance.emplace_back(fmt::format("group_{}", number), group.name);
+    table_.columns.front().labels.push_back(group.name);
     for (std::size_t k = 0; k < group.self_scattering.size(); ++k)
       add(number, Kind::self_scattering, found_.wave_numbers[k], group.self_scattering[k]);
     if (group.rotors == 0) return;

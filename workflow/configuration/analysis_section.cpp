@@ -29,9 +29,12 @@ void describe_analysis(DisplacementOptions& p, FieldVisitor& visit) {
   visit.field(
       {"wave_numbers", "1/length",
        "Wave numbers q of the intermediate scattering functions. If empty: approximately that of "
-       "the main peak of the structure factor, 2π √(2ρ/√3) with the number density ρ."},
+       "the main peak of the structure factor, with the number density ρ 2π √(2ρ/√3), in space "
+       "2π √3 (ρ/4)^⅓."},
       p.wave_numbers);
-  visit.field({"orders", "", "Orders n of the orientational correlations ⟨cos n(θ(t) − θ(0))⟩."},
+  visit.field({"orders", "",
+               "Orders n of the orientational correlations, ⟨cos n(θ(t) − θ(0))⟩ in the plane and "
+               "Legendre's ⟨P_n(u(0)·u(t))⟩ in space. If empty: 2 and 4, in space 1 and 2."},
               p.orders);
   visit.field({"overlap_distance", "length",
                "Cutoff distance of the overlap function and the four-point susceptibility: a "

@@ -91,11 +91,7 @@ void validate_output(const Parameters& parameters) {
     within(p.first, "first");
     samples.at_least(p.per_decade, 1, "per_decade");
   }
-  if (p.correlations) {
-    if (parameters.system.dimension != 2)
-      throw BadValue("output.correlations", "is for two dimensions only; leave it out");
-    validate_correlations(*p.correlations, duration);
-  }
+  if (p.correlations) validate_correlations(*p.correlations, duration);
   Rules("output").not_negative(p.checkpoint_interval, "checkpoint_interval");
 }
 

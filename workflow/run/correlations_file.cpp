@@ -18,13 +18,15 @@ MultipleTauOptions correlator_options(const Parameters& parameters) {
 }
 
 Table correlation_table(CorrelatedGroup group) {
-  return {prefix + identifier(group.name),
-          fmt::format("Correlations of {} particles ({}) against the time difference, measured "
-                      "while the run went on: mean squared displacement and rotation, self "
-                      "scattering F_s(q_k, t), orientation L_n(t) = <cos n(theta(t) - theta(0))>; "
-                      "origins of time are thinned for long times.",
-                      group.particles, group.name),
-          std::move(group.columns)};
+  return {
+      prefix + identifier(group.name),
+      fmt::format("Correlations of {} particles ({}) against the time difference, measured "
+                  "while the run went on: mean squared displacement and rotation, self "
+                  "scattering F_s(q_k, t), orientation L_n(t) = <cos n(theta(t) - theta(0))>, in "
+                  "three dimensions Legendre's P_n of the axis; "
+                  "origins of time are thinned for long times.",
+                  group.particles, group.name),
+      std::move(group.columns)};
 }
 
 Table wave_number_table(const std::vector<double>& wave_numbers) {
@@ -41,21 +43,25 @@ fs::path correlations_path(const fs::path& run) {
   return run.string() + ".correlations.h5";
 }
 
-std::optional<MultipleTau> correlator(const Parameters& parameters,
-                                      const Configuration2& configuration) {
+template <int Dim>
+std::optional<MultipleTau<Dim>> correlator(const Parameters& parameters,
+                                           const Configuration<Dim>& configuration) {
   if (!parameters.output.correlations) return std::nullopt;
   MultipleTauOptions options = correlator_options(parameters);
   options.wave_numbers = wave_numbers_or_main(std::move(options.wave_numbers), configuration);
-  return MultipleTau(configuration, std::move(options));
+  return MultipleTau<Dim>(configuration, std::move(options));
 }
 
 double correlator_bytes(const Parameters& parameters) {
-  return MultipleTau::sample_bytes(static_cast<std::size_t>(parameters.system.particles),
-                                   correlator_options(parameters));
+  const auto bytes = parameters.system.dimension == 2 ? MultipleTau<2>::sample_bytes
+                                                      : MultipleTau<3>::sample_bytes;
+  return bytes(static_cast<std::size_t>(parameters.system.particles),
+               correlator_options(parameters));
 }
 
+template <int Dim>
 void write_correlations(const fs::path& run, const Parameters& parameters,
-                        const MultipleTau& correlator) {
+                        const MultipleTau<Dim>& correlator) {
   std::vector<CorrelatedGroup> groups = correlator.correlations();
   Results results;
   for (CorrelatedGroup& group : groups)
@@ -64,6 +70,11 @@ void write_correlations(const fs::path& run, const Parameters& parameters,
   results.provenance.emplace_back("parameters", effective_parameters(parameters));
   write_results(correlations_path(run), results);
 }
+
+template std::optional<MultipleTau<2>> correlator(const Parameters&, const Configuration2&);
+template std::optional<MultipleTau<3>> correlator(const Parameters&, const Configuration3&);
+template void write_correlations(const fs::path&, const Parameters&, const MultipleTau<2>&);
+template void write_correlations(const fs::path&, const Parameters&, const MultipleTau<3>&);
 
 void forget_correlations(const fs::path& run) {
   std::error_code error;

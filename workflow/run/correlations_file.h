@@ -17,14 +17,16 @@ namespace vitrel {
 std::filesystem::path correlations_path(const std::filesystem::path& run);
 
 /// None if the parameters ask for none. Time differences up to half the run.
-std::optional<MultipleTau> correlator(const Parameters& parameters,
-                                      const Configuration2& configuration);
+template <int Dim>
+std::optional<MultipleTau<Dim>> correlator(const Parameters& parameters,
+                                           const Configuration<Dim>& configuration);
 /// Its memory, but for the sums, whose size does not depend on the number of particles.
 double correlator_bytes(const Parameters& parameters);
 
 /// Atomic like write_results. Throws FileError.
+template <int Dim>
 void write_correlations(const std::filesystem::path& run, const Parameters& parameters,
-                        const MultipleTau& correlator);
+                        const MultipleTau<Dim>& correlator);
 /// Removes the file of an earlier run of that name, if there is one. Throws FileError.
 void forget_correlations(const std::filesystem::path& run);
 

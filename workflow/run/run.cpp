@@ -187,10 +187,8 @@ class RunJob {
   }
 
   void make_correlator() {
-    if constexpr (Dim == 2) {
-      correlator_ = correlator(request_.parameters, stored_.state.configuration);
-      if (correlator_ && !stored_.correlations.empty()) correlator_->restore(stored_.correlations);
-    }
+    correlator_ = correlator(request_.parameters, stored_.state.configuration);
+    if (correlator_ && !stored_.correlations.empty()) correlator_->restore(stored_.correlations);
   }
 
   void save() {
@@ -234,8 +232,7 @@ class RunJob {
                         writer.synchronize();
                         save();
                       }};
-    if constexpr (Dim == 2)
-      if (correlator_) plan.ticks = {correlator_->options().interval, &*correlator_};
+    if (correlator_) plan.ticks = {correlator_->options().interval, &*correlator_};
     const StageReport report = run_or_keep_failed_state(options, plan);
     stored_.wall_seconds = timer.seconds();
     stored_.complete = report.end == StageEnd::reached;
@@ -289,7 +286,7 @@ class RunJob {
   const Log& log_;
   CheckpointFile checkpoint_;
   RunCheckpoint<Dim> stored_;
-  std::optional<MultipleTau> correlator_;  ///< on the fly, if the parameters ask for it
+  std::optional<MultipleTau<Dim>> correlator_;  ///< on the fly, if the parameters ask for it
 };
 
 /// Where the run starts; the species of the request become those that run.

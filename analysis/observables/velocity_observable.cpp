@@ -1,0 +1,104 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "analysis/observables/frame_observable.h"
+
+namespace vitrel {
+
+namespace {
+
+/// Bins of the density of a velocity component, in units of its standard deviation.
+constexpr double widest = 5, width = 0.1;
+constexpr std::size_t bins = 100;
+
+/// What one frame says of the velocities, in the frame of its centre of mass.
+struct Velocities {
+  double temperature = 0, sonine = 0;
+  std::vector<double> density;
+};
+
+template <int Dim>
+Vec<Dim> mean_velocity(const Configuration<Dim>& frame) {
+  const Mechanics<Dim> sums = mechanics(frame);
+  double mass = 0;
+  for (const double m : frame.mass) mass += m;
+  return sums.momentum / mass;
+}
+
+/// Velocities times √m, whose distribution is that of the equilibrium whatever the masses: with s = m v² in
+/// units of the temperature, T = ⟨s⟩/d and a₂ = d ⟨s²⟩/((d + 2) ⟨s⟩²) − 1.
+template <int Dim>
+Velocities velocities(const Configuration<Dim>& frame) {
+  const Vec<Dim> drift = mean_velocity(frame);
+  const auto n = static_cast<double>(frame.size());
+  std::vector<Vec<Dim>> reduced = velocities_after_contact(frame);
+  double square = 0, quartic = 0;
+  for (std::size_t i = 0; i < reduced.size(); ++i) {
+    reduced[i] = std::sqrt(frame.mass[i]) * (reduced[i] - drift);
+    const double s = reduced[i].squaredNorm();
+    square += s / n;
+    quartic += s * s / n;
+  }
+  Velocities found{square / Dim, Dim * quartic / ((Dim + 2) * square * square) - 1,
+                   std::vector<double>(bins)};
+  const double per_component = 1 / (n * Dim * width), deviation = std::sqrt(found.temperature);
+  for (const Vec<Dim>& v : reduced)
+    for (const double component : v) {
+      const double place = (component / deviation + widest) / width;
+      if (place >= 0 && place < bins)
+        found.density[static_cast<std::size_t>(place)] += per_component;
+    }
+  return found;
+}
+
+/// The temperature against time, the second Sonine coefficient and the density of a component.
+template <int Dim>
+class VelocityObservable final : public FrameObservable<Dim> {
+ public:
+  std::function<void()> measure(const Configuration<Dim>& frame) override {
+    return [this, time = frame.time, found = velocities(frame)] {
+      time_.push_back(time);
+      temperature_.push_back(found.temperature);
+      sonine_.push_back(found.sonine);
+      density_.add(found.density);
+    };
+  }
+
+  std::vector<Table> tables(bool is_even) const override {
+    std::vector<double> component;
+    for (std::size_t k = 0; k < bins; ++k)
+      component.push_back((static_cast<double>(k) + 0.5) * width - widest);
+    return {{"velocities",
+             fmt::format(
+                 "Velocities v in the frame of the centre of mass: temperature = <m v^2>/{0}, and "
+                 "the second Sonine coefficient a_2 = {0} <m^2 v^4>/({1} <m v^2>^2) - 1, 0 in "
+                 "equilibrium.",
+                 Dim, Dim + 2),
+             {{"time", "time", time_, {}},
+              {"temperature", "kT", temperature_, {}},
+              {"a_2", "1", sonine_, {}}}},
+            {"velocity_distribution",
+             fmt::format("Density of the components c of sqrt(m/T) v, averaged over {} frames; in "
+                         "equilibrium exp(-c^2/2)/sqrt(2 pi).",
+                         time_.size()),
+             {{"component", "1", std::move(component), {}},
+              averaged("density", "1", density_, is_even)}}};
+  }
+
+ private:
+  std::vector<double> time_, temperature_, sonine_;
+  FrameAverage density_;
+};
+
+}  // namespace
+
+template <int Dim>
+std::unique_ptr<FrameObservable<Dim>> velocity_observable() {
+  return std::make_unique<VelocityObservable<Dim>>();
+}
+
+template std::unique_ptr<FrameObservable<2>> velocity_observable();
+template std::unique_ptr<FrameObservable<3>> velocity_observable();
+
+}  // namespace vitrel
