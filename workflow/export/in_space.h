@@ -8,6 +8,7 @@
 /// Particles of either dimension as programs take them that know three: ellipses lie in the plane z = 0.
 namespace vitrel {
 
+/// Coordinates or numbers of boxes, in the plane with 0 for z.
 template <class Vector>
 Eigen::Matrix<typename Vector::Scalar, 3, 1> in_space(const Vector& vector) {
   Eigen::Matrix<typename Vector::Scalar, 3, 1> result;

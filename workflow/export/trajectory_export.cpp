@@ -34,9 +34,8 @@ void check_format(const ExportRequest& request, int dimension) {
   if (dimension == 3) formats.insert(formats.end(), {"geo", "vti", "vtp"});
   if (std::find(formats.begin(), formats.end(), request.format) == formats.end())
     throw UserError(fmt::format(
-        "--to {}: there is no such format, but {} for trajectories{} and gnuplot for "
-        "results",
-        request.format, fmt::join(formats, ", "), dimension == 3 ? " in three dimensions" : ""));
+        "--to {}: there is no such format, but {} for trajectories{} and gnuplot for results",
+        request.format, fmt::join(formats, ", "), dimension == 2 ? "" : " in three dimensions"));
 }
 
 void check_options(const ExportRequest& request, int dimension) {
