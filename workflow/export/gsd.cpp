@@ -64,7 +64,7 @@ Quaternion momentum_quaternion(const Configuration2& configuration, std::size_t 
 }
 
 Quaternion momentum_quaternion(const Configuration3& configuration, std::size_t i) {
-  if (configuration.shape[i].is_round()) return Quaternion(0, 0, 0, 0);
+  if (configuration.shape[i].is_round()) return {0, 0, 0, 0};
   const Quaternion& q = configuration.orientation[i];
   Quaternion twice(0, 0, 0, 0);
   twice.vec() =
