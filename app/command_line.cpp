@@ -183,18 +183,22 @@ class CommandLine : public ProgramCommandLine {
     sub.footer(exit_codes + ", 5 stopped (nothing was written).");
     sub.add_option("file", export_.input, "State or run, or results of vitrel analyze")->required();
     sub.add_option("--to", export_.format,
-                   "gsd (HOOMD-blue, OVITO), xyz (OVITO, ASE) or csv; in three dimensions, one "
-                   "period with all images: geo (Gmsh), vti (voxels for VTK), vtp (points for VTK) "
-                   "or csv; of results: gnuplot (a folder of data and scripts)")
+                   "gsd (HOOMD-blue, OVITO), xyz (OVITO, ASE) or csv; in three dimensions also one "
+                   "period with all images: geo (Gmsh), vti (voxels for VTK) or vtp (points for "
+                   "VTK; of several frames a folder with a .pvd file for ParaView); of results: "
+                   "gnuplot (a folder of data and scripts)")
         ->required();
     add_output(sub, export_.output,
                "File or folder to write, which must not exist; default <file> with the new suffix, "
-               "or <results>_gnuplot");
+               "<file>_vtp for several frames, or <results>_gnuplot");
     sub.add_option("--frames", export_.frames,
-                   "Which frames, as Python's slices: 7, -1 (the last), first:end:step (all; in "
-                   "three dimensions one, the last)");
+                   "Which frames, as Python's slices: 7, -1 (the last), first:end:step (all; to "
+                   "geo, to vti and with --images one, the last)");
+    sub.add_flag("--images", export_.images,
+                 "To csv in three dimensions: one period of a frame with all images, a line per "
+                 "body that meets the box, instead of a line per frame and particle");
     sub.add_option("--shrink", export_.shrink,
-                   "In three dimensions: all semi-axes times this (1), for room between bodies")
+                   "With all images: all semi-axes times this (1), for room between bodies")
         ->check(CLI::Range(1e-3, 1.0));
     sub.add_option("--voxels", export_.voxels, "To vti: voxels along the longest edge (100)")
         ->check(CLI::Range(1, 2000));

@@ -15,16 +15,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-int export_results(const ExportOptions& options) {
-  fs::path output = options.output;
-  if (output.empty())
-    output = options.input.parent_path() / (options.input.stem().string() + "_gnuplot");
+/// The one asked for, or else `default_output`, which must not exist.
+fs::path new_output(const ExportOptions& options, const fs::path& default_output) {
+  fs::path output = options.output.empty() ? default_output : options.output;
   if (!output.has_filename()) output = output.parent_path();  // a folder given as "folder/"
   require_new(output);
-  if (options.frames || options.shrink || options.voxels)
+  return output;
+}
+
+int export_results(const ExportOptions& options) {
+  const fs::path output = new_output(
+      options, options.input.parent_path() / (options.input.stem().string() + "_gnuplot"));
+  if (options.frames || options.shrink || options.voxels || options.images)
     throw UserError(
-        "--frames, --shrink, --voxels: are for trajectories and packings, but --to gnuplot writes "
-        "tables of results");
+        "--frames, --shrink, --voxels, --images: are for trajectories and packings, but --to "
+        "gnuplot writes tables of results");
   const std::vector<TextFile> files = gnuplot_files(read_results(options.input));
   write_folder(output, files);
   print_summary(options.print,
@@ -33,24 +38,25 @@ int export_results(const ExportOptions& options) {
 }
 
 int export_frames(const ExportOptions& options) {
-  const fs::path output = options.output.empty()
-                              ? fs::path(options.input).replace_extension(options.format)
-                              : options.output;
-  require_new(output);
+  ExportRequest request = {options.input,  options.format, {}, options.frames, options.shrink,
+                           options.voxels, options.images};
+  request.output = new_output(options, default_output(request));
   Session session(options.print.quiet);
   session.say()("export of " + options.input.string());
-  const std::optional<ExportedTrajectory> done = export_trajectory(
-      {options.input, options.format, output, options.frames, options.shrink, options.voxels},
-      session.control());
+  const std::optional<ExportedTrajectory> done = export_trajectory(request, session.control());
   session.clear();
   if (!done) return stopped;
-  Json summary = {{"output", output.string()},
+  Json summary = {{"output", request.output.string()},
                   {"format", options.format},
                   {"frames", done->frames},
                   {"particles", done->particles},
                   {"bytes", done->bytes}};
   if (done->bodies > 0) summary["bodies"] = done->bodies;
   print_summary(options.print, summary);
+  if (done->omits_images)
+    remark(options.print, request.output.string() +
+                              ": has the particles of a packing without their periodic images; "
+                              "--images writes a table with them");
   return success;
 }
 

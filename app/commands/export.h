@@ -12,6 +12,7 @@ struct ExportOptions {
   std::optional<std::string> frames;  ///< a slice as in Python
   std::optional<double> shrink;       ///< factor of all semi-axes
   std::optional<std::size_t> voxels;  ///< along the longest edge
+  bool images = false;                ///< of a packing, to csv
 };
 
 /// Returns the exit code, or throws one of the errors of core/error.h.

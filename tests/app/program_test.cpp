@@ -524,8 +524,6 @@ TEST(Program, SaysWhatThreeDimensionsDoNotHave) {
   folder.write("flat.toml", small_system);
   expect_refusal(run(folder.path(), {"run", "flat.toml", "-o", "a.h5", "--from", "state.h5", "-q"}),
                  3, "state.h5: is three-dimensional");
-  expect_refusal(run(folder.path(), {"export", "state.h5", "--to", "gsd", "-q"}), 2,
-                 "--to gsd: there is no such format, but geo, vti, vtp, csv");
 }
 
 // Two particles on top of each other: both ways to look must see it.

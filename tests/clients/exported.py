@@ -11,34 +11,39 @@ folder = tempfile.TemporaryDirectory()  # removed at the end of the script
 
 
 class Trajectory:
+    """All vectors are those of space; in the plane z = 0, the box is 1 high, and c = b."""
+
     def __init__(self, path):
         with h5py.File(path, "r") as file:
+            self.dimension = file["parameters"].attrs["dimension"]
             particles = file["particles/all"]
             self.step = particles["position/step"][:]
             self.time = particles["position/time"][:]
-            edges = particles["box/edges/value"][:]
-            self.box = np.stack([edges[:, 0, 0], edges[:, 1, 1]], axis=1)
+            self.box = np.diagonal(particles["box/edges/value"][:], axis1=1, axis2=2)
             self.position = particles["position/value"][:]
             self.image = particles["image/value"][:]
-            self.angle = particles["angle/value"][:]
             self.has_velocity = "velocity" in particles
             if self.has_velocity:
                 self.velocity = particles["velocity/value"][:]
-                self.angular_velocity = particles["angular_velocity/value"][:, :, 2]
+                self.angular_velocity = particles["angular_velocity/value"][:]
             names = {value: name for name, value in h5py.check_enum_dtype(particles["species"].dtype).items()}
             self.species = [names[k] for k in particles["species"][:]]
             self.mass = particles["mass"][:]
-            self.axes = particles["semiaxes"][:, :2]
-        self.frames, self.n = self.angle.shape
-        # Homogeneous ellipses; round particles do not turn.
-        inertia = self.mass * (self.axes**2).sum(axis=1) / 4
-        self.inertia = np.where(self.axes[:, 0] == self.axes[:, 1], 0, inertia)
+            self.axes = particles["semiaxes"][:]
+            if self.dimension == 2:
+                self.angle = particles["angle/value"][:]
+                half, zero = self.angle / 2, np.zeros(self.angle.shape)
+                self.orientation = np.stack([np.cos(half), zero, zero, np.sin(half)], axis=2)
+                self.axes[:, 2] = self.axes[:, 1]
+            else:
+                self.orientation = particles["orientation/value"][:]
+        self.frames, self.n = self.position.shape[:2]
 
 
-def export(suffix):
+def export(suffix, output=None):
     """The trajectory of the command line (program, file), and the path that it was exported to."""
     program, source = sys.argv[1:]
-    path = os.path.join(folder.name, "exported." + suffix)
+    path = os.path.join(folder.name, output or "exported." + suffix)
     subprocess.run([program, "export", source, "--to", suffix, "-o", path, "-q"], check=True)
     return Trajectory(source), path
 

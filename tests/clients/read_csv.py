@@ -25,28 +25,33 @@ def each_particle(values):
     return np.repeat(np.asarray(values)[None], right.frames, axis=0)
 
 
-unwrapped = right.position[:, :, :2] + right.image[:, :, :2] * right.box[:, None, :]
+directions = "xyz"[:right.dimension]
 expected = {
     "frame": each_frame(np.arange(right.frames)),
     "step": each_frame(right.step),
     "time": each_frame(right.time),
-    "box_x": each_frame(right.box[:, 0]),
-    "box_y": each_frame(right.box[:, 1]),
     "id": each_particle(np.arange(right.n)),
-    "x": right.position[:, :, 0],
-    "y": right.position[:, :, 1],
-    "unwrapped_x": unwrapped[:, :, 0],
-    "unwrapped_y": unwrapped[:, :, 1],
-    "angle": right.angle,
-    "a": each_particle(right.axes[:, 0]),
-    "b": each_particle(right.axes[:, 1]),
     "mass": each_particle(right.mass),
 }
-if right.has_velocity:
-    expected.update(vx=right.velocity[:, :, 0], vy=right.velocity[:, :, 1], omega=right.angular_velocity)
+for k, x in enumerate(directions):
+    expected["box_" + x] = each_frame(right.box[:, k])
+    expected[x] = right.position[:, :, k]
+    expected["unwrapped_" + x] = right.position[:, :, k] + right.image[:, :, k] * right.box[:, None, k]
+    expected["abc"[k]] = each_particle(right.axes[:, k])
+    if right.has_velocity:
+        expected["v" + x] = right.velocity[:, :, k]
+if right.dimension == 2:
+    expected["angle"] = right.angle
+    if right.has_velocity:
+        expected["omega"] = right.angular_velocity[:, :, 2]
+else:
+    expected.update({"q" + name: right.orientation[:, :, k] for k, name in enumerate("wxyz")})
+    if right.has_velocity:
+        expected.update({"omega_" + x: right.angular_velocity[:, :, k] for k, x in enumerate(directions)})
 assert set(names) == {*expected, "species"}
 for name, values in expected.items():
     expect(name, numbers(name), values)
 expect("species", columns["species"], right.species * right.frames)
 unit = dict(zip(names, units))
-assert unit["time"] == "time" and unit["x"] == unit["a"] == "length" and unit["angle"] == "rad"
+assert unit["time"] == "time" and unit["x"] == unit["a"] == "length"
+assert unit["angle"] == "rad" if right.dimension == 2 else unit["qw"] == "1"

@@ -10,6 +10,7 @@ import numpy as np
 from exported import expect, expect_near, export
 
 right, path = export("gsd")
+d = right.dimension
 # One half of a unit in the last place of single precision, relative.
 half_unit = 2.0**-24
 
@@ -22,37 +23,50 @@ def product(p, q):
                      w * c - x * d + y * a + z * b, w * d + x * c - y * b + z * a], axis=1)
 
 
+def modelled_inertia():
+    """Of homogeneous ellipses and ellipsoids, about the own axes; 0 about an axis of symmetry."""
+    squares = right.axes**2
+    if right.dimension == 2:
+        inertia = right.mass[:, None] * [0, 0, 1] * squares[:, :2].sum(axis=1, keepdims=True) / 4
+    else:
+        inertia = right.mass[:, None] * (squares.sum(axis=1, keepdims=True) - squares) / 5
+    a, b, c = right.axes.T
+    inertia[np.stack([b == c, c == a, a == b], axis=1)] = 0
+    return inertia
+
+
+def momentum(k):
+    """L in the own axes; of a spheroid ω = L / I⊥ also along its axis."""
+    inertia = modelled_inertia()
+    of_spheroid = (inertia == 0).sum(axis=1) == 1
+    inertia[of_spheroid] = inertia[of_spheroid].max(axis=1, keepdims=True)
+    omega = np.pad(right.angular_velocity[k], ((0, 0), (1, 0)))
+    own = product(product(right.orientation[k] * [1, -1, -1, -1], omega), right.orientation[k])
+    return inertia * own[:, 1:]
+
+
 def check_box(box, k):
-    expect("box", box[2:], [0, 0, 0, 0])
-    for found, exact in zip(box[:2], right.box[k]):
+    expect("box", box[d:], np.zeros(6 - d))
+    for found, exact in zip(box[:d], right.box[k]):
         assert found >= exact > np.nextafter(found, np.float32(0)) or found == exact, (found, exact)
 
 
 def check_position(position, box, k):
     assert position.dtype == np.float32
-    half = box[:2] / 2
-    assert np.all(position[:, :2] >= -half) and np.all(position[:, :2] < half), position
+    half = box[:d] / 2
+    assert np.all(position[:, :d] >= -half) and np.all(position[:, :d] < half), position
     # The last number inside the box stands for what would be rounded to its upper edge.
     expected = right.position[k].astype(np.float32)
-    expected[:, :2] = np.minimum(expected[:, :2], np.nextafter(half, np.float32(0)))
+    expected[:, :d] = np.minimum(expected[:, :d], np.nextafter(half, np.float32(0)))
     expect("position", position, expected)
 
 
-def check_orientation(orientation, k):
-    half = right.angle[k] / 2
-    zero = np.zeros(right.n)
-    exact = np.stack([np.cos(half), zero, zero, np.sin(half)], axis=1)
-    expect_near("orientation", orientation, exact, 1.01 * half_unit)
-
-
 def check_momentum(particles, k):
-    """S = (0, 0, 0, I ω) = conj(q) p / 2, as HOOMD-blue defines the quaternion p."""
+    """S = (0, L) = conj(q) p / 2, as HOOMD-blue defines the quaternion p; q and p are rounded, each by half a unit."""
     conjugate = particles.orientation.astype(float) * [1, -1, -1, -1]
     spin = product(conjugate, particles.angmom.astype(float)) / 2
-    momentum = right.inertia * right.angular_velocity[k]
-    exact = np.zeros((right.n, 4))
-    exact[:, 3] = momentum
-    expect_near("angmom", spin, exact, 4 * half_unit * np.abs(momentum)[:, None])
+    exact = np.pad(momentum(k), ((0, 0), (1, 0)))
+    expect_near("angmom", spin, exact, 4 * half_unit * np.linalg.norm(exact, axis=1, keepdims=True))
 
 
 def check_types(particles):
@@ -62,26 +76,26 @@ def check_types(particles):
     assert len(kinds) == len(particles.types)
     several = {s for s in right.species if sum(kind[0] == s for kind in kinds) > 1}
     for i, number in enumerate(particles.typeid):
-        a, b = right.axes[i]
-        assert particles.type_shapes[number] == {"type": "Ellipsoid", "a": a, "b": b, "c": b}
+        a, b, c = right.axes[i]
+        sphere, ellipsoid = {"type": "Sphere", "diameter": 2 * a}, {"type": "Ellipsoid", "a": a, "b": b, "c": c}
+        assert particles.type_shapes[number] == (sphere if d == 3 and a == b == c else ellipsoid)
         name = particles.types[number]
         species = right.species[i]
         assert re.fullmatch(re.escape(species) + "#[0-9]+", name) if species in several else name == species
 
 
 def check_frame(frame, k):
-    particles = frame.particles
-    assert frame.configuration.step == right.step[k] and frame.configuration.dimensions == 2
+    particles, inertia = frame.particles, modelled_inertia()
+    assert frame.configuration.step == right.step[k] and frame.configuration.dimensions == d
     assert frame.log["time"] == right.time[k]
     assert particles.N == right.n
     check_box(frame.configuration.box, k)
     check_position(particles.position, frame.configuration.box, k)
     expect("image", particles.image, right.image[k])
-    check_orientation(particles.orientation, k)
+    expect_near("orientation", particles.orientation, right.orientation[k], 1.01 * half_unit)
     check_types(particles)
     expect("mass", particles.mass, right.mass.astype(np.float32))
-    expect("moment_inertia", particles.moment_inertia[:, :2], np.zeros((right.n, 2)))
-    expect_near("moment_inertia", particles.moment_inertia[:, 2], right.inertia, 1.01 * half_unit * right.inertia)
+    expect_near("moment_inertia", particles.moment_inertia, inertia, 1.01 * half_unit * inertia)
     if right.has_velocity:
         expect("velocity", particles.velocity, right.velocity[k].astype(np.float32))
         check_momentum(particles, k)

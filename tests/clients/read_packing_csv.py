@@ -5,7 +5,7 @@ import numpy as np
 
 from packing import export, grid
 
-right, path = export("csv")
+right, path = export("csv", "--images")
 with open(path, newline="") as file:
     header, *rows = csv.reader(file)
 columns = {name.split(" [")[0]: values for name, values in zip(header, zip(*rows))}

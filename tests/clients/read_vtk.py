@@ -4,16 +4,9 @@ import vtk
 from vtk.util.numpy_support import vtk_to_numpy
 
 from packing import export, grid
+from vtk_files import opened, point_data
 
 N = 40
-
-
-def opened(reader, path):
-    reader.SetFileName(path)
-    reader.Update()
-    assert reader.GetErrorCode() == 0
-    return reader.GetOutput()
-
 
 right, path = export("vti", "--voxels", str(N))
 image = opened(vtk.vtkXMLImageDataReader(), path)
@@ -31,8 +24,7 @@ assert abs((holder >= 0).mean() - right.volumes().sum() / right.box.prod()) < 0.
 
 right, path = export("vtp")
 points = opened(vtk.vtkXMLPolyDataReader(), path)
-data = {points.GetPointData().GetArrayName(k): vtk_to_numpy(points.GetPointData().GetArray(k))
-        for k in range(points.GetPointData().GetNumberOfArrays())}
+data = point_data(points)
 particle, shift = data["particle"], data["image"]
 assert [(i, tuple(s)) for i, s in zip(particle, shift)] == list(right.images(grid(right.box, 80)))
 assert points.GetNumberOfVerts() == len(particle)

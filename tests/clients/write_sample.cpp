@@ -59,19 +59,62 @@ Configuration2 polydisperse(int k) {
   return configuration;
 }
 
-Configuration2 sample(const std::string& kind, int k) {
-  return kind == "binary" ? binary(k) : kind == "monodisperse" ? monodisperse(k) : polydisperse(k);
+/// The same in space: spheroids about each of their axes, a scalene ellipsoid, and spheres, of which two are of
+/// one type.
+Configuration3 ellipsoids(int k) {
+  Configuration3 configuration;
+  const Vec3 box(7.1 + 0.1 * k, 13.3, 9.7);
+  const Vec3 axes[] = {{2.1, 0.7, 0.7}, {0.6, 1.1, 0.6}, {0.9, 0.9, 0.4}, {1.3, 0.8, 0.6},
+                       {0.8, 0.8, 0.8}, {0.8, 0.8, 0.8}, {0.8, 0.8, 0.8}};
+  configuration.box = PeriodicBox<3>(box);
+  configuration.time = 0.3 * k;
+  configuration.resize(7);
+  configuration.species_names = {"A small", "say \"B\", large", "A small#2"};
+  for (int i = 0; i < 7; ++i) {
+    const double x = i % 2 ? std::nextafter(0.5 * box.x(), 0) : -0.5 * box.x();
+    configuration.position[i] = {i < 4 ? x : 0.1 * i, -0.5 * box.y() + 1.9 * i, 0.7 * i - 0.1 * k};
+    configuration.image[i] = {k - i, i, -k};
+    configuration.orientation[i] =
+        Quaternion(Eigen::AngleAxisd(0.7 * i + 0.2 * k + 0.3, Vec3(1, i, 2).normalized()));
+    configuration.velocity[i] = {0.1 * i, -0.3 * k, 0.7 - 0.1 * i};
+    configuration.angular_velocity[i] = {0.7 - 0.1 * i, 0.3 * k, -0.9};
+    configuration.species[i] = i < 4 ? 0 : i == 4 ? 1 : 2;
+    configuration.shape[i] = {axes[i]};
+    configuration.mass[i] = 0.1 * (i + 1);
+  }
+  configuration.position[6].z() = std::nextafter(0.5 * box.z(), 0);
+  return configuration;
+}
+
+/// Equal spheres.
+Configuration3 spheres(int k) {
+  Configuration3 configuration = ellipsoids(k);
+  configuration.species_names = {"A"};
+  configuration.species.assign(7, 0);
+  configuration.shape.assign(7, {Vec3::Constant(0.7)});
+  configuration.mass.assign(7, 1);
+  return configuration;
+}
+
+/// Four frames.
+template <int Dim>
+void write(const std::string& path, Configuration<Dim> sample(int), bool velocities) {
+  const Provenance provenance = current_provenance("write_sample", "[system]\nseed = 3\n", 3);
+  auto writer = TrajectoryWriter::create(
+      path, sample(0), provenance,
+      {.velocities = velocities, .observables = {"collisions"}, .overwrite = true});
+  for (int k = 0; k < 4; ++k)
+    writer.write(sample(k), std::int64_t{10} * k, {{"collisions", 100.0 * k}});
+  writer.close();
 }
 
 }  // namespace
 
 int main(int, char** arguments) {
-  const std::string kind = arguments[2];
-  const Provenance provenance = current_provenance("write_sample", "[system]\nseed = 3\n", 3);
-  auto writer = TrajectoryWriter::create(
-      arguments[1], sample(kind, 0), provenance,
-      {.velocities = kind != "monodisperse", .observables = {"collisions"}, .overwrite = true});
-  for (int k = 0; k < 4; ++k)
-    writer.write(sample(kind, k), std::int64_t{10} * k, {{"collisions", 100.0 * k}});
-  writer.close();
+  const std::string path = arguments[1], kind = arguments[2];
+  if (kind == "binary") write(path, binary, true);
+  if (kind == "monodisperse") write(path, monodisperse, false);
+  if (kind == "polydisperse") write(path, polydisperse, true);
+  if (kind == "ellipsoids") write(path, ellipsoids, true);
+  if (kind == "spheres") write(path, spheres, false);
 }

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "analysis/results.h"
@@ -142,20 +143,9 @@ TEST(Export, ReplacesTheFolderThatAKilledOneLeft) {
   EXPECT_FALSE(std::filesystem::exists(folder / "plots.partial"));
 }
 
-TEST(Export, LeavesNothingIfStopped) {
-  const Folder folder("export_stopped");
-  write_run(folder / "run.h5", 5, 4);
-  int frames = 0;
-  const RunControl control{[&] { return frames == 2; }, [&](const Progress&) { ++frames; }, {}};
-  EXPECT_FALSE(export_trajectory({folder / "run.h5", "gsd", folder / "run.gsd"}, control));
-  EXPECT_EQ(frames, 2);
-  EXPECT_FALSE(std::filesystem::exists(folder / "run.gsd"));
-  EXPECT_FALSE(std::filesystem::exists(folder / "run.gsd.partial"));
-}
-
 TEST(Export, GsdRefusesTooManyShapes) {
   const Folder folder("export_shapes");
-  write_run(folder / "run.h5", GsdSink::max_types + 1, 1);
+  write_run(folder / "run.h5", GsdSink<2>::max_types + 1, 1);
   const auto to = [&](const std::string& format) {
     export_trajectory({folder / "run.h5", format, folder / ("run." + format)}, {});
   };
@@ -184,11 +174,29 @@ void write_packing(const std::filesystem::path& path, int frames) {
   writer.close();
 }
 
+TEST(Export, LeavesNothingIfStopped) {
+  const Folder folder("export_stopped");
+  write_run(folder / "flat.h5", 5, 4);
+  write_packing(folder / "run.h5", 4);
+  const auto expect = [&](const std::string& input, const std::string& format) {
+    int frames = 0;
+    const RunControl control{[&] { return frames == 2; }, [&](const Progress&) { ++frames; }, {}};
+    EXPECT_FALSE(export_trajectory({folder / input, format, folder / "output"}, control));
+    EXPECT_EQ(frames, 2);
+    EXPECT_FALSE(std::filesystem::exists(folder / "output"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "output.partial"));
+  };
+  expect("flat.h5", "gsd");
+  expect("run.h5", "gsd");
+  expect("run.h5", "vtp");
+}
+
 TEST(ExportOfAPacking, IsOfOneFrameTheLastUnlessTold) {
   const Folder folder("packing_frames");
   write_packing(folder / "run.h5", 3);
   const auto lines = [&](std::vector<std::string> options, const std::string& file) {
-    options.insert(options.begin(), {"export", "run.h5", "--to", "csv", "-q", "-o", file});
+    options.insert(options.begin(),
+                   {"export", "run.h5", "--to", "csv", "--images", "-q", "-o", file});
     EXPECT_EQ(run(folder.path(), options).code, 0);
     const std::string text = folder.read(file);
     return text.substr(text.find('\n') + 1);
@@ -204,6 +212,48 @@ TEST(ExportOfAPacking, IsOfOneFrameTheLastUnlessTold) {
               "0,A,0,0,0,1.5,0.2,0,0.4,0.4,0.4,1,0,0,0,4,4,4\n");
 }
 
+TEST(ExportOfAPacking, SaysThatCsvHasNoImages) {
+  const Folder folder("packing_csv");
+  write_packing(folder / "state.h5", 1);
+  write_packing(folder / "run.h5", 2);
+  const auto errors = [&](const std::string& file) {
+    const Outcome outcome = run(folder.path(), {"export", file, "--to", "csv"});
+    EXPECT_EQ(outcome.code, 0);
+    return outcome.errors;
+  };
+  EXPECT_THAT(errors("state.h5"), HasSubstr("state.csv: has the particles of a packing without"));
+  EXPECT_THAT(errors("run.h5"), testing::Not(HasSubstr("packing")));
+}
+
+TEST(ExportOfAPacking, MakesASeriesOfSeveralFrames) {
+  const Folder folder("packing_series");
+  write_packing(folder / "run.h5", 3);
+  const auto made = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), {"export", "run.h5", "--to", "vtp", "--json", "-q"});
+    const Outcome outcome = run(folder.path(), options);
+    EXPECT_EQ(outcome.code, 0) << outcome.errors;
+    const auto summary = nlohmann::json::parse(outcome.output);
+    const std::filesystem::path output = folder / summary["output"].get<std::string>();
+    std::vector<std::string> files;
+    std::uintmax_t bytes = 0;
+    for (const auto& file : std::filesystem::directory_iterator(output)) {
+      files.push_back(file.path().filename().string());
+      bytes += file.file_size();
+    }
+    EXPECT_EQ(summary["bytes"], bytes);
+    EXPECT_EQ(summary["frames"], files.size() - 1);
+    std::sort(files.begin(), files.end());
+    return files;
+  };
+  EXPECT_THAT(made({}),
+              ElementsAre("frame_0000.vtp", "frame_0001.vtp", "frame_0002.vtp", "run.pvd"));
+  EXPECT_TRUE(std::filesystem::is_directory(folder / "run_vtp"));
+  EXPECT_THAT(made({"--frames", "::2", "-o", "some/"}),
+              ElementsAre("frame_0000.vtp", "frame_0002.vtp", "run.pvd"));
+  EXPECT_EQ(run(folder.path(), {"export", "run.h5", "--to", "vtp", "--frames", "1", "-q"}).code, 0);
+  EXPECT_TRUE(std::filesystem::is_regular_file(folder / "run.vtp"));
+}
+
 TEST(ExportOfAPacking, RefusesWhatDoesNotFit) {
   const Folder folder("packing_refused");
   write_packing(folder / "run.h5", 3);
@@ -214,12 +264,23 @@ TEST(ExportOfAPacking, RefusesWhatDoesNotFit) {
     EXPECT_EQ(outcome.code, 2);
     return outcome.errors;
   };
-  EXPECT_THAT(message({"run.h5", "--to", "csv", "--frames", ":"}), HasSubstr("selects 3 frames"));
+  EXPECT_THAT(message({"run.h5", "--to", "csv", "--images", "--frames", ":"}),
+              HasSubstr("selects 3 frames, but --to csv --images takes one"));
+  for (const std::string format : {"geo", "vti"})
+    EXPECT_THAT(message({"run.h5", "--to", format, "--frames", "1:"}),
+                HasSubstr("selects 2 frames, but --to " + format + " takes one"));
+  EXPECT_THAT(message({"run.h5", "--to", "vtp", "-o", "run.vtp"}), HasSubstr("make a folder"));
   EXPECT_THAT(message({"run.h5", "--to", "csv", "--voxels", "7"}), HasSubstr("is for --to vti"));
   EXPECT_THAT(message({"run.h5", "--to", "geo", "--shrink", "1.5"}), HasSubstr("--shrink"));
   EXPECT_THAT(message({"flat.h5", "--to", "csv", "--shrink", "0.5"}),
               HasSubstr("three dimensions"));
-  EXPECT_THAT(message({"flat.h5", "--to", "vti"}), HasSubstr("no such format, but gsd, xyz, csv"));
+  EXPECT_THAT(message({"flat.h5", "--to", "vti"}),
+              HasSubstr("no such format, but gsd, xyz, csv for trajectories and gnuplot"));
+  EXPECT_THAT(message({"run.h5", "--to", "pdf"}), HasSubstr("gsd, xyz, csv, geo, vti, vtp"));
+  // What belongs to the images is not there without them.
+  EXPECT_THAT(message({"run.h5", "--to", "csv", "--shrink", "0.5"}), HasSubstr("--images"));
+  for (const std::string file : {"flat.h5", "run.h5"})
+    EXPECT_THAT(message({file, "--to", "xyz", "--images"}), HasSubstr("--to csv in three dim"));
 }
 
 }  // namespace

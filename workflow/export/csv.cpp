@@ -3,8 +3,56 @@
 #include <fmt/format.h>
 
 #include <iterator>
+#include <string_view>
 
 namespace vitrel {
+namespace {
+
+/// A column for every direction, whose letter stands for {}.
+template <int Dim>
+std::string directions(std::string_view column) {
+  std::string text;
+  for (const char direction : std::string_view("xyz").substr(0, Dim))
+    text += fmt::format(fmt::runtime(column), direction);
+  return text;
+}
+
+template <int Dim>
+std::string header(const StoredMotion& motion) {
+  std::string text = "frame [1],step [1],time [time]" + directions<Dim>(",box_{} [length]") +
+                     ",id [1],species [1]" + directions<Dim>(",{} [length]") +
+                     directions<Dim>(",unwrapped_{} [length]");
+  text += Dim == 2 ? ",angle [rad],a [length],b [length]"
+                   : ",qw [1],qx [1],qy [1],qz [1],a [length],b [length],c [length]";
+  text += ",mass [mass]";
+  if (motion.velocities) text += directions<Dim>(",v{} [length/time]");
+  if (motion.angular_velocities)
+    text += Dim == 2 ? ",omega [rad/time]" : directions<Dim>(",omega_{} [rad/time]");
+  return text + '\n';
+}
+
+// What a particle has in the columns that differ between plane and space.
+
+Eigen::Array3d orientation_and_shape(const Configuration2& configuration, std::size_t i) {
+  const Ellipse& shape = configuration.shape[i];
+  return {configuration.angle[i], shape.a, shape.b};
+}
+
+Eigen::Array<double, 7, 1> orientation_and_shape(const Configuration3& configuration,
+                                                 std::size_t i) {
+  const Quaternion& q = configuration.orientation[i];
+  const Vec3& axes = configuration.shape[i].semi_axes;
+  return {{q.w(), q.x(), q.y(), q.z(), axes[0], axes[1], axes[2]}};
+}
+
+Vec<1> components(double number) {
+  return Vec<1>(number);
+}
+const Vec3& components(const Vec3& vector) {
+  return vector;
+}
+
+}  // namespace
 
 std::string csv_field(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
@@ -13,38 +61,37 @@ std::string csv_field(const std::string& text) {
   return quoted + '"';
 }
 
-CsvSink::CsvSink(const std::filesystem::path& path, StoredMotion motion)
+template <int Dim>
+CsvSink<Dim>::CsvSink(const std::filesystem::path& path, StoredMotion motion)
     : file_(path), motion_(motion) {
-  std::string header =
-      "frame [1],step [1],time [time],box_x [length],box_y [length],id [1],species [1],"
-      "x [length],y [length],unwrapped_x [length],unwrapped_y [length],angle [rad],a [length],"
-      "b [length],mass [mass]";
-  if (motion.velocities) header += ",vx [length/time],vy [length/time]";
-  if (motion.angular_velocities) header += ",omega [rad/time]";
-  file_.write(header + '\n');
+  file_.write(header<Dim>(motion));
 }
 
-void CsvSink::write(const StoredFrame& frame) {
-  const Configuration2& configuration = frame.configuration;
-  const Vec2& box = configuration.box.lengths();
-  const std::string start =
-      fmt::format("{},{},{},{},{}", frame.index, frame.step, configuration.time, box.x(), box.y());
+template <int Dim>
+void CsvSink<Dim>::write(const StoredFrame<Dim>& frame) {
+  const Configuration<Dim>& configuration = frame.configuration;
+  const std::string start = fmt::format("{},{},{},{}", frame.index, frame.step, configuration.time,
+                                        fmt::join(configuration.box.lengths(), ","));
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
+  const auto append = [&](const auto& vector) {
+    for (const double number : vector) fmt::format_to(out, ",{}", number);
+  };
   for (std::size_t i = 0; i < configuration.size(); ++i) {
-    const Vec2& position = configuration.position[i];
-    const Vec2 unwrapped = configuration.unwrapped(i);
-    const Ellipse& shape = configuration.shape[i];
-    fmt::format_to(out, "{},{},{},{},{},{},{},{},{},{},{}", start, i,
-                   csv_field(configuration.species_names[configuration.species[i]]), position.x(),
-                   position.y(), unwrapped.x(), unwrapped.y(), configuration.angle[i], shape.a,
-                   shape.b, configuration.mass[i]);
-    if (motion_.velocities)
-      fmt::format_to(out, ",{},{}", configuration.velocity[i].x(), configuration.velocity[i].y());
-    if (motion_.angular_velocities) fmt::format_to(out, ",{}", configuration.angular_velocity[i]);
+    fmt::format_to(out, "{},{},{}", start, i,
+                   csv_field(configuration.species_names[configuration.species[i]]));
+    append(configuration.position[i]);
+    append(configuration.unwrapped(i));
+    append(orientation_and_shape(configuration, i));
+    fmt::format_to(out, ",{}", configuration.mass[i]);
+    if (motion_.velocities) append(configuration.velocity[i]);
+    if (motion_.angular_velocities) append(components(configuration.angular_velocity[i]));
     text.push_back('\n');
   }
   file_.write({text.data(), text.size()});
 }
+
+template class CsvSink<2>;
+template class CsvSink<3>;
 
 }  // namespace vitrel

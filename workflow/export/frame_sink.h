@@ -10,13 +10,14 @@
 namespace vitrel {
 
 /// A frame of a trajectory, and its place there.
+template <int Dim>
 struct StoredFrame {
   std::uint64_t index;  ///< counted from 0
   std::int64_t step;
-  const Configuration2& configuration;
+  const Configuration<Dim>& configuration;
 };
 
-/// What the file to be exported has beside positions and angles.
+/// What the file to be exported has beside positions and orientations.
 struct StoredMotion {
   bool velocities = false;
   bool angular_velocities = false;
@@ -24,10 +25,11 @@ struct StoredMotion {
 
 /// A file of another format that frames are written to, one after the other. Without `close` it is
 /// not complete. Throws FileError.
+template <int Dim>
 class FrameSink {
  public:
   virtual ~FrameSink() = default;
-  virtual void write(const StoredFrame& frame) = 0;
+  virtual void write(const StoredFrame<Dim>& frame) = 0;
   virtual void close() = 0;
 };
 

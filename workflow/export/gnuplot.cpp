@@ -9,8 +9,8 @@
 #include <limits>
 #include <string_view>
 
-#include "core/error.h"
 #include "workflow/export/frame_sink.h"
+#include "workflow/export/pending_folder.h"
 
 namespace vitrel {
 namespace {
@@ -214,28 +214,6 @@ class Script {
   std::vector<Panel> panels_;
 };
 
-/// An empty folder beside `folder`, removed at the end of the scope unless it was renamed.
-class PendingFolder {
- public:
-  explicit PendingFolder(const fs::path& folder) : partial_(folder) {
-    partial_ += ".partial";
-    std::error_code error;
-    fs::remove_all(partial_, error);
-    if (!fs::create_directory(partial_, error))
-      throw FileError(fmt::format("{}: cannot be made: {}", partial_.string(), error.message()));
-  }
-  ~PendingFolder() {
-    std::error_code ignored;
-    fs::remove_all(partial_, ignored);
-  }
-  PendingFolder(const PendingFolder&) = delete;
-  PendingFolder& operator=(const PendingFolder&) = delete;
-  const fs::path& partial() const { return partial_; }
-
- private:
-  fs::path partial_;
-};
-
 std::string one_line(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
   return text;
@@ -280,17 +258,13 @@ std::vector<TextFile> gnuplot_files(const Results& results) {
 }
 
 void write_folder(const fs::path& folder, const std::vector<TextFile>& files) {
-  const PendingFolder pending(folder);
+  PendingFolder pending(folder);
   for (const TextFile& file : files) {
     OutputFile output(pending.partial() / file.name);
     output.write(file.text);
     output.close();
   }
-  std::error_code error;
-  fs::rename(pending.partial(), folder, error);
-  if (error)
-    throw FileError(fmt::format("{}: cannot rename {} to it: {}", folder.string(),
-                                pending.partial().string(), error.message()));
+  pending.commit();
 }
 
 }  // namespace vitrel

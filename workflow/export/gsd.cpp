@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "core/io/provenance.h"
+#include "workflow/export/in_space.h"
 
 namespace vitrel {
 namespace {
@@ -19,8 +20,8 @@ namespace {
 constexpr std::uint32_t schema_version = (1u << 16) + 4;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// The particles of one species and shape.
-using Type = std::tuple<std::int32_t, double, double>;
+/// The particles of one species and shape: its semi-axes.
+using Type = std::tuple<std::int32_t, double, double, double>;
 
 float rounded_up(double x) {
   const auto result = static_cast<float>(x);
@@ -34,13 +35,49 @@ float rounded_inside(double x, float length) {
   return result >= length / 2 ? std::nextafter(length / 2, -infinity) : result;
 }
 
-double modelled_inertia(const Configuration2& configuration, std::size_t i) {
-  return configuration.shape[i].is_round() ? 0 : configuration.inertia(i);
+void append(std::vector<float>& row, const auto& vector) {
+  for (const double number : vector) row.push_back(static_cast<float>(number));
 }
 
+void append(std::vector<float>& row, const Quaternion& q) {
+  append(row, Eigen::Vector4d(q.w(), q.x(), q.y(), q.z()));
+}
+
+Vec3 modelled_inertia(const Configuration2& configuration, std::size_t i) {
+  return {0, 0, configuration.shape[i].is_round() ? 0 : configuration.inertia(i)};
+}
+
+Vec3 modelled_inertia(const Configuration3& configuration, std::size_t i) {
+  const Ellipsoid& shape = configuration.shape[i];
+  if (shape.is_round()) return Vec3::Zero();
+  Vec3 inertia = configuration.inertia(i);
+  if (shape.symmetry_axis() != Ellipsoid::none) inertia[shape.symmetry_axis()] = 0;
+  return inertia;
+}
+
+/// 2 q (0, L).
+Quaternion momentum_quaternion(const Configuration2& configuration, std::size_t i) {
+  const double half = 0.5 * configuration.angle[i];
+  const double twice =
+      2 * modelled_inertia(configuration, i).z() * configuration.angular_velocity[i];
+  return {-twice * std::sin(half), 0, 0, twice * std::cos(half)};
+}
+
+Quaternion momentum_quaternion(const Configuration3& configuration, std::size_t i) {
+  if (configuration.shape[i].is_round()) return {0, 0, 0, 0};
+  const Quaternion& q = configuration.orientation[i];
+  Quaternion twice(0, 0, 0, 0);
+  twice.vec() =
+      2 * configuration.inertia(i).cwiseProduct(q.conjugate() * configuration.angular_velocity[i]);
+  return q * twice;
+}
+
+template <int Dim>
 std::string shape_text(const Type& type) {
-  return fmt::format(R"({{"type":"Ellipsoid","a":{0},"b":{1},"c":{1}}})", std::get<1>(type),
-                     std::get<2>(type));
+  const auto& [species, a, b, c] = type;
+  return Dim == 3 && a == b && b == c
+             ? fmt::format(R"({{"type":"Sphere","diameter":{}}})", 2 * a)
+             : fmt::format(R"({{"type":"Ellipsoid","a":{},"b":{},"c":{}}})", a, b, c);
 }
 
 /// The name of the species, with a number if it has several types; no name comes twice.
@@ -65,25 +102,24 @@ std::vector<std::string> names_of(const std::vector<Type>& types,
 
 }  // namespace
 
-GsdSink::GsdSink(const std::filesystem::path& path, StoredMotion motion)
+template <int Dim>
+GsdSink<Dim>::GsdSink(const std::filesystem::path& path, StoredMotion motion)
     : file_(path, "vitrel " + program_version(), "hoomd", schema_version), motion_(motion) {}
 
-void GsdSink::write(const StoredFrame& frame) {
-  const Configuration2& configuration = frame.configuration;
+template <int Dim>
+void GsdSink<Dim>::write(const StoredFrame<Dim>& frame) {
+  const Configuration<Dim>& configuration = frame.configuration;
   const auto step = static_cast<std::uint64_t>(frame.step);
-  const Vec2& lengths = configuration.box.lengths();
-  const std::array<float, 6> box{rounded_up(lengths.x()), rounded_up(lengths.y()), 0, 0, 0, 0};
+  std::array<float, 6> box{};
+  for (int k = 0; k < Dim; ++k) box[k] = rounded_up(configuration.box.lengths()[k]);
   std::vector<float> positions, orientations;
   std::vector<std::int32_t> images;
   for (std::size_t i = 0; i < configuration.size(); ++i) {
-    const Vec2& position = configuration.position[i];
-    const Shift<2>& image = configuration.image[i];
-    const double half = 0.5 * configuration.angle[i];
-    positions.insert(positions.end(), {rounded_inside(position.x(), box[0]),
-                                       rounded_inside(position.y(), box[1]), 0.0f});
-    images.insert(images.end(), {image.x(), image.y(), 0});
-    orientations.insert(orientations.end(), {static_cast<float>(std::cos(half)), 0.0f, 0.0f,
-                                             static_cast<float>(std::sin(half))});
+    for (int k = 0; k < 3; ++k)
+      positions.push_back(k < Dim ? rounded_inside(configuration.position[i][k], box[k]) : 0);
+    const Shift<3> image = in_space(configuration.image[i]);
+    images.insert(images.end(), image.begin(), image.end());
+    append(orientations, orientation_in_space(configuration, i));
   }
   file_.write<std::uint64_t>("configuration/step", {&step, 1});
   file_.write<float>("configuration/box", box);
@@ -97,14 +133,14 @@ void GsdSink::write(const StoredFrame& frame) {
 }
 
 /// What the first frame says holds for all.
-void GsdSink::write_fixed(const Configuration2& configuration) {
-  const std::uint8_t dimensions = 2;
+template <int Dim>
+void GsdSink<Dim>::write_fixed(const Configuration<Dim>& configuration) {
+  const std::uint8_t dimensions = Dim;
   const auto n = static_cast<std::uint32_t>(configuration.size());
   std::vector<float> masses, inertias;
   for (std::size_t i = 0; i < n; ++i) {
     masses.push_back(static_cast<float>(configuration.mass[i]));
-    inertias.insert(inertias.end(),
-                    {0.0f, 0.0f, static_cast<float>(modelled_inertia(configuration, i))});
+    append(inertias, modelled_inertia(configuration, i));
   }
   file_.write<std::uint8_t>("configuration/dimensions", {&dimensions, 1});
   file_.write<std::uint32_t>("particles/N", {&n, 1});
@@ -114,13 +150,14 @@ void GsdSink::write_fixed(const Configuration2& configuration) {
   has_fixed_ = true;
 }
 
-void GsdSink::write_types(const Configuration2& configuration) {
+template <int Dim>
+void GsdSink<Dim>::write_types(const Configuration<Dim>& configuration) {
   std::map<Type, std::uint32_t> number;
   std::vector<Type> types;
   std::vector<std::uint32_t> type_ids;
   for (std::size_t i = 0; i < configuration.size(); ++i) {
-    const Ellipse& shape = configuration.shape[i];
-    const Type type{configuration.species[i], shape.a, shape.b};
+    const Vec3 axes = semi_axes_in_space(configuration.shape[i]);
+    const Type type{configuration.species[i], axes[0], axes[1], axes[2]};
     const auto [place, is_new] = number.emplace(type, static_cast<std::uint32_t>(types.size()));
     if (is_new) types.push_back(type);
     type_ids.push_back(place->second);
@@ -132,14 +169,15 @@ void GsdSink::write_types(const Configuration2& configuration) {
         "every particle",
         types.size(), max_types));
   std::vector<std::string> shapes;
-  for (const Type& type : types) shapes.push_back(shape_text(type));
+  for (const Type& type : types) shapes.push_back(shape_text<Dim>(type));
   write_texts("particles/types", names_of(types, configuration.species_names));
   file_.write<std::uint32_t>("particles/typeid", type_ids);
   write_texts("particles/type_shapes", shapes);
 }
 
 /// One row per text, filled up with zero bytes.
-void GsdSink::write_texts(const std::string& name, const std::vector<std::string>& texts) {
+template <int Dim>
+void GsdSink<Dim>::write_texts(const std::string& name, const std::vector<std::string>& texts) {
   std::size_t width = 0;
   for (const std::string& text : texts) width = std::max(width, text.size() + 1);
   std::vector<std::int8_t> rows(texts.size() * width);
@@ -148,19 +186,18 @@ void GsdSink::write_texts(const std::string& name, const std::vector<std::string
   file_.write<std::int8_t>(name, rows, static_cast<std::uint32_t>(width));
 }
 
-void GsdSink::write_motion(const Configuration2& configuration) {
+template <int Dim>
+void GsdSink<Dim>::write_motion(const Configuration<Dim>& configuration) {
   std::vector<float> velocities, momenta;
   for (std::size_t i = 0; i < configuration.size(); ++i) {
-    const Vec2& v = configuration.velocity[i];
-    const double half = 0.5 * configuration.angle[i];
-    const double twice = 2 * modelled_inertia(configuration, i) * configuration.angular_velocity[i];
-    velocities.insert(velocities.end(),
-                      {static_cast<float>(v.x()), static_cast<float>(v.y()), 0.0f});
-    momenta.insert(momenta.end(), {static_cast<float>(-twice * std::sin(half)), 0.0f, 0.0f,
-                                   static_cast<float>(twice * std::cos(half))});
+    append(velocities, in_space(configuration.velocity[i]));
+    append(momenta, momentum_quaternion(configuration, i));
   }
   if (motion_.velocities) file_.write<float>("particles/velocity", velocities, 3);
   if (motion_.angular_velocities) file_.write<float>("particles/angmom", momenta, 4);
 }
+
+template class GsdSink<2>;
+template class GsdSink<3>;
 
 }  // namespace vitrel

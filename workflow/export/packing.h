@@ -1,10 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "analysis/structure/packing_images.h"
-#include "core/state/configuration.h"
+#include "workflow/export/frame_sink.h"
 
 /// @file
 /// One period of a packing of ellipsoids in the formats of mesh generators, solvers on grids and viewers.
@@ -34,8 +36,26 @@ void write_vti(const std::filesystem::path& path, const Packing& packing, std::s
 
 /// VTK poly data (.vtp), a point for every body. Point data: "particle", "species", "image" (3, the shift),
 /// "semi-axes" (3), "orientation" (quaternion w, x, y, z), "tensor" (R diag(a, b, c) Rᵀ: tensor glyphs of
-/// a sphere of radius 1 are the bodies).
-void write_vtp(const std::filesystem::path& path, const Packing& packing);
+/// a sphere of radius 1 are the bodies), and "velocity" and "angular velocity" (3) if they are stored.
+void write_vtp(const std::filesystem::path& path, const Packing& packing, StoredMotion motion);
+
+/// A trajectory as a ParaView series in a folder that exists: `frame_0007.vtp` for the frame of index 7, and
+/// `<name>.pvd`, which lists them with their times and is written last.
+class VtpSeries final : public FrameSink<3> {
+ public:
+  /// `shrink` as of Packing.
+  VtpSeries(std::filesystem::path folder, std::string name, double shrink, StoredMotion motion)
+      : folder_(std::move(folder)), name_(std::move(name)), shrink_(shrink), motion_(motion) {}
+  void write(const StoredFrame<3>& frame) override;
+  void close() override;
+
+ private:
+  std::filesystem::path folder_;
+  std::string name_;
+  double shrink_;
+  StoredMotion motion_;
+  std::string datasets_;  ///< a line of the .pvd file per frame
+};
 
 /// A table with a line for every body, after one line of `name [unit]`, every number with the digits, 17 at
 /// most, that give the same double back:

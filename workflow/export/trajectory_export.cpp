@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
+#include <vector>
 
 #include "core/error.h"
 #include "core/io/atomic_file.h"
@@ -11,87 +13,155 @@
 #include "workflow/export/frame_range.h"
 #include "workflow/export/gsd.h"
 #include "workflow/export/packing.h"
+#include "workflow/export/pending_folder.h"
 #include "workflow/export/xyz.h"
 
 namespace vitrel {
 namespace {
 
-[[noreturn]] void refuse_format(const std::string& format, int dimension) {
-  throw UserError(
-      fmt::format("--to {}: there is no such format, but {} for {} and gnuplot for results", format,
-                  fmt::join(dimension == 2 ? trajectory_formats : packing_formats, ", "),
-                  dimension == 2 ? "trajectories" : "packings in three dimensions"));
+namespace fs = std::filesystem;
+
+using Frames = std::vector<std::uint64_t>;
+
+/// Whether the images that meet the box are written, too.
+bool is_of_packing(const ExportRequest& request) {
+  const std::string& format = request.format;
+  return format == "geo" || format == "vti" || format == "vtp" || request.images;
 }
 
-std::unique_ptr<FrameSink> sink(const std::string& format, const std::filesystem::path& path,
-                                const TrajectoryReader& reader) {
-  const StoredMotion motion{reader.has("velocity"), reader.has("angular_velocity")};
-  if (format == "gsd") return std::make_unique<GsdSink>(path, motion);
-  if (format == "xyz") return std::make_unique<XyzSink>(path, motion);
-  if (format == "csv") return std::make_unique<CsvSink>(path, motion);
-  refuse_format(format, reader.dimension());
+void check_format(const ExportRequest& request, int dimension) {
+  std::vector<std::string> formats = {"gsd", "xyz", "csv"};
+  if (dimension == 3) formats.insert(formats.end(), {"geo", "vti", "vtp"});
+  if (std::find(formats.begin(), formats.end(), request.format) == formats.end())
+    throw UserError(fmt::format(
+        "--to {}: there is no such format, but {} for trajectories{} and gnuplot for results",
+        request.format, fmt::join(formats, ", "), dimension == 2 ? "" : " in three dimensions"));
 }
 
-std::optional<ExportedTrajectory> export_frames(const TrajectoryReader& reader,
-                                                const ExportRequest& request,
-                                                const RunControl& control) {
-  if (request.shrink) throw UserError("--shrink: is for packings in three dimensions");
-  if (request.voxels) throw UserError("--voxels: is for --to vti, in three dimensions");
-  const std::vector<std::uint64_t> chosen =
-      FrameRange(request.frames.value_or(":")).of(reader.frames(), request.input.string());
-  AtomicFile pending(request.output);
-  const std::unique_ptr<FrameSink> file = sink(request.format, pending.partial(), reader);
-  Configuration2 configuration;
+void check_options(const ExportRequest& request, int dimension) {
+  if (request.images && (request.format != "csv" || dimension == 2))
+    throw UserError(
+        "--images: is for --to csv in three dimensions; geo, vti and vtp always have all images");
+  if (request.shrink && !is_of_packing(request))
+    throw UserError(
+        "--shrink: is for packings in three dimensions, --to geo, vti, vtp, or csv with --images");
+  if (request.voxels && request.format != "vti")
+    throw UserError("--voxels: is for --to vti, in three dimensions");
+}
+
+Frames chosen_frames(const TrajectoryReader& reader, const ExportRequest& request) {
+  const bool is_single = is_of_packing(request) && request.format != "vtp";
+  const FrameRange range(request.frames.value_or(is_single ? "-1" : ":"));
+  Frames chosen = range.of(reader.frames(), request.input.string());
+  if (is_single && chosen.size() > 1)
+    throw UserError(fmt::format("--frames {}: selects {} frames, but --to {}{} takes one",
+                                *request.frames, chosen.size(), request.format,
+                                request.images ? " --images" : ""));
+  return chosen;
+}
+
+StoredMotion stored_motion(const TrajectoryReader& reader) {
+  return {reader.has("velocity"), reader.has("angular_velocity")};
+}
+
+/// Nothing if it was stopped.
+template <int Dim>
+std::optional<ExportedTrajectory> copy_frames(const TrajectoryReader& reader, const Frames& chosen,
+                                              FrameSink<Dim>& sink, const RunControl& control) {
+  Configuration<Dim> configuration;
   ExportedTrajectory done;
   for (const std::uint64_t frame : chosen) {
     if (control.stop_requested()) return std::nullopt;
     reader.read(frame, configuration);
-    file->write({frame, reader.steps()[frame], configuration});
+    sink.write({frame, reader.steps()[frame], configuration});
     ++done.frames;
     const auto count = static_cast<double>(done.frames);
     control.report_progress({count / static_cast<double>(chosen.size()), count, "frame"});
   }
-  file->close();
+  sink.close();
   done.particles = configuration.size();
-  done.bytes = std::filesystem::file_size(pending.partial());
+  return done;
+}
+
+template <int Dim>
+std::unique_ptr<FrameSink<Dim>> file_sink(const std::string& format, const fs::path& path,
+                                          StoredMotion motion) {
+  if (format == "gsd") return std::make_unique<GsdSink<Dim>>(path, motion);
+  if (format == "xyz") return std::make_unique<XyzSink<Dim>>(path, motion);
+  return std::make_unique<CsvSink<Dim>>(path, motion);
+}
+
+template <int Dim>
+std::optional<ExportedTrajectory> export_file(const TrajectoryReader& reader, const Frames& chosen,
+                                              const ExportRequest& request,
+                                              const RunControl& control) {
+  AtomicFile pending(request.output);
+  const auto sink = file_sink<Dim>(request.format, pending.partial(), stored_motion(reader));
+  std::optional<ExportedTrajectory> done = copy_frames(reader, chosen, *sink, control);
+  if (!done) return done;
+  done->bytes = fs::file_size(pending.partial());
+  done->omits_images = Dim == 3 && request.format == "csv" && reader.frames() == 1;
   pending.commit();
   return done;
 }
 
-void write_packing(const std::filesystem::path& path, const Packing& packing,
-                   const ExportRequest& request) {
+void write_packing(const fs::path& path, const Packing& packing, const ExportRequest& request,
+                   StoredMotion motion) {
   if (request.format == "geo") return write_geo(path, packing);
   if (request.format == "vti") return write_vti(path, packing, request.voxels.value_or(100));
-  if (request.format == "vtp") return write_vtp(path, packing);
-  if (request.format == "csv") return write_packing_csv(path, packing);
-  refuse_format(request.format, 3);
+  if (request.format == "vtp") return write_vtp(path, packing, motion);
+  write_packing_csv(path, packing);
 }
 
-ExportedTrajectory export_packing(const TrajectoryReader& reader, const ExportRequest& request) {
-  if (request.voxels && request.format != "vti") throw UserError("--voxels: is for --to vti");
-  const std::vector<std::uint64_t> chosen =
-      FrameRange(request.frames.value_or("-1")).of(reader.frames(), request.input.string());
-  if (chosen.size() != 1)
-    throw UserError(fmt::format("--frames {}: selects {} frames, but a packing is one",
-                                *request.frames, chosen.size()));
-  const Packing packing(reader.read<3>(chosen.front()), request.shrink.value_or(1));
+ExportedTrajectory export_packing(const TrajectoryReader& reader, std::uint64_t frame,
+                                  const ExportRequest& request) {
+  const Packing packing(reader.read<3>(frame), request.shrink.value_or(1));
   AtomicFile pending(request.output);
-  write_packing(pending.partial(), packing, request);
-  const std::uintmax_t bytes = std::filesystem::file_size(pending.partial());
+  write_packing(pending.partial(), packing, request, stored_motion(reader));
+  const std::uintmax_t bytes = fs::file_size(pending.partial());
   pending.commit();
   return {1, packing.configuration.size(), packing.bodies.size(), bytes};
 }
 
+std::optional<ExportedTrajectory> export_series(const TrajectoryReader& reader,
+                                                const Frames& chosen, const ExportRequest& request,
+                                                const RunControl& control) {
+  if (request.output.extension() == ".vtp")
+    throw UserError(fmt::format(
+        "{}: {} frames make a folder of .vtp files, which should not be named like one of them; "
+        "--frames -1 writes the last frame as a file",
+        request.output.string(), chosen.size()));
+  PendingFolder pending(request.output);
+  VtpSeries series(pending.partial(), request.input.stem().string(), request.shrink.value_or(1),
+                   stored_motion(reader));
+  std::optional<ExportedTrajectory> done = copy_frames(reader, chosen, series, control);
+  if (!done) return done;
+  for (const auto& file : fs::directory_iterator(pending.partial()))
+    done->bytes += file.file_size();
+  pending.commit();
+  return done;
+}
+
 }  // namespace
 
-const std::vector<std::string> trajectory_formats = {"gsd", "xyz", "csv"};
-const std::vector<std::string> packing_formats = {"geo", "vti", "vtp", "csv"};
+fs::path default_output(const ExportRequest& request) {
+  fs::path output = request.input;
+  if (request.format == "vtp" && chosen_frames(TrajectoryReader(request.input), request).size() > 1)
+    return output.replace_extension() += "_vtp";
+  return output.replace_extension(request.format);
+}
 
 std::optional<ExportedTrajectory> export_trajectory(const ExportRequest& request,
                                                     const RunControl& control) {
   const TrajectoryReader reader(request.input);
-  if (reader.dimension() == 3) return export_packing(reader, request);
-  return export_frames(reader, request, control);
+  check_format(request, reader.dimension());
+  check_options(request, reader.dimension());
+  const Frames chosen = chosen_frames(reader, request);
+  if (request.format == "vtp" && chosen.size() > 1)
+    return export_series(reader, chosen, request, control);
+  if (is_of_packing(request)) return export_packing(reader, chosen.front(), request);
+  return reader.dimension() == 2 ? export_file<2>(reader, chosen, request, control)
+                                 : export_file<3>(reader, chosen, request, control);
 }
 
 }  // namespace vitrel

@@ -4,24 +4,26 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "core/state/stage.h"
 
 namespace vitrel {
 
-/// The formats that trajectories and states are exported to, in two dimensions and in three (packing.h);
-/// each is the usual suffix too.
-extern const std::vector<std::string> trajectory_formats, packing_formats;
-
+/// Trajectories and states are exported as
+///
+///     gsd, xyz, csv      the particles of every frame: gsd.h, xyz.h, csv.h
+///     geo, vti, vtp      in space: one period with all images that meet the box, and so csv with
+///                        `images` (packing.h). Of several frames vtp makes a folder, a ParaView
+///                        series; the others take one frame
 struct ExportRequest {
   std::filesystem::path input;   ///< trajectory or state
-  std::string format;            ///< one of the formats of its dimension
+  std::string format;            ///< one of these, in space or in the plane
   std::filesystem::path output;  ///< must not exist
   std::optional<std::string> frames =
-      {};  ///< which ones, as FrameRange reads it; all, of packings the last
+      {};  ///< which ones, as FrameRange reads it; all, or the last where it is one
   std::optional<double> shrink = {};       ///< of packings: all semi-axes times this, up to 1; 1
   std::optional<std::size_t> voxels = {};  ///< of vti: along the longest edge; 100
+  bool images = false;                     ///< of csv in space
 };
 
 struct ExportedTrajectory {
@@ -29,7 +31,13 @@ struct ExportedTrajectory {
   std::size_t particles = 0;
   std::size_t bodies = 0;  ///< of a packing: images included
   std::uintmax_t bytes = 0;
+  bool omits_images =
+      false;  ///< csv of a file of one frame in space, a packing, without its images
 };
+
+/// Beside the input: with the format as its suffix, or, of a series, the folder `<input>_vtp`. Ignores
+/// `output`. Throws UserError and FileError.
+std::filesystem::path default_output(const ExportRequest& request);
 
 /// Copies the frames, one in memory at a time; the output appears under its name when it is
 /// complete. Nothing if the run control stopped it: then there is no output. Throws UserError and

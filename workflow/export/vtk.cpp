@@ -128,9 +128,9 @@ void write_vti(const std::filesystem::path& path, const Packing& packing, std::s
           data_array("particle", 1, holder) + "</CellData>\n</Piece>\n</ImageData>\n</VTKFile>\n");
 }
 
-void write_vtp(const std::filesystem::path& path, const Packing& packing) {
+void write_vtp(const std::filesystem::path& path, const Packing& packing, StoredMotion motion) {
   const Configuration3& configuration = packing.configuration;
-  std::vector<double> centres, axes, orientations, tensors;
+  std::vector<double> centres, axes, orientations, tensors, velocities, angular_velocities;
   std::vector<std::int32_t> particles, species, images, connectivity, offsets;
   for (const BodyInBox& body : packing.bodies) {
     const std::size_t i = body.particle;
@@ -141,12 +141,17 @@ void write_vtp(const std::filesystem::path& path, const Packing& packing) {
     append(axes, semi_axes);
     append(orientations, Eigen::Vector4d(q.w(), q.x(), q.y(), q.z()));
     append(tensors, Mat3(turn * semi_axes.asDiagonal() * turn.transpose()));
+    append(velocities, configuration.velocity[i]);
+    append(angular_velocities, configuration.angular_velocity[i]);
     append(images, body.shift);
     particles.push_back(static_cast<std::int32_t>(i));
     species.push_back(configuration.species[i]);
     connectivity.push_back(static_cast<std::int32_t>(connectivity.size()));
     offsets.push_back(static_cast<std::int32_t>(connectivity.size()));
   }
+  std::string motions;
+  if (motion.velocities) motions += data_array("velocity", 3, velocities);
+  if (motion.angular_velocities) motions += data_array("angular velocity", 3, angular_velocities);
   const std::size_t n = packing.bodies.size();
   write_file(path,
              head("PolyData") +
@@ -157,10 +162,22 @@ void write_vtp(const std::filesystem::path& path, const Packing& packing) {
                  data_array("particle", 1, particles) + data_array("species", 1, species) +
                  data_array("image", 3, images) + data_array("semi-axes", 3, axes) +
                  data_array("orientation", 4, orientations) + data_array("tensor", 9, tensors) +
-                 "</PointData>\n<Points>\n" + data_array("centres", 3, centres) +
+                 motions + "</PointData>\n<Points>\n" + data_array("centres", 3, centres) +
                  "</Points>\n<Verts>\n" + data_array("connectivity", 1, connectivity) +
                  data_array("offsets", 1, offsets) +
                  "</Verts>\n</Piece>\n</PolyData>\n</VTKFile>\n");
+}
+
+void VtpSeries::write(const StoredFrame<3>& frame) {
+  const std::string file = fmt::format("frame_{:04}.vtp", frame.index);
+  write_vtp(folder_ / file, Packing(frame.configuration, shrink_), motion_);
+  datasets_ += fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n",
+                           frame.configuration.time, file);
+}
+
+void VtpSeries::close() {
+  write_file(folder_ / (name_ + ".pvd"),
+             head("Collection") + "<Collection>\n" + datasets_ + "</Collection>\n</VTKFile>\n");
 }
 
 }  // namespace vitrel

@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <cctype>
-#include <cmath>
 #include <iterator>
+
+#include "workflow/export/in_space.h"
 
 namespace vitrel {
 namespace {
@@ -15,40 +16,49 @@ std::string one_word(std::string name) {
   return name;
 }
 
-std::string comment(const StoredFrame& frame, const StoredMotion& motion) {
-  const Vec2& box = frame.configuration.box.lengths();
+template <int Dim>
+std::string comment(const StoredFrame<Dim>& frame, const StoredMotion& motion) {
+  Vec3 box = Vec3::Ones();
+  box.head<Dim>() = frame.configuration.box.lengths();
+  const Vec3 origin = -0.5 * box;
   return fmt::format(
-      "Lattice=\"{} 0 0 0 {} 0 0 0 1\" Origin=\"{} {} -0.5\" pbc=\"T T F\" "
-      "Time={} Step={} Properties=type:S:1:id:I:1:pos:R:3:map_shift:I:3:angle:R:1:"
+      "Lattice=\"{} 0 0 0 {} 0 0 0 {}\" Origin=\"{} {} {}\" pbc=\"T T {}\" "
+      "Time={} Step={} Properties=type:S:1:id:I:1:pos:R:3:map_shift:I:3:{}"
       "orientation:R:4:aspherical_shape:R:3:mass:R:1{}{}",
-      box.x(), box.y(), -0.5 * box.x(), -0.5 * box.y(), frame.configuration.time, frame.step,
+      box.x(), box.y(), box.z(), origin.x(), origin.y(), origin.z(), Dim == 2 ? 'F' : 'T',
+      frame.configuration.time, frame.step, Dim == 2 ? "angle:R:1:" : "",
       motion.velocities ? ":velo:R:3" : "", motion.angular_velocities ? ":omega:R:3" : "");
 }
 
 }  // namespace
 
-void XyzSink::write(const StoredFrame& frame) {
-  const Configuration2& configuration = frame.configuration;
+template <int Dim>
+void XyzSink<Dim>::write(const StoredFrame<Dim>& frame) {
+  const Configuration<Dim>& configuration = frame.configuration;
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
+  const auto append = [&](const auto& vector) {
+    for (const auto number : vector) fmt::format_to(out, " {}", number);
+  };
   fmt::format_to(out, "{}\n{}\n", configuration.size(), comment(frame, motion_));
   for (std::size_t i = 0; i < configuration.size(); ++i) {
-    const Vec2& position = configuration.position[i];
-    const Shift<2>& image = configuration.image[i];
-    const Vec2& velocity = configuration.velocity[i];
-    const Ellipse& shape = configuration.shape[i];
-    const double angle = configuration.angle[i];
-    fmt::format_to(out, "{} {} {} {} 0 {} {} 0 {} 0 0 {} {} {} {} {}",
-                   one_word(configuration.species_names[configuration.species[i]]), i, position.x(),
-                   position.y(), image.x(), image.y(), angle, std::sin(0.5 * angle),
-                   std::cos(0.5 * angle), shape.a, shape.b, shape.b);
+    fmt::format_to(out, "{} {}", one_word(configuration.species_names[configuration.species[i]]),
+                   i);
+    append(in_space(configuration.position[i]));
+    append(in_space(configuration.image[i]));
+    if constexpr (Dim == 2) fmt::format_to(out, " {}", configuration.angle[i]);
+    append(orientation_in_space(configuration, i).coeffs());  // x, y, z, w
+    append(semi_axes_in_space(configuration.shape[i]));
     fmt::format_to(out, " {}", configuration.mass[i]);
-    if (motion_.velocities) fmt::format_to(out, " {} {} 0", velocity.x(), velocity.y());
+    if (motion_.velocities) append(in_space(configuration.velocity[i]));
     if (motion_.angular_velocities)
-      fmt::format_to(out, " 0 0 {}", configuration.angular_velocity[i]);
+      append(angular_velocity_in_space(configuration.angular_velocity[i]));
     text.push_back('\n');
   }
   file_.write({text.data(), text.size()});
 }
+
+template class XyzSink<2>;
+template class XyzSink<3>;
 
 }  // namespace vitrel

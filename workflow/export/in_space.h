@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cmath>
+
+#include "core/state/configuration.h"
+
+/// @file
+/// Particles of either dimension as programs take them that know three: ellipses lie in the plane z = 0.
+namespace vitrel {
+
+/// Coordinates or numbers of boxes, in the plane with 0 for z.
+template <class Vector>
+Eigen::Matrix<typename Vector::Scalar, 3, 1> in_space(const Vector& vector) {
+  Eigen::Matrix<typename Vector::Scalar, 3, 1> result;
+  result.setZero();
+  result.template head<Vector::SizeAtCompileTime>() = vector;
+  return result;
+}
+
+inline Vec3 angular_velocity_in_space(double angular_velocity) {
+  return {0, 0, angular_velocity};
+}
+inline const Vec3& angular_velocity_in_space(const Vec3& angular_velocity) {
+  return angular_velocity;
+}
+
+inline Quaternion orientation_in_space(const Configuration2& configuration, std::size_t i) {
+  const double half = 0.5 * configuration.angle[i];
+  return {std::cos(half), 0, 0, std::sin(half)};
+}
+inline const Quaternion& orientation_in_space(const Configuration3& configuration, std::size_t i) {
+  return configuration.orientation[i];
+}
+
+/// The axis out of the plane is b, as programs that draw ellipsoids do not take a flat one.
+inline Vec3 semi_axes_in_space(const Ellipse& ellipse) {
+  return {ellipse.a, ellipse.b, ellipse.b};
+}
+inline const Vec3& semi_axes_in_space(const Ellipsoid& ellipsoid) {
+  return ellipsoid.semi_axes;
+}
+
+}  // namespace vitrel
