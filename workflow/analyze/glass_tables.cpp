@@ -50,7 +50,7 @@ Entry plain(double value) {
 
 constexpr const char* kinds_text =
     "kind: 0 translation (tau_alpha), 1 rotation (tau_2), 2 rotation in the nematic (tau_2 of the "
-    "connected part), 3 diffusion (1/D), 4 rotational diffusion (1/D_r)";
+    "connected part)";
 
 Table relaxation_table(const GlassStudy& study) {
   Rows rows(
