@@ -518,8 +518,6 @@ TEST(Program, RunsSoftParticles) {
 TEST(Program, SaysWhatThreeDimensionsDoNotHave) {
   const Folder folder("three_dimensions");
   folder.write("p.toml", small_packing);
-  expect_refusal(run(folder.path(), {"sweep", "p.toml", "-o", "out", "-q"}), 2,
-                 "key 'system.dimension' is 3, but vitrel sweep is there for two dimensions only");
   ASSERT_EQ(run(folder.path(), {"prepare", "p.toml", "-o", "state.h5", "-q"}).code, 0);
   folder.write("flat.toml", small_system);
   expect_refusal(run(folder.path(), {"run", "flat.toml", "-o", "a.h5", "--from", "state.h5", "-q"}),

@@ -108,14 +108,6 @@ void validate(const Parameters& parameters) {
   validate_sweep(parameters.sweep);
 }
 
-void require_two_dimensions(const Parameters& parameters, const std::string& what) {
-  if (parameters.system.dimension != 2)
-    throw BadValue("system.dimension",
-                   fmt::format("is {}, but {} is there for two dimensions only; in three there are "
-                               "vitrel prepare, run, check, export and report",
-                               parameters.system.dimension, what));
-}
-
 Parameters load_parameters(const ParameterSource& source) {
   TomlNode root = read_toml_file(source.file);
   apply(root, source.overrides);
