@@ -123,8 +123,10 @@ Json seeds_json(const std::vector<SeedAverage>& averages) {
           {"mean", figure.mean},
           {"error", figure.error},
           {"interval", {figure.mean - figure.half_width, figure.mean + figure.half_width}}};
+    Json values = Json::object();
+    for (const auto& [key, text] : average.values) values[key] = parse_json(text, key);
     rows.push_back(
-        {{"values", average.values}, {"seeds", average.seeds}, {"figures", std::move(figures)}});
+        {{"values", std::move(values)}, {"seeds", average.seeds}, {"figures", std::move(figures)}});
   }
   return rows;
 }
