@@ -29,7 +29,8 @@ void describe_analysis(DisplacementOptions& p, FieldVisitor& visit) {
   visit.field(
       {"wave_numbers", "1/length",
        "Wave numbers q of the intermediate scattering functions. If empty: approximately that of "
-       "the main peak of the structure factor, 2π √(2ρ/√3) with the number density ρ."},
+       "the main peak of the structure factor, 2π √(2ρ/√3) with the number density ρ. A sweep "
+       "over packing fractions uses the highest density of its jobs for all of them."},
       p.wave_numbers);
   visit.field({"orders", "", "Orders n of the orientational correlations ⟨cos n(θ(t) − θ(0))⟩."},
               p.orders);

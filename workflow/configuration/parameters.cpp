@@ -81,7 +81,8 @@ FieldVisitor::Inside fields(Parameters& p, const Sections& sections) {
           });
     if (sections.sweep)
       visit.table(
-          {"sweep", "", "Several runs from one file."}, Style::section, [&](FieldVisitor& in) {
+          {"sweep", "", "Several runs from one file; or states, if no key of [dynamics] is given."},
+          Style::section, [&](FieldVisitor& in) {
             in.grid({"grid", "",
                      "Keys of this file in quotes, each with a list of values. Every combination "
                      "of values is a job."},
