@@ -144,7 +144,11 @@ class CommandLine : public ProgramCommandLine {
 
   void add_sweep() {
     CLI::App& sub =
-        add("sweep", "Run all jobs of [sweep]: prepare, run, analyze.", sweep_command, sweep_);
+        add("sweep",
+            "Run all jobs of [sweep]: prepare, run, analyze. If no key of [dynamics] is "
+            "given, a job is a state (a packing) and there is no run. Jobs that differ "
+            "in system.seed only are averaged.",
+            sweep_command, sweep_);
     sub.footer(exit_codes + overlap_code + resumed_code +
                "; of jobs that failed, the first one's.");
     add_parameter_file(sub, sweep_.source);
@@ -152,7 +156,8 @@ class CommandLine : public ProgramCommandLine {
     CLI::Option* parallel =
         sub.add_option("-j,--jobs", sweep_.parallel, "Jobs at a time")->check(positive);
     CLI::Option* status =
-        sub.add_flag("--status", sweep_.status, "Only print how far every job is");
+        sub.add_flag("--status", sweep_.status,
+                     "Only print how far every job is, and what has changed in the file since");
     CLI::Option* job = sub.add_option(
         "--job", sweep_.job, "Run this job only; other processes may run other jobs meanwhile");
     CLI::Option* exported =

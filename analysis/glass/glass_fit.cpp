@@ -22,6 +22,7 @@ constexpr double min_goodness = 0.05;
 constexpr double one_error = 1;        // rise of χ² at the ends of a 68.3 % interval
 constexpr double one_sigma = 0.15866;  // probability of less than the mean − σ
 constexpr int scan_points = 400;
+constexpr double max_deviation = 3;  // standard errors, of a density from the extrapolated law
 
 /// One density: y = ln τ.
 struct Point {
@@ -289,10 +290,87 @@ void combine_strengths(GlassFit& fit) {
       (quantile(beliefs, 1 - one_sigma, 0, largest) - quantile(beliefs, one_sigma, 0, largest)) / 2;
 }
 
-GlassFit& refuse(GlassFit& fit, const std::string& reason) {
-  fit.verdict = GlassVerdict::refused;
-  fit.reason = reason;
+/// By which factor times grow over all densities.
+double growth(const std::vector<Point>& points) {
+  const auto [least, most] = std::minmax_element(
+      points.begin(), points.end(), [](const Point& a, const Point& b) { return a.y < b.y; });
+  return std::exp(most->y - least->y);
+}
+
+/// The distance of a point from the law of a window, in standard errors of both; NaN if the window
+/// leaves the error of the law open.
+double deviation(const Point& p, const GlassWindow& w, GlassLaw law) {
+  const Eigen::Vector3d gradient(
+      1, abscissa(law, w.density, p.packing_fraction),
+      w.strength * abscissa_derivative(law, w.density, p.packing_fraction));
+  const double expected =
+      glass_law(law, w.log_prefactor, w.strength, w.density, p.packing_fraction);
+  const double variance = gradient.dot(w.covariance * gradient);
+  return std::abs(p.y - expected) / std::sqrt(variance + p.error * p.error);
+}
+
+/// What a density outside of the best window says against its law; empty if nothing does.
+std::string contradiction(const GlassFit& fit, const std::vector<Point>& points, GlassLaw law) {
+  const GlassWindow& w = fit.window;
+  const double divergence = std::fmin(w.density, fit.density);
+  std::string text;
+  double largest = max_deviation;
+  for (const Point& p : points) {
+    if (p.packing_fraction >= w.lowest && p.packing_fraction <= w.highest) continue;
+    if (p.packing_fraction >= divergence)
+      return fmt::format(
+          "times at {:.4g} are finite, beyond the phi_c = {:.4g} of the best window, [{:.4g}, "
+          "{:.4g}]",
+          p.packing_fraction, divergence, w.lowest, w.highest);
+    const double distance = deviation(p, w, law);
+    if (!(distance > largest)) continue;
+    largest = distance;
+    text = fmt::format(
+        "the law of the best window, [{:.4g}, {:.4g}], misses the time at {:.4g} by {:.2g} "
+        "standard errors",
+        w.lowest, w.highest, p.packing_fraction, distance);
+  }
+  return text;
+}
+
+/// Windows and what they say together, before it is judged.
+GlassFit fit_windows(const Densities& densities, GlassLaw law) {
+  GlassFit fit{};
+  fit.scatter = densities.scatter;
+  fit.density = fit.low = fit.high = fit.error = fit.statistical = fit.spread = fit.least = none;
+  fit.strength = fit.strength_error = none;
+  if (densities.points.size() < min_densities) return fit;
+  fit.windows = all_windows(densities.points, law);
+  weigh(fit.windows);
+  fit.window = heaviest(fit.windows);
+  combine_densities(fit, lower_end(densities.points, law));
+  combine_strengths(fit);
   return fit;
+}
+
+/// The first reason not to believe the fit; empty if there is none.
+std::string objection(const GlassFit& fit, const std::vector<Point>& points, GlassLaw law) {
+  if (points.size() < min_densities)
+    return fmt::format("{} densities in equilibrium; a fit needs {} or more", points.size(),
+                       min_densities);
+  const GlassWindow& w = fit.window;
+  const GlassWindow& whole = fit.windows[points.size() - min_densities];
+  if (!(whole.strength > 0)) return "the times do not grow with density";
+  if (const double factor = growth(points); factor < min_growth)
+    return fmt::format(
+        "the times grow by a factor of only {:.2g} from {:.4g} to {:.4g}, and to extrapolate "
+        "takes {:g} or more",
+        factor, whole.lowest, whole.highest, min_growth);
+  if (w.goodness < min_goodness)
+    return fmt::format(
+        "the law holds in no window: chi^2/dof is {:.3g} in the best one, [{:.4g}, {:.4g}]",
+        w.chi_square / static_cast<double>(w.degrees), w.lowest, w.highest);
+  if (std::isnan(fit.low))
+    return fmt::format(
+        "the density at which times diverge is not distinct from the highest one, "
+        "{:.4g}",
+        points.back().packing_fraction);
+  return contradiction(fit, points, law);
 }
 
 }  // namespace
@@ -305,30 +383,11 @@ double glass_law(GlassLaw law, double log_prefactor, double strength, double den
 GlassFit fit_glass_law(const std::vector<GlassPoint>& points, GlassLaw law) {
   check(points);
   const Densities densities = merge(points);
-  GlassFit fit{};
-  fit.scatter = densities.scatter;
-  fit.density = fit.low = fit.high = fit.error = fit.statistical = fit.spread = fit.least = none;
-  fit.strength = fit.strength_error = none;
-  if (densities.points.size() < min_densities)
-    return refuse(fit, fmt::format("{} densities in equilibrium; a fit needs {} or more",
-                                   densities.points.size(), min_densities));
-  fit.windows = all_windows(densities.points, law);
-  weigh(fit.windows);
-  fit.window = heaviest(fit.windows);
-  const GlassWindow& whole = fit.windows[densities.points.size() - min_densities];
-  if (!(whole.strength > 0)) return refuse(fit, "the times do not grow with density");
-  if (fit.window.goodness < min_goodness)
-    return refuse(fit, fmt::format("the law holds in no window: chi^2/dof is {:.3g} in the best "
-                                   "one, [{:.4g}, {:.4g}]",
-                                   fit.window.chi_square / static_cast<double>(fit.window.degrees),
-                                   fit.window.lowest, fit.window.highest));
-  combine_densities(fit, lower_end(densities.points, law));
-  combine_strengths(fit);
-  if (std::isnan(fit.low))
-    return refuse(fit, fmt::format("the density at which times diverge is not distinct from the "
-                                   "highest one, {:.4g}",
-                                   densities.points.back().packing_fraction));
-  if (std::isnan(fit.high)) {
+  GlassFit fit = fit_windows(densities, law);
+  fit.reason = objection(fit, densities.points, law);
+  if (!fit.reason.empty()) {
+    fit.verdict = GlassVerdict::refused;
+  } else if (std::isnan(fit.high)) {
     fit.verdict = GlassVerdict::lower_bound;
     fit.reason =
         fmt::format("above {:.4g} with a probability of 95 %, not bounded from above", fit.least);

@@ -77,11 +77,17 @@ struct GlassFit {
 ///    errors of the covariance.
 ///
 /// Found if the interval is bounded on both sides: if windows open above weigh too much, there is only a
-/// lower bound. Refused with a reason: fewer than five densities, times that do not grow, a χ² of the
-/// window of greatest weight that chance exceeds in less than 5 % of the cases, φ_c not distinct from
-/// the highest density. The error covers departures from the law as far as the windows show them; φ_c
-/// remains an extrapolation: compare the laws. Throws UserError for a point without a positive time and
-/// a positive error, or with a packing fraction outside (0, 1).
+/// lower bound. Refused with a reason:
+/// - fewer than five densities, times that do not grow, or that grow by less than a factor of ten: what
+///   has hardly begun to rise says nothing about a divergence, however well a law fits;
+/// - a χ² of the window of greatest weight that chance exceeds in less than 5 % of the cases;
+/// - φ_c not distinct from the highest density;
+/// - a density outside of that window that contradicts its law: beyond φ_c, or more than three standard
+///   errors, those of the time and of the extrapolation together, from the law.
+///
+/// The error covers departures from the law as far as the windows show them; φ_c remains an extrapolation:
+/// compare the laws. Throws UserError for a point without a positive time and a positive error, or with a
+/// packing fraction outside (0, 1).
 GlassFit fit_glass_law(const std::vector<GlassPoint>& points, GlassLaw law);
 
 /// ln τ by the law.
@@ -90,5 +96,7 @@ double glass_law(GlassLaw law, double log_prefactor, double strength, double den
 
 /// The fewest densities of a window.
 inline constexpr std::size_t min_densities = 5;
+/// The least factor by which times must grow.
+inline constexpr double min_growth = 10;
 
 }  // namespace vitrel

@@ -17,9 +17,8 @@ inline constexpr std::array<std::string_view, 4> orientation_names = {
 inline constexpr std::array<std::string_view, 3> fit_verdict_names = {"found", "lower bound only",
                                                                       "refused"};
 inline constexpr std::array<std::string_view, 2> law_names = {"power law", "Vogel–Fulcher"};
-inline constexpr std::array<std::string_view, 5> kind_names = {
-    "translation, tau_alpha", "rotation, tau_2", "rotation in the nematic, tau_2", "diffusion, 1/D",
-    "rotational diffusion, 1/D_r"};
+inline constexpr std::array<std::string_view, 3> kind_names = {
+    "translation, tau_alpha", "rotation, tau_2", "rotation in the nematic, tau_2"};
 
 constexpr std::string_view name_of(GlassKind kind) {
   return kind_names[static_cast<std::size_t>(kind)];

@@ -3,9 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
-
-#include "analysis/glass/glass_names.h"
 
 namespace vitrel {
 namespace {
@@ -29,52 +28,66 @@ bool nematic(const GlassRun& run) {
 bool applies(GlassKind kind, const GlassRun& run) {
   switch (kind) {
     case GlassKind::translation:
-    case GlassKind::diffusion:
       return true;
+    case GlassKind::rotation:
+      return run.rotors > 0 && !nematic(run);
     case GlassKind::nematic_rotation:
       return nematic(run);
-    case GlassKind::rotation:
-    case GlassKind::rotational_diffusion:
-      return run.rotors > 0 && !nematic(run);
   }
   return false;
 }
 
 Time time_of(GlassKind kind, const GlassRun& run) {
+  const RelaxationTime& time = kind == GlassKind::translation ? run.translation : run.rotation;
+  return {time.value, time.error};
+}
+
+/// 1/D of the same motion.
+Time diffusion_time_of(GlassKind kind, const GlassRun& run) {
   switch (kind) {
     case GlassKind::translation:
-      return {run.translation.value, run.translation.error};
-    case GlassKind::rotation:
-    case GlassKind::nematic_rotation:
-      return {run.rotation.value, run.rotation.error};
-    case GlassKind::diffusion:
       return inverse(run.diffusion);
-    case GlassKind::rotational_diffusion:
+    case GlassKind::rotation:
       return inverse(run.rotational_diffusion);
+    case GlassKind::nematic_rotation:
+      break;
   }
   return {unknown, unknown};
 }
 
 /// Whether a run was in equilibrium as far as this kind of time needs it.
 bool equilibrated(GlassKind kind, const GlassRun& run) {
-  const bool places_suffice = kind == GlassKind::translation || kind == GlassKind::diffusion;
-  return equilibrated(places_suffice ? run.translation_equilibration : run.equilibration);
+  return equilibrated(kind == GlassKind::translation ? run.translation_equilibration
+                                                     : run.equilibration);
 }
 
-bool enters_fit(GlassKind kind, const GlassRun& run) {
-  const Time time = time_of(kind, run);
-  return applies(kind, run) && equilibrated(kind, run) && time.value > 0 && time.error > 0;
+/// The times of one kind that enter a fit.
+std::vector<GlassPoint> points_of(GlassKind kind, const std::vector<GlassRun>& runs,
+                                  Time (*time_of_kind)(GlassKind, const GlassRun&)) {
+  std::vector<GlassPoint> points;
+  for (const GlassRun& run : runs) {
+    const Time time = time_of_kind(kind, run);
+    if (applies(kind, run) && equilibrated(kind, run) && time.value > 0 && time.error > 0)
+      points.push_back({run.packing_fraction, time.value, time.error});
+  }
+  return points;
 }
 
-/// The power law is an extrapolation that real systems cross: what still relaxes beyond.
-std::string crossed(const StudiedLaw& studied, const std::vector<GlassPoint>& points) {
-  double highest = 0;
-  for (const GlassPoint& point : points) highest = std::max(highest, point.packing_fraction);
-  if (studied.fit.verdict != GlassVerdict::found || studied.fit.density > highest) return "";
-  return fmt::format(
-      "{}, {}: phi_c = {:.4f} lies below {:.4g}, where the system is still in "
-      "equilibrium: it marks a crossover",
-      name_of(studied.kind), name_of(studied.law), studied.fit.density, highest);
+DiffusionVerdict compare(const GlassFit& relaxation, const GlassFit& diffusion) {
+  constexpr double max_errors = 3;
+  if (relaxation.verdict != GlassVerdict::found || diffusion.verdict == GlassVerdict::refused)
+    return DiffusionVerdict::untested;
+  const bool agrees = diffusion.verdict == GlassVerdict::lower_bound
+                          ? relaxation.density + max_errors * relaxation.error >= diffusion.least
+                          : std::abs(relaxation.density - diffusion.density) <=
+                                max_errors * std::hypot(relaxation.error, diffusion.error);
+  return agrees ? DiffusionVerdict::agrees : DiffusionVerdict::disagrees;
+}
+
+StudiedLaw studied_law(GlassKind kind, GlassLaw law, const std::vector<GlassRun>& runs) {
+  const GlassFit fit = fit_glass_law(points_of(kind, runs, time_of), law);
+  const GlassFit diffusion = fit_glass_law(points_of(kind, runs, diffusion_time_of), law);
+  return {kind, law, fit, compare(fit, diffusion)};
 }
 
 }  // namespace
@@ -88,19 +101,11 @@ GlassStudy study_glass(std::vector<GlassRun> runs, const std::string& mixed) {
     return study;
   }
   for (const GlassKind kind : glass_kinds) {
-    std::vector<GlassPoint> points;
-    bool applied = false;
-    for (const GlassRun& run : study.runs) {
-      applied = applied || applies(kind, run);
-      const Time time = time_of(kind, run);
-      if (enters_fit(kind, run)) points.push_back({run.packing_fraction, time.value, time.error});
-    }
+    const bool applied = std::any_of(study.runs.begin(), study.runs.end(),
+                                     [kind](const GlassRun& run) { return applies(kind, run); });
     if (!applied) continue;
-    for (const GlassLaw law : {GlassLaw::mode_coupling, GlassLaw::vogel_fulcher}) {
-      study.laws.push_back({kind, law, fit_glass_law(points, law)});
-      const std::string remark = crossed(study.laws.back(), points);
-      if (!remark.empty()) study.remarks.push_back(remark);
-    }
+    for (const GlassLaw law : {GlassLaw::mode_coupling, GlassLaw::vogel_fulcher})
+      study.laws.push_back(studied_law(kind, law, study.runs));
   }
   return study;
 }

@@ -13,20 +13,25 @@ namespace vitrel {
 
 /// What a law is fitted to.
 enum class GlassKind {
-  translation,           ///< τ_α
-  rotation,              ///< τ_2 of runs that are not nematic
-  nematic_rotation,      ///< τ_2 of nematic runs
-  diffusion,             ///< 1/D
-  rotational_diffusion,  ///< 1/D_r of runs that are not nematic
+  translation,       ///< τ_α
+  rotation,          ///< τ_2 of runs that are not nematic
+  nematic_rotation,  ///< τ_2 of nematic runs
 };
 inline constexpr std::array glass_kinds = {GlassKind::translation, GlassKind::rotation,
-                                           GlassKind::nematic_rotation, GlassKind::diffusion,
-                                           GlassKind::rotational_diffusion};
+                                           GlassKind::nematic_rotation};
+
+/// What the diffusion coefficient of the same motion, D or D_r, says to a φ_c.
+enum class DiffusionVerdict {
+  untested,   ///< it supports no law, or nothing diffuses (rotation in a nematic)
+  agrees,     ///< the φ_c of 1/D is within three standard errors, or not bounded from above
+  disagrees,  ///< it is not
+};
 
 struct StudiedLaw {
   GlassKind kind;
   GlassLaw law;
   GlassFit fit;
+  DiffusionVerdict diffusion;
 };
 
 struct GlassStudy {
@@ -37,8 +42,9 @@ struct GlassStudy {
 };
 
 /// Both laws for all kinds, from the runs that were in equilibrium and have a time with an error;
-/// translation and diffusion by the verdict of translation. Of runs that differ in more than density,
-/// seed and duration no law holds: `mixed` names what differs, and then none is fitted.
+/// translation by the verdict of translation. The same law of 1/D, or 1/D_r, only confirms φ_c or does not: a
+/// motion ceases at one density, so that there is one statement. Of runs that differ in more than
+/// density, seed and duration no law holds: `mixed` names what differs, and then none is fitted.
 GlassStudy study_glass(std::vector<GlassRun> runs, const std::string& mixed = "");
 
 }  // namespace vitrel

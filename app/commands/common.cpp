@@ -13,6 +13,7 @@
 #include "core/io/number_text.h"
 #include "workflow/analyze/analyze.h"
 #include "workflow/configuration/parameters.h"
+#include "workflow/sweep/job_folder.h"
 #include "workflow/sweep/sweep.h"
 
 namespace vitrel {
@@ -90,8 +91,9 @@ AnalysisProgress shown_on(ProgressDisplay& display) {
 
 fs::path run_or_sweep(const fs::path& input) {
   if (!fs::exists(input)) throw FileError(input.string() + ": there is no such file or folder");
-  const bool is_job = fs::exists(input / "run.h5") && fs::exists(input / "parameters.toml");
-  return is_job ? input / "run.h5" : input;
+  const bool is_job = fs::exists(input / "parameters.toml") &&
+                      (fs::exists(input / "run.h5") || job_stage(input) == JobStage::done);
+  return is_job ? job_product(input) : input;
 }
 
 void require_output_file(const fs::path& output, const std::vector<fs::path>& inputs) {

@@ -8,6 +8,7 @@
 #include "app/terminal/exit_codes.h"
 #include "app/terminal/session.h"
 #include "workflow/sweep/sweep.h"
+#include "workflow/sweep/sweep_status.h"
 
 namespace vitrel {
 namespace {
@@ -26,6 +27,14 @@ void print_table(const SweepOptions& options) {
   flush_output();
 }
 
+int print_status(const SweepOptions& options) {
+  print_table(options);
+  const std::vector<SweepJob> jobs = sweep_jobs(parameter_source(options.source));
+  for (const std::string& change : sweep_changes(jobs, options.output))
+    remark(options.print, change);
+  return success;
+}
+
 int export_workflow(const SweepOptions& options) {
   export_sweep(parameter_source(options.source), options.output, this_program());
   remark(options.print,
@@ -38,20 +47,19 @@ int export_workflow(const SweepOptions& options) {
 
 SweepOutcome run_jobs(const SweepOptions& options) {
   Session session(options.print.quiet, options.wall_time);
+  session.begin("sweep");
+  const auto say = [&session](const std::string& line) { session.note(line); };
   const SweepRequest request{parameter_source(options.source), options.output, this_program(),
                              options.parallel};
-  return options.job.empty() ? run_sweep(request, session.control(), session.say())
-                             : run_job(request, options.job, session.control(), session.say());
+  return options.job.empty() ? run_sweep(request, session.control(), say)
+                             : run_job(request, options.job, session.control(), say);
 }
 
 }  // namespace
 
 int sweep_command(const SweepOptions& options) {
   if (!options.export_as.empty()) return export_workflow(options);
-  if (options.status) {
-    print_table(options);
-    return success;
-  }
+  if (options.status) return print_status(options);
   const SweepOutcome outcome = run_jobs(options);
   print_table(options);
   if (outcome.failed > 0) {

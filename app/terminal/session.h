@@ -20,6 +20,10 @@ class Session {
   const RunControl& control() const { return control_; }
   /// Begins a step: prints a line, and the label of the progress that follows.
   const std::function<void(const std::string&)>& say() const { return say_; }
+  /// The label of the progress that follows.
+  void begin(const std::string& label) { display_.begin(label); }
+  /// Prints a line; the progress goes on.
+  void note(const std::string& line) { display_.say(line); }
   /// Takes the progress off the terminal, before a summary is printed.
   void clear() { display_.clear(); }
   double seconds() const;

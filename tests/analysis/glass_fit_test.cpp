@@ -52,7 +52,8 @@ struct Coverage {
 
 // Binomial counts within 3 standard deviations, false-alarm rate 0.3 % each: the statistical error alone
 // covers 68.27 ± 4.65 %. With the spread it covers more (about 90 %) if the law holds everywhere, as it
-// has to allow for windows that leave densities out.
+// has to allow for windows that leave densities out. Of samples of a law that holds everywhere a tenth is
+// refused: their best windows are those that leave an outlier out, which then contradicts them.
 TEST(GlassFit, ErrorsCoverTheDensityOfThePowerLaw) {
   Coverage coverage;
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
@@ -61,7 +62,7 @@ TEST(GlassFit, ErrorsCoverTheDensityOfThePowerLaw) {
                                  GlassLaw::mode_coupling),
                    0.79, 2.3);
   }
-  EXPECT_GE(coverage.found, 90);
+  EXPECT_GE(coverage.found, 90 - 9);  // 3 binomial standard deviations
   EXPECT_NEAR(coverage.statistical_one, 0.6827 * coverage.found, 3 * 4.65);
   EXPECT_GE(coverage.strength_one, 0.6827 * coverage.found - 3 * 4.65);
   EXPECT_GE(coverage.one, 0.6827 * coverage.found - 3 * 4.65);
@@ -81,55 +82,101 @@ TEST(GlassFit, ErrorsCoverTheDensityOfVogelAndFulcher) {
   EXPECT_GE(coverage.two, 0.954 * coverage.found - 3 * 2.1);
 }
 
-// Below 0.62 times stay above the power law (no caging yet), by 4σ and more: these densities stay
-// outside of the window, and the error covers φ_c.
-TEST(GlassFit, DensitiesBelowThePowerLawStayOutside) {
-  Coverage coverage;
-  int low = 0;
+/// The reason for which a law is refused; empty if it is not.
+std::string refusal(const std::vector<GlassPoint>& points, GlassLaw law) {
+  const GlassFit fit = fit_glass_law(points, law);
+  return fit.verdict == GlassVerdict::refused ? fit.reason : "";
+}
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+// Below 0.62 times stay above the power law (no caging yet), by 15 · 0.06/0.05 = 18σ at 0.56. The best
+// window leaves these densities out, so that its law contradicts them: no φ_c, and mostly the reason names
+// the density that is missed by most. A window of few densities may leave its law so open that nothing contradicts
+// it; such samples are to be as rare as deviations of 2σ.
+TEST(GlassFit, DensitiesBelowThePowerLawContradictIt) {
+  int refused = 0, named = 0;
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     Stream draw(seed, Purpose::tests);
     const auto y = [](double phi) { return power_law(phi) + 15 * std::max(0.0, 0.62 - phi); };
-    const GlassFit fit =
-        fit_glass_law(times(densities(0.56, 0.02, 11), 0.05, draw, y), GlassLaw::mode_coupling);
-    coverage.count(fit, 0.79, 2.3);
-    low += fit.window.lowest < 0.59;
+    const std::string reason =
+        refusal(times(densities(0.56, 0.02, 11), 0.05, draw, y), GlassLaw::mode_coupling);
+    refused += !reason.empty();
+    named += has(reason, "misses the time at 0.56 by");
   }
-  EXPECT_LE(low, 5);
-  EXPECT_GE(coverage.found, 90);
-  EXPECT_GE(coverage.one, 0.6827 * coverage.found - 3 * 4.65);
-  EXPECT_GE(coverage.two, 0.954 * coverage.found - 3 * 2.1);
+  EXPECT_GE(refused, 95);
+  EXPECT_GT(named, refused / 2);
 }
 
-// Above 0.75 times stay below the power law (hopping). With a φ_c that is too high the law bends so
-// that χ² often finds nothing to blame; the windows contradict each other, and the spread says so.
-TEST(GlassFit, DensitiesBeyondThePowerLawMakeTheErrorLarge) {
+// Above 0.75 times stay below the power law (hopping), at 0.78 by 40 · 0.03/0.05 = 24σ. A window that
+// leaves 0.78 out is contradicted by it. With that density, and a φ_c that is too high, the law bends so that
+// χ² may find nothing to blame; the windows contradict each other, and the error covers φ_c.
+TEST(GlassFit, DensitiesBeyondThePowerLawContradictItOrMakeTheErrorLarge) {
   Coverage coverage;
+  int contradicted = 0;
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     Stream draw(seed, Purpose::tests);
     const auto y = [](double phi) { return power_law(phi) - 40 * std::max(0.0, phi - 0.75); };
-    coverage.count(
-        fit_glass_law(times(densities(0.58, 0.02, 11), 0.05, draw, y), GlassLaw::mode_coupling),
-        0.79, 2.3);
+    const std::vector<GlassPoint> points = times(densities(0.58, 0.02, 11), 0.05, draw, y);
+    coverage.count(fit_glass_law(points, GlassLaw::mode_coupling), 0.79, 2.3);
+    const std::string reason = refusal(points, GlassLaw::mode_coupling);
+    contradicted += has(reason, "times at 0.78 are finite") || has(reason, "misses the time");
   }
-  EXPECT_GE(coverage.found, 80);
-  EXPECT_GE(coverage.one, 0.6827 * coverage.found - 3 * 4.65);
-  EXPECT_GE(coverage.two, 0.954 * coverage.found - 3 * 2.1);
+  EXPECT_GE(contradicted, 10);
+  const double found = coverage.found;
+  EXPECT_GE(coverage.one, 0.6827 * found - 3 * std::sqrt(0.6827 * 0.3173 * found));
+  EXPECT_GE(coverage.two, 0.9545 * found - 3 * std::sqrt(0.9545 * 0.0455 * found));
 }
 
-// Far from φ_c a power law cannot be told from an exponential: no φ_c, a bound that holds in 95 % of
-// the cases (3 binomial standard deviations), or a refusal.
+// An outlier beyond the window, at 0.78 and 5σ below the law that all others obey exactly: the law of the
+// window is known so well that the distance is that in errors of the time alone.
+TEST(GlassFit, ADensityOutsideTheWindowIsComparedWithTheExtrapolatedLaw) {
+  std::vector<GlassPoint> points;
+  for (const double phi : densities(0.60, 0.02, 9))
+    points.push_back({phi, std::exp(power_law(phi)), 1e-4 * std::exp(power_law(phi))});
+  const double time = std::exp(power_law(0.78) - 5 * 0.1);
+  points.push_back({0.78, time, 0.1 * time});
+  EXPECT_TRUE(has(refusal(points, GlassLaw::mode_coupling),
+                  "the law of the best window, [0.6, 0.76], misses the time at 0.78 by 5 "));
+  points.back() = {0.80, time, 0.1 * time};
+  EXPECT_TRUE(has(refusal(points, GlassLaw::mode_coupling),
+                  "times at 0.8 are finite, beyond the phi_c = 0.79 of the best window"));
+}
+
+// (0.95 − φ)^−10 grows by a factor of 12 from 0.50 to 0.60, so far from φ_c that a power law cannot be told
+// from an exponential: no φ_c, a bound that holds in 95 % of the cases (3 binomial standard deviations),
+// or a refusal.
 TEST(GlassFit, FarFromTheDivergenceThereIsABoundOnly) {
   int found = 0, bounds = 0, wrong = 0;
+  const auto y = [](double phi) { return -10 * std::log(0.95 - phi); };
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     Stream draw(seed, Purpose::tests);
-    const GlassFit fit = fit_glass_law(times(densities(0.50, 0.02, 6), 0.1, draw, power_law),
-                                       GlassLaw::mode_coupling);
+    const GlassFit fit =
+        fit_glass_law(times(densities(0.50, 0.02, 6), 0.1, draw, y), GlassLaw::mode_coupling);
     found += fit.verdict == GlassVerdict::found;
     bounds += fit.verdict == GlassVerdict::lower_bound;
-    wrong += fit.verdict == GlassVerdict::lower_bound && fit.least > 0.79;
+    wrong += fit.verdict == GlassVerdict::lower_bound && fit.least > 0.95;
   }
   EXPECT_GE(bounds, 50);
   EXPECT_LE(wrong, 5 + 3 * 2.2);
+}
+
+// The power law grows by (0.29/0.19)^2.3 = 2.64 from 0.50 to 0.60. Exact times fit it perfectly, and yet
+// hardly more than a straight line is known. From 0.60 to 0.72 it is (0.19/0.07)^2.3 = 9.95, to 0.722 10.6.
+TEST(GlassFit, ADecadeOfGrowthIsNeededHoweverWellTheLawFits) {
+  const auto exact = [](double from, double to) {
+    std::vector<GlassPoint> points;
+    for (const double phi : densities(from, (to - from) / 5, 6))
+      points.push_back({phi, std::exp(power_law(phi)), 1e-4 * std::exp(power_law(phi))});
+    return points;
+  };
+  for (const GlassLaw law : {GlassLaw::mode_coupling, GlassLaw::vogel_fulcher})
+    EXPECT_TRUE(has(refusal(exact(0.50, 0.60), law),
+                    "grow by a factor of only 2.6 from 0.5 to 0.6, and to extrapolate takes 10"));
+  EXPECT_TRUE(has(refusal(exact(0.60, 0.72), GlassLaw::mode_coupling), "a factor of only 9.9"));
+  EXPECT_EQ(refusal(exact(0.60, 0.722), GlassLaw::mode_coupling), "");
 }
 
 // Above 0.70 times grow more slowly than by the law of a divergence at 0.72: what relaxes at 0.76 is not
@@ -160,13 +207,13 @@ TEST(GlassFit, WithoutNoiseTheLawIsFoundExactly) {
   for (const GlassLaw law : {GlassLaw::mode_coupling, GlassLaw::vogel_fulcher}) {
     std::vector<GlassPoint> points;
     for (const double phi : densities(0.60, 0.02, 9)) {
-      const double time = std::exp(glass_law(law, 1.5, 0.9, 0.81, phi));
+      const double time = std::exp(glass_law(law, 1.5, 1.8, 0.81, phi));
       points.push_back({phi, time, 1e-4 * time});
     }
     const GlassFit fit = fit_glass_law(points, law);
     ASSERT_EQ(fit.verdict, GlassVerdict::found) << fit.reason;
     EXPECT_NEAR(fit.density, 0.81, 1e-8);
-    EXPECT_NEAR(fit.strength, 0.9, 1e-6);
+    EXPECT_NEAR(fit.strength, 1.8, 1e-6);
     EXPECT_NEAR(fit.window.log_prefactor, 1.5, 1e-6);
     EXPECT_EQ(fit.window.densities, 9u);
     EXPECT_EQ(fit.windows.size(), 15u);
@@ -204,9 +251,6 @@ TEST(GlassFit, DataThatDoNotSupportAFitAreRefusedWithTheReason) {
     EXPECT_EQ(fit.verdict, GlassVerdict::refused);
     return fit.reason;
   };
-  const auto has = [](const std::string& text, const char* part) {
-    return text.find(part) != std::string::npos;
-  };
   EXPECT_TRUE(has(reason({}), "0 densities in equilibrium"));
   EXPECT_TRUE(has(reason(times(densities(0.6, 0.02, 4), 0.05, draw, power_law)), "4 densities"));
   // Five runs, but only two densities.
@@ -215,7 +259,7 @@ TEST(GlassFit, DataThatDoNotSupportAFitAreRefusedWithTheReason) {
       has(reason(times(densities(0.6, 0.02, 6), 1e-3, draw, [](double phi) { return -10 * phi; })),
           "do not grow"));
   EXPECT_TRUE(has(reason(times(densities(0.6, 0.02, 6), 1e-3, draw,
-                               [](double phi) { return std::sin(100 * phi); })),
+                               [](double phi) { return 2 * std::sin(100 * phi); })),
                   "in no window"));
   // They diverge at the highest density itself, but for 5e-7.
   EXPECT_TRUE(has(reason(times(densities(0.62, 0.02, 5), 0.3, draw,

@@ -413,7 +413,7 @@ TEST(Program, ATruncatedFileExitsWithThree) {
                  "run.h5.checkpoint");
 }
 
-constexpr const char* small_packing =
+const std::string small_packing =
     "[system]\ndimension = 3\nparticles = 20\npacking_fraction = 0.2\n[[species]]\naspect_ratio = "
     "3\n"
     "[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"grow\"\ngrowth_rate = 0.1\n";
@@ -518,12 +518,43 @@ TEST(Program, RunsSoftParticles) {
 TEST(Program, SaysWhatThreeDimensionsDoNotHave) {
   const Folder folder("three_dimensions");
   folder.write("p.toml", small_packing);
-  expect_refusal(run(folder.path(), {"sweep", "p.toml", "-o", "out", "-q"}), 2,
-                 "key 'system.dimension' is 3, but vitrel sweep is there for two dimensions only");
   ASSERT_EQ(run(folder.path(), {"prepare", "p.toml", "-o", "state.h5", "-q"}).code, 0);
   folder.write("flat.toml", small_system);
   expect_refusal(run(folder.path(), {"run", "flat.toml", "-o", "a.h5", "--from", "state.h5", "-q"}),
                  3, "state.h5: is three-dimensional");
+}
+
+// Without [dynamics] the jobs of a sweep are packings; with it, runs.
+TEST(Program, ASweepOfThreeDimensions) {
+  const Folder folder("sweep_of_packings");
+  folder.write("p.toml", small_packing + "[sweep.grid]\n\"system.seed\" = [1, 2]\n");
+  const auto summary_of = [&folder](const std::string& sweep, std::vector<std::string> more) {
+    more.insert(more.begin(), {"sweep", "p.toml", "-o", sweep, "--json", "-q"});
+    const Outcome outcome = run(folder.path(), more);
+    EXPECT_EQ(outcome.code, 0) << outcome.errors;
+    return Json::parse(outcome.output);
+  };
+  const Json packings = summary_of("packings", {});
+  for (const Json& job : packings["jobs"]) {
+    expect_keys(job["prepare"], {"packing_fraction", "orientation_ratio", "reduced_pressure",
+                                 "collisions", "wall_seconds"});
+    EXPECT_EQ(job["analyze"]["orientation_ratio"], job["prepare"]["orientation_ratio"]);
+    EXPECT_FALSE(job.contains("run"));
+  }
+  EXPECT_EQ(packings["seeds"][0]["seeds"], 2);
+  ASSERT_EQ(run(folder.path(), {"analyze", "packings", "-q"}).code, 0);
+  const Results results = read_results(folder / "packings/results.h5");
+  EXPECT_EQ(results.find("runs")->find("reduced_pressure")->value[1],
+            packings["jobs"][1]["prepare"]["reduced_pressure"]);
+  EXPECT_EQ(results.find("seeds")->rows(), 1u);
+  EXPECT_EQ(run(folder.path(), {"analyze", "packings/seed-1", "-o", "a.h5", "-q"}).code, 0);
+
+  const Json runs = summary_of("runs", {"--set", "dynamics.duration=1"});
+  for (const Json& job : runs["jobs"]) {
+    EXPECT_EQ(job["run"]["overlaps"], 0);
+    EXPECT_NEAR(job["run"]["packing_fraction"], 0.2, 1e-12);
+    EXPECT_TRUE(job["analyze"].contains("packing_fraction"));
+  }
 }
 
 // Two particles on top of each other: both ways to look must see it.

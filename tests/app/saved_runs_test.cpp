@@ -3,10 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "analysis/results.h"
 #include "tests/app/program.h"
@@ -231,6 +233,28 @@ TEST_F(SavedSweep, RunsAreOrderedByDensityThenBySeed) {
   for (const std::string& row : rows) {
     place = page.find("<td>" + row + "</td>", place);
     EXPECT_NE(place, std::string::npos) << row;
+  }
+}
+
+// Of two values d apart the 95 % interval is ± tan(0.95 π/2) d/2: Student's quantile for one degree of freedom.
+TEST_F(SavedSweep, SeedsAreAveraged) {
+  ASSERT_EQ(run(folder.path(), {"analyze", "sweep", "-q"}).code, 0);
+  const Results results = read_results(folder / "sweep/results.h5");
+  const Table& runs = *results.find("runs");
+  EXPECT_THAT(runs.find("seed")->value, ElementsAre(2, 10, 2, 10));
+  const Table& seeds = *results.find("seeds");
+  EXPECT_THAT(seeds.find("system_packing_fraction")->value, ElementsAre(0.3, 0.4));
+  EXPECT_THAT(seeds.find("seeds")->value, ElementsAre(2, 2));
+  EXPECT_EQ(results.text("seeds_row_1"), "packing_fraction 0.4");
+  const Column& z = *seeds.find("compressibility_factor");
+  EXPECT_EQ(seeds.find("tau_translation")->unit, "time");
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double first = runs.find(z.name)->value[2 * k],
+                 second = runs.find(z.name)->value[2 * k + 1];
+    EXPECT_NEAR(z.value[k], (first + second) / 2, 1e-12 * first);
+    EXPECT_LT(z.error[k], seeds.find(z.name + "_interval")->value[k]);
+    EXPECT_NEAR(seeds.find(z.name + "_interval")->value[k],
+                std::tan(0.95 * std::numbers::pi / 2) * std::abs(first - second) / 2, 1e-9 * first);
   }
 }
 

@@ -228,27 +228,26 @@ inline Table relaxation_table() {
 /// times, and at the middle of the window with one another.
 inline Table fit_table() {
   const double vogel_fulcher = std::log(relaxation_time(0.66)) - 0.6 * 0.66 / (0.85 - 0.66);
-  return {
-      "glass_fit",
-      "",
-      {plain("kind", "1", {0, 0, 1, 1, 2, 3}),
-       plain("law", "1", {0, 1, 0, 1, 0, 0}),
-       plain("verdict", "1", {0, 0, 1, 2, 1, 0}),
-       {"phi_c", "1", {0.8, 0.85, none, none, none, 0.79}, {0.005, 0.02, none, none, none, 0.01}},
-       plain("phi_c_statistical", "1", {0.003, 0.012, none, none, none, 0.006}),
-       plain("phi_c_spread", "1", {0.004, 0.016, none, none, none, 0.008}),
-       plain("phi_c_least", "1", {0.792, 0.82, 0.795, none, 0.785, 0.78}),
-       {"exponent", "1", {2, 0.6, none, none, none, 2.2}, {0.1, 0.3, none, none, none, 0.2}},
-       plain("window_low", "1", {0.62, 0.62, 0.6, 0.6, 0.68, 0.62}),
-       plain("window_high", "1", {0.72, 0.72, 0.66, 0.66, 0.72, 0.72}),
-       plain("densities", "1", {6, 6, 4, 4, 3, 6}),
-       plain("window_phi_c", "1", {0.8, 0.85, 0.81, none, 0.81, 0.79}),
-       plain("window_exponent", "1", {2, 0.6, 2.5, none, 2.5, 2.2}),
-       plain("window_log_prefactor", "ln(time)",
-             {std::log(0.1), vogel_fulcher, std::log(4), none, std::log(0.8), 0}),
-       plain("chi2", "1", {3.6, 4.5, 1, 20, 1, 3}),
-       plain("dof", "1", {3, 3, 1, 1, 1, 3}),
-       plain("scatter", "1", {1, 1, 1.5, 1.5, 1, 1})}};
+  return {"glass_fit",
+          "",
+          {plain("kind", "1", {0, 0, 1, 1, 2}),
+           plain("law", "1", {0, 1, 0, 1, 0}),
+           plain("verdict", "1", {0, 0, 1, 2, 1}),
+           {"phi_c", "1", {0.8, 0.85, none, none, none}, {0.005, 0.02, none, none, none}},
+           plain("phi_c_statistical", "1", {0.003, 0.012, none, none, none}),
+           plain("phi_c_spread", "1", {0.004, 0.016, none, none, none}),
+           plain("phi_c_least", "1", {0.792, 0.82, 0.795, none, 0.785}),
+           {"exponent", "1", {2, 0.6, none, none, none}, {0.1, 0.3, none, none, none}},
+           plain("window_low", "1", {0.62, 0.62, 0.6, 0.6, 0.68}),
+           plain("window_high", "1", {0.72, 0.72, 0.66, 0.66, 0.72}),
+           plain("densities", "1", {6, 6, 4, 4, 3}),
+           plain("window_phi_c", "1", {0.8, 0.85, 0.81, none, 0.81}),
+           plain("window_exponent", "1", {2, 0.6, 2.5, none, 2.5}),
+           plain("window_log_prefactor", "ln(time)",
+                 {std::log(0.1), vogel_fulcher, std::log(4), none, std::log(0.8)}),
+           plain("chi2", "1", {3.6, 4.5, 1, 20, 1}),
+           plain("dof", "1", {3, 3, 1, 1, 1}),
+           plain("scatter", "1", {1, 1, 1.5, 1.5, 1})}};
 }
 
 inline Results study() {

@@ -105,7 +105,6 @@ TEST(ReportPage, TableOfFitsGivesValuesBoundsAndDashes) {
                 "<td>0.6 … 0.66</td><td>20.00</td><td>1.5</td>"),
             1u);
   EXPECT_EQ(count(page, "<th scope=\"row\">rotation in the nematic, τ<sub>2</sub></th>"), 1u);
-  EXPECT_EQ(count(page, "<th scope=\"row\">diffusion, 1/D</th>"), 1u);
 }
 
 TEST(ReportPage, LawsThatNoDataCouldBeFittedToHaveNoWindow) {

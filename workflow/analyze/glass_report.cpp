@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -23,25 +24,41 @@ std::string run_line(const GlassRun& run) {
                      name_of(run.equilibration.verdict));
 }
 
-std::string law_text(const GlassFit& fit) {
+constexpr std::array diffusion_names = {"untested", "agrees", "disagrees"};
+
+const char* name_of(DiffusionVerdict verdict) {
+  return diffusion_names[static_cast<std::size_t>(verdict)];
+}
+
+/// What the diffusion coefficient says to φ_c, after it.
+std::string diffusion_text(const StudiedLaw& studied) {
+  if (studied.diffusion == DiffusionVerdict::untested) return "";
+  return fmt::format("; {} {}", studied.kind == GlassKind::translation ? "1/D" : "1/D_r",
+                     name_of(studied.diffusion));
+}
+
+std::string law_text(const StudiedLaw& studied) {
+  const GlassFit& fit = studied.fit;
   if (fit.verdict != GlassVerdict::found) return "no phi_c: " + fit.reason;
   return fmt::format(
       "phi_c = {} (statistical {:.2g}, window {:.2g}), s = {}; best window {:.4g} ... {:.4g}, "
-      "chi^2/dof {:.2f}",
+      "chi^2/dof {:.2f}{}",
       with_error(fit.density, fit.error), fit.statistical, fit.spread,
       with_error(fit.strength, fit.strength_error), fit.window.lowest, fit.window.highest,
-      fit.window.chi_square / static_cast<double>(fit.window.degrees));
+      fit.window.chi_square / static_cast<double>(fit.window.degrees), diffusion_text(studied));
 }
 
 /// Kinds with what each law says of them; one line where both say the same.
 std::vector<std::string> law_lines(const GlassStudy& study) {
   std::vector<std::string> lines;
   for (std::size_t k = 0; k < study.laws.size(); ++k) {
-    const auto& [kind, law, fit] = study.laws[k];
-    const bool has_next = k + 1 < study.laws.size() && study.laws[k + 1].kind == kind;
-    const bool same = has_next && law_text(fit) == law_text(study.laws[k + 1].fit);
-    lines.push_back(same ? fmt::format("{}: {}", name_of(kind), law_text(fit))
-                         : fmt::format("{}, {}: {}", name_of(kind), name_of(law), law_text(fit)));
+    const StudiedLaw& studied = study.laws[k];
+    const std::string text = law_text(studied);
+    const bool has_next = k + 1 < study.laws.size() && study.laws[k + 1].kind == studied.kind;
+    const bool same = has_next && text == law_text(study.laws[k + 1]);
+    lines.push_back(
+        same ? fmt::format("{}: {}", name_of(studied.kind), text)
+             : fmt::format("{}, {}: {}", name_of(studied.kind), name_of(studied.law), text));
     k += same;
   }
   return lines;
@@ -103,7 +120,9 @@ std::vector<std::pair<std::string, std::string>> glass_notes(const GlassStudy& s
     else if (!equilibrated(run.equilibration))
       add_run(run, "rotation", run.equilibration);
   for (const std::string& line : law_lines(study))
-    if (line.find("no phi_c") != std::string::npos) add(line);
+    if (line.find("no phi_c") != std::string::npos ||
+        line.ends_with(name_of(DiffusionVerdict::disagrees)))
+      add(line);
   for (const std::string& remark : study.remarks) add(remark);
   return notes;
 }
@@ -126,7 +145,7 @@ Json glass_summary(const GlassRun& run) {
 
 Json glass_summary(const GlassStudy& study) {
   Json fits = Json::array();
-  for (const auto& [kind, law, fit] : study.laws) {
+  for (const auto& [kind, law, fit, diffusion] : study.laws) {
     const bool found = fit.verdict == GlassVerdict::found;
     const bool bounded = fit.verdict != GlassVerdict::refused;
     fits.push_back({{"kind", name_of(kind)},
@@ -134,6 +153,7 @@ Json glass_summary(const GlassStudy& study) {
                     {"phi_c", found ? fit.density : unknown},
                     {"phi_c_error", found ? fit.error : unknown},
                     {"phi_c_least", bounded ? fit.least : unknown},
+                    {"diffusion", name_of(diffusion)},
                     {"exponent", found ? fit.strength : unknown},
                     {"exponent_error", found ? fit.strength_error : unknown},
                     {"window", {fit.window.lowest, fit.window.highest}},

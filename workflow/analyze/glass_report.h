@@ -11,7 +11,7 @@
 /// Glass runs and glass studies in words and as JSON.
 namespace vitrel {
 
-/// As provenance: why runs stay out of the fits, why a law has no φ_c.
+/// As provenance: why runs stay out of the fits, why a law has no φ_c, or none with which the diffusion agrees.
 std::vector<std::pair<std::string, std::string>> glass_notes(const GlassStudy& study);
 /// Times, order and verdict of one run.
 Json glass_summary(const GlassRun& run);

@@ -50,9 +50,7 @@ Entry plain(double value) {
 }
 
 constexpr const char* kinds_text =
-    "kind: of tau_alpha (translation), tau_2 (rotation; in the nematic of its connected part), 1/D "
-    "or "
-    "1/D_r";
+    "kind: of tau_alpha (translation) or tau_2 (rotation; in the nematic of its connected part)";
 
 /// A column of codes.
 template <std::size_t Count>

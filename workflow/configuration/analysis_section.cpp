@@ -30,7 +30,8 @@ void describe_analysis(DisplacementOptions& p, FieldVisitor& visit) {
       {"wave_numbers", "1/length",
        "Wave numbers q of the intermediate scattering functions. If empty: approximately that of "
        "the main peak of the structure factor, with the number density ρ 2π √(2ρ/√3), in space "
-       "2π √3 (ρ/4)^⅓."},
+       "2π √3 (ρ/4)^⅓. A sweep over packing fractions uses the highest density of its jobs for all "
+       "of them."},
       p.wave_numbers);
   visit.field({"orders", "",
                "Orders n of the orientational correlations, ⟨cos n(θ(t) − θ(0))⟩ in the plane and "

@@ -81,7 +81,8 @@ FieldVisitor::Inside fields(Parameters& p, const Sections& sections) {
           });
     if (sections.sweep)
       visit.table(
-          {"sweep", "", "Several runs from one file."}, Style::section, [&](FieldVisitor& in) {
+          {"sweep", "", "Several runs from one file; or states, if no key of [dynamics] is given."},
+          Style::section, [&](FieldVisitor& in) {
             in.grid({"grid", "",
                      "Keys of this file in quotes, each with a list of values. Every combination "
                      "of values is a job."},
@@ -106,14 +107,6 @@ void validate(const Parameters& parameters) {
   validate_analysis(parameters.analysis);
   validate_structure(parameters.structure);
   validate_sweep(parameters.sweep);
-}
-
-void require_two_dimensions(const Parameters& parameters, const std::string& what) {
-  if (parameters.system.dimension != 2)
-    throw BadValue("system.dimension",
-                   fmt::format("is {}, but {} is there for two dimensions only; in three there are "
-                               "vitrel prepare, run, check, export and report",
-                               parameters.system.dimension, what));
 }
 
 Parameters load_parameters(const ParameterSource& source) {

@@ -108,9 +108,6 @@ FieldVisitor::Inside fields(Parameters& parameters, const Sections& sections = {
 /// Throws BadValue for the first impossible value.
 void validate(const Parameters& parameters);
 
-/// Throws BadValue unless the system is two-dimensional; `what` is not there for three.
-void require_two_dimensions(const Parameters& parameters, const std::string& what);
-
 /// A file and what the command line puts over it.
 struct ParameterSource {
   std::filesystem::path file;

@@ -14,10 +14,9 @@ namespace vitrel {
 namespace {
 
 // What the numbers in the tables stand for.
-constexpr std::array<std::string_view, 5> kinds = {
-    "translation, τ<sub>α</sub>", "rotation, τ<sub>2</sub>",
-    "rotation in the nematic, τ<sub>2</sub>", "diffusion, 1/D",
-    "rotational diffusion, 1/D<sub>r</sub>"};
+constexpr std::array<std::string_view, 3> kinds = {"translation, τ<sub>α</sub>",
+                                                   "rotation, τ<sub>2</sub>",
+                                                   "rotation in the nematic, τ<sub>2</sub>"};
 constexpr double found = 0, lower_bound = 1;
 
 /// One row of a table.

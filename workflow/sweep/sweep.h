@@ -5,32 +5,19 @@
 #include <string>
 #include <vector>
 
-#include "core/io/json.h"
 #include "core/state/stage.h"
 #include "workflow/configuration/parameters.h"
 #include "workflow/sweep/sweep_jobs.h"
 
 /// @file
-/// Many runs from one parameter file. Every job has a folder of its own:
-///
-///     sweep/<id>/params.json      the job's values of the grid, and its id
-///               /parameters.toml  all its parameters
-///               /state.h5 run.h5 results.h5
-///                                 made by prepare, run, analyze, each in a process of its own
-///               /prepare.json run.json analyze.json log.txt
-///                                 what these said
-///               /done.json        written last
+/// Many runs from one parameter file, each in a folder of its own (job_folder.h): prepare, run, analyze, each in
+/// a process of its own.
 ///
 /// Every step may be repeated: what is complete is left alone, a preparation or a run that was cut off is
 /// continued. So the same command continues a sweep that was stopped or killed. To equilibrate is the
 /// first part of the run, not a step of its own: both are one trajectory of the dynamics with one
 /// checkpoint, and cutting it in two would add a file and a hand-over, but nothing to the results.
 namespace vitrel {
-
-enum class JobStage { waiting, prepared, started, done };
-const char* name_of(JobStage stage);
-/// By the files in the job's folder.
-JobStage job_stage(const std::filesystem::path& folder);
 
 struct SweepRequest {
   ParameterSource source;
@@ -47,7 +34,9 @@ struct SweepOutcome {
 };
 
 /// Makes the folders, runs all jobs, and tells `say` about every job begun, done or failed. A failed job
-/// does not stop the others. If the control asks to stop, every job stops where it can be continued.
+/// does not stop the others, unless it failed because the disk is full. If the control asks to stop, every
+/// job stops where it can be continued. The control's progress is the share of the simulated time, jobs
+/// weighted by their particles, in finished jobs and, by their logs, in running ones.
 /// Throws UserError if a folder belongs to other parameters or another process works on the sweep, FileError
 /// if folders cannot be written.
 SweepOutcome run_sweep(const SweepRequest& request, const RunControl& control,
@@ -63,16 +52,12 @@ SweepOutcome run_job(const SweepRequest& request, const std::string& id, const R
 void export_sweep(const ParameterSource& source, const std::filesystem::path& folder,
                   const std::filesystem::path& program);
 
-/// One row per job: its values, stage and results.
-std::string sweep_table(const std::vector<SweepJob>& jobs, const std::filesystem::path& folder);
-Json sweep_summary(const std::vector<SweepJob>& jobs, const std::filesystem::path& folder);
-
 /// How far a sweep is, by its folder alone; all in alphabetical order.
 struct SweepProgress {
   std::vector<std::filesystem::path> finished;  ///< folders of the jobs that are done
   std::vector<std::string> unfinished;          ///< names of the others
 
-  /// The runs of the finished jobs and their results.
+  /// The runs (or states) of the finished jobs, and their results.
   std::vector<std::filesystem::path> files() const;
   /// "12 of 18 jobs are finished".
   std::string share() const;

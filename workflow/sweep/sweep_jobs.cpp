@@ -8,8 +8,10 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "analysis/dynamics/displacement.h"
 #include "core/error.h"
 #include "core/io/json.h"
+#include "core/state/species.h"
 
 namespace vitrel {
 namespace {
@@ -91,6 +93,27 @@ void refuse_overridden_keys(const std::vector<Axis>& axes, const ParameterSource
     }
 }
 
+double wave_number_of(const Parameters& p) {
+  return main_wave_number(draw_particles(p.species, static_cast<std::size_t>(p.system.particles),
+                                         p.system.packing_fraction, p.system.box_aspect,
+                                         p.system.seed));
+}
+
+bool takes_wave_number(const SweepJob& job) {
+  return !job.prepares_only && job.parameters.system.dimension == 2 &&
+         job.parameters.analysis.wave_numbers.empty();
+}
+
+void share_wave_number(std::vector<SweepJob>& jobs) {
+  std::set<double> densities;
+  for (const SweepJob& job : jobs) densities.insert(job.parameters.system.packing_fraction);
+  if (densities.size() < 2 || !std::all_of(jobs.begin(), jobs.end(), takes_wave_number)) return;
+  double wave_number = 0;
+  for (const SweepJob& job : jobs)
+    wave_number = std::max(wave_number, wave_number_of(job.parameters));
+  for (SweepJob& job : jobs) job.parameters.analysis.wave_numbers = {wave_number};
+}
+
 }  // namespace
 
 std::vector<SweepJob> sweep_jobs(const ParameterSource& source) {
@@ -99,7 +122,7 @@ std::vector<SweepJob> sweep_jobs(const ParameterSource& source) {
   std::vector<SweepJob> jobs;
   std::set<std::string> ids;
   for (const std::vector<Assignments>& combination : combinations_of(axes)) {
-    SweepJob job{job_id(combination), {}, {}};
+    SweepJob job{job_id(combination), {}, {}, false};
     ParameterSource job_source = source;
     for (const Assignments& choice : combination)
       for (const auto& [key, value] : choice) {
@@ -107,7 +130,7 @@ std::vector<SweepJob> sweep_jobs(const ParameterSource& source) {
         job_source.overrides.push_back(key + "=" + value);
       }
     job.parameters = load_parameters(job_source);
-    require_two_dimensions(job.parameters, "vitrel sweep");
+    job.prepares_only = !place_of(job.parameters, "dynamics");
     if (!ids.insert(job.id).second)
       throw UserError(
           fmt::format("{}: two jobs of the sweep have the name {}; every value of a key of "
@@ -116,6 +139,7 @@ std::vector<SweepJob> sweep_jobs(const ParameterSource& source) {
                       source.file.string(), job.id));
     jobs.push_back(std::move(job));
   }
+  share_wave_number(jobs);
   return jobs;
 }
 

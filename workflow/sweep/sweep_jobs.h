@@ -18,11 +18,15 @@ struct SweepJob {
   std::string id;
   std::vector<std::pair<std::string, std::string>> values;  ///< dotted key, TOML text of the value
   Parameters parameters;
+  bool prepares_only;  ///< no key of [dynamics] is given: the job is a state, not a run
 };
 
 /// All combinations, those of the keys that advance together slowest, the last key of the grid
 /// fastest; a file without either is one job. Throws UserError if a combination is impossible, if two
 /// have the same name, or if the command line sets a key that the sweep sets.
+///
+/// Runs in the plane at several packing fractions get one analysis.wave_numbers, unless they are given: that of the
+/// main peak (main_wave_number) at the highest number density, so that their relaxation times compare.
 std::vector<SweepJob> sweep_jobs(const ParameterSource& source);
 
 /// The job of this name. UserError if there is none.

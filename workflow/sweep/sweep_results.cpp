@@ -12,37 +12,159 @@
 #include <tuple>
 
 #include "core/error.h"
+#include "core/io/h5md.h"
 #include "core/io/json.h"
 #include "workflow/analyze/glass_report.h"
 #include "workflow/analyze/glass_tables.h"
 #include "workflow/storage/text_file.h"
+#include "workflow/sweep/job_folder.h"
+#include "workflow/sweep/seed_averages.h"
 
 namespace vitrel {
 namespace {
 
+namespace fs = std::filesystem;
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+fs::path folder_of(const AnalysedRun& run) {
+  return run.file.parent_path();
+}
+
+/// Adds the value in the row of another table, unknown if it has none.
+void add_value(Column& column, const Table& row) {
+  const Column* value = row.find(column.name);
+  column.value.push_back(value ? value->value.front() : unknown);
+  if (!column.error.empty())
+    column.error.push_back(value && !value->error.empty() ? value->error.front() : unknown);
+}
+
 /// The summaries below each other; columns that a run does not have are unknown there.
 Table runs_table(const std::vector<AnalysedRun>& runs) {
   Table table{"runs", "Averages over every run of the sweep, one run per row.", {}};
+  Column seeds{"seed", "1", {}, {}};
   for (const AnalysedRun& run : runs) {
     const Table& row = *run.results.find("summary");
-    if (table.columns.empty()) {
+    seeds.value.push_back(static_cast<double>(run.seed()));
+    if (table.columns.empty())
       table.columns = row.columns;
-      continue;
-    }
-    for (Column& column : table.columns) {
-      const Column* value = row.find(column.name);
-      constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-      column.value.push_back(value ? value->value.front() : unknown);
-      if (!column.error.empty())
-        column.error.push_back(value && !value->error.empty() ? value->error.front() : unknown);
-    }
+    else
+      for (Column& column : table.columns) add_value(column, row);
+  }
+  table.columns.insert(table.columns.begin(), std::move(seeds));
+  return table;
+}
+
+/// The unit of a number of the analysis.
+std::string unit_of(const std::string& name, const Results& results) {
+  for (const char* table : {"summary", "relaxation"})
+    if (const Table* found = results.find(table))
+      if (const Column* column = found->find(name)) return column->unit;
+  return "1";
+}
+
+/// NaN for other texts.
+double number(const std::string& json) {
+  const Json value = parse_json(json, "value");
+  return value.is_number() ? value.get<double>() : unknown;
+}
+
+/// Averages over seeds below each other. Values of the sweep that are no numbers are in the provenance.
+Table seeds_table(const std::vector<SeedAverage>& averages, const Results& units) {
+  Table table{"seeds",
+              "Averages over the runs that differ in their seeds only, a row for every combination "
+              "of the other values of the sweep. <name>_error: standard error of the mean; "
+              "<name>_interval: half the width of its 95 % confidence interval.",
+              {}};
+  const auto column = [&](const std::string& name, const std::string& unit, auto&& value) {
+    Column& added = table.columns.emplace_back(Column{name, unit, {}, {}});
+    for (const SeedAverage& average : averages) added.value.push_back(value(average));
+    return table.columns.size() - 1;
+  };
+  const SweptValues& first_values = averages.front().values;
+  for (std::size_t k = 0; k < first_values.size(); ++k)
+    if (!std::isnan(number(first_values[k].second)))
+      column(identifier(first_values[k].first), "1",
+             [k](const SeedAverage& average) { return number(average.values[k].second); });
+  column("seeds", "1",
+         [](const SeedAverage& average) { return static_cast<double>(average.seeds); });
+  for (const AveragedFigure& first : averages.front().figures) {
+    const auto part = [&first](double AveragedFigure::*of) {
+      return [&first, of](const SeedAverage& average) { return average.find(first.name).*of; };
+    };
+    const std::string unit = unit_of(first.name, units);
+    const std::size_t mean = column(first.name, unit, part(&AveragedFigure::mean));
+    for (const SeedAverage& average : averages)
+      table.columns[mean].error.push_back(average.find(first.name).error);
+    column(first.name + "_interval", unit, part(&AveragedFigure::half_width));
   }
   return table;
 }
 
+/// Values of the sweep and what came out; nothing for a run that belongs to no sweep.
+std::vector<JobResult> job_results(const std::vector<AnalysedRun>& runs) {
+  std::vector<JobResult> results;
+  for (const AnalysedRun& run : runs)
+    if (const fs::path file = folder_of(run) / "params.json"; fs::exists(file))
+      results.push_back({swept_values(read_json(file).at("values")),
+                         job_figures({{"analyze", analysis_summary(run)}})});
+  return results;
+}
+
+void add_seeds(const std::vector<AnalysedRun>& runs, Results& results) {
+  const std::vector<JobResult> jobs = job_results(runs);
+  if (jobs.empty() || !has_seeds(jobs.front().values)) return;
+  const std::vector<SeedAverage> averages = seed_averages(jobs);
+  results.tables.push_back(seeds_table(averages, runs.front().results));
+  for (std::size_t k = 0; k < averages.size(); ++k)
+    results.provenance.emplace_back(fmt::format("seeds_row_{}", k), averages[k].name());
+}
+
+struct Quantity {
+  const char* name;
+  const char* unit;
+};
+/// What the summary of a preparation may say of the state.
+constexpr Quantity of_preparation[] = {
+    {"packing_fraction", "1"},  {"particles", "1"},     {"reduced_pressure", "1"},
+    {"orientation_ratio", "1"}, {"nematic_order", "1"}, {"collisions", "1"},
+    {"smallest_gap", "length"}, {"overlaps", "1"},      {"wall_seconds", "s"}};
+
+/// Adds to the summary what it does not have.
+void add_preparation(const Json& preparation, Results& results) {
+  auto summary = std::find_if(results.tables.begin(), results.tables.end(),
+                              [](const Table& table) { return table.name == "summary"; });
+  if (summary == results.tables.end())
+    summary = results.tables.insert(summary, {"summary", "The prepared state.", {}});
+  for (const auto& [name, unit] : of_preparation)
+    if (preparation.contains(name) && !summary->find(name))
+      summary->columns.push_back(
+          {name,
+           unit,
+           {preparation[name].is_number() ? preparation[name].get<double>() : unknown},
+           {}});
+}
+
+AnalysedRun analysed_job(const fs::path& job, const AnalysisChoice& choice,
+                         const AnalysisProgress& progress) {
+  const Json done = read_json(job / "done.json");
+  AnalysedRun run{job_product(job), {}};
+  if (!done.contains("analyze"))
+    run.results.provenance = provenance_rows(TrajectoryReader(run.file).provenance());
+  else if (choice.given())
+    run = analyze_run(run.file, choice, progress);
+  else
+    run.results = read_results(job / "results.h5");
+  if (!done.contains("run")) add_preparation(done.at("prepare"), run.results);
+  if (!run.results.find("summary"))
+    throw FileError((job / "results.h5").string() +
+                    ": has no table 'summary'; delete it and repeat the sweep");
+  return run;
+}
+
 /// Densities are prepared to a goal, and miss it by rounding errors.
-std::tuple<double, std::uint64_t, std::string> place(const AnalysedRun& run) {
-  return {std::round(run.packing_fraction() * 1e6), run.seed(), run.name()};
+std::tuple<double, std::uint64_t, fs::path> place(const AnalysedRun& run) {
+  return {std::round(run.packing_fraction() * 1e6), run.seed(), folder_of(run)};
 }
 
 /// What may differ between runs to which one law is fitted.
@@ -56,8 +178,8 @@ bool is_free(const std::string& key) {
 std::string differing_keys(const std::vector<AnalysedRun>& runs) {
   std::map<std::string, std::set<std::string>> values;
   for (const AnalysedRun& run : runs) {
-    const std::filesystem::path file = run.file.parent_path() / "params.json";
-    if (!std::filesystem::exists(file)) continue;
+    const fs::path file = folder_of(run) / "params.json";
+    if (!fs::exists(file)) continue;
     const Json job = read_json(file);
     for (const auto& [key, value] : job.at("values").items())
       if (!is_free(key)) values[key].insert(json_text(value));
@@ -79,13 +201,7 @@ std::vector<AnalysedRun> analysed_jobs(const SweepProgress& sweep, const Analysi
       progress.begin(
           fmt::format("job {} of {}: {}", runs.size() + 1, sweep.finished.size(), phase));
     };
-  for (const std::filesystem::path& job : sweep.finished) {
-    runs.push_back(choice.given() ? analyze_run(job / "run.h5", choice, of_job)
-                                  : AnalysedRun{job / "run.h5", read_results(job / "results.h5")});
-    if (!runs.back().results.find("summary"))
-      throw FileError((job / "results.h5").string() +
-                      ": has no table 'summary'; delete it and repeat the sweep");
-  }
+  for (const fs::path& job : sweep.finished) runs.push_back(analysed_job(job, choice, of_job));
   std::sort(runs.begin(), runs.end(), [](const AnalysedRun& left, const AnalysedRun& right) {
     return place(left) < place(right);
   });
@@ -94,10 +210,13 @@ std::vector<AnalysedRun> analysed_jobs(const SweepProgress& sweep, const Analysi
 
 GlassStudy glass_study(const std::vector<AnalysedRun>& runs) {
   std::vector<GlassRun> judged;
-  for (const AnalysedRun& run : runs)
+  std::size_t others = 0;
+  for (const AnalysedRun& run : runs) {
     if (const auto glass = stored_glass_run(run.name(), run.results)) judged.push_back(*glass);
-  const std::size_t others = runs.size() - judged.size();
-  GlassStudy study = study_glass(std::move(judged), differing_keys(runs));
+    others += !run.results.text("not_judged").empty();
+  }
+  const std::string mixed = judged.empty() ? "" : differing_keys(runs);
+  GlassStudy study = study_glass(std::move(judged), mixed);
   if (others > 0)
     study.remarks.push_back(fmt::format(
         "{} of {} runs cannot be judged, as their samples are not evenly spaced in time "
@@ -112,6 +231,7 @@ Results results_of_sweep(const std::vector<AnalysedRun>& runs, const GlassStudy&
   for (const AnalysedRun& run : runs)
     results.provenance.emplace_back(fmt::format("row_{}", results.provenance.size()),
                                     run.file.string());
+  add_seeds(runs, results);
   if (!study.runs.empty())
     for (Table& table : glass_tables(study)) results.tables.push_back(std::move(table));
   for (auto& note : glass_notes(study)) results.provenance.push_back(std::move(note));

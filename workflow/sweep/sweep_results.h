@@ -10,7 +10,8 @@
 /// What the runs of a sweep say together.
 namespace vitrel {
 
-/// The finished jobs of a sweep by packing fraction (to six decimals), then by seed, then by name.
+/// The finished jobs of a sweep by packing fraction (to six decimals), then by seed, then by name. What only
+/// prepares a state has the summary of its preparation.
 /// Their results are those in their folders; with parameters of its own, the choice has the runs analysed
 /// again, and what is in the folders stays. Throws FileError or UserError, naming the file.
 std::vector<AnalysedRun> analysed_jobs(const SweepProgress& sweep, const AnalysisChoice& choice,
@@ -20,7 +21,9 @@ std::vector<AnalysedRun> analysed_jobs(const SweepProgress& sweep, const Analysi
 /// transition to them.
 GlassStudy glass_study(const std::vector<AnalysedRun>& runs);
 
-/// Table `runs`, the summaries of all runs, one row each in their order; and those of their glass study.
+/// Table `runs`, the summaries of all runs with their seeds, one row each in their order; if the sweep runs
+/// through seeds `seeds`, averages over them (seed_averages.h); and the tables of the glass study. Which
+/// run or which combination of values a row is, the provenance says: row_0, seeds_row_0 ….
 Results results_of_sweep(const std::vector<AnalysedRun>& runs, const GlassStudy& study);
 
 }  // namespace vitrel

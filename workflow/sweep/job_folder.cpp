@@ -1,0 +1,151 @@
+#include "workflow/sweep/job_folder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "workflow/storage/text_file.h"
+
+namespace vitrel {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+/// Another run than the one that was begun is refused, another preparation likewise.
+Work work_in(const fs::path& folder) {
+  return fs::exists(folder / "run.h5") ? Work::run : Work::preparation;
+}
+
+bool is_of_analysis(const std::string& key) {
+  return key.starts_with("analysis.");
+}
+
+void refuse_other_parameters(const fs::path& folder, const std::string& before,
+                             const std::string& now) {
+  if (const auto change = forbidden_change(before, now, work_in(folder)))
+    throw UserError(
+        fmt::format("{}: this job was begun with {} = {}, but now it is {}; use another folder "
+                    "for the sweep, or delete the job's",
+                    folder.string(), change->key, change->first, change->second));
+}
+
+/// Whether what a finished job was asked for is what it is asked for now.
+bool is_still_done(const SweepJob& job, const fs::path& folder, const std::string& before,
+                   const std::string& now) {
+  const auto is_elsewhere = [](const std::string& key) { return !is_of_analysis(key); };
+  return !first_difference(before, now, is_elsewhere) &&
+         read_json(folder / "done.json").contains("run") != job.prepares_only;
+}
+
+/// Jobs done by earlier versions have the former key alone, others both.
+void remove_former_key(Json& figures, const std::string& suffix) {
+  const std::string former = "compressibility" + suffix;
+  const std::string key = "compressibility_factor" + suffix;
+  if (!figures.contains(former)) return;
+  if (!figures.contains(key)) figures[key] = Json(figures[former]);
+  figures.erase(former);
+}
+
+}  // namespace
+
+const char* name_of(JobStage stage) {
+  constexpr const char* names[] = {"waiting", "prepared", "started", "stopped", "failed", "done"};
+  return names[static_cast<std::size_t>(stage)];
+}
+
+JobStage job_stage(const fs::path& folder) {
+  if (fs::exists(folder / "done.json")) return JobStage::done;
+  if (const Json end = job_end(folder); !end.is_null())
+    return end.at("stage") == name_of(JobStage::failed) ? JobStage::failed : JobStage::stopped;
+  if (fs::exists(folder / "run.h5")) return JobStage::started;
+  if (fs::exists(folder / "state.h5")) return JobStage::prepared;
+  return JobStage::waiting;
+}
+
+fs::path job_product(const fs::path& folder) {
+  return folder / (fs::exists(folder / "run.h5") ? "run.h5" : "state.h5");
+}
+
+void write_job_folder(const SweepJob& job, const fs::path& folder) {
+  make_folder(folder);
+  const fs::path file = folder / "parameters.toml";
+  const std::string text = effective_parameters(job.parameters);
+  if (fs::exists(file)) {
+    const std::string before = read_text(file);
+    refuse_other_parameters(folder, before, text);
+    if (job_stage(folder) == JobStage::done && !is_still_done(job, folder, before, text))
+      fs::remove(folder / "done.json");
+  }
+  write_text(file, text);
+  write_text(folder / "params.json",
+             json_text({{"id", job.id}, {"values", values_json(job)}}, 2) + "\n");
+}
+
+std::optional<ParameterDifference> change_since_begun(const SweepJob& job, const fs::path& folder) {
+  const fs::path file = folder / "parameters.toml";
+  if (!fs::exists(file)) return std::nullopt;
+  const std::string before = read_text(file), now = effective_parameters(job.parameters);
+  if (const auto forbidden = forbidden_change(before, now, work_in(folder))) return forbidden;
+  return first_difference(before, now, [](const std::string& key) { return !is_of_analysis(key); });
+}
+
+void write_job_end(JobStage stage, const std::string& step, int exit_code, const fs::path& folder) {
+  try {
+    const Json end = {{"stage", name_of(stage)},
+                      {"step", step},
+                      {"exit_code", exit_code},
+                      {"message", last_log_line(folder)}};
+    write_text(folder / "end.json", json_text(end, 2) + "\n");
+  } catch (const FileError&) {
+    // What the job said has been told already, and is worth more than this.
+  }
+}
+
+Json job_end(const fs::path& folder) {
+  const fs::path file = folder / "end.json";
+  return fs::exists(file) ? read_json(file) : Json();
+}
+
+std::string job_end_text(const Json& end) {
+  return fmt::format("{} in {} with exit code {}: {}", end.at("stage").get<std::string>(),
+                     end.at("step").get<std::string>(), end.at("exit_code").get<int>(),
+                     end.at("message").get<std::string>());
+}
+
+void forget_job_end(const fs::path& folder) {
+  fs::remove(folder / "end.json");
+}
+
+std::string last_log_line(const fs::path& folder) {
+  std::string text = read_text(folder / "log.txt");
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  return text.substr(text.rfind('\n') + 1);
+}
+
+Figures job_figures(const Json& done) {
+  Json numbers = Json::object();
+  for (const char* step : {"analyze", done.contains("run") ? "run" : "prepare"}) {
+    if (!done.contains(step)) continue;
+    for (const auto& [key, value] : done.at(step).items())
+      if (value.is_number() || value.is_null()) numbers[key] = value;
+  }
+  for (const char* suffix : {"", "_error"}) remove_former_key(numbers, suffix);
+  for (const char* no_result : {"seed", "dimension"}) numbers.erase(no_result);
+  Figures figures;
+  for (const auto& [key, value] : numbers.items())
+    figures.emplace_back(key, value.is_null() ? unknown : value.get<double>());
+  return figures;
+}
+
+double figure(const Figures& figures, const std::string& name) {
+  const auto found = std::find_if(figures.begin(), figures.end(),
+                                  [&](const auto& pair) { return pair.first == name; });
+  return found == figures.end() ? unknown : found->second;
+}
+
+}  // namespace vitrel

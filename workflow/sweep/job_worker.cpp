@@ -1,0 +1,120 @@
+#include "workflow/sweep/job_worker.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "core/io/atomic_file.h"
+#include "core/io/json.h"
+#include "workflow/storage/text_file.h"
+#include "workflow/sweep/job_folder.h"
+
+namespace vitrel {
+namespace {
+
+// A preparation or a run saves its state and ends with 5; an analysis has nothing to save, and a
+// signal just ends it.
+bool is_stop(int exit_code) {
+  return exit_code == 5 ||
+         std::any_of(stop_signals.begin(), stop_signals.end(),
+                     [exit_code](int number) { return exit_code == 128 + number; });
+}
+
+}  // namespace
+
+JobWorker::JobWorker(const SweepJob& job, const std::filesystem::path& folder,
+                     const std::filesystem::path& program)
+    : job_(job), folder_(folder), program_(program), steps_(steps_of(job)) {
+  forget_job_end(folder_);
+  start_next();
+}
+
+// A single state in the plane has nothing to analyze beyond its quality report.
+std::vector<JobWorker::Step> JobWorker::steps_of(const SweepJob& job) {
+  std::vector<Step> steps = {{"prepare", "state.h5", true}};
+  if (!job.prepares_only) steps.push_back({"run", "run.h5", false});
+  if (!job.prepares_only || job.parameters.system.dimension == 3)
+    steps.push_back({"analyze", "results.h5", false});
+  return steps;
+}
+
+void JobWorker::ask_to_stop() {
+  if (child_) child_->ask_to_stop();
+}
+
+void JobWorker::poll() {
+  if (state_ != State::running) return;
+  const std::optional<int> code = child_->poll();
+  if (!code) return;
+  exit_code_ = *code;
+  if (is_stop(*code)) {
+    give_up(State::stopped);
+  } else if (*code != 0) {
+    give_up(State::failed);
+  } else {
+    AtomicFile(summary(steps_[next_++])).commit();
+    start_next();
+  }
+}
+
+double JobWorker::share() {
+  if (next_ < steps_.size() && steps_[next_].name == std::string_view("run"))
+    share_ = std::max(share_, share_of_run(last_log_line(folder_)));
+  return share_;
+}
+
+std::filesystem::path JobWorker::summary(const Step& step) const {
+  return folder_ / (std::string(step.name) + ".json");
+}
+
+bool JobWorker::is_complete(const Step& step) const {
+  return step.skip_if_there && std::filesystem::exists(folder_ / step.product) &&
+         std::filesystem::exists(summary(step));
+}
+
+void JobWorker::start_next() {
+  while (next_ < steps_.size() && is_complete(steps_[next_])) ++next_;
+  if (next_ == steps_.size()) {
+    finish();
+    return;
+  }
+  const Step& step = steps_[next_];
+  // A product without its summary comes from a sweep killed between the two; it is made again.
+  if (step.skip_if_there) std::filesystem::remove(folder_ / step.product);
+  const std::filesystem::path unfinished = summary(step).string() + ".partial";
+  child_.emplace(command(step), unfinished, folder_ / "log.txt");
+}
+
+std::vector<std::string> JobWorker::command(const Step& step) const {
+  const auto file = [&](const char* name) { return (folder_ / name).string(); };
+  std::vector<std::string> words = {program_.string(), step.name};
+  if (step.name == std::string_view("analyze"))
+    words.insert(words.end(), {file(job_.prepares_only ? "state.h5" : "run.h5"), "--params",
+                               file("parameters.toml")});
+  else
+    words.push_back(file("parameters.toml"));
+  if (step.name == std::string_view("run")) words.insert(words.end(), {"--from", file("state.h5")});
+  words.insert(words.end(), {"-o", file(step.product), "--json"});
+  return words;
+}
+
+void JobWorker::finish() {
+  Json done = {{"id", job_.id}, {"values", values_json(job_)}};
+  for (const Step& step : steps_) done[step.name] = read_json(summary(step));
+  write_text(folder_ / "done.json", json_text(done, 2) + "\n");
+  state_ = State::done;
+}
+
+void JobWorker::give_up(State state) {
+  state_ = state;
+  write_job_end(state == State::failed ? JobStage::failed : JobStage::stopped, steps_[next_].name,
+                exit_code_, folder_);
+}
+
+double share_of_run(const std::string& log_line) {
+  double percent = 0;
+  return std::sscanf(log_line.c_str(), "run %lf %%", &percent) == 1 ? percent / 100 : 0;
+}
+
+}  // namespace vitrel

@@ -1,0 +1,89 @@
+#include "workflow/sweep/seed_averages.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "analysis/statistics/blocking.h"
+
+namespace vitrel {
+namespace {
+
+constexpr const char* seed_key = "system.seed";
+constexpr double one_sigma = 0.6827;
+
+/// Jobs with the same values but for the seed.
+struct Replicates {
+  SweptValues values;
+  std::vector<const Figures*> jobs;
+};
+
+std::vector<Replicates> grouped(const std::vector<JobResult>& jobs) {
+  std::vector<Replicates> groups;
+  for (const JobResult& job : jobs) {
+    SweptValues values = job.values;
+    std::erase_if(values, [](const auto& pair) { return pair.first == seed_key; });
+    auto group = std::find_if(groups.begin(), groups.end(),
+                              [&](const Replicates& other) { return other.values == values; });
+    if (group == groups.end()) group = groups.insert(group, {std::move(values), {}});
+    group->jobs.push_back(&job.figures);
+  }
+  return groups;
+}
+
+/// Half the width of the interval with that probability; 0 if the values differ by rounding errors.
+double half_width(const std::vector<double>& values, double level) {
+  const ConfidenceInterval interval = confidence_interval(values, level);
+  const bool is_rounding = interval.half_width < 1e-12 * std::abs(interval.mean);
+  return is_rounding ? 0 : interval.half_width;
+}
+
+AveragedFigure averaged(const std::string& name, const std::vector<const Figures*>& jobs) {
+  std::vector<double> values;
+  for (const Figures* figures : jobs) values.push_back(figure(*figures, name));
+  return {name, mean_of(values), half_width(values, one_sigma), half_width(values, 0.95)};
+}
+
+}  // namespace
+
+SweptValues swept_values(const Json& values) {
+  SweptValues texts;
+  for (const auto& [key, value] : values.items()) texts.emplace_back(key, json_text(value));
+  return texts;
+}
+
+std::string SeedAverage::name() const {
+  std::vector<std::string> parts;
+  for (const auto& [key, value] : values)
+    parts.push_back(key.substr(key.rfind('.') + 1) + " " + value);
+  return parts.empty() ? "all" : fmt::format("{}", fmt::join(parts, ", "));
+}
+
+AveragedFigure SeedAverage::find(const std::string& name) const {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  const auto found =
+      std::find_if(figures.begin(), figures.end(),
+                   [&](const AveragedFigure& figure) { return figure.name == name; });
+  return found == figures.end() ? AveragedFigure{name, unknown, unknown, unknown} : *found;
+}
+
+std::vector<SeedAverage> seed_averages(const std::vector<JobResult>& jobs) {
+  std::vector<SeedAverage> averages;
+  for (const Replicates& group : grouped(jobs)) {
+    SeedAverage& average = averages.emplace_back(SeedAverage{group.values, group.jobs.size(), {}});
+    for (const auto& [name, value] : *group.jobs.front())
+      if (!name.ends_with("_error")) average.figures.push_back(averaged(name, group.jobs));
+  }
+  return averages;
+}
+
+bool has_seeds(const SweptValues& values) {
+  return std::any_of(values.begin(), values.end(),
+                     [](const auto& pair) { return pair.first == seed_key; });
+}
+
+}  // namespace vitrel

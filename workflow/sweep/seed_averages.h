@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/io/json.h"
+#include "workflow/sweep/job_folder.h"
+
+/// @file
+/// Jobs of a sweep that differ in nothing but their seeds.
+namespace vitrel {
+
+/// Dotted keys that a sweep runs through, and the JSON text of their values.
+using SweptValues = std::vector<std::pair<std::string, std::string>>;
+SweptValues swept_values(const Json& values);
+
+/// What a finished job gave.
+struct JobResult {
+  SweptValues values;
+  Figures figures;
+};
+
+/// The average of one number over seeds; NaN if not every seed has it, as those that lack it are often those that
+/// are special.
+struct AveragedFigure {
+  std::string name;
+  double mean;
+  double error;       ///< standard error, such that mean ± error covers 68.3 %; NaN for one seed
+  double half_width;  ///< of the 95 % interval (confidence_interval); NaN for one seed
+};
+
+/// All jobs with the same values but for system.seed.
+struct SeedAverage {
+  SweptValues values;  ///< without the seed
+  std::size_t seeds;
+  std::vector<AveragedFigure> figures;  ///< those that the first of the jobs has
+
+  /// "packing_fraction 0.4, duration 60"; "all" without values.
+  std::string name() const;
+  /// The average of that name; NaN if there is none.
+  AveragedFigure find(const std::string& name) const;
+};
+
+/// In the order in which the values first occur.
+std::vector<SeedAverage> seed_averages(const std::vector<JobResult>& jobs);
+
+/// Whether a sweep runs through seeds.
+bool has_seeds(const SweptValues& values);
+
+}  // namespace vitrel
