@@ -130,13 +130,15 @@ TEST(ReportPage, TableOfRunsOfTheStudyNamesVerdictsAndOrientations) {
                   "<tr><th "
                   "scope=\"row\">0.60</th><td>1</td><td>equilibrated</td><td>equilibrated</"
                   "td><td>relaxes</td>"
-                  "<td>2.50 ± 0.12</td><td>197.9 ± 9.9</td><td>0.1000 ± 0.0050</td><td>0.04</td>"
+                  "<td>3.873</td><td>2.50 ± 0.12</td><td>197.9 ± 9.9</td><td>0.1000 ± "
+                  "0.0050</td><td>0.04</td>"
                   "<td>–</td><td>2500</td></tr>"),
             1u);
   EXPECT_EQ(count(page, "<td>equilibrated</td><td>nematic order</td>"), 6u);
   EXPECT_EQ(count(page, "<td>ageing</td><td>nematic order</td>"), 2u);
   EXPECT_EQ(count(page,
-                  "<td>not enough time</td><td>does not relax</td><td>62.5 ± 3.1</td><td>–</td>"
+                  "<td>not enough time</td><td>not within this run</td><td>4.359</td>"
+                  "<td>62.5 ± 3.1</td><td>–</td>"
                   "<td>0.690 ± 0.034</td><td>0.04</td><td>0.4</td><td>2500</td></tr>"),
             2u);
 }
