@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "tests/app/program.h"
 #include "tests/support/report_example.h"
 #include "workflow/report/page_parts.h"
 
@@ -242,6 +243,45 @@ TEST(ReportPage, RunsOfEqualDensityAreToldApartByWhatDiffersInTheirNames) {
   runs = embedded_data(report_page(data))["runs"];
   EXPECT_EQ(runs[0]["label"], "φ = 0.50 (seed-1)");
   EXPECT_EQ(runs[1]["label"], "φ = 0.50 (seed-12)");
+}
+
+TEST(ReportPage, BoundsThatAreNotKnownAreDashes) {
+  ReportData data = sweep(2, 1);
+  for (Column& column : data.study.tables[1].columns)
+    if (column.name == "phi_c_least") column.value[2] = none;
+  const std::string page = report_page(data);
+  EXPECT_EQ(count(page, "&gt; –"), 0u);
+  EXPECT_EQ(
+      count(page, "<th scope=\"row\">rotation, τ<sub>2</sub></th><td>power law</td><td>–</td>"),
+      1u);
+}
+
+TEST(ReportPage, OfASweepNamesItAndGivesTheProvenanceOfEveryJob) {
+  const testing_program::Folder folder("sweep_of_seeds");
+  folder.write("p.toml",
+               "[system]\nparticles = 16\npacking_fraction = 0.2\n"
+               "[[species]]\nname = \"A\"\naspect_ratio = 2.0\n"
+               "[prepare]\nquality_sweeps = 0\n[[prepare.stage]]\nmethod = \"insert\"\n"
+               "[dynamics]\nequilibration = 0\nduration = 2.0\n"
+               "[output]\nsamples = { spacing = \"linear\", interval = 0.1 }\n"
+               "[sweep.grid]\n\"system.seed\" = [7, 12]\n");
+  ASSERT_EQ(testing_program::run(folder.path(), {"sweep", "p.toml", "-o", "seeds", "-q"}).code, 0);
+  ASSERT_EQ(testing_program::run(folder.path(), {"report", "seeds", "-q"}).code, 0);
+  const std::string page = folder.read("seeds/report.html");
+  EXPECT_EQ(count(page, "<title>seeds</title>"), 1u);
+  EXPECT_EQ(count(page, "<h1>seeds</h1>"), 1u);
+  const std::size_t table = page.find("id=\"job-provenance\"");
+  ASSERT_NE(table, std::string::npos);
+  const std::string jobs = page.substr(table, page.find("</table>", table) - table);
+  for (const char* column : {"command_line", "seed"})
+    EXPECT_EQ(count(jobs, std::string("<th scope=\"col\">") + column + "</th>"), 1u) << column;
+  for (const char* seed : {"7", "12"}) {
+    EXPECT_EQ(count(jobs, std::string("<th scope=\"row\">seed-") + seed + "</th>"), 1u) << seed;
+    EXPECT_EQ(count(jobs, std::string("<td>") + seed + "</td>"), 1u) << seed;
+  }
+  // What all share stands once.
+  EXPECT_EQ(count(page, "<dt>version</dt>"), 1u);
+  EXPECT_EQ(count(page, "<dt>seed</dt>"), 0u);
 }
 
 TEST(ReportPage, WhatIsNotKnownIsADash) {
