@@ -256,6 +256,48 @@ TEST(ReportPage, BoundsThatAreNotKnownAreDashes) {
       1u);
 }
 
+/// The page of one run with these results, from the heading of its verdict on.
+std::string result_of(Results results) {
+  ReportData data;
+  data.runs.resize(1);
+  data.runs[0].results = std::move(results);
+  const std::string page = report_page(data);
+  const std::size_t begin = page.find("<h2 id=\"result\">");
+  return begin == std::string::npos ? ""
+                                    : page.substr(begin, page.find("</section>", begin) - begin);
+}
+
+TEST(ReportPage, RunsThatCannotBeJudgedSayWhy) {
+  const Table times{
+      "relaxation_times",
+      "",
+      {report_example::plain("group", "1", {0, 1}), report_example::plain("kind", "1", {0, 0}),
+       report_example::plain("parameter", "1/length or 1", {2.4, 2.4}),
+       report_example::plain("tau", "time", {none, 5}),
+       report_example::plain("least", "time", {none, none}),
+       report_example::plain("most", "time", {0.25, none})}};
+  const std::string result = result_of({{times}, {{"not_judged", "uneven <samples>"}}});
+  EXPECT_EQ(count(result, "<td>not judged: uneven &lt;samples&gt;</td>"), 1u);
+  EXPECT_EQ(count(result, "<td>&lt; 0.25 √(m ab/kT)</td>"), 1u);
+  // The other group is not that of all particles.
+  EXPECT_EQ(count(result, "<tr>"), 2u);
+  EXPECT_EQ(result_of({}), "");
+}
+
+TEST(ReportPage, OrientationsOfANematicAreSeenFromTheDirector) {
+  const auto result = [](double tau) {
+    return result_of({{{"relaxation",
+                        "",
+                        {report_example::plain("verdict", "1", {0}),
+                         report_example::plain("verdict_translation", "1", {0}),
+                         report_example::plain("plateau", "1", {0.4}),
+                         {"tau_rotation", "time", {tau}, {0.5}}}}},
+                      {}});
+  };
+  EXPECT_EQ(count(result(12), "seen from the director</th><td>12.00 ± 0.50 √(m ab/kT)</td>"), 1u);
+  EXPECT_EQ(count(result(none), "seen from the director</th><td>not within this run</td>"), 1u);
+}
+
 TEST(ReportPage, OfASweepNamesItAndGivesTheProvenanceOfEveryJob) {
   const testing_program::Folder folder("sweep_of_seeds");
   folder.write("p.toml",
