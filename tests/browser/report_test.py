@@ -418,7 +418,7 @@ class Page(PageTest):
 
     def test_notes_of_the_study_are_below_its_tables(self):
         self.open("sweep.html")
-        self.assertEqual(self.browser.evaluate("""[...document.querySelectorAll('.tables + ul li')].map((item) => item.textContent)"""),
+        self.assertEqual(self.browser.evaluate("""[...document.querySelectorAll('#glass + ul li')].map((item) => item.textContent)"""),
                          ["phi-0.74 (density 0.74, seed 1) stays out of the fits, ageing: S drifts",
                           "rotation, tau_2, Vogel-Fulcher: no phi_c, chi^2 <is> too large"])
 

@@ -298,15 +298,33 @@ TEST(ReportPage, OrientationsOfANematicAreSeenFromTheDirector) {
   EXPECT_EQ(count(result(none), "seen from the director</th><td>not within this run</td>"), 1u);
 }
 
+/// A short run at the sample times that this says.
+std::string small_run(const std::string& samples) {
+  return "[system]\nparticles = 16\npacking_fraction = 0.2\n"
+         "[[species]]\nname = \"A\"\naspect_ratio = 2.0\n"
+         "[prepare]\nquality_sweeps = 0\n[[prepare.stage]]\nmethod = \"insert\"\n"
+         "[dynamics]\nequilibration = 0\nduration = 2.0\n"
+         "[output]\nsamples = { " +
+         samples + " }\n";
+}
+
+TEST(ReportPage, OfUnevenSamplesDoesNotBlameBlocksForMissingErrors) {
+  const testing_program::Folder folder("uneven_samples");
+  for (const auto& [name, spacing] : {std::pair("even", "linear"), {"uneven", "logarithmic"}}) {
+    folder.write("p.toml", small_run(std::string("spacing = \"") + spacing + "\""));
+    const std::string run = name + std::string(".h5"), page = name + std::string(".html");
+    ASSERT_EQ(testing_program::run(folder.path(), {"run", "p.toml", "-o", run, "-q"}).code, 0);
+    ASSERT_EQ(testing_program::run(folder.path(), {"report", run, "-q"}).code, 0);
+    const std::string text = folder.read(page);
+    EXPECT_EQ(embedded_data(text)["runs"][0]["evenlySampled"], spacing == std::string("linear"));
+    EXPECT_EQ(count(text, "<h1>" + std::string(name) + "</h1>"), 1u);
+  }
+}
+
 TEST(ReportPage, OfASweepNamesItAndGivesTheProvenanceOfEveryJob) {
   const testing_program::Folder folder("sweep_of_seeds");
-  folder.write("p.toml",
-               "[system]\nparticles = 16\npacking_fraction = 0.2\n"
-               "[[species]]\nname = \"A\"\naspect_ratio = 2.0\n"
-               "[prepare]\nquality_sweeps = 0\n[[prepare.stage]]\nmethod = \"insert\"\n"
-               "[dynamics]\nequilibration = 0\nduration = 2.0\n"
-               "[output]\nsamples = { spacing = \"linear\", interval = 0.1 }\n"
-               "[sweep.grid]\n\"system.seed\" = [7, 12]\n");
+  folder.write("p.toml", small_run("spacing = \"linear\", interval = 0.1") +
+                             "[sweep.grid]\n\"system.seed\" = [7, 12]\n");
   ASSERT_EQ(testing_program::run(folder.path(), {"sweep", "p.toml", "-o", "seeds", "-q"}).code, 0);
   ASSERT_EQ(testing_program::run(folder.path(), {"report", "seeds", "-q"}).code, 0);
   const std::string page = folder.read("seeds/report.html");
@@ -321,6 +339,7 @@ TEST(ReportPage, OfASweepNamesItAndGivesTheProvenanceOfEveryJob) {
     EXPECT_EQ(count(jobs, std::string("<th scope=\"row\">seed-") + seed + "</th>"), 1u) << seed;
     EXPECT_EQ(count(jobs, std::string("<td>") + seed + "</td>"), 1u) << seed;
   }
+  EXPECT_EQ(count(page, "# of seed-7\n"), 1u);
   // What all share stands once.
   EXPECT_EQ(count(page, "<dt>version</dt>"), 1u);
   EXPECT_EQ(count(page, "<dt>seed</dt>"), 0u);

@@ -106,7 +106,9 @@ ReportData report_data(const std::vector<AnalysedRun>& runs) {
                                 dynamics.empty() ? "" : ", ", dynamics);
     if (runs.size() == 1)
       data.subtitle += fmt::format(", φ = {:.6g}", data.runs.front().packing_fraction);
-    data.parameters = trajectory.reader().provenance().parameters;
+    else
+      data.parameters = "# of " + data.runs.front().name + "\n";
+    data.parameters += trajectory.reader().provenance().parameters;
   }
   if (runs.size() > 1) data.study = results_of_sweep(runs, glass_study(runs));
   return data;

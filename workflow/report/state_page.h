@@ -26,7 +26,8 @@ struct StatePage {
   PageProvenance provenance;  ///< shown if not empty
 };
 
-/// The page as HTML: table of the rows, the particles (of more than 4000 a part), g(r) and S(q), nematic correlation with its scatter, and both time correlations.
+/// The page as HTML: table of the rows, the particles (of more than 4000 a part), g(r) and S(q),
+/// nematic correlation with its scatter, and both time correlations.
 std::string state_page(const StatePage& page);
 
 }  // namespace vitrel

@@ -10,7 +10,6 @@
 #include "workflow/report/run_report.h"
 
 namespace vitrel {
-
 namespace {
 
 StructureOptions structure_options(const Provenance& provenance, const std::string& file) {
@@ -18,11 +17,13 @@ StructureOptions structure_options(const Provenance& provenance, const std::stri
   return parse_parameters(provenance.parameters, file).structure;
 }
 
-/// g(r) and S(q). The page has the correlation of orientations already, in bins wide enough for a single
-/// state.
+/// g(r) and S(q); the page has the correlation of orientations in bins wide enough for a single state.
 std::vector<Table> structure(const Configuration2& state, const StructureOptions& options) {
   MemoryTrajectory trajectory({state});
   std::vector<Table> tables = structure_tables(trajectory, options);
+  std::erase_if(tables, [](const Table& table) {
+    return table.name != "pair_correlation" && table.name != "structure_factor";
+  });
   for (Table& table : tables)
     std::erase_if(table.columns,
                   [](const Column& column) { return column.name.starts_with("g_"); });

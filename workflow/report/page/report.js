@@ -3,7 +3,7 @@ const { runs, study } = pageData;
 // Which curves the tables hold. A family is a table, or several with a group of particles behind the name; `columns` are
 // regular expressions of column names, and what their curves are called.
 
-/** "q = 2.41", or from the least to the greatest where it differs from run to run. */
+/** "q = 2.41", or from the lowest to the highest where it differs from run to run. */
 function rangeText(symbol, values) {
   const [low, high] = [Math.min(...values), Math.max(...values)].map((value) => shortNumber(value, 3));
   return `${symbol} = ${low === high ? low : `${low} … ${high} by run`}`;
@@ -21,7 +21,7 @@ function waveNumber(k, of, origin = '', column = 'q') {
 const time = { xSymbol: 't', xUnit: timeUnit, x: 'time', logX: true };
 const decays = { range: (plot, low) => [Math.min(0, low), 1.04] };
 
-/** Angles seen from their own director are not even without any order: (1 + 2 S cos 2θ)/π, S = √(π/(4R)) of R particles. */
+/** Seen from their own director, angles are not evenly distributed even without order: (1 + 2 S cos 2θ)/π, S = √(π/(4R)) of R particles. */
 function densityByChance({ curves: [{ x }] }) {
   const counts = new Set(runs.map((run) => run.tables.summary?.columns.rotors?.value[0]).filter((rotors) => rotors > 0));
   return [...counts].map((rotors) => ({ x, value: x.map((angle) => (1 + Math.sqrt(Math.PI / rotors) * Math.cos(2 * angle)) / Math.PI),
@@ -325,7 +325,6 @@ function fitsOf(law) {
 }
 
 function timesChart() {
-  tellWaveNumbers();
   const points = kinds.flatMap((_, kind) => timesOf(kind));
   if (!points.length) return;
   const variant = (label, { curves, uprights }) => {
@@ -355,7 +354,7 @@ function orderChart() {
     variants: [{ symbol: 'S', unit: '', curves: [...points, orderByChance()] }] });
 }
 
-/** Times at different wave numbers do not compare. */
+/** Times at different wave numbers cannot be compared. */
 function tellWaveNumbers() {
   const values = (study.relaxation.columns.wave_number?.value ?? []).filter((q) => q !== null);
   if (!values.length) return;
@@ -369,7 +368,10 @@ function densityCharts() {
   byId('glass').hidden = !study.relaxation;
   byId('fits').parentElement.hidden = !study.glass_fit;
   if (runs.length < 2) return;
-  if (study.relaxation) timesChart();
+  if (study.relaxation) {
+    tellWaveNumbers();
+    timesChart();
+  }
   transport.forEach((description) => overDensity(description, runs.map((run) => {
     const values = run.tables.summary?.columns[description.column];
     return { run, value: values?.value[0], error: values?.error?.[0] };
