@@ -471,11 +471,6 @@ class Page(PageTest):
                                 ["rotational relaxation time τ2", "not within this run: > 250 √(m ab/kT)", "L2(t) = 1/e"]])
         self.assertTrue(self.browser.evaluate("document.querySelector('#series .plot').checkVisibility()"))
 
-    def test_pages_are_named_in_their_title_and_heading(self):
-        self.open("sweep.html")
-        self.assertEqual(self.browser.evaluate("[document.title, document.querySelector('h1').textContent]"),
-                         ["Ellipses & <disks>"] * 2)
-
     def axis_titles(self, section):
         return self.browser.evaluate(f"""[...document.querySelectorAll('#{section} .axis-title:not(.x)')]
           .map((title) => title.textContent)""")
@@ -486,9 +481,9 @@ class Page(PageTest):
         self.open("sweep.html")
         self.assertEqual(self.axis_titles("relaxation")[::2][:2], ["Fₛ(q, t), q = 2.4", "F(q, t), q = 2.4"])
         # 5 √φ from 0.6 to 0.76.
-        self.assertIn("at q = 3.87 … 4.36 by run. As q differs between the runs", self.text("wave-numbers"))
+        self.assertIn("at q = 3.87 … 4.36, varying between runs. As q varies, these times do not show", self.text("wave-numbers"))
         self.open("two_runs.html")
-        self.assertEqual(self.axis_titles("relaxation")[0], "Fₛ(q, t), q = 2.4 … 3.1 by run")
+        self.assertEqual(self.axis_titles("relaxation")[0], "Fₛ(q, t), q = 2.4 … 3.1, varying between runs")
 
     def test_all_rows_of_charts_are_full(self):
         for name in ("sweep.html", "run.html", "two_runs.html", "state.html"):
@@ -552,12 +547,12 @@ class Page(PageTest):
     def test_charts_say_why_errors_are_missing(self):
         self.open("two_runs.html")
         self.assertEqual(self.remark("Four-point susceptibility"),
-                         "Without errors in part: too few independent blocks; samples unevenly spaced in time.")
-        self.assertEqual(self.remark("Overlap"), "Without errors: too few independent blocks; samples unevenly spaced in time.")
+                         "No errors for some points: too few independent blocks; samples unevenly spaced in time.")
+        self.assertEqual(self.remark("Overlap"), "No errors: too few independent blocks; samples unevenly spaced in time.")
         self.assertEqual(self.remark("Mean squared displacement"), "")
-        self.assertEqual(self.remark("Director"), "Without errors: single samples.")
+        self.assertEqual(self.remark("Director"), "No errors: single samples.")
         self.open("state.html")
-        self.assertEqual(self.remark("Orientations kept; dashed: 1/e"), "Without errors: a single sampling.")
+        self.assertEqual(self.remark("Orientations kept; dashed: 1/e"), "No errors: a single sampling.")
         self.assertEqual(self.remark("Nematic correlation; dashed: S²"), "")
 
     # Axes and references

@@ -179,7 +179,7 @@ function missingErrors(curves) {
   const bare = measured.filter((curve) => curve.value.some((value, i) => value !== null && (curve.error?.[i] ?? null) === null));
   if (!bare.length) return '';
   const some = bare.length < measured.length || bare.some((curve) => curve.error?.some((error) => error !== null));
-  return `Without errors${some ? ' in part' : ''}: ${[...new Set(bare.map(({ noErrors }) => noErrors))].join('; ')}.`;
+  return `No errors${some ? ' for some points' : ''}: ${[...new Set(bare.map(({ noErrors }) => noErrors))].join('; ')}.`;
 }
 
 /** A dashed line across the frame at a height with a meaning of its own. */

@@ -6,7 +6,7 @@ const { runs, study } = pageData;
 /** "q = 2.41", or from the lowest to the highest where it differs from run to run. */
 function rangeText(symbol, values) {
   const [low, high] = [Math.min(...values), Math.max(...values)].map((value) => shortNumber(value, 3));
-  return `${symbol} = ${low === high ? low : `${low} … ${high} by run`}`;
+  return `${symbol} = ${low === high ? low : `${low} … ${high}, varying between runs`}`;
 }
 
 /** The k-th wave number of these runs; collective functions have that of the wave vectors of the box. */
@@ -360,7 +360,7 @@ function tellWaveNumbers() {
   if (!values.length) return;
   const same = new Set(values.map((q) => shortNumber(q, 3))).size === 1;
   byId('wave-numbers').textContent = `Translation: the time in which Fₛ(q, t) falls to 1/e at ${rangeText('q', values)}.` + (same ? ''
-    : ` As q differs between the runs, these times do not show the effect of density alone. At one q for all: vitrel report … --set ` +
+    : ` As q varies, these times do not show the effect of density alone. At one q for all runs: vitrel report … --set ` +
       `analysis.wave_numbers=[${shortNumber(Math.max(...values), 2)}]`);
 }
 
