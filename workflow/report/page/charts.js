@@ -386,13 +386,11 @@ class Chart {
       focus: { alpha: 0.35 },
       hooks: {
         drawAxes: [(plot) => {
+          curves.forEach((_, k) => drawErrors(plot, this, k));
           uprights.forEach((upright, row) => drawUpright(plot, upright, row));
           (this.slopes ?? []).forEach((slope) => drawSlope(plot, slope));
         }],
-        draw: [(plot) => {
-          curves.forEach((_, k) => drawErrors(plot, this, k));
-          levels.forEach((level) => drawLevel(plot, level));
-        }],
+        draw: [(plot) => levels.forEach((level) => drawLevel(plot, level))],
         setSeries: [(plot, k, options) => { if (options.focus !== undefined) this.focused = k > 0 ? k - 1 : null; }],
         setCursor: [() => readOut(this)],
       },
