@@ -81,7 +81,7 @@ int report_run(const ReportOptions& options, const fs::path& run) {
   const AnalysisChoice choice = analysis_choice(options.analysis);
   require_place(output, {run, options.analysis.file});
   ProgressDisplay display(ProgressDisplay::mode(options.print.quiet));
-  const ReportData data = report_data({analyze_run(run, choice, shown_on(display))}, "vitrel");
+  const ReportData data = report_data({analyze_run(run, choice, shown_on(display))});
   display.clear();
   return write_page(options, output, report_page(data), {{"runs", 1}});
 }
@@ -93,7 +93,7 @@ int report_sweep(const ReportOptions& options, const fs::path& folder) {
   require_place(output, sweep.files());
   remark_left_out(options.print, folder, sweep);
   ProgressDisplay display(ProgressDisplay::mode(options.print.quiet));
-  ReportData data = report_data(analysed_jobs(sweep, choice, shown_on(display)), "vitrel");
+  ReportData data = report_data(analysed_jobs(sweep, choice, shown_on(display)));
   display.clear();
   if (!sweep.unfinished.empty()) {
     data.subtitle += "; " + sweep.share();

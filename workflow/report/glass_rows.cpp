@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <string_view>
 
 #include "analysis/glass/glass_names.h"
@@ -19,6 +20,8 @@ constexpr std::array<std::string_view, 5> kinds = {
     "rotation in the nematic, τ<sub>2</sub>", "diffusion, 1/D",
     "rotational diffusion, 1/D<sub>r</sub>"};
 constexpr double found = 0, lower_bound = 1;
+constexpr const char* not_within_run = "not within this run";
+constexpr const char* unit_of_time = " √(m ab/kT)";
 
 /// One row of a table.
 struct Row {
@@ -51,18 +54,22 @@ std::string rows_of(const Results& study, const char* name, Format&& format) {
 
 std::string relaxation_row(const Row& row) {
   const bool nematic = row.value("plateau") > 0;
+  auto orientations = orientation_names;
+  orientations[static_cast<std::size_t>(OrientationKind::lasting)] = not_within_run;
   return html_row(
       density_text(row.value("packing_fraction")),
       {row.text("seed"), std::string(row.word("verdict_translation", verdict_names)),
        std::string(row.word("verdict", verdict_names)),
-       std::string(row.word("orientation", orientation_names)), row.text("tau_translation"),
-       row.text("tau_rotation"), row.text("nematic_order"), row.text("nematic_by_chance"),
-       nematic ? row.text("plateau") : "–", row.text("duration")});
+       std::string(row.word("orientation", orientations)), row.text("wave_number"),
+       row.text("tau_translation"), row.text("tau_rotation"), row.text("nematic_order"),
+       row.text("nematic_by_chance"), nematic ? row.text("plateau") : "–", row.text("duration")});
 }
 
 std::string critical_density(const Row& row) {
   if (row.value("verdict") == found) return row.text("phi_c");
-  return row.value("verdict") == lower_bound ? "&gt; " + row.text("phi_c_least") : "–";
+  const bool bounded =
+      row.value("verdict") == lower_bound && std::isfinite(row.value("phi_c_least"));
+  return bounded ? "&gt; " + row.text("phi_c_least") : "–";
 }
 
 std::string fit_row(const Row& row) {
@@ -76,7 +83,58 @@ std::string fit_row(const Row& row) {
        dof > 0 ? row.text("scatter") : "–"});
 }
 
+/// "ageing: S drifts", with the reason of that name.
+std::string verdict_text(const Row& row, const char* column, const char* reason) {
+  const std::string why = row.study.text(reason);
+  return std::string(row.word(column, verdict_names)) + (why.empty() ? "" : ": " + escaped(why));
+}
+
+std::string verdict_rows(const Row& row) {
+  const std::string all =
+      html_row("equilibrium", {verdict_text(row, "verdict", "verdict_reason"), ""});
+  if (row.value("verdict") == row.value("verdict_translation")) return all;
+  return all +
+         html_row("of translation alone",
+                  {verdict_text(row, "verdict_translation", "verdict_translation_reason"), ""});
+}
+
+/// A relaxation time, or a bound of it.
+std::string time_text(const Row& row) {
+  if (std::isfinite(row.value("tau"))) return row.text("tau") + unit_of_time;
+  if (std::isfinite(row.value("least")))
+    return fmt::format("{}: &gt; {}{}", not_within_run, row.text("least"), unit_of_time);
+  return std::isfinite(row.value("most")) ? "&lt; " + row.text("most") + unit_of_time : "–";
+}
+
+/// Of all particles together, which are group 0.
+std::string time_row(const Row& row) {
+  if (row.value("group") != 0) return "";
+  const std::string parameter = row.text("parameter");
+  if (row.value("kind") == 0)
+    return html_row("relaxation time τ<sub>α</sub>",
+                    {time_text(row), "F<sub>s</sub>(q, t) = 1/e at q = " + parameter + "/√(ab)"});
+  return html_row(fmt::format("rotational relaxation time τ<sub>{}</sub>", parameter),
+                  {time_text(row), fmt::format("L<sub>{}</sub>(t) = 1/e", parameter)});
+}
+
+/// What order does not keep of the orientations of a nematic.
+std::string director_row(const Row& row) {
+  if (!(row.value("plateau") > 0)) return "";
+  const bool known = std::isfinite(row.value("tau_rotation"));
+  return html_row("seen from the director",
+                  {known ? row.text("tau_rotation") + unit_of_time : not_within_run,
+                   "L<sub>2</sub> 1/e above its plateau by order, " + row.text("plateau")});
+}
+
 }  // namespace
+
+std::string result_rows(const Results& run) {
+  const std::string not_judged = run.text("not_judged");
+  return (not_judged.empty()
+              ? rows_of(run, "relaxation", verdict_rows)
+              : html_row("equilibrium", {"not judged: " + escaped(not_judged), ""})) +
+         rows_of(run, "relaxation_times", time_row) + rows_of(run, "relaxation", director_row);
+}
 
 std::string relaxation_rows(const Results& study) {
   return rows_of(study, "relaxation", relaxation_row);

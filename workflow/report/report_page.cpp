@@ -8,6 +8,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "workflow/report/assets.h"
 #include "workflow/report/glass_rows.h"
 #include "workflow/report/page_parts.h"
 #include "workflow/report/page_tables.h"
@@ -47,6 +48,7 @@ Json run_data(const ReportRun& run, const std::vector<ReportRun>& runs, const Th
           {"dynamics", run.dynamics},
           {"packingFraction", page_number(run.packing_fraction)},
           {"collisionsPerSecond", page_number(run.collisions_per_second)},
+          {"evenlySampled", !run.results.text("time_axis").starts_with("unevenly")},
           {"tables", tables_data(run.results, thinning)},
           {"movie", movie_data(run.movie)}};
 }
@@ -76,6 +78,52 @@ std::string table_row(const ReportRun& run) {
          count_cell(value("particles")) + cell(escaped(run.name)) + "</tr>\n";
 }
 
+std::string text_of(const PageProvenance& provenance, std::size_t k) {
+  return k < provenance.size() ? provenance[k].second : "";
+}
+
+/// Whether the k-th text is the same for all runs.
+bool is_shared(const std::vector<ReportRun>& runs, std::size_t k) {
+  return std::all_of(runs.begin(), runs.end(), [&](const ReportRun& run) {
+    return text_of(run.provenance, k) == text_of(runs.front().provenance, k);
+  });
+}
+
+/// What the runs share, then what is said of the page.
+PageProvenance shared_provenance(const ReportData& data) {
+  PageProvenance shared;
+  if (!data.runs.empty())
+    for (std::size_t k = 0; k < data.runs.front().provenance.size(); ++k)
+      if (is_shared(data.runs, k)) shared.push_back(data.runs.front().provenance[k]);
+  shared.insert(shared.end(), data.provenance.begin(), data.provenance.end());
+  return shared;
+}
+
+/// A table of what the runs do not share; empty if there is nothing.
+std::string job_provenance(const std::vector<ReportRun>& runs) {
+  std::string head, rows;
+  std::vector<std::size_t> columns;
+  for (std::size_t k = 0; !runs.empty() && k < runs.front().provenance.size(); ++k) {
+    if (is_shared(runs, k)) continue;
+    columns.push_back(k);
+    head += "<th scope=\"col\">" + escaped(runs.front().provenance[k].first) + "</th>";
+  }
+  if (columns.empty()) return "";
+  for (const ReportRun& run : runs) {
+    rows += "<tr><th scope=\"row\">" + escaped(run.name) + "</th>";
+    for (const std::size_t k : columns) rows += cell(escaped(text_of(run.provenance, k)));
+    rows += "</tr>\n";
+  }
+  return filled(asset("page/job_provenance.html"), {{"head", head}, {"rows", rows}});
+}
+
+/// The verdict on a single run, and its relaxation times.
+std::string result_section(const std::vector<ReportRun>& runs) {
+  if (runs.size() != 1) return "";
+  const std::string rows = result_rows(runs.front().results);
+  return rows.empty() ? "" : filled(asset("page/result.html"), {{"rows", rows}});
+}
+
 std::string page_with(const ReportData& data, const Thinning& thinning) {
   Json runs = Json::array();
   std::string rows;
@@ -89,13 +137,15 @@ std::string page_with(const ReportData& data, const Thinning& thinning) {
        "page/runs_sections.html",
        "page/movie.js",
        "page/report.js",
-       {{"table_rows", rows},
+       {{"result", result_section(data.runs)},
+        {"table_rows", rows},
+        {"job_provenance", job_provenance(data.runs)},
         {"relaxation_rows", relaxation_rows(data.study)},
         {"fit_rows", fit_rows(data.study)},
         {"study_notes", study_notes(data.study)}},
        script_safe(Json{{"runs", std::move(runs)}, {"study", tables_data(data.study, {})}}),
        data.parameters,
-       data.provenance});
+       shared_provenance(data)});
 }
 
 }  // namespace

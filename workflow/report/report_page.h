@@ -20,6 +20,7 @@ struct ReportRun {
   double collisions_per_second = std::numeric_limits<double>::quiet_NaN();
   Results results;  ///< tables by name: summary, displacements_all, energies …
   Movie movie;
+  PageProvenance provenance = {};  ///< the same names for all runs
 };
 
 struct ReportData {
@@ -28,12 +29,12 @@ struct ReportData {
   std::vector<ReportRun> runs;  ///< shown in this order
   Results study = {};           ///< tables over all runs: relaxation, glass_fit; notes
   std::string parameters;       ///< TOML text
-  PageProvenance provenance;    ///< shown if not empty
+  PageProvenance provenance;    ///< of the page, beside that of its runs
 };
 
-/// The page as HTML: the moving particles of a run, its series over time, the correlations and the
-/// structure of all runs, what depends on the packing fraction, a table of the runs, parameters,
-/// provenance. A chart is there if its table is: displacements_<group>, self_scattering_<group> with
+/// The page as HTML. Of one run: verdict and relaxation times, the moving particles, correlations,
+/// structure, series over time. Of several: what depends on the packing fraction, correlations and
+/// structure of all, and folded the series of one. Then a table of the runs, parameters, provenance. A chart is there if its table is: displacements_<group>, self_scattering_<group> with
 /// wave_numbers, orientation_<group>, susceptibility, collective_scattering, structure_factor,
 /// pair_correlation, orientation_distribution, order, energies, compressibility_factor, summary; of the
 /// study, relaxation and glass_fit (glass_rows.h).

@@ -51,7 +51,15 @@ ReportRun report_run(const AnalysedRun& run, TrajectoryFile<2>& trajectory, std:
           run.packing_fraction(),
           collisions_per_second(reader),
           run.results,
-          film(trajectory, limits)};
+          film(trajectory, limits),
+          provenance_rows(reader.provenance())};
+}
+
+/// The name of the run, or of the folder of the sweep, in which every job has a folder of its own.
+std::string title_of(const std::vector<AnalysedRun>& runs) {
+  if (runs.size() == 1) return runs.front().name();
+  const std::filesystem::path file = std::filesystem::absolute(runs.front().file);
+  return file.lexically_normal().parent_path().parent_path().filename().string();
 }
 
 std::string shapes_text(const std::vector<Ellipse>& shapes) {
@@ -84,9 +92,9 @@ std::string particles_text(const Configuration<Dim>& state) {
 template std::string particles_text(const Configuration2&);
 template std::string particles_text(const Configuration3&);
 
-ReportData report_data(const std::vector<AnalysedRun>& runs, const std::string& title) {
+ReportData report_data(const std::vector<AnalysedRun>& runs) {
   ReportData data;
-  data.title = title;
+  data.title = title_of(runs);
   const std::vector<std::size_t> poses = movie_poses(runs.size());
   for (std::size_t k = 0; k < runs.size(); ++k) {
     TrajectoryFile<2> trajectory(runs[k].file);
@@ -94,11 +102,11 @@ ReportData report_data(const std::vector<AnalysedRun>& runs, const std::string& 
     if (k > 0) continue;
     const Configuration2& state = trajectory.read(0);
     const std::string& dynamics = data.runs.front().dynamics;
-    const Provenance provenance = trajectory.reader().provenance();
     data.subtitle = fmt::format("{} {}{}{}", state.size(), particles_text(state),
                                 dynamics.empty() ? "" : ", ", dynamics);
-    data.parameters = provenance.parameters;
-    data.provenance = provenance_rows(provenance);
+    if (runs.size() == 1)
+      data.subtitle += fmt::format(", φ = {:.6g}", data.runs.front().packing_fraction);
+    data.parameters = trajectory.reader().provenance().parameters;
   }
   if (runs.size() > 1) data.study = results_of_sweep(runs, glass_study(runs));
   return data;

@@ -13,9 +13,9 @@ namespace vitrel {
 template <int Dim>
 std::string particles_text(const Configuration<Dim>& state);
 
-/// The report's view of these runs, in their order. Reads the files again, for the movies: one run has
+/// The report's view of these runs, in their order: one run, or jobs of one sweep. Reads the files again, for the movies: one run has
 /// 200 000 poses in its movie; of several, six spread evenly over them share half as many, and the
 /// others show their final state.
-ReportData report_data(const std::vector<AnalysedRun>& runs, const std::string& title);
+ReportData report_data(const std::vector<AnalysedRun>& runs);
 
 }  // namespace vitrel

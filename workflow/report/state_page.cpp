@@ -7,6 +7,7 @@
 #include "core/io/json.h"
 #include "workflow/report/movie.h"
 #include "workflow/report/page_parts.h"
+#include "workflow/report/page_tables.h"
 
 namespace vitrel {
 
@@ -40,6 +41,7 @@ std::string state_page(const StatePage& page) {
   MemoryTrajectory2 state({page.state});
   const Json data = {{"label", page.title},
                      {"movie", movie_data(film(state))},
+                     {"tables", tables_data(page.structure, {})},
                      {"correlation", correlation(page.nematic_correlation)},
                      {"order", page_number(page.nematic_order)},
                      {"orientation", curve(page.sweeps, page.orientation)},

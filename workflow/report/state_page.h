@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/results.h"
 #include "analysis/structure/order.h"
 #include "core/state/configuration.h"
 #include "workflow/report/html.h"
@@ -15,6 +16,7 @@ struct StatePage {
   std::string title;
   std::string subtitle;  ///< one line below it: what was prepared
   std::vector<QualityRow> rows;
+  Results structure;  ///< tables pair_correlation and structure_factor
   Configuration2 state;
   NematicCorrelation nematic_correlation;  ///< not shown if empty
   double nematic_order = 0;                ///< S² is marked in the chart of the correlation
@@ -24,7 +26,7 @@ struct StatePage {
   PageProvenance provenance;  ///< shown if not empty
 };
 
-/// The page as HTML: table of the rows, the particles (of more than 4000 a part), nematic correlation with its scatter, and both time correlations.
+/// The page as HTML: table of the rows, the particles (of more than 4000 a part), g(r) and S(q), nematic correlation with its scatter, and both time correlations.
 std::string state_page(const StatePage& page);
 
 }  // namespace vitrel

@@ -4,10 +4,32 @@
 
 #include "core/io/h5md.h"
 #include "workflow/analyze/analyze.h"
+#include "workflow/analyze/structure_tables.h"
+#include "workflow/configuration/parameters.h"
 #include "workflow/prepare/quality_file.h"
 #include "workflow/report/run_report.h"
 
 namespace vitrel {
+
+namespace {
+
+StructureOptions structure_options(const Provenance& provenance, const std::string& file) {
+  if (provenance.parameters.empty()) return {};
+  return parse_parameters(provenance.parameters, file).structure;
+}
+
+/// g(r) and S(q). The page has the correlation of orientations already, in bins wide enough for a single
+/// state.
+std::vector<Table> structure(const Configuration2& state, const StructureOptions& options) {
+  MemoryTrajectory trajectory({state});
+  std::vector<Table> tables = structure_tables(trajectory, options);
+  for (Table& table : tables)
+    std::erase_if(table.columns,
+                  [](const Column& column) { return column.name.starts_with("g_"); });
+  return tables;
+}
+
+}  // namespace
 
 StatePage state_page_data(const std::filesystem::path& file) {
   const TrajectoryReader reader(file);
@@ -19,6 +41,7 @@ StatePage state_page_data(const std::filesystem::path& file) {
   page.subtitle = fmt::format("{} {} at φ = {:.6g}", page.state.size(), particles_text(page.state),
                               quality.packing_fraction);
   page.rows = quality_rows(quality);
+  page.structure.tables = structure(page.state, structure_options(provenance, file.string()));
   page.nematic_correlation = quality.nematic_correlation;
   page.nematic_order = quality.nematic_order;
   if (quality.decorrelation) {

@@ -2,28 +2,41 @@ const font = '12px system-ui, sans-serif';
 
 // Axes
 
-const powerOfTen = (value) => Math.abs(Math.log10(value) - Math.round(Math.log10(value))) < 1e-9;
-
 // uPlot's own ticks begin at the end of the axis, wherever that is, and its labels print "0" for values under 1e-3.
 
-/** 1, 2 … 9 times the powers of ten; only these over many decades. */
-function logarithmicSplits(low, high) {
+const digits = [1, 2, 3, 4, 5, 6, 7, 8, 9];
+/** Factors of the powers of ten that may be labelled. */
+const labelledFactors = [[1], [1, 2, 5], digits, [1, 1.5, 2, 2.5, ...digits.slice(2)],
+                         [1, 1.2, 1.4, 1.6, 1.8, 2, 2.2, 2.4, 2.6, 2.8, 3, 3.5, 4, 4.5, ...digits.slice(4)]];
+
+function logarithmicValues(low, high, factors) {
   const first = Math.floor(Math.log10(low)), last = Math.ceil(Math.log10(high));
-  const mantissas = last - first > 9 ? [1] : [1, 2, 3, 4, 5, 6, 7, 8, 9];
-  return Array.from({ length: last - first + 1 }, (_, k) => mantissas.map((mantissa) => mantissa * 10 ** (first + k))).flat()
-    .filter((value) => value >= low && value <= high);
+  return Array.from({ length: last - first + 1 }, (_, k) => factors.map((factor) => Number((factor * 10 ** (first + k)).toPrecision(3))))
+    .flat().filter((value) => value >= low && value <= high);
 }
 
+/** The coarsest choice of three values or more. */
+function labelledValues(low, high) {
+  const choices = labelledFactors.map((factors) => logarithmicValues(low, high, factors));
+  return choices.find((values) => values.length >= 3) ?? choices.at(-1);
+}
+
+/** What is labelled and, if these are not too many decades, 1, 2 … 9 times the powers of ten. */
+function logarithmicSplits(low, high) {
+  const between = high < 1e9 * low ? logarithmicValues(low, high, digits) : [];
+  return [...new Set([...labelledValues(low, high), ...between])].sort((a, b) => a - b);
+}
+
+const labelledOf = (splits) => splits.length ? labelledValues(splits[0], splits.at(-1)) : [];
+
 function logarithmicLabels(splits) {
-  const shown = splits.filter((value) => value > 0);
-  const few = shown.filter(powerOfTen).length < 3;
-  const plain = shown.every((value) => value > 0.0009 && value < 20000);
+  const labelled = labelledOf(splits);
+  const plain = splits.every((value) => value > 0.0009 && value < 20000);
   return splits.map((value) => {
-    if (!(value > 0)) return '';
+    if (!labelled.includes(value)) return '';
+    if (plain) return String(value);
     const exponent = Math.floor(Math.log10(value) + 1e-9);
-    const mantissa = Math.round(value / 10 ** exponent);
-    if (mantissa !== 1 && !(few && (mantissa === 2 || mantissa === 5))) return '';
-    if (plain) return String(Number((mantissa * 10 ** exponent).toPrecision(1)));
+    const mantissa = Number((value / 10 ** exponent).toPrecision(3));
     return (mantissa === 1 ? '' : mantissa + '·') + '10' + superscript(exponent);
   });
 }
@@ -36,9 +49,20 @@ const labelWidth = (plot, labels) => 18 + 7 * Math.max(3, ...(labels ?? []).map(
 /** Not widened to whole decades. */
 const logarithmicRange = (plot, low, high) => low > 0 ? [0.8 * low, 1.25 * high] : [0.1, 1];
 
+/** A thousandth of the values at least: below that, the rounding errors of a constant would fill the chart. */
+function linearRange(plot, low, high) {
+  if (low === null) return [0, 1];
+  const least = 1e-3 * Math.max(Math.abs(low), Math.abs(high)) || 1;
+  const margin = Math.max(0, 0.5 * (least - (high - low)));
+  return uPlot.rangeNum(low - margin, high + margin, 0.1, true);
+}
+
 function axisOptions(logarithmic, size) {
   const grid = { stroke: cssColour('--grid'), width: 1 };
-  if (logarithmic) grid.filter = (plot, splits) => splits.map((value) => powerOfTen(value) ? value : null);
+  if (logarithmic) grid.filter = (plot, splits) => {
+    const labelled = labelledOf(splits);
+    return splits.map((value) => labelled.includes(value) ? value : null);
+  };
   const options = {
     stroke: cssColour('--quiet'), font, size, grid, ticks: { stroke: cssColour('--line'), width: 1, size: 5 },
     values: (plot, splits) => logarithmic ? logarithmicLabels(splits) : linearLabels(splits),
@@ -109,37 +133,53 @@ function insideFrame(plot, draw) {
   ctx.restore();
 }
 
-/** [x, low end, high end] of value ± error; where that reaches zero on a logarithmic axis, the frame is the end. */
-function errorSpans(plot, chart, k) {
+/**
+ * Stretches of [x, low end, high end] of value ± error; a point without an error ends one. Where value − error reaches zero
+ * on a logarithmic axis, the frame is the end.
+ */
+function errorStretches(plot, chart, k) {
   const { data } = chart;
   const { top, height } = plot.bbox;
-  return data.x.flatMap((x, i) => {
+  const stretches = [[]];
+  data.x.forEach((x, i) => {
     const value = data.values[k][i], error = data.errors[k][i];
-    if (value === null || error === null || (chart.logY && !(value > 0))) return [];
+    if (value === null || (chart.logY && !(value > 0))) return;
+    if (error === null) return stretches.push([]);
     const low = value > error || !chart.logY ? plot.valToPos(value - error, 'y', true) : top + height;
-    return [[plot.valToPos(x, 'x', true), low, plot.valToPos(value + error, 'y', true)]];
+    stretches.at(-1).push([plot.valToPos(x, 'x', true), low, plot.valToPos(value + error, 'y', true)]);
   });
+  return stretches;
 }
 
-/** Shades lines, and gives points their bars. */
+/** Shades lines, and gives points their bars, as also single points of a line that have an error. */
 function drawErrors(plot, chart, k) {
   if (!chart.data.errors[k] || !plot.series[k + 1].show) return;
-  const spans = errorSpans(plot, chart, k);
   const curve = chart.variant.curves[k];
+  const isBar = (stretch) => curve.points || stretch.length === 1;
+  const stretches = errorStretches(plot, chart, k);
   insideFrame(plot, (ctx) => {
     ctx.strokeStyle = ctx.fillStyle = curve.colour();
     ctx.lineWidth = 1.5 * devicePixelRatio;
     ctx.beginPath();
-    if (curve.points) {
-      spans.forEach(([x, low, high]) => { ctx.moveTo(x, low); ctx.lineTo(x, high); });
-      return ctx.stroke();
-    }
-    const outline = [...spans.map(([x, low, high]) => [x, high]), ...spans.reverse().map(([x, low]) => [x, low])];
-    outline.forEach(([x, y], i) => i ? ctx.lineTo(x, y) : ctx.moveTo(x, y));
-    ctx.closePath();
+    stretches.filter(isBar).flat().forEach(([x, low, high]) => { ctx.moveTo(x, low); ctx.lineTo(x, high); });
+    ctx.stroke();
+    ctx.beginPath();
+    stretches.filter((stretch) => !isBar(stretch)).forEach((stretch) => {
+      const outline = [...stretch.map(([x, low, high]) => [x, high]), ...stretch.reverse().map(([x, low]) => [x, low])];
+      outline.forEach(([x, y], i) => i ? ctx.lineTo(x, y) : ctx.moveTo(x, y));
+    });
     ctx.globalAlpha = 0.2;
     ctx.fill();
   });
+}
+
+/** Why curves lack errors, in a sentence; empty if none does that should have them. */
+function missingErrors(curves) {
+  const measured = curves.filter((curve) => curve.noErrors);
+  const bare = measured.filter((curve) => curve.value.some((value, i) => value !== null && (curve.error?.[i] ?? null) === null));
+  if (!bare.length) return '';
+  const some = bare.length < measured.length || bare.some((curve) => curve.error?.some((error) => error !== null));
+  return `Without errors${some ? ' in part' : ''}: ${[...new Set(bare.map(({ noErrors }) => noErrors))].join('; ')}.`;
 }
 
 /** A dashed line across the frame at a height with a meaning of its own. */
@@ -262,8 +302,9 @@ function readOut(chart) {
 /**
  * One chart in `host`. `description`: heading; xSymbol, xUnit; logX, logY; file, the name of its CSV; range, slopes, hint;
  * variants, of which a select shows one: [{label, symbol, unit, curves, levels, uprights, rangeX}].
- * A curve: {label, x, value, error, notes (said with the values), colour(), points: 'full' or 'hollow' instead of a line, dashed, thin, id}. Curves are
- * switched off by their `id`, in the legend of the chart or from outside (show); the legend names the first of each.
+ * A curve: {label, x, value, error, noErrors (why some are missing), notes (said with the values), colour(), points: 'full' or
+ * 'hollow' instead of a line, dashed, thin, id}. Curves are switched off by their `id`, in the legend of the chart or from
+ * outside (show); the legend names the first of each.
  */
 class Chart {
   constructor(host, description) {
@@ -285,9 +326,10 @@ class Chart {
     this.unit = element('p', { class: 'axis-title' });
     this.frame = element('div', { class: 'plot', tabindex: '0', role: 'img' });
     this.legend = element('div', { class: 'legend small', role: 'group', 'aria-label': 'Curves shown' });
+    this.remark = element('p', { class: 'note remark' });
     this.readout = element('p', { class: 'readout', role: 'status' });
     this.host.replaceChildren(head, this.unit, this.frame,
-      element('p', { class: 'axis-title x' }, withUnit(this.xSymbol, this.xUnit)), this.legend, this.readout, this.tools());
+      element('p', { class: 'axis-title x' }, withUnit(this.xSymbol, this.xUnit)), this.legend, this.remark, this.readout, this.tools());
     this.frame.addEventListener('keydown', (event) => moveByKey(this, event));
     this.choose(0);
   }
@@ -308,6 +350,7 @@ class Chart {
     this.unit.textContent = withUnit(this.variant.symbol, this.variant.unit);
     this.frame.setAttribute('aria-label', `Chart: ${this.heading}, ${this.variant.symbol} against ${this.xSymbol}, ` +
       `${this.variant.curves.length} curve(s). Arrow keys read values.`);
+    this.remark.textContent = missingErrors(this.variant.curves);
     this.fillLegend();
     this.draw();
     readOut(this);
@@ -331,12 +374,11 @@ class Chart {
     this.plot?.destroy();
     const { curves, levels = [], uprights = [], rangeX = this.rangeX } = this.variant;
     const scale = (logarithmic) => logarithmic ? { distr: 3, time: false } : { time: false };
-    const rangeOf = (range, logarithmic) => range || logarithmic ? { range: range ?? logarithmicRange } : {};
     this.plot = new uPlot({
       ...this.size(),
       padding: [10, 20, 0, 0],
-      scales: { x: { ...scale(this.logX), ...rangeOf(rangeX, this.logX) },
-                y: { ...scale(this.logY), ...rangeOf(this.range, this.logY) } },
+      scales: { x: { ...scale(this.logX), range: rangeX ?? (this.logX ? logarithmicRange : undefined) },
+                y: { ...scale(this.logY), range: this.range ?? (this.logY ? logarithmicRange : linearRange) } },
       axes: [axisOptions(this.logX, 30), axisOptions(this.logY, labelWidth)],
       series: [{}, ...curves.map((curve) => seriesOptions(curve, !this.hidden.has(curve.id)))],
       legend: { show: false },
@@ -381,4 +423,31 @@ function legendButton(curve, shown, toggle) {
     toggle(on);
   });
   return button;
+}
+
+// Structure, of runs and of single configurations
+
+const aroundOne = { levels: [1], unit: '', range: (plot, low, high) => [Math.min(0, low), 1.06 * Math.max(1, high)] };
+
+/** Of every table the columns to show: regular expressions of their names, and what their curves are called. */
+const structureFamilies = () => [
+  { table: 'structure_factor', heading: 'Structure factor', symbol: 'S(q)', x: 'q', xSymbol: 'q', xUnit: '1/' + lengthUnit, ...aroundOne,
+    columns: [[/^s$/, () => 'S'], [/^s_orientation$/, () => 'S of orientations'], [/^s_(.+)_(.+)$/, ([, one, other]) => `S ${one}–${other}`]] },
+  { table: 'pair_correlation', heading: 'Pair correlation', symbol: 'g(r)', x: 'r', xSymbol: 'r', xUnit: lengthUnit, ...aroundOne,
+    columns: [[/^g$/, () => 'g'], [/^g_(\d+)$/, ([, order]) => `g${subscript(order)}`]] },
+];
+
+/** [{name, label}] of these columns that a family shows, in its order; `more` is for its labels. */
+const namedColumns = (columns, family, ...more) => family.columns.flatMap(([pattern, label]) => Object.keys(columns)
+  .filter((name) => pattern.test(name)).map((name) => ({ name, label: label(name.match(pattern), ...more) })));
+
+/** The structure of one configuration, in the hosts that are called after its tables. */
+function structureCharts(tables) {
+  for (const { symbol, unit, levels, ...family } of structureFamilies()) {
+    const columns = tables[family.table]?.columns ?? {}, host = byId(family.table);
+    const curves = namedColumns(columns, family).map(({ name, label }, k) => ({ label, id: name, x: columns[family.x].value,
+      value: columns[name].value, colour: () => curveColour(k), noErrors: 'a single configuration' }));
+    if (curves.length) new Chart(host, { ...family, file: family.table + '.csv', variants: [{ symbol, unit, levels, curves }] });
+    else host.remove();
+  }
 }

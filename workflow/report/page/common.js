@@ -1,6 +1,11 @@
 const pageData = JSON.parse(document.getElementById('data').textContent);
 const byId = (id) => document.getElementById(id);
 
+/** The section around these charts, if there are none. */
+function hideIfEmpty(charts) {
+  byId(charts).closest('section').hidden = !byId(charts).childElementCount;
+}
+
 function element(tag, attributes = {}, text = '') {
   const node = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) node.setAttribute(name, value);

@@ -3,14 +3,30 @@ const { runs, study } = pageData;
 // Which curves the tables hold. A family is a table, or several with a group of particles behind the name; `columns` are
 // regular expressions of column names, and what their curves are called.
 
-const q = (k, run, origin = '') => {
-  const table = run.tables[origin + 'wave_numbers']?.columns;
-  const row = table?.index.value.indexOf(k) ?? -1;
-  return row < 0 ? `q${subscript(k)}` : `q = ${shortNumber(table.q.value[row], 3)}`;
-};
+/** "q = 2.41", or from the least to the greatest where it differs from run to run. */
+function rangeText(symbol, values) {
+  const [low, high] = [Math.min(...values), Math.max(...values)].map((value) => shortNumber(value, 3));
+  return `${symbol} = ${low === high ? low : `${low} … ${high} by run`}`;
+}
+
+/** The k-th wave number of these runs; collective functions have that of the wave vectors of the box. */
+function waveNumber(k, of, origin = '', column = 'q') {
+  const values = of.flatMap((run) => {
+    const table = run.tables[origin + 'wave_numbers']?.columns;
+    return (table?.[column] ?? table?.q)?.value[table.index.value.indexOf(k)] ?? [];
+  });
+  return values.length ? rangeText('q', values) : `q${subscript(k)}`;
+}
+
 const time = { xSymbol: 't', xUnit: timeUnit, x: 'time', logX: true };
 const decays = { range: (plot, low) => [Math.min(0, low), 1.04] };
-const aroundOne = { levels: [1], range: (plot, low, high) => [Math.min(0, low), 1.06 * Math.max(1, high)] };
+
+/** Angles seen from their own director are not even without any order: (1 + 2 S cos 2θ)/π, S = √(π/(4R)) of R particles. */
+function densityByChance({ curves: [{ x }] }) {
+  const counts = new Set(runs.map((run) => run.tables.summary?.columns.rotors?.value[0]).filter((rotors) => rotors > 0));
+  return [...counts].map((rotors) => ({ x, value: x.map((angle) => (1 + Math.sqrt(Math.PI / rotors) * Math.cos(2 * angle)) / Math.PI),
+    label: 'by chance', id: 'by chance', colour: () => cssColour('--ink'), dashed: true, thin: true }));
+}
 
 const families = [
   { section: 'motion', table: 'displacements', heading: 'Mean squared displacement', ...time, logY: true, slopes: true,
@@ -23,25 +39,27 @@ const families = [
     columns: [[/^non_gaussian$/, () => 'of displacements'], [/^non_gaussian_rotation$/, () => 'of rotations']],
     symbol: 'α₂(t)', unit: '' },
   { section: 'relaxation', table: 'self_scattering', heading: 'Self-intermediate scattering', ...time, ...decays,
-    levels: [Math.exp(-1)], columns: [[/^fs_(\d+)$/, (match, run, origin) => q(Number(match[1]), run, origin)]], symbol: 'Fₛ(q, t)', unit: '' },
+    levels: [Math.exp(-1)], columns: [[/^fs_(\d+)$/, ([, k], of, origin) => waveNumber(Number(k), of, origin)]], symbol: 'Fₛ(q, t)', unit: '', named: true },
   { section: 'relaxation', table: 'orientation', heading: 'Orientational correlation', ...time, ...decays,
     levels: [Math.exp(-1)], columns: [[/^l_(\d+)$/, (match) => `L${subscript(match[1])}`]],
-    symbol: 'Lₙ(t) = ⟨cos nΔθ⟩', unit: '' },
+    symbol: 'Lₙ(t) = ⟨cos nΔθ⟩', unit: '', named: true },
   { section: 'relaxation', table: 'collective_scattering', heading: 'Collective scattering', ...time,
-    columns: [[/^f_(\d+)$/, (match, run) => q(Number(match[1]), run)]], symbol: 'F(q, t)', unit: '' },
+    columns: [[/^f_(\d+)$/, ([, k], of) => waveNumber(Number(k), of, '', 'q_collective')]], symbol: 'F(q, t)', unit: '', named: true },
   { section: 'relaxation', table: 'susceptibility', heading: 'Four-point susceptibility', ...time,
     columns: [[/^chi_4$/, () => 'χ₄']], symbol: 'χ₄(t)', unit: '' },
   { section: 'relaxation', table: 'susceptibility', heading: 'Overlap', ...time, ...decays,
     columns: [[/^overlap$/, () => '⟨Q⟩']], symbol: '⟨Q(t)⟩', unit: '' },
-  { section: 'structure', table: 'structure_factor', heading: 'Structure factor', xSymbol: 'q', xUnit: '1/√(ab)', x: 'q', ...aroundOne,
-    columns: [[/^s$/, () => 'S'], [/^s_orientation$/, () => 'S of orientations'], [/^s_(.+)_(.+)$/, (match) => `S ${match[1]}–${match[2]}`]],
-    symbol: 'S(q)', unit: '' },
-  { section: 'structure', table: 'pair_correlation', heading: 'Pair correlation', xSymbol: 'r', xUnit: lengthUnit, x: 'r', ...aroundOne,
-    columns: [[/^g$/, () => 'g'], [/^g_(\d+)$/, (match) => `g${subscript(match[1])}`]], symbol: 'g(r)', unit: '' },
+  ...structureFamilies().map((family) => ({ section: 'structure', ...family })),
   { section: 'structure', table: 'orientation_distribution', heading: 'Orientations about the director', xSymbol: 'θ − θ of the director',
-    xUnit: 'rad', x: 'angle', levels: [1 / Math.PI], range: (plot, low, high) => [0, 1.08 * Math.max(1 / Math.PI, high)],
+    xUnit: 'rad', x: 'angle', references: densityByChance, range: (plot, low, high) => [0, 1.08 * high],
     columns: [[/^density$/, () => 'density']], symbol: 'density', unit: '1/rad' },
 ];
+
+/** An axis looks the same after half a turn: of the angles that stand for it, the nearest to the one before. */
+function unwrapped(angles) {
+  let last = 0;
+  return angles.map((angle) => angle === null ? null : last = angle + Math.PI * Math.round((last - angle) / Math.PI));
+}
 
 const series = [
   { table: 'energies', heading: 'Energy per particle', symbol: 'E/N', unit: 'kT', fromZero: true,
@@ -49,19 +67,16 @@ const series = [
   { table: 'compressibility_factor', heading: 'Compressibility factor', symbol: 'Z = βP/ρ', unit: '', columns: [[/^z$/, () => 'Z']] },
   { table: 'order', heading: 'Order', symbol: 'order parameter', unit: '', fromZero: true,
     columns: [[/^nematic$/, () => 'nematic'], [/^hexatic$/, () => 'hexatic']] },
-  { table: 'order', heading: 'Director', symbol: 'angle of the director', unit: 'rad', columns: [[/^director$/, () => 'director']] },
+  { table: 'order', heading: 'Director', symbol: 'angle of the director, continued beyond ±π/2', unit: 'rad', transform: unwrapped,
+    columns: [[/^director$/, () => 'director']] },
 ];
 
 // Correlations measured while the run went on have one table for each group of particles, of all families together.
 const onTheFly = 'on_the_fly_';
 const isOnTheFly = (group) => group.startsWith(onTheFly);
 
-/** [{name, label}] of the columns of this table that the family shows, in the order of the family. */
-function shownColumns(table, family, run, group = '') {
-  const origin = isOnTheFly(group) ? onTheFly : '';
-  return family.columns.flatMap(([pattern, label]) => Object.keys(table.columns)
-    .filter((name) => pattern.test(name)).map((name) => ({ name, label: label(name.match(pattern), run, origin) })));
-}
+/** Labels are for these runs together. */
+const shownColumns = (table, family, of, group = '') => namedColumns(table.columns, family, of, isOnTheFly(group) ? onTheFly : '');
 
 /** The groups of particles that some run has a table of the family for: "" if the table has no group. */
 function groupsOf(family) {
@@ -69,17 +84,22 @@ function groupsOf(family) {
   if (names.includes(family.table)) return [''];
   const groups = new Set(names.filter((name) => name.startsWith(family.table + '_')).map((name) => name.slice(family.table.length)));
   const others = new Set(runs.flatMap((run) => Object.keys(run.tables).filter((name) => isOnTheFly(name) &&
-    run.tables[name].columns[family.x] && shownColumns(run.tables[name], family, run).length)));
+    run.tables[name].columns[family.x] && shownColumns(run.tables[name], family, runs).length)));
   return [...groups].sort((a, b) => (b === '_all') - (a === '_all')).concat([...others]);
 }
 
 const tableOf = (run, family, group) => run.tables[isOnTheFly(group) ? group : family.table + group];
 
-/** A time of 0 has no place on a logarithmic axis. */
+const tooFewBlocks = 'too few independent blocks';
+const noErrors = (run, group = '') => run.evenlySampled || isOnTheFly(group) ? tooFewBlocks : 'samples unevenly spaced in time';
+
+/** From the first known value to the last; a time of 0 has no place on a logarithmic axis. */
 function curveOf(table, name, family) {
-  const { value, error } = table.columns[name];
-  const x = table.columns[family.x].value, begin = family.logX && x[0] === 0 ? 1 : 0;
-  return { x: x.slice(begin), value: value.slice(begin), error: error?.slice(begin) };
+  const { value, error } = table.columns[name], x = table.columns[family.x].value;
+  const known = (y, i) => y !== null && (x[i] > 0 || !family.logX);
+  const [begin, end] = [value.findIndex(known), value.findLastIndex(known) + 1];
+  const shown = (values) => values?.slice(Math.max(begin, 0), end);
+  return { x: shown(x), value: shown(value), error: shown(error) };
 }
 
 /** Densities are ordered, and so are their colours. */
@@ -98,10 +118,11 @@ function variantsOfOneRun(family, groups) {
   const [run] = runs;
   return groups.flatMap((group) => {
     const table = tableOf(run, family, group);
-    const columns = shownColumns(table, family, run, group);
+    const columns = shownColumns(table, family, runs, group);
     if (!columns.length) return [];
-    return [{ label: groupName(group, groups), curves: columns.map(({ name, label }, k) =>
-      ({ ...curveOf(table, name, family), label, id: name, colour: () => curveColour(k) })) }];
+    return [{ label: groupName(group, groups), name: columns.length === 1 ? columns[0].label : '',
+      curves: columns.map(({ name, label }, k) => ({ ...curveOf(table, name, family), label, id: name,
+        colour: () => curveColour(k), noErrors: noErrors(run, group) })) }];
   });
 }
 
@@ -110,13 +131,15 @@ function variantsOfRuns(family, groups) {
   return groups.flatMap((group) => {
     const names = new Map(runs.flatMap((run) => {
       const table = tableOf(run, family, group);
-      return table ? shownColumns(table, family, run, group).map(({ name, label }) => [name, label]) : [];
+      return table ? shownColumns(table, family, runs, group).map(({ name, label }) => [name, label]) : [];
     }));
     return [...names].map(([name, label]) => ({
+      name: label,
       label: [names.size > 1 ? label : '', groupName(group, groups)].filter(Boolean).join(', '),
       curves: runs.flatMap((run, k) => {
         const table = tableOf(run, family, group);
-        return table?.columns[name] ? [{ ...curveOf(table, name, family), label: run.label, id: k, colour: () => runColour(run) }] : [];
+        return table?.columns[name] ? [{ ...curveOf(table, name, family), label: run.label, id: k,
+          colour: () => runColour(run), noErrors: noErrors(run, group) }] : [];
       }),
     }));
   });
@@ -139,9 +162,10 @@ const fileName = (heading) => heading.toLowerCase().replaceAll(/[^a-z]+/g, '_') 
 function familyChart(family) {
   const groups = groupsOf(family);
   const variants = (runs.length > 1 ? variantsOfRuns(family, groups) : variantsOfOneRun(family, groups))
-    .map((variant) => ({ symbol: family.symbol, unit: family.unit, levels: family.levels, ...variant }));
+    .map((variant) => ({ ...variant, symbol: family.symbol + (family.named && variant.name ? `, ${variant.name}` : ''),
+      unit: family.unit, levels: family.levels, curves: [...variant.curves, ...(family.references?.(variant) ?? [])] }));
   if (!variants.length) {
-    if (groups.length && family.missing) byId(family.section).append(element('p', { class: 'note' }, family.missing));
+    if (groups.length && family.missing) byId(family.section).after(element('p', { class: 'note' }, family.missing));
     return null;
   }
   const stride = Math.max(...runs.flatMap((run) => groups.map((group) => tableOf(run, family, group)?.stride ?? 1)));
@@ -171,16 +195,19 @@ function runLegends(charts) {
 
 function seriesChart(run, description) {
   const table = run.tables[description.table];
-  const columns = table && table.columns.time.value.length ? shownColumns(table, description, run) : [];
+  const columns = table && table.columns.time.value.length ? shownColumns(table, description, [run]) : [];
   const round = table?.columns.rotational && run.tables.summary?.columns.rotors?.value[0] === 0;
   const shown = columns.filter(({ name }) => !(round && name !== 'translational'));
   if (!shown.length) return;
-  const curves = shown.map(({ name, label }, k) =>
-    ({ ...curveOf(table, name, { x: 'time' }), label, id: name, colour: () => curveColour(k) }));
+  const { transform = (values) => values } = description;
+  const curves = shown.map(({ name, label }, k) => {
+    const curve = curveOf(table, name, { x: 'time' });
+    return { ...curve, value: transform(curve.value), label, id: name, colour: () => curveColour(k), noErrors: 'single samples' };
+  });
   const hint = table.stride > 1 ? `Shown: one sample in ${table.stride}.` : '';
   const highest = Math.max(...curves.flatMap((curve) => curve.value.map((value, i) => value + (curve.error?.[i] ?? 0))));
   addChart('series', { ...description, hint, xSymbol: 't', xUnit: timeUnit, file: fileName(description.heading),
-    range: description.fromZero ? () => [0, 1.08 * highest] : undefined,
+    range: description.fromZero ? () => [0, 1.08 * highest || 1] : undefined,
     variants: [{ symbol: description.symbol, unit: description.unit, curves, levels: levelsOf(run, description) }] });
 }
 
@@ -209,34 +236,28 @@ const density = { xSymbol: 'φ', xUnit: '', rangeX: (plot, low, high) => {
   return [low - space, high + space];
 } };
 
-const averages = [
-  { column: 'compressibility_factor', heading: 'Compressibility factor', symbol: 'Z = βP/ρ', unit: '' },
+const transport = [
   { column: 'diffusion', heading: 'Diffusion', symbol: 'D', unit: '√(ab kT/m)', logY: true },
   { column: 'rotational_diffusion', heading: 'Rotational diffusion', symbol: 'Dᵣ', unit: '√(kT/(m ab))', logY: true },
+  { column: 'compressibility_factor', heading: 'Compressibility factor', symbol: 'Z = βP/ρ', unit: '' },
 ];
+const speed = { heading: 'Speed of the simulation', symbol: 'collisions per second', unit: '1/s', reason: 'a single measurement' };
 
-function overDensity(heading, symbol, unit, logY, values) {
+function overDensity({ heading, symbol, unit, logY, reason }, values) {
   const known = values.filter(({ value }) => value !== null && value !== undefined);
-  if (runs.length < 2 || !known.length) return;
+  if (!known.length) return;
+  const reasons = known.filter(({ error }) => (error ?? null) === null).map(({ run }) => reason ?? noErrors(run));
   const curve = { label: symbol, id: 0, points: 'full', colour: () => curveColour(0), x: known.map(({ run }) => run.packingFraction),
-                  value: known.map(({ value }) => value), error: known.map(({ error }) => error ?? null) };
+                  value: known.map(({ value }) => value), error: known.map(({ error }) => error ?? null),
+                  noErrors: [...new Set(reasons)].join('; ') };
   addChart('over-density', { heading, ...density, logY, file: fileName(heading), variants: [{ symbol, unit, curves: [curve] }] });
-}
-
-function densityCharts() {
-  averages.forEach(({ column, heading, symbol, unit, logY }) => overDensity(heading, symbol, unit, logY, runs.map((run) => {
-    const values = run.tables.summary?.columns[column];
-    return { run, value: values?.value[0], error: values?.error?.[0] };
-  })));
-  overDensity('Speed of the simulation', 'collisions per second', '1/s', false,
-    runs.map((run) => ({ run, value: run.collisionsPerSecond })));
 }
 
 // Glass
 
 const kinds = ['translation', 'rotation', 'rotation in the nematic'];
 const orientations = [null, { label: 'orientations relax', kind: 1 }, { label: 'kept by nematic order', kind: 2 },
-                      { label: 'orientations do not relax', kind: 6 }];
+                      { label: 'orientations do not relax within the run', kind: 6 }];
 const found = 0, lowerBound = 1, notEquilibrated = ', not equilibrated';
 
 /** These rows of the table `relaxation` that have a value, as points: full, or hollow if the run is not in equilibrium. */
@@ -246,7 +267,8 @@ function glassPoints(column, rows, label, colour) {
   return [['full', ''], ['hollow', notEquilibrated]].map(([points, suffix]) => {
     const chosen = rows.filter((k) => value[k] !== null && (verdict.value[k] === 0) === (points === 'full'));
     const pick = (values) => chosen.map((k) => values?.[k] ?? null);
-    return { x: pick(phi.value), value: pick(value), error: pick(error), points, label: label + suffix, id: label + suffix, colour };
+    return { x: pick(phi.value), value: pick(value), error: pick(error), points,
+             label: label + suffix, id: label + suffix, colour, noErrors: tooFewBlocks };
   }).filter((curve) => curve.x.length);
 }
 
@@ -303,6 +325,7 @@ function fitsOf(law) {
 }
 
 function timesChart() {
+  tellWaveNumbers();
   const points = kinds.flatMap((_, kind) => timesOf(kind));
   if (!points.length) return;
   const variant = (label, { curves, uprights }) => {
@@ -312,7 +335,7 @@ function timesChart() {
   };
   const variants = study.glass_fit ? laws.map(({ name }, law) => variant('with ' + name, fitsOf(law)))
                                    : [variant('', { curves: [], uprights: [] })];
-  addChart('glass', { heading: 'Relaxation times', ...density, logY: true, file: 'relaxation_times.csv', variants });
+  addChart('over-density', { heading: 'Relaxation times', ...density, logY: true, file: 'relaxation_times.csv', variants });
 }
 
 /** The order of rotors that have none is not zero, as there are so few. */
@@ -328,23 +351,34 @@ function orderChart() {
   const points = orientations.flatMap((kept, code) => !kept ? [] : glassPoints('nematic_order',
     glassRows().filter((k) => orientation.value[k] === code), kept.label, () => curveColour(kept.kind)));
   if (!points.length) return;
-  addChart('glass', { heading: 'Nematic order', ...density, file: 'nematic_order.csv', range: () => [0, 1],
+  addChart('over-density', { heading: 'Nematic order', ...density, file: 'nematic_order.csv', range: () => [0, 1],
     variants: [{ symbol: 'S', unit: '', curves: [...points, orderByChance()] }] });
 }
 
-function glassCharts() {
-  byId('glass').closest('section').hidden = !study.relaxation;
+/** Times at different wave numbers do not compare. */
+function tellWaveNumbers() {
+  const values = (study.relaxation.columns.wave_number?.value ?? []).filter((q) => q !== null);
+  if (!values.length) return;
+  const same = new Set(values.map((q) => shortNumber(q, 3))).size === 1;
+  byId('wave-numbers').textContent = `Translation: the time in which Fₛ(q, t) falls to 1/e at ${rangeText('q', values)}.` + (same ? ''
+    : ` As q differs between the runs, these times do not show the effect of density alone. At one q for all: vitrel report … --set ` +
+      `analysis.wave_numbers=[${shortNumber(Math.max(...values), 2)}]`);
+}
+
+function densityCharts() {
+  byId('glass').hidden = !study.relaxation;
   byId('fits').parentElement.hidden = !study.glass_fit;
-  if (!study.relaxation) return;
-  timesChart();
-  orderChart();
+  if (runs.length < 2) return;
+  if (study.relaxation) timesChart();
+  transport.forEach((description) => overDensity(description, runs.map((run) => {
+    const values = run.tables.summary?.columns[description.column];
+    return { run, value: values?.value[0], error: values?.error?.[0] };
+  })));
+  if (study.relaxation) orderChart();
+  overDensity(speed, runs.map((run) => ({ run, value: run.collisionsPerSecond })));
 }
 
 // The page
-
-function hideIfEmpty(section) {
-  byId(section).closest('section').hidden = !byId(section).childElementCount;
-}
 
 function showRun(player, run) {
   const still = runs.length > 1 && run.movie?.time.length === 1
@@ -356,14 +390,15 @@ function showRun(player, run) {
 
 function start() {
   const player = new Player();
-  const last = runs.length - 1;
+  const last = runs.length - 1, course = byId('series').closest('section');
+  byId('series').parentElement.open = runs.length === 1;
+  if (runs.length > 1) course.before(byId('movie').closest('section'));
   const marked = runs.map((run) => run.label + (run.movie?.time.length > 1 ? '' : ' (final state)'));
   if (runs.length > 1) byId('movie-run').append(selection('Run', marked, last, (k) => showRun(player, runs[k])));
   showRun(player, runs[last]);
+  densityCharts();
   const charts = families.map(familyChart).filter(Boolean);
   runLegends(charts);
-  densityCharts();
-  glassCharts();
   ['motion', 'relaxation', 'structure', 'over-density'].forEach(hideIfEmpty);
   recolour();
 }

@@ -1,26 +1,20 @@
-/** A chart in its host, which is hidden if there is nothing to show. */
-function chartOf(id, { symbol, unit, levels, levelName, heading, ...description }) {
+/** A chart in its host, which is removed if there is nothing to show. */
+function chartOf(id, { symbol, unit, levels, levelName, heading, noErrors, ...description }) {
   const host = byId(id), curve = pageData[id];
-  host.hidden = !curve;
-  if (!curve) return null;
+  if (!curve) return host.remove();
   const { time: x, ...values } = curve;
-  return new Chart(host, { ...description, heading: `${heading}; dashed: ${levelName}`, file: id + '.csv',
-    variants: [{ symbol, unit, levels, curves: [{ label: symbol, id, x, ...values, colour: () => curveColour(0) }] }] });
+  new Chart(host, { ...description, heading: `${heading}; dashed: ${levelName}`, file: id + '.csv',
+    variants: [{ symbol, unit, levels, curves: [{ label: symbol, id, x, ...values, noErrors, colour: () => curveColour(0) }] }] });
 }
 
-function start() {
-  const decay = { xSymbol: 't', xUnit: 'sweeps', unit: '', logX: true };
-  const charts = [
-    chartOf('correlation', { heading: 'Nematic correlation', symbol: 'g₂(r) = ⟨cos 2(θᵢ − θⱼ)⟩', unit: '',
-      xSymbol: 'r', xUnit: lengthUnit, levels: [pageData.order ** 2], levelName: 'S²' }),
-    chartOf('orientation', { ...decay, heading: 'Orientations kept', symbol: 'C₂(t) = ⟨cos 2(θ(t) − θ(0))⟩',
-      levels: [Math.exp(-1)], levelName: '1/e', range: (plot, low) => [Math.min(0, low), 1.02] }),
-    chartOf('displacement', { ...decay, heading: 'Displacement in widths 2b', symbol: '√⟨|r(t) − r(0)|²/(2b)²⟩',
-      levels: [1], levelName: '1', range: (plot, low, high) => [0, 1.08 * Math.max(1, high)] }),
-  ].filter(Boolean);
-  byId('correlations').parentElement.hidden = !charts.length;
-  new Player().load(pageData.movie, { label: pageData.label, note: pageData.movie ? '' : 'The state holds no particles.' });
-  recolour();
-}
-
-start();
+const decay = { xSymbol: 't', xUnit: 'sweeps', unit: '', logX: true, noErrors: 'a single sampling' };
+structureCharts(pageData.tables);
+chartOf('correlation', { heading: 'Nematic correlation', symbol: 'g₂(r) = ⟨cos 2(θᵢ − θⱼ)⟩', unit: '',
+  xSymbol: 'r', xUnit: lengthUnit, levels: [pageData.order ** 2], levelName: 'S²' });
+chartOf('orientation', { ...decay, heading: 'Orientations kept', symbol: 'C₂(t) = ⟨cos 2(θ(t) − θ(0))⟩',
+  levels: [Math.exp(-1)], levelName: '1/e', range: (plot, low) => [Math.min(0, low), 1.02] });
+chartOf('displacement', { ...decay, heading: 'Displacement in widths 2b', symbol: '√⟨|r(t) − r(0)|²/(2b)²⟩',
+  levels: [1], levelName: '1', range: (plot, low, high) => [0, 1.08 * Math.max(1, high)] });
+hideIfEmpty('correlations');
+new Player().load(pageData.movie, { label: pageData.label, note: pageData.movie ? '' : 'The state holds no particles.' });
+recolour();
