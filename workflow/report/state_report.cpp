@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "analysis/observables/frame_observable.h"
 #include "core/io/h5md.h"
 #include "workflow/analyze/analyze.h"
-#include "workflow/analyze/structure_tables.h"
 #include "workflow/configuration/parameters.h"
 #include "workflow/prepare/quality_file.h"
 #include "workflow/report/run_report.h"
@@ -21,7 +21,7 @@ StructureOptions structure_options(const Provenance& provenance, const std::stri
 /// g(r) and S(q). The page has the correlation of orientations already, in bins wide enough for a single
 /// state.
 std::vector<Table> structure(const Configuration2& state, const StructureOptions& options) {
-  MemoryTrajectory trajectory({state});
+  MemoryTrajectory2 trajectory({state});
   std::vector<Table> tables = structure_tables(trajectory, options);
   for (Table& table : tables)
     std::erase_if(table.columns,

@@ -1,7 +1,3 @@
-function start() {
-  structureCharts(pageData.tables);
-  new SolidView().load(pageData.scene, pageData.label);
-  recolour();
-}
-
-start();
+structureCharts(pageData.tables);
+new Player().load(pageData.movie, { label: pageData.label, note: '' });
+recolour();
