@@ -8,6 +8,7 @@ import re
 import struct
 import sys
 import unittest
+import zlib
 
 from pages import FOLDER, PIXELS, SHIFT, WIDTHS, PageTest
 
@@ -16,7 +17,7 @@ class Page(PageTest):
     # The page
 
     def test_fits_every_width_in_both_schemes(self):
-        for name, width, scheme in itertools.product(("sweep.html", "run.html", "state.html"), WIDTHS, ("light", "dark")):
+        for name, width, scheme in itertools.product(("sweep.html", "run.html", "two_runs.html", "state.html"), WIDTHS, ("light", "dark")):
             with self.subTest(name=name, width=width, scheme=scheme):
                 self.open(name, width, scheme)
                 self.assertLessEqual(self.browser.evaluate("document.documentElement.scrollWidth"), width)
@@ -246,19 +247,26 @@ class Page(PageTest):
 
     # The charts
 
+    def chart(self, heading):
+        return f"""[...document.querySelectorAll('.chart')].find((chart) =>
+          chart.querySelector('h3').textContent === '{heading}')"""
+
     def headings(self):
         return self.browser.evaluate("[...document.querySelectorAll('.chart h3')].map((heading) => heading.textContent)")
 
     def test_a_chart_for_every_table(self):
-        curves = ["Energy per particle", "Compressibility factor", "Order", "Director", "Mean squared displacement",
-                  "Mean squared rotation", "Non-Gaussian parameter", "Self-intermediate scattering",
-                  "Orientational correlation", "Collective scattering", "Four-point susceptibility", "Overlap",
-                  "Structure factor", "Pair correlation", "Orientations about the director"]
+        curves = ["Mean squared displacement", "Mean squared rotation", "Non-Gaussian parameter",
+                  "Self-intermediate scattering", "Orientational correlation", "Collective scattering",
+                  "Four-point susceptibility", "Overlap", "Structure factor", "Pair correlation",
+                  "Orientations about the director", "Energy per particle", "Compressibility factor", "Order", "Director"]
         self.open("run.html")
         self.assertEqual(self.headings(), curves)
+        self.open("state.html")
+        self.assertEqual(self.headings(), ["Pair correlation", "Structure factor", "Nematic correlation; dashed: S²",
+                                           "Orientations kept; dashed: 1/e", "Displacement in widths 2b; dashed: 1"])
         self.open("sweep.html")
-        self.assertEqual(self.headings(), curves + ["Relaxation times", "Nematic order", "Compressibility factor",
-                                                    "Diffusion", "Speed of the simulation"])
+        self.assertEqual(self.headings(), ["Relaxation times", "Diffusion", "Compressibility factor", "Nematic order",
+                                           "Speed of the simulation"] + curves)
         blank = self.browser.evaluate(f"(() => {{ {PIXELS}" + """
           return [...document.querySelectorAll('.chart')].filter((chart) =>
             new Set(new Uint32Array(pixels(chart.querySelector('canvas')).data.buffer)).size < 20)
@@ -314,8 +322,7 @@ class Page(PageTest):
 
     def test_a_time_of_zero_is_not_on_a_logarithmic_axis(self):
         self.open("run.html")
-        chart = """[...document.querySelectorAll('#relaxation .chart')].find((chart) =>
-          chart.querySelector('h3').textContent === 'Collective scattering')"""
+        chart = self.chart("Collective scattering")
         self.browser.evaluate(f"{chart}.querySelector('.plot').focus()")
         for _ in range(60):  # to the left end
             self.browser.press("ArrowLeft", 37)
@@ -323,11 +330,11 @@ class Page(PageTest):
         self.assertRegex(readout, r"^q = 2\.4:  t = 0\.5,")
 
     def glass_legend(self, chart):
-        return self.browser.evaluate(f"""[...document.querySelectorAll('#glass .chart:nth-child({chart}) .legend button')]
+        return self.browser.evaluate(f"""[...document.querySelectorAll('#over-density .chart:nth-child({chart}) .legend button')]
           .map((button) => [button.textContent, button.querySelector('i').className])""")
 
     def choose_law(self, law):
-        self.browser.evaluate(f"""(() => {{ const select = document.querySelector('#glass select');
+        self.browser.evaluate(f"""(() => {{ const select = document.querySelector('#over-density select');
           select.value = {law}; select.dispatchEvent(new Event('change')); }})()""")
         self.browser.settle()
 
@@ -353,24 +360,24 @@ class Page(PageTest):
         # Vogel-Fulcher is refused for rotation: no curve, and no φ_c.
         self.choose_law(1)
         self.assertEqual(self.glass_legend(1), points + [["translation, Vogel–Fulcher", "line"]])
-        self.assertEqual([text for text, *_ in self.canvas_texts("#glass") if "φc" in text], ["φc translation = 0.850"])
+        self.assertEqual([text for text, *_ in self.canvas_texts("#over-density .chart") if "φc" in text], ["φc translation = 0.850"])
 
     def test_transition_densities_stand_where_they_are(self):
         self.open("sweep.html")
-        texts = self.canvas_texts("#glass")
+        texts = self.canvas_texts("#over-density .chart")
         marks = [text for text in texts if "φc" in text[0]]
         self.assertEqual([text for text, *_ in marks],
                          ["φc translation = 0.800", "φc rotation > 0.795", "φc rotation in the nematic > 0.785"])
         # Labels end left of their lines, 0.8, 0.795 and 0.785 on an axis from 0.6 − m to 0.805 + m, m = 6 % of 0.205.
-        width = self.browser.evaluate("document.querySelector('#glass .u-over').clientWidth")
+        width = self.browser.evaluate("document.querySelector('#over-density .u-over').clientWidth")
         for (_, x, _), density in zip(marks[1:], (0.795, 0.785)):
             self.assertAlmostEqual((marks[0][1] - x) / width, (0.8 - density) / (1.12 * 0.205), delta=1.5 / width)
 
     def glass_readings(self, curve):
         """All (φ, τ) of a curve of the chart, read by arrow keys."""
-        self.focus("#glass .plot")
+        self.focus("#over-density .plot")
         self.browser.press("ArrowRight", 39)
-        readout = "document.querySelector('#glass .readout').textContent"
+        readout = "document.querySelector('#over-density .readout').textContent"
         for _ in range(12):
             if self.browser.evaluate(readout).startswith(curve + ":"):
                 break
@@ -405,9 +412,9 @@ class Page(PageTest):
 
     def test_order_is_told_from_glass(self):
         self.open("sweep.html")
-        self.assertEqual(self.glass_legend(2), [["orientations relax", "full"], ["kept by nematic order", "full"],
+        self.assertEqual(self.glass_legend(4), [["orientations relax", "full"], ["kept by nematic order", "full"],
                                                 ["kept by nematic order, not equilibrated", "hollow"],
-                                                ["orientations do not relax, not equilibrated", "hollow"], ["by chance", "line"]])
+                                                ["orientations do not relax within the run, not equilibrated", "hollow"], ["by chance", "line"]])
 
     def test_notes_of_the_study_are_below_its_tables(self):
         self.open("sweep.html")
@@ -415,19 +422,209 @@ class Page(PageTest):
                          ["phi-0.74 (density 0.74, seed 1) stays out of the fits, ageing: S drifts",
                           "rotation, tau_2, Vogel-Fulcher: no phi_c, chi^2 <is> too large"])
 
-    def test_logarithmic_axes_are_labelled_with_powers_of_ten(self):
+    def test_logarithmic_axes_have_three_labels_or_more(self):
         self.open("sweep.html")
-        motion, glass, diffusion = [[(text, y) for text, _, y in self.canvas_texts(chart)]
-                                    for chart in ("#motion", "#glass", "#over-density .chart:nth-child(2)")]
+        motion, times, diffusion = [[(text, y) for text, _, y in self.canvas_texts(chart)]
+                                    for chart in ("#motion", "#over-density .chart", "#over-density .chart:nth-child(2)")]
         # Times from 0.5 to 237 and mean squared displacements from 0.08 to 214 …
         self.assertEqual(sorted(text for text, _ in motion), sorted(["1", "10", "100", "0.1", "1", "10", "100", "∝ t"]))
-        # … and relaxation times from 2.5 to 617.
-        self.assertLessEqual({"10", "100"}, {text for text, _ in glass})
+        # … and relaxation times from 2.5 to 617, on an axis that begins at 2.
+        self.assertLessEqual({"2", "5", "10", "20", "50", "100"}, {text for text, _ in times})
         # Diffusion coefficients from 0.002 to 0.006, on an axis from 0.8 to 1.25 times that.
-        self.assertEqual([text for text, _ in diffusion[-2:]], ["0.002", "0.005"])
+        labels = diffusion[-6:]
+        self.assertEqual([text for text, _ in labels], ["0.002", "0.003", "0.004", "0.005", "0.006", "0.007"])
         height = self.browser.evaluate("document.querySelector('#over-density .chart:nth-child(2) .u-over').clientHeight")
         decades = math.log10(1.25 * 0.006 / (0.8 * 0.002))
-        self.assertAlmostEqual((diffusion[-2][1] - diffusion[-1][1]) / height, math.log10(2.5) / decades, delta=2 / height)
+        self.assertAlmostEqual((labels[0][1] - labels[-1][1]) / height, math.log10(3.5) / decades, delta=2 / height)
+
+    # What leads
+
+    def section_headings(self):
+        return self.browser.evaluate("""[...document.querySelectorAll('h2')].filter((heading) => heading.checkVisibility())
+          .map((heading) => heading.textContent.trim())""")
+
+    def test_a_sweep_begins_with_what_depends_on_the_density_and_folds_single_runs(self):
+        self.open("sweep.html")
+        self.assertEqual(self.section_headings(), ["Against the packing fraction", "Motion", "Relaxation", "Structure", "Particles",
+                                                   "In the course of the run at φ = 0.70", "Table of runs", "Parameters and provenance"])
+        # The first chart is on the first screen.
+        bottom = self.browser.evaluate("document.querySelector('.chart .plot').getBoundingClientRect().bottom")
+        self.assertLess(bottom, 900)
+        shown = "document.querySelector('#series .plot').checkVisibility()"
+        self.assertFalse(self.browser.evaluate(shown))
+        self.click("#series-heading")
+        self.browser.settle()
+        self.assertTrue(self.browser.evaluate(shown))
+        widths = self.browser.evaluate("""['#series', '#motion'].map((charts) =>
+          document.querySelector(charts + ' canvas').clientWidth)""")
+        self.assertEqual(widths[0], widths[1])
+
+    def test_a_run_begins_with_its_verdict_and_its_relaxation_times(self):
+        self.open("run.html")
+        self.assertEqual(self.section_headings()[:2], ["Result", "Particles"])
+        rows = self.browser.evaluate("""[...document.querySelectorAll('section:first-of-type tr')].map((row) =>
+          [...row.children].map((cell) => cell.textContent))""")
+        # Of all particles, not of the species.
+        self.assertEqual(rows, [["equilibrium", "not enough time: it lasts 4 times tau_2; 16 are needed", ""],
+                                ["of translation alone", "equilibrated", ""],
+                                ["relaxation time τα", "10.00 ± 0.50 √(m ab/kT)", "Fs(q, t) = 1/e at q = 2.4/√(ab)"],
+                                ["rotational relaxation time τ2", "not within this run: > 250 √(m ab/kT)", "L2(t) = 1/e"]])
+        self.assertTrue(self.browser.evaluate("document.querySelector('#series .plot').checkVisibility()"))
+
+    def test_pages_are_named_in_their_title_and_heading(self):
+        self.open("sweep.html")
+        self.assertEqual(self.browser.evaluate("[document.title, document.querySelector('h1').textContent]"),
+                         ["Ellipses & <disks>"] * 2)
+
+    def axis_titles(self, section):
+        return self.browser.evaluate(f"""[...document.querySelectorAll('#{section} .axis-title:not(.x)')]
+          .map((title) => title.textContent)""")
+
+    def test_the_wave_numbers_stand_in_the_charts(self):
+        self.open("run.html")
+        self.assertIn("F(q, t), q = 2.4", self.axis_titles("relaxation"))
+        self.open("sweep.html")
+        self.assertEqual(self.axis_titles("relaxation")[::2][:2], ["Fₛ(q, t), q = 2.4", "F(q, t), q = 2.4"])
+        # 5 √φ from 0.6 to 0.76.
+        self.assertIn("at q = 3.87 … 4.36 by run. As q differs between the runs", self.text("wave-numbers"))
+        self.open("two_runs.html")
+        self.assertEqual(self.axis_titles("relaxation")[0], "Fₛ(q, t), q = 2.4 … 3.1 by run")
+
+    def test_all_rows_of_charts_are_full(self):
+        for name in ("sweep.html", "run.html", "two_runs.html", "state.html"):
+            self.open(name)
+            ends = self.browser.evaluate("""[...document.querySelectorAll('.charts')].filter((grid) => grid.checkVisibility())
+              .map((grid) => [grid.getBoundingClientRect().right, grid.lastElementChild.getBoundingClientRect().right])""")
+            self.assertGreater(len(ends), 0)
+            for grid, last in ends:
+                self.assertAlmostEqual(grid, last, delta=1)
+
+    def test_every_run_of_a_sweep_has_its_provenance(self):
+        self.open("two_runs.html")
+        rows = self.browser.evaluate("""[...document.querySelectorAll('#job-provenance tr')].map((row) =>
+          [...row.children].map((cell) => cell.textContent))""")
+        self.assertEqual(rows, [["run", "seed", "host"], ["run <1>", "7", "a"], ["run <1>", "12", "b"]])
+        self.assertIn("commitc0ffee", self.browser.evaluate("document.querySelector('dl').textContent"))
+
+    def lightness_at(self, x, y):
+        """The green of a pixel of the page, from 0 to 255."""
+        image = base64.b64decode(self.browser.call("Page.captureScreenshot", format="png", captureBeyondViewport=True,
+                                                   clip={"x": x, "y": y, "width": 1, "height": 1, "scale": 1})["data"])
+        begin = image.index(b"IDAT") + 4
+        size, = struct.unpack(">I", image[begin - 8:begin - 4])
+        # A byte that names the filter, which leaves a single pixel alone, then red, green and blue.
+        return zlib.decompressobj().decompress(image[begin:begin + size])[2]
+
+    def test_a_table_that_goes_on_has_a_shadow_at_that_end(self):
+        self.open("sweep.html", width=820)
+        host = "[...document.querySelectorAll('.scroll')].find((host) => host.scrollWidth > host.clientWidth + 100 && host.checkVisibility())"
+        for place, shadows in ((0, (False, True)), (1e6, (True, False))):
+            left, right, y = self.browser.evaluate(f"""(() => {{ const host = {host};
+              host.scrollLeft = {place};
+              host.scrollIntoView({{ block: 'center' }});
+              const {{ left, right, bottom }} = host.getBoundingClientRect();
+              return [left, right, bottom - 2]; }})()""")
+            self.browser.settle()
+            y += self.browser.evaluate("window.scrollY")
+            for x, shadow in zip((left + 1, right - 2), shadows):
+                self.assertEqual(self.lightness_at(x, y) < 230, shadow)
+
+    # Errors
+
+    def column_of_band(self, heading, share):
+        """How many pixels of a shaded band, one part in five, there are at this share of the width of a chart."""
+        return self.browser.evaluate(f"""(() => {{ {PIXELS}
+          const chart = {self.chart(heading)}, frame = chart.querySelector('.u-over');
+          const {{ data, width, height }} = pixels(chart.querySelector('canvas'));
+          const x = Math.round(frame.offsetLeft + {share} * frame.clientWidth);
+          return Array.from({{ length: height }}, (_, y) => data[4 * (y * width + x) + 3]).filter((alpha) => alpha > 30 && alpha < 120).length; }})()""")
+
+    def test_bands_stop_where_there_are_no_errors(self):
+        self.open("two_runs.html")
+        # χ₄ from t = 0.5 to 100, on an axis from 0.4 to 125.
+        share = lambda t: math.log(t / 0.4) / math.log(125 / 0.4)
+        self.assertGreater(self.column_of_band("Four-point susceptibility", share(60)), 20)
+        self.assertEqual(self.column_of_band("Four-point susceptibility", share(12)), 0)
+
+    def remark(self, heading):
+        return self.browser.evaluate(f"{self.chart(heading)}.querySelector('.remark').textContent")
+
+    def test_charts_say_why_errors_are_missing(self):
+        self.open("two_runs.html")
+        self.assertEqual(self.remark("Four-point susceptibility"),
+                         "Without errors in part: too few independent blocks; samples unevenly spaced in time.")
+        self.assertEqual(self.remark("Overlap"), "Without errors: too few independent blocks; samples unevenly spaced in time.")
+        self.assertEqual(self.remark("Mean squared displacement"), "")
+        self.assertEqual(self.remark("Director"), "Without errors: single samples.")
+        self.open("state.html")
+        self.assertEqual(self.remark("Orientations kept; dashed: 1/e"), "Without errors: a single sampling.")
+        self.assertEqual(self.remark("Nematic correlation; dashed: S²"), "")
+
+    # Axes and references
+
+    def chart_texts(self, heading):
+        """What a chart is given to write: [text, x, y]."""
+        self.browser.evaluate(f"document.getElementById('asked')?.removeAttribute('id'), {self.chart(heading)}.id = 'asked'")
+        return self.canvas_texts("#asked")
+
+    def readings(self, heading, curve, keys):
+        """The value of this curve of a chart, and those after each of so many arrows to the right."""
+        self.browser.evaluate(f"{self.chart(heading)}.querySelector('.plot').focus()")
+        readout = f"{self.chart(heading)}.querySelector('.readout').textContent"
+        self.browser.press("ArrowRight", 39)
+        for _ in range(8):
+            if self.browser.evaluate(readout).startswith(curve + ":"):
+                break
+            self.browser.press("ArrowDown", 40)
+        found = []
+        for _ in range(keys + 1):
+            name, x, y = re.match(r"(.*):  .* = ([−\-\d.]+),  ([\-\d.]+)", self.browser.evaluate(readout)).groups()
+            self.assertEqual(name, curve)
+            found.append((float(x), float(y)))
+            self.browser.press("ArrowRight", 39)
+        return found
+
+    def test_the_axis_of_a_curve_ends_with_its_values(self):
+        self.open("two_runs.html")
+        place = {text: x for text, x, _ in self.chart_texts("Four-point susceptibility") if text in ("10", "100")}
+        width = self.browser.evaluate("document.querySelector('#asked .u-over').clientWidth")
+        # From 0.8 · 0.5 to 1.25 · 100.
+        self.assertAlmostEqual((place["100"] - place["10"]) / width, 1 / math.log10(125 / 0.4), delta=2 / width)
+
+    def test_constants_are_flat_lines_on_a_readable_axis(self):
+        self.open("two_runs.html")
+        self.click("#series-heading")
+        self.browser.settle()
+        texts = self.chart_texts("Compressibility factor")
+        left = min(x for _, x, _ in texts)
+        labels = [text for text, x, _ in texts if x < left + 30]
+        self.assertGreater(len(labels), 2)
+        self.assertEqual(len(set(labels)), len(labels))
+        # 4.5 and 4.50001 on an axis that spans a thousandth of that: a hundredth of the height at most, and the pen.
+        rows, height = self.browser.evaluate(f"""(() => {{ {PIXELS}
+          const {{ data, width, height }} = pixels(document.querySelector('#asked canvas'));
+          const hit = (x, y) => {{ const at = 4 * (y * width + x); return data[at + 2] > data[at] + 60 && data[at + 3] > 200; }};
+          const rows = Array.from({{ length: height }}, (_, y) => y).filter((y) => Array.from({{ length: width }}, (_, x) => x).some((x) => hit(x, y)));
+          return [rows.at(-1) - rows[0], height]; }})()""")
+        self.assertLess(rows, 0.01 * height + 4)
+        # An order of 0 has an axis, too.
+        self.assertIn("0.2", [text for text, *_ in self.chart_texts("Order")])
+
+    def test_the_director_goes_on_beyond_a_quarter_turn(self):
+        # By turns π/2 − 0.05 and its opposite, which are 0.1 apart.
+        self.open("two_runs.html")
+        self.click("#series-heading")
+        angles = [angle for _, angle in self.readings("Director", "director", 5)]
+        for one, next_one in itertools.pairwise(angles):
+            self.assertAlmostEqual(abs(next_one - one), 0.1, delta=0.002)
+
+    def test_orientations_are_compared_with_those_by_chance(self):
+        # S = √(π/(4 · 1000)).
+        order = math.sqrt(math.pi / 4000)
+        for name in ("run.html", "sweep.html"):
+            self.open(name)
+            for angle, density in self.readings("Orientations about the director", "by chance", 12):
+                self.assertAlmostEqual(density, (1 + 2 * order * math.cos(2 * angle)) / math.pi, delta=2e-4)
 
 
 if __name__ == "__main__":

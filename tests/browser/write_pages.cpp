@@ -14,11 +14,14 @@
 namespace vitrel {
 namespace {
 
+using report_example::none;
+
 StatePage state() {
   MemoryTrajectory2 trajectory = report_example::lattice(5, 1);
   StatePage page;
   page.title = "state";
   page.rows = {{"packing fraction", "0.196", ""}};
+  page.structure.tables = report_example::structure();
   page.state = trajectory.read(0);
   page.nematic_correlation = {{0.5, 1.5, 2.5}, {0.5, 0.25, 0.125}, {5, 20, 50}};
   page.nematic_order = 0.3;
@@ -84,7 +87,21 @@ ReportData one_run() {
   ReportData data = report_example::sweep(2, 1);
   data.runs = {report_example::run(0.7, report_example::lattice(8, 20))};
   data.study = {};
-  std::vector<Table>& tables = data.runs.front().results.tables;
+  Results& results = data.runs.front().results;
+  results.provenance = {{"verdict_reason", "it lasts 4 times tau_2; 16 are needed"}};
+  std::vector<Table>& tables = results.tables;
+  tables.push_back({"relaxation",
+                    "",
+                    {report_example::plain("verdict", "1", {2}),
+                     report_example::plain("verdict_translation", "1", {0})}});
+  tables.push_back({"relaxation_times",
+                    "",
+                    {report_example::plain("group", "1", {0, 0, 1}),
+                     report_example::plain("kind", "1", {0, 1, 0}),
+                     report_example::plain("parameter", "1/length or 1", {2.4, 2, 2.4}),
+                     {"tau", "time", {10, none, 11}, {0.5, none, 0.5}},
+                     report_example::plain("least", "time", {none, 250, none}),
+                     report_example::plain("most", "time", {none, none, none})}});
   tables.push_back({"on_the_fly_all",
                     "",
                     {report_example::plain("time", "time", {1, 2, 4}),
@@ -97,12 +114,63 @@ ReportData one_run() {
   return data;
 }
 
+/// A series of constants, but for the last digit that the page has, and of a director at ±π/2.
+std::vector<Table> monotonous_series() {
+  const std::vector<double> t = report_example::evenly(0, 1, 100);
+  std::vector<double> z, director;
+  for (std::size_t k = 0; k < t.size(); ++k) {
+    z.push_back(k % 2 ? 4.5 : 4.50001);
+    director.push_back((k % 2 ? 1 : -1) * (0.5 * std::numbers::pi - 0.05));
+  }
+  return {{"compressibility_factor",
+           "",
+           {report_example::plain("time", "time", t), report_example::plain("z", "1", z)}},
+          {"order",
+           "",
+           {report_example::plain("time", "time", t),
+            report_example::plain("nematic", "1", report_example::constant(100, 0)),
+            report_example::plain("director", "rad", director)}}};
+}
+
+/// χ₄ = 1 up to t = 100, with errors at t = 6 and beyond t = 20 only, beside an overlap up to t = 250.
+Table susceptibility_with_gaps() {
+  const std::vector<double> t = report_example::evenly(0.5, 0.5, 500);
+  Column overlap = report_example::plain("overlap", "1", report_example::constant(500, 0.5));
+  Column chi{"chi_4", "1", report_example::constant(500, 1), report_example::constant(500, none)};
+  for (std::size_t k = 0; k < t.size(); ++k) {
+    if (t[k] == 6 || t[k] > 20) chi.error[k] = 0.3;
+    if (t[k] > 100) chi.value[k] = chi.error[k] = none;
+  }
+  return {"susceptibility", "", {report_example::plain("time", "time", t), overlap, chi}};
+}
+
+/// Two runs at different wave numbers, the second one of unevenly spaced samples; both of another origin.
+ReportData two_runs() {
+  ReportData data = report_example::sweep(2, 1);
+  data.runs.pop_back();
+  for (std::size_t k = 0; k < 2; ++k) {
+    ReportRun& run = data.runs[k];
+    run.results.tables = monotonous_series();
+    run.results.tables.push_back(susceptibility_with_gaps());
+    run.results.tables.push_back({"wave_numbers",
+                                  "",
+                                  {report_example::plain("index", "1", {1}),
+                                   report_example::plain("q", "1/length", {k ? 3.1 : 2.4})}});
+    for (Table& table : report_example::correlations(10, "all"))
+      run.results.tables.push_back(std::move(table));
+    run.provenance = {{"commit", "c0ffee"}, {"seed", k ? "12" : "7"}, {"host", k ? "b" : "a"}};
+  }
+  data.runs[1].results.provenance = {{"time_axis", "unevenly sampled: 500 lags"}};
+  return data;
+}
+
 void write_pages(const std::filesystem::path& folder) {
   ReportData sweep = report_example::sweep(6, 12);
   MemoryTrajectory2 final_state = report_example::lattice(6, 1);
   sweep.runs[1].movie = film(final_state);
   write_text(folder / "sweep.html", report_page(sweep));
   write_text(folder / "run.html", report_page(one_run()));
+  write_text(folder / "two_runs.html", report_page(two_runs()));
   write_text(folder / "state.html", state_page(state()));
   write_text(folder / "packing.html", packing_page(packing(two_species())));
   write_text(folder / "one_body.html", packing_page(packing(one_body())));

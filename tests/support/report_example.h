@@ -199,11 +199,12 @@ inline ReportRun run(double phi, MemoryTrajectory2 trajectory) {
 /// Two seeds at every density. From 0.68 on particles are nematic, at 0.76 their orientations do not
 /// relax; the densest are not equilibrated, and stay out of the fits.
 inline Table relaxation_table() {
-  std::vector<double> phi, seed, verdict, orientation, plateau;
+  std::vector<double> phi, seed, verdict, orientation, plateau, wave_number;
   for (const double density : {0.6, 0.62, 0.64, 0.66, 0.68, 0.7, 0.72, 0.74, 0.76})
     for (const double number : {1.0, 2.0}) {
       phi.push_back(density);
       seed.push_back(number);
+      wave_number.push_back(5 * std::sqrt(density));
       verdict.push_back(density < 0.73 ? 0 : density < 0.75 ? 1 : 2);
       orientation.push_back(density < 0.67 ? 1 : density < 0.75 ? 2 : 3);
       plateau.push_back(density < 0.67 ? 0 : 0.4);
@@ -216,7 +217,7 @@ inline Table relaxation_table() {
       "",
       {plain("packing_fraction", "1", phi), plain("seed", "1", seed),
        plain("duration", "time", constant(phi.size(), 2500)), plain("verdict", "1", verdict),
-       plain("verdict_translation", "1", verdict),
+       plain("verdict_translation", "1", verdict), plain("wave_number", "1/length", wave_number),
        column("tau_translation", "time", phi, relaxation_time),
        column("tau_rotation", "time", phi, rotation),
        column("nematic_order", "1", phi, [](double x) { return x < 0.67 ? 0.1 : 0.6 + x - 0.67; }),

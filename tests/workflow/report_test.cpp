@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "tests/app/program.h"
 #include "tests/support/report_example.h"
 #include "workflow/report/page_parts.h"
 
@@ -130,13 +131,15 @@ TEST(ReportPage, TableOfRunsOfTheStudyNamesVerdictsAndOrientations) {
                   "<tr><th "
                   "scope=\"row\">0.60</th><td>1</td><td>equilibrated</td><td>equilibrated</"
                   "td><td>relaxes</td>"
-                  "<td>2.50 ± 0.12</td><td>197.9 ± 9.9</td><td>0.1000 ± 0.0050</td><td>0.04</td>"
+                  "<td>3.873</td><td>2.50 ± 0.12</td><td>197.9 ± 9.9</td><td>0.1000 ± "
+                  "0.0050</td><td>0.04</td>"
                   "<td>–</td><td>2500</td></tr>"),
             1u);
   EXPECT_EQ(count(page, "<td>equilibrated</td><td>nematic order</td>"), 6u);
   EXPECT_EQ(count(page, "<td>ageing</td><td>nematic order</td>"), 2u);
   EXPECT_EQ(count(page,
-                  "<td>not enough time</td><td>does not relax</td><td>62.5 ± 3.1</td><td>–</td>"
+                  "<td>not enough time</td><td>not within this run</td><td>4.359</td>"
+                  "<td>62.5 ± 3.1</td><td>–</td>"
                   "<td>0.690 ± 0.034</td><td>0.04</td><td>0.4</td><td>2500</td></tr>"),
             2u);
 }
@@ -240,6 +243,87 @@ TEST(ReportPage, RunsOfEqualDensityAreToldApartByWhatDiffersInTheirNames) {
   runs = embedded_data(report_page(data))["runs"];
   EXPECT_EQ(runs[0]["label"], "φ = 0.50 (seed-1)");
   EXPECT_EQ(runs[1]["label"], "φ = 0.50 (seed-12)");
+}
+
+TEST(ReportPage, BoundsThatAreNotKnownAreDashes) {
+  ReportData data = sweep(2, 1);
+  for (Column& column : data.study.tables[1].columns)
+    if (column.name == "phi_c_least") column.value[2] = none;
+  const std::string page = report_page(data);
+  EXPECT_EQ(count(page, "&gt; –"), 0u);
+  EXPECT_EQ(
+      count(page, "<th scope=\"row\">rotation, τ<sub>2</sub></th><td>power law</td><td>–</td>"),
+      1u);
+}
+
+/// The page of one run with these results, from the heading of its verdict on.
+std::string result_of(Results results) {
+  ReportData data;
+  data.runs.resize(1);
+  data.runs[0].results = std::move(results);
+  const std::string page = report_page(data);
+  const std::size_t begin = page.find("<h2 id=\"result\">");
+  return begin == std::string::npos ? ""
+                                    : page.substr(begin, page.find("</section>", begin) - begin);
+}
+
+TEST(ReportPage, RunsThatCannotBeJudgedSayWhy) {
+  const Table times{
+      "relaxation_times",
+      "",
+      {report_example::plain("group", "1", {0, 1}), report_example::plain("kind", "1", {0, 0}),
+       report_example::plain("parameter", "1/length or 1", {2.4, 2.4}),
+       report_example::plain("tau", "time", {none, 5}),
+       report_example::plain("least", "time", {none, none}),
+       report_example::plain("most", "time", {0.25, none})}};
+  const std::string result = result_of({{times}, {{"not_judged", "uneven <samples>"}}});
+  EXPECT_EQ(count(result, "<td>not judged: uneven &lt;samples&gt;</td>"), 1u);
+  EXPECT_EQ(count(result, "<td>&lt; 0.25 √(m ab/kT)</td>"), 1u);
+  // The other group is not that of all particles.
+  EXPECT_EQ(count(result, "<tr>"), 2u);
+  EXPECT_EQ(result_of({}), "");
+}
+
+TEST(ReportPage, OrientationsOfANematicAreSeenFromTheDirector) {
+  const auto result = [](double tau) {
+    return result_of({{{"relaxation",
+                        "",
+                        {report_example::plain("verdict", "1", {0}),
+                         report_example::plain("verdict_translation", "1", {0}),
+                         report_example::plain("plateau", "1", {0.4}),
+                         {"tau_rotation", "time", {tau}, {0.5}}}}},
+                      {}});
+  };
+  EXPECT_EQ(count(result(12), "seen from the director</th><td>12.00 ± 0.50 √(m ab/kT)</td>"), 1u);
+  EXPECT_EQ(count(result(none), "seen from the director</th><td>not within this run</td>"), 1u);
+}
+
+TEST(ReportPage, OfASweepNamesItAndGivesTheProvenanceOfEveryJob) {
+  const testing_program::Folder folder("sweep_of_seeds");
+  folder.write("p.toml",
+               "[system]\nparticles = 16\npacking_fraction = 0.2\n"
+               "[[species]]\nname = \"A\"\naspect_ratio = 2.0\n"
+               "[prepare]\nquality_sweeps = 0\n[[prepare.stage]]\nmethod = \"insert\"\n"
+               "[dynamics]\nequilibration = 0\nduration = 2.0\n"
+               "[output]\nsamples = { spacing = \"linear\", interval = 0.1 }\n"
+               "[sweep.grid]\n\"system.seed\" = [7, 12]\n");
+  ASSERT_EQ(testing_program::run(folder.path(), {"sweep", "p.toml", "-o", "seeds", "-q"}).code, 0);
+  ASSERT_EQ(testing_program::run(folder.path(), {"report", "seeds", "-q"}).code, 0);
+  const std::string page = folder.read("seeds/report.html");
+  EXPECT_EQ(count(page, "<title>seeds</title>"), 1u);
+  EXPECT_EQ(count(page, "<h1>seeds</h1>"), 1u);
+  const std::size_t table = page.find("id=\"job-provenance\"");
+  ASSERT_NE(table, std::string::npos);
+  const std::string jobs = page.substr(table, page.find("</table>", table) - table);
+  for (const char* column : {"command_line", "seed"})
+    EXPECT_EQ(count(jobs, std::string("<th scope=\"col\">") + column + "</th>"), 1u) << column;
+  for (const char* seed : {"7", "12"}) {
+    EXPECT_EQ(count(jobs, std::string("<th scope=\"row\">seed-") + seed + "</th>"), 1u) << seed;
+    EXPECT_EQ(count(jobs, std::string("<td>") + seed + "</td>"), 1u) << seed;
+  }
+  // What all share stands once.
+  EXPECT_EQ(count(page, "<dt>version</dt>"), 1u);
+  EXPECT_EQ(count(page, "<dt>seed</dt>"), 0u);
 }
 
 TEST(ReportPage, WhatIsNotKnownIsADash) {

@@ -4,6 +4,9 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "tests/app/program.h"
 
 namespace vitrel {
 namespace {
@@ -83,6 +86,30 @@ TEST(StatePage, WhatIsUnknownIsNotThere) {
   const nlohmann::json data = embedded_data(state_page(page));
   for (const char* curve : {"correlation", "orientation", "displacement"})
     EXPECT_TRUE(data[curve].is_null()) << curve;
+  EXPECT_TRUE(data["tables"].empty());
+}
+
+TEST(StatePage, OfAFileHasItsStructure) {
+  const testing_program::Folder folder("state_structure");
+  // A square lattice of 100 disks in a box of side 10 s, s² = π/φ.
+  folder.write("p.toml",
+               "[system]\nparticles = 100\npacking_fraction = 0.5\n"
+               "[[species]]\nname = \"A\"\naspect_ratio = 1.0\n"
+               "[prepare]\nquality_sweeps = 0\n[[prepare.stage]]\nmethod = "
+               "\"lattice\"\narrangement = \"square\"\n");
+  ASSERT_EQ(testing_program::run(folder.path(), {"prepare", "p.toml", "-o", "s.h5", "-q"}).code, 0);
+  ASSERT_EQ(testing_program::run(folder.path(), {"report", "s.h5", "-q"}).code, 0);
+  const nlohmann::json tables = embedded_data(folder.read("s.html"))["tables"];
+  const nlohmann::json& g = tables["pair_correlation"]["columns"];
+  std::size_t first = 0;
+  while (g["g"]["value"][first] == 0) ++first;
+  const double spacing = std::sqrt(std::numbers::pi / 0.5);
+  EXPECT_NEAR(g["r"]["value"][first].get<double>(), spacing, 0.025);
+  EXPECT_FALSE(g.contains("g_2"));
+  // All waves of a wave number below 2π/s vanish on the lattice.
+  const nlohmann::json& s = tables["structure_factor"]["columns"];
+  for (std::size_t k = 0; s["q"]["value"][k] < 2 * std::numbers::pi / spacing - 0.1; ++k)
+    EXPECT_NEAR(s["s"]["value"][k].get<double>(), 0, 1e-6);
 }
 
 }  // namespace

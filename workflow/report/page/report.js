@@ -26,7 +26,7 @@ const decays = { range: (plot, low) => [Math.min(0, low), 1.04] };
 function densityByChance({ curves: [{ x }] }) {
   const counts = new Set(runs.map((run) => run.tables.summary?.columns.rotors?.value[0]).filter((rotors) => rotors > 0));
   return [...counts].map((rotors) => ({ x, value: x.map((angle) => (1 + Math.sqrt(Math.PI / rotors) * Math.cos(2 * angle)) / Math.PI),
-    label: 'by chance', id: 'by chance', colour: () => cssColour('--ink'), dashed: true, thin: true }));
+    label: 'by chance', id: 'by chance', colour: () => cssColour('--ink'), dashed: true }));
 }
 
 const families = [
