@@ -346,7 +346,7 @@ class Player extends FilmPlayer {
     this.turn(px * 0.01, py * 0.01);
   }
 
-  get stepKeys() { return ', .'; }
+  get stepKeys() { return 'comma and full stop'; }
 
   get help() {
     return 'arrows turn, Shift with arrows moves, + − zoom, 0 shows the first view. Dragging turns the view, with Shift it moves ' +
