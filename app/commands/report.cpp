@@ -108,8 +108,8 @@ int report_command(const ReportOptions& options) {
   const fs::path input = run_or_sweep(options.input);
   if (fs::is_directory(input)) return report_sweep(options, input);
   const TrajectoryReader reader(input);
-  if (reader.dimension() == 3) return report_packing(options, input);
-  return reader.frames() == 1 ? report_state(options) : report_run(options, input);
+  if (reader.frames() != 1) return report_run(options, input);
+  return reader.dimension() == 3 ? report_packing(options, input) : report_state(options);
 }
 
 }  // namespace vitrel

@@ -21,19 +21,19 @@ struct Shown {
   Vec2 position;
   double angle;
 };
-Shown shown(const Movie& movie, std::size_t frame, std::size_t particle) {
+Shown shown(const Movie2& movie, std::size_t frame, std::size_t particle) {
   const std::uint16_t* pose = &movie.poses[3 * (frame * movie.particles() + particle)];
   return {Vec2(pose[0], pose[1]) / 65'536 - Vec2::Constant(0.5), pose[2] * M_PI / 65'536};
 }
 
 /// The displacement since frame 0, in boxes, as the page adds it up: the shortest way between frames,
 /// and the jumps.
-Vec2 displacement(const Movie& movie, std::size_t frame, std::size_t particle) {
+Vec2 displacement(const Movie2& movie, std::size_t frame, std::size_t particle) {
   Vec2 path = Vec2::Zero();
   for (std::size_t k = 1; k <= frame; ++k) {
     const Vec2 step = shown(movie, k, particle).position - shown(movie, k - 1, particle).position;
     path += step - (step.array() + 0.5).floor().matrix();  // from −1/2 up to, not including, 1/2
-    for (const Movie::Jump& jump : movie.jumps)
+    for (const Movie2::Jump& jump : movie.jumps)
       if (jump.frame == k && jump.particle == particle) path += jump.shift.cast<double>().matrix();
   }
   return path;
@@ -45,7 +45,7 @@ double distance_on_circle(double x, double y, double period) {
 
 TEST(Movie, PosesAreThoseOfTheTrajectoryToHalfAStep) {
   MemoryTrajectory2 trajectory = lattice(5, 20);
-  const Movie movie = film(trajectory);
+  const Movie2 movie = film(trajectory);
   ASSERT_EQ(movie.frames(), 20u);
   ASSERT_EQ(movie.particles(), 25u);
   EXPECT_EQ(movie.time[3], 1.5);
@@ -65,7 +65,7 @@ TEST(Movie, PosesAreThoseOfTheTrajectoryToHalfAStep) {
 
 TEST(Movie, ShortWaysNeedNoJumps) {
   MemoryTrajectory2 trajectory = lattice(5, 100);
-  const Movie movie = film(trajectory);
+  const Movie2 movie = film(trajectory);
   // Particle 1 is on another one in the overlapping frame, 3.5 away: still a short way.
   EXPECT_TRUE(movie.jumps.empty());
   // 99 steps of (1, 0.5) in a box of 20.
@@ -77,7 +77,7 @@ TEST(Movie, LongWaysAreToldByJumps) {
   MemoryTrajectory2 trajectory = lattice(5, 200);
   MovieLimits limits;
   limits.frames = 5;  // 49.75 steps apart: two and a half boxes along x, more than one along y
-  Movie movie = film(trajectory, limits);
+  Movie2 movie = film(trajectory, limits);
   ASSERT_EQ(movie.frames(), 5u);
   EXPECT_FALSE(movie.jumps.empty());
   const Vec2 expected(199.0 / 20, 99.5 / 20);
@@ -91,7 +91,7 @@ TEST(Movie, LongWaysAreToldByJumps) {
 
 TEST(Movie, OverlapsComeFromTheExactCheckOfEveryShownFrame) {
   MemoryTrajectory2 trajectory = lattice(4, 6);
-  const Movie movie = film(trajectory);
+  const Movie2 movie = film(trajectory);
   for (std::size_t k = 0; k < 6; ++k) {
     const bool overlaps = k == overlapping_frame;
     EXPECT_EQ(movie.overlapping_pairs[k], overlaps ? 1u : 0u);
@@ -116,12 +116,12 @@ TEST(Movie, OverlapsAreSeenThatTheRoundedPosesHide) {
 TEST(Movie, ThinnedFramesAreEvenAndHaveBothEnds) {
   MemoryTrajectory2 trajectory = lattice(10, 101);
   MovieLimits limits;
-  limits.poses = 100 * 11;
-  const Movie movie = film(trajectory, limits);
+  limits.characters = 8 * 100 * 11;
+  const Movie2 movie = film(trajectory, limits);
   ASSERT_EQ(movie.frames(), 11u);
   EXPECT_EQ(movie.run_frames, 101u);
   for (std::size_t k = 0; k < 11; ++k) EXPECT_EQ(movie.time[k], 5.0 * static_cast<double>(k));
-  limits.poses = 0;
+  limits.characters = 0;
   EXPECT_EQ(film(trajectory, limits).time, std::vector<double>({50}));
 }
 
@@ -129,19 +129,19 @@ TEST(Movie, ManyJumpsCostFrames) {
   // One frame in 40: ways of two boxes, and every particle jumps in every frame.
   MemoryTrajectory2 trajectory = lattice(3, 641);
   MovieLimits limits;
-  limits.poses = 9 * 17;
-  const Movie movie = film(trajectory, limits);
+  limits.characters = 8 * 9 * 17;
+  const Movie2 movie = film(trajectory, limits);
   EXPECT_LT(movie.frames(), 17u);
   EXPECT_GT(movie.frames(), 2u);
   EXPECT_LE(8 * movie.particles() * movie.frames() + 16 * movie.jumps.size(),
-            11 * 8 * limits.poses / 10);
+            11 * limits.characters / 10);
 }
 
 TEST(Movie, OfManyParticlesThoseInTheMiddleAreShown) {
   MemoryTrajectory2 trajectory = lattice(30, 3);
   MovieLimits limits;
   limits.particles = 200;
-  const Movie movie = film(trajectory, limits);
+  const Movie2 movie = film(trajectory, limits);
   EXPECT_EQ(movie.run_particles, 900u);
   const double side = std::sqrt(200.0 / 900);
   EXPECT_EQ(movie.window, Vec2(side, side));
@@ -152,7 +152,7 @@ TEST(Movie, OfManyParticlesThoseInTheMiddleAreShown) {
 }
 
 TEST(Movie, DataForThePageAreBase64WithTheLowByteFirst) {
-  Movie movie;
+  Movie2 movie;
   movie.time = {0};
   movie.box = {Vec2(2, 3)};
   movie.shape = {{2, 0.5}};
@@ -167,7 +167,7 @@ TEST(Movie, DataForThePageAreBase64WithTheLowByteFirst) {
   movie.poses = {0x4142, 0x4344, 0x4546, 0x4748};
   EXPECT_EQ(movie_data(movie)["poses"], "QkFEQ0ZFSEc=");
   EXPECT_FALSE(movie_data(movie).contains("species"));
-  EXPECT_TRUE(movie_data({}).is_null());
+  EXPECT_TRUE(movie_data(Movie2{}).is_null());
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "tests/support/scenes.h"
 #include "workflow/prepare/packing_quality.h"
 #include "workflow/prepare/quality_file.h"
+#include "workflow/report/run_report.h"
 
 namespace vitrel {
 namespace {
@@ -86,13 +87,14 @@ TEST_F(PackingFile, IsAnalysedAsTheCommandLineSays) {
 
 TEST_F(PackingFile, HasAPage) {
   const PackingPage page = packing_page_data(file(), {});
-  EXPECT_EQ(page.title, "packing");
-  EXPECT_EQ(page.subtitle, "216 ellipsoids, 2 : 1 : 1 at φ = 0.1");
-  EXPECT_EQ(page.scene.particles, 216u);
-  EXPECT_EQ(page.scene.overlapping_pairs, 0u);
+  EXPECT_EQ(page.title, "Packing of 216 ellipsoids, 2 : 1 : 1");
+  EXPECT_EQ(page.subtitle, "packing, φ = 0.1");
+  EXPECT_EQ(page.movie.particles(), 216u);
+  EXPECT_EQ(page.movie.frames(), 1u);
+  EXPECT_EQ(page.movie.overlapping_pairs[0], 0u);
   EXPECT_EQ(page.rows.size(), 3u);
   const std::string text = packing_page(page);
-  EXPECT_THAT(text, HasSubstr("<h1>packing</h1>"));
+  EXPECT_THAT(text, HasSubstr("<h1>Packing of 216 ellipsoids, 2 : 1 : 1</h1>"));
   EXPECT_THAT(text, HasSubstr("a b c = 1"));
   EXPECT_THAT(text, testing::Not(HasSubstr("{{")));
   EXPECT_LT(text.size(), 150'000u);
@@ -114,8 +116,7 @@ TEST_F(PackingFile, TakesFromTheQualityReportWhatOnlyThePreparationKnows) {
   EXPECT_THROW(packing_page_data(file(), {}), FileError);
 }
 
-// A run: the structure is that of its last frame, and what was measured on the way comes with it.
-TEST_F(PackingFile, OfSeveralFramesTheLastIsShown) {
+TEST_F(PackingFile, OfARunHasThePageOfARun) {
   const std::vector<std::string> observables = {"rotational_energy", "translational_energy",
                                                 "virial"};
   TrajectoryWriter writer = TrajectoryWriter::create(
@@ -130,18 +131,22 @@ TEST_F(PackingFile, OfSeveralFramesTheLastIsShown) {
         {{"rotational_energy", n}, {"translational_energy", 1.5 * (n - 1)}, {"virial", 6 * n * k}});
   }
   writer.close();
-  const PackingPage page = packing_page_data(file(), {});
-  EXPECT_THAT(page.subtitle, HasSubstr("; the last of 3 frames, at time 2"));
-  write_state(file(), c, Provenance{}, true);
-  const PackingPage last = packing_page_data(file(), {});
-  EXPECT_EQ(page.results.find("pair_correlation")->find("g")->value,
-            last.results.find("pair_correlation")->find("g")->value);
-  EXPECT_EQ(last.results.find("energies"), nullptr);
-  const Table* energies = page.results.find("energies");
-  ASSERT_NE(energies, nullptr);
-  EXPECT_EQ(energies->find("translational")->value.size(), 3u);
+  const ReportData data = report_data({analyze_run(file(), {})});
+  EXPECT_EQ(data.title, "packing: run of 216 ellipsoids, 2 : 1 : 1");
+  EXPECT_EQ(data.subtitle, "φ = 0.1");
+  ASSERT_EQ(data.runs.size(), 1u);
+  const Movie3& movie = std::get<Movie3>(data.runs[0].movie);
+  EXPECT_EQ(movie.particles(), 216u);
+  EXPECT_EQ(movie.time, std::vector<double>({0, 1, 2}));
+  const Results& results = data.runs[0].results;
+  EXPECT_EQ(results.find("energies")->find("translational")->value.size(), 3u);
+  EXPECT_FALSE(data.runs[0].cooling);
+  const std::string page = report_page(data);
+  EXPECT_THAT(page, HasSubstr("a b c = 1"));
+  EXPECT_THAT(page, HasSubstr("<td>√((abc)^⅔ kT/m)</td>"));
+  EXPECT_THAT(page, testing::Not(HasSubstr("{{")));
   // E = (3 (N − 1) + 2 N) kT/2 at kT = 1, and Z = 1 + 6/3.
-  EXPECT_NEAR(page.results.find("compressibility_factor")->find("z")->value[0], 3, 1e-12);
+  EXPECT_NEAR(results.find("compressibility_factor")->find("z")->value[0], 3, 1e-12);
 }
 
 }  // namespace

@@ -47,11 +47,11 @@ TEST(ReportPage, NeedsNothingBesideIt) {
 TEST(ReportPage, TwoHundredFramesOfAThousandParticlesTakeTwoMegabytes) {
   ReportData data = sweep(2, 1);
   data.runs = {report_example::run(0.7, report_example::lattice(32, 300))};
-  data.runs.front().movie = {};
+  data.runs.front().movie = Movie2();
   const std::size_t without = report_page(data).size();
   MemoryTrajectory2 trajectory = report_example::lattice(32, 300);
   data.runs.front().movie = film(trajectory);
-  const Movie& movie = data.runs.front().movie;
+  const Movie2& movie = std::get<Movie2>(data.runs.front().movie);
   EXPECT_EQ(movie.particles(), 1024u);
   EXPECT_EQ(movie.frames(), 195u);
   const std::size_t size = report_page(data).size();

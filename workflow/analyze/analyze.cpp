@@ -227,6 +227,7 @@ std::vector<Column> summary_columns(const RunAnalysis& run) {
       {"packing_fraction", "1", {run.packing_fraction}, {}},
       {"particles", "1", {static_cast<double>(run.particles)}, {}},
       {"rotors", "1", {static_cast<double>(run.rotors)}, {}},
+      {"rotations", "1", {static_cast<double>(run.rotations)}, {}},
       {"frames", "1", {static_cast<double>(run.frames)}, {}},
       {"collisions", "1", {run.collisions}, {}},
       {"duration", "time", {run.duration}, {}},

@@ -8,6 +8,7 @@
 
 #include "analysis/glass/glass_names.h"
 #include "workflow/report/html.h"
+#include "workflow/report/page_parts.h"
 #include "workflow/report/page_tables.h"
 
 namespace vitrel {
@@ -20,7 +21,17 @@ constexpr std::array<std::string_view, 3> kinds = {"translation, τ<sub>α</sub>
                                                    "rotation in the nematic, τ<sub>2</sub>"};
 constexpr double found = 0, lower_bound = 1;
 constexpr const char* not_within_run = "not within this run";
-constexpr const char* unit_of_time = " √(m ab/kT)";
+
+/// What depends on the dimension of a run.
+struct Notation {
+  std::string unit_of_time, unit_of_length;
+  std::string_view correlation;  ///< of orientations
+
+  explicit Notation(int dimension)
+      : unit_of_time(fmt::format(" √(m {}/kT)", page_units(dimension).area)),
+        unit_of_length(page_units(dimension).length),
+        correlation(dimension == 2 ? "L" : "P") {}
+};
 
 /// One row of a table.
 struct Row {
@@ -98,7 +109,7 @@ std::string verdict_rows(const Row& row) {
 }
 
 /// A relaxation time, or a bound of it.
-std::string time_text(const Row& row) {
+std::string time_text(const Row& row, const std::string& unit_of_time) {
   if (std::isfinite(row.value("tau"))) return row.text("tau") + unit_of_time;
   if (std::isfinite(row.value("least")))
     return fmt::format("{}: &gt; {}{}", not_within_run, row.text("least"), unit_of_time);
@@ -106,33 +117,41 @@ std::string time_text(const Row& row) {
 }
 
 /// Of all particles together, which are group 0.
-std::string time_row(const Row& row) {
+std::string time_row(const Row& row, const Notation& notation) {
   if (row.value("group") != 0) return "";
   const std::string parameter = row.text("parameter");
+  const std::string time = time_text(row, notation.unit_of_time);
   if (row.value("kind") == 0)
     return html_row("relaxation time τ<sub>α</sub>",
-                    {time_text(row), "F<sub>s</sub>(q, t) = 1/e at q = " + parameter + "/√(ab)"});
+                    {time, fmt::format("F<sub>s</sub>(q, t) = 1/e at q = {}/{}", parameter,
+                                       notation.unit_of_length)});
   return html_row(fmt::format("rotational relaxation time τ<sub>{}</sub>", parameter),
-                  {time_text(row), fmt::format("L<sub>{}</sub>(t) = 1/e", parameter)});
+                  {time, fmt::format("{}<sub>{}</sub>(t) = 1/e", notation.correlation, parameter)});
 }
 
 /// What order does not keep of the orientations of a nematic.
-std::string director_row(const Row& row) {
+std::string director_row(const Row& row, const Notation& notation) {
   if (!(row.value("plateau") > 0)) return "";
   const bool known = std::isfinite(row.value("tau_rotation"));
   return html_row("seen from the director",
-                  {known ? row.text("tau_rotation") + unit_of_time : not_within_run,
-                   "L<sub>2</sub> 1/e above its plateau by order, " + row.text("plateau")});
+                  {known ? row.text("tau_rotation") + notation.unit_of_time : not_within_run,
+                   fmt::format("{}<sub>2</sub> 1/e above its plateau by order, {}",
+                               notation.correlation, row.text("plateau"))});
 }
 
 }  // namespace
 
-std::string result_rows(const Results& run) {
+std::string result_rows(const Results& run, int dimension) {
+  const Notation notation(dimension);
+  const auto with_notation = [&notation](auto* row_text) {
+    return [&notation, row_text](const Row& row) { return row_text(row, notation); };
+  };
   const std::string not_judged = run.text("not_judged");
   return (not_judged.empty()
               ? rows_of(run, "relaxation", verdict_rows)
               : html_row("equilibrium", {"not judged: " + escaped(not_judged), ""})) +
-         rows_of(run, "relaxation_times", time_row) + rows_of(run, "relaxation", director_row);
+         rows_of(run, "relaxation_times", with_notation(time_row)) +
+         rows_of(run, "relaxation", with_notation(director_row));
 }
 
 std::string relaxation_rows(const Results& study) {

@@ -12,15 +12,14 @@ std::string packing_page(const PackingPage& page) {
   return whole_page({page.title,
                      page.subtitle,
                      "page/packing_sections.html",
-                     "page/solids.js",
                      "page/packing.js",
                      {{"rows", table_rows(page.rows)}},
                      script_safe(Json{{"label", page.title},
-                                      {"scene", scene_data(page.scene)},
+                                      {"movie", movie_data(page.movie)},
                                       {"tables", tables_data(page.results, {})}}),
                      page.parameters,
                      page.provenance,
-                     "a b c"});
+                     3});
 }
 
 }  // namespace vitrel

@@ -5,7 +5,7 @@
 
 #include "analysis/results.h"
 #include "workflow/report/html.h"
-#include "workflow/report/packing_scene.h"
+#include "workflow/report/movie.h"
 
 /// @file
 /// The report of one packing of ellipsoids: one HTML page that needs nothing beside it.
@@ -15,7 +15,7 @@ struct PackingPage {
   std::string title;
   std::string subtitle;  ///< one line below it: what was packed
   std::vector<QualityRow> rows;
-  PackingScene scene;
+  Movie3 movie;               ///< of one frame
   Results results;            ///< of which pair_correlation and structure_factor are shown
   std::string parameters;     ///< TOML text
   PageProvenance provenance;  ///< shown if not empty

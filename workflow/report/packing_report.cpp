@@ -9,6 +9,12 @@
 
 namespace vitrel {
 
+namespace {
+
+constexpr std::size_t max_particles = 10'000;
+
+}  // namespace
+
 PackingPage packing_page_data(const std::filesystem::path& file, const AnalysisChoice& choice,
                               const AnalysisProgress& progress) {
   const TrajectoryReader reader(file);
@@ -19,14 +25,11 @@ PackingPage packing_page_data(const std::filesystem::path& file, const AnalysisC
   if (std::filesystem::exists(report)) add_preparation(quality, report);
   const Provenance provenance = reader.provenance();
   PackingPage page;
-  page.title = file.stem().string();
-  page.subtitle = fmt::format("{} {} at φ = {:.6g}", packing.size(), particles_text(packing),
-                              quality.packing_fraction);
-  if (reader.frames() > 1)
-    page.subtitle +=
-        fmt::format("; the last of {} frames, at time {:.6g}", reader.frames(), packing.time);
+  page.title = fmt::format("Packing of {} {}", packing.size(), particles_text(packing));
+  page.subtitle = fmt::format("{}, φ = {:.6g}", file.stem().string(), quality.packing_fraction);
   page.rows = quality_rows(quality);
-  page.scene = packing_scene(packing, check);
+  MemoryTrajectory3 state({packing});
+  page.movie = film(state, {.particles = max_particles});
   page.results = analyze_run(file, choice, progress).results;
   page.parameters = provenance.parameters;
   page.provenance = provenance_rows(provenance);

@@ -61,27 +61,42 @@ std::string filled(std::string_view page,
   return result;
 }
 
+const PageUnits& page_units(int dimension) {
+  constexpr static PageUnits plane{"a b", "√(ab)", "ab"}, space{"a b c", "∛(abc)", "(abc)^⅔"};
+  return dimension == 2 ? plane : space;
+}
+
 std::string whole_page(PageParts parts) {
   const auto text = [](std::string_view path) { return std::string(asset(path)); };
-  const std::string stage = text("page/stage.html");
-  parts.texts.emplace_back("stage", stage);
-  parts.texts.emplace_back("movie", filled(asset("page/movie.html"), {{"stage", stage}}));
-  return filled(asset("page/page.html"), {{"title", escaped(parts.title)},
-                                          {"subtitle", escaped(parts.subtitle)},
-                                          {"uplot_style", text("vendor/uplot/uPlot.min.css")},
-                                          {"style", text("page/report.css")},
-                                          {"sections", filled(asset(parts.sections), parts.texts)},
-                                          {"parameters", escaped(parts.parameters)},
-                                          {"unit_of_length", std::string(parts.unit_of_length)},
-                                          {"provenance", provenance_entries(parts.provenance)},
-                                          {"data", parts.data},
-                                          {"uplot_licence", text("vendor/uplot/LICENSE")},
-                                          {"uplot", text("vendor/uplot/uPlot.iife.min.js")},
-                                          {"common", text("page/common.js")},
-                                          {"charts", text("page/charts.js")},
-                                          {"picture", text("page/picture.js")},
-                                          {"picture_script", text(parts.picture)},
-                                          {"script", text(parts.script)}});
+  const bool in_plane = parts.dimension == 2;
+  const PageUnits& units = page_units(parts.dimension);
+  const std::string length(units.length), area(units.area);
+  parts.texts.emplace_back("unit_of_length", length);
+  parts.texts.emplace_back("unit_of_area", area);
+  parts.texts.emplace_back("movie", filled(asset("page/movie.html"),
+                                           {{"slice", in_plane ? "" : text("page/slice.html")},
+                                            {"solids", in_plane ? "" : text("page/solids.html")}}));
+  return filled(asset("page/page.html"),
+                {{"title", escaped(parts.title)},
+                 {"subtitle", escaped(parts.subtitle)},
+                 {"uplot_style", text("vendor/uplot/uPlot.min.css")},
+                 {"style", text("page/report.css")},
+                 {"sections", filled(asset(parts.sections), parts.texts)},
+                 {"parameters", escaped(parts.parameters)},
+                 {"unit_product", std::string(units.product)},
+                 {"unit_of_length", length},
+                 {"unit_of_area", area},
+                 {"dimension", std::to_string(parts.dimension)},
+                 {"provenance", provenance_entries(parts.provenance)},
+                 {"data", parts.data},
+                 {"uplot_licence", text("vendor/uplot/LICENSE")},
+                 {"uplot", text("vendor/uplot/uPlot.iife.min.js")},
+                 {"common", text("page/common.js")},
+                 {"charts", text("page/charts.js")},
+                 {"picture", text("page/picture.js")},
+                 {"player", text("page/player.js")},
+                 {"picture_script", text(in_plane ? "page/movie.js" : "page/solids.js")},
+                 {"script", text(parts.script)}});
 }
 
 }  // namespace vitrel

@@ -30,18 +30,24 @@ std::string script_safe(const Json& data);
 std::string filled(std::string_view page,
                    const std::vector<std::pair<std::string_view, std::string>>& texts);
 
+/// The units of pages about particles in the plane or in space.
+struct PageUnits {
+  std::string_view product;  ///< of the reference semi-axes, which is 1
+  std::string_view length, area;
+};
+const PageUnits& page_units(int dimension);
+
 /// A whole page. `sections` and `script` are names of files of the folder page; the texts fill the
-/// sections.
+/// sections, beside those that all pages have: movie, unit_of_length, unit_of_area.
 struct PageParts {
   std::string title, subtitle;
   std::string_view sections;
-  std::string_view picture;  ///< the script of the picture
   std::string_view script;
   std::vector<std::pair<std::string_view, std::string>> texts;
   std::string data;        ///< for the script: script_safe JSON
   std::string parameters;  ///< TOML
   PageProvenance provenance;
-  std::string_view unit_of_length = "a b";  ///< the product of the reference semi-axes that is 1
+  int dimension = 2;  ///< of the picture, and of the units
 };
 std::string whole_page(PageParts parts);
 

@@ -117,27 +117,43 @@ std::string job_provenance(const std::vector<ReportRun>& runs) {
   return filled(asset("page/job_provenance.html"), {{"head", head}, {"rows", rows}});
 }
 
+/// Of a single run that cools.
+std::string cooling_section(const std::vector<ReportRun>& runs, int dimension) {
+  if (runs.size() != 1 || !runs.front().cooling) return "";
+  const Cooling& cooling = *runs.front().cooling;
+  return cooling_section(cooling, haff_law(cooling, runs.front().results, dimension), dimension);
+}
+
 /// The verdict on a single run, and its relaxation times.
-std::string result_section(const std::vector<ReportRun>& runs) {
+std::string result_section(const std::vector<ReportRun>& runs, int dimension) {
   if (runs.size() != 1) return "";
-  const std::string rows = result_rows(runs.front().results);
+  const std::string rows = result_rows(runs.front().results, dimension);
   return rows.empty() ? "" : filled(asset("page/result.html"), {{"rows", rows}});
 }
 
+int dimension_of(const ReportData& data) {
+  const bool in_space =
+      !data.runs.empty() && std::holds_alternative<Movie3>(data.runs.front().movie);
+  return in_space ? 3 : 2;
+}
+
 std::string page_with(const ReportData& data, const Thinning& thinning) {
+  const int dimension = dimension_of(data);
   Json runs = Json::array();
   std::string rows;
   for (const ReportRun& run : data.runs) {
-    runs.push_back(run_data(run, data.runs, thinning));
+    Json& entry = runs.emplace_back(run_data(run, data.runs, thinning));
+    if (run.cooling)
+      entry["cooling"] = cooling_data(haff_law(*run.cooling, run.results, dimension));
     rows += table_row(run);
   }
   return whole_page(
       {data.title,
        data.subtitle,
        "page/runs_sections.html",
-       "page/movie.js",
        "page/report.js",
-       {{"result", result_section(data.runs)},
+       {{"cooling", cooling_section(data.runs, dimension)},
+        {"result", result_section(data.runs, dimension)},
         {"table_rows", rows},
         {"job_provenance", job_provenance(data.runs)},
         {"relaxation_rows", relaxation_rows(data.study)},
@@ -145,7 +161,8 @@ std::string page_with(const ReportData& data, const Thinning& thinning) {
         {"study_notes", study_notes(data.study)}},
        script_safe(Json{{"runs", std::move(runs)}, {"study", tables_data(data.study, {})}}),
        data.parameters,
-       shared_provenance(data)});
+       shared_provenance(data),
+       dimension});
 }
 
 }  // namespace

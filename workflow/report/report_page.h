@@ -1,10 +1,12 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "analysis/results.h"
+#include "workflow/report/cooling.h"
 #include "workflow/report/html.h"
 #include "workflow/report/movie.h"
 
@@ -18,9 +20,10 @@ struct ReportRun {
   std::string dynamics;  ///< "Brownian, step 0.1"
   double packing_fraction = 0;
   double collisions_per_second = std::numeric_limits<double>::quiet_NaN();
-  Results results;  ///< tables by name: summary, displacements_all, energies …
-  Movie movie;
+  Results results;                 ///< tables by name: summary, displacements_all, energies …
+  AnyMovie movie;                  ///< of the same dimension for all runs
   PageProvenance provenance = {};  ///< the same names for all runs
+  std::optional<Cooling> cooling = {};
 };
 
 struct ReportData {
@@ -32,7 +35,7 @@ struct ReportData {
   PageProvenance provenance;    ///< of the page, beside that of its runs
 };
 
-/// The page as HTML. Of one run: verdict and relaxation times, the moving particles, correlations,
+/// The page as HTML. Of one run: of a gas that cools its temperature, verdict and relaxation times, the moving particles, correlations,
 /// structure, series over time. Of several: what depends on the packing fraction, correlations and
 /// structure of all, and folded the series of one. Then a table of the runs, parameters, provenance.
 /// A chart is there if its table is: displacements_<group>, self_scattering_<group> with wave_numbers,

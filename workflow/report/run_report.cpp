@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "workflow/configuration/parameters.h"
 #include "workflow/storage/trajectory_file.h"
@@ -13,24 +14,51 @@
 namespace vitrel {
 namespace {
 
-std::string dynamics_text(const Provenance& provenance, const std::string& file) {
-  if (provenance.parameters.empty()) return "";
-  const DynamicsParameters p = parse_parameters(provenance.parameters, file).dynamics;
-  return p.kind == DynamicsParameters::Kind::brownian
-             ? fmt::format("Brownian, step {:g}", p.brownian_step)
-             : "Newtonian";
+using Contact = ContactParameters;
+
+/// None if the file does not say.
+std::optional<DynamicsParameters> stored_dynamics(const TrajectoryReader& reader) {
+  const std::string parameters = reader.provenance().parameters;
+  if (parameters.empty()) return std::nullopt;
+  return parse_parameters(parameters, reader.path().string()).dynamics;
+}
+
+std::string dynamics_text(const DynamicsParameters& p) {
+  std::string text = p.kind == DynamicsParameters::Kind::brownian
+                         ? fmt::format("Brownian, step {:g}", p.brownian_step)
+                         : "Newtonian";
+  if (p.restitution < 1) text += fmt::format(", restitution {:g}", p.restitution);
+  if (p.contact)
+    text += p.contact->law == Contact::Law::viscoelastic ? ", viscoelastic contacts"
+                                                         : ", contacts with linear dashpots";
+  return text;
+}
+
+/// Which of Haff's laws holds; none for dynamics that conserve the energy or draw velocities again.
+std::optional<Cooling> cooling_of(const DynamicsParameters& p) {
+  if (p.kind == DynamicsParameters::Kind::brownian) return std::nullopt;
+  if (p.restitution < 1) return Cooling{2, "the coefficient of restitution is constant"};
+  if (!p.contact) return std::nullopt;
+  if (p.contact->law == Contact::Law::linear_dashpot && p.contact->linear_dashpot.damping > 0)
+    return Cooling{2,
+                   "the coefficient of restitution of a linear dashpot is the same at all speeds"};
+  if (p.contact->law == Contact::Law::viscoelastic && p.contact->viscoelastic.dissipative_time > 0)
+    return Cooling{5. / 3,
+                   "viscoelastic spheres are the more elastic the slower they collide (1 − ε ∝ "
+                   "v^(1/5))"};
+  return std::nullopt;
 }
 
 constexpr std::size_t max_movies = 6;
 
-/// How many poses the movie of every run may have.
-std::vector<std::size_t> movie_poses(std::size_t runs) {
-  if (runs == 1) return {MovieLimits{}.poses};
+/// How many characters the movie of every run may take.
+std::vector<std::size_t> movie_room(std::size_t runs) {
+  const std::size_t all = MovieLimits{}.characters;
+  if (runs == 1) return {all};
   const std::size_t movies = std::min(runs, max_movies);
-  std::vector<std::size_t> poses(runs, 0);
-  for (std::size_t k = 0; k < movies; ++k)
-    poses[k * (runs - 1) / (movies - 1)] = MovieLimits{}.poses / (2 * movies);
-  return poses;
+  std::vector<std::size_t> room(runs, 0);
+  for (std::size_t k = 0; k < movies; ++k) room[k * (runs - 1) / (movies - 1)] = all / (2 * movies);
+  return room;
 }
 
 /// Of wall time, over the whole run; NaN if not recorded.
@@ -41,25 +69,49 @@ double collisions_per_second(const TrajectoryReader& reader) {
   return reader.observable("collisions").back() / seconds;
 }
 
-ReportRun report_run(const AnalysedRun& run, TrajectoryFile<2>& trajectory, std::size_t movie_poses) {
+template <int Dim>
+ReportRun report_run(const AnalysedRun& run, TrajectoryFile<Dim>& trajectory, std::size_t room) {
   const TrajectoryReader& reader = trajectory.reader();
-  MovieLimits limits;
-  limits.poses = movie_poses;
-  limits.images_known = reader.has("image");
+  const auto dynamics = stored_dynamics(reader);
+  const MovieLimits limits{.characters = room, .images_known = reader.has("image")};
   return {run.name(),
-          dynamics_text(reader.provenance(), run.file.string()),
+          dynamics ? dynamics_text(*dynamics) : "",
           run.packing_fraction(),
           collisions_per_second(reader),
           run.results,
           film(trajectory, limits),
-          provenance_rows(reader.provenance())};
+          provenance_rows(reader.provenance()),
+          dynamics ? cooling_of(*dynamics) : std::nullopt};
 }
 
-/// The name of the run, or of the folder of the sweep, in which every job has a folder of its own.
-std::string title_of(const std::vector<AnalysedRun>& runs) {
-  if (runs.size() == 1) return runs.front().name();
+/// The name of the run and what it is of; or the folder of the sweep, in which every job has a folder of its own.
+template <int Dim>
+void add_titles(const std::vector<AnalysedRun>& runs, const Configuration<Dim>& state,
+                ReportData& data) {
+  const ReportRun& first = data.runs.front();
+  const std::string particles = fmt::format("{} {}", state.size(), particles_text(state));
+  if (runs.size() == 1) {
+    data.title = fmt::format("{}: run of {}", first.name, particles);
+    data.subtitle = fmt::format("{}{}φ = {:.6g}", first.dynamics,
+                                first.dynamics.empty() ? "" : ", ", first.packing_fraction);
+    return;
+  }
   const std::filesystem::path file = std::filesystem::absolute(runs.front().file);
-  return file.lexically_normal().parent_path().parent_path().filename().string();
+  data.title = file.lexically_normal().parent_path().parent_path().filename().string();
+  data.subtitle = particles + (first.dynamics.empty() ? "" : ", " + first.dynamics);
+  data.parameters = "# of " + first.name + "\n";
+}
+
+template <int Dim>
+void add_runs(const std::vector<AnalysedRun>& runs, ReportData& data) {
+  const std::vector<std::size_t> room = movie_room(runs.size());
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    TrajectoryFile<Dim> trajectory(runs[k].file);
+    data.runs.push_back(report_run(runs[k], trajectory, room[k]));
+    if (k > 0) continue;
+    add_titles(runs, trajectory.read(0), data);
+    data.parameters += trajectory.reader().provenance().parameters;
+  }
 }
 
 std::string shapes_text(const std::vector<Ellipse>& shapes) {
@@ -86,7 +138,8 @@ std::string particles_text(const Configuration<Dim>& state) {
   if (state.species_names.size() < 2) return shapes_text(state.shape);
   std::string names;
   for (const std::string& name : state.species_names) names += (names.empty() ? "" : ", ") + name;
-  return "particles of species " + names;
+  const char* round = Dim == 2 ? "disks" : "spheres";
+  return fmt::format("{} of species {}", rotor_count(state) == 0 ? round : "particles", names);
 }
 
 template std::string particles_text(const Configuration2&);
@@ -94,22 +147,8 @@ template std::string particles_text(const Configuration3&);
 
 ReportData report_data(const std::vector<AnalysedRun>& runs) {
   ReportData data;
-  data.title = title_of(runs);
-  const std::vector<std::size_t> poses = movie_poses(runs.size());
-  for (std::size_t k = 0; k < runs.size(); ++k) {
-    TrajectoryFile<2> trajectory(runs[k].file);
-    data.runs.push_back(report_run(runs[k], trajectory, poses[k]));
-    if (k > 0) continue;
-    const Configuration2& state = trajectory.read(0);
-    const std::string& dynamics = data.runs.front().dynamics;
-    data.subtitle = fmt::format("{} {}{}{}", state.size(), particles_text(state),
-                                dynamics.empty() ? "" : ", ", dynamics);
-    if (runs.size() == 1)
-      data.subtitle += fmt::format(", φ = {:.6g}", data.runs.front().packing_fraction);
-    else
-      data.parameters = "# of " + data.runs.front().name + "\n";
-    data.parameters += trajectory.reader().provenance().parameters;
-  }
+  const bool in_plane = TrajectoryReader(runs.front().file).dimension() == 2;
+  (in_plane ? add_runs<2> : add_runs<3>)(runs, data);
   if (runs.size() > 1) data.study = results_of_sweep(runs, glass_study(runs));
   return data;
 }

@@ -49,7 +49,6 @@ std::string state_page(const StatePage& page) {
   return whole_page({page.title,
                      page.subtitle,
                      "page/state_sections.html",
-                     "page/movie.js",
                      "page/state.js",
                      {{"rows", table_rows(page.rows)}},
                      script_safe(data),

@@ -1,5 +1,6 @@
 const pageData = JSON.parse(document.getElementById('data').textContent);
 const byId = (id) => document.getElementById(id);
+const timeUnit = `√(m ${areaUnit}/kT)`;
 
 /** The section around these charts, if there are none. */
 function hideIfEmpty(charts) {

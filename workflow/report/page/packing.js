@@ -1,7 +1,4 @@
-function start() {
-  structureCharts(pageData.tables);
-  new SolidView().load(pageData.scene, pageData.label);
-  recolour();
-}
-
-start();
+structureCharts(pageData.tables);
+new Player().load(pageData.movie, { label: pageData.label, note: '' });
+byId('clock').hidden = true;  // a packing is at no time
+recolour();

@@ -18,6 +18,7 @@ function waveNumber(k, of, origin = '', column = 'q') {
   return values.length ? rangeText('q', values) : `q${subscript(k)}`;
 }
 
+const inPlane = dimension === 2;
 const time = { xSymbol: 't', xUnit: timeUnit, x: 'time', logX: true };
 const decays = { range: (plot, low) => [Math.min(0, low), 1.04] };
 
@@ -31,9 +32,9 @@ function densityByChance({ curves: [{ x }] }) {
 const families = [
   { section: 'motion', table: 'displacements', heading: 'Mean squared displacement', ...time, logY: true, slopes: true,
     columns: [[/^msd$/, () => '⟨|Δr|²⟩'], [/^msd_parallel$/, () => '⟨Δr²⟩ along the axis'],
-              [/^msd_perpendicular$/, () => '⟨Δr²⟩ across the axis']], symbol: '⟨|Δr(t)|²⟩', unit: 'ab' },
+              [/^msd_perpendicular$/, () => '⟨Δr²⟩ across the axis']], symbol: '⟨|Δr(t)|²⟩', unit: areaUnit },
   { section: 'motion', table: 'displacements', heading: 'Mean squared rotation', ...time, logY: true, slopes: true,
-    columns: [[/^msr$/, () => '⟨Δθ²⟩']], symbol: '⟨Δθ(t)²⟩', unit: 'rad²',
+    columns: [[/^msr$/, () => inPlane ? '⟨Δθ²⟩' : '⟨|Δφ|²⟩']], symbol: inPlane ? '⟨Δθ(t)²⟩' : '⟨|Δφ(t)|²⟩', unit: 'rad²',
     missing: 'All particles are round: their rotation is not modelled.' },
   { section: 'motion', table: 'displacements', heading: 'Non-Gaussian parameter', ...time, levels: [0],
     columns: [[/^non_gaussian$/, () => 'of displacements'], [/^non_gaussian_rotation$/, () => 'of rotations']],
@@ -41,8 +42,8 @@ const families = [
   { section: 'relaxation', table: 'self_scattering', heading: 'Self-intermediate scattering', ...time, ...decays,
     levels: [Math.exp(-1)], columns: [[/^fs_(\d+)$/, ([, k], of, origin) => waveNumber(Number(k), of, origin)]], symbol: 'Fₛ(q, t)', unit: '', named: true },
   { section: 'relaxation', table: 'orientation', heading: 'Orientational correlation', ...time, ...decays,
-    levels: [Math.exp(-1)], columns: [[/^l_(\d+)$/, (match) => `L${subscript(match[1])}`]],
-    symbol: 'Lₙ(t) = ⟨cos nΔθ⟩', unit: '', named: true },
+    levels: [Math.exp(-1)], columns: [[/^([lp])_(\d+)$/, ([, letter, order]) => letter.toUpperCase() + subscript(order)]],
+    symbol: inPlane ? 'Lₙ(t) = ⟨cos nΔθ⟩' : '⟨Pₗ(u(0)·u(t))⟩', unit: '', named: true },
   { section: 'relaxation', table: 'collective_scattering', heading: 'Collective scattering', ...time,
     columns: [[/^f_(\d+)$/, ([, k], of) => waveNumber(Number(k), of, '', 'q_collective')]], symbol: 'F(q, t)', unit: '', named: true },
   { section: 'relaxation', table: 'susceptibility', heading: 'Four-point susceptibility', ...time,
@@ -69,6 +70,7 @@ const series = [
     columns: [[/^nematic$/, () => 'nematic'], [/^hexatic$/, () => 'hexatic']] },
   { table: 'order', heading: 'Director', symbol: 'angle of the director, continued beyond ±π/2', unit: 'rad', transform: unwrapped,
     columns: [[/^director$/, () => 'director']] },
+  { table: 'order', heading: 'Director', symbol: 'components of the director', unit: '', columns: [[/^director_([xyz])$/, ([, axis]) => axis]] },
 ];
 
 // Correlations measured while the run went on have one table for each group of particles, of all families together.
@@ -211,12 +213,12 @@ function seriesChart(run, description) {
     variants: [{ symbol: description.symbol, unit: description.unit, curves, levels: levelsOf(run, description) }] });
 }
 
-/** Equipartition for energies, the mean for the compressibility factor. */
+/** Equipartition for energies of a run that does not cool, the mean for the compressibility factor. */
 function levelsOf(run, { table }) {
   const summary = run.tables.summary?.columns;
-  if (table === 'energies' && summary?.rotors) {
-    const rotors = summary.rotors.value[0] / summary.particles.value[0];
-    return rotors ? [1, 0.5 * rotors, 1 + 0.5 * rotors] : [1];
+  if (table === 'energies' && summary?.rotations && !byId('cooling')) {
+    const translational = dimension / 2, rotational = 0.5 * summary.rotations.value[0] / summary.particles.value[0];
+    return rotational ? [translational, rotational, translational + rotational] : [translational];
   }
   const z = summary?.compressibility_factor;
   return table === 'compressibility_factor' && z ? [z.value[0]] : [];
@@ -229,6 +231,17 @@ function showSeries(run) {
   hideIfEmpty('series');
 }
 
+/** Of a gas that cools, with Haff's law. */
+function coolingChart({ tables: { energies }, cooling }) {
+  if (!byId('cooling') || !energies) return;
+  const { x, value } = curveOf(energies, 'translational', { x: 'time', logX: true });
+  const begin = energies.columns.time.value[0], colour = () => curveColour(0);
+  const curves = [{ x, value: value.map((energy) => 2 * energy / dimension), label: 'run', id: 'run', colour, noErrors: 'single samples' }];
+  if (cooling) curves.push({ x, value: x.map((t) => cooling.initial / (1 + (t - begin) / cooling.time) ** cooling.exponent), label: 'Haff’s law',
+    id: 'law', colour: () => cssColour('--ink'), dashed: true });
+  addChart('cooling', { heading: 'Temperature', ...time, logY: true, file: 'cooling.csv', variants: [{ symbol: 'T', unit: 'kT', curves }] });
+}
+
 // Against the packing fraction
 
 const density = { xSymbol: 'φ', xUnit: '', rangeX: (plot, low, high) => {
@@ -237,8 +250,8 @@ const density = { xSymbol: 'φ', xUnit: '', rangeX: (plot, low, high) => {
 } };
 
 const transport = [
-  { column: 'diffusion', heading: 'Diffusion', symbol: 'D', unit: '√(ab kT/m)', logY: true },
-  { column: 'rotational_diffusion', heading: 'Rotational diffusion', symbol: 'Dᵣ', unit: '√(kT/(m ab))', logY: true },
+  { column: 'diffusion', heading: 'Diffusion', symbol: 'D', unit: `√(${areaUnit} kT/m)`, logY: true },
+  { column: 'rotational_diffusion', heading: 'Rotational diffusion', symbol: 'Dᵣ', unit: `√(kT/(m ${areaUnit}))`, logY: true },
   { column: 'compressibility_factor', heading: 'Compressibility factor', symbol: 'Z = βP/ρ', unit: '' },
 ];
 const speed = { heading: 'Speed of the simulation', symbol: 'collisions per second', unit: '1/s', reason: 'a single measurement' };
@@ -398,6 +411,7 @@ function start() {
   const marked = runs.map((run) => run.label + (run.movie?.time.length > 1 ? '' : ' (final state)'));
   if (runs.length > 1) byId('movie-run').append(selection('Run', marked, last, (k) => showRun(player, runs[k])));
   showRun(player, runs[last]);
+  coolingChart(runs[last]);
   densityCharts();
   const charts = families.map(familyChart).filter(Boolean);
   runLegends(charts);

@@ -1,20 +1,11 @@
-const lengthUnit = '∛(abc)';
+const poseSize = 7;  // x, y, z; the quaternion w, x, y, z
 
-/** What the page carries of a packing. Lengths in units of the box sides are fractions. */
-class Packing {
-  constructor(data) {
-    Object.assign(this, data);
-    const numbers = numbersFrom(this.poses);
-    const signed = (value) => (value << 16 >> 16) / 32767;
-    this.overlapping = new Set(this.overlapping);
-    this.solids = this.shape.map((shape, i) => {
-      const [x, y, z, ...turn] = numbers.subarray(7 * i, 7 * i + 7);
-      return { centre: [x, y, z].map((part, k) => (part / 65536 - 0.5) * this.box[k]), axes: this.shapes[shape],
-               turn: turn.map(signed) };
-    });
-    this.rotors = this.shapes.some(([a, b, c]) => a !== b || b !== c);
-    this.whole = this.window.every((side, k) => side === this.box[k]);
-  }
+/** Where a body is, in units of length from the middle of the box, and how it is turned. */
+function solidPose(film, k, i) {
+  const at = film.placeOf(k, i), box = film.boxAt(k);
+  const signed = (value) => (value << 16 >> 16) / 32767;
+  return { centre: box.map((side, axis) => (film.poses[at + axis] / 65536 - 0.5) * side),
+           turn: [3, 4, 5, 6].map((part) => signed(film.poses[at + part])) };
 }
 
 // Colours
@@ -24,13 +15,16 @@ class Packing {
 const axisColours = [[238, 170, 40], [52, 176, 160], [84, 72, 196]];
 
 function mixedColour(shares) {
-  return [0, 1, 2].map((channel) => shares.reduce((sum, share, k) => sum + share * axisColours[k][channel], 0));
+  const mixed = [0, 1, 2].map((channel) => shares.reduce((sum, share, k) => sum + share * axisColours[k][channel], 0));
+  return `rgb(${mixed.map(Math.round).join(' ')})`;
 }
 
-const hexadecimal = (colour) => [1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16));
+/** Red, green and blue of #rrggbb or rgb(…). */
+const components = (colour) => colour[0] === '#' ? [1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16))
+  : colour.match(/[\d.]+/g).slice(0, 3).map(Number);
 
 /** The axis that a body is oriented along: of symmetry, else the longest. */
-function figureAxis({ axes: [a, b, c], turn: [w, x, y, z] }) {
+function figureAxis([a, b, c], [w, x, y, z]) {
   const own = b === c ? 0 : a === c ? 1 : a === b ? 2 : [a, b, c].indexOf(Math.max(a, b, c));
   return [[1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)],
           [2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)],
@@ -43,7 +37,7 @@ function drawAxesKey(ctx) {
   for (let row = 0; row < height; ++row) for (let column = 0; column < side; ++column) {
     const z = 1 - row / height, y = (column - 0.5 * side * z) / side, x = 1 - y - z;
     if (x < 0 || y < 0) continue;
-    ctx.fillStyle = `rgb(${mixedColour([x, y, z]).map(Math.round).join(' ')})`;
+    ctx.fillStyle = mixedColour([x, y, z]);
     ctx.fillRect(left + column, top + row, 1.2, 1.2);
   }
   keyLabel(ctx, left - 8, 'x', top + height + 2);
@@ -53,21 +47,13 @@ function drawAxesKey(ctx) {
 
 const solidColourings = {
   orientation: {
-    name: 'orientation', offered: (packing) => packing.rotors,
-    of: (packing, i) => {
-      const { axes: [a, b, c] } = packing.solids[i];
-      return a === b && b === c ? hexadecimal(roundGrey) : mixedColour(figureAxis(packing.solids[i]).map((w) => w * w));
-    },
+    name: 'orientation', offered: (film) => film.rotors,
+    of: (film, k, i) => isRound(film.axesOf(i)) ? roundGrey
+      : mixedColour(figureAxis(film.axesOf(i), solidPose(film, k, i).turn).map((w) => w * w)),
     key: drawAxesKey, keyHeight: 78,
-    text: (packing) => 'direction of the axis of symmetry (of scalene bodies: of the longest axis)' +
-      (packing.shapes.some(([a, b, c]) => a === b && b === c) ? '; round particles are grey' : ''),
+    text: (film) => 'direction of the axis of symmetry (of scalene bodies: of the longest axis)' + greyIfRound(film),
   },
-  species: {
-    name: 'species', offered: (packing) => packing.species || !packing.rotors,
-    of: (packing, i) => hexadecimal(curveColour(packing.species?.[i] ?? 0)),
-    key: drawSpeciesKey,
-    text: () => 'species',
-  },
+  ...commonColourings,
 };
 
 // Drawing by WebGL. Parallel rays along z of the view meet each body within the ellipse that it casts; the part of the ray
@@ -213,12 +199,12 @@ class SolidPainter {
     return { program, place: (name) => gl.getUniformLocation(program, name), array: gl.createVertexArray(), buffer: gl.createBuffer() };
   }
 
-  /** Rows of numbers, one for each instance; `sizes`: of its attributes. */
-  fill({ array, buffer }, rows, sizes) {
+  /** Numbers of all instances; `sizes`: of their attributes. */
+  fill({ array, buffer }, numbers, sizes) {
     const { gl } = this;
     gl.bindVertexArray(array);
     gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-    gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(rows.flat()), gl.DYNAMIC_DRAW);
+    gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(numbers), gl.DYNAMIC_DRAW);
     const stride = 4 * sizes.reduce((sum, size) => sum + size);
     sizes.reduce((offset, size, k) => {
       gl.enableVertexAttribArray(k);
@@ -228,27 +214,33 @@ class SolidPainter {
     }, 0);
   }
 
-  load(packing) {
-    const half = packing.window.map((side) => side / 2);
+  /** The bodies of a frame first, then their images, which are left out if not wanted. */
+  load(film, k, colouring) {
+    this.loadEdges(film.windowAt(k).map((side) => side / 2));
+    const { particles } = film, images = film.images[k], box = film.boxAt(k), size = 13;
+    this.bodies = particles + images.length / 4;
+    const numbers = new Float32Array(size * this.bodies);
+    for (let i = 0; i < particles; ++i) {
+      const { centre, turn } = solidPose(film, k, i);
+      const paint = film.overlapping[k].has(i) ? overlapRed : colouring.of(film, k, i);
+      numbers.set([...centre, ...turn, ...film.axesOf(i), ...components(paint)], size * i);
+    }
+    for (let n = 0; n < images.length / 4; ++n) {
+      const [i, ...shift] = images.slice(4 * n, 4 * n + 4), at = size * (particles + n);
+      numbers.copyWithin(at, size * i, size * (i + 1));
+      shift.forEach((boxes, axis) => { numbers[at + axis] += boxes * box[axis]; });
+    }
+    this.fill(this.solids, numbers, [3, 4, 3, 3]);
+  }
+
+  /** `half`: half the sides of what is shown of the box. */
+  loadEdges(half) {
     const edges = [0, 1, 2].flatMap((axis) => [[-1, -1], [-1, 1], [1, -1], [1, 1]].map((signs) => {
       const end = (sign) => half.map((side, k) => side * (k === axis ? sign : signs[(k - axis + 3) % 3 - 1]));
       return [...end(-1), ...end(1)];
     }));
     this.half = half;
-    this.fill(this.edges, edges, [3, 3]);
-  }
-
-  /** The bodies first, then their images, which are left out if not wanted. */
-  colour(packing, colouring) {
-    const paints = packing.solids.map((_, i) => packing.overlapping.has(i) ? hexadecimal(overlapRed) : colouring.of(packing, i));
-    const row = (i, shift) => {
-      const { centre, turn, axes } = packing.solids[i];
-      return [...centre.map((x, k) => x + shift[k] * packing.box[k]), ...turn, ...axes, ...paints[i]];
-    };
-    const { images } = packing;
-    const rows = packing.solids.map((_, i) => row(i, [0, 0, 0]));
-    for (let at = 0; at < images.length; at += 4) rows.push(row(images[at], images.slice(at + 1, at + 4)));
-    this.fill(this.solids, rows, [3, 4, 3, 3]);
+    this.fill(this.edges, edges.flat(), [3, 3]);
   }
 
   /** view: rotation, column after column; window: what is in the middle, pixels per length, farthest depth. */
@@ -291,45 +283,31 @@ function turnAbout(axis, angle) {
 const firstView = times(turnAbout('x', 0.42), times(turnAbout('y', -0.6), [1, 0, 0, 0, 0, -1, 0, 1, 0]));
 
 /** Red, green and blue from 0 to 1 of a colour of the style sheet. */
-const channels = (name) => cssColour(name).match(/[\d.]+/g).slice(0, 3).map((value) => value / 255);
+const channels = (name) => components(cssColour(name)).map((value) => value / 255);
 
-class SolidView extends Picture {
+/** The bodies in a box. */
+class Player extends FilmPlayer {
   constructor() {
     super(solidColourings);
     this.canvas.style.touchAction = 'none';
     byId('slice-axis').addEventListener('change', () => this.draw());
     for (const id of ['slice', 'cut', 'images']) byId(id).addEventListener('input', () => this.draw());
-  }
-
-  get subject() { return this.packing; }
-
-  load(data, label) {
     try {
       this.painter = new SolidPainter();
     } catch {
-      byId('movie').classList.add('empty');
-      return byId('movie-note').textContent = 'The picture needs WebGL 2, which this browser does not offer; all figures are below.';
+      this.painter = null;
     }
-    this.label = label;
-    this.packing = new Packing(data);
-    this.painter.load(this.packing);
-    this.offerColours();
-    this.tell();
-    this.reset();
   }
 
-  tell() {
-    const { packing } = this;
-    const sides = packing.box.map((side) => shortNumber(side, 4)).join(' × ');
-    const images = packing.images.length / 4;
-    byId('movie-note').textContent = packing.whole
-      ? `N = ${packing.particles} in a periodic box of ${sides}; with their images, ${packing.solids.length + images} bodies meet the box.`
-      : `The bodies in the middle ${packing.window.map((side) => shortNumber(side, 4)).join(' × ')} of a periodic box of ${sides}, ` +
-        `of N = ${packing.particles}.`;
-    const host = byId('overlaps'), bad = packing.overlappingPairs;
-    host.classList.toggle('bad', bad > 0);
-    host.textContent = bad ? `✗ ${bad} overlapping pair(s), in red${packing.whole ? '' : ' where they are shown'} (exact check of the stored numbers).`
-      : '✓ No overlap (exact check of the stored numbers).';
+  load(data, texts) {
+    if (this.painter) return super.load(data, texts);
+    super.load(null, { note: 'The picture needs WebGL 2, which this browser does not offer; all figures are below.' });
+  }
+
+  get imagesText() {
+    const { film } = this;
+    return film.isWhole && film.frames === 1
+      ? `; with their images, ${film.particles + film.images[0].length / 4} bodies meet the box` : '';
   }
 
   // View: a rotation, what is in the middle, and the zoom; with zoom 1 the box fits however it is turned.
@@ -347,7 +325,7 @@ class SolidView extends Picture {
 
   /** Pixels of the page per length. */
   get scale() { return 0.5 * this.canvas.clientWidth / this.reach * this.view.zoom; }
-  get reach() { return 0.515 * Math.hypot(...this.packing.window); }
+  get reach() { return 0.515 * Math.hypot(...this.film.windowAt(this.k)); }
 
   look(x, y, zoom) {
     const inside = (value) => Math.min(Math.max(value, -this.reach), this.reach);
@@ -368,9 +346,17 @@ class SolidView extends Picture {
     this.turn(px * 0.01, py * 0.01);
   }
 
+  get stepKeys() { return 'comma and full stop'; }
+
+  get help() {
+    return 'arrows turn, Shift with arrows moves, + − zoom, 0 shows the first view. Dragging turns the view, with Shift it moves ' +
+      'it; two fingers or the wheel, while the picture has the focus, zoom.';
+  }
+
   keys(shift) {
     const go = (x, y) => () => shift ? this.drag(-40 * x, -40 * y, { shiftKey: true }) : this.turn(0.12 * x, 0.12 * y);
-    return { ArrowLeft: go(-1, 0), ArrowRight: go(1, 0), ArrowUp: go(0, -1), ArrowDown: go(0, 1) };
+    return { ...this.timeKeys(), ',': () => this.step(-1), '.': () => this.step(1),
+             ArrowLeft: go(-1, 0), ArrowRight: go(1, 0), ArrowUp: go(0, -1), ArrowDown: go(0, 1) };
   }
 
   // Drawing
@@ -379,17 +365,18 @@ class SolidView extends Picture {
   get slice() {
     const { turn } = this.view, choice = byId('slice-axis').value;
     const normal = choice === 'view' ? [turn[2], turn[5], turn[8]] : ['x', 'y', 'z'].map((axis) => axis === choice ? 1 : 0);
-    const half = this.packing.window.reduce((sum, side, k) => sum + 0.5 * side * Math.abs(normal[k]), 0);
+    const half = this.film.windowAt(this.k).reduce((sum, side, k) => sum + 0.5 * side * Math.abs(normal[k]), 0);
     const share = Number(byId('slice').value);
     // At its end nothing is cut, not even what sticks out of the box.
     return [...normal, share === 1 ? 10 * this.depth : (2 * share - 1) * half];
   }
 
   /** Beyond all that can be seen. */
-  get depth() { return 2 * Math.hypot(...this.packing.box) + 2 * Math.max(...this.packing.shapes.flat()); }
+  get depth() { return 2 * (Math.hypot(...this.film.boxAt(this.k)) + this.film.longest); }
 
   /** At most once per frame of the screen. */
   draw() {
+    this.tell();
     this.waiting ??= requestAnimationFrame(() => {
       this.waiting = null;
       this.paint();
@@ -397,23 +384,21 @@ class SolidView extends Picture {
   }
 
   paint() {
-    const { packing, canvas, painter, view } = this;
-    if (this.painted !== this.colouring + isDark()) {
-      painter.colour(packing, this.colourings[this.colouring]);
-      this.painted = this.colouring + isDark();
-    }
+    const { film, k, canvas, painter, view } = this;
+    const content = [film, k, this.colouring, isDark()];
+    if (content.some((part, n) => part !== this.painted?.[n])) painter.load(film, k, this.colourings[this.colouring]);
+    this.painted = content;
     const side = canvas.clientWidth;
     const ctx = prepareCanvas(canvas, side, side);
     const fine = Math.max(2, devicePixelRatio);  // two points to a pixel: smooth edges
     painter.draw(fine * side, fine * side, {
       view: view.turn, middle: [view.x, view.y], scale: fine * this.scale, depth: this.depth,
-      count: packing.solids.length + (byId('images').checked ? packing.images.length / 4 : 0),
+      count: byId('images').checked ? painter.bodies : film.particles,
       cut: byId('cut').checked, slice: this.slice, page: channels('--plot'), ink: channels('--ink'),
     });
     ctx.imageSmoothingQuality = 'high';
     ctx.drawImage(painter.canvas, 0, 0, canvas.width, canvas.height);
     this.drawAxes(ctx);
-    canvas.setAttribute('aria-label', `${this.label}: ${packing.particles} particles in three dimensions; arrow keys turn`);
   }
 
   /** Where x, y and z point. */

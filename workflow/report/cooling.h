@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "analysis/dynamics/haff.h"
+#include "analysis/results.h"
+#include "core/io/json.h"
+
+/// @file
+/// The cooling curve of a granular gas and Haff's law for it, as the page shows them.
+namespace vitrel {
+
+/// Of particles that lose energy in collisions and get none back.
+struct Cooling {
+  double exponent;     ///< of Haff's law
+  std::string reason;  ///< what makes it so, as the rest of a sentence
+};
+
+/// Fitted to the table `energies`, with T = 2 E/d; none if that is not there, or if T does not fall to 1/e.
+std::optional<HaffLaw> haff_law(const Cooling& cooling, const Results& results, int dimension);
+
+/// The section of the page: which law is drawn and why, or why none is.
+std::string cooling_section(const Cooling& cooling, const std::optional<HaffLaw>& law,
+                            int dimension);
+
+/// For the script of the page; null without a law.
+Json cooling_data(const std::optional<HaffLaw>& law);
+
+}  // namespace vitrel
