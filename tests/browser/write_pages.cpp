@@ -60,7 +60,8 @@ PackingPage packing(const Configuration3& bodies) {
   page.title = "packing";
   page.subtitle = "60 ellipsoids";
   page.rows = {{"packing fraction", "0.15", ""}};
-  page.scene = packing_scene(bodies, exact_check(bodies));
+  MemoryTrajectory3 trajectory({bodies});
+  page.movie = film(trajectory);
   std::vector<double> x;
   for (int k = 1; k <= 40; ++k) x.push_back(0.1 * k);
   const auto wave = [](double value) { return 1 + std::sin(9 * value) / (9 * value); };
