@@ -85,19 +85,49 @@ class Packing(PageTest):
 
     # The box of 8 has a diagonal of 13.86; 0.515 of it are half of the picture. The first view has z upwards, then turned by
     # -0.6 about the vertical and by 0.42 about the horizontal. A body of the shape matrix S casts π √det of the block S_xy.
-    def test_a_body_casts_its_shadow(self):
-        self.open("one_body.html")
+    def shadow(self, degrees):
         side = self.browser.evaluate("document.getElementById('scene').width")
         scale = side / (2 * 0.515 * ROOT(3) * 8)
         view = times(rotation((1, 0, 0), 0.42), times(rotation((0, 1, 0), -0.6), [[1, 0, 0], [0, 0, 1], [0, -1, 0]]))
-        turned = times(view, rotation((1 / 3, 2 / 3, 2 / 3), math.radians(40)))
+        turned = times(view, rotation((1 / 3, 2 / 3, 2 / 3), math.radians(degrees)))
         squares = (9, 2.25, 0.5625)
         xx, xy, yy = (sum(turned[i][k] * turned[j][k] * squares[k] for k in range(3)) for i, j in ((0, 0), (0, 1), (1, 1)))
-        shadow = math.pi * ROOT(xx * yy - xy * xy) * scale**2
+        return math.pi * ROOT(xx * yy - xy * xy) * scale**2
+
+    def test_a_body_casts_its_shadow(self):
+        self.open("one_body.html")
+        shadow = self.shadow(40)
         self.assertAlmostEqual(self.look()[2] / shadow, 1, delta=0.02)
         self.focus("#scene")
         self.browser.press("-", 189, "-")
         self.assertAlmostEqual(self.look()[2] * 1.5**2 / shadow, 1, delta=0.03)
+
+    def test_a_run_in_space_shows_the_body_of_every_frame(self):
+        self.open("space_run.html")
+        for frame in (0, 2, 4, 1):
+            with self.subTest(frame=frame):
+                self.scrub(frame)
+                self.assertIn(f"frame {frame + 1} of 5", self.text("clock"))
+                self.assertAlmostEqual(self.look()[2] / self.shadow(20 * frame), 1, delta=0.02)
+        self.slide(0, "x")
+        self.assertLess(self.look()[2], 0.7 * self.shadow(20))
+
+    def test_a_run_in_space_has_the_curves_of_a_run(self):
+        self.open("space_run.html")
+        for section in ("motion", "relaxation", "structure"):
+            self.assertGreater(self.browser.evaluate(f"document.querySelectorAll('#{section} canvas').length"), 0)
+
+    def test_a_cooling_gas_shows_its_temperature_and_the_law(self):
+        self.open("space_run.html")
+        law = self.data()["runs"][0]["cooling"]
+        self.assertAlmostEqual(law["initial"], 1, places=9)
+        self.assertAlmostEqual(law["time"], 3, places=6)
+        self.assertEqual(law["exponent"], 2)
+        self.assertIn("the coefficient of restitution is constant", self.browser.evaluate(
+            "document.getElementById('cooling-heading').closest('section').textContent"))
+        # First on the page.
+        first = self.browser.evaluate("document.querySelector('main section h2, section h2').id")
+        self.assertEqual(first, "cooling-heading")
 
     def test_turns_by_keys_and_comes_back(self):
         self.open("packing.html")

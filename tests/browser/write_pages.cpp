@@ -44,14 +44,15 @@ Configuration3 two_species() {
   return c;
 }
 
-/// One body of the semi-axes 3, 1.5 and 0.75 in the middle of a box of 8, turned by 40° about (1, 2, 2).
-Configuration3 one_body() {
+/// One body of the semi-axes 3, 1.5 and 0.75 in the middle of a box of 8, turned by so many degrees about (1, 2, 2).
+Configuration3 one_body(double degrees = 40) {
   Configuration3 c;
   c.resize(1);
   c.species_names = {"A"};
   c.box = PeriodicBox<3>(Vec3::Constant(8));
   c.shape[0] = {Vec3(3, 1.5, 0.75)};
-  c.orientation[0] = Quaternion(Eigen::AngleAxisd(40 * std::numbers::pi / 180, Vec3(1, 2, 2) / 3));
+  c.orientation[0] =
+      Quaternion(Eigen::AngleAxisd(degrees * std::numbers::pi / 180, Vec3(1, 2, 2) / 3));
   return c;
 }
 
@@ -145,6 +146,29 @@ Table susceptibility_with_gaps() {
   return {"susceptibility", "", {report_example::plain("time", "time", t), overlap, chi}};
 }
 
+/// The body turns by 20° a frame, and its gas cools as Haff's law says, with τ = 3.
+ReportData space_run() {
+  std::vector<Configuration3> frames;
+  for (int k = 0; k < 5; ++k) {
+    frames.push_back(one_body(20 * k));
+    frames.back().time = k;
+  }
+  MemoryTrajectory3 trajectory(std::move(frames));
+  const std::vector<double> t = report_example::evenly(0, 1, 50);
+  const auto energy = [](double time) { return 1.5 / std::pow(1 + time / 3, 2); };
+  ReportData data = one_run();
+  data.title = "space: run of 1 ellipsoid";
+  ReportRun& run = data.runs.front();
+  run.movie = film(trajectory);
+  run.cooling = Cooling{2, "the coefficient of restitution is constant"};
+  std::erase_if(run.results.tables, [](const Table& table) { return table.name == "energies"; });
+  run.results.tables.push_back({"energies",
+                                "",
+                                {report_example::plain("time", "time", t),
+                                 report_example::column("translational", "kT", t, energy)}});
+  return data;
+}
+
 /// Two runs at different wave numbers, the second one of unevenly spaced samples; both of another origin.
 ReportData two_runs() {
   ReportData data = report_example::sweep(2, 1);
@@ -173,6 +197,7 @@ void write_pages(const std::filesystem::path& folder) {
   write_text(folder / "run.html", report_page(one_run()));
   write_text(folder / "two_runs.html", report_page(two_runs()));
   write_text(folder / "state.html", state_page(state()));
+  write_text(folder / "space_run.html", report_page(space_run()));
   write_text(folder / "packing.html", packing_page(packing(two_species())));
   write_text(folder / "one_body.html", packing_page(packing(one_body())));
   write_text(folder / "overlapping.html", packing_page(packing(overlapping())));
