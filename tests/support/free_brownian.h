@@ -46,7 +46,7 @@ inline void redraw_velocities(Configuration2& configuration, Stream& draw) {
 
 /// The k-th frame follows k steps.
 inline MemoryTrajectory2 free_brownian(Configuration2 configuration, std::size_t frames,
-                                      std::uint64_t seed) {
+                                       std::uint64_t seed) {
   Stream draw(seed, Purpose::tests);
   std::vector<Configuration2> saved{configuration};
   while (saved.size() < frames) {

@@ -78,10 +78,10 @@ inline Table summary(double phi) {
   return {"summary",
           "",
           {plain("packing_fraction", "1", {phi}), plain("particles", "1", {1000}),
-           plain("rotors", "1", {1000}), plain("rotations", "1", {1000}), plain("collisions", "1", {123'456}),
-           plain("duration", "time", {250}), single("compressibility_factor", 4.4921, 0.0312),
-           single("translational_energy", 1, 0), single("rotational_energy", 0.5, 0.001),
-           single("diffusion", 0.02 * (0.8 - phi), 0.0002),
+           plain("rotors", "1", {1000}), plain("rotations", "1", {1000}),
+           plain("collisions", "1", {123'456}), plain("duration", "time", {250}),
+           single("compressibility_factor", 4.4921, 0.0312), single("translational_energy", 1, 0),
+           single("rotational_energy", 0.5, 0.001), single("diffusion", 0.02 * (0.8 - phi), 0.0002),
            single("rotational_diffusion", none, none)}};
 }
 
