@@ -17,9 +17,13 @@ std::filesystem::path this_program() {
   return std::filesystem::read_symlink("/proc/self/exe");
 }
 
-void print_table(const SweepOptions& options) {
+std::vector<SweepJob> jobs_of(const SweepOptions& options) {
   std::vector<SweepJob> jobs = sweep_jobs(parameter_source(options.source));
   if (!options.job.empty()) jobs = {job_named(jobs, options.job)};
+  return jobs;
+}
+
+void print_table(const SweepOptions& options, const std::vector<SweepJob>& jobs) {
   if (options.print.json)
     fmt::print("{}\n", json_text(sweep_summary(jobs, options.output), 2));
   else if (!options.print.quiet)
@@ -28,8 +32,8 @@ void print_table(const SweepOptions& options) {
 }
 
 int print_status(const SweepOptions& options) {
-  print_table(options);
-  const std::vector<SweepJob> jobs = sweep_jobs(parameter_source(options.source));
+  const std::vector<SweepJob> jobs = jobs_of(options);
+  print_table(options, jobs);
   for (const std::string& change : sweep_changes(jobs, options.output))
     remark(options.print, change);
   return success;
@@ -61,7 +65,7 @@ int sweep_command(const SweepOptions& options) {
   if (!options.export_as.empty()) return export_workflow(options);
   if (options.status) return print_status(options);
   const SweepOutcome outcome = run_jobs(options);
-  print_table(options);
+  print_table(options, jobs_of(options));
   if (outcome.failed > 0) {
     fmt::print(stderr,
                "vitrel sweep: {} job(s) failed; log.txt in their folders says why, and the same "

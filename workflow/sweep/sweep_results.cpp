@@ -69,51 +69,58 @@ double number(const std::string& json) {
   return value.is_number() ? value.get<double>() : unknown;
 }
 
-/// Averages over seeds below each other. Values of the sweep that are no numbers are in the provenance.
+/// Of a value of the sweep. Those that are no numbers are in the provenance.
+Column value_column(const std::vector<SeedAverage>& averages, std::size_t k) {
+  Column column{identifier(averages.front().values[k].first), "1", {}, {}};
+  for (const SeedAverage& average : averages)
+    column.value.push_back(number(average.values[k].second));
+  return column;
+}
+
+/// Means with their errors, and half the width of their intervals.
+void add_figure(const std::vector<SeedAverage>& averages, const std::string& name,
+                const std::string& unit, Table& table) {
+  Column mean{name, unit, {}, {}}, interval{name + "_interval", unit, {}, {}};
+  for (const SeedAverage& average : averages) {
+    const AveragedFigure figure = average.find(name);
+    mean.value.push_back(figure.mean);
+    mean.error.push_back(figure.error);
+    interval.value.push_back(figure.half_width);
+  }
+  table.columns.insert(table.columns.end(), {std::move(mean), std::move(interval)});
+}
+
 Table seeds_table(const std::vector<SeedAverage>& averages, const Results& units) {
   Table table{"seeds",
               "Averages over the runs that differ in their seeds only, a row for every combination "
               "of the other values of the sweep. <name>_error: standard error of the mean; "
               "<name>_interval: half the width of its 95 % confidence interval.",
               {}};
-  const auto column = [&](const std::string& name, const std::string& unit, auto&& value) {
-    Column& added = table.columns.emplace_back(Column{name, unit, {}, {}});
-    for (const SeedAverage& average : averages) added.value.push_back(value(average));
-    return table.columns.size() - 1;
-  };
-  const SweptValues& first_values = averages.front().values;
-  for (std::size_t k = 0; k < first_values.size(); ++k)
-    if (!std::isnan(number(first_values[k].second)))
-      column(identifier(first_values[k].first), "1",
-             [k](const SeedAverage& average) { return number(average.values[k].second); });
-  column("seeds", "1",
-         [](const SeedAverage& average) { return static_cast<double>(average.seeds); });
-  for (const AveragedFigure& first : averages.front().figures) {
-    const auto part = [&first](double AveragedFigure::*of) {
-      return [&first, of](const SeedAverage& average) { return average.find(first.name).*of; };
-    };
-    const std::string unit = unit_of(first.name, units);
-    const std::size_t mean = column(first.name, unit, part(&AveragedFigure::mean));
-    for (const SeedAverage& average : averages)
-      table.columns[mean].error.push_back(average.find(first.name).error);
-    column(first.name + "_interval", unit, part(&AveragedFigure::half_width));
-  }
+  const SeedAverage& first = averages.front();
+  for (std::size_t k = 0; k < first.values.size(); ++k)
+    if (!std::isnan(number(first.values[k].second)))
+      table.columns.push_back(value_column(averages, k));
+  Column seeds{"seeds", "1", {}, {}};
+  for (const SeedAverage& average : averages)
+    seeds.value.push_back(static_cast<double>(average.seeds));
+  table.columns.push_back(std::move(seeds));
+  for (const AveragedFigure& figure : first.figures)
+    add_figure(averages, figure.name, unit_of(figure.name, units), table);
   return table;
 }
 
-/// Values of the sweep and what came out; nothing for a run that belongs to no sweep.
-std::vector<JobResult> job_results(const std::vector<AnalysedRun>& runs) {
-  std::vector<JobResult> results;
-  for (const AnalysedRun& run : runs)
-    if (const fs::path file = folder_of(run) / "params.json"; fs::exists(file))
-      results.push_back({swept_values(read_json(file).at("values")),
-                         job_figures({{"analyze", analysis_summary(run)}})});
-  return results;
+/// The values of its job; empty for a run that belongs to no sweep.
+SweptValues values_of(const AnalysedRun& run) {
+  const fs::path file = folder_of(run) / "params.json";
+  return fs::exists(file) ? swept_values(read_json(file).at("values")) : SweptValues();
 }
 
 void add_seeds(const std::vector<AnalysedRun>& runs, Results& results) {
-  const std::vector<JobResult> jobs = job_results(runs);
-  if (jobs.empty() || !has_seeds(jobs.front().values)) return;
+  std::vector<JobResult> jobs;
+  for (const AnalysedRun& run : runs)
+    if (SweptValues values = values_of(run); has_seeds(values))
+      jobs.push_back({std::move(values), job_figures({{"analyze", analysis_summary(run)}})});
+  if (jobs.empty()) return;
   const std::vector<SeedAverage> averages = seed_averages(jobs);
   results.tables.push_back(seeds_table(averages, runs.front().results));
   for (std::size_t k = 0; k < averages.size(); ++k)
@@ -177,13 +184,9 @@ bool is_free(const std::string& key) {
 /// The other keys that do differ between the jobs, with commas.
 std::string differing_keys(const std::vector<AnalysedRun>& runs) {
   std::map<std::string, std::set<std::string>> values;
-  for (const AnalysedRun& run : runs) {
-    const fs::path file = folder_of(run) / "params.json";
-    if (!fs::exists(file)) continue;
-    const Json job = read_json(file);
-    for (const auto& [key, value] : job.at("values").items())
-      if (!is_free(key)) values[key].insert(json_text(value));
-  }
+  for (const AnalysedRun& run : runs)
+    for (const auto& [key, value] : values_of(run))
+      if (!is_free(key)) values[key].insert(value);
   std::vector<std::string> keys;
   for (const auto& [key, different] : values)
     if (different.size() > 1) keys.push_back(key);
