@@ -245,7 +245,9 @@ TEST_F(SavedSweep, SeedsAreAveraged) {
   const Table& seeds = *results.find("seeds");
   EXPECT_THAT(seeds.find("system_packing_fraction")->value, ElementsAre(0.3, 0.4));
   EXPECT_THAT(seeds.find("seeds")->value, ElementsAre(2, 2));
-  EXPECT_EQ(results.text("seeds_row_1"), "packing_fraction 0.4");
+  EXPECT_THAT(runs.find("job")->labels,
+              ElementsAre("packing_fraction-0.3_seed-2", "packing_fraction-0.3_seed-10",
+                          "packing_fraction-0.4_seed-2", "packing_fraction-0.4_seed-10"));
   const Column& z = *seeds.find("compressibility_factor");
   EXPECT_EQ(seeds.find("tau_translation")->unit, "time");
   for (std::size_t k = 0; k < 2; ++k) {

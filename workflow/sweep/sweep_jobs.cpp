@@ -94,14 +94,16 @@ void refuse_overridden_keys(const std::vector<Axis>& axes, const ParameterSource
 }
 
 double wave_number_of(const Parameters& p) {
-  return main_wave_number(draw_particles(p.species, static_cast<std::size_t>(p.system.particles),
-                                         p.system.packing_fraction, p.system.box_aspect,
-                                         p.system.seed));
+  const auto& system = p.system;
+  const auto particles = static_cast<std::size_t>(system.particles);
+  if (system.dimension == 2)
+    return main_wave_number(draw_particles(p.species, particles, system.packing_fraction,
+                                           system.box_aspect, system.seed));
+  return main_wave_number(draw_solids(p.species, particles, system.packing_fraction, system.seed));
 }
 
 bool takes_wave_number(const SweepJob& job) {
-  return !job.prepares_only && job.parameters.system.dimension == 2 &&
-         job.parameters.analysis.wave_numbers.empty();
+  return !job.prepares_only && job.parameters.analysis.wave_numbers.empty();
 }
 
 void share_wave_number(std::vector<SweepJob>& jobs) {

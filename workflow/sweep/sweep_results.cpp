@@ -42,16 +42,18 @@ void add_value(Column& column, const Table& row) {
 /// The summaries below each other; columns that a run does not have are unknown there.
 Table runs_table(const std::vector<AnalysedRun>& runs) {
   Table table{"runs", "Averages over every run of the sweep, one run per row.", {}};
-  Column seeds{"seed", "1", {}, {}};
+  Column jobs{"job", "1", {}, {}}, seeds{"seed", "1", {}, {}};
   for (const AnalysedRun& run : runs) {
     const Table& row = *run.results.find("summary");
+    jobs.value.push_back(static_cast<double>(jobs.labels.size()));
+    jobs.labels.push_back(run.name());
     seeds.value.push_back(static_cast<double>(run.seed()));
     if (table.columns.empty())
       table.columns = row.columns;
     else
       for (Column& column : table.columns) add_value(column, row);
   }
-  table.columns.insert(table.columns.begin(), std::move(seeds));
+  table.columns.insert(table.columns.begin(), {std::move(jobs), std::move(seeds)});
   return table;
 }
 
@@ -69,11 +71,17 @@ double number(const std::string& json) {
   return value.is_number() ? value.get<double>() : unknown;
 }
 
-/// Of a value of the sweep. Those that are no numbers are in the provenance.
+/// Of a value of the sweep: numbers, or texts as the labels of codes.
 Column value_column(const std::vector<SeedAverage>& averages, std::size_t k) {
   Column column{identifier(averages.front().values[k].first), "1", {}, {}};
-  for (const SeedAverage& average : averages)
-    column.value.push_back(number(average.values[k].second));
+  const bool is_number = std::ranges::none_of(averages, [k](const SeedAverage& average) {
+    return std::isnan(number(average.values[k].second));
+  });
+  for (const SeedAverage& average : averages) {
+    const std::string& text = average.values[k].second;
+    column.value.push_back(is_number ? number(text) : static_cast<double>(column.labels.size()));
+    if (!is_number) column.labels.push_back(text);
+  }
   return column;
 }
 
@@ -98,8 +106,7 @@ Table seeds_table(const std::vector<SeedAverage>& averages, const Results& units
               {}};
   const SeedAverage& first = averages.front();
   for (std::size_t k = 0; k < first.values.size(); ++k)
-    if (!std::isnan(number(first.values[k].second)))
-      table.columns.push_back(value_column(averages, k));
+    table.columns.push_back(value_column(averages, k));
   Column seeds{"seeds", "1", {}, {}};
   for (const SeedAverage& average : averages)
     seeds.value.push_back(static_cast<double>(average.seeds));
@@ -123,8 +130,6 @@ void add_seeds(const std::vector<AnalysedRun>& runs, Results& results) {
   if (jobs.empty()) return;
   const std::vector<SeedAverage> averages = seed_averages(jobs);
   results.tables.push_back(seeds_table(averages, runs.front().results));
-  for (std::size_t k = 0; k < averages.size(); ++k)
-    results.provenance.emplace_back(fmt::format("seeds_row_{}", k), averages[k].name());
 }
 
 struct Quantity {

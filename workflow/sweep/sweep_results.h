@@ -21,9 +21,9 @@ std::vector<AnalysedRun> analysed_jobs(const SweepProgress& sweep, const Analysi
 /// transition to them.
 GlassStudy glass_study(const std::vector<AnalysedRun>& runs);
 
-/// Table `runs`, the summaries of all runs with their seeds, one row each in their order; if the sweep runs
-/// through seeds `seeds`, averages over them (seed_averages.h); and the tables of the glass study. Which
-/// run or which combination of values a row is, the provenance says: row_0, seeds_row_0 ….
+/// Table `runs`, the summaries of all runs with the names of their jobs and their seeds, one row each in their order; if the sweep runs
+/// through seeds `seeds`, averages over them (seed_averages.h); and the tables of the glass study. The
+/// files of the rows are in the provenance: row_0 ….
 Results results_of_sweep(const std::vector<AnalysedRun>& runs, const GlassStudy& study);
 
 }  // namespace vitrel
