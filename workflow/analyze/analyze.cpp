@@ -87,6 +87,10 @@ RunDynamics measure_dynamics(TrajectoryFile<Dim>& trajectory, DisplacementOption
                                               progress.report, options.threads);
   begin(progress, "displacements");
   dynamics.displacements = displacements(trajectory, options, progress.report);
+  if constexpr (Dim == 2) {
+    begin(progress, "cage-relative displacements");
+    dynamics.cage_relative = cage_relative(trajectory, options, progress.report);
+  }
   return dynamics;
 }
 
@@ -274,6 +278,8 @@ void add_motion(const RunAnalysis& run, const std::vector<double>& times, Result
   const Displacements& found = run.dynamics->displacements;
   results.provenance.emplace_back("time_axis", time_axis_text(times, found));
   store_relaxation_times(found, results);
+  if (found.dimension == 2 && !run.dynamics->cage_relative)
+    leave_out(results, "cage_relative", "analysis.memory is too small for all positions at once");
   if (!found.unknown_turns.empty()) leave_out(results, "rotations", found.unknown_turns);
   if (run.glass)
     store_glass_run(*run.glass, results);
