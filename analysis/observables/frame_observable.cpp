@@ -28,10 +28,14 @@ template <int Dim>
 FrameObservables<Dim> frame_observables(const Configuration<Dim>& first,
                                         const StructureOptions& options) {
   FrameObservables<Dim> observables;
-  observables.push_back(structure_factor_observable(first, options.shells));
-  observables.push_back(pair_correlation_observable(first, options.pairs));
-  if (rotor_count(first) > 0) observables.push_back(orientation_observable(first));
-  if (Dim == 2 || rotor_count(first) > 0) observables.push_back(order_observable(first));
+  const bool has_rotors = rotor_count(first) > 0;
+  if (options.max_frames > 0) {
+    observables.push_back(structure_factor_observable(first, options.shells));
+    observables.push_back(pair_correlation_observable(first, options.pairs));
+    if (has_rotors) observables.push_back(orientation_observable(first));
+  }
+  if (Dim == 2 || has_rotors) observables.push_back(order_observable(first));
+  if (options.max_frames == 0) return observables;
   if (mechanics(first).translational_energy > 0) observables.push_back(velocity_observable<Dim>());
   return observables;
 }
@@ -40,8 +44,11 @@ template <int Dim>
 std::vector<Table> structure_tables(Trajectory<Dim>& trajectory, const StructureOptions& options,
                                     int threads, const ProgressReport& report) {
   const FrameObservables<Dim> observables = frame_observables(trajectory.read(0), options);
+  if (observables.empty()) return {};
   const std::size_t frames = trajectory.frames();
-  const std::size_t stride = (frames + options.max_frames - 1) / options.max_frames;
+  const std::size_t max_frames =
+      options.max_frames > 0 ? options.max_frames : StructureOptions{}.max_frames;
+  const std::size_t stride = (frames + max_frames - 1) / max_frames;
   std::vector<double> times;
   for (std::size_t next = 0; next < frames;) {
     std::vector<Configuration<Dim>> batch;

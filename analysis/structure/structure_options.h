@@ -15,7 +15,7 @@ struct PairCorrelationOptions {
 };
 
 struct StructureOptions {
-  std::size_t max_frames = 1000;  ///< evenly thinned beyond
+  std::size_t max_frames = 1000;  ///< evenly thinned beyond; 0: order only
   ShellOptions shells;
   PairCorrelationOptions pairs;
 };

@@ -183,5 +183,13 @@ TEST(StructureTables, OfAChangingBoxAreAveragesOverItsFrames) {
   EXPECT_EQ(named(tables, "pair_correlation").rows(), 180u);
 }
 
+TEST(StructureTables, WithoutFramesThereIsOrderOnly) {
+  MemoryTrajectory2 trajectory(gases(10, false));
+  const std::vector<Table> tables = structure_tables(trajectory, {0, {}, {}}, 1);
+  ASSERT_EQ(tables.size(), 1u);
+  EXPECT_EQ(tables.front().name, "order");
+  EXPECT_EQ(tables.front().rows(), 10u);
+}
+
 }  // namespace
 }  // namespace vitrel

@@ -47,7 +47,8 @@ void describe_analysis(DisplacementOptions& p, FieldVisitor& visit) {
 
 void describe_structure(StructureOptions& p, FieldVisitor& visit) {
   visit.field({"frames", "",
-               "Maximum number of frames in averages; if there are more, they are thinned evenly."},
+               "Maximum number of frames in averages; if there are more, they are thinned evenly. 0: "
+               "only the order of single frames, which the verdict on equilibrium needs."},
               p.max_frames);
   visit.field({"wave_number_max", "1/length", "Maximum wave number q of structure factors."},
               p.shells.wave_number_max);
@@ -80,7 +81,7 @@ void validate_analysis(const DisplacementOptions& p) {
 
 void validate_structure(const StructureOptions& p) {
   const Rules rules("analysis.structure");
-  rules.at_least(static_cast<std::int64_t>(p.max_frames), 1, "frames");
+  rules.at_least(static_cast<std::int64_t>(p.max_frames), 0, "frames");
   const auto steps = [&](double longest, double step, const char* longest_key,
                          const char* step_key) {
     rules.positive(longest, longest_key);
