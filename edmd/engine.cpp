@@ -19,11 +19,11 @@ void require_round(const Configuration<Dim>& configuration, const EngineOptions&
 }
 
 /// Cells cost less than lists while there are fewer particles than this in a cell of the least width (bench/engine.md):
-/// up to a packing fraction of 0.42 of equal disks and 0.26 of equal spheres. In systems that exceed the caches, of which
+/// up to a packing fraction of 0.36 of equal disks and 0.22 of equal spheres, of the machines measured the lowest. In systems that exceed the caches, of which
 /// the loop prefetches lists only, the limit is lower.
 double max_particles_per_cell(std::size_t particles) {
   constexpr std::size_t cached_particles = 32768;
-  return particles <= cached_particles ? 0.65 : 0.32;
+  return particles <= cached_particles ? 0.56 : 0.32;
 }
 
 template <int Dim>
