@@ -12,17 +12,28 @@ namespace {
 struct Corner {
   Vec2 at;
   Vec2 to;
+  std::size_t neighbor;
 };
 using Polygon = std::vector<Corner>;
 
-Polygon rectangle(const Vec2& lengths) {
+/// Beyond the sides are images of the point i itself.
+Polygon rectangle(const Vec2& lengths, std::size_t i) {
   const double x = 0.5 * lengths.x(), y = 0.5 * lengths.y();
-  return {
-      {{-x, -y}, {0, -2 * y}}, {{x, -y}, {2 * x, 0}}, {{x, y}, {0, 2 * y}}, {{-x, y}, {-2 * x, 0}}};
+  return {{{-x, -y}, {0, -2 * y}, i},
+          {{x, -y}, {2 * x, 0}, i},
+          {{x, y}, {0, 2 * y}, i},
+          {{-x, y}, {-2 * x, 0}, i}};
 }
 
-/// What of a polygon is nearer to the origin than to `to`.
-Polygon cut(const Polygon& corners, const Vec2& to) {
+/// Another point, seen from the centre of a cell.
+struct Point {
+  Vec2 at;
+  std::size_t number;
+};
+
+/// What of a polygon is nearer to the origin than to this point.
+Polygon cut(const Polygon& corners, const Point& point) {
+  const Vec2& to = point.at;
   const auto excess = [&](const Corner& corner) {
     return corner.at.dot(to) - 0.5 * to.squaredNorm();
   };
@@ -34,7 +45,8 @@ Polygon cut(const Polygon& corners, const Vec2& to) {
     if (a <= 0) left.push_back(here);
     if ((a <= 0) == (b <= 0)) continue;
     const Vec2 crossing = here.at + a / (a - b) * (next.at - here.at);
-    left.push_back({crossing, a <= 0 ? to : here.to});
+    left.push_back(a <= 0 ? Corner{crossing, to, point.number}
+                          : Corner{crossing, here.to, here.neighbor});
   }
   return left;
 }
@@ -51,7 +63,7 @@ VoronoiCell as_cell(const Polygon& corners) {
     const Vec2& here = corners[k].at;
     const Vec2& next = corners[(k + 1) % corners.size()].at;
     cell.area += 0.5 * cross(here, next);
-    cell.edges.push_back({corners[k].to, (next - here).norm()});
+    cell.edges.push_back({corners[k].to, (next - here).norm(), corners[k].neighbor});
   }
   return cell;
 }
@@ -68,20 +80,21 @@ Voronoi::Voronoi(const Configuration2& configuration)
 
 VoronoiCell Voronoi::cell(std::size_t i) const {
   Polygon corners;
-  std::vector<Vec2> near;
+  std::vector<Point> near;
   for (double reach = 0, next = reach_; reach < next; next = 2 * farthest(corners)) {
-    corners = rectangle(lengths_);
+    corners = rectangle(lengths_, i);
     near.clear();
     centres_.for_each_near(centres_[i], reach = next,
                            [&](std::size_t j, const Shift<2>& shift, const Vec2& d) {
                              // The four nearest own images are the sides of the box.
-                             if (j != i || shift.squaredNorm() > 1) near.push_back(d);
+                             if (j != i || shift.squaredNorm() > 1) near.push_back({d, j});
                            });
-    std::sort(near.begin(), near.end(),
-              [](const Vec2& p, const Vec2& q) { return p.squaredNorm() < q.squaredNorm(); });
-    for (const Vec2& d : near) {
-      if (d.norm() >= 2 * farthest(corners)) break;
-      corners = cut(corners, d);
+    std::sort(near.begin(), near.end(), [](const Point& p, const Point& q) {
+      return p.at.squaredNorm() < q.at.squaredNorm();
+    });
+    for (const Point& point : near) {
+      if (point.at.norm() >= 2 * farthest(corners)) break;
+      corners = cut(corners, point);
     }
   }
   return as_cell(corners);

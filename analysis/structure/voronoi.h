@@ -11,6 +11,7 @@ namespace vitrel {
 struct VoronoiEdge {
   Vec2 to;  ///< from the centre of the cell to that of the neighbour, which may be an own image
   double length;
+  std::size_t neighbor;
 };
 
 struct VoronoiCell {

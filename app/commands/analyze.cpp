@@ -26,7 +26,7 @@ void require_place(const fs::path& output, const std::vector<fs::path>& inputs) 
 
 int analyze_file(const AnalyzeOptions& options, const fs::path& run) {
   fs::path output = options.output;
-  if (output.empty()) output = run.parent_path() / (run.stem().string() + "_results.h5");
+  if (output.empty()) output = results_path(run);
   const AnalysisChoice choice = analysis_choice(options.analysis);
   require_place(output, {run, options.analysis.file});
   ProgressDisplay display(ProgressDisplay::mode(options.print.quiet));

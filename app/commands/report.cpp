@@ -81,7 +81,7 @@ int report_run(const ReportOptions& options, const fs::path& run) {
   const AnalysisChoice choice = analysis_choice(options.analysis);
   require_place(output, {run, options.analysis.file});
   ProgressDisplay display(ProgressDisplay::mode(options.print.quiet));
-  const ReportData data = report_data({analyze_run(run, choice, shown_on(display))});
+  const ReportData data = report_data({stored_or_analyzed(run, choice, shown_on(display))});
   display.clear();
   return write_page(options, output, report_page(data), {{"runs", 1}});
 }

@@ -27,6 +27,14 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
+// By whom and how results were computed, in their provenance.
+constexpr const char* analysis_key = "analysis_parameters";
+constexpr const char* analyzer_key = "analysed_by";
+
+std::string analyzer() {
+  return program_version() + " " + program_commit();
+}
+
 /// All that is measured, before it is put into tables.
 struct RunAnalysis {
   std::size_t particles, rotors, rotations, frames;
@@ -87,6 +95,10 @@ RunDynamics measure_dynamics(TrajectoryFile<Dim>& trajectory, DisplacementOption
                                               progress.report, options.threads);
   begin(progress, "displacements");
   dynamics.displacements = displacements(trajectory, options, progress.report);
+  if constexpr (Dim == 2) {
+    begin(progress, "cage-relative displacements");
+    dynamics.cage_relative = cage_relative(trajectory, options, progress.report);
+  }
   return dynamics;
 }
 
@@ -274,6 +286,8 @@ void add_motion(const RunAnalysis& run, const std::vector<double>& times, Result
   const Displacements& found = run.dynamics->displacements;
   results.provenance.emplace_back("time_axis", time_axis_text(times, found));
   store_relaxation_times(found, results);
+  if (found.dimension == 2 && !run.dynamics->cage_relative)
+    leave_out(results, "cage_relative", "analysis.memory is too small for all positions at once");
   if (!found.unknown_turns.empty()) leave_out(results, "rotations", found.unknown_turns);
   if (run.glass)
     store_glass_run(*run.glass, results);
@@ -308,6 +322,8 @@ Results analyze(const std::filesystem::path& file, const std::string& name,
   for (Table& table : on_the_fly_tables(file)) results.tables.push_back(std::move(table));
   results.provenance = provenance_rows(reader.provenance());
   results.provenance.emplace_back("source", file.string());
+  results.provenance.emplace_back(analysis_key, effective_parameters(parameters));
+  results.provenance.emplace_back(analyzer_key, analyzer());
   if (run.dynamics) add_motion(run, trajectory.times(), results);
   if (run.energy.time.empty()) leave_out(results, "energies", no_energies);
   return results;
@@ -337,6 +353,29 @@ AnalysedRun analyze_run(const std::filesystem::path& file, const AnalysisChoice&
   const auto analyze_it = is_plane ? analyze<2> : analyze<3>;
   analysed.results = analyze_it(file, analysed.name(), choice, progress);
   return analysed;
+}
+
+std::filesystem::path results_path(const std::filesystem::path& run) {
+  return run.parent_path() / (run.stem().string() + "_results.h5");
+}
+
+AnalysedRun stored_or_analyzed(const std::filesystem::path& file, const AnalysisChoice& choice,
+                               const AnalysisProgress& progress) {
+  namespace fs = std::filesystem;
+  const fs::path stored = results_path(file);
+  if (!fs::exists(stored) || fs::last_write_time(stored) < fs::last_write_time(file))
+    return analyze_run(file, choice, progress);
+  Results results;
+  try {
+    results = read_results(stored);
+  } catch (const FileError&) {
+    return analyze_run(file, choice, progress);
+  }
+  const Parameters parameters = analysis_parameters(TrajectoryReader(file), choice);
+  const bool is_up_to_date = results.text(analyzer_key) == analyzer() &&
+                             results.text(analysis_key) == effective_parameters(parameters);
+  return is_up_to_date ? AnalysedRun{file, std::move(results)}
+                       : analyze_run(file, choice, progress);
 }
 
 std::vector<std::string> former_tables(const std::filesystem::path& file) {

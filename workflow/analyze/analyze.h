@@ -50,6 +50,14 @@ struct AnalysedRun {
 AnalysedRun analyze_run(const std::filesystem::path& file, const AnalysisChoice& choice,
                         const AnalysisProgress& progress = {});
 
+/// Where `vitrel analyze` writes the results of a run by default.
+std::filesystem::path results_path(const std::filesystem::path& run);
+
+/// The results that are there already if this version computed them from this run with the same parameters;
+/// else as analyze_run.
+AnalysedRun stored_or_analyzed(const std::filesystem::path& file, const AnalysisChoice& choice,
+                               const AnalysisProgress& progress = {});
+
 /// The tables of the results in this file, if there is one. Throws UserError if it holds anything but
 /// the results of an analysis, for which these must not take its place.
 std::vector<std::string> former_tables(const std::filesystem::path& file);

@@ -104,6 +104,24 @@ Table susceptibility_table(const Displacements& found) {
        column("chi_4", "1", found.susceptibility)}};
 }
 
+Table cage_relative_table(const CageRelative& found, double overlap_distance) {
+  Table table{
+      "cage_relative",
+      fmt::format(
+          "Displacements of all particles relative to the mean of their neighbours (Voronoi "
+          "cells at the origin of time), which long waves do not change: mean square, "
+          "scattering functions F_s(q_k, t) with q_k in table wave_numbers, share that has "
+          "moved by less than {:g} and its four-point susceptibility.",
+          overlap_distance),
+      {time_column(found.lag), column("msd", "length^2", found.square)}};
+  for (std::size_t k = 0; k < found.self_scattering.size(); ++k)
+    table.columns.push_back(column(fmt::format("fs_{}", k + 1), "1", found.self_scattering[k]));
+  table.columns.push_back(column("overlap", "1", found.overlap));
+  table.columns.push_back(column("chi_4", "1", found.susceptibility));
+  table.columns.push_back({"origins", "1", numbers(found.origins), {}});
+  return table;
+}
+
 Table wave_number_table(const RunDynamics& dynamics) {
   Table table{
       "wave_numbers",
@@ -141,6 +159,8 @@ std::vector<Table> dynamics_tables(const RunDynamics& dynamics) {
     tables.push_back(scattering_table(found, group));
     if (group.rotors > 0) tables.push_back(orientation_table(found, group));
   }
+  if (dynamics.cage_relative)
+    tables.push_back(cage_relative_table(*dynamics.cage_relative, found.overlap_distance));
   tables.push_back(wave_number_table(dynamics));
   tables.push_back(collective_table(dynamics.collective));
   if (std::ranges::any_of(found.origins, [](std::size_t n) { return n > 1; }))

@@ -22,7 +22,10 @@ constexpr int error_digits = 3;
 constexpr std::array<std::string_view, 3> series = {"energies", "compressibility_factor", "order"};
 
 // What the page makes charts from (report.js).
-constexpr std::array<std::string_view, 11> shown = {"summary",
+constexpr std::array<std::string_view, 14> shown = {"summary",
+                                                    "cage_relative",
+                                                    "velocities",
+                                                    "velocity_distribution",
                                                     "wave_numbers",
                                                     "susceptibility",
                                                     "collective_scattering",

@@ -33,6 +33,8 @@ const families = [
   { section: 'motion', table: 'displacements', heading: 'Mean squared displacement', ...time, logY: true, slopes: true,
     columns: [[/^msd$/, () => '⟨|Δr|²⟩'], [/^msd_parallel$/, () => '⟨Δr²⟩ along the axis'],
               [/^msd_perpendicular$/, () => '⟨Δr²⟩ across the axis']], symbol: '⟨|Δr(t)|²⟩', unit: areaUnit },
+  { section: 'motion', table: 'cage_relative', heading: 'Mean squared displacement relative to the cage', ...time, logY: true, slopes: true,
+    columns: [[/^msd$/, () => '⟨|Δr − Δr of the neighbours|²⟩']], symbol: '⟨|Δr(t)|²⟩', unit: areaUnit },
   { section: 'motion', table: 'displacements', heading: 'Mean squared rotation', ...time, logY: true, slopes: true,
     columns: [[/^msr$/, () => inPlane ? '⟨Δθ²⟩' : '⟨|Δφ|²⟩']], symbol: inPlane ? '⟨Δθ(t)²⟩' : '⟨|Δφ(t)|²⟩', unit: 'rad²',
     missing: 'All particles are round: their rotation is not modelled.' },
@@ -41,6 +43,8 @@ const families = [
     symbol: 'α₂(t)', unit: '' },
   { section: 'relaxation', table: 'self_scattering', heading: 'Self-intermediate scattering', ...time, ...decays,
     levels: [Math.exp(-1)], columns: [[/^fs_(\d+)$/, ([, k], of, origin) => waveNumber(Number(k), of, origin)]], symbol: 'Fₛ(q, t)', unit: '', named: true },
+  { section: 'relaxation', table: 'cage_relative', heading: 'Self-intermediate scattering relative to the cage', ...time, ...decays,
+    levels: [Math.exp(-1)], columns: [[/^fs_(\d+)$/, ([, k], of) => waveNumber(Number(k), of)]], symbol: 'Fₛ(q, t)', unit: '', named: true },
   { section: 'relaxation', table: 'orientation', heading: 'Orientational correlation', ...time, ...decays,
     levels: [Math.exp(-1)], columns: [[/^([lp])_(\d+)$/, ([, letter, order]) => letter.toUpperCase() + subscript(order)]],
     symbol: inPlane ? 'Lₙ(t) = ⟨cos nΔθ⟩' : '⟨Pₗ(u(0)·u(t))⟩', unit: '', named: true },
@@ -54,7 +58,14 @@ const families = [
   { section: 'structure', table: 'orientation_distribution', heading: 'Orientations about the director', xSymbol: 'θ − θ of the director',
     xUnit: 'rad', x: 'angle', references: densityByChance, range: (plot, low, high) => [0, 1.08 * high],
     columns: [[/^density$/, () => 'density']], symbol: 'density', unit: '1/rad' },
+  { section: 'structure', table: 'velocity_distribution', heading: 'Velocities', xSymbol: 'c = v √(m/T)', xUnit: '', x: 'component',
+    references: (variant) => gaussian(variant), range: (plot, low, high) => [0, 1.08 * high],
+    columns: [[/^density$/, () => 'density of components']], symbol: 'density', unit: '' },
 ];
+
+/** Of the components of velocities in units of their standard deviation, in equilibrium. */
+const gaussian = ({ curves: [{ x }] }) => [{ x, value: x.map((c) => Math.exp(-c * c / 2) / Math.sqrt(2 * Math.PI)), label: 'Gaussian',
+  id: 'Gaussian', colour: () => cssColour('--ink'), dashed: true }];
 
 /** An axis looks the same after half a turn: of the angles that stand for it, the nearest to the one before. */
 function unwrapped(angles) {
@@ -66,6 +77,7 @@ const series = [
   { table: 'energies', heading: 'Energy per particle', symbol: 'E/N', unit: 'kT', fromZero: true,
     columns: [[/^translational$/, () => 'translational'], [/^rotational$/, () => 'rotational'], [/^total$/, () => 'total']] },
   { table: 'compressibility_factor', heading: 'Compressibility factor', symbol: 'Z = βP/ρ', unit: '', columns: [[/^z$/, () => 'Z']] },
+  { table: 'velocities', heading: 'Second Sonine coefficient', symbol: 'a₂', unit: '', columns: [[/^a_2$/, () => 'a₂']] },
   { table: 'order', heading: 'Order', symbol: 'order parameter', unit: '', fromZero: true,
     columns: [[/^nematic$/, () => 'nematic'], [/^hexatic$/, () => 'hexatic']] },
   { table: 'order', heading: 'Director', symbol: 'angle of the director, continued beyond ±π/2', unit: 'rad', transform: unwrapped,

@@ -1,0 +1,158 @@
+#include "analysis/dynamics/cage_relative.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/dynamics/bessel_j0.h"
+#include "analysis/dynamics/displacement.h"
+#include "analysis/structure/voronoi.h"
+#include "core/error.h"
+#include "core/parallel.h"
+
+namespace vitrel {
+
+namespace {
+
+constexpr std::size_t max_origins = 256;
+
+/// Six neighbours on the average, and where those of a particle begin.
+constexpr double neighbor_bytes = 6 * sizeof(std::uint32_t) + sizeof(std::uint32_t);
+
+/// The neighbours of all particles at one time.
+struct Cages {
+  std::vector<std::uint32_t> first;  ///< of every particle, and the end
+  std::vector<std::uint32_t> neighbors;
+};
+
+Cages cages(const Configuration2& frame) {
+  const Voronoi voronoi(frame);
+  Cages found;
+  for (std::size_t i = 0; i < frame.size(); ++i) {
+    found.first.push_back(static_cast<std::uint32_t>(found.neighbors.size()));
+    for (const VoronoiEdge& edge : voronoi.cell(i).edges)
+      if (edge.neighbor != i) found.neighbors.push_back(static_cast<std::uint32_t>(edge.neighbor));
+  }
+  found.first.push_back(static_cast<std::uint32_t>(found.neighbors.size()));
+  return found;
+}
+
+/// All positions, and the cages at the origins of the lags.
+class Recording {
+ public:
+  Recording(Trajectory2& trajectory, const std::vector<Lag>& lags, const ProgressReport& report)
+      : positions_(trajectory.frames()), cages_(trajectory.frames()) {
+    const std::vector<bool> is_origin = origins(lags, trajectory.frames());
+    for (std::size_t k = 0; k < trajectory.frames(); ++k) {
+      const Configuration2& frame = trajectory.read(k);
+      for (std::size_t i = 0; i < frame.size(); ++i) positions_[k].push_back(frame.unwrapped(i));
+      if (is_origin[k]) cages_[k] = cages(frame);
+      const auto done = static_cast<double>(k + 1);
+      if (report) report({done / static_cast<double>(trajectory.frames()), done, "frames"});
+    }
+  }
+
+  std::size_t particles() const { return positions_.front().size(); }
+
+  /// |Δr_c|² of particle i.
+  double square(std::size_t from, std::size_t to, std::size_t i) const {
+    const Cages& cage = cages_[from];
+    const std::uint32_t begin = cage.first[i], end = cage.first[i + 1];
+    const auto moved = [&](std::size_t j) -> Vec2 {
+      return positions_[to][j] - positions_[from][j];
+    };
+    Vec2 around = Vec2::Zero();
+    for (std::uint32_t n = begin; n < end; ++n) around += moved(cage.neighbors[n]);
+    if (end > begin) around /= end - begin;
+    return (moved(i) - around).squaredNorm();
+  }
+
+  static std::vector<bool> origins(const std::vector<Lag>& lags, std::size_t frames) {
+    std::vector<bool> is_origin(frames, false);
+    for (const Lag& lag : lags)
+      for (std::size_t k = 0; k < lag.origins; ++k) is_origin[lag.from(k)] = true;
+    return is_origin;
+  }
+
+ private:
+  std::vector<std::vector<Vec2>> positions_;  ///< [frame][particle], unwrapped
+  std::vector<Cages> cages_;                  ///< [frame]; empty but at origins
+};
+
+bool fits(const std::vector<Lag>& lags, std::size_t frames, std::size_t particles,
+          std::size_t memory) {
+  const std::vector<bool> origins = Recording::origins(lags, frames);
+  const auto count = static_cast<double>(std::count(origins.begin(), origins.end(), true));
+  const double bytes = static_cast<double>(frames) * sizeof(Vec2) + count * neighbor_bytes;
+  return bytes * static_cast<double>(particles) <= static_cast<double>(memory);
+}
+
+/// The sums of one lag over all particles.
+struct LagResult {
+  LagResult(const Lag& lag, std::size_t wave_numbers)
+      : square(lag.origins),
+        overlap(lag.origins),
+        scattering(wave_numbers, CorrelationSum(lag.origins)) {}
+  CorrelationSum square, overlap;
+  std::vector<CorrelationSum> scattering;
+};
+
+LagResult measure(const Recording& recording, const Lag& lag,
+                  const std::vector<double>& wave_numbers, double overlap_distance,
+                  const BesselJ0& bessel) {
+  LagResult result(lag, wave_numbers.size());
+  std::vector<double> squares(lag.origins), values(lag.origins);
+  const auto add = [&](CorrelationSum& sum, auto&& value) {
+    std::ranges::transform(squares, values.begin(), value);
+    sum.add(0, values);
+    sum.finish_particle();
+  };
+  for (std::size_t i = 0; i < recording.particles(); ++i) {
+    for (std::size_t k = 0; k < lag.origins; ++k)
+      squares[k] = recording.square(lag.from(k), lag.to(k), i);
+    add(result.square, [](double square) { return square; });
+    add(result.overlap, [near = overlap_distance * overlap_distance](double square) {
+      return square < near ? 1.0 : 0.0;
+    });
+    for (std::size_t j = 0; j < wave_numbers.size(); ++j)
+      add(result.scattering[j],
+          [&bessel, q = wave_numbers[j]](double square) { return bessel(q * std::sqrt(square)); });
+  }
+  return result;
+}
+
+}  // namespace
+
+std::optional<CageRelative> cage_relative(Trajectory2& trajectory,
+                                          const DisplacementOptions& options,
+                                          const ProgressReport& report) {
+  if (trajectory.frames() < 2)
+    throw UserError("cage-relative displacements: at least two frames are needed");
+  TimeAxisOptions axis = options.axis;
+  axis.max_origins = std::min(axis.max_origins, max_origins);
+  const std::vector<Lag> lags = time_axis(trajectory.times(), axis);
+  const Configuration2& first = trajectory.read(0);
+  if (!fits(lags, trajectory.frames(), first.size(), options.memory)) return std::nullopt;
+  CageRelative result;
+  result.wave_numbers = wave_numbers_or_main(options.wave_numbers, first);
+  result.self_scattering.resize(result.wave_numbers.size());
+  const Recording recording(trajectory, lags, report);
+  const std::size_t n = recording.particles();
+  const BesselJ0 bessel;
+  std::vector<std::optional<LagResult>> sums(lags.size());
+  in_parallel(lags.size(), options.threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t l = begin; l < end; ++l)
+      sums[l] = measure(recording, lags[l], result.wave_numbers, options.overlap_distance, bessel);
+  });
+  for (std::size_t l = 0; l < lags.size(); ++l) {
+    result.lag.push_back(lags[l].time);
+    result.origins.push_back(lags[l].origins);
+    result.square.push_back(sums[l]->square.estimate(lags[l], n));
+    result.overlap.push_back(sums[l]->overlap.estimate(lags[l], n));
+    result.susceptibility.push_back(susceptibility(sums[l]->overlap, lags[l], n));
+    for (std::size_t j = 0; j < result.wave_numbers.size(); ++j)
+      result.self_scattering[j].push_back(sums[l]->scattering[j].estimate(lags[l], n));
+  }
+  return result;
+}
+
+}  // namespace vitrel
