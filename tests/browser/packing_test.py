@@ -1,4 +1,4 @@
-"""packing_test.py <chromium> <folder with the pages of write_pages>: the page of a packing in a browser."""
+"""packing_test.py <chromium> <folder with the pages of write_pages>: packings and runs in space in a browser."""
 
 import itertools
 import math
@@ -6,20 +6,20 @@ import unittest
 
 from pages import PIXELS, SHIFT, WIDTHS, PageTest
 
-# Of the picture: [count of different colours, checksum, pixels with a colour, pixels with the red of overlaps]. Background,
-# edges of the box and letters have none.
+# Of the picture: [count of different colours, checksum, pixels with a colour, pixels with the red of overlaps, mean x and y of
+# those with a colour]. Background, edges of the box and letters have none.
 LOOK = f"(() => {{ {PIXELS}" + """
-  const { data } = pixels(document.getElementById('scene'));
+  const { data, width } = pixels(document.getElementById('scene'));
   const colours = new Set();
-  let sum = 0, coloured = 0, red = 0;
+  let sum = 0, coloured = 0, red = 0, x = 0, y = 0;
   for (let at = 0; at < data.length; at += 4) {
     const [r, g, b] = data.subarray(at, at + 3);
     colours.add(r << 16 | g << 8 | b);
     sum = (sum * 31 + (r << 16 | g << 8 | b)) % 2147483647;
-    coloured += Math.max(r, g, b) - Math.min(r, g, b) > 12;
+    if (Math.max(r, g, b) - Math.min(r, g, b) > 12) { ++coloured; x += at / 4 % width; y += Math.floor(at / 4 / width); }
     red += r > 80 && g < 0.32 * r && b < 0.5 * r;
   }
-  return [colours.size, sum, coloured, red];
+  return [colours.size, sum, coloured, red, x / coloured, y / coloured];
 })()"""
 
 ROOT = math.sqrt
@@ -52,7 +52,7 @@ class Packing(PageTest):
             with self.subTest(width=width, scheme=scheme):
                 self.open("packing.html", width, scheme)
                 self.assertLessEqual(self.browser.evaluate("document.documentElement.scrollWidth"), width)
-                colours, _, coloured, _ = self.look()
+                colours, _, coloured, *_ = self.look()
                 side = self.browser.evaluate("document.getElementById('scene').width")
                 self.assertGreater(colours, 1000)
                 self.assertGreater(coloured, 0.1 * side**2)
@@ -85,11 +85,15 @@ class Packing(PageTest):
 
     # The box of 8 has a diagonal of 13.86; 0.515 of it are half of the picture. The first view has z upwards, then turned by
     # -0.6 about the vertical and by 0.42 about the horizontal. A body of the shape matrix S casts π √det of the block S_xy.
-    def shadow(self, degrees):
+    VIEW = times(rotation((1, 0, 0), 0.42), times(rotation((0, 1, 0), -0.6), [[1, 0, 0], [0, 0, 1], [0, -1, 0]]))
+
+    def side_and_scale(self):
         side = self.browser.evaluate("document.getElementById('scene').width")
-        scale = side / (2 * 0.515 * ROOT(3) * 8)
-        view = times(rotation((1, 0, 0), 0.42), times(rotation((0, 1, 0), -0.6), [[1, 0, 0], [0, 0, 1], [0, -1, 0]]))
-        turned = times(view, rotation((1 / 3, 2 / 3, 2 / 3), math.radians(degrees)))
+        return side, side / (2 * 0.515 * ROOT(3) * 8)
+
+    def shadow(self, degrees):
+        _, scale = self.side_and_scale()
+        turned = times(self.VIEW, rotation((1 / 3, 2 / 3, 2 / 3), math.radians(degrees)))
         squares = (9, 2.25, 0.5625)
         xx, xy, yy = (sum(turned[i][k] * turned[j][k] * squares[k] for k in range(3)) for i, j in ((0, 0), (0, 1), (1, 1)))
         return math.pi * ROOT(xx * yy - xy * xy) * scale**2
@@ -116,6 +120,66 @@ class Packing(PageTest):
         self.open("space_run.html")
         for section in ("motion", "relaxation", "structure"):
             self.assertGreater(self.browser.evaluate(f"document.querySelectorAll('#{section} canvas').length"), 0)
+
+    def test_spheres_are_drawn_where_they_are_in_every_frame(self):
+        self.open("spheres_run.html")
+        side, scale = self.side_and_scale()
+        for frame in (0, 3, 1):
+            self.scrub(frame)
+            *_, x, y = self.look()
+            middle = ((1.5 * frame - 2 + 1) / 2, 1.9 / 2, 0)  # of two equal discs
+            right, up = (sum(self.VIEW[axis][k] * middle[k] for k in range(3)) for axis in (0, 1))
+            # A tenth of a radius: their highlights may count as white.
+            self.assertAlmostEqual(x, side / 2 + right * scale, delta=0.1 * scale)
+            self.assertAlmostEqual(y, side / 2 - up * scale, delta=0.1 * scale)
+        inside = self.look()[2]
+        self.click("#images")
+        self.assertEqual(self.look()[2], inside)
+        self.scrub(4)
+        one_half = self.look()[2]
+        self.click("#images")
+        self.assertGreater(self.look()[2], 1.2 * one_half)
+
+    def test_overlaps_of_a_run_are_red_in_their_frames(self):
+        self.open("spheres_run.html")
+        self.assertIn("Overlaps in 1 of 5 frames", self.text("overlaps"))
+        self.assertEqual(self.look()[3], 0)
+        self.click("#overlaps button")
+        self.assertIn("frame 3 of 5", self.text("clock"))
+        self.assertGreater(self.look()[3], 500)
+        self.scrub(3)
+        self.assertEqual(self.look()[3], 0)
+
+    def test_a_run_in_space_plays_steps_and_turns(self):
+        self.open("spheres_run.html")
+        self.focus("#scene")
+        self.browser.press("ArrowRight", 39)
+        self.assertIn("frame 1 of 5", self.text("clock"))
+        turned = self.look()[1]
+        self.browser.press(".", 190, ".")
+        self.assertIn("frame 2 of 5", self.text("clock"))
+        self.browser.press(",", 188, ",")
+        self.assertEqual(self.look()[1], turned)
+        self.browser.press("0", 48, "0")
+        self.assertNotEqual(self.look()[1], turned)
+        self.click("#play")
+        self.browser.evaluate("""new Promise((done) => { const wait = () =>
+          document.getElementById('play').textContent === 'Play' ? done() : setTimeout(wait, 20); wait(); })""")
+        self.assertIn("frame 5 of 5", self.text("clock"))
+
+    def test_the_cooling_curve_is_that_of_the_table(self):
+        self.open("space_run.html")
+        csv = self.browser.evaluate("""(() => { let address;
+          HTMLAnchorElement.prototype.click = function () { address = this.href; };
+          document.querySelector('#cooling .tools button').click();
+          return decodeURIComponent(address.split(',').slice(1).join(',')); })()""")
+        rows = [[float(value) for value in line.split(",")] for line in csv.splitlines()[1:]]
+        # Samples at 1, 2 … 49, as 0 is not on a logarithmic axis, of T = 1/(1 + t/3)²; the page has six digits.
+        self.assertEqual([row[0] for row in rows], list(range(1, 50)))
+        for time, run, law in rows:
+            temperature = (1 + time / 3) ** -2
+            self.assertAlmostEqual(run / temperature, 1, delta=1e-5)
+            self.assertAlmostEqual(law / temperature, 1, delta=1e-5)
 
     def test_a_cooling_gas_shows_its_temperature_and_the_law(self):
         self.open("space_run.html")
@@ -169,9 +233,9 @@ class Packing(PageTest):
 
     def test_one_finger_turns_and_two_zoom(self):
         self.open("one_body.html", 390)
-        _, first, area, _ = self.look()
+        _, first, area, *_ = self.look()
         self.touch([180], [200], [240])
-        _, turned, _, _ = self.look()
+        turned = self.look()[1]
         self.assertNotEqual(turned, first)
         self.click("#zoom-reset")
         self.touch([165, 225], [160, 230], [150, 240])

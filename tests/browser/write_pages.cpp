@@ -169,6 +169,25 @@ ReportData space_run() {
   return data;
 }
 
+/// Spheres of radius 1 in a box of 8. One goes (1.5, 0, 0) a frame, from (−2, 0, 0): it overlaps the other one, at
+/// (1, 1.9, 0), in frame 2 only, and lies half across the face in frame 4.
+ReportData spheres_run() {
+  std::vector<Configuration3> frames;
+  for (int k = 0; k < 5; ++k) {
+    Configuration3& c = frames.emplace_back();
+    c.resize(2);
+    c.species_names = {"A"};
+    c.box = PeriodicBox<3>(Vec3::Constant(8));
+    c.position = {Vec3(1.5 * k - 2, 0, 0), Vec3(1, 1.9, 0)};
+    c.box.wrap(c.position[0], c.image[0]);
+    c.time = k;
+  }
+  MemoryTrajectory3 trajectory(std::move(frames));
+  ReportData data = one_run();
+  data.runs.front().movie = film(trajectory);
+  return data;
+}
+
 /// Two runs at different wave numbers, the second one of unevenly spaced samples; both of another origin.
 ReportData two_runs() {
   ReportData data = report_example::sweep(2, 1);
@@ -198,6 +217,7 @@ void write_pages(const std::filesystem::path& folder) {
   write_text(folder / "two_runs.html", report_page(two_runs()));
   write_text(folder / "state.html", state_page(state()));
   write_text(folder / "space_run.html", report_page(space_run()));
+  write_text(folder / "spheres_run.html", report_page(spheres_run()));
   write_text(folder / "packing.html", packing_page(packing(two_species())));
   write_text(folder / "one_body.html", packing_page(packing(one_body())));
   write_text(folder / "overlapping.html", packing_page(packing(overlapping())));

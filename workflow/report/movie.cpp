@@ -195,7 +195,7 @@ Json rounded(const auto& numbers) {
   return array;
 }
 
-/// Where a list has the same for all frames, once.
+/// Of every frame; once if it is always the same.
 Json boxes_data(const auto& boxes) {
   Json data = Json::array();
   for (const auto& box : boxes) data.push_back(rounded(box));

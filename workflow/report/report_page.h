@@ -35,9 +35,9 @@ struct ReportData {
   PageProvenance provenance;    ///< of the page, beside that of its runs
 };
 
-/// The page as HTML. Of one run: of a gas that cools its temperature, verdict and relaxation times, the moving particles, correlations,
-/// structure, series over time. Of several: what depends on the packing fraction, correlations and
-/// structure of all, and folded the series of one. Then a table of the runs, parameters, provenance.
+/// The page as HTML. Of one run: the temperature if it is a gas that cools, verdict and relaxation times, the
+/// moving particles, correlations, structure, series over time. Of several: what depends on the packing
+/// fraction, correlations and structure of all, and folded the series of one. Then a table of the runs, parameters, provenance.
 /// A chart is there if its table is: displacements_<group>, self_scattering_<group> with wave_numbers,
 /// orientation_<group>, susceptibility, collective_scattering, structure_factor,
 /// pair_correlation, orientation_distribution, order, energies, compressibility_factor, summary; of the

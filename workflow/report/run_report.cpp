@@ -84,7 +84,8 @@ ReportRun report_run(const AnalysedRun& run, TrajectoryFile<Dim>& trajectory, st
           dynamics ? cooling_of(*dynamics) : std::nullopt};
 }
 
-/// The name of the run and what it is of; or the folder of the sweep, in which every job has a folder of its own.
+/// The name of the run and what it is of; or the folder of the sweep, in which every job has a folder of its
+/// own.
 template <int Dim>
 void add_titles(const std::vector<AnalysedRun>& runs, const Configuration<Dim>& state,
                 ReportData& data) {
