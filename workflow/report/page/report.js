@@ -1,7 +1,7 @@
 const { runs, study } = pageData;
 
 // Which curves the tables hold. A family is a table, or several with a group of particles behind the name; `columns` are
-// regular expressions of column names, and what their curves are called.
+// regular expressions of column names, and what their curves are called; `isStoredOnly`: never measured on the fly.
 
 /** "q = 2.41", or from the lowest to the highest where it differs from run to run. */
 function rangeText(symbol, values) {
@@ -33,7 +33,7 @@ const families = [
   { section: 'motion', table: 'displacements', heading: 'Mean squared displacement', ...time, logY: true, slopes: true,
     columns: [[/^msd$/, () => '⟨|Δr|²⟩'], [/^msd_parallel$/, () => '⟨Δr²⟩ along the axis'],
               [/^msd_perpendicular$/, () => '⟨Δr²⟩ across the axis']], symbol: '⟨|Δr(t)|²⟩', unit: areaUnit },
-  { section: 'motion', table: 'cage_relative', heading: 'Mean squared displacement relative to the cage', ...time, logY: true, slopes: true,
+  { section: 'motion', table: 'cage_relative', isStoredOnly: true, heading: 'Mean squared displacement relative to the cage', ...time, logY: true, slopes: true,
     columns: [[/^msd$/, () => '⟨|Δr − Δr of the neighbours|²⟩']], symbol: '⟨|Δr(t)|²⟩', unit: areaUnit },
   { section: 'motion', table: 'displacements', heading: 'Mean squared rotation', ...time, logY: true, slopes: true,
     columns: [[/^msr$/, () => inPlane ? '⟨Δθ²⟩' : '⟨|Δφ|²⟩']], symbol: inPlane ? '⟨Δθ(t)²⟩' : '⟨|Δφ(t)|²⟩', unit: 'rad²',
@@ -43,7 +43,7 @@ const families = [
     symbol: 'α₂(t)', unit: '' },
   { section: 'relaxation', table: 'self_scattering', heading: 'Self-intermediate scattering', ...time, ...decays,
     levels: [Math.exp(-1)], columns: [[/^fs_(\d+)$/, ([, k], of, origin) => waveNumber(Number(k), of, origin)]], symbol: 'Fₛ(q, t)', unit: '', named: true },
-  { section: 'relaxation', table: 'cage_relative', heading: 'Self-intermediate scattering relative to the cage', ...time, ...decays,
+  { section: 'relaxation', table: 'cage_relative', isStoredOnly: true, heading: 'Self-intermediate scattering relative to the cage', ...time, ...decays,
     levels: [Math.exp(-1)], columns: [[/^fs_(\d+)$/, ([, k], of) => waveNumber(Number(k), of)]], symbol: 'Fₛ(q, t)', unit: '', named: true },
   { section: 'relaxation', table: 'orientation', heading: 'Orientational correlation', ...time, ...decays,
     levels: [Math.exp(-1)], columns: [[/^([lp])_(\d+)$/, ([, letter, order]) => letter.toUpperCase() + subscript(order)]],
@@ -97,7 +97,7 @@ function groupsOf(family) {
   const names = runs.flatMap((run) => Object.keys(run.tables));
   if (names.includes(family.table)) return [''];
   const groups = new Set(names.filter((name) => name.startsWith(family.table + '_')).map((name) => name.slice(family.table.length)));
-  const others = new Set(runs.flatMap((run) => Object.keys(run.tables).filter((name) => isOnTheFly(name) &&
+  const others = new Set(family.isStoredOnly ? [] : runs.flatMap((run) => Object.keys(run.tables).filter((name) => isOnTheFly(name) &&
     run.tables[name].columns[family.x] && shownColumns(run.tables[name], family, runs).length)));
   return [...groups].sort((a, b) => (b === '_all') - (a === '_all')).concat([...others]);
 }
