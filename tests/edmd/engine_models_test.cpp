@@ -115,8 +115,8 @@ TEST(Models, GasesHaveCellsAndLiquidsLists) {
   EngineOptions cells;
   cells.neighbors = NeighborSearch::cells;
   EXPECT_NE(make_disk_engine(cells)->description(), make_disk_engine({})->description());
-  EXPECT_EQ(engine(0.4), make_disk_engine(cells)->description());
-  EXPECT_EQ(engine(0.45), make_disk_engine({})->description());
+  EXPECT_EQ(engine(0.34), make_disk_engine(cells)->description());
+  EXPECT_EQ(engine(0.4), make_disk_engine({})->description());
 }
 
 // A model that holds for more scenes than one is told by the scene.

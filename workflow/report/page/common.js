@@ -1,6 +1,5 @@
 const pageData = JSON.parse(document.getElementById('data').textContent);
 const byId = (id) => document.getElementById(id);
-const timeUnit = `√(m ${areaUnit}/kT)`;
 
 /** The section around these charts, if there are none. */
 function hideIfEmpty(charts) {
