@@ -4,14 +4,12 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 
 #include "core/error.h"
 #include "core/io/atomic_file.h"
 #include "core/io/h5.h"
+#include "core/io/text_file.h"
 
 namespace vitrel {
 
@@ -125,16 +123,6 @@ void write_provenance(h5::Group& root, const Results& results) {
   group.set_attribute("entries", joined(names));
 }
 
-void write_text(const std::filesystem::path& path, const std::string& text) {
-  AtomicFile pending(path);
-  std::ofstream out(pending.partial(), std::ios::binary);
-  out << text;
-  out.close();
-  if (!out)
-    throw FileError(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(errno)));
-  pending.commit();
-}
-
 /// The names of today for those of files that earlier versions wrote.
 void rename_former(Table& table) {
   const auto rename = [](std::string& name) {
@@ -179,10 +167,7 @@ void write_csv(const std::filesystem::path& path, const Table& table) {
 }
 
 void write_csv_folder(const std::filesystem::path& folder, const Results& results) {
-  std::error_code failure;
-  std::filesystem::create_directories(folder, failure);
-  if (failure)
-    throw FileError(fmt::format("{}: cannot be made: {}", folder.string(), failure.message()));
+  make_folder(folder);
   std::string columns = "table,column,unit,description\n";
   for (const Table& table : results.tables) {
     write_csv(folder / (table.name + ".csv"), table);

@@ -12,11 +12,11 @@
 #include "core/error.h"
 #include "core/io/h5md.h"
 #include "core/io/json.h"
+#include "core/io/text_file.h"
 #include "workflow/analyze/analyze.h"
 #include "workflow/report/packing_report.h"
 #include "workflow/report/run_report.h"
 #include "workflow/report/state_report.h"
-#include "workflow/storage/text_file.h"
 #include "workflow/sweep/sweep.h"
 #include "workflow/sweep/sweep_results.h"
 

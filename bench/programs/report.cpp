@@ -8,7 +8,7 @@
 #include "bench/pages/page.h"
 #include "core/io/json.h"
 #include "core/io/provenance.h"
-#include "workflow/storage/text_file.h"
+#include "core/io/text_file.h"
 
 namespace vitrel::bench {
 

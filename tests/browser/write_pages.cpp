@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <numbers>
 
+#include "core/io/text_file.h"
 #include "mc/insertion.h"
 #include "tests/support/report_example.h"
 #include "workflow/report/packing_page.h"
 #include "workflow/report/state_page.h"
-#include "workflow/storage/text_file.h"
 
 // write_pages <folder>: the pages that the browser opens, from made-up results.
 namespace vitrel {

@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "core/io/text_file.h"
 #include "workflow/configuration/parameters.h"
-#include "workflow/storage/text_file.h"
 #include "workflow/sweep/sweep.h"
 
 namespace vitrel {

@@ -10,8 +10,8 @@
 
 #include "core/error.h"
 #include "core/io/h5md.h"
+#include "core/io/text_file.h"
 #include "tests/app/program.h"
-#include "workflow/storage/text_file.h"
 
 namespace vitrel {
 namespace {

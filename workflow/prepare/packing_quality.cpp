@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "core/io/json.h"
-#include "workflow/storage/text_file.h"
+#include "core/io/text_file.h"
 
 namespace vitrel {
 namespace {

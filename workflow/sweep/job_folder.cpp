@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
-#include "workflow/storage/text_file.h"
+#include "core/io/text_file.h"
 
 namespace vitrel {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "core/io/atomic_file.h"
 #include "core/io/json.h"
-#include "workflow/storage/text_file.h"
+#include "core/io/text_file.h"
 #include "workflow/sweep/job_folder.h"
 
 namespace vitrel {

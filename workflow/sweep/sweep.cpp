@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "core/error.h"
-#include "workflow/storage/text_file.h"
+#include "core/io/text_file.h"
 #include "workflow/sweep/folder_lock.h"
 #include "workflow/sweep/job_folder.h"
 #include "workflow/sweep/job_worker.h"

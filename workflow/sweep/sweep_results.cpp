@@ -14,9 +14,9 @@
 #include "core/error.h"
 #include "core/io/h5md.h"
 #include "core/io/json.h"
+#include "core/io/text_file.h"
 #include "workflow/analyze/glass_report.h"
 #include "workflow/analyze/glass_tables.h"
-#include "workflow/storage/text_file.h"
 #include "workflow/sweep/job_folder.h"
 #include "workflow/sweep/seed_averages.h"
 

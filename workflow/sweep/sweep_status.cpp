@@ -10,7 +10,7 @@
 #include <set>
 
 #include "core/io/number_text.h"
-#include "workflow/storage/text_file.h"
+#include "core/io/text_file.h"
 #include "workflow/sweep/job_folder.h"
 #include "workflow/sweep/seed_averages.h"
 

@@ -1,4 +1,4 @@
-#include "workflow/storage/text_file.h"
+#include "core/io/text_file.h"
 
 #include <fmt/format.h>
 
