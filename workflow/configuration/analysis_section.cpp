@@ -46,10 +46,11 @@ void describe_analysis(DisplacementOptions& p, FieldVisitor& visit) {
 }
 
 void describe_structure(StructureOptions& p, FieldVisitor& visit) {
-  visit.field({"frames", "",
-               "Maximum number of frames in averages; if there are more, they are thinned evenly. 0: "
-               "only the order of single frames, which the verdict on equilibrium needs."},
-              p.max_frames);
+  visit.field(
+      {"frames", "",
+       "Maximum number of frames in averages; if there are more, they are thinned evenly. 0: "
+       "only the order of single frames, which the verdict on equilibrium needs."},
+      p.max_frames);
   visit.field({"wave_number_max", "1/length", "Maximum wave number q of structure factors."},
               p.shells.wave_number_max);
   visit.field({"wave_number_step", "1/length",
