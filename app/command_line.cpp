@@ -136,7 +136,8 @@ class CommandLine : public ProgramCommandLine {
                         analyze_command, analyze_);
     sub.add_option("run", analyze_.input, "Run, or folder of a job or a sweep")->required();
     add_output(sub, analyze_.output,
-               "Results to write (HDF5, with CSV tables beside it); default <run>_results.h5 or "
+               "Results to write (HDF5, with CSV tables in a folder beside it); default "
+               "<run>_results.h5 or "
                "<sweep>/results.h5");
     add_analysis(sub, analyze_.analysis);
     add_print(sub, analyze_.print);

@@ -119,8 +119,8 @@ void validate_shape(const Species& p, int dimension, const std::string& path) {
 void describe_system(SystemParameters& p, FieldVisitor& visit) {
   visit.field(
       {"dimension", "",
-       "Space dimensions: 2 for ellipses, 3 for ellipsoids. In three dimensions `vitrel run` and "
-       "`vitrel prepare` are available, the latter with the stages insert and grow."},
+       "Space dimensions: 2 for ellipses, 3 for ellipsoids. In three dimensions a preparation has "
+       "the stages insert and grow only."},
       p.dimension);
   visit.field({"particles", "", "Number of particles."}, p.particles);
   visit.field({"packing_fraction", "",
