@@ -8,7 +8,7 @@ import subprocess
 import tempfile
 import unittest
 
-ROOT = pathlib.Path(__file__).parents[2]
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 OPTIONS = f"project(options LANGUAGES CXX)\ninclude({ROOT}/cmake/options.cmake)\n"
 
 
@@ -35,6 +35,15 @@ class BuildOptions(unittest.TestCase):
 
     def test_portable_for_another_machine(self):
         self.assertEqual(processor({".": OPTIONS}, "-DCMAKE_SYSTEM_NAME=Linux"), "")
+
+    def test_the_program_of_packages_finds_its_headers(self):
+        with tempfile.TemporaryDirectory() as build:
+            subprocess.run(["cmake", "-G", "Ninja", "-S", ROOT, "-B", build, "-DVITREL_PROCESSOR=",
+                            "-DVITREL_BUILD_TESTS=OFF", "-DVITREL_BUILD_BENCH=OFF"], check=True, capture_output=True)
+            commands = json.loads(pathlib.Path(build, "compile_commands.json").read_text(encoding="utf-8"))
+            command = next(c["command"] for c in commands if c["file"] == str(ROOT / "app/main.cpp"))
+            compiled = subprocess.run(command + " -fsyntax-only", shell=True, cwd=build, capture_output=True, text=True)
+            self.assertEqual(compiled.returncode, 0, compiled.stderr)
 
     def test_presets_leave_the_default_but_for_packages(self):
         presets = json.loads((ROOT / "CMakePresets.json").read_text(encoding="utf-8"))["configurePresets"]
