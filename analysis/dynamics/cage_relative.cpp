@@ -36,12 +36,20 @@ Cages cages(const Configuration2& frame) {
   return found;
 }
 
-/// All positions, and the cages at the origins of the lags.
+/// Which frames are origins of some lag.
+std::vector<bool> origins_of(const std::vector<Lag>& lags, std::size_t frames) {
+  std::vector<bool> is_origin(frames, false);
+  for (const Lag& lag : lags)
+    for (std::size_t k = 0; k < lag.origins; ++k) is_origin[lag.from(k)] = true;
+  return is_origin;
+}
+
+/// All positions, and the cages at the origins.
 class Recording {
  public:
-  Recording(Trajectory2& trajectory, const std::vector<Lag>& lags, const ProgressReport& report)
+  Recording(Trajectory2& trajectory, const std::vector<bool>& is_origin,
+            const ProgressReport& report)
       : positions_(trajectory.frames()), cages_(trajectory.frames()) {
-    const std::vector<bool> is_origin = origins(lags, trajectory.frames());
     for (std::size_t k = 0; k < trajectory.frames(); ++k) {
       const Configuration2& frame = trajectory.read(k);
       for (std::size_t i = 0; i < frame.size(); ++i) positions_[k].push_back(frame.unwrapped(i));
@@ -66,23 +74,15 @@ class Recording {
     return (moved(i) - around).squaredNorm();
   }
 
-  static std::vector<bool> origins(const std::vector<Lag>& lags, std::size_t frames) {
-    std::vector<bool> is_origin(frames, false);
-    for (const Lag& lag : lags)
-      for (std::size_t k = 0; k < lag.origins; ++k) is_origin[lag.from(k)] = true;
-    return is_origin;
-  }
-
  private:
   std::vector<std::vector<Vec2>> positions_;  ///< [frame][particle], unwrapped
   std::vector<Cages> cages_;                  ///< [frame]; empty but at origins
 };
 
-bool fits(const std::vector<Lag>& lags, std::size_t frames, std::size_t particles,
-          std::size_t memory) {
-  const std::vector<bool> origins = Recording::origins(lags, frames);
-  const auto count = static_cast<double>(std::count(origins.begin(), origins.end(), true));
-  const double bytes = static_cast<double>(frames) * sizeof(Vec2) + count * neighbor_bytes;
+bool fits(const std::vector<bool>& is_origin, std::size_t particles, std::size_t memory) {
+  const auto origins = static_cast<double>(std::ranges::count(is_origin, true));
+  const double bytes =
+      static_cast<double>(is_origin.size()) * sizeof(Vec2) + origins * neighbor_bytes;
   return bytes * static_cast<double>(particles) <= static_cast<double>(memory);
 }
 
@@ -131,11 +131,12 @@ std::optional<CageRelative> cage_relative(Trajectory2& trajectory,
   axis.max_origins = std::min(axis.max_origins, max_origins);
   const std::vector<Lag> lags = time_axis(trajectory.times(), axis);
   const Configuration2& first = trajectory.read(0);
-  if (!fits(lags, trajectory.frames(), first.size(), options.memory)) return std::nullopt;
+  const std::vector<bool> is_origin = origins_of(lags, trajectory.frames());
+  if (!fits(is_origin, first.size(), options.memory)) return std::nullopt;
   CageRelative result;
   result.wave_numbers = wave_numbers_or_main(options.wave_numbers, first);
   result.self_scattering.resize(result.wave_numbers.size());
-  const Recording recording(trajectory, lags, report);
+  const Recording recording(trajectory, is_origin, report);
   const std::size_t n = recording.particles();
   const BesselJ0 bessel;
   std::vector<std::optional<LagResult>> sums(lags.size());

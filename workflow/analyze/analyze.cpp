@@ -151,7 +151,7 @@ DiffusionCoefficient rotational_diffusion(const Displacements& found, std::size_
   if (rotors == 0) return no_diffusion("no particle can turn");
   if (!found.unknown_turns.empty()) return no_diffusion(found.unknown_turns.c_str());
   // Of bodies of revolution ⟨|Δφ|²⟩ = 4 D_r t: they do not spin about their axes.
-  const int rotations = dimension == 2 ? 1 : static_cast<int>(found.axes) == 3 ? 3 : 2;
+  const int rotations = dimension == 2 ? 1 : found.axes == 3 ? 3 : 2;
   return long_time_diffusion(found, found.groups.front().rotation, rotations, times);
 }
 
