@@ -134,7 +134,9 @@ class CommandLine : public ProgramCommandLine {
                         "times and the glass transition, from the results of its jobs, or with "
                         "--params or --set from their runs.",
                         analyze_command, analyze_);
-    sub.add_option("run", analyze_.input, "Run, or folder of a job or a sweep")->required();
+    CLI::Option* run = sub.add_option("run", analyze_.input, "Run, or folder of a job or a sweep");
+    sub.add_flag("--list", analyze_.list, "All tables as Markdown (docs/observables.md)")
+        ->excludes(run);
     add_output(sub, analyze_.output,
                "Results to write (HDF5, with CSV tables in a folder beside it); default "
                "<run>_results.h5 or "

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/observables/observable.h"
 #include "analysis/results.h"
 #include "analysis/structure/frame_average.h"
 #include "analysis/structure/structure_options.h"
@@ -13,7 +14,8 @@
 
 /// @file
 /// Quantities of single frames, and their tables. One observable is one source file: it says what is
-/// measured in a frame, how frames are averaged, and the names, units and sentences of its tables.
+/// measured in a frame, how frames are averaged, the names, units and sentences of its tables, and how they
+/// are drawn.
 namespace vitrel {
 
 template <int Dim>
@@ -27,17 +29,22 @@ class FrameObservable {
   virtual std::vector<Table> tables(bool is_even) const = 0;
 };
 
+/// An observable as the list of all of them has it: how its tables are described, and how it is made for a
+/// run that has what the first of these needs, with the first frame of that.
 template <int Dim>
-using FrameObservables = std::vector<std::unique_ptr<FrameObservable<Dim>>>;
+struct FrameObservableType {
+  using Make = std::unique_ptr<FrameObservable<Dim>>(const Configuration<Dim>& first,
+                                                     const StructureOptions& options);
+  std::vector<Observable> tables;
+  std::function<Make> make;
+};
 
-/// All observables that the particles of `first`, the first frame, have: the list to add to.
+/// The tables of all observables of frames, in their order.
 template <int Dim>
-FrameObservables<Dim> frame_observables(const Configuration<Dim>& first,
-                                        const StructureOptions& options);
+std::vector<Observable> frame_observables();
 
-/// Their tables, in this order. Frames are read one after another and measured on up to `threads`
-/// threads, some at a time; the results do not depend on it. `report` is called with the share of the
-/// frames that are done.
+/// Those of a run. Frames are read one after another and measured on up to `threads` threads, some at a
+/// time; the results do not depend on it. `report` is called with the share of the frames that are done.
 template <int Dim>
 std::vector<Table> structure_tables(Trajectory<Dim>& trajectory, const StructureOptions& options,
                                     int threads = all_cores, const ProgressReport& report = {});
@@ -45,21 +52,5 @@ std::vector<Table> structure_tables(Trajectory<Dim>& trajectory, const Structure
 /// A column with the averages of a row over the frames.
 Column averaged(const std::string& name, const std::string& unit, const FrameAverage& rows,
                 bool is_even);
-
-// One source file each.
-template <int Dim>
-std::unique_ptr<FrameObservable<Dim>> structure_factor_observable(const Configuration<Dim>& first,
-                                                                  const ShellOptions& options);
-template <int Dim>
-std::unique_ptr<FrameObservable<Dim>> pair_correlation_observable(
-    const Configuration<Dim>& first, const PairCorrelationOptions& options);
-/// Of particles that are not round.
-template <int Dim>
-std::unique_ptr<FrameObservable<Dim>> orientation_observable(const Configuration<Dim>& first);
-template <int Dim>
-std::unique_ptr<FrameObservable<Dim>> order_observable(const Configuration<Dim>& first);
-/// Of particles that move.
-template <int Dim>
-std::unique_ptr<FrameObservable<Dim>> velocity_observable();
 
 }  // namespace vitrel

@@ -86,16 +86,44 @@ class SpaceOrder final : public FrameObservable<3> {
   std::array<std::vector<double>, 3> director_;
 };
 
+Observable order_table(Needs needs, Chart director) {
+  const Chart order{.section = Chart::Section::course,
+                    .heading = "Order",
+                    .symbol = "order parameter",
+                    .curves = {{"nematic", "nematic"}, {"hexatic", "hexatic"}},
+                    .scale = Chart::Scale::from_zero};
+  director.section = Chart::Section::course;
+  director.heading = "Director";
+  return {.table = "order",
+          .what = "Nematic order and director of single frames; in the plane also hexatic order.",
+          .needs = needs,
+          .charts = {order, std::move(director)}};
+}
+
 }  // namespace
 
+template <int Dim>
+FrameObservableType<Dim> order_observable();
+
 template <>
-std::unique_ptr<FrameObservable<2>> order_observable(const Configuration2& first) {
-  return std::make_unique<PlaneOrder>(first);
+FrameObservableType<2> order_observable() {
+  return {{order_table({}, {.symbol = "angle of the director, continued beyond ±π/2",
+                            .curves = {{"director", "director"}},
+                            .is_angle_of_axis = true})},
+          [](const Configuration2& first, const StructureOptions&) {
+            return std::make_unique<PlaneOrder>(first);
+          }};
 }
 
 template <>
-std::unique_ptr<FrameObservable<3>> order_observable(const Configuration3& first) {
-  return std::make_unique<SpaceOrder>(first);
+FrameObservableType<3> order_observable() {
+  return {
+      {order_table({.rotors = true},
+                   {.symbol = "components of the director",
+                    .curves = {{"director_x", "x"}, {"director_y", "y"}, {"director_z", "z"}}})},
+      [](const Configuration3& first, const StructureOptions&) {
+        return std::make_unique<SpaceOrder>(first);
+      }};
 }
 
 }  // namespace vitrel

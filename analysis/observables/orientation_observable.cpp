@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
+#include <cmath>
 #include <numbers>
 
 #include "analysis/observables/frame_observable.h"
@@ -27,17 +28,21 @@ class AngleDistribution final : public FrameObservable<2> {
   }
 
   std::vector<Table> tables(bool is_even) const override {
-    std::vector<double> angle;
+    std::vector<double> angle, by_chance;
     const double width = std::numbers::pi / static_cast<double>(angle_bins);
-    for (std::size_t k = 0; k < angle_bins; ++k)
+    const double order = nematic_order_by_chance(rotors_);
+    for (std::size_t k = 0; k < angle_bins; ++k) {
       angle.push_back((static_cast<double>(k) + 0.5) * width - std::numbers::pi / 2);
+      by_chance.push_back((1 + 2 * order * std::cos(2 * angle.back())) / std::numbers::pi);
+    }
     return {{"orientation_distribution",
              fmt::format("Density of the angles from the director of each frame, averaged over {} "
-                         "frames; without order it is (1 + 2 S cos(2 angle))/pi, with the S of a "
-                         "finite system, about sqrt(pi/(4 R)) = {:.3g}.",
-                         frames_, nematic_order_by_chance(rotors_)),
+                         "frames; by_chance: without order, (1 + 2 S cos(2 angle))/pi, with the S "
+                         "of a finite system, about sqrt(pi/(4 R)) = {:.3g}.",
+                         frames_, order),
              {{"angle", "rad", std::move(angle), {}},
-              averaged("density", "1/rad", density_, is_even)}}};
+              averaged("density", "1/rad", density_, is_even),
+              {"by_chance", "1/rad", std::move(by_chance), {}}}}};
   }
 
  private:
@@ -94,14 +99,36 @@ class TensorAverage final : public FrameObservable<3> {
 
 }  // namespace
 
+template <int Dim>
+FrameObservableType<Dim> orientation_observable();
+
 template <>
-std::unique_ptr<FrameObservable<2>> orientation_observable(const Configuration2& first) {
-  return std::make_unique<AngleDistribution>(first);
+FrameObservableType<2> orientation_observable() {
+  const Chart chart{.section = Chart::Section::structure,
+                    .heading = "Orientations about the director",
+                    .symbol = "density",
+                    .curves = {{"density", "density"}},
+                    .scale = Chart::Scale::from_zero,
+                    .x = "angle",
+                    .x_symbol = "θ − θ of the director",
+                    .references = {{"by_chance", "by chance"}}};
+  return {{{.table = "orientation_distribution",
+            .what = "Density of the angles of the long axes from the director of their frame.",
+            .needs = {.rotors = true, .averages = true},
+            .charts = {chart}}},
+          [](const Configuration2& first, const StructureOptions&) {
+            return std::make_unique<AngleDistribution>(first);
+          }};
 }
 
 template <>
-std::unique_ptr<FrameObservable<3>> orientation_observable(const Configuration3&) {
-  return std::make_unique<TensorAverage>();
+FrameObservableType<3> orientation_observable() {
+  return {{{.table = "orientation_tensor",
+            .what = "Mean second-rank tensor of the axes, with its eigenvalues and eigenvectors.",
+            .needs = {.rotors = true, .averages = true}}},
+          [](const Configuration3&, const StructureOptions&) {
+            return std::make_unique<TensorAverage>();
+          }};
 }
 
 }  // namespace vitrel

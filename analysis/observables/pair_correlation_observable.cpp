@@ -51,14 +51,26 @@ class PairCorrelationObservable final : public FrameObservable<Dim> {
 }  // namespace
 
 template <int Dim>
-std::unique_ptr<FrameObservable<Dim>> pair_correlation_observable(
-    const Configuration<Dim>& first, const PairCorrelationOptions& options) {
-  return std::make_unique<PairCorrelationObservable<Dim>>(rotor_count(first), options);
+FrameObservableType<Dim> pair_correlation_observable() {
+  const Chart chart{.section = Chart::Section::structure,
+                    .heading = "Pair correlation",
+                    .symbol = "g(r)",
+                    .curves = {{"g", "g"}, {"g_#", "g#"}},
+                    .scale = Chart::Scale::around_one,
+                    .x = "r",
+                    .x_symbol = "r",
+                    .levels = {1}};
+  return {
+      {{.table = "pair_correlation",
+        .what = "Pair correlations of the centres, and of the orientations, against the distance.",
+        .needs = {.averages = true},
+        .charts = {chart}}},
+      [](const Configuration<Dim>& first, const StructureOptions& options) {
+        return std::make_unique<PairCorrelationObservable<Dim>>(rotor_count(first), options.pairs);
+      }};
 }
 
-template std::unique_ptr<FrameObservable<2>> pair_correlation_observable(
-    const Configuration2&, const PairCorrelationOptions&);
-template std::unique_ptr<FrameObservable<3>> pair_correlation_observable(
-    const Configuration3&, const PairCorrelationOptions&);
+template FrameObservableType<2> pair_correlation_observable();
+template FrameObservableType<3> pair_correlation_observable();
 
 }  // namespace vitrel

@@ -116,14 +116,27 @@ class StructureFactorObservable final : public FrameObservable<Dim> {
 }  // namespace
 
 template <int Dim>
-std::unique_ptr<FrameObservable<Dim>> structure_factor_observable(const Configuration<Dim>& first,
-                                                                  const ShellOptions& options) {
-  return std::make_unique<StructureFactorObservable<Dim>>(first, options);
+FrameObservableType<Dim> structure_factor_observable() {
+  const Chart chart{.section = Chart::Section::structure,
+                    .heading = "Structure factor",
+                    .symbol = "S(q)",
+                    .curves = {{"s", "S"}, {"s_orientation", "S of orientations"}, {"s_*", "S *"}},
+                    .scale = Chart::Scale::around_one,
+                    .x = "q",
+                    .x_symbol = "q",
+                    .levels = {1}};
+  return {
+      {{.table = "structure_factor",
+        .what = "Structure factors against the wave number, total and of pairs of species; in the "
+                "plane also that of the orientations.",
+        .needs = {.averages = true},
+        .charts = {chart}}},
+      [](const Configuration<Dim>& first, const StructureOptions& options) {
+        return std::make_unique<StructureFactorObservable<Dim>>(first, options.shells);
+      }};
 }
 
-template std::unique_ptr<FrameObservable<2>> structure_factor_observable(const Configuration2&,
-                                                                         const ShellOptions&);
-template std::unique_ptr<FrameObservable<3>> structure_factor_observable(const Configuration3&,
-                                                                         const ShellOptions&);
+template FrameObservableType<2> structure_factor_observable();
+template FrameObservableType<3> structure_factor_observable();
 
 }  // namespace vitrel

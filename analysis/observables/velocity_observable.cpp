@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "analysis/observables/frame_observable.h"
 
@@ -66,9 +67,12 @@ class VelocityObservable final : public FrameObservable<Dim> {
   }
 
   std::vector<Table> tables(bool is_even) const override {
-    std::vector<double> component;
-    for (std::size_t k = 0; k < bins; ++k)
-      component.push_back((static_cast<double>(k) + 0.5) * width - widest);
+    std::vector<double> component, gaussian;
+    for (std::size_t k = 0; k < bins; ++k) {
+      const double c = (static_cast<double>(k) + 0.5) * width - widest;
+      component.push_back(c);
+      gaussian.push_back(std::exp(-c * c / 2) / std::sqrt(2 * std::numbers::pi));
+    }
     return {{"velocities",
              fmt::format(
                  "Velocities v in the frame of the centre of mass: temperature = <m v^2>/{0}, and "
@@ -79,11 +83,12 @@ class VelocityObservable final : public FrameObservable<Dim> {
               {"temperature", "kT", temperature_, {}},
               {"a_2", "1", sonine_, {}}}},
             {"velocity_distribution",
-             fmt::format("Density of the components c of sqrt(m/T) v, averaged over {} frames; in "
-                         "equilibrium exp(-c^2/2)/sqrt(2 pi).",
+             fmt::format("Density of the components c of sqrt(m/T) v, averaged over {} frames; "
+                         "gaussian: in equilibrium, exp(-c^2/2)/sqrt(2 pi).",
                          time_.size()),
              {{"component", "1", std::move(component), {}},
-              averaged("density", "1", density_, is_even)}}};
+              averaged("density", "1", density_, is_even),
+              {"gaussian", "1", std::move(gaussian), {}}}}};
   }
 
  private:
@@ -94,11 +99,34 @@ class VelocityObservable final : public FrameObservable<Dim> {
 }  // namespace
 
 template <int Dim>
-std::unique_ptr<FrameObservable<Dim>> velocity_observable() {
-  return std::make_unique<VelocityObservable<Dim>>();
+FrameObservableType<Dim> velocity_observable() {
+  const Chart sonine{.section = Chart::Section::course,
+                     .heading = "Second Sonine coefficient",
+                     .symbol = "a₂",
+                     .curves = {{"a_2", "a₂"}}};
+  const Chart distribution{.section = Chart::Section::structure,
+                           .heading = "Velocities",
+                           .symbol = "density",
+                           .curves = {{"density", "density of components"}},
+                           .scale = Chart::Scale::from_zero,
+                           .x = "component",
+                           .x_symbol = "c = v √(m/T)",
+                           .references = {{"gaussian", "Gaussian"}}};
+  const Needs needs{.velocities = true, .averages = true};
+  return {{{.table = "velocities",
+            .what = "Temperature and second Sonine coefficient of the velocities of single frames.",
+            .needs = needs,
+            .charts = {sonine}},
+           {.table = "velocity_distribution",
+            .what = "Density of the components of the velocities, in units of their deviation.",
+            .needs = needs,
+            .charts = {distribution}}},
+          [](const Configuration<Dim>&, const StructureOptions&) {
+            return std::make_unique<VelocityObservable<Dim>>();
+          }};
 }
 
-template std::unique_ptr<FrameObservable<2>> velocity_observable();
-template std::unique_ptr<FrameObservable<3>> velocity_observable();
+template FrameObservableType<2> velocity_observable();
+template FrameObservableType<3> velocity_observable();
 
 }  // namespace vitrel

@@ -7,9 +7,11 @@
 #include "app/terminal/exit_codes.h"
 #include "app/terminal/progress.h"
 #include "app/terminal/session.h"
+#include "core/error.h"
 #include "core/io/json.h"
 #include "workflow/analyze/analyze.h"
 #include "workflow/analyze/glass_report.h"
+#include "workflow/analyze/observables_page.h"
 #include "workflow/sweep/sweep.h"
 #include "workflow/sweep/sweep_results.h"
 
@@ -63,9 +65,18 @@ int analyze_sweep(const AnalyzeOptions& options, const fs::path& folder) {
   return success;
 }
 
+int list_observables() {
+  std::fputs(observables_page().c_str(), stdout);
+  flush_output();
+  return success;
+}
+
 }  // namespace
 
 int analyze_command(const AnalyzeOptions& options) {
+  if (options.list) return list_observables();
+  if (options.input.empty())
+    throw UserError("name a run or the folder of a sweep; --list says what is computed");
   const fs::path input = run_or_sweep(options.input);
   return fs::is_directory(input) ? analyze_sweep(options, input) : analyze_file(options, input);
 }

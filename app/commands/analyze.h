@@ -7,6 +7,7 @@ namespace vitrel {
 struct AnalyzeOptions {
   PrintOptions print;
   AnalysisOptions analysis;
+  bool list = false;             ///< what it computes, and nothing else
   std::filesystem::path input;   ///< run, or folder of a job or a sweep
   std::filesystem::path output;  ///< empty: beside the input
 };

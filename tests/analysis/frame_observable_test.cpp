@@ -83,7 +83,7 @@ TEST(StructureTables, HaveTheColumnsThatReadersRelyOn) {
   EXPECT_EQ(column_names(named(tables, "pair_correlation")),
             (std::vector<std::string>{"r", "g", "g_2", "g_4"}));
   EXPECT_EQ(column_names(named(tables, "orientation_distribution")),
-            (std::vector<std::string>{"angle", "density"}));
+            (std::vector<std::string>{"angle", "density", "by_chance"}));
   EXPECT_EQ(column_names(named(tables, "order")),
             (std::vector<std::string>{"time", "nematic", "director", "hexatic"}));
   EXPECT_EQ(named(tables, "pair_correlation").rows(), 150u);  // half of 15 by 0.05

@@ -3,13 +3,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <regex>
 
+#include "analysis/observables/observable.h"
 #include "analysis/results.h"
 #include "tests/app/program.h"
 
@@ -323,6 +326,64 @@ TEST_F(SavedSweep, QuietItSaysNothing) {
   EXPECT_EQ(quiet.output + quiet.errors, "");
   again.push_back("--json");
   EXPECT_EQ(nlohmann::json::parse(run(folder.path(), again).output)["jobs"].size(), 4u);
+}
+
+/// The chart's columns in the names that a table has: `#` is a number, `*` any text.
+bool has_column(const Table& table, std::string column) {
+  for (const auto& [placeholder, pattern] : {std::pair("#", "[0-9]+"), std::pair("*", ".+")})
+    if (const auto at = column.find(placeholder); at != std::string::npos)
+      column.replace(at, 1, pattern);
+  return std::ranges::any_of(table.columns, [&](const Column& found) {
+    return std::regex_match(found.name, std::regex(column));
+  });
+}
+
+/// What `analyze` says of this run is in its list, and its charts are of columns that are there.
+void expect_listed(const Results& results, int dimension) {
+  const std::vector<Observable> all = observables(dimension);
+  for (const Table& table : results.tables) {
+    const auto listed = std::ranges::count_if(
+        all, [&](const Observable& observable) { return observable.names(table.name); });
+    EXPECT_EQ(listed, 1) << table.name;
+  }
+  for (const Observable& observable : all) {
+    const auto table = std::ranges::find_if(
+        results.tables, [&](const Table& found) { return observable.names(found.name); });
+    ASSERT_NE(table, results.tables.end()) << observable.table;
+    for (const Chart& chart : observable.charts) {
+      EXPECT_TRUE(table->find(chart.x)) << chart.heading;
+      for (const auto& curves : {chart.curves, chart.references})
+        for (const Curve& curve : curves)
+          EXPECT_TRUE(has_column(*table, curve.column)) << observable.table << ' ' << curve.column;
+    }
+  }
+}
+
+TEST(SavedRuns, EveryTableIsListedWithWhatItIs) {
+  const std::string species = "[[species]]\nname = \"A\"\nfraction = 0.5\n";
+  const std::string other = "[[species]]\nname = \"B\"\nfraction = 0.5\n";
+  const std::string space = "[system]\ndimension = 3\npacking_fraction = 0.1\nparticles = 20\n";
+  const std::map<int, std::string> files = {
+      {2, tiny_system + species + "aspect_ratio = 2\n" + other + "aspect_ratio = 3\n"},
+      {3, space + tiny_system.substr(tiny_system.find("[prepare]")) + "[[prepare.stage]]\n" +
+              "method = \"insert\"\n" + species + "aspect_ratios = [1.5, 2]\n" + other +
+              "aspect_ratios = [2, 3]\n"}};
+  for (const auto& [dimension, parameters] : files) {
+    const Folder folder("listed_" + std::to_string(dimension));
+    folder.write("p.toml", parameters);
+    ASSERT_EQ(run(folder.path(), {"run", "p.toml", "-o", "run.h5", "-q"}).code, 0);
+    ASSERT_EQ(run(folder.path(), {"analyze", "run.h5", "-q"}).code, 0);
+    expect_listed(read_results(folder / "run_results.h5"), dimension);
+  }
+}
+
+TEST(SavedRuns, TheListOfTablesNeedsNoRun) {
+  const Folder folder("list");
+  const Outcome list = run(folder.path(), {"analyze", "--list"});
+  EXPECT_EQ(list.code, 0);
+  EXPECT_THAT(list.output, HasSubstr("## `structure_factor`"));
+  expect_refusal(folder, {"analyze"}, 2, "name a run or the folder of a sweep");
+  expect_refusal(folder, {"analyze", "--list", "run.h5"}, 2, "--list");
 }
 
 }  // namespace

@@ -230,7 +230,7 @@ class Page(PageTest):
         self.assertIn("frame 1 of 12", self.text("clock"))
         self.browser.evaluate("""(() => { const select = document.querySelector('#movie-run select');
           select.value = 1; select.dispatchEvent(new Event('change')); })()""")
-        self.assertEqual(self.text("series-run"), "at φ = 0.60")
+        self.assertEqual(self.text("course-run"), "at φ = 0.60")
         self.assertEqual(self.text("clock"), "t = 0 √(m ab/kT)")
         self.assertIn("Only the final state of this run is in the page", self.text("movie-note"))
         self.assertFalse(self.browser.evaluate("document.getElementById('player').checkVisibility()"))
@@ -450,12 +450,12 @@ class Page(PageTest):
         # The first chart is on the first screen.
         bottom = self.browser.evaluate("document.querySelector('.chart .plot').getBoundingClientRect().bottom")
         self.assertLess(bottom, 900)
-        shown = "document.querySelector('#series .plot').checkVisibility()"
+        shown = "document.querySelector('#course .plot').checkVisibility()"
         self.assertFalse(self.browser.evaluate(shown))
-        self.click("#series-heading")
+        self.click("#course-heading")
         self.browser.settle()
         self.assertTrue(self.browser.evaluate(shown))
-        widths = self.browser.evaluate("""['#series', '#motion'].map((charts) =>
+        widths = self.browser.evaluate("""['#course', '#motion'].map((charts) =>
           document.querySelector(charts + ' canvas').clientWidth)""")
         self.assertEqual(widths[0], widths[1])
 
@@ -469,7 +469,7 @@ class Page(PageTest):
                                 ["of translation alone", "equilibrated", ""],
                                 ["relaxation time τα", "10.00 ± 0.50 √(m ab/kT)", "Fs(q, t) = 1/e at q = 2.4/√(ab)"],
                                 ["rotational relaxation time τ2", "not within this run: > 250 √(m ab/kT)", "L2(t) = 1/e"]])
-        self.assertTrue(self.browser.evaluate("document.querySelector('#series .plot').checkVisibility()"))
+        self.assertTrue(self.browser.evaluate("document.querySelector('#course .plot').checkVisibility()"))
 
     def axis_titles(self, section):
         return self.browser.evaluate(f"""[...document.querySelectorAll('#{section} .axis-title:not(.x)')]
@@ -588,7 +588,7 @@ class Page(PageTest):
 
     def test_constants_are_flat_lines_on_a_readable_axis(self):
         self.open("two_runs.html")
-        self.click("#series-heading")
+        self.click("#course-heading")
         self.browser.settle()
         texts = self.chart_texts("Compressibility factor")
         left = min(x for _, x, _ in texts)
@@ -608,7 +608,7 @@ class Page(PageTest):
     def test_the_director_goes_on_beyond_a_quarter_turn(self):
         # By turns π/2 − 0.05 and its opposite, which are 0.1 apart.
         self.open("two_runs.html")
-        self.click("#series-heading")
+        self.click("#course-heading")
         angles = [angle for _, angle in self.readings("Director", "director", 5)]
         for one, next_one in itertools.pairwise(angles):
             self.assertAlmostEqual(abs(next_one - one), 0.1, delta=0.002)

@@ -2,9 +2,11 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <vector>
 
+#include "analysis/structure/order.h"
 #include "analysis/trajectory.h"
 #include "workflow/report/report_page.h"
 
@@ -135,24 +137,29 @@ inline std::vector<Table> collective(double tau) {
 inline std::vector<Table> structure() {
   const std::vector<double> q = evenly(0.1, 0.1, 120), r = evenly(0.05, 0.1, 100);
   const std::vector<double> angle = evenly(-1.5, 0.1, 31);
+  std::vector<double> by_chance;
+  for (const double x : angle)
+    by_chance.push_back((1 + 2 * nematic_order_by_chance(1000) * std::cos(2 * x)) /
+                        std::numbers::pi);
   const auto peak = [](double x) {
     return 1 - std::exp(-x * x) + std::exp(-8 * std::pow(x - 2.4, 2));
   };
   const auto flat = [](double) { return 1.0; };
   const auto shell = [](double x) { return x < 0.8 ? 0.0 : 1 + std::exp(-x) * std::cos(3 * x); };
-  return {{"structure_factor",
-           "",
-           {plain("q", "1/length", q), column("s", "1", q, peak), column("s_A_B", "1", q, flat),
-            column("s_orientation", "1", q, flat), plain("modes", "1", constant(120, 8))}},
-          {"pair_correlation",
-           "",
-           {plain("r", "length", r), column("g", "1", r, shell), column("g_2", "1", r, shell),
-            column("g_4", "1", r, shell)}},
-          {"orientation_distribution",
-           "",
-           {plain("angle", "rad", angle), column("density", "1/rad", angle, [](double x) {
-              return std::exp(std::cos(2 * x)) / 4;
-            })}}};
+  return {
+      {"structure_factor",
+       "",
+       {plain("q", "1/length", q), column("s", "1", q, peak), column("s_A_B", "1", q, flat),
+        column("s_orientation", "1", q, flat), plain("modes", "1", constant(120, 8))}},
+      {"pair_correlation",
+       "",
+       {plain("r", "length", r), column("g", "1", r, shell), column("g_2", "1", r, shell),
+        column("g_4", "1", r, shell)}},
+      {"orientation_distribution",
+       "",
+       {plain("angle", "rad", angle),
+        column("density", "1/rad", angle, [](double x) { return std::exp(std::cos(2 * x)) / 4; }),
+        plain("by_chance", "1/rad", by_chance)}}};
 }
 
 inline std::vector<Table> series() {

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/io/text_file.h"
+#include "workflow/analyze/observables_page.h"
 #include "workflow/configuration/parameters.h"
 #include "workflow/sweep/sweep.h"
 
@@ -397,6 +398,11 @@ TEST(ParameterFile, ContactsAreReadInAnyUnitAndWrittenInSi) {
 TEST(ParameterFile, TheReferencePageIsUpToDate) {
   EXPECT_EQ(read_text(source_folder / "docs/parameters.md"), parameter_page())
       << "regenerate it: vitrel params --reference > docs/parameters.md";
+}
+
+TEST(ObservablesPage, IsUpToDate) {
+  EXPECT_EQ(read_text(source_folder / "docs/observables.md"), observables_page())
+      << "regenerate it: vitrel analyze --list > docs/observables.md";
 }
 
 TEST(SweepJobs, EveryCombinationIsAJobOfItsOwn) {

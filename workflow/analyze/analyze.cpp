@@ -4,16 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "analysis/glass/glass_data.h"
+#include "analysis/observables/dynamics_tables.h"
+#include "analysis/observables/energy_tables.h"
 #include "analysis/observables/frame_observable.h"
 #include "analysis/structure/orientation_tensor.h"
 #include "core/error.h"
 #include "core/io/json.h"
-#include "workflow/analyze/dynamics_tables.h"
 #include "workflow/analyze/glass_report.h"
 #include "workflow/analyze/glass_tables.h"
 #include "workflow/analyze/relaxation_tables.h"
@@ -211,22 +213,6 @@ RunAnalysis measure(TrajectoryFile<Dim>& trajectory, const std::string& name,
   return run;
 }
 
-Table energy_table(const EnergySeries& energy) {
-  return {"energies",
-          "Energies per particle at the sample times, in kT; translational + rotational = total.",
-          {{"time", "time", energy.time, {}},
-           {"translational", "kT", energy.translational, {}},
-           {"rotational", "kT", energy.rotational, {}},
-           {"total", "kT", energy.total, {}}}};
-}
-
-Table compressibility_table(const CompressibilitySeries& series) {
-  return {"compressibility_factor",
-          "Compressibility factor Z = P/(rho kT) from the virial of the collisions between two "
-          "samples.",
-          {{"time", "time", series.time, {}}, {"z", "1", series.value, {}}}};
-}
-
 Column single(const char* name, const char* unit, double value, double error) {
   return {name, unit, {value}, {error}};
 }
@@ -257,19 +243,17 @@ std::vector<Column> summary_columns(const RunAnalysis& run) {
   return columns;
 }
 
-void add_tables(const EnergySeries& energy, const CompressibilitySeries& compressibility,
-                std::vector<Table>& tables) {
-  if (energy.time.size() > 1) tables.push_back(energy_table(energy));
-  if (!compressibility.value.empty()) tables.push_back(compressibility_table(compressibility));
+template <class Item>
+void append(std::vector<Item>& all, std::vector<Item> more) {
+  std::ranges::move(more, std::back_inserter(all));
 }
 
 Results results_of(const RunAnalysis& run) {
   Results results;
   results.tables.push_back({"summary", "Averages over the run.", summary_columns(run)});
-  if (run.dynamics)
-    for (Table& table : dynamics_tables(*run.dynamics)) results.tables.push_back(std::move(table));
-  add_tables(run.energy, run.compressibility, results.tables);
-  results.tables.insert(results.tables.end(), run.structure.begin(), run.structure.end());
+  if (run.dynamics) append(results.tables, dynamics_tables(*run.dynamics));
+  append(results.tables, energy_tables(run.energy, run.compressibility));
+  append(results.tables, run.structure);
   return results;
 }
 
@@ -308,8 +292,9 @@ std::filesystem::path csv_file(const std::filesystem::path& results, const std::
 
 /// Of a run of this dimension.
 template <int Dim>
-Results analyze(const std::filesystem::path& file, const std::string& name,
-                const AnalysisChoice& choice, const AnalysisProgress& progress) {
+AnalysedRun analyze(const std::filesystem::path& file, const AnalysisChoice& choice,
+                    const AnalysisProgress& progress) {
+  AnalysedRun analysed{file, {}};
   TrajectoryFile<Dim> trajectory(file);
   const TrajectoryReader& reader = trajectory.reader();
   if (trajectory.frames() == 0)
@@ -317,16 +302,17 @@ Results analyze(const std::filesystem::path& file, const std::string& name,
   require_own_names(reader);
   const Parameters parameters = analysis_parameters(reader, choice);
   const RunAnalysis run =
-      naming(file, [&] { return measure(trajectory, name, parameters, progress); });
-  Results results = results_of(run);
-  for (Table& table : on_the_fly_tables(file)) results.tables.push_back(std::move(table));
+      naming(file, [&] { return measure(trajectory, analysed.name(), parameters, progress); });
+  Results& results = analysed.results = results_of(run);
+  append(results.tables, on_the_fly_tables(file));
   results.provenance = provenance_rows(reader.provenance());
   results.provenance.emplace_back("source", file.string());
   results.provenance.emplace_back(analysis_key, effective_parameters(parameters));
   results.provenance.emplace_back(analyzer_key, analyzer());
   if (run.dynamics) add_motion(run, trajectory.times(), results);
   if (run.energy.time.empty()) leave_out(results, "energies", no_energies);
-  return results;
+  analysed.glass = run.glass;
+  return analysed;
 }
 
 }  // namespace
@@ -348,11 +334,8 @@ std::uint64_t AnalysedRun::seed() const {
 
 AnalysedRun analyze_run(const std::filesystem::path& file, const AnalysisChoice& choice,
                         const AnalysisProgress& progress) {
-  AnalysedRun analysed{file, {}};
   const bool is_plane = TrajectoryReader(file).dimension() == 2;
-  const auto analyze_it = is_plane ? analyze<2> : analyze<3>;
-  analysed.results = analyze_it(file, analysed.name(), choice, progress);
-  return analysed;
+  return (is_plane ? analyze<2> : analyze<3>)(file, choice, progress);
 }
 
 std::filesystem::path results_path(const std::filesystem::path& run) {
@@ -374,8 +357,10 @@ AnalysedRun stored_or_analyzed(const std::filesystem::path& file, const Analysis
   const Parameters parameters = analysis_parameters(TrajectoryReader(file), choice);
   const bool is_up_to_date = results.text(analyzer_key) == analyzer() &&
                              results.text(analysis_key) == effective_parameters(parameters);
-  return is_up_to_date ? AnalysedRun{file, std::move(results)}
-                       : analyze_run(file, choice, progress);
+  if (!is_up_to_date) return analyze_run(file, choice, progress);
+  AnalysedRun run{file, std::move(results)};
+  run.glass = stored_glass_run(run.name(), run.results);
+  return run;
 }
 
 std::vector<std::string> former_tables(const std::filesystem::path& file) {
@@ -412,8 +397,7 @@ Json analysis_summary(const AnalysedRun& run) {
     summary[column.name] = is_count ? Json(static_cast<std::uint64_t>(value)) : Json(value);
     if (!column.error.empty()) summary[column.name + "_error"] = column.error.front();
   }
-  if (const auto glass = stored_glass_run(run.name(), run.results))
-    summary.update(glass_summary(*glass));
+  if (run.glass) summary.update(glass_summary(*run.glass));
   return summary;
 }
 

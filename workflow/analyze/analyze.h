@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/glass/glass_study.h"
 #include "analysis/results.h"
 #include "analysis/trajectory.h"
 #include "core/io/json.h"
@@ -36,6 +37,7 @@ struct AnalysisProgress {
 struct AnalysedRun {
   std::filesystem::path file;
   Results results;
+  std::optional<GlassRun> glass = {};  ///< of a run that can be judged
 
   /// That of the job's folder, or of the file.
   std::string name() const;
@@ -43,10 +45,7 @@ struct AnalysedRun {
   std::uint64_t seed() const;
 };
 
-/// Tables: a summary of one row, time correlations (dynamics_tables.h), relaxation times
-/// (relaxation_tables.h), energies, compressibility, structure (frame_observable.h), correlations measured
-/// on the fly (correlations_file.h), and if the run can be judged (glass_data.h) its relaxation times and
-/// verdict. Of a single frame only what needs no motion. Throws FileError or UserError, naming the file.
+/// All tables (observable.h) of which the run has what they need. Throws FileError or UserError, naming the file.
 AnalysedRun analyze_run(const std::filesystem::path& file, const AnalysisChoice& choice,
                         const AnalysisProgress& progress = {});
 

@@ -19,35 +19,29 @@ namespace vitrel {
 namespace {
 
 constexpr int error_digits = 3;
-constexpr std::array<std::string_view, 3> series = {"energies", "compressibility_factor", "order"};
+// Charts of correlations need their wave numbers; those of a study are no observables of one run.
+constexpr std::array<std::string_view, 4> without_charts = {"summary", "wave_numbers", "relaxation",
+                                                            "glass_fit"};
+constexpr std::string_view on_the_fly = "on_the_fly";
 
-// What the page makes charts from (report.js).
-constexpr std::array<std::string_view, 14> shown = {"summary",
-                                                    "cage_relative",
-                                                    "velocities",
-                                                    "velocity_distribution",
-                                                    "wave_numbers",
-                                                    "susceptibility",
-                                                    "collective_scattering",
-                                                    "structure_factor",
-                                                    "pair_correlation",
-                                                    "order",
-                                                    "energies",
-                                                    "compressibility_factor",
-                                                    "relaxation",
-                                                    "glass_fit"};
-constexpr std::array<std::string_view, 4> shown_groups = {"displacements_", "self_scattering_",
-                                                          "orientation_", "on_the_fly_"};
-
-bool is_correlation(const Table& table) {
-  return !table.columns.empty() && table.columns.front().name == "time" &&
-         std::find(series.begin(), series.end(), table.name) == series.end();
+/// Which of the observables this table is of; null if it is none.
+const Observable* observable_of(std::string_view table,
+                                const std::vector<Observable>& observables) {
+  const auto found = std::ranges::find_if(
+      observables, [table](const Observable& observable) { return observable.names(table); });
+  return found == observables.end() ? nullptr : &*found;
 }
 
-bool is_shown(std::string_view table) {
-  return std::find(shown.begin(), shown.end(), table) != shown.end() ||
-         std::any_of(shown_groups.begin(), shown_groups.end(),
-                     [table](std::string_view prefix) { return table.starts_with(prefix); });
+bool is_shown(std::string_view table, const Observable* observable) {
+  return std::ranges::find(without_charts, table) != without_charts.end() ||
+         (observable && (observable->table == on_the_fly || !observable->charts.empty()));
+}
+
+bool has_logarithmic_rows(const Observable* observable) {
+  return observable && (observable->table == on_the_fly ||
+                        std::ranges::any_of(observable->charts, [](const Chart& chart) {
+                          return chart.is_x_logarithmic;
+                        }));
 }
 
 /// Rows far enough apart on a logarithmic axis.
@@ -71,8 +65,7 @@ Json column_data(const Column& column, const std::vector<std::size_t>& rows) {
   return data;
 }
 
-Json table_data(const Table& table, const Thinning& thinning) {
-  const bool logarithmic = is_correlation(table);
+Json table_data(const Table& table, bool logarithmic, const Thinning& thinning) {
   const std::size_t stride = logarithmic || table.rows() == 0
                                  ? 1
                                  : (table.rows() + thinning.max_rows - 1) / thinning.max_rows;
@@ -84,6 +77,37 @@ Json table_data(const Table& table, const Thinning& thinning) {
   return {{"stride", stride}, {"columns", std::move(columns)}};
 }
 
+Json curves_data(const std::vector<Curve>& curves) {
+  Json data = Json::array();
+  for (const Curve& curve : curves)
+    data.push_back(
+        {{"column", curve.column}, {"label", curve.label}, {"ofRotors", curve.is_of_rotors}});
+  return data;
+}
+
+Json chart_data(const Observable& observable, const Chart& chart) {
+  constexpr const char* sections[] = {"motion", "relaxation", "structure", "course"};
+  constexpr const char* scales[] = {"linear", "logarithmic", "fromZero", "decay", "aroundOne"};
+  constexpr const char* levels[] = {"none", "equipartition", "mean"};
+  return {{"table", observable.table},
+          {"section", sections[static_cast<int>(chart.section)]},
+          {"heading", chart.heading},
+          {"symbol", chart.symbol},
+          {"curves", curves_data(chart.curves)},
+          {"references", curves_data(chart.references)},
+          {"hasGroups", observable.has_groups},
+          {"scale", scales[static_cast<int>(chart.scale)]},
+          {"x", chart.x},
+          {"xSymbol", chart.x_symbol},
+          {"logX", chart.is_x_logarithmic},
+          {"levels", chart.levels},
+          {"levelOfRun", levels[static_cast<int>(chart.level_of_run)]},
+          {"waveNumber", chart.wave_number},
+          {"hasPowerLaws", chart.has_power_laws},
+          {"isAngleOfAxis", chart.is_angle_of_axis},
+          {"ifMissing", chart.if_missing}};
+}
+
 const Column* find(const Results& results, const std::string& table, const std::string& column,
                    std::size_t row) {
   const Table* found = results.find(table);
@@ -93,10 +117,21 @@ const Column* find(const Results& results, const std::string& table, const std::
 
 }  // namespace
 
-Json tables_data(const Results& results, const Thinning& thinning) {
+Json tables_data(const Results& results, const std::vector<Observable>& observables,
+                 const Thinning& thinning) {
   Json data = Json::object();
-  for (const Table& table : results.tables)
-    if (is_shown(table.name)) data[table.name] = table_data(table, thinning);
+  for (const Table& table : results.tables) {
+    const Observable* observable = observable_of(table.name, observables);
+    if (is_shown(table.name, observable))
+      data[table.name] = table_data(table, has_logarithmic_rows(observable), thinning);
+  }
+  return data;
+}
+
+Json charts_data(const std::vector<Observable>& observables) {
+  Json data = Json::array();
+  for (const Observable& observable : observables)
+    for (const Chart& chart : observable.charts) data.push_back(chart_data(observable, chart));
   return data;
 }
 

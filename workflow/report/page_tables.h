@@ -1,7 +1,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "analysis/observables/observable.h"
 #include "analysis/results.h"
 #include "core/io/json.h"
 
@@ -17,9 +19,13 @@ struct Thinning {
 };
 
 /// For the script: a table by its name; in it the columns by theirs, with unit, value and error (if
-/// there is any), and the stride that evenly spaced rows were thinned by. Tables that the page does
-/// not show stay out.
-Json tables_data(const Results& results, const Thinning& thinning);
+/// there is any), and the stride that evenly spaced rows were thinned by. Tables that no chart needs stay
+/// out.
+Json tables_data(const Results& results, const std::vector<Observable>& observables,
+                 const Thinning& thinning = {});
+
+/// For the script: the charts of all these tables, with all that a Chart says.
+Json charts_data(const std::vector<Observable>& observables);
 
 /// A packing fraction with two decimals if that is exact, else four: 0.50, 0.7125.
 std::string density_text(double phi);

@@ -42,14 +42,15 @@ std::string label(const ReportRun& run, const std::vector<ReportRun>& runs) {
          (equals.size() > 1 ? " (" + distinction(run.name, equals) + ")" : "");
 }
 
-Json run_data(const ReportRun& run, const std::vector<ReportRun>& runs, const Thinning& thinning) {
-  return {{"label", label(run, runs)},
+Json run_data(const ReportRun& run, const ReportData& data,
+              const std::vector<Observable>& observables, const Thinning& thinning) {
+  return {{"label", label(run, data.runs)},
           {"name", run.name},
           {"dynamics", run.dynamics},
           {"packingFraction", page_number(run.packing_fraction)},
           {"collisionsPerSecond", page_number(run.collisions_per_second)},
           {"evenlySampled", !run.results.text("time_axis").starts_with("unevenly")},
-          {"tables", tables_data(run.results, thinning)},
+          {"tables", tables_data(run.results, observables, thinning)},
           {"movie", movie_data(run.movie)}};
 }
 
@@ -139,30 +140,32 @@ int dimension_of(const ReportData& data) {
 
 std::string page_with(const ReportData& data, const Thinning& thinning) {
   const int dimension = dimension_of(data);
+  const std::vector<Observable> tables = observables(dimension);
   Json runs = Json::array();
   std::string rows;
   for (const ReportRun& run : data.runs) {
-    Json& entry = runs.emplace_back(run_data(run, data.runs, thinning));
+    Json& entry = runs.emplace_back(run_data(run, data, tables, thinning));
     if (run.cooling)
       entry["cooling"] = cooling_data(haff_law(*run.cooling, run.results, dimension));
     rows += table_row(run);
   }
-  return whole_page(
-      {data.title,
-       data.subtitle,
-       "page/runs_sections.html",
-       "page/report.js",
-       {{"cooling", cooling_section(data.runs, dimension)},
-        {"result", result_section(data.runs, dimension)},
-        {"table_rows", rows},
-        {"job_provenance", job_provenance(data.runs)},
-        {"relaxation_rows", relaxation_rows(data.study)},
-        {"fit_rows", fit_rows(data.study)},
-        {"study_notes", study_notes(data.study)}},
-       script_safe(Json{{"runs", std::move(runs)}, {"study", tables_data(data.study, {})}}),
-       data.parameters,
-       shared_provenance(data),
-       dimension});
+  return whole_page({data.title,
+                     data.subtitle,
+                     "page/runs_sections.html",
+                     "page/report.js",
+                     {{"cooling", cooling_section(data.runs, dimension)},
+                      {"result", result_section(data.runs, dimension)},
+                      {"table_rows", rows},
+                      {"job_provenance", job_provenance(data.runs)},
+                      {"relaxation_rows", relaxation_rows(data.study)},
+                      {"fit_rows", fit_rows(data.study)},
+                      {"study_notes", study_notes(data.study)}},
+                     script_safe(Json{{"runs", std::move(runs)},
+                                      {"charts", charts_data(tables)},
+                                      {"study", tables_data(data.study, {})}}),
+                     data.parameters,
+                     shared_provenance(data),
+                     dimension});
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "analysis/observables/frame_observable.h"
 #include "core/io/json.h"
 #include "workflow/report/movie.h"
 #include "workflow/report/page_parts.h"
@@ -38,10 +39,12 @@ Json correlation(const NematicCorrelation& correlation) {
 }  // namespace
 
 std::string state_page(const StatePage& page) {
+  const std::vector<Observable> tables = frame_observables<2>();
   MemoryTrajectory2 state({page.state});
   const Json data = {{"label", page.title},
                      {"movie", movie_data(film(state))},
-                     {"tables", tables_data(page.structure, {})},
+                     {"charts", charts_data(tables)},
+                     {"tables", tables_data(page.structure, tables)},
                      {"correlation", correlation(page.nematic_correlation)},
                      {"order", page_number(page.nematic_order)},
                      {"orientation", curve(page.sweeps, page.orientation)},

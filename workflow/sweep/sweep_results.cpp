@@ -220,7 +220,7 @@ GlassStudy glass_study(const std::vector<AnalysedRun>& runs) {
   std::vector<GlassRun> judged;
   std::size_t others = 0;
   for (const AnalysedRun& run : runs) {
-    if (const auto glass = stored_glass_run(run.name(), run.results)) judged.push_back(*glass);
+    if (run.glass) judged.push_back(*run.glass);
     others += !run.results.text("not_judged").empty();
   }
   const std::string mixed = judged.empty() ? "" : differing_keys(runs);

@@ -423,29 +423,45 @@ function legendButton(curve, shown, toggle) {
   return button;
 }
 
-// Structure, of runs and of single configurations
+// Charts as the tables of the analysis describe them: observable.h
 
-const aroundOne = { levels: [1], unit: '', range: (plot, low, high) => [Math.min(0, low), 1.06 * Math.max(1, high)] };
+const unitNames = { 1: '', length: lengthUnit, 'length^2': areaUnit, '1/length': '1/' + lengthUnit, time: timeUnit, 'rad^2': 'rad²' };
+const unitOf = (column) => unitNames[column.unit] ?? column.unit;
 
-/** Of every table the columns to show: regular expressions of their names, and what their curves are called. */
-const structureFamilies = () => [
-  { table: 'structure_factor', heading: 'Structure factor', symbol: 'S(q)', x: 'q', xSymbol: 'q', xUnit: '1/' + lengthUnit, ...aroundOne,
-    columns: [[/^s$/, () => 'S'], [/^s_orientation$/, () => 'S of orientations'], [/^s_(.+)_(.+)$/, ([, one, other]) => `S ${one}–${other}`]] },
-  { table: 'pair_correlation', heading: 'Pair correlation', symbol: 'g(r)', x: 'r', xSymbol: 'r', xUnit: lengthUnit, ...aroundOne,
-    columns: [[/^g$/, () => 'g'], [/^g_(\d+)$/, ([, order]) => `g${subscript(order)}`]] },
-];
+const ranges = {
+  fromZero: (plot, low, high) => [0, 1.08 * high || 1],
+  decay: (plot, low) => [Math.min(0, low), 1.04],
+  aroundOne: (plot, low, high) => [Math.min(0, low), 1.06 * Math.max(1, high)],
+};
 
-/** [{name, label}] of these columns that a family shows, in its order; `more` is for its labels. */
-const namedColumns = (columns, family, ...more) => family.columns.flatMap(([pattern, label]) => Object.keys(columns)
-  .filter((name) => pattern.test(name)).map((name) => ({ name, label: label(name.match(pattern), ...more) })));
+/** Of a column's name, with a number for `#` or a text for `*`. */
+const columnPattern = (column) => new RegExp(`^${column.replace('#', '(\\d+)').replace('*', '(.+)')}$`);
+const placeholderText = (part) => /^\d+$/.test(part) ? subscript(part) : part.replace('_', '–');
 
-/** The structure of one configuration, in the hosts that are called after its tables. */
-function structureCharts(tables) {
-  for (const { symbol, unit, levels, ...family } of structureFamilies()) {
-    const columns = tables[family.table]?.columns ?? {}, host = byId(family.table);
-    const curves = namedColumns(columns, family).map(({ name, label }, k) => ({ label, id: name, x: columns[family.x].value,
+/** [{name, label}] of the columns that these curves stand for, each as the first of them; `text` of what `#` and `*` stand for. */
+function namedColumns(columns, curves, text = placeholderText) {
+  const taken = new Set();
+  return curves.flatMap(({ column, label }) => Object.keys(columns).flatMap((name) => {
+    const match = name.match(columnPattern(column));
+    if (!match || taken.has(name)) return [];
+    taken.add(name);
+    return [{ name, label: match[1] === undefined ? label : label.replace(/[#*]/, text(match[1])) }];
+  }));
+}
+
+/** The frame of a chart and its variants, whose curves have the units of these columns. */
+function chartDescription({ scale, ...chart }, columns, name) {
+  return { ...chart, xUnit: unitOf(columns[chart.x]), unit: unitOf(columns[name]), logY: scale === 'logarithmic', range: ranges[scale] };
+}
+
+/** Charts of one configuration, in the hosts that are called after their tables. */
+function stateCharts({ tables, charts }) {
+  for (const chart of charts) {
+    const host = byId(chart.table), columns = tables[chart.table]?.columns ?? {};
+    const curves = namedColumns(columns, chart.curves).map(({ name, label }, k) => ({ label, id: name, x: columns[chart.x].value,
       value: columns[name].value, colour: () => curveColour(k), noErrors: 'a single configuration' }));
-    if (curves.length) new Chart(host, { ...family, file: family.table + '.csv', variants: [{ symbol, unit, levels, curves }] });
-    else host.remove();
+    if (!curves.length) { host?.remove(); continue; }
+    const { symbol, levels, unit, ...description } = chartDescription(chart, columns, curves[0].id);
+    if (host) new Chart(host, { ...description, file: chart.table + '.csv', variants: [{ symbol, unit, levels, curves }] });
   }
 }

@@ -1,4 +1,4 @@
-structureCharts(pageData.tables);
+stateCharts(pageData);
 new Player().load(pageData.movie, { label: pageData.label, note: '' });
 byId('clock').hidden = true;  // a packing is at no time
 recolour();

@@ -1,7 +1,6 @@
-const { runs, study } = pageData;
+const { runs, study, charts } = pageData;
 
-// Which curves the tables hold. A family is a table, or several with a group of particles behind the name; `columns` are
-// regular expressions of column names, and what their curves are called; `isStoredOnly`: never measured on the fly.
+// A chart is of one table, or of several with a group of particles behind the name.
 
 /** "q = 2.41", or from the lowest to the highest where it differs from run to run. */
 function rangeText(symbol, values) {
@@ -10,7 +9,7 @@ function rangeText(symbol, values) {
 }
 
 /** The k-th wave number of these runs; collective functions have that of the wave vectors of the box. */
-function waveNumber(k, of, origin = '', column = 'q') {
+function waveNumberText(k, of, origin, column) {
   const values = of.flatMap((run) => {
     const table = run.tables[origin + 'wave_numbers']?.columns;
     return (table?.[column] ?? table?.q)?.value[table.index.value.indexOf(k)] ?? [];
@@ -18,99 +17,41 @@ function waveNumber(k, of, origin = '', column = 'q') {
   return values.length ? rangeText('q', values) : `q${subscript(k)}`;
 }
 
-const inPlane = dimension === 2;
-const time = { xSymbol: 't', xUnit: timeUnit, x: 'time', logX: true };
-const decays = { range: (plot, low) => [Math.min(0, low), 1.04] };
-
-/** Seen from their own director, angles are not evenly distributed even without order: (1 + 2 S cos 2θ)/π, S = √(π/(4R)) of R particles. */
-function densityByChance({ curves: [{ x }] }) {
-  const counts = new Set(runs.map((run) => run.tables.summary?.columns.rotors?.value[0]).filter((rotors) => rotors > 0));
-  return [...counts].map((rotors) => ({ x, value: x.map((angle) => (1 + Math.sqrt(Math.PI / rotors) * Math.cos(2 * angle)) / Math.PI),
-    label: 'by chance', id: 'by chance', colour: () => cssColour('--ink'), dashed: true }));
-}
-
-const families = [
-  { section: 'motion', table: 'displacements', heading: 'Mean squared displacement', ...time, logY: true, slopes: true,
-    columns: [[/^msd$/, () => '⟨|Δr|²⟩'], [/^msd_parallel$/, () => '⟨Δr²⟩ along the axis'],
-              [/^msd_perpendicular$/, () => '⟨Δr²⟩ across the axis']], symbol: '⟨|Δr(t)|²⟩', unit: areaUnit },
-  { section: 'motion', table: 'cage_relative', isStoredOnly: true, heading: 'Mean squared displacement relative to the cage', ...time, logY: true, slopes: true,
-    columns: [[/^msd$/, () => '⟨|Δr − Δr of the neighbours|²⟩']], symbol: '⟨|Δr(t)|²⟩', unit: areaUnit },
-  { section: 'motion', table: 'displacements', heading: 'Mean squared rotation', ...time, logY: true, slopes: true,
-    columns: [[/^msr$/, () => inPlane ? '⟨Δθ²⟩' : '⟨|Δφ|²⟩']], symbol: inPlane ? '⟨Δθ(t)²⟩' : '⟨|Δφ(t)|²⟩', unit: 'rad²',
-    missing: 'All particles are round: their rotation is not modelled.' },
-  { section: 'motion', table: 'displacements', heading: 'Non-Gaussian parameter', ...time, levels: [0],
-    columns: [[/^non_gaussian$/, () => 'of displacements'], [/^non_gaussian_rotation$/, () => 'of rotations']],
-    symbol: 'α₂(t)', unit: '' },
-  { section: 'relaxation', table: 'self_scattering', heading: 'Self-intermediate scattering', ...time, ...decays,
-    levels: [Math.exp(-1)], columns: [[/^fs_(\d+)$/, ([, k], of, origin) => waveNumber(Number(k), of, origin)]], symbol: 'Fₛ(q, t)', unit: '', named: true },
-  { section: 'relaxation', table: 'cage_relative', isStoredOnly: true, heading: 'Self-intermediate scattering relative to the cage', ...time, ...decays,
-    levels: [Math.exp(-1)], columns: [[/^fs_(\d+)$/, ([, k], of) => waveNumber(Number(k), of)]], symbol: 'Fₛ(q, t)', unit: '', named: true },
-  { section: 'relaxation', table: 'orientation', heading: 'Orientational correlation', ...time, ...decays,
-    levels: [Math.exp(-1)], columns: [[/^([lp])_(\d+)$/, ([, letter, order]) => letter.toUpperCase() + subscript(order)]],
-    symbol: inPlane ? 'Lₙ(t) = ⟨cos nΔθ⟩' : '⟨Pₗ(u(0)·u(t))⟩', unit: '', named: true },
-  { section: 'relaxation', table: 'collective_scattering', heading: 'Collective scattering', ...time,
-    columns: [[/^f_(\d+)$/, ([, k], of) => waveNumber(Number(k), of, '', 'q_collective')]], symbol: 'F(q, t)', unit: '', named: true },
-  { section: 'relaxation', table: 'susceptibility', heading: 'Four-point susceptibility', ...time,
-    columns: [[/^chi_4$/, () => 'χ₄']], symbol: 'χ₄(t)', unit: '' },
-  { section: 'relaxation', table: 'susceptibility', heading: 'Overlap', ...time, ...decays,
-    columns: [[/^overlap$/, () => '⟨Q⟩']], symbol: '⟨Q(t)⟩', unit: '' },
-  ...structureFamilies().map((family) => ({ section: 'structure', ...family })),
-  { section: 'structure', table: 'orientation_distribution', heading: 'Orientations about the director', xSymbol: 'θ − θ of the director',
-    xUnit: 'rad', x: 'angle', references: densityByChance, range: (plot, low, high) => [0, 1.08 * high],
-    columns: [[/^density$/, () => 'density']], symbol: 'density', unit: '1/rad' },
-  { section: 'structure', table: 'velocity_distribution', heading: 'Velocities', xSymbol: 'c = v √(m/T)', xUnit: '', x: 'component',
-    references: (variant) => gaussian(variant), range: (plot, low, high) => [0, 1.08 * high],
-    columns: [[/^density$/, () => 'density of components']], symbol: 'density', unit: '' },
-];
-
-/** Of the components of velocities in units of their standard deviation, in equilibrium. */
-const gaussian = ({ curves: [{ x }] }) => [{ x, value: x.map((c) => Math.exp(-c * c / 2) / Math.sqrt(2 * Math.PI)), label: 'Gaussian',
-  id: 'Gaussian', colour: () => cssColour('--ink'), dashed: true }];
-
 /** An axis looks the same after half a turn: of the angles that stand for it, the nearest to the one before. */
 function unwrapped(angles) {
   let last = 0;
   return angles.map((angle) => angle === null ? null : last = angle + Math.PI * Math.round((last - angle) / Math.PI));
 }
 
-const series = [
-  { table: 'energies', heading: 'Energy per particle', symbol: 'E/N', unit: 'kT', fromZero: true,
-    columns: [[/^translational$/, () => 'translational'], [/^rotational$/, () => 'rotational'], [/^total$/, () => 'total']] },
-  { table: 'compressibility_factor', heading: 'Compressibility factor', symbol: 'Z = βP/ρ', unit: '', columns: [[/^z$/, () => 'Z']] },
-  { table: 'velocities', heading: 'Second Sonine coefficient', symbol: 'a₂', unit: '', columns: [[/^a_2$/, () => 'a₂']] },
-  { table: 'order', heading: 'Order', symbol: 'order parameter', unit: '', fromZero: true,
-    columns: [[/^nematic$/, () => 'nematic'], [/^hexatic$/, () => 'hexatic']] },
-  { table: 'order', heading: 'Director', symbol: 'angle of the director, continued beyond ±π/2', unit: 'rad', transform: unwrapped,
-    columns: [[/^director$/, () => 'director']] },
-  { table: 'order', heading: 'Director', symbol: 'components of the director', unit: '', columns: [[/^director_([xyz])$/, ([, axis]) => axis]] },
-];
-
 // Correlations measured while the run went on have one table for each group of particles, of all families together.
 const onTheFly = 'on_the_fly_';
 const isOnTheFly = (group) => group.startsWith(onTheFly);
 
 /** Labels are for these runs together. */
-const shownColumns = (table, family, of, group = '') => namedColumns(table.columns, family, of, isOnTheFly(group) ? onTheFly : '');
+function shownColumns(table, { curves, waveNumber }, of, group = '') {
+  const origin = isOnTheFly(group) ? onTheFly : '';
+  return namedColumns(table.columns, curves, waveNumber ? (k) => waveNumberText(Number(k), of, origin, waveNumber) : undefined);
+}
 
-/** The groups of particles that some run has a table of the family for: "" if the table has no group. */
-function groupsOf(family) {
+/** The groups of particles that some run has a table of the chart for: "" if the table has no group. */
+function groupsOf(chart) {
   const names = runs.flatMap((run) => Object.keys(run.tables));
-  if (names.includes(family.table)) return [''];
-  const groups = new Set(names.filter((name) => name.startsWith(family.table + '_')).map((name) => name.slice(family.table.length)));
-  const others = new Set(family.isStoredOnly ? [] : runs.flatMap((run) => Object.keys(run.tables).filter((name) => isOnTheFly(name) &&
-    run.tables[name].columns[family.x] && shownColumns(run.tables[name], family, runs).length)));
+  if (!chart.hasGroups) return names.includes(chart.table) ? [''] : [];
+  const groups = new Set(names.filter((name) => name.startsWith(chart.table + '_')).map((name) => name.slice(chart.table.length)));
+  const others = new Set(runs.flatMap((run) => Object.keys(run.tables).filter((name) => isOnTheFly(name) &&
+    run.tables[name].columns[chart.x] && shownColumns(run.tables[name], chart, runs, name).length)));
   return [...groups].sort((a, b) => (b === '_all') - (a === '_all')).concat([...others]);
 }
 
-const tableOf = (run, family, group) => run.tables[isOnTheFly(group) ? group : family.table + group];
+const tableOf = (run, chart, group) => run.tables[isOnTheFly(group) ? group : chart.table + group];
 
 const tooFewBlocks = 'too few independent blocks';
 const noErrors = (run, group = '') => run.evenlySampled || isOnTheFly(group) ? tooFewBlocks : 'samples unevenly spaced in time';
 
 /** From the first known value to the last; a time of 0 has no place on a logarithmic axis. */
-function curveOf(table, name, family) {
-  const { value, error } = table.columns[name], x = table.columns[family.x].value;
-  const known = (y, i) => y !== null && (x[i] > 0 || !family.logX);
+function curveOf(table, name, chart) {
+  const { value, error } = table.columns[name], x = table.columns[chart.x].value;
+  const known = (y, i) => y !== null && (x[i] > 0 || !chart.logX);
   const [begin, end] = [value.findIndex(known), value.findLastIndex(known) + 1];
   const shown = (values) => values?.slice(Math.max(begin, 0), end);
   return { x: shown(x), value: shown(value), error: shown(error) };
@@ -128,31 +69,31 @@ const groupName = (group, groups) => groups.length < 2 ? ''
   : isOnTheFly(group) ? particlesOf(group.slice(onTheFly.length - 1)) + ', on the fly' : particlesOf(group);
 
 /** One run: its columns in one chart. */
-function variantsOfOneRun(family, groups) {
+function variantsOfOneRun(chart, groups) {
   const [run] = runs;
   return groups.flatMap((group) => {
-    const table = tableOf(run, family, group);
-    const columns = shownColumns(table, family, runs, group);
+    const table = tableOf(run, chart, group);
+    const columns = shownColumns(table, chart, runs, group);
     if (!columns.length) return [];
-    return [{ label: groupName(group, groups), name: columns.length === 1 ? columns[0].label : '',
-      curves: columns.map(({ name, label }, k) => ({ ...curveOf(table, name, family), label, id: name,
+    return [{ label: groupName(group, groups), columns, name: columns.length === 1 ? columns[0].label : '',
+      curves: columns.map(({ name, label }, k) => ({ ...curveOf(table, name, chart), label, id: name,
         colour: () => curveColour(k), noErrors: noErrors(run, group) })) }];
   });
 }
 
 /** Several runs: one column of all of them in one chart. */
-function variantsOfRuns(family, groups) {
+function variantsOfRuns(chart, groups) {
   return groups.flatMap((group) => {
     const names = new Map(runs.flatMap((run) => {
-      const table = tableOf(run, family, group);
-      return table ? shownColumns(table, family, runs, group).map(({ name, label }) => [name, label]) : [];
+      const table = tableOf(run, chart, group);
+      return table ? shownColumns(table, chart, runs, group).map(({ name, label }) => [name, label]) : [];
     }));
     return [...names].map(([name, label]) => ({
-      name: label,
+      name: label, columns: [{ name }],
       label: [names.size > 1 ? label : '', groupName(group, groups)].filter(Boolean).join(', '),
       curves: runs.flatMap((run, k) => {
-        const table = tableOf(run, family, group);
-        return table?.columns[name] ? [{ ...curveOf(table, name, family), label: run.label, id: k,
+        const table = tableOf(run, chart, group);
+        return table?.columns[name] ? [{ ...curveOf(table, name, chart), label: run.label, id: k,
           colour: () => runColour(run), noErrors: noErrors(run, group) }] : [];
       }),
     }));
@@ -173,18 +114,33 @@ function addChart(section, description) {
 
 const fileName = (heading) => heading.toLowerCase().replaceAll(/[^a-z]+/g, '_') + '.csv';
 
-function familyChart(family) {
-  const groups = groupsOf(family);
-  const variants = (runs.length > 1 ? variantsOfRuns(family, groups) : variantsOfOneRun(family, groups))
-    .map((variant) => ({ ...variant, symbol: family.symbol + (family.named && variant.name ? `, ${variant.name}` : ''),
-      unit: family.unit, levels: family.levels, curves: [...variant.curves, ...(family.references?.(variant) ?? [])] }));
+/** What theory expects, once for all runs of which it is the same. */
+function referencesOf(chart) {
+  const curves = runs.flatMap((run) => {
+    const table = run.tables[chart.table];
+    return namedColumns(table?.columns ?? {}, chart.references).map(({ name, label }) =>
+      ({ ...curveOf(table, name, chart), label, id: name, colour: () => cssColour('--ink'), dashed: true }));
+  });
+  return [...new Map(curves.map((curve) => [String(curve.value), curve])).values()];
+}
+
+/** Null without curves. */
+function runsChart(chart) {
+  const groups = groupsOf(chart);
+  const variants = runs.length > 1 ? variantsOfRuns(chart, groups) : variantsOfOneRun(chart, groups);
   if (!variants.length) {
-    if (groups.length && family.missing) byId(family.section).after(element('p', { class: 'note' }, family.missing));
+    if (groups.length && chart.ifMissing) byId(chart.section).after(element('p', { class: 'note' }, chart.ifMissing));
     return null;
   }
-  const stride = Math.max(...runs.flatMap((run) => groups.map((group) => tableOf(run, family, group)?.stride ?? 1)));
-  return addChart(family.section, { ...family, variants, legendOutside: runs.length > 1, file: fileName(family.heading),
-    hint: stride > 1 ? `Shown: one point in ${stride}.` : '', slopes: family.slopes ? slopesOf(variants) : [] });
+  const tables = runs.flatMap((run) => groups.map((group) => tableOf(run, chart, group)).filter(Boolean));
+  const stride = Math.max(...tables.map((table) => table.stride));
+  const [{ name }] = variants[0].columns, { columns } = tables.find((table) => table.columns[name]);
+  const { symbol, unit, levels, ...description } = chartDescription(chart, columns, name);
+  const isNumbered = chart.curves.some(({ column }) => /[#*]/.test(column)), references = referencesOf(chart);
+  return addChart(chart.section, { ...description, legendOutside: runs.length > 1, file: fileName(chart.heading),
+    hint: stride > 1 ? `Shown: one point in ${stride}.` : '', slopes: chart.hasPowerLaws ? slopesOf(variants) : [],
+    variants: variants.map((variant) => ({ ...variant, unit, levels, curves: [...variant.curves, ...references],
+      symbol: symbol + (isNumbered && variant.name ? `, ${variant.name}` : '') })) });
 }
 
 // The legend of the runs stands above every group of charts, and all of these act alike.
@@ -207,40 +163,38 @@ function runLegends(charts) {
 
 // One run in the course of time
 
-function seriesChart(run, description) {
-  const table = run.tables[description.table];
-  const columns = table && table.columns.time.value.length ? shownColumns(table, description, [run]) : [];
-  const round = table?.columns.rotational && run.tables.summary?.columns.rotors?.value[0] === 0;
-  const shown = columns.filter(({ name }) => !(round && name !== 'translational'));
+function courseChart(run, chart) {
+  const table = run.tables[chart.table], columns = table?.columns;
+  if (!columns?.[chart.x].value.length) return;
+  const isRound = run.tables.summary?.columns.rotors?.value[0] === 0;
+  const shown = namedColumns(columns, chart.curves.filter(({ ofRotors }) => !(isRound && ofRotors)));
   if (!shown.length) return;
-  const { transform = (values) => values } = description;
   const curves = shown.map(({ name, label }, k) => {
-    const curve = curveOf(table, name, { x: 'time' });
-    return { ...curve, value: transform(curve.value), label, id: name, colour: () => curveColour(k), noErrors: 'single samples' };
+    const curve = curveOf(table, name, chart);
+    return { ...curve, value: chart.isAngleOfAxis ? unwrapped(curve.value) : curve.value, label, id: name,
+             colour: () => curveColour(k), noErrors: 'single samples' };
   });
-  const hint = table.stride > 1 ? `Shown: one sample in ${table.stride}.` : '';
-  const highest = Math.max(...curves.flatMap((curve) => curve.value.map((value, i) => value + (curve.error?.[i] ?? 0))));
-  addChart('series', { ...description, hint, xSymbol: 't', xUnit: timeUnit, file: fileName(description.heading),
-    range: description.fromZero ? () => [0, 1.08 * highest || 1] : undefined,
-    variants: [{ symbol: description.symbol, unit: description.unit, curves, levels: levelsOf(run, description) }] });
+  const { symbol, unit, ...description } = chartDescription(chart, columns, shown[0].name);
+  addChart('course', { ...description, hint: table.stride > 1 ? `Shown: one sample in ${table.stride}.` : '', file: fileName(chart.heading),
+    variants: [{ symbol, unit, curves, levels: levelsOf[chart.levelOfRun](run.tables.summary?.columns) }] });
 }
 
-/** Equipartition for energies of a run that does not cool, the mean for the compressibility factor. */
-function levelsOf(run, { table }) {
-  const summary = run.tables.summary?.columns;
-  if (table === 'energies' && summary?.rotations && !byId('cooling')) {
+const levelsOf = {
+  none: () => [],
+  mean: (summary) => summary?.compressibility_factor ? [summary.compressibility_factor.value[0]] : [],
+  /** Not of a run that cools. */
+  equipartition: (summary) => {
+    if (!summary?.rotations || byId('cooling')) return [];
     const translational = dimension / 2, rotational = 0.5 * summary.rotations.value[0] / summary.particles.value[0];
     return rotational ? [translational, rotational, translational + rotational] : [translational];
-  }
-  const z = summary?.compressibility_factor;
-  return table === 'compressibility_factor' && z ? [z.value[0]] : [];
-}
+  },
+};
 
-function showSeries(run) {
-  byId('series').replaceChildren();
-  byId('series-run').textContent = runs.length > 1 ? `at ${run.label}` : '';
-  series.forEach((description) => seriesChart(run, description));
-  hideIfEmpty('series');
+function showCourse(run) {
+  byId('course').replaceChildren();
+  byId('course-run').textContent = runs.length > 1 ? `at ${run.label}` : '';
+  charts.filter(({ section }) => section === 'course').forEach((chart) => courseChart(run, chart));
+  hideIfEmpty('course');
 }
 
 /** Of a gas that cools, with Haff's law. */
@@ -251,7 +205,7 @@ function coolingChart({ tables: { energies }, cooling }) {
   const curves = [{ x, value: value.map((energy) => 2 * energy / dimension), label: 'run', id: 'run', colour, noErrors: 'single samples' }];
   if (cooling) curves.push({ x, value: x.map((t) => cooling.initial / (1 + (t - begin) / cooling.time) ** cooling.exponent), label: 'Haff’s law',
     id: 'law', colour: () => cssColour('--ink'), dashed: true });
-  addChart('cooling', { heading: 'Temperature', ...time, logY: true, file: 'cooling.csv', variants: [{ symbol: 'T', unit: 'kT', curves }] });
+  addChart('cooling', { heading: 'Temperature', xSymbol: 't', xUnit: timeUnit, logX: true, logY: true, file: 'cooling.csv', variants: [{ symbol: 'T', unit: 'kT', curves }] });
 }
 
 // Against the packing fraction
@@ -412,21 +366,20 @@ function showRun(player, run) {
     ? ` Only the final state of this run is in the page: vitrel report ${run.name}/run.h5 makes a page with its movie.` : '';
   const dynamics = run.dynamics ? run.dynamics + '.' : '';
   player.load(run.movie, { label: run.label, note: run.movie ? dynamics + still : 'The run holds no frame.' });
-  showSeries(run);
+  showCourse(run);
 }
 
 function start() {
   const player = new Player();
-  const last = runs.length - 1, course = byId('series').closest('section');
-  byId('series').parentElement.open = runs.length === 1;
+  const last = runs.length - 1, course = byId('course').closest('section');
+  byId('course').parentElement.open = runs.length === 1;
   if (runs.length > 1) course.before(byId('movie').closest('section'));
   const marked = runs.map((run) => run.label + (run.movie?.time.length > 1 ? '' : ' (final state)'));
   if (runs.length > 1) byId('movie-run').append(selection('Run', marked, last, (k) => showRun(player, runs[k])));
   showRun(player, runs[last]);
   coolingChart(runs[last]);
   densityCharts();
-  const charts = families.map(familyChart).filter(Boolean);
-  runLegends(charts);
+  runLegends(charts.filter(({ section }) => section !== 'course').map(runsChart).filter(Boolean));
   ['motion', 'relaxation', 'structure', 'over-density'].forEach(hideIfEmpty);
   recolour();
 }

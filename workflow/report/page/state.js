@@ -8,7 +8,7 @@ function chartOf(id, { symbol, unit, levels, levelName, heading, noErrors, ...de
 }
 
 const decay = { xSymbol: 't', xUnit: 'sweeps', unit: '', logX: true, noErrors: 'a single sampling' };
-structureCharts(pageData.tables);
+stateCharts(pageData);
 chartOf('correlation', { heading: 'Nematic correlation', symbol: 'g₂(r) = ⟨cos 2(θᵢ − θⱼ)⟩', unit: '',
   xSymbol: 'r', xUnit: lengthUnit, levels: [pageData.order ** 2], levelName: 'S²' });
 chartOf('orientation', { ...decay, heading: 'Orientations kept', symbol: 'C₂(t) = ⟨cos 2(θ(t) − θ(0))⟩',

@@ -1,4 +1,4 @@
-#include "workflow/analyze/dynamics_tables.h"
+#include "analysis/observables/dynamics_tables.h"
 
 #include <gtest/gtest.h>
 

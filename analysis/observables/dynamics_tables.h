@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "analysis/dynamics/cage_relative.h"
 #include "analysis/dynamics/collective_scattering.h"
 #include "analysis/dynamics/displacement.h"
+#include "analysis/observables/observable.h"
 #include "analysis/results.h"
 
 namespace vitrel {
@@ -18,10 +20,10 @@ struct RunDynamics {
   std::optional<CageRelative> cage_relative = {};  ///< in two dimensions, at the same wave numbers
 };
 
-/// Tables displacements_<group>, self_scattering_<group> and, of groups with rotors,
-/// orientation_<group>; in two dimensions cage_relative; wave_numbers, collective_scattering and, if the run has more than one time
-/// origin, susceptibility.
 std::vector<Table> dynamics_tables(const RunDynamics& dynamics);
+
+/// Those tables, in their order.
+std::vector<Observable> dynamics_observables(int dimension);
 
 /// The time differences of these tables and their origins in words, for the provenance.
 std::string time_axis_text(std::span<const double> times, const Displacements& found);

@@ -1,8 +1,10 @@
-#include "workflow/analyze/dynamics_tables.h"
+#include "analysis/observables/dynamics_tables.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace vitrel {
 namespace {
@@ -17,6 +19,39 @@ Column column(const std::string& name, const char* unit, const Correlation& corr
 
 std::vector<double> numbers(const std::vector<std::size_t>& counts) {
   return {counts.begin(), counts.end()};
+}
+
+constexpr auto motion = Chart::Section::motion, relaxation = Chart::Section::relaxation;
+constexpr auto logarithmic = Chart::Scale::logarithmic, decay = Chart::Scale::decay;
+const double one_e = std::exp(-1);
+
+/// Against the logarithm of the time difference.
+Chart against_time(Chart::Section section, const char* heading, const char* symbol,
+                   std::vector<Curve> curves, Chart::Scale scale = Chart::Scale::linear) {
+  return {.section = section,
+          .heading = heading,
+          .symbol = symbol,
+          .curves = std::move(curves),
+          .scale = scale,
+          .is_x_logarithmic = true};
+}
+
+Chart mean_square(const char* heading, const char* symbol, std::vector<Curve> curves) {
+  Chart chart = against_time(motion, heading, symbol, std::move(curves), logarithmic);
+  chart.has_power_laws = true;
+  return chart;
+}
+
+Chart correlation(const char* heading, const char* symbol, std::vector<Curve> curves) {
+  Chart chart = against_time(relaxation, heading, symbol, std::move(curves), decay);
+  chart.levels = {one_e};
+  return chart;
+}
+
+/// Of scattering functions, numbered like the wave numbers in this column.
+Chart at_wave_numbers(Chart chart, const char* wave_number = "q") {
+  chart.wave_number = wave_number;
+  return chart;
 }
 
 /// What differs between the plane and space.
@@ -67,6 +102,28 @@ Table displacement_table(const Displacements& found, const DisplacementGroup& gr
   return table;
 }
 
+Observable displacement_observable(int dimension) {
+  const bool in_plane = dimension == 2;
+  Chart rotation = mean_square("Mean squared rotation", in_plane ? "⟨Δθ(t)²⟩" : "⟨|Δφ(t)|²⟩",
+                               {{"msr", in_plane ? "⟨Δθ²⟩" : "⟨|Δφ|²⟩"}});
+  rotation.if_missing = "All particles are round: their rotation is not modelled.";
+  Chart non_gaussian = against_time(
+      motion, "Non-Gaussian parameter", "α₂(t)",
+      {{"non_gaussian", "of displacements"}, {"non_gaussian_rotation", "of rotations"}});
+  non_gaussian.levels = {0};
+  return {.table = "displacements",
+          .what =
+              "Mean squared displacements, also along and across the axis of the particles, mean "
+              "squared rotations, fourth powers and non-Gaussian parameters.",
+          .needs = {.motion = true},
+          .charts = {mean_square("Mean squared displacement", "⟨|Δr(t)|²⟩",
+                                 {{"msd", "⟨|Δr|²⟩"},
+                                  {"msd_parallel", "⟨Δr²⟩ along the axis"},
+                                  {"msd_perpendicular", "⟨Δr²⟩ across the axis"}}),
+                     std::move(rotation), std::move(non_gaussian)},
+          .has_groups = true};
+}
+
 Table scattering_table(const Displacements& found, const DisplacementGroup& group) {
   Table table{
       "self_scattering_" + identifier(group.name),
@@ -77,6 +134,15 @@ Table scattering_table(const Displacements& found, const DisplacementGroup& grou
   for (std::size_t k = 0; k < group.self_scattering.size(); ++k)
     table.columns.push_back(column(fmt::format("fs_{}", k + 1), "1", group.self_scattering[k]));
   return table;
+}
+
+Observable scattering_observable() {
+  return {.table = "self_scattering",
+          .what = "Self-intermediate scattering functions at the wave numbers.",
+          .needs = {.motion = true},
+          .charts = {at_wave_numbers(
+              correlation("Self-intermediate scattering", "Fₛ(q, t)", {{"fs_#", "#"}}))},
+          .has_groups = true};
 }
 
 Table orientation_table(const Displacements& found, const DisplacementGroup& group) {
@@ -94,6 +160,23 @@ Table orientation_table(const Displacements& found, const DisplacementGroup& gro
   return table;
 }
 
+Observable orientation_observable(int dimension) {
+  const bool in_plane = dimension == 2;
+  const std::vector<Curve> curves = in_plane
+                                        ? std::vector<Curve>{{"l_#", "L#"}}
+                                        : std::vector<Curve>{{"p_#", "P#"},
+                                                             {"p_#_middle", "P#, middle axis"},
+                                                             {"p_#_short", "P#, shortest axis"}};
+  return {.table = "orientation",
+          .what = in_plane ? "Orientational correlations L_n(t) = <cos n(angle(t) - angle(0))>."
+                           : "Orientational correlations <P_n(u(0).u(t))> of the axis of symmetry; "
+                             "of scalene bodies those of all three axes.",
+          .needs = {.motion = true, .rotors = true},
+          .charts = {correlation("Orientational correlation",
+                                 in_plane ? "Lₙ(t) = ⟨cos nΔθ⟩" : "⟨Pₗ(u(0)·u(t))⟩", curves)},
+          .has_groups = true};
+}
+
 Table susceptibility_table(const Displacements& found) {
   return {
       "susceptibility",
@@ -102,6 +185,17 @@ Table susceptibility_table(const Displacements& found) {
                   found.overlap_distance),
       {time_column(found.lag), column("overlap", "1", found.overlap),
        column("chi_4", "1", found.susceptibility)}};
+}
+
+Observable susceptibility_observable() {
+  return {
+      .table = "susceptibility",
+      .what =
+          "Overlap Q(t), the share of particles that have hardly moved, and its four-point "
+          "susceptibility.",
+      .needs = {.motion = true},
+      .charts = {against_time(relaxation, "Four-point susceptibility", "χ₄(t)", {{"chi_4", "χ₄"}}),
+                 against_time(relaxation, "Overlap", "⟨Q(t)⟩", {{"overlap", "⟨Q⟩"}}, decay)}};
 }
 
 Table cage_relative_table(const CageRelative& found, double overlap_distance) {
@@ -120,6 +214,19 @@ Table cage_relative_table(const CageRelative& found, double overlap_distance) {
   table.columns.push_back(column("chi_4", "1", found.susceptibility));
   table.columns.push_back({"origins", "1", numbers(found.origins), {}});
   return table;
+}
+
+Observable cage_relative_observable() {
+  return {
+      .table = "cage_relative",
+      .what =
+          "Mean squared displacement, scattering functions, overlap and four-point "
+          "susceptibility of motion relative to the neighbours.",
+      .needs = {.motion = true},
+      .charts = {mean_square("Mean squared displacement relative to the cage", "⟨|Δr(t)|²⟩",
+                             {{"msd", "⟨|Δr − Δr of the neighbours|²⟩"}}),
+                 at_wave_numbers(correlation("Self-intermediate scattering relative to the cage",
+                                             "Fₛ(q, t)", {{"fs_#", "#"}}))}};
 }
 
 Table wave_number_table(const RunDynamics& dynamics) {
@@ -149,6 +256,15 @@ Table collective_table(const CollectiveScattering& found) {
   return table;
 }
 
+Observable collective_observable() {
+  return {.table = "collective_scattering",
+          .what = "Collective intermediate scattering functions, F(q, 0) = S(q).",
+          .needs = {.motion = true},
+          .charts = {at_wave_numbers(
+              against_time(relaxation, "Collective scattering", "F(q, t)", {{"f_#", "#"}}),
+              "q_collective")}};
+}
+
 }  // namespace
 
 std::vector<Table> dynamics_tables(const RunDynamics& dynamics) {
@@ -166,6 +282,19 @@ std::vector<Table> dynamics_tables(const RunDynamics& dynamics) {
   if (std::ranges::any_of(found.origins, [](std::size_t n) { return n > 1; }))
     tables.push_back(susceptibility_table(found));
   return tables;
+}
+
+std::vector<Observable> dynamics_observables(int dimension) {
+  std::vector<Observable> observables = {displacement_observable(dimension),
+                                         scattering_observable(),
+                                         orientation_observable(dimension)};
+  if (dimension == 2) observables.push_back(cage_relative_observable());
+  observables.push_back({.table = "wave_numbers",
+                         .what = "Wave numbers of the scattering functions.",
+                         .needs = {.motion = true}});
+  observables.push_back(collective_observable());
+  observables.push_back(susceptibility_observable());
+  return observables;
 }
 
 std::string time_axis_text(std::span<const double> times, const Displacements& found) {

@@ -4,7 +4,45 @@
 
 namespace vitrel {
 
+// One source file each, and its line below.
+template <int Dim>
+FrameObservableType<Dim> structure_factor_observable();
+template <int Dim>
+FrameObservableType<Dim> pair_correlation_observable();
+template <int Dim>
+FrameObservableType<Dim> orientation_observable();
+template <int Dim>
+FrameObservableType<Dim> order_observable();
+template <int Dim>
+FrameObservableType<Dim> velocity_observable();
+
 namespace {
+
+/// The list to add to.
+template <int Dim>
+std::vector<FrameObservableType<Dim>> types() {
+  return {structure_factor_observable<Dim>(), pair_correlation_observable<Dim>(),
+          orientation_observable<Dim>(), order_observable<Dim>(), velocity_observable<Dim>()};
+}
+
+template <int Dim>
+using FrameObservables = std::vector<std::unique_ptr<FrameObservable<Dim>>>;
+
+template <int Dim>
+bool has(const Needs& needs, const Configuration<Dim>& first, const StructureOptions& options) {
+  return (!needs.averages || options.max_frames > 0) && (!needs.rotors || rotor_count(first) > 0) &&
+         (!needs.velocities || mechanics(first).translational_energy > 0);
+}
+
+template <int Dim>
+FrameObservables<Dim> observables_of(const Configuration<Dim>& first,
+                                     const StructureOptions& options) {
+  FrameObservables<Dim> observables;
+  for (const FrameObservableType<Dim>& type : types<Dim>())
+    if (has(type.tables.front().needs, first, options))
+      observables.push_back(type.make(first, options));
+  return observables;
+}
 
 /// Frames shared by the threads at a time.
 constexpr std::size_t frames_at_once = 32;
@@ -25,25 +63,17 @@ void measure_batch(const std::vector<Configuration<Dim>>& frames,
 }  // namespace
 
 template <int Dim>
-FrameObservables<Dim> frame_observables(const Configuration<Dim>& first,
-                                        const StructureOptions& options) {
-  FrameObservables<Dim> observables;
-  const bool has_rotors = rotor_count(first) > 0;
-  if (options.max_frames > 0) {
-    observables.push_back(structure_factor_observable(first, options.shells));
-    observables.push_back(pair_correlation_observable(first, options.pairs));
-    if (has_rotors) observables.push_back(orientation_observable(first));
-  }
-  if (Dim == 2 || has_rotors) observables.push_back(order_observable(first));
-  if (options.max_frames == 0) return observables;
-  if (mechanics(first).translational_energy > 0) observables.push_back(velocity_observable<Dim>());
-  return observables;
+std::vector<Observable> frame_observables() {
+  std::vector<Observable> tables;
+  for (const FrameObservableType<Dim>& type : types<Dim>())
+    tables.insert(tables.end(), type.tables.begin(), type.tables.end());
+  return tables;
 }
 
 template <int Dim>
 std::vector<Table> structure_tables(Trajectory<Dim>& trajectory, const StructureOptions& options,
                                     int threads, const ProgressReport& report) {
-  const FrameObservables<Dim> observables = frame_observables(trajectory.read(0), options);
+  const FrameObservables<Dim> observables = observables_of(trajectory.read(0), options);
   if (observables.empty()) return {};
   const std::size_t frames = trajectory.frames();
   const std::size_t max_frames =
@@ -73,8 +103,8 @@ Column averaged(const std::string& name, const std::string& unit, const FrameAve
   return {name, unit, std::move(averages.mean), std::move(averages.error)};
 }
 
-template FrameObservables<2> frame_observables(const Configuration2&, const StructureOptions&);
-template FrameObservables<3> frame_observables(const Configuration3&, const StructureOptions&);
+template std::vector<Observable> frame_observables<2>();
+template std::vector<Observable> frame_observables<3>();
 template std::vector<Table> structure_tables(Trajectory2&, const StructureOptions&, int,
                                              const ProgressReport&);
 template std::vector<Table> structure_tables(Trajectory3&, const StructureOptions&, int,

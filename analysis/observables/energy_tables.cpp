@@ -1,0 +1,54 @@
+#include "analysis/observables/energy_tables.h"
+
+namespace vitrel {
+namespace {
+
+Table energy_table(const EnergySeries& energy) {
+  return {"energies",
+          "Energies per particle at the sample times, in kT; translational + rotational = total.",
+          {{"time", "time", energy.time, {}},
+           {"translational", "kT", energy.translational, {}},
+           {"rotational", "kT", energy.rotational, {}},
+           {"total", "kT", energy.total, {}}}};
+}
+
+Table compressibility_table(const CompressibilitySeries& series) {
+  return {"compressibility_factor",
+          "Compressibility factor Z = P/(rho kT) from the virial of the collisions between two "
+          "samples.",
+          {{"time", "time", series.time, {}}, {"z", "1", series.value, {}}}};
+}
+
+}  // namespace
+
+std::vector<Table> energy_tables(const EnergySeries& energy, const CompressibilitySeries& z) {
+  std::vector<Table> tables;
+  if (energy.time.size() > 1) tables.push_back(energy_table(energy));
+  if (!z.value.empty()) tables.push_back(compressibility_table(z));
+  return tables;
+}
+
+std::vector<Observable> energy_observables() {
+  const Chart energy{.section = Chart::Section::course,
+                     .heading = "Energy per particle",
+                     .symbol = "E/N",
+                     .curves = {{"translational", "translational"},
+                                {"rotational", "rotational", true},
+                                {"total", "total", true}},
+                     .scale = Chart::Scale::from_zero,
+                     .level_of_run = Chart::Level::equipartition};
+  const Chart z{.section = Chart::Section::course,
+                .heading = "Compressibility factor",
+                .symbol = "Z = βP/ρ",
+                .curves = {{"z", "Z"}},
+                .level_of_run = Chart::Level::mean};
+  return {{.table = "energies",
+           .what = "Translational, rotational and total energy per particle.",
+           .charts = {energy}},
+          {.table = "compressibility_factor",
+           .what = "Compressibility factor from the virial of the collisions between two samples.",
+           .needs = {.motion = true},
+           .charts = {z}}};
+}
+
+}  // namespace vitrel

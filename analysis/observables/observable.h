@@ -1,0 +1,70 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// @file
+/// What the tables of an analysis are, whether or not a run is there: what they need, and how they are best
+/// drawn. Help, documentation and pages read this; tables themselves are in analysis/results.h.
+namespace vitrel {
+
+/// One column of a table, or several: `#` in the name stands for any number, `*` for any text.
+struct Curve {
+  std::string column;         ///< "msd", "fs_#"
+  std::string label;          ///< with the same `#` or `*`
+  bool is_of_rotors = false;  ///< of particles that are not round only
+};
+
+/// Curves of one table that belong together. Units are those of the columns.
+struct Chart {
+  enum class Section { motion, relaxation, structure, course };
+  enum class Scale { linear, logarithmic, from_zero, decay, around_one };
+  /// Horizontal lines that depend on the run.
+  enum class Level { none, equipartition, mean };
+
+  Section section;
+  std::string heading;
+  std::string symbol;  ///< of the ordinate
+  std::vector<Curve> curves;
+  Scale scale = Scale::linear;
+  std::string x = "time", x_symbol = "t";
+  bool is_x_logarithmic = false;
+  std::vector<double> levels = {};  ///< horizontal lines
+  Level level_of_run = Level::none;
+  std::vector<Curve> references = {};  ///< drawn dashed: what theory expects
+  /// The column of the table `wave_numbers` that has the numbers `#` stands for; empty: they are indices.
+  std::string wave_number = {};
+  bool has_power_laws = false;    ///< slopes of ballistic motion and diffusion beside the curves
+  bool is_angle_of_axis = false;  ///< the same after half a turn
+  std::string if_missing = {};    ///< said in place of the chart of a table without these columns
+};
+
+/// What a table needs of a run.
+struct Needs {
+  bool motion = false;      ///< more than one frame, with images of the particles
+  bool rotors = false;      ///< particles that are not round
+  bool velocities = false;  ///< particles that move
+  /// Frames for averages, which `analysis.structure.frames = 0` leaves out.
+  bool averages = false;
+};
+
+/// A table of an analysis.
+struct Observable {
+  std::string
+      table;  ///< its name; followed by `_` and a group of particles if there is one for each
+  std::string what;  ///< a sentence
+  Needs needs = {};
+  std::vector<Chart> charts = {};
+  bool has_groups = false;
+
+  /// Whether this is the table of that name, or one of its groups.
+  bool names(std::string_view name) const {
+    return has_groups ? name.starts_with(table + "_") : name == table;
+  }
+};
+
+/// All tables of the analysis of a run in so many dimensions, in the order in which the results have them.
+std::vector<Observable> observables(int dimension);
+
+}  // namespace vitrel

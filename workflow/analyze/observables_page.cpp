@@ -1,0 +1,79 @@
+#include "workflow/analyze/observables_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "analysis/observables/observable.h"
+
+namespace vitrel {
+namespace {
+
+std::string needs_text(const Needs& needs) {
+  std::vector<std::string> parts;
+  if (needs.motion) parts.emplace_back("more than one frame");
+  if (needs.rotors) parts.emplace_back("particles that are not round");
+  if (needs.velocities) parts.emplace_back("velocities");
+  if (needs.averages) parts.emplace_back("`analysis.structure.frames` above 0");
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::string chart_text(const Chart& chart) {
+  return fmt::format("{}: {} against {}", chart.heading, chart.symbol, chart.x_symbol);
+}
+
+std::string charts_text(const std::vector<Chart>& charts) {
+  std::vector<std::string> texts;
+  for (const Chart& chart : charts) texts.push_back(chart_text(chart));
+  return fmt::format("{}", fmt::join(texts, "; "));
+}
+
+/// The lines of a table, in the plane, in space or, if `where` is empty, in both.
+std::string lines(const Observable& observable, const std::string& where) {
+  std::string text = where + observable.what + "\n";
+  if (const std::string needs = needs_text(observable.needs); !needs.empty())
+    text += "\n- needs " + needs + "\n";
+  if (!observable.charts.empty())
+    text += fmt::format("{}- drawn as {}\n", text.ends_with(".\n") ? "\n" : "",
+                        charts_text(observable.charts));
+  return text;
+}
+
+std::string heading(const Observable& observable) {
+  return fmt::format("\n## `{}{}`\n\n", observable.table, observable.has_groups ? "_<group>" : "");
+}
+
+const Observable* find(const std::vector<Observable>& all, const std::string& table) {
+  const auto found = std::ranges::find(all, table, &Observable::table);
+  return found == all.end() ? nullptr : &*found;
+}
+
+/// In the plane, beside the same table in space if there is one.
+std::string section(const Observable& plane, const Observable* space) {
+  if (!space) return heading(plane) + lines(plane, "In the plane: ");
+  const std::string here = lines(plane, ""), there = lines(*space, "");
+  if (here == there) return heading(plane) + here;
+  return heading(plane) + lines(plane, "In the plane: ") + "\n" + lines(*space, "In space: ");
+}
+
+}  // namespace
+
+std::string observables_page() {
+  std::string page =
+      "# Tables of `vitrel analyze`\n\n"
+      "`vitrel analyze --list` prints this page. A table is there if the run has what it needs; "
+      "those "
+      "of groups\nof particles are there for all and, in mixtures, for every species. Columns, "
+      "units "
+      "and conventions are in\nthe attributes of the HDF5 file and in `columns.csv`.\n";
+  const std::vector<Observable> plane = observables(2), space = observables(3);
+  for (const Observable& observable : plane)
+    page += section(observable, find(space, observable.table));
+  for (const Observable& observable : space)
+    if (!find(plane, observable.table))
+      page += heading(observable) + lines(observable, "In space: ");
+  return page;
+}
+
+}  // namespace vitrel
