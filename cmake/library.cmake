@@ -1,19 +1,19 @@
-# vitrel_cold(<source>…): compiles these with -O1 where others get more. For sources of the same folder that
-# read or write text and never take long: they compile faster, and compute the same (options.cmake).
-function(vitrel_cold)
-  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release,RelWithDebInfo>:-O1>")
-endfunction()
+# Sources that read or write text and never take long are cold: compiled with -O1 where others get more, they compile
+# faster and compute the same (options.cmake).
+set(VITREL_COLD "$<$<CONFIG:Release,RelWithDebInfo>:-O1>")
 
-# vitrel_precompiled(<name> HEADERS … LINK …): a target that only precompiles headers, for others to reuse. These
-# agree in options with it, and may have definitions of their own that the headers do not read.
+# vitrel_precompiled(<name> [COLD] HEADERS … LINK …): a target that only precompiles headers, for others to reuse.
+# These agree in options with it (GCC would take the level of optimisation from it), and may have definitions of their
+# own that the headers do not read.
 function(vitrel_precompiled name)
-  cmake_parse_arguments(ARG "" "" "HEADERS;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "COLD" "" "HEADERS;LINK" ${ARGN})
   set(source ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
   file(CONFIGURE OUTPUT ${source} CONTENT "// A target needs a source.\n")
   add_library(${name} OBJECT ${source})
   target_link_libraries(${name} PRIVATE vitrel::options Eigen3::Eigen fmt::fmt ${ARG_LINK})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
   vitrel_private_options(${name})
+  target_compile_options(${name} PRIVATE $<$<BOOL:${ARG_COLD}>:${VITREL_COLD}>)
   target_precompile_headers(${name} PRIVATE ${ARG_HEADERS})
 endfunction()
 
@@ -24,22 +24,29 @@ set(VITREL_PRECOMPILED
     <memory> <numeric> <optional> <random> <set> <span> <sstream> <string> <unordered_map> <variant> <vector>
     <Eigen/Geometry> <fmt/format.h> "${PROJECT_SOURCE_DIR}/core/state/configuration.h")
 vitrel_precompiled(vitrel_precompiled HEADERS ${VITREL_PRECOMPILED})
+vitrel_precompiled(vitrel_cold_precompiled COLD HEADERS ${VITREL_PRECOMPILED})
 
 # vitrel_library(<name> SOURCES … [COLD …] HEADERS … LINK … [PRIVATE_LINK …]): one static library per folder
 # of the architecture with its headers, each of which must compile alone (scripts/check_headers). COLD are
-# further sources (vitrel_cold). Includes read "core/…", from the project's root.
+# further sources. Includes read "core/…", from the project's root.
 function(vitrel_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;COLD;HEADERS;LINK;PRIVATE_LINK" ${ARGN})
   set(target vitrel_${name})
-  if(ARG_COLD)
-    vitrel_cold(${ARG_COLD})
-  endif()
-  add_library(${target} STATIC ${ARG_SOURCES} ${ARG_COLD})
+  add_library(${target} STATIC ${ARG_SOURCES})
   add_library(vitrel::${name} ALIAS ${target})
   target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${ARG_HEADERS})
   target_link_libraries(${target} PUBLIC vitrel::options ${ARG_LINK} PRIVATE ${ARG_PRIVATE_LINK})
-  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} LINKER_LANGUAGE CXX)
   vitrel_private_options(${target})
   target_link_libraries(${target} PRIVATE fmt::fmt)
   target_precompile_headers(${target} REUSE_FROM vitrel_precompiled)
+  if(ARG_COLD)
+    add_library(${target}_cold OBJECT ${ARG_COLD})
+    target_link_libraries(${target}_cold PRIVATE vitrel::options ${ARG_LINK} ${ARG_PRIVATE_LINK} fmt::fmt)
+    target_include_directories(${target}_cold PRIVATE ${PROJECT_SOURCE_DIR})
+    vitrel_private_options(${target}_cold)
+    target_compile_options(${target}_cold PRIVATE ${VITREL_COLD})
+    target_precompile_headers(${target}_cold REUSE_FROM vitrel_cold_precompiled)
+    target_sources(${target} PRIVATE $<TARGET_OBJECTS:${target}_cold>)
+  endif()
 endfunction()

@@ -16,6 +16,16 @@ void append(std::vector<Observable>& all, std::vector<Observable> more) {
 
 }  // namespace
 
+const Observable* find(const std::vector<Observable>& all, std::string_view table) {
+  // A group of one may be the name of another: orientation_distribution.
+  for (const bool groups : {false, true})
+    for (const Observable& observable : all)
+      if (observable.has_groups == groups &&
+          (groups ? table.starts_with(observable.table + "_") : table == observable.table))
+        return &observable;
+  return nullptr;
+}
+
 std::vector<Observable> observables(int dimension) {
   std::vector<Observable> all = {
       {.table = "summary",

@@ -57,12 +57,10 @@ struct Observable {
   Needs needs = {};
   std::vector<Chart> charts = {};
   bool has_groups = false;
-
-  /// Whether this is the table of that name, or one of its groups.
-  bool names(std::string_view name) const {
-    return has_groups ? name.starts_with(table + "_") : name == table;
-  }
 };
+
+/// What the table of that name is; null if it is none of these.
+const Observable* find(const std::vector<Observable>& all, std::string_view table);
 
 /// All tables of the analysis of a run in so many dimensions, in the order in which the results have them.
 std::vector<Observable> observables(int dimension);

@@ -44,7 +44,7 @@ std::string heading(const Observable& observable) {
   return fmt::format("\n## `{}{}`\n\n", observable.table, observable.has_groups ? "_<group>" : "");
 }
 
-const Observable* find(const std::vector<Observable>& all, const std::string& table) {
+const Observable* listed(const std::vector<Observable>& all, const std::string& table) {
   const auto found = std::ranges::find(all, table, &Observable::table);
   return found == all.end() ? nullptr : &*found;
 }
@@ -69,9 +69,9 @@ std::string observables_page() {
       "and conventions are in\nthe attributes of the HDF5 file and in `columns.csv`.\n";
   const std::vector<Observable> plane = observables(2), space = observables(3);
   for (const Observable& observable : plane)
-    page += section(observable, find(space, observable.table));
+    page += section(observable, listed(space, observable.table));
   for (const Observable& observable : space)
-    if (!find(plane, observable.table))
+    if (!listed(plane, observable.table))
       page += heading(observable) + lines(observable, "In space: ");
   return page;
 }

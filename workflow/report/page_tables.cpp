@@ -24,14 +24,6 @@ constexpr std::array<std::string_view, 4> without_charts = {"summary", "wave_num
                                                             "glass_fit"};
 constexpr std::string_view on_the_fly = "on_the_fly";
 
-/// Which of the observables this table is of; null if it is none.
-const Observable* observable_of(std::string_view table,
-                                const std::vector<Observable>& observables) {
-  const auto found = std::ranges::find_if(
-      observables, [table](const Observable& observable) { return observable.names(table); });
-  return found == observables.end() ? nullptr : &*found;
-}
-
 bool is_shown(std::string_view table, const Observable* observable) {
   return std::ranges::find(without_charts, table) != without_charts.end() ||
          (observable && (observable->table == on_the_fly || !observable->charts.empty()));
@@ -108,8 +100,8 @@ Json chart_data(const Observable& observable, const Chart& chart) {
           {"ifMissing", chart.if_missing}};
 }
 
-const Column* find(const Results& results, const std::string& table, const std::string& column,
-                   std::size_t row) {
+const Column* column_of(const Results& results, const std::string& table, const std::string& column,
+                        std::size_t row) {
   const Table* found = results.find(table);
   const Column* values = found ? found->find(column) : nullptr;
   return values && row < values->value.size() ? values : nullptr;
@@ -121,7 +113,7 @@ Json tables_data(const Results& results, const std::vector<Observable>& observab
                  const Thinning& thinning) {
   Json data = Json::object();
   for (const Table& table : results.tables) {
-    const Observable* observable = observable_of(table.name, observables);
+    const Observable* observable = find(observables, table.name);
     if (is_shown(table.name, observable))
       data[table.name] = table_data(table, has_logarithmic_rows(observable), thinning);
   }
@@ -143,14 +135,14 @@ std::string density_text(double phi) {
 std::string table_text(const Results& results, const std::string& table, const std::string& column,
                        std::size_t row) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  const Column* found = find(results, table, column, row);
+  const Column* found = column_of(results, table, column, row);
   if (!found) return "–";
   return with_error(found->value[row], found->error.empty() ? none : found->error[row]);
 }
 
 double table_value(const Results& results, const std::string& table, const std::string& column,
                    std::size_t row) {
-  const Column* found = find(results, table, column, row);
+  const Column* found = column_of(results, table, column, row);
   return found ? found->value[row] : std::numeric_limits<double>::quiet_NaN();
 }
 
