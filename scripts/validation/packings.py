@@ -14,6 +14,7 @@ FIGURES = HERE.parents[1] / "docs" / "figures" / "packings"
 GROWTH_RATE = 0.1
 SLOW_RATE = 0.01  # growth rate for the maximum volume fractions
 JAMMED = 1e6  # final reduced pressure; the fraction is then below its limit by 1e-6 times the degrees of freedom
+NEAR_CONTACTS = 0.05  # of the isostatic number; neighbours that nearly touch (analysis/structure/contacts.h)
 RUNS = 10
 START = 0.01
 
@@ -90,6 +91,7 @@ class Packing:
         self.seconds = sum(stage["wall_seconds"] for stage in summary["stages"])
         self.ratio = summary["orientation_ratio"]
         self.collisions = summary["collisions"]
+        self.jamming = summary["jamming"]
 
 
 def isotropic_ratio(particles):
@@ -164,7 +166,12 @@ def jammed(build):
         packings = [Packing(build, ratios, 1000, None, seed, rate) for seed in range(1, 6)]
         fraction, error = spread([packing.fraction for packing in packings])
         expect(lowest <= fraction <= highest, f"{name}: jammed at {fraction}, not between {lowest} and {highest}")
+        contacts, contacts_error = spread([packing.jamming["contact_number"] for packing in packings])
+        isostatic = packings[0].jamming["isostatic_number"]
+        expect(contacts < (1 + NEAR_CONTACTS) * isostatic, f"{name}: {contacts} contacts per particle")
         rows.append([name, f"{rate:g}", f"{fraction:.4f} ± {error:.4f}", f"{lowest:g} – {highest:g}",
+                     f"{contacts:.2f} ± {contacts_error:.2f}", f"{isostatic:g}",
+                     f"{statistics.mean(packing.jamming['rattlers'] for packing in packings) / 1000:.1%}",
                      f"{statistics.mean(packing.seconds for packing in packings):.3g}"])
     return rows
 
@@ -268,7 +275,9 @@ The published times were measured with MATLAB at 1.6 GHz, the others on one core
 
 Jammed packings of 1000 particles at the same reduced pressure, compared with the literature:
 
-{table(["shape", "growth rate", "volume fraction", "literature", "seconds"], dense)}
+{table(["shape", "growth rate", "volume fraction", "literature", "contacts", "isostatic", "rattlers", "seconds"], dense)}
+
+The contacts are per particle and without rattlers. Spheres have the isostatic number, ellipsoids fewer (Donev et al. 2007).
 
 ρ approaches 1 as the number of particles increases: {"; ".join(isotropic)}.
 
