@@ -163,8 +163,6 @@ TEST(GlassFit, FarFromTheDivergenceThereIsABoundOnly) {
   EXPECT_LE(wrong, 5 + 3 * 2.2);
 }
 
-// The power law grows by (0.29/0.19)^2.3 = 2.64 from 0.50 to 0.60. Exact times fit it perfectly, and yet
-// hardly more than a straight line is known. From 0.60 to 0.72 it is (0.19/0.07)^2.3 = 9.95, to 0.722 10.6.
 // Exact times of the power law with φ_c = 0.82, but errors so large that φ_c is not bounded from above and,
 // with a probability of more than 5 %, not above the highest density.
 TEST(GlassFit, ABoundBelowTheHighestDensityIsNone) {
@@ -183,6 +181,8 @@ TEST(GlassFit, ABoundBelowTheHighestDensityIsNone) {
   }
 }
 
+// The power law grows by (0.29/0.19)^2.3 = 2.64 from 0.50 to 0.60. Exact times fit it perfectly, and yet
+// hardly more than a straight line is known. From 0.60 to 0.72 it is (0.19/0.07)^2.3 = 9.95, to 0.722 10.6.
 TEST(GlassFit, ADecadeOfGrowthIsNeededHoweverWellTheLawFits) {
   const auto exact = [](double from, double to) {
     std::vector<GlassPoint> points;
