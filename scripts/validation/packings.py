@@ -91,7 +91,7 @@ class Packing:
         self.seconds = sum(stage["wall_seconds"] for stage in summary["stages"])
         self.ratio = summary["orientation_ratio"]
         self.collisions = summary["collisions"]
-        self.jamming = summary["jamming"]
+        self.backbone = {key: summary.get(key) for key in ("contact_number", "isostatic_number", "rattlers")}
 
 
 def isotropic_ratio(particles):
@@ -166,12 +166,12 @@ def jammed(build):
         packings = [Packing(build, ratios, 1000, None, seed, rate) for seed in range(1, 6)]
         fraction, error = spread([packing.fraction for packing in packings])
         expect(lowest <= fraction <= highest, f"{name}: jammed at {fraction}, not between {lowest} and {highest}")
-        contacts, contacts_error = spread([packing.jamming["contact_number"] for packing in packings])
-        isostatic = packings[0].jamming["isostatic_number"]
+        contacts, contacts_error = spread([packing.backbone["contact_number"] for packing in packings])
+        isostatic = packings[0].backbone["isostatic_number"]
         expect(contacts < (1 + NEAR_CONTACTS) * isostatic, f"{name}: {contacts} contacts per particle")
         rows.append([name, f"{rate:g}", f"{fraction:.4f} ± {error:.4f}", f"{lowest:g} – {highest:g}",
                      f"{contacts:.2f} ± {contacts_error:.2f}", f"{isostatic:g}",
-                     f"{statistics.mean(packing.jamming['rattlers'] for packing in packings) / 1000:.1%}",
+                     f"{statistics.mean(packing.backbone['rattlers'] for packing in packings) / 1000:.1%}",
                      f"{statistics.mean(packing.seconds for packing in packings):.3g}"])
     return rows
 

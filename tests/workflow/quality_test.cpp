@@ -155,7 +155,7 @@ TEST(MeasureQuality, OfAPackingInSpaceCountsContactsIfItIsJammed) {
   EXPECT_EQ(jammed.backbone->isostatic_number, 6);
   EXPECT_GT(jammed.backbone->contact_number, 5);
   EXPECT_LT(jammed.backbone->contact_number, 7);
-  EXPECT_EQ(quality_json(jammed)["jamming"]["rattlers"], jammed.backbone->rattlers);
+  EXPECT_EQ(quality_json(jammed)["rattlers"], jammed.backbone->rattlers);
   EXPECT_FALSE(packing_grown_to("20").backbone);
 }
 

@@ -66,7 +66,7 @@ void add_preparation(PackingQuality& quality, const std::filesystem::path& file)
                       "writes both files together",
                       file.string()));
     quality.reduced_pressure = number_or(report.at("reduced_pressure"), unknown);
-    quality.backbone = backbone_from(report.value("jamming", Json()));
+    if (report.contains("rattlers")) quality.backbone = backbone_from(report);
     quality.collisions = report.at("collisions");
     quality.wall_seconds = report.at("wall_seconds");
   } catch (const Json::exception& error) {
@@ -99,19 +99,20 @@ std::vector<QualityRow> quality_rows(const PackingQuality& quality) {
 
 Json quality_json(const PackingQuality& quality) {
   const IsotropicRatio chance = isotropic_ratio(quality.axes);
-  return {{"dimension", 3},
-          {"particles", quality.particles},
-          {"packing_fraction", quality.packing_fraction},
-          {"reduced_pressure", quality.reduced_pressure},
-          {"axes", quality.axes},
-          {"orientation_ratio", quality.orientation_ratio},
-          {"isotropic_ratio", chance.mean},
-          {"isotropic_ratio_deviation", chance.standard_deviation},
-          {"overlaps", quality.overlaps},
-          {"smallest_gap", quality.smallest_gap},
-          {"jamming", backbone_json(quality.backbone)},
-          {"collisions", quality.collisions},
-          {"wall_seconds", quality.wall_seconds}};
+  Json json = {{"dimension", 3},
+               {"particles", quality.particles},
+               {"packing_fraction", quality.packing_fraction},
+               {"reduced_pressure", quality.reduced_pressure},
+               {"axes", quality.axes},
+               {"orientation_ratio", quality.orientation_ratio},
+               {"isotropic_ratio", chance.mean},
+               {"isotropic_ratio_deviation", chance.standard_deviation},
+               {"overlaps", quality.overlaps},
+               {"smallest_gap", quality.smallest_gap},
+               {"collisions", quality.collisions},
+               {"wall_seconds", quality.wall_seconds}};
+  if (quality.backbone) json.update(backbone_json(quality.backbone));
+  return json;
 }
 
 void write_quality(const std::filesystem::path& file, const PackingQuality& quality) {
