@@ -50,8 +50,8 @@ inline constexpr double min_jammed_pressure = 1e5;
 /// The backbone at the reduced pressure Z = βP/ρ, with a tolerance that follows from the state.
 ///
 /// With d the mean diameter of disks (spheres) of equal area (volume): close to jamming a contact that
-/// bears the force f is open by kT/f on the average, some d/Z for most, while the gaps of all
-/// other pairs spread below d (donev2005pair). The tolerance is the geometric mean of both,
+/// bears the force f is open by kT/f on the average, some d/Z for most, while the gaps of all other
+/// pairs spread below d (donev2005pair). The tolerance is the geometric mean of both,
 ///
 ///     d Z^(−1/2),
 ///
@@ -60,8 +60,9 @@ inline constexpr double min_jammed_pressure = 1e5;
 /// packing falls apart to the last particle. If more than d/10 were needed, the packing is not
 /// jammed: the last tolerance is given, and hardly a particle is held.
 ///
-/// Of disks and spheres, the neighbours that nearly touch add some 1 % to the contacts at Z = 10⁶; less at
-/// higher pressures and of others.
+/// Neighbours that nearly touch add some 1 % to the contacts of disks at Z = 10⁶, 2 % to those of spheres;
+/// less at higher pressures and of others. A wide tolerance counts many more: 1000 spheres grown at the rate
+/// 0.01 need 0.02 d and have 6.8 contacts each, at 0.003 and slower 6.1 with 0.001 d.
 struct JammedBackbone : Backbone {
   double tolerance;
 };
