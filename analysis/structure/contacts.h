@@ -62,7 +62,7 @@ inline constexpr double min_jammed_pressure = 1e5;
 ///
 /// Neighbours that nearly touch add some 1 % to the contacts of disks at Z = 10⁶, 2 % to those of spheres;
 /// less at higher pressures and of others. A wide tolerance counts many more: 1000 spheres grown at the rate
-/// 0.01 need 0.02 d and have 6.8 contacts each, at 0.003 and slower 6.1 with 0.001 d.
+/// 0.01 need 0.01 d and have 6.8 contacts each, at 0.003 and slower 6.1 with 0.001 d.
 struct JammedBackbone : Backbone {
   double tolerance;
 };

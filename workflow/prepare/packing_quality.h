@@ -30,8 +30,7 @@ struct PackingQuality {
 
 /// Of a complete preparation.
 PackingQuality measure_quality(const Preparation<3>& preparation);
-/// Of a packing and its exact check: without pressure, backbone, collisions and wall
-/// time.
+/// Of a packing and its exact check: without pressure, backbone, collisions and wall time.
 PackingQuality measure_quality(const Configuration3& packing, const ExactCheck<3>& check);
 /// Adds these, from what write_quality wrote. FileError if that is no report of the same packing.
 void add_preparation(PackingQuality& quality, const std::filesystem::path& file);
