@@ -60,9 +60,9 @@ inline constexpr double min_jammed_pressure = 1e5;
 /// packing falls apart to the last particle. If more than d/10 were needed, the packing is not
 /// jammed: the last tolerance is given, and hardly a particle is held.
 ///
-/// Neighbours that nearly touch add some 1 % to the contacts of disks at Z = 10⁶, 2 % to those of spheres;
+/// Neighbours that nearly touch add some 1 % to the contacts of disks at Z = 10⁶, 2 to 3 % to those of spheres;
 /// less at higher pressures and of others. A wide tolerance counts many more: 1000 spheres grown at the rate
-/// 0.01 need 0.01 d and have 6.8 contacts each, at 0.003 and slower 6.1 with 0.001 d.
+/// 0.01 need 0.01 d and have 6.8 contacts each, at 0.003 and slower 6.1 to 6.2 with 0.001 d.
 struct JammedBackbone : Backbone {
   double tolerance;
 };

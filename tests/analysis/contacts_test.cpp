@@ -251,8 +251,8 @@ TEST(JammedBackbone, OfEllipsesIsALittleHypostatic) {
   EXPECT_EQ(held.isostatic_number, 6);
 }
 
-// As of disks, with 3n − 2 contacts of n spheres. Packings of other seeds were within 0.5 % of it, or
-// 3.5 % where the tolerance was doubled: 5 %. Slower growth crystallises.
+// As of disks, with 3n − 2 contacts of n spheres. Packings of three seeds were within 0.5 % of it, or 3.5 %
+// where the tolerance was doubled: 5 %. At this size slower growth orders some of them.
 TEST(JammedBackbone, OfSpheresIsIsostatic) {
   const auto [c, pressure] = grown(cubic_lattice(6, simple_cubic, 0.3, {Vec3::Ones()}), 3e-3, 1e7);
   const JammedBackbone held = jammed_backbone(c, pressure);
