@@ -192,20 +192,51 @@ Correlation correlate(const Series& series, std::size_t first, std::size_t count
   return result;
 }
 
-/// Calls visit(n) for all |n_d| ≤ max_d of which the first that is not 0 is positive, in ascending order.
+/// Calls visit(n) for all n with |q| within `reach` of a wave number, and for some beside them; only for those
+/// of which the first component that is not 0 is positive, in ascending order. Cost O((q L)^(D−1)): the last
+/// component skips the inside of the shell.
 template <int Dim, class Visit>
-void for_each_half(const std::array<int, Dim>& max, Visit&& visit) {
+void for_each_near(const Vec<Dim>& unit, double wave_number, double reach, Visit&& visit) {
   std::array<int, Dim> n;
-  const auto choose = [&](auto&& self, std::size_t d, bool positive) -> void {
-    if (d == Dim) {
-      if (positive) visit(n);
-      return;
-    }
-    for (n[d] = positive ? -max[d] : 0; n[d] <= max[d]; ++n[d])
-      self(self, d + 1, positive || n[d] > 0);
+  // Steps along an axis from the middle plane to a sphere, of which the other components have used up a part.
+  const auto steps = [&](double radius, double used, int axis) {
+    return static_cast<int>(std::sqrt(std::max(0.0, radius * radius - used)) / unit[axis]);
   };
-  choose(choose, 0, false);
+  const auto choose = [&](auto&& self, int axis, double used, bool positive) -> void {
+    const bool is_last = axis + 1 == Dim;
+    const int outside = steps(wave_number + reach, used, axis) + 1;
+    const int inside = is_last ? steps(std::max(0.0, wave_number - reach), used, axis) - 1 : 0;
+    for (int k = positive ? -outside : is_last; k <= outside; ++k) {
+      if (k > -inside && k < inside) k = inside;
+      n[static_cast<std::size_t>(axis)] = k;
+      const double q = k * unit[axis];
+      if (is_last)
+        visit(n);
+      else
+        self(self, axis + 1, used + q * q, positive || k > 0);
+    }
+  };
+  choose(choose, 0, 0.0, false);
 }
+
+/// The max_vectors with the smallest distances, the smallest first, and of equal ones the first added.
+template <int Dim>
+class NearestVectors {
+ public:
+  void add(const std::array<int, Dim>& n, double distance) {
+    const auto place = std::ranges::upper_bound(distances_, distance);
+    vectors_.insert(vectors_.begin() + (place - distances_.begin()), n);
+    distances_.insert(place, distance);
+    if (vectors_.size() <= max_vectors) return;
+    vectors_.pop_back();
+    distances_.pop_back();
+  }
+  std::vector<std::array<int, Dim>> vectors() && { return std::move(vectors_); }
+
+ private:
+  std::vector<double> distances_;
+  std::vector<std::array<int, Dim>> vectors_;
+};
 
 }  // namespace
 
@@ -213,22 +244,16 @@ template <int Dim>
 WaveVectorShell<Dim> wave_vector_shell(const PeriodicBox<Dim>& box, double wave_number) {
   const Vec<Dim> unit = reciprocal(box);
   const double reach = 0.5 * unit.minCoeff();
-  std::array<int, Dim> max;
-  for (int d = 0; d < Dim; ++d)
-    max[static_cast<std::size_t>(d)] = static_cast<int>((wave_number + reach) / unit[d]);
-  const auto away = [&](const std::array<int, Dim>& n) {
-    return std::abs(length_of<Dim>(n, unit) - wave_number);
-  };
-  WaveVectorShell<Dim> shell{{}, 0};
-  for_each_half<Dim>(max, [&](const std::array<int, Dim>& n) {
-    if (away(n) <= reach) shell.n.push_back(n);
+  NearestVectors<Dim> nearest;
+  for_each_near<Dim>(unit, wave_number, reach, [&](const std::array<int, Dim>& n) {
+    const double distance = std::abs(length_of<Dim>(n, unit) - wave_number);
+    if (distance <= reach) nearest.add(n, distance);
   });
+  WaveVectorShell<Dim> shell{std::move(nearest).vectors(), 0};
   if (shell.n.empty())
     throw UserError(
         "the wave number " + std::to_string(wave_number) +
         " is too small for the box; the smallest is 2π/L = " + std::to_string(unit.minCoeff()));
-  std::ranges::stable_sort(shell.n, {}, away);
-  if (shell.n.size() > max_vectors) shell.n.resize(max_vectors);
   for (const auto& n : shell.n) shell.wave_number += length_of<Dim>(n, unit);
   shell.wave_number /= static_cast<double>(shell.n.size());
   return shell;

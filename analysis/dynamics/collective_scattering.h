@@ -21,7 +21,8 @@ struct WaveVectorShell {
 };
 
 /// The wave vectors with |q| nearest to a wave number, 32 at most, and none farther from it than half
-/// the distance π/L of wave vectors along the longest side. Throws UserError if there is none: below π/L.
+/// the distance π/L of wave vectors along the longest side. Cost O((q L)^(D−1)) in D dimensions. Throws UserError
+/// if there is none: below π/L.
 template <int Dim>
 WaveVectorShell<Dim> wave_vector_shell(const PeriodicBox<Dim>& box, double wave_number);
 

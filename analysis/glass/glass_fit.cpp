@@ -365,7 +365,8 @@ std::string objection(const GlassFit& fit, const std::vector<Point>& points, Gla
     return fmt::format(
         "the law holds in no window: chi^2/dof is {:.3g} in the best one, [{:.4g}, {:.4g}]",
         w.chi_square / static_cast<double>(w.degrees), w.lowest, w.highest);
-  if (std::isnan(fit.low))
+  const bool has_bound = !std::isnan(fit.high) || !std::isnan(fit.least);
+  if (std::isnan(fit.low) || !has_bound)
     return fmt::format(
         "the density at which times diverge is not distinct from the highest one, "
         "{:.4g}",

@@ -81,7 +81,8 @@ struct GlassFit {
 /// - fewer than five densities, times that do not grow, or that grow by less than a factor of ten: what
 ///   has hardly begun to rise says nothing about a divergence, however well a law fits;
 /// - a χ² of the window of greatest weight that chance exceeds in less than 5 % of the cases;
-/// - φ_c not distinct from the highest density;
+/// - φ_c not distinct from the highest density, which is in the interval or, if that is open above, not below
+///   the bound;
 /// - a density outside of that window that contradicts its law: beyond φ_c, or more than three standard
 ///   errors, those of the time and of the extrapolation together, from the law.
 ///

@@ -5,31 +5,66 @@
 #include <limits>
 #include <numbers>
 
-#include "core/contact/ellipse_gap.h"
+#include "core/contact/contact_queries.h"
 #include "core/neighbors/pairs.h"
 
 namespace vitrel {
 
 namespace {
 
-/// Contacts that lie exactly opposite do so up to rounding.
-constexpr double half_circle = std::numbers::pi - 1e-9;
+/// Directions at a right angle to a normal are so up to rounding.
+constexpr double right_angle = 1e-9;
+
+/// Whether no direction away from a particle is more than a right angle from all outward normals at its
+/// contacts. If there are such directions, one of them is at a right angle to D − 1 independent normals.
+template <int Dim>
+class Blockade {
+ public:
+  explicit Blockade(const std::vector<Vec<Dim>>& normals) : normals_(normals) {}
+
+  bool is_complete() const {
+    bool spans = false;
+    for (std::size_t k = 0; k < normals_.size(); ++k)
+      for (std::size_t l = 0; l < (Dim == 2 ? 1 : k); ++l) {
+        const Vec<Dim> v = perpendicular_to(k, l);
+        if (!(v.norm() > right_angle)) continue;
+        if (is_free(v.normalized()) || is_free(-v.normalized())) return false;
+        spans = true;
+      }
+    return spans;
+  }
+
+ private:
+  Vec<Dim> perpendicular_to(std::size_t k, [[maybe_unused]] std::size_t l) const {
+    if constexpr (Dim == 2)
+      return perpendicular(normals_[k]);
+    else
+      return normals_[k].cross(normals_[l]);
+  }
+
+  bool is_free(const Vec<Dim>& v) const {
+    return std::ranges::all_of(normals_, [&](const Vec<Dim>& n) { return v.dot(n) < right_angle; });
+  }
+
+  const std::vector<Vec<Dim>>& normals_;
+};
 
 /// A contact as one of its two particles sees it.
+template <int Dim>
 struct Touch {
   std::size_t other;
-  double direction;  // of the outward normal
+  Vec<Dim> normal;  // outward
 };
 
 /// Takes rattlers out until there are none.
+template <int Dim>
 class Removal {
  public:
-  Removal(std::size_t particles, const std::vector<Contact>& contacts)
+  Removal(std::size_t particles, const std::vector<Contact<Dim>>& contacts)
       : touches_(particles), held_(particles, true) {
-    for (const Contact& contact : contacts) {
-      const Vec2& n = contact.normal;
-      touches_[contact.i].push_back({contact.j, std::atan2(n.y(), n.x())});
-      touches_[contact.j].push_back({contact.i, std::atan2(-n.y(), -n.x())});
+    for (const Contact<Dim>& contact : contacts) {
+      touches_[contact.i].push_back({contact.j, contact.normal});
+      touches_[contact.j].push_back({contact.i, -contact.normal});
     }
     for (std::size_t i = 0; i < particles; ++i) doubtful_.push_back(i);
     while (!doubtful_.empty()) judge_next();
@@ -41,68 +76,68 @@ class Removal {
   void judge_next() {
     const std::size_t i = doubtful_.back();
     doubtful_.pop_back();
-    if (!held_[i] || widest_opening(i) < half_circle) return;
+    if (!held_[i] || is_blocked(i)) return;
     held_[i] = false;
-    for (const Touch& touch : touches_[i]) doubtful_.push_back(touch.other);
+    for (const Touch<Dim>& touch : touches_[i]) doubtful_.push_back(touch.other);
   }
 
-  // The widest angle between neighbouring normals.
-  double widest_opening(std::size_t i) const {
-    std::vector<double> directions;
-    for (const Touch& touch : touches_[i])
-      if (held_[touch.other]) directions.push_back(touch.direction);
-    if (directions.empty()) return 2 * std::numbers::pi;
-    std::sort(directions.begin(), directions.end());
-    double widest = directions.front() + 2 * std::numbers::pi - directions.back();
-    for (std::size_t k = 1; k < directions.size(); ++k)
-      widest = std::max(widest, directions[k] - directions[k - 1]);
-    return widest;
+  bool is_blocked(std::size_t i) const {
+    std::vector<Vec<Dim>> normals;
+    for (const Touch<Dim>& touch : touches_[i])
+      if (held_[touch.other]) normals.push_back(touch.normal);
+    return Blockade<Dim>(normals).is_complete();
   }
 
-  std::vector<std::vector<Touch>> touches_;
+  std::vector<std::vector<Touch<Dim>>> touches_;
   std::vector<bool> held_;
   std::vector<std::size_t> doubtful_;
 };
 
-/// Mean diameter of the disks of equal areas.
-double mean_diameter(const Configuration2& configuration) {
+/// Mean diameter of the disks (spheres) of equal areas (volumes).
+template <int Dim>
+double mean_diameter(const Configuration<Dim>& configuration) {
+  constexpr double of_unit = Dim == 2 ? std::numbers::pi : 4 * std::numbers::pi / 3;
   double sum = 0;
-  for (const Ellipse& shape : configuration.shape) sum += 2 * std::sqrt(shape.a * shape.b);
+  for (const Solid<Dim>& shape : configuration.shape)
+    sum += 2 * std::pow(shape.volume() / of_unit, 1.0 / Dim);
   return sum / static_cast<double>(configuration.size());
 }
 
 }  // namespace
 
-std::vector<Contact> contacts(const Configuration2& configuration, double tolerance) {
-  std::vector<Contact> found;
+template <int Dim>
+std::vector<Contact<Dim>> contacts(const Configuration<Dim>& configuration, double tolerance) {
+  std::vector<Contact<Dim>> found;
   const double scale = 1 + tolerance / largest_circumradius(configuration);
-  for_each_pair(configuration, scale, [&](std::size_t i, std::size_t j, const Vec2& d) {
-    const SupportGap surfaces = support_gap(configuration.shape[i], configuration.angle[i],
-                                            configuration.shape[j], configuration.angle[j], d);
+  for_each_pair(configuration, scale, [&](std::size_t i, std::size_t j, const Vec<Dim>& d) {
+    const auto surfaces = support_gap(configuration.shape[i], configuration.pose(i),
+                                      configuration.shape[j], configuration.pose(j), d);
     if (surfaces.gap < tolerance) found.push_back({i, j, surfaces.normal, surfaces.gap});
   });
   return found;
 }
 
-Backbone backbone(const Configuration2& configuration, double tolerance) {
-  const std::vector<Contact> all = contacts(configuration, tolerance);
-  const Removal removal(configuration.size(), all);
-  std::size_t held = 0, rotors = 0;
+template <int Dim>
+Backbone backbone(const Configuration<Dim>& configuration, double tolerance) {
+  const std::vector<Contact<Dim>> all = contacts(configuration, tolerance);
+  const Removal<Dim> removal(configuration.size(), all);
+  std::size_t held = 0, freedom = 0;
   for (std::size_t i = 0; i < configuration.size(); ++i) {
     if (!removal.holds(i)) continue;
     ++held;
-    if (!configuration.shape[i].is_round()) ++rotors;
+    freedom += static_cast<std::size_t>(Dim + configuration.shape[i].rotations());
   }
   const auto left =
-      static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [&](const Contact& contact) {
+      static_cast<std::size_t>(std::ranges::count_if(all, [&](const Contact<Dim>& contact) {
         return removal.holds(contact.i) && removal.holds(contact.j);
       }));
   const double n = held > 0 ? static_cast<double>(held) : std::numeric_limits<double>::quiet_NaN();
   return {configuration.size() - held, left, 2 * static_cast<double>(left) / n,
-          4 + 2 * static_cast<double>(rotors) / n};
+          2 * static_cast<double>(freedom) / n};
 }
 
-JammedBackbone jammed_backbone(const Configuration2& configuration, double reduced_pressure) {
+template <int Dim>
+JammedBackbone jammed_backbone(const Configuration<Dim>& configuration, double reduced_pressure) {
   const double diameter = mean_diameter(configuration);
   JammedBackbone result{};
   for (double tolerance = diameter / std::sqrt(reduced_pressure); tolerance <= diameter / 10;
@@ -112,5 +147,12 @@ JammedBackbone jammed_backbone(const Configuration2& configuration, double reduc
   }
   return result;
 }
+
+template std::vector<Contact<2>> contacts(const Configuration2&, double);
+template std::vector<Contact<3>> contacts(const Configuration3&, double);
+template Backbone backbone(const Configuration2&, double);
+template Backbone backbone(const Configuration3&, double);
+template JammedBackbone jammed_backbone(const Configuration2&, double);
+template JammedBackbone jammed_backbone(const Configuration3&, double);
 
 }  // namespace vitrel

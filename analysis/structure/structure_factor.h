@@ -39,7 +39,8 @@ struct StructureFactor {
 /// the box is folded: positions modulo half a side have the same ρ(q) at every second wave vector
 /// along that side, and the same grid reaches twice as far (colombi2009). So the cost grows with
 /// log q_max, and shells far out are sampled by fewer of their very many wave vectors: in each
-/// direction every 2nd, 4th … along the sides that are not much shorter than the longest.
+/// direction every 2nd, 4th … along the sides that are not much shorter than the longest. With the default
+/// shells there are never more than about 10⁵, in however large a box.
 ///
 /// Of few particles direct sums over the same wave vectors are taken, which are exact up to rounding.
 ///

@@ -11,6 +11,10 @@ std::string json_text(const Json& json, int indent, JsonCharacters characters) {
                    Json::error_handler_t::replace);
 }
 
+double number_or(const Json& json, double if_null) {
+  return json.is_null() ? if_null : json.get<double>();
+}
+
 Json parse_json(std::string_view text, const std::string& file) {
   try {
     return Json::parse(text);

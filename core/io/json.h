@@ -18,6 +18,9 @@ enum class JsonCharacters { utf8, ascii };
 std::string json_text(const Json& json, int indent = -1,
                       JsonCharacters characters = JsonCharacters::utf8);
 
+/// The number; `if_null` for null, which stands for numbers that are not finite.
+double number_or(const Json& json, double if_null);
+
 /// FileError if it is not JSON; `file` is for the message.
 Json parse_json(std::string_view text, const std::string& file);
 

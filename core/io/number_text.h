@@ -11,7 +11,8 @@ namespace vitrel {
 std::string grouped(std::uint64_t number);
 
 /// "1.234 ± 0.012": the error with two significant digits, the value with as many decimals. Without
-/// a finite error the value has four significant digits; "–" if it is not finite either.
+/// a finite error the value has four significant digits, with one of at most 1e-12 of it, which is
+/// rounding, six; "–" if it is not finite either.
 std::string with_error(double value, double error);
 
 }  // namespace vitrel

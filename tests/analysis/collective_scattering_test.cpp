@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <set>
 
 #include "core/error.h"
 #include "tests/support/free_brownian.h"
@@ -23,8 +24,10 @@ Configuration2 ideal_gas(std::size_t n, std::uint64_t seed) {
   return configuration;
 }
 
-Vec2 wave_vector(const std::array<int, 2>& n, const PeriodicBox<2>& box) {
-  return 2 * std::numbers::pi * Vec2(n[0] / box.lengths().x(), n[1] / box.lengths().y());
+template <std::size_t N, int Dim = static_cast<int>(N)>
+Vec<Dim> wave_vector(const std::array<int, N>& n, const PeriodicBox<Dim>& box) {
+  const Eigen::Map<const Eigen::Vector<int, Dim>> steps(n.data());
+  return 2 * std::numbers::pi * steps.template cast<double>().cwiseQuotient(box.lengths());
 }
 
 TEST(WaveVectorShell, HasTheNearestVectorsOfTheBoxOnceEach) {
@@ -40,6 +43,56 @@ TEST(WaveVectorShell, HasTheNearestVectorsOfTheBoxOnceEach) {
   EXPECT_EQ(wave_vector_shell(box, 30).n.size(), 32u);
   EXPECT_NEAR(wave_vector_shell(box, 30).wave_number, 30, 0.02);
   EXPECT_THROW(wave_vector_shell(box, 0.2), UserError);
+}
+
+/// The lengths of the vectors of a shell from all vectors with components up to `order` steps.
+template <int Dim>
+std::vector<double> nearest_lengths(const PeriodicBox<Dim>& box, double wave_number, int order) {
+  const double reach = std::numbers::pi / box.lengths().maxCoeff();
+  std::vector<double> lengths;
+  std::array<int, Dim> n;
+  n.fill(-order);
+  for (std::size_t d = 0; d < Dim;) {
+    const double q = wave_vector(n, box).norm();
+    if (n > std::array<int, Dim>{} && std::abs(q - wave_number) <= reach) lengths.push_back(q);
+    for (d = 0; d < Dim && ++n[d] > order; ++d) n[d] = -order;
+  }
+  std::ranges::sort(lengths, {}, [&](double q) { return std::abs(q - wave_number); });
+  if (lengths.size() > 32) lengths.resize(32);
+  return lengths;
+}
+
+template <int Dim>
+void expect_nearest(const Vec<Dim>& sides, double wave_number, int order) {
+  const PeriodicBox<Dim> box(sides);
+  const WaveVectorShell<Dim> shell = wave_vector_shell(box, wave_number);
+  const std::vector<double> expected = nearest_lengths(box, wave_number, order);
+  ASSERT_EQ(shell.n.size(), expected.size()) << wave_number;
+  const std::set distinct(shell.n.begin(), shell.n.end());
+  EXPECT_EQ(distinct.size(), expected.size()) << wave_number;
+  // Distances, since rounding decides between lengths that are equally far.
+  for (std::size_t k = 0; k < expected.size(); ++k)
+    EXPECT_NEAR(std::abs(wave_vector(shell.n[k], box).norm() - wave_number),
+                std::abs(expected[k] - wave_number), 1e-13)
+        << wave_number;
+}
+
+TEST(WaveVectorShell, HasTheNearestOfAllVectors) {
+  for (const double q : {0.7, 1.3, 2.0, 3.3}) {
+    expect_nearest<2>({37, 53}, q, 30);
+    expect_nearest<3>({17, 23, 11}, q, 14);
+  }
+}
+
+// 400 particles at φ = 5 × 10⁻⁸ in the plane, 5 × 10⁻⁶ in space, and the wave number of a liquid: inside of the
+// shells are 7 × 10⁹ and 5 × 10⁷ vectors.
+TEST(WaveVectorShell, OfADiluteGasHasAsManyVectorsAsOthers) {
+  const WaveVectorShell<2> plane = wave_vector_shell(PeriodicBox<2>(Vec2(158'533, 158'533)), 2.7);
+  EXPECT_EQ(plane.n.size(), 32u);
+  EXPECT_NEAR(plane.wave_number, 2.7, std::numbers::pi / 158'533);
+  const WaveVectorShell<3> space = wave_vector_shell(PeriodicBox<3>(Vec3::Constant(694)), 2.7);
+  EXPECT_EQ(space.n.size(), 32u);
+  EXPECT_NEAR(space.wave_number, 2.7, std::numbers::pi / 694);
 }
 
 // S(q) from the sum over all particles, frame by frame, with the same vectors.

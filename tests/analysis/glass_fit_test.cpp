@@ -163,6 +163,24 @@ TEST(GlassFit, FarFromTheDivergenceThereIsABoundOnly) {
   EXPECT_LE(wrong, 5 + 3 * 2.2);
 }
 
+// Exact times of the power law with φ_c = 0.82, but errors so large that φ_c is not bounded from above and,
+// with a probability of more than 5 %, not above the highest density.
+TEST(GlassFit, ABoundBelowTheHighestDensityIsNone) {
+  for (const double relative_error : {0.3, 0.5, 0.8}) {
+    std::vector<GlassPoint> points;
+    for (const double phi : densities(0.70, 0.02, 5)) {
+      const double time = std::pow(0.82 - phi, -2.5);
+      points.push_back({phi, time, relative_error * time});
+    }
+    const GlassFit fit = fit_glass_law(points, GlassLaw::mode_coupling);
+    EXPECT_GT(fit.low, 0.78) << relative_error;
+    EXPECT_TRUE(std::isnan(fit.high)) << relative_error;
+    EXPECT_EQ(fit.verdict, GlassVerdict::refused) << relative_error;
+    EXPECT_EQ(fit.reason,
+              "the density at which times diverge is not distinct from the highest one, 0.78");
+  }
+}
+
 // The power law grows by (0.29/0.19)^2.3 = 2.64 from 0.50 to 0.60. Exact times fit it perfectly, and yet
 // hardly more than a straight line is known. From 0.60 to 0.72 it is (0.19/0.07)^2.3 = 9.95, to 0.722 10.6.
 TEST(GlassFit, ADecadeOfGrowthIsNeededHoweverWellTheLawFits) {

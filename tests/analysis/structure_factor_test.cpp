@@ -229,6 +229,32 @@ TEST(StructureFactor, OfAnIdealGasIsOne) {
   expect_one_in_a_gas<3>({13, 10, 11}, {5, 0.2});
 }
 
+/// However dilute a gas is, folding bounds the wave vectors. |ρ|²/N of independent points has the variance
+/// 1 − 1/N at every one of them, and no correlation between them: χ² over the n shells within 6 √(2n).
+template <int Dim>
+void expect_one_in_a_dilute_gas(double side) {
+  const Configuration<Dim> c = gas<Dim>(400, Vec<Dim>::Constant(side), 1);
+  const StructureFactor s = ScatteringShells<Dim>(c.box.lengths(), {}).structure_factor(c);
+  double vectors = 0, shells = 0, chi_squared = 0;
+  for (std::size_t k = 0; k < s.q.size(); ++k) {
+    if (s.modes[k] == 0) continue;
+    ++shells;
+    vectors += s.modes[k];
+    chi_squared += s.modes[k] * std::pow(s.total[k] - 1, 2) / (1 - 1 / 400.0);
+  }
+  EXPECT_GT(shells, 115) << side;
+  EXPECT_LT(vectors, 150'000) << side;
+  EXPECT_NEAR(chi_squared, shells, 6 * std::sqrt(2 * shells)) << side;
+}
+
+// φ = 5 × 10⁻⁴ and 5 × 10⁻⁸: in the plane there are 1.4 × 10⁷ and 1.4 × 10¹¹ wave vectors.
+TEST(StructureFactor, OfADiluteGasIsOneOnABoundedNumberOfWaveVectors) {
+  expect_one_in_a_dilute_gas<2>(1585);
+  expect_one_in_a_dilute_gas<2>(158'500);
+  expect_one_in_a_dilute_gas<3>(149.6);
+  expect_one_in_a_dilute_gas<3>(3224);
+}
+
 // Σ_αβ √(x_α x_β) S_αβ = S, where A_B counts twice.
 TEST(StructureFactor, OfTheSpeciesAddsUpToTheTotal) {
   const Configuration2 c = gas<2>(90, {20, 25}, 5);

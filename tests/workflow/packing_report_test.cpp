@@ -105,11 +105,15 @@ TEST_F(PackingFile, TakesFromTheQualityReportWhatOnlyThePreparationKnows) {
   quality.reduced_pressure = 17;
   quality.collisions = 4321;
   quality.wall_seconds = 2.5;
+  quality.backbone = JammedBackbone{{6, 1000, 9.52, 10}, 2e-3};
   write_quality(quality_file(file()), quality);
   const std::string text = packing_page(packing_page_data(file(), {}));
   EXPECT_THAT(text, HasSubstr("<td>17</td>"));
   EXPECT_THAT(text, HasSubstr("<td>4321</td>"));
   EXPECT_THAT(text, HasSubstr("<td>2.5 s</td>"));
+  EXPECT_THAT(text, HasSubstr("<td>9.520</td>"));
+  EXPECT_THAT(text, HasSubstr("isostatic: 10; gaps below 0.002"));
+  EXPECT_THAT(text, HasSubstr("<td>6 of 216</td>"));
 
   quality.particles = 7;
   write_quality(quality_file(file()), quality);

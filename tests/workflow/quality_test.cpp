@@ -12,6 +12,7 @@
 #include "core/io/h5md.h"
 #include "core/io/text_file.h"
 #include "tests/app/program.h"
+#include "workflow/prepare/packing_quality.h"
 
 namespace vitrel {
 namespace {
@@ -136,6 +137,26 @@ TEST(MeasureQuality, TheBudgetStopsIt) {
   control.should_stop = [] { return true; };
   const Parameters parameters = small();
   EXPECT_FALSE(measure_quality(prepare({parameters}, {}, say_nothing), parameters, control));
+}
+
+PackingQuality packing_grown_to(const std::string& pressure) {
+  const Parameters parameters = parse_parameters(
+      "[system]\ndimension = 3\nparticles = 64\n[[species]]\naspect_ratio = 1\n"
+      "[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"grow\"\ngrowth_rate = 0.02\n"
+      "reduced_pressure = " +
+          pressure,
+      "p.toml");
+  return measure_quality(prepare<3>({parameters}, {}, say_nothing));
+}
+
+TEST(MeasureQuality, OfAPackingInSpaceCountsContactsIfItIsJammed) {
+  const PackingQuality jammed = packing_grown_to("1e6");
+  ASSERT_TRUE(jammed.backbone);
+  EXPECT_EQ(jammed.backbone->isostatic_number, 6);
+  EXPECT_GT(jammed.backbone->contact_number, 5);
+  EXPECT_LT(jammed.backbone->contact_number, 7);
+  EXPECT_EQ(quality_json(jammed)["rattlers"], jammed.backbone->rattlers);
+  EXPECT_FALSE(packing_grown_to("20").backbone);
 }
 
 TEST(QualityRows, SayWhatWasNotReached) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "tests/support/free_brownian.h"
+#include "tests/support/solids.h"
 
 namespace vitrel {
 namespace {
@@ -59,6 +60,54 @@ TEST(RelaxationTables, SoTheyDoSampledInCycles) {
   MemoryTrajectory2 steps = free_brownian(ellipses_and_disks(), 1601, 2);
   MemoryTrajectory2 trajectory = cycles(steps);
   expect_closed_forms(trajectory);
+}
+
+/// Scalene ellipsoids that turn about their middle axis only, by normal angles with that standard
+/// deviation, once in a unit of time.
+MemoryTrajectory3 turning_about_the_middle_axis(double deviation) {
+  Stream draw(4, Purpose::tests);
+  Configuration3 c;
+  c.box = PeriodicBox<3>(Vec3(4, 5, 6));
+  c.species_names = {"A"};
+  c.resize(150);
+  for (std::size_t i = 0; i < c.size(); ++i) {
+    c.shape[i].semi_axes = Vec3(1, 0.5, 2);
+    c.orientation[i] = random_orientation(draw);
+  }
+  std::vector<Configuration3> frames;
+  for (std::size_t k = 0; k < 401; ++k) {
+    c.time = static_cast<double>(k);
+    frames.push_back(c);
+    for (Quaternion& orientation : c.orientation)
+      orientation = orientation * Eigen::AngleAxisd(deviation * draw.normal(), Vec3::UnitX());
+  }
+  return MemoryTrajectory3(std::move(frames));
+}
+
+// The middle axis keeps its direction. The others turn in a plane by an angle of variance σ² t, so P_1 =
+// exp(−σ² t/2) and P_2 = (1 + 3 exp(−2 σ² t))/4. Errors as above.
+TEST(RelaxationTables, HaveAllAxesOfScaleneEllipsoids) {
+  constexpr double deviation = 0.25;
+  MemoryTrajectory3 trajectory = turning_about_the_middle_axis(deviation);
+  Results results;
+  store_relaxation_times(displacements(trajectory, {.wave_numbers = {1}}), results);
+  const Table& table = *results.find("relaxation_times");
+  EXPECT_EQ(table.find("kind")->value, (std::vector<double>{0, 1, 1, 2, 2, 3, 3}));
+  EXPECT_EQ(table.find("parameter")->value, (std::vector<double>{1, 1, 2, 1, 2, 1, 2}));
+  EXPECT_EQ(table.find("kind")->labels.size(), 4u);
+  const double variance = deviation * deviation;
+  const double truth[] = {2 / variance, -std::log((4 / std::numbers::e - 1) / 3) / (2 * variance)};
+  const Column& tau = *table.find("tau");
+  for (const std::size_t row : {1u, 2u, 5u, 6u}) {
+    const double expected = truth[(row - 1) % 2];
+    EXPECT_GT(tau.error[row], 0) << row;
+    EXPECT_LT(tau.error[row], 0.1 * expected) << row;
+    EXPECT_NEAR(tau.value[row], expected, 4 * tau.error[row] + 0.002 * expected) << row;
+  }
+  for (const std::size_t row : {3u, 4u}) {
+    EXPECT_TRUE(std::isnan(tau.value[row])) << row;
+    EXPECT_TRUE(results.text("relaxation_times_" + std::to_string(row)).starts_with("still 1 "));
+  }
 }
 
 // τ of F_s is 20/q²: 8000 of a run of 10, and 0.0125 between frames 0.1 apart.

@@ -283,6 +283,19 @@ TEST(ReportPage, RunsThatCannotBeJudgedSayWhy) {
   EXPECT_EQ(result_of({}), "");
 }
 
+TEST(ReportPage, RelaxationTimesOfFurtherAxesNameThem) {
+  const std::string result = result_of({{{"relaxation_times",
+                                          "",
+                                          {report_example::plain("group", "1", {0, 0, 0}),
+                                           report_example::plain("kind", "1", {1, 2, 3}),
+                                           report_example::plain("parameter", "1", {2, 2, 2}),
+                                           report_example::plain("tau", "time", {5, 4, 3})}}},
+                                        {}});
+  EXPECT_EQ(count(result, "τ<sub>2</sub></th><td>5 √(m ab/kT)</td>"), 1u);
+  EXPECT_EQ(count(result, "τ<sub>2</sub> of the middle axis</th><td>4 √(m ab/kT)</td>"), 1u);
+  EXPECT_EQ(count(result, "τ<sub>2</sub> of the shortest axis</th><td>3 √(m ab/kT)</td>"), 1u);
+}
+
 TEST(ReportPage, OrientationsOfANematicAreSeenFromTheDirector) {
   const auto result = [](double tau) {
     return result_of({{{"relaxation",
@@ -359,6 +372,9 @@ TEST(WithError, TwoDigitsOfTheError) {
   EXPECT_EQ(with_error(1234.5, 41.7), "1234 ± 42");
   EXPECT_EQ(with_error(1.00004, 0.0999), "1.00 ± 0.10");
   EXPECT_EQ(with_error(1.5, 0), "1.5");
+  EXPECT_EQ(with_error(1.5 + 2e-15, 9e-16), "1.5");
+  EXPECT_EQ(with_error(-1.5, 1.4e-12), "-1.5");
+  EXPECT_EQ(with_error(1.5, 1.6e-12), "1.5000000000000 ± 0.0000000000016");
   EXPECT_EQ(with_error(2.71828, none), "2.718");
   EXPECT_EQ(with_error(none, 1), "–");
 }

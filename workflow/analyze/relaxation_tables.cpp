@@ -7,16 +7,25 @@
 namespace vitrel {
 namespace {
 
-enum class Kind { self_scattering, orientation };
+/// Those after the first orientation are of the middle and the shortest axis of scalene ellipsoids.
+enum class Kind { self_scattering, orientation, middle_axis, short_axis };
+
+constexpr Kind orientation_of_axis[] = {Kind::orientation, Kind::middle_axis, Kind::short_axis};
 
 Table empty_table() {
   return {
       "relaxation_times",
       "Relaxation times tau, when a correlation has fallen to 1/e. kind: F_s(q, t), or L_n(t), in "
-      "three dimensions P_n of the first axis; parameter: its q or n. Without tau: a time that it "
+      "three dimensions P_n of the axis of symmetry, of scalene bodies of the longest and of the "
+      "middle and the shortest axis; parameter: its q or n. Without tau: a time that it "
       "outlives (least) or by which it has decayed (most), and the reason in the provenance.",
       {{"group", "1", {}, {}},
-       {"kind", "1", {}, {}, {"self scattering", "orientation"}},
+       {"kind",
+        "1",
+        {},
+        {},
+        {"self scattering", "orientation", "orientation of the middle axis",
+         "orientation of the shortest axis"}},
        {"parameter", "1/length or 1", {}, {}},
        {"tau", "time", {}, {}},
        {"least", "time", {}, {}},
@@ -35,8 +44,9 @@ class RelaxationRows {
     for (std::size_t k = 0; k < group.self_scattering.size(); ++k)
       add(number, Kind::self_scattering, found_.wave_numbers[k], group.self_scattering[k]);
     if (group.rotors == 0) return;
-    for (std::size_t k = 0; k < found_.orders.size(); ++k)
-      add(number, Kind::orientation, found_.orders[k], group.orientation[k]);
+    const std::size_t orders = found_.orders.size();
+    for (std::size_t k = 0; k < group.orientation.size(); ++k)
+      add(number, orientation_of_axis[k / orders], found_.orders[k % orders], group.orientation[k]);
   }
   Table table() && { return std::move(table_); }
 

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/io/json.h"
 #include "core/io/text_file.h"
+#include "workflow/prepare/backbone_report.h"
 
 namespace vitrel {
 namespace {
@@ -48,6 +49,7 @@ PackingQuality measure_quality(const Configuration3& packing, const ExactCheck<3
 PackingQuality measure_quality(const Preparation<3>& preparation) {
   PackingQuality quality = measure_quality(preparation.configuration, preparation.check);
   quality.reduced_pressure = pressure_of_growth(preparation);
+  quality.backbone = backbone_at_pressure(preparation.configuration, quality.reduced_pressure);
   for (const StageRecord& stage : preparation.stages)
     quality.collisions += stage.growth.counters.collisions;
   quality.wall_seconds = preparation.wall_seconds;
@@ -63,8 +65,8 @@ void add_preparation(PackingQuality& quality, const std::filesystem::path& file)
           fmt::format("{}: is the quality report of another packing; vitrel prepare "
                       "writes both files together",
                       file.string()));
-    const Json& pressure = report.at("reduced_pressure");
-    if (!pressure.is_null()) quality.reduced_pressure = pressure;
+    quality.reduced_pressure = number_or(report.at("reduced_pressure"), unknown);
+    if (report.contains("rattlers")) quality.backbone = backbone_from(report);
     quality.collisions = report.at("collisions");
     quality.wall_seconds = report.at("wall_seconds");
   } catch (const Json::exception& error) {
@@ -84,6 +86,7 @@ std::vector<QualityRow> quality_rows(const PackingQuality& quality) {
                   std::isfinite(quality.smallest_gap) ? fmt::format("{:.3g}", quality.smallest_gap)
                                                       : "beyond the longest semi-axis",
                   fmt::format("exact check: {} overlaps", quality.overlaps)});
+  add_backbone_rows(rows, quality.backbone, quality.particles);
   if (quality.collisions > 0)
     rows.push_back(
         {"collisions", fmt::format("{}", quality.collisions),
@@ -96,18 +99,20 @@ std::vector<QualityRow> quality_rows(const PackingQuality& quality) {
 
 Json quality_json(const PackingQuality& quality) {
   const IsotropicRatio chance = isotropic_ratio(quality.axes);
-  return {{"dimension", 3},
-          {"particles", quality.particles},
-          {"packing_fraction", quality.packing_fraction},
-          {"reduced_pressure", quality.reduced_pressure},
-          {"axes", quality.axes},
-          {"orientation_ratio", quality.orientation_ratio},
-          {"isotropic_ratio", chance.mean},
-          {"isotropic_ratio_deviation", chance.standard_deviation},
-          {"overlaps", quality.overlaps},
-          {"smallest_gap", quality.smallest_gap},
-          {"collisions", quality.collisions},
-          {"wall_seconds", quality.wall_seconds}};
+  Json json = {{"dimension", 3},
+               {"particles", quality.particles},
+               {"packing_fraction", quality.packing_fraction},
+               {"reduced_pressure", quality.reduced_pressure},
+               {"axes", quality.axes},
+               {"orientation_ratio", quality.orientation_ratio},
+               {"isotropic_ratio", chance.mean},
+               {"isotropic_ratio_deviation", chance.standard_deviation},
+               {"overlaps", quality.overlaps},
+               {"smallest_gap", quality.smallest_gap},
+               {"collisions", quality.collisions},
+               {"wall_seconds", quality.wall_seconds}};
+  if (quality.backbone) json.update(backbone_json(quality.backbone));
+  return json;
 }
 
 void write_quality(const std::filesystem::path& file, const PackingQuality& quality) {

@@ -2,8 +2,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
+#include "analysis/structure/contacts.h"
 #include "analysis/structure/orientation_tensor.h"
 #include "core/io/json.h"
 #include "workflow/prepare/prepare.h"
@@ -20,14 +22,15 @@ struct PackingQuality {
   std::size_t axes = 0;          ///< bodies that are not round
   double orientation_ratio = 0;  ///< ρ = λ_max/λ_min of the orientation tensor; NaN without axes
   std::size_t overlaps = 0;
-  double smallest_gap = 0;       ///< infinity beyond the longest semi-axis
-  std::uint64_t collisions = 0;  ///< of all stages; 0 if not known
-  double wall_seconds = 0;       ///< 0 if not known
+  double smallest_gap = 0;                 ///< infinity beyond the longest semi-axis
+  std::optional<JammedBackbone> backbone;  ///< from min_jammed_pressure on
+  std::uint64_t collisions = 0;            ///< of all stages; 0 if not known
+  double wall_seconds = 0;                 ///< 0 if not known
 };
 
 /// Of a complete preparation.
 PackingQuality measure_quality(const Preparation<3>& preparation);
-/// Of a packing and its exact check: without pressure, collisions and wall time.
+/// Of a packing and its exact check: without pressure, backbone, collisions and wall time.
 PackingQuality measure_quality(const Configuration3& packing, const ExactCheck<3>& check);
 /// Adds these, from what write_quality wrote. FileError if that is no report of the same packing.
 void add_preparation(PackingQuality& quality, const std::filesystem::path& file);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/io/number_text.h"
+#include "workflow/prepare/backbone_report.h"
 
 namespace vitrel {
 namespace {
@@ -83,19 +84,6 @@ void add_time_rows(std::vector<QualityRow>& rows, const Quality& quality) {
                            "until the particles have moved by their width 2b"));
 }
 
-void add_contact_rows(std::vector<QualityRow>& rows, const Quality& quality) {
-  if (!quality.backbone) return;
-  const JammedBackbone& held = *quality.backbone;
-  const bool jammed = std::isfinite(held.contact_number);
-  rows.push_back({"contacts per particle",
-                  jammed ? fmt::format("{:.3f}", held.contact_number) : "–",
-                  jammed ? fmt::format("without rattlers; isostatic: {:.3g}; gaps below {:.2g}",
-                                       held.isostatic_number, held.tolerance)
-                         : "not jammed"});
-  rows.push_back({"rattlers", fmt::format("{} of {}", held.rattlers, quality.particles),
-                  "particles that their contacts do not hold"});
-}
-
 }  // namespace
 
 std::optional<Quality> measure_quality(const Preparation<2>& preparation,
@@ -118,8 +106,7 @@ std::optional<Quality> measure_quality(const Preparation<2>& preparation,
   quality.hexatic_order = hexatic_order(state);
   quality.overlaps = preparation.check.overlaps.size();
   quality.smallest_gap = preparation.check.smallest_gap;
-  if (quality.reduced_pressure.mean >= min_jammed_pressure)
-    quality.backbone = jammed_backbone(state, quality.reduced_pressure.mean);
+  quality.backbone = backbone_at_pressure(state, quality.reduced_pressure.mean);
   return quality;
 }
 
@@ -138,7 +125,7 @@ std::vector<QualityRow> quality_rows(const Quality& quality) {
                   std::isfinite(quality.smallest_gap) ? fmt::format("{:.3g}", quality.smallest_gap)
                                                       : "beyond the longest semi-axis",
                   fmt::format("exact check: {} overlaps", quality.overlaps)});
-  add_contact_rows(rows, quality);
+  add_backbone_rows(rows, quality.backbone, quality.particles);
   add_time_rows(rows, quality);
   return rows;
 }

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/io/json.h"
 #include "core/io/text_file.h"
+#include "workflow/prepare/backbone_report.h"
 
 namespace vitrel {
 namespace {
@@ -28,10 +29,6 @@ From source_of(const std::string& name) {
   return name == name_of(From::growth)     ? From::growth
          : name == name_of(From::sampling) ? From::sampling
                                            : From::nothing;
-}
-
-double number(const Json& json, double if_null) {
-  return json.is_null() ? if_null : json.get<double>();
 }
 
 /// A limit, or how far was looked for it in vain.
@@ -61,25 +58,8 @@ Json correlation_json(const NematicCorrelation& g) {
 NematicCorrelation correlation_from(const Json& json) {
   if (json.is_null()) return {};
   NematicCorrelation g{json.at("distance"), {}, json.at("pairs")};
-  for (const Json& value : json.at("value")) g.value.push_back(number(value, unknown));
+  for (const Json& value : json.at("value")) g.value.push_back(number_or(value, unknown));
   return g;
-}
-
-Json backbone_json(const std::optional<JammedBackbone>& held) {
-  if (!held) return nullptr;
-  return {{"contact_tolerance", held->tolerance},
-          {"contact_number", held->contact_number},
-          {"isostatic_number", held->isostatic_number},
-          {"contacts", held->contacts},
-          {"rattlers", held->rattlers}};
-}
-
-std::optional<JammedBackbone> backbone_from(const Json& json) {
-  if (json.is_null()) return std::nullopt;
-  return JammedBackbone{
-      {json.at("rattlers"), json.at("contacts"), number(json.at("contact_number"), unknown),
-       number(json.at("isostatic_number"), unknown)},
-      json.at("contact_tolerance")};
 }
 
 Json decorrelation_json(const std::optional<Decorrelation>& decorrelation) {
@@ -119,14 +99,14 @@ Quality quality_from(const Json& json) {
   quality.packing_fraction = json.at("packing_fraction");
   const Json& pressure = json.at("reduced_pressure");
   quality.pressure_from = source_of(pressure.at("from"));
-  quality.reduced_pressure = {number(pressure.at("value"), unknown),
-                              number(pressure.at("error"), unknown), 0};
+  quality.reduced_pressure = {number_or(pressure.at("value"), unknown),
+                              number_or(pressure.at("error"), unknown), 0};
   quality.nematic_order = json.at("nematic_order");
   quality.nematic_correlation = correlation_from(json.at("nematic_correlation"));
   quality.hexatic_order = {json.at("hexatic_order").at("global"),
                            json.at("hexatic_order").at("local")};
   quality.overlaps = json.at("overlaps");
-  quality.smallest_gap = number(json.at("smallest_gap"), infinity);
+  quality.smallest_gap = number_or(json.at("smallest_gap"), infinity);
   quality.backbone = backbone_from(json.at("jamming"));
   quality.decorrelation = decorrelation_from(json.at("time_correlation"));
   return quality;

@@ -125,7 +125,10 @@ std::string time_row(const Row& row, const Notation& notation) {
     return html_row("relaxation time τ<sub>α</sub>",
                     {time, fmt::format("F<sub>s</sub>(q, t) = 1/e at q = {}/{}", parameter,
                                        notation.unit_of_length)});
-  return html_row(fmt::format("rotational relaxation time τ<sub>{}</sub>", parameter),
+  constexpr std::array<std::string_view, 4> of_axis = {"", "", " of the middle axis",
+                                                       " of the shortest axis"};
+  return html_row(fmt::format("rotational relaxation time τ<sub>{}</sub>{}", parameter,
+                              row.word("kind", of_axis)),
                   {time, fmt::format("{}<sub>{}</sub>(t) = 1/e", notation.correlation, parameter)});
 }
 

@@ -138,7 +138,7 @@ Figures job_figures(const Json& done) {
   for (const char* no_result : {"seed", "dimension"}) numbers.erase(no_result);
   Figures figures;
   for (const auto& [key, value] : numbers.items())
-    figures.emplace_back(key, value.is_null() ? unknown : value.get<double>());
+    figures.emplace_back(key, number_or(value, unknown));
   return figures;
 }
 

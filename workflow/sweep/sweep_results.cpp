@@ -140,7 +140,8 @@ struct Quantity {
 constexpr Quantity of_preparation[] = {
     {"packing_fraction", "1"},  {"particles", "1"},     {"reduced_pressure", "1"},
     {"orientation_ratio", "1"}, {"nematic_order", "1"}, {"collisions", "1"},
-    {"smallest_gap", "length"}, {"overlaps", "1"},      {"wall_seconds", "s"}};
+    {"contact_number", "1"},    {"rattlers", "1"},      {"smallest_gap", "length"},
+    {"overlaps", "1"},          {"wall_seconds", "s"}};
 
 /// Adds to the summary what it does not have.
 void add_preparation(const Json& preparation, Results& results) {

@@ -39,6 +39,7 @@ constexpr ShownFigure shown_figures[] = {{"phi", "packing_fraction", "{:.4f}", t
                                          {"tau_alpha", "tau_translation", "{:.4g}", true},
                                          {"tau_2", "tau_rotation", "{:.4g}", true},
                                          {"orientation", "orientation_ratio", "{:.4f}", true},
+                                         {"contacts", "contact_number", "{:.3f}", true},
                                          {"overlaps", "overlaps", "{:.0f}", false},
                                          {"seconds", "wall_seconds", "{:.1f}", false}};
 
