@@ -136,25 +136,29 @@ struct Quantity {
   const char* name;
   const char* unit;
 };
-/// What the summary of a preparation may say of the state.
-constexpr Quantity of_preparation[] = {
-    {"packing_fraction", "1"},  {"particles", "1"},     {"reduced_pressure", "1"},
-    {"orientation_ratio", "1"}, {"nematic_order", "1"}, {"collisions", "1"},
-    {"smallest_gap", "length"}, {"overlaps", "1"},      {"wall_seconds", "s"}};
+/// What the summary of a run or a preparation may say beyond the analysis.
+constexpr Quantity of_job[] = {{"packing_fraction", "1"},
+                               {"particles", "1"},
+                               {"reduced_pressure", "1"},
+                               {"orientation_ratio", "1"},
+                               {"nematic_order", "1"},
+                               {"collisions", "1"},
+                               {"early_releases_per_collision", "1"},
+                               {"blocked_rotations_per_collision", "1"},
+                               {"smallest_gap", "length"},
+                               {"overlaps", "1"},
+                               {"wall_seconds", "s"}};
 
-/// Adds to the summary what it does not have.
-void add_preparation(const Json& preparation, Results& results) {
+/// Adds to the summary of the analysis what it does not have.
+void add_job(const Json& job, Results& results) {
   auto summary = std::find_if(results.tables.begin(), results.tables.end(),
                               [](const Table& table) { return table.name == "summary"; });
   if (summary == results.tables.end())
     summary = results.tables.insert(summary, {"summary", "The prepared state.", {}});
-  for (const auto& [name, unit] : of_preparation)
-    if (preparation.contains(name) && !summary->find(name))
+  for (const auto& [name, unit] : of_job)
+    if (job.contains(name) && !summary->find(name))
       summary->columns.push_back(
-          {name,
-           unit,
-           {preparation[name].is_number() ? preparation[name].get<double>() : unknown},
-           {}});
+          {name, unit, {job[name].is_number() ? job[name].get<double>() : unknown}, {}});
 }
 
 AnalysedRun analysed_job(const fs::path& job, const AnalysisChoice& choice,
@@ -167,10 +171,10 @@ AnalysedRun analysed_job(const fs::path& job, const AnalysisChoice& choice,
     run = analyze_run(run.file, choice, progress);
   else
     run.results = read_results(job / "results.h5");
-  if (!done.contains("run")) add_preparation(done.at("prepare"), run.results);
-  if (!run.results.find("summary"))
+  if (done.contains("analyze") && !run.results.find("summary"))
     throw FileError((job / "results.h5").string() +
                     ": has no table 'summary'; delete it and repeat the sweep");
+  add_job(done.at(done.contains("run") ? "run" : "prepare"), run.results);
   return run;
 }
 
