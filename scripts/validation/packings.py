@@ -215,10 +215,10 @@ def measure(build):
 event-driven dynamics. `vitrel sweep` runs the files `ghossein_*.toml` of `params/articles`, one job at a time. The growth
 rate, of all lengths per unit of time, is that of the table, otherwise {GROWTH_RATE:g}. The exact check (tolerance zero) tests every
 packing; the volume fraction agrees with the target to 1e-11. Seconds are those of the whole preparation. The table lists
-means of {RUNS} runs with 95 % confidence intervals, and the ρ of as many random directions (*random ρ*). The target volume fractions are the
-maximum values of the article. The last column lists the maximum reached by vitrel: the mean of three packings grown at the
-rate {SLOW_RATE:g} to a reduced pressure of {JAMMED:g}. There Z ≈ 6/(1 − φ/φ_J), so the fraction is 6 millionths below its limit. The
-article stops when 50 iterations gain less than 0.1 %.
+means of {RUNS} runs with 95 % confidence intervals, and the ρ of as many random directions (*random ρ*). The target volume
+fractions are the maximum values of the article. The last column lists the maximum reached by vitrel: the mean of three
+packings grown at the rate {SLOW_RATE:g} to a reduced pressure of {JAMMED:g}. There Z ≈ 6/(1 − φ/φ_J), so the fraction is 6 millionths
+below its limit. The article stops when 50 iterations gain less than 0.1 %.
 
 {table(["shape", "R_1", "N", "volume fraction", "growth rate", "ρ", "random ρ", "published, s", "measured, s", "ratio", "maximum fraction"], rows)}
 

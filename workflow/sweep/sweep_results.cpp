@@ -9,6 +9,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <span>
 #include <tuple>
 
 #include "core/error.h"
@@ -136,26 +137,23 @@ struct Quantity {
   const char* name;
   const char* unit;
 };
-/// What the summary of a run or a preparation may say beyond the analysis.
-constexpr Quantity of_job[] = {{"packing_fraction", "1"},
-                               {"particles", "1"},
-                               {"reduced_pressure", "1"},
-                               {"orientation_ratio", "1"},
-                               {"nematic_order", "1"},
-                               {"collisions", "1"},
+/// What the summary of a preparation may say of the state.
+constexpr Quantity of_preparation[] = {
+    {"packing_fraction", "1"},  {"particles", "1"},     {"reduced_pressure", "1"},
+    {"orientation_ratio", "1"}, {"nematic_order", "1"}, {"collisions", "1"},
+    {"smallest_gap", "length"}, {"overlaps", "1"},      {"wall_seconds", "s"}};
+/// What that of a run may say beyond its analysis. No times: tables of runs are reproducible.
+constexpr Quantity of_run[] = {{"overlaps", "1"},
                                {"early_releases_per_collision", "1"},
-                               {"blocked_rotations_per_collision", "1"},
-                               {"smallest_gap", "length"},
-                               {"overlaps", "1"},
-                               {"wall_seconds", "s"}};
+                               {"blocked_rotations_per_collision", "1"}};
 
 /// Adds to the summary of the analysis what it does not have.
-void add_job(const Json& job, Results& results) {
+void add_figures(const Json& job, std::span<const Quantity> quantities, Results& results) {
   auto summary = std::find_if(results.tables.begin(), results.tables.end(),
                               [](const Table& table) { return table.name == "summary"; });
   if (summary == results.tables.end())
     summary = results.tables.insert(summary, {"summary", "The prepared state.", {}});
-  for (const auto& [name, unit] : of_job)
+  for (const auto& [name, unit] : quantities)
     if (job.contains(name) && !summary->find(name))
       summary->columns.push_back(
           {name, unit, {job[name].is_number() ? job[name].get<double>() : unknown}, {}});
@@ -174,7 +172,10 @@ AnalysedRun analysed_job(const fs::path& job, const AnalysisChoice& choice,
   if (done.contains("analyze") && !run.results.find("summary"))
     throw FileError((job / "results.h5").string() +
                     ": has no table 'summary'; delete it and repeat the sweep");
-  add_job(done.at(done.contains("run") ? "run" : "prepare"), run.results);
+  if (done.contains("run"))
+    add_figures(done["run"], of_run, run.results);
+  else
+    add_figures(done.at("prepare"), of_preparation, run.results);
   return run;
 }
 
