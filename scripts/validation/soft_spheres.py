@@ -68,8 +68,8 @@ def expected_exceptions(packing_fraction, modulus):
 def measured_exceptions(build):
     """Per collision, against both quantities of the figure; they share the row of the usual modulus in the dilute gas."""
     rows = {}
-    for name in ("density", "modulus"):
-        for average in article_sweep(build, f"mueller_figure_7_{name}", parallel=2)["seeds"]:
+    for quantity in ("density", "modulus"):
+        for average in article_sweep(build, f"mueller_figure_7_{quantity}", parallel=2)["seeds"]:
             values, figures = average["values"], average["figures"]
             packing_fraction = values.get("system.packing_fraction", DILUTE)
             modulus = 1e9 * float(values.get("dynamics.contact.youngs_modulus", "1 GPa").removesuffix("GPa"))
