@@ -151,10 +151,9 @@ class CommandLine : public ProgramCommandLine {
          {std::tuple("event-chain", "Do event chains decorrelate states faster than local moves?",
                      &event_chain),
           std::tuple("sampler", "How fast is Monte Carlo sampling?", &sampler),
-          std::tuple(
-              "soft-spheres",
-              "Dynamics of soft spheres: exceptions, accuracy, speed, cooling, conservation.",
-              &soft_spheres),
+          std::tuple("soft-spheres",
+                     "Dynamics of soft spheres: accuracy, speed, cooling, conservation.",
+                     &soft_spheres),
           std::tuple("ellipsoids", "Speed and pressure of the engine in three dimensions.",
                      &ellipsoids)})
       add_in_parts(add(name, sentence, [this, run = run] { return run(parts_); }), parts_);

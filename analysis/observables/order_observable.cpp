@@ -92,8 +92,6 @@ Observable order_table(Needs needs, Chart director) {
                     .symbol = "order parameter",
                     .curves = {{"nematic", "nematic"}, {"hexatic", "hexatic"}},
                     .scale = Chart::Scale::from_zero};
-  director.section = Chart::Section::course;
-  director.heading = "Director";
   return {.table = "order",
           .what = "Nematic order and director of single frames; in the plane also hexatic order.",
           .needs = needs,
@@ -107,23 +105,26 @@ FrameObservableType<Dim> order_observable();
 
 template <>
 FrameObservableType<2> order_observable() {
-  return {{order_table({}, {.symbol = "angle of the director, continued beyond ±π/2",
-                            .curves = {{"director", "director"}},
-                            .is_angle_of_axis = true})},
-          [](const Configuration2& first, const StructureOptions&) {
+  const Chart director{.section = Chart::Section::course,
+                       .heading = "Director",
+                       .symbol = "angle of the director, continued beyond ±π/2",
+                       .curves = {{"director", "director"}},
+                       .is_angle_of_axis = true};
+  return {{order_table({}, director)}, [](const Configuration2& first, const StructureOptions&) {
             return std::make_unique<PlaneOrder>(first);
           }};
 }
 
 template <>
 FrameObservableType<3> order_observable() {
-  return {
-      {order_table({.rotors = true},
-                   {.symbol = "components of the director",
-                    .curves = {{"director_x", "x"}, {"director_y", "y"}, {"director_z", "z"}}})},
-      [](const Configuration3& first, const StructureOptions&) {
-        return std::make_unique<SpaceOrder>(first);
-      }};
+  const Chart director{.section = Chart::Section::course,
+                       .heading = "Director",
+                       .symbol = "components of the director",
+                       .curves = {{"director_x", "x"}, {"director_y", "y"}, {"director_z", "z"}}};
+  return {{order_table({.rotors = true}, director)},
+          [](const Configuration3& first, const StructureOptions&) {
+            return std::make_unique<SpaceOrder>(first);
+          }};
 }
 
 }  // namespace vitrel

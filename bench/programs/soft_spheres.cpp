@@ -1,5 +1,5 @@
-// Dynamics of soft spheres: how frequent are exceptions, and how accurate and how fast are event-driven and
-// force-based runs, how does a granular gas cool, what do soft collisions cost, and what is conserved?
+// Dynamics of soft spheres: how accurate and how fast are event-driven and force-based runs, how does a granular gas
+// cool, what do soft collisions cost, and what is conserved?
 //
 // Prints JSON. scripts/validate soft_spheres builds and runs this, compares with what is wanted, and writes
 // its section of docs/validation.md.
@@ -36,8 +36,6 @@ namespace {
 struct Effort {
   Shift<3> sites = {20, 20, 25};  // of the crystal that runs start from
   double relaxation = 5;          // collisions of each particle
-  int blocks = 10;
-  double block = 3;  // collisions of each particle
   Shift<3> few_sites = {10, 10, 10};
   std::vector<double> steps_per_contact = {10, 30, 100, 300, 1000};
   double timed = 1;  // seconds of a run that is repeated
@@ -49,7 +47,7 @@ struct Effort {
   int repeats = 5;
   double stretch = 0.5;  // seconds of a repeat, at least
 };
-const Effort quick{{5, 5, 5}, 1, 4, 1, {4, 4, 4}, {10}, 0.01, {4, 4, 4}, 2, 3e2, 10, 2, 2, 0.01};
+const Effort quick{{5, 5, 5}, 1, {4, 4, 4}, {10}, 0.01, {4, 4, 4}, 2, 3e2, 10, 2, 2, 0.01};
 
 // ---- the gas of the source's figure 7 -------------------------------------------------------------------
 
@@ -127,57 +125,6 @@ RestitutionTable table_of(const Force& force, const ValueRange& speeds = usual_s
 template <class Force>
 EngineOptions tabulated(const Force& force, const ValueRange& speeds = usual_speeds) {
   return soft(force, TabulatedRestitution(form_of<Force>(), table_of(force, speeds)));
-}
-
-// ---- exceptions, the source's figure 7 --------------------------------------------------------------------
-
-Json mean_json(const std::vector<double>& values) {
-  const auto [value, error] = mean_of(values);
-  return {{"mean", value}, {"error", error}};
-}
-
-/// Per collision, over blocks of equal time.
-Json exceptions_at(double packing_fraction, double modulus, const Effort& effort) {
-  say(fmt::format("exceptions: eta = {}, Y = {:g}", packing_fraction, modulus));
-  RunState3 state = begin_run(crystal(effort.sites, packing_fraction, 1), 0);
-  const EngineOptions options = tabulated(Viscoelastic{modulus, poissons_ratio});
-  const double free_time = mean_free_time(state.configuration);
-  double end = effort.relaxation * free_time;
-  run_on(state, options, end);
-  const RunCounters relaxed = state.counters;
-  std::vector<double> refused, early;
-  const auto since = [&](const RunCounters& before, std::uint64_t RunCounters::*count) {
-    return state.counters.*count - before.*count;
-  };
-  const auto row = [&](std::uint64_t RunCounters::*count, const std::vector<double>& frequencies) {
-    Json values = mean_json(frequencies);
-    values["count"] = since(relaxed, count);
-    return values;
-  };
-  for (int k = 0; k < effort.blocks; ++k) {
-    const RunCounters before = state.counters;
-    run_on(state, options, end += effort.block * free_time);
-    const auto frequency = [&](std::uint64_t RunCounters::*count) {
-      return static_cast<double>(since(before, count)) /
-             static_cast<double>(since(before, &RunCounters::collisions));
-    };
-    refused.push_back(frequency(&RunCounters::blocked_rotations));
-    early.push_back(frequency(&RunCounters::early_releases));
-  }
-  return {{"packing_fraction", packing_fraction},
-          {"modulus", modulus},
-          {"collisions", since(relaxed, &RunCounters::collisions)},
-          {"blocked_rotations", row(&RunCounters::blocked_rotations, refused)},
-          {"early_releases", row(&RunCounters::early_releases, early)}};
-}
-
-Json measure_exceptions(const Effort& effort) {
-  Json rows = Json::array();
-  for (const double packing_fraction : {3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1})
-    rows.push_back(exceptions_at(packing_fraction, usual_modulus, effort));
-  for (const double modulus : {1e6, 1e7, 1e8, 1e10, 1e11})
-    rows.push_back(exceptions_at(dilute, modulus, effort));
-  return {{"particles", effort.sites.prod()}, {"rows", rows}};
 }
 
 // ---- accuracy and time ------------------------------------------------------------------------------------
@@ -438,6 +385,7 @@ Json conservation_of_clusters(EarlyRelease early_release, const Effort& effort) 
     sum.blocked_rotations += state.counters.blocked_rotations;
     sum.early_releases += state.counters.early_releases;
   }
+  const Mean mean = mean_of(lost);
   return {{"early_release", early_release == EarlyRelease::alone ? "alone" : "together"},
           {"clusters", effort.clusters},
           {"particles", effort.few_sites.prod()},
@@ -446,7 +394,7 @@ Json conservation_of_clusters(EarlyRelease early_release, const Effort& effort) 
           {"early_releases", sum.early_releases},
           {"momentum", std::ranges::max(momentum)},
           {"energy", std::ranges::max(energy)},
-          {"angular_momentum", mean_json(lost)},
+          {"angular_momentum", {{"mean", mean.value}, {"error", mean.error}}},
           {"largest_angular_momentum", std::ranges::max(lost)}};
 }
 
@@ -461,8 +409,7 @@ Json measure_conservation(const Effort& effort) {
 }  // namespace
 
 int soft_spheres(const PartsOptions& options) {
-  const BenchParts<Effort> parts = {{"exceptions", measure_exceptions},
-                                    {"accuracy", measure_accuracy},
+  const BenchParts<Effort> parts = {{"accuracy", measure_accuracy},
                                     {"cooling", measure_cooling},
                                     {"speed", measure_speed},
                                     {"conservation", measure_conservation}};

@@ -50,13 +50,28 @@ def summary_of(build, command, *arguments):
     return json.loads(output_of([build / "app/vitrel", command, *arguments, "--json"]))
 
 
+def settings(overrides):
+    """The options of the command line that set these parameters."""
+    return [word for override in overrides for word in ("--set", override)]
+
+
 def run_and_check(build, parameters, *overrides, frames=()):
     """The summaries of a run and of its exact check, of all frames or, with ("--last",), of the last frame."""
-    settings = [word for override in overrides for word in ("--set", override)]
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder, "run.h5")
-        run = summary_of(build, "run", parameters, "-o", file, *settings)
+        run = summary_of(build, "run", parameters, "-o", file, *settings(overrides))
         return run, summary_of(build, "check", file, *frames)
+
+
+def article_sweep(build, name, *overrides, parallel=1):
+    """The summary of the sweep of params/articles/<name>.toml. Every job ends in a state that passes the exact check."""
+    with tempfile.TemporaryDirectory() as folder:
+        summary = summary_of(build, "sweep", PARAMS / "articles" / f"{name}.toml", "-o", folder, "-j", str(parallel),
+                             *settings(overrides))
+    for job in summary["jobs"]:
+        overlaps = job["run" if "run" in job else "prepare"]["overlaps"]
+        expect(overlaps == 0, f"{name}: {job['id']}: {overlaps} overlaps")
+    return summary
 
 
 def preparation(particles, aspect_ratio, sizes, *sections):

@@ -487,6 +487,8 @@ TEST(Program, RunsSoftParticles) {
   EXPECT_EQ(summary["overlaps"], 0);
   EXPECT_GT(summary["collisions"], 100);
   EXPECT_GT(summary["early_releases"], 0);
+  EXPECT_EQ(summary["early_releases_per_collision"],
+            summary["early_releases"].get<double>() / summary["collisions"].get<double>());
   EXPECT_GT(summary["dissipated_energy"], 1);
   EXPECT_LT(summary["energy_drift"], 1e-11);
   const Outcome checked = run(folder.path(), {"check", "run.h5", "-q", "--json"});
@@ -555,6 +557,25 @@ TEST(Program, ASweepOfThreeDimensions) {
     EXPECT_NEAR(job["run"]["packing_fraction"], 0.2, 1e-12);
     EXPECT_TRUE(job["analyze"].contains("packing_fraction"));
   }
+}
+
+// What only the runs know stands beside the averages of the analysis.
+TEST(Program, ASweepAveragesTheExceptionsOfSoftParticles) {
+  const Folder folder("soft_sweep");
+  setenv("XDG_CACHE_HOME", folder.path().c_str(), 1);
+  folder.write("p.toml", soft_system + std::string("[sweep.grid]\n\"system.seed\" = [1, 2]\n"));
+  const Outcome sweep = run(folder.path(), {"sweep", "p.toml", "-o", "sweep", "--json", "-q"});
+  ASSERT_EQ(sweep.code, 0) << sweep.errors;
+  const Json jobs = Json::parse(sweep.output)["jobs"];
+  ASSERT_EQ(run(folder.path(), {"analyze", "sweep", "-q"}).code, 0);
+  const Results results = read_results(folder / "sweep/results.h5");
+  for (const char* name : {"early_releases_per_collision", "blocked_rotations_per_collision"}) {
+    const double first = jobs[0]["run"][name], second = jobs[1]["run"][name];
+    EXPECT_THAT(results.find("runs")->find(name)->value, testing::ElementsAre(first, second));
+    EXPECT_DOUBLE_EQ(results.find("seeds")->find(name)->value[0], (first + second) / 2);
+  }
+  const Outcome status = run(folder.path(), {"sweep", "p.toml", "-o", "sweep", "--status"});
+  EXPECT_THAT(status.output, testing::ContainsRegex("seeds .* early +blocked +seconds\n"));
 }
 
 // Two particles on top of each other: both ways to look must see it.

@@ -4,12 +4,14 @@
 import math
 import pathlib
 import sys
+import tomllib
 import unittest
+from unittest import mock
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "scripts"))
 
-from validation import constant_pressure, liquid_crystal  # noqa: E402 (needs the path)
+from validation import constant_pressure, liquid_crystal, packings  # noqa: E402 (needs the path)
 from validation.common import Failure  # noqa: E402
 
 
@@ -87,6 +89,30 @@ class LiquidCrystal(unittest.TestCase):
 
     def test_least_order_of_a_nematic_hardly_depends_on_the_size(self):
         self.assertAlmostEqual(liquid_crystal.min_order(2000) / liquid_crystal.min_order(500), 2 ** (-1 / 8))
+
+
+class Packings(unittest.TestCase):
+    def test_every_row_of_the_article_has_its_time(self):
+        for values in packings.parameters_of(packings.TABLE_2)["sweep"]["together"].values():
+            self.assertEqual(len(values), len(packings.PUBLISHED))
+
+    def test_other_rows_are_toml(self):
+        columns = {"species.0.aspect_ratios": ["[2, 5]", packings.UNIFORM.format(0.5, 2)], "system.particles": [10, 20]}
+        key, table = packings.together(columns).split("=", 1)
+        uniform = {"distribution": "uniform", "low": 0.5, "high": 2}
+        self.assertEqual(key, "sweep.together")
+        self.assertEqual(tomllib.loads(f"rows ={table}")["rows"],
+                         {"species.0.aspect_ratios": [[2, 5], [uniform, uniform]], "system.particles": [10, 20]})
+
+    def test_the_volume_fraction_is_that_of_the_parameters(self):
+        for name, values, wanted in (("ghossein_figure_7", {}, 0.3), ("ghossein_table_2", {packings.FRACTION: 0.6}, 0.6)):
+            for reached, is_good in ((wanted * (1 + 1e-12), True), (wanted * (1 - 1e-10), False)):
+                job = {"id": "job", "values": values, "prepare": {"packing_fraction": reached}}
+                with mock.patch.object(packings, "article_sweep", return_value={"jobs": [job], "seeds": []}):
+                    if is_good:
+                        packings.sweep(None, name)
+                    else:
+                        self.assertRaises(Failure, packings.sweep, None, name)
 
 
 if __name__ == "__main__":

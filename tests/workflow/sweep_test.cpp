@@ -208,6 +208,8 @@ TEST(SeedAverages, AreMeansWithIntervals) {
   EXPECT_EQ(averages[1].seeds, 1u);
   EXPECT_EQ(averages[1].find("z").mean, 7);
   EXPECT_TRUE(std::isnan(averages[1].find("z").error));
+  const SeedAverage soft{{{"dynamics.contact.youngs_modulus", "\"1 GPa\""}}, 1, {}};
+  EXPECT_EQ(soft.name(), "youngs_modulus 1 GPa");
 }
 
 TEST(SeedAverages, AreUnknownIfASeedLacksTheNumber) {

@@ -378,6 +378,10 @@ Json run_summary(const RunRequest& request, const RunOutcome<Dim>& outcome) {
   if (request.parameters.dynamics.contact) {
     summary["blocked_rotations"] = counters.blocked_rotations;
     summary["early_releases"] = counters.early_releases;
+    summary["blocked_rotations_per_collision"] =
+        static_cast<double>(counters.blocked_rotations) / collisions;
+    summary["early_releases_per_collision"] =
+        static_cast<double>(counters.early_releases) / collisions;
     summary["integrated_contacts"] = counters.integrations;
     summary["dissipated_energy"] = counters.dissipated;
   }

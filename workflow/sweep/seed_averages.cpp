@@ -60,6 +60,7 @@ std::string SeedAverage::name() const {
   std::vector<std::string> parts;
   for (const auto& [key, value] : values)
     parts.push_back(key.substr(key.rfind('.') + 1) + " " + value);
+  for (std::string& part : parts) std::erase(part, '"');
   return parts.empty() ? "all" : fmt::format("{}", fmt::join(parts, ", "));
 }
 

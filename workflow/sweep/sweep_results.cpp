@@ -9,6 +9,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <span>
 #include <tuple>
 
 #include "core/error.h"
@@ -142,20 +143,21 @@ constexpr Quantity of_preparation[] = {
     {"orientation_ratio", "1"}, {"nematic_order", "1"}, {"collisions", "1"},
     {"contact_number", "1"},    {"rattlers", "1"},      {"smallest_gap", "length"},
     {"overlaps", "1"},          {"wall_seconds", "s"}};
+/// What that of a run may say beyond its analysis. No times: tables of runs are reproducible.
+constexpr Quantity of_run[] = {{"overlaps", "1"},
+                               {"early_releases_per_collision", "1"},
+                               {"blocked_rotations_per_collision", "1"}};
 
-/// Adds to the summary what it does not have.
-void add_preparation(const Json& preparation, Results& results) {
+/// Adds to the summary of the analysis what it does not have.
+void add_figures(const Json& job, std::span<const Quantity> quantities, Results& results) {
   auto summary = std::find_if(results.tables.begin(), results.tables.end(),
                               [](const Table& table) { return table.name == "summary"; });
   if (summary == results.tables.end())
     summary = results.tables.insert(summary, {"summary", "The prepared state.", {}});
-  for (const auto& [name, unit] : of_preparation)
-    if (preparation.contains(name) && !summary->find(name))
+  for (const auto& [name, unit] : quantities)
+    if (job.contains(name) && !summary->find(name))
       summary->columns.push_back(
-          {name,
-           unit,
-           {preparation[name].is_number() ? preparation[name].get<double>() : unknown},
-           {}});
+          {name, unit, {job[name].is_number() ? job[name].get<double>() : unknown}, {}});
 }
 
 AnalysedRun analysed_job(const fs::path& job, const AnalysisChoice& choice,
@@ -168,10 +170,13 @@ AnalysedRun analysed_job(const fs::path& job, const AnalysisChoice& choice,
     run = analyze_run(run.file, choice, progress);
   else
     run.results = read_results(job / "results.h5");
-  if (!done.contains("run")) add_preparation(done.at("prepare"), run.results);
-  if (!run.results.find("summary"))
+  if (done.contains("analyze") && !run.results.find("summary"))
     throw FileError((job / "results.h5").string() +
                     ": has no table 'summary'; delete it and repeat the sweep");
+  if (done.contains("run"))
+    add_figures(done["run"], of_run, run.results);
+  else
+    add_figures(done.at("prepare"), of_preparation, run.results);
   return run;
 }
 

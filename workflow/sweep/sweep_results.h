@@ -11,9 +11,9 @@
 namespace vitrel {
 
 /// The finished jobs of a sweep by packing fraction (to six decimals), then by seed, then by name. What only
-/// prepares a state has the summary of its preparation.
-/// Their results are those in their folders; with parameters of its own, the choice has the runs analysed
-/// again, and what is in the folders stays. Throws FileError or UserError, naming the file.
+/// prepares a state has the summary of its preparation; that of a run also has its overlaps and the exceptions
+/// of soft particles. Their results are those in their folders; with parameters of its own, the choice has the
+/// runs analysed again, and what is in the folders stays. Throws FileError or UserError, naming the file.
 std::vector<AnalysedRun> analysed_jobs(const SweepProgress& sweep, const AnalysisChoice& choice,
                                        const AnalysisProgress& progress = {});
 

@@ -29,19 +29,22 @@ struct ShownFigure {
   bool is_averaged;  ///< over seeds, too
 };
 
-constexpr ShownFigure shown_figures[] = {{"phi", "packing_fraction", "{:.4f}", true},
-                                         {"collisions", "collisions", "{:.0f}", false},
-                                         {"Z", "compressibility_factor", "{:.3f}", true},
-                                         {"+-", "compressibility_factor_error", "{:.3f}", false},
-                                         {"Z", "reduced_pressure", "{:.4g}", true},
-                                         {"D", "diffusion", "{:.3g}", true},
-                                         {"D_rot", "rotational_diffusion", "{:.3g}", true},
-                                         {"tau_alpha", "tau_translation", "{:.4g}", true},
-                                         {"tau_2", "tau_rotation", "{:.4g}", true},
-                                         {"orientation", "orientation_ratio", "{:.4f}", true},
-                                         {"contacts", "contact_number", "{:.3f}", true},
-                                         {"overlaps", "overlaps", "{:.0f}", false},
-                                         {"seconds", "wall_seconds", "{:.1f}", false}};
+constexpr ShownFigure shown_figures[] = {
+    {"phi", "packing_fraction", "{:.4f}", true},
+    {"collisions", "collisions", "{:.0f}", false},
+    {"Z", "compressibility_factor", "{:.3f}", true},
+    {"+-", "compressibility_factor_error", "{:.3f}", false},
+    {"Z", "reduced_pressure", "{:.4g}", true},
+    {"D", "diffusion", "{:.3g}", true},
+    {"D_rot", "rotational_diffusion", "{:.3g}", true},
+    {"tau_alpha", "tau_translation", "{:.4g}", true},
+    {"tau_2", "tau_rotation", "{:.4g}", true},
+    {"orientation", "orientation_ratio", "{:.4f}", true},
+    {"contacts", "contact_number", "{:.3f}", true},
+    {"early", "early_releases_per_collision", "{:.3g}", true},
+    {"blocked", "blocked_rotations_per_collision", "{:.3g}", true},
+    {"overlaps", "overlaps", "{:.0f}", false},
+    {"seconds", "wall_seconds", "{:.2f}", true}};
 
 constexpr const char* missing = "–";
 
