@@ -20,8 +20,8 @@ endfunction()
 # What many sources include. Headers still include what they need (scripts/check_headers). JSON is not among
 # them: every source would pay for its functions.
 set(VITREL_PRECOMPILED
-    <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <fstream> <functional> <iostream> <limits> <map>
-    <memory> <numeric> <optional> <random> <set> <span> <sstream> <string> <unordered_map> <variant> <vector>
+    <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <fstream> <functional> <limits> <map>
+    <memory> <numeric> <optional> <set> <span> <sstream> <string> <variant> <vector>
     <Eigen/Geometry> <fmt/format.h> "${PROJECT_SOURCE_DIR}/core/state/configuration.h")
 vitrel_precompiled(vitrel_precompiled HEADERS ${VITREL_PRECOMPILED})
 vitrel_precompiled(vitrel_cold_precompiled COLD HEADERS ${VITREL_PRECOMPILED})

@@ -161,20 +161,22 @@ Table orientation_table(const Displacements& found, const DisplacementGroup& gro
 }
 
 Observable orientation_observable(int dimension) {
-  const bool in_plane = dimension == 2;
-  const std::vector<Curve> curves = in_plane
-                                        ? std::vector<Curve>{{"l_#", "L#"}}
-                                        : std::vector<Curve>{{"p_#", "P#"},
-                                                             {"p_#_middle", "P#, middle axis"},
-                                                             {"p_#_short", "P#, shortest axis"}};
-  return {.table = "orientation",
-          .what = in_plane ? "Orientational correlations L_n(t) = <cos n(angle(t) - angle(0))>."
-                           : "Orientational correlations <P_n(u(0).u(t))> of the axis of symmetry; "
-                             "of scalene bodies those of all three axes.",
-          .needs = {.motion = true, .rotors = true},
-          .charts = {correlation("Orientational correlation",
-                                 in_plane ? "Lₙ(t) = ⟨cos nΔθ⟩" : "⟨Pₗ(u(0)·u(t))⟩", curves)},
-          .has_groups = true};
+  Observable observable{
+      .table = "orientation",
+      .what = "Orientational correlations L_n(t) = <cos n(angle(t) - angle(0))>.",
+      .needs = {.motion = true, .rotors = true},
+      .charts = {correlation("Orientational correlation", "Lₙ(t) = ⟨cos nΔθ⟩", {{"l_#", "L#"}})},
+      .has_groups = true};
+  if (dimension == 2) return observable;
+  observable.what =
+      "Orientational correlations <P_n(u(0).u(t))> of the axis of symmetry; of scalene bodies "
+      "those "
+      "of all three axes.";
+  Chart& chart = observable.charts.front();
+  chart.symbol = "⟨Pₗ(u(0)·u(t))⟩";
+  chart.curves = {
+      {"p_#", "P#"}, {"p_#_middle", "P#, middle axis"}, {"p_#_short", "P#, shortest axis"}};
+  return observable;
 }
 
 Table susceptibility_table(const Displacements& found) {

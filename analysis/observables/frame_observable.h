@@ -45,9 +45,11 @@ std::vector<Observable> frame_observables();
 
 /// Those of a run. Frames are read one after another and measured on up to `threads` threads, some at a
 /// time; the results do not depend on it. `report` is called with the share of the frames that are done.
+/// Only observables with a table of `only`, if that is not empty.
 template <int Dim>
 std::vector<Table> structure_tables(Trajectory<Dim>& trajectory, const StructureOptions& options,
-                                    int threads = all_cores, const ProgressReport& report = {});
+                                    int threads = all_cores, const ProgressReport& report = {},
+                                    const std::vector<std::string>& only = {});
 
 /// A column with the averages of a row over the frames.
 Column averaged(const std::string& name, const std::string& unit, const FrameAverage& rows,

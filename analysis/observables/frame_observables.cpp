@@ -34,12 +34,19 @@ bool has(const Needs& needs, const Configuration<Dim>& first, const StructureOpt
          (!needs.velocities || mechanics(first).translational_energy > 0);
 }
 
+bool is_wanted(const std::vector<Observable>& tables, const std::vector<std::string>& only) {
+  return only.empty() || std::ranges::any_of(tables, [&](const Observable& table) {
+           return std::ranges::find(only, table.table) != only.end();
+         });
+}
+
 template <int Dim>
 FrameObservables<Dim> observables_of(const Configuration<Dim>& first,
-                                     const StructureOptions& options) {
+                                     const StructureOptions& options,
+                                     const std::vector<std::string>& only) {
   FrameObservables<Dim> observables;
   for (const FrameObservableType<Dim>& type : types<Dim>())
-    if (has(type.tables.front().needs, first, options))
+    if (is_wanted(type.tables, only) && has(type.tables.front().needs, first, options))
       observables.push_back(type.make(first, options));
   return observables;
 }
@@ -72,8 +79,9 @@ std::vector<Observable> frame_observables() {
 
 template <int Dim>
 std::vector<Table> structure_tables(Trajectory<Dim>& trajectory, const StructureOptions& options,
-                                    int threads, const ProgressReport& report) {
-  const FrameObservables<Dim> observables = observables_of(trajectory.read(0), options);
+                                    int threads, const ProgressReport& report,
+                                    const std::vector<std::string>& only) {
+  const FrameObservables<Dim> observables = observables_of(trajectory.read(0), options, only);
   if (observables.empty()) return {};
   const std::size_t frames = trajectory.frames();
   const std::size_t max_frames =
@@ -106,8 +114,10 @@ Column averaged(const std::string& name, const std::string& unit, const FrameAve
 template std::vector<Observable> frame_observables<2>();
 template std::vector<Observable> frame_observables<3>();
 template std::vector<Table> structure_tables(Trajectory2&, const StructureOptions&, int,
-                                             const ProgressReport&);
+                                             const ProgressReport&,
+                                             const std::vector<std::string>&);
 template std::vector<Table> structure_tables(Trajectory3&, const StructureOptions&, int,
-                                             const ProgressReport&);
+                                             const ProgressReport&,
+                                             const std::vector<std::string>&);
 
 }  // namespace vitrel

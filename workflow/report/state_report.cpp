@@ -19,13 +19,9 @@ StructureOptions structure_options(const Provenance& provenance, const std::stri
 
 /// S(q) and g(r); the page has the correlation of orientations in bins wide enough for a single state.
 std::vector<Table> structure(const Configuration2& state, const StructureOptions& options) {
-  if (options.max_frames == 0) return {};
-  std::vector<Table> tables;
-  for (const auto& observable : {structure_factor_observable(state, options.shells),
-                                 pair_correlation_observable(state, options.pairs)}) {
-    observable->measure(state)();
-    for (Table& table : observable->tables(false)) tables.push_back(std::move(table));
-  }
+  MemoryTrajectory2 trajectory({state});
+  std::vector<Table> tables = structure_tables(trajectory, options, all_cores, {},
+                                               {"structure_factor", "pair_correlation"});
   for (Table& table : tables)
     std::erase_if(table.columns,
                   [](const Column& column) { return column.name.starts_with("g_"); });
