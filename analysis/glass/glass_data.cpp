@@ -97,9 +97,8 @@ GlassRunData known_data(const GlassSource& run, int dimension, const std::vector
   data.rotational_diffusion = run.rotational_diffusion;
   if (!run.compressibility.value.empty())
     data.series.push_back({"the compressibility factor", run.compressibility.value});
-  if (const Column* hexatic = run.order ? run.order->find("hexatic") : nullptr)
-    data.series.push_back({"the hexatic order", hexatic->value});
-  if (run.rotors > 0) data.nematic_order = run.order->find("nematic")->value;
+  if (!run.order.hexatic.empty()) data.series.push_back({"the hexatic order", run.order.hexatic});
+  data.nematic_order = run.order.nematic;
   return data;
 }
 

@@ -6,7 +6,7 @@
 #include "analysis/dynamics/displacement.h"
 #include "analysis/dynamics/energy.h"
 #include "analysis/glass/glass_study.h"
-#include "analysis/results.h"
+#include "analysis/observables/frame_observable.h"
 
 namespace vitrel {
 
@@ -18,7 +18,7 @@ struct GlassSource {
   std::size_t rotors;
   const Displacements& displacements;
   const CompressibilitySeries& compressibility;
-  const Table* order;  ///< the table `order`; null without
+  const OrderSeries& order;
   const DiffusionCoefficient& diffusion;
   const DiffusionCoefficient& rotational_diffusion;
 };

@@ -18,6 +18,11 @@
 /// are drawn.
 namespace vitrel {
 
+/// Order of one frame after another, what there is of it.
+struct OrderSeries {
+  std::vector<double> nematic, hexatic;
+};
+
 template <int Dim>
 class FrameObservable {
  public:
@@ -27,6 +32,8 @@ class FrameObservable {
   virtual std::function<void()> measure(const Configuration<Dim>& frame) = 0;
   /// After the last frame. `is_even`: the frames are equally spaced in time; only then averages have errors.
   virtual std::vector<Table> tables(bool is_even) const = 0;
+  /// Adds what it knows of the order.
+  virtual void add_order(OrderSeries&) const {}
 };
 
 /// An observable as the list of all of them has it: how its tables are described, and how it is made for a
@@ -43,13 +50,19 @@ struct FrameObservableType {
 template <int Dim>
 std::vector<Observable> frame_observables();
 
-/// Those of a run. Frames are read one after another and measured on up to `threads` threads, some at a
-/// time; the results do not depend on it. `report` is called with the share of the frames that are done.
-/// Only observables with a table of `only`, if that is not empty.
+/// What the frames of a run say.
+struct FrameResults {
+  std::vector<Table> tables;
+  OrderSeries order;
+};
+
+/// Frames are read one after another and measured on up to `threads` threads, some at a time; the results do
+/// not depend on it. `report` is called with the share of the frames that are done. Only observables with a
+/// table of `only`, if that is not empty.
 template <int Dim>
-std::vector<Table> structure_tables(Trajectory<Dim>& trajectory, const StructureOptions& options,
-                                    int threads = all_cores, const ProgressReport& report = {},
-                                    const std::vector<std::string>& only = {});
+FrameResults measure_frames(Trajectory<Dim>& trajectory, const StructureOptions& options,
+                            int threads = all_cores, const ProgressReport& report = {},
+                            const std::vector<std::string>& only = {});
 
 /// A column with the averages of a row over the frames.
 Column averaged(const std::string& name, const std::string& unit, const FrameAverage& rows,

@@ -1,6 +1,7 @@
 #include "analysis/observables/frame_observable.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace vitrel {
 
@@ -78,9 +79,9 @@ std::vector<Observable> frame_observables() {
 }
 
 template <int Dim>
-std::vector<Table> structure_tables(Trajectory<Dim>& trajectory, const StructureOptions& options,
-                                    int threads, const ProgressReport& report,
-                                    const std::vector<std::string>& only) {
+FrameResults measure_frames(Trajectory<Dim>& trajectory, const StructureOptions& options,
+                            int threads, const ProgressReport& report,
+                            const std::vector<std::string>& only) {
   const FrameObservables<Dim> observables = observables_of(trajectory.read(0), options, only);
   if (observables.empty()) return {};
   const std::size_t frames = trajectory.frames();
@@ -99,10 +100,12 @@ std::vector<Table> structure_tables(Trajectory<Dim>& trajectory, const Structure
     if (report) report({done / static_cast<double>(frames), done, "frames"});
   }
   const bool is_even = evenly_spaced(times);
-  std::vector<Table> tables;
-  for (const auto& observable : observables)
-    for (Table& table : observable->tables(is_even)) tables.push_back(std::move(table));
-  return tables;
+  FrameResults results;
+  for (const auto& observable : observables) {
+    std::ranges::move(observable->tables(is_even), std::back_inserter(results.tables));
+    observable->add_order(results.order);
+  }
+  return results;
 }
 
 Column averaged(const std::string& name, const std::string& unit, const FrameAverage& rows,
@@ -113,11 +116,9 @@ Column averaged(const std::string& name, const std::string& unit, const FrameAve
 
 template std::vector<Observable> frame_observables<2>();
 template std::vector<Observable> frame_observables<3>();
-template std::vector<Table> structure_tables(Trajectory2&, const StructureOptions&, int,
-                                             const ProgressReport&,
-                                             const std::vector<std::string>&);
-template std::vector<Table> structure_tables(Trajectory3&, const StructureOptions&, int,
-                                             const ProgressReport&,
-                                             const std::vector<std::string>&);
+template FrameResults measure_frames(Trajectory2&, const StructureOptions&, int,
+                                     const ProgressReport&, const std::vector<std::string>&);
+template FrameResults measure_frames(Trajectory3&, const StructureOptions&, int,
+                                     const ProgressReport&, const std::vector<std::string>&);
 
 }  // namespace vitrel

@@ -14,6 +14,29 @@ void append(std::vector<Observable>& all, std::vector<Observable> more) {
   std::ranges::move(more, std::back_inserter(all));
 }
 
+Chart over_density(const char* heading, const char* symbol, const char* column,
+                   Chart::Scale scale = Chart::Scale::linear) {
+  return {.section = Chart::Section::density,
+          .heading = heading,
+          .symbol = symbol,
+          .curves = {{column, symbol}},
+          .scale = scale,
+          .x = "packing_fraction",
+          .x_symbol = "φ"};
+}
+
+Observable summary_observable() {
+  constexpr auto logarithmic = Chart::Scale::logarithmic;
+  return {
+      .table = "summary",
+      .what =
+          "One row: packing fraction, and averages over the run, of the compressibility factor, "
+          "energies and diffusion coefficients.",
+      .charts = {over_density("Diffusion", "D", "diffusion", logarithmic),
+                 over_density("Rotational diffusion", "Dᵣ", "rotational_diffusion", logarithmic),
+                 over_density("Compressibility factor", "Z = βP/ρ", "compressibility_factor")}};
+}
+
 }  // namespace
 
 const Observable* find(const std::vector<Observable>& all, std::string_view table) {
@@ -27,11 +50,7 @@ const Observable* find(const std::vector<Observable>& all, std::string_view tabl
 }
 
 std::vector<Observable> observables(int dimension) {
-  std::vector<Observable> all = {
-      {.table = "summary",
-       .what =
-           "One row: packing fraction, and averages over the run, of the compressibility factor, "
-           "energies and diffusion coefficients."}};
+  std::vector<Observable> all = {summary_observable()};
   append(all, dynamics_observables(dimension));
   append(all, energy_observables());
   append(all, dimension == 2 ? frame_observables<2>() : frame_observables<3>());

@@ -18,7 +18,8 @@ struct Curve {
 
 /// Curves of one table that belong together. Units are those of the columns.
 struct Chart {
-  enum class Section { motion, relaxation, structure, course };
+  /// The course of a run, or one number of every run of a sweep against its density.
+  enum class Section { motion, relaxation, structure, course, density };
   enum class Scale { linear, logarithmic, from_zero, decay, around_one };
   /// Horizontal lines that depend on the run.
   enum class Level { none, equipartition, mean };

@@ -40,6 +40,11 @@ class PlaneOrder final : public FrameObservable<2> {
     return {table};
   }
 
+  void add_order(OrderSeries& order) const override {
+    if (rotors_ > 0) order.nematic = nematic_;
+    order.hexatic = hexatic_;
+  }
+
  private:
   std::size_t rotors_;
   std::vector<double> time_, nematic_, director_, hexatic_;
@@ -71,6 +76,8 @@ class SpaceOrder final : public FrameObservable<3> {
       table.columns.push_back({fmt::format("director_{}", "xyz"[k]), "1", director_[k], {}});
     return {table};
   }
+
+  void add_order(OrderSeries& order) const override { order.nematic = nematic_; }
 
  private:
   /// Of the two directions the one nearer to that of the frame before.

@@ -65,7 +65,7 @@ TEST(StructureTables, TellHowFarTheyAre) {
   StructureOptions options;
   options.max_frames = 40;
   std::vector<double> frames;
-  structure_tables(trajectory, options, 2, [&](const Progress& progress) {
+  measure_frames(trajectory, options, 2, [&](const Progress& progress) {
     frames.push_back(progress.value);
     EXPECT_DOUBLE_EQ(progress.fraction, progress.value / 100);
     EXPECT_STREQ(progress.quantity, "frames");
@@ -75,7 +75,7 @@ TEST(StructureTables, TellHowFarTheyAre) {
 
 TEST(StructureTables, HaveTheColumnsThatReadersRelyOn) {
   MemoryTrajectory2 trajectory(gases(40, false));
-  const std::vector<Table> tables = structure_tables(trajectory, {}, 1);
+  const std::vector<Table> tables = measure_frames(trajectory, {}, 1).tables;
   ASSERT_EQ(tables.size(), 4u);
   EXPECT_EQ(column_names(named(tables, "structure_factor")),
             (std::vector<std::string>{"q", "s", "s_big_big", "s_big_small_1", "s_small_1_small_1",
@@ -103,7 +103,7 @@ TEST(StructureTables, OfDisksAreWithoutOrientations) {
     frame.shape.assign(60, {1, 1});
   }
   MemoryTrajectory2 trajectory(frames);
-  const std::vector<Table> tables = structure_tables(trajectory, {}, 2);
+  const std::vector<Table> tables = measure_frames(trajectory, {}, 2).tables;
   ASSERT_EQ(tables.size(), 3u);
   EXPECT_EQ(column_names(named(tables, "structure_factor")),
             (std::vector<std::string>{"q", "s", "modes"}));
@@ -113,9 +113,9 @@ TEST(StructureTables, OfDisksAreWithoutOrientations) {
 
 TEST(StructureTables, DoNotDependOnThreads) {
   MemoryTrajectory2 trajectory(gases(41, true));
-  const std::vector<Table> one = structure_tables(trajectory, {}, 1);
+  const std::vector<Table> one = measure_frames(trajectory, {}, 1).tables;
   for (const int threads : {2, 7}) {
-    const std::vector<Table> many = structure_tables(trajectory, {}, threads);
+    const std::vector<Table> many = measure_frames(trajectory, {}, threads).tables;
     for (std::size_t t = 0; t < one.size(); ++t)
       for (std::size_t c = 0; c < one[t].columns.size(); ++c) {
         EXPECT_TRUE(same_bits(one[t].columns[c].value, many[t].columns[c].value));
@@ -145,7 +145,7 @@ TEST(StructureTables, AverageEveryThirdFrame) {
     orders.push_back(nematic_order(frames[k]));
   }
   MemoryTrajectory2 trajectory(frames);
-  const std::vector<Table> tables = structure_tables(trajectory, options, 2);
+  const std::vector<Table> tables = measure_frames(trajectory, options, 2).tables;
   const Table& structure = named(tables, "structure_factor");
   const std::vector<double>& listed = structure.find("q")->value;
   const auto row = static_cast<std::size_t>(
@@ -165,7 +165,7 @@ TEST(StructureTables, AverageEveryThirdFrame) {
 // has wave vectors in. χ² with the tables' own errors; five standard deviations, of 60 rows or more.
 TEST(StructureTables, OfAChangingBoxAreAveragesOverItsFrames) {
   MemoryTrajectory2 trajectory(gases(400, true));
-  const std::vector<Table> tables = structure_tables(trajectory, {}, 2);
+  const std::vector<Table> tables = measure_frames(trajectory, {}, 2).tables;
   for (const auto& [table, column] :
        {std::pair{"structure_factor", "s"}, std::pair{"structure_factor", "s_orientation"},
         std::pair{"pair_correlation", "g"}}) {
@@ -185,7 +185,7 @@ TEST(StructureTables, OfAChangingBoxAreAveragesOverItsFrames) {
 
 TEST(StructureTables, WithoutFramesThereIsOrderOnly) {
   MemoryTrajectory2 trajectory(gases(10, false));
-  const std::vector<Table> tables = structure_tables(trajectory, {0, {}, {}}, 1);
+  const std::vector<Table> tables = measure_frames(trajectory, {0, {}, {}}, 1).tables;
   ASSERT_EQ(tables.size(), 1u);
   EXPECT_EQ(tables.front().name, "order");
   EXPECT_EQ(tables.front().rows(), 10u);

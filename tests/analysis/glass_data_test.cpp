@@ -14,10 +14,10 @@ const DiffusionCoefficient diffusion{1, 0.1, 2, 3, ""}, rotational_diffusion{4, 
 struct Told {
   Told(MemoryTrajectory2& trajectory, double order) {
     const Displacements found = displacements(trajectory);
-    const Table orders{"order", "", {{"nematic", "1", {order}, {}}, {"hexatic", "1", {0.1}, {}}}};
+    const OrderSeries orders{{order}, {0.1}};
     const CompressibilitySeries no_pressure{};
     const GlassSource run{
-        "run", 1, 0.5, 30, found, no_pressure, &orders, diffusion, rotational_diffusion};
+        "run", 1, 0.5, 30, found, no_pressure, orders, diffusion, rotational_diffusion};
     data = glass_run_data(trajectory, run, {},
                           [&](const Progress& progress) { progresses.push_back(progress); });
   }

@@ -43,7 +43,7 @@ double mean_of_column(const Table& table, const std::string& name) {
 // 80 000 velocities: T is known to T √(2/(3 · 80 000)), a₂ to √(8/15/80 000) = 0.003; the drift costs 1/4000 of T.
 TEST(VelocityObservable, OfAMaxwellianIsGaussian) {
   auto trajectory = moving_gas<3>(4000, 20, [](Stream& draw) { return 3 * draw.normal(); });
-  const std::vector<Table> tables = structure_tables(trajectory, {});
+  const std::vector<Table> tables = measure_frames(trajectory, {}).tables;
   const Table& velocities = table_of(tables, "velocities");
   EXPECT_EQ(velocities.rows(), 20u);
   EXPECT_NEAR(mean_of_column(velocities, "temperature"), 9, 4 * 9 * std::sqrt(2.0 / 3 / 80'000));
@@ -62,7 +62,7 @@ TEST(VelocityObservable, OfAMaxwellianIsGaussian) {
 TEST(VelocityObservable, SecondSonineCoefficientOfEqualSpeeds) {
   auto trajectory =
       moving_gas<2>(4000, 3, [](Stream& draw) { return draw.uniform(0, 1) < 0.5 ? -1.0 : 1.0; });
-  const Table velocities = table_of(structure_tables(trajectory, {}), "velocities");
+  const Table velocities = table_of(measure_frames(trajectory, {}).tables, "velocities");
   EXPECT_NEAR(mean_of_column(velocities, "a_2"), 2.0 / 4 - 1, 0.005);
   EXPECT_NEAR(mean_of_column(velocities, "temperature"), 1, 0.005);
 }
@@ -71,7 +71,7 @@ TEST(VelocityObservable, IsLeftOutAtRest) {
   Configuration2 frame = moving_gas<2>(10, 1, [](Stream&) { return 0.0; }).read(0);
   for (Vec2& v : frame.velocity) v.setZero();
   MemoryTrajectory2 still({frame});
-  for (const Table& table : structure_tables(still, {})) EXPECT_NE(table.name, "velocities");
+  for (const Table& table : measure_frames(still, {}).tables) EXPECT_NE(table.name, "velocities");
 }
 
 }  // namespace

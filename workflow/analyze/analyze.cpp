@@ -46,7 +46,7 @@ struct RunAnalysis {
   EnergySeries energy;
   CompressibilitySeries compressibility;
   DiffusionCoefficient diffusion, rotational_diffusion;  ///< of all particles
-  std::vector<Table> structure;
+  FrameResults structure;
   std::optional<GlassRun> glass;
 };
 
@@ -104,12 +104,6 @@ RunDynamics measure_dynamics(TrajectoryFile<Dim>& trajectory, DisplacementOption
   return dynamics;
 }
 
-/// Null without order.
-const Table* order_table(const std::vector<Table>& tables) {
-  const auto found = std::ranges::find(tables, "order", &Table::name);
-  return found == tables.end() ? nullptr : &*found;
-}
-
 /// Of a mean squared displacement or rotation in so many dimensions.
 DiffusionCoefficient long_time_diffusion(const Displacements& found, const Correlation& square,
                                          int dimension, const std::vector<double>& times) {
@@ -139,7 +133,7 @@ std::optional<GlassRun> measure_glass(TrajectoryFile<Dim>& trajectory, const std
                            .rotors = run.rotors,
                            .displacements = run.dynamics->displacements,
                            .compressibility = run.compressibility,
-                           .order = order_table(run.structure),
+                           .order = run.structure.order,
                            .diffusion = run.diffusion,
                            .rotational_diffusion = run.rotational_diffusion};
   begin(progress, "relaxation and halves");
@@ -201,7 +195,7 @@ RunAnalysis measure(TrajectoryFile<Dim>& trajectory, const std::string& name,
     run.dynamics = measure_dynamics(trajectory, parameters.analysis, progress);
   }
   begin(progress, "structure");
-  run.structure = structure_tables(trajectory, parameters.structure, all_cores, progress.report);
+  run.structure = measure_frames(trajectory, parameters.structure, all_cores, progress.report);
   run.energy = stored_energies(trajectory);
   run.compressibility = stored_compressibility(reader, run.energy, run.rotations);
   run.diffusion = run.rotational_diffusion = no_diffusion("a single frame");
@@ -253,7 +247,7 @@ Results results_of(const RunAnalysis& run) {
   results.tables.push_back({"summary", "Averages over the run.", summary_columns(run)});
   if (run.dynamics) append(results.tables, dynamics_tables(*run.dynamics));
   append(results.tables, energy_tables(run.energy, run.compressibility));
-  append(results.tables, run.structure);
+  append(results.tables, run.structure.tables);
   return results;
 }
 

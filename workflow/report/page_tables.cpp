@@ -20,7 +20,7 @@ namespace {
 
 constexpr int error_digits = 3;
 // Charts of correlations need their wave numbers; those of a study are no observables of one run.
-constexpr std::array<std::string_view, 4> without_charts = {"summary", "wave_numbers", "relaxation",
+constexpr std::array<std::string_view, 3> without_charts = {"wave_numbers", "relaxation",
                                                             "glass_fit"};
 constexpr std::string_view on_the_fly = "on_the_fly";
 
@@ -78,7 +78,7 @@ Json curves_data(const std::vector<Curve>& curves) {
 }
 
 Json chart_data(const Observable& observable, const Chart& chart) {
-  constexpr const char* sections[] = {"motion", "relaxation", "structure", "course"};
+  constexpr const char* sections[] = {"motion", "relaxation", "structure", "course", "density"};
   constexpr const char* scales[] = {"linear", "logarithmic", "fromZero", "decay", "aroundOne"};
   constexpr const char* levels[] = {"none", "equipartition", "mean"};
   return {{"table", observable.table},

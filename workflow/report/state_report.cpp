@@ -20,8 +20,9 @@ StructureOptions structure_options(const Provenance& provenance, const std::stri
 /// S(q) and g(r); the page has the correlation of orientations in bins wide enough for a single state.
 std::vector<Table> structure(const Configuration2& state, const StructureOptions& options) {
   MemoryTrajectory2 trajectory({state});
-  std::vector<Table> tables = structure_tables(trajectory, options, all_cores, {},
-                                               {"structure_factor", "pair_correlation"});
+  std::vector<Table> tables =
+      measure_frames(trajectory, options, all_cores, {}, {"structure_factor", "pair_correlation"})
+          .tables;
   for (Table& table : tables)
     std::erase_if(table.columns,
                   [](const Column& column) { return column.name.starts_with("g_"); });

@@ -425,7 +425,8 @@ function legendButton(curve, shown, toggle) {
 
 // Charts as the tables of the analysis describe them: observable.h
 
-const unitNames = { 1: '', length: lengthUnit, 'length^2': areaUnit, '1/length': '1/' + lengthUnit, time: timeUnit, 'rad^2': 'rad²' };
+const unitNames = { 1: '', length: lengthUnit, 'length^2': areaUnit, '1/length': '1/' + lengthUnit, time: timeUnit, 'rad^2': 'rad²',
+  'length^2/time': `√(${areaUnit} kT/m)`, 'rad^2/time': `√(kT/(m ${areaUnit}))` };
 const unitOf = (column) => unitNames[column.unit] ?? column.unit;
 
 const ranges = {

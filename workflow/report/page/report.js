@@ -2,6 +2,8 @@ const { runs, study, charts } = pageData;
 
 // A chart is of one table, or of several with a group of particles behind the name.
 
+const chartsOf = (...sections) => charts.filter(({ section }) => sections.includes(section));
+
 /** "q = 2.41", or from the lowest to the highest where it differs from run to run. */
 function rangeText(symbol, values) {
   const [low, high] = [Math.min(...values), Math.max(...values)].map((value) => shortNumber(value, 3));
@@ -193,7 +195,7 @@ const levelsOf = {
 function showCourse(run) {
   byId('course').replaceChildren();
   byId('course-run').textContent = runs.length > 1 ? `at ${run.label}` : '';
-  charts.filter(({ section }) => section === 'course').forEach((chart) => courseChart(run, chart));
+  chartsOf('course').forEach((chart) => courseChart(run, chart));
   hideIfEmpty('course');
 }
 
@@ -215,11 +217,6 @@ const density = { xSymbol: 'φ', xUnit: '', rangeX: (plot, low, high) => {
   return [low - space, high + space];
 } };
 
-const transport = [
-  { column: 'diffusion', heading: 'Diffusion', symbol: 'D', unit: `√(${areaUnit} kT/m)`, logY: true },
-  { column: 'rotational_diffusion', heading: 'Rotational diffusion', symbol: 'Dᵣ', unit: `√(kT/(m ${areaUnit}))`, logY: true },
-  { column: 'compressibility_factor', heading: 'Compressibility factor', symbol: 'Z = βP/ρ', unit: '' },
-];
 const speed = { heading: 'Speed of the simulation', symbol: 'collisions per second', unit: '1/s', reason: 'a single measurement' };
 
 function overDensity({ heading, symbol, unit, logY, reason }, values) {
@@ -351,10 +348,11 @@ function densityCharts() {
     tellWaveNumbers();
     timesChart();
   }
-  transport.forEach((description) => overDensity(description, runs.map((run) => {
-    const values = run.tables.summary?.columns[description.column];
-    return { run, value: values?.value[0], error: values?.error?.[0] };
-  })));
+  chartsOf('density').forEach(({ heading, symbol, scale, curves: [{ column }] }) => {
+    const found = runs.map((run) => ({ run, values: run.tables.summary?.columns[column] })).filter(({ values }) => values);
+    overDensity({ heading, symbol, unit: found.length ? unitOf(found[0].values) : '', logY: scale === 'logarithmic' },
+      found.map(({ run, values }) => ({ run, value: values.value[0], error: values.error?.[0] })));
+  });
   if (study.relaxation) orderChart();
   overDensity(speed, runs.map((run) => ({ run, value: run.collisionsPerSecond })));
 }
@@ -379,7 +377,7 @@ function start() {
   showRun(player, runs[last]);
   coolingChart(runs[last]);
   densityCharts();
-  runLegends(charts.filter(({ section }) => section !== 'course').map(runsChart).filter(Boolean));
+  runLegends(chartsOf('motion', 'relaxation', 'structure').map(runsChart).filter(Boolean));
   ['motion', 'relaxation', 'structure', 'over-density'].forEach(hideIfEmpty);
   recolour();
 }
