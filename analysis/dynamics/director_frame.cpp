@@ -23,16 +23,22 @@ std::vector<double> turns_of_director(Trajectory2& whole) {
   return directors;
 }
 
+/// The shortest rotation from one unit vector to another, at most a quarter turn away.
+Quaternion rotation_between(const Vec3& from, const Vec3& to) {
+  const Vec3 axis = from.cross(to);
+  return Quaternion(1 + from.dot(to), axis.x(), axis.y(), axis.z()).normalized();
+}
+
 std::vector<Quaternion> turns_of_director(Trajectory3& whole) {
   std::vector<Quaternion> turns;
-  Vec3 before;
+  Vec3 before = Vec3::Zero();
   for (std::size_t k = 0; k < whole.frames(); ++k) {
     Vec3 director = orientation_tensor(whole.read(k)).director();
     if (k == 0) {
       turns.push_back(Quaternion::Identity());
     } else {
       if (director.dot(before) < 0) director = -director;
-      turns.push_back((Quaternion::FromTwoVectors(before, director) * turns.back()).normalized());
+      turns.push_back((rotation_between(before, director) * turns.back()).normalized());
     }
     before = director;
   }
