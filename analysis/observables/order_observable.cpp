@@ -93,11 +93,11 @@ class SpaceOrder final : public FrameObservable<3> {
   std::array<std::vector<double>, 3> director_;
 };
 
-Observable order_table(Needs needs, Chart director) {
+Observable order_table(Needs needs, std::vector<Curve> curves, Chart director) {
   const Chart order{.section = Chart::Section::course,
                     .heading = "Order",
                     .symbol = "order parameter",
-                    .curves = {{"nematic", "nematic"}, {"hexatic", "hexatic"}},
+                    .curves = std::move(curves),
                     .scale = Chart::Scale::from_zero};
   return {.table = "order",
           .what = "Nematic order and director of single frames; in the plane also hexatic order.",
@@ -117,7 +117,8 @@ FrameObservableType<2> order_observable() {
                        .symbol = "angle of the director, continued beyond ±π/2",
                        .curves = {{"director", "director"}},
                        .is_angle_of_axis = true};
-  return {{order_table({}, director)}, [](const Configuration2& first, const StructureOptions&) {
+  return {{order_table({}, {{"nematic", "nematic"}, {"hexatic", "hexatic"}}, director)},
+          [](const Configuration2& first, const StructureOptions&) {
             return std::make_unique<PlaneOrder>(first);
           }};
 }
@@ -128,7 +129,7 @@ FrameObservableType<3> order_observable() {
                        .heading = "Director",
                        .symbol = "components of the director",
                        .curves = {{"director_x", "x"}, {"director_y", "y"}, {"director_z", "z"}}};
-  return {{order_table({.rotors = true}, director)},
+  return {{order_table({.rotors = true}, {{"nematic", "nematic"}}, director)},
           [](const Configuration3& first, const StructureOptions&) {
             return std::make_unique<SpaceOrder>(first);
           }};

@@ -117,14 +117,16 @@ class StructureFactorObservable final : public FrameObservable<Dim> {
 
 template <int Dim>
 FrameObservableType<Dim> structure_factor_observable() {
-  const Chart chart{.section = Chart::Section::structure,
-                    .heading = "Structure factor",
-                    .symbol = "S(q)",
-                    .curves = {{"s", "S"}, {"s_orientation", "S of orientations"}, {"s_*", "S *"}},
-                    .scale = Chart::Scale::around_one,
-                    .x = "q",
-                    .x_symbol = "q",
-                    .levels = {1}};
+  Chart chart{.section = Chart::Section::structure,
+              .heading = "Structure factor",
+              .symbol = "S(q)",
+              .curves = {{"s", "S"}, {"s_*", "S *"}},
+              .scale = Chart::Scale::around_one,
+              .x = "q",
+              .x_symbol = "q",
+              .levels = {1}};
+  if (Dim == 2)
+    chart.curves.insert(chart.curves.begin() + 1, {"s_orientation", "S of orientations"});
   return {
       {{.table = "structure_factor",
         .what = "Structure factors against the wave number, total and of pairs of species; in the "

@@ -6,12 +6,6 @@
 #include <cmath>
 
 namespace vitrel {
-namespace {
-
-/// Relative errors of averages of equal numbers are up to this.
-constexpr double rounding = 1e-12;
-
-}  // namespace
 
 std::string grouped(std::uint64_t number) {
   std::string digits = std::to_string(number);
@@ -19,10 +13,14 @@ std::string grouped(std::uint64_t number) {
   return digits;
 }
 
+bool is_rounding(double error, double value) {
+  return error <= 1e-12 * std::abs(value);
+}
+
 std::string with_error(double value, double error) {
   if (!std::isfinite(value)) return "–";
   if (!std::isfinite(error)) return fmt::format("{:.4g}", value);
-  if (error <= rounding * std::abs(value)) return fmt::format("{:.6g}", value);
+  if (is_rounding(error, value)) return fmt::format("{:.6g}", value);
   const int decimals = std::max(0, 1 - static_cast<int>(std::floor(std::log10(error))));
   // Rounding 0.0996 to two digits gives 0.10: one decimal less.
   const bool carries = std::round(error * std::pow(10, decimals)) >= 100;

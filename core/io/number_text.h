@@ -10,9 +10,13 @@ namespace vitrel {
 /// 1234567 with thin spaces between groups of three digits.
 std::string grouped(std::uint64_t number);
 
+/// Whether the error of an average says no more than that numbers that should be equal are so up to rounding:
+/// at most 1e-12 of the value.
+bool is_rounding(double error, double value);
+
 /// "1.234 ± 0.012": the error with two significant digits, the value with as many decimals. Without
-/// a finite error the value has four significant digits, with one of at most 1e-12 of it, which is
-/// rounding, six; "–" if it is not finite either.
+/// a finite error the value has four significant digits, with one that is rounding six; "–" if it is not
+/// finite either.
 std::string with_error(double value, double error);
 
 }  // namespace vitrel

@@ -336,25 +336,29 @@ std::filesystem::path results_path(const std::filesystem::path& run) {
   return run.parent_path() / (run.stem().string() + "_results.h5");
 }
 
+AnalysedRun stored_analysis(const std::filesystem::path& run,
+                            const std::filesystem::path& results) {
+  AnalysedRun stored{run, read_results(results)};
+  stored.glass = stored_glass_run(stored.name(), stored.results);
+  return stored;
+}
+
 AnalysedRun stored_or_analyzed(const std::filesystem::path& file, const AnalysisChoice& choice,
                                const AnalysisProgress& progress) {
   namespace fs = std::filesystem;
-  const fs::path stored = results_path(file);
-  if (!fs::exists(stored) || fs::last_write_time(stored) < fs::last_write_time(file))
+  const fs::path results = results_path(file);
+  if (!fs::exists(results) || fs::last_write_time(results) < fs::last_write_time(file))
     return analyze_run(file, choice, progress);
-  Results results;
+  AnalysedRun stored;
   try {
-    results = read_results(stored);
+    stored = stored_analysis(file, results);
   } catch (const FileError&) {
     return analyze_run(file, choice, progress);
   }
   const Parameters parameters = analysis_parameters(TrajectoryReader(file), choice);
-  const bool is_up_to_date = results.text(analyzer_key) == analyzer() &&
-                             results.text(analysis_key) == effective_parameters(parameters);
-  if (!is_up_to_date) return analyze_run(file, choice, progress);
-  AnalysedRun run{file, std::move(results)};
-  run.glass = stored_glass_run(run.name(), run.results);
-  return run;
+  const bool is_up_to_date = stored.results.text(analyzer_key) == analyzer() &&
+                             stored.results.text(analysis_key) == effective_parameters(parameters);
+  return is_up_to_date ? stored : analyze_run(file, choice, progress);
 }
 
 std::vector<std::string> former_tables(const std::filesystem::path& file) {

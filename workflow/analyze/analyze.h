@@ -49,6 +49,9 @@ struct AnalysedRun {
 AnalysedRun analyze_run(const std::filesystem::path& file, const AnalysisChoice& choice,
                         const AnalysisProgress& progress = {});
 
+/// The same as an earlier analysis wrote it into this file. Throws FileError.
+AnalysedRun stored_analysis(const std::filesystem::path& run, const std::filesystem::path& results);
+
 /// Where `vitrel analyze` writes the results of a run by default.
 std::filesystem::path results_path(const std::filesystem::path& run);
 

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/statistics/blocking.h"
+#include "core/io/number_text.h"
 
 namespace vitrel {
 namespace {
@@ -38,8 +39,7 @@ std::vector<Replicates> grouped(const std::vector<JobResult>& jobs) {
 /// Half the width of the interval with that probability; 0 if the values differ by rounding errors.
 double half_width(const std::vector<double>& values, double level) {
   const ConfidenceInterval interval = confidence_interval(values, level);
-  const bool is_rounding = interval.half_width < 1e-12 * std::abs(interval.mean);
-  return is_rounding ? 0 : interval.half_width;
+  return is_rounding(interval.half_width, interval.mean) ? 0 : interval.half_width;
 }
 
 AveragedFigure averaged(const std::string& name, const std::vector<const Figures*>& jobs) {

@@ -148,16 +148,21 @@ constexpr Quantity of_run[] = {{"overlaps", "1"},
                                {"early_releases_per_collision", "1"},
                                {"blocked_rotations_per_collision", "1"}};
 
-/// Adds to the summary of the analysis what it does not have.
+/// Adds to the summary of the analysis what it does not have or does not know.
 void add_figures(const Json& job, std::span<const Quantity> quantities, Results& results) {
   auto summary = std::find_if(results.tables.begin(), results.tables.end(),
                               [](const Table& table) { return table.name == "summary"; });
   if (summary == results.tables.end())
     summary = results.tables.insert(summary, {"summary", "The prepared state.", {}});
-  for (const auto& [name, unit] : quantities)
-    if (job.contains(name) && !summary->find(name))
-      summary->columns.push_back(
-          {name, unit, {job[name].is_number() ? job[name].get<double>() : unknown}, {}});
+  for (const auto& [name, unit] : quantities) {
+    if (!job.contains(name)) continue;
+    const double value = job[name].is_number() ? job[name].get<double>() : unknown;
+    const auto known = std::ranges::find(summary->columns, name, &Column::name);
+    if (known == summary->columns.end())
+      summary->columns.push_back({name, unit, {value}, {}});
+    else if (std::isnan(known->value.front()))
+      known->value.front() = value;
+  }
 }
 
 AnalysedRun analysed_job(const fs::path& job, const AnalysisChoice& choice,
@@ -169,7 +174,7 @@ AnalysedRun analysed_job(const fs::path& job, const AnalysisChoice& choice,
   else if (choice.given())
     run = analyze_run(run.file, choice, progress);
   else
-    run.results = read_results(job / "results.h5");
+    run = stored_analysis(run.file, job / "results.h5");
   if (done.contains("analyze") && !run.results.find("summary"))
     throw FileError((job / "results.h5").string() +
                     ": has no table 'summary'; delete it and repeat the sweep");
