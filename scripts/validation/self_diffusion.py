@@ -24,10 +24,10 @@ SPEEDY_PARTICLES, SPEEDY_TOLERANCE = 500, 0.02
 # The viscosity comes from runs of their own, of this many particles and these seeds.
 PARTICLES, SEEDS = 1372, range(11, 19)
 # Packing fraction: sample interval, about a sixth of the time in which the slowest shear flow decays, and duration.
-SAMPLING = {0.3: (1.2, 3000), 0.49: (0.16, 400)}
+SAMPLING = {0.3: (1.2, 3000), 0.49: (0.16, 600)}
 # Longest lag, in sample intervals; an even number. At φ = 0.49 the slowest part of the stress relaxes on the same time
 # scale as the flow, whose correlation therefore changes sign before it vanishes.
-LAGS = 24
+LAGS = 32
 SHELLS = (1, 2, 3)  # squared wave numbers, in units of (2π/L)²
 BLOCKS = 8  # of each run, for the error
 
