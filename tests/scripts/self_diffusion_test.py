@@ -30,6 +30,10 @@ class SelfDiffusion(unittest.TestCase):
         self.assertAlmostEqual(line.slope_error, 2 * math.hypot(0.3, 0.4))
         self.assertAlmostEqual(line.limit_error, math.hypot(0.3, 2 * 0.4))
 
+    def test_sizes_with_another_pressure_are_left_out(self):
+        points = [types.SimpleNamespace(compressibility=z) for z in (9.94, 9.96, 10.04, 10)]
+        self.assertEqual(self_diffusion.bulk_like(points), points[1:])
+
     def test_enskog_and_speedy_of_a_dilute_gas(self):
         # The first Sonine approximation of D, and Chapman and Enskog's factor for the higher ones.
         dilute = 3 / 8 / (self_diffusion.number_density(1e-6) * 4 * math.sqrt(math.pi))
