@@ -1,6 +1,6 @@
-# Sources that read or write text and never take long are cold: compiled with -O1 where others get more, they compile
-# faster and compute the same (options.cmake).
-set(VITREL_COLD "$<$<CONFIG:Release,RelWithDebInfo>:-O1>")
+# Sources that read or write text and never take long are cold: with -Og, where others get -O3, they compile faster and
+# compute the same (options.cmake).
+set(VITREL_COLD "$<$<CONFIG:Release,RelWithDebInfo>:-Og>")
 
 # vitrel_precompiled(<name> [COLD] HEADERS … LINK …): a target that only precompiles headers, for others to reuse.
 # These agree in options with it (GCC would take the level of optimisation from it), and may have definitions of their
