@@ -39,7 +39,9 @@ function shownColumns(table, { curves, waveNumber }, of, group = '') {
 function groupsOf(chart) {
   const names = runs.flatMap((run) => Object.keys(run.tables));
   if (!chart.hasGroups) return names.includes(chart.table) ? [''] : [];
-  const groups = new Set(names.filter((name) => name.startsWith(chart.table + '_')).map((name) => name.slice(chart.table.length)));
+  const isOther = (name) => charts.some(({ table }) => table === name);  // orientation_distribution
+  const groups = new Set(names.filter((name) => name.startsWith(chart.table + '_') && !isOther(name))
+    .map((name) => name.slice(chart.table.length)));
   const others = new Set(runs.flatMap((run) => Object.keys(run.tables).filter((name) => isOnTheFly(name) &&
     run.tables[name].columns[chart.x] && shownColumns(run.tables[name], chart, runs, name).length)));
   return [...groups].sort((a, b) => (b === '_all') - (a === '_all')).concat([...others]);
