@@ -22,18 +22,18 @@ REFERENCE_SIZE = 1000
 PUBLIC_CODE = """## Against the fastest public code
 
 Smallenburg's event-driven code for spheres (Eur. Phys. J. E 45, 22 (2022), variant Single, confined to a plane for disks)
-on the same machine in the same hour, 2026-11-23: whole processes on one core in alternation, the same states, 2·10⁷
-collisions, medians of five, in millions of collisions per second. vitrel: `vitrel run` as a user builds it, with its
+on the same machine in the same hour, 2026-11-24: whole processes on one core in alternation, the same states, 2·10⁷
+collisions, medians of one to three pairs, in millions of collisions per second. vitrel: `vitrel run` as a user builds it, with its
 default output. The public code: `-Ofast -march=native`, without thermostat, with the best of several shells.
 
 | | φ | N | vitrel | public code | ratio | before |
 | --- | --- | --- | --- | --- | --- | --- |
-| disks | 0.5 | 4096 | 1.87 | 1.57 | **1.19** | 0.63 |
-| disks | 0.7 | 4096 | 2.64 | 2.58 | **1.02** | 0.60 |
-| spheres | 0.30 | 10976 | 0.63 | 0.54 | **1.17** | 0.56 |
-| spheres | 0.49 | 10976 | 1.18 | 0.86 | **1.38** | 0.60 |
+| disks | 0.5 | 4096 | 1.97 | 1.60 | **1.23** | 0.63 |
+| disks | 0.7 | 4096 | 2.73 | 2.28 | **1.19** | 0.60 |
+| spheres | 0.30 | 10976 | 0.62 | 0.47 | **1.30** | 0.56 |
+| spheres | 0.49 | 10976 | 1.18 | 0.84 | **1.40** | 0.60 |
 
-Geometric mean 1.18. *Before*: the ratio at commit 03c5278, portable build and a frame every 0.1. What made the
+Geometric mean 1.28. *Before*: the ratio at commit 03c5278, portable build and a frame every 0.1. What made the
 difference: contacts of round bodies stay known when a particle leaves its neighbourhood, so that only new neighbours are
 predicted; the cell list has positions inside its cells and passes over what the old list contains; records of four
 partners are transposed in registers; blocks have 128 events per particle; frames are written without compression.
