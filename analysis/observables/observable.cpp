@@ -1,18 +1,11 @@
 #include "analysis/observables/observable.h"
 
-#include <algorithm>
-#include <iterator>
-
 #include "analysis/observables/dynamics_tables.h"
 #include "analysis/observables/energy_tables.h"
 #include "analysis/observables/frame_observable.h"
 
 namespace vitrel {
 namespace {
-
-void append(std::vector<Observable>& all, std::vector<Observable> more) {
-  std::ranges::move(more, std::back_inserter(all));
-}
 
 Chart over_density(const char* heading, const char* symbol, const char* column,
                    Chart::Scale scale = Chart::Scale::linear) {
@@ -50,21 +43,22 @@ const Observable* find(const std::vector<Observable>& all, std::string_view tabl
 }
 
 std::vector<Observable> observables(int dimension) {
-  std::vector<Observable> all = {summary_observable()};
-  append(all, dynamics_observables(dimension));
-  append(all, energy_observables());
-  append(all, dimension == 2 ? frame_observables<2>() : frame_observables<3>());
-  append(all, {{.table = "on_the_fly",
-                .what = "The same correlations, measured while the run went on "
-                        "(output.correlations).",
-                .has_groups = true},
-               {.table = "relaxation_times",
-                .what = "When correlations have fallen to 1/e, or bounds of that time.",
-                .needs = {.motion = true}},
-               {.table = "relaxation",
-                .what = "One row: relaxation times, nematic order, and whether the run was long "
-                        "enough.",
-                .needs = {.motion = true}}});
+  const std::vector<Observable> parts[] = {
+      {summary_observable()},
+      dynamics_observables(dimension),
+      energy_observables(),
+      dimension == 2 ? frame_observables<2>() : frame_observables<3>(),
+      {{.table = "on_the_fly",
+        .what = "The same correlations, measured while the run went on (output.correlations).",
+        .has_groups = true},
+       {.table = "relaxation_times",
+        .what = "When correlations have fallen to 1/e, or bounds of that time.",
+        .needs = {.motion = true}},
+       {.table = "relaxation",
+        .what = "One row: relaxation times, nematic order, and whether the run was long enough.",
+        .needs = {.motion = true}}}};
+  std::vector<Observable> all;
+  for (const std::vector<Observable>& part : parts) all.insert(all.end(), part.begin(), part.end());
   return all;
 }
 

@@ -7,7 +7,7 @@ import pathlib
 import statistics
 import tempfile
 
-from validation.common import PARAMS, expect, summary_of, table
+from validation.common import PARAMS, expect, settings, summary_of, table
 
 TITLE = "Self-diffusion of hard spheres"
 PARAMETERS = PARAMS / "self_diffusion.toml"
@@ -58,10 +58,6 @@ def speedy_diffusion(phi):
     n = number_density(phi) * SIGMA**3
     dilute = 3 / 8 * SIGMA / math.sqrt(math.pi)
     return dilute / n * (1 - n / 1.09) * (1 + n**2 * (0.4 - 0.83 * n**2))
-
-
-def settings(values):
-    return [word for key, value in values.items() for word in ("--set", f"{key}={value}")]
 
 
 # Diffusion
@@ -179,9 +175,9 @@ def correlations_of_run(build, phi, seed):
     interval, duration = SAMPLING[phi]
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder, "run.h5")
-        summary_of(build, "run", PARAMETERS, "-o", file, *settings({
-            "system.packing_fraction": phi, "system.particles": PARTICLES, "system.seed": seed,
-            "dynamics.duration": duration, "output.samples.interval": interval, "output.velocities": "true"}))
+        summary_of(build, "run", PARAMETERS, "-o", file, *settings((
+            f"system.packing_fraction={phi}", f"system.particles={PARTICLES}", f"system.seed={seed}",
+            f"dynamics.duration={duration}", f"output.samples.interval={interval}", "output.velocities=true")))
         vectors = [k for n in SHELLS for k in wave_vectors(n)]
         currents = shear_currents(file, vectors)
     return [correlations(currents[:, [sum(c * c for c in k) == n for k in vectors]]) for n in SHELLS]

@@ -237,8 +237,7 @@ std::vector<Column> summary_columns(const RunAnalysis& run) {
   return columns;
 }
 
-template <class Item>
-void append(std::vector<Item>& all, std::vector<Item> more) {
+void append(std::vector<Table>& all, std::vector<Table> more) {
   std::ranges::move(more, std::back_inserter(all));
 }
 

@@ -31,13 +31,11 @@ std::string charts_text(const std::vector<Chart>& charts) {
 
 /// The lines of a table, in the plane, in space or, if `where` is empty, in both.
 std::string lines(const Observable& observable, const std::string& where) {
-  std::string text = where + observable.what + "\n";
+  std::string items;
   if (const std::string needs = needs_text(observable.needs); !needs.empty())
-    text += "\n- needs " + needs + "\n";
-  if (!observable.charts.empty())
-    text += fmt::format("{}- drawn as {}\n", text.ends_with(".\n") ? "\n" : "",
-                        charts_text(observable.charts));
-  return text;
+    items += "- needs " + needs + "\n";
+  if (!observable.charts.empty()) items += "- drawn as " + charts_text(observable.charts) + "\n";
+  return where + observable.what + (items.empty() ? "\n" : "\n\n") + items;
 }
 
 std::string heading(const Observable& observable) {
@@ -63,10 +61,10 @@ std::string observables_page() {
   std::string page =
       "# Tables of `vitrel analyze`\n\n"
       "`vitrel analyze --list` prints this page. A table is there if the run has what it needs; "
-      "those "
-      "of groups\nof particles are there for all and, in mixtures, for every species. Columns, "
-      "units "
-      "and conventions are in\nthe attributes of the HDF5 file and in `columns.csv`.\n";
+      "those of groups\n"
+      "of particles are there for all and, in mixtures, for every species. Columns, units and "
+      "conventions are in\n"
+      "the attributes of the HDF5 file and in `columns.csv`.\n";
   const std::vector<Observable> plane = observables(2), space = observables(3);
   for (const Observable& observable : plane)
     page += section(observable, listed(space, observable.table));

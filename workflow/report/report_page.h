@@ -38,10 +38,7 @@ struct ReportData {
 /// The page as HTML. Of one run: the temperature if it is a gas that cools, verdict and relaxation times, the
 /// moving particles, correlations, structure, series over time. Of several: what depends on the packing
 /// fraction, correlations and structure of all, and folded the series of one. Then a table of the runs, parameters, provenance.
-/// A chart is there if its table is: displacements_<group>, self_scattering_<group> with wave_numbers,
-/// orientation_<group>, susceptibility, collective_scattering, structure_factor,
-/// pair_correlation, orientation_distribution, order, energies, compressibility_factor, summary; of the
-/// study, relaxation and glass_fit (glass_rows.h).
+/// A chart (observable.h) is there if its table is; of the study, relaxation and glass_fit (glass_rows.h).
 ///
 /// To stay small, tables are thinned (page_tables.h), and movies are what film (movie.h) made of
 /// them; the page says where it shows a part only. If the page has more than 2 MB, which many runs

@@ -458,12 +458,12 @@ function chartDescription({ scale, ...chart }, columns, name) {
 
 /** Charts of one configuration, in the hosts that are called after their tables. */
 function stateCharts({ tables, charts }) {
-  for (const chart of charts) {
+  for (const chart of charts.filter(({ table }) => byId(table))) {
     const host = byId(chart.table), columns = tables[chart.table]?.columns ?? {};
     const curves = namedColumns(columns, chart.curves).map(({ name, label }, k) => ({ label, id: name, x: columns[chart.x].value,
       value: columns[name].value, colour: () => curveColour(k), noErrors: 'a single configuration' }));
-    if (!curves.length) { host?.remove(); continue; }
+    if (!curves.length) { host.remove(); continue; }
     const { symbol, levels, unit, ...description } = chartDescription(chart, columns, curves[0].id);
-    if (host) new Chart(host, { ...description, file: chart.table + '.csv', variants: [{ symbol, unit, levels, curves }] });
+    new Chart(host, { ...description, file: chart.table + '.csv', variants: [{ symbol, unit, levels, curves }] });
   }
 }

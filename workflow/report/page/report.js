@@ -25,7 +25,7 @@ function unwrapped(angles) {
   return angles.map((angle) => angle === null ? null : last = angle + Math.PI * Math.round((last - angle) / Math.PI));
 }
 
-// Correlations measured while the run went on have one table for each group of particles, of all families together.
+// Correlations measured while the run went on have one table for each group of particles, for all charts together.
 const onTheFly = 'on_the_fly_';
 const isOnTheFly = (group) => group.startsWith(onTheFly);
 
