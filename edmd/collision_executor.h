@@ -45,8 +45,8 @@ class CollisionExecutor {
     Motion<dimension> motion1 = state_.particles[i].motion(),
                       motion2 = state_.particles[j].motion();
     separate(motion1, state_.type(i).inertia, motion2, state_.type(j).inertia, d);
-    state_.particles[i].set_motion(motion1);
-    state_.particles[j].set_motion(motion2);
+    state_.set_motion(i, motion1);
+    state_.set_motion(j, motion2);
     ++counters.correction_moves;
   }
 
@@ -59,8 +59,8 @@ class CollisionExecutor {
                               ? collide_shaped(i, j, motion1, motion2, n, restitution)
                               : collide_round(i, j, motion1, motion2, n, restitution);
     if (!std::isfinite(result.impulse)) report_self_overlap(i);
-    state_.particles[i].set_motion(motion1);
-    if (i != j) state_.particles[j].set_motion(motion2);
+    state_.set_motion(i, motion1);
+    if (i != j) state_.set_motion(j, motion2);
     ++state_.collisions;
     ++counters.collisions;
     counters.virial += result.impulse * n.dot(d);

@@ -42,8 +42,9 @@ class NeighborBatch {
       partner[k] = &state.particles[neighbor.other];
       warm_start[k] = &neighbor.warm_start;
       other[k] = neighbor.other;
-      if (scope == PredictionScope::all_neighbors && !neighbor.is_shifted()) continue;
-      copy_[k] = *partner[k];
+      const bool is_complete = scope == PredictionScope::all_neighbors && !neighbor.is_shifted();
+      if (is_complete && !tumbles<B>) continue;
+      copy_[k] = tumbles<B> ? state.record_now(neighbor.other) : *partner[k];
       copy_[k].position += state.box.translation(neighbor.shift());
       if (scope == PredictionScope::higher_indices) {
         const bool is_tested = neighbor.other >= i;
@@ -64,6 +65,7 @@ class ContactSearch {
  public:
   using State = SimulationState<B>;
   using Index = typename State::Index;
+  using Particle = typename State::Particle;
   static constexpr int dimension = State::dimension;
 
   ContactSearch(const State& state, OnOverlap on_overlap)
@@ -71,13 +73,13 @@ class ContactSearch {
 
   /// Replaces `best` by the first contact with this neighbour, if that is earlier than `best` and the horizon. There is
   /// none for `screened`.
-  void search(Index i, const Pose<dimension>& mine, const Neighbor<B>& neighbor, double screened,
+  void search(Index i, const Particle& mine, const Neighbor<B>& neighbor, double screened,
               double horizon, TimedEvent<B>& best, RunCounters& counters) const {
     const Index j = neighbor.other;
-    const auto flight = [&](Index k, const Pose<dimension>& pose) {
-      return Flight<B>{body_now(k), pose, state_.particles[k].motion()};
+    const auto flight = [&](Index k, const Particle& record) {
+      return Flight<B>{body_now(k), record.pose(), record.motion()};
     };
-    Pose<dimension> theirs = state_.pose_now(j);
+    Particle theirs = state_.record_now(j);
     theirs.position += state_.box.translation(neighbor.shift());
     const Prediction<dimension> contact =
         first_contact(flight(i, mine), flight(j, theirs), std::min(horizon, best.time) - state_.now,
@@ -127,6 +129,7 @@ class ContactPredictor {
  public:
   using State = SimulationState<B>;
   using Index = typename State::Index;
+  using Particle = typename State::Particle;
   using Scope = PredictionScope;
   static constexpr int dimension = State::dimension;
 
@@ -138,8 +141,7 @@ class ContactPredictor {
   TimedEvent<B> predict(Index i, const TimedEvent<B>& known, std::span<Neighbor<B>> neighbors,
                         double horizon, RunCounters& counters) const {
     TimedEvent<B> best = known;
-    const typename State::Particle& particle = state_.particles[i];
-    const auto mine = flight_record<B>(particle.pose_at(state_.now), particle.motion(), state_.now);
+    const Particle mine = state_.record_now(i);
     ContactScreen<B> screen(state_.type(i).coefficients, mine, state_.now, state_.size_now(),
                             state_.contact_gap);
     Batch batch;
@@ -153,7 +155,7 @@ class ContactPredictor {
       screen.evaluate(batch.count);
       counters.predictions += batch.tested;
       for (int k = 0; k < batch.count; ++k) neighbors[next + k].warm_start = screen.warm_start(k);
-      search_earliest_first(i, mine.pose(), neighbors.subspan(next), batch, latest, screen, best,
+      search_earliest_first(i, mine, neighbors.subspan(next), batch, latest, screen, best,
                             counters);
     }
     return best;
@@ -163,10 +165,9 @@ class ContactPredictor {
   static constexpr int lanes = ContactScreen<B>::lanes;
   using Batch = NeighborBatch<B, lanes>;
 
-  void search_earliest_first(Index i, const Pose<dimension>& mine,
-                             std::span<const Neighbor<B>> neighbors, const Batch& batch,
-                             double latest, ContactScreen<B>& screen, TimedEvent<B>& best,
-                             RunCounters& counters) const {
+  void search_earliest_first(Index i, const Particle& mine, std::span<const Neighbor<B>> neighbors,
+                             const Batch& batch, double latest, ContactScreen<B>& screen,
+                             TimedEvent<B>& best, RunCounters& counters) const {
     for (int done = 0; done < batch.count; ++done) {
       const auto [wait, k] = screen.earliest();
       if (!(state_.now + wait < best.time)) return;

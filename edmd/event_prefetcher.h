@@ -51,7 +51,7 @@ class EventPrefetcher {
     if (events_[i].type == Event<B>::Type::exit || time < state_.particles[i].known_until) {
       if (time == State::never) return;
       if (stage == 1) prefetch_line(&state_.image[i]);
-      if (stage == 1) neighborhoods.prefetch_cells(i, state_.particles[i].pose_at(time).position);
+      if (stage == 1) neighborhoods.prefetch_cells(i, state_.position_at(i, time));
       if (stage == 2) neighborhoods.prefetch_references(i);
     } else {
       const Index j = events_[i].partner.other;

@@ -24,6 +24,10 @@ enum class NeighborSearch {
   cells,  ///< core/neighbors/cell_neighbors.h: round particles that do not grow
 };
 
+/// The rotation of scalene ellipsoids in free flight: by Euler's equations, or about a constant angular velocity
+/// (core/geometry/ellipsoid.h). Growing particles always keep it constant.
+enum class FreeRotation { euler, constant };
+
 struct EngineOptions {
   double restitution = 1;
   OnOverlap on_overlap = OnOverlap::stop;
@@ -32,6 +36,7 @@ struct EngineOptions {
   double growth_rate = 0;
   /// If set, the particles are soft: round, and not growing. `restitution` then has no effect.
   std::shared_ptr<SoftContact> soft_contact;
+  FreeRotation rotation = FreeRotation::euler;
   EarlyRelease early_release = EarlyRelease::alone;
   std::optional<NeighborSearch> neighbors = {};  ///< none: by density
   /// Threads that predict all particles; results do not depend on their number.

@@ -48,7 +48,8 @@ class ContactPredictor<B> {
       best = {time, Event<B>::with(Event<B>::Type::collision, neighbor,
                                    state_.version[neighbor.other], Vec<dimension>::Zero())};
     else
-      search_.search(i, mine, neighbor, 0, horizon, best, counters);  // touches or overlaps
+      search_.search(i, state_.record_now(i), neighbor, 0, horizon, best,
+                     counters);  // touches or overlaps
     return best;
   }
 

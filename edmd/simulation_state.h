@@ -7,6 +7,7 @@
 
 #include "core/contact/contact_screen.h"
 #include "core/contact/flight_record.h"
+#include "core/geometry/asymmetric_top.h"
 #include "core/neighbors/cell_neighbors.h"
 #include "core/neighbors/large_vector.h"
 #include "core/neighbors/neighborhood.h"
@@ -40,6 +41,11 @@ struct SimulationState {
     Orientation<dimension> orientation;
     AngularVelocity<dimension> angular_velocity;
   };
+  /// The free rotation of a tumbling body since its motion changed.
+  struct Tumbling {
+    AsymmetricTop top;
+    double since;
+  };
 
   /// The data shared by all particles of one shape and mass.
   struct ParticleType {
@@ -62,6 +68,7 @@ struct SimulationState {
   LargeVector<Particle> particles;
   LargeVector<Rotation> rotations;  // of spheres, at rotation_time
   double rotation_time = 0;
+  LargeVector<Tumbling> tumbling;  // of tumbling bodies
   LargeVector<Shift<dimension>> image;
   LargeVector<Index> version;  // changes of motion or image so far
   std::optional<Neighborhoods<B>> neighborhoods;
@@ -74,15 +81,49 @@ struct SimulationState {
     if constexpr (grows<B>) return {1 + growth_rate * now, growth_rate};
     return {};
   }
-  Pose<dimension> pose_now(Index i) const { return particles[i].pose_at(now); }
+  /// The record of particle i, advanced to now.
+  Particle record_now(Index i) const {
+    Particle record = particles[i];
+    if constexpr (tumbles<B>) {
+      const AsymmetricTop::State state = tumbling[i].top.at(now - tumbling[i].since);
+      record.position += (now - record.time) * record.velocity;
+      record.rotation.orientation = Quaternion(state.axes).normalized();
+      record.rotation.angular_velocity = state.angular_velocity;
+    } else {
+      record.set_pose(record.pose_at(now));
+    }
+    record.time = now;
+    return record;
+  }
+  Pose<dimension> pose_now(Index i) const {
+    if constexpr (tumbles<B>)
+      return record_now(i).pose();
+    else
+      return particles[i].pose_at(now);
+  }
+  Vector position_at(Index i, double time) const {
+    return particles[i].position + (time - particles[i].time) * particles[i].velocity;
+  }
+  /// The motion of a particle that has been advanced to now, or a motion whose speeds are never exceeded in flight.
+  void set_motion(Index i, const Motion<dimension>& motion) {
+    Particle& particle = particles[i];
+    particle.set_motion(motion);
+    if constexpr (tumbles<B>) {
+      tumbling[i] = {AsymmetricTop(shape(i), particle.orientation(), motion.angular_velocity), now};
+      particle.rotation.max_angular_speed = tumbling[i].top.max_speed();
+    }
+  }
+  Motion<dimension> fastest_motion(Index i) const {
+    Motion<dimension> motion = particles[i].motion();
+    if constexpr (tumbles<B>)
+      motion.angular_velocity =
+          particles[i].rotation.max_angular_speed * motion.angular_velocity.normalized();
+    return motion;
+  }
   Inertia<dimension> inertia_now(Index i) const {
     return in_space(type(i).inertia, particles[i].pose(), size_now().size);
   }
-  void advance_to_now(Index i) {
-    Particle& particle = particles[i];
-    particle.set_pose(particle.pose_at(now));
-    particle.time = now;
-  }
+  void advance_to_now(Index i) { particles[i] = record_now(i); }
   /// From i to the image of its partner, both advanced to now.
   Vector separation(Index i, const Image& partner) const {
     return particles[partner.other].position + box.translation(partner.shift()) -
@@ -98,7 +139,7 @@ struct SimulationState {
   double next_exit(Index i) const {
     if constexpr (has_cells)
       if (cells) return now + cells->exit_time(i, pose_now(i).position, particles[i].velocity);
-    return now + neighborhoods->exit_time(i, pose_now(i), particles[i].motion(), size_now());
+    return now + neighborhoods->exit_time(i, pose_now(i), fastest_motion(i), size_now());
   }
 
   /// Begins a block; `target_neighbors` is the mean length of lists.
@@ -128,6 +169,7 @@ double SimulationState<B>::reset_clocks() {
   base += elapsed;
   now = collisions = 0;
   rotation_time -= elapsed;
+  for (Tumbling& body : tumbling) body.since -= elapsed;
   for (Particle& particle : particles) {
     particle.time -= elapsed;
     particle.known_until -= elapsed;
@@ -160,7 +202,7 @@ std::span<Neighbor<B>> SimulationState<B>::renew_neighbors(Index i) {
   box.wrap(particle.position, image[i]);
   // Disks and spheres, which only predict the contacts with new neighbours, renew as cheaply as they would gain.
   const Pose<dimension> reference =
-      is_round ? particle.pose() : neighborhoods->ahead_of(i, particle.pose(), particle.motion());
+      is_round ? particle.pose() : neighborhoods->ahead_of(i, particle.pose(), fastest_motion(i));
   const std::size_t kept = neighborhoods->update(i, reference, size_now().size);
   return neighborhoods->of(i).subspan(kept);
 }

@@ -68,6 +68,10 @@ void SimulationState<B>::load(const Configuration<dimension>& configuration, Nei
   now = collisions = 0;
   load_particles(configuration);
   load_types(configuration);
+  if constexpr (tumbles<B>) {
+    tumbling.resize(size());
+    for (Index i = 0; i < size(); ++i) set_motion(i, particles[i].motion());
+  }
   extent = 0.5 * box.lengths().maxCoeff();
   fastest = 0;
   for (Index i = 0; i < size(); ++i) {
@@ -76,9 +80,9 @@ void SimulationState<B>::load(const Configuration<dimension>& configuration, Nei
     // Angles are also rounded, which moves the surface by up to max_support_rate times the rounding error.
     extent = std::max({extent, shape(i).circumradius(),
                        max_support_rate * detail::angle_magnitude(particle.orientation())});
-    fastest = std::max(fastest,
-                       particle.velocity.norm() +
-                           max_support_rate * detail::spin_magnitude(particle.angular_velocity()));
+    fastest = std::max(
+        fastest, particle.velocity.norm() +
+                     max_support_rate * detail::spin_magnitude(fastest_motion(i).angular_velocity));
   }
   contact_gap = tolerance::contact_gap(extent);
   find_neighbors(method, target_neighbors);
@@ -147,8 +151,9 @@ void SimulationState<B>::write(Configuration<dimension>& configuration) const {
   const double size_factor = size_now().size;
   for (Index i = 0; i < size(); ++i) {
     const Index k = external_id[i];
-    Pose<dimension> pose = pose_now(i);
-    configuration.angular_velocity[k] = particles[i].angular_velocity();
+    const Particle record = record_now(i);
+    Pose<dimension> pose = record.pose();
+    configuration.angular_velocity[k] = record.angular_velocity();
     if constexpr (!Particle::has_rotation) {
       const Rotation rotation = rotation_now(i);
       pose.orientation = rotation.orientation;
@@ -171,7 +176,7 @@ void SimulationState<B>::set_velocities(const Configuration<dimension>& configur
     if constexpr (!Particle::has_rotation)
       rotations[i] = {rotation_now(i).orientation, motion.angular_velocity};
     advance_to_now(i);
-    particles[i].set_motion(motion);
+    set_motion(i, motion);
     fastest = std::max(fastest, motion.velocity.norm());
   }
   rotation_time = now;

@@ -30,6 +30,7 @@ class ContactScreen<B> : public detail::CandidateTimes<simd_width> {
         cc_(coefficients.cc) {
     const Vec3 &lengths = coefficients.semi_axes, squares = lengths.cwiseAbs2();
     lengths_ = {lengths[0], lengths[1], lengths[2]};
+    max_tumbling_ = coefficients.max_tumbling;
     axes_ = detail::axes_of(mine.orientation(), lengths);
     const Vec3 own = mine.orientation().conjugate() * mine.angular_velocity();
     tau_ = tumbling<double>(components(own.normalized()), components(squares));
@@ -41,8 +42,10 @@ class ContactScreen<B> : public detail::CandidateTimes<simd_width> {
     lengths_.z.set(k, coefficients.semi_axes[2]);
     aa_minus_cc_.set(k, coefficients.aa_minus_cc);
     cc_.set(k, coefficients.cc);
+    max_tumbling_.set(k, coefficients.max_tumbling);
   }
 
+  /// Orientations of tumbling partners must be those of now.
   VITREL_INLINE void load(const FlightRecord<B>* const (&partner)[lanes],
                           const WarmStart<B>* const (&warm_start)[lanes], double latest) {
     using Layout = RecordLayout<3>;
@@ -57,8 +60,11 @@ class ContactScreen<B> : public detail::CandidateTimes<simd_width> {
     d_ = {(r.x + since * v.x) - mine_.position.x(), (r.y + since * v.y) - mine_.position.y(),
           (r.z + since * v.z) - mine_.position.z()};
     v_ = {v.x - mine_.velocity.x(), v.y - mine_.velocity.y(), v.z - mine_.velocity.z()};
-    q_ = detail::rotated({record[Layout::orientation + 3], vector(Layout::orientation)}, omega_,
-                         since);
+    q_ = {record[Layout::orientation + 3], vector(Layout::orientation)};
+    if constexpr (tumbles<B>)
+      max_speed_ = record[Layout::max_angular_speed];
+    else
+      q_ = detail::rotated(q_, omega_, since);
     horizon_ = detail::horizon_of(record[Layout::known_until], latest, now_);
     for (int k = 0; k < lanes; ++k) n_.set(k, warm_start[k]->axis);
   }
@@ -79,11 +85,18 @@ class ContactScreen<B> : public detail::CandidateTimes<simd_width> {
     const SimdBatch heights = one.height + two.height, turning = rates1.rate + rates2.rate;
     const SimdBatch gap = dot(axis.n, d) - sized(heights);
     SimdBatch rate = dot(axis.n, v_) - sized(turning);
-    SimdBatch acceleration =
-        support_acceleration_bound<SimdBatch>(one, rates1, spin1, coefficients_.aa_minus_cc, tau_,
-                                              coefficients_.cc, horizon) +
-        support_acceleration_bound<SimdBatch>(two, rates2, spin2, aa_minus_cc_,
-                                              tau_of(directions, omega, lengths), cc_, horizon);
+    SimdBatch acceleration;
+    if constexpr (tumbles<B>) {
+      const double speed = mine_.rotation.max_angular_speed;
+      acceleration =
+          speed * speed * coefficients_.max_tumbling + max_speed_ * max_speed_ * max_tumbling_;
+    } else {
+      acceleration =
+          support_acceleration_bound<SimdBatch>(one, rates1, spin1, coefficients_.aa_minus_cc, tau_,
+                                                coefficients_.cc, horizon) +
+          support_acceleration_bound<SimdBatch>(two, rates2, spin2, aa_minus_cc_,
+                                                tau_of(directions, omega, lengths), cc_, horizon);
+    }
     if constexpr (grows<B>) {
       const double growth = common_.growth_rate;
       rate -= growth * heights;
@@ -123,7 +136,7 @@ class ContactScreen<B> : public detail::CandidateTimes<simd_width> {
   detail::BatchVec3 d_, v_, omega_, lengths_;
   detail::BatchQuaternion q_;
   detail::Vec3Buffer n_;
-  SimdBatch aa_minus_cc_, cc_, horizon_;
+  SimdBatch aa_minus_cc_, cc_, max_tumbling_, max_speed_, horizon_;
 };
 
 }  // namespace vitrel

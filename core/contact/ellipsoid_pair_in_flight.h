@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/contact/ellipsoid_gap.h"
-#include "core/contact/ellipsoid_pair.h"
+#include "core/contact/ellipsoid_pair_rotation.h"
 #include "core/geometry/body.h"
 
 namespace vitrel {
@@ -26,17 +26,9 @@ class EllipsoidPairInFlight {
         v_(two.motion.velocity - one.motion.velocity),
         size0_(size_of(one.body), size_of(two.body)),
         growth_(growth_of(one.body), growth_of(two.body)) {
-    place_body(0, shape_of(one.body), one.pose.orientation, one.motion.angular_velocity);
-    place_body(1, shape_of(two.body), two.pose.orientation, two.motion.angular_velocity);
-    const auto divided = [&](const Vec3Of<PairArray>& w) -> Vec3Of<PairArray> {
-      const PairArray by = (speed_ > 0).select(speed_, 1);
-      return {w.x / by, w.y / by, w.z / by};
-    };
-    spin_axis_ = divided(omega_);
-    tau_ = tumbling<PairArray>(divided(body_omega_), squares_);
-    decompose(axes0_.first, 0);
-    decompose(axes0_.second, 1);
-    decompose(axes0_.third, 2);
+    place_body(0, one);
+    place_body(1, two);
+    rotation_.complete();
     pair_.size = size0_;
   }
 
@@ -58,23 +50,17 @@ class EllipsoidPairInFlight {
     time_ = time;
     pair_.d = d0_ + v_ * time;
     if constexpr (grows<B>) pair_.size = size0_ + growth_ * time;
-    PairArray cosine, sine;
-    directions<PairArray>(speed_ * time, cosine, sine);
-    const auto turned = [&](int k) -> Vec3Of<PairArray> {
-      const RotationParts& p = parts_[k];
-      return {p.along.x + cosine * p.across.x + sine * p.ahead.x,
-              p.along.y + cosine * p.across.y + sine * p.ahead.y,
-              p.along.z + cosine * p.across.z + sine * p.ahead.z};
-    };
-    pair_.axes = {turned(0), turned(1), turned(2)};
+    rotation_.go_to(time);
+    pair_.axes = rotation_.axes;
   }
   void start_at(double time) { go_to(time); }
 
   Gap evaluate(const Axis& n) const {
     Gap g;
     static_cast<GapAlongAxis3&>(g) = gap_along(pair_, n);
-    g.spin = spin_along<PairArray>(omega_, n);
+    g.spin = spin_along<PairArray>(rotation_.omega, n);
     static_cast<SupportRates<PairArray>&>(g) = support_rates<PairArray>(g, g.spin);
+    rotation_.add_angular_acceleration(g, g, n);
     return g;
   }
   Axis initial_axis() const { return detail::initial_axis(pair_); }
@@ -112,14 +98,13 @@ class EllipsoidPairInFlight {
   }
 
   /// M with g(t + s) ≥ g + ġ s − ½ M s² for all s from 0 to `duration`, which may be negative (backwards), as long as
-  /// the sizes stay ≥ 0. With the bound K of support_acceleration_bound,
+  /// the sizes stay ≥ 0. With the bound K of ḧ (ellipsoid_pair_rotation.h),
   ///
   ///     (σ + γ s)(h + ḣ s + ½ K s²)
   ///
   /// has the coefficient ½ σ K + γ ḣ of s² and ½ γ K of s³.
   double acceleration_bound(const Gap& g, double duration) const {
-    const PairArray acceleration = support_acceleration_bound<PairArray>(
-        g, g, g.spin, aa_minus_cc_, tau_, cc_, PairArray::Constant(duration));
+    const PairArray acceleration = rotation_.acceleration_bound(g, g, g.spin, duration);
     if constexpr (!grows<B>) return acceleration.sum();
     return (pair_.size * acceleration + growth_.abs() * std::abs(duration) * acceleration +
             2 * growth_ * g.rate)
@@ -128,70 +113,35 @@ class EllipsoidPairInFlight {
 
   /// The maximum of acceleration_bound over all axes and durations up to 1.
   double largest_acceleration() const {
-    const PairArray acceleration = speed_.square() * 0.5 *
-                                   (aa_minus_cc_ + (aa_minus_cc_.square() + tau_.square()).sqrt()) /
-                                   cc_.sqrt();
-    return ((pair_.size + growth_.abs()) * acceleration +
-            2 * (growth_ * speed_).abs() * max_support_rate_)
+    return ((pair_.size + growth_.abs()) * rotation_.largest_acceleration() +
+            2 * (growth_ * rotation_.max_speed()).abs() * max_support_rate_)
         .sum();
   }
 
  private:
   static const Ellipsoid& shape_of(const Ellipsoid& body) { return body; }
   static const Ellipsoid& shape_of(const GrowingEllipsoid& body) { return body.shape; }
-  static double size_of(const Ellipsoid&) { return 1; }
-  static double size_of(const GrowingEllipsoid& body) { return body.size; }
-  static double growth_of(const Ellipsoid&) { return 0; }
-  static double growth_of(const GrowingEllipsoid& body) { return body.growth_rate; }
-
-  /// An axis that rotates about ω: its constant part along ω, the remainder at time 0, and the remainder a
-  /// quarter rotation later.
-  struct RotationParts {
-    Vec3Of<PairArray> along, across, ahead;
-  };
-
-  static void set(Vec3Of<PairArray>& v, int lane, const Vec3& value) {
-    v.x[lane] = value.x();
-    v.y[lane] = value.y();
-    v.z[lane] = value.z();
+  static const Ellipsoid& shape_of(const TumblingEllipsoid& body) { return body.shape; }
+  static double size_of(const B& body) {
+    if constexpr (grows<B>) return body.size;
+    return 1;
+  }
+  static double growth_of(const B& body) {
+    if constexpr (grows<B>) return body.growth_rate;
+    return 0;
   }
 
-  void place_body(int lane, const Ellipsoid& shape, const Quaternion& orientation,
-                  const Vec3& angular_velocity) {
-    const Mat3 turn = orientation.toRotationMatrix();
-    set(axes0_.first, lane, shape.semi_axes[0] * turn.col(0));
-    set(axes0_.second, lane, shape.semi_axes[1] * turn.col(1));
-    set(axes0_.third, lane, shape.semi_axes[2] * turn.col(2));
-    set(omega_, lane, angular_velocity);
-    speed_[lane] = angular_velocity.norm();
-    set(body_omega_, lane, turn.transpose() * angular_velocity);
-    set(squares_, lane, shape.semi_axes.cwiseAbs2());
-    const double longest = shape.circumradius(), shortest = shape.inradius();
-    circumradius_[lane] = longest;
-    max_support_rate_[lane] = longest - shortest;
-    aa_minus_cc_[lane] = (longest - shortest) * (longest + shortest);
-    cc_[lane] = shortest * shortest;
-  }
-
-  void decompose(const Vec3Of<PairArray>& axis, int k) {
-    const PairArray along = dot(axis, spin_axis_);
-    RotationParts& p = parts_[k];
-    p.along = {along * spin_axis_.x, along * spin_axis_.y, along * spin_axis_.z};
-    p.across = {axis.x - p.along.x, axis.y - p.along.y, axis.z - p.along.z};
-    p.ahead = {spin_axis_.y * axis.z - spin_axis_.z * axis.y,
-               spin_axis_.z * axis.x - spin_axis_.x * axis.z,
-               spin_axis_.x * axis.y - spin_axis_.y * axis.x};
+  void place_body(int lane, const Flight<B>& flight) {
+    const Ellipsoid& shape = shape_of(flight.body);
+    rotation_.place(lane, shape, flight.pose.orientation, flight.motion.angular_velocity);
+    circumradius_[lane] = shape.circumradius();
+    max_support_rate_[lane] = shape.max_support_rate();
   }
 
   Vec3 d0_, v_;
   PairArray size0_, growth_;
-  AxesOf<PairArray> axes0_;
-  Vec3Of<PairArray> omega_, spin_axis_;  ///< ω, ω/|ω|
-  PairArray speed_;                      ///< |ω|
-  Vec3Of<PairArray> body_omega_;         ///< ω along the axes of the body
-  Vec3Of<PairArray> squares_;            ///< of the semi-axes
-  PairArray circumradius_, max_support_rate_, aa_minus_cc_, cc_, tau_;
-  RotationParts parts_[3];
+  PairArray circumradius_, max_support_rate_;
+  std::conditional_t<tumbles<B>, detail::TumblingRotation, detail::UniformRotation> rotation_;
   double time_ = 0;
   EllipsoidPair pair_;  // at time_
 };

@@ -81,6 +81,8 @@ template Prediction3 first_contact(const Flight<Ellipsoid>&, const Flight<Ellips
                                    double);
 template Prediction3 first_contact(const Flight<GrowingEllipsoid>&, const Flight<GrowingEllipsoid>&,
                                    double, double);
+template Prediction3 first_contact(const Flight<TumblingEllipsoid>&,
+                                   const Flight<TumblingEllipsoid>&, double, double);
 template Prediction2 first_contact(const Flight<Ellipse>&, const Flight<Ellipse>&, double, double,
                                    const SearchStart<2>&);
 template Prediction2 first_contact(const Flight<GrowingEllipse>&, const Flight<GrowingEllipse>&,
@@ -89,5 +91,8 @@ template Prediction3 first_contact(const Flight<Ellipsoid>&, const Flight<Ellips
                                    double, const SearchStart<3>&);
 template Prediction3 first_contact(const Flight<GrowingEllipsoid>&, const Flight<GrowingEllipsoid>&,
                                    double, double, const SearchStart<3>&);
+template Prediction3 first_contact(const Flight<TumblingEllipsoid>&,
+                                   const Flight<TumblingEllipsoid>&, double, double,
+                                   const SearchStart<3>&);
 
 }  // namespace vitrel

@@ -4,21 +4,24 @@
 #include <limits>
 #include <type_traits>
 
-#include "core/geometry/growing.h"
+#include "core/geometry/tumbling_ellipsoid.h"
 
 namespace vitrel {
 
 namespace detail {
 
-template <int dimension, bool rotates>
+struct Empty {};
+
+template <int dimension, bool rotates, bool tumbles>
 struct alignas(64) FlightRecord {
   static constexpr bool has_rotation = rotates;
 
   struct Rotation {
     AngularVelocity<dimension> angular_velocity;
+    /// Ω, the maximum of |ω|; otherwise it is constant.
+    [[no_unique_address]] std::conditional_t<tumbles, double, Empty> max_angular_speed;
     Orientation<dimension> orientation;
   };
-  struct Empty {};
 
   Vec<dimension> position, velocity;
   double time = 0;  ///< local clock of position and orientation
@@ -39,7 +42,8 @@ struct alignas(64) FlightRecord {
       return AngularVelocity<dimension>::Zero();
   }
   Pose<dimension> pose() const { return {position, orientation()}; }
-  Pose<dimension> pose_at(double t) const {
+  /// Of a tumbling body it takes its AsymmetricTop.
+  Pose<dimension> pose_at(double t) const requires(!tumbles) {
     if constexpr (has_rotation)
       return advanced(pose(), motion(), t - time);
     else
@@ -65,7 +69,8 @@ struct alignas(64) FlightRecord {
 ///
 /// Spheres rotate uniformly, and no event depends on it: their rotation is not part of the record.
 template <Body B>
-using FlightRecord = detail::FlightRecord<B::dimension, B::dimension == 2 || !RoundBody<B>>;
+using FlightRecord =
+    detail::FlightRecord<B::dimension, B::dimension == 2 || !RoundBody<B>, tumbles<B>>;
 
 /// A record at time 0, or at the given time.
 template <Body B>
@@ -85,14 +90,18 @@ template <int Dim>
 struct RecordLayout {
   static constexpr int position = 0, velocity = Dim, time = 2 * Dim, known_until = 2 * Dim + 1;
   static constexpr int angular_velocity = 2 * Dim + 2;
+  static constexpr int max_angular_speed = angular_velocity + 3;  // of tumbling bodies
   static constexpr int orientation =
       angular_velocity + (Dim == 2 ? 1 : 4);  // quaternion: x, y, z, w
   static constexpr int translation_size = 2 * Dim + 2, size = Dim == 2 ? 8 : 16;
 };
 static_assert(sizeof(FlightRecord<Disk>) == 64 && sizeof(FlightRecord<Sphere>) == 64);
 static_assert(sizeof(FlightRecord<Ellipse>) == 64 && sizeof(FlightRecord<Ellipsoid>) == 128);
+static_assert(sizeof(FlightRecord<TumblingEllipsoid>) == 128);
 static_assert(offsetof(FlightRecord<Ellipse>, rotation) == 6 * sizeof(double));
 static_assert(offsetof(FlightRecord<Ellipsoid>, rotation) == 8 * sizeof(double));
 static_assert(offsetof(FlightRecord<Ellipsoid>::Rotation, orientation) == 4 * sizeof(double));
+static_assert(offsetof(FlightRecord<TumblingEllipsoid>::Rotation, max_angular_speed) ==
+              3 * sizeof(double));
 
 }  // namespace vitrel

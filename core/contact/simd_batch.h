@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "core/contact/ellipse_pair.h"
+#include "core/geometry/asymmetric_top.h"
 #include "core/geometry/disk.h"
-#include "core/geometry/ellipsoid.h"
 #include "core/geometry/sphere.h"
 
 /// @file
@@ -33,11 +33,17 @@ template <>
 struct ShapeCoefficients<Ellipsoid> {
   Vec3 semi_axes;
   double aa_minus_cc, cc;  ///< a² − c², c²
+  /// Of a tumbling body: ḧ ≤ max_tumbling Ω² with Ω = max |ω|. In the frame of space ḧ is at most Ω²(a² − c²)/c, which
+  /// it is with constant ω, plus |dω/dt| (a − c).
+  double max_tumbling;
   explicit ShapeCoefficients(const Ellipsoid& ellipsoid)
       : semi_axes(ellipsoid.semi_axes),
         aa_minus_cc((ellipsoid.circumradius() - ellipsoid.inradius()) *
                     (ellipsoid.circumradius() + ellipsoid.inradius())),
-        cc(ellipsoid.inradius() * ellipsoid.inradius()) {}
+        cc(ellipsoid.inradius() * ellipsoid.inradius()),
+        max_tumbling(aa_minus_cc / ellipsoid.inradius() +
+                     AsymmetricTop::max_acceleration_factor(ellipsoid) *
+                         ellipsoid.max_support_rate()) {}
 };
 
 template <>

@@ -23,6 +23,7 @@ std::unique_ptr<Engine2> make_growing_ellipse_engine(const EngineOptions& option
 std::unique_ptr<Engine3> make_sphere_engine(const EngineOptions& options);
 std::unique_ptr<Engine3> make_growing_sphere_engine(const EngineOptions& options);
 std::unique_ptr<Engine3> make_ellipsoid_engine(const EngineOptions& options);
+std::unique_ptr<Engine3> make_tumbling_ellipsoid_engine(const EngineOptions& options);
 std::unique_ptr<Engine3> make_growing_ellipsoid_engine(const EngineOptions& options);
 
 }  // namespace vitrel

@@ -10,6 +10,7 @@ namespace {
 using Style = FieldVisitor::TableStyle;
 
 constexpr const char* kind_names[] = {"newtonian", "brownian"};
+constexpr const char* rotation_names[] = {"euler", "constant"};
 constexpr const char* on_overlap_names[] = {"stop", "correct"};
 constexpr const char* temperature_names[] = {"total", "relative"};
 constexpr const char* velocity_names[] = {"maxwell", "translation", "rotation", "keep"};
@@ -104,6 +105,11 @@ void describe_dynamics(DynamicsParameters& p, FieldVisitor& visit) {
                "Equilibrium at kT = 1 (maxwell), the same energy entirely in translation or "
                "entirely in rotation, or the velocities of the initial state (keep)."},
               p.initial_velocities, velocity_names);
+  visit.field({"rotation", "",
+               "Rotation of ellipsoids with three different semi-axes in free flight: by Euler's "
+               "equations (euler), or about a constant angular velocity (constant), which is "
+               "faster and has the same static averages. Preparation by growth keeps it constant."},
+              p.rotation, rotation_names);
   const Field contact{"contact", "",
                       "Contact force of soft particles, which must be round. Without this section "
                       "particles are hard."};

@@ -191,6 +191,7 @@ DynamicsOptions dynamics_options(const Parameters& parameters) {
   DynamicsOptions options;
   options.engine.restitution = p.restitution;
   options.engine.on_overlap = p.on_overlap;
+  options.engine.rotation = p.rotation;
   options.brownian = p.kind == DynamicsParameters::Kind::brownian;
   options.brownian_step = p.brownian_step;
   options.temperature = p.temperature;

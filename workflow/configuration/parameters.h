@@ -51,6 +51,7 @@ struct DynamicsParameters {
   OnOverlap on_overlap = OnOverlap::stop;
   Temperature temperature = Temperature::total;
   InitialVelocities initial_velocities = InitialVelocities::maxwell;
+  FreeRotation rotation = FreeRotation::euler;
   std::optional<ContactParameters> contact;  ///< none: hard particles
 };
 

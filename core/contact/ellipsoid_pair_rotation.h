@@ -1,0 +1,160 @@
+#pragma once
+
+#include <array>
+
+#include "core/contact/ellipsoid_pair.h"
+#include "core/contact/simd_batch.h"
+#include "core/geometry/asymmetric_top.h"
+#include "core/geometry/tumbling_ellipsoid.h"
+
+/// @file
+/// How the two ellipsoids of a pair rotate in free flight. Both models offer
+///
+///     place(lane, shape, orientation, ω), complete()
+///     go_to(time), always from time 0, so that rounding does not accumulate; then
+///     axes, omega           the semi-axes at size 1, and ω
+///     add_angular_acceleration(rates, support, n)   what the change of ω adds to ḧ (ellipsoid_pair.h)
+///     acceleration_bound(support, rates, spin, duration)   of ḧ, for `duration` from here, which may be negative
+///     largest_acceleration, max_speed   the maxima of that bound over axes and durations, and of |ω|
+namespace vitrel::detail {
+
+inline void set_lane(Vec3Of<PairArray>& v, int lane, const Vec3& value) {
+  v.x[lane] = value.x();
+  v.y[lane] = value.y();
+  v.z[lane] = value.z();
+}
+
+/// About a constant ω.
+class UniformRotation {
+ public:
+  AxesOf<PairArray> axes;
+  Vec3Of<PairArray> omega;
+
+  void place(int lane, const Ellipsoid& shape, const Quaternion& orientation,
+             const Vec3& angular_velocity) {
+    const Mat3 turn = orientation.toRotationMatrix();
+    set_lane(axes.first, lane, shape.semi_axes[0] * turn.col(0));
+    set_lane(axes.second, lane, shape.semi_axes[1] * turn.col(1));
+    set_lane(axes.third, lane, shape.semi_axes[2] * turn.col(2));
+    set_lane(omega, lane, angular_velocity);
+    speed_[lane] = angular_velocity.norm();
+    set_lane(body_omega_, lane, turn.transpose() * angular_velocity);
+    set_lane(squares_, lane, shape.semi_axes.cwiseAbs2());
+    const double longest = shape.circumradius(), shortest = shape.inradius();
+    aa_minus_cc_[lane] = (longest - shortest) * (longest + shortest);
+    cc_[lane] = shortest * shortest;
+  }
+
+  void complete() {
+    const auto divided = [&](const Vec3Of<PairArray>& w) -> Vec3Of<PairArray> {
+      const PairArray by = (speed_ > 0).select(speed_, 1);
+      return {w.x / by, w.y / by, w.z / by};
+    };
+    spin_axis_ = divided(omega);
+    tau_ = tumbling<PairArray>(divided(body_omega_), squares_);
+    decompose(axes.first, 0);
+    decompose(axes.second, 1);
+    decompose(axes.third, 2);
+  }
+
+  void go_to(double time) {
+    PairArray cosine, sine;
+    directions<PairArray>(speed_ * time, cosine, sine);
+    const auto turned = [&](int k) -> Vec3Of<PairArray> {
+      const Parts& p = parts_[k];
+      return {p.along.x + cosine * p.across.x + sine * p.ahead.x,
+              p.along.y + cosine * p.across.y + sine * p.ahead.y,
+              p.along.z + cosine * p.across.z + sine * p.ahead.z};
+    };
+    axes = {turned(0), turned(1), turned(2)};
+  }
+
+  void add_angular_acceleration(SupportRates<PairArray>&, const SupportOf<PairArray>&,
+                                const Axis3&) const {}
+
+  PairArray acceleration_bound(const SupportOf<PairArray>& support,
+                               const SupportRates<PairArray>& rates, const SpinOf<PairArray>& spin,
+                               double duration) const {
+    return support_acceleration_bound<PairArray>(support, rates, spin, aa_minus_cc_, tau_, cc_,
+                                                 PairArray::Constant(duration));
+  }
+  PairArray largest_acceleration() const {
+    return speed_.square() * 0.5 * (aa_minus_cc_ + (aa_minus_cc_.square() + tau_.square()).sqrt()) /
+           cc_.sqrt();
+  }
+  const PairArray& max_speed() const { return speed_; }
+
+ private:
+  /// An axis that rotates about ω: its constant part along ω, the remainder at time 0, and the remainder a
+  /// quarter rotation later.
+  struct Parts {
+    Vec3Of<PairArray> along, across, ahead;
+  };
+
+  void decompose(const Vec3Of<PairArray>& axis, int k) {
+    const PairArray along = dot(axis, spin_axis_);
+    Parts& p = parts_[k];
+    p.along = {along * spin_axis_.x, along * spin_axis_.y, along * spin_axis_.z};
+    p.across = {axis.x - p.along.x, axis.y - p.along.y, axis.z - p.along.z};
+    p.ahead = {spin_axis_.y * axis.z - spin_axis_.z * axis.y,
+               spin_axis_.z * axis.x - spin_axis_.x * axis.z,
+               spin_axis_.x * axis.y - spin_axis_.y * axis.x};
+  }
+
+  Vec3Of<PairArray> spin_axis_;   ///< ω/|ω|
+  PairArray speed_;               ///< |ω|
+  Vec3Of<PairArray> body_omega_;  ///< ω along the axes of the body
+  Vec3Of<PairArray> squares_;     ///< of the semi-axes
+  PairArray aa_minus_cc_, cc_, tau_;
+  Parts parts_[3];
+};
+
+/// By Euler's equations.
+class TumblingRotation {
+ public:
+  AxesOf<PairArray> axes;
+  Vec3Of<PairArray> omega;
+
+  void place(int lane, const Ellipsoid& shape, const Quaternion& orientation,
+             const Vec3& angular_velocity) {
+    semi_axes_[lane] = shape.semi_axes;
+    tops_[lane] = AsymmetricTop(shape, orientation, angular_velocity);
+    const double speed = tops_[lane].max_speed();
+    max_speed_[lane] = speed;
+    largest_acceleration_[lane] = speed * speed * ShapeCoefficients<Ellipsoid>(shape).max_tumbling;
+  }
+  void complete() {}
+
+  void go_to(double time) {
+    for (int lane = 0; lane < 2; ++lane) {
+      const AsymmetricTop::State now = tops_[lane].at(time);
+      set_lane(axes.first, lane, semi_axes_[lane][0] * now.axes.col(0));
+      set_lane(axes.second, lane, semi_axes_[lane][1] * now.axes.col(1));
+      set_lane(axes.third, lane, semi_axes_[lane][2] * now.axes.col(2));
+      set_lane(omega, lane, now.angular_velocity);
+      set_lane(angular_acceleration_, lane, now.angular_acceleration);
+    }
+  }
+
+  // −x·(dω/dt × n)
+  void add_angular_acceleration(SupportRates<PairArray>& rates, const SupportOf<PairArray>& support,
+                                const Axis3& n) const {
+    rates.second += support.s2 * dot(angular_acceleration_, n.e1) -
+                    support.s1 * dot(angular_acceleration_, n.e2);
+  }
+
+  PairArray acceleration_bound(const SupportOf<PairArray>&, const SupportRates<PairArray>&,
+                               const SpinOf<PairArray>&, double) const {
+    return largest_acceleration_;
+  }
+  const PairArray& largest_acceleration() const { return largest_acceleration_; }
+  const PairArray& max_speed() const { return max_speed_; }
+
+ private:
+  std::array<AsymmetricTop, 2> tops_;
+  std::array<Vec3, 2> semi_axes_;
+  Vec3Of<PairArray> angular_acceleration_;
+  PairArray max_speed_, largest_acceleration_;
+};
+
+}  // namespace vitrel::detail
