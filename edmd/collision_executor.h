@@ -30,7 +30,7 @@ class CollisionExecutor {
   /// The collision of particle i with the partner of its event. Predictions for both must follow.
   void collide_pair(Index i, const Event<B>& event, RunCounters& counters) {
     const Index j = event.partner.other;
-    const double since = state_.now - std::max(state_.particles[i].time, state_.particles[j].time);
+    const double since = state_.now - std::max(state_.last_change(i), state_.last_change(j));
     const Vector d = meet(i, event);
     const Vector normal = event.normal_along(d);
     const double speed = impact(i, j, d, normal, options_.restitution, counters);

@@ -33,7 +33,7 @@ class NeighborBatch {
   std::uint64_t tested;        ///< of these, without pairs that are tested from the other side
 
   template <PredictionScope scope>
-  VITREL_INLINE void load(const SimulationState<B>& state, std::uint32_t i,
+  VITREL_INLINE void load(SimulationState<B>& state, std::uint32_t i,
                           std::span<const Neighbor<B>> neighbors, std::size_t first) {
     count = static_cast<int>(std::min<std::size_t>(lanes, neighbors.size() - first));
     tested = static_cast<std::uint64_t>(count);
@@ -42,9 +42,11 @@ class NeighborBatch {
       partner[k] = &state.particles[neighbor.other];
       warm_start[k] = &neighbor.warm_start;
       other[k] = neighbor.other;
-      const bool is_complete = scope == PredictionScope::all_neighbors && !neighbor.is_shifted();
-      if (is_complete && !tumbles<B>) continue;
-      copy_[k] = tumbles<B> ? state.record_now(neighbor.other) : *partner[k];
+      if (scope == PredictionScope::all_neighbors) {
+        state.refresh(neighbor.other);
+        if (!neighbor.is_shifted()) continue;
+      }
+      copy_[k] = *partner[k];
       copy_[k].position += state.box.translation(neighbor.shift());
       if (scope == PredictionScope::higher_indices) {
         const bool is_tested = neighbor.other >= i;
@@ -76,14 +78,11 @@ class ContactSearch {
   void search(Index i, const Particle& mine, const Neighbor<B>& neighbor, double screened,
               double horizon, TimedEvent<B>& best, RunCounters& counters) const {
     const Index j = neighbor.other;
-    const auto flight = [&](Index k, const Particle& record) {
-      return Flight<B>{body_now(k), record.pose(), record.motion()};
-    };
     Particle theirs = state_.record_now(j);
     theirs.position += state_.box.translation(neighbor.shift());
-    const Prediction<dimension> contact =
-        first_contact(flight(i, mine), flight(j, theirs), std::min(horizon, best.time) - state_.now,
-                      state_.contact_gap, screened, neighbor.warm_start);
+    const Prediction<dimension> contact = first_contact(
+        flight_of(i, mine), flight_of(j, theirs), std::min(horizon, best.time) - state_.now,
+        state_.contact_gap, screened, neighbor.warm_start);
     ++counters.searches;
     counters.steps += static_cast<std::uint64_t>(contact.steps);
     if (contact.outcome == Outcome::none) return;
@@ -101,6 +100,13 @@ class ContactSearch {
   }
 
  private:
+  Flight<B> flight_of(Index k, const Particle& now) const {
+    if constexpr (tumbles<B>)
+      return {body_now(k), now.pose(), now.motion(), state_.tumbling[k].top,
+              state_.now - state_.tumbling[k].since};
+    else
+      return {body_now(k), now.pose(), now.motion()};
+  }
   B body_now(Index i) const {
     if constexpr (grows<B>)
       return {state_.shape(i), state_.size_now().size, state_.size_now().growth_rate};

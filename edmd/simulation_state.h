@@ -124,6 +124,22 @@ struct SimulationState {
     return in_space(type(i).inertia, particles[i].pose(), size_now().size);
   }
   void advance_to_now(Index i) { particles[i] = record_now(i); }
+  /// Advances the record of a tumbling body if it has turned so far since then that the bound of the contact screen
+  /// becomes loose.
+  void refresh(Index i) {
+    if constexpr (tumbles<B>) {
+      constexpr double tolerance = 0.02;  // of the support function, in shortest semi-axes
+      const double turned = particles[i].rotation.max_angular_speed * (now - particles[i].time);
+      if (0.5 * type(i).coefficients.max_tumbling * turned * turned >
+          tolerance * shape(i).inradius())
+        advance_to_now(i);
+    }
+  }
+  /// When the motion of particle i changed last, or it was advanced since.
+  double last_change(Index i) const {
+    if constexpr (tumbles<B>) return tumbling[i].since;
+    return particles[i].time;
+  }
   /// From i to the image of its partner, both advanced to now.
   Vector separation(Index i, const Image& partner) const {
     return particles[partner.other].position + box.translation(partner.shift()) -

@@ -45,7 +45,8 @@ class ContactScreen<B> : public detail::CandidateTimes<simd_width> {
     max_tumbling_.set(k, coefficients.max_tumbling);
   }
 
-  /// Orientations of tumbling partners must be those of now.
+  /// Tumbling partners keep the orientation of their own time, from which their support functions are bounded; so that
+  /// time should not be long ago.
   VITREL_INLINE void load(const FlightRecord<B>* const (&partner)[lanes],
                           const WarmStart<B>* const (&warm_start)[lanes], double latest) {
     using Layout = RecordLayout<3>;
@@ -61,10 +62,12 @@ class ContactScreen<B> : public detail::CandidateTimes<simd_width> {
           (r.z + since * v.z) - mine_.position.z()};
     v_ = {v.x - mine_.velocity.x(), v.y - mine_.velocity.y(), v.z - mine_.velocity.z()};
     q_ = {record[Layout::orientation + 3], vector(Layout::orientation)};
-    if constexpr (tumbles<B>)
+    if constexpr (tumbles<B>) {
       max_speed_ = record[Layout::max_angular_speed];
-    else
+      since_ = since;
+    } else {
       q_ = detail::rotated(q_, omega_, since);
+    }
     horizon_ = detail::horizon_of(record[Layout::known_until], latest, now_);
     for (int k = 0; k < lanes; ++k) n_.set(k, warm_start[k]->axis);
   }
@@ -82,14 +85,13 @@ class ContactScreen<B> : public detail::CandidateTimes<simd_width> {
     const auto rates1 = support_rates<SimdBatch>(one, spin1),
                rates2 = support_rates<SimdBatch>(two, spin2);
     const SimdBatch& horizon = horizon_;
-    const SimdBatch heights = one.height + two.height, turning = rates1.rate + rates2.rate;
-    const SimdBatch gap = dot(axis.n, d) - sized(heights);
-    SimdBatch rate = dot(axis.n, v_) - sized(turning);
-    SimdBatch acceleration;
+    SimdBatch heights = one.height + two.height, turning = rates1.rate + rates2.rate, acceleration;
     if constexpr (tumbles<B>) {
       const double speed = mine_.rotation.max_angular_speed;
-      acceleration =
-          speed * speed * coefficients_.max_tumbling + max_speed_ * max_speed_ * max_tumbling_;
+      const SimdBatch theirs = max_speed_ * max_speed_ * max_tumbling_;
+      acceleration = speed * speed * coefficients_.max_tumbling + theirs;
+      heights += since_ * (rates2.rate + 0.5 * theirs * since_);
+      turning += theirs * since_;
     } else {
       acceleration =
           support_acceleration_bound<SimdBatch>(one, rates1, spin1, coefficients_.aa_minus_cc, tau_,
@@ -97,6 +99,8 @@ class ContactScreen<B> : public detail::CandidateTimes<simd_width> {
           support_acceleration_bound<SimdBatch>(two, rates2, spin2, aa_minus_cc_,
                                                 tau_of(directions, omega, lengths), cc_, horizon);
     }
+    const SimdBatch gap = dot(axis.n, d) - sized(heights);
+    SimdBatch rate = dot(axis.n, v_) - sized(turning);
     if constexpr (grows<B>) {
       const double growth = common_.growth_rate;
       rate -= growth * heights;
@@ -136,7 +140,7 @@ class ContactScreen<B> : public detail::CandidateTimes<simd_width> {
   detail::BatchVec3 d_, v_, omega_, lengths_;
   detail::BatchQuaternion q_;
   detail::Vec3Buffer n_;
-  SimdBatch aa_minus_cc_, cc_, max_tumbling_, max_speed_, horizon_;
+  SimdBatch aa_minus_cc_, cc_, max_tumbling_, max_speed_, since_, horizon_;
 };
 
 }  // namespace vitrel

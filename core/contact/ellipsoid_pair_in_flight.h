@@ -12,7 +12,7 @@ namespace vitrel {
 ///     ġ = n·v − Σ (σ ḣ + γ h)
 ///     −g̈ = Σ (σ ḧ + 2 γ ḣ)
 ///
-/// with σ the size, γ the growth rate, and h and its derivatives at size 1.
+/// with σ the size, γ the growth rate, and h and its derivatives at size 1. The flights must outlive this object.
 template <class B>
 class EllipsoidPairInFlight {
  public:
@@ -133,7 +133,7 @@ class EllipsoidPairInFlight {
 
   void place_body(int lane, const Flight<B>& flight) {
     const Ellipsoid& shape = shape_of(flight.body);
-    rotation_.place(lane, shape, flight.pose.orientation, flight.motion.angular_velocity);
+    rotation_.place(lane, shape, flight);
     circumradius_[lane] = shape.circumradius();
     max_support_rate_[lane] = shape.max_support_rate();
   }

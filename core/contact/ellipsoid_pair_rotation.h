@@ -1,16 +1,14 @@
 #pragma once
 
-#include <array>
-
 #include "core/contact/ellipsoid_pair.h"
 #include "core/contact/simd_batch.h"
 #include "core/geometry/asymmetric_top.h"
 #include "core/geometry/tumbling_ellipsoid.h"
 
 /// @file
-/// How the two ellipsoids of a pair rotate in free flight. Both models offer
+/// How the two ellipsoids of a pair rotate in free flight. The flights must outlive them. Both models offer
 ///
-///     place(lane, shape, orientation, ω), complete()
+///     place(lane, shape, flight), complete()
 ///     go_to(time), always from time 0, so that rounding does not accumulate; then
 ///     axes, omega           the semi-axes at size 1, and ω
 ///     add_angular_acceleration(rates, support, n)   what the change of ω adds to ḧ (ellipsoid_pair.h)
@@ -30,9 +28,10 @@ class UniformRotation {
   AxesOf<PairArray> axes;
   Vec3Of<PairArray> omega;
 
-  void place(int lane, const Ellipsoid& shape, const Quaternion& orientation,
-             const Vec3& angular_velocity) {
-    const Mat3 turn = orientation.toRotationMatrix();
+  template <class B>
+  void place(int lane, const Ellipsoid& shape, const Flight<B>& flight) {
+    const Mat3 turn = flight.pose.orientation.toRotationMatrix();
+    const Vec3& angular_velocity = flight.motion.angular_velocity;
     set_lane(axes.first, lane, shape.semi_axes[0] * turn.col(0));
     set_lane(axes.second, lane, shape.semi_axes[1] * turn.col(1));
     set_lane(axes.third, lane, shape.semi_axes[2] * turn.col(2));
@@ -115,11 +114,9 @@ class TumblingRotation {
   AxesOf<PairArray> axes;
   Vec3Of<PairArray> omega;
 
-  void place(int lane, const Ellipsoid& shape, const Quaternion& orientation,
-             const Vec3& angular_velocity) {
-    semi_axes_[lane] = shape.semi_axes;
-    tops_[lane] = AsymmetricTop(shape, orientation, angular_velocity);
-    const double speed = tops_[lane].max_speed();
+  void place(int lane, const Ellipsoid& shape, const Flight<TumblingEllipsoid>& flight) {
+    flight_[lane] = &flight;
+    const double speed = flight.top.max_speed();
     max_speed_[lane] = speed;
     largest_acceleration_[lane] = speed * speed * ShapeCoefficients<Ellipsoid>(shape).max_tumbling;
   }
@@ -127,10 +124,12 @@ class TumblingRotation {
 
   void go_to(double time) {
     for (int lane = 0; lane < 2; ++lane) {
-      const AsymmetricTop::State now = tops_[lane].at(time);
-      set_lane(axes.first, lane, semi_axes_[lane][0] * now.axes.col(0));
-      set_lane(axes.second, lane, semi_axes_[lane][1] * now.axes.col(1));
-      set_lane(axes.third, lane, semi_axes_[lane][2] * now.axes.col(2));
+      const Flight<TumblingEllipsoid>& flight = *flight_[lane];
+      const AsymmetricTop::State now = flight.top.at(flight.top_time + time);
+      const Vec3& semi_axes = flight.body.shape.semi_axes;
+      set_lane(axes.first, lane, semi_axes[0] * now.axes.col(0));
+      set_lane(axes.second, lane, semi_axes[1] * now.axes.col(1));
+      set_lane(axes.third, lane, semi_axes[2] * now.axes.col(2));
       set_lane(omega, lane, now.angular_velocity);
       set_lane(angular_acceleration_, lane, now.angular_acceleration);
     }
@@ -151,8 +150,7 @@ class TumblingRotation {
   const PairArray& max_speed() const { return max_speed_; }
 
  private:
-  std::array<AsymmetricTop, 2> tops_;
-  std::array<Vec3, 2> semi_axes_;
+  const Flight<TumblingEllipsoid>* flight_[2];  // outlive the pair
   Vec3Of<PairArray> angular_acceleration_;
   PairArray max_speed_, largest_acceleration_;
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/geometry/asymmetric_top.h"
 #include "core/geometry/growing.h"
 
 namespace vitrel {
@@ -24,6 +25,24 @@ template <>
 struct ShapeOf<TumblingEllipsoid> {
   using type = Ellipsoid;
   static constexpr bool grows = false;
+};
+
+/// Its rotation is known in closed form, from any time on.
+template <>
+struct Flight<TumblingEllipsoid> {
+  TumblingEllipsoid body;
+  Pose3 pose;
+  Motion3 motion;
+  AsymmetricTop top;
+  double top_time = 0;  ///< of the top at time 0 of the flight
+
+  Flight(const TumblingEllipsoid& body_, const Pose3& pose_, const Motion3& motion_)
+      : Flight(body_, pose_, motion_, {body_.shape, pose_.orientation, motion_.angular_velocity},
+               0) {}
+  /// With a top whose state at `top_time_` is that of pose and motion.
+  Flight(const TumblingEllipsoid& body_, const Pose3& pose_, const Motion3& motion_,
+         const AsymmetricTop& top_, double top_time_)
+      : body(body_), pose(pose_), motion(motion_), top(top_), top_time(top_time_) {}
 };
 
 /// Bodies whose angular velocity changes in free flight.
