@@ -12,7 +12,7 @@ namespace vitrel {
 ///     ġ = n·v − Σ (σ ḣ + γ h)
 ///     −g̈ = Σ (σ ḧ + 2 γ ḣ)
 ///
-/// with σ the size, γ the growth rate, and h and its derivatives at size 1. The flights must outlive this object.
+/// with σ the size, γ the growth rate, and h and its derivatives at size 1.
 template <class B>
 class EllipsoidPairInFlight {
  public:

@@ -1,12 +1,14 @@
 #pragma once
 
+#include <array>
+
 #include "core/contact/ellipsoid_pair.h"
 #include "core/contact/simd_batch.h"
 #include "core/geometry/asymmetric_top.h"
 #include "core/geometry/tumbling_ellipsoid.h"
 
 /// @file
-/// How the two ellipsoids of a pair rotate in free flight. The flights must outlive them. Both models offer
+/// How the two ellipsoids of a pair rotate in free flight. Both models offer
 ///
 ///     place(lane, shape, flight), complete()
 ///     go_to(time), always from time 0, so that rounding does not accumulate; then
@@ -115,7 +117,9 @@ class TumblingRotation {
   Vec3Of<PairArray> omega;
 
   void place(int lane, const Ellipsoid& shape, const Flight<TumblingEllipsoid>& flight) {
-    flight_[lane] = &flight;
+    semi_axes_[lane] = shape.semi_axes;
+    tops_[lane] = flight.top;
+    start_[lane] = flight.top_time;
     const double speed = flight.top.max_speed();
     max_speed_[lane] = speed;
     largest_acceleration_[lane] = speed * speed * ShapeCoefficients<Ellipsoid>(shape).max_tumbling;
@@ -124,12 +128,10 @@ class TumblingRotation {
 
   void go_to(double time) {
     for (int lane = 0; lane < 2; ++lane) {
-      const Flight<TumblingEllipsoid>& flight = *flight_[lane];
-      const AsymmetricTop::State now = flight.top.at(flight.top_time + time);
-      const Vec3& semi_axes = flight.body.shape.semi_axes;
-      set_lane(axes.first, lane, semi_axes[0] * now.axes.col(0));
-      set_lane(axes.second, lane, semi_axes[1] * now.axes.col(1));
-      set_lane(axes.third, lane, semi_axes[2] * now.axes.col(2));
+      const AsymmetricTop::State now = tops_[lane].at(start_[lane] + time);
+      set_lane(axes.first, lane, semi_axes_[lane][0] * now.axes.col(0));
+      set_lane(axes.second, lane, semi_axes_[lane][1] * now.axes.col(1));
+      set_lane(axes.third, lane, semi_axes_[lane][2] * now.axes.col(2));
       set_lane(omega, lane, now.angular_velocity);
       set_lane(angular_acceleration_, lane, now.angular_acceleration);
     }
@@ -150,7 +152,9 @@ class TumblingRotation {
   const PairArray& max_speed() const { return max_speed_; }
 
  private:
-  const Flight<TumblingEllipsoid>* flight_[2];  // outlive the pair
+  std::array<Vec3, 2> semi_axes_;
+  std::array<AsymmetricTop, 2> tops_;
+  std::array<double, 2> start_;  ///< their times at time 0
   Vec3Of<PairArray> angular_acceleration_;
   PairArray max_speed_, largest_acceleration_;
 };

@@ -45,6 +45,11 @@ struct Flight<TumblingEllipsoid> {
       : body(body_), pose(pose_), motion(motion_), top(top_), top_time(top_time_) {}
 };
 
+inline Pose3 pose_at(const Flight<TumblingEllipsoid>& flight, double time) {
+  return {flight.pose.position + flight.motion.velocity * time,
+          Quaternion(flight.top.at(flight.top_time + time).axes).normalized()};
+}
+
 /// Bodies whose angular velocity changes in free flight.
 template <class B>
 inline constexpr bool tumbles = std::same_as<B, TumblingEllipsoid>;

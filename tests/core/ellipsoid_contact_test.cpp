@@ -80,6 +80,26 @@ TEST(EllipsoidGap, OfSpheresAndAlongAxesInClosedForm) {
   }
 }
 
+// As a random growing or a tumbling body in the same state.
+template <class B>
+B body_of(const Ellipsoid& shape, double growth_rate) {
+  if constexpr (grows<B>)
+    return {shape, 1, growth_rate};
+  else
+    return {shape};
+}
+Ellipsoid shape_at(const GrowingEllipsoid& body, double time) {
+  return body.at(time);
+}
+Ellipsoid shape_at(const TumblingEllipsoid& body, double) {
+  return body.shape;
+}
+
+template <class B>
+class EllipsoidsInFlight : public testing::Test {};
+using FlyingBodies = testing::Types<GrowingEllipsoid, TumblingEllipsoid>;
+TYPED_TEST_SUITE(EllipsoidsInFlight, FlyingBodies);
+
 // Along a fixed axis, over a whole turn: the bound is never too low, and not idle.
 TEST(EllipsoidPairInFlight, AccelerationBoundHoldsAndIsTight) {
   Stream draw(3, Purpose::tests);
@@ -117,17 +137,40 @@ TEST(EllipsoidPairInFlight, AccelerationBoundHoldsAndIsTight) {
   EXPECT_GT(tightest, 0.9);
 }
 
-TEST(EllipsoidPairInFlight, RatesAreDerivatives) {
+// Over times in which a tumbling body turns a few times: its bound is of all times.
+TEST(EllipsoidPairInFlight, AccelerationBoundOfTumblingBodiesHoldsAndIsTight) {
+  Stream draw(7, Purpose::tests);
+  double tightest = 0;
+  for (int k = 0; k < 2000; ++k) {
+    const auto flight = [&] {
+      return Flight<TumblingEllipsoid>{{random_ellipsoid(draw, 20)},
+                                       {Vec3::Zero(), random_orientation(draw)},
+                                       {Vec3::Zero(), random_direction(draw)}};
+    };
+    EllipsoidPairInFlight<TumblingEllipsoid> pair(flight(), flight());
+    const Axis3 n = completed(components(random_direction(draw)));
+    for (int step = 0; step < 100; ++step) {
+      pair.go_to(0.1 * step);
+      const auto gap = pair.evaluate(n);
+      const double bound = pair.acceleration_bound(gap, forever);
+      EXPECT_LE(pair.acceleration(gap), bound * (1 + 1e-12));
+      tightest = std::max(tightest, pair.acceleration(gap) / bound);
+    }
+  }
+  EXPECT_GT(tightest, 0.5);
+}
+
+TYPED_TEST(EllipsoidsInFlight, RatesAreDerivatives) {
   Stream draw(4, Purpose::tests);
   constexpr double h = 1e-5;
   for (int k = 0; k < 100; ++k) {
     const auto flight = [&] {
-      return Flight<GrowingEllipsoid>{
-          {random_ellipsoid(draw, 5), 1, draw.uniform(-0.1, 0.3)},
+      return Flight<TypeParam>{
+          body_of<TypeParam>(random_ellipsoid(draw, 5), draw.uniform(-0.1, 0.3)),
           {draw.uniform(0, 5) * random_direction(draw), random_orientation(draw)},
           {random_direction(draw), 2 * random_direction(draw)}};
     };
-    EllipsoidPairInFlight<GrowingEllipsoid> pair(flight(), flight());
+    EllipsoidPairInFlight<TypeParam> pair(flight(), flight());
     const Axis3 n = completed(components(random_direction(draw)));
     const auto gap = [&](double time, const Tangent& step) {
       pair.go_to(time);
@@ -209,9 +252,9 @@ TEST(GapBatchOfEllipsoids, BoundsTheGapFromBelow) {
 
 template <class B>
 double gap_at(const Flight<B>& one, const Flight<B>& two, double time) {
-  const Pose3 p1 = advanced(one.pose, one.motion, time), p2 = advanced(two.pose, two.motion, time);
-  return support_gap(one.body.at(time), p1.orientation, two.body.at(time), p2.orientation,
-                     p2.position - p1.position)
+  const Pose3 p1 = pose_at(one, time), p2 = pose_at(two, time);
+  return support_gap(shape_at(one.body, time), p1.orientation, shape_at(two.body, time),
+                     p2.orientation, p2.position - p1.position)
       .gap;
 }
 
@@ -231,7 +274,7 @@ double contact_by_steps(const Flight<B>& one, const Flight<B>& two, double horiz
   return forever;
 }
 
-TEST(EllipsoidFirstContact, IsThatOfAScanInSmallSteps) {
+TYPED_TEST(EllipsoidsInFlight, FirstTouchWhereAScanInSmallStepsSaysSo) {
   constexpr double horizon = 2;
   int contacts = 0;
   for (const double aspect : {1.001, 2.0, 10.0, 40.0}) {
@@ -242,8 +285,8 @@ TEST(EllipsoidFirstContact, IsThatOfAScanInSmallSteps) {
                                            : random_ellipsoid(draw, aspect);
       const double reach = 2 * shape.circumradius();
       const auto flight = [&](const Vec3& position) {
-        return Flight<GrowingEllipsoid>{
-            {shape, 1, k % 2 == 0 ? 0 : draw.uniform(-0.1, 0.3)},
+        return Flight<TypeParam>{
+            body_of<TypeParam>(shape, k % 2 == 0 ? 0 : draw.uniform(-0.1, 0.3)),
             {position, random_orientation(draw)},
             {0.3 * reach * random_direction(draw), draw.uniform(0, 4) * random_direction(draw)}};
       };
@@ -269,10 +312,9 @@ TEST(EllipsoidFirstContact, IsThatOfAScanInSmallSteps) {
       EXPECT_NEAR(found.time, truth, 1e-9 * aspect) << aspect << " " << k;
       EXPECT_NEAR(gap_at(one, two, found.time), contact_gap, 0.6 * contact_gap + 2e-15 * reach);
       const Vec3 arm = found.point - one.pose.position - one.motion.velocity * found.time;
-      const Pose3 p1 = advanced(one.pose, one.motion, found.time);
-      EXPECT_NEAR(
-          (arm - surface_point(one.body.at(found.time), p1.orientation, found.normal)).norm(), 0,
-          1e-12 * reach);
+      const Ellipsoid touching = shape_at(one.body, found.time);
+      const Quaternion q1 = pose_at(one, found.time).orientation;
+      EXPECT_NEAR((arm - surface_point(touching, q1, found.normal)).norm(), 0, 1e-12 * reach);
     }
   }
   EXPECT_GT(contacts, 50);

@@ -151,6 +151,11 @@ TEST(ModelsOfSolids, EllipsoidsMoveAsThoseThatDoNotGrow) {
   expect_same_motion(scalene(), *make_ellipsoid_engine({}), *make_growing_ellipsoid_engine({}));
 }
 
+// Bodies whose moments are equal tumble about a constant angular velocity.
+TEST(ModelsOfSolids, SpheroidsMoveAsThoseThatCouldTumble) {
+  expect_same_motion(spheroids(), *make_ellipsoid_engine({}), *make_tumbling_ellipsoid_engine({}));
+}
+
 TEST(ModelsOfSolids, GrowingSpheresMoveAsGrowingRoundEllipsoids) {
   EngineOptions growing;
   growing.growth_rate = 0.02;
@@ -163,6 +168,12 @@ TEST(ModelsOfSolids, TheSimplestThatHoldsIsMade) {
   growing.growth_rate = 0.01;
   EXPECT_EQ(make_engine(spheres(), {})->description(), make_sphere_engine({})->description());
   EXPECT_EQ(make_engine(spheroids(), {})->description(), make_ellipsoid_engine({})->description());
+  EngineOptions constant;
+  constant.rotation = FreeRotation::constant;
+  EXPECT_EQ(make_engine(scalene(), {})->description(),
+            make_tumbling_ellipsoid_engine({})->description());
+  EXPECT_EQ(make_engine(scalene(), constant)->description(),
+            make_ellipsoid_engine({})->description());
   EXPECT_EQ(make_engine(spheres(), growing)->description(),
             make_growing_sphere_engine(growing)->description());
   EXPECT_EQ(make_engine(spheroids(), growing)->description(),
@@ -187,6 +198,32 @@ TEST(SolidsInMotion, StayHardAndConserveEnergyAndMomentum) {
     EXPECT_LT(end.largest_momentum, 1e-11);
     EXPECT_EQ(end.counters.correction_moves, 0u);
   }
+}
+
+// In a box so wide that nothing meets its images, the angular momentum of all about the origin is conserved by flight
+// and collisions; with constant angular velocities it is not.
+TEST(SolidsInMotion, ConserveAngularMomentumIfTheyTumble) {
+  Configuration3 start = moving(cubic_lattice(3, 0.3, [](std::size_t i) {
+    return i % 3 ? Ellipsoid{{2, 1, 0.5}} : prolate(2);
+  }));
+  start.box = PeriodicBox<3>(start.box.lengths() * 40);
+  for (std::size_t i = 0; i < start.size(); ++i) start.velocity[i] -= 0.3 * start.position[i];
+  const auto angular_momentum = [](const Configuration3& c) {
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t i = 0; i < c.size(); ++i) {
+      const Quaternion& q = c.orientation[i];
+      const Vec3 spin = q * c.inertia(i).cwiseProduct(q.conjugate() * c.angular_velocity[i]);
+      sum += c.mass[i] * c.position[i].cross(c.velocity[i]) + spin;
+    }
+    return sum;
+  };
+  const Vec3 before = angular_momentum(start);
+  const RunState3 end = run_for(start, 15);
+  EXPECT_GT(end.counters.collisions, 20u);
+  EXPECT_LT((angular_momentum(end.configuration) - before).norm(), 1e-11);
+  DynamicsOptions constant;
+  constant.engine.rotation = FreeRotation::constant;
+  EXPECT_GT((angular_momentum(run_for(start, 15, constant).configuration) - before).norm(), 0.1);
 }
 
 TEST(SolidsInMotion, SpheroidsNeverSpinAboutTheirAxes) {
