@@ -203,7 +203,7 @@ TEST(SolidsInMotion, StayHardAndConserveEnergyAndMomentum) {
 // In a box so wide that nothing meets its images, the angular momentum of all about the origin is conserved by flight
 // and collisions; with constant angular velocities it is not.
 TEST(SolidsInMotion, ConserveAngularMomentumIfTheyTumble) {
-  Configuration3 start = moving(cubic_lattice(3, 0.3, [](std::size_t i) {
+  Configuration3 start = moving(cubic_lattice(3, 0.03, [](std::size_t i) {
     return i % 3 ? Ellipsoid{{2, 1, 0.5}} : prolate(2);
   }));
   start.box = PeriodicBox<3>(start.box.lengths() * 40);
