@@ -49,6 +49,16 @@ const BadFile bad_files[] = {
     {"[system]\ndimension = 3\n[[species]]\nsemi_axes = [2, 1]",
      "file.toml:4:13: key 'species.0.semi_axes' is [2.0, 1.0], but must be [a, b, c], all above 0"},
     {"[system]\ndimension = 3\n[[species]]\nsemi_axes = [2, 1, 0]", "must be [a, b, c], all above"},
+    {"[system]\ndimension = 3\n[[species]]\n"
+     "semi_axes = [2, 1, { distribution = \"uniform\", low = 2, high = 1 }]",
+     "key 'species.0.semi_axes.2.high' is 1.0, but must be above low = 2.0"},
+    {"[[species]]\nsemi_axes = [{ distribution = \"uniform\", low = 1, high = 2 }, -1]",
+     "file.toml:2:13: key 'species.0.semi_axes' is [uniform from 1 to 2, at least 0.001, -1.0], but "
+     "must be [a, b]"},
+    {"[[species]]\naspect_ratio = 2\nsize = 1\nfirst_semi_axis = 1",
+     "file.toml:4:19: key 'species.0.first_semi_axis' excludes size"},
+    {"[[species]]\naspect_ratio = 2\nfirst_semi_axis = 0",
+     "key 'species.0.first_semi_axis' is 0.0, but must be at least 0.001"},
     {"[system]\ndimension = 3\n[[species]]\nname = \"B\"",
      "key 'species.0.aspect_ratio' is missing; give aspect_ratio (1 for spheres)"},
     {"[system]\ndimension = 3\n[[species]]\naspect_ratio = 2\naspect_ratios = [2, 3]",
@@ -373,6 +383,21 @@ TEST(ParameterFile, ThreeDimensionsAreReadAndWritten) {
   EXPECT_THAT(text,
               HasSubstr("aspect_ratios = [4.0, { distribution = \"uniform\", low = 0.1, high ="));
   EXPECT_THAT(text, testing::Not(HasSubstr("box_aspect")));
+  EXPECT_EQ(effective_parameters(parse_parameters(text, "again")), text);
+}
+
+TEST(ParameterFile, SemiAxesAreNumbersOrDistributions) {
+  const Parameters read = parse_parameters(
+      "[system]\ndimension = 3\n[[species]]\n"
+      "semi_axes = [4, { distribution = \"uniform\", low = 0.1, high = 2 }, 1]",
+      "file.toml");
+  const std::vector<Distribution>& axes = read.species[0].semi_axes.value();
+  ASSERT_EQ(axes.size(), 3u);
+  EXPECT_EQ(axes[0].mean, 4);
+  EXPECT_EQ(axes[1].high, 2);
+  EXPECT_EQ(axes[2].kind, Distribution::Kind::constant);
+  const std::string text = effective_parameters(read);
+  EXPECT_THAT(text, HasSubstr("semi_axes = [4.0, { distribution = \"uniform\", low = 0.1, high ="));
   EXPECT_EQ(effective_parameters(parse_parameters(text, "again")), text);
 }
 
