@@ -53,12 +53,32 @@ const BadFile bad_files[] = {
      "semi_axes = [2, 1, { distribution = \"uniform\", low = 2, high = 1 }]",
      "key 'species.0.semi_axes.2.high' is 1.0, but must be above low = 2.0"},
     {"[[species]]\nsemi_axes = [{ distribution = \"uniform\", low = 1, high = 2 }, -1]",
-     "file.toml:2:13: key 'species.0.semi_axes' is [uniform from 1 to 2, at least 0.001, -1.0], but "
+     "file.toml:2:13: key 'species.0.semi_axes' is [uniform from 1 to 2, at least 0.001, -1.0], "
+     "but "
      "must be [a, b]"},
     {"[[species]]\naspect_ratio = 2\nsize = 1\nfirst_semi_axis = 1",
      "file.toml:4:19: key 'species.0.first_semi_axis' excludes size"},
     {"[[species]]\naspect_ratio = 2\nfirst_semi_axis = 0",
      "key 'species.0.first_semi_axis' is 0.0, but must be at least 0.001"},
+    {"[[prepare.stage]]\nmethod = \"insert\"\norientations = \"planar\"",
+     "file.toml:3:16: key 'prepare.stage.0.orientations' is \"planar\", which has a meaning only"},
+    {"[[prepare.stage]]\nmethod = \"insert\"\norientations = \"tensor\"",
+     "key 'prepare.stage.0.orientation_tensor' is missing; give its diagonal"},
+    {"[[prepare.stage]]\nmethod = \"insert\"\norientation_tensor = [0.5, 0.5]",
+     "'prepare.stage.0.orientation_tensor' has a meaning only with orientations = \"tensor\""},
+    {"[[prepare.stage]]\nmethod = \"insert\"\norientations = \"tensor\"\n"
+     "orientation_tensor = [0.6, 0.3, 0.1]",
+     "file.toml:4:22: key 'prepare.stage.0.orientation_tensor' is [0.6, 0.3, 0.1], but must be the "
+     "diagonal (2 numbers, 0 or more, with the sum 1) or the rows (4) of a symmetric tensor"},
+    {"[[prepare.stage]]\nmethod = \"insert\"\norientations = \"tensor\"\n"
+     "orientation_tensor = [0.6, 0.5]",
+     "is [0.6, 0.5], but must be the diagonal"},
+    {"[[prepare.stage]]\nmethod = \"insert\"\norientations = \"tensor\"\n"
+     "orientation_tensor = [1.2, -0.2]",
+     "is [1.2, -0.2], but must be the diagonal"},
+    {"[[prepare.stage]]\nmethod = \"insert\"\norientations = \"tensor\"\n"
+     "orientation_tensor = [0.5, 0.1, 0.2, 0.5]",
+     "is [0.5, 0.1, 0.2, 0.5], but must be the diagonal"},
     {"[system]\ndimension = 3\n[[species]]\nname = \"B\"",
      "key 'species.0.aspect_ratio' is missing; give aspect_ratio (1 for spheres)"},
     {"[system]\ndimension = 3\n[[species]]\naspect_ratio = 2\naspect_ratios = [2, 3]",
