@@ -220,7 +220,8 @@ class Growth {
   std::string jammed_text() const {
     return "the particles are jammed, at a packing fraction of " +
            std::to_string(packing_fraction()) + " and a reduced pressure of " +
-           std::to_string(state_.reduced_pressure) + retries_text();
+           std::to_string(state_.reduced_pressure) + retries_text() +
+           "; slower growth reaches higher packing fractions";
   }
 
   std::string retries_text() const {

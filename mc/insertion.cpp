@@ -87,10 +87,12 @@ class Insertion {
         margin_(hard_margin(configuration)) {}
 
   bool insert(std::size_t i, Stream draw) {
+    // Once: new axes at new places would favour those that are aligned and therefore fit.
+    const Vec<Dim> axis = axes_ ? (*axes_)(draw) : Vec<Dim>(Vec<Dim>::Zero());
     for (std::uint64_t attempt = 0; attempt < options_.attempts; ++attempt) {
       ++trials;
       Pose<Dim> pose = random_pose(configuration_.box, options_.aligned, draw);
-      if (axes_) turn_to(configuration_.shape[i], (*axes_)(draw), pose);
+      if (axes_) turn_to(configuration_.shape[i], axis, pose);
       if (!fits(i, pose)) continue;
       configuration_.set_pose(i, pose);
       configuration_.image[i] = Shift<Dim>::Zero();

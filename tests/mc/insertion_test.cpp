@@ -49,6 +49,23 @@ TEST(Insertion, OfSolidsGivesAHardStateAtThePackingFraction) {
     }
 }
 
+// Dense enough that most places are refused.
+TEST(Insertion, OfSolidsKeepsTheOrientationTensorWherePlacesAreRefused) {
+  constexpr std::size_t n = 1000;
+  Configuration3 c = solids(n, {Vec3(10, 1, 1)}, 100);
+  const Mat3 given = Vec3(0.6, 0.1, 0.3).asDiagonal();
+  const InsertionReport report =
+      insert_particles(c, {0.1, 100000, false, {given.data(), given.data() + 9}}, 1, {});
+  ASSERT_EQ(report.end, StageEnd::reached);
+  EXPECT_GT(report.trials, 5 * n);
+  Mat3 tensor = Mat3::Zero();
+  for (const Quaternion& q : c.orientation) {
+    const Vec3 u = q * Vec3::UnitX();
+    tensor += u * u.transpose() / n;
+  }
+  EXPECT_LT((tensor - given).cwiseAbs().maxCoeff(), 4.9 * 0.5 / std::sqrt(n)) << tensor;
+}
+
 // The longest axes have the tensor A. Turned at random around them, other axes have (1 − A)/2. Components of u uᵀ lie in
 // an interval of length 1, so that their standard deviation is at most 1/2; 4.9 standard errors, a false alarm in at most
 // 1e-6 of the seeds each.

@@ -15,9 +15,9 @@ struct PackingPage {
   std::string title;
   std::string subtitle;  ///< one line below it: what was packed
   std::vector<QualityRow> rows;
-  Movie3 movie;               ///< of one frame
-  Results results;            ///< of which pair_correlation, structure_factor and two_point are shown
-  std::string parameters;     ///< TOML text
+  Movie3 movie;            ///< of one frame
+  Results results;         ///< of which pair_correlation, structure_factor and two_point are shown
+  std::string parameters;  ///< TOML text
   PageProvenance provenance;  ///< shown if not empty
 };
 

@@ -30,8 +30,8 @@ void describe_orientations(InsertStage& stage, FieldVisitor& visit) {
        "dimensions planar, axes at random in the plane normal to z; or with a given orientation "
        "tensor. The axis is the axis of symmetry of a spheroid (the short one of an oblate) and "
        "the longest axis of a scalene ellipsoid, around which a particle is turned at random. "
-       "Dynamics turn the particles further: to keep "
-       "their orientations insert densely and grow fast."},
+       "Dynamics turn the particles further: to keep their orientations insert densely and grow "
+       "fast."},
       stage.orientations, names);
   visit.when(stage.orientations == Orientations::tensor, "orientations = \"tensor\"",
              [&](FieldVisitor& in) {
