@@ -60,6 +60,8 @@ const BadFile bad_files[] = {
      "file.toml:4:19: key 'species.0.first_semi_axis' excludes size"},
     {"[[species]]\naspect_ratio = 2\nfirst_semi_axis = 0",
      "key 'species.0.first_semi_axis' is 0.0, but must be at least 0.001"},
+    {"[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"grow\"\nretries = 31",
+     "file.toml:4:11: key 'prepare.stage.1.retries' is 31, but must lie between 0 and 30"},
     {"[[prepare.stage]]\nmethod = \"insert\"\norientations = \"planar\"",
      "file.toml:3:16: key 'prepare.stage.0.orientations' is \"planar\", which has a meaning only"},
     {"[[prepare.stage]]\nmethod = \"insert\"\norientations = \"tensor\"",

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 
 #include "workflow/configuration/distributions.h"
 #include "workflow/configuration/species_names.h"
