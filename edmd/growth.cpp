@@ -19,6 +19,8 @@ namespace {
 constexpr double max_block_growth = 0.2;
 /// Maximum growth between two rescalings times Z, so that kT (which rises by twice as much) and Z change little.
 constexpr double max_step_compression = 0.05;
+/// Growth of the box, relative, in which jammed particles become fluid again.
+constexpr double retry_expansion = 0.1;
 /// Growth with enough collisions to measure the pressure, even of a gas.
 constexpr double min_pressure_growth = 0.005;
 
@@ -46,18 +48,17 @@ class Growth {
         translations_(0.5 * Dim * (static_cast<double>(configuration.size()) - 1)),
         rotations_(0.5 * static_cast<double>(rotation_count(configuration))) {
     check();
-    EngineOptions engine;
-    engine.growth_rate = options.growth_rate;
-    engine_ = make_engine(configuration, engine);
+    make_engine_at_rate();
   }
 
   StageReport run(const RunControl& control) {
     if (!state_.under_way) begin();
     while (true) {
       if (at_packing_fraction())
-        return ended(StageEnd::reached, "the packing fraction was reached");
+        return ended(StageEnd::reached, "the packing fraction was reached" + retries_text());
       if (at_pressure()) return ended(StageEnd::reached, "the reduced pressure was reached");
-      if (jammed()) return ended(StageEnd::stalled, jammed_text());
+      if (jammed() && !may_retry()) return ended(StageEnd::stalled, jammed_text());
+      if (jammed()) retry();
       if (control.stop_requested()) return {StageEnd::stopped, "growth was stopped"};
       block();
       control.report_progress({progress(), packing_fraction(), "packing fraction"});
@@ -67,7 +68,15 @@ class Growth {
 
  private:
   double packing_fraction() const { return vitrel::packing_fraction(configuration_); }
-  double rate() const { return options_.growth_rate; }
+  double rate() const {
+    return std::ldexp(options_.growth_rate, -static_cast<int>(state_.retries));
+  }
+
+  void make_engine_at_rate() {
+    EngineOptions engine;
+    engine.growth_rate = rate();
+    engine_ = make_engine(configuration_, engine);
+  }
 
   void check() const {
     if (!options_.packing_fraction && !options_.reduced_pressure)
@@ -94,6 +103,20 @@ class Growth {
     // A single particle would keep its momentum.
     if (configuration_.size() == 1) configuration_.velocity[0] = Vec<Dim>::Zero();
     state_.under_way = true;
+  }
+
+  bool may_retry() const {
+    return options_.packing_fraction && rate() > 0 &&
+           state_.retries < static_cast<std::uint64_t>(options_.retries);
+  }
+
+  void retry() {
+    ++state_.retries;
+    divide_lengths(1 / (1 + retry_expansion));
+    state_.reduced_pressure = 0;
+    is_stalled_ = false;
+    make_engine_at_rate();
+    begin();
   }
 
   void block() {
@@ -197,7 +220,14 @@ class Growth {
   std::string jammed_text() const {
     return "the particles are jammed, at a packing fraction of " +
            std::to_string(packing_fraction()) + " and a reduced pressure of " +
-           std::to_string(state_.reduced_pressure);
+           std::to_string(state_.reduced_pressure) + retries_text() +
+           "; slower growth reaches higher packing fractions";
+  }
+
+  std::string retries_text() const {
+    if (state_.retries == 0) return "";
+    return " after " + std::to_string(state_.retries) +
+           (state_.retries == 1 ? " retry" : " retries");
   }
 
   Configuration<Dim>& configuration_;

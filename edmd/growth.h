@@ -38,6 +38,10 @@
 /// (ellipses) collisions per particle for any Z: the rate need not be lowered near jamming. It determines how long
 /// the liquid can equilibrate before it falls out of equilibrium, and thereby φ_J.
 ///
+/// If the particles jam below the target packing fraction, they can try again: the box grows by a tenth in all
+/// directions, as if all lengths shrank (convex particles that do not overlap stay so), velocities are drawn anew, and γ is
+/// halved. Few particles jam at widely scattered packing fractions, which rise as γ falls.
+///
 /// Growth always terminates, since φ < 1. Validity: |γ| well below 1 (otherwise the surfaces are faster than the
 /// particles, and Z is meaningless), Z up to `max_reduced_pressure`.
 /// Sources: lubachevsky1990, donev2005.
@@ -46,13 +50,15 @@ namespace vitrel {
 /// The state of a growth at the end of a block.
 struct GrowthState {
   std::uint64_t draws = 0;      ///< draws of velocities so far
+  std::uint64_t retries = 0;    ///< of particles that jammed
   bool under_way = false;       ///< false: velocities are drawn first
   double reduced_pressure = 0;  ///< of the last significant step; 0 if there was none
   double time = 0;              ///< sum over steps, each in its current unit
   RunCounters counters;
 };
 
-/// `reached` at the target packing fraction or pressure, whichever comes first; `stalled` if the particles jam before;
+/// `reached` at the target packing fraction or pressure, whichever comes first; `stalled` if the particles jam before
+/// and there are no retries left;
 /// `stopped` on request at the end of a block: the same call then continues with bit-identical results. In any case
 /// the state is hard, with the given shapes and time, a smaller (γ < 0: larger) box, net momentum 0 and kT = 1. Throws
 /// UserError if there is no target, if γ leads away from it, or if nothing can move (a lone disk); InvariantError on an

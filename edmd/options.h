@@ -78,6 +78,7 @@ struct GrowthOptions {
   std::optional<double> packing_fraction;  ///< target (to tolerance::given_fraction)
   std::optional<double> reduced_pressure;  ///< ends with the first block that reaches it
   std::uint64_t seed = 1;
+  int retries = 0;  ///< maximum, of particles that jam below the packing fraction (growth.h)
 };
 
 }  // namespace vitrel

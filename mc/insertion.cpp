@@ -4,13 +4,17 @@
 #include <iomanip>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "core/contact/contact_queries.h"
+#include "core/elementary.h"
 #include "core/neighbors/cell_grid.h"
 #include "core/random/stream.h"
+#include "core/state/figure_axis.h"
+#include "mc/axis_distribution.h"
 #include "mc/hard_core.h"
 
 namespace vitrel {
@@ -46,6 +50,24 @@ Pose3 random_pose(const PeriodicBox<3>& box, bool aligned, Stream& draw) {
   return pose;
 }
 
+/// The pose with its axis along u or −u.
+void turn_to(const Ellipse&, const Vec2& u, Pose2& pose) {
+  pose.angle = polar_angle(u.y(), u.x());
+}
+/// By the smallest rotation, so that a random orientation stays random around u.
+void turn_to(const Ellipsoid& shape, const Vec3& u, Pose3& pose) {
+  const Vec3 axis = figure_axis(shape, pose.orientation);
+  const Vec3 near = axis.dot(u) < 0 ? Vec3(-u) : u;
+  pose.orientation = (Quaternion::FromTwoVectors(axis, near) * pose.orientation).normalized();
+}
+
+template <int Dim>
+std::optional<AxisDistribution<Dim>> axis_distribution(const std::vector<double>& tensor) {
+  if (tensor.empty()) return std::nullopt;
+  using Tensor = typename AxisDistribution<Dim>::Tensor;
+  return AxisDistribution<Dim>(Eigen::Map<const Tensor>(tensor.data()));
+}
+
 Vec2 axes_of(const Pose2& pose) {
   return direction(pose.angle);
 }
@@ -59,14 +81,18 @@ class Insertion {
   Insertion(Configuration<Dim>& configuration, const InsertionOptions& options)
       : configuration_(configuration),
         options_(options),
+        axes_(axis_distribution<Dim>(options.orientation_tensor)),
         cells_(configuration.box, 2 * largest_circumradius(configuration), configuration.size()),
         largest_(largest_circumradius(configuration)),
         margin_(hard_margin(configuration)) {}
 
   bool insert(std::size_t i, Stream draw) {
+    // Once: new axes at new places would favour those that are aligned and therefore fit.
+    const Vec<Dim> axis = axes_ ? (*axes_)(draw) : Vec<Dim>(Vec<Dim>::Zero());
     for (std::uint64_t attempt = 0; attempt < options_.attempts; ++attempt) {
       ++trials;
-      const Pose<Dim> pose = random_pose(configuration_.box, options_.aligned, draw);
+      Pose<Dim> pose = random_pose(configuration_.box, options_.aligned, draw);
+      if (axes_) turn_to(configuration_.shape[i], axis, pose);
       if (!fits(i, pose)) continue;
       configuration_.set_pose(i, pose);
       configuration_.image[i] = Shift<Dim>::Zero();
@@ -91,6 +117,7 @@ class Insertion {
 
   Configuration<Dim>& configuration_;
   const InsertionOptions& options_;
+  std::optional<AxisDistribution<Dim>> axes_;
   CellGrid<Dim> cells_;
   double largest_, margin_;
 };

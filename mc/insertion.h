@@ -16,7 +16,8 @@ struct InsertionReport : StageReport {
 };
 
 /// Random sequential insertion: particles, the largest first, are placed one after another at random positions and
-/// orientations where they do not overlap earlier ones, and are never moved.
+/// orientations where they do not overlap earlier ones, and are never moved. With a given orientation tensor, the axis of
+/// a particle is drawn once, and only its place is tried again.
 ///
 /// `stalled`, with a reason, if a particle found no place; `stopped` on request. The configuration then is unusable,
 /// and the same call starts again.

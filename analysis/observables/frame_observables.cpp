@@ -16,14 +16,18 @@ template <int Dim>
 FrameObservableType<Dim> order_observable();
 template <int Dim>
 FrameObservableType<Dim> velocity_observable();
+FrameObservableType<3> two_point_observable();
 
 namespace {
 
 /// The list to add to.
 template <int Dim>
 std::vector<FrameObservableType<Dim>> types() {
-  return {structure_factor_observable<Dim>(), pair_correlation_observable<Dim>(),
-          orientation_observable<Dim>(), order_observable<Dim>(), velocity_observable<Dim>()};
+  std::vector<FrameObservableType<Dim>> all = {
+      structure_factor_observable<Dim>(), pair_correlation_observable<Dim>(),
+      orientation_observable<Dim>(), order_observable<Dim>(), velocity_observable<Dim>()};
+  if constexpr (Dim == 3) all.push_back(two_point_observable());
+  return all;
 }
 
 template <int Dim>

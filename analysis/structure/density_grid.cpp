@@ -1,11 +1,11 @@
 #include "analysis/structure/density_grid.h"
 
-#include <fftw3.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+
+#include "analysis/structure/fourier_arrays.h"
 
 namespace vitrel {
 
@@ -75,16 +75,6 @@ int min_nodes(double length, double to) {
   return std::max(spline_order, static_cast<int>(std::ceil(least)));
 }
 
-/// The smallest even number from n on without prime factors above 7, for which transforms are fast.
-int fast_size(int n) {
-  for (n += n % 2;; n += 2) {
-    int rest = n;
-    for (const int prime : {2, 3, 5, 7})
-      while (rest % prime == 0) rest /= prime;
-    if (rest == 1) return n;
-  }
-}
-
 template <std::size_t Dim>
 Vec<static_cast<int>(Dim)> as_vector(const std::array<int, Dim>& n) {
   Vec<static_cast<int>(Dim)> vector;
@@ -95,20 +85,6 @@ Vec<static_cast<int>(Dim)> as_vector(const std::array<int, Dim>& n) {
 /// Written out: the operator's care for infinities takes several times as long.
 std::complex<double> product(const std::complex<double>& p, const std::complex<double>& q) {
   return {p.real() * q.real() - p.imag() * q.imag(), p.real() * q.imag() + p.imag() * q.real()};
-}
-
-template <class T>
-struct FreeArray {
-  void operator()(T* array) const { fftw_free(array); }
-};
-template <class T>
-using Array = std::unique_ptr<T[], FreeArray<T>>;
-
-Array<double> real_array(std::size_t n) {
-  return Array<double>(fftw_alloc_real(n));
-}
-Array<fftw_complex> complex_array(std::size_t n) {
-  return Array<fftw_complex>(fftw_alloc_complex(n));
 }
 
 }  // namespace
@@ -130,8 +106,8 @@ struct DensityGrid<Dim>::Transform {
       reals *= static_cast<std::size_t>(in_size[k]);
       complexes *= static_cast<std::size_t>(k + 1 < Dim ? count[k] : count[k] / 2 + 1);
     }
-    const Array<double> in = real_array(reals);
-    const Array<fftw_complex> out = complex_array(complexes);
+    const FourierArray<double> in = real_array(reals);
+    const FourierArray<fftw_complex> out = complex_array(complexes);
     plan = fftw_plan_many_dft_r2c(Dim, count.data(), 1, in.get(), in_size.data(), 1, 0, out.get(),
                                   nullptr, 1, 0, FFTW_ESTIMATE);
   }
@@ -279,7 +255,7 @@ void DensityGrid<Dim>::close_period(double* grid) const {
 template <int Dim>
 std::vector<Modes> DensityGrid<Dim>::modes(std::span<const Vec<Dim>> positions,
                                            const std::vector<Weights>& fields) const {
-  std::vector<Array<double>> memory;
+  std::vector<FourierArray<double>> memory;
   std::vector<double*> grids;
   for (std::size_t f = 0; f < fields.size(); ++f) {
     memory.push_back(real_array(transform_->reals));
@@ -288,7 +264,7 @@ std::vector<Modes> DensityGrid<Dim>::modes(std::span<const Vec<Dim>> positions,
   }
   for (const Place& place : places(positions)) spread(place, fields, grids);
 
-  const Array<fftw_complex> out = complex_array(transform_->complexes);
+  const FourierArray<fftw_complex> out = complex_array(transform_->complexes);
   std::vector<Modes> result;
   for (double* grid : grids) {
     close_period(grid);

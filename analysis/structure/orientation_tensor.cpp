@@ -55,12 +55,6 @@ IsotropicRatio expanded_ratio(double axes) {
 
 }  // namespace
 
-Vec3 figure_axis(const Ellipsoid& body, const Quaternion& orientation) {
-  int axis = body.symmetry_axis();
-  if (axis == Ellipsoid::none) body.semi_axes.maxCoeff(&axis);
-  return orientation * Vec3::Unit(axis);
-}
-
 Vec3 OrientationTensor::eigenvalues() const {
   return Eigen::SelfAdjointEigenSolver<Mat3>(matrix, Eigen::EigenvaluesOnly).eigenvalues();
 }

@@ -4,17 +4,13 @@
 #include <span>
 
 #include "core/state/configuration.h"
+#include "core/state/figure_axis.h"
 
 /// @file
 /// Whether the orientations of a packing are isotropic, by the second-rank orientation tensor.
 namespace vitrel {
 
-/// The unit vector w along which a body is oriented, either of two opposite ones: the axis of symmetry of
-/// a spheroid, the short one of an oblate and the long one of a prolate; of a scalene body the longest
-/// axis, which is a choice. Not for round bodies.
-Vec3 figure_axis(const Ellipsoid& body, const Quaternion& orientation);
-
-/// T = ⟨w wᵀ⟩ over the N bodies that are not round; its trace is 1. Isotropic bodies have T = I/3, parallel
+/// T = ⟨w wᵀ⟩ of the figure axes w (figure_axis.h) of the N bodies that are not round; its trace is 1. Isotropic bodies have T = I/3, parallel
 /// ones eigenvalues 1, 0, 0, and all directions in a plane 1/2, 1/2, 0 on the average.
 struct OrientationTensor {
   Mat3 matrix = Mat3::Zero();  ///< 0 if all bodies are round

@@ -186,21 +186,21 @@ class Reader final : public FieldVisitor {
     }
   }
 
-  void array(const Field& field, std::size_t count,
-             const std::function<void(std::size_t, FieldVisitor&)>& describe) override {
+  void array(const Field& field, const List& entries) override {
     const TomlNode* node = find(field);
     if (!node) return;
     const auto* items = node->get<TomlNode::Array>();
-    if (!items || items->size() != count)
+    if (items && entries.resize) entries.resize(items->size());
+    if (!items || items->size() != entries.size())
       throw UserError(fmt::format("{}: key '{}' must be an array of {} entries, not {}",
-                                  node->where, join(path_, field.key), count,
+                                  node->where, join(path_, field.key), entries.size(),
                                   items ? fmt::format("of {}", items->size()) : called(*node)));
     TomlNode::Table numbered;
-    for (std::size_t k = 0; k < count; ++k)
+    for (std::size_t k = 0; k < items->size(); ++k)
       numbered.push_back({fmt::format("{}", k), (*items)[k].where, (*items)[k]});
-    const TomlNode entries{numbered, node->where};
-    Reader reader(entries, join(path_, field.key));
-    for (std::size_t k = 0; k < count; ++k) describe(k, reader);
+    const TomlNode table{numbered, node->where};
+    Reader reader(table, join(path_, field.key));
+    for (std::size_t k = 0; k < items->size(); ++k) entries.describe(k, reader);
   }
 
   void optional(const Field& field, bool& present, const Inside& inside) override {

@@ -35,8 +35,7 @@ class ValueVisitor : public FieldVisitor {
   void choice(const Field& field, std::size_t& index, std::span<const char* const> names) override {
     put(field, to_toml(std::string_view(names[index])), choices_text(names));
   }
-  void array(const Field& field, std::size_t count,
-             const std::function<void(std::size_t, FieldVisitor&)>& describe) override;
+  void array(const Field& field, const List& entries) override;
 
  protected:
   /// `choices`: the words a choice may be, else empty.
@@ -100,11 +99,10 @@ class InlineWriter final : public ValueVisitor {
   std::vector<std::pair<std::string, std::string>> items_;
 };
 
-void ValueVisitor::array(const Field& field, std::size_t count,
-                         const std::function<void(std::size_t, FieldVisitor&)>& describe) {
-  InlineWriter entries;
-  for (std::size_t k = 0; k < count; ++k) describe(k, entries);
-  put(field, entries.values(), "");
+void ValueVisitor::array(const Field& field, const List& entries) {
+  InlineWriter writer;
+  for (std::size_t k = 0; k < entries.size(); ++k) entries.describe(k, writer);
+  put(field, writer.values(), "");
 }
 
 std::string inline_text(const FieldVisitor::Inside& inside) {

@@ -41,7 +41,7 @@ class FieldVisitor {
   enum class TableStyle { section, inline_table };
   struct List {
     std::function<std::size_t()> size;
-    std::function<void(std::size_t)> resize;
+    std::function<void(std::size_t)> resize;  ///< of an array: none if its size is fixed
     std::function<void(std::size_t, FieldVisitor&)> describe;
     Inside describe_blank;  ///< describes a default entry
   };
@@ -66,9 +66,8 @@ class FieldVisitor {
   /// A number, or a table of fields instead; `is_table` tells which.
   virtual void number_or_table(const Field&, double& number, bool& is_table,
                                const Inside& inside) = 0;
-  /// An array of `count` entries; `describe` names the one field of each, whose key is its number.
-  virtual void array(const Field&, std::size_t count,
-                     const std::function<void(std::size_t, FieldVisitor&)>& describe) = 0;
+  /// An array; `describe` names the one field of each entry, whose key is its number.
+  virtual void array(const Field&, const List& entries) = 0;
   /// A field that may be left out; `present` tells whether it is there. `inside` names the one
   /// field.
   virtual void optional(const Field&, bool& present, const Inside& inside) = 0;

@@ -37,18 +37,25 @@ double draw_or_one(const std::optional<Distribution>& distribution, Stream& stre
 
 void draw_shape(const Species& species, Stream& stream, Ellipse& shape) {
   if (species.semi_axes) {
-    shape = {species.semi_axes->at(0), species.semi_axes->at(1)};
+    const double one = species.semi_axes->at(0).draw(stream);
+    const double other = species.semi_axes->at(1).draw(stream);
+    shape = {std::max(one, other), std::min(one, other)};
     return;
   }
   const double ratio = draw_or_one(species.aspect_ratio, stream);
+  if (species.first_semi_axis) {
+    const double a = species.first_semi_axis->draw(stream);
+    shape = {a, a / ratio};
+    return;
+  }
   const double size = draw_or_one(species.size, stream);
   shape = {size * std::sqrt(ratio), size / std::sqrt(ratio)};
 }
 
 void draw_shape(const Species& species, Stream& stream, Ellipsoid& shape) {
   if (species.semi_axes) {
-    const std::vector<double>& axes = *species.semi_axes;
-    shape = {Vec3(axes.at(0), axes.at(1), axes.at(2))};
+    for (std::size_t k = 0; k < 3; ++k)
+      shape.semi_axes[static_cast<int>(k)] = species.semi_axes->at(k).draw(stream);
     return;
   }
   double ratio1 = 1, ratio2 = 1;
@@ -58,7 +65,9 @@ void draw_shape(const Species& species, Stream& stream, Ellipsoid& shape) {
   } else {
     ratio1 = ratio2 = draw_or_one(species.aspect_ratio, stream);
   }
-  const double a = draw_or_one(species.size, stream) * std::cbrt(ratio1 * ratio2);
+  const double a = species.first_semi_axis
+                       ? species.first_semi_axis->draw(stream)
+                       : draw_or_one(species.size, stream) * std::cbrt(ratio1 * ratio2);
   shape = {Vec3(a, a / ratio1, a / ratio2)};
 }
 

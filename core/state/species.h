@@ -28,16 +28,18 @@ struct Distribution {
 };
 
 /// One species. Its shape is given by the aspect ratio κ = a/b ≥ 1 and the size √(a b), so a = size
-/// √κ and b = size/√κ; or by the semi-axes themselves. In three dimensions it is given by two aspect
-/// ratios, semi-axes a : a/R_1 : a/R_2, and the size (a b c)^(1/3), so a = size (R_1 R_2)^(1/3); one
-/// aspect ratio means R_1 = R_2 = κ, a prolate spheroid.
+/// √κ and b = size/√κ. In three dimensions it is given by two aspect ratios, semi-axes a : a/R_1 : a/R_2,
+/// and the size (a b c)^(1/3), so a = size (R_1 R_2)^(1/3); one aspect ratio means R_1 = R_2 = κ, a
+/// prolate spheroid. Instead of the size, a may be given, or instead of all of these the semi-axes.
 struct Species {
   std::string name = "A";
   double fraction = 1;                       ///< share of all particles
   std::optional<Distribution> aspect_ratio;  ///< 1 if neither it nor another shape is given
   std::optional<std::array<Distribution, 2>> aspect_ratios;  ///< R_1, R_2; in three dimensions only
-  std::optional<Distribution> size;                          ///< 1 if not given
-  std::optional<std::vector<double>> semi_axes;  ///< a ≥ b, or a, b, c; excludes the three above
+  std::optional<Distribution> size;                          ///< 1 if neither it nor a is given
+  std::optional<Distribution> first_semi_axis;               ///< a; excludes the size
+  /// In two dimensions the larger of two draws is a. Excludes the four above.
+  std::optional<std::vector<Distribution>> semi_axes;
   std::optional<double> mass;  ///< of every particle; a b (a b c: uniform density) if not given
 };
 

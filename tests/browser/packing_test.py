@@ -81,7 +81,7 @@ class Packing(PageTest):
         self.open("packing.html")
         self.assertIn("N = 60 in a periodic box of", self.text("movie-note"))
         self.assertEqual(self.text("overlaps"), "✓ No overlap (exact check of the stored numbers).")
-        self.assertEqual(self.browser.evaluate("document.querySelectorAll('.chart:not([hidden]) canvas').length"), 2)
+        self.assertEqual(self.browser.evaluate("document.querySelectorAll('.chart:not([hidden]) canvas').length"), 3)
 
     # The box of 8 has a diagonal of 13.86; 0.515 of it are half of the picture. The first view has z upwards, then turned by
     # -0.6 about the vertical and by 0.42 about the horizontal. A body of the shape matrix S casts π √det of the block S_xy.
@@ -311,7 +311,7 @@ class Packing(PageTest):
         self.browser.call("Page.removeScriptToEvaluateOnNewDocument", identifier=script["identifier"])
         self.assertIn("needs WebGL 2", self.text("movie-note"))
         self.assertFalse(self.browser.evaluate("document.getElementById('scene').checkVisibility()"))
-        self.assertEqual(self.browser.evaluate("document.querySelectorAll('.chart:not([hidden]) canvas').length"), 2)
+        self.assertEqual(self.browser.evaluate("document.querySelectorAll('.chart:not([hidden]) canvas').length"), 3)
 
 
 if __name__ == "__main__":

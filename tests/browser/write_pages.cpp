@@ -73,7 +73,11 @@ PackingPage packing(const Configuration3& bodies) {
       {"structure_factor",
        "",
        {report_example::plain("q", "1/length", x), report_example::column("s", "1", x, wave),
-        report_example::column("s_rods_plates", "1", x, wave)}}};
+        report_example::column("s_rods_plates", "1", x, wave)}},
+      {"two_point",
+       "",
+       {report_example::plain("r", "length", x), report_example::column("s2", "1", x, wave),
+        report_example::column("lineal_path_x", "1", x, wave)}}};
   return page;
 }
 

@@ -63,12 +63,39 @@ TEST(DrawParticles, SpeciesAreMixedAndTheSeedDecides) {
 
 TEST(DrawParticles, SemiAxesAndMassAreTakenAsGiven) {
   std::vector<Species> species(1);
-  species[0].semi_axes = {3.3, 0.7};
+  species[0].semi_axes = {number(3.3), number(0.7)};
   species[0].mass = 5;
   const Configuration2 system = draw_particles(species, 4, 0.3, 1, 1);
   EXPECT_EQ(system.shape[2].a, 3.3);
   EXPECT_EQ(system.shape[2].b, 0.7);
   EXPECT_EQ(system.mass[2], 5);
+}
+
+TEST(DrawParticles, TheLargerOfTwoDrawnSemiAxesIsTheMajorOne) {
+  const Distribution uniform{Distribution::Kind::uniform, 0, 0, 1, 2, 0.1};
+  std::vector<Species> species(1);
+  species[0].semi_axes = {uniform, uniform};
+  constexpr std::size_t n = 1000;
+  double major = 0, minor = 0;
+  for (const Ellipse& shape : draw_particles(species, n, 0.3, 1, 7).shape) {
+    EXPECT_GE(shape.a, shape.b);
+    major += shape.a;
+    minor += shape.b;
+  }
+  // Order statistics of two uniform numbers: means 1/3 and 2/3 of the interval, variance 1/18; 4.9 standard errors, a
+  // false alarm in 1e-6 of the seeds each.
+  EXPECT_NEAR(major / n, 5.0 / 3, 4.9 / std::sqrt(18.0 * n));
+  EXPECT_NEAR(minor / n, 4.0 / 3, 4.9 / std::sqrt(18.0 * n));
+}
+
+TEST(DrawParticles, TheFirstSemiAxisReplacesTheSize) {
+  std::vector<Species> species(1);
+  species[0].first_semi_axis = number(3);
+  species[0].aspect_ratio = Distribution{Distribution::Kind::uniform, 0, 0, 1, 5, 1};
+  for (const Ellipse& shape : draw_particles(species, 20, 0.3, 1, 7).shape) {
+    EXPECT_EQ(shape.a, 3);
+    EXPECT_GE(shape.b, 0.6);
+  }
 }
 
 TEST(DrawSolids, TheCubeHasThePackingFractionAndTheShapesTheRatios) {
@@ -78,7 +105,7 @@ TEST(DrawSolids, TheCubeHasThePackingFractionAndTheShapesTheRatios) {
   species[0].aspect_ratio = number(3);
   species[1].aspect_ratios = {number(4), number(0.5)};
   species[1].size = number(1.4);
-  species[2].semi_axes = {1.5, 3, 0.7};
+  species[2].semi_axes = {number(1.5), number(3), number(0.7)};
   const Configuration3 system = draw_solids(species, 101, 1e-6, 7);
   EXPECT_NEAR(packing_fraction(system), 1e-6, 1e-20);
   const Vec3& box = system.box.lengths();
@@ -113,6 +140,37 @@ TEST(DrawSolids, BothAspectRatiosAreDrawn) {
   // 4.9 standard errors (b − a)/√(12 N), a false alarm in 1e-6 of the seeds each.
   EXPECT_NEAR(sum1 / 1000, 3, 4.9 * 4 / std::sqrt(12'000));
   EXPECT_NEAR(sum2 / 1000, 1.05, 4.9 * 1.9 / std::sqrt(12'000));
+}
+
+// The ratios are those drawn without a first semi-axis.
+TEST(DrawSolids, TheFirstSemiAxisIsTheSameAtAllRatios) {
+  using Kind = Distribution::Kind;
+  std::vector<Species> species(1);
+  species[0].aspect_ratios = {Distribution{Kind::uniform, 0, 0, 0.1, 2, 0.1},
+                              Distribution{Kind::uniform, 0, 0, 0.1, 2, 0.1}};
+  const Configuration3 sized = draw_solids(species, 50, 0.3, 7);
+  species[0].first_semi_axis = number(3);
+  const Configuration3 system = draw_solids(species, 50, 0.3, 7);
+  for (std::size_t i = 0; i < system.size(); ++i) {
+    const Vec3 &axes = system.shape[i].semi_axes, &other = sized.shape[i].semi_axes;
+    EXPECT_EQ(axes[0], 3);
+    EXPECT_TRUE((axes / axes[0]).isApprox(other / other[0], 1e-14));
+  }
+}
+
+TEST(DrawSolids, SemiAxesAreDrawnOneByOne) {
+  using Kind = Distribution::Kind;
+  std::vector<Species> species(1);
+  species[0].semi_axes = {Distribution{Kind::uniform, 0, 0, 1, 2, 1}, number(0.5),
+                          Distribution{Kind::uniform, 0, 0, 3, 4, 1}};
+  double sum = 0;
+  for (const Ellipsoid& shape : draw_solids(species, 1000, 0.3, 7).shape) {
+    const Vec3& axes = shape.semi_axes;
+    EXPECT_TRUE(axes[0] >= 1 && axes[0] <= 2 && axes[1] == 0.5 && axes[2] >= 3 && axes[2] <= 4);
+    sum += axes[0] + axes[2];
+  }
+  // 4.9 standard errors of a sum of two uniform numbers, a false alarm in 1e-6 of the seeds.
+  EXPECT_NEAR(sum / 1000, 5, 4.9 / std::sqrt(6'000));
 }
 
 // Mean and standard deviation of n draws against those asked for, within 4.9 standard errors

@@ -12,6 +12,7 @@
 #include "core/state/check.h"
 #include "edmd/brownian.h"
 #include "tests/support/scenes.h"
+#include "tests/support/solids.h"
 #include "tests/support/statistics.h"
 
 namespace vitrel {
@@ -256,6 +257,25 @@ TEST(GrowthLimits, KnowsWhenTheParticlesAreJammed) {
   EXPECT_TRUE(exact_check(c).clean());
 }
 
+// 27 spheres grown this fast jam below 0.62 with every one of these seeds.
+TEST(GrowthLimits, FewJammedSpheresTryAgain) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    Configuration3 c = cubic_lattice(
+        3, 0.05, [](std::size_t) { return Ellipsoid{}; }, seed);
+    GrowthState state;
+    GrowthOptions options{0.1, 0.62, {}, seed};
+    Configuration3 once = c;
+    ASSERT_EQ(grow(once, options, state, {}).end, StageEnd::stalled);
+    options.retries = 12;
+    state = {};
+    const StageReport report = grow(c, options, state, {});
+    EXPECT_EQ(report.end, StageEnd::reached) << report.reason;
+    EXPECT_GT(state.retries, 0u);
+    EXPECT_NEAR(packing_fraction(c), 0.62, 0.62e-12);
+    EXPECT_TRUE(exact_check(c).clean());
+  }
+}
+
 // Whichever goal comes first.
 TEST(GrowthLimits, EndsAtThePackingFractionBeforeThePressure) {
   Configuration2 c = dilute(materials[2], 6);
@@ -274,9 +294,11 @@ TEST(GrowthLimits, ShrinksWithANegativeRate) {
   EXPECT_TRUE(exact_check(c).clean());
 }
 
-// Stopped at every block end and resumed, growth ends in the same bits.
-TEST(GrowthLimits, ResumesBitByBit) {
-  const GrowthOptions options{0.005, {}, 1e3, 5};
+// Stopped at every block end and resumed, growth ends in the same bits, also if particles that jam try again.
+class ResumedGrowth : public testing::TestWithParam<GrowthOptions> {};
+
+TEST_P(ResumedGrowth, EndsInTheSameBits) {
+  const GrowthOptions options = GetParam();
   Configuration2 whole = dilute(materials[4], 5), parts = whole;
   const BaseShape uninterrupted = grown(whole, options);
   int asked = 0, calls = 1;
@@ -290,7 +312,11 @@ TEST(GrowthLimits, ResumesBitByBit) {
   EXPECT_EQ(parts.velocity, whole.velocity);
   EXPECT_EQ(state.reduced_pressure, uninterrupted.reduced_pressure);
   EXPECT_EQ(state.counters.collisions, uninterrupted.counters.collisions);
+  EXPECT_EQ(state.retries, static_cast<std::uint64_t>(options.retries));
 }
+INSTANTIATE_TEST_SUITE_P(GrowthLimits, ResumedGrowth,
+                         testing::Values(GrowthOptions{0.005, {}, 1e3, 5},
+                                         GrowthOptions{0.05, 0.9, {}, 1, 2}));
 
 TEST(GrowthLimits, RefusesWhatCannotSucceed) {
   Configuration2 c = dilute(materials[0], 3);

@@ -49,6 +49,60 @@ TEST(Insertion, OfSolidsGivesAHardStateAtThePackingFraction) {
     }
 }
 
+// Dense enough that most places are refused.
+TEST(Insertion, OfSolidsKeepsTheOrientationTensorWherePlacesAreRefused) {
+  constexpr std::size_t n = 1000;
+  Configuration3 c = solids(n, {Vec3(10, 1, 1)}, 100);
+  const Mat3 given = Vec3(0.6, 0.1, 0.3).asDiagonal();
+  const InsertionReport report =
+      insert_particles(c, {0.1, 100000, false, {given.data(), given.data() + 9}}, 1, {});
+  ASSERT_EQ(report.end, StageEnd::reached);
+  EXPECT_GT(report.trials, 5 * n);
+  Mat3 tensor = Mat3::Zero();
+  for (const Quaternion& q : c.orientation) {
+    const Vec3 u = q * Vec3::UnitX();
+    tensor += u * u.transpose() / n;
+  }
+  EXPECT_LT((tensor - given).cwiseAbs().maxCoeff(), 4.9 * 0.5 / std::sqrt(n)) << tensor;
+}
+
+// The longest axes have the tensor A. Turned at random around them, other axes have (1 − A)/2. Components of u uᵀ lie in
+// an interval of length 1, so that their standard deviation is at most 1/2; 4.9 standard errors, a false alarm in at most
+// 1e-6 of the seeds each.
+TEST(Insertion, OfSolidsHasTheOrientationTensor) {
+  constexpr std::size_t n = 5000;
+  Configuration3 c = solids(n, {Vec3(0.5, 2, 1)}, 200);
+  const Mat3 given = Vec3(0.6, 0.1, 0.3).asDiagonal();
+  const InsertionOptions options{0.001, 100000, false, {given.data(), given.data() + 9}};
+  ASSERT_EQ(insert_particles(c, options, 1, {}).end, StageEnd::reached);
+  EXPECT_TRUE(exact_check(c).clean());
+  Mat3 longest = Mat3::Zero(), middle = Mat3::Zero();
+  for (const Quaternion& q : c.orientation) {
+    const Mat3 axes = q.toRotationMatrix();
+    longest += axes.col(1) * axes.col(1).transpose() / n;
+    middle += axes.col(2) * axes.col(2).transpose() / n;
+  }
+  const double tolerance = 4.9 * 0.5 / std::sqrt(n);
+  EXPECT_LT((longest - given).cwiseAbs().maxCoeff(), tolerance) << longest;
+  const Mat3 around = 0.5 * (Mat3::Identity() - given);
+  EXPECT_LT((middle - around).cwiseAbs().maxCoeff(), tolerance) << middle;
+}
+
+TEST(Insertion, HasTheOrientationTensorInThePlane) {
+  constexpr std::size_t n = 5000;
+  Configuration2 c = particles(n, of_aspect_ratio(2));
+  const InsertionOptions options{0.01, 100000, false, {0.8, 0.1, 0.1, 0.2}};
+  ASSERT_EQ(insert_particles(c, options, 1, {}).end, StageEnd::reached);
+  Mat2 tensor = Mat2::Zero();
+  for (const double angle : c.angle) {
+    const Vec2 u(std::cos(angle), std::sin(angle));
+    tensor += u * u.transpose() / n;
+  }
+  const double tolerance = 4.9 * 0.5 / std::sqrt(n);
+  EXPECT_NEAR(tensor(0, 0), 0.8, tolerance);
+  EXPECT_NEAR(tensor(0, 1), 0.1, tolerance);
+}
+
 TEST(Insertion, OfSolidsMindsTheirOwnImages) {
   const Ellipsoid needle{Vec3(3, 0.1, 0.1)};
   Configuration3 c = solids(3, needle, 5.9);

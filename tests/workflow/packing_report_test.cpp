@@ -76,6 +76,10 @@ TEST_F(PackingFile, IsAnalysed) {
   }
   EXPECT_NEAR(at, 2 * M_PI * 6 / lattice().box.lengths().x(), 0.1);
   EXPECT_GT(results.find("pair_correlation")->rows(), 10u);
+  const Table* two_point = results.find("two_point");
+  ASSERT_TRUE(two_point);
+  EXPECT_NEAR(two_point->find("s2")->value[0], 0.1, 0.005);
+  EXPECT_NEAR(two_point->find("lineal_path_y")->value[0], 0.1, 1e-12);
 }
 
 TEST_F(PackingFile, IsAnalysedAsTheCommandLineSays) {
@@ -92,10 +96,12 @@ TEST_F(PackingFile, HasAPage) {
   EXPECT_EQ(page.movie.particles(), 216u);
   EXPECT_EQ(page.movie.frames(), 1u);
   EXPECT_EQ(page.movie.overlapping_pairs[0], 0u);
-  EXPECT_EQ(page.rows.size(), 3u);
+  EXPECT_EQ(page.rows.size(), 4u);
+  EXPECT_EQ(page.rows[1].value, "0.667, 0.000, 0.333; 0.000, 0.000, 0.000");
   const std::string text = packing_page(page);
   EXPECT_THAT(text, HasSubstr("<h1>Packing of 216 ellipsoids, 2 : 1 : 1</h1>"));
   EXPECT_THAT(text, HasSubstr("a b c = 1"));
+  EXPECT_THAT(text, HasSubstr("id=\"two_point\""));
   EXPECT_THAT(text, testing::Not(HasSubstr("{{")));
   EXPECT_LT(text.size(), 150'000u);
 }
@@ -103,12 +109,14 @@ TEST_F(PackingFile, HasAPage) {
 TEST_F(PackingFile, TakesFromTheQualityReportWhatOnlyThePreparationKnows) {
   PackingQuality quality = measure_quality(lattice(), exact_check(lattice()));
   quality.reduced_pressure = 17;
+  quality.first_orientation_tensor = Vec3(0.5, 0.25, 0.25).asDiagonal();
   quality.collisions = 4321;
   quality.wall_seconds = 2.5;
   quality.backbone = JammedBackbone{{6, 1000, 9.52, 10}, 2e-3};
   write_quality(quality_file(file()), quality);
   const std::string text = packing_page(packing_page_data(file(), {}));
   EXPECT_THAT(text, HasSubstr("<td>17</td>"));
+  EXPECT_THAT(text, HasSubstr("at the start 0.500, 0.250, 0.250; 0.000"));
   EXPECT_THAT(text, HasSubstr("<td>4321</td>"));
   EXPECT_THAT(text, HasSubstr("<td>2.5 s</td>"));
   EXPECT_THAT(text, HasSubstr("<td>9.520</td>"));

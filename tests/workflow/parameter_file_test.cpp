@@ -49,6 +49,38 @@ const BadFile bad_files[] = {
     {"[system]\ndimension = 3\n[[species]]\nsemi_axes = [2, 1]",
      "file.toml:4:13: key 'species.0.semi_axes' is [2.0, 1.0], but must be [a, b, c], all above 0"},
     {"[system]\ndimension = 3\n[[species]]\nsemi_axes = [2, 1, 0]", "must be [a, b, c], all above"},
+    {"[system]\ndimension = 3\n[[species]]\n"
+     "semi_axes = [2, 1, { distribution = \"uniform\", low = 2, high = 1 }]",
+     "key 'species.0.semi_axes.2.high' is 1.0, but must be above low = 2.0"},
+    {"[[species]]\nsemi_axes = [{ distribution = \"uniform\", low = 1, high = 2 }, -1]",
+     "file.toml:2:13: key 'species.0.semi_axes' is [uniform from 1 to 2, at least 0.001, -1.0], "
+     "but "
+     "must be [a, b]"},
+    {"[[species]]\naspect_ratio = 2\nsize = 1\nfirst_semi_axis = 1",
+     "file.toml:4:19: key 'species.0.first_semi_axis' excludes size"},
+    {"[[species]]\naspect_ratio = 2\nfirst_semi_axis = 0",
+     "key 'species.0.first_semi_axis' is 0.0, but must be at least 0.001"},
+    {"[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"grow\"\nretries = 31",
+     "file.toml:4:11: key 'prepare.stage.1.retries' is 31, but must lie between 0 and 30"},
+    {"[[prepare.stage]]\nmethod = \"insert\"\norientations = \"planar\"",
+     "file.toml:3:16: key 'prepare.stage.0.orientations' is \"planar\", which has a meaning only"},
+    {"[[prepare.stage]]\nmethod = \"insert\"\norientations = \"tensor\"",
+     "key 'prepare.stage.0.orientation_tensor' is missing; give its diagonal"},
+    {"[[prepare.stage]]\nmethod = \"insert\"\norientation_tensor = [0.5, 0.5]",
+     "'prepare.stage.0.orientation_tensor' has a meaning only with orientations = \"tensor\""},
+    {"[[prepare.stage]]\nmethod = \"insert\"\norientations = \"tensor\"\n"
+     "orientation_tensor = [0.6, 0.3, 0.1]",
+     "file.toml:4:22: key 'prepare.stage.0.orientation_tensor' is [0.6, 0.3, 0.1], but must be the "
+     "diagonal (2 numbers, 0 or more, with the sum 1) or the rows (4) of a symmetric tensor"},
+    {"[[prepare.stage]]\nmethod = \"insert\"\norientations = \"tensor\"\n"
+     "orientation_tensor = [0.6, 0.5]",
+     "is [0.6, 0.5], but must be the diagonal"},
+    {"[[prepare.stage]]\nmethod = \"insert\"\norientations = \"tensor\"\n"
+     "orientation_tensor = [1.2, -0.2]",
+     "is [1.2, -0.2], but must be the diagonal"},
+    {"[[prepare.stage]]\nmethod = \"insert\"\norientations = \"tensor\"\n"
+     "orientation_tensor = [0.5, 0.1, 0.2, 0.5]",
+     "is [0.5, 0.1, 0.2, 0.5], but must be the diagonal"},
     {"[system]\ndimension = 3\n[[species]]\nname = \"B\"",
      "key 'species.0.aspect_ratio' is missing; give aspect_ratio (1 for spheres)"},
     {"[system]\ndimension = 3\n[[species]]\naspect_ratio = 2\naspect_ratios = [2, 3]",
@@ -373,6 +405,21 @@ TEST(ParameterFile, ThreeDimensionsAreReadAndWritten) {
   EXPECT_THAT(text,
               HasSubstr("aspect_ratios = [4.0, { distribution = \"uniform\", low = 0.1, high ="));
   EXPECT_THAT(text, testing::Not(HasSubstr("box_aspect")));
+  EXPECT_EQ(effective_parameters(parse_parameters(text, "again")), text);
+}
+
+TEST(ParameterFile, SemiAxesAreNumbersOrDistributions) {
+  const Parameters read = parse_parameters(
+      "[system]\ndimension = 3\n[[species]]\n"
+      "semi_axes = [4, { distribution = \"uniform\", low = 0.1, high = 2 }, 1]",
+      "file.toml");
+  const std::vector<Distribution>& axes = read.species[0].semi_axes.value();
+  ASSERT_EQ(axes.size(), 3u);
+  EXPECT_EQ(axes[0].mean, 4);
+  EXPECT_EQ(axes[1].high, 2);
+  EXPECT_EQ(axes[2].kind, Distribution::Kind::constant);
+  const std::string text = effective_parameters(read);
+  EXPECT_THAT(text, HasSubstr("semi_axes = [4.0, { distribution = \"uniform\", low = 0.1, high ="));
   EXPECT_EQ(effective_parameters(parse_parameters(text, "again")), text);
 }
 

@@ -288,7 +288,7 @@ Parameters solids() {
   parameters.species.assign(2, Species());
   parameters.species[0].aspect_ratios = {number(3), number(1)};
   parameters.species[1].name = "scalene";
-  parameters.species[1].semi_axes = {2, 1, 0.5};
+  parameters.species[1].semi_axes = {number(2), number(1), number(0.5)};
   for (Species& species : parameters.species) species.fraction = 0.5;
   std::get<GrowStage>(parameters.stages[1]).growth_rate = 0.01;
   validate(parameters);

@@ -159,6 +159,26 @@ TEST(MeasureQuality, OfAPackingInSpaceCountsContactsIfItIsJammed) {
   EXPECT_FALSE(packing_grown_to("20").backbone);
 }
 
+// Rotation in flight and collisions turn the particles afterwards.
+TEST(MeasureQuality, OfAPackingInSpaceKnowsTheOrientationsItBeganWith) {
+  const auto grown_from = [](const std::string& orientations) {
+    const Parameters parameters = parse_parameters(
+        "[system]\ndimension = 3\nparticles = 10\npacking_fraction = 0.1\n[[species]]\n"
+        "aspect_ratio = 3\n[[prepare.stage]]\nmethod = \"insert\"\norientations = " +
+            orientations + "\n[[prepare.stage]]\nmethod = \"grow\"\ngrowth_rate = 0.1",
+        "p.toml");
+    return measure_quality(prepare<3>({parameters}, {}, say_nothing));
+  };
+  const PackingQuality aligned = grown_from("\"aligned\"");
+  EXPECT_TRUE(aligned.first_orientation_tensor->isApprox(Mat3(Vec3(1, 0, 0).asDiagonal()), 1e-14));
+  EXPECT_LT(aligned.orientation_tensor(0, 0), 1 - 1e-3);
+  const PackingQuality planar = grown_from("\"planar\"");
+  EXPECT_NEAR(planar.first_orientation_tensor->trace(), 1, 1e-14);
+  EXPECT_LT(planar.first_orientation_tensor->col(2).norm(), 1e-14);
+  const PackingQuality given = grown_from("\"tensor\"\norientation_tensor = [0.0, 0.0, 1.0]");
+  EXPECT_NEAR((*given.first_orientation_tensor)(2, 2), 1, 1e-14);
+}
+
 TEST(QualityRows, SayWhatWasNotReached) {
   Quality quality = example();
   EXPECT_EQ(row(quality, "orientation time"), "12 sweeps");

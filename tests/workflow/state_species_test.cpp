@@ -110,7 +110,7 @@ TEST(StateSpecies, WithoutARecordTheParticlesDecide) {
   for (double& mass : state.mass) mass = 3;
   const Parameters found = taken("", state, "");
   ASSERT_EQ(found.species.size(), 2u);
-  EXPECT_EQ(found.species[0].semi_axes, (std::vector<double>{1.5, 0.5}));
+  EXPECT_THAT(effective_parameters(found), HasSubstr("semi_axes = [1.5, 0.5]"));
   EXPECT_EQ(found.species[0].mass, 3);
   EXPECT_EQ(found.species[1].name, "disk");
   EXPECT_EQ(found.species[1].fraction, 0.6);
@@ -131,6 +131,32 @@ TEST(StateSpecies, SolidsKeepTheirTwoRatios) {
               HasSubstr("'species.0.aspect_ratio' is 1.5, but particle 0 has 2.5"));
   EXPECT_THAT(refusal(rest + "[[species]]\nsemi_axes = [1.0, 1.0, 1.0]\n", state, ""),
               HasSubstr("'species.0.semi_axes' is [1.0, 1.0, 1.0], but particle 0 has ["));
+}
+
+TEST(StateSpecies, DrawnSemiAxesAllowTheParticlesDrawnFromThem) {
+  const auto with = [](const std::string& axes, const std::string& a) {
+    return "[system]\nparticles = 20\n[[species]]\n" + axes + "\nfraction = 0.5\n" +
+           "[[species]]\nname = \"B\"\naspect_ratio = 2.0\nfirst_semi_axis = " + a +
+           "\nfraction = 0.5\n";
+  };
+  const std::string flat = "{ distribution = \"uniform\", low = 1.0, high = 2.0 }";
+  const Parameters made = parse(with("semi_axes = [" + flat + ", 1.5]", flat));
+  const Configuration2 state = drawn(made);
+  const std::string record = effective_parameters(made);
+  EXPECT_FALSE(species_conflict(made.species, state));
+  EXPECT_EQ(effective_parameters(taken("[system]\nparticles = 20\n", state, record)), record);
+  EXPECT_THAT(
+      refusal(with("semi_axes = [" + flat + ", 1.4]", flat), state, ""),
+      HasSubstr("'species.0.semi_axes' is [uniform from 1 to 2, at least 0.001, 1.4], but"));
+  EXPECT_THAT(refusal(with("semi_axes = [" + flat + ", 1.5]", "1.5"), state, ""),
+              HasSubstr("'species.1.first_semi_axis' is 1.5, but particle"));
+  // It would allow all particles, but they were not drawn from it.
+  const std::string wide = "{ distribution = \"uniform\", low = 0.5, high = 2.0 }";
+  for (const std::string& other : {with("semi_axes = [" + wide + ", 1.5]", flat),
+                                   with("semi_axes = [" + flat + ", 1.5]", wide)})
+    EXPECT_THAT(refusal(other, state, record),
+                HasSubstr("is uniform from 0.5 to 2, at least 0.001, "
+                          "but the state was drawn from"));
 }
 
 }  // namespace

@@ -5,105 +5,61 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 
+#include "workflow/configuration/distributions.h"
 #include "workflow/configuration/species_names.h"
 
 namespace vitrel {
 namespace {
 
-/// Sizes are relative to 1, ratios to one another: a thousandth is as small as they may sensibly be.
-constexpr double min_size = 0.001, min_ratio = 0.001;
-
-constexpr const char* distribution_names[] = {"gaussian", "lognormal", "uniform"};
-
-void describe_distribution(const Field& field, Distribution& d, FieldVisitor& visit) {
-  bool is_table = d.kind != Distribution::Kind::constant;
-  std::size_t kind = is_table ? static_cast<std::size_t>(d.kind) - 1 : 0;
-  visit.number_or_table(field, d.mean, is_table, [&](FieldVisitor& in) {
-    in.choice({"distribution", "",
-               "Distribution from which the numbers are drawn, as a table instead of a number."},
-              kind, distribution_names);
-    in.when(kind != 2, "distribution = \"gaussian\" or \"lognormal\"", [&](FieldVisitor& bell) {
-      bell.field({"mean", "", "Mean."}, d.mean);
-      bell.field(
-          {"standard_deviation", "", "Standard deviation of the values (not of their logarithms)."},
-          d.standard_deviation);
-    });
-    in.when(kind == 2, "distribution = \"uniform\"", [&](FieldVisitor& flat) {
-      flat.field({"low", "", "Lower bound."}, d.low);
-      flat.field({"high", "", "Upper bound."}, d.high);
-    });
-    in.field({"minimum", "", "Smaller values are drawn again."}, d.minimum);
-  });
-  d.kind = static_cast<Distribution::Kind>(is_table ? kind + 1 : 0);
-}
-
-/// A number, or a distribution above a thousandth, as small as a ratio may sensibly be.
-Distribution positive_draws(double example) {
-  return {Distribution::Kind::constant, example, 0.1, min_ratio, example, min_ratio};
-}
-
 void describe_optional_distribution(const Field& field, std::optional<Distribution>& value,
                                     double example, double minimum, FieldVisitor& visit) {
-  const Distribution default_value{
-      Distribution::Kind::constant, example, 0.1, minimum, example, minimum};
-  visit.optional(field, value, default_value, [&](FieldVisitor& in, Distribution& inner) {
-    describe_distribution(field, inner, in);
-  });
+  visit.optional(
+      field, value, example_of(example, minimum),
+      [&](FieldVisitor& in, Distribution& inner) { describe_distribution(field, inner, in); });
 }
 
-void validate_distribution(const Distribution& d, double least, const std::string& path) {
-  using Kind = Distribution::Kind;
-  const std::string bound = fmt::format("must be at least {}", show(least));
-  if (d.kind == Kind::constant) {
-    if (!(d.mean >= least) || !std::isfinite(d.mean))
-      throw BadValue(path, fmt::format("is {}, but {}", show(d.mean), bound));
-    return;
-  }
+bool is_positive_constant(const Distribution& d) {
+  return d.kind == Distribution::Kind::constant && d.mean > 0 && std::isfinite(d.mean);
+}
+
+void validate_semi_axes(const Species& p, int dimension, const std::string& path) {
   const Rules rules(path);
-  rules.require(d.minimum >= least && std::isfinite(d.minimum), "minimum",
-                fmt::format("is {}, but {}", show(d.minimum), bound));
-  if (d.kind == Kind::uniform) {
-    rules.require(d.high > d.low && std::isfinite(d.high) && std::isfinite(d.low), "high",
-                  fmt::format("is {}, but must be above low = {}", show(d.high), show(d.low)));
-    rules.require(
-        d.high > d.minimum, "high",
-        fmt::format("is {}, but must be above minimum = {}", show(d.high), show(d.minimum)));
-    return;
-  }
-  rules.positive(d.standard_deviation, "standard_deviation");
   rules.require(
-      d.mean >= d.minimum && std::isfinite(d.mean), "mean",
-      fmt::format("is {}, but must be at least minimum = {}", show(d.mean), show(d.minimum)));
-}
-
-void validate_semi_axes(const Species& p, int dimension, const Rules& rules) {
-  rules.require(!p.aspect_ratio && !p.aspect_ratios && !p.size, "semi_axes",
-                "excludes aspect_ratio and size, as well as aspect_ratios; give one or the other");
-  const std::vector<double>& axes = *p.semi_axes;
-  const bool fits = axes.size() == static_cast<std::size_t>(dimension) &&
-                    std::ranges::all_of(axes, [](double axis) { return axis > 0; }) &&
-                    std::ranges::all_of(axes, [](double axis) { return std::isfinite(axis); }) &&
-                    (dimension == 3 || axes[0] >= axes[1]);
+      !p.aspect_ratio && !p.aspect_ratios && !p.size && !p.first_semi_axis, "semi_axes",
+      "excludes aspect_ratio and size, as well as aspect_ratios and first_semi_axis; give "
+      "one or the other");
+  const std::vector<Distribution>& axes = *p.semi_axes;
+  bool fits = axes.size() == static_cast<std::size_t>(dimension);
+  for (const Distribution& axis : axes)
+    fits &= axis.kind != Distribution::Kind::constant || is_positive_constant(axis);
+  if (fits && dimension == 2 && std::ranges::all_of(axes, is_positive_constant))
+    fits = axes[0].mean >= axes[1].mean;
   rules.require(fits, "semi_axes",
-                fmt::format("is {}, but must be {}", to_toml(std::span<const double>(axes)),
+                fmt::format("is {}, but must be {}", text(axes),
                             dimension == 2 ? "[a, b] with a ≥ b > 0" : "[a, b, c], all above 0"));
+  for (std::size_t k = 0; k < axes.size(); ++k)
+    if (axes[k].kind != Distribution::Kind::constant)
+      validate_distribution(axes[k], min_draw, fmt::format("{}.semi_axes.{}", path, k));
 }
 
 void validate_shape(const Species& p, int dimension, const std::string& path) {
-  const Rules rules(path);
   if (p.semi_axes) {
-    validate_semi_axes(p, dimension, rules);
+    validate_semi_axes(p, dimension, path);
     return;
   }
-  if (p.size) validate_distribution(*p.size, min_size, path + ".size");
+  const Rules rules(path);
+  if (p.size) validate_distribution(*p.size, min_draw, path + ".size");
+  if (p.first_semi_axis) {
+    rules.require(!p.size, "first_semi_axis", "excludes size; give one or the other");
+    validate_distribution(*p.first_semi_axis, min_draw, path + ".first_semi_axis");
+  }
   if (p.aspect_ratios) {
     rules.require(dimension == 3, "aspect_ratios",
                   "has a meaning only with dimension = 3; give aspect_ratio");
     rules.require(!p.aspect_ratio, "aspect_ratios", "excludes aspect_ratio; give one or the other");
     for (int k = 0; k < 2; ++k)
-      validate_distribution((*p.aspect_ratios)[k], min_ratio,
+      validate_distribution((*p.aspect_ratios)[k], min_draw,
                             fmt::format("{}.aspect_ratios.{}", path, k));
     return;
   }
@@ -152,21 +108,30 @@ void describe_species(Species& p, FieldVisitor& visit) {
       "aspect_ratios", "",
       "In three dimensions, instead of aspect_ratio: [R_1, R_2] for the semi-axes a : a/R_1 : "
       "a/R_2, each a positive number or a distribution like that of aspect_ratio."};
-  visit.optional(ratios, p.aspect_ratios, std::array{positive_draws(2), positive_draws(5)},
+  visit.optional(ratios, p.aspect_ratios, std::array{example_of(2), example_of(5)},
                  [&](FieldVisitor& in, std::array<Distribution, 2>& inner) {
-                   in.array(ratios, inner.size(), [&](std::size_t k, FieldVisitor& entry) {
-                     describe_distribution({std::to_string(k), "", ""}, inner[k], entry);
-                   });
+                   describe_distributions(ratios, inner, in);
                  });
   describe_optional_distribution(
       {"size", "length",
        "√(a b), or (a b c)^(1/3) in three dimensions: a number or a distribution; the default is "
        "1. The reference species of size 1 defines the unit of length."},
       p.size, 1, 0.1, visit);
-  visit.optional({"semi_axes", "length",
-                  "Instead of aspect ratios and size: semi-axes [a, b] with a ≥ b, or [a, b, c] in "
-                  "any order in three dimensions."},
-                 p.semi_axes, std::vector<double>{2, 0.5});
+  describe_optional_distribution(
+      {"first_semi_axis", "length",
+       "Semi-axis a, instead of the size: a number or a distribution. The others are a/κ, or a/R_1 "
+       "and a/R_2. With drawn aspect ratios all particles can thus have the same a."},
+      p.first_semi_axis, 1, min_draw, visit);
+  const Field axes{
+      "semi_axes", "length",
+      "Instead of aspect ratios and size: semi-axes [a, b] with a ≥ b, or [a, b, c] in any order "
+      "in "
+      "three dimensions, each a number or a distribution like that of aspect_ratio. In the plane "
+      "the larger of two draws is a."};
+  visit.optional(axes, p.semi_axes, std::vector{example_of(2), example_of(0.5)},
+                 [&](FieldVisitor& in, std::vector<Distribution>& inner) {
+                   describe_distributions(axes, inner, in);
+                 });
   visit.optional({"mass", "mass",
                   "Mass of every particle of this species. The default is a b (a b c), which gives "
                   "all species the same density."},
@@ -210,11 +175,11 @@ void validate_species(const std::vector<Species>& species, int dimension) {
 }
 
 bool is_round(const Species& p) {
-  const auto is_one = [](const Distribution& d) {
-    return d.kind == Distribution::Kind::constant && d.mean == 1;
-  };
+  const auto is_one = [](const Distribution& d) { return same(d, constant(1)); };
   if (p.semi_axes)
-    return std::ranges::adjacent_find(*p.semi_axes, std::not_equal_to()) == p.semi_axes->end();
+    return std::ranges::all_of(*p.semi_axes, [&](const Distribution& d) {
+      return same(d, constant(p.semi_axes->front().mean));
+    });
   if (p.aspect_ratios) return std::ranges::all_of(*p.aspect_ratios, is_one);
   return is_one(*p.aspect_ratio);
 }

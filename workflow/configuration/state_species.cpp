@@ -6,18 +6,10 @@
 #include <cmath>
 
 #include "core/elementary.h"
+#include "workflow/configuration/distributions.h"
 
 namespace vitrel {
 namespace {
-
-using Kind = Distribution::Kind;
-
-/// Rounding of shapes that were computed from ratios and sizes, and of numbers typed with ten digits.
-constexpr double slack = 1e-9;
-
-bool agree(double one, double two) {
-  return std::abs(one - two) <= slack * std::abs(two);
-}
 
 double natural_mass(const Ellipse& shape) {
   return shape.a * shape.b;
@@ -38,41 +30,6 @@ std::vector<double> axes_of(const Ellipse& shape) {
 }
 std::vector<double> axes_of(const Ellipsoid& shape) {
   return {shape.semi_axes[0], shape.semi_axes[1], shape.semi_axes[2]};
-}
-
-bool agree(std::vector<double> one, std::vector<double> two) {
-  // In three dimensions semi-axes may come in any order.
-  std::ranges::sort(one);
-  std::ranges::sort(two);
-  return std::ranges::equal(one, two, [](double x, double y) { return agree(x, y); });
-}
-
-std::string text(const Distribution& d) {
-  switch (d.kind) {
-    case Kind::constant:
-      return fmt::format("{}", d.mean);
-    case Kind::uniform:
-      return fmt::format("uniform from {} to {}, at least {}", d.low, d.high, d.minimum);
-    case Kind::gaussian:
-    case Kind::lognormal:
-      break;
-  }
-  return fmt::format("{} with mean {} and standard deviation {}, at least {}",
-                     d.kind == Kind::gaussian ? "gaussian" : "lognormal", d.mean,
-                     d.standard_deviation, d.minimum);
-}
-
-bool allows(const Distribution& d, double value) {
-  if (d.kind == Kind::constant) return agree(value, d.mean);
-  const bool above = value >= d.minimum * (1 - slack);
-  if (d.kind != Kind::uniform) return above;
-  return above && value >= d.low - slack * std::abs(d.low) && value <= d.high * (1 + slack);
-}
-
-Distribution constant(double value) {
-  Distribution d;
-  d.mean = value;
-  return d;
 }
 
 // ---- one particle -----------------------------------------------------------------------------------
@@ -102,13 +59,14 @@ template <class Shape>
 std::optional<Misfit> misfit(const Species& species, const Shape& shape, double mass) {
   const std::vector<double> axes = axes_of(shape);
   if (species.semi_axes) {
-    if (!agree(*species.semi_axes, axes))
-      return Misfit{"semi_axes", to_toml(std::span<const double>(*species.semi_axes)),
-                    to_toml(std::span<const double>(axes))};
+    if (!allow(*species.semi_axes, axes))
+      return Misfit{"semi_axes", text(*species.semi_axes), to_toml(std::span<const double>(axes))};
   } else {
     if (const auto found = ratio_misfit(species, axes)) return found;
-    if (const auto found = misfit("size", species.size.value_or(constant(1)), size_of(shape)))
-      return found;
+    const auto found = species.first_semi_axis
+                           ? misfit("first_semi_axis", *species.first_semi_axis, axes[0])
+                           : misfit("size", species.size.value_or(constant(1)), size_of(shape));
+    if (found) return found;
   }
   return misfit("mass", constant(species.mass.value_or(natural_mass(shape))), mass);
 }
@@ -148,14 +106,6 @@ std::optional<SpeciesConflict> composition_conflict(const std::vector<Species>& 
   return std::nullopt;
 }
 
-bool same(const Distribution& one, const Distribution& two) {
-  if (one.kind != two.kind) return false;
-  if (one.kind == Kind::constant) return one.mean == two.mean;
-  if (one.minimum != two.minimum) return false;
-  if (one.kind == Kind::uniform) return one.low == two.low && one.high == two.high;
-  return one.mean == two.mean && one.standard_deviation == two.standard_deviation;
-}
-
 /// A distribution that differs from the one the particles were drawn from, though it would allow them.
 std::optional<SpeciesConflict> distribution_conflict(const std::vector<Species>& given,
                                                      const std::vector<Species>& recorded) {
@@ -163,20 +113,29 @@ std::optional<SpeciesConflict> distribution_conflict(const std::vector<Species>&
     const auto conflict =
         [&](const char* key, const std::optional<Distribution>& one,
             const std::optional<Distribution>& two) -> std::optional<SpeciesConflict> {
-      if (!one || one->kind == Kind::constant || (two && same(*one, *two))) return std::nullopt;
+      if (!one || one->kind == Distribution::Kind::constant || (two && same(*one, *two)))
+        return std::nullopt;
       return SpeciesConflict{key_of(k, key), fmt::format("is {}, but the state was drawn from {}",
                                                          text(*one), two ? text(*two) : "another")};
     };
-    const auto ratio = [](const Species& species, int which) -> std::optional<Distribution> {
-      if (!species.aspect_ratios) return std::nullopt;
-      return (*species.aspect_ratios)[static_cast<std::size_t>(which)];
+    const auto entry = [](const auto& entries, std::size_t which) -> std::optional<Distribution> {
+      if (!entries || which >= entries->size()) return std::nullopt;
+      return (*entries)[which];
     };
     if (auto found = conflict("aspect_ratio", given[k].aspect_ratio, recorded[k].aspect_ratio))
       return found;
-    for (int which = 0; which < 2; ++which)
-      if (auto found = conflict("aspect_ratios", ratio(given[k], which), ratio(recorded[k], which)))
+    for (std::size_t which = 0; which < 3; ++which) {
+      if (auto found = conflict("aspect_ratios", entry(given[k].aspect_ratios, which),
+                                entry(recorded[k].aspect_ratios, which)))
         return found;
+      if (auto found = conflict("semi_axes", entry(given[k].semi_axes, which),
+                                entry(recorded[k].semi_axes, which)))
+        return found;
+    }
     if (auto found = conflict("size", given[k].size, recorded[k].size)) return found;
+    if (auto found =
+            conflict("first_semi_axis", given[k].first_semi_axis, recorded[k].first_semi_axis))
+      return found;
   }
   return std::nullopt;
 }
@@ -210,12 +169,15 @@ Species as_found(const Configuration<Dim>& state, std::size_t species) {
   found.fraction = static_cast<double>(members.size()) / static_cast<double>(state.size());
   if (members.empty()) return found;
   const auto all = [&](const auto& holds) { return std::ranges::all_of(members, holds); };
-  const std::vector<double> axes = axes_of(state.shape[members.front()]);
+  std::vector<Distribution> axes;
+  for (const double axis : axes_of(state.shape[members.front()])) axes.push_back(constant(axis));
   const double mass = state.mass[members.front()];
-  if (all([&](std::size_t i) { return agree(axes_of(state.shape[i]), axes); }))
+  if (all([&](std::size_t i) { return allow(axes, axes_of(state.shape[i])); }))
     found.semi_axes = axes;
-  if (!all([&](std::size_t i) { return agree(state.mass[i], natural_mass(state.shape[i])); }) &&
-      all([&](std::size_t i) { return agree(state.mass[i], mass); }))
+  if (!all([&](std::size_t i) {
+        return allows(constant(natural_mass(state.shape[i])), state.mass[i]);
+      }) &&
+      all([&](std::size_t i) { return allows(constant(mass), state.mass[i]); }))
     found.mass = mass;
   return found;
 }
@@ -239,20 +201,26 @@ std::vector<Species> fully_described(std::vector<Species> species, const std::st
   return species;
 }
 
+/// That of constant semi-axes, if these are given.
+std::optional<Distribution> size_of(const Species& species) {
+  if (!species.semi_axes) return species.size;
+  double product = 1;
+  for (const Distribution& axis : *species.semi_axes) {
+    if (axis.kind != Distribution::Kind::constant) return std::nullopt;
+    product *= axis.mean;
+  }
+  return constant(root(product, static_cast<int>(species.semi_axes->size())));
+}
+
 /// What is given, and what is not, as in `other`.
 std::vector<Species> completed(const Parameters& parameters, const std::vector<Species>& other) {
   std::vector<Species> species = parameters.species;
   for (std::size_t k = 0; k < std::min(species.size(), other.size()); ++k) {
     if (!place_of(parameters, key_of(k, "name"))) species[k].name = other[k].name;
     if (!species[k].mass) species[k].mass = other[k].mass;
-    if (species[k].semi_axes || species[k].size) continue;
-    if (const auto& axes = other[k].semi_axes) {
-      double product = 1;
-      for (const double axis : *axes) product *= axis;
-      species[k].size = constant(root(product, static_cast<int>(axes->size())));
-    } else {
-      species[k].size = other[k].size;
-    }
+    if (species[k].semi_axes || species[k].size || species[k].first_semi_axis) continue;
+    species[k].size = size_of(other[k]);
+    species[k].first_semi_axis = other[k].first_semi_axis;
   }
   return species;
 }
@@ -273,7 +241,7 @@ void refuse(const std::optional<SpeciesConflict>& conflict, const Parameters& pa
 template <int Dim>
 std::optional<SpeciesConflict> box_conflict(const Parameters& parameters, double aspect) {
   if (Dim == 3 || !place_of(parameters, "system.box_aspect") ||
-      agree(parameters.system.box_aspect, aspect))
+      allows(constant(aspect), parameters.system.box_aspect))
     return std::nullopt;
   return SpeciesConflict{"system.box_aspect", fmt::format("is {}, but that of the state {}",
                                                           parameters.system.box_aspect, aspect)};

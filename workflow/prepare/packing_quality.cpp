@@ -24,6 +24,43 @@ double pressure_of_growth(const Preparation<3>& preparation) {
   return pressure;
 }
 
+std::string components(const Mat3& tensor) {
+  // Zero without the sign of a rounding error.
+  const Mat3 t = (1000 * tensor).array().round() / 1000 + 0.0;
+  return fmt::format("{:.3f}, {:.3f}, {:.3f}; {:.3f}, {:.3f}, {:.3f}", t(0, 0), t(1, 1), t(2, 2),
+                     t(1, 2), t(0, 2), t(0, 1));
+}
+
+QualityRow tensor_row(const PackingQuality& quality) {
+  const auto& first = quality.first_orientation_tensor;
+  return {"orientation tensor ⟨w wᵀ⟩", components(quality.orientation_tensor),
+          first ? fmt::format("xx, yy, zz; yz, xz, xy; at the start {}", components(*first))
+                : "xx, yy, zz; yz, xz, xy"};
+}
+
+Json tensor_json(const Mat3& tensor) {
+  Json rows = Json::array();
+  for (const auto row : tensor.rowwise()) rows.push_back({row[0], row[1], row[2]});
+  return rows;
+}
+
+Mat3 tensor_from(const Json& rows) {
+  Mat3 tensor;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      tensor(static_cast<int>(i), static_cast<int>(k)) = rows.at(i).at(k);
+  return tensor;
+}
+
+Json two_point_json(const TwoPointStatistics& found) {
+  return {{"spacing", found.spacing},
+          {"r", found.distance},
+          {"s2", found.probability},
+          {"lineal_path_x", found.lineal_path[0]},
+          {"lineal_path_y", found.lineal_path[1]},
+          {"lineal_path_z", found.lineal_path[2]}};
+}
+
 QualityRow orientation_row(const PackingQuality& quality) {
   const IsotropicRatio chance = isotropic_ratio(quality.axes);
   return {"orientation ratio ρ", fmt::format("{:.4f}", quality.orientation_ratio),
@@ -40,7 +77,9 @@ PackingQuality measure_quality(const Configuration3& packing, const ExactCheck<3
   quality.packing_fraction = packing_fraction(packing);
   quality.reduced_pressure = unknown;
   quality.axes = tensor.axes;
+  quality.orientation_tensor = tensor.matrix;
   quality.orientation_ratio = tensor.ratio();
+  quality.two_point = TwoPointGrid(packing).measure(packing);
   quality.overlaps = check.overlaps.size();
   quality.smallest_gap = check.smallest_gap;
   return quality;
@@ -48,6 +87,8 @@ PackingQuality measure_quality(const Configuration3& packing, const ExactCheck<3
 
 PackingQuality measure_quality(const Preparation<3>& preparation) {
   PackingQuality quality = measure_quality(preparation.configuration, preparation.check);
+  if (preparation.stages.front().orientation_tensor.size() == 9)
+    quality.first_orientation_tensor = Mat3(preparation.stages.front().orientation_tensor.data());
   quality.reduced_pressure = pressure_of_growth(preparation);
   quality.backbone = backbone_at_pressure(preparation.configuration, quality.reduced_pressure);
   for (const StageRecord& stage : preparation.stages)
@@ -66,6 +107,8 @@ void add_preparation(PackingQuality& quality, const std::filesystem::path& file)
                       "writes both files together",
                       file.string()));
     quality.reduced_pressure = number_or(report.at("reduced_pressure"), unknown);
+    if (report.contains("first_orientation_tensor"))
+      quality.first_orientation_tensor = tensor_from(report.at("first_orientation_tensor"));
     if (report.contains("rattlers")) quality.backbone = backbone_from(report);
     quality.collisions = report.at("collisions");
     quality.wall_seconds = report.at("wall_seconds");
@@ -81,7 +124,10 @@ std::vector<QualityRow> quality_rows(const PackingQuality& quality) {
   if (std::isfinite(quality.reduced_pressure))
     rows.push_back({"reduced pressure βP/ρ", fmt::format("{:.4g}", quality.reduced_pressure),
                     "at the end of the growth"});
-  if (quality.axes > 0) rows.push_back(orientation_row(quality));
+  if (quality.axes > 0) {
+    rows.push_back(tensor_row(quality));
+    rows.push_back(orientation_row(quality));
+  }
   rows.push_back({"smallest gap",
                   std::isfinite(quality.smallest_gap) ? fmt::format("{:.3g}", quality.smallest_gap)
                                                       : "beyond the longest semi-axis",
@@ -104,13 +150,17 @@ Json quality_json(const PackingQuality& quality) {
                {"packing_fraction", quality.packing_fraction},
                {"reduced_pressure", quality.reduced_pressure},
                {"axes", quality.axes},
+               {"orientation_tensor", tensor_json(quality.orientation_tensor)},
                {"orientation_ratio", quality.orientation_ratio},
                {"isotropic_ratio", chance.mean},
                {"isotropic_ratio_deviation", chance.standard_deviation},
+               {"two_point", two_point_json(quality.two_point)},
                {"overlaps", quality.overlaps},
                {"smallest_gap", quality.smallest_gap},
                {"collisions", quality.collisions},
                {"wall_seconds", quality.wall_seconds}};
+  if (quality.first_orientation_tensor)
+    json["first_orientation_tensor"] = tensor_json(*quality.first_orientation_tensor);
   if (quality.backbone) json.update(backbone_json(quality.backbone));
   return json;
 }

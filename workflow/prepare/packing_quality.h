@@ -7,6 +7,7 @@
 
 #include "analysis/structure/contacts.h"
 #include "analysis/structure/orientation_tensor.h"
+#include "analysis/structure/two_point.h"
 #include "core/io/json.h"
 #include "workflow/prepare/prepare.h"
 #include "workflow/prepare/quality_row.h"
@@ -18,9 +19,12 @@ namespace vitrel {
 struct PackingQuality {
   std::size_t particles = 0;
   double packing_fraction = 0;
-  double reduced_pressure = 0;   ///< βP/ρ at the end of the growth; NaN without one
-  std::size_t axes = 0;          ///< bodies that are not round
-  double orientation_ratio = 0;  ///< ρ = λ_max/λ_min of the orientation tensor; NaN without axes
+  double reduced_pressure = 0;             ///< βP/ρ at the end of the growth; NaN without one
+  std::size_t axes = 0;                    ///< bodies that are not round
+  Mat3 orientation_tensor = Mat3::Zero();  ///< 0 without axes
+  std::optional<Mat3> first_orientation_tensor;  ///< before the particles moved; none if not known
+  double orientation_ratio = 0;                  ///< ρ = λ_max/λ_min; NaN without axes
+  TwoPointStatistics two_point;
   std::size_t overlaps = 0;
   double smallest_gap = 0;                 ///< infinity beyond the longest semi-axis
   std::optional<JammedBackbone> backbone;  ///< from min_jammed_pressure on
@@ -30,7 +34,7 @@ struct PackingQuality {
 
 /// Of a complete preparation.
 PackingQuality measure_quality(const Preparation<3>& preparation);
-/// Of a packing and its exact check: without pressure, backbone, collisions and wall time.
+/// Of a packing and its exact check: without the first orientations, pressure, backbone, collisions and wall time.
 PackingQuality measure_quality(const Configuration3& packing, const ExactCheck<3>& check);
 /// Adds these, from what write_quality wrote. FileError if that is no report of the same packing.
 void add_preparation(PackingQuality& quality, const std::filesystem::path& file);

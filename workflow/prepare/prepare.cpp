@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "analysis/structure/orientation_tensor.h"
 #include "core/error.h"
 #include "core/io/h5md.h"
 #include "workflow/prepare/prepare_checkpoint.h"
@@ -151,6 +152,10 @@ class PrepareJob {
     record.report = report;
     record.packing_fraction = packing_fraction(done().configuration);
     record.wall_seconds = stored_.stage_seconds;
+    if constexpr (Dim == 3) {
+      const Mat3 tensor = orientation_tensor(done().configuration).matrix;
+      record.orientation_tensor.assign(tensor.data(), tensor.data() + tensor.size());
+    }
     log_line(log_, "  " + end_text(record));
     done().next_sweep += record.sweeps;
     done().stages.push_back(record);

@@ -17,6 +17,7 @@ void each_item_of_record(Record& record, const std::string& path, Visit&& visit)
   visit(path + "sweeps", record.sweeps);
   visit(path + "chain_contacts", record.chain_contacts);
   visit(path + "wall_seconds", record.wall_seconds);
+  visit.if_recorded(path + "orientation_tensor", record.orientation_tensor);
   each_item_of_trials(record.trials, path, visit);
   each_item_of_growth(record.growth, path, visit);
 }

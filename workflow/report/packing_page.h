@@ -15,13 +15,13 @@ struct PackingPage {
   std::string title;
   std::string subtitle;  ///< one line below it: what was packed
   std::vector<QualityRow> rows;
-  Movie3 movie;               ///< of one frame
-  Results results;            ///< of which pair_correlation and structure_factor are shown
-  std::string parameters;     ///< TOML text
+  Movie3 movie;            ///< of one frame
+  Results results;         ///< of which pair_correlation, structure_factor and two_point are shown
+  std::string parameters;  ///< TOML text
   PageProvenance provenance;  ///< shown if not empty
 };
 
-/// The page as HTML: the bodies, to be turned and cut, table of the rows, g(r) and S(q).
+/// The page as HTML: the bodies, to be turned and cut, table of the rows, g(r), S(q), S₂(r) and lineal path.
 std::string packing_page(const PackingPage& page);
 
 }  // namespace vitrel

@@ -53,7 +53,8 @@ std::vector<std::size_t> every(std::size_t stride, std::size_t size) {
 
 Json column_data(const Column& column, const std::vector<std::size_t>& rows) {
   Json data = {{"unit", column.unit}, {"value", page_numbers(column.value, rows)}};
-  if (!column.error.empty()) data["error"] = page_numbers(column.error, rows, error_digits);
+  if (std::ranges::any_of(column.error, [](double error) { return std::isfinite(error); }))
+    data["error"] = page_numbers(column.error, rows, error_digits);
   return data;
 }
 

@@ -20,6 +20,7 @@ struct GrowStage : StageDefaults {
   std::optional<double> packing_fraction;
   std::optional<double> reduced_pressure;
   double growth_rate = GrowthOptions().growth_rate;
+  int retries = 5;
 
   static std::vector<StageField<GrowStage>> fields();
   void validate(const Rules& rules) const;

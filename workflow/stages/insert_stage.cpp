@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
+#include <span>
 
+#include "core/io/parameters.h"
 #include "mc/insertion.h"
 #include "workflow/stages/stage_fields.h"
 
@@ -19,9 +23,52 @@ void describe_attempts(InsertStage& stage, FieldVisitor& visit) {
 }
 
 void describe_orientations(InsertStage& stage, FieldVisitor& visit) {
-  static constexpr const char* names[] = {"random", "aligned"};
-  visit.field({"orientations", "", "Random orientations, or all particles aligned along x."},
-              stage.orientations, names);
+  using Orientations = InsertStage::Orientations;
+  static constexpr const char* names[] = {"random", "aligned", "planar", "tensor"};
+  visit.field(
+      {"orientations", "",
+       "Orientations before the particles move: random; aligned, all particles along x; in three "
+       "dimensions planar, axes at random in the plane normal to z; or with a given orientation "
+       "tensor. The axis is the axis of symmetry of a spheroid (the short one of an oblate) and "
+       "the longest axis of a scalene ellipsoid, around which a particle is turned at random. "
+       "Dynamics turn the particles further: to keep their orientations insert densely and grow "
+       "fast."},
+      stage.orientations, names);
+  visit.when(stage.orientations == Orientations::tensor, "orientations = \"tensor\"",
+             [&](FieldVisitor& in) {
+               in.optional({"orientation_tensor", "",
+                            "Mean ⟨u uᵀ⟩ over the axes u, as its diagonal or row by row, with the "
+                            "sum of the diagonal 1. The axes have the angular central Gaussian "
+                            "distribution."},
+                           stage.orientation_tensor, std::vector<double>{0.6, 0.3, 0.1});
+             });
+}
+
+using Tensor = Eigen::MatrixXd;
+
+/// From its diagonal or all rows; nothing if these are not as many numbers.
+std::optional<Tensor> full_tensor(const std::vector<double>& numbers, int dimension) {
+  const auto size = static_cast<int>(numbers.size());
+  if (size == dimension)
+    return Eigen::Map<const Eigen::VectorXd>(numbers.data(), size).asDiagonal();
+  if (size != dimension * dimension) return std::nullopt;
+  return Eigen::Map<const Tensor>(numbers.data(), dimension, dimension);
+}
+
+bool is_orientation_tensor(const Tensor& a) {
+  constexpr double slack = 1e-9;  // of decimal numbers
+  return a.allFinite() && (a - a.transpose()).cwiseAbs().maxCoeff() <= slack &&
+         std::abs(a.trace() - 1) <= slack &&
+         Eigen::SelfAdjointEigenSolver<Tensor>(a).eigenvalues().minCoeff() >= -slack;
+}
+
+/// Empty: isotropic, or aligned.
+std::vector<double> tensor_numbers(const InsertStage& stage, int dimension) {
+  using Orientations = InsertStage::Orientations;
+  if (stage.orientations == Orientations::planar) return {0.5, 0, 0, 0, 0.5, 0, 0, 0, 0};
+  if (stage.orientations != Orientations::tensor) return {};
+  const Tensor tensor = *full_tensor(*stage.orientation_tensor, dimension);
+  return {tensor.data(), tensor.data() + tensor.size()};
 }
 
 }  // namespace
@@ -34,6 +81,20 @@ std::vector<StageField<InsertStage>> InsertStage::fields() {
 
 void InsertStage::validate(const Rules& rules) const {
   rules.require(attempts >= 1, "attempts", "is 0, but must be at least 1");
+}
+
+void InsertStage::validate_in(int dimension, const Rules& rules) const {
+  rules.require(dimension == 3 || orientations != Orientations::planar, "orientations",
+                "is \"planar\", which has a meaning only with dimension = 3");
+  if (orientations != Orientations::tensor) return;
+  rules.require(orientation_tensor.has_value(), "orientation_tensor",
+                "is missing; give its diagonal, for example [0.6, 0.3, 0.1]");
+  const std::optional<Tensor> tensor = full_tensor(*orientation_tensor, dimension);
+  rules.require(tensor && is_orientation_tensor(*tensor), "orientation_tensor",
+                fmt::format("is {}, but must be the diagonal ({} numbers, 0 or more, with the sum "
+                            "1) or the rows ({}) of a symmetric tensor with such eigenvalues",
+                            to_toml(std::span<const double>(*orientation_tensor)), dimension,
+                            dimension * dimension));
 }
 
 double InsertStage::end(const SystemParameters& system, double) const {
@@ -49,7 +110,8 @@ template <int Dim>
 StageReport InsertStage::advance(Configuration<Dim>& configuration, NoState&,
                                  const StageContext& context, const RunControl& control) const {
   const bool aligned = orientations == Orientations::aligned;
-  return insert_particles(configuration, {context.packing_fraction, attempts, aligned},
+  return insert_particles(configuration,
+                          {context.packing_fraction, attempts, aligned, tensor_numbers(*this, Dim)},
                           context.seed, control);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "mc/options.h"
 #include "workflow/stages/stage_interface.h"
@@ -14,14 +15,17 @@ struct InsertStage : StageDefaults {
       "random positions without overlap, as a start at low density";
   static constexpr bool places_particles = true;
 
-  enum class Orientations { random, aligned };
+  enum class Orientations { random, aligned, planar, tensor };
 
   std::optional<double> packing_fraction;
   std::uint64_t attempts = InsertionOptions().attempts;
   Orientations orientations = Orientations::random;
+  /// Of Orientations::tensor: the diagonal, or all rows.
+  std::optional<std::vector<double>> orientation_tensor;
 
   static std::vector<StageField<InsertStage>> fields();
   void validate(const Rules& rules) const;
+  void validate_in(int dimension, const Rules& rules) const;
   double end(const SystemParameters& system, double before) const;
   std::string description(double goal) const;
   template <int Dim>

@@ -183,6 +183,7 @@ void validate_stages(const std::vector<Stage>& stages, const SystemParameters& s
         [&](const auto& options) {
           validate_place(options, k == 0, system.dimension, rules);
           options.validate(rules);
+          options.validate_in(system.dimension, rules);
         },
         stages[k]);
     validate_packing_fraction(stages[k], system, reached, rules);

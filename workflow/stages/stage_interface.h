@@ -16,6 +16,7 @@
 ///     State                 its progress; together with the configuration, all it needs to continue
 ///     fields()              its keys in the parameter file (stage_fields.h)
 ///     validate              throws BadValue for an invalid option
+///     validate_in           the same for options whose meaning depends on the dimension
 ///     ending, end           the kind of its end, and the packing fraction there
 ///     description           a short description with these options
 ///     advance               runs it, for each dimension that it supports
@@ -61,6 +62,7 @@ struct StageDefaults {
 
   StageEnding ending() const { return StageEnding::packing_fraction; }
   void validate(const Rules&) const {}
+  void validate_in(int /*dimension*/, const Rules&) const {}
   /// Monte Carlo sweeps draw random numbers by their number, counted over all stages.
   template <class State>
   static void number_sweeps(State&, std::uint64_t /*next_sweep*/) {}

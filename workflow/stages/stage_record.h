@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "analysis/statistics/blocking.h"
 #include "core/state/stage.h"
@@ -21,6 +22,8 @@ struct StageRecord {
   TrialCounts trials;
   GrowthState growth;  ///< of growth and hybrid; its counters are 0 for other stages
   double wall_seconds = 0;
+  /// In three dimensions, at the end: all components of OrientationTensor::matrix.
+  std::vector<double> orientation_tensor = {};
 
   void add(const SweepState& moves);
   void add(const SamplingState& sampling);

@@ -42,8 +42,15 @@ void ItemReader::operator()(const std::string& name, std::vector<double>& value)
 }
 
 void ItemReader::if_recorded(const std::string& name, double& value) const {
-  if (const auto found = checkpoint_.reals.find(name); found != checkpoint_.reals.end())
-    value = found->second;
+  if (checkpoint_.reals.contains(name)) (*this)(name, value);
+}
+
+void ItemReader::if_recorded(const std::string& name, std::uint64_t& value) const {
+  if (checkpoint_.counters.contains(name)) (*this)(name, value);
+}
+
+void ItemReader::if_recorded(const std::string& name, std::vector<double>& value) const {
+  if (checkpoint_.series.contains(name)) (*this)(name, value);
 }
 
 }  // namespace vitrel

@@ -27,7 +27,7 @@ class ItemWriter {
   void operator()(const std::string& name, const std::vector<double>& value) {
     checkpoint_.series[name] = value;
   }
-  void if_recorded(const std::string& name, double value) { (*this)(name, value); }
+  void if_recorded(const std::string& name, const auto& value) { (*this)(name, value); }
 
  private:
   Checkpoint& checkpoint_;
@@ -46,6 +46,8 @@ class ItemReader {
   void operator()(const std::string& name, std::vector<double>& value) const;
   /// An item that earlier versions did not write: `value` remains if it is missing.
   void if_recorded(const std::string& name, double& value) const;
+  void if_recorded(const std::string& name, std::uint64_t& value) const;
+  void if_recorded(const std::string& name, std::vector<double>& value) const;
 
  private:
   const Checkpoint& checkpoint_;

@@ -26,6 +26,7 @@ void each_item_of_counters(Counters& counters, const std::string& path, Visit&& 
 template <class Growth, class Visit>
 void each_item_of_growth(Growth& growth, const std::string& path, Visit&& visit) {
   visit(path + "draws", growth.draws);
+  visit.if_recorded(path + "retries", growth.retries);
   visit(path + "under_way", growth.under_way);
   visit(path + "reduced_pressure", growth.reduced_pressure);
   visit(path + "time", growth.time);

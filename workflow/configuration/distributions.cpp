@@ -1,0 +1,118 @@
+#include "workflow/configuration/distributions.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "workflow/configuration/rules.h"
+
+namespace vitrel {
+namespace {
+
+using Kind = Distribution::Kind;
+
+constexpr const char* distribution_names[] = {"gaussian", "lognormal", "uniform"};
+
+/// Rounding of shapes that were computed from ratios and sizes, and of numbers typed with ten digits.
+constexpr double slack = 1e-9;
+
+}  // namespace
+
+Distribution constant(double value) {
+  Distribution d;
+  d.mean = value;
+  return d;
+}
+
+Distribution example_of(double value, double minimum) {
+  return {Kind::constant, value, 0.1, minimum, value, minimum};
+}
+
+void describe_distribution(const Field& field, Distribution& d, FieldVisitor& visit) {
+  bool is_table = d.kind != Kind::constant;
+  std::size_t kind = is_table ? static_cast<std::size_t>(d.kind) - 1 : 0;
+  visit.number_or_table(field, d.mean, is_table, [&](FieldVisitor& in) {
+    in.choice({"distribution", "",
+               "Distribution from which the numbers are drawn, as a table instead of a number."},
+              kind, distribution_names);
+    in.when(kind != 2, "distribution = \"gaussian\" or \"lognormal\"", [&](FieldVisitor& bell) {
+      bell.field({"mean", "", "Mean."}, d.mean);
+      bell.field(
+          {"standard_deviation", "", "Standard deviation of the values (not of their logarithms)."},
+          d.standard_deviation);
+    });
+    in.when(kind == 2, "distribution = \"uniform\"", [&](FieldVisitor& flat) {
+      flat.field({"low", "", "Lower bound."}, d.low);
+      flat.field({"high", "", "Upper bound."}, d.high);
+    });
+    in.field({"minimum", "", "Smaller values are drawn again."}, d.minimum);
+  });
+  d.kind = static_cast<Kind>(is_table ? kind + 1 : 0);
+}
+
+void validate_distribution(const Distribution& d, double least, const std::string& key) {
+  const std::string bound = fmt::format("must be at least {}", show(least));
+  if (d.kind == Kind::constant) {
+    if (!(d.mean >= least) || !std::isfinite(d.mean))
+      throw BadValue(key, fmt::format("is {}, but {}", show(d.mean), bound));
+    return;
+  }
+  const Rules rules(key);
+  rules.require(d.minimum >= least && std::isfinite(d.minimum), "minimum",
+                fmt::format("is {}, but {}", show(d.minimum), bound));
+  if (d.kind == Kind::uniform) {
+    rules.require(d.high > d.low && std::isfinite(d.high) && std::isfinite(d.low), "high",
+                  fmt::format("is {}, but must be above low = {}", show(d.high), show(d.low)));
+    rules.require(
+        d.high > d.minimum, "high",
+        fmt::format("is {}, but must be above minimum = {}", show(d.high), show(d.minimum)));
+    return;
+  }
+  rules.positive(d.standard_deviation, "standard_deviation");
+  rules.require(
+      d.mean >= d.minimum && std::isfinite(d.mean), "mean",
+      fmt::format("is {}, but must be at least minimum = {}", show(d.mean), show(d.minimum)));
+}
+
+std::string text(const Distribution& d) {
+  if (d.kind == Kind::constant) return fmt::format("{}", d.mean);
+  if (d.kind == Kind::uniform)
+    return fmt::format("uniform from {} to {}, at least {}", d.low, d.high, d.minimum);
+  return fmt::format("{} with mean {} and standard deviation {}, at least {}",
+                     d.kind == Kind::gaussian ? "gaussian" : "lognormal", d.mean,
+                     d.standard_deviation, d.minimum);
+}
+
+std::string text(const std::vector<Distribution>& entries) {
+  std::vector<std::string> texts;
+  for (const Distribution& d : entries)
+    texts.push_back(d.kind == Kind::constant ? show(d.mean) : text(d));
+  return fmt::format("[{}]", fmt::join(texts, ", "));
+}
+
+bool same(const Distribution& one, const Distribution& two) {
+  if (one.kind != two.kind) return false;
+  if (one.kind == Kind::constant) return one.mean == two.mean;
+  if (one.minimum != two.minimum) return false;
+  if (one.kind == Kind::uniform) return one.low == two.low && one.high == two.high;
+  return one.mean == two.mean && one.standard_deviation == two.standard_deviation;
+}
+
+bool allows(const Distribution& d, double value) {
+  if (d.kind == Kind::constant) return std::abs(value - d.mean) <= slack * std::abs(d.mean);
+  const bool above = value >= d.minimum * (1 - slack);
+  if (d.kind != Kind::uniform) return above;
+  return above && value >= d.low - slack * std::abs(d.low) && value <= d.high * (1 + slack);
+}
+
+bool allow(const std::vector<Distribution>& entries, std::vector<double> values) {
+  std::ranges::sort(values);
+  do {
+    if (std::ranges::equal(entries, values, allows)) return true;
+  } while (std::ranges::next_permutation(values).found);
+  return false;
+}
+
+}  // namespace vitrel

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/io/parameters.h"
+#include "core/state/species.h"
+
+/// @file
+/// Distributions in the parameter file: a number, or a table instead.
+namespace vitrel {
+
+/// Sizes are relative to 1, ratios to one another: a thousandth is as small as they may sensibly be.
+inline constexpr double min_draw = 0.001;
+
+Distribution constant(double value);
+/// A number in the template of the parameter file; as a table, it draws above `minimum`.
+Distribution example_of(double value, double minimum = min_draw);
+
+void describe_distribution(const Field& field, Distribution& d, FieldVisitor& visit);
+
+/// The entries of an array, each a number or a distribution. A vector may have any number of them.
+template <class Entries>
+void describe_distributions(const Field& field, Entries& entries, FieldVisitor& visit) {
+  FieldVisitor::List list;
+  list.size = [&] { return entries.size(); };
+  if constexpr (requires { entries.clear(); })
+    list.resize = [&](std::size_t count) { entries.assign(count, example_of(1)); };
+  list.describe = [&](std::size_t k, FieldVisitor& entry) {
+    describe_distribution({std::to_string(k), "", ""}, entries[k], entry);
+  };
+  visit.array(field, list);
+}
+
+/// Throws BadValue with `key` or a key in its table.
+void validate_distribution(const Distribution& d, double least, const std::string& key);
+
+/// In words, for messages.
+std::string text(const Distribution& d);
+std::string text(const std::vector<Distribution>& entries);
+
+bool same(const Distribution& one, const Distribution& two);
+
+/// Whether the value can have been drawn, but for the rounding of shapes that were computed from ratios and sizes.
+bool allows(const Distribution& d, double value);
+/// The same for values in any order.
+bool allow(const std::vector<Distribution>& entries, std::vector<double> values);
+
+}  // namespace vitrel
