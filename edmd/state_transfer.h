@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/geometry/free_flight.h"
 #include "core/neighbors/spatial_order.h"
 #include "core/tolerances.h"
 #include "edmd/simulation_state.h"

@@ -2,6 +2,8 @@
 
 #include "edmd/collision_rule.h"
 
+#include "core/geometry/free_flight.h"
+
 namespace vitrel::bench {
 namespace {
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/geometry/free_flight.h"
+
 namespace vitrel::bench {
 namespace {
 

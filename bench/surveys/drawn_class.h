@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "bench/surveys/stability_suite.h"
+#include "core/geometry/free_flight.h"
 #include "core/random/stream.h"
 
 /// @file

@@ -9,6 +9,7 @@
 
 #include "bench/methods/method.h"
 #include "bench/reference/first_contact.h"
+#include "core/geometry/free_flight.h"
 #include "core/contact/ellipse_vieillard_baron.h"
 #include "core/io/json.h"
 

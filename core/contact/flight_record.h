@@ -4,6 +4,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "core/geometry/free_flight.h"
 #include "core/geometry/tumbling_ellipsoid.h"
 
 namespace vitrel {

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/geometry/free_flight.h"
 #include "core/elementary.h"
 
 namespace vitrel {

@@ -31,10 +31,4 @@ struct Flight {
   Motion<B::dimension> motion;
 };
 
-/// The pose at that time.
-template <Body B>
-Pose<B::dimension> pose_at(const Flight<B>& flight, double time) {
-  return advanced(flight.pose, flight.motion, time);
-}
-
 }  // namespace vitrel

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/geometry/free_flight.h"
 #include "core/elementary.h"
 
 namespace vitrel {

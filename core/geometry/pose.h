@@ -1,21 +1,17 @@
 #pragma once
 
-#include <cmath>
 #include <type_traits>
 
-#include "core/elementary.h"
 #include "core/geometry/vector.h"
 
 /// @file
-/// Where a body is and how it moves. Free flight between events is r + v t with a constant angular
-/// velocity ω.
+/// Where a body is and how it moves; free_flight.h moves it.
 ///
 /// In two dimensions the angle is θ + ω t, in radians, counter-clockwise from the x axis to the first
 /// (major) axis of the body, and unwrapped: two full turns are 4π, not 0.
 ///
 /// In three dimensions the orientation q turns the axes of the body into those of space, and ω is given
-/// in space: q(t) = exp(ω t/2) q. For a sphere and for a spheroid this is the torque-free motion, with
-/// ω = L/I⊥ (ellipsoid.h); a scalene body would tumble by Euler's equations instead.
+/// in space.
 namespace vitrel {
 
 template <int Dim>
@@ -66,26 +62,5 @@ using Pose2 = Pose<2>;
 using Motion2 = Motion<2>;
 using Pose3 = Pose<3>;
 using Motion3 = Motion<3>;
-
-/// exp(ω t/2): the rotation by the vector ω t.
-inline Quaternion rotation(const Vec3& turn) {
-  const double half = 0.5 * turn.norm();
-  // sin(x)/x to rounding where the quotient would be lost.
-  const auto [cosine, sine] = cosine_and_sine(half);
-  const double sinc = half < 1e-8 ? 1 : sine / half;
-  Quaternion q;
-  q.w() = cosine;
-  q.vec() = 0.5 * sinc * turn;
-  return q;
-}
-
-/// The pose after free flight for `time` (negative: before).
-inline Pose2 advanced(const Pose2& pose, const Motion2& motion, double time) {
-  return {pose.position + motion.velocity * time, pose.angle + motion.angular_velocity * time};
-}
-inline Pose3 advanced(const Pose3& pose, const Motion3& motion, double time) {
-  return {pose.position + motion.velocity * time,
-          (rotation(motion.angular_velocity * time) * pose.orientation).normalized()};
-}
 
 }  // namespace vitrel

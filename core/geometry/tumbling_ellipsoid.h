@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/geometry/asymmetric_top.h"
+#include "core/geometry/free_flight.h"
 #include "core/geometry/growing.h"
 
 namespace vitrel {

@@ -13,6 +13,7 @@
 #include "core/contact/ellipsoid_gap_batch.h"
 #include "core/elementary.h"
 #include "core/geometry/capsule.h"
+#include "core/geometry/free_flight.h"
 #include "core/geometry/periodic_box.h"
 #include "core/neighbors/exit_time.h"
 #include "core/neighbors/inline_cell_list.h"

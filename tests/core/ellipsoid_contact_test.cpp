@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/geometry/free_flight.h"
 #include "core/contact/ellipsoid_contact_screen.h"
 #include "core/contact/ellipsoid_gap.h"
 #include "core/contact/ellipsoid_gap_batch.h"

@@ -12,6 +12,7 @@
 #include <numbers>
 #include <string>
 
+#include "core/geometry/free_flight.h"
 #include "core/contact/ellipsoid_eta.h"
 #include "core/contact/ellipsoid_gap.h"
 #include "core/contact/perram_wertheim.h"

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/geometry/free_flight.h"
 #include "core/contact/ellipse_gap.h"
 #include "core/contact/ellipse_pair_in_flight.h"
 #include "core/contact/first_contact.h"

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <vector>
 
+#include "core/geometry/free_flight.h"
 #include "core/contact/ellipsoid_gap.h"
 #include "core/neighbors/neighborhood.h"
 #include "core/random/stream.h"

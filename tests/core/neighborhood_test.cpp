@@ -1,5 +1,6 @@
 // Neighbour lists against all pairs, exits against the support function, and what lists are kept in.
 
+#include "core/geometry/free_flight.h"
 #include "core/neighbors/neighborhood.h"
 
 #include <gtest/gtest.h>

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/geometry/free_flight.h"
 #include "core/contact/first_contact.h"
 #include "core/random/stream.h"
 #include "edmd/correction_move.h"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/geometry/free_flight.h"
 #include "core/state/check.h"
 #include "edmd/collision_rule.h"
 #include "edmd/growth.h"

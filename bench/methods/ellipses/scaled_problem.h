@@ -5,6 +5,8 @@
 #include "bench/methods/ellipses/ellipse_constraint.h"
 #include "bench/methods/opening.h"
 
+#include "core/geometry/free_flight.h"
+
 namespace vitrel::bench {
 
 /// The problem "smallest t with E₁ ≤ 0 and E₂ ≤ 0" in variables of order 1, y = (τ, ξ, η): t = earliest +

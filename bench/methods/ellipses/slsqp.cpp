@@ -7,6 +7,8 @@
 #include "bench/methods/ellipses/time_objective.h"
 #include "bench/methods/opening.h"
 
+#include "core/geometry/free_flight.h"
+
 namespace vitrel::bench {
 namespace {
 

@@ -3,6 +3,8 @@
 #include "bench/methods/first_root.h"
 #include "bench/methods/opening.h"
 
+#include "core/geometry/free_flight.h"
+
 namespace vitrel::bench {
 namespace {
 
