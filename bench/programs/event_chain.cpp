@@ -62,8 +62,9 @@ Configuration2 disks_of_two_sizes(const State& state) {
   small.fraction = large.fraction = 0.5;
   small.size = Distribution{.mean = 1};
   large.size = Distribution{.mean = state.size_ratio};
-  Configuration2 c = draw_particles({small, large}, static_cast<std::size_t>(state.scene.particles),
-                                    dilute, 1, state.scene.seed);
+  Configuration2 c =
+      draw_particles<2>({small, large}, static_cast<std::size_t>(state.scene.particles), dilute,
+                        Vec2::Ones(), state.scene.seed);
   SwellingState swelling;
   if (insert_particles(c, {dilute}, state.scene.seed, {}).end != StageEnd::reached ||
       swell(c, {state.scene.packing_fraction}, state.scene.seed, swelling, {}).end !=

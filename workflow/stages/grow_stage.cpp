@@ -14,7 +14,7 @@ std::vector<StageField<GrowStage>> GrowStage::fields() {
           {"growth_rate", describe_growth_rate}};
 }
 
-void GrowStage::validate(const Rules& rules) const {
+void GrowStage::validate(const Rules& rules, const StageSubject&) const {
   validate_growth_rate(growth_rate, rules);
   validate_reduced_pressure(reduced_pressure, rules);
 }

@@ -22,7 +22,7 @@ struct GrowStage : StageDefaults {
   double growth_rate = GrowthOptions().growth_rate;
 
   static std::vector<StageField<GrowStage>> fields();
-  void validate(const Rules& rules) const;
+  void validate(const Rules& rules, const StageSubject& subject) const;
   StageEnding ending() const;
   double end(const SystemParameters& system, double before) const;
   std::string description(double goal) const;

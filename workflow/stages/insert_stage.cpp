@@ -32,7 +32,7 @@ std::vector<StageField<InsertStage>> InsertStage::fields() {
           {"orientations", describe_orientations}};
 }
 
-void InsertStage::validate(const Rules& rules) const {
+void InsertStage::validate(const Rules& rules, const StageSubject&) const {
   rules.require(attempts >= 1, "attempts", "is 0, but must be at least 1");
 }
 

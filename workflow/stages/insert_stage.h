@@ -21,7 +21,7 @@ struct InsertStage : StageDefaults {
   Orientations orientations = Orientations::random;
 
   static std::vector<StageField<InsertStage>> fields();
-  void validate(const Rules& rules) const;
+  void validate(const Rules& rules, const StageSubject& subject) const;
   double end(const SystemParameters& system, double before) const;
   std::string description(double goal) const;
   template <int Dim>

@@ -173,7 +173,8 @@ void describe_stage(Stage& stage, FieldVisitor& visit) {
   }
 }
 
-void validate_stages(const std::vector<Stage>& stages, const SystemParameters& system) {
+void validate_stages(const std::vector<Stage>& stages, const SystemParameters& system,
+                     bool is_round) {
   if (stages.empty())
     throw BadValue("prepare.stage", "is empty, but there must be at least one [[prepare.stage]]");
   double reached = 0;
@@ -182,7 +183,7 @@ void validate_stages(const std::vector<Stage>& stages, const SystemParameters& s
     std::visit(
         [&](const auto& options) {
           validate_place(options, k == 0, system.dimension, rules);
-          options.validate(rules);
+          options.validate(rules, {system.dimension, is_round});
         },
         stages[k]);
     validate_packing_fraction(stages[k], system, reached, rules);
