@@ -262,7 +262,7 @@ struct LocalMoves : Contestant {
             {"rotations_accepted", ratio(n.rotations_accepted, n.rotations_tried)}};
   }
 
-  Sampler sampler;
+  Sampler<2> sampler;
   double factor;
 };
 
@@ -275,7 +275,7 @@ struct Chains : Contestant {
   void sweep() override { chains.sweep(); }
   void tune() override { chains.tune(); }
   void begin() override {
-    EventChain::Plan plan = chains.plan();
+    EventChain<2>::Plan plan = chains.plan();
     plan.rotation_step = std::min(std::numbers::pi, factor * plan.rotation_step);
     chains.set_plan(plan);
   }
@@ -295,7 +295,7 @@ struct Chains : Contestant {
   }
 
   EventChainOptions options;
-  EventChain chains;
+  EventChain<2> chains;
   double factor;
 };
 

@@ -129,11 +129,8 @@ void validate_box_aspect(const SystemParameters& p, const Rules& rules) {
 }  // namespace
 
 void describe_system(SystemParameters& p, FieldVisitor& visit) {
-  visit.field(
-      {"dimension", "",
-       "Space dimensions: 2 for ellipses, 3 for ellipsoids. In three dimensions a preparation has "
-       "the stages insert, lattice and grow only."},
-      p.dimension);
+  visit.field({"dimension", "", "Space dimensions: 2 for ellipses, 3 for ellipsoids."},
+              p.dimension);
   visit.field({"particles", "", "Number of particles."}, p.particles);
   visit.field({"packing_fraction", "",
                "Fraction of the box covered by particles: the sum of π a b divided by the area (of "

@@ -30,7 +30,8 @@ struct HybridStage : StageDefaults {
   StageEnding ending() const;
   double end(const SystemParameters& system, double before) const;
   std::string description(double goal) const;
-  StageReport advance(Configuration<2>& configuration, HybridState& state,
+  template <int Dim>
+  StageReport advance(Configuration<Dim>& configuration, HybridState& state,
                       const StageContext& context, const RunControl& control) const;
   void record(const HybridState& state, StageRecord& record) const;
   static void number_sweeps(HybridState& state, std::uint64_t next_sweep);

@@ -23,7 +23,8 @@ struct SampleStage : StageDefaults {
   StageEnding ending() const { return StageEnding::unchanged; }
   double end(const SystemParameters& system, double before) const;
   std::string description(double goal) const;
-  StageReport advance(Configuration<2>& configuration, SamplingState& state,
+  template <int Dim>
+  StageReport advance(Configuration<Dim>& configuration, SamplingState& state,
                       const StageContext& context, const RunControl& control) const;
   void record(const SamplingState& state, StageRecord& record) const;
   static void number_sweeps(SamplingState& state, std::uint64_t next_sweep);

@@ -18,7 +18,7 @@
 ///     validate              throws BadValue for an invalid option, or one that does not suit the system
 ///     ending, end           the kind of its end, and the packing fraction there
 ///     description           a short description with these options
-///     advance               runs it, for each dimension that it supports
+///     advance               runs it, in both dimensions
 ///     each_item             names the items of its state in a checkpoint
 ///     record                adds its results to the record of the stage
 ///
