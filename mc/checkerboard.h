@@ -57,11 +57,13 @@ class Checkerboard {
   std::span<const NearLine> near(const Cell& cell, int direction) const {
     return lines_[direction].near(cell[direction]);
   }
+  /// A translation by whole boxes. No Vec: vectors that are written by component and read as a whole stall the processor.
+  using Translation = std::array<double, Dim>;
   /// Calls visit(index of a cell, translation) for the cells near one, nearest first, until one returns false; the
   /// result tells whether all were visited.
   template <class Visit>
   VITREL_INLINE bool for_each_near(const Cell& cell, Visit&& visit) const {
-    return walk<0>(cell, 0, Vec<Dim>(Vec<Dim>::Zero()), visit);
+    return walk<0>(cell, 0, {}, visit);
   }
   /// The lower corner of a cell, and the size of cells.
   Vec<Dim> corner(const Cell& cell) const {
@@ -137,7 +139,7 @@ class Checkerboard {
 
   // The cells near one along direction k and later; `before` and `translation` are those along the directions before.
   template <int k, class Visit>
-  VITREL_INLINE bool walk(const Cell& cell, std::size_t before, Vec<Dim> translation,
+  VITREL_INLINE bool walk(const Cell& cell, std::size_t before, Translation translation,
                           Visit& visit) const {
     for (const NearLine& line : lines_[k].near(cell[k])) {
       const std::size_t at = before * lines_[k].cells() + static_cast<std::size_t>(line.cell);

@@ -24,6 +24,8 @@ constexpr double max_contact_factor = 1000;
 template <int Dim>
 using Cell = typename Checkerboard<Dim>::Cell;
 template <int Dim>
+using Translation = typename Checkerboard<Dim>::Translation;
+template <int Dim>
 using Line = typename Checkerboard<Dim>::NearLine;
 
 Stream::Block next_words(Stream& draw) {
@@ -36,8 +38,8 @@ Stream::Block next_words(Stream& draw) {
 /// `is_beside` holds for their columns, rows and layers.
 template <int k, int direction, int Dim, class Keep, class Visit>
 VITREL_INLINE void for_each_beside(const Checkerboard<Dim>& board, const Cell<Dim>& cell,
-                                   const Keep& is_beside, Cell<Dim>& near, Vec<Dim>& translation,
-                                   const Visit& visit) {
+                                   const Keep& is_beside, Cell<Dim>& near,
+                                   Translation<Dim>& translation, const Visit& visit) {
   if constexpr (k == direction) {
     visit(near, translation);
   } else {
@@ -117,7 +119,7 @@ void EventChain<2>::rotate(std::size_t i, double rotation) {
   ++state_.rotation.accepted;
   configuration_.angle[i] = angle;
   bodies_[i] = body;
-  cells_.group_of(i).set(cells_.lane_of(i), body, position);
+  cells_.group_of(i).turn(cells_.lane_of(i), body);
 }
 
 /// Rotations of random particles, until there are as many as `goal`.
@@ -200,8 +202,8 @@ FreePath EventChain<Dim>::next_contact(std::size_t i, double remaining) const {
   const double first_before = into[direction] - paths.reach_behind(largest_) - rounding_;
   const std::size_t own = cells_.group_index(i);
   const SimdBatch::Mask all(true), others = detail::all_lanes_but(cells_.lane_of(i));
-  const auto add = [&](const Cell<Dim>& near, const Vec<Dim>& translation) {
-    const Vec<Dim> offset = translation - position;
+  const auto add = [&](const Cell<Dim>& near, const Translation<Dim>& translation) {
+    const Vec<Dim> offset = offset_of<Dim>(translation, position);
     std::size_t at = board_->index(near);
     do {
       const auto& group = cells_[at];
@@ -213,7 +215,7 @@ FreePath EventChain<Dim>::next_contact(std::size_t i, double remaining) const {
     return line.begin + width[k] >= into[k] - aside && line.begin <= into[k] + aside;
   };
   Cell<Dim> near;
-  Vec<Dim> translation;
+  Translation<Dim> translation;
   for (const Line<Dim>& line : board_->near(cell, direction)) {
     const double last_after = into[direction] + paths.reach_ahead(largest_);
     if (line.begin + width[direction] < first_before || line.begin > last_after) continue;
@@ -236,7 +238,7 @@ void EventChain<Dim>::advance(std::size_t i, double length) {
     configuration_.box.wrap(position, configuration_.image[i]);
   const std::size_t cell = board_->index(board_->cell_of(position));
   if (group.cell == cell) {
-    group.move(lane, position);
+    group.move_along(direction, lane, position[direction]);
   } else {
     cells_.remove(i, free_list_);
     cells_.insert(i, cell, bodies_[i], position, free_list_);

@@ -239,7 +239,7 @@ void Sampler<Dim>::rotate(std::size_t i, const Words& words, DomainContext& cont
   ++context.tally.counts.rotations_accepted;
   orientation = trial;
   bodies_[i] = body;
-  cells_.group_of(i).set(cells_.lane_of(i), body, configuration_.position[i]);
+  cells_.group_of(i).turn(cells_.lane_of(i), body);
 }
 
 template <int Dim>

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
@@ -77,6 +78,15 @@ std::vector<OrientedBody<Dim>> oriented_bodies(Configuration<Dim>& configuration
   return bodies;
 }
 
+/// translation − position, by component (Checkerboard::Translation).
+template <int Dim>
+VITREL_INLINE Vec<Dim> offset_of(const std::array<double, Dim>& translation,
+                                 const Vec<Dim>& position) {
+  Vec<Dim> offset;
+  for (int k = 0; k < Dim; ++k) offset[k] = translation[k] - position[k];
+  return offset;
+}
+
 /// Calls visit(group, offset of its positions, lanes) for all particles near a position in this cell but particle i and
 /// its images, nearest cells first, until one returns false; the result tells whether all were visited.
 template <int Dim, class Visit>
@@ -87,8 +97,8 @@ VITREL_INLINE bool for_each_near_group(const Checkerboard<Dim>& board, const Sim
   const std::size_t own = cells.group_index(i);
   constexpr unsigned all = (1u << simd_width) - 1;
   const unsigned others = all & ~(1u << cells.lane_of(i));
-  return board.for_each_near(cell, [&](std::size_t at, const Vec<Dim>& translation) {
-    const Vec<Dim> offset = translation - position;
+  return board.for_each_near(cell, [&](std::size_t at, const auto& translation) {
+    const Vec<Dim> offset = offset_of<Dim>(translation, position);
     do {
       const auto& group = cells[at];
       if (!visit(group, offset, at == own ? others : all)) return false;
@@ -99,11 +109,12 @@ VITREL_INLINE bool for_each_near_group(const Checkerboard<Dim>& board, const Sim
 }
 
 /// Whether particle i, with this shape and orientation, keeps the margin to all others at this position in this cell.
-VITREL_INLINE bool clear_of_others(const Checkerboard<2>& board, const SimdCells<2>& cells,
-                                   std::size_t i, const OrientedEllipse& body,
-                                   const std::vector<OrientedEllipse>& /*bodies*/, double margin,
-                                   const Vec2& position, const Checkerboard<2>::Cell& cell,
-                                   OverlapTestCounts& tests) {
+VITREL_FLATTEN inline bool clear_of_others(const Checkerboard<2>& board, const SimdCells<2>& cells,
+                                           std::size_t i, const OrientedEllipse& body,
+                                           const std::vector<OrientedEllipse>& /*bodies*/,
+                                           double margin, const Vec2& position,
+                                           const Checkerboard<2>::Cell& cell,
+                                           OverlapTestCounts& tests) {
   const OverlapBatch batch(body.shape, body.axis, margin);
   return for_each_near_group(board, cells, i, position, cell,
                              [&](const auto& group, const Vec2& offset, unsigned lanes) {
@@ -111,11 +122,12 @@ VITREL_INLINE bool clear_of_others(const Checkerboard<2>& board, const SimdCells
                                return batch.clear_of(group, offset, lanes, tests.scalar_pairs);
                              });
 }
-VITREL_INLINE bool clear_of_others(const Checkerboard<3>& board, const SimdCells<3>& cells,
-                                   std::size_t i, const OrientedEllipsoid& body,
-                                   const std::vector<OrientedEllipsoid>& bodies, double margin,
-                                   const Vec3& position, const Checkerboard<3>::Cell& cell,
-                                   OverlapTestCounts& tests) {
+VITREL_FLATTEN inline bool clear_of_others(const Checkerboard<3>& board, const SimdCells<3>& cells,
+                                           std::size_t i, const OrientedEllipsoid& body,
+                                           const std::vector<OrientedEllipsoid>& bodies,
+                                           double margin, const Vec3& position,
+                                           const Checkerboard<3>::Cell& cell,
+                                           OverlapTestCounts& tests) {
   EllipsoidOverlapBatch batch(body, bodies.data(), margin);
   return for_each_near_group(board, cells, i, position, cell,
                              [&](const auto& group, const Vec3& offset, unsigned lanes) {

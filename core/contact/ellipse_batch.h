@@ -36,6 +36,11 @@ struct EllipseBatch {
     set(lane, from.shape(from_lane), from.position(from_lane), from.axis(from_lane));
   }
   void move(int lane, const Vec2& position) { x[lane] = position.x(), y[lane] = position.y(); }
+  /// Sets coordinate k of the position, or the axis, alone: numbers that were just written are slow to read in batches.
+  void move_along(int k, int lane, double coordinate) { (k == 0 ? x : y)[lane] = coordinate; }
+  void turn(int lane, const OrientedEllipse& body) {
+    ux[lane] = body.axis.x(), uy[lane] = body.axis.y();
+  }
   /// Exchanges the shapes of two lanes; positions and axes stay.
   void swap_shapes(int lane, EllipseBatch& other, int other_lane) {
     std::swap(a[lane], other.a[other_lane]);

@@ -43,8 +43,8 @@ class CheckerboardOf : public testing::TestWithParam<Scene<Dim>> {
   /// visit(cell index, translation) for all cells near one.
   template <class Visit>
   void for_each_near(const Cell& cell, Visit&& visit) const {
-    board_.for_each_near(cell, [&](std::size_t near, const Vec<Dim>& translation) {
-      visit(near, translation);
+    board_.for_each_near(cell, [&](std::size_t near, const auto& translation) {
+      visit(near, Vec<Dim>(translation.data()));
       return true;
     });
   }
