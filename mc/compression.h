@@ -30,9 +30,8 @@ struct BoxState {
 ///
 /// which is tested first because it is cheap. anisotropic: one of the sides changes, each with equal probability; a
 /// liquid does not resist shear, so the ratio of any two sides stays within a factor `max_aspect_change` of its initial
-/// value. Trial k of
-/// sweep s draws from the stream (seed, box_trials, s, k): results do not depend on the number of threads. Detailed
-/// balance holds for fixed step sizes, which change only in `tune`.
+/// value. Trial k of sweep s draws from the stream (seed, box_trials, s, k): results do not depend on the number of
+/// threads. Detailed balance holds for fixed step sizes, which change only in `tune`.
 ///
 /// `pressure` is βP, in units of one over the unit of area (a b of the reference species) or of volume (a b c).
 /// Source: wood1968.

@@ -49,8 +49,9 @@ struct ChainState {
 /// Event-chain Monte Carlo of hard ellipses or spheres at constant N, box and temperature, on one thread.
 ///
 /// A chain: a random particle moves forwards along x, y or, in space, z, each with equal probability, until it touches
-/// another (ellipse_free_path_batch.h, round_free_path_batch.h). That one continues in the same direction, until the paths add up to the length of the
-/// chain. Nothing is rejected. Angles change by trial rotations, uniform within ± the step, as in sampler.h.
+/// another (ellipse_free_path_batch.h, round_free_path_batch.h). That one continues in the same direction, until the
+/// paths add up to the length of the chain. Nothing is rejected. Angles change by trial rotations, uniform within ± the
+/// step, as in sampler.h.
 ///
 /// One sweep is a fixed number of chains of one length, with trial rotations of random particles spread evenly among
 /// them; `tune` chooses them so that a sweep has about N contacts. Particles are sorted into cells at the start of a
@@ -81,9 +82,8 @@ struct ChainState {
 template <int Dim>
 class EventChain {
  public:
-  /// The configuration must be hard, in space of spheres only (otherwise UserError), with wrapped positions, and outlive
-  /// this object. Meanwhile nothing else may
-  /// move or rotate particles.
+  /// The configuration must be hard, with wrapped positions, and outlive this object; in space of spheres only, otherwise
+  /// UserError. Meanwhile nothing else may move or rotate particles.
   EventChain(Configuration<Dim>& configuration, const EventChainOptions& options,
              std::uint64_t seed, const ChainState& state = {});
 

@@ -36,12 +36,11 @@ namespace vitrel {
 /// Uniform sampling of all hard states, for fixed step sizes. Given borders and colours, everything that a trial
 /// depends on is constant while a domain is swept: which particles it holds, how many, and all others. A trial and its
 /// reverse are proposed with the same probability (to 1e-14: one of n is picked by a number of 53 bits), and accepted
-/// according to the hard states alone (a rotation by a vector and one by its opposite, about the same axes of the body,
-/// cancel). So each trial satisfies detailed balance with respect to the uniform
-/// distribution, and so does the sweep, since its order is random. Borders and order are drawn independently of the
-/// state. Nothing else is rejected: cells have no capacity limit. All borders move, so they do not cut off states from
-/// each other. Acceptance is decided by proofs (ellipse_overlap_batch.h) that depend on the state only, to the rounding
-/// of the margin.
+/// according to the hard states alone. (In space a rotation is undone by the opposite one about the same axes of the
+/// body.) So each trial satisfies detailed balance with respect to the uniform distribution, and so does the sweep, since
+/// its order is random. Borders and order are drawn independently of the state. Nothing else is rejected: cells have no
+/// capacity limit. All borders move, so they do not cut off states from each other. Acceptance is decided by proofs
+/// (ellipse_overlap_batch.h, ellipsoid_overlap_batch.h) that depend on the state only, to the rounding of the margin.
 ///
 /// Step sizes change only in `tune`, which belongs to equilibration.
 /// Sources: metropolis1953; for the checkerboard anderson2013, for exchanges berthier2016.

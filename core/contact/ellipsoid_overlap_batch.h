@@ -13,7 +13,7 @@
 /// batches; the counterpart of ellipse_overlap_batch.h. Each answer is proved; the cheapest proofs come first.
 ///
 ///   1. Circumspheres a margin apart prove the pair separated; overlapping inspheres prove an overlap. Of spheres this
-///      decides all.
+///      decides all but those closer than the margin.
 ///   2. The others are collected and decided in batches, by C = (1−λ)Σ₁ + λΣ₂ and y = C⁻¹d for some 0 < λ < 1, with
 ///      hᵢ² = yᵀΣᵢy:
 ///          y·d − h₁ − h₂ ≥ margin |y|: y is the normal of a gap of at least the margin;
