@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.h"
+
 namespace vitrel {
 
 namespace {
@@ -14,9 +16,10 @@ constexpr std::size_t min_cells_per_domain = 4;
 /// Widens cells so that rounding of positions does not matter.
 constexpr double rounding_margin = 1 + 1e-9;
 
+template <int Dim>
 std::size_t count_cells(double length, double reach, std::size_t particles) {
   // Many more cells than particles are useless.
-  const double max_cells = std::ceil(std::sqrt(4 * static_cast<double>(particles))) + 1;
+  const double max_cells = std::ceil(root(4 * static_cast<double>(particles), Dim)) + 1;
   return static_cast<std::size_t>(std::clamp(std::floor(length / reach), 1.0, max_cells));
 }
 
@@ -27,8 +30,10 @@ std::size_t count_domains(std::size_t cells) {
 
 }  // namespace
 
-Checkerboard::Line::Line(double length, double reach, std::size_t particles)
-    : half_(0.5 * length), domain_of_(count_cells(length, rounding_margin * reach, particles)) {
+template <int Dim>
+Checkerboard<Dim>::Line::Line(double length, double reach, std::size_t particles)
+    : half_(0.5 * length),
+      domain_of_(count_cells<Dim>(length, rounding_margin * reach, particles)) {
   const int count = static_cast<int>(cells());
   cells_per_length_ = count / length;
   last_ = count - 1;
@@ -47,25 +52,34 @@ Checkerboard::Line::Line(double length, double reach, std::size_t particles)
   set_origin(0);
 }
 
-void Checkerboard::Line::set_origin(std::size_t first) {
+template <int Dim>
+void Checkerboard<Dim>::Line::set_origin(std::size_t first) {
   origin_ = first;
   for (std::size_t domain = 0; domain < domains_; ++domain)
     for (std::size_t cell = begin(domain); cell < begin(domain + 1); ++cell)
       domain_of_[static_cast<std::size_t>(shifted(cell))] = domain;
 }
 
-Checkerboard::Checkerboard(const PeriodicBox<2>& box, double reach, std::size_t particles)
-    : lines_{Line(box.lengths().x(), reach, particles), Line(box.lengths().y(), reach, particles)} {
+template <int Dim>
+Checkerboard<Dim>::Checkerboard(const PeriodicBox<Dim>& box, double reach, std::size_t particles)
+    : lines_(make_lines(box, reach, particles)) {
   const auto parities = [](const Line& line) { return line.domains() > 1 ? 2u : 1u; };
-  const unsigned across = parities(lines_[0]), up = parities(lines_[1]);
-  colours_.resize(std::size_t{across} * up);
-  for (std::size_t x = 0; x < lines_[0].domains(); ++x)
-    for (std::size_t y = 0; y < lines_[1].domains(); ++y)
-      colours_[x % across * up + y % up].push_back(x * lines_[1].domains() + y);
+  colours_.resize(product(parities));
+  for (std::size_t domain = 0; domain < domains(); ++domain) {
+    // The colour is the parity along each direction.
+    std::size_t colour = 0, unit = 1, rest = domain;
+    for (int k = Dim; k-- > 0; rest /= lines_[k].domains(), unit *= parities(lines_[k]))
+      colour += rest % lines_[k].domains() % parities(lines_[k]) * unit;
+    colours_[colour].push_back(domain);
+  }
 }
 
-void Checkerboard::shift(Stream& draw) {
+template <int Dim>
+void Checkerboard<Dim>::shift(Stream& draw) {
   for (Line& line : lines_) line.set_origin(draw.below(line.cells()));
 }
+
+template class Checkerboard<2>;
+template class Checkerboard<3>;
 
 }  // namespace vitrel

@@ -3,72 +3,99 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "core/contact/simd.h"
 #include "core/geometry/periodic_box.h"
 #include "core/random/stream.h"
 
 namespace vitrel {
 
 /// A checkerboard decomposition: a periodic box divided into cells, and the cells into rectangular coloured domains, so
-/// that particles of several domains can be moved in parallel.
+/// that particles of several domains can be moved in parallel. In two or three dimensions.
 ///
 /// Cells are at least as wide as the reach of the particles, or as the box if that is shorter: everything within reach
 /// of a point lies in its cell or in a near one. Along each direction there is one domain, or an even number of them,
 /// each at least four cells wide. Two domains of one colour are separated by one of another colour, wider than the
 /// reach: their particles do not interact. The cells are fixed; `shift` moves the borders of the domains by whole
 /// cells. Since domains are wider than a cell, no border stays fixed.
+template <int Dim>
 class Checkerboard {
  public:
   /// For about `particles` particles, which interact at distances up to `reach`.
-  Checkerboard(const PeriodicBox<2>& box, double reach, std::size_t particles);
+  Checkerboard(const PeriodicBox<Dim>& box, double reach, std::size_t particles);
 
   /// Moves the borders by a random number of cells, uniform and independent.
   void shift(Stream& draw);
 
-  struct Cell {
-    int x, y;
-  };
+  /// Column, row and layer.
+  using Cell = std::array<int, Dim>;
   /// The cell of a wrapped position.
-  Cell cell_of(const Vec2& position) const {
-    return {lines_[0].cell_of(position.x()), lines_[1].cell_of(position.y())};
+  Cell cell_of(const Vec<Dim>& position) const {
+    Cell cell;
+    for (int k = 0; k < Dim; ++k) cell[k] = lines_[k].cell_of(position[k]);
+    return cell;
   }
-  std::size_t cells() const { return lines_[0].cells() * lines_[1].cells(); }
-  std::size_t index(const Cell& cell) const { return index(cell.x, cell.y); }
-  std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(x) * lines_[1].cells() + static_cast<std::size_t>(y);
+  std::size_t cells() const {
+    return product([](const Line& line) { return line.cells(); });
+  }
+  std::size_t index(const Cell& cell) const {
+    std::size_t index = 0;
+    for (int k = 0; k < Dim; ++k)
+      index = index * lines_[k].cells() + static_cast<std::size_t>(cell[k]);
+    return index;
   }
 
-  /// A column or row near another, as a periodic image.
+  /// A column, row or layer near another, as a periodic image.
   struct NearLine {
     int cell;
     double translation;
-    double begin;  ///< start of this column or row, relative to the start of the other
+    double begin;  ///< its start, relative to the start of the other
   };
-  /// The columns near a column, and rows near a row, nearest first: each image within reach once.
-  std::span<const NearLine> near_columns(int x) const { return lines_[0].near(x); }
-  std::span<const NearLine> near_rows(int y) const { return lines_[1].near(y); }
+  /// The columns (rows, layers) near those of a cell, nearest first: each image within reach once.
+  std::span<const NearLine> near(const Cell& cell, int direction) const {
+    return lines_[direction].near(cell[direction]);
+  }
+  /// A translation by whole boxes. No Vec: vectors that are written by component and read as a whole stall the processor.
+  using Translation = std::array<double, Dim>;
+  /// Calls visit(index of a cell, translation) for the cells near one, nearest first, until one returns false; the
+  /// result tells whether all were visited.
+  template <class Visit>
+  VITREL_INLINE bool for_each_near(const Cell& cell, Visit&& visit) const {
+    return walk<0>(cell, 0, {}, visit);
+  }
   /// The lower corner of a cell, and the size of cells.
-  Vec2 corner(const Cell& cell) const {
-    return {lines_[0].begin_of(cell.x), lines_[1].begin_of(cell.y)};
+  Vec<Dim> corner(const Cell& cell) const {
+    Vec<Dim> corner;
+    for (int k = 0; k < Dim; ++k) corner[k] = lines_[k].begin_of(cell[k]);
+    return corner;
   }
-  Vec2 cell_size() const { return {lines_[0].width(), lines_[1].width()}; }
+  Vec<Dim> cell_size() const {
+    Vec<Dim> size;
+    for (int k = 0; k < Dim; ++k) size[k] = lines_[k].width();
+    return size;
+  }
 
-  std::size_t domains() const { return lines_[0].domains() * lines_[1].domains(); }
-  std::size_t domain_of(const Cell& cell) const {
-    return lines_[0].domain_of(cell.x) * lines_[1].domains() + lines_[1].domain_of(cell.y);
+  std::size_t domains() const {
+    return product([](const Line& line) { return line.domains(); });
   }
-  /// Domains of one colour; 1, 2 or 4 colours.
+  std::size_t domain_of(const Cell& cell) const {
+    std::size_t domain = 0;
+    for (int k = 0; k < Dim; ++k)
+      domain = domain * lines_[k].domains() + lines_[k].domain_of(cell[k]);
+    return domain;
+  }
+  /// Domains of one colour; 1, 2, 4 or 8 colours.
   std::span<const std::vector<std::size_t>> colours() const { return colours_; }
 
   /// Calls visit(cell index) for the cells of a domain.
   template <class Visit>
   void for_each_cell(std::size_t domain, Visit&& visit) const {
-    const Line &columns = lines_[0], &rows = lines_[1];
-    const std::size_t along_x = domain / rows.domains(), along_y = domain % rows.domains();
-    for (std::size_t x = columns.begin(along_x); x < columns.begin(along_x + 1); ++x)
-      for (std::size_t y = rows.begin(along_y); y < rows.begin(along_y + 1); ++y)
-        visit(index(columns.shifted(x), rows.shifted(y)));
+    std::array<std::size_t, Dim> along;
+    for (int k = Dim; k-- > 0; domain /= lines_[k].domains())
+      along[k] = domain % lines_[k].domains();
+    walk_domain<0>(along, 0, visit);
   }
 
  private:
@@ -103,7 +130,50 @@ class Checkerboard {
     std::vector<std::size_t> domain_of_;
   };
 
-  std::array<Line, 2> lines_;
+  template <class Count>
+  std::size_t product(const Count& count) const {
+    std::size_t all = 1;
+    for (const Line& line : lines_) all *= count(line);
+    return all;
+  }
+
+  // The cells near one along direction k and later; `before` and `translation` are those along the directions before.
+  template <int k, class Visit>
+  VITREL_INLINE bool walk(const Cell& cell, std::size_t before, Translation translation,
+                          Visit& visit) const {
+    for (const NearLine& line : lines_[k].near(cell[k])) {
+      const std::size_t at = before * lines_[k].cells() + static_cast<std::size_t>(line.cell);
+      translation[k] = line.translation;
+      if constexpr (k + 1 < Dim) {
+        if (!walk<k + 1>(cell, at, translation, visit)) return false;
+      } else {
+        if (!visit(at, translation)) return false;
+      }
+    }
+    return true;
+  }
+  template <int k, class Visit>
+  void walk_domain(const std::array<std::size_t, Dim>& along, std::size_t before,
+                   Visit& visit) const {
+    const Line& line = lines_[k];
+    for (std::size_t c = line.begin(along[k]); c < line.begin(along[k] + 1); ++c) {
+      const std::size_t at = before * line.cells() + static_cast<std::size_t>(line.shifted(c));
+      if constexpr (k + 1 < Dim)
+        walk_domain<k + 1>(along, at, visit);
+      else
+        visit(at);
+    }
+  }
+
+  static std::array<Line, Dim> make_lines(const PeriodicBox<Dim>& box, double reach,
+                                          std::size_t particles) {
+    return [&]<std::size_t... k>(std::index_sequence<k...>) {
+      return std::array<Line, Dim>{Line(box.lengths()[k], reach, particles)...};
+    }
+    (std::make_index_sequence<Dim>());
+  }
+
+  std::array<Line, Dim> lines_;
   std::vector<std::vector<std::size_t>> colours_;
 };
 

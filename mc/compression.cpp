@@ -13,36 +13,47 @@ namespace vitrel {
 
 namespace {
 
-double aspect(const PeriodicBox<2>& box) {
-  return box.lengths().y() / box.lengths().x();
+/// The sides over L_x as a run began.
+template <int Dim>
+Vec<Dim> proportions_at_start(const BoxState& box) {
+  if constexpr (Dim == 2)
+    return {1, box.aspect_at_start};
+  else
+    return {1, box.aspect_at_start, box.depth_at_start};
 }
 
 }  // namespace
 
-PressureSampler::PressureSampler(Configuration2& configuration, double pressure, BoxChange change,
-                                 std::uint64_t seed, const SweepState& moves, const BoxState& box,
-                                 int threads)
+template <int Dim>
+PressureSampler<Dim>::PressureSampler(Configuration<Dim>& configuration, double pressure,
+                                      BoxChange change, std::uint64_t seed, const SweepState& moves,
+                                      const BoxState& box, int threads)
     : configuration_(configuration),
       pressure_(pressure),
       change_(change),
       seed_(seed),
       box_(box),
       moves_(configuration, seed, moves, threads) {
-  if (box_.aspect_at_start == 0) box_.aspect_at_start = aspect(configuration.box);
+  if (box_.aspect_at_start != 0) return;
+  const Vec<Dim>& lengths = configuration.box.lengths();
+  box_.aspect_at_start = lengths[1] / lengths[0];
+  box_.depth_at_start = lengths[Dim - 1] / lengths[0];
 }
 
-void PressureSampler::sweep() {
+template <int Dim>
+void PressureSampler<Dim>::sweep() {
   for (std::uint64_t trial = 0; trial < box_trials; ++trial)
     try_box(Stream(seed_, Purpose::box_trials, moves_.state().next_sweep, trial));
   moves_.sweep();
 }
 
-void PressureSampler::try_box(Stream draw) {
+template <int Dim>
+void PressureSampler<Dim>::try_box(Stream draw) {
   const double growth = draw.uniform(-box_.step.size, box_.step.size);  // of ln V
-  Vec2 factors = Vec2::Constant(exponential(0.5 * growth));
+  Vec<Dim> factors = Vec<Dim>::Constant(exponential(growth / Dim));
   if (change_ == BoxChange::anisotropic) {
-    factors = Vec2::Ones();
-    factors[static_cast<Eigen::Index>(draw.below(2))] = exponential(growth);
+    factors = Vec<Dim>::Ones();
+    factors[static_cast<Eigen::Index>(draw.below(Dim))] = exponential(growth);
   }
   const double volume = configuration_.box.volume();
   const auto exponent = static_cast<double>(configuration_.size() + 1);
@@ -53,13 +64,21 @@ void PressureSampler::try_box(Stream draw) {
   box_.step.count(1, accepted);
 }
 
-bool PressureSampler::change_box(const Vec2& factors) {
-  const double change =
-      factors.y() / factors.x() * aspect(configuration_.box) / box_.aspect_at_start;
-  return change <= max_aspect_change && change >= 1 / max_aspect_change && moves_.rescale(factors);
+template <int Dim>
+bool PressureSampler<Dim>::change_box(const Vec<Dim>& factors) {
+  const Vec<Dim>& lengths = configuration_.box.lengths();
+  const Vec<Dim> at_start = proportions_at_start<Dim>(box_);
+  for (int k = 0; k < Dim; ++k)
+    for (int l = 0; l < k; ++l) {
+      const double change =
+          factors[k] / factors[l] * (lengths[k] / lengths[l]) / (at_start[k] / at_start[l]);
+      if (change > max_aspect_change || change < 1 / max_aspect_change) return false;
+    }
+  return moves_.rescale(factors);
 }
 
-void PressureSampler::tune() {
+template <int Dim>
+void PressureSampler<Dim>::tune() {
   constexpr std::uint64_t enough = 20;
   constexpr double widest = 0.1;
   moves_.tune();
@@ -83,10 +102,11 @@ bool has_converged(const std::vector<double>& all) {
   return mean(last) < (1 + rise) * mean(third);
 }
 
+template <int Dim>
 class Compression {
  public:
-  Compression(Configuration2& configuration, const CompressionOptions& options, std::uint64_t seed,
-              CompressionState& state)
+  Compression(Configuration<Dim>& configuration, const CompressionOptions& options,
+              std::uint64_t seed, CompressionState& state)
       : configuration_(configuration),
         options_(options),
         state_(state),
@@ -147,17 +167,25 @@ class Compression {
            std::to_string(*options_.packing_fraction);
   }
 
-  Configuration2& configuration_;
+  Configuration<Dim>& configuration_;
   const CompressionOptions& options_;
   CompressionState& state_;
-  PressureSampler sampler_;
+  PressureSampler<Dim> sampler_;
 };
 
 }  // namespace
 
-StageReport compress(Configuration2& configuration, const CompressionOptions& options,
+template <int Dim>
+StageReport compress(Configuration<Dim>& configuration, const CompressionOptions& options,
                      std::uint64_t seed, CompressionState& state, const RunControl& control) {
   return Compression(configuration, options, seed, state).run(control);
 }
+
+template class PressureSampler<2>;
+template class PressureSampler<3>;
+template StageReport compress(Configuration2&, const CompressionOptions&, std::uint64_t,
+                              CompressionState&, const RunControl&);
+template StageReport compress(Configuration3&, const CompressionOptions&, std::uint64_t,
+                              CompressionState&, const RunControl&);
 
 }  // namespace vitrel

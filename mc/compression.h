@@ -14,12 +14,13 @@ namespace vitrel {
 
 /// The state of the box trials.
 struct BoxState {
-  StepSize step{0.01};                    ///< of ln V
-  double aspect_at_start = 0;             ///< L_y/L_x; 0: that of the configuration given
+  StepSize step{0.01};  ///< of ln V
+  /// L_y/L_x and L_z/L_x; 0: those of the configuration given.
+  double aspect_at_start = 0, depth_at_start = 0;
   std::uint64_t tried = 0, accepted = 0;  ///< since the start
 };
 
-/// Monte Carlo of hard ellipses at constant N, pressure and temperature (Wood, 1968).
+/// Monte Carlo of hard ellipses or ellipsoids at constant N, pressure and temperature (Wood, 1968).
 ///
 /// One sweep is two box trials, each of which costs about half as much as a sweep of the Sampler, and such a sweep. In
 /// a box trial ln V changes by a uniform amount within ± its step, and all positions scale; shapes and angles do not
@@ -27,20 +28,21 @@ struct BoxState {
 ///
 ///     min(1, exp(−βP (V' − V) + (N + 1) ln(V'/V))),
 ///
-/// which is tested first because it is cheap. anisotropic: one of the two sides changes, each with probability 1/2; a
-/// liquid does not resist shear, so L_y/L_x stays within a factor `max_aspect_change` of its initial value. Trial k of
-/// sweep s draws from the stream (seed, box_trials, s, k): results do not depend on the number of threads. Detailed
-/// balance holds for fixed step sizes, which change only in `tune`.
+/// which is tested first because it is cheap. anisotropic: one of the sides changes, each with equal probability; a
+/// liquid does not resist shear, so the ratio of any two sides stays within a factor `max_aspect_change` of its initial
+/// value. Trial k of sweep s draws from the stream (seed, box_trials, s, k): results do not depend on the number of
+/// threads. Detailed balance holds for fixed step sizes, which change only in `tune`.
 ///
-/// `pressure` is βP, in units of one over the unit of area (a b of the reference species).
+/// `pressure` is βP, in units of one over the unit of area (a b of the reference species) or of volume (a b c).
 /// Source: wood1968.
+template <int Dim>
 class PressureSampler {
  public:
   static constexpr double max_aspect_change = 2;
   static constexpr std::uint64_t box_trials = 2;
 
   /// For the configuration see Sampler.
-  PressureSampler(Configuration2& configuration, double pressure, BoxChange change,
+  PressureSampler(Configuration<Dim>& configuration, double pressure, BoxChange change,
                   std::uint64_t seed, const SweepState& moves = {}, const BoxState& box = {},
                   int threads = 1);
 
@@ -55,14 +57,14 @@ class PressureSampler {
 
  private:
   void try_box(Stream draw);
-  bool change_box(const Vec2& factors);
+  bool change_box(const Vec<Dim>& factors);
 
-  Configuration2& configuration_;
+  Configuration<Dim>& configuration_;
   double pressure_;
   BoxChange change_;
   std::uint64_t seed_;
   BoxState box_;
-  Sampler moves_;
+  Sampler<Dim> moves_;
 };
 
 struct CompressionState {
@@ -76,7 +78,8 @@ struct CompressionState {
 /// sweeps; `stopped` on request between two sweeps: the same call then continues with bit-identical results. Step sizes
 /// adapt throughout; without a target only in the first half of the sweeps, so that the second half samples
 /// equilibrium. In any case the state is hard. A configuration denser than the target is expanded.
-StageReport compress(Configuration2& configuration, const CompressionOptions& options,
+template <int Dim>
+StageReport compress(Configuration<Dim>& configuration, const CompressionOptions& options,
                      std::uint64_t seed, CompressionState& state, const RunControl& control);
 
 }  // namespace vitrel

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/contact/perram_wertheim.h"
+#include "core/elementary.h"
 #include "core/neighbors/pairs.h"
 
 namespace vitrel {
@@ -14,24 +15,28 @@ namespace {
 constexpr double max_window = 0.75;
 constexpr double pairs_per_particle = 1.5;
 
-// F − 1 of all pairs with F − 1 < window.
-std::vector<double> contact_excesses(const Configuration2& configuration, double window) {
+// μ^D − 1 of all pairs for which that is below the window.
+template <int Dim>
+std::vector<double> contact_excesses(const Configuration<Dim>& configuration, double window) {
+  const double reach = root(1 + window, Dim);
   std::vector<double> excesses;
-  for_each_pair(
-      configuration, std::sqrt(1 + window), [&](std::size_t i, std::size_t j, const Vec2& d) {
-        const Ellipse& one = configuration.shape[i];
-        const Ellipse& two = configuration.shape[j];
-        const double circles = one.circumradius() + two.circumradius();
-        if (d.squaredNorm() >= circles * circles * (1 + window)) return;
-        const double f =
-            perram_wertheim(one, configuration.angle[i], two, configuration.angle[j], d).value;
-        if (f < 1 + window) excesses.push_back(f - 1);
-      });
+  for_each_pair(configuration, reach, [&](std::size_t i, std::size_t j, const Vec<Dim>& d) {
+    const Solid<Dim>& one = configuration.shape[i];
+    const Solid<Dim>& two = configuration.shape[j];
+    const double circles = one.circumradius() + two.circumradius();
+    if (d.squaredNorm() >= circles * circles * (Dim == 2 ? 1 + window : reach * reach)) return;
+    const double f = perram_wertheim(one, orientation_of(configuration.pose(i)), two,
+                                     orientation_of(configuration.pose(j)), d)
+                         .value;
+    const double volume = Dim == 2 ? f : f * std::sqrt(f);
+    if (volume < 1 + window) excesses.push_back(volume - 1);
+  });
   return excesses;
 }
 
 // The window with the target number of pairs.
-double choose_window(const Configuration2& configuration) {
+template <int Dim>
+double choose_window(const Configuration<Dim>& configuration) {
   std::vector<double> excesses = contact_excesses(configuration, max_window);
   const auto target =
       static_cast<std::size_t>(pairs_per_particle * static_cast<double>(configuration.size()));
@@ -47,11 +52,15 @@ double intercept_weight(double y) {
 
 }  // namespace
 
-void ContactPressure::add(const Configuration2& configuration) {
+template <int Dim>
+void ContactPressure::add(const Configuration<Dim>& configuration) {
   if (window_ == 0) window_ = choose_window(configuration);
   for (double excess : contact_excesses(configuration, window_))
     pairs_ += intercept_weight(excess / window_) / window_;
   particles_ += static_cast<double>(configuration.size());
 }
+
+template void ContactPressure::add(const Configuration2&);
+template void ContactPressure::add(const Configuration3&);
 
 }  // namespace vitrel

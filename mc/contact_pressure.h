@@ -8,15 +8,15 @@ namespace vitrel {
 /// Frenkel, 1984).
 ///
 /// Every pair has a contact function F = μ² (perram_wertheim.h): it touches when all distances
-/// shrink by 1/μ, that is, the area by 1/F. So a shrink of the area by 1/(1 + x) leaves no overlap
-/// with probability 1 − n x + …, n the mean number of pairs per unit of F at F → 1. With Q the
-/// configuration integral, βP = ∂ ln Q/∂V, so
+/// shrink by 1/μ, that is, the area (volume) by μ^−D in D dimensions. So a shrink by 1/(1 + x) leaves
+/// no overlap with probability 1 − n x + …, n the mean number of pairs per unit of μ^D at μ → 1. With
+/// Q the configuration integral, βP = ∂ ln Q/∂V, so
 ///
 ///     Z = βP/ρ = 1 + n/N.
 ///
-/// In the dilute limit pairs are uniform in F, and n/N = B₂ρ.
+/// In the dilute limit pairs are uniform in μ^D, and n/N = B₂ρ.
 ///
-/// The density of pairs over y = (F − 1)/w on 0 … 1 is extrapolated to 0 by its least-squares
+/// The density of pairs over y = (μ^D − 1)/w on 0 … 1 is extrapolated to 0 by its least-squares
 /// cubic. By orthogonality of the Legendre polynomials that is a plain sum over pairs,
 ///
 ///     n ≈ Σ K(y)/w,   K = Σ_k (2k+1)(−1)^k P_k(2y − 1) = 16 − 120 y + 240 y² − 140 y³,
@@ -28,7 +28,8 @@ namespace vitrel {
 class ContactPressure {
  public:
   /// Adds one configuration; a block consists of many decorrelated ones.
-  void add(const Configuration2& configuration);
+  template <int Dim>
+  void add(const Configuration<Dim>& configuration);
   /// Z from all configurations added so far; at least one.
   double compressibility() const { return 1 + pairs_ / particles_; }
   /// Discards all configurations but keeps the window, for the next block.

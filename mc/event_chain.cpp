@@ -6,8 +6,9 @@
 #include <numbers>
 
 #include "core/contact/ellipse_free_path_batch.h"
+#include "core/elementary.h"
+#include "core/error.h"
 #include "mc/hard_core.h"
-#include "mc/trial.h"
 
 namespace vitrel {
 
@@ -20,85 +21,149 @@ constexpr double initial_length = 1e-3;
 /// A chain is cut short after its target number of contacts times this factor.
 constexpr double max_contact_factor = 1000;
 
+template <int Dim>
+using Cell = typename Checkerboard<Dim>::Cell;
+template <int Dim>
+using Translation = typename Checkerboard<Dim>::Translation;
+template <int Dim>
+using Line = typename Checkerboard<Dim>::NearLine;
+
+Stream::Block next_words(Stream& draw) {
+  Stream::Block words;
+  draw.fill({&words, 1});
+  return words;
+}
+
+/// Calls visit(near, translation) for the cells near one, along the directions from k to that of the path, as far as
+/// `is_beside` holds for their columns, rows and layers.
+template <int k, int direction, int Dim, class Keep, class Visit>
+VITREL_INLINE void for_each_beside(const Checkerboard<Dim>& board, const Cell<Dim>& cell,
+                                   const Keep& is_beside, Cell<Dim>& near,
+                                   Translation<Dim>& translation, const Visit& visit) {
+  if constexpr (k == direction) {
+    visit(near, translation);
+  } else {
+    for (const Line<Dim>& line : board.near(cell, k)) {
+      if (!is_beside(line, k)) continue;
+      near[k] = line.cell;
+      translation[k] = line.translation;
+      for_each_beside<(k + 1) % Dim, direction>(board, cell, is_beside, near, translation, visit);
+    }
+  }
+}
+
 }  // namespace
 
-EventChain::EventChain(Configuration2& configuration, const EventChainOptions& options,
-                       std::uint64_t seed, const ChainState& state)
+template <int Dim>
+EventChain<Dim>::EventChain(Configuration<Dim>& configuration, const EventChainOptions& options,
+                            std::uint64_t seed, const ChainState& state)
     : configuration_(configuration),
       largest_(largest_circumradius(configuration)),
       margin_(hard_margin(configuration)),
       half_box_(0.5 * configuration.box.lengths()),
       rounding_(16 * std::numeric_limits<double>::epsilon() * half_box_.maxCoeff()),
       options_(options),
-      free_list_(SimdCells::none),
+      bodies_(oriented_bodies(configuration)),
+      free_list_(SimdCells<Dim>::none),
       seed_(seed),
       state_(state) {
   const auto particles = static_cast<double>(configuration.size());
   if (state.chains == 0) {
     state_.chains = configuration.size();
-    state_.length = initial_length * std::sqrt(configuration.box.volume() / particles);
+    state_.length = initial_length * root(configuration.box.volume() / particles, Dim);
   }
   double smallest = largest_;
-  axis_.reserve(configuration.size());
   for (std::size_t i = 0; i < configuration.size(); ++i) {
-    axis_.push_back(axis_at(configuration.angle[i]));
     smallest = std::min(smallest, configuration.shape[i].inradius());
-    if (!configuration.shape[i].is_round()) rotors_.push_back(static_cast<SimdCells::Index>(i));
+    if (!configuration.shape[i].is_round()) rotors_.push_back(static_cast<Index>(i));
   }
+  if (Dim == 3 && !rotors_.empty())
+    throw UserError("in three dimensions event chains are for spheres; use local moves");
   // The maximum contact distance of two particles (ellipse_free_path_batch.h).
   const double enlarged = 1 + 2 * contact_margins * margin_ / smallest;
   board_.emplace(configuration_.box, 2 * enlarged * largest_, configuration_.size());
 }
 
-void EventChain::set_plan(const Plan& plan) {
+template <int Dim>
+void EventChain<Dim>::set_plan(const Plan& plan) {
   state_.chains = plan.chains;
   state_.length = plan.length;
   state_.rotations = plan.rotations;
   state_.rotation.size = plan.rotation_step;
 }
 
-void EventChain::arrange() {
+template <int Dim>
+void EventChain<Dim>::arrange() {
   const std::size_t n = configuration_.size();
   cells_.resize(board_->cells(), n);
   for (std::size_t cell = 0; cell < board_->cells(); ++cell) cells_.clear(cell);
   free_list_ = cells_.free_groups(0, n);
   for (std::size_t i = 0; i < n; ++i)
-    cells_.insert(i, board_->index(board_->cell_of(configuration_.position[i])),
-                  configuration_.shape[i], configuration_.position[i], axis_[i], free_list_);
+    cells_.insert(i, board_->index(board_->cell_of(configuration_.position[i])), bodies_[i],
+                  configuration_.position[i], free_list_);
 }
 
-void EventChain::sweep() {
+template <>
+void EventChain<2>::rotate(std::size_t i, double rotation) {
+  const Vec2& position = configuration_.position[i];
+  const double angle = configuration_.angle[i] + rotation;
+  const OrientedEllipse body = oriented(configuration_.shape[i], angle);
+  OverlapTestCounts tests;
+  ++state_.counts.rotations_tried;
+  ++state_.rotation.tried;
+  if (!clear_of_others(*board_, cells_, i, body, bodies_, margin_, position,
+                       board_->cell_of(position), tests) ||
+      !clear_of_periodic_images(configuration_.box, body.shape, body.axis, margin_))
+    return;
+  ++state_.counts.rotations_accepted;
+  ++state_.rotation.accepted;
+  configuration_.angle[i] = angle;
+  bodies_[i] = body;
+  cells_.group_of(i).turn(cells_.lane_of(i), body);
+}
+
+/// Rotations of random particles, until there are as many as `goal`.
+template <>
+void EventChain<2>::rotate_some(std::uint64_t& done, std::uint64_t goal, Stream& draw) {
+  for (; done < goal; ++done) {
+    const Stream::Block words = next_words(draw);
+    rotate(rotors_[pick(words[0], rotors_.size())],
+           state_.rotation.size * plus_minus_one(words[1]));
+  }
+}
+
+template <int Dim>
+void EventChain<Dim>::sweep() {
   arrange();
   Stream draw(seed_, Purpose::trial_moves, state_.next_sweep, 0);
-  const auto next = [&draw] {
-    Stream::Block words;
-    draw.fill({&words, 1});
-    return words;
-  };
   std::uint64_t rotations = 0;
   for (std::uint64_t chain = 1; chain <= state_.chains; ++chain) {
-    const Stream::Block words = next();
-    run_chain(pick(words[0], configuration_.size()), (words[1] & 1) == 0);
-    if (rotors_.empty()) continue;
-    for (; rotations < chain * state_.rotations / state_.chains; ++rotations) {
-      const Stream::Block rotation = next();
-      rotate(rotors_[pick(rotation[0], rotors_.size())],
-             state_.rotation.size * plus_minus_one(rotation[1]));
-    }
+    const Stream::Block words = next_words(draw);
+    const std::size_t first = pick(words[0], configuration_.size());
+    if constexpr (Dim == 2)
+      (words[1] & 1) == 0 ? run_chain<0>(first) : run_chain<1>(first);
+    else if (const std::size_t direction = pick(words[1], 3); direction == 0)
+      run_chain<0>(first);
+    else
+      direction == 1 ? run_chain<1>(first) : run_chain<2>(first);
+    if constexpr (Dim == 2)
+      if (!rotors_.empty()) rotate_some(rotations, chain * state_.rotations / state_.chains, draw);
   }
   ++state_.next_sweep;
   ++state_.sweeps;
 }
 
-void EventChain::run_chain(std::size_t first, bool along_x) {
-  if (rotors_.empty())
-    along_x ? run<0, RoundFreePathBatch>(first) : run<1, RoundFreePathBatch>(first);
-  else
-    along_x ? run<0, FreePathBatch>(first) : run<1, FreePathBatch>(first);
+template <int Dim>
+template <int direction>
+void EventChain<Dim>::run_chain(std::size_t first) {
+  if constexpr (Dim == 2)
+    if (!rotors_.empty()) return run<direction, FreePathBatch<direction>>(first);
+  run<direction, RoundFreePathBatch<direction, Dim>>(first);
 }
 
-template <int direction, template <int> class PathBatch>
-void EventChain::run(std::size_t first) {
+template <int Dim>
+template <int direction, class PathBatch>
+void EventChain<Dim>::run(std::size_t first) {
   ++state_.counts.chains;
   state_.counts.length += state_.length;
   const std::uint64_t begin = state_.counts.contacts;
@@ -123,83 +188,65 @@ void EventChain::run(std::size_t first) {
 }
 
 // Stops just beyond the border of the cell, where other particles come within reach.
-template <int direction, template <int> class PathBatch>
-FreePath EventChain::next_contact(std::size_t i, double remaining) const {
-  constexpr int across = 1 - direction;
-  const Vec2 position = configuration_.position[i];
-  const Checkerboard::Cell cell = board_->cell_of(position);
-  const Vec2 width = board_->cell_size();
-  const Vec2 into = position - board_->corner(cell);
+template <int Dim>
+template <int direction, class PathBatch>
+FreePath EventChain<Dim>::next_contact(std::size_t i, double remaining) const {
+  const Vec<Dim> position = configuration_.position[i];
+  const Cell<Dim> cell = board_->cell_of(position);
+  const Vec<Dim> width = board_->cell_size();
+  const Vec<Dim> into = position - board_->corner(cell);
   const double to_border = std::max(width[direction] - into[direction], 0.) + rounding_;
-  PathBatch<direction> paths(configuration_.shape[i], axis_[i], contact_margins * margin_,
-                             std::min(remaining, to_border));
+  PathBatch paths(bodies_[i].shape, axes_of(bodies_[i]), contact_margins * margin_,
+                  std::min(remaining, to_border));
   const double aside = paths.reach_aside(largest_) + rounding_;
   const double first_before = into[direction] - paths.reach_behind(largest_) - rounding_;
-  const double lowest = into[across] - aside, highest = into[across] + aside;
   const std::size_t own = cells_.group_index(i);
-  const typename PathBatch<direction>::Mask all(true);
-  const typename PathBatch<direction>::Mask others = detail::all_lanes_but(cells_.lane_of(i));
-  const auto columns = board_->near_columns(cell.x), rows = board_->near_rows(cell.y);
-  for (const Checkerboard::NearLine& one : direction == 0 ? columns : rows) {
+  const SimdBatch::Mask all(true), others = detail::all_lanes_but(cells_.lane_of(i));
+  const auto add = [&](const Cell<Dim>& near, const Translation<Dim>& translation) {
+    const Vec<Dim> offset = offset_of<Dim>(translation, position);
+    std::size_t at = board_->index(near);
+    do {
+      const auto& group = cells_[at];
+      paths.add(group, SimdCells<Dim>::first_slot(at), offset, at == own ? others : all);
+      at = group.next;
+    } while (at != SimdCells<Dim>::none);
+  };
+  const auto is_beside = [&](const Line<Dim>& line, int k) {
+    return line.begin + width[k] >= into[k] - aside && line.begin <= into[k] + aside;
+  };
+  Cell<Dim> near;
+  Translation<Dim> translation;
+  for (const Line<Dim>& line : board_->near(cell, direction)) {
     const double last_after = into[direction] + paths.reach_ahead(largest_);
-    if (one.begin + width[direction] < first_before || one.begin > last_after) continue;
-    for (const Checkerboard::NearLine& two : direction == 0 ? rows : columns) {
-      if (two.begin + width[across] < lowest || two.begin > highest) continue;
-      const Checkerboard::NearLine &column = direction == 0 ? one : two,
-                                   &row = direction == 0 ? two : one;
-      const Vec2 offset = Vec2(column.translation, row.translation) - position;
-      std::size_t at = board_->index(column.cell, row.cell);
-      do {
-        const SimdCells::Group& group = cells_[at];
-        paths.add(group, SimdCells::first_slot(at), offset, at == own ? others : all);
-        at = group.next;
-      } while (at != SimdCells::none);
-    }
+    if (line.begin + width[direction] < first_before || line.begin > last_after) continue;
+    near[direction] = line.cell;
+    translation[direction] = line.translation;
+    for_each_beside<(direction + 1) % Dim, direction>(*board_, cell, is_beside, near, translation,
+                                                      add);
   }
   return paths.end();
 }
 
+template <int Dim>
 template <int direction>
-void EventChain::advance(std::size_t i, double length) {
-  SimdCells::Group& group = cells_.group_of(i);
+void EventChain<Dim>::advance(std::size_t i, double length) {
+  auto& group = cells_.group_of(i);
   const int lane = cells_.lane_of(i);
-  Vec2& position = configuration_.position[i];
+  Vec<Dim>& position = configuration_.position[i];
   position[direction] += length;
   if (position[direction] >= half_box_[direction])
     configuration_.box.wrap(position, configuration_.image[i]);
   const std::size_t cell = board_->index(board_->cell_of(position));
   if (group.cell == cell) {
-    (direction == 0 ? group.x : group.y)[lane] = position[direction];
+    group.move_along(direction, lane, position[direction]);
   } else {
-    const Ellipse shape = configuration_.shape[i];
     cells_.remove(i, free_list_);
-    cells_.insert(i, cell, shape, position, axis_[i], free_list_);
+    cells_.insert(i, cell, bodies_[i], position, free_list_);
   }
 }
 
-void EventChain::rotate(std::size_t i, double rotation) {
-  const Ellipse& shape = configuration_.shape[i];
-  const Vec2& position = configuration_.position[i];
-  const double angle = configuration_.angle[i] + rotation;
-  const Vec2 axis = axis_at(angle);
-  OverlapTestCounts tests;
-  ++state_.counts.rotations_tried;
-  ++state_.rotation.tried;
-  if (!clear_of_others(*board_, cells_, i, OverlapBatch(shape, axis, margin_), position,
-                       board_->cell_of(position), tests) ||
-      !clear_of_periodic_images(configuration_.box, shape, axis, margin_))
-    return;
-  ++state_.counts.rotations_accepted;
-  ++state_.rotation.accepted;
-  configuration_.angle[i] = angle;
-  axis_[i] = axis;
-  SimdCells::Group& group = cells_.group_of(i);
-  const int lane = cells_.lane_of(i);
-  group.ux[lane] = axis.x();
-  group.uy[lane] = axis.y();
-}
-
-void EventChain::tune() {
+template <int Dim>
+void EventChain<Dim>::tune() {
   constexpr std::uint64_t enough_trials = 400, enough_chains = 100;
   state_.rotation.tune(enough_trials, std::numbers::pi / 2);
   const std::uint64_t chains = state_.counts.chains - state_.tuned_chains;
@@ -218,5 +265,8 @@ void EventChain::tune() {
   state_.tuned_chains = state_.counts.chains;
   state_.tuned_contacts = state_.counts.contacts;
 }
+
+template class EventChain<2>;
+template class EventChain<3>;
 
 }  // namespace vitrel

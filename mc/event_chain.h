@@ -9,6 +9,7 @@
 #include "mc/checkerboard.h"
 #include "mc/simd_cells.h"
 #include "mc/sweep_state.h"
+#include "mc/trial.h"
 
 namespace vitrel {
 
@@ -45,11 +46,12 @@ struct ChainState {
   std::uint64_t tuned_chains = 0, tuned_contacts = 0;  ///< at the last adaptation
 };
 
-/// Event-chain Monte Carlo of hard ellipses at constant N, box and temperature, on one thread.
+/// Event-chain Monte Carlo of hard ellipses or spheres at constant N, box and temperature, on one thread.
 ///
-/// A chain: a random particle moves forwards along x or y, each with probability ½, until it touches another
-/// (ellipse_free_path_batch.h). That one continues in the same direction, until the paths add up to the length of the
-/// chain. Nothing is rejected. Angles change by trial rotations, uniform within ± the step, as in sampler.h.
+/// A chain: a random particle moves forwards along x, y or, in space, z, each with equal probability, until it touches
+/// another (ellipse_free_path_batch.h, round_free_path_batch.h). That one continues in the same direction, until the
+/// paths add up to the length of the chain. Nothing is rejected. Angles change by trial rotations, uniform within ± the
+/// step, as in sampler.h.
 ///
 /// One sweep is a fixed number of chains of one length, with trial rotations of random particles spread evenly among
 /// them; `tune` chooses them so that a sweep has about N contacts. Particles are sorted into cells at the start of a
@@ -77,12 +79,13 @@ struct ChainState {
 /// Contact is at 1.25 hard-core margins (hard_core.h) or slightly more (ellipse_free_path_batch.h), and rotations keep
 /// one margin, so the margin always holds. A particle's own images move along with it.
 /// Sources: bernard2009; for ellipses and all potentials that depend on differences michel2014.
+template <int Dim>
 class EventChain {
  public:
-  /// The configuration must be hard, with wrapped positions, and outlive this object. Meanwhile nothing else may
-  /// move or rotate particles.
-  EventChain(Configuration2& configuration, const EventChainOptions& options, std::uint64_t seed,
-             const ChainState& state = {});
+  /// The configuration must be hard, with wrapped positions, and outlive this object; in space of spheres only, otherwise
+  /// UserError. Meanwhile nothing else may move or rotate particles.
+  EventChain(Configuration<Dim>& configuration, const EventChainOptions& options,
+             std::uint64_t seed, const ChainState& state = {});
 
   void sweep();
 
@@ -108,26 +111,30 @@ class EventChain {
   const ChainCounts& counts() const { return state_.counts; }
 
  private:
+  using Index = typename SimdCells<Dim>::Index;
+
   void arrange();
-  void run_chain(std::size_t first, bool along_x);
-  template <int direction, template <int> class PathBatch>
+  template <int direction>
+  void run_chain(std::size_t first);
+  template <int direction, class PathBatch>
   void run(std::size_t first);
-  template <int direction, template <int> class PathBatch>
+  template <int direction, class PathBatch>
   FreePath next_contact(std::size_t i, double remaining) const;
   template <int direction>
   void advance(std::size_t i, double length);
+  void rotate_some(std::uint64_t& done, std::uint64_t goal, Stream& draw);
   void rotate(std::size_t i, double rotation);
 
-  Configuration2& configuration_;
+  Configuration<Dim>& configuration_;
   double largest_, margin_;
-  Vec2 half_box_;
+  Vec<Dim> half_box_;
   double rounding_;  // bound of the rounding of positions
   EventChainOptions options_;
-  std::vector<Vec2> axis_;                // unit major axes
-  std::vector<SimdCells::Index> rotors_;  // the particles that are not round
-  std::optional<Checkerboard> board_;
-  SimdCells cells_;
-  SimdCells::FreeList free_list_;
+  std::vector<OrientedBody<Dim>> bodies_;
+  std::vector<Index> rotors_;  // the particles that are not round
+  std::optional<Checkerboard<Dim>> board_;
+  SimdCells<Dim> cells_;
+  typename SimdCells<Dim>::FreeList free_list_;
   std::uint64_t seed_;
   ChainState state_;
 };

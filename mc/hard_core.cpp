@@ -43,12 +43,13 @@ bool clear_of_periodic_images(const PeriodicBox<3>& box, const Ellipsoid& shape,
   return own_images_separated<3>(box, shape, orientation, margin);
 }
 
+template <int Dim>
 std::optional<std::pair<std::size_t, std::size_t>> find_overlap(
-    const Configuration2& configuration) {
+    const Configuration<Dim>& configuration) {
   const double margin = hard_margin(configuration);
   std::optional<std::pair<std::size_t, std::size_t>> found;
   for_each_pair(configuration, 1 + margin / largest_circumradius(configuration),
-                [&](std::size_t i, std::size_t j, const Vec2& d) {
+                [&](std::size_t i, std::size_t j, const Vec<Dim>& d) {
                   if (found) return;
                   if (!separated(configuration.shape[i], configuration.pose(i),
                                  configuration.shape[j], configuration.pose(j), d, margin))
@@ -57,16 +58,18 @@ std::optional<std::pair<std::size_t, std::size_t>> find_overlap(
   return found;
 }
 
-double shrink_to_contact(const Configuration2& configuration, double lowest) {
+template <int Dim>
+double shrink_to_contact(const Configuration<Dim>& configuration, double lowest) {
   double factor = lowest;
-  for_each_pair(configuration, 1 / lowest, [&](std::size_t i, std::size_t j, const Vec2& d) {
-    const Ellipse& one = configuration.shape[i];
-    const Ellipse& two = configuration.shape[j];
+  for_each_pair(configuration, 1 / lowest, [&](std::size_t i, std::size_t j, const Vec<Dim>& d) {
+    const Solid<Dim>& one = configuration.shape[i];
+    const Solid<Dim>& two = configuration.shape[j];
     // The circumcircles touch at a smaller factor than the largest found: this pair cannot matter.
     const double circles = one.circumradius() + two.circumradius();
     if (circles * circles < factor * factor * d.squaredNorm()) return;
-    const double f =
-        perram_wertheim(one, configuration.angle[i], two, configuration.angle[j], d).value;
+    const double f = perram_wertheim(one, orientation_of(configuration.pose(i)), two,
+                                     orientation_of(configuration.pose(j)), d)
+                         .value;
     factor = std::max(factor, 1 / std::sqrt(f));
   });
   return factor;
@@ -94,6 +97,10 @@ void scale_to_packing_fraction(Configuration<Dim>& configuration, double packing
 
 template double hard_margin(const Configuration2&);
 template double hard_margin(const Configuration3&);
+template std::optional<std::pair<std::size_t, std::size_t>> find_overlap(const Configuration2&);
+template std::optional<std::pair<std::size_t, std::size_t>> find_overlap(const Configuration3&);
+template double shrink_to_contact(const Configuration2&, double);
+template double shrink_to_contact(const Configuration3&, double);
 template void scale_box(Configuration2&, const Vec2&);
 template void scale_box(Configuration3&, const Vec3&);
 template void scale_box(Configuration2&, double);

@@ -22,12 +22,14 @@ bool clear_of_periodic_images(const PeriodicBox<3>& box, const Ellipsoid& shape,
                               const Quaternion& orientation, double margin);
 
 /// The first pair closer than the margin, if any.
+template <int Dim>
 std::optional<std::pair<std::size_t, std::size_t>> find_overlap(
-    const Configuration2& configuration);
+    const Configuration<Dim>& configuration);
 
 /// The factor by which the box and all positions may shrink until the first pair touches, at least `lowest`; 1 or more
 /// if a pair already touches or overlaps. From max F = μ² of each pair (perram_wertheim.h): the pair touches at 1/μ.
-double shrink_to_contact(const Configuration2& configuration, double lowest);
+template <int Dim>
+double shrink_to_contact(const Configuration<Dim>& configuration, double lowest);
 
 /// Scales the sides of the box and all positions by these factors; shapes stay.
 template <int Dim>

@@ -1,6 +1,8 @@
 #include "mc/lattice.h"
 
 #include <algorithm>
+#include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -15,109 +17,202 @@ namespace vitrel {
 
 namespace {
 
-struct Sites {
-  std::size_t columns, rows;
-
-  std::size_t count() const { return columns * rows; }
+/// A lattice as columns × rows (× layers) of sites. A site with an odd number of its row and layer, as far as these
+/// alternate, moves by `stagger`, one with an even number against it.
+template <int Dim>
+struct Lattice {
+  Vec<Dim> spacing;  ///< proportions of the distances between columns, rows and layers
+  Vec<Dim> stagger;  ///< in units of the spacing
+  std::array<bool, Dim> alternates;  ///< by direction; these have an even number of sites
 };
 
-// Columns and rows of cells of the proportion `cell_aspect` (height over width), with room for n
-// sites, few of them empty, and filling a box close to the given proportion: one per cent of empty
-// sites is worth as much as sides that are wrong by a factor of 1.56.
-Sites choose_sites(std::size_t n, double box_aspect, double cell_aspect, bool even_rows) {
-  Sites best{1, n};
-  double best_cost = std::numeric_limits<double>::infinity();
-  for (std::size_t rows = even_rows ? 2 : 1; rows <= 2 * n; rows += even_rows ? 2 : 1) {
-    const std::size_t columns = (n + rows - 1) / rows;
-    const double sites = static_cast<double>(columns * rows);
-    const double proportion =
-        box_aspect * static_cast<double>(columns) / (static_cast<double>(rows) * cell_aspect);
-    const double empty = sites / static_cast<double>(n) - 1;
-    const double distortion = std::log(proportion);
-    const double cost = distortion * distortion + 20 * empty;
-    if (cost < best_cost) {
-      best_cost = cost;
-      best = {columns, rows};
-    }
+template <int Dim>
+using Counts = std::array<std::size_t, Dim>;
+
+template <int Dim>
+std::size_t product(const Counts<Dim>& counts) {
+  std::size_t all = 1;
+  for (const std::size_t count : counts) all *= count;
+  return all;
+}
+
+/// Σ ln² of the ratios of two sides, before and after, over all pairs of directions.
+template <int Dim>
+double distortion(const Vec<Dim>& box, const Vec<Dim>& spacing, const Counts<Dim>& counts) {
+  Vec<Dim> change = Vec<Dim>::Zero();
+  for (int k = 1; k < Dim; ++k)
+    change[k] = std::log(box[k] / box[0] * static_cast<double>(counts[0]) /
+                         (static_cast<double>(counts[k]) * (spacing[k] / spacing[0])));
+  double sum = 0;
+  for (int k = 0; k < Dim; ++k)
+    for (int l = 0; l < k; ++l) sum += (change[k] - change[l]) * (change[k] - change[l]);
+  return sum;
+}
+
+/// Columns, rows and layers with room for n sites, few of them empty, and filling a box close to the given one: one
+/// per cent of empty sites is worth as much as two sides whose ratio is wrong by a factor of 1.56.
+template <int Dim>
+class SiteCounts {
+ public:
+  SiteCounts(std::size_t n, const Vec<Dim>& box, const Lattice<Dim>& lattice)
+      : n_(n), box_(box), lattice_(lattice) {
+    choose(1, 1);
   }
-  return best;
-}
+  const Counts<Dim>& best() const { return best_; }
 
-// Gives the box the sides of columns × rows cells of that proportion, at the same area.
-void fit_box(Configuration2& configuration, const Sites& sites, double cell_aspect) {
-  const double area = configuration.box.volume();
-  const double aspect =
-      static_cast<double>(sites.rows) * cell_aspect / static_cast<double>(sites.columns);
-  const double width = std::sqrt(area / aspect);
-  configuration.box = PeriodicBox<2>(Vec2(width, area / width));
-}
-
-// Site of particle i; every other row is moved by `stagger` of a cell to either side.
-Vec2 site_position(const Configuration2& configuration, const Sites& sites, std::size_t i,
-                   double stagger) {
-  const std::size_t site = i * sites.count() / configuration.size();
-  const std::size_t row = site / sites.columns;
-  const double column = static_cast<double>(site % sites.columns) + 0.5;
-  const Vec2 share((column + (row % 2 ? stagger : -stagger)) / static_cast<double>(sites.columns),
-                   (static_cast<double>(row) + 0.5) / static_cast<double>(sites.rows));
-  return (share - Vec2(0.5, 0.5)).cwiseProduct(configuration.box.lengths());
-}
-
-Sites place(Configuration2& configuration, double cell_aspect, bool staggered) {
-  const Vec2 given = configuration.box.lengths();
-  const Sites sites =
-      choose_sites(configuration.size(), given.y() / given.x(), cell_aspect, staggered);
-  fit_box(configuration, sites, cell_aspect);
-  for (std::size_t i = 0; i < configuration.size(); ++i) {
-    configuration.position[i] = site_position(configuration, sites, i, staggered ? 0.25 : 0);
-    configuration.image[i] = Shift<2>::Zero();
+ private:
+  /// Tries all counts in directions k and later; `others` is the product of those before, without the columns.
+  void choose(std::size_t k, std::size_t others) {
+    if (k == Dim) return consider(others);
+    const std::size_t step = lattice_.alternates[k] ? 2 : 1;
+    for (counts_[k] = step; counts_[k] * others <= 2 * n_ || counts_[k] == step; counts_[k] += step)
+      choose(k + 1, others * counts_[k]);
   }
-  return sites;
-}
 
-double stretched_cell_aspect(const Configuration2& configuration) {
-  double a = 0, b = 0;
-  for (const Ellipse& shape : configuration.shape) {
-    a = std::max(a, shape.a);
-    b = std::max(b, shape.b);
+  void consider(std::size_t others) {
+    counts_[0] = (n_ + others - 1) / others;
+    const double empty = static_cast<double>(product<Dim>(counts_)) / static_cast<double>(n_) - 1;
+    const double cost = distortion<Dim>(box_, lattice_.spacing, counts_) + 20 * empty;
+    if (cost >= lowest_cost_) return;
+    lowest_cost_ = cost;
+    best_ = counts_;
   }
-  return 0.5 * std::numbers::sqrt3 * b / a;
+
+  std::size_t n_;
+  const Vec<Dim>& box_;
+  const Lattice<Dim>& lattice_;
+  Counts<Dim> counts_{}, best_{};
+  double lowest_cost_ = std::numeric_limits<double>::infinity();
+};
+
+/// Gives the box the sides of that many cells, at the same volume.
+template <int Dim>
+void fit_box(PeriodicBox<Dim>& box, const Counts<Dim>& counts, const Vec<Dim>& spacing) {
+  const double volume = box.volume();
+  Vec<Dim> aspect = Vec<Dim>::Ones();
+  for (int k = 1; k < Dim; ++k)
+    aspect[k] =
+        static_cast<double>(counts[k]) * (spacing[k] / spacing[0]) / static_cast<double>(counts[0]);
+  const double cube = volume / aspect.prod();
+  Vec<Dim> lengths = (Dim == 2 ? std::sqrt(cube) : std::cbrt(cube)) * aspect;
+  lengths[Dim - 1] = volume / lengths.template head<Dim - 1>().prod();
+  box = PeriodicBox<Dim>(lengths);
 }
 
-void set_angles(Configuration2& configuration, const LatticeOptions& options, std::uint64_t seed) {
+/// The place of a site, in units of the sides of the box.
+template <int Dim>
+Vec<Dim> relative_position(std::size_t site, const Counts<Dim>& counts,
+                           const Lattice<Dim>& lattice) {
+  Vec<Dim> place;
+  std::size_t parity = 0;
+  for (std::size_t k = 0; k < Dim; ++k) {
+    const std::size_t index = site % counts[k];
+    site /= counts[k];
+    place[k] = static_cast<double>(index) + 0.5;
+    if (lattice.alternates[k]) parity += index;
+  }
+  place += parity % 2 ? lattice.stagger : Vec<Dim>(-lattice.stagger);
+  for (std::size_t k = 0; k < Dim; ++k) place[k] = place[k] / static_cast<double>(counts[k]) - 0.5;
+  return place;
+}
+
+/// Returns the number of columns, rows and layers.
+template <int Dim>
+Counts<Dim> place(Configuration<Dim>& configuration, const Lattice<Dim>& lattice) {
+  const std::size_t n = configuration.size();
+  const Counts<Dim> counts = SiteCounts<Dim>(n, configuration.box.lengths(), lattice).best();
+  fit_box<Dim>(configuration.box, counts, lattice.spacing);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec<Dim> share = relative_position<Dim>(i * product<Dim>(counts) / n, counts, lattice);
+    configuration.position[i] = share.cwiseProduct(configuration.box.lengths());
+    configuration.image[i] = Shift<Dim>::Zero();
+  }
+  return counts;
+}
+
+Vec2 semi_axes(const Ellipse& shape) {
+  return {shape.a, shape.b};
+}
+Vec3 semi_axes(const Ellipsoid& shape) {
+  return shape.semi_axes;
+}
+
+/// The longest semi-axis of any particle along each direction.
+template <int Dim>
+Vec<Dim> largest_semi_axes(const Configuration<Dim>& configuration) {
+  Vec<Dim> largest = Vec<Dim>::Zero();
+  for (const Solid<Dim>& shape : configuration.shape) largest = largest.cwiseMax(semi_axes(shape));
+  return largest;
+}
+
+Lattice<2> lattice_of(Arrangement arrangement, const Configuration2& configuration) {
+  if (arrangement == Arrangement::square) return {{1, 1}, {0, 0}, {false, false}};
+  const Vec2 axes = largest_semi_axes(configuration);
+  return {{1, 0.5 * std::numbers::sqrt3 * axes.y() / axes.x()}, {0.25, 0}, {false, true}};
+}
+
+Lattice<3> lattice_of(Arrangement arrangement, const Configuration3& configuration) {
+  const Vec3 axes = largest_semi_axes(configuration);
+  const auto stretched = [&](const Vec3& spacing) -> Vec3 { return spacing.cwiseProduct(axes); };
+  switch (arrangement) {
+    case Arrangement::face_centred:
+      return {stretched({1, 0.5, 0.5}), {0.25, 0, 0}, {false, true, true}};
+    case Arrangement::body_centred:
+      return {stretched({1, 1, 0.5}), {0.25, 0.25, 0}, {false, false, true}};
+    default:
+      return {stretched({1, 1, 1}), {0, 0, 0}, {false, false, false}};
+  }
+}
+
+void orient(Configuration2& configuration, const LatticeOptions& options, std::uint64_t seed) {
   for (std::size_t i = 0; i < configuration.size(); ++i)
     configuration.angle[i] =
         options.random_angles ? Stream(seed, Purpose::placement, 0, i).uniform(0, std::numbers::pi)
                               : options.angle;
 }
 
-void refuse_overlaps(const Configuration2& configuration) {
+void orient(Configuration3& configuration, const LatticeOptions&, std::uint64_t) {
+  std::ranges::fill(configuration.orientation, Quaternion::Identity());
+}
+
+template <int Dim>
+void refuse_overlaps(const Configuration<Dim>& configuration) {
   const auto overlap = find_overlap(configuration);
   if (!overlap) return;
   const double now = packing_fraction(configuration);
   const double shrink = shrink_to_contact(configuration, 0.5);
   throw UserError("this lattice is too dense: particles " + std::to_string(overlap->first) +
                   " and " + std::to_string(overlap->second) + " overlap at a packing fraction of " +
-                  std::to_string(now) + "; it reaches " + std::to_string(now / (shrink * shrink)) +
+                  std::to_string(now) + "; it reaches " +
+                  std::to_string(now / std::pow(shrink, Dim)) +
                   ", for higher densities insert and swell");
+}
+
+template <int Dim>
+std::string sites_text(const Counts<Dim>& counts, std::size_t particles) {
+  std::string text =
+      std::to_string(counts[0]) + " columns × " + std::to_string(counts[1]) + " rows";
+  if constexpr (Dim == 3) text += " × " + std::to_string(counts[2]) + " layers";
+  return text + ", " + std::to_string(product<Dim>(counts) - particles) + " sites empty";
 }
 
 }  // namespace
 
-StageReport place_on_lattice(Configuration2& configuration, const LatticeOptions& options,
+template <int Dim>
+StageReport place_on_lattice(Configuration<Dim>& configuration, const LatticeOptions& options,
                              std::uint64_t seed) {
-  const bool triangular = options.arrangement == Arrangement::triangular;
-  if (triangular && (options.angle != 0 || options.random_angles))
-    throw UserError("a triangular lattice is stretched along x: angle must be 0, not " +
+  assert(has_dimension(options.arrangement, Dim));
+  if (options.arrangement != Arrangement::square && (options.angle != 0 || options.random_angles))
+    throw UserError("a stretched lattice needs particles along its axes: angle must be 0, not " +
                     (options.random_angles ? "random" : std::to_string(options.angle)));
-  const Sites sites = triangular ? place(configuration, stretched_cell_aspect(configuration), true)
-                                 : place(configuration, 1, false);
-  set_angles(configuration, options, seed);
+  const Counts<Dim> counts = place(configuration, lattice_of(options.arrangement, configuration));
+  orient(configuration, options, seed);
   refuse_overlaps(configuration);
-  return {StageEnd::reached,
-          std::to_string(sites.columns) + " columns × " + std::to_string(sites.rows) + " rows, " +
-              std::to_string(sites.count() - configuration.size()) + " sites empty"};
+  return {StageEnd::reached, sites_text<Dim>(counts, configuration.size())};
 }
+
+template StageReport place_on_lattice(Configuration2&, const LatticeOptions&, std::uint64_t);
+template StageReport place_on_lattice(Configuration3&, const LatticeOptions&, std::uint64_t);
 
 double densest_square_lattice(const Ellipse& shape, double angle) {
   // The lattice constant at which no neighbour along (i, j) touches.

@@ -8,7 +8,7 @@
 /// Options of the Monte Carlo stages. They stand apart so that code that reads parameters compiles no algorithm.
 namespace vitrel {
 
-enum class Arrangement { square, triangular };
+enum class Arrangement { square, triangular, cubic, face_centred, body_centred };
 
 /// Lattices of equal cells (lattice.h).
 struct LatticeOptions {

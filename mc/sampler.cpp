@@ -10,14 +10,38 @@
 #include <span>
 #include <utility>
 
-#include "core/contact/ellipse_gap.h"
 #include "core/parallel.h"
 #include "mc/hard_core.h"
-#include "mc/trial.h"
 
 namespace vitrel {
 
 namespace {
+
+bool same_shape(const Ellipse& one, const Ellipse& two) {
+  return one.a == two.a && one.b == two.b;
+}
+bool same_shape(const Ellipsoid& one, const Ellipsoid& two) {
+  return one.semi_axes == two.semi_axes;
+}
+
+void swap_orientations(OrientedEllipse& one, OrientedEllipse& two) {
+  std::swap(one.axis, two.axis);
+}
+void swap_orientations(OrientedEllipsoid& one, OrientedEllipsoid& two) {
+  const Quaternion of_one = one.orientation;
+  one = {one.shape, two.orientation};
+  two = {two.shape, of_one};
+}
+
+double rotated(const Ellipse&, double angle, const Vec2& turn) {
+  return angle + turn[0];
+}
+
+/// About the own axes; rotations of a spheroid about its axis are none.
+Quaternion rotated(const Ellipsoid& shape, const Quaternion& orientation, Vec3 turn) {
+  if (const int axis = shape.symmetry_axis(); axis != Ellipsoid::none) turn[axis] = 0;
+  return (orientation * rotation(turn)).normalized();
+}
 
 /// Maximum distance of centres at which `reshape` must test.
 double reach_of(double largest, double margin) {
@@ -26,42 +50,47 @@ double reach_of(double largest, double margin) {
 
 }  // namespace
 
-struct Sampler::DomainContext {
+template <int Dim>
+struct Sampler<Dim>::DomainContext {
   std::size_t domain;
-  SimdCells::FreeList& free_list;
+  typename SimdCells<Dim>::FreeList& free_list;
   Tally& tally;
 };
 
-Sampler::Sampler(Configuration2& configuration, std::uint64_t seed, const SweepState& state,
-                 int threads)
+template <int Dim>
+Sampler<Dim>::Sampler(Configuration<Dim>& configuration, std::uint64_t seed,
+                      const SweepState& state, int threads)
     : configuration_(configuration),
       largest_(largest_circumradius(configuration)),
       threads_(threads),
+      bodies_(oriented_bodies(configuration)),
       seed_(seed),
       state_(state) {
-  axis_.reserve(configuration.size());
-  for (double angle : configuration.angle) axis_.push_back(axis_at(angle));
   fit_box();
 }
 
-void Sampler::fit_box() {
+template <int Dim>
+void Sampler<Dim>::fit_box() {
   margin_ = hard_margin(configuration_);
   half_box_ = 0.5 * configuration_.box.lengths();
   shortest_side_ = configuration_.box.lengths().minCoeff();
   fit_board();
 }
 
-void Sampler::fit_board() {
+template <int Dim>
+void Sampler<Dim>::fit_board() {
   board_.emplace(configuration_.box, reach_of(largest_, margin_), configuration_.size());
   arrange();
 }
 
-void Sampler::set_steps(double translation, double rotation) {
+template <int Dim>
+void Sampler<Dim>::set_steps(double translation, double rotation) {
   state_.translation.size = translation;
   state_.rotation.size = rotation;
 }
 
-void Sampler::sweep() {
+template <int Dim>
+void Sampler<Dim>::sweep() {
   Stream draw(seed_, Purpose::trial_moves, state_.next_sweep, 0);
   board_->shift(draw);
   arrange();
@@ -75,18 +104,19 @@ void Sampler::sweep() {
 }
 
 // Counting sort of all particles into the cells.
-void Sampler::arrange() {
+template <int Dim>
+void Sampler<Dim>::arrange() {
   const std::size_t n = configuration_.size();
   order_.resize(n);
   cell_of_.resize(n);
   begin_.assign(board_->cells(), 0);
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t cell = board_->index(board_->cell_of(configuration_.position[i]));
-    cell_of_[i] = static_cast<SimdCells::Index>(cell);
+    cell_of_[i] = static_cast<typename Cells::Index>(cell);
     ++begin_[cell];
   }
   domain_begin_.clear();
-  SimdCells::Index before = 0;
+  typename Cells::Index before = 0;
   for (std::size_t domain = 0; domain < board_->domains(); ++domain) {
     domain_begin_.push_back(before);
     board_->for_each_cell(domain,
@@ -94,27 +124,31 @@ void Sampler::arrange() {
   }
   domain_begin_.push_back(before);
   for (std::size_t i = 0; i < n; ++i)
-    order_[begin_[cell_of_[i]]++] = static_cast<SimdCells::Index>(i);
+    order_[begin_[cell_of_[i]]++] = static_cast<typename Cells::Index>(i);
 
   cells_.resize(board_->cells(), n);
-  free_lists_.assign(board_->domains(), SimdCells::FreeList(SimdCells::none));
+  free_lists_.assign(board_->domains(), typename Cells::FreeList(Cells::none));
   in_parallel(board_->domains(), threads_, [&](std::size_t begin, std::size_t end) {
     for (std::size_t domain = begin; domain < end; ++domain) fill_domain(domain);
   });
 }
 
-void Sampler::fill_domain(std::size_t domain) {
+template <int Dim>
+void Sampler<Dim>::fill_domain(std::size_t domain) {
   board_->for_each_cell(domain, [&](std::size_t cell) { cells_.clear(cell); });
   const std::size_t begin = domain_begin_[domain], end = domain_begin_[domain + 1];
   free_lists_[domain] = cells_.free_groups(begin, end);
   for (std::size_t k = begin; k < end; ++k) {
     const std::size_t i = order_[k];
-    cells_.insert(i, cell_of_[i], configuration_.shape[i], configuration_.position[i], axis_[i],
-                  free_lists_[domain]);
+    // It may have shrunk.
+    if (!same_shape(bodies_[i].shape, configuration_.shape[i]))
+      bodies_[i] = oriented(configuration_.shape[i], orientations(configuration_)[i]);
+    cells_.insert(i, cell_of_[i], bodies_[i], configuration_.position[i], free_lists_[domain]);
   }
 }
 
-void Sampler::sweep_domains(const std::vector<std::size_t>& domains) {
+template <int Dim>
+void Sampler<Dim>::sweep_domains(const std::vector<std::size_t>& domains) {
   std::mutex adding;
   in_parallel(domains.size(), threads_, [&](std::size_t begin, std::size_t end) {
     Tally mine;
@@ -124,7 +158,8 @@ void Sampler::sweep_domains(const std::vector<std::size_t>& domains) {
   });
 }
 
-void Sampler::sweep_domain(std::size_t domain, Tally& tally) {
+template <int Dim>
+void Sampler<Dim>::sweep_domain(std::size_t domain, Tally& tally) {
   const std::span members(order_.data() + domain_begin_[domain],
                           order_.data() + domain_begin_[domain + 1]);
   Stream draw(seed_, Purpose::trial_moves, state_.next_sweep, domain + 1);
@@ -140,8 +175,7 @@ void Sampler::sweep_domain(std::size_t domain, Tally& tally) {
         exchange(i, members[pick(words[1], members.size())], context);
         continue;
       }
-      const bool is_round = cells_.group_of(i).shape(cells_.lane_of(i)).is_round();
-      if (!is_round && (words[3] & 1) == 1)
+      if (!body_of(i).shape.is_round() && (words[3] & 1) == 1)
         rotate(i, words, context);
       else
         translate(i, words, context);
@@ -149,102 +183,126 @@ void Sampler::sweep_domain(std::size_t domain, Tally& tally) {
   }
 }
 
-void Sampler::translate(std::size_t i, const Words& words, DomainContext& context) {
-  SimdCells::Group& group = cells_.group_of(i);
+/// Of a translation or rotation, each component between −1 and 1, symmetric about 0.
+template <int Dim>
+Vec<Dim> Sampler<Dim>::step(const Words& words) const {
+  if constexpr (Dim == 2)
+    return {plus_minus_one(words[1]), plus_minus_one(words[2])};
+  else
+    return {plus_minus_one(words[1]), plus_minus_one(words[2]), share_above(words[3], exchanges_)};
+}
+
+// In the plane the cells hold it.
+template <int Dim>
+decltype(auto) Sampler<Dim>::body_of(std::size_t i) const {
+  if constexpr (Dim == 2)
+    return cells_[cells_.group_index(i)].body(cells_.lane_of(i));
+  else
+    return (bodies_[i]);
+}
+
+template <int Dim>
+void Sampler<Dim>::translate(std::size_t i, const Words& words, DomainContext& context) {
+  auto& group = cells_.group_of(i);
   const int lane = cells_.lane_of(i);
-  const Vec2 step(plus_minus_one(words[1]), plus_minus_one(words[2]));
-  Vec2 position = group.position(lane) + state_.translation.size * step;
-  Shift<2> crossed = Shift<2>::Zero();
+  Vec<Dim> position = group.position(lane) + state_.translation.size * step(words);
+  Shift<Dim> crossed = Shift<Dim>::Zero();
   if (((position.array().abs() >= half_box_.array())).any())
     configuration_.box.wrap(position, crossed);
   ++context.tally.counts.translations_tried;
-  const Checkerboard::Cell cell = board_->cell_of(position);
+  const Cell cell = board_->cell_of(position);
   if (board_->domain_of(cell) != context.domain) return;
   // Own images move along: their distances stay whole box lengths.
-  const Ellipse shape = group.shape(lane);
-  const Vec2 axis = group.axis(lane);
-  if (!clear_of_others(i, OverlapBatch(shape, axis, margin_), position, cell,
+  const auto& body = body_of(i);
+  if (!clear_of_others(*board_, cells_, i, body, bodies_, margin_, position, cell,
                        context.tally.overlap_tests))
     return;
   ++context.tally.counts.translations_accepted;
   configuration_.position[i] = position;
   configuration_.image[i] += crossed;
   if (group.cell == board_->index(cell)) {
-    group.x[lane] = position.x();
-    group.y[lane] = position.y();
+    group.move(lane, position);
   } else {
     cells_.remove(i, context.free_list);
-    cells_.insert(i, board_->index(cell), shape, position, axis, context.free_list);
+    cells_.insert(i, board_->index(cell), body, position, context.free_list);
   }
 }
 
-void Sampler::rotate(std::size_t i, const Words& words, DomainContext& context) {
-  SimdCells::Group& group = cells_.group_of(i);
-  const int lane = cells_.lane_of(i);
-  const double angle = configuration_.angle[i] + state_.rotation.size * plus_minus_one(words[1]);
-  const Vec2 axis = axis_at(angle), position = group.position(lane);
-  const Ellipse shape = group.shape(lane);
+template <int Dim>
+void Sampler<Dim>::rotate(std::size_t i, const Words& words, DomainContext& context) {
+  Orientation<Dim>& orientation = orientations(configuration_)[i];
+  const Vec<Dim> turn = state_.rotation.size * step(words);
+  const Orientation<Dim> trial = rotated(configuration_.shape[i], orientation, turn);
+  const Body body = oriented(configuration_.shape[i], trial);
   ++context.tally.counts.rotations_tried;
-  if (!clear_of_others(i, OverlapBatch(shape, axis, margin_), position, board_->cell_of(position),
-                       context.tally.overlap_tests) ||
-      !clear_of_itself(shape, axis, margin_))
-    return;
+  if (!is_clear(i, body, configuration_.position[i], margin_, context.tally.overlap_tests)) return;
   ++context.tally.counts.rotations_accepted;
-  configuration_.angle[i] = angle;
-  axis_[i] = axis;
-  group.ux[lane] = axis.x();
-  group.uy[lane] = axis.y();
+  orientation = trial;
+  bodies_[i] = body;
+  cells_.group_of(i).turn(cells_.lane_of(i), body);
 }
 
-void Sampler::exchange(std::size_t i, std::size_t j, DomainContext& context) {
-  const Ellipse shape_i = configuration_.shape[i], shape_j = configuration_.shape[j];
-  if (shape_i.a == shape_j.a && shape_i.b == shape_j.b) return;
+template <int Dim>
+void Sampler<Dim>::exchange(std::size_t i, std::size_t j, DomainContext& context) {
+  const Solid<Dim>& shape_i = configuration_.shape[i];
+  const Solid<Dim>& shape_j = configuration_.shape[j];
+  if (same_shape(shape_i, shape_j)) return;
   ++context.tally.counts.exchanges_tried;
-  cells_.exchange(i, j);
+  swap_places(i, j);
   const bool i_is_larger = shape_i.volume() > shape_j.volume();
   if (!fits(i_is_larger ? i : j, context.tally.overlap_tests) ||
       !fits(i_is_larger ? j : i, context.tally.overlap_tests)) {
-    cells_.exchange(i, j);
+    swap_places(i, j);
     return;
   }
   ++context.tally.counts.exchanges_accepted;
+}
+
+/// Positions and orientations; shapes stay.
+template <int Dim>
+void Sampler<Dim>::swap_places(std::size_t i, std::size_t j) {
+  cells_.exchange(i, j);
   std::swap(configuration_.position[i], configuration_.position[j]);
   std::swap(configuration_.image[i], configuration_.image[j]);
-  std::swap(configuration_.angle[i], configuration_.angle[j]);
-  std::swap(axis_[i], axis_[j]);
+  auto& orientation = orientations(configuration_);
+  std::swap(orientation[i], orientation[j]);
+  swap_orientations(bodies_[i], bodies_[j]);
 }
 
-// Whether particle i keeps the margin at its current place in the cells.
-bool Sampler::fits(std::size_t i, OverlapTestCounts& tests) const {
-  const SimdCells::Group& group = cells_[cells_.group_index(i)];
-  const int lane = cells_.lane_of(i);
-  const Ellipse shape = group.shape(lane);
-  const Vec2 axis = group.axis(lane), position = group.position(lane);
-  return clear_of_others(i, OverlapBatch(shape, axis, margin_), position, board_->cell_of(position),
-                         tests) &&
-         clear_of_itself(shape, axis, margin_);
+// Whether particle i keeps the margin where it is.
+template <int Dim>
+bool Sampler<Dim>::fits(std::size_t i, OverlapTestCounts& tests) const {
+  return is_clear(i, bodies_[i], configuration_.position[i], margin_, tests);
 }
 
-bool Sampler::reshape(std::size_t i, const Ellipse& shape) {
+template <int Dim>
+bool Sampler<Dim>::is_clear(std::size_t i, const Body& body, const Vec<Dim>& position,
+                            double margin, OverlapTestCounts& tests) const {
+  return clear_of_others(*board_, cells_, i, body, bodies_, margin, position,
+                         board_->cell_of(position), tests) &&
+         clear_of_itself(body, margin);
+}
+
+template <int Dim>
+bool Sampler<Dim>::reshape(std::size_t i, const Solid<Dim>& shape) {
   if (shape.circumradius() > largest_) {
     largest_ = shape.circumradius();
     fit_board();
   }
-  const double margin = 2 * margin_;
-  const Vec2 position = configuration_.position[i];
-  if (!clear_of_others(i, OverlapBatch(shape, axis_[i], margin), position,
-                       board_->cell_of(position), overlap_tests_) ||
-      !clear_of_itself(shape, axis_[i], margin))
-    return false;
+  const Vec<Dim>& position = configuration_.position[i];
+  const Body body = oriented(shape, orientations(configuration_)[i]);
+  if (!is_clear(i, body, position, 2 * margin_, overlap_tests_)) return false;
   configuration_.shape[i] = shape;
-  cells_.group_of(i).set(cells_.lane_of(i), shape, position, axis_[i]);
+  bodies_[i] = body;
+  cells_.group_of(i).set(cells_.lane_of(i), body, position);
   return true;
 }
 
-bool Sampler::rescale(const Vec2& factors) {
-  const PeriodicBox<2> box = configuration_.box;
-  const std::vector<Vec2> position = configuration_.position;
-  const std::vector<Shift<2>> image = configuration_.image;
+template <int Dim>
+bool Sampler<Dim>::rescale(const Vec<Dim>& factors) {
+  const PeriodicBox<Dim> box = configuration_.box;
+  const std::vector<Vec<Dim>> position = configuration_.position;
+  const std::vector<Shift<Dim>> image = configuration_.image;
   scale_box(configuration_, factors);
   fit_box();
   if (is_hard()) return true;
@@ -256,19 +314,14 @@ bool Sampler::rescale(const Vec2& factors) {
 }
 
 // Tests every pair twice.
-bool Sampler::is_hard() {
+template <int Dim>
+bool Sampler<Dim>::is_hard() {
   std::atomic<bool> hard = true;
   std::mutex adding;
   in_parallel(order_.size(), threads_, [&](std::size_t begin, std::size_t end) {
     OverlapTestCounts mine;
     for (std::size_t k = begin; k < end && hard; ++k) {
-      const std::size_t i = order_[k];
-      const Ellipse& shape = configuration_.shape[i];
-      const Vec2& position = configuration_.position[i];
-      if (!clear_of_others(i, OverlapBatch(shape, axis_[i], margin_), position,
-                           board_->cell_of(position), mine) ||
-          !clear_of_itself(shape, axis_[i], margin_))
-        hard = false;
+      if (!fits(order_[k], mine)) hard = false;
     }
     const std::lock_guard lock(adding);
     overlap_tests_.batches += mine.batches;
@@ -277,17 +330,14 @@ bool Sampler::is_hard() {
   return hard;
 }
 
-bool Sampler::clear_of_others(std::size_t i, const OverlapBatch& batch, const Vec2& position,
-                              const Checkerboard::Cell& cell, OverlapTestCounts& tests) const {
-  return vitrel::clear_of_others(*board_, cells_, i, batch, position, cell, tests);
+template <int Dim>
+bool Sampler<Dim>::clear_of_itself(const Body& body, double margin) const {
+  return shortest_side_ >= 2 * body.shape.circumradius() + margin ||
+         clear_of_periodic_images(configuration_.box, body.shape, axes_of(body), margin);
 }
 
-bool Sampler::clear_of_itself(const Ellipse& shape, const Vec2& axis, double margin) const {
-  return shortest_side_ >= 2 * shape.circumradius() + margin ||
-         clear_of_periodic_images(configuration_.box, shape, axis, margin);
-}
-
-void Sampler::add(const Tally& tally) {
+template <int Dim>
+void Sampler<Dim>::add(const Tally& tally) {
   const TrialCounts& more = tally.counts;
   state_.counts.add(more);
   state_.translation.count(more.translations_tried, more.translations_accepted);
@@ -296,10 +346,14 @@ void Sampler::add(const Tally& tally) {
   overlap_tests_.scalar_pairs += tally.overlap_tests.scalar_pairs;
 }
 
-void Sampler::tune() {
+template <int Dim>
+void Sampler<Dim>::tune() {
   constexpr std::uint64_t enough = 100;  // acceptance to about 0.05
   state_.translation.tune(enough, 0.5 * configuration_.box.lengths().minCoeff());
   state_.rotation.tune(enough, std::numbers::pi / 2);
 }
+
+template class Sampler<2>;
+template class Sampler<3>;
 
 }  // namespace vitrel

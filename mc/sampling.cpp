@@ -34,7 +34,8 @@ std::string end_text(const ChainCounts& counts) {
 
 }  // namespace
 
-StageReport sample(Configuration2& configuration, const SamplingOptions& options,
+template <int Dim>
+StageReport sample(Configuration<Dim>& configuration, const SamplingOptions& options,
                    std::uint64_t seed, SamplingState& state, const RunControl& control) {
   StageEnd end;
   if (options.moves == Moves::chains) {
@@ -48,5 +49,10 @@ StageReport sample(Configuration2& configuration, const SamplingOptions& options
   if (end == StageEnd::stopped) return {end, "sampling was stopped"};
   return {end, end_text(state.chains.counts)};
 }
+
+template StageReport sample(Configuration2&, const SamplingOptions&, std::uint64_t, SamplingState&,
+                            const RunControl&);
+template StageReport sample(Configuration3&, const SamplingOptions&, std::uint64_t, SamplingState&,
+                            const RunControl&);
 
 }  // namespace vitrel

@@ -3,25 +3,30 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "core/contact/ellipse_batch.h"
+#include "core/contact/ellipsoid_overlap_batch.h"
 
 namespace vitrel {
 
-/// Cell lists for SIMD batches: the ellipses of a cell fill the lanes of a linked list of groups, all but the last
+/// Cell lists for SIMD batches: the particles of a cell fill the lanes of a linked list of groups, all but the last
 /// group full. A cell has no capacity limit, and a test reads few groups.
 ///
 /// The first group of a cell belongs to it; the others come from the free list of the cell's domain. A domain of n
 /// particles needs at most n/simd_width of those, wherever its particles are: ⌈k/simd_width⌉ − 1 < k/simd_width for a
 /// cell of k.
+template <int Dim>
 class SimdCells {
+  using Batch = std::conditional_t<Dim == 2, EllipseBatch, EllipsoidBatch>;
+
  public:
   using Index = std::uint32_t;
   static constexpr Index none = std::numeric_limits<Index>::max();
 
-  struct alignas(64) Group : EllipseBatch {
+  struct alignas(64) Group : Batch {
     Index particle[simd_width] = {};
     Index cell = 0;
     Index next = none;  // group of the same cell, or of the free list
@@ -58,14 +63,15 @@ class SimdCells {
     return FreeList(first);
   }
 
-  void insert(std::size_t i, std::size_t cell, const Ellipse& shape, const Vec2& position,
-              const Vec2& axis, FreeList& free_list) {
+  template <class Body>
+  void insert(std::size_t i, std::size_t cell, const Body& body, const Vec<Dim>& position,
+              FreeList& free_list) {
     Index at = static_cast<Index>(cell);
     while (groups_[at].next != none) at = groups_[at].next;
     if (groups_[at].count == simd_width) at = append(at, free_list);
     Group& group = groups_[at];
     const int lane = group.count++;
-    group.set(lane, shape, position, axis);
+    group.set(lane, body, position);
     group.particle[lane] = static_cast<Index>(i);
     slot_[i] = at * simd_width + static_cast<Index>(lane);
   }
@@ -78,7 +84,7 @@ class SimdCells {
     Group& from = groups_[last];
     const int lane = --from.count;
     const Index moved = from.particle[lane];
-    groups_[group].set(lane_of(i), from.shape(lane), from.position(lane), from.axis(lane));
+    groups_[group].copy(lane_of(i), from, lane);
     groups_[group].particle[lane_of(i)] = moved;
     slot_[moved] = slot_[i];
     from.clear(lane);
@@ -88,13 +94,11 @@ class SimdCells {
     free_list.first_ = last;
   }
 
-  /// Exchanges the slots of particles i and j of one domain, with their axes.
+  /// Exchanges the slots of particles i and j of one domain; orientations stay.
   void exchange(std::size_t i, std::size_t j) {
     Group &group_i = group_of(i), &group_j = group_of(j);
     const int lane_i = lane_of(i), lane_j = lane_of(j);
-    const Ellipse shape_i = group_i.shape(lane_i), shape_j = group_j.shape(lane_j);
-    group_i.set(lane_i, shape_j, group_i.position(lane_i), group_i.axis(lane_i));
-    group_j.set(lane_j, shape_i, group_j.position(lane_j), group_j.axis(lane_j));
+    group_i.swap_shapes(lane_i, group_j, lane_j);
     std::swap(group_i.particle[lane_i], group_j.particle[lane_j]);
     std::swap(slot_[i], slot_[j]);
   }

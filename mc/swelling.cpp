@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/elementary.h"
 #include "core/tolerances.h"
 #include "mc/hard_core.h"
 #include "mc/sampler.h"
@@ -24,13 +25,10 @@ constexpr double share = 0.95;
 constexpr std::uint64_t jamming_sweeps = 5000;
 constexpr double jamming_rise = 1e-4;
 
-Ellipse enlarged(const Ellipse& shape, double factor) {
-  return {shape.a * factor, shape.b * factor};
-}
-
+template <int Dim>
 class Swelling {
  public:
-  Swelling(Configuration2& configuration, const SwellingOptions& options, std::uint64_t seed,
+  Swelling(Configuration<Dim>& configuration, const SwellingOptions& options, std::uint64_t seed,
            SwellingState& state)
       : configuration_(configuration),
         options_(options),
@@ -78,10 +76,10 @@ class Swelling {
   // One round, starting from the current growth; adapts that of the next. False if stopped: the round then has not
   // begun.
   bool round(const RunControl& control) {
-    const Configuration2 before = configuration_;
+    const Configuration<Dim> before = configuration_;
     const SweepState began = state_.moves;
     const double needed =
-        std::sqrt(options_.packing_fraction / packing_fraction(configuration_)) - 1;
+        root(options_.packing_fraction / packing_fraction(configuration_), Dim) - 1;
     double growth = std::min(state_.growth, needed);
     const Outcome outcome = enlarge_all(growth, control);
     configuration_.shape = shapes_;
@@ -118,12 +116,12 @@ class Swelling {
         return outcome;
       growth *= 0.5;
       for (std::size_t i = 0; i < shapes_.size(); ++i)
-        if (configuration_.shape[i].a != shapes_[i].a)
-          configuration_.shape[i] = enlarged(shapes_[i], 1 + growth);
+        if (configuration_.shape[i].circumradius() != shapes_[i].circumradius())
+          configuration_.shape[i] = scaled(shapes_[i], 1 + growth);
     }
   }
 
-  Outcome enlarge_waiting(Sampler& sampler, std::vector<std::size_t>& waiting, double growth,
+  Outcome enlarge_waiting(Sampler<Dim>& sampler, std::vector<std::size_t>& waiting, double growth,
                           const RunControl& control) {
     for (std::uint64_t k = 0; k < max_sweeps_per_round && !waiting.empty(); ++k) {
       if (used_up(sampler.state())) return Outcome::no_room;
@@ -131,14 +129,14 @@ class Swelling {
       sampler.sweep();
       sampler.tune();
       std::erase_if(waiting, [&](std::size_t i) {
-        return sampler.reshape(i, enlarged(shapes_[i], 1 + growth));
+        return sampler.reshape(i, scaled(shapes_[i], 1 + growth));
       });
     }
     return waiting.empty() ? Outcome::all : Outcome::no_room;
   }
 
   void shrink_to_closest_pair() {
-    const double needed = std::sqrt(packing_fraction(configuration_) / options_.packing_fraction);
+    const double needed = root(packing_fraction(configuration_) / options_.packing_fraction, Dim);
     const double lowest = std::max(needed, 1 / (1 + largest_growth));
     const double factor = 1 - share * (1 - shrink_to_contact(configuration_, lowest));
     if (factor < 1) scale_box(configuration_, factor);
@@ -146,18 +144,24 @@ class Swelling {
 
   void finish() { scale_to_packing_fraction(configuration_, options_.packing_fraction); }
 
-  Configuration2& configuration_;
+  Configuration<Dim>& configuration_;
   const SwellingOptions& options_;
-  const std::vector<Ellipse> shapes_;
+  const std::vector<Solid<Dim>> shapes_;
   const std::uint64_t seed_;
   SwellingState& state_;
 };
 
 }  // namespace
 
-StageReport swell(Configuration2& configuration, const SwellingOptions& options, std::uint64_t seed,
-                  SwellingState& state, const RunControl& control) {
+template <int Dim>
+StageReport swell(Configuration<Dim>& configuration, const SwellingOptions& options,
+                  std::uint64_t seed, SwellingState& state, const RunControl& control) {
   return Swelling(configuration, options, seed, state).run(control);
 }
+
+template StageReport swell(Configuration2&, const SwellingOptions&, std::uint64_t, SwellingState&,
+                           const RunControl&);
+template StageReport swell(Configuration3&, const SwellingOptions&, std::uint64_t, SwellingState&,
+                           const RunControl&);
 
 }  // namespace vitrel

@@ -24,7 +24,7 @@ struct SwellingState {
 ///   1. A sweep of trial moves, with step sizes adapted to the density.
 ///   2. Each particle that is not yet enlarged is enlarged by g if there is space for it.
 ///   3. Repeat until all are enlarged; if some find no space in 40 sweeps, g − 1 is halved for all.
-///   4. Divide all lengths by g: the reference species has a b = 1, so the particles have their old sizes again, and the
+///   4. Divide all lengths by g: the reference species has a b = 1 (a b c = 1), so the particles have their old sizes again, and the
 ///      box is smaller. After a fast round the next g is larger.
 /// No particle waits for the closest pair of the whole system, so the number of sweeps grows slowly with N. An
 /// unsuccessful round (jammed, or stopped) shrinks the box as far as the closest pair allows (shrink_to_contact). The
@@ -34,7 +34,8 @@ struct SwellingState {
 /// packing fraction rises by less than a relative 1e-4 in 5000 sweeps; `stopped` on request, at the end of the
 /// previous round: the same call then continues with bit-identical results. In any case the state is hard. A
 /// configuration denser than the target is expanded.
-StageReport swell(Configuration2& configuration, const SwellingOptions& options, std::uint64_t seed,
-                  SwellingState& state, const RunControl& control);
+template <int Dim>
+StageReport swell(Configuration<Dim>& configuration, const SwellingOptions& options,
+                  std::uint64_t seed, SwellingState& state, const RunControl& control);
 
 }  // namespace vitrel

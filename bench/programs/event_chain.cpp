@@ -62,8 +62,9 @@ Configuration2 disks_of_two_sizes(const State& state) {
   small.fraction = large.fraction = 0.5;
   small.size = Distribution{.mean = 1};
   large.size = Distribution{.mean = state.size_ratio};
-  Configuration2 c = draw_particles({small, large}, static_cast<std::size_t>(state.scene.particles),
-                                    dilute, 1, state.scene.seed);
+  Configuration2 c =
+      draw_particles<2>({small, large}, static_cast<std::size_t>(state.scene.particles), dilute,
+                        Vec2::Ones(), state.scene.seed);
   SwellingState swelling;
   if (insert_particles(c, {dilute}, state.scene.seed, {}).end != StageEnd::reached ||
       swell(c, {state.scene.packing_fraction}, state.scene.seed, swelling, {}).end !=
@@ -261,7 +262,7 @@ struct LocalMoves : Contestant {
             {"rotations_accepted", ratio(n.rotations_accepted, n.rotations_tried)}};
   }
 
-  Sampler sampler;
+  Sampler<2> sampler;
   double factor;
 };
 
@@ -274,7 +275,7 @@ struct Chains : Contestant {
   void sweep() override { chains.sweep(); }
   void tune() override { chains.tune(); }
   void begin() override {
-    EventChain::Plan plan = chains.plan();
+    EventChain<2>::Plan plan = chains.plan();
     plan.rotation_step = std::min(std::numbers::pi, factor * plan.rotation_step);
     chains.set_plan(plan);
   }
@@ -294,7 +295,7 @@ struct Chains : Contestant {
   }
 
   EventChainOptions options;
-  EventChain chains;
+  EventChain<2> chains;
   double factor;
 };
 

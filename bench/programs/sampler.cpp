@@ -10,6 +10,7 @@
 #include <limits>
 #include <numbers>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -22,8 +23,11 @@
 #include "core/io/json.h"
 #include "core/neighbors/pairs.h"
 #include "core/random/stream.h"
+#include "core/state/species.h"
 #include "mc/hard_core.h"
+#include "mc/insertion.h"
 #include "mc/sampler.h"
+#include "mc/swelling.h"
 
 namespace vitrel::bench {
 namespace {
@@ -279,10 +283,59 @@ Json measure_batches(const Effort& effort) {
   return rows;
 }
 
+// ---- space beside the plane -----------------------------------------------------------------------------
+
+/// Trials of local moves in this state, and the batches that they test.
+template <int Dim>
+Json measured_trials(Configuration<Dim>& c, const Effort& effort) {
+  Sampler<Dim> sampler(c, 1);
+  fitting_steps(sampler, 20);
+  const OverlapTestCounts before = sampler.overlap_tests();
+  const std::uint64_t tried = sampler.counts().tried();
+  Stretches times;
+  for (int k = 0; k < effort.stretches; ++k) times.add(sampler, c.size(), effort.stretch);
+  const std::uint64_t trials = sampler.counts().tried() - tried;
+  Json row = times.json();
+  row["particles"] = c.size();
+  row["packing_fraction"] = packing_fraction(c);
+  row["batches"] = ratio(sampler.overlap_tests().batches - before.batches, trials);
+  row["single"] = ratio(sampler.overlap_tests().scalar_pairs - before.scalar_pairs, trials);
+  return row;
+}
+
+Configuration3 fluid_in_space(int particles, double aspect_ratio, double packing_fraction) {
+  Species species;
+  species.aspect_ratio = Distribution{.mean = aspect_ratio};
+  Configuration3 c =
+      draw_particles<3>({species}, static_cast<std::size_t>(particles), 0.2, Vec3::Ones(), 1);
+  SwellingState swelling;
+  if (insert_particles(c, {0.2}, 1, {}).end != StageEnd::reached ||
+      swell(c, {packing_fraction}, 1, swelling, {}).end != StageEnd::reached)
+    throw InvariantError("no fluid to measure");
+  return c;
+}
+
+Json measure_space(const Effort& effort) {
+  const int particles = 4 * effort.particles;
+  Json rows;
+  say("space: disks, phi = 0.7");
+  Configuration2 disks = fluid({particles, 1, 0.7});
+  rows["disks"] = measured_trials(disks, effort);
+  for (const auto& [name, aspect_ratio, phi] :
+       {std::tuple{"spheres", 1., 0.49}, std::tuple{"spheroids", 3., 0.45}}) {
+    say(fmt::format("space: {}, phi = {}", name, phi));
+    Configuration3 c = fluid_in_space(particles, aspect_ratio, phi);
+    rows[name] = measured_trials(c, effort);
+  }
+  return rows;
+}
+
 // ---------------------------------------------------------------------------------------------------------
 
-const BenchParts<Effort> parts = {
-    {"speed", measure_speed}, {"threads", measure_threads}, {"batches", measure_batches}};
+const BenchParts<Effort> parts = {{"speed", measure_speed},
+                                  {"threads", measure_threads},
+                                  {"batches", measure_batches},
+                                  {"space", measure_space}};
 
 }  // namespace
 

@@ -1,8 +1,16 @@
 #pragma once
 
+#include <utility>
+
 #include "core/contact/simd_batch.h"
 
 namespace vitrel {
+
+/// An ellipse at rest, apart from its place.
+struct OrientedEllipse {
+  Ellipse shape;
+  Vec2 axis;  ///< unit vector along the major axis
+};
 
 /// A batch of ellipses at rest. An empty lane holds an ellipse far away.
 struct EllipseBatch {
@@ -14,15 +22,35 @@ struct EllipseBatch {
     for (int lane = 0; lane < simd_width; ++lane) clear(lane);
   }
   void clear(int lane) { set(lane, {0, 0}, Vec2(far_away, far_away), Vec2(1, 0)); }
+  void set(int lane, const OrientedEllipse& body, const Vec2& position) {
+    set(lane, body.shape, position, body.axis);
+  }
   void set(int lane, const Ellipse& shape, const Vec2& position, const Vec2& axis) {
     x[lane] = position.x(), y[lane] = position.y();
     a[lane] = shape.a, b[lane] = shape.b;
     ux[lane] = axis.x(), uy[lane] = axis.y();
   }
 
+  /// A lane of another batch.
+  void copy(int lane, const EllipseBatch& from, int from_lane) {
+    set(lane, from.shape(from_lane), from.position(from_lane), from.axis(from_lane));
+  }
+  void move(int lane, const Vec2& position) { x[lane] = position.x(), y[lane] = position.y(); }
+  /// Sets coordinate k of the position, or the axis, alone: numbers that were just written are slow to read in batches.
+  void move_along(int k, int lane, double coordinate) { (k == 0 ? x : y)[lane] = coordinate; }
+  void turn(int lane, const OrientedEllipse& body) {
+    ux[lane] = body.axis.x(), uy[lane] = body.axis.y();
+  }
+  /// Exchanges the shapes of two lanes; positions and axes stay.
+  void swap_shapes(int lane, EllipseBatch& other, int other_lane) {
+    std::swap(a[lane], other.a[other_lane]);
+    std::swap(b[lane], other.b[other_lane]);
+  }
+
   Ellipse shape(int lane) const { return {a[lane], b[lane]}; }
   Vec2 position(int lane) const { return {x[lane], y[lane]}; }
   Vec2 axis(int lane) const { return {ux[lane], uy[lane]}; }
+  OrientedEllipse body(int lane) const { return {shape(lane), axis(lane)}; }
 };
 
 }  // namespace vitrel

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/contact/ellipse_overlap_batch.h"
+#include "core/contact/round_free_path_batch.h"
 
 /// @file
 /// How far can one ellipse move along x or y, at a fixed angle, before it touches another at rest? The free path of
@@ -35,20 +36,12 @@
 ///      W = √(det Q)/G, the slope of f is a smooth function of v on −1 … 1; that of Q is d_y − G v. Bracketed
 ///      Newton iteration from v = d_y/G takes 2 to 4 steps.
 ///
-/// For disks of any sizes step 2 is exact. If all particles are round, `RoundFreePathBatch` needs one square root.
+/// For disks of any sizes step 2 is exact. If all particles are round, round_free_path_batch.h needs one square root.
 ///
 /// Contact is declared with the surfaces between `gap` and (a₁/b₁ + ¼) `gap` apart, to the rounding of the
 /// coordinates: as in ellipse_overlap_batch.h the first body is enlarged by the factor 1 + gap/b₁. A pair that is
 /// closer already, and approaching, touches at once.
 namespace vitrel {
-
-/// The end of a free path.
-struct FreePath {
-  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-  double length;
-  std::uint32_t partner;     ///< id of the particle hit, or none
-  double offset_at_contact;  ///< along the path, from the moving centre to that of the partner
-};
 
 namespace detail {
 
@@ -215,45 +208,6 @@ class FreePathBatch {
   std::uint32_t id_[simd_width];
   detail::BatchBuffer<simd_width> dx_, dy_, other_height_, other_shear_, other_half_chord_;
   detail::BatchBuffer<simd_width> xy_, yy_, det_, earliest_;
-};
-
-/// Free paths among round particles.
-template <int direction>
-class RoundFreePathBatch {
- public:
-  using Mask = SimdBatch::Mask;
-
-  RoundFreePathBatch(const Ellipse& shape, const Vec2& /*axis*/, double gap, double max_length)
-      : radius_(shape.a + gap), max_length_(max_length), length_(max_length) {}
-
-  double reach_behind(double /*largest*/) const { return 0; }
-  double reach_aside(double largest) const { return radius_ + largest; }
-  double reach_ahead(double largest) const { return max_length_ + radius_ + largest; }
-
-  VITREL_INLINE void add(const EllipseBatch& group, std::uint32_t first_id, const Vec2& offset,
-                         const Mask& mask) {
-    using detail::component;
-    const SimdBatch dx = component<direction>(group.x, group.y) + offset[direction];
-    const SimdBatch dy = component<1 - direction>(group.x, group.y) + offset[1 - direction];
-    const SimdBatch reach = group.a.load() + radius_;
-    const SimdBatch chord_squared = reach * reach - dy * dy;
-    const SimdBatch free_length = dx - sqrt(max(chord_squared, SimdBatch(0)));
-    const Mask sooner = mask && chord_squared > 0. && dx > 0. && free_length < length_;
-    length_ = select(sooner, free_length, length_);
-    dx_ = select(sooner, dx, dx_);
-    id_ = select(sooner, detail::lane_indices<simd_width>() + static_cast<double>(first_id), id_);
-  }
-
-  FreePath end() const {
-    const double shortest = hmin(length_), length = std::max(shortest, 0.);
-    const int lane = find_first_set(length_ == shortest);
-    if (id_[lane] < 0) return {length, FreePath::none, 0};
-    return {length, static_cast<std::uint32_t>(static_cast<double>(id_[lane])), dx_[lane] - length};
-  }
-
- private:
-  double radius_, max_length_;
-  SimdBatch length_, dx_{0}, id_{-1};
 };
 
 }  // namespace vitrel

@@ -120,6 +120,15 @@ class Reader final : public FieldVisitor {
     for (const TomlNode& item : *items) values.push_back(number(item, field, "[1.0, 2.0]"));
   }
 
+  void number_or_numbers(const Field& field, std::vector<double>& values) override {
+    const TomlNode* node = find(field);
+    if (!node) return;
+    if (node->get<TomlNode::Array>())
+      this->field(field, values);
+    else
+      values = {number(*node, field, to_toml(values[0]), "a number or an array of numbers")};
+  }
+
   void integer(const Field& field, std::int64_t& value, std::int64_t low,
                std::int64_t high) override {
     const TomlNode* node = find(field);
@@ -249,11 +258,12 @@ class Reader final : public FieldVisitor {
                                 join(path_, field.key), wanted, called(node), field.key, example));
   }
 
-  double number(const TomlNode& node, const Field& field, const std::string& example) const {
+  double number(const TomlNode& node, const Field& field, const std::string& example,
+                const std::string& wanted = "a number") const {
     if (const double* real = node.get<double>()) return *real;
     if (const std::int64_t* integer = node.get<std::int64_t>())
       return static_cast<double>(*integer);
-    wrong_type(node, field, "a number", example);
+    wrong_type(node, field, wanted, example);
   }
 
   [[noreturn]] void refuse(const TomlEntry& entry) const {

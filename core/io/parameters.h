@@ -57,6 +57,10 @@ class FieldVisitor {
   virtual void numbers(const Field&, std::span<double> values) = 0;
   /// Any number of numbers.
   virtual void field(const Field&, std::vector<double>&) = 0;
+  /// A number, or an array of several.
+  virtual void number_or_numbers(const Field& field, std::vector<double>& values) {
+    values.size() == 1 ? this->field(field, values[0]) : this->field(field, values);
+  }
   /// An integer from `low` to `high`.
   virtual void integer(const Field&, std::int64_t& value, std::int64_t low, std::int64_t high) = 0;
   /// One of `names`, by its index.

@@ -149,20 +149,21 @@ double total_volume(const Configuration<Dim>& system) {
 
 }  // namespace
 
-Configuration2 draw_particles(const std::vector<Species>& species, std::size_t particles,
-                              double packing_fraction, double box_aspect, std::uint64_t seed) {
-  Configuration2 system = draw<2>(species, particles, seed);
-  const double width = std::sqrt(total_volume(system) / packing_fraction / box_aspect);
-  system.box = PeriodicBox<2>(Vec2(width, box_aspect * width));
+template <int Dim>
+Configuration<Dim> draw_particles(const std::vector<Species>& species, std::size_t particles,
+                                  double packing_fraction, const Vec<Dim>& proportions,
+                                  std::uint64_t seed) {
+  Configuration<Dim> system = draw<Dim>(species, particles, seed);
+  const Vec<Dim> relative = proportions / proportions[0];
+  const double cube = total_volume(system) / packing_fraction / relative.prod();
+  const double width = Dim == 2 ? std::sqrt(cube) : std::cbrt(cube);
+  system.box = PeriodicBox<Dim>(relative * width);
   return system;
 }
 
-Configuration3 draw_solids(const std::vector<Species>& species, std::size_t particles,
-                           double packing_fraction, std::uint64_t seed) {
-  Configuration3 system = draw<3>(species, particles, seed);
-  const double edge = std::cbrt(total_volume(system) / packing_fraction);
-  system.box = PeriodicBox<3>(Vec3::Constant(edge));
-  return system;
-}
+template Configuration2 draw_particles(const std::vector<Species>&, std::size_t, double,
+                                       const Vec2&, std::uint64_t);
+template Configuration3 draw_particles(const std::vector<Species>&, std::size_t, double,
+                                       const Vec3&, std::uint64_t);
 
 }  // namespace vitrel

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "core/geometry/vector.h"
+
 /// @file
 /// The species of a system, and how their shapes are drawn.
 namespace vitrel {
@@ -48,13 +50,12 @@ struct Species {
 std::vector<std::size_t> species_counts(const std::vector<Species>& species, std::size_t particles);
 
 /// N particles at rest at the origin, mixed in a random order, in the box of that packing fraction
-/// with L_y/L_x = `box_aspect`. The order comes from the stream (seed, shapes, 0, 0) and the shape
-/// of particle i from (seed, shapes, 1, i). Shapes are not rescaled: the unit of length is that of
-/// the sizes given. At least one species; the fractions add up to 1.
-Configuration<2> draw_particles(const std::vector<Species>& species, std::size_t particles,
-                                double packing_fraction, double box_aspect, std::uint64_t seed);
-/// The same in three dimensions, in a cube.
-Configuration<3> draw_solids(const std::vector<Species>& species, std::size_t particles,
-                             double packing_fraction, std::uint64_t seed);
+/// whose sides have these proportions. The order comes from the stream (seed, shapes, 0, 0) and the
+/// shape of particle i from (seed, shapes, 1, i). Shapes are not rescaled: the unit of length is that
+/// of the sizes given. At least one species; the fractions add up to 1.
+template <int Dim>
+Configuration<Dim> draw_particles(const std::vector<Species>& species, std::size_t particles,
+                                  double packing_fraction, const Vec<Dim>& proportions,
+                                  std::uint64_t seed);
 
 }  // namespace vitrel

@@ -290,7 +290,7 @@ Y = 1 GPa, the thermal speed √(2kT/m) is 2 m/s, and the box is periodic. Times
 ### Exceptions (figure 7)
 
 `vitrel sweep` runs `params/articles/mueller_figure_7_density.toml` and `mueller_figure_7_modulus.toml`: {usual['particles']} elastic spheres
-from random positions; means and standard errors over {usual['seeds']} seeds. An *early release* is a contact in which a third
+from a simple cubic crystal; means and standard errors over {usual['seeds']} seeds. An *early release* is a contact in which a third
 particle hits one of the pair. A *blocked rotation* is a contact whose rotation a neighbour blocks. Dashed lines show
 the kinetic theory of a dilute gas of nearly hard spheres, with the mean contact duration τ and the mean free time τ_f. A
 third particle hits one of the pair in a fraction (3√3/4) τ/τ_f of the collisions; it blocks the rotation in a fraction

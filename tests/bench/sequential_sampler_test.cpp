@@ -44,7 +44,7 @@ Estimate compressibility(Configuration2 c) {
 // between the two.
 TEST(SamplerBaseline, HasTheSamePressure) {
   const Configuration2 start = fluid(2, 0.5);
-  const Estimate ours = compressibility<Sampler>(start);
+  const Estimate ours = compressibility<Sampler<2>>(start);
   const Estimate plain = compressibility<SequentialSampler>(start);
   for (const Estimate& z : {ours, plain}) {
     EXPECT_LT(z.error, 0.02);

@@ -32,7 +32,7 @@ TEST(DrawParticles, TheBoxHasThePackingFractionAndTheAspect) {
   species[0].fraction = species[1].fraction = 0.5;
   species[0].aspect_ratio = number(3);
   species[1].size = number(1.4);
-  const Configuration2 system = draw_particles(species, 101, 0.6, 2.5, 7);
+  const Configuration2 system = draw_particles<2>(species, 101, 0.6, Vec2(1, 2.5), 7);
   EXPECT_NEAR(packing_fraction(system), 0.6, 1e-14);
   EXPECT_NEAR(system.box.lengths().y() / system.box.lengths().x(), 2.5, 1e-14);
   for (std::size_t i = 0; i < system.size(); ++i) {
@@ -49,7 +49,7 @@ TEST(DrawParticles, SpeciesAreMixedAndTheSeedDecides) {
   std::vector<Species> species(2);
   species[0].fraction = species[1].fraction = 0.5;
   const auto order = [&](std::uint64_t seed) {
-    return draw_particles(species, 1000, 0.5, 1, seed).species;
+    return draw_particles<2>(species, 1000, 0.5, Vec2::Ones(), seed).species;
   };
   EXPECT_EQ(order(3), order(3));
   EXPECT_NE(order(3), order(4));
@@ -65,7 +65,7 @@ TEST(DrawParticles, SemiAxesAndMassAreTakenAsGiven) {
   std::vector<Species> species(1);
   species[0].semi_axes = {number(3.3), number(0.7)};
   species[0].mass = 5;
-  const Configuration2 system = draw_particles(species, 4, 0.3, 1, 1);
+  const Configuration2 system = draw_particles<2>(species, 4, 0.3, Vec2::Ones(), 1);
   EXPECT_EQ(system.shape[2].a, 3.3);
   EXPECT_EQ(system.shape[2].b, 0.7);
   EXPECT_EQ(system.mass[2], 5);
@@ -92,7 +92,7 @@ TEST(DrawParticles, TheFirstSemiAxisReplacesTheSize) {
   std::vector<Species> species(1);
   species[0].first_semi_axis = number(3);
   species[0].aspect_ratio = Distribution{Distribution::Kind::uniform, 0, 0, 1, 5, 1};
-  for (const Ellipse& shape : draw_particles(species, 20, 0.3, 1, 7).shape) {
+  for (const Ellipse& shape : draw_particles<2>(species, 20, 0.3, Vec2::Ones(), 7).shape) {
     EXPECT_EQ(shape.a, 3);
     EXPECT_GE(shape.b, 0.6);
   }
@@ -106,10 +106,11 @@ TEST(DrawSolids, TheCubeHasThePackingFractionAndTheShapesTheRatios) {
   species[1].aspect_ratios = {number(4), number(0.5)};
   species[1].size = number(1.4);
   species[2].semi_axes = {number(1.5), number(3), number(0.7)};
-  const Configuration3 system = draw_solids(species, 101, 1e-6, 7);
+  const Configuration3 system = draw_particles<3>(species, 101, 1e-6, Vec3(1, 2, 0.5), 7);
   EXPECT_NEAR(packing_fraction(system), 1e-6, 1e-20);
   const Vec3& box = system.box.lengths();
-  EXPECT_TRUE(box.x() == box.y() && box.y() == box.z());
+  EXPECT_EQ(box.y(), 2 * box.x());
+  EXPECT_EQ(box.z(), 0.5 * box.x());
   const double sizes[] = {1, 1.4, std::cbrt(1.5 * 3 * 0.7)};
   for (std::size_t i = 0; i < system.size(); ++i) {
     const int kind = system.species[i];
@@ -131,7 +132,7 @@ TEST(DrawSolids, BothAspectRatiosAreDrawn) {
   std::vector<Species> species(1);
   species[0].aspect_ratios = {Distribution{Kind::uniform, 0, 0, 1, 5, 1},
                               Distribution{Kind::uniform, 0, 0, 0.1, 2, 0.1}};
-  const Configuration3 system = draw_solids(species, 1000, 0.3, 7);
+  const Configuration3 system = draw_particles<3>(species, 1000, 0.3, Vec3::Ones(), 7);
   double sum1 = 0, sum2 = 0;
   for (const Ellipsoid& shape : system.shape) {
     sum1 += shape.semi_axes[0] / shape.semi_axes[1];
@@ -148,9 +149,9 @@ TEST(DrawSolids, TheFirstSemiAxisIsTheSameAtAllRatios) {
   std::vector<Species> species(1);
   species[0].aspect_ratios = {Distribution{Kind::uniform, 0, 0, 0.1, 2, 0.1},
                               Distribution{Kind::uniform, 0, 0, 0.1, 2, 0.1}};
-  const Configuration3 sized = draw_solids(species, 50, 0.3, 7);
+  const Configuration3 sized = draw_particles<3>(species, 50, 0.3, Vec3::Ones(), 7);
   species[0].first_semi_axis = number(3);
-  const Configuration3 system = draw_solids(species, 50, 0.3, 7);
+  const Configuration3 system = draw_particles<3>(species, 50, 0.3, Vec3::Ones(), 7);
   for (std::size_t i = 0; i < system.size(); ++i) {
     const Vec3 &axes = system.shape[i].semi_axes, &other = sized.shape[i].semi_axes;
     EXPECT_EQ(axes[0], 3);
@@ -164,7 +165,7 @@ TEST(DrawSolids, SemiAxesAreDrawnOneByOne) {
   species[0].semi_axes = {Distribution{Kind::uniform, 0, 0, 1, 2, 1}, number(0.5),
                           Distribution{Kind::uniform, 0, 0, 3, 4, 1}};
   double sum = 0;
-  for (const Ellipsoid& shape : draw_solids(species, 1000, 0.3, 7).shape) {
+  for (const Ellipsoid& shape : draw_particles<3>(species, 1000, 0.3, Vec3::Ones(), 7).shape) {
     const Vec3& axes = shape.semi_axes;
     EXPECT_TRUE(axes[0] >= 1 && axes[0] <= 2 && axes[1] == 0.5 && axes[2] >= 3 && axes[2] <= 4);
     sum += axes[0] + axes[2];

@@ -10,65 +10,78 @@
 namespace vitrel {
 namespace {
 
+template <int Dim>
 struct Scene {
-  Vec2 lengths;
+  Vec<Dim> lengths;
   double reach;
   std::size_t particles;
 };
-void PrintTo(const Scene& scene, std::ostream* out) {
-  *out << "box " << scene.lengths.x() << " × " << scene.lengths.y() << ", reach " << scene.reach
-       << ", " << scene.particles << " particles";
+template <int Dim>
+void PrintTo(const Scene<Dim>& scene, std::ostream* out) {
+  *out << "box " << scene.lengths.transpose() << ", reach " << scene.reach << ", "
+       << scene.particles << " particles";
 }
 
-class CheckerboardOf : public testing::TestWithParam<Scene> {
+template <int Dim>
+class CheckerboardOf : public testing::TestWithParam<Scene<Dim>> {
  protected:
-  CheckerboardOf()
-      : box_(GetParam().lengths), board_(box_, GetParam().reach, GetParam().particles) {}
+  using Cell = typename Checkerboard<Dim>::Cell;
+  CheckerboardOf() : box_(scene().lengths), board_(box_, scene().reach, scene().particles) {}
+  static const Scene<Dim>& scene() { return CheckerboardOf::GetParam(); }
 
-  Vec2 somewhere() {
-    const Vec2 half = 0.5 * box_.lengths();
-    return {draw_.uniform(-half.x(), half.x()), draw_.uniform(-half.y(), half.y())};
+  void find_whoever_is_within_reach();
+  void share_out_the_cells();
+  void keep_domains_of_a_colour_apart();
+  void move_every_border();
+
+  Vec<Dim> somewhere() { return random_vector().cwiseProduct(0.5 * box_.lengths()); }
+  Vec<Dim> random_vector() {
+    Vec<Dim> v;
+    for (double& x : v) x = draw_.uniform(-1, 1);
+    return v;
   }
   /// visit(cell index, translation) for all cells near one.
   template <class Visit>
-  void for_each_near(const Checkerboard::Cell& cell, Visit&& visit) const {
-    for (const Checkerboard::NearLine& column : board_.near_columns(cell.x))
-      for (const Checkerboard::NearLine& row : board_.near_rows(cell.y))
-        visit(Checkerboard::Cell{column.cell, row.cell}, Vec2(column.translation, row.translation));
+  void for_each_near(const Cell& cell, Visit&& visit) const {
+    board_.for_each_near(cell, [&](std::size_t near, const auto& translation) {
+      visit(near, Vec<Dim>(translation.data()));
+      return true;
+    });
   }
 
   Stream draw_{81, Purpose::tests};
-  PeriodicBox<2> box_;
-  Checkerboard board_;
+  PeriodicBox<Dim> box_;
+  Checkerboard<Dim> board_;
 };
 
 // Every image within reach of a point lies in one of the cells near its own, seen at that image's
 // place, and once only.
-TEST_P(CheckerboardOf, WhoeverIsWithinReachIsInANearCellOnce) {
+template <int Dim>
+void CheckerboardOf<Dim>::find_whoever_is_within_reach() {
   int met = 0;
   for (int k = 0; k < 2000; ++k) {
-    const Vec2 one = somewhere();
-    Vec2 two = one + GetParam().reach * Vec2(draw_.uniform(-1, 1), draw_.uniform(-1, 1));
-    Shift<2> image = Shift<2>::Zero();
+    const Vec<Dim> one = somewhere();
+    Vec<Dim> two = one + scene().reach * random_vector();
+    Shift<Dim> image = Shift<Dim>::Zero();
     box_.wrap(two, image);
     const std::size_t home = board_.index(board_.cell_of(two));
-    std::vector<Vec2> seen;
-    for_each_near(board_.cell_of(one),
-                  [&](const Checkerboard::Cell& cell, const Vec2& translation) {
-                    if (board_.index(cell) == home) seen.push_back(two + translation - one);
-                  });
-    box_.for_each_image(two - one, GetParam().reach, [&](const Shift<2>&, const Vec2& d) {
+    std::vector<Vec<Dim>> seen;
+    for_each_near(board_.cell_of(one), [&](std::size_t cell, const Vec<Dim>& translation) {
+      if (cell == home) seen.push_back(two + translation - one);
+    });
+    box_.for_each_image(two - one, scene().reach, [&](const Shift<Dim>&, const Vec<Dim>& d) {
       ++met;
       ASSERT_EQ(
           std::ranges::count_if(
-              seen, [&](const Vec2& at) { return (at - d).norm() < 1e-9 * d.norm() + 1e-12; }),
+              seen, [&](const Vec<Dim>& at) { return (at - d).norm() < 1e-9 * d.norm() + 1e-12; }),
           1);
     });
   }
   EXPECT_GT(met, 1000);
 }
 
-TEST_P(CheckerboardOf, DomainsShareOutTheCells) {
+template <int Dim>
+void CheckerboardOf<Dim>::share_out_the_cells() {
   for (int k = 0; k < 20; ++k) {
     board_.shift(draw_);
     std::vector<int> found(board_.cells(), 0);
@@ -85,17 +98,21 @@ TEST_P(CheckerboardOf, DomainsShareOutTheCells) {
 }
 
 // What makes turns at the same time safe: no domain looks into another of its colour, in any image.
-TEST_P(CheckerboardOf, NoDomainIsNearAnotherOfItsColour) {
+template <int Dim>
+void CheckerboardOf<Dim>::keep_domains_of_a_colour_apart() {
   std::map<std::size_t, std::size_t> colour_of;
   for (std::size_t colour = 0; colour < board_.colours().size(); ++colour)
     for (const std::size_t domain : board_.colours()[colour]) colour_of[domain] = colour;
   for (int k = 0; k < 20; ++k) {
     board_.shift(draw_);
+    std::vector<std::size_t> domain_of(board_.cells());
+    for (std::size_t d = 0; d < board_.domains(); ++d)
+      board_.for_each_cell(d, [&](std::size_t cell) { domain_of[cell] = d; });
     for (int trial = 0; trial < 300; ++trial) {
-      const Checkerboard::Cell cell = board_.cell_of(somewhere());
+      const Cell cell = board_.cell_of(somewhere());
       const std::size_t domain = board_.domain_of(cell);
-      for_each_near(cell, [&](const Checkerboard::Cell& other, const Vec2&) {
-        const std::size_t its_domain = board_.domain_of(other);
+      for_each_near(cell, [&](std::size_t other, const Vec<Dim>&) {
+        const std::size_t its_domain = domain_of[other];
         if (its_domain != domain) {
           ASSERT_NE(colour_of[its_domain], colour_of[domain]);
         }
@@ -106,14 +123,15 @@ TEST_P(CheckerboardOf, NoDomainIsNearAnotherOfItsColour) {
 
 // Two cells side by side are in one domain most of the time, and, if there are several, sometimes in
 // two.
-TEST_P(CheckerboardOf, EveryBorderMoves) {
+template <int Dim>
+void CheckerboardOf<Dim>::move_every_border() {
   constexpr int shifts = 400;
-  const Vec2 half = 0.5 * box_.lengths();
+  const double half = 0.5 * box_.lengths().x();
   for (int k = 0; k < 20; ++k) {
-    const Vec2 here = somewhere();
-    Vec2 beside = here + Vec2(GetParam().reach, 0);
-    if (beside.x() >= half.x()) beside.x() -= box_.lengths().x();
-    if (beside.x() < -half.x() || beside.x() >= half.x()) return;  // a box of one cell
+    const Vec<Dim> here = somewhere();
+    Vec<Dim> beside = here + scene().reach * Vec<Dim>::UnitX();
+    if (beside.x() >= half) beside.x() -= box_.lengths().x();
+    if (beside.x() < -half || beside.x() >= half) return;  // a box of one cell
     int together = 0;
     for (int s = 0; s < shifts; ++s) {
       board_.shift(draw_);
@@ -127,12 +145,47 @@ TEST_P(CheckerboardOf, EveryBorderMoves) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Boxes, CheckerboardOf,
-                         testing::Values(Scene{{80, 80}, 2.9, 1000}, Scene{{80, 30}, 2.9, 400},
-                                         Scene{{24.5, 24.5}, 3, 100}, Scene{{100, 7}, 3, 100},
-                                         Scene{{9, 50}, 3, 1000}, Scene{{7, 7}, 3.4, 5},
-                                         Scene{{7, 7}, 3.6, 5}, Scene{{2.8, 2.8}, 4.9, 1},
-                                         Scene{{1.1, 12}, 4.9, 2}, Scene{{300, 300}, 3, 20}));
+using CheckerboardInThePlane = CheckerboardOf<2>;
+using CheckerboardInSpace = CheckerboardOf<3>;
+
+TEST_P(CheckerboardInThePlane, WhoeverIsWithinReachIsInANearCellOnce) {
+  find_whoever_is_within_reach();
+}
+TEST_P(CheckerboardInSpace, WhoeverIsWithinReachIsInANearCellOnce) {
+  find_whoever_is_within_reach();
+}
+TEST_P(CheckerboardInThePlane, DomainsShareOutTheCells) {
+  share_out_the_cells();
+}
+TEST_P(CheckerboardInSpace, DomainsShareOutTheCells) {
+  share_out_the_cells();
+}
+TEST_P(CheckerboardInThePlane, NoDomainIsNearAnotherOfItsColour) {
+  keep_domains_of_a_colour_apart();
+}
+TEST_P(CheckerboardInSpace, NoDomainIsNearAnotherOfItsColour) {
+  keep_domains_of_a_colour_apart();
+}
+TEST_P(CheckerboardInThePlane, EveryBorderMoves) {
+  move_every_border();
+}
+TEST_P(CheckerboardInSpace, EveryBorderMoves) {
+  move_every_border();
+}
+
+INSTANTIATE_TEST_SUITE_P(Boxes, CheckerboardInThePlane,
+                         testing::Values(Scene<2>{{80, 80}, 2.9, 1000},
+                                         Scene<2>{{80, 30}, 2.9, 400},
+                                         Scene<2>{{24.5, 24.5}, 3, 100}, Scene<2>{{100, 7}, 3, 100},
+                                         Scene<2>{{9, 50}, 3, 1000}, Scene<2>{{7, 7}, 3.4, 5},
+                                         Scene<2>{{7, 7}, 3.6, 5}, Scene<2>{{2.8, 2.8}, 4.9, 1},
+                                         Scene<2>{{1.1, 12}, 4.9, 2}, Scene<2>{{300, 300}, 3, 20}));
+
+INSTANTIATE_TEST_SUITE_P(Boxes, CheckerboardInSpace,
+                         testing::Values(Scene<3>{{25, 25, 25}, 2.9, 1000},
+                                         Scene<3>{{60, 30, 9}, 3, 400}, Scene<3>{{7, 7, 7}, 3.4, 5},
+                                         Scene<3>{{2.8, 3, 30}, 4.9, 2},
+                                         Scene<3>{{1.1, 12, 5}, 4.9, 2}));
 
 }  // namespace
 }  // namespace vitrel

@@ -10,16 +10,16 @@
 namespace vitrel {
 namespace {
 
-using Index = SimdCells::Index;
+using Index = SimdCells<2>::Index;
 
 /// Particles of a cell, read group by group; every one where its place says, and no lane besides.
-std::set<Index> particles_in(SimdCells& cells, std::size_t cell) {
+std::set<Index> particles_in(SimdCells<2>& cells, std::size_t cell) {
   std::set<Index> found;
   std::size_t at = cell;
-  while (at != SimdCells::none) {
-    const SimdCells::Group& group = cells[at];
+  while (at != SimdCells<2>::none) {
+    const SimdCells<2>::Group& group = cells[at];
     EXPECT_EQ(group.cell, cell);
-    if (group.next != SimdCells::none) {
+    if (group.next != SimdCells<2>::none) {
       EXPECT_EQ(group.count, simd_width);
     }
     for (int lane = 0; lane < simd_width; ++lane) {
@@ -45,20 +45,19 @@ TEST(SimdCells, KeepTrackOfEverybody) {
   constexpr std::size_t cells_of_domain = 5;
   const std::vector<std::size_t> begin = {0, 23, 41};
   const std::size_t n = begin.back();
-  SimdCells cells;
+  SimdCells<2> cells;
   cells.resize(2 * cells_of_domain, n);
   for (std::size_t cell = 0; cell < 2 * cells_of_domain; ++cell) cells.clear(cell);
-  std::vector<SimdCells::FreeList> free_list = {cells.free_groups(begin[0], begin[1]),
-                                                cells.free_groups(begin[1], begin[2])};
+  std::vector<SimdCells<2>::FreeList> free_list = {cells.free_groups(begin[0], begin[1]),
+                                                   cells.free_groups(begin[1], begin[2])};
   std::vector<std::size_t> cell_of(n);
   Stream draw(91, Purpose::tests);
   std::size_t crowded = 0;
   const auto put = [&](std::size_t i, std::size_t domain) {
     const bool anywhere = draw.below(3) == 0;
     cell_of[i] = domain * cells_of_domain + (anywhere ? draw.below(cells_of_domain) : crowded);
-    cells.insert(i, cell_of[i], {2.0 + static_cast<double>(i), 1},
-                 Vec2(static_cast<double>(i), -static_cast<double>(i)), Vec2(1, 0),
-                 free_list[domain]);
+    cells.insert(i, cell_of[i], OrientedEllipse{{2.0 + static_cast<double>(i), 1}, Vec2(1, 0)},
+                 Vec2(static_cast<double>(i), -static_cast<double>(i)), free_list[domain]);
   };
   for (std::size_t domain = 0; domain < 2; ++domain)
     for (std::size_t i = begin[domain]; i < begin[domain + 1]; ++i) put(i, domain);
@@ -81,16 +80,16 @@ TEST(SimdCells, KeepTrackOfEverybody) {
 }
 
 TEST(SimdCells, ExchangePlaces) {
-  SimdCells cells;
+  SimdCells<2> cells;
   cells.resize(8, 40);
   for (std::size_t cell = 0; cell < 8; ++cell) cells.clear(cell);
-  SimdCells::FreeList free_list = cells.free_groups(0, 40);
-  cells.insert(0, 0, {3, 1}, Vec2(1, 2), Vec2(1, 0), free_list);
-  cells.insert(1, 1, {2, 0.5}, Vec2(5, 6), Vec2(0, 1), free_list);
+  SimdCells<2>::FreeList free_list = cells.free_groups(0, 40);
+  cells.insert(0, 0, OrientedEllipse{{3, 1}, Vec2(1, 0)}, Vec2(1, 2), free_list);
+  cells.insert(1, 1, OrientedEllipse{{2, 0.5}, Vec2(0, 1)}, Vec2(5, 6), free_list);
   cells.exchange(0, 1);
   const auto expect_at = [&cells](std::size_t i, std::size_t cell, const Ellipse& shape,
                                   const Vec2& position, const Vec2& axis) {
-    const SimdCells::Group& group = cells.group_of(i);
+    const SimdCells<2>::Group& group = cells.group_of(i);
     const int lane = cells.lane_of(i);
     EXPECT_EQ(group.cell, cell);
     EXPECT_EQ(group.particle[lane], i);

@@ -58,7 +58,8 @@ inline std::vector<Mixture> mixtures() {
 }
 
 inline Configuration2 inserted_mixture(const Mixture& m) {
-  Configuration2 c = draw_particles(m.species, m.particles, m.packing_fraction, m.box_aspect, 1);
+  Configuration2 c =
+      draw_particles<2>(m.species, m.particles, m.packing_fraction, Vec2(1, m.box_aspect), 1);
   const StageReport report = insert_particles(c, {m.packing_fraction, 1'000'000, false}, 1, {});
   EXPECT_EQ(report.end, StageEnd::reached);
   return c;

@@ -23,19 +23,20 @@ inline Estimate estimate(std::span<const double> values) {
   return {mean, std::sqrt(square / (n - 1) / n)};
 }
 
-/// kT = 2E/f at zero net momentum, f = 2N − 2 + N_rot degrees of freedom.
-inline double kinetic_temperature(const Configuration2& configuration) {
-  const Mechanics sums = mechanics(configuration);
-  const double freedoms = 2 * static_cast<double>(configuration.size()) - 2 +
-                          static_cast<double>(rotor_count(configuration));
+/// kT = 2E/f at zero net momentum, f = D (N − 1) + N_rot degrees of freedom in D dimensions.
+template <int Dim>
+double kinetic_temperature(const Configuration<Dim>& configuration) {
+  const Mechanics<Dim> sums = mechanics(configuration);
+  const double freedoms = Dim * (static_cast<double>(configuration.size()) - 1) +
+                          static_cast<double>(rotation_count(configuration));
   return 2 * (sums.translational_energy + sums.rotational_energy) / freedoms;
 }
 
-/// Z = βP/ρ = 1 + Σ J n·d/(2 N kT t) from the virial of the collisions in a time t.
-inline double virial_compressibility(const Configuration2& configuration, double virial,
-                                     double time) {
+/// Z = βP/ρ = 1 + Σ J n·d/(D N kT t) from the virial of the collisions in a time t.
+template <int Dim>
+double virial_compressibility(const Configuration<Dim>& configuration, double virial, double time) {
   const double n = static_cast<double>(configuration.size());
-  return 1 + virial / (2 * n * kinetic_temperature(configuration) * time);
+  return 1 + virial / (Dim * n * kinetic_temperature(configuration) * time);
 }
 
 }  // namespace vitrel

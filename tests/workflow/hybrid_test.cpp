@@ -75,7 +75,7 @@ TEST(Hybrid, ExchangesLetSpreadSizesJamLater) {
     Species species;
     species.aspect_ratio = Distribution{.mean = 1};
     species.size = Distribution{.kind = Distribution::Kind::uniform, .low = 0.6, .high = 1.4};
-    Configuration2 c = draw_particles({species}, 400, 0.3, 1, 1);
+    Configuration2 c = draw_particles<2>({species}, 400, 0.3, Vec2::Ones(), 1);
     insert_particles(c, {}, 1, {});
     HybridOptions options;
     options.reduced_pressure = 1e4;

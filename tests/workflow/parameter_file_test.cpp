@@ -39,13 +39,23 @@ struct BadFile {
 // Every rule of `validate`, with the place of the value that breaks it.
 const BadFile bad_files[] = {
     {"[system]\ndimension = 4", "file.toml:2:13: key 'system.dimension' is 4, but must be 2 or 3"},
-    {"[system]\ndimension = 3\nbox_aspect = 2",
-     "file.toml:3:1: key 'system.box_aspect' has a meaning only with dimension = 2"},
+    {"[system]\ndimension = 3\n[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"swell\"\n"
+     "[[prepare.stage]]\nmethod = \"sample\"",
+     "key 'prepare.stage.2.moves' is \"chains\", but in three dimensions event chains are for "
+     "spheres"},
+    {"[system]\nbox_aspect = [1, 2]",
+     "file.toml:2:14: key 'system.box_aspect' has 2 entries, but must be one number, L_y/L_x"},
+    {"[system]\ndimension = 3\nbox_aspect = [1, 2, 3]",
+     "has 3 entries, but must be one number or [L_y/L_x, L_z/L_x]"},
+    {"[system]\nbox_aspect = \"wide\"",
+     "file.toml:2:14: key 'system.box_aspect' must be a number or an array of numbers"},
     {"[system]\ndimension = 3\npacking_fraction = 1.0", "lies between 0 and 1"},
     {"[system]\ndimension = 3\n[[prepare.stage]]\nmethod = \"lattice\"",
-     "file.toml:4:10: key 'prepare.stage.0.method' is \"lattice\", but in three dimensions there "
-     "are "
-     "\"insert\" and \"grow\""},
+     "file.toml:3:1: key 'prepare.stage.0.arrangement' is \"square\", but must be "
+     "\"simple_cubic\", "},
+    {"[[prepare.stage]]\nmethod = \"lattice\"\narrangement = \"simple_cubic\"",
+     "file.toml:3:15: key 'prepare.stage.0.arrangement' is \"simple_cubic\", but must be "
+     "\"square\""},
     {"[system]\ndimension = 3\n[[species]]\nsemi_axes = [2, 1]",
      "file.toml:4:13: key 'species.0.semi_axes' is [2.0, 1.0], but must be [a, b, c], all above 0"},
     {"[system]\ndimension = 3\n[[species]]\nsemi_axes = [2, 1, 0]", "must be [a, b, c], all above"},
@@ -404,7 +414,12 @@ TEST(ParameterFile, ThreeDimensionsAreReadAndWritten) {
   const std::string text = effective_parameters(read);
   EXPECT_THAT(text,
               HasSubstr("aspect_ratios = [4.0, { distribution = \"uniform\", low = 0.1, high ="));
-  EXPECT_THAT(text, testing::Not(HasSubstr("box_aspect")));
+  EXPECT_THAT(text, HasSubstr("box_aspect = 1.0\n"));
+  const Parameters slab = parse_parameters(
+      "[system]\ndimension = 3\nbox_aspect = [2, 0.25]\n[[species]]\naspect_ratio = 1",
+      "slab.toml");
+  EXPECT_EQ(box_proportions<3>(slab.system), Vec3(1, 2, 0.25));
+  EXPECT_THAT(effective_parameters(slab), HasSubstr("box_aspect = [2.0, 0.25]\n"));
   EXPECT_EQ(effective_parameters(parse_parameters(text, "again")), text);
 }
 

@@ -338,6 +338,76 @@ TEST(PrepareSolids, StoppedTheyGoOnBitByBit) {
   }
 }
 
+/// Spheres or spheroids, on a crystal or inserted, and one stage of Monte Carlo up to 40 %.
+Parameters solids_by(const Stage& stage, double aspect_ratio) {
+  Parameters parameters;
+  parameters.system.dimension = 3;
+  parameters.system.particles = 108;
+  parameters.system.packing_fraction = 0.4;
+  parameters.system.box_aspect = {1, 1.2};
+  parameters.species[0].aspect_ratio = Distribution{.mean = aspect_ratio};
+  if (std::holds_alternative<SampleStage>(stage)) {
+    LatticeStage lattice;
+    lattice.arrangement = Arrangement::face_centred;
+    parameters.stages = {lattice, stage};
+  } else {
+    InsertStage insertion;
+    insertion.packing_fraction = 0.2;
+    parameters.stages = {insertion, stage};
+  }
+  validate(parameters);
+  return parameters;
+}
+
+CompressStage compression_in_space() {
+  CompressStage stage;
+  stage.packing_fraction = 0.4;
+  stage.pressure = 5;
+  stage.box = BoxChange::anisotropic;
+  return stage;
+}
+
+struct SolidsBy {
+  std::string name;
+  Stage stage;
+  double aspect_ratio = 2;
+};
+
+class StoppedSolids : public testing::TestWithParam<SolidsBy> {};
+
+// On two threads, each process a little later than the one before, against one process with one thread.
+TEST_P(StoppedSolids, ContinueBitIdentical) {
+  const Folder folder("stopped_solids");
+  const Parameters parameters = solids_by(GetParam().stage, GetParam().aspect_ratio);
+  const Preparation<3> whole = prepare<3>({parameters}, {}, say_nothing);
+  EXPECT_TRUE(exact_check(whole.configuration).clean());
+  EXPECT_NEAR(packing_fraction(whole.configuration), 0.4, 1e-12);
+  PrepareRequest request{parameters, folder / "state.h5"};
+  request.threads = 2;
+  std::uint64_t asked = 0, allowed = 110, stops = 0;
+  const RunControl control{[&] { return ++asked > allowed; }, {}, {}};
+  Preparation<3> parts = prepare<3>(request, control, say_nothing);
+  for (; !parts.complete; parts = prepare<3>(request, control, say_nothing)) {
+    allowed = 12 + 5 * ++stops;
+    asked = 0;
+    ASSERT_LT(stops, 1000u);
+  }
+  EXPECT_GT(stops, 1u);
+  expect_same_state(parts, whole);
+  EXPECT_EQ(parts.next_sweep, whole.next_sweep);
+  EXPECT_EQ(parts.trials().tried(), whole.trials().tried());
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, StoppedSolids,
+                         testing::Values(SolidsBy{"swell", SwellStage()},
+                                         SolidsBy{"swell_spheres", SwellStage(), 1},
+                                         SolidsBy{"compress", compression_in_space()},
+                                         SolidsBy{"hybrid", by_both(Moves::local)},
+                                         SolidsBy{"hybrid_chains", by_both(Moves::chains), 1},
+                                         SolidsBy{"sample", sampling(Moves::local)},
+                                         SolidsBy{"sample_chains", sampling(Moves::chains), 1}),
+                         [](const auto& at) { return at.param.name; });
+
 TEST(Prepare, AStuckStateIsKept) {
   Parameters parameters = small(0.88);
   std::get<SwellStage>(parameters.stages[1]).max_sweeps = 50;

@@ -26,8 +26,8 @@ Parameters parse(const std::string& text) {
 }
 
 Configuration2 drawn(const Parameters& p) {
-  return draw_particles(p.species, static_cast<std::size_t>(p.system.particles),
-                        p.system.packing_fraction, p.system.box_aspect, p.system.seed);
+  return draw_particles<2>(p.species, static_cast<std::size_t>(p.system.particles),
+                           p.system.packing_fraction, box_proportions<2>(p.system), p.system.seed);
 }
 
 /// What starts from a state, given `text`.
@@ -114,7 +114,7 @@ TEST(StateSpecies, WithoutARecordTheParticlesDecide) {
   EXPECT_EQ(found.species[0].mass, 3);
   EXPECT_EQ(found.species[1].name, "disk");
   EXPECT_EQ(found.species[1].fraction, 0.6);
-  EXPECT_NEAR(found.system.box_aspect, 2, 1e-12);
+  EXPECT_NEAR(found.system.box_aspect.at(0), 2, 1e-12);
   // A record that does not describe the particles counts as none.
   EXPECT_EQ(effective_parameters(taken("", state, effective_parameters(made))),
             effective_parameters(found));
@@ -122,7 +122,7 @@ TEST(StateSpecies, WithoutARecordTheParticlesDecide) {
 
 TEST(StateSpecies, SolidsKeepTheirTwoRatios) {
   const Parameters made = parse(solids);
-  const Configuration3 state = draw_solids(made.species, 10, 0.01, 1);
+  const Configuration3 state = draw_particles<3>(made.species, 10, 0.01, Vec3::Ones(), 1);
   const std::string record = effective_parameters(made);
   EXPECT_FALSE(species_conflict(made.species, state));
   const std::string rest = "[system]\ndimension = 3\nparticles = 10\npacking_fraction = 0.01\n";

@@ -70,14 +70,23 @@ void validate_shape(const Species& p, int dimension, const std::string& path) {
   validate_distribution(*p.aspect_ratio, 1, path + ".aspect_ratio");
 }
 
+void validate_box_aspect(const SystemParameters& p, const Rules& rules) {
+  const std::vector<double>& ratios = p.box_aspect;
+  const auto several = static_cast<std::size_t>(p.dimension) - 1;
+  rules.require(
+      ratios.size() == 1 || ratios.size() == several, "box_aspect",
+      fmt::format("has {} entries, but must be {}", ratios.size(),
+                  p.dimension == 2 ? "one number, L_y/L_x" : "one number or [L_y/L_x, L_z/L_x]"));
+  for (const double ratio : ratios)
+    rules.require(ratio >= 0.001 && ratio <= 1000, "box_aspect",
+                  fmt::format("is {}, but must lie between 0.001 and 1000", show(ratio)));
+}
+
 }  // namespace
 
 void describe_system(SystemParameters& p, FieldVisitor& visit) {
-  visit.field(
-      {"dimension", "",
-       "Space dimensions: 2 for ellipses, 3 for ellipsoids. In three dimensions a preparation has "
-       "the stages insert and grow only."},
-      p.dimension);
+  visit.field({"dimension", "", "Space dimensions: 2 for ellipses, 3 for ellipsoids."},
+              p.dimension);
   visit.field({"particles", "", "Number of particles."}, p.particles);
   visit.field({"packing_fraction", "",
                "Fraction of the box covered by particles: the sum of π a b divided by the area (of "
@@ -85,12 +94,11 @@ void describe_system(SystemParameters& p, FieldVisitor& visit) {
                "preparation unless a reduced pressure ends it."},
               p.packing_fraction);
   visit.field({"seed", "", "Seed of all random numbers."}, p.seed);
-  visit.when(p.dimension == 2, "dimension = 2", [&](FieldVisitor& in) {
-    in.field({"box_aspect", "",
-              "Ratio of height to width of the periodic box, L_y/L_x. In three dimensions the box "
-              "is a cube."},
-             p.box_aspect);
-  });
+  visit.number_or_numbers(
+      {"box_aspect", "",
+       "Ratio of height to width of the periodic box, L_y/L_x. In three dimensions [L_y/L_x, "
+       "L_z/L_x], or one number for both. A lattice changes it so that whole cells fit."},
+      p.box_aspect);
 }
 
 void describe_species(Species& p, FieldVisitor& visit) {
@@ -145,8 +153,7 @@ void validate_system(const SystemParameters& p) {
   rules.require(p.particles >= 1 && p.particles <= 100'000'000, "particles",
                 fmt::format("is {}, but must lie between 1 and 100000000", p.particles));
   rules.packing_fraction(p.packing_fraction, "packing_fraction", p.dimension);
-  rules.require(p.box_aspect >= 0.001 && p.box_aspect <= 1000, "box_aspect",
-                fmt::format("is {}, but must lie between 0.001 and 1000", show(p.box_aspect)));
+  validate_box_aspect(p, rules);
 }
 
 void validate_species(const std::vector<Species>& species, int dimension) {

@@ -1,6 +1,7 @@
 #include "workflow/configuration/state_species.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -238,13 +239,27 @@ void refuse(const std::optional<SpeciesConflict>& conflict, const Parameters& pa
                               conflict->key, conflict->complaint, file));
 }
 
+/// The sides of the box over the first one; one number if they are equal.
 template <int Dim>
-std::optional<SpeciesConflict> box_conflict(const Parameters& parameters, double aspect) {
-  if (Dim == 3 || !place_of(parameters, "system.box_aspect") ||
-      allows(constant(aspect), parameters.system.box_aspect))
+std::vector<double> box_aspect_of(const Vec<Dim>& lengths) {
+  std::vector<double> ratios;
+  for (int k = 1; k < Dim; ++k) ratios.push_back(lengths[k] / lengths[0]);
+  if (ratios.front() == ratios.back()) ratios.resize(1);
+  return ratios;
+}
+
+template <int Dim>
+std::optional<SpeciesConflict> box_conflict(const Parameters& parameters,
+                                            const SystemParameters& of_state) {
+  const Vec<Dim> given = box_proportions<Dim>(parameters.system);
+  const Vec<Dim> found = box_proportions<Dim>(of_state);
+  const auto same = [](double one, double two) { return allows(constant(one), two); };
+  if (!place_of(parameters, "system.box_aspect") || std::ranges::equal(given, found, same))
     return std::nullopt;
-  return SpeciesConflict{"system.box_aspect", fmt::format("is {}, but that of the state {}",
-                                                          parameters.system.box_aspect, aspect)};
+  return SpeciesConflict{
+      "system.box_aspect",
+      fmt::format("is {}, but that of the state {}", fmt::join(parameters.system.box_aspect, ", "),
+                  fmt::join(of_state.box_aspect, ", "))};
 }
 
 }  // namespace
@@ -275,12 +290,11 @@ void take_species(Parameters& parameters, const Configuration<Dim>& state,
   } else {
     parameters.species = recorded ? of_state : fully_described(of_state, origin.file);
   }
-  if constexpr (Dim == 2) {
-    const auto& lengths = state.box.lengths();
-    const double aspect = recorded ? recorded->system.box_aspect : lengths[1] / lengths[0];
-    refuse(box_conflict<Dim>(parameters, aspect), parameters, origin.file);
-    parameters.system.box_aspect = aspect;
-  }
+  SystemParameters of_state_system;
+  of_state_system.box_aspect =
+      recorded ? recorded->system.box_aspect : box_aspect_of<Dim>(state.box.lengths());
+  refuse(box_conflict<Dim>(parameters, of_state_system), parameters, origin.file);
+  parameters.system.box_aspect = of_state_system.box_aspect;
   try {
     validate(parameters);
   } catch (const BadValue& bad) {

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
+
+#include "core/geometry/vector.h"
 
 namespace vitrel {
 
@@ -9,7 +12,18 @@ struct SystemParameters {
   std::int64_t particles = 1000;
   double packing_fraction = 0.5;
   std::uint64_t seed = 1;
-  double box_aspect = 1;
+  std::vector<double> box_aspect = {
+      1};  ///< the other sides over L_x; one number is for all of them
 };
+
+/// The sides of the box over L_x.
+template <int Dim>
+Vec<Dim> box_proportions(const SystemParameters& system) {
+  Vec<Dim> proportions = Vec<Dim>::Constant(system.box_aspect[0]);
+  for (std::size_t k = 1; k < system.box_aspect.size(); ++k)
+    proportions[static_cast<Eigen::Index>(k) + 1] = system.box_aspect[k];
+  proportions[0] = 1;
+  return proportions;
+}
 
 }  // namespace vitrel

@@ -90,12 +90,9 @@ class PrepareJob {
   void begin() {
     const SystemParameters& system = parameters_.system;
     const auto particles = static_cast<std::size_t>(system.particles);
-    if constexpr (Dim == 2)
-      done().configuration = draw_particles(parameters_.species, particles, system.packing_fraction,
-                                            system.box_aspect, system.seed);
-    else
-      done().configuration =
-          draw_solids(parameters_.species, particles, system.packing_fraction, system.seed);
+    done().configuration =
+        draw_particles<Dim>(parameters_.species, particles, system.packing_fraction,
+                            box_proportions<Dim>(system), system.seed);
     stored_.state = first_state(stage(), 0);
   }
 

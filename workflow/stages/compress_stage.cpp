@@ -12,14 +12,16 @@ namespace vitrel {
 namespace {
 
 void describe_pressure(CompressStage& stage, FieldVisitor& visit) {
-  visit.field({"pressure", "kT/area", "βP, in units of the inverse unit of area."}, stage.pressure);
+  visit.field({"pressure", "kT/area",
+               "βP, in units of the inverse unit of area (in three dimensions of volume)."},
+              stage.pressure);
 }
 
 void describe_box(CompressStage& stage, FieldVisitor& visit) {
   static constexpr const char* names[] = {"isotropic", "anisotropic"};
   visit.field({"box", "",
-               "Either both sides of the box change by a common factor (isotropic), or one side at "
-               "a time does (anisotropic). The ratio of the sides stays within a factor of 2 of "
+               "Either all sides of the box change by a common factor (isotropic), or one side at "
+               "a time does (anisotropic). The ratio of two sides stays within a factor of 2 of "
                "its initial value."},
               stage.box, names);
 }
@@ -38,7 +40,7 @@ std::vector<StageField<CompressStage>> CompressStage::fields() {
           {"sweeps", describe_sweeps}};
 }
 
-void CompressStage::validate(const Rules& rules) const {
+void CompressStage::validate(const Rules& rules, const StageSubject&) const {
   rules.require(max_sweeps >= 1, "max_sweeps", "is 0, but must be at least 1");
   rules.require(sweeps >= 1, "sweeps", "is 0, but must be at least 1");
   rules.positive(pressure, "pressure");
@@ -58,12 +60,18 @@ std::string CompressStage::description(double) const {
              : fmt::format("compress at pressure {:.4g} for {} sweeps", pressure, sweeps);
 }
 
-StageReport CompressStage::advance(Configuration<2>& configuration, CompressionState& state,
+template <int Dim>
+StageReport CompressStage::advance(Configuration<Dim>& configuration, CompressionState& state,
                                    const StageContext& context, const RunControl& control) const {
   const CompressionOptions options{pressure, box, packing_fraction,
                                    packing_fraction ? max_sweeps : sweeps, context.threads};
   return compress(configuration, options, context.seed, state, control);
 }
+
+template StageReport CompressStage::advance(Configuration2&, CompressionState&, const StageContext&,
+                                            const RunControl&) const;
+template StageReport CompressStage::advance(Configuration3&, CompressionState&, const StageContext&,
+                                            const RunControl&) const;
 
 void CompressStage::record(const CompressionState& state, StageRecord& record) const {
   record.add(state.moves);

@@ -25,11 +25,12 @@ struct CompressStage : StageDefaults {
   std::uint64_t sweeps = CompressionOptions().sweeps;  ///< without one
 
   static std::vector<StageField<CompressStage>> fields();
-  void validate(const Rules& rules) const;
+  void validate(const Rules& rules, const StageSubject& subject) const;
   StageEnding ending() const;
   double end(const SystemParameters& system, double before) const;
   std::string description(double goal) const;
-  StageReport advance(Configuration<2>& configuration, CompressionState& state,
+  template <int Dim>
+  StageReport advance(Configuration<Dim>& configuration, CompressionState& state,
                       const StageContext& context, const RunControl& control) const;
   void record(const CompressionState& state, StageRecord& record) const;
   static void number_sweeps(CompressionState& state, std::uint64_t next_sweep);
@@ -39,6 +40,7 @@ struct CompressStage : StageDefaults {
     each_item_of_moves(state.moves, "compression.", visit);
     each_item_of_step(state.box.step, "compression.box.", visit);
     visit("compression.box.aspect_at_start", state.box.aspect_at_start);
+    visit.if_recorded("compression.box.depth_at_start", state.box.depth_at_start);
     visit("compression.box.all_tried", state.box.tried);
     visit("compression.box.all_accepted", state.box.accepted);
     visit("compression.packing_fraction", state.packing_fraction);

@@ -10,9 +10,10 @@ namespace {
 /// Growth of all lengths in one stretch, and the same times Z.
 constexpr double largest_growth = 0.01, largest_compression = 0.2;
 
+template <int Dim>
 class Hybrid {
  public:
-  Hybrid(Configuration2& configuration, const HybridOptions& options, HybridState& state,
+  Hybrid(Configuration<Dim>& configuration, const HybridOptions& options, HybridState& state,
          const RunControl& control)
       : configuration_(configuration),
         options_(options),
@@ -47,8 +48,8 @@ class Hybrid {
   double next_end() const {
     const double z = std::max(1.0, state_.growth.reduced_pressure);
     const double size = 1 + std::min(largest_growth, largest_compression / z);
-    const double end = packing_fraction(configuration_) * size * size;
-    return std::min(end, goal());
+    const double area = packing_fraction(configuration_) * size * size;
+    return std::min(Dim == 2 ? area : area * size, goal());
   }
 
   double goal() const {
@@ -77,7 +78,7 @@ class Hybrid {
     return std::clamp(done, 0.0, 1.0);
   }
 
-  Configuration2& configuration_;
+  Configuration<Dim>& configuration_;
   const HybridOptions& options_;
   HybridState& state_;
   const RunControl& control_;
@@ -87,9 +88,13 @@ class Hybrid {
 
 }  // namespace
 
-StageReport hybrid(Configuration2& configuration, const HybridOptions& options, HybridState& state,
-                   const RunControl& control) {
+template <int Dim>
+StageReport hybrid(Configuration<Dim>& configuration, const HybridOptions& options,
+                   HybridState& state, const RunControl& control) {
   return Hybrid(configuration, options, state, control).run();
 }
+
+template StageReport hybrid(Configuration2&, const HybridOptions&, HybridState&, const RunControl&);
+template StageReport hybrid(Configuration3&, const HybridOptions&, HybridState&, const RunControl&);
 
 }  // namespace vitrel

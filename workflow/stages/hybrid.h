@@ -26,7 +26,8 @@ struct HybridState {
 ///
 /// `reached` at the target packing fraction or pressure; `stuck` if the particles jam before; `stopped` by the run
 /// control: the same call then continues with bit-identical results. Otherwise like `grow`.
-StageReport hybrid(Configuration2& configuration, const HybridOptions& options, HybridState& state,
-                   const RunControl& control);
+template <int Dim>
+StageReport hybrid(Configuration<Dim>& configuration, const HybridOptions& options,
+                   HybridState& state, const RunControl& control);
 
 }  // namespace vitrel

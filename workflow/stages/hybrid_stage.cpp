@@ -25,7 +25,8 @@ std::vector<StageField<HybridStage>> HybridStage::fields() {
           {"moves", describe_moves}};
 }
 
-void HybridStage::validate(const Rules& rules) const {
+void HybridStage::validate(const Rules& rules, const StageSubject& subject) const {
+  validate_moves(moves, subject, rules);
   validate_exchanges(exchanges, rules);
   rules.require(stretch_sweeps >= 1, "stretch_sweeps",
                 "is 0, but must be at least 1; without sweeps the method is \"grow\"");
@@ -45,13 +46,19 @@ std::string HybridStage::description(double goal) const {
   return growth_description(*this, goal);
 }
 
-StageReport HybridStage::advance(Configuration<2>& configuration, HybridState& state,
+template <int Dim>
+StageReport HybridStage::advance(Configuration<Dim>& configuration, HybridState& state,
                                  const StageContext& context, const RunControl& control) const {
   const HybridOptions options{
       growth_rate, packing_fraction_goal(*this, context.packing_fraction), reduced_pressure,
       SamplingOptions{stretch_sweeps, moves, exchanges, context.threads}, context.seed};
   return hybrid(configuration, options, state, control);
 }
+
+template StageReport HybridStage::advance(Configuration2&, HybridState&, const StageContext&,
+                                          const RunControl&) const;
+template StageReport HybridStage::advance(Configuration3&, HybridState&, const StageContext&,
+                                          const RunControl&) const;
 
 void HybridStage::record(const HybridState& state, StageRecord& record) const {
   record.add(state.sampling);

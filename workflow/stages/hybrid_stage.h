@@ -26,11 +26,12 @@ struct HybridStage : StageDefaults {
   double exchanges = SamplingOptions().exchanges;
 
   static std::vector<StageField<HybridStage>> fields();
-  void validate(const Rules& rules) const;
+  void validate(const Rules& rules, const StageSubject& subject) const;
   StageEnding ending() const;
   double end(const SystemParameters& system, double before) const;
   std::string description(double goal) const;
-  StageReport advance(Configuration<2>& configuration, HybridState& state,
+  template <int Dim>
+  StageReport advance(Configuration<Dim>& configuration, HybridState& state,
                       const StageContext& context, const RunControl& control) const;
   void record(const HybridState& state, StageRecord& record) const;
   static void number_sweeps(HybridState& state, std::uint64_t next_sweep);

@@ -79,11 +79,9 @@ std::vector<StageField<InsertStage>> InsertStage::fields() {
           {"orientations", describe_orientations}};
 }
 
-void InsertStage::validate(const Rules& rules) const {
+void InsertStage::validate(const Rules& rules, const StageSubject& subject) const {
+  const int dimension = subject.dimension;
   rules.require(attempts >= 1, "attempts", "is 0, but must be at least 1");
-}
-
-void InsertStage::validate_in(int dimension, const Rules& rules) const {
   rules.require(dimension == 3 || orientations != Orientations::planar, "orientations",
                 "is \"planar\", which has a meaning only with dimension = 3");
   if (orientations != Orientations::tensor) return;

@@ -10,17 +10,20 @@
 namespace vitrel {
 namespace {
 
+constexpr const char* arrangement_names[] = {"square", "triangular", "simple_cubic",
+                                             "face_centred_cubic", "body_centred_cubic"};
+
 void describe_arrangement(LatticeStage& stage, FieldVisitor& visit) {
-  static constexpr const char* names[] = {"square", "triangular"};
   visit.field({"arrangement", "",
-               "Lattice type. The triangular lattice is stretched along x by the aspect ratio of "
-               "the particles."},
-              stage.arrangement, names);
+               "Lattice type: square or triangular in two dimensions, the others in three. All but "
+               "the square lattice are stretched like the particles, which lie along the axes of "
+               "the box."},
+              stage.arrangement, arrangement_names);
 }
 
 void describe_angle(LatticeStage& stage, FieldVisitor& visit) {
   visit.field({"angle", "radians",
-               "Angle from the x axis to the major axes; must be 0 on the triangular lattice."},
+               "Angle from the x axis to the major axes; must be 0 on all but the square lattice."},
               stage.angle);
 }
 
@@ -30,10 +33,16 @@ std::vector<StageField<LatticeStage>> LatticeStage::fields() {
   return {{"arrangement", describe_arrangement}, {"angle", describe_angle}};
 }
 
-void LatticeStage::validate(const Rules& rules) const {
+void LatticeStage::validate(const Rules& rules, const StageSubject& subject) const {
   rules.require(std::isfinite(angle), "angle", "must be a finite number");
   rules.require(arrangement == Arrangement::square || angle == 0, "angle",
-                fmt::format("is {}, but must be 0 on the triangular lattice", show(angle)));
+                fmt::format("is {}, but must be 0 on all but the square lattice", show(angle)));
+  rules.require(has_dimension(arrangement, subject.dimension), "arrangement",
+                fmt::format("is \"{}\", but must be {}",
+                            arrangement_names[static_cast<std::size_t>(arrangement)],
+                            subject.dimension == 2 ? "\"square\" or \"triangular\""
+                                                   : "\"simple_cubic\", \"face_centred_cubic\" or "
+                                                     "\"body_centred_cubic\" in three dimensions"));
 }
 
 double LatticeStage::end(const SystemParameters& system, double) const {
@@ -44,9 +53,15 @@ std::string LatticeStage::description(double goal) const {
   return fmt::format("lattice at packing fraction {:.4g}", goal);
 }
 
-StageReport LatticeStage::advance(Configuration<2>& configuration, NoState&,
+template <int Dim>
+StageReport LatticeStage::advance(Configuration<Dim>& configuration, NoState&,
                                   const StageContext& context, const RunControl&) const {
   return place_on_lattice(configuration, {arrangement, angle}, context.seed);
 }
+
+template StageReport LatticeStage::advance(Configuration<2>&, NoState&, const StageContext&,
+                                           const RunControl&) const;
+template StageReport LatticeStage::advance(Configuration<3>&, NoState&, const StageContext&,
+                                           const RunControl&) const;
 
 }  // namespace vitrel

@@ -15,11 +15,12 @@ struct LatticeStage : StageDefaults {
   double angle = LatticeOptions().angle;
 
   static std::vector<StageField<LatticeStage>> fields();
-  void validate(const Rules& rules) const;
+  void validate(const Rules& rules, const StageSubject& subject) const;
   double end(const SystemParameters& system, double before) const;
   std::string description(double goal) const;
-  StageReport advance(Configuration<2>& configuration, NoState& state, const StageContext& context,
-                      const RunControl& control) const;
+  template <int Dim>
+  StageReport advance(Configuration<Dim>& configuration, NoState& state,
+                      const StageContext& context, const RunControl& control) const;
 };
 
 }  // namespace vitrel

@@ -12,7 +12,8 @@ std::vector<StageField<SampleStage>> SampleStage::fields() {
   return {{"moves", describe_moves}, {"sweeps", describe_sweeps}};
 }
 
-void SampleStage::validate(const Rules& rules) const {
+void SampleStage::validate(const Rules& rules, const StageSubject& subject) const {
+  validate_moves(moves, subject, rules);
   rules.require(sweeps >= 1, "sweeps", "is 0, but must be at least 1");
   validate_exchanges(exchanges, rules);
 }
@@ -25,11 +26,17 @@ std::string SampleStage::description(double) const {
   return fmt::format("sample for {} sweeps", sweeps);
 }
 
-StageReport SampleStage::advance(Configuration<2>& configuration, SamplingState& state,
+template <int Dim>
+StageReport SampleStage::advance(Configuration<Dim>& configuration, SamplingState& state,
                                  const StageContext& context, const RunControl& control) const {
   return sample(configuration, {sweeps, moves, exchanges, context.threads}, context.seed, state,
                 control);
 }
+
+template StageReport SampleStage::advance(Configuration2&, SamplingState&, const StageContext&,
+                                          const RunControl&) const;
+template StageReport SampleStage::advance(Configuration3&, SamplingState&, const StageContext&,
+                                          const RunControl&) const;
 
 void SampleStage::record(const SamplingState& state, StageRecord& record) const {
   record.add(state);

@@ -19,11 +19,12 @@ struct SampleStage : StageDefaults {
   std::uint64_t sweeps = SamplingOptions().sweeps;
 
   static std::vector<StageField<SampleStage>> fields();
-  void validate(const Rules& rules) const;
+  void validate(const Rules& rules, const StageSubject& subject) const;
   StageEnding ending() const { return StageEnding::unchanged; }
   double end(const SystemParameters& system, double before) const;
   std::string description(double goal) const;
-  StageReport advance(Configuration<2>& configuration, SamplingState& state,
+  template <int Dim>
+  StageReport advance(Configuration<Dim>& configuration, SamplingState& state,
                       const StageContext& context, const RunControl& control) const;
   void record(const SamplingState& state, StageRecord& record) const;
   static void number_sweeps(SamplingState& state, std::uint64_t next_sweep);

@@ -24,13 +24,6 @@ void each_kind(Use&& use) {
   (std::make_index_sequence<std::variant_size_v<Stage>>());
 }
 
-template <class S>
-constexpr bool is_there_in_space = requires(const S& stage, Configuration<3>& configuration,
-                                            typename S::State& state, const StageContext& context,
-                                            const RunControl& control) {
-  stage.advance(configuration, state, context, control);
-};
-
 /// The names of all methods for which `applies(stage)`.
 template <class Applies>
 std::vector<const char*> methods(Applies&& applies) {
@@ -120,13 +113,9 @@ StageEnding ending(const Stage& stage) {
   return std::visit([](const auto& options) { return options.ending(); }, stage);
 }
 
-/// Whether the stage is there in that dimension and belongs into this place of the sequence.
+/// Whether the stage belongs into this place of the sequence.
 template <class S>
-void validate_place(const S&, bool is_first, int dimension, const Rules& rules) {
-  const auto space = []<class T>(const T&) { return is_there_in_space<T>; };
-  rules.require(dimension == 2 || is_there_in_space<S>, "method",
-                fmt::format("is \"{}\", but in three dimensions there are {}", S::method,
-                            listed(methods(space), "and")));
+void validate_place(const S&, bool is_first, const Rules& rules) {
   const auto places = []<class T>(const T&) { return T::places_particles; };
   const auto moves = []<class T>(const T&) { return !T::places_particles; };
   rules.require(S::places_particles == is_first, "method",
@@ -173,7 +162,8 @@ void describe_stage(Stage& stage, FieldVisitor& visit) {
   }
 }
 
-void validate_stages(const std::vector<Stage>& stages, const SystemParameters& system) {
+void validate_stages(const std::vector<Stage>& stages, const SystemParameters& system,
+                     bool is_round) {
   if (stages.empty())
     throw BadValue("prepare.stage", "is empty, but there must be at least one [[prepare.stage]]");
   double reached = 0;
@@ -181,9 +171,8 @@ void validate_stages(const std::vector<Stage>& stages, const SystemParameters& s
     const Rules rules(fmt::format("prepare.stage.{}", k));
     std::visit(
         [&](const auto& options) {
-          validate_place(options, k == 0, system.dimension, rules);
-          options.validate(rules);
-          options.validate_in(system.dimension, rules);
+          validate_place(options, k == 0, rules);
+          options.validate(rules, {system.dimension, is_round});
         },
         stages[k]);
     validate_packing_fraction(stages[k], system, reached, rules);

@@ -15,11 +15,10 @@
 ///     method, summary       its name in the parameter file, and a description
 ///     State                 its progress; together with the configuration, all it needs to continue
 ///     fields()              its keys in the parameter file (stage_fields.h)
-///     validate              throws BadValue for an invalid option
-///     validate_in           the same for options whose meaning depends on the dimension
+///     validate              throws BadValue for an invalid option, or one that does not suit the system
 ///     ending, end           the kind of its end, and the packing fraction there
 ///     description           a short description with these options
-///     advance               runs it, for each dimension that it supports
+///     advance               runs it, in both dimensions
 ///     each_item             names the items of its state in a checkpoint
 ///     record                adds its results to the record of the stage
 ///
@@ -39,6 +38,12 @@ enum class StageEnding {
   packing_fraction,  ///< ends at a packing fraction known in advance
   pressure,          ///< a pressure determines the end
   unchanged,         ///< ends at the packing fraction at which it begins
+};
+
+/// What the options of a stage must suit.
+struct StageSubject {
+  int dimension;
+  bool is_round;  ///< all particles are disks or spheres
 };
 
 /// The input of a stage.
@@ -61,8 +66,7 @@ struct StageDefaults {
   static constexpr bool places_particles = false;
 
   StageEnding ending() const { return StageEnding::packing_fraction; }
-  void validate(const Rules&) const {}
-  void validate_in(int /*dimension*/, const Rules&) const {}
+  void validate(const Rules&, const StageSubject&) const {}
   /// Monte Carlo sweeps draw random numbers by their number, counted over all stages.
   template <class State>
   static void number_sweeps(State&, std::uint64_t /*next_sweep*/) {}

@@ -34,7 +34,7 @@ using StageState = StatesOf<Stage>::Type;
 StageState first_state(const Stage& stage, std::uint64_t next_sweep);
 
 /// Runs the stage, or continues it from `state`. Returns `reached` at its end, `stuck` if it cannot get there,
-/// `stopped` if the run control requests it. Throws std::logic_error for a stage that does not exist in this dimension.
+/// `stopped` if the run control requests it.
 template <int Dim>
 StageReport advance_stage(const Stage& stage, StageState& state, Configuration<Dim>& configuration,
                           const StageContext& context, const RunControl& control);

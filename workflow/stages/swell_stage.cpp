@@ -12,7 +12,7 @@ std::vector<StageField<SwellStage>> SwellStage::fields() {
   return {{"packing_fraction", describe_packing_fraction}, {"max_sweeps", describe_max_sweeps}};
 }
 
-void SwellStage::validate(const Rules& rules) const {
+void SwellStage::validate(const Rules& rules, const StageSubject&) const {
   rules.require(max_sweeps >= 1, "max_sweeps", "is 0, but must be at least 1");
 }
 
@@ -24,11 +24,17 @@ std::string SwellStage::description(double goal) const {
   return fmt::format("swell to packing fraction {:.4g}", goal);
 }
 
-StageReport SwellStage::advance(Configuration<2>& configuration, SwellingState& state,
+template <int Dim>
+StageReport SwellStage::advance(Configuration<Dim>& configuration, SwellingState& state,
                                 const StageContext& context, const RunControl& control) const {
   return swell(configuration, {context.packing_fraction, max_sweeps, context.threads}, context.seed,
                state, control);
 }
+
+template StageReport SwellStage::advance(Configuration2&, SwellingState&, const StageContext&,
+                                         const RunControl&) const;
+template StageReport SwellStage::advance(Configuration3&, SwellingState&, const StageContext&,
+                                         const RunControl&) const;
 
 void SwellStage::record(const SwellingState& state, StageRecord& record) const {
   record.add(state.moves);

@@ -21,10 +21,11 @@ struct SwellStage : StageDefaults {
   std::uint64_t max_sweeps = SwellingOptions().sweeps;
 
   static std::vector<StageField<SwellStage>> fields();
-  void validate(const Rules& rules) const;
+  void validate(const Rules& rules, const StageSubject& subject) const;
   double end(const SystemParameters& system, double before) const;
   std::string description(double goal) const;
-  StageReport advance(Configuration<2>& configuration, SwellingState& state,
+  template <int Dim>
+  StageReport advance(Configuration<Dim>& configuration, SwellingState& state,
                       const StageContext& context, const RunControl& control) const;
   void record(const SwellingState& state, StageRecord& record) const;
   static void number_sweeps(SwellingState& state, std::uint64_t next_sweep);

@@ -96,10 +96,12 @@ void refuse_overridden_keys(const std::vector<Axis>& axes, const ParameterSource
 double wave_number_of(const Parameters& p) {
   const auto& system = p.system;
   const auto particles = static_cast<std::size_t>(system.particles);
-  if (system.dimension == 2)
-    return main_wave_number(draw_particles(p.species, particles, system.packing_fraction,
-                                           system.box_aspect, system.seed));
-  return main_wave_number(draw_solids(p.species, particles, system.packing_fraction, system.seed));
+  const auto drawn = [&]<int Dim>() {
+    return draw_particles<Dim>(p.species, particles, system.packing_fraction,
+                               box_proportions<Dim>(system), system.seed);
+  };
+  return system.dimension == 2 ? main_wave_number(drawn.template operator()<2>())
+                               : main_wave_number(drawn.template operator()<3>());
 }
 
 bool takes_wave_number(const SweepJob& job) {

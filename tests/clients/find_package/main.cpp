@@ -30,7 +30,7 @@ int main() {
   using namespace vitrel;
   Species ellipses;
   ellipses.aspect_ratio = Distribution{.mean = 2};
-  Configuration2 start = draw_particles({ellipses}, 25, 0.4, 1, 1);
+  Configuration2 start = draw_particles<2>({ellipses}, 25, 0.4, Vec2::Ones(), 1);
   place_on_lattice(start, {.angle = std::numbers::pi / 4});
   draw_velocities(start, 1, Purpose::velocities, 0, Temperature::total);
 
