@@ -26,7 +26,7 @@ TaylorTop::TaylorTop(const Ellipsoid& shape, const Quaternion& orientation,
                            (middle - moments.minCoeff()) / moments.minCoeff() / moments.maxCoeff());
   distance_from_separatrix_ =
       std::abs(momenta.dot((moments.array() - middle).matrix().cwiseProduct(state.omega))) /
-      momenta.squaredNorm();
+      std::max(momenta.squaredNorm(), twice_energy * middle);
 
   Real time = 0;
   do {

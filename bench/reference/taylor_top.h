@@ -38,7 +38,7 @@ class TaylorTop {
 
   /// An estimate of the angle by which the body is off at `time`, in units of a relative error of its initial state:
   ///
-  ///     Ω t min(e^(λt), L²/|L² − 2EI₂|),   λ² = 2E/I₂ · (I₃ − I₂)(I₂ − I₁)/(I₁I₃),
+  ///     Ω t min(e^(λt), max(L², 2EI₂)/|L² − 2EI₂|),   λ² = 2E/I₂ · (I₃ − I₂)(I₂ − I₁)/(I₁I₃),
   ///
   /// Ω the bound above. About the axis of the middle moment the body is unstable at the rate λ at most; and the period
   /// diverges like −ln|L² − 2EI₂| at the separatrix.
