@@ -143,7 +143,9 @@ TEST_P(DefaultMethodOfSolids, IsNeverWrong) {
   const MethodOf<3> method = ellipsoid_methods().front();
   std::map<Verdict, int> verdicts;
   int contacts = 0, crossings = 0, undecided = 0;
-  for (std::uint64_t index = 0; index < pairs; ++index) {
+  // There the reference takes some ten milliseconds for a pair.
+  const std::uint64_t count = of.name == "tumbling_fast" ? pairs / 10 : pairs;
+  for (std::uint64_t index = 0; index < count; ++index) {
     const EllipsoidCase asked = make_case(of, seed, index);
     const TrueEllipsoidContact truth = truth_of(asked);
     const Assessment assessment = assess(asked, truth, method.predict(asked), tolerance);
@@ -156,8 +158,8 @@ TEST_P(DefaultMethodOfSolids, IsNeverWrong) {
   EXPECT_EQ(verdicts[Verdict::late], 0);
   EXPECT_EQ(verdicts[Verdict::missed], 0);
   EXPECT_EQ(undecided, 0);
-  EXPECT_GE(contacts, leaves(of) ? 0 : pairs / 10);
-  EXPECT_GE(crossings, leaves(of) ? 0 : pairs / 100);
+  EXPECT_GE(contacts, leaves(of) ? 0 : count / 10);
+  EXPECT_GE(crossings, leaves(of) ? 0 : count / 100);
 }
 
 INSTANTIATE_TEST_SUITE_P(Classes, DefaultMethodOfSolids, testing::ValuesIn(all_classes()));
