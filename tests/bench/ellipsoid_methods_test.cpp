@@ -55,6 +55,30 @@ TEST(TrueContactOfSolids, SpheresInClosedForm) {
       Truth::overlap_at_start);
 }
 
+// About a principal axis Euler's equations leave ω constant; the two references integrate and rotate independently.
+TEST(TrueContactOfSolids, UniformTumblingIsAConstantAngularVelocity) {
+  const auto scalene = [](const Vec3& semi_axes, const Vec3& position, const Vec3& velocity,
+                          const Vec3& omega) -> Flight<GrowingEllipsoid> {
+    return {{{semi_axes}, 1, 0}, {position, Quaternion::Identity()}, {velocity, omega}};
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3 spin = 7 * Vec3::Unit(axis);
+    EllipsoidCase pair{scalene({3, 1, 0.4}, {0, 0, 0}, {0, 0, 0}, spin),
+                       scalene({0.5, 1, 2}, {6, 0.3, 0.2}, {-1, 0, 0}, -spin), 10};
+    const TrueEllipsoidContact constant = truth_of(pair);
+    let_tumble(pair);
+    const TrueEllipsoidContact tumbling = truth_of(pair);
+    ASSERT_EQ(constant.outcome, Truth::contact);
+    ASSERT_EQ(tumbling.outcome, Truth::contact);
+    // Rounding of the attitude after some 40 rad, times 3 units of length, over the speed of approach.
+    const double rounding = 200 * 1e-19 / constant.approach_speed;
+    EXPECT_NEAR(static_cast<double>(tumbling.time - constant.time), 0,
+                static_cast<double>(tumbling.uncertainty + constant.uncertainty) + rounding);
+    EXPECT_NEAR((tumbling.normal - constant.normal).norm(), 0, 1e-15);
+    EXPECT_NEAR(tumbling.approach_speed, constant.approach_speed, 1e-14);
+  }
+}
+
 /// The surfaces nearly touch at the start and move apart.
 bool leaves(const CaseClassOf<3>& of) {
   return of.name == "touching_leaving" || of.name == "tumbling_leaving";
@@ -118,6 +142,27 @@ TEST(TrueContactOfSolids, ShortOverlapsHaveTheLengthOfTheParabola) {
                 -stored, 1e-18 + 1e-9 * stored);
   }
   EXPECT_EQ(truth_of(passing_pair(-1e-12)).outcome, Truth::none);
+}
+
+// I₃(I₃ − I₂) ω₃² = I₁(I₂ − I₁) ω₁² up to a factor (1 ± 0.1)².
+TEST(TumblingClasses, NearSeparatrixHasTheEnergyOfTheMiddleAxis) {
+  for (const CaseClassOf<3>& of : ellipsoid_suite()) {
+    if (of.name != "tumbling_near_separatrix") continue;
+    for (std::uint64_t index = 0; index < 100; ++index) {
+      const EllipsoidCase asked = make_case(of, seed, index);
+      for (const Flight<TumblingEllipsoid>& flight : asked.tumbling) {
+        const Vec3 moments = flight.body.shape.inertia_per_mass();
+        const Vec3 own = flight.pose.orientation.conjugate() * flight.motion.angular_velocity;
+        const double middle = moments.sum() - moments.minCoeff() - moments.maxCoeff();
+        double slow = 0, fast = 0;
+        for (int k = 0; k < 3; ++k) {
+          const double excess = moments[k] * (moments[k] - middle) * own[k] * own[k];
+          (excess > 0 ? fast : slow) += std::abs(excess);
+        }
+        EXPECT_NEAR(fast / slow, 1, 0.2101);
+      }
+    }
+  }
 }
 
 // ---- The methods ----
