@@ -91,7 +91,7 @@ double Neighborhoods<bench::RoundListedEllipse>::choose_gap(double target) {
 template <>
 template <>
 void NeighborBatch<bench::UnlimitedEllipse, ContactScreen<bench::UnlimitedEllipse>::lanes>::load<
-    PredictionScope::all_neighbors>(const SimulationState<bench::UnlimitedEllipse>& state,
+    PredictionScope::all_neighbors>(SimulationState<bench::UnlimitedEllipse>& state,
                                     std::uint32_t /*i*/,
                                     std::span<const Neighbor<bench::UnlimitedEllipse>> neighbors,
                                     std::size_t first) {

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <type_traits>
+#include <vector>
 
 #include "core/geometry/growing.h"
+#include "core/geometry/tumbling_ellipsoid.h"
 #include "core/tolerances.h"
 
 namespace vitrel::bench {
@@ -17,7 +19,10 @@ template <int Dim>
 struct CollisionCaseOf {
   Flight<GrowingBody<Dim>> one, two;
   double horizon = 0;
+  /// The same flights of ellipsoids that rotate by Euler's equations and do not grow; none if ω is constant.
+  std::vector<Flight<TumblingEllipsoid>> tumbling{};
 
+  bool tumbles() const { return !tumbling.empty(); }
   bool grows() const { return one.body.growth_rate != 0 || two.body.growth_rate != 0; }
   /// Gaps are given in units of the smallest semi-axis (at size 1).
   double gap_unit() const { return std::min(one.body.shape.inradius(), two.body.shape.inradius()); }
@@ -28,6 +33,13 @@ struct CollisionCaseOf {
 };
 using CollisionCase = CollisionCaseOf<2>;
 using EllipsoidCase = CollisionCaseOf<3>;
+
+/// Lets both ellipsoids, as they are at time 0, rotate by Euler's equations.
+inline void let_tumble(EllipsoidCase& pair) {
+  pair.tumbling.clear();
+  for (const Flight<GrowingEllipsoid>& flight : {pair.one, pair.two})
+    pair.tumbling.emplace_back(TumblingEllipsoid{flight.body.shape}, flight.pose, flight.motion);
+}
 
 /// The ellipse of a given aspect ratio with a b = 1.
 inline Ellipse of_unit_area(double aspect_ratio) {

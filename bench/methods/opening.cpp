@@ -10,7 +10,8 @@ namespace vitrel::bench {
 namespace {
 
 template <int Dim>
-Pose<Dim> pose_at(const Flight<GrowingBody<Dim>>& flight, double time) {
+Pose<Dim> steadily_rotated(const CollisionCaseOf<Dim>& asked, int body, double time) {
+  const Flight<GrowingBody<Dim>>& flight = body == 0 ? asked.one : asked.two;
   return advanced(flight.pose, flight.motion, time);
 }
 
@@ -54,22 +55,33 @@ bool is_sound_flight(const Flight<GrowingBody<Dim>>& flight) {
 
 }  // namespace
 
+Pose2 pose_at(const CollisionCase& asked, int body, double time) {
+  return steadily_rotated(asked, body, time);
+}
+
+Pose3 pose_at(const EllipsoidCase& asked, int body, double time) {
+  if (!asked.tumbles()) return steadily_rotated(asked, body, time);
+  const Flight<TumblingEllipsoid>& flight = asked.tumbling[body];
+  return {flight.pose.position + flight.motion.velocity * time,
+          Quaternion(flight.top.at(time).axes)};
+}
+
 VieillardBaron<double> vieillard_baron_at(const CollisionCase& asked, double time) {
-  return vieillard_baron(body_at(asked.one, time), pose_at<2>(asked.one, time).angle,
-                         body_at(asked.two, time), pose_at<2>(asked.two, time).angle,
+  return vieillard_baron(body_at(asked.one, time), pose_at(asked, 0, time).angle,
+                         body_at(asked.two, time), pose_at(asked, 1, time).angle,
                          separation_at(asked, time));
 }
 
 EllipsoidEta<double> ellipsoid_eta_at(const EllipsoidCase& asked, double time) {
-  return ellipsoid_eta(body_at(asked.one, time), pose_at<3>(asked.one, time).orientation,
-                       body_at(asked.two, time), pose_at<3>(asked.two, time).orientation,
+  return ellipsoid_eta(body_at(asked.one, time), pose_at(asked, 0, time).orientation,
+                       body_at(asked.two, time), pose_at(asked, 1, time).orientation,
                        separation_at(asked, time));
 }
 
 template <int Dim>
 PerramWertheim<Dim> perram_wertheim_at(const CollisionCaseOf<Dim>& asked, double time) {
-  return perram_wertheim(body_at(asked.one, time), orientation_of(pose_at<Dim>(asked.one, time)),
-                         body_at(asked.two, time), orientation_of(pose_at<Dim>(asked.two, time)),
+  return perram_wertheim(body_at(asked.one, time), orientation_of(pose_at(asked, 0, time)),
+                         body_at(asked.two, time), orientation_of(pose_at(asked, 1, time)),
                          separation_at(asked, time));
 }
 

@@ -187,12 +187,15 @@ function curvesByMethod(rows, point, hollow) {
 
 const timeAxis = { xSymbol: 'time per call', xUnit: 'ns', logX: true, logY: true };
 
+/** Random pairs are the rule; a method on another class is a curve of its own. */
+const curveName = (row) => row.class === 'generic' ? row.method : `${row.method}, ${row.class}`;
+
 function speedChart(rows, which) {
   const floor = 1e-17;
   const point = (row) => ({ x: row.ns_per_call, value: row[which] === null ? null : Math.max(row[which], floor), hollow: wrong(row) > 0,
     note: `tolerance ${shortNumber(row.tolerance, 2)}, ${wrong(row)} of ${row.pairs} missing, false or off by more than 1 %` });
   addChart('speed', { heading: `Against the ${which.replace('_', ' ')}, κ = ${rows[0].aspect_ratio}`, ...timeAxis,
-    symbol: `${which.replace('_', ' ')} of the time`, unit: 'horizon', curves: curvesByMethod(rows.filter(applies), point, 'some wrong') });
+    symbol: `${which.replace('_', ' ')} of the time`, unit: 'horizon', curves: curvesByMethod(rows.filter(applies).map((row) => ({ ...row, method: curveName(row) })), point, 'some wrong') });
 }
 
 /** Of one aspect ratio: the time of pairs near contact, the largest wrong gap and the counts of all classes. */

@@ -62,10 +62,14 @@ std::vector<CandidateOf<Dim>> candidates_by_tolerance(const Supply<Dim>& supply,
   return result;
 }
 
+/// Random pairs of the smallest aspect ratio.
 template <int Dim>
-std::vector<CaseClassOf<Dim>> generic_class(const Supply<Dim>& supply) {
-  std::vector<CaseClassOf<Dim>> classes = chosen(supply.classes, {"generic"}, "class");
-  classes.resize(1);
+std::vector<CaseClassOf<Dim>> charted_classes(const Supply<Dim>& supply) {
+  std::vector<CaseClassOf<Dim>> classes;
+  for (const char* const name : {"generic", "tumbling"})
+    if (const auto first = std::ranges::find(supply.classes, name, &CaseClassOf<Dim>::name);
+        first != supply.classes.end())
+      classes.push_back(*first);
   return classes;
 }
 
@@ -131,7 +135,7 @@ std::string rows_text(const std::vector<SurveyRow>& rows) {
 template <int Dim>
 struct Measured {
   SurveyOf<Dim> survey;               ///< every method at its usual tolerance
-  std::vector<SurveyRow> tolerances;  ///< every tolerance, on the generic class
+  std::vector<SurveyRow> tolerances;  ///< every tolerance, on the charted classes
 };
 
 /// The tolerances only if there is to be a page.
@@ -147,7 +151,7 @@ Measured<Dim> measure(const Supply<Dim>& supply, const CollisionTimeOptions& opt
   measured.survey = survey(request, report.control());
   if (report.is_wanted() && !measured.survey.stopped) {
     request.candidates = candidates_by_tolerance(supply, options);
-    request.classes = generic_class(supply);
+    request.classes = charted_classes(supply);
     request.tolerance = {charted_tolerance, charted_tolerance};
     report.say(fmt::format("accuracy of {} methods and tolerances", request.candidates.size()));
     measured.tolerances = survey(request, report.control()).rows;

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 
+#include "bench/reference/taylor_top.h"
 #include "core/state/exact_pair.h"
 
 namespace vitrel::bench {
@@ -39,12 +41,18 @@ Matrix turn(const Vector& turned) {
 
 class Body {
  public:
-  explicit Body(const Flight<GrowingEllipsoid>& flight)
+  Body(const Flight<GrowingEllipsoid>& flight, Real)
       : shape_(flight.body.shape),
         at_start_(shape_, flight.pose.orientation),
         size_(flight.body.size),
         growth_(flight.body.growth_rate),
         omega_(flight.motion.angular_velocity.cast<Real>()) {}
+  Body(const Flight<TumblingEllipsoid>& flight, Real end)
+      : Body({{flight.body.shape, 1, 0}, flight.pose, flight.motion}, end) {
+    constexpr int scalene = 3;
+    if (shape_.rotations() == scalene)
+      top_.emplace(shape_, flight.pose.orientation, flight.motion.angular_velocity, end);
+  }
 
   Real size_at(Real time) const { return size_ + growth_ * time; }
   Real radius_at(Real time) const { return shape_.circumradius() * size_at(time); }
@@ -53,7 +61,7 @@ class Body {
   EllipsoidAxes<Real> axes_at(Real time) const {
     constexpr Real smallest = 1e-9L;
     EllipsoidAxes<Real> axes = at_start_;
-    axes.directions = turn(omega_ * time) * at_start_.directions;
+    axes.directions = rotation_at(time).axes;
     axes.lengths *= std::max(size_at(time), smallest);
     return axes;
   }
@@ -63,15 +71,18 @@ class Body {
     Real height, rate;
   };
   Support support(Real time, const Vector& n) const {
-    const Matrix axes = turn(omega_ * time) * at_start_.directions * at_start_.lengths.asDiagonal();
+    const TaylorTop::State now = rotation_at(time);
+    const Matrix axes = now.axes * at_start_.lengths.asDiagonal();
     const Vector along = axes.transpose() * n;
     const Real h = along.norm();
     const Vector point = axes * (along / h);
-    return {size_at(time) * h, growth_ * h - size_at(time) * point.dot(omega_.cross(n))};
+    return {size_at(time) * h,
+            growth_ * h - size_at(time) * point.dot(now.angular_velocity.cross(n))};
   }
 
   /// The most of d²(s h)/dt² up to the horizon.
   Real bend(Real horizon) const {
+    if (top_) return tumbling_bend();
     const Matrix axes = at_start_.directions * at_start_.lengths.asDiagonal();
     const Matrix omega = cross_product_with(omega_);
     const Matrix second = commutator(omega, commutator(omega, axes * axes.transpose()));
@@ -80,21 +91,38 @@ class Body {
            2 * std::abs(growth_) * omega_.norm() * shape_.max_support_rate();
   }
 
-  Real phase(Real time) const { return omega_.norm() * time; }
+  /// By how much a relative error of the initial state rotates the body.
+  Real phase(Real time) const { return top_ ? top_->sensitivity(time) : omega_.norm() * time; }
 
  private:
+  TaylorTop::State rotation_at(Real time) const {
+    if (top_) return top_->at(time);
+    return {turn(omega_ * time) * at_start_.directions, omega_};
+  }
+
+  Real tumbling_bend() const {
+    const Real a = shape_.circumradius(), c = shape_.inradius(), speed = top_->speed_bound();
+    return (1 + std::numbers::inv_sqrt3_v<Real> / 2) * (a - c) * (a + c) * speed * speed / c;
+  }
+
   Ellipsoid shape_;
   EllipsoidAxes<Real> at_start_;
   Real size_, growth_;
   Vector omega_;
+  std::optional<TaylorTop> top_;  ///< of a scalene body that tumbles
 };
 
+Vector difference(const Vec3& to, const Vec3& from) {
+  return to.cast<Real>() - from.cast<Real>();
+}
+
 struct Pair {
-  Pair(const Flight<GrowingEllipsoid>& first, const Flight<GrowingEllipsoid>& second)
-      : one(first),
-        two(second),
-        start(second.pose.position.cast<Real>() - first.pose.position.cast<Real>()),
-        velocity(second.motion.velocity.cast<Real>() - first.motion.velocity.cast<Real>()) {}
+  template <class B>
+  Pair(const Flight<B>& first, const Flight<B>& second, Real end)
+      : one(first, end),
+        two(second, end),
+        start(difference(second.pose.position, first.pose.position)),
+        velocity(difference(second.motion.velocity, first.motion.velocity)) {}
 
   Vector d(Real time) const { return start + velocity * time; }
 
@@ -197,11 +225,7 @@ TrueEllipsoidContact search(const Pair& pair, Real horizon) {
   return found;
 }
 
-}  // namespace
-
-TrueEllipsoidContact true_first_contact(const Flight<GrowingEllipsoid>& one,
-                                        const Flight<GrowingEllipsoid>& two, double horizon) {
-  const Pair pair(one, two);
+TrueEllipsoidContact described_contact(const Pair& pair, double horizon) {
   TrueEllipsoidContact found = search(pair, horizon);
   if (found.outcome == Outcome::contact || found.outcome == Outcome::undecided) {
     const Pair::Separation there = pair.separation(found.time);
@@ -211,15 +235,35 @@ TrueEllipsoidContact true_first_contact(const Flight<GrowingEllipsoid>& one,
   return found;
 }
 
-long double true_gap(const Flight<GrowingEllipsoid>& one, const Flight<GrowingEllipsoid>& two,
-                     long double time) {
-  const Pair pair(one, two);
+long double gap(const Pair& pair, Real time) {
   const auto particle = [&](const Body& body, const Vector& centre) -> exact::Particle<3> {
     return {centre, body.axes_at(time), body.radius_at(time)};
   };
   return exact::examine(particle(pair.one, Vector::Zero()), particle(pair.two, pair.d(time)),
                         pair.d(time), std::numeric_limits<Real>::infinity())
       .gap;
+}
+
+}  // namespace
+
+TrueEllipsoidContact true_first_contact(const Flight<GrowingEllipsoid>& one,
+                                        const Flight<GrowingEllipsoid>& two, double horizon) {
+  return described_contact({one, two, horizon}, horizon);
+}
+
+TrueEllipsoidContact true_first_contact(const Flight<TumblingEllipsoid>& one,
+                                        const Flight<TumblingEllipsoid>& two, double horizon) {
+  return described_contact({one, two, horizon}, horizon);
+}
+
+long double true_gap(const Flight<GrowingEllipsoid>& one, const Flight<GrowingEllipsoid>& two,
+                     long double time) {
+  return gap({one, two, time}, time);
+}
+
+long double true_gap(const Flight<TumblingEllipsoid>& one, const Flight<TumblingEllipsoid>& two,
+                     long double time) {
+  return gap({one, two, time}, time);
 }
 
 }  // namespace vitrel::bench

@@ -1,12 +1,13 @@
 #pragma once
 
 #include "bench/reference/first_contact.h"
+#include "core/geometry/tumbling_ellipsoid.h"
 
 namespace vitrel::bench {
 
 using TrueEllipsoidContact = TrueContactOf<3>;
 
-/// The true first contact of two ellipsoids in free flight, growing or not: slow, in 80-bit arithmetic,
+/// The true first contact of two ellipsoids in free flight, growing, tumbling or neither: slow, in 80-bit arithmetic,
 /// and without a step that could pass over a short overlap. It shares no code with the engine.
 ///
 /// Disjoint at a time: if there is an axis n along which the support gap
@@ -18,7 +19,14 @@ using TrueEllipsoidContact = TrueContactOf<3>;
 /// Steps. From a time with G > 0 the same axis separates the bodies up to the root of
 ///     G + Ġ s − ½ M s²,   M = Σᵢ ( most of sᵢ · ½‖[Ωᵢ, [Ωᵢ, Σᵢ]]‖/cᵢ + 2 |γᵢ ωᵢ| (aᵢ − cᵢ) ) ≥ −G̈,
 /// since Σ̇ = [Ω, Σ] with Ωx = ω × x, the norm (of Frobenius) of [Ω, [Ω, Σ]] does not change as the body
-/// turns, and ḧ = (½ nᵀΣ̈n − ḣ²)/h with h ≥ c. The times approach the first contact from below, close to
+/// turns, and ḧ = (½ nᵀΣ̈n − ḣ²)/h with h ≥ c. A scalene body that tumbles (bench/reference/taylor_top.h; other
+/// bodies keep their ω) contributes instead
+///
+///     (1 + 1/√12) (a² − c²) Ω²/c,   Ω² = 2E/I₁ ≤ (L/I₁)², I₁ the smallest moment:
+///
+/// n moves in the frame of the body with ṅ = −ω × n and n̈ = ω × (ω × n) − ω̇ × n, where |ω| ≤ Ω, and |ω̇| ≤ Ω²/√3 by
+/// Euler's equations, since |Iⱼ − Iₖ| ≤ Iᵢ; and ½ d²(nᵀΣn)/dt² = ṅᵀΣṅ + nᵀΣn̈, in which (a² + c²)/2 may be taken from Σ
+/// as |n| = 1, so that its norm is (a² − c²)/2. The times approach the first contact from below, close to
 /// it with Newton's speed. Where G has become as small as rounding, the time by which the surfaces must
 /// have crossed is tried for an overlap, and the crossing bisected.
 ///
@@ -26,10 +34,14 @@ using TrueEllipsoidContact = TrueContactOf<3>;
 /// must not become negative within the horizon.
 TrueEllipsoidContact true_first_contact(const Flight<GrowingEllipsoid>& one,
                                         const Flight<GrowingEllipsoid>& two, double horizon);
+TrueEllipsoidContact true_first_contact(const Flight<TumblingEllipsoid>& one,
+                                        const Flight<TumblingEllipsoid>& two, double horizon);
 
 /// The distance of the surfaces at `time`, or minus the depth of the overlap, by the exact check's
 /// arithmetic (core/state/exact_pair.h).
 long double true_gap(const Flight<GrowingEllipsoid>& one, const Flight<GrowingEllipsoid>& two,
+                     long double time);
+long double true_gap(const Flight<TumblingEllipsoid>& one, const Flight<TumblingEllipsoid>& two,
                      long double time);
 
 }  // namespace vitrel::bench

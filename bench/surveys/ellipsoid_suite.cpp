@@ -1,8 +1,12 @@
 #include "bench/surveys/ellipsoid_suite.h"
 
+#include <algorithm>
+#include <array>
+#include <functional>
+
 #include "bench/methods/opening.h"
 #include "bench/surveys/drawn_class.h"
-#include "bench/surveys/ellipsoid_reference.h"
+#include "bench/surveys/verdict.h"
 
 namespace vitrel::bench {
 namespace {
@@ -44,6 +48,14 @@ EllipsoidCase thermal_pair(Stream& draw, double kappa) {
   return {one, thermal(draw, any_shape(draw, kappa)), usual_horizon};
 }
 
+/// Only the rotation of scalene bodies differs.
+template <EllipsoidCase (*draw_pair)(Stream&, double)>
+EllipsoidCase tumbling(Stream& draw, double kappa) {
+  EllipsoidCase pair = draw_pair(draw, kappa);
+  let_tumble(pair);
+  return pair;
+}
+
 bool disjoint_at(const EllipsoidCase& pair, double time) {
   return perram_wertheim_at(pair, time).disjoint();
 }
@@ -80,14 +92,26 @@ void bring_together(EllipsoidCase& pair, const Vec3& n, double gap, double appro
 /// d²/dt² of the gap by its second difference.
 double gap_acceleration(const EllipsoidCase& pair) {
   constexpr double step = 1e-3;
-  const auto gap = [&](double time) { return true_gap(pair.one, pair.two, time); };
+  const auto gap = [&](double time) { return gap_at(pair, time); };
   return static_cast<double>((gap(step) - 2 * gap(0) + gap(-step)) / (step * step));
+}
+
+/// Lets what stands at time 0 happen at `time` instead.
+void delay(EllipsoidCase& pair, double time) {
+  if (!pair.tumbles()) return happen_at(pair, time);
+  for (const int body : {0, 1}) {
+    Solid& flight = body == 0 ? pair.one : pair.two;
+    flight.pose = pose_at(pair, body, -time);
+    flight.motion.angular_velocity = pair.tumbling[body].top.at(-time).angular_velocity;
+  }
+  let_tumble(pair);
 }
 
 EllipsoidCase generic(Stream& draw, double kappa) {
   return placed_apart(draw, thermal_pair(draw, kappa), 0.2, 1.2);
 }
 
+template <bool tumble>
 EllipsoidCase grazing(Stream& draw, double kappa) {
   constexpr double widest = 1e-3;
   constexpr int samples = 64;
@@ -97,15 +121,17 @@ EllipsoidCase grazing(Stream& draw, double kappa) {
     const Vec3 n = any_direction(draw);
     const double when = draw.uniform(0.1, 0.9) * usual_horizon;
     bring_together(pair, n, widest * pair.gap_unit(), 0);
+    if (tumble) let_tumble(pair);
     if (gap_acceleration(pair) < 0.1 * pair.gap_unit()) continue;
     EllipsoidCase probe = pair;
-    happen_at(probe, when);
+    delay(probe, when);
     bool disjoint = true;
     for (int k = 0; k < samples && disjoint; ++k)
       disjoint = disjoint_at(probe, k * usual_horizon / samples);
     if (!disjoint) continue;
     bring_together(pair, n, wanted * pair.gap_unit(), 0);
-    happen_at(pair, when);
+    if (tumble) let_tumble(pair);
+    delay(pair, when);
     return pair;
   }
 }
@@ -140,7 +166,7 @@ EllipsoidCase touching_leaving(Stream& draw, double kappa) {
     const double speed = std::abs(std::sqrt(2.0) * draw.normal());
     bring_together(pair, any_direction(draw), wanted, -speed);
     // What the stored doubles say.
-    const auto gap = static_cast<double>(true_gap(pair.one, pair.two, 0));
+    const auto gap = static_cast<double>(gap_at(pair, 0));
     if (gap >= 0.25 * pair.contact_gap() && gap <= 1.25 * pair.contact_gap()) return pair;
   }
 }
@@ -159,6 +185,54 @@ EllipsoidCase growth(Stream& draw, double kappa) {
   return placed_apart(draw, pair, 0.2, 1.4);
 }
 
+/// The axes in the order of their moments.
+std::array<int, 3> by_moment(const Ellipsoid& shape) {
+  std::array<int, 3> axes{0, 1, 2};
+  std::ranges::sort(axes, std::greater<>{}, [&](int k) { return shape.semi_axes[k]; });
+  return axes;
+}
+
+/// Both bodies scalene, with angular velocities along their own axes as drawn by `spin`.
+template <class Spin>
+EllipsoidCase scalene_pair(Stream& draw, double kappa, const Spin& spin) {
+  EllipsoidCase pair = thermal_pair(draw, kappa);
+  for (Solid* flight : {&pair.one, &pair.two}) {
+    const double middle = std::pow(kappa, draw.uniform(0.1, 0.9));
+    Ellipsoid& shape = flight->body.shape;
+    shape = {Vec3(kappa, middle, 1) / std::cbrt(kappa * middle)};
+    flight->motion.angular_velocity = flight->pose.orientation * spin(shape);
+  }
+  return placed_apart(draw, pair, 0.2, 1.2);
+}
+
+/// How far from the uniform rotation or the separatrix, relative to the angular velocity.
+double small_deviation(Stream& draw) {
+  return sign(draw) * log_uniform(draw, 1e-12, 1e-1);
+}
+
+EllipsoidCase nearly_uniform(Stream& draw, double kappa) {
+  return scalene_pair(draw, kappa, [&](const Ellipsoid& shape) -> Vec3 {
+    const auto axis = static_cast<int>(draw.below(3));
+    const double speed = draw.normal() / std::sqrt(shape.inertia_per_mass()[axis]);
+    Vec3 omega = speed * small_deviation(draw) * any_direction(draw);
+    omega[axis] = speed;
+    return omega;
+  });
+}
+
+/// L² = 2EI₂: I₃(I₃ − I₂) ω₃² = I₁(I₂ − I₁) ω₁², whatever ω₂.
+EllipsoidCase near_separatrix(Stream& draw, double kappa) {
+  return scalene_pair(draw, kappa, [&](const Ellipsoid& shape) -> Vec3 {
+    const auto [one, two, three] = by_moment(shape);
+    const Vec3 moments = shape.inertia_per_mass();
+    Vec3 omega = thermal_vector(draw).cwiseQuotient(moments.cwiseSqrt());
+    const double ratio = moments[one] * (moments[two] - moments[one]) /
+                         (moments[three] * (moments[three] - moments[two]));
+    omega[three] = sign(draw) * std::sqrt(ratio) * omega[one] * (1 + small_deviation(draw));
+    return omega;
+  });
+}
+
 }  // namespace
 
 std::vector<CaseClassOf<3>> ellipsoid_suite() {
@@ -167,7 +241,7 @@ std::vector<CaseClassOf<3>> ellipsoid_suite() {
   classes.add("grazing",
               "the minimum gap within the horizon is between ±1e-12 and ±1e-3 shortest semi-axes; "
               "if negative, there are two close roots",
-              grazing, {2, 10});
+              grazing<false>, {2, 10});
   classes.add("fast_rotation",
               "angular velocities of 10 to 60, so that the gap has many minima within the horizon",
               fast_rotation, {2, 10});
@@ -184,6 +258,20 @@ std::vector<CaseClassOf<3>> ellipsoid_suite() {
               "bodies of the same shape, parallel and rotating alike, as a body and its image: η₁ "
               "= 0 at all times",
               parallel_congruent, {2, 10});
+  classes.add("tumbling", "random close pairs that tumble by Euler's equations", tumbling<generic>,
+              {2, 20});
+  classes.add("tumbling_grazing", "as grazing, of pairs that tumble", grazing<true>, {2, 20});
+  classes.add("tumbling_fast", "as fast_rotation, of pairs that tumble", tumbling<fast_rotation>,
+              {2, 20});
+  classes.add("tumbling_leaving", "as touching_leaving, of pairs that tumble",
+              tumbling<touching_leaving>, {2, 20});
+  classes.add("tumbling_nearly_uniform",
+              "angular velocities along a principal axis up to a relative deviation between 1e-12 "
+              "and 0.1, the unstable axis as often as the others",
+              tumbling<nearly_uniform>, {2, 20});
+  classes.add("tumbling_near_separatrix",
+              "L² = 2EI₂ up to a relative deviation of ω₃ between 1e-12 and 0.1",
+              tumbling<near_separatrix>, {2, 20});
   return classes.list();
 }
 

@@ -8,7 +8,6 @@
 #include <span>
 #include <thread>
 
-#include "bench/surveys/ellipsoid_reference.h"
 #include "bench/surveys/timed_batches.h"
 
 namespace vitrel::bench {
@@ -43,7 +42,7 @@ Block<Dim> make_block(const SurveyRequestOf<Dim>& request, const CaseClassOf<Dim
                    std::vector<TrueContactOf<Dim>>(count)};
   in_parallel(count, [&](std::size_t k) {
     const CollisionCaseOf<Dim>& asked = block.cases[k] = make_case(of, request.seed, first + k);
-    block.truths[k] = true_first_contact(asked.one, asked.two, asked.horizon);
+    block.truths[k] = truth_of(asked);
   });
   return block;
 }

@@ -39,6 +39,21 @@ Verdict timing(double off, double allowed, bool degenerate, bool at_rounding) {
 }  // namespace
 
 template <int Dim>
+TrueContactOf<Dim> truth_of(const CollisionCaseOf<Dim>& asked) {
+  if constexpr (Dim == 3)
+    if (asked.tumbles())
+      return true_first_contact(asked.tumbling[0], asked.tumbling[1], asked.horizon);
+  return true_first_contact(asked.one, asked.two, asked.horizon);
+}
+
+template <int Dim>
+long double gap_at(const CollisionCaseOf<Dim>& asked, long double time) {
+  if constexpr (Dim == 3)
+    if (asked.tumbles()) return true_gap(asked.tumbling[0], asked.tumbling[1], time);
+  return true_gap(asked.one, asked.two, time);
+}
+
+template <int Dim>
 Assessment assess(const CollisionCaseOf<Dim>& asked, const TrueContactOf<Dim>& truth,
                   const Prediction<Dim>& answer, const AllowedError& tolerance) {
   using Truth = typename TrueContactOf<Dim>::Outcome;
@@ -64,7 +79,7 @@ Assessment assess(const CollisionCaseOf<Dim>& asked, const TrueContactOf<Dim>& t
 
   const auto off = static_cast<double>(time - truth.time);
   const bool near_in_time = truth.outcome == Truth::contact && std::abs(off) <= allowed;
-  const auto gap = static_cast<double>(true_gap(asked.one, asked.two, time));
+  const auto gap = static_cast<double>(gap_at(asked, time));
   const bool at_rounding = gap <= tolerance.gap * asked.gap_unit();
   assessment.gap_error = gap;
   if (truth.outcome == Truth::contact) assessment.time_error = off;
@@ -76,6 +91,10 @@ Assessment assess(const CollisionCaseOf<Dim>& asked, const TrueContactOf<Dim>& t
   return assessment;
 }
 
+template TrueContact truth_of(const CollisionCase&);
+template TrueEllipsoidContact truth_of(const EllipsoidCase&);
+template long double gap_at(const CollisionCase&, long double);
+template long double gap_at(const EllipsoidCase&, long double);
 template Assessment assess(const CollisionCase&, const TrueContact&, const Prediction2&,
                            const AllowedError&);
 template Assessment assess(const EllipsoidCase&, const TrueEllipsoidContact&, const Prediction3&,

@@ -46,6 +46,12 @@ struct Assessment {
   double gap_error = 0;
 };
 
+/// The true first contact up to the horizon, and the true gap at a time.
+template <int Dim>
+TrueContactOf<Dim> truth_of(const CollisionCaseOf<Dim>& asked);
+template <int Dim>
+long double gap_at(const CollisionCaseOf<Dim>& asked, long double time);
+
 template <int Dim>
 Assessment assess(const CollisionCaseOf<Dim>& asked, const TrueContactOf<Dim>& truth,
                   const Prediction<Dim>& answer, const AllowedError& tolerance);

@@ -100,7 +100,28 @@ VITREL_INLINE SupportRates<T> support_rates(const SupportOf<T>& s, const SpinOf<
           hq1 + (w.on * s.s2 - w.o2 * s.height), hq2 + (w.o1 * s.height - w.on * s.s1)};
 }
 
-/// A bound of ḧ while a body rotates for `duration`, which may be negative (backwards).
+/// A bound of ḧ for `duration`, which may be negative (backwards), from bounds of the derivatives of h² over that time,
+/// |(h²)''|/2 ≤ `second` and |(h²)'''|/2 ≤ `third`: ḧ = ((h²)''/2 − ḣ²)/h is at most q/h_min with
+///
+///     q = min(second, h ḧ + ḣ² + third t) now,   h_min² = max(c², h² − 2 |h ḣ| t − second t²),
+///
+/// where c is the shortest semi-axis, the term |h ḣ| counts only if h decreases, and negative q counts as 0.
+template <class T>
+VITREL_INLINE T bounded_acceleration(const SupportOf<T>& s, const SupportRates<T>& r,
+                                     const T& second, const T& third, const T& cc,
+                                     const T& duration) {
+  using detail::positive_part;
+  using std::sqrt;
+  const T time = abs(duration);
+  const T now = s.height * r.second + r.rate * r.rate;
+  const T rising = detail::minimum(second, now + third * time);
+  const T slope = 2. * s.height * r.rate;
+  const T least = s.height * s.height - positive_part(-slope * duration) - second * time * time;
+  const T min_squared = -detail::minimum(-least, -cc);
+  return positive_part(rising) / sqrt(min_squared);
+}
+
+/// The same while a body rotates about a constant ω.
 ///
 /// In the frame of the body n rotates about u = ω/|ω| at a constant angle α. Let S be the shape matrix in that
 /// frame, Δ ≤ a² − c² the difference of its eigenvalues in the plane normal to u, and τ = |S u − u (u·S u)|. With
@@ -108,33 +129,18 @@ VITREL_INLINE SupportRates<T> support_rates(const SupportOf<T>& s, const SpinOf<
 ///
 ///     h² = const + sin 2α τ cos(φ − φ₁) + ½ sin²α Δ cos 2(φ − φ₂),
 ///
-/// so that, with Q = |sin α cos α| τ + sin²α Δ,
-///
-///     |(h²)''|/2 ≤ ω² Q,   |(h²)'''|/2 ≤ 2 ω³ Q.
-///
-/// Hence ḧ = ((h²)''/2 − ḣ²)/h is at most q/h_min with
-///
-///     q = min(ω² Q, h ḧ + ḣ² + 2 |ω|³ Q t) now,   h_min² = max(c², h² − 2 |h ḣ| t − ω² Q t²),
-///
-/// where c is the shortest semi-axis, the term |h ḣ| counts only if h decreases, and negative q counts as 0. A
-/// spheroid that rotates about an axis normal to its own has τ = 0.
+/// so that |(h²)''|/2 ≤ ω² Q and |(h²)'''|/2 ≤ 2 |ω|³ Q with Q = |sin α cos α| τ + sin²α Δ. A spheroid that rotates
+/// about an axis normal to its own has τ = 0.
 template <class T>
 VITREL_INLINE T support_acceleration_bound(const SupportOf<T>& s, const SupportRates<T>& r,
                                            const SpinOf<T>& w, const T& delta, const T& tau,
                                            const T& cc, const T& duration) {
-  using detail::positive_part;
   using std::sqrt;
   const T across = w.o1 * w.o1 + w.o2 * w.o2;  // ω² sin²α
   const T along = w.on * w.on;
   const T square = across + along;
   const T amplitude = sqrt(across * along) * tau + across * delta;
-  const T time = abs(duration);
-  const T now = s.height * r.second + r.rate * r.rate;
-  const T rising = detail::minimum(amplitude, now + 2. * sqrt(square) * amplitude * time);
-  const T slope = 2. * s.height * r.rate;
-  const T least = s.height * s.height - positive_part(-slope * duration) - amplitude * time * time;
-  const T min_squared = -detail::minimum(-least, -cc);
-  return positive_part(rising) / sqrt(min_squared);
+  return bounded_acceleration<T>(s, r, amplitude, 2. * sqrt(square) * amplitude, cc, duration);
 }
 
 /// A vector of the tangent plane, in the basis e₁, e₂.

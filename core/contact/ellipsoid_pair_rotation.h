@@ -110,7 +110,12 @@ class UniformRotation {
   Parts parts_[3];
 };
 
-/// By Euler's equations.
+/// By Euler's equations. In the frame of the body n moves with ṅ = −ω × n, n̈ = −ω̇ × n − ω × ṅ and
+/// d³n/dt³ = −ω̈ × n − 2 ω̇ × ṅ − ω × n̈, where |ω| ≤ Ω, |ω̇| ≤ f Ω² (asymmetric_top.h) and so |ω̈| ≤ 2 f²Ω³. As |n| = 1,
+/// (a² + c²)/2 may be taken from the eigenvalues of S in h² = n·S n, whose magnitude is then at most (a² − c²)/2:
+///
+///     |(h²)''|/2 = |ṅ·S ṅ + n·S n̈| ≤ (a² − c²) Ω² (1 + f/2)
+///     |(h²)'''|/2 = |3 ṅ·S n̈ + n·S d³n/dt³| ≤ (a² − c²) Ω³ (1 + f) (2 + f).
 class TumblingRotation {
  public:
   AxesOf<PairArray> axes;
@@ -121,8 +126,13 @@ class TumblingRotation {
     tops_[lane] = flight.top;
     start_[lane] = flight.top_time;
     const double speed = flight.top.max_speed();
+    const ShapeCoefficients<Ellipsoid> coefficients(shape);
+    const double f = AsymmetricTop::max_acceleration_factor(shape);
     max_speed_[lane] = speed;
-    largest_acceleration_[lane] = speed * speed * ShapeCoefficients<Ellipsoid>(shape).max_tumbling;
+    largest_acceleration_[lane] = speed * speed * coefficients.max_tumbling;
+    cc_[lane] = coefficients.cc;
+    second_[lane] = coefficients.aa_minus_cc * speed * speed * (1 + 0.5 * f);
+    third_[lane] = coefficients.aa_minus_cc * speed * speed * speed * (1 + f) * (2 + f);
   }
   void complete() {}
 
@@ -144,9 +154,12 @@ class TumblingRotation {
                     support.s1 * dot(angular_acceleration_, n.e2);
   }
 
-  PairArray acceleration_bound(const SupportOf<PairArray>&, const SupportRates<PairArray>&,
-                               const SpinOf<PairArray>&, double) const {
-    return largest_acceleration_;
+  PairArray acceleration_bound(const SupportOf<PairArray>& support,
+                               const SupportRates<PairArray>& rates, const SpinOf<PairArray>&,
+                               double duration) const {
+    return bounded_acceleration<PairArray>(support, rates, second_, third_, cc_,
+                                           PairArray::Constant(duration))
+        .min(largest_acceleration_);
   }
   const PairArray& largest_acceleration() const { return largest_acceleration_; }
   const PairArray& max_speed() const { return max_speed_; }
@@ -156,7 +169,8 @@ class TumblingRotation {
   std::array<AsymmetricTop, 2> tops_;
   std::array<double, 2> start_;  ///< their times at time 0
   Vec3Of<PairArray> angular_acceleration_;
-  PairArray max_speed_, largest_acceleration_;
+  PairArray max_speed_, largest_acceleration_, cc_;
+  PairArray second_, third_;  // bounds of the derivatives of h², halved
 };
 
 }  // namespace vitrel::detail

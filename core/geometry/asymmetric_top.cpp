@@ -152,7 +152,7 @@ AsymmetricTop::AsymmetricTop(const Ellipsoid& shape, const Quaternion& orientati
   const double complementary_quarter = complete_integral(m);
   is_dual_ = m > 0.5;
   const double momentum = moments_.cwiseProduct(omega).norm();
-  precession_rate_ = momentum / (i1 * p);
+  precession_rate_ = momentum / (i2 * p);
   if (is_dual_)
     set_dual_series(complementary_quarter, pole);
   else
@@ -188,8 +188,8 @@ void AsymmetricTop::set_direct_series(double complementary_quarter, double pole)
     nome_powers_[n] = (n % 2 == 0 ? 1 : -1) * power(nome, n * (n + 1));
     sines_[n] = 0.5 * nome_powers_[n] * (rising - 1 / rising);
     cosines_[n] = 0.5 * nome_powers_[n] * (rising + 1 / rising);
-    value += sines_[n];
-    slope += (2 * n + 1) * cosines_[n];
+    value += std::abs(cosines_[n]);
+    slope += (2 * n + 1) * std::abs(sines_[n]);
   }
   precession_rate_ -= side_ * scale_ * slope / value;
   half_period_turn_ = 2 * precession_rate_ * quarter_ + side_ * std::numbers::pi;
@@ -200,22 +200,25 @@ void AsymmetricTop::set_dual_series(double complementary_quarter, double pole) {
   const double nome = exponential(-2 * scale_ * quarter_);
   const auto [step_cosine, step_sine] = cosine_and_sine(2 * scale_ * pole);
   auto [cosine, sine] = cosine_and_sine(scale_ * pole);
-  double value = 0, slope = 0, theta2 = 0, theta3 = 1;
-  for (int n = 0; n < terms; ++n) {
+  double even_cosine = 1, even_sine = 0;  // of 2nπη/2K'
+  double theta2 = 0, theta3 = -1, theta4 = -1, slope = 0;
+  const auto turn = [&](double& c, double& s) {
+    std::tie(c, s) = std::pair(c * step_cosine - s * step_sine, s * step_cosine + c * step_sine);
+  };
+  for (int n = 0; n < terms; ++n, turn(cosine, sine), turn(even_cosine, even_sine)) {
+    const double sign = n % 2 == 0 ? 1 : -1, square = power(nome, n * n);
+    theta3 += 2 * square;
+    theta4 += 2 * sign * square * even_cosine;
+    slope -= 4 * n * sign * square * even_sine;
     const double positive = power(nome, n * (n + 1));
-    nome_powers_[n] = n % 2 == 0 ? positive : -positive;
-    nome_squares_[n] = power(nome, n * n);
-    sines_[n] = n % 2 == 0 ? sine : -sine;
-    cosines_[n] = n % 2 == 0 ? cosine : -cosine;
-    value += positive * sines_[n];
-    slope += (2 * n + 1) * positive * cosines_[n];
+    nome_powers_[n] = sign * positive;
+    nome_squares_[n] = square;
+    sines_[n] = sign * sine;
+    cosines_[n] = sign * cosine;
     theta2 += positive;
-    theta3 += 2 * power(nome, (n + 1) * (n + 1));
-    std::tie(cosine, sine) =
-        std::pair(cosine * step_cosine - sine * step_sine, sine * step_cosine + cosine * step_sine);
   }
   ratio_ = theta2 / theta3;
-  precession_rate_ -= side_ * scale_ * slope / value;
+  precession_rate_ -= side_ * scale_ * slope / theta4;
   const Functions end = dual_functions(quarter_);
   half_period_turn_ =
       2 * (precession_rate_ * quarter_ + side_ * polar_angle(end.theta_imaginary, end.theta_real));

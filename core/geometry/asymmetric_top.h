@@ -23,7 +23,8 @@ namespace vitrel {
 ///
 ///     dψ/du = C + s d/du arg ϑ₁(π(u − iη)/2K),  sc(η | 1 − m) = ν^(−1/2),  ν = I₃Δ₂₁/(I₁Δ₃₂),
 ///
-/// with C from the value L/(I₁p) at u = 0. The theta functions are series in the nome q = exp(−πK'/K) for m ≤ ½ and,
+/// with C = L/(I₂p) − s d/dη ln ϑ₂(iπη/2K). (The value L/(I₁p) at u = 0 gives C, too, but as the difference of numbers
+/// that are larger by up to I₂/I₁.) The theta functions are series in the nome q = exp(−πK'/K) for m ≤ ½ and,
 /// by Jacobi's imaginary transformation, in the complementary nome exp(−πK/K') for m > ½. Both are at most e^(−π), so
 /// that four terms suffice, on the separatrix as well as far from it.
 ///

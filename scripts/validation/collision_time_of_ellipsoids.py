@@ -38,7 +38,7 @@ def counts(rows):
 def speed(rows):
     """Times for random pairs."""
     lines = []
-    for of in (of for of in rows.classes if of[0] == "generic"):
+    for of in (of for of in rows.classes if of[0] in ("generic", "tumbling")):
         times = [rows.of(method, of)["ns_per_call"] for method in NAMES]
         lines.append([class_name(of), time_text(times[0]),
                       *(f"{time_text(other)}, {other / times[0]:.0f} times" for other in times[1:])])
@@ -75,16 +75,19 @@ def measure(build):
     pair, answers = passing(data)
     for name, figure in figures(data).items():
         save_figure(figure, FIGURES, name)
-    grazing = [rows.of("eta_root", of) for of in rows.classes if of[0] == "grazing"]
+    grazing = [rows.of("eta_root", of) for of in rows.classes if of[0].endswith("grazing")]
     missed, contacts = (sum(row[key] for row in grazing) for key in ("missed", "contacts"))
     return f"""`vitrel-bench collision-time-of-ellipsoids` compares three methods on the same pairs of ellipsoids, growing or of
-constant size. The first is the default method. The second, that of the article, finds the root of η₁(t) at which η₂, η₃ and
-η₅ have the signs of external contact. The third finds the first root of F(t) − 1, where F is the function of Perram and
-Wertheim. Both root finders scan the time during which the circumscribed spheres overlap in 100 equal steps and refine the
-root by algorithm 748 (Alefeld, Potra and Shi). The reference implementation follows a separating axis in 80-bit arithmetic,
-with a bound that excludes missed contacts, until the completed criterion of η₁ … η₅ detects the overlap. An answer is
-correct if its error is at most {TOLERANCE:g} of the horizon. If the surfaces cross at less than 0.02 (a₁ + a₂)/horizon, an early
-answer is also correct if the gap is at most 10⁻⁸ of the shortest semi-axis.
+constant size, rotating about a constant angular velocity or tumbling by Euler's equations. The first is the default method.
+The second, that of the article, finds the root of η₁(t) at which η₂, η₃ and η₅ have the signs of external contact. The third
+finds the first root of F(t) − 1, where F is the function of Perram and Wertheim. Both root finders scan the time during
+which the circumscribed spheres overlap in 100 equal steps and refine the root by algorithm 748 (Alefeld, Potra and Shi).
+
+The reference implementation follows a separating axis in 80-bit arithmetic, with a bound that excludes missed contacts, until
+the completed criterion of η₁ … η₅ detects the overlap. Of tumbling bodies it integrates Euler's equations by Taylor series,
+and bounds the motion between two times by |ω|² ≤ 2E/I₁, where I₁ is the smallest moment. An answer is correct if its error
+is at most {TOLERANCE:g} of the horizon. If the surfaces cross at less than 0.02 (a₁ + a₂)/horizon, an early answer is also correct if
+the gap is at most 10⁻⁸ of the shortest semi-axis.
 
 Required: every answer of the default method is correct. Its wrong answers: 0 of {sum(row["pairs"] for row in rows.of(DEFAULT))}.
 

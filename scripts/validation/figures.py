@@ -50,12 +50,17 @@ def by_method(rows):
     return grouped.items()
 
 
+def curve_name(row):
+    """Random pairs are the rule; a method on another class of pairs is a curve of its own."""
+    return row["method"] if row["class"] == "generic" else f"{row['method']}, {row['class']}"
+
+
 def speed_figure(rows, error):
     """Time per call against the "median_error" or "largest_error", a point per tolerance."""
     which = error.replace("_", " ")
     figure, axes = chart(f"Time per prediction against its {which} (random pairs, κ = {rows[0]['aspect_ratio']:g})",
                          "time per call / ns", f"{which} of the time / horizon")
-    answered = [row for row in rows if row["not_converged"] < row["pairs"]]
+    answered = [{**row, "method": curve_name(row)} for row in rows if row["not_converged"] < row["pairs"]]
     for k, (method, of) in enumerate(by_method(answered)):
         points(axes, method, k, [(row["ns_per_call"], max(row[error], SMALLEST_ERROR), row["correct"] < row["pairs"])
                                  for row in of if row[error] is not None])

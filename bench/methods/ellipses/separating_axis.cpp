@@ -16,6 +16,9 @@ template <int Dim>
 Prediction<Dim> separating_axis(const CollisionCaseOf<Dim>& asked, double tolerance) {
   if (!is_sound(asked)) return {Outcome::not_converged};
   const double contact_gap = tolerance * asked.reach();
+  if constexpr (Dim == 3)
+    if (asked.tumbles())
+      return first_contact(asked.tumbling[0], asked.tumbling[1], asked.horizon, contact_gap);
   if (asked.grows()) return first_contact(asked.one, asked.two, asked.horizon, contact_gap);
   return first_contact(constant(asked.one), constant(asked.two), asked.horizon, contact_gap);
 }

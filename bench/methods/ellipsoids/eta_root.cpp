@@ -13,14 +13,11 @@ bool is_external_contact(const EllipsoidEta<double>& eta) {
 }
 
 Prediction3 touch_at(const EllipsoidCase& asked, double time, int evaluations) {
-  const auto axes = [&](const Flight<GrowingEllipsoid>& flight) {
-    return EllipsoidAxes<double>(body_at(flight, time),
-                                 advanced(flight.pose, flight.motion, time).orientation);
-  };
-  const Vec3 centre1 = asked.one.pose.position + asked.one.motion.velocity * time;
-  const Vec3 centre2 = asked.two.pose.position + asked.two.motion.velocity * time;
-  const auto touch = ellipsoid_touch<double>(axes(asked.one), axes(asked.two), centre2 - centre1);
-  return {Outcome::contact, time, touch.normal, centre1 + touch.point, evaluations};
+  const Pose3 one = pose_at(asked, 0, time), two = pose_at(asked, 1, time);
+  const auto touch = ellipsoid_touch<double>({body_at(asked.one, time), one.orientation},
+                                             {body_at(asked.two, time), two.orientation},
+                                             two.position - one.position);
+  return {Outcome::contact, time, touch.normal, one.position + touch.point, evaluations};
 }
 
 }  // namespace
