@@ -10,6 +10,7 @@
 #include <span>
 #include <utility>
 
+#include "core/geometry/free_flight.h"
 #include "core/parallel.h"
 #include "mc/hard_core.h"
 
