@@ -30,6 +30,9 @@ using TrueEllipsoidContact = TrueContactOf<3>;
 /// it with Newton's speed. Where G has become as small as rounding, the time by which the surfaces must
 /// have crossed is tried for an overlap, and the crossing bisected.
 ///
+/// Rounding of the attitude is counted with an estimate, TaylorTop::sensitivity, not with a proven bound. Near the
+/// separatrix of flat bodies it makes the uncertainty of a contact as large as 1e-8, more than the errors looked for.
+///
 /// `undecided`: no overlap is found there: the surfaces touch, or miss each other by the rounding. Sizes
 /// must not become negative within the horizon.
 TrueEllipsoidContact true_first_contact(const Flight<GrowingEllipsoid>& one,

@@ -96,7 +96,7 @@ double gap_acceleration(const EllipsoidCase& pair) {
   return static_cast<double>((gap(step) - 2 * gap(0) + gap(-step)) / (step * step));
 }
 
-/// Lets what stands at time 0 happen at `time` instead.
+/// The same as happen_at, also of pairs that tumble.
 void delay(EllipsoidCase& pair, double time) {
   if (!pair.tumbles()) return happen_at(pair, time);
   for (const int body : {0, 1}) {

@@ -75,8 +75,10 @@ TEST(TrueContactOfSolids, UniformTumblingIsAConstantAngularVelocity) {
     const double rounding = 200 * 1e-19 / constant.approach_speed;
     EXPECT_NEAR(static_cast<double>(tumbling.time - constant.time), 0,
                 static_cast<double>(tumbling.uncertainty + constant.uncertainty) + rounding);
-    EXPECT_NEAR((tumbling.normal - constant.normal).norm(), 0, 1e-15);
-    EXPECT_NEAR(tumbling.approach_speed, constant.approach_speed, 1e-14);
+    // The normal is where a function is largest: known to the root of the rounding. It turns with surfaces at 7 · 5.
+    const double normal_error = std::sqrt(1e-19);
+    EXPECT_NEAR((tumbling.normal - constant.normal).norm(), 0, normal_error);
+    EXPECT_NEAR(tumbling.approach_speed, constant.approach_speed, 35 * normal_error);
   }
 }
 
