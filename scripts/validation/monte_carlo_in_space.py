@@ -16,7 +16,7 @@ SEEDS = 8
 LARGEST_ERROR = 0.0005  # of φ
 ERRORS = 3
 # Sweeps per seed, by packing fraction; averages are over the second half.
-SWEEPS = {0.30: 350_000, 0.45: 350_000, 0.60: 120_000}
+SWEEPS = {0.30: 350_000, 0.45: 350_000, 0.60: 250_000}
 SPHEROIDS = "PackingFractions/SpheroidsByMonteCarlo.HaveThePressureOfMotion"
 SPHEROID_EFFORT = 400
 LARGEST_DIFFERENCE = 0.001  # of Z
