@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "bench/baselines/unchecked_method.h"
-#include "core/geometry/free_flight.h"
 #include "core/contact/first_contact.h"
 #include "core/error.h"
+#include "core/geometry/free_flight.h"
 #include "core/tolerances.h"
 #include "edmd/correction_move.h"
 

@@ -9,9 +9,9 @@
 #include <optional>
 #include <vector>
 
-#include "core/geometry/free_flight.h"
 #include "core/contact/ellipse_vieillard_baron.h"
 #include "core/contact/perram_wertheim.h"
+#include "core/geometry/free_flight.h"
 #include "core/io/json.h"
 
 namespace vitrel::bench {

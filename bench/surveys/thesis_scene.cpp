@@ -9,8 +9,8 @@
 
 #include "bench/methods/method.h"
 #include "bench/reference/first_contact.h"
-#include "core/geometry/free_flight.h"
 #include "core/contact/ellipse_vieillard_baron.h"
+#include "core/geometry/free_flight.h"
 #include "core/io/json.h"
 
 namespace vitrel::bench {

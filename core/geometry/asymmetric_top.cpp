@@ -6,8 +6,8 @@
 #include <tuple>
 #include <utility>
 
-#include "core/geometry/free_flight.h"
 #include "core/elementary.h"
+#include "core/geometry/free_flight.h"
 
 namespace vitrel {
 

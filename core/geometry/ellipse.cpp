@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "core/geometry/free_flight.h"
 #include "core/elementary.h"
+#include "core/geometry/free_flight.h"
 
 namespace vitrel {
 

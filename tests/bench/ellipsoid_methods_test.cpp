@@ -12,8 +12,8 @@
 #include "bench/surveys/ellipsoid_reference.h"
 #include "bench/surveys/ellipsoid_suite.h"
 #include "bench/surveys/verdict.h"
-#include "core/geometry/free_flight.h"
 #include "core/contact/ellipsoid_eta.h"
+#include "core/geometry/free_flight.h"
 
 namespace vitrel::bench {
 namespace {

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "bench/reference/first_contact.h"
-#include "core/geometry/free_flight.h"
 #include "core/contact/first_contact.h"
+#include "core/geometry/free_flight.h"
 #include "core/random/stream.h"
 #include "core/tolerances.h"
 

@@ -1,7 +1,7 @@
 // Free rotation in closed form, against Euler's equations integrated in extended precision.
 
-#include "core/geometry/free_flight.h"
 #include "core/geometry/asymmetric_top.h"
+#include "core/geometry/free_flight.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // The contact screen: pairs that have just collided, axes, lanes. That it is
 // never late whatever the axis is judged in tests/bench/contact_screen_truth_test.cpp.
 
-#include "core/geometry/free_flight.h"
 #include "core/contact/ellipse_contact_screen.h"
+#include "core/geometry/free_flight.h"
 
 #include <gtest/gtest.h>
 

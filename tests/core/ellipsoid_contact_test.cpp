@@ -5,13 +5,13 @@
 #include <limits>
 #include <vector>
 
-#include "core/geometry/free_flight.h"
 #include "core/contact/ellipsoid_contact_screen.h"
 #include "core/contact/ellipsoid_gap.h"
 #include "core/contact/ellipsoid_gap_batch.h"
 #include "core/contact/ellipsoid_pair_in_flight.h"
 #include "core/contact/first_contact.h"
 #include "core/geometry/capsule.h"
+#include "core/geometry/free_flight.h"
 #include "core/tolerances.h"
 #include "tests/support/solids.h"
 

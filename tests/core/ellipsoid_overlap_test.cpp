@@ -12,10 +12,10 @@
 #include <numbers>
 #include <string>
 
-#include "core/geometry/free_flight.h"
 #include "core/contact/ellipsoid_eta.h"
 #include "core/contact/ellipsoid_gap.h"
 #include "core/contact/perram_wertheim.h"
+#include "core/geometry/free_flight.h"
 #include "tests/support/posed_solids.h"
 #include "tests/support/solids.h"
 

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <limits>
 
-#include "core/geometry/free_flight.h"
 #include "core/contact/ellipse_gap.h"
 #include "core/contact/ellipse_pair_in_flight.h"
 #include "core/contact/first_contact.h"
+#include "core/geometry/free_flight.h"
 #include "core/random/stream.h"
 #include "core/tolerances.h"
 

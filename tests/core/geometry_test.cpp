@@ -3,8 +3,8 @@
 #include <cmath>
 #include <vector>
 
-#include "core/geometry/free_flight.h"
 #include "core/geometry/ellipse.h"
+#include "core/geometry/free_flight.h"
 #include "core/geometry/periodic_box.h"
 #include "core/random/stream.h"
 

@@ -7,8 +7,8 @@
 #include <tuple>
 #include <vector>
 
-#include "core/geometry/free_flight.h"
 #include "core/contact/ellipsoid_gap.h"
+#include "core/geometry/free_flight.h"
 #include "core/neighbors/neighborhood.h"
 #include "core/random/stream.h"
 #include "tests/support/solids.h"

@@ -1,7 +1,7 @@
 // Neighbour lists against all pairs, exits against the support function, and what lists are kept in.
 
-#include "core/geometry/free_flight.h"
 #include "core/neighbors/neighborhood.h"
+#include "core/geometry/free_flight.h"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "core/geometry/free_flight.h"
 #include "core/contact/first_contact.h"
+#include "core/geometry/free_flight.h"
 #include "core/random/stream.h"
 #include "edmd/correction_move.h"
 
