@@ -13,9 +13,9 @@ namespace vitrel {
 /// Spheroids: smooth collisions exert no torque about the axis of symmetry, and in free flight the shape rotates
 /// uniformly about the angular momentum L with ω = L/I⊥. This ω is the stored angular velocity. With it the spheroid
 /// moves like a body with three equal moments I⊥, which is exact, and L = I⊥ ω.
-/// Scalene bodies: ω is constant in flight, too. This is a model (after the article on packing), not Euler's
-/// equations: L is not constant in flight, but ω in the body frame is, and so is the energy. Phase-space volume is
-/// conserved, so all static averages are those of equilibrium.
+/// Scalene bodies tumble by Euler's equations as `TumblingEllipsoid`. As plain ellipsoids they keep ω constant in flight:
+/// a model (after the article on packing) in which L is not conserved, but ω in the body frame is, and so is the energy.
+/// Phase-space volume is conserved, so all static averages are those of equilibrium. Growing bodies move like that.
 struct Ellipsoid {
   static constexpr int dimension = 3;
   Vec3 semi_axes = Vec3::Ones();

@@ -469,6 +469,23 @@ TEST(ObservablesPage, IsUpToDate) {
       << "regenerate it: vitrel analyze --list > docs/observables.md";
 }
 
+TEST(RecordedParameters, OfEarlierVersionsKeptAngularVelocitiesConstant) {
+  const auto rotation = [](const std::string& text) {
+    return recorded_parameters(text, "test").dynamics.rotation;
+  };
+  const std::string in_space = "[system]\ndimension = 3\n[dynamics]\nduration = 10\n";
+  EXPECT_EQ(rotation(in_space), FreeRotation::constant);
+  EXPECT_EQ(rotation(in_space + "rotation = \"euler\"\n"), FreeRotation::euler);
+  EXPECT_EQ(rotation("[dynamics]\nduration = 10\n"), FreeRotation::euler);
+  // A run that was begun by one of them is continued as it was begun.
+  Parameters now = parse_parameters(in_space, "test");
+  now.dynamics.rotation = FreeRotation::constant;
+  EXPECT_FALSE(forbidden_change(in_space, effective_parameters(now), Work::run));
+  now.dynamics.rotation = FreeRotation::euler;
+  EXPECT_EQ(forbidden_change(in_space, effective_parameters(now), Work::run)->key,
+            "dynamics.rotation");
+}
+
 TEST(SweepJobs, EveryCombinationIsAJobOfItsOwn) {
   const std::filesystem::path file = testing::TempDir() + "vitrel_sweep_jobs.toml";
   std::ofstream(file)

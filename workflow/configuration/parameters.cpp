@@ -175,11 +175,19 @@ std::string parameter_page() {
          parameter_tables(fields(parameters));
 }
 
+Parameters recorded_parameters(const std::string& text, const std::string& name) {
+  Parameters parameters = parse_parameters(text, name);
+  const bool is_recorded = text.find("\nrotation = ") != std::string::npos;
+  if (parameters.system.dimension == 3 && !is_recorded)
+    parameters.dynamics.rotation = FreeRotation::constant;
+  return parameters;
+}
+
 std::optional<ParameterDifference> forbidden_change(const std::string& before,
                                                     const std::string& after, Work work) {
   // As this version would have recorded it: with its keys, and the defaults of those that are new.
   const std::string recorded =
-      effective_parameters(parse_parameters(before, "recorded parameters"));
+      effective_parameters(recorded_parameters(before, "recorded parameters"));
   return first_difference(recorded, after, [work](const std::string& key) {
     if (key == "output.checkpoint_interval" || key == "prepare.quality_sweeps") return true;
     return key.starts_with("analysis.") ||

@@ -83,9 +83,13 @@ RunCheckpoint<Dim> stored_run(RunRequest& request, const Checkpoint& checkpoint)
   const auto* state = std::get_if<Configuration<Dim>>(&checkpoint.configuration);
   if (request.from && state)
     take_species(request.parameters, *state, {file.string(), checkpoint.parameters});
-  // Its default is not the same in all versions.
+  // Defaults are not the same in all versions.
+  const Parameters recorded = recorded_parameters(checkpoint.parameters, file.string());
   if (std::optional<double>& interval = request.parameters.output.interval; !interval)
-    interval = parse_parameters(checkpoint.parameters, file.string()).output.interval;
+    interval = recorded.output.interval;
+  FreeRotation& rotation = request.parameters.dynamics.rotation;
+  if (rotation == FreeRotation::euler && !place_of(request.parameters, "dynamics.rotation"))
+    rotation = recorded.dynamics.rotation;
   refuse_changes(request.parameters, checkpoint.parameters, request.output);
   RunCheckpoint<Dim> run = run_from_checkpoint<Dim>(checkpoint, file);
   require_trajectory(run, request.output);
