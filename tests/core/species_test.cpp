@@ -77,7 +77,7 @@ TEST(DrawParticles, TheLargerOfTwoDrawnSemiAxesIsTheMajorOne) {
   species[0].semi_axes = {uniform, uniform};
   constexpr std::size_t n = 1000;
   double major = 0, minor = 0;
-  for (const Ellipse& shape : draw_particles(species, n, 0.3, 1, 7).shape) {
+  for (const Ellipse& shape : draw_particles<2>(species, n, 0.3, Vec2::Ones(), 7).shape) {
     EXPECT_GE(shape.a, shape.b);
     major += shape.a;
     minor += shape.b;

@@ -19,7 +19,7 @@ inline void PrintTo(const MixtureInSpace& mixture, std::ostream* out) {
 inline Species solids_of(double fraction, const Vec3& semi_axes) {
   Species kind;
   kind.fraction = fraction;
-  kind.semi_axes = std::vector<double>(semi_axes.begin(), semi_axes.end());
+  kind.semi_axes = {always(semi_axes[0]), always(semi_axes[1]), always(semi_axes[2])};
   return kind;
 }
 
