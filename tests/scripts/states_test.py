@@ -97,7 +97,8 @@ class Packings(unittest.TestCase):
             self.assertEqual(len(values), len(packings.PUBLISHED))
 
     def test_other_rows_are_toml(self):
-        columns = {"species.0.aspect_ratios": ["[2, 5]", packings.UNIFORM.format(0.5, 2)], "system.particles": [10, 20]}
+        drawn = '{ distribution = "uniform", low = 0.5, high = 2 }'
+        columns = {"species.0.aspect_ratios": ["[2, 5]", f"[{drawn}, {drawn}]"], "system.particles": [10, 20]}
         key, table = packings.together(columns).split("=", 1)
         uniform = {"distribution": "uniform", "low": 0.5, "high": 2}
         self.assertEqual(key, "sweep.together")
