@@ -40,12 +40,6 @@ EngineOptions with_neighbor_search(const Configuration<Dim>& configuration, Engi
   return options;
 }
 
-bool has_scalene_bodies(const Configuration3& configuration) {
-  return std::ranges::any_of(configuration.shape, [](const Ellipsoid& shape) {
-    return !shape.is_round() && shape.symmetry_axis() == Ellipsoid::none;
-  });
-}
-
 }  // namespace
 
 std::unique_ptr<Engine2> make_engine(const Configuration2& configuration,
@@ -64,7 +58,8 @@ std::unique_ptr<Engine3> make_engine(const Configuration3& configuration,
   if (options.growth_rate != 0)
     return all_round ? make_growing_sphere_engine(options) : make_growing_ellipsoid_engine(options);
   if (all_round) return make_sphere_engine(with_neighbor_search(configuration, options));
-  return options.rotation == FreeRotation::euler && has_scalene_bodies(configuration)
+  const bool some_scalene = std::ranges::any_of(configuration.shape, &Ellipsoid::is_scalene);
+  return options.rotation == FreeRotation::euler && some_scalene
              ? make_tumbling_ellipsoid_engine(options)
              : make_ellipsoid_engine(options);
 }

@@ -15,10 +15,6 @@ Quaternion orientation_at(const Track<3>& track, std::size_t k) {
   return {q[0][k], q[1][k], q[2][k], q[3][k]};
 }
 
-bool is_scalene(const Ellipsoid& shape) {
-  return !shape.is_round() && shape.symmetry_axis() == Ellipsoid::none;
-}
-
 /// In the frame of the body: the figure axis, or all three from the longest to the shortest.
 std::vector<Vec3> body_axes(const Ellipsoid& shape, std::size_t count) {
   if (count == 1) return {figure_axis(shape, Quaternion::Identity())};
@@ -78,9 +74,9 @@ std::size_t axis_count(const Configuration2&) {
 template <>
 std::size_t axis_count(const Configuration3& configuration) {
   const bool has_spheroids = std::ranges::any_of(configuration.shape, [](const Ellipsoid& shape) {
-    return !shape.is_round() && !is_scalene(shape);
+    return !shape.is_round() && !shape.is_scalene();
   });
-  return !has_spheroids && std::ranges::any_of(configuration.shape, is_scalene) ? 3 : 1;
+  return !has_spheroids && std::ranges::any_of(configuration.shape, &Ellipsoid::is_scalene) ? 3 : 1;
 }
 
 template <int Dim>

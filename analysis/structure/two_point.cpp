@@ -13,7 +13,7 @@ namespace {
 constexpr double max_points = 1 << 18;
 constexpr double points_per_inradius = 8;
 
-double wanted_spacing(const Configuration3& c) {
+double target_spacing(const Configuration3& c) {
   double spacing = std::cbrt(c.box.volume() / max_points);
   if (c.size() == 0) return spacing;
   double inradius = c.shape.front().inradius();
@@ -100,9 +100,9 @@ struct TwoPointGrid::Shells {
 };
 
 TwoPointGrid::TwoPointGrid(const Configuration3& first) : lengths_(first.box.lengths()) {
-  const double wanted = wanted_spacing(first);
+  const double target = target_spacing(first);
   for (int k = 0; k < 3; ++k) {
-    count_[k] = fast_size(static_cast<int>(std::lround(lengths_[k] / wanted)));
+    count_[k] = fast_size(static_cast<int>(std::lround(lengths_[k] / target)));
     spacing_[k] = lengths_[k] / count_[k];
   }
   transforms_ = std::make_unique<Transforms>(count_);

@@ -28,12 +28,14 @@ class ContactScreen<B> : public detail::CandidateTimes<simd_width> {
         min_gap_(min_gap_fraction * contact_gap),
         aa_minus_cc_(coefficients.aa_minus_cc),
         cc_(coefficients.cc) {
-    const Vec3 &lengths = coefficients.semi_axes, squares = lengths.cwiseAbs2();
+    const Vec3& lengths = coefficients.semi_axes;
     lengths_ = {lengths[0], lengths[1], lengths[2]};
-    max_tumbling_ = coefficients.max_tumbling;
+    if constexpr (tumbles<B>) max_tumbling_ = coefficients.max_tumbling;
     axes_ = detail::axes_of(mine.orientation(), lengths);
-    const Vec3 own = mine.orientation().conjugate() * mine.angular_velocity();
-    tau_ = tumbling<double>(components(own.normalized()), components(squares));
+    if constexpr (!tumbles<B>) {
+      const Vec3 own = mine.orientation().conjugate() * mine.angular_velocity();
+      tau_ = tumbling<double>(components(own.normalized()), components(lengths.cwiseAbs2()));
+    }
   }
 
   void set_shape(int k, const ShapeCoefficients<Ellipsoid>& coefficients) {
@@ -42,7 +44,7 @@ class ContactScreen<B> : public detail::CandidateTimes<simd_width> {
     lengths_.z.set(k, coefficients.semi_axes[2]);
     aa_minus_cc_.set(k, coefficients.aa_minus_cc);
     cc_.set(k, coefficients.cc);
-    max_tumbling_.set(k, coefficients.max_tumbling);
+    if constexpr (tumbles<B>) max_tumbling_.set(k, coefficients.max_tumbling);
   }
 
   /// Tumbling partners keep the orientation of their own time, from which their support functions are bounded; so that

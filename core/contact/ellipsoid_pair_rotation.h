@@ -127,7 +127,7 @@ class TumblingRotation {
     start_[lane] = flight.top_time;
     const double speed = flight.top.max_speed();
     const ShapeCoefficients<Ellipsoid> coefficients(shape);
-    const double f = AsymmetricTop::max_acceleration_factor(shape);
+    const double f = coefficients.max_angular_acceleration;
     max_speed_[lane] = speed;
     largest_acceleration_[lane] = speed * speed * coefficients.max_tumbling;
     cc_[lane] = coefficients.cc;

@@ -32,7 +32,8 @@ struct ShapeCoefficients<Sphere> {
 template <>
 struct ShapeCoefficients<Ellipsoid> {
   Vec3 semi_axes;
-  double aa_minus_cc, cc;  ///< a² − c², c²
+  double aa_minus_cc, cc;           ///< a² − c², c²
+  double max_angular_acceleration;  ///< of a tumbling body, over Ω² (asymmetric_top.h)
   /// Of a tumbling body: ḧ ≤ max_tumbling Ω² with Ω = max |ω|. In the frame of space ḧ is at most Ω²(a² − c²)/c, which
   /// it is with constant ω, plus |dω/dt| (a − c).
   double max_tumbling;
@@ -41,9 +42,9 @@ struct ShapeCoefficients<Ellipsoid> {
         aa_minus_cc((ellipsoid.circumradius() - ellipsoid.inradius()) *
                     (ellipsoid.circumradius() + ellipsoid.inradius())),
         cc(ellipsoid.inradius() * ellipsoid.inradius()),
+        max_angular_acceleration(AsymmetricTop::max_acceleration_factor(ellipsoid)),
         max_tumbling(aa_minus_cc / ellipsoid.inradius() +
-                     AsymmetricTop::max_acceleration_factor(ellipsoid) *
-                         ellipsoid.max_support_rate()) {}
+                     max_angular_acceleration * ellipsoid.max_support_rate()) {}
 };
 
 template <>

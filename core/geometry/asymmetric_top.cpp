@@ -74,10 +74,6 @@ struct SortedAxes {
   }
 };
 
-bool has_equal_moments(const Ellipsoid& shape) {
-  return shape.is_round() || shape.symmetry_axis() != Ellipsoid::none;
-}
-
 /// The rows are axes of a frame along the angular momentum, in the axes of the body: L̂ × (L̂ × e₃) reversed, L̂ × e₃
 /// reversed, L̂.
 Mat3 frame_along(const Vec3& momentum) {
@@ -109,7 +105,7 @@ AsymmetricTop::AsymmetricTop(const Ellipsoid& shape, const Quaternion& orientati
                              const Vec3& angular_velocity) {
   const Mat3 axes = orientation.toRotationMatrix();
   const double speed = angular_velocity.norm();
-  if (has_equal_moments(shape) || !(speed > 0)) {
+  if (!shape.is_scalene() || !(speed > 0)) {
     rotate_uniformly(axes, angular_velocity);
     return;
   }

@@ -34,8 +34,10 @@ struct Ellipsoid {
       if (semi_axes[(k + 1) % 3] == semi_axes[(k + 2) % 3]) return k;
     return none;
   }
+  /// Three different semi-axes.
+  bool is_scalene() const { return !is_round() && symmetry_axis() == none; }
   /// Number of rotational degrees of freedom that smooth collisions change: 0, 2 or 3.
-  int rotations() const { return is_round() ? 0 : symmetry_axis() == none ? 3 : 2; }
+  int rotations() const { return is_round() ? 0 : is_scalene() ? 3 : 2; }
 
   /// Moments of inertia over the mass about the own axes; of a spheroid I⊥ three times.
   Vec3 inertia_per_mass() const;
