@@ -58,7 +58,9 @@ void turn_to(const Ellipse&, const Vec2& u, Pose2& pose) {
 void turn_to(const Ellipsoid& shape, const Vec3& u, Pose3& pose) {
   const Vec3 axis = figure_axis(shape, pose.orientation);
   const Vec3 near = axis.dot(u) < 0 ? Vec3(-u) : u;
-  pose.orientation = (Quaternion::FromTwoVectors(axis, near) * pose.orientation).normalized();
+  const Vec3 across = axis.cross(near);
+  const Quaternion turn(1 + axis.dot(near), across.x(), across.y(), across.z());
+  pose.orientation = (turn * pose.orientation).normalized();
 }
 
 template <int Dim>

@@ -34,19 +34,12 @@ inline double share_above(std::uint64_t word, double least) {
   return 2 * ((share - least) / (1 - least)) - 1;
 }
 
-/// The unit vector at an angle, faster than by the standard library.
-inline Vec2 axis_at(double angle) {
-  PairArray x, y;
-  directions<PairArray>({angle, angle}, x, y);
-  return {x[0], y[0]};
-}
-
 /// What an overlap test needs of a particle besides its position.
 template <int Dim>
 using OrientedBody = std::conditional_t<Dim == 2, OrientedEllipse, OrientedEllipsoid>;
 
 inline OrientedEllipse oriented(const Ellipse& shape, double angle) {
-  return {shape, axis_at(angle)};
+  return {shape, direction(angle)};
 }
 inline OrientedEllipsoid oriented(const Ellipsoid& shape, const Quaternion& orientation) {
   return {shape, orientation};

@@ -12,15 +12,15 @@ namespace {
 class PerramWertheimRatio {
  public:
   explicit PerramWertheimRatio(const EllipsePair& pair) : d_(pair.d) {
-    const PairArray size_squared = pair.size.square();
-    const PairArray bb = size_squared * pair.bb;
-    const PairArray aa_minus_bb = size_squared * pair.aa_minus_bb;
-    const PairArray aa = bb + aa_minus_bb;
-    const PairArray along = pair.ux * d_.x() + pair.uy * d_.y();
-    const PairArray across = pair.ux * d_.y() - pair.uy * d_.x();
+    const SimdPair size_squared = pair.size * pair.size;
+    const SimdPair bb = size_squared * pair.bb;
+    const SimdPair aa_minus_bb = size_squared * pair.aa_minus_bb;
+    const SimdPair aa = bb + aa_minus_bb;
+    const SimdPair along = pair.ux * d_.x() + pair.uy * d_.y();
+    const SimdPair across = pair.ux * d_.y() - pair.uy * d_.x();
     wx_ = bb * along * pair.ux - aa * across * pair.uy;
     wy_ = bb * along * pair.uy + aa * across * pair.ux;
-    p_ = bb * along.square() + aa * across.square();
+    p_ = bb * (along * along) + aa * (across * across);
     det_ = aa * bb;
     const double s = pair.ux[0] * pair.uy[1] - pair.uy[0] * pair.ux[1];
     mixed_ = bb[0] * aa[1] + aa[0] * bb[1] + aa_minus_bb[0] * aa_minus_bb[1] * s * s;
@@ -71,7 +71,7 @@ class PerramWertheimRatio {
   }
 
   Vec2 d_;
-  PairArray wx_, wy_, p_, det_;
+  SimdPair wx_, wy_, p_, det_;
   double mixed_;
 };
 

@@ -92,7 +92,7 @@ class OverlapBatch {
         gg * (gg + 18 * kk) - 4 * (k1 * (g1 * g1 * g1) + k2 * (g2 * g2 * g2)) - constant;
     const SimdBatch terms =
         mm * (mm + 18 * kk) + 4 * (k1 * (m1 * m1 * m1) + k2 * (m2 * m2 * m2)) + constant;
-    const SimdBatch width = detail::minimum(b, SimdBatch(shape_.b));
+    const SimdBatch width = min(b, shape_.b);
     const SimdBatch limit = (psi_error * width + psi_error_of_margin * margin_) * terms;
     return {(abs(psi) * width > limit).bits(),
             (psi > 0).bits() & ((g1 < 0).bits() | (g2 < 0).bits())};

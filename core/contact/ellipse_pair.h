@@ -5,21 +5,20 @@
 
 namespace vitrel {
 
-/// The unit vector at `angle` (directions in simd.h).
-VITREL_INLINE Vec2 direction(double angle) {
-  PairArray x, y;
-  directions<PairArray>({angle, angle}, x, y);
-  return {x[0], y[0]};
+/// The unit vector at `angle`.
+inline Vec2 direction(double angle) {
+  const CosineAndSine u = cosine_and_sine(angle);
+  return {u.cosine, u.sine};
 }
 
 /// Two ellipses at one instant, in the form that the support gap uses. Element 0 is body 1.
 struct EllipsePair {
-  PairArray bb;           ///< b²
-  PairArray aa_minus_bb;  ///< a² − b²
-  PairArray aabb;         ///< a²b²
-  PairArray size;         ///< factor of a and b
-  PairArray ux, uy;       ///< unit vectors along the major axes
-  Vec2 d;                 ///< from centre 1 to centre 2
+  SimdPair bb;           ///< b²
+  SimdPair aa_minus_bb;  ///< a² − b²
+  SimdPair aabb;         ///< a²b²
+  SimdPair size;         ///< factor of a and b
+  SimdPair ux, uy;       ///< unit vectors along the major axes
+  Vec2 d;                ///< from centre 1 to centre 2
 
   EllipsePair() = default;
   EllipsePair(const Ellipse& one, const Vec2& u1, const Ellipse& two, const Vec2& u2,
@@ -85,12 +84,12 @@ VITREL_INLINE T support_acceleration_bound(const SupportAlong<T>& s, const T& bb
       detail::positive_part((present - present * (0.5 * rotation * rotation)) - falling);
   const T q = (bb + aa_minus_bb * (min_along * min_along)) * s.inverse_square;
   const T rise = 1. / q;
-  return detail::minimum(omega * omega * (s.radius * (rise * rise) - s.height * q), largest);
+  return min(omega * omega * (s.radius * (rise * rise) - s.height * q), largest);
 }
 
 /// The support gap g = n·d − σ₁h₁ − σ₂h₂ at a unit vector n, σ the sizes. φ is the angle of n; h, h'
 /// and ρ are those at size 1.
-struct GapAlongAxis : SupportAlong<PairArray> {
+struct GapAlongAxis : SupportAlong<SimdPair> {
   double gap = 0;
   double slope = 0;      ///< dg/dφ
   double curvature = 0;  ///< −d²g/dφ² = g + σ₁ρ₁ + σ₂ρ₂
@@ -108,14 +107,13 @@ struct GapAlongAxis : SupportAlong<PairArray> {
 /// `sized`: whether the sizes may differ from 1.
 template <bool sized = true>
 VITREL_INLINE GapAlongAxis gap_along(const EllipsePair& pair, const Vec2& n) {
-  const auto total = [&](const PairArray& of) {
-    if constexpr (sized) return (pair.size * of).sum();
-    return of.sum();
+  const auto total = [&](const SimdPair& of) {
+    if constexpr (sized) return reduce(pair.size * of);
+    return reduce(of);
   };
   GapAlongAxis g;
-  static_cast<SupportAlong<PairArray>&>(g) =
-      support_along<PairArray>(pair.bb, pair.aa_minus_bb, pair.aabb, pair.ux, pair.uy,
-                               PairArray::Constant(n.x()), PairArray::Constant(n.y()));
+  static_cast<SupportAlong<SimdPair>&>(g) =
+      support_along<SimdPair>(pair.bb, pair.aa_minus_bb, pair.aabb, pair.ux, pair.uy, n.x(), n.y());
   g.gap = n.dot(pair.d) - total(g.height);
   g.slope = cross(n, pair.d) - total(g.turning);
   g.curvature = g.gap + total(g.radius);

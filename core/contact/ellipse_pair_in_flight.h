@@ -34,23 +34,23 @@ class EllipsePairInFlight {
     const Ellipse& shape1 = shape_of(one.body);
     const Ellipse& shape2 = shape_of(two.body);
     a_ = {shape1.a, shape2.a};
-    const PairArray b(shape1.b, shape2.b);
+    const SimdPair b(shape1.b, shape2.b);
     pair_.size = size0_;
-    pair_.bb = b.square();
+    pair_.bb = b * b;
     pair_.aa_minus_bb = {shape1.aa_minus_bb(), shape2.aa_minus_bb()};
-    pair_.aabb = a_.square() * pair_.bb;
-    max_rotation_term_ = omega_.square() * pair_.aa_minus_bb / b;
+    pair_.aabb = a_ * a_ * pair_.bb;
+    max_rotation_term_ = omega_ * omega_ * pair_.aa_minus_bb / b;
   }
 
   const Vec2& d0() const { return d0_; }
   const Vec2& v() const { return v_; }
   /// Sum of the circumradii at time 0, and its rate of growth.
-  double reach() const { return (a_ * size0_).sum(); }
-  double reach_growth() const { return (a_ * growth_).sum(); }
+  double reach() const { return reduce(a_ * size0_); }
+  double reach_growth() const { return reduce(a_ * growth_); }
   /// The time in which the growing bodies grow by the gap and their present circumradii together: their time
   /// scale, infinite if none grows.
   double doubling_time(double gap) const {
-    return ((a_ * pair_.size).sum() + gap) / (a_ * growth_.max(0)).sum();
+    return (reduce(a_ * pair_.size) + gap) / reduce(a_ * max(growth_, 0));
   }
 
   double time() const { return time_; }
@@ -59,18 +59,18 @@ class EllipsePairInFlight {
   void start_at(double time) {
     place_centres(time);
     axes_time_ = time;
-    directions<PairArray>(angle0_ + omega_ * time, axes_x_, axes_y_);
+    directions<SimdPair>(angle0_ + omega_ * time, axes_x_, axes_y_);
     pair_.ux = axes_x_;
     pair_.uy = axes_y_;
   }
 
   /// Moves to `time`, with the axes rotated from those at the start, so that rounding does not accumulate.
   void go_to(double time) {
-    const PairArray turn = omega_ * (time - axes_time_);
-    if (std::max(std::abs(turn[0]), std::abs(turn[1])) > max_small_angle) return start_at(time);
+    const SimdPair turn = omega_ * (time - axes_time_);
+    if (any_of(abs(turn) > max_small_angle)) return start_at(time);
     place_centres(time);
-    PairArray cosine, sine;
-    small_angle_directions<PairArray>(turn, cosine, sine);
+    SimdPair cosine, sine;
+    small_angle_directions<SimdPair>(turn, cosine, sine);
     pair_.ux = cosine * axes_x_ - sine * axes_y_;
     pair_.uy = sine * axes_x_ + cosine * axes_y_;
   }
@@ -92,22 +92,22 @@ class EllipsePairInFlight {
 
   /// ġ along the axis n, where `g` is the gap.
   double gap_rate(const Vec2& n, const GapAlongAxis& g) const {
-    if constexpr (!grows) return n.dot(v_) + (omega_ * g.turning).sum();
-    return n.dot(v_) + (pair_.size * omega_ * g.turning - growth_ * g.height).sum();
+    if constexpr (!grows) return n.dot(v_) + reduce(omega_ * g.turning);
+    return n.dot(v_) + reduce(pair_.size * omega_ * g.turning - growth_ * g.height);
   }
 
   /// d²g/dφdt.
   double slope_rate(const Vec2& n, const GapAlongAxis& g) const {
-    const PairArray second = omega_ * (g.radius - g.height);
-    if constexpr (!grows) return cross(n, v_) + second.sum();
-    return cross(n, v_) + (pair_.size * second - growth_ * g.turning).sum();
+    const SimdPair second = omega_ * (g.radius - g.height);
+    if constexpr (!grows) return cross(n, v_) + reduce(second);
+    return cross(n, v_) + reduce(pair_.size * second - growth_ * g.turning);
   }
 
   /// −g̈.
   double acceleration(const GapAlongAxis& g) const {
-    const PairArray rotation = omega_.square() * (g.radius - g.height);
-    if constexpr (!grows) return rotation.sum();
-    return (pair_.size * rotation - cross_term(g)).sum();
+    const SimdPair rotation = omega_ * omega_ * (g.radius - g.height);
+    if constexpr (!grows) return reduce(rotation);
+    return reduce(pair_.size * rotation - cross_term(g));
   }
 
   /// M with g(t + s) ≥ g + ġ s − ½ M s² for all s from 0 to `duration`, which may be negative (backwards), as long as
@@ -119,19 +119,18 @@ class EllipsePairInFlight {
   ///
   /// has the coefficient ½ σ ω² K − γ ω h' of s² and ½ γ ω² K of s³. Both K and γ s may be negative.
   double acceleration_bound(const GapAlongAxis& g, double duration) const {
-    const PairArray rotation = support_acceleration_bound<PairArray>(
-        g, pair_.bb, pair_.aa_minus_bb, omega_, max_rotation_term_, PairArray::Constant(duration));
-    if constexpr (!grows) return rotation.sum();
-    const PairArray growing = growth_.abs() * std::abs(duration) * rotation.abs();
-    return (pair_.size * rotation + growing - cross_term(g)).sum();
+    const SimdPair rotation = support_acceleration_bound<SimdPair>(
+        g, pair_.bb, pair_.aa_minus_bb, omega_, max_rotation_term_, duration);
+    if constexpr (!grows) return reduce(rotation);
+    const SimdPair growing = abs(growth_) * std::abs(duration) * abs(rotation);
+    return reduce(pair_.size * rotation + growing - cross_term(g));
   }
 
   /// The maximum of acceleration_bound over all axes and durations up to 1.
   double largest_acceleration() const {
-    if constexpr (!grows) return max_rotation_term_.sum();
-    return ((pair_.size + growth_.abs()) * max_rotation_term_ +
-            2 * (growth_ * omega_).abs() * pair_.aa_minus_bb.sqrt())
-        .sum();
+    if constexpr (!grows) return reduce(max_rotation_term_);
+    return reduce((pair_.size + abs(growth_)) * max_rotation_term_ +
+                  2 * abs(growth_ * omega_) * sqrt(pair_.aa_minus_bb));
   }
 
  private:
@@ -148,15 +147,15 @@ class EllipsePairInFlight {
     if constexpr (grows) pair_.size = size0_ + growth_ * time;
   }
 
-  PairArray cross_term(const GapAlongAxis& g) const { return 2 * growth_ * omega_ * g.turning; }
+  SimdPair cross_term(const GapAlongAxis& g) const { return 2 * growth_ * omega_ * g.turning; }
 
   Vec2 d0_, v_;
-  PairArray angle0_, omega_, size0_, growth_;
-  PairArray a_;
-  PairArray max_rotation_term_;  // ω² (a² − b²)/b
+  SimdPair angle0_, omega_, size0_, growth_;
+  SimdPair a_;
+  SimdPair max_rotation_term_;  // ω² (a² − b²)/b
   double time_ = 0;
   double axes_time_ = 0;  // time of axes_x_, axes_y_
-  PairArray axes_x_, axes_y_;
+  SimdPair axes_x_, axes_y_;
   EllipsePair pair_;  // at time_
 };
 

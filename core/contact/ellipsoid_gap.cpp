@@ -40,7 +40,7 @@ class PerramWertheimAxis {
  private:
   static Mat3 matrix(const EllipsoidPair& pair, int lane) {
     Mat3 g;
-    const auto row = [&](const Vec3Of<PairArray>& v) -> Eigen::RowVector3d {
+    const auto row = [&](const Vec3Of<SimdPair>& v) -> Eigen::RowVector3d {
       return pair.size[lane] * Vec3(v.x[lane], v.y[lane], v.z[lane]).transpose();
     };
     g << row(pair.axes.first), row(pair.axes.second), row(pair.axes.third);
@@ -64,7 +64,7 @@ class PerramWertheimAxis {
 EllipsoidPair pair_at_rest(const Ellipsoid& one, const Quaternion& orientation1,
                            const Ellipsoid& two, const Quaternion& orientation2, const Vec3& d) {
   const Mat3 turn1 = orientation1.toRotationMatrix(), turn2 = orientation2.toRotationMatrix();
-  const auto axis = [&](int k) -> Vec3Of<PairArray> {
+  const auto axis = [&](int k) -> Vec3Of<SimdPair> {
     const Vec3 u = one.semi_axes[k] * turn1.col(k), v = two.semi_axes[k] * turn2.col(k);
     return {{u.x(), v.x()}, {u.y(), v.y()}, {u.z(), v.z()}};
   };

@@ -114,10 +114,10 @@ VITREL_INLINE T bounded_acceleration(const SupportOf<T>& s, const SupportRates<T
   using std::sqrt;
   const T time = abs(duration);
   const T now = s.height * r.second + r.rate * r.rate;
-  const T rising = detail::minimum(second, now + third * time);
+  const T rising = min(second, now + third * time);
   const T slope = 2. * s.height * r.rate;
   const T least = s.height * s.height - positive_part(-slope * duration) - second * time * time;
-  const T min_squared = -detail::minimum(-least, -cc);
+  const T min_squared = -min(-least, -cc);
   return positive_part(rising) / sqrt(min_squared);
 }
 
@@ -148,14 +148,14 @@ using Tangent = Vec2;
 
 /// Two ellipsoids at one instant. Element 0 is body 1.
 struct EllipsoidPair {
-  AxesOf<PairArray> axes;  ///< at size 1
-  PairArray size;          ///< factor of the semi-axes
-  Vec3 d;                  ///< from centre 1 to centre 2
+  AxesOf<SimdPair> axes;  ///< at size 1
+  SimdPair size;          ///< factor of the semi-axes
+  Vec3 d;                 ///< from centre 1 to centre 2
 };
 
 /// The support gap g = n·d − σ₁h₁ − σ₂h₂ at a unit vector n, σ the sizes, with its gradient and second
 /// derivatives along the great circles through n: C = Σ σ H + g on the plane of e₁ and e₂.
-struct GapAlongAxis3 : SupportOf<PairArray> {
+struct GapAlongAxis3 : SupportOf<SimdPair> {
   double gap = 0;
   Tangent slope;
   double c11 = 1, c12 = 0, c22 = 1;  ///< C = −∇∇g
@@ -194,8 +194,8 @@ inline Vec3 vector(const Vec3Of<double>& v) {
 
 VITREL_INLINE GapAlongAxis3 gap_along(const EllipsoidPair& pair, const Axis3& axis) {
   GapAlongAxis3 g;
-  static_cast<SupportOf<PairArray>&>(g) = support_along<PairArray>(pair.axes, axis);
-  const auto total = [&](const PairArray& of) { return (pair.size * of).sum(); };
+  static_cast<SupportOf<SimdPair>&>(g) = support_along<SimdPair>(pair.axes, axis);
+  const auto total = [&](const SimdPair& of) { return reduce(pair.size * of); };
   const Vec3Of<double> d = components(pair.d);
   g.gap = dot(axis.n, d) - total(g.height);
   g.slope = {dot(axis.e1, d) - total(g.s1), dot(axis.e2, d) - total(g.s2)};

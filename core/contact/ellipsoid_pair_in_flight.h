@@ -17,8 +17,8 @@ template <class B>
 class EllipsoidPairInFlight {
  public:
   using Axis = Axis3;
-  struct Gap : GapAlongAxis3, SupportRates<PairArray> {
-    SpinOf<PairArray> spin;
+  struct Gap : GapAlongAxis3, SupportRates<SimdPair> {
+    SpinOf<SimdPair> spin;
   };
 
   EllipsoidPairInFlight(const Flight<B>& one, const Flight<B>& two)
@@ -35,12 +35,12 @@ class EllipsoidPairInFlight {
   const Vec3& d0() const { return d0_; }
   const Vec3& v() const { return v_; }
   /// Sum of the circumradii at time 0, and its rate of growth.
-  double reach() const { return (circumradius_ * size0_).sum(); }
-  double reach_growth() const { return (circumradius_ * growth_).sum(); }
+  double reach() const { return reduce(circumradius_ * size0_); }
+  double reach_growth() const { return reduce(circumradius_ * growth_); }
   /// The time in which the growing bodies grow by the gap and their present circumradii together: their time
   /// scale, infinite if none grows.
   double doubling_time(double gap) const {
-    return ((circumradius_ * pair_.size).sum() + gap) / (circumradius_ * growth_.max(0)).sum();
+    return (reduce(circumradius_ * pair_.size) + gap) / reduce(circumradius_ * max(growth_, 0));
   }
 
   double time() const { return time_; }
@@ -58,8 +58,8 @@ class EllipsoidPairInFlight {
   Gap evaluate(const Axis& n) const {
     Gap g;
     static_cast<GapAlongAxis3&>(g) = gap_along(pair_, n);
-    g.spin = spin_along<PairArray>(rotation_.omega, n);
-    static_cast<SupportRates<PairArray>&>(g) = support_rates<PairArray>(g, g.spin);
+    g.spin = spin_along<SimdPair>(rotation_.omega, n);
+    static_cast<SupportRates<SimdPair>&>(g) = support_rates<SimdPair>(g, g.spin);
     rotation_.add_angular_acceleration(g, g, n);
     return g;
   }
@@ -76,25 +76,25 @@ class EllipsoidPairInFlight {
 
   /// From centre 1 to its surface point with normal n.
   Vec3 arm1(const Axis& n) const {
-    const SupportOf<PairArray> s = support_along<PairArray>(pair_.axes, n);
+    const SupportOf<SimdPair> s = support_along<SimdPair>(pair_.axes, n);
     return pair_.size[0] *
            (s.height[0] * vector(n.n) + s.s1[0] * vector(n.e1) + s.s2[0] * vector(n.e2));
   }
 
   /// ġ along the axis n, where `g` is the gap.
   double gap_rate(const Axis& n, const Gap& g) const {
-    return vector(n.n).dot(v_) - (pair_.size * g.rate + growth_ * g.height).sum();
+    return vector(n.n).dot(v_) - reduce(pair_.size * g.rate + growth_ * g.height);
   }
 
   /// d/dt of the gradient of g.
   Tangent slope_rate(const Axis& n, const Gap& g) const {
-    return {vector(n.e1).dot(v_) + (pair_.size * g.mixed1 - growth_ * g.s1).sum(),
-            vector(n.e2).dot(v_) + (pair_.size * g.mixed2 - growth_ * g.s2).sum()};
+    return {vector(n.e1).dot(v_) + reduce(pair_.size * g.mixed1 - growth_ * g.s1),
+            vector(n.e2).dot(v_) + reduce(pair_.size * g.mixed2 - growth_ * g.s2)};
   }
 
   /// −g̈.
   double acceleration(const Gap& g) const {
-    return (pair_.size * g.second + 2 * growth_ * g.rate).sum();
+    return reduce(pair_.size * g.second + 2 * growth_ * g.rate);
   }
 
   /// M with g(t + s) ≥ g + ġ s − ½ M s² for all s from 0 to `duration`, which may be negative (backwards), as long as
@@ -104,18 +104,16 @@ class EllipsoidPairInFlight {
   ///
   /// has the coefficient ½ σ K + γ ḣ of s² and ½ γ K of s³.
   double acceleration_bound(const Gap& g, double duration) const {
-    const PairArray acceleration = rotation_.acceleration_bound(g, g, g.spin, duration);
-    if constexpr (!grows<B>) return acceleration.sum();
-    return (pair_.size * acceleration + growth_.abs() * std::abs(duration) * acceleration +
-            2 * growth_ * g.rate)
-        .sum();
+    const SimdPair acceleration = rotation_.acceleration_bound(g, g, g.spin, duration);
+    if constexpr (!grows<B>) return reduce(acceleration);
+    return reduce(pair_.size * acceleration + abs(growth_) * std::abs(duration) * acceleration +
+                  2 * growth_ * g.rate);
   }
 
   /// The maximum of acceleration_bound over all axes and durations up to 1.
   double largest_acceleration() const {
-    return ((pair_.size + growth_.abs()) * rotation_.largest_acceleration() +
-            2 * (growth_ * rotation_.max_speed()).abs() * max_support_rate_)
-        .sum();
+    return reduce((pair_.size + abs(growth_)) * rotation_.largest_acceleration() +
+                  2 * abs(growth_ * rotation_.max_speed()) * max_support_rate_);
   }
 
  private:
@@ -134,13 +132,13 @@ class EllipsoidPairInFlight {
   void place_body(int lane, const Flight<B>& flight) {
     const Ellipsoid& shape = shape_of(flight.body);
     rotation_.place(lane, shape, flight);
-    circumradius_[lane] = shape.circumradius();
-    max_support_rate_[lane] = shape.max_support_rate();
+    circumradius_.set(lane, shape.circumradius());
+    max_support_rate_.set(lane, shape.max_support_rate());
   }
 
   Vec3 d0_, v_;
-  PairArray size0_, growth_;
-  PairArray circumradius_, max_support_rate_;
+  SimdPair size0_, growth_;
+  SimdPair circumradius_, max_support_rate_;
   std::conditional_t<tumbles<B>, detail::TumblingRotation, detail::UniformRotation> rotation_;
   double time_ = 0;
   EllipsoidPair pair_;  // at time_

@@ -18,17 +18,17 @@
 ///     largest_acceleration, max_speed   the maxima of that bound over axes and durations, and of |ω|
 namespace vitrel::detail {
 
-inline void set_lane(Vec3Of<PairArray>& v, int lane, const Vec3& value) {
-  v.x[lane] = value.x();
-  v.y[lane] = value.y();
-  v.z[lane] = value.z();
+inline void set_lane(Vec3Of<SimdPair>& v, int lane, const Vec3& value) {
+  v.x.set(lane, value.x());
+  v.y.set(lane, value.y());
+  v.z.set(lane, value.z());
 }
 
 /// About a constant ω.
 class UniformRotation {
  public:
-  AxesOf<PairArray> axes;
-  Vec3Of<PairArray> omega;
+  AxesOf<SimdPair> axes;
+  Vec3Of<SimdPair> omega;
 
   template <class B>
   void place(int lane, const Ellipsoid& shape, const Flight<B>& flight) {
@@ -38,30 +38,30 @@ class UniformRotation {
     set_lane(axes.second, lane, shape.semi_axes[1] * turn.col(1));
     set_lane(axes.third, lane, shape.semi_axes[2] * turn.col(2));
     set_lane(omega, lane, angular_velocity);
-    speed_[lane] = angular_velocity.norm();
+    speed_.set(lane, angular_velocity.norm());
     set_lane(body_omega_, lane, turn.transpose() * angular_velocity);
     set_lane(squares_, lane, shape.semi_axes.cwiseAbs2());
     const double longest = shape.circumradius(), shortest = shape.inradius();
-    aa_minus_cc_[lane] = (longest - shortest) * (longest + shortest);
-    cc_[lane] = shortest * shortest;
+    aa_minus_cc_.set(lane, (longest - shortest) * (longest + shortest));
+    cc_.set(lane, shortest * shortest);
   }
 
   void complete() {
-    const auto divided = [&](const Vec3Of<PairArray>& w) -> Vec3Of<PairArray> {
-      const PairArray by = (speed_ > 0).select(speed_, 1);
+    const auto divided = [&](const Vec3Of<SimdPair>& w) -> Vec3Of<SimdPair> {
+      const SimdPair by = select(speed_ > 0, speed_, 1);
       return {w.x / by, w.y / by, w.z / by};
     };
     spin_axis_ = divided(omega);
-    tau_ = tumbling<PairArray>(divided(body_omega_), squares_);
+    tau_ = tumbling<SimdPair>(divided(body_omega_), squares_);
     decompose(axes.first, 0);
     decompose(axes.second, 1);
     decompose(axes.third, 2);
   }
 
   void go_to(double time) {
-    PairArray cosine, sine;
-    directions<PairArray>(speed_ * time, cosine, sine);
-    const auto turned = [&](int k) -> Vec3Of<PairArray> {
+    SimdPair cosine, sine;
+    directions<SimdPair>(speed_ * time, cosine, sine);
+    const auto turned = [&](int k) -> Vec3Of<SimdPair> {
       const Parts& p = parts_[k];
       return {p.along.x + cosine * p.across.x + sine * p.ahead.x,
               p.along.y + cosine * p.across.y + sine * p.ahead.y,
@@ -70,30 +70,30 @@ class UniformRotation {
     axes = {turned(0), turned(1), turned(2)};
   }
 
-  void add_angular_acceleration(SupportRates<PairArray>&, const SupportOf<PairArray>&,
+  void add_angular_acceleration(SupportRates<SimdPair>&, const SupportOf<SimdPair>&,
                                 const Axis3&) const {}
 
-  PairArray acceleration_bound(const SupportOf<PairArray>& support,
-                               const SupportRates<PairArray>& rates, const SpinOf<PairArray>& spin,
-                               double duration) const {
-    return support_acceleration_bound<PairArray>(support, rates, spin, aa_minus_cc_, tau_, cc_,
-                                                 PairArray::Constant(duration));
+  SimdPair acceleration_bound(const SupportOf<SimdPair>& support,
+                              const SupportRates<SimdPair>& rates, const SpinOf<SimdPair>& spin,
+                              double duration) const {
+    return support_acceleration_bound<SimdPair>(support, rates, spin, aa_minus_cc_, tau_, cc_,
+                                                duration);
   }
-  PairArray largest_acceleration() const {
-    return speed_.square() * 0.5 * (aa_minus_cc_ + (aa_minus_cc_.square() + tau_.square()).sqrt()) /
-           cc_.sqrt();
+  SimdPair largest_acceleration() const {
+    return speed_ * speed_ * 0.5 *
+           (aa_minus_cc_ + sqrt(aa_minus_cc_ * aa_minus_cc_ + tau_ * tau_)) / sqrt(cc_);
   }
-  const PairArray& max_speed() const { return speed_; }
+  const SimdPair& max_speed() const { return speed_; }
 
  private:
   /// An axis that rotates about ω: its constant part along ω, the remainder at time 0, and the remainder a
   /// quarter rotation later.
   struct Parts {
-    Vec3Of<PairArray> along, across, ahead;
+    Vec3Of<SimdPair> along, across, ahead;
   };
 
-  void decompose(const Vec3Of<PairArray>& axis, int k) {
-    const PairArray along = dot(axis, spin_axis_);
+  void decompose(const Vec3Of<SimdPair>& axis, int k) {
+    const SimdPair along = dot(axis, spin_axis_);
     Parts& p = parts_[k];
     p.along = {along * spin_axis_.x, along * spin_axis_.y, along * spin_axis_.z};
     p.across = {axis.x - p.along.x, axis.y - p.along.y, axis.z - p.along.z};
@@ -102,11 +102,11 @@ class UniformRotation {
                spin_axis_.x * axis.y - spin_axis_.y * axis.x};
   }
 
-  Vec3Of<PairArray> spin_axis_;   ///< ω/|ω|
-  PairArray speed_;               ///< |ω|
-  Vec3Of<PairArray> body_omega_;  ///< ω along the axes of the body
-  Vec3Of<PairArray> squares_;     ///< of the semi-axes
-  PairArray aa_minus_cc_, cc_, tau_;
+  Vec3Of<SimdPair> spin_axis_;   ///< ω/|ω|
+  SimdPair speed_;               ///< |ω|
+  Vec3Of<SimdPair> body_omega_;  ///< ω along the axes of the body
+  Vec3Of<SimdPair> squares_;     ///< of the semi-axes
+  SimdPair aa_minus_cc_, cc_, tau_;
   Parts parts_[3];
 };
 
@@ -118,8 +118,8 @@ class UniformRotation {
 ///     |(h²)'''|/2 = |3 ṅ·S n̈ + n·S d³n/dt³| ≤ (a² − c²) Ω³ (1 + f) (2 + f).
 class TumblingRotation {
  public:
-  AxesOf<PairArray> axes;
-  Vec3Of<PairArray> omega;
+  AxesOf<SimdPair> axes;
+  Vec3Of<SimdPair> omega;
 
   void place(int lane, const Ellipsoid& shape, const Flight<TumblingEllipsoid>& flight) {
     semi_axes_[lane] = shape.semi_axes;
@@ -128,11 +128,11 @@ class TumblingRotation {
     const double speed = flight.top.max_speed();
     const ShapeCoefficients<Ellipsoid> coefficients(shape);
     const double f = coefficients.max_angular_acceleration;
-    max_speed_[lane] = speed;
-    largest_acceleration_[lane] = speed * speed * coefficients.max_tumbling;
-    cc_[lane] = coefficients.cc;
-    second_[lane] = coefficients.aa_minus_cc * speed * speed * (1 + 0.5 * f);
-    third_[lane] = coefficients.aa_minus_cc * speed * speed * speed * (1 + f) * (2 + f);
+    max_speed_.set(lane, speed);
+    largest_acceleration_.set(lane, speed * speed * coefficients.max_tumbling);
+    cc_.set(lane, coefficients.cc);
+    second_.set(lane, coefficients.aa_minus_cc * speed * speed * (1 + 0.5 * f));
+    third_.set(lane, coefficients.aa_minus_cc * speed * speed * speed * (1 + f) * (2 + f));
   }
   void complete() {}
 
@@ -148,29 +148,28 @@ class TumblingRotation {
   }
 
   // −x·(dω/dt × n)
-  void add_angular_acceleration(SupportRates<PairArray>& rates, const SupportOf<PairArray>& support,
+  void add_angular_acceleration(SupportRates<SimdPair>& rates, const SupportOf<SimdPair>& support,
                                 const Axis3& n) const {
     rates.second += support.s2 * dot(angular_acceleration_, n.e1) -
                     support.s1 * dot(angular_acceleration_, n.e2);
   }
 
-  PairArray acceleration_bound(const SupportOf<PairArray>& support,
-                               const SupportRates<PairArray>& rates, const SpinOf<PairArray>&,
-                               double duration) const {
-    return bounded_acceleration<PairArray>(support, rates, second_, third_, cc_,
-                                           PairArray::Constant(duration))
-        .min(largest_acceleration_);
+  SimdPair acceleration_bound(const SupportOf<SimdPair>& support,
+                              const SupportRates<SimdPair>& rates, const SpinOf<SimdPair>&,
+                              double duration) const {
+    return min(bounded_acceleration<SimdPair>(support, rates, second_, third_, cc_, duration),
+               largest_acceleration_);
   }
-  const PairArray& largest_acceleration() const { return largest_acceleration_; }
-  const PairArray& max_speed() const { return max_speed_; }
+  const SimdPair& largest_acceleration() const { return largest_acceleration_; }
+  const SimdPair& max_speed() const { return max_speed_; }
 
  private:
   std::array<Vec3, 2> semi_axes_;
   std::array<AsymmetricTop, 2> tops_;
   std::array<double, 2> start_;  ///< their times at time 0
-  Vec3Of<PairArray> angular_acceleration_;
-  PairArray max_speed_, largest_acceleration_, cc_;
-  PairArray second_, third_;  // bounds of the derivatives of h², halved
+  Vec3Of<SimdPair> angular_acceleration_;
+  SimdPair max_speed_, largest_acceleration_, cc_;
+  SimdPair second_, third_;  // bounds of the derivatives of h², halved
 };
 
 }  // namespace vitrel::detail

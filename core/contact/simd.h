@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -15,7 +14,7 @@
 
 /// @file
 /// Arithmetic on the two bodies of a pair at once, and on a SIMD batch of pairs. Formulas are templates over the
-/// two types.
+/// number of lanes.
 ///
 /// The number of lanes is fixed, and every lane is rounded as a number alone would be: results do not depend on the
 /// instruction set. std::experimental::simd does the same, but takes several times as long to compile, and not every
@@ -32,41 +31,39 @@ namespace vitrel {
 #define VITREL_FLATTEN [[gnu::flatten]]
 #endif
 
-/// One number for each of the two bodies of a pair.
-using PairArray = Eigen::Array2d;
-
 namespace detail {
 
 #ifdef __AVX__
-constexpr int register_lanes = 4;
+constexpr int widest_register = 4;
 #else
-constexpr int register_lanes = 2;
+constexpr int widest_register = 2;
 #endif
-using Register [[gnu::vector_size(register_lanes * sizeof(double))]] = double;
-using MaskRegister = decltype(Register{} < Register{});  // every lane 0 or −1
+template <int width>
+using Register [[gnu::vector_size(width * sizeof(double))]] = double;
+template <int width>
+using MaskRegister = decltype(Register<width>{} < Register<width>{});  // every lane 0 or −1
 
-VITREL_INLINE Register square_root(const Register& x) {
 #if defined(__AVX__)
+VITREL_INLINE Register<4> square_root(const Register<4>& x) {
   return _mm256_sqrt_pd(x);
-#elif defined(__SSE2__)
+}
+VITREL_INLINE unsigned bits(const MaskRegister<4>& mask) {
+  return static_cast<unsigned>(_mm256_movemask_pd(std::bit_cast<__m256d>(mask)));
+}
+#endif
+VITREL_INLINE Register<2> square_root(const Register<2>& x) {
+#if defined(__SSE2__)
   return _mm_sqrt_pd(x);
 #else
-  Register root;
-  for (int k = 0; k < register_lanes; ++k) root[k] = std::sqrt(x[k]);
-  return root;
+  return Register<2>{std::sqrt(x[0]), std::sqrt(x[1])};
 #endif
 }
-
 /// Bit k is lane k.
-VITREL_INLINE unsigned bits(const MaskRegister& mask) {
-#if defined(__AVX__)
-  return static_cast<unsigned>(_mm256_movemask_pd(std::bit_cast<__m256d>(mask)));
-#elif defined(__SSE2__)
+VITREL_INLINE unsigned bits(const MaskRegister<2>& mask) {
+#if defined(__SSE2__)
   return static_cast<unsigned>(_mm_movemask_pd(std::bit_cast<__m128d>(mask)));
 #else
-  unsigned all = 0;
-  for (int k = 0; k < register_lanes; ++k) all |= static_cast<unsigned>(mask[k] & 1) << k;
-  return all;
+  return static_cast<unsigned>(mask[0] & 1) | static_cast<unsigned>(mask[1] & 1) << 1;
 #endif
 }
 
@@ -89,17 +86,17 @@ VITREL_INLINE unsigned bits(const FloatMaskRegister& mask) {
 /// One truth value for each of several pairs. Both sides of && and || are evaluated.
 template <int lanes>
 struct alignas(lanes * sizeof(double)) SimdMask {
-  static constexpr int parts = lanes / detail::register_lanes;
-  detail::MaskRegister part[parts];
+  static constexpr int width = std::min(lanes, detail::widest_register);  // of a register
+  static constexpr int parts = lanes / width;
+  using Register = detail::MaskRegister<width>;
+  Register part[parts];
 
   SimdMask() = default;
   explicit SimdMask(bool value) {
-    for (auto& one : part) one = detail::MaskRegister{} - static_cast<int>(value);
+    for (auto& one : part) one = Register{} - static_cast<int>(value);
   }
 
-  bool operator[](int k) const {
-    return part[k / detail::register_lanes][k % detail::register_lanes] != 0;
-  }
+  bool operator[](int k) const { return part[k / width][k % width] != 0; }
 
   VITREL_INLINE friend SimdMask operator!(const SimdMask& x) {
     SimdMask result;
@@ -120,7 +117,7 @@ struct alignas(lanes * sizeof(double)) SimdMask {
   /// Bit k is lane k.
   VITREL_INLINE unsigned bits() const {
     unsigned all = 0;
-    for (int p = 0; p < parts; ++p) all |= detail::bits(part[p]) << (p * detail::register_lanes);
+    for (int p = 0; p < parts; ++p) all |= detail::bits(part[p]) << (p * width);
     return all;
   }
   VITREL_INLINE friend bool any_of(const SimdMask& x) { return x.bits() != 0; }
@@ -130,36 +127,36 @@ struct alignas(lanes * sizeof(double)) SimdMask {
   VITREL_INLINE friend int find_first_set(const SimdMask& x) { return std::countr_zero(x.bits()); }
 };
 
-/// One number for each of several pairs.
+/// One number for each of several pairs, or for each body of a pair.
 template <int lanes>
 struct alignas(lanes * sizeof(double)) Simd {
-  static constexpr int parts = lanes / detail::register_lanes;
   using Mask = SimdMask<lanes>;
-  detail::Register part[parts];
+  static constexpr int width = Mask::width;
+  static constexpr int parts = Mask::parts;
+  using Register = detail::Register<width>;
+  Register part[parts];
 
   Simd() = default;
   // NOLINTNEXTLINE(google-explicit-constructor): a number stands for equal numbers in all lanes
   VITREL_INLINE Simd(double value) {
-    for (auto& one : part) one = value - detail::Register{};
+    for (auto& one : part) one = value - Register{};
+  }
+  VITREL_INLINE Simd(double first, double second) : part{{first, second}} {
+    static_assert(lanes == 2);
   }
   /// From and to `lanes` numbers in a row.
   VITREL_INLINE static Simd load(const double* from) {
     Simd result;
-    for (int p = 0; p < parts; ++p, from += detail::register_lanes)
-      std::memcpy(&result.part[p], from, sizeof(detail::Register));
+    for (int p = 0; p < parts; ++p, from += width)
+      std::memcpy(&result.part[p], from, sizeof(Register));
     return result;
   }
   VITREL_INLINE void store(double* to) const {
-    for (int p = 0; p < parts; ++p, to += detail::register_lanes)
-      std::memcpy(to, &part[p], sizeof(detail::Register));
+    for (int p = 0; p < parts; ++p, to += width) std::memcpy(to, &part[p], sizeof(Register));
   }
 
-  VITREL_INLINE double operator[](int k) const {
-    return part[k / detail::register_lanes][k % detail::register_lanes];
-  }
-  VITREL_INLINE void set(int k, double value) {
-    part[k / detail::register_lanes][k % detail::register_lanes] = value;
-  }
+  VITREL_INLINE double operator[](int k) const { return part[k / width][k % width]; }
+  VITREL_INLINE void set(int k, double value) { part[k / width][k % width] = value; }
 
   VITREL_INLINE friend Simd operator-(const Simd& x) {
     Simd result;
@@ -233,33 +230,38 @@ struct alignas(lanes * sizeof(double)) Simd {
   VITREL_INLINE friend Simd abs(const Simd& x) { return copysign(x, Simd(0)); }
   /// |x| with the sign of y.
   VITREL_INLINE friend Simd copysign(const Simd& x, const Simd& y) {
-    const auto sign = std::bit_cast<detail::MaskRegister>(-detail::Register{});  // of −0.0
+    using Bits = typename Mask::Register;
+    const auto sign = std::bit_cast<Bits>(-Register{});  // of −0.0
     Simd result;
     for (int p = 0; p < parts; ++p)
-      result.part[p] =
-          std::bit_cast<detail::Register>((std::bit_cast<detail::MaskRegister>(x.part[p]) & ~sign) |
-                                          (std::bit_cast<detail::MaskRegister>(y.part[p]) & sign));
+      result.part[p] = std::bit_cast<Register>((std::bit_cast<Bits>(x.part[p]) & ~sign) |
+                                               (std::bit_cast<Bits>(y.part[p]) & sign));
     return result;
   }
   /// The smallest lane.
   VITREL_INLINE friend double hmin(const Simd& x) {
-    detail::Register least = x.part[0];
+    Register least = x.part[0];
     for (int p = 1; p < parts; ++p) least = least < x.part[p] ? least : x.part[p];
     double result = least[0];
-    for (int k = 1; k < detail::register_lanes; ++k) result = std::min(result, least[k]);
+    for (int k = 1; k < width; ++k) result = std::min(result, least[k]);
     return result;
+  }
+  /// The sum of the lanes.
+  VITREL_INLINE friend double reduce(const Simd& x) {
+    double sum = x[0];
+    for (int k = 1; k < lanes; ++k) sum += x[k];
+    return sum;
   }
 };
 
 constexpr int simd_width = 4;
 using SimdBatch = Simd<simd_width>;
+/// One number for each of the two bodies of a pair.
+using SimdPair = Simd<2>;
 
 namespace detail {
 
 /// ±1, the sign bit of each lane.
-VITREL_INLINE PairArray signs(const PairArray& x) {
-  return {std::copysign(1.0, x[0]), std::copysign(1.0, x[1])};
-}
 template <int lanes>
 VITREL_INLINE Simd<lanes> signs(const Simd<lanes>& x) {
   return copysign(Simd<lanes>(1), x);
@@ -268,39 +270,12 @@ inline double signs(double x) {
   return std::copysign(1.0, x);
 }
 
-VITREL_INLINE PairArray minimum(const PairArray& x, const PairArray& y) {
-  return x.min(y);
-}
-template <int lanes>
-VITREL_INLINE Simd<lanes> minimum(const Simd<lanes>& x, const Simd<lanes>& y) {
-  return min(x, y);
-}
-
-VITREL_INLINE PairArray positive_part(const PairArray& x) {
-  return x.max(0);
-}
-template <int lanes>
-VITREL_INLINE Simd<lanes> positive_part(const Simd<lanes>& x) {
-  return max(x, Simd<lanes>(0));
-}
-
-VITREL_INLINE bool all_below(const PairArray& x, double limit) {
-  return x.maxCoeff() < limit;
-}
-template <int lanes>
-VITREL_INLINE bool all_below(const Simd<lanes>& x, double limit) {
-  return all_of(x < limit);
+template <class T>
+VITREL_INLINE T positive_part(const T& x) {
+  return max(x, T(0));
 }
 
 /// As `directions`, one by one.
-[[gnu::noinline]] inline void single_directions(const PairArray& angle, PairArray& x,
-                                                PairArray& y) {
-  for (int k = 0; k < 2; ++k) {
-    const CosineAndSine one = cosine_and_sine(angle[k]);
-    x[k] = one.cosine;
-    y[k] = one.sine;
-  }
-}
 template <int lanes>
 [[gnu::noinline]] void single_directions(const Simd<lanes>& angle, Simd<lanes>& x, Simd<lanes>& y) {
   for (int k = 0; k < lanes; ++k) {
@@ -315,7 +290,7 @@ template <int lanes>
 /// Unit vectors (x, y) at the angles: cosine and sine to within 4 units in the last place of 1.
 template <class T>
 VITREL_INLINE void directions(const T& angle, T& x, T& y) {
-  if (!detail::all_below(abs(angle), detail::max_reducible_angle))
+  if (!all_of(abs(angle) < detail::max_reducible_angle))
     return detail::single_directions(angle, x, y);
   detail::reduced_cosine_and_sine<T>(angle, x, y);
 }

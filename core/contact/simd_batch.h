@@ -69,8 +69,8 @@ VITREL_INLINE void load_columns(const double* const (&record)[simd_width],
     Two two[simd_width];
     for (int k = 0; k < simd_width; ++k) std::memcpy(&two[k], record[k] + r, sizeof(Two));
 #ifdef __AVX__
-    const Register even = __builtin_shufflevector(two[0], two[2], 0, 1, 2, 3);
-    const Register odd = __builtin_shufflevector(two[1], two[3], 0, 1, 2, 3);
+    const SimdBatch::Register even = __builtin_shufflevector(two[0], two[2], 0, 1, 2, 3);
+    const SimdBatch::Register odd = __builtin_shufflevector(two[1], two[3], 0, 1, 2, 3);
     column[r].part[0] = __builtin_shufflevector(even, odd, 0, 4, 2, 6);
     column[r + 1].part[0] = __builtin_shufflevector(even, odd, 1, 5, 3, 7);
 #else
@@ -90,7 +90,7 @@ VITREL_INLINE void load_columns(const Record* const (&record)[lanes], Simd<lanes
     load_columns(numbers, four);
     for (int r = 0; r < rows; ++r)
       for (int p = 0; p < SimdBatch::parts; ++p)
-        column[r].part[first / register_lanes + p] = four[r].part[p];
+        column[r].part[first / Simd<lanes>::width + p] = four[r].part[p];
   }
 }
 

@@ -45,9 +45,9 @@ std::vector<std::string> run_arguments(const std::string& output, const Kind& ki
 }
 
 /// Runs to the end without interruption and returns how long that took.
-milliseconds run_uninterrupted(const Folder& folder, const Kind& kind) {
+milliseconds run_uninterrupted(const Folder& folder, const std::string& output, const Kind& kind) {
   const auto start = std::chrono::steady_clock::now();
-  EXPECT_EQ(run(folder.path(), run_arguments("whole.h5", kind)).code, 0);
+  EXPECT_EQ(run(folder.path(), run_arguments(output, kind)).code, 0);
   return std::chrono::duration_cast<milliseconds>(std::chrono::steady_clock::now() - start);
 }
 
@@ -60,7 +60,8 @@ void expect_same_datasets_despite(const std::vector<int>& signals, const Kind& k
                                   const Folder& folder, double earliest, double latest) {
   setenv("XDG_CACHE_HOME", folder.path().c_str(), 1);  // of tables of contacts
   folder.write("p.toml", system_text + "correlations = { interval = 0.05 }\n" + kind.more);
-  const milliseconds whole = run_uninterrupted(folder, kind);
+  run_uninterrupted(folder, "first.h5", kind);  // which computes the tables of contacts
+  const milliseconds whole = run_uninterrupted(folder, "whole.h5", kind);
   Stream moments(11, Purpose::tests);
   int round = 0;
   const auto output = [&round] { return "interrupted_" + std::to_string(round) + ".h5"; };
@@ -214,7 +215,7 @@ TEST(FullDisk, ExitsWithThreeLosesNothingAndContinues) {
   std::filesystem::create_directory(folder / "disk");
   if (mount("tmpfs", (folder / "disk").c_str(), "tmpfs", 0, "size=400k") != 0)
     GTEST_SKIP() << "mounting a tmpfs needs root";
-  run_uninterrupted(folder, newtonian);
+  run_uninterrupted(folder, "whole.h5", newtonian);
   const Outcome full = run(folder.path(), run_arguments("disk/run.h5", newtonian));
   EXPECT_EQ(full.code, 3);
   EXPECT_THAT(full.errors, testing::HasSubstr("disk/run.h5"));

@@ -153,15 +153,15 @@ TEST(EllipsePair, DirectionsAreCosineAndSine) {
   constexpr double close = 4 * std::numeric_limits<double>::epsilon();
   for (int trial = 0; trial < 100'000; ++trial) {
     const double size = std::pow(10, draw.uniform(-3, 7));
-    const PairArray angle(draw.uniform(-size, size), draw.uniform(-1.5, 1.5));
-    PairArray x, y;
-    directions<PairArray>(angle, x, y);
+    const SimdPair angle(draw.uniform(-size, size), draw.uniform(-1.5, 1.5));
+    SimdPair x, y;
+    directions<SimdPair>(angle, x, y);
     for (const int lane : {0, 1}) {
       ASSERT_NEAR(x[lane], std::cos(angle[lane]), close) << angle[lane];
       ASSERT_NEAR(y[lane], std::sin(angle[lane]), close) << angle[lane];
     }
-    PairArray small_x, small_y;
-    small_angle_directions<PairArray>({angle[1], angle[1]}, small_x, small_y);
+    SimdPair small_x, small_y;
+    small_angle_directions<SimdPair>({angle[1], angle[1]}, small_x, small_y);
     ASSERT_NEAR(small_x[0], std::cos(angle[1]), close);
     ASSERT_NEAR(small_y[0], std::sin(angle[1]), close);
   }
