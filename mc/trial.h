@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/contact/ellipse_overlap_batch.h"
+#include "core/contact/ellipse_pair.h"
 #include "core/contact/ellipsoid_overlap_batch.h"
 #include "core/state/configuration.h"
 #include "mc/checkerboard.h"

@@ -43,14 +43,6 @@ using Register [[gnu::vector_size(width * sizeof(double))]] = double;
 template <int width>
 using MaskRegister = decltype(Register<width>{} < Register<width>{});  // every lane 0 or −1
 
-#if defined(__AVX__)
-VITREL_INLINE Register<4> square_root(const Register<4>& x) {
-  return _mm256_sqrt_pd(x);
-}
-VITREL_INLINE unsigned bits(const MaskRegister<4>& mask) {
-  return static_cast<unsigned>(_mm256_movemask_pd(std::bit_cast<__m256d>(mask)));
-}
-#endif
 VITREL_INLINE Register<2> square_root(const Register<2>& x) {
 #if defined(__SSE2__)
   return _mm_sqrt_pd(x);
@@ -58,7 +50,18 @@ VITREL_INLINE Register<2> square_root(const Register<2>& x) {
   return Register<2>{std::sqrt(x[0]), std::sqrt(x[1])};
 #endif
 }
+#if defined(__AVX__)
+VITREL_INLINE Register<4> square_root(const Register<4>& x) {
+  return _mm256_sqrt_pd(x);
+}
+#endif
+
 /// Bit k is lane k.
+#if defined(__AVX__)
+VITREL_INLINE unsigned bits(const MaskRegister<4>& mask) {
+  return static_cast<unsigned>(_mm256_movemask_pd(std::bit_cast<__m256d>(mask)));
+}
+#endif
 VITREL_INLINE unsigned bits(const MaskRegister<2>& mask) {
 #if defined(__SSE2__)
   return static_cast<unsigned>(_mm_movemask_pd(std::bit_cast<__m128d>(mask)));
@@ -141,6 +144,7 @@ struct alignas(lanes * sizeof(double)) Simd {
   VITREL_INLINE Simd(double value) {
     for (auto& one : part) one = value - Register{};
   }
+  /// Of a pair.
   VITREL_INLINE Simd(double first, double second) : part{{first, second}} {
     static_assert(lanes == 2);
   }

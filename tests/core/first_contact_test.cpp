@@ -148,25 +148,6 @@ TEST(PairInFlight, RatesAreDerivatives) {
               1e-6);
 }
 
-TEST(EllipsePair, DirectionsAreCosineAndSine) {
-  Stream draw(4, Purpose::tests);
-  constexpr double close = 4 * std::numeric_limits<double>::epsilon();
-  for (int trial = 0; trial < 100'000; ++trial) {
-    const double size = std::pow(10, draw.uniform(-3, 7));
-    const SimdPair angle(draw.uniform(-size, size), draw.uniform(-1.5, 1.5));
-    SimdPair x, y;
-    directions<SimdPair>(angle, x, y);
-    for (const int lane : {0, 1}) {
-      ASSERT_NEAR(x[lane], std::cos(angle[lane]), close) << angle[lane];
-      ASSERT_NEAR(y[lane], std::sin(angle[lane]), close) << angle[lane];
-    }
-    SimdPair small_x, small_y;
-    small_angle_directions<SimdPair>({angle[1], angle[1]}, small_x, small_y);
-    ASSERT_NEAR(small_x[0], std::cos(angle[1]), close);
-    ASSERT_NEAR(small_y[0], std::sin(angle[1]), close);
-  }
-}
-
 // BaseShape from points; closed form: |d| − |v| t = (γ₁ + γ₂) t.
 TEST(FirstContact, GrowingDisksAndPointsInClosedForm) {
   const Flight<GrowingEllipse> one{{{1, 1}, 0, 0.5}, {{0, 0}, 0}, {{0.5, 0}, 0}};

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "core/random/stream.h"
@@ -54,7 +55,7 @@ struct SimdTest : testing::Test {
   std::vector<double> x, y;
 };
 
-using Batches = testing::Types<Simd<4>, Simd<8>>;
+using Batches = testing::Types<SimdPair, Simd<4>, Simd<8>>;
 TYPED_TEST_SUITE(SimdTest, Batches);
 
 TYPED_TEST(SimdTest, Arithmetic) {
@@ -122,30 +123,43 @@ TYPED_TEST(SimdTest, Masks) {
   }
 }
 
-TYPED_TEST(SimdTest, SmallestLaneAndStore) {
+TYPED_TEST(SimdTest, SmallestLaneSumAndStore) {
   constexpr int count = TestFixture::lanes;
   for (int smallest = 0; smallest < count; ++smallest) {
     double numbers[count], copy[count];
     for (int k = 0; k < count; ++k) numbers[k] = 1 + std::abs(k - smallest);
     const TypeParam batch = TypeParam::load(numbers);
     EXPECT_EQ(hmin(batch), 1);
+    EXPECT_EQ(reduce(batch), std::accumulate(numbers, numbers + count, 0.));
     batch.store(copy);
     EXPECT_TRUE(std::ranges::equal(numbers, copy));
   }
 }
 
+TEST(SimdPair, HoldsItsTwoNumbers) {
+  const SimdPair pair(2, -3);
+  EXPECT_EQ(pair[0], 2);
+  EXPECT_EQ(pair[1], -3);
+}
+
 // At all sizes, also where multiples of π are subtracted, and beyond.
-TEST(Simd, Directions) {
+TYPED_TEST(SimdTest, Directions) {
+  constexpr int count = TestFixture::lanes;
+  constexpr double close = 4 * std::numeric_limits<double>::epsilon();
   Stream draw(2, Purpose::tests);
-  for (int trial = 0; trial < 20'000; ++trial) {
+  for (int trial = 0; trial < 100'000; ++trial) {
     const double size = std::pow(10, draw.uniform(-3, 7));
-    double angle[simd_width];
+    double angle[count], small[count];
     for (double& one : angle) one = draw.uniform(-size, size);
-    SimdBatch x, y;
-    directions<SimdBatch>(SimdBatch::load(angle), x, y);
-    for (int k = 0; k < simd_width; ++k) {
-      ASSERT_NEAR(x[k], std::cos(angle[k]), 1e-15) << angle[k];
-      ASSERT_NEAR(y[k], std::sin(angle[k]), 1e-15) << angle[k];
+    for (double& one : small) one = draw.uniform(-max_small_angle, max_small_angle);
+    TypeParam x, y, small_x, small_y;
+    directions<TypeParam>(TypeParam::load(angle), x, y);
+    small_angle_directions<TypeParam>(TypeParam::load(small), small_x, small_y);
+    for (int k = 0; k < count; ++k) {
+      ASSERT_NEAR(x[k], std::cos(angle[k]), close) << angle[k];
+      ASSERT_NEAR(y[k], std::sin(angle[k]), close) << angle[k];
+      ASSERT_NEAR(small_x[k], std::cos(small[k]), close) << small[k];
+      ASSERT_NEAR(small_y[k], std::sin(small[k]), close) << small[k];
     }
   }
 }
