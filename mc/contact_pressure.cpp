@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/contact/contact_queries.h"
 #include "core/contact/perram_wertheim.h"
 #include "core/elementary.h"
 #include "core/neighbors/pairs.h"
@@ -23,8 +24,9 @@ std::vector<double> contact_excesses(const Configuration<Dim>& configuration, do
   for_each_pair(configuration, reach, [&](std::size_t i, std::size_t j, const Vec<Dim>& d) {
     const Solid<Dim>& one = configuration.shape[i];
     const Solid<Dim>& two = configuration.shape[j];
-    const double circles = one.circumradius() + two.circumradius();
-    if (d.squaredNorm() >= circles * circles * (Dim == 2 ? 1 + window : reach * reach)) return;
+    if (separated(scaled(one, reach), configuration.pose(i), scaled(two, reach),
+                  configuration.pose(j), d, 0))
+      return;
     const double f = perram_wertheim(one, orientation_of(configuration.pose(i)), two,
                                      orientation_of(configuration.pose(j)), d)
                          .value;

@@ -1,14 +1,16 @@
-"""Monte Carlo in space: constant pressure of spheres, the pressure of spheroids, and the speed of trials."""
+"""Monte Carlo in space: constant pressure of spheres, the pressure of ellipsoids, and the speed of trials."""
 
+import concurrent.futures
 import json
 import math
+import os
 import pathlib
 import statistics
 import tempfile
 
 from validation.common import expect, output_of, properties_of_test, summary_of, table
 
-TITLE = "Monte Carlo in space: spheres and spheroids"
+TITLE = "Monte Carlo in space: spheres and ellipsoids"
 
 VOLUME = 4 * math.pi / 3  # of a sphere of size 1
 PARTICLES = 864  # 6³ cells of a face-centred cubic crystal
@@ -17,9 +19,12 @@ LARGEST_ERROR = 0.0005  # of φ
 ERRORS = 3
 # Sweeps per seed, by packing fraction; averages are over the second half.
 SWEEPS = {0.30: 350_000, 0.45: 350_000, 0.60: 250_000}
-SPHEROIDS = "PackingFractions/SpheroidsByMonteCarlo.HaveThePressureOfMotion"
-SPHEROID_EFFORT = 400
-LARGEST_DIFFERENCE = 0.001  # of Z
+SOLIDS = "Fluids/SolidsByMonteCarlo.HaveThePressureOfMotion"
+# Shape, packing fraction and effort of the instances of that test.
+SPHEROIDS = (("κ = 3", 0.30, 600), ("κ = 3", 0.45, 600))
+SCALENE = (("1.25 : 1 : 0.8", 0.30, 150), ("1.25 : 1 : 0.8", 0.45, 150))
+LARGEST_DIFFERENCE = 0.001  # of Z, spheroids
+LARGEST_SOLID_ERROR = 0.001  # of Z, scalene ellipsoids
 
 
 def fluid(phi):
@@ -67,45 +72,55 @@ sweeps = {sweeps}
 """
 
 
-class Found:
-    """The mean packing fraction at the pressure of an equation of state, from independent seeds."""
-
-    def __init__(self, build, phase, phi, equation):
-        self.phase, self.phi, self.compressibility = phase, phi, equation(phi)
-        with tempfile.TemporaryDirectory() as folder:
-            file = pathlib.Path(folder, "pressure.toml")
-            file.write_text(parameters(phi, self.compressibility, SWEEPS[phi]), encoding="utf-8")
-            means = [summary_of(build, "prepare", file, "-o", pathlib.Path(folder, f"{seed}.h5"),
-                                "--set", f"system.seed={seed}")["stages"][-1]["mean_packing_fraction"]
-                     for seed in range(1, SEEDS + 1)]
-        self.mean = statistics.mean(means)
-        self.error = statistics.stdev(means) / math.sqrt(SEEDS) / phi
-        self.deviation = self.mean / phi - 1
-
-    def check(self):
-        name = f"{self.phase}, φ = {self.phi}"
-        expect(self.error <= LARGEST_ERROR, f"{name}: an error of {self.error:.3%}")
-        expect(abs(self.deviation) <= ERRORS * self.error, f"{name}: φ = {self.mean:.5f} ± {self.error:.3%}")
-
-    def row(self):
-        return [self.phase, self.phi, f"{self.compressibility:.5f}", f"{self.mean:.6f}", f"{self.error:.3%}",
-                f"{self.deviation:+.3%}", f"{self.deviation / self.error:+.1f}"]
+def packing_fraction(build, phi, compressibility, seed):
+    """The mean packing fraction at the pressure of this Z."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = pathlib.Path(folder, "pressure.toml")
+        file.write_text(parameters(phi, compressibility, SWEEPS[phi]), encoding="utf-8")
+        summary = summary_of(build, "prepare", file, "-o", pathlib.Path(folder, "state.h5"), "--set", f"system.seed={seed}")
+    return summary["stages"][-1]["mean_packing_fraction"]
 
 
-def spheroids(build):
-    """Z of spheroids of aspect ratio 3 by the contact function and by motion, at 0.30 and 0.45."""
-    rows = []
-    for number, phi in enumerate((0.30, 0.45)):
-        found = properties_of_test(build / "tests/physics/test_physics", f"{SPHEROIDS}/{number}",
-                                   VITREL_SPHEROID_EFFORT=SPHEROID_EFFORT)
-        sampled, error, moved, its_error = (float(found[key]) for key in
-                                            ("monte_carlo", "monte_carlo_error", "motion", "motion_error"))
-        difference, its_scatter = sampled / moved - 1, math.hypot(error, its_error) / moved
-        expect(abs(difference) <= LARGEST_DIFFERENCE + 2 * its_scatter,
-               f"spheroids, φ = {phi}: Z differs by {difference:+.3%} ± {its_scatter:.3%}")
-        rows.append([phi, f"{sampled:.4f}", f"{error:.4f}", f"{moved:.4f}", f"{its_error:.4f}", f"{difference:+.3%}",
-                     f"{its_scatter:.3%}"])
-    return rows
+def constant_pressure_row(phase, phi, compressibility, means):
+    mean = statistics.mean(means)
+    error = statistics.stdev(means) / math.sqrt(SEEDS) / phi
+    deviation = mean / phi - 1
+    name = f"{phase}, φ = {phi}"
+    expect(error <= LARGEST_ERROR, f"{name}: an error of {error:.3%}")
+    expect(abs(deviation) <= ERRORS * error, f"{name}: φ = {mean:.5f} ± {error:.3%}")
+    return [phase, phi, f"{compressibility:.5f}", f"{mean:.6f}", f"{error:.3%}", f"{deviation:+.3%}",
+            f"{deviation / error:+.1f}"]
+
+
+def pressures(build, number, effort):
+    """Z by every method, with its standard error."""
+    found = properties_of_test(build / "tests/physics/test_physics", f"{SOLIDS}/{number}", VITREL_SOLIDS_EFFORT=effort)
+    return {method: (float(found[method]), float(found[f"{method}_error"]))
+            for method in ("monte_carlo", "motion", "constant_rotation") if method in found}
+
+
+def difference(one, two):
+    """Relative difference of two estimates and its standard error."""
+    return one[0] / two[0] - 1, math.hypot(one[1], two[1]) / two[0]
+
+
+def estimate(value):
+    return f"{value[0]:.4f} ± {value[1]:.4f}"
+
+
+def spheroid_row(shape_name, phi, found):
+    apart, error = difference(found["monte_carlo"], found["motion"])
+    expect(abs(apart) <= LARGEST_DIFFERENCE, f"{shape_name}, φ = {phi}: Z differs by {apart:+.3%} ± {error:.3%}")
+    return [shape_name, phi, *map(estimate, found.values()), f"{apart:+.3%} ± {error:.3%}"]
+
+
+def scalene_row(shape_name, phi, found):
+    for method, (z, error) in found.items():
+        expect(error <= LARGEST_SOLID_ERROR * z, f"{shape_name}, φ = {phi}, {method}: an error of {error / z:.3%}")
+    differences = [difference(found[method], found["motion"]) for method in ("monte_carlo", "constant_rotation")]
+    for apart, error in differences:
+        expect(abs(apart) <= ERRORS * error, f"{shape_name}, φ = {phi}: Z differs by {apart:+.3%} ± {error:.3%}")
+    return [shape_name, phi, *map(estimate, found.values()), *(f"{apart:+.3%} ± {error:.3%}" for apart, error in differences)]
 
 
 def speed(build):
@@ -116,9 +131,16 @@ def speed(build):
 
 
 def measure(build):
-    found = [Found(build, *state) for state in STATES]
-    for one in found:
-        one.check()
+    states = [(phase, phi, equation(phi)) for phase, phi, equation in STATES]
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        solids = [pool.submit(pressures, build, number, effort)
+                  for number, (_, _, effort) in enumerate((*SPHEROIDS, *SCALENE))]
+        fractions = [[pool.submit(packing_fraction, build, phi, z, seed) for seed in range(1, SEEDS + 1)]
+                     for _, phi, z in states]
+    spheres = [constant_pressure_row(*state, [one.result() for one in means])
+               for state, means in zip(states, fractions)]
+    spheroids = [spheroid_row(name, phi, found.result()) for (name, phi, _), found in zip(SPHEROIDS, solids)]
+    scalene = [scalene_row(name, phi, found.result()) for (name, phi, _), found in zip(SCALENE, solids[len(SPHEROIDS):])]
     return f"""Hard spheres at the pressure P = ρZ of an equation of state must have its packing fraction: Kolafa, Labík and Malijevský,
 Phys. Chem. Chem. Phys. 6, 2335 (2004), for the fluid, and Speedy, J. Phys.: Condens. Matter 10, 4387 (1998), for the
 face-centred cubic crystal. In a crystal of N particles the centre of mass is free, so that Z is lower by (Z − 1)/N. All
@@ -126,12 +148,18 @@ runs begin on the crystal, N = {PARTICLES}, and the fluid melts in 2000 sweeps o
 {SEEDS} seeds; averages are over the second half of {", ".join(f"{sweeps} (φ = {phi})" for phi, sweeps in SWEEPS.items())} sweeps.
 Required: a standard error of at most {LARGEST_ERROR:.2%} of φ, and a deviation of at most {ERRORS} standard errors.
 
-{table(["", "φ", "Z", "φ, measured", "standard error", "deviation", "in standard errors"], [one.row() for one in found])}
+{table(["", "φ", "Z", "φ, measured", "standard error", "deviation", "in standard errors"], spheres)}
 
-Spheroids of aspect ratio 3, N = 343: Z by Monte Carlo with the contact function, and by motion from the virial of the
-collisions. Required: a difference of at most {LARGEST_DIFFERENCE:.1%} and twice its standard error.
+Ellipsoids, N = 343: Z by Monte Carlo with the contact function, and by motion from the virial of the collisions, from 20
+blocks each. Spheroids; required: a difference of at most {LARGEST_DIFFERENCE:.1%}.
 
-{table(["φ", "Z, Monte Carlo", "error", "Z, motion", "error", "difference", "standard error"], spheroids(build))}
+{table(["", "φ", "Z, Monte Carlo", "Z, motion", "difference"], spheroids)}
+
+Scalene ellipsoids, whose free rotation obeys Euler's equations or is at constant angular velocity. Required: standard
+errors of at most {LARGEST_SOLID_ERROR:.1%} and differences of at most {ERRORS} standard errors.
+
+{table(["", "φ", "Z, Monte Carlo", "Z, Euler's equations", "Z, constant ω", "Monte Carlo − Euler's equations",
+        "constant ω − Euler's equations"], scalene)}
 
 Trials of local moves per second on one thread, in millions. A batch is the test of a trial against up to four others.
 
