@@ -25,6 +25,21 @@ SPHEROIDS = (("κ = 3", 0.30, 600), ("κ = 3", 0.45, 600))
 SCALENE = (("1.25 : 1 : 0.8", 0.30, 150), ("1.25 : 1 : 0.8", 0.45, 150))
 LARGEST_DIFFERENCE = 0.001  # of Z, spheroids
 LARGEST_SOLID_ERROR = 0.001  # of Z, scalene ellipsoids
+# Spheroids of aspect ratio 5 from a random and an aligned start: packing fraction, sweeps, and bounds of S in both.
+ORDER = ((0.30, 40_000, 0, 0.2), (0.42, 250_000, 0.5, 1))
+ORDER_SEEDS = 4
+STARTS = {"random": """
+[[prepare.stage]]
+method = "insert"
+packing_fraction = 0.1
+
+[[prepare.stage]]
+method = "swell"
+""", "aligned": """
+[[prepare.stage]]
+method = "lattice"
+arrangement = "face_centred_cubic"
+"""}
 
 
 def fluid(phi):
@@ -123,6 +138,48 @@ def scalene_row(shape_name, phi, found):
     return [shape_name, phi, *map(estimate, found.values()), *(f"{apart:+.3%} ± {error:.3%}" for apart, error in differences)]
 
 
+def nematic_order(build, phi, sweeps, start, seed):
+    """S, the largest eigenvalue of ⟨3 u uᵀ − 1⟩/2, after so many sweeps."""
+    from numpy import linalg  # only here: a test imports all validations
+
+    text = f"""[system]
+dimension = 3
+particles = 500
+packing_fraction = {phi}
+seed = {seed}
+
+[[species]]
+aspect_ratio = 5
+
+[prepare]
+quality_sweeps = 0
+{STARTS[start]}
+[[prepare.stage]]
+method = "sample"
+moves = "local"
+sweeps = {sweeps}
+"""
+    with tempfile.TemporaryDirectory() as folder:
+        file = pathlib.Path(folder, "nematic.toml")
+        file.write_text(text, encoding="utf-8")
+        tensor = summary_of(build, "prepare", file, "-o", pathlib.Path(folder, "state.h5"))["orientation_tensor"]
+    return 1.5 * linalg.eigvalsh(tensor)[-1] - 0.5
+
+
+def order_row(phi, sweeps, least, most, orders):
+    """`orders` has the estimate of S from each start."""
+    apart = abs(orders["random"][0] - orders["aligned"][0]) / math.hypot(orders["random"][1], orders["aligned"][1])
+    expect(apart <= ERRORS, f"κ = 5, φ = {phi}: the starts differ by {apart:.1f} standard errors")
+    for start, (mean, _) in orders.items():
+        expect(least <= mean <= most, f"κ = 5, φ = {phi}: S = {mean:.3f} from the {start} start")
+    return [phi, sweeps, *(f"{mean:.3f} ± {error:.3f}" for mean, error in orders.values()), f"{apart:.1f}"]
+
+
+def mean_of(values):
+    """Mean and standard error of independent values."""
+    return statistics.mean(values), statistics.stdev(values) / math.sqrt(len(values))
+
+
 def speed(build):
     """Trials per second, and the time per batch of overlap tests, beside the plane."""
     found = json.loads(output_of([build / "bench/vitrel-bench", "sampler", "space"]))["space"]
@@ -135,12 +192,16 @@ def measure(build):
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         solids = [pool.submit(pressures, build, number, effort)
                   for number, (_, _, effort) in enumerate((*SPHEROIDS, *SCALENE))]
+        orders = [{start: [pool.submit(nematic_order, build, phi, sweeps, start, seed)
+                           for seed in range(1, ORDER_SEEDS + 1)] for start in STARTS} for phi, sweeps, _, _ in ORDER]
         fractions = [[pool.submit(packing_fraction, build, phi, z, seed) for seed in range(1, SEEDS + 1)]
                      for _, phi, z in states]
     spheres = [constant_pressure_row(*state, [one.result() for one in means])
                for state, means in zip(states, fractions)]
     spheroids = [spheroid_row(name, phi, found.result()) for (name, phi, _), found in zip(SPHEROIDS, solids)]
     scalene = [scalene_row(name, phi, found.result()) for (name, phi, _), found in zip(SCALENE, solids[len(SPHEROIDS):])]
+    order = [order_row(*state, {start: mean_of([one.result() for one in found]) for start, found in of_starts.items()})
+             for state, of_starts in zip(ORDER, orders)]
     return f"""Hard spheres at the pressure P = ρZ of an equation of state must have its packing fraction: Kolafa, Labík and Malijevský,
 Phys. Chem. Chem. Phys. 6, 2335 (2004), for the fluid, and Speedy, J. Phys.: Condens. Matter 10, 4387 (1998), for the
 face-centred cubic crystal. In a crystal of N particles the centre of mass is free, so that Z is lower by (Z − 1)/N. All
@@ -160,6 +221,13 @@ errors of at most {LARGEST_SOLID_ERROR:.1%} and differences of at most {ERRORS} 
 
 {table(["", "φ", "Z, Monte Carlo", "Z, Euler's equations", "Z, constant ω", "Monte Carlo − Euler's equations",
         "constant ω − Euler's equations"], scalene)}
+
+Isotropic and nematic states of spheroids of aspect ratio 5, N = 500, {ORDER_SEEDS} seeds of each start: inserted at random
+orientations at φ = 0.1 and swollen, or on a stretched face-centred cubic lattice, all aligned. S is the largest eigenvalue of
+⟨3 u uᵀ − 1⟩/2 after the last sweep. Required: both starts agree within {ERRORS} standard errors, on S < {ORDER[0][3]} at φ = {ORDER[0][0]}
+and S > {ORDER[1][2]} at φ = {ORDER[1][0]}.
+
+{table(["φ", "sweeps", *(f"S, {start} start" for start in STARTS), "difference in standard errors"], order)}
 
 Trials of local moves per second on one thread, in millions. A batch is the test of a trial against up to four others.
 
