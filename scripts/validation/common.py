@@ -2,10 +2,12 @@
 
 import contextlib
 import json
+import math
 import os
 import pathlib
 import platform
 import re
+import statistics
 import subprocess
 import tempfile
 import time
@@ -84,6 +86,20 @@ def preparation(particles, aspect_ratio, sizes, *sections):
 
 
 INSERT = '[[prepare.stage]]\nmethod = "insert"\npacking_fraction = 0.3'
+
+
+def estimate(values):
+    """Mean and standard error of independent values."""
+    return statistics.mean(values), statistics.stdev(values) / math.sqrt(len(values))
+
+
+def text_of(mean, error, digits=3):
+    return f"{mean:.{digits}f} ± {error:.{digits}f}"
+
+
+def apart(one, other):
+    """The distance of two estimates, in standard errors."""
+    return abs(one[0] - other[0]) / math.hypot(one[1], other[1])
 
 
 def processor():

@@ -6,7 +6,7 @@ import pathlib
 import statistics
 import tempfile
 
-from validation.common import expect, preparation, shape, summary_of, table
+from validation.common import estimate, expect, preparation, shape, summary_of, table
 
 TITLE = "Constant pressure: packing fractions of hard disks and ellipses"
 
@@ -101,8 +101,7 @@ class Found:
                                   "--set", f"system.packing_fraction={self.reference}",
                                   "--set", f"system.seed={seed}")
                 means.append(done["stages"][-1]["mean_packing_fraction"])
-        self.mean = statistics.mean(means)
-        self.error = statistics.stdev(means) / math.sqrt(SEEDS)
+        self.mean, self.error = estimate(means)
         # Relative, as are all deviations below.
         self.deviation = self.mean / self.reference - 1
         self.relative_error = self.error / self.reference

@@ -5,7 +5,7 @@ import pathlib
 import statistics
 import tempfile
 
-from validation.common import expect, preparation, shape, summary_of, table
+from validation.common import apart, estimate, expect, preparation, shape, summary_of, table, text_of
 
 TITLE = "Isotropic and nematic states"
 STARTS = ("random", "aligned")
@@ -67,20 +67,6 @@ def prepared(build, particles, aspect_ratio, packing_fraction, seed, *stages, qu
 def sampling(sweeps):
     """A swelling stage and, unless `sweeps` is 0, a sampling stage."""
     return ('method = "swell"', SAMPLE.format(sweeps)) if sweeps else ('method = "swell"',)
-
-
-def estimate(values):
-    """Mean and standard error of independent values."""
-    return statistics.mean(values), statistics.stdev(values) / math.sqrt(len(values))
-
-
-def text_of(mean, error, digits=3):
-    return f"{mean:.{digits}f} ± {error:.{digits}f}"
-
-
-def apart(one, other):
-    """The distance of two estimates, in standard errors."""
-    return abs(one[0] - other[0]) / math.hypot(one[1], other[1])
 
 
 def exponent(orders):

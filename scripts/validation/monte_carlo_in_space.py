@@ -5,10 +5,9 @@ import json
 import math
 import os
 import pathlib
-import statistics
 import tempfile
 
-from validation.common import expect, output_of, properties_of_test, summary_of, table
+from validation.common import apart, estimate, expect, output_of, properties_of_test, summary_of, table, text_of
 
 TITLE = "Monte Carlo in space: spheres and ellipsoids"
 
@@ -97,13 +96,12 @@ def packing_fraction(build, phi, compressibility, seed):
 
 
 def constant_pressure_row(phase, phi, compressibility, means):
-    mean = statistics.mean(means)
-    error = statistics.stdev(means) / math.sqrt(SEEDS) / phi
-    deviation = mean / phi - 1
+    mean, error = (value / phi for value in estimate(means))
+    deviation = mean - 1
     name = f"{phase}, φ = {phi}"
     expect(error <= LARGEST_ERROR, f"{name}: an error of {error:.3%}")
-    expect(abs(deviation) <= ERRORS * error, f"{name}: φ = {mean:.5f} ± {error:.3%}")
-    return [phase, phi, f"{compressibility:.5f}", f"{mean:.6f}", f"{error:.3%}", f"{deviation:+.3%}",
+    expect(abs(deviation) <= ERRORS * error, f"{name}: φ is off by {deviation:+.3%} ± {error:.3%}")
+    return [phase, phi, f"{compressibility:.5f}", f"{mean * phi:.6f}", f"{error:.3%}", f"{deviation:+.3%}",
             f"{deviation / error:+.1f}"]
 
 
@@ -114,28 +112,25 @@ def pressures(build, number, effort):
             for method in ("monte_carlo", "motion", "constant_rotation") if method in found}
 
 
-def difference(one, two):
-    """Relative difference of two estimates and its standard error."""
+def relative_difference(one, two):
+    """(one − two)/two of two estimates, and its standard error."""
     return one[0] / two[0] - 1, math.hypot(one[1], two[1]) / two[0]
 
 
-def estimate(value):
-    return f"{value[0]:.4f} ± {value[1]:.4f}"
-
-
 def spheroid_row(shape_name, phi, found):
-    apart, error = difference(found["monte_carlo"], found["motion"])
-    expect(abs(apart) <= LARGEST_DIFFERENCE, f"{shape_name}, φ = {phi}: Z differs by {apart:+.3%} ± {error:.3%}")
-    return [shape_name, phi, *map(estimate, found.values()), f"{apart:+.3%} ± {error:.3%}"]
+    difference, error = relative_difference(found["monte_carlo"], found["motion"])
+    expect(abs(difference) <= LARGEST_DIFFERENCE, f"{shape_name}, φ = {phi}: Z differs by {difference:+.3%} ± {error:.3%}")
+    return [shape_name, phi, *(text_of(*z, 4) for z in found.values()), f"{difference:+.3%} ± {error:.3%}"]
 
 
 def scalene_row(shape_name, phi, found):
     for method, (z, error) in found.items():
         expect(error <= LARGEST_SOLID_ERROR * z, f"{shape_name}, φ = {phi}, {method}: an error of {error / z:.3%}")
-    differences = [difference(found[method], found["motion"]) for method in ("monte_carlo", "constant_rotation")]
-    for apart, error in differences:
-        expect(abs(apart) <= ERRORS * error, f"{shape_name}, φ = {phi}: Z differs by {apart:+.3%} ± {error:.3%}")
-    return [shape_name, phi, *map(estimate, found.values()), *(f"{apart:+.3%} ± {error:.3%}" for apart, error in differences)]
+    differences = [relative_difference(found[method], found["motion"]) for method in ("monte_carlo", "constant_rotation")]
+    for difference, error in differences:
+        expect(abs(difference) <= ERRORS * error, f"{shape_name}, φ = {phi}: Z differs by {difference:+.3%} ± {error:.3%}")
+    return [shape_name, phi, *(text_of(*z, 4) for z in found.values()),
+            *(f"{difference:+.3%} ± {error:.3%}" for difference, error in differences)]
 
 
 def nematic_order(build, phi, sweeps, start, seed):
@@ -168,16 +163,11 @@ sweeps = {sweeps}
 
 def order_row(phi, sweeps, least, most, orders):
     """`orders` has the estimate of S from each start."""
-    apart = abs(orders["random"][0] - orders["aligned"][0]) / math.hypot(orders["random"][1], orders["aligned"][1])
-    expect(apart <= ERRORS, f"κ = 5, φ = {phi}: the starts differ by {apart:.1f} standard errors")
+    difference = apart(*orders.values())
+    expect(difference <= ERRORS, f"κ = 5, φ = {phi}: the starts differ by {difference:.1f} standard errors")
     for start, (mean, _) in orders.items():
         expect(least <= mean <= most, f"κ = 5, φ = {phi}: S = {mean:.3f} from the {start} start")
-    return [phi, sweeps, *(f"{mean:.3f} ± {error:.3f}" for mean, error in orders.values()), f"{apart:.1f}"]
-
-
-def mean_of(values):
-    """Mean and standard error of independent values."""
-    return statistics.mean(values), statistics.stdev(values) / math.sqrt(len(values))
+    return [phi, sweeps, *(text_of(*order) for order in orders.values()), f"{difference:.1f}"]
 
 
 def speed(build):
@@ -200,7 +190,7 @@ def measure(build):
                for state, means in zip(states, fractions)]
     spheroids = [spheroid_row(name, phi, found.result()) for (name, phi, _), found in zip(SPHEROIDS, solids)]
     scalene = [scalene_row(name, phi, found.result()) for (name, phi, _), found in zip(SCALENE, solids[len(SPHEROIDS):])]
-    order = [order_row(*state, {start: mean_of([one.result() for one in found]) for start, found in of_starts.items()})
+    order = [order_row(*state, {start: estimate([one.result() for one in found]) for start, found in of_starts.items()})
              for state, of_starts in zip(ORDER, orders)]
     return f"""Hard spheres at the pressure P = ρZ of an equation of state must have its packing fraction: Kolafa, Labík and Malijevský,
 Phys. Chem. Chem. Phys. 6, 2335 (2004), for the fluid, and Speedy, J. Phys.: Condens. Matter 10, 4387 (1998), for the
