@@ -81,6 +81,20 @@ TEST(Prepare, ALatticeHasAllParticlesAtItsAngle) {
   for (const double angle : result.configuration.angle) EXPECT_EQ(angle, std::numbers::pi / 4);
 }
 
+// The box of a lattice with a packing fraction of its own is that of later stages, too.
+TEST(Prepare, ALatticeMayHaveAPackingFractionOfItsOwn) {
+  Parameters parameters = small(0.5);
+  LatticeStage lattice;
+  lattice.packing_fraction = 0.2;
+  parameters.stages[0] = lattice;
+  validate(parameters);
+  const Preparation result = prepare({parameters}, {}, say_nothing);
+  ASSERT_EQ(result.stages.size(), 2u);
+  EXPECT_NEAR(result.stages[0].packing_fraction, 0.2, 1e-12);
+  EXPECT_NEAR(packing_fraction(result.configuration), 0.5, 1e-12);
+  EXPECT_TRUE(exact_check(result.configuration).clean());
+}
+
 GrowStage growth(std::optional<double> packing_fraction, std::optional<double> pressure) {
   GrowStage result;
   result.packing_fraction = packing_fraction;
@@ -99,6 +113,23 @@ TEST(Prepare, GrowsToThePackingFractionOfTheSystem) {
   EXPECT_GT(result.stages[1].growth.counters.collisions, 0u);
   EXPECT_EQ(mechanics(result.configuration).translational_energy, 0);
   EXPECT_EQ(mechanics(result.configuration).rotational_energy, 0);
+}
+
+// Face-centred cubic spheres reach π/√18 = 0.7405 without leaving their sites.
+TEST(Prepare, ACrystalOfSpheresGrowsToItsDensestPacking) {
+  Parameters parameters;
+  parameters.system.dimension = 3;
+  parameters.system.particles = 108;
+  parameters.system.packing_fraction = 0.74;
+  parameters.species[0].aspect_ratio = Distribution{.mean = 1};
+  LatticeStage lattice;
+  lattice.packing_fraction = 0.6;
+  lattice.arrangement = Arrangement::face_centred;
+  parameters.stages = {lattice, growth({}, {})};
+  validate(parameters);
+  const Preparation<3> result = prepare<3>({parameters}, {}, say_nothing);
+  EXPECT_NEAR(packing_fraction(result.configuration), 0.74, 1e-12);
+  EXPECT_TRUE(exact_check(result.configuration).clean());
 }
 
 // Beyond the packing fraction of the system, which such a preparation does not end at.

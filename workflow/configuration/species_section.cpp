@@ -88,11 +88,12 @@ void describe_system(SystemParameters& p, FieldVisitor& visit) {
   visit.field({"dimension", "", "Space dimensions: 2 for ellipses, 3 for ellipsoids."},
               p.dimension);
   visit.field({"particles", "", "Number of particles."}, p.particles);
-  visit.field({"packing_fraction", "",
-               "Fraction of the box covered by particles: the sum of π a b divided by the area (of "
-               "4π/3 a b c divided by the volume). It applies to a lattice, and to the end of the "
-               "preparation unless a reduced pressure ends it."},
-              p.packing_fraction);
+  visit.field(
+      {"packing_fraction", "",
+       "Fraction of the box covered by particles: the sum of π a b divided by the area (of "
+       "4π/3 a b c divided by the volume). It applies to the end of the preparation unless a "
+       "reduced pressure ends it."},
+      p.packing_fraction);
   visit.field({"seed", "", "Seed of all random numbers."}, p.seed);
   visit.number_or_numbers(
       {"box_aspect", "",

@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "core/io/parameters.h"
+#include "mc/hard_core.h"
 #include "mc/lattice.h"
+#include "workflow/stages/stage_fields.h"
 
 namespace vitrel {
 namespace {
@@ -30,7 +32,9 @@ void describe_angle(LatticeStage& stage, FieldVisitor& visit) {
 }  // namespace
 
 std::vector<StageField<LatticeStage>> LatticeStage::fields() {
-  return {{"arrangement", describe_arrangement}, {"angle", describe_angle}};
+  return {{"packing_fraction", describe_packing_fraction},
+          {"arrangement", describe_arrangement},
+          {"angle", describe_angle}};
 }
 
 void LatticeStage::validate(const Rules& rules, const StageSubject& subject) const {
@@ -46,7 +50,7 @@ void LatticeStage::validate(const Rules& rules, const StageSubject& subject) con
 }
 
 double LatticeStage::end(const SystemParameters& system, double) const {
-  return system.packing_fraction;
+  return packing_fraction.value_or(system.packing_fraction);
 }
 
 std::string LatticeStage::description(double goal) const {
@@ -56,6 +60,7 @@ std::string LatticeStage::description(double goal) const {
 template <int Dim>
 StageReport LatticeStage::advance(Configuration<Dim>& configuration, NoState&,
                                   const StageContext& context, const RunControl&) const {
+  if (packing_fraction) scale_to_packing_fraction(configuration, context.packing_fraction);
   return place_on_lattice(configuration, {arrangement, angle}, context.seed);
 }
 

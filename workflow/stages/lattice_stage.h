@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "mc/options.h"
 #include "workflow/stages/stage_interface.h"
 
@@ -11,6 +13,7 @@ struct LatticeStage : StageDefaults {
   static constexpr const char* summary = "regular positions";
   static constexpr bool places_particles = true;
 
+  std::optional<double> packing_fraction;
   Arrangement arrangement = LatticeOptions().arrangement;
   double angle = LatticeOptions().angle;
 
