@@ -87,7 +87,7 @@ struct TwoPointGrid::Shells {
   }
 
   void add(double r, double width, double range) {
-    const auto shell = static_cast<std::size_t>(r / width + 0.5);
+    const auto shell = static_cast<std::size_t>(std::lround(r / width));
     of_shift.push_back(r > range ? beyond : static_cast<std::uint16_t>(shell));
     if (r > range) return;
     if (shell >= distance.size()) distance.resize(shell + 1), shifts.resize(shell + 1);

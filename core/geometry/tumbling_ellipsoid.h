@@ -37,13 +37,13 @@ struct Flight<TumblingEllipsoid> {
   AsymmetricTop top;
   double top_time = 0;  ///< of the top at time 0 of the flight
 
-  Flight(const TumblingEllipsoid& body_, const Pose3& pose_, const Motion3& motion_)
-      : Flight(body_, pose_, motion_, {body_.shape, pose_.orientation, motion_.angular_velocity},
-               0) {}
-  /// With a top whose state at `top_time_` is that of pose and motion.
-  Flight(const TumblingEllipsoid& body_, const Pose3& pose_, const Motion3& motion_,
-         const AsymmetricTop& top_, double top_time_)
-      : body(body_), pose(pose_), motion(motion_), top(top_), top_time(top_time_) {}
+  Flight(const TumblingEllipsoid& ellipsoid, const Pose3& start, const Motion3& velocities)
+      : Flight(ellipsoid, start, velocities,
+               {ellipsoid.shape, start.orientation, velocities.angular_velocity}, 0) {}
+  /// With a top whose state at `time` is that of start and velocities.
+  Flight(const TumblingEllipsoid& ellipsoid, const Pose3& start, const Motion3& velocities,
+         const AsymmetricTop& rotation, double time)
+      : body(ellipsoid), pose(start), motion(velocities), top(rotation), top_time(time) {}
 };
 
 inline Pose3 pose_at(const Flight<TumblingEllipsoid>& flight, double time) {
