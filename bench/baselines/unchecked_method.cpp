@@ -19,7 +19,7 @@ bool surfaces_approach(const CollisionCase& asked, const Prediction2& contact) {
 }  // namespace
 
 Prediction2 unchecked_answer(const Method& method, const CollisionCase& asked) {
-  const Prediction2 answer = method.predict(asked);
+  Prediction2 answer = method.predict(asked);
   if (answer.outcome == Outcome::contact && !surfaces_approach(asked, answer))
     return {Outcome::not_converged};
   return answer;

@@ -194,12 +194,12 @@ void AsymmetricTop::set_direct_series(double complementary_quarter, double pole)
 void AsymmetricTop::set_dual_series(double complementary_quarter, double pole) {
   scale_ = 0.5 * std::numbers::pi / complementary_quarter;
   const double nome = exponential(-2 * scale_ * quarter_);
-  const auto [step_cosine, step_sine] = cosine_and_sine(2 * scale_ * pole);
+  const CosineAndSine step = cosine_and_sine(2 * scale_ * pole);
   auto [cosine, sine] = cosine_and_sine(scale_ * pole);
   double even_cosine = 1, even_sine = 0;  // of 2nπη/2K'
   double theta2 = 0, theta3 = -1, theta4 = -1, slope = 0;
   const auto turn = [&](double& c, double& s) {
-    std::tie(c, s) = std::pair(c * step_cosine - s * step_sine, s * step_cosine + c * step_sine);
+    std::tie(c, s) = std::pair(c * step.cosine - s * step.sine, s * step.cosine + c * step.sine);
   };
   for (int n = 0; n < terms; ++n, turn(cosine, sine), turn(even_cosine, even_sine)) {
     const double sign = n % 2 == 0 ? 1 : -1, square = power(nome, n * n);

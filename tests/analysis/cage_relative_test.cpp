@@ -98,8 +98,8 @@ TEST(CageRelative, LongWavesDoNotMatter) {
 
 TEST(CageRelative, IsNotGivenBeyondTheMemory) {
   MemoryTrajectory2 trajectory = free_brownian(gas(50, 6), 100, 7);
-  EXPECT_FALSE(cage_relative(trajectory, {.memory = 50 * 100 * 16}));
-  EXPECT_TRUE(cage_relative(trajectory, {.memory = 50 * 100 * 44}));
+  EXPECT_FALSE(cage_relative(trajectory, {.memory = std::size_t{50} * 100 * 16}));
+  EXPECT_TRUE(cage_relative(trajectory, {.memory = std::size_t{50} * 100 * 44}));
 }
 
 TEST(CageRelative, DoesNotDependOnThreads) {
