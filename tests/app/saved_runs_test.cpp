@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <regex>
+#include <sstream>
 
 #include "analysis/observables/observable.h"
 #include "analysis/results.h"
@@ -125,9 +125,11 @@ TEST(SavedRuns, TheSummaryGivesErrorsBesideTheirValues) {
   const Column& z = *results.find("summary")->find("compressibility_factor");
   const std::size_t line = text.find("compressibility_factor     ");
   ASSERT_NE(line, std::string::npos) << text;
+  std::istringstream words(text.substr(line));
+  std::string name, sign;
   double value = 0, error = 0;
-  ASSERT_EQ(std::sscanf(text.c_str() + line, "compressibility_factor %lf ± %lf", &value, &error),
-            2);
+  ASSERT_TRUE(words >> name >> value >> sign >> error) << text;
+  EXPECT_EQ(sign, "±");
   // Two digits of the error.
   EXPECT_NEAR(error, z.error[0], 0.051 * z.error[0]);
   EXPECT_NEAR(value, z.value[0], 0.051 * z.error[0]);
@@ -208,17 +210,17 @@ const std::string four_jobs = tiny_system +
 class SavedSweep : public testing::Test {
  protected:
   void SetUp() override {
-    folder.write("p.toml", four_jobs);
-    ASSERT_EQ(run(folder.path(), {"sweep", "p.toml", "-o", "sweep", "-j", "2", "-q"}).code, 0);
+    folder_.write("p.toml", four_jobs);
+    ASSERT_EQ(run(folder_.path(), {"sweep", "p.toml", "-o", "sweep", "-j", "2", "-q"}).code, 0);
   }
-  fs::path job(const std::string& id) const { return folder / "sweep" / id; }
+  fs::path job(const std::string& id) const { return folder_ / "sweep" / id; }
 
-  const Folder folder{"saved_sweep"};
+  const Folder folder_{"saved_sweep"};
 };
 
 TEST_F(SavedSweep, RunsAreOrderedByDensityThenBySeed) {
-  ASSERT_EQ(run(folder.path(), {"analyze", "sweep", "-q"}).code, 0);
-  const Results results = read_results(folder / "sweep/results.h5");
+  ASSERT_EQ(run(folder_.path(), {"analyze", "sweep", "-q"}).code, 0);
+  const Results results = read_results(folder_ / "sweep/results.h5");
   std::vector<std::string> rows;
   for (std::string file; !(file = results.text("row_" + std::to_string(rows.size()))).empty();)
     rows.push_back(fs::path(file).parent_path().filename());
@@ -230,8 +232,8 @@ TEST_F(SavedSweep, RunsAreOrderedByDensityThenBySeed) {
     EXPECT_EQ(runs.find("collisions")->value[k],
               of_job.find("summary")->find("collisions")->value[0]);
   }
-  ASSERT_EQ(run(folder.path(), {"report", "sweep", "-q"}).code, 0);
-  const std::string page = content(folder / "sweep/report.html");
+  ASSERT_EQ(run(folder_.path(), {"report", "sweep", "-q"}).code, 0);
+  const std::string page = content(folder_ / "sweep/report.html");
   std::size_t place = 0;
   for (const std::string& row : rows) {
     place = page.find("<td>" + row + "</td>", place);
@@ -241,8 +243,8 @@ TEST_F(SavedSweep, RunsAreOrderedByDensityThenBySeed) {
 
 // Of two values d apart the 95 % interval is ± tan(0.95 π/2) d/2: Student's quantile for one degree of freedom.
 TEST_F(SavedSweep, SeedsAreAveraged) {
-  ASSERT_EQ(run(folder.path(), {"analyze", "sweep", "-q"}).code, 0);
-  const Results results = read_results(folder / "sweep/results.h5");
+  ASSERT_EQ(run(folder_.path(), {"analyze", "sweep", "-q"}).code, 0);
+  const Results results = read_results(folder_ / "sweep/results.h5");
   const Table& runs = *results.find("runs");
   EXPECT_THAT(runs.find("seed")->value, ElementsAre(2, 10, 2, 10));
   const Table& seeds = *results.find("seeds");
@@ -264,33 +266,34 @@ TEST_F(SavedSweep, SeedsAreAveraged) {
 }
 
 TEST_F(SavedSweep, OtherParametersOfTheAnalysisLeaveTheJobsAlone) {
-  ASSERT_EQ(run(folder.path(), {"analyze", "sweep", "-q"}).code, 0);
-  const std::string plain = content(folder / "sweep/results/runs.csv");
+  ASSERT_EQ(run(folder_.path(), {"analyze", "sweep", "-q"}).code, 0);
+  const std::string plain = content(folder_ / "sweep/results/runs.csv");
   std::map<fs::path, std::string> before;
   for (const auto& entry : fs::recursive_directory_iterator(job("packing_fraction-0.3_seed-2")))
     if (entry.is_regular_file()) before[entry.path()] = content(entry.path());
   ASSERT_EQ(
-      run(folder.path(), {"analyze", "sweep", "-q", "--set", "analysis.longest_lag=0.2"}).code, 0);
+      run(folder_.path(), {"analyze", "sweep", "-q", "--set", "analysis.longest_lag=0.2"}).code, 0);
   for (const auto& [file, text] : before) EXPECT_EQ(content(file), text) << file;
   // Diffusion comes from the longest time differences.
-  EXPECT_NE(content(folder / "sweep/results/runs.csv"), plain);
-  ASSERT_EQ(run(folder.path(), {"analyze", "sweep", "-q"}).code, 0);
-  EXPECT_EQ(content(folder / "sweep/results/runs.csv"), plain);
+  EXPECT_NE(content(folder_ / "sweep/results/runs.csv"), plain);
+  ASSERT_EQ(run(folder_.path(), {"analyze", "sweep", "-q"}).code, 0);
+  EXPECT_EQ(content(folder_ / "sweep/results/runs.csv"), plain);
 }
 
 TEST_F(SavedSweep, ItsOwnFilesAreNotOverwritten) {
   const std::string id = "sweep/packing_fraction-0.3_seed-2/";
   for (const char* file : {"run.h5", "results.h5"})
     for (const char* command : {"analyze", "report"})
-      expect_refusal(folder, {command, "sweep", "-o", id + file}, 2, "is read, and must not be");
-  expect_refusal(folder, {"analyze", "sweep", "-o", "sweep"}, 2, "sweep: is a folder");
+      expect_refusal(folder_, {command, "sweep", "-o", id + file}, 2, "is read, and must not be");
+  expect_refusal(folder_, {"analyze", "sweep", "-o", "sweep"}, 2, "sweep: is a folder_");
 }
 
 TEST_F(SavedSweep, AJobsFolderStandsForItsRun) {
   const std::string id = "packing_fraction-0.3_seed-2";
-  ASSERT_EQ(run(folder.path(), {"analyze", "sweep/" + id, "-o", "a.h5", "-q"}).code, 0);
-  ASSERT_EQ(run(folder.path(), {"analyze", "sweep/" + id + "/run.h5", "-o", "b.h5", "-q"}).code, 0);
-  EXPECT_THAT(testing_program::differing_datasets(folder / "a.h5", folder / "b.h5"),
+  ASSERT_EQ(run(folder_.path(), {"analyze", "sweep/" + id, "-o", "a.h5", "-q"}).code, 0);
+  ASSERT_EQ(run(folder_.path(), {"analyze", "sweep/" + id + "/run.h5", "-o", "b.h5", "-q"}).code,
+            0);
+  EXPECT_THAT(testing_program::differing_datasets(folder_ / "a.h5", folder_ / "b.h5"),
               testing::IsEmpty());
   ASSERT_EQ(run(job(id), {"report", ".", "-q"}).code, 0);
   EXPECT_THAT(content(job(id) / "run.html"), HasSubstr("<td>" + id + "</td>"));
@@ -303,29 +306,30 @@ TEST_F(SavedSweep, JobsThatAreNotFinishedAreNamed) {
       "2 of 4 jobs are finished; packing_fraction-0.3_seed-10, packing_fraction-0.4_seed-2 are "
       "left out";
   for (const char* command : {"analyze", "report"}) {
-    const Outcome told = run(folder.path(), {command, "sweep"});
+    const Outcome told = run(folder_.path(), {command, "sweep"});
     EXPECT_EQ(told.code, 0);
     EXPECT_THAT(told.errors, HasSubstr("sweep: " + left_out + "\n"));
-    EXPECT_EQ(run(folder.path(), {command, "sweep", "-q"}).errors, "");
+    EXPECT_EQ(run(folder_.path(), {command, "sweep", "-q"}).errors, "");
   }
-  const Results results = read_results(folder / "sweep/results.h5");
+  const Results results = read_results(folder_ / "sweep/results.h5");
   EXPECT_EQ(results.find("runs")->rows(), 2u);
   EXPECT_THAT(results.provenance, testing::Contains(std::pair("left_out", left_out)));
-  EXPECT_THAT(content(folder / "sweep/report.html"),
+  EXPECT_THAT(content(folder_ / "sweep/report.html"),
               AllOf(HasSubstr("; 2 of 4 jobs are finished</p>"), HasSubstr(left_out)));
-  for (const auto& entry : fs::recursive_directory_iterator(folder / "sweep"))
+  for (const auto& entry : fs::recursive_directory_iterator(folder_ / "sweep"))
     if (entry.path().filename() == "done.json") fs::remove(entry.path());
-  expect_refusal(folder, {"analyze", "sweep"}, 2, "none of the 4 jobs of this sweep is finished");
-  expect_refusal(folder, {"analyze", "."}, 2, "is neither the folder of a sweep nor that of a job");
+  expect_refusal(folder_, {"analyze", "sweep"}, 2, "none of the 4 jobs of this sweep is finished");
+  expect_refusal(folder_, {"analyze", "."}, 2,
+                 "is neither the folder_ of a sweep nor that of a job");
 }
 
 TEST_F(SavedSweep, QuietItSaysNothing) {
   std::vector<std::string> again = {"sweep", "p.toml", "-o", "sweep", "-q"};
-  const Outcome quiet = run(folder.path(), again);
+  const Outcome quiet = run(folder_.path(), again);
   EXPECT_EQ(quiet.code, 0);
   EXPECT_EQ(quiet.output + quiet.errors, "");
   again.push_back("--json");
-  EXPECT_EQ(nlohmann::json::parse(run(folder.path(), again).output)["jobs"].size(), 4u);
+  EXPECT_EQ(nlohmann::json::parse(run(folder_.path(), again).output)["jobs"].size(), 4u);
 }
 
 /// The chart's columns in the names that a table has: `#` is a number, `*` any text.

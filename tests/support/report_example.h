@@ -34,8 +34,9 @@ inline MemoryTrajectory2 lattice(std::size_t n, std::size_t frames) {
       state.shape[i] = {std::sqrt(2.0), std::sqrt(0.5)};
       state.species[i] = static_cast<std::int32_t>(i % 2);
       state.image[i] = Shift<2>::Zero();
-      state.position[i] = Vec2(4.0 * static_cast<double>(i % n) - 0.5 * side + 2 + step,
-                               4.0 * static_cast<double>(i / n) - 0.5 * side + 2 + 0.5 * step);
+      const std::size_t x = i % n, y = i / n;
+      state.position[i] = Vec2(4.0 * static_cast<double>(x) - 0.5 * side + 2 + step,
+                               4.0 * static_cast<double>(y) - 0.5 * side + 2 + 0.5 * step);
       if (k == overlapping_frame && i == 1) state.position[i] = state.position[0] + Vec2(0.5, 0);
       state.box.wrap(state.position[i], state.image[i]);
       state.angle[i] = 0.3 + 0.1 * step;
@@ -46,7 +47,8 @@ inline MemoryTrajectory2 lattice(std::size_t n, std::size_t frames) {
 }
 
 inline std::vector<double> constant(std::size_t rows, double value) {
-  return std::vector<double>(rows, value);
+  std::vector<double> values(rows, value);
+  return values;
 }
 
 /// A column of values with an error of 5 %.
