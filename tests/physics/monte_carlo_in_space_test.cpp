@@ -78,7 +78,7 @@ constexpr int blocks = 20;
 /// How much longer than usual Monte Carlo and motion are compared.
 int effort() {
   const char* given = std::getenv("VITREL_SOLIDS_EFFORT");
-  return given ? std::atoi(given) : 1;
+  return given ? std::stoi(given) : 1;
 }
 
 /// A fluid of equal bodies of mass 1.

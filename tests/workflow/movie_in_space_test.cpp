@@ -168,7 +168,7 @@ TEST(MovieInSpace, ImagesCostFrames) {
         frames[k].position[i] = position + Vec3(0, 0.01 * static_cast<double>(i), 0);
     }
     MemoryTrajectory3 trajectory(std::move(frames));
-    return film(trajectory, {.characters = 10 * 56 / 3 * 40}).frames();
+    return film(trajectory, {.characters = std::size_t{10} * 56 / 3 * 40}).frames();
   };
   EXPECT_EQ(frames_at(Vec3::Zero()), 40u);
   EXPECT_EQ(frames_at(Vec3::Constant(-14.9)), 10u * 56 / 3 * 40 / (10 * 56 / 3 + 10 * 7 * 12));

@@ -116,7 +116,7 @@ TEST(Movie, OverlapsAreSeenThatTheRoundedPosesHide) {
 TEST(Movie, ThinnedFramesAreEvenAndHaveBothEnds) {
   MemoryTrajectory2 trajectory = lattice(10, 101);
   MovieLimits limits;
-  limits.characters = 8 * 100 * 11;
+  limits.characters = std::size_t{8} * 100 * 11;
   const Movie2 movie = film(trajectory, limits);
   ASSERT_EQ(movie.frames(), 11u);
   EXPECT_EQ(movie.run_frames, 101u);
@@ -129,7 +129,7 @@ TEST(Movie, ManyJumpsCostFrames) {
   // One frame in 40: ways of two boxes, and every particle jumps in every frame.
   MemoryTrajectory2 trajectory = lattice(3, 641);
   MovieLimits limits;
-  limits.characters = 8 * 9 * 17;
+  limits.characters = std::size_t{8} * 9 * 17;
   const Movie2 movie = film(trajectory, limits);
   EXPECT_LT(movie.frames(), 17u);
   EXPECT_GT(movie.frames(), 2u);

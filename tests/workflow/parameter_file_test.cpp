@@ -539,8 +539,7 @@ TEST(SweepJobs, KeysAdvanceTogether) {
 std::vector<double> wave_numbers(const std::string& parameters) {
   const std::filesystem::path file = testing::TempDir() + "vitrel_sweep_wave_numbers.toml";
   std::ofstream(file) << parameters;
-  const std::vector<double> last =
-      sweep_jobs({file, {}, {}}).back().parameters.analysis.wave_numbers;
+  std::vector<double> last = sweep_jobs({file, {}, {}}).back().parameters.analysis.wave_numbers;
   std::filesystem::remove(file);
   return last;
 }

@@ -45,7 +45,7 @@ class StubbedSweep {
     fs::permissions(folder_ / "stub", fs::perms::owner_all);
   }
 
-  SweepOutcome run(RunControl control = {}) {
+  SweepOutcome run(const RunControl& control = {}) {
     lines_.clear();
     return run_sweep({source(), folder_ / "s", folder_ / "stub"}, control,
                      [this](const std::string& line) { lines_.push_back(line); });

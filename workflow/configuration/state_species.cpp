@@ -63,10 +63,10 @@ std::optional<Misfit> misfit(const Species& species, const Shape& shape, double 
     if (!allow(*species.semi_axes, axes))
       return Misfit{"semi_axes", text(*species.semi_axes), to_toml(std::span<const double>(axes))};
   } else {
-    if (const auto found = ratio_misfit(species, axes)) return found;
-    const auto found = species.first_semi_axis
-                           ? misfit("first_semi_axis", *species.first_semi_axis, axes[0])
-                           : misfit("size", species.size.value_or(constant(1)), size_of(shape));
+    if (auto found = ratio_misfit(species, axes)) return found;
+    auto found = species.first_semi_axis
+                     ? misfit("first_semi_axis", *species.first_semi_axis, axes[0])
+                     : misfit("size", species.size.value_or(constant(1)), size_of(shape));
     if (found) return found;
   }
   return misfit("mass", constant(species.mass.value_or(natural_mass(shape))), mass);

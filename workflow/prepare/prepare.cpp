@@ -28,7 +28,7 @@ fs::path stuck_state_path(const fs::path& output) {
 /// How a stage ended, for a person.
 std::string end_text(const StageRecord& record) {
   const Estimate& mean = record.mean_packing_fraction;
-  const std::string text =
+  std::string text =
       fmt::format("{}; packing fraction {:.6g}", record.report.reason, record.packing_fraction);
   if (!(mean.mean > 0)) return text;
   return text +

@@ -100,8 +100,7 @@ std::string verdict_text(const Row& row, const char* column, const char* reason)
 }
 
 std::string verdict_rows(const Row& row) {
-  const std::string all =
-      html_row("equilibrium", {verdict_text(row, "verdict", "verdict_reason"), ""});
+  std::string all = html_row("equilibrium", {verdict_text(row, "verdict", "verdict_reason"), ""});
   if (row.value("verdict") == row.value("verdict_translation")) return all;
   return all +
          html_row("of translation alone",

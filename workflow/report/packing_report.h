@@ -10,7 +10,7 @@ namespace vitrel {
 /// What the page of a packing on file shows: the bodies (of more than 10 000 those in the middle), their
 /// exact check, quality and structure. The quality report of vitrel prepare, if there is one beside the file,
 /// adds what only the preparation knows. Throws FileError or UserError, naming the file.
-PackingPage packing_page_data(const std::filesystem::path& packing, const AnalysisChoice& choice,
+PackingPage packing_page_data(const std::filesystem::path& file, const AnalysisChoice& choice,
                               const AnalysisProgress& progress = {});
 
 }  // namespace vitrel
