@@ -90,7 +90,7 @@ std::optional<ParameterDifference> change_since_begun(const SweepJob& job, const
   const fs::path file = folder / "parameters.toml";
   if (!fs::exists(file)) return std::nullopt;
   const std::string before = read_text(file), now = effective_parameters(job.parameters);
-  if (const auto forbidden = forbidden_change(before, now, work_in(folder))) return forbidden;
+  if (auto forbidden = forbidden_change(before, now, work_in(folder))) return forbidden;
   return first_difference(before, now, [](const std::string& key) { return !is_of_analysis(key); });
 }
 

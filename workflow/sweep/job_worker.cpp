@@ -1,8 +1,9 @@
 #include "workflow/sweep/job_worker.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
 #include <string_view>
 
 #include "core/io/atomic_file.h"
@@ -113,8 +114,11 @@ void JobWorker::give_up(State state) {
 }
 
 double share_of_run(const std::string& log_line) {
+  std::istringstream words(log_line);
+  std::string word, sign;
   double percent = 0;
-  return std::sscanf(log_line.c_str(), "run %lf %%", &percent) == 1 ? percent / 100 : 0;
+  return words >> word >> percent >> sign && word == "run" && sign.starts_with("%") ? percent / 100
+                                                                                    : 0;
 }
 
 }  // namespace vitrel
