@@ -285,7 +285,7 @@ TEST_F(SavedSweep, ItsOwnFilesAreNotOverwritten) {
   for (const char* file : {"run.h5", "results.h5"})
     for (const char* command : {"analyze", "report"})
       expect_refusal(folder_, {command, "sweep", "-o", id + file}, 2, "is read, and must not be");
-  expect_refusal(folder_, {"analyze", "sweep", "-o", "sweep"}, 2, "sweep: is a folder_");
+  expect_refusal(folder_, {"analyze", "sweep", "-o", "sweep"}, 2, "sweep: is a folder");
 }
 
 TEST_F(SavedSweep, AJobsFolderStandsForItsRun) {
@@ -320,7 +320,7 @@ TEST_F(SavedSweep, JobsThatAreNotFinishedAreNamed) {
     if (entry.path().filename() == "done.json") fs::remove(entry.path());
   expect_refusal(folder_, {"analyze", "sweep"}, 2, "none of the 4 jobs of this sweep is finished");
   expect_refusal(folder_, {"analyze", "."}, 2,
-                 "is neither the folder_ of a sweep nor that of a job");
+                 "is neither the folder of a sweep nor that of a job");
 }
 
 TEST_F(SavedSweep, QuietItSaysNothing) {
