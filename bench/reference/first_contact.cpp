@@ -232,7 +232,7 @@ class Search {
       const Interval<Real> slope = at.first + over.second * Interval<Real>(-half, half);
       if (slope.high >= 0) return found;
       const Interval<Real> next = Interval<Real>(middle) - at.value / slope;
-      const Interval<Real> both(std::max(found.low, next.low), std::min(found.high, next.high));
+      Interval<Real> both(std::max(found.low, next.low), std::min(found.high, next.high));
       if (both.width() > found.width() / 2) return both;
       found = both;
     }
