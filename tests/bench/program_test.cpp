@@ -15,7 +15,6 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
-using testing::Not;
 using testing_program::Folder;
 using testing_program::Outcome;
 using testing_program::run;
