@@ -138,14 +138,17 @@ INSTANTIATE_TEST_SUITE_P(Shapes, FreePathBatchOfEllipses,
                          testing::Values(Class{1, 1}, Class{1, 100}, Class{2, 1}, Class{6, 1},
                                          Class{10, 3}, Class{100, 1}, Class{100, 100}));
 
+template <int along>
+using DiskFreePathBatch = RoundFreePathBatch<along>;
+
 TEST(RoundFreePathBatch, EndsAtTheFirstContact) {
   Stream draw(72, Purpose::tests);
   int partner = 0, free = 0;
   for (int k = 0; k < 10'000; ++k) {
     const Scene scene = random_scene(draw, {1, 10}, 1 + static_cast<int>(draw.below(12)));
     const double max_length = scene.shape.a * draw.uniform(0.1, 5);
-    check<RoundFreePathBatch, 0>(scene, max_length, partner, free);
-    check<RoundFreePathBatch, 1>(scene, max_length, partner, free);
+    check<DiskFreePathBatch, 0>(scene, max_length, partner, free);
+    check<DiskFreePathBatch, 1>(scene, max_length, partner, free);
     if (HasFatalFailure()) FAIL() << "scene " << k;
   }
   EXPECT_GT(partner, 2000);
