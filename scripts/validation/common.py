@@ -36,6 +36,11 @@ def output_of(command, **options):
     return done.stdout
 
 
+def carnahan_starling(phi):
+    """Z of the fluid of hard spheres (1969)."""
+    return (1 + phi + phi**2 - phi**3) / (1 - phi)**3
+
+
 def properties_of_test(program, test, **variables):
     """The properties that one test records when it runs with these environment variables."""
     with tempfile.TemporaryDirectory() as folder:

@@ -1,6 +1,6 @@
 """Dynamics of spheres and ellipsoids: collisions per second, and the pressure from the collisions."""
 
-from validation.common import commit_of, expect, measured, millions, processor, table
+from validation.common import carnahan_starling, commit_of, expect, measured, millions, processor, table
 
 TITLE = "Dynamics of spheres and ellipsoids"
 
@@ -8,10 +8,6 @@ TITLE = "Dynamics of spheres and ellipsoids"
 PUBLISHED = {0.3: 0.83e6, 0.49: 1.47e6}
 # The error of Carnahan and Starling in a dense liquid.
 TOLERANCE = 0.004
-
-
-def carnahan_starling(phi):
-    return (1 + phi + phi**2 - phi**3) / (1 - phi) ** 3
 
 
 def virial_series(phi):

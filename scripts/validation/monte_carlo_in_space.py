@@ -7,7 +7,8 @@ import os
 import pathlib
 import tempfile
 
-from validation.common import apart, estimate, expect, output_of, properties_of_test, summary_of, table, text_of
+from validation.common import (apart, carnahan_starling, estimate, expect, output_of, properties_of_test, summary_of, table,
+                               text_of)
 
 TITLE = "Monte Carlo in space: spheres and ellipsoids"
 
@@ -68,23 +69,29 @@ def convex_measures(semi_axes):
     return mean_length([a, b, c]), 4 * math.pi * mean_length([b * c, a * c, a * b]), VOLUME * a * b * c
 
 
+def virial_coefficients(a, t):
+    """B₂ … B₅ of hard ellipsoids in powers of their volume, the last three fitted by Vega (1997); a = t = 0: spheres."""
+    return (
+        4 + 3 * a,
+        10 + 13.094756 * a - 2.073909 * t + 4.096689 * a**2 + 2.325342 * t**2 - 5.791266 * a * t,
+        18.3648 + 27.714434 * a - 10.2046 * t + 11.142963 * a**2 + 8.634491 * t**2 - 28.279451 * a * t
+        - 17.190946 * a**2 * t + 24.188979 * a * t**2 + 0.74674 * a**3 - 9.455150 * t**3,
+        28.2245 + 21.288105 * a + 4.525788 * t + 36.032793 * a**2 + 59.0098 * t**2 - 118.407497 * a * t
+        + 24.164622 * a**2 * t + 139.766174 * a * t**2 - 50.490244 * a**3 - 120.995139 * t**3
+        + 12.624655 * a**3 * t,
+    )
+
+
 def isotropic_fluid(semi_axes, phi):
-    """Z of hard ellipsoids: equation 20 of Vega (1997), exact to B₂, with virial coefficients fitted up to the fifth."""
+    """Z of hard ellipsoids: Vega (1997), equation 20. Beyond B₅ it is that of Carnahan and Starling times B₂/4."""
     radius, surface, volume = convex_measures(semi_axes)
-    t, a = 4 * math.pi * radius**2 / surface - 1, radius * surface / (3 * volume) - 1
-    spheres = {1: 4, 2: 10, 3: 18.3648, 4: 28.2245}
-    excess = {
-        1: 3 * a,
-        2: 13.094756 * a - 2.073909 * t + 4.096689 * a**2 + 2.325342 * t**2 - 5.791266 * a * t,
-        3: 27.714434 * a - 10.2046 * t + 11.142963 * a**2 + 8.634491 * t**2 - 28.279451 * a * t
-           - 17.190946 * a**2 * t + 24.188979 * a * t**2 + 0.74674 * a**3 - 9.455150 * t**3,
-        4: 21.288105 * a + 4.525788 * t + 36.032793 * a**2 + 59.0098 * t**2 - 118.407497 * a * t
-           + 24.164622 * a**2 * t + 139.766174 * a * t**2 - 50.490244 * a**3 - 120.995139 * t**3
-           + 12.624655 * a**3 * t,
-    }
-    carnahan_starling = (1 + phi + phi**2 - phi**3) / (1 - phi)**3
-    rest = carnahan_starling - 1 - sum(b * phi**k for k, b in spheres.items())
-    return 1 + sum((spheres[k] + excess[k]) * phi**k for k in spheres) + (1 + 0.75 * a) * rest
+    a, t = radius * surface / (3 * volume) - 1, 4 * math.pi * radius**2 / surface - 1
+
+    def series(coefficients):
+        return 1 + sum(b * phi**k for k, b in enumerate(coefficients, 1))
+
+    own, spheres = virial_coefficients(a, t), virial_coefficients(0, 0)
+    return series(own) + own[0] / 4 * (carnahan_starling(phi) - series(spheres))
 
 
 def crystal(phi):
