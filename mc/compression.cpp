@@ -1,5 +1,6 @@
 #include "mc/compression.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <span>
@@ -79,10 +80,11 @@ bool PressureSampler<Dim>::change_box(const Vec<Dim>& factors) {
 
 template <int Dim>
 void PressureSampler<Dim>::tune() {
-  constexpr std::uint64_t enough = 20;
+  // Ever more trials, so that the last step is a good one.
+  constexpr std::uint64_t least = 20, share = 8;
   constexpr double widest = 0.1;
   moves_.tune();
-  box_.step.tune(enough, widest);
+  box_.step.tune(std::max(least, box_.tried / share), widest);
 }
 
 namespace {

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <type_traits>
 
 #include "core/contact/ellipse_free_path_batch.h"
+#include "core/contact/ellipsoid_free_path_batch.h"
 #include "core/elementary.h"
-#include "core/error.h"
 #include "mc/hard_core.h"
 
 namespace vitrel {
@@ -32,6 +33,15 @@ Stream::Block next_words(Stream& draw) {
   Stream::Block words;
   draw.fill({&words, 1});
   return words;
+}
+
+/// The free paths of particle i.
+template <class PathBatch, class Body>
+PathBatch paths_of(const std::vector<Body>& bodies, std::size_t i, double gap, double max_length) {
+  if constexpr (std::is_constructible_v<PathBatch, const Body&, double, double>)
+    return PathBatch(bodies[i], gap, max_length);
+  else
+    return PathBatch(bodies[i], bodies.data(), gap, max_length);
 }
 
 /// Calls visit(near, translation) for the cells near one, along the directions from k to that of the path, as far as
@@ -77,9 +87,7 @@ EventChain<Dim>::EventChain(Configuration<Dim>& configuration, const EventChainO
     smallest = std::min(smallest, configuration.shape[i].inradius());
     if (!configuration.shape[i].is_round()) rotors_.push_back(static_cast<Index>(i));
   }
-  if (Dim == 3 && !rotors_.empty())
-    throw UserError("in three dimensions event chains are for spheres; use local moves");
-  // The maximum contact distance of two particles (ellipse_free_path_batch.h).
+  // The maximum contact distance of two particles (ellipse_free_path_batch.h, ellipsoid_free_path_batch.h).
   const double enlarged = 1 + 2 * contact_margins * margin_ / smallest;
   board_.emplace(configuration_.box, 2 * enlarged * largest_, configuration_.size());
 }
@@ -103,32 +111,35 @@ void EventChain<Dim>::arrange() {
                   configuration_.position[i], free_list_);
 }
 
-template <>
-void EventChain<2>::rotate(std::size_t i, double rotation) {
-  const Vec2& position = configuration_.position[i];
-  const double angle = configuration_.angle[i] + rotation;
-  const OrientedEllipse body = oriented(configuration_.shape[i], angle);
+template <int Dim>
+void EventChain<Dim>::rotate(std::size_t i, const Vec<Dim>& turn) {
+  const Vec<Dim>& position = configuration_.position[i];
+  Orientation<Dim>& orientation = orientations(configuration_)[i];
+  const Orientation<Dim> trial = rotated(configuration_.shape[i], orientation, turn);
+  const OrientedBody<Dim> body = oriented(configuration_.shape[i], trial);
   OverlapTestCounts tests;
   ++state_.counts.rotations_tried;
   ++state_.rotation.tried;
   if (!clear_of_others(*board_, cells_, i, body, bodies_, margin_, position,
                        board_->cell_of(position), tests) ||
-      !clear_of_periodic_images(configuration_.box, body.shape, body.axis, margin_))
+      !clear_of_periodic_images(configuration_.box, body.shape, axes_of(body), margin_))
     return;
   ++state_.counts.rotations_accepted;
   ++state_.rotation.accepted;
-  configuration_.angle[i] = angle;
+  orientation = trial;
   bodies_[i] = body;
   cells_.group_of(i).turn(cells_.lane_of(i), body);
 }
 
 /// Rotations of random particles, until there are as many as `goal`.
-template <>
-void EventChain<2>::rotate_some(std::uint64_t& done, std::uint64_t goal, Stream& draw) {
+template <int Dim>
+void EventChain<Dim>::rotate_some(std::uint64_t& done, std::uint64_t goal, Stream& draw) {
   for (; done < goal; ++done) {
     const Stream::Block words = next_words(draw);
-    rotate(rotors_[pick(words[0], rotors_.size())],
-           state_.rotation.size * plus_minus_one(words[1]));
+    Vec<Dim> turn;
+    for (int k = 0; k < Dim; ++k)
+      turn[k] = state_.rotation.size * plus_minus_one(words[static_cast<std::size_t>(k) + 1]);
+    rotate(rotors_[pick(words[0], rotors_.size())], turn);
   }
 }
 
@@ -146,8 +157,7 @@ void EventChain<Dim>::sweep() {
       run_chain<0>(first);
     else
       direction == 1 ? run_chain<1>(first) : run_chain<2>(first);
-    if constexpr (Dim == 2)
-      if (!rotors_.empty()) rotate_some(rotations, chain * state_.rotations / state_.chains, draw);
+    if (!rotors_.empty()) rotate_some(rotations, chain * state_.rotations / state_.chains, draw);
   }
   ++state_.next_sweep;
   ++state_.sweeps;
@@ -156,9 +166,12 @@ void EventChain<Dim>::sweep() {
 template <int Dim>
 template <int direction>
 void EventChain<Dim>::run_chain(std::size_t first) {
-  if constexpr (Dim == 2)
-    if (!rotors_.empty()) return run<direction, FreePathBatch<direction>>(first);
-  run<direction, RoundFreePathBatch<direction, Dim>>(first);
+  if (rotors_.empty())
+    run<direction, RoundFreePathBatch<direction, Dim>>(first);
+  else if constexpr (Dim == 2)
+    run<direction, EllipseFreePathBatch<direction>>(first);
+  else
+    run<direction, EllipsoidFreePathBatch<direction>>(first);
 }
 
 template <int Dim>
@@ -196,8 +209,8 @@ FreePath EventChain<Dim>::next_contact(std::size_t i, double remaining) const {
   const Vec<Dim> width = board_->cell_size();
   const Vec<Dim> into = position - board_->corner(cell);
   const double to_border = std::max(width[direction] - into[direction], 0.) + rounding_;
-  PathBatch paths(bodies_[i].shape, axes_of(bodies_[i]), contact_margins * margin_,
-                  std::min(remaining, to_border));
+  PathBatch paths =
+      paths_of<PathBatch>(bodies_, i, contact_margins * margin_, std::min(remaining, to_border));
   const double aside = paths.reach_aside(largest_) + rounding_;
   const double first_before = into[direction] - paths.reach_behind(largest_) - rounding_;
   const std::size_t own = cells_.group_index(i);

@@ -46,12 +46,11 @@ struct ChainState {
   std::uint64_t tuned_chains = 0, tuned_contacts = 0;  ///< at the last adaptation
 };
 
-/// Event-chain Monte Carlo of hard ellipses or spheres at constant N, box and temperature, on one thread.
+/// Event-chain Monte Carlo of hard ellipses or ellipsoids at constant N, box and temperature, on one thread.
 ///
 /// A chain: a random particle moves forwards along x, y or, in space, z, each with equal probability, until it touches
-/// another (ellipse_free_path_batch.h, round_free_path_batch.h). That one continues in the same direction, until the
-/// paths add up to the length of the chain. Nothing is rejected. Angles change by trial rotations, uniform within ± the
-/// step, as in sampler.h.
+/// another (ellipse_free_path_batch.h, ellipsoid_free_path_batch.h, round_free_path_batch.h). That one continues in the same direction, until the
+/// paths add up to the length of the chain. Nothing is rejected. Orientations change by trial rotations, as in sampler.h.
 ///
 /// One sweep is a fixed number of chains of one length, with trial rotations of random particles spread evenly among
 /// them; `tune` chooses them so that a sweep has about N contacts. Particles are sorted into cells at the start of a
@@ -61,7 +60,7 @@ struct ChainState {
 /// Uniform sampling of all hard states. Divide a chain of length l along x into steps ε → 0. Each of the N lifted
 /// states (hard state, moving particle i) has one successor: i moved by ε or, if it would then overlap j, the same
 /// state with j moving. Conversely each has one predecessor: i moved back by ε or, if it would then overlap k behind
-/// it, the same state with k moving. At fixed angles a contact depends only on the difference of the two positions, so
+/// it, the same state with k moving. At fixed orientations a contact depends only on the difference of the two positions, so
 /// j blocks i if and only if i blocks j in the opposite direction. A chain therefore maps lifted states one to one, and
 /// conserves volume (the flow is a translation between contacts): the uniform distribution is invariant (global
 /// balance), since particle and direction are drawn uniformly and independently of the state. Rotations satisfy
@@ -76,14 +75,13 @@ struct ChainState {
 /// In a row of particles jammed across the whole box a chain would have infinitely many contacts. A chain is cut short
 /// after 1000 times the target number, which violates balance and is counted.
 ///
-/// Contact is at 1.25 hard-core margins (hard_core.h) or slightly more (ellipse_free_path_batch.h), and rotations keep
+/// Contact is at 1.25 hard-core margins (hard_core.h) or slightly more (see the free paths), and rotations keep
 /// one margin, so the margin always holds. A particle's own images move along with it.
 /// Sources: bernard2009; for ellipses and all potentials that depend on differences michel2014.
 template <int Dim>
 class EventChain {
  public:
-  /// The configuration must be hard, with wrapped positions, and outlive this object; in space of spheres only, otherwise
-  /// UserError. Meanwhile nothing else may move or rotate particles.
+  /// The configuration must be hard, with wrapped positions, and outlive this object. Meanwhile nothing else may move or rotate particles.
   EventChain(Configuration<Dim>& configuration, const EventChainOptions& options,
              std::uint64_t seed, const ChainState& state = {});
 
@@ -123,7 +121,7 @@ class EventChain {
   template <int direction>
   void advance(std::size_t i, double length);
   void rotate_some(std::uint64_t& done, std::uint64_t goal, Stream& draw);
-  void rotate(std::size_t i, double rotation);
+  void rotate(std::size_t i, const Vec<Dim>& turn);
 
   Configuration<Dim>& configuration_;
   double largest_, margin_;

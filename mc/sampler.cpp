@@ -10,7 +10,6 @@
 #include <span>
 #include <utility>
 
-#include "core/geometry/free_flight.h"
 #include "core/parallel.h"
 #include "mc/hard_core.h"
 
@@ -32,16 +31,6 @@ void swap_orientations(OrientedEllipsoid& one, OrientedEllipsoid& two) {
   const Quaternion of_one = one.orientation;
   one = {one.shape, two.orientation};
   two = {two.shape, of_one};
-}
-
-double rotated(const Ellipse&, double angle, const Vec2& turn) {
-  return angle + turn[0];
-}
-
-/// About the own axes; rotations of a spheroid about its axis are none.
-Quaternion rotated(const Ellipsoid& shape, const Quaternion& orientation, Vec3 turn) {
-  if (const int axis = shape.symmetry_axis(); axis != Ellipsoid::none) turn[axis] = 0;
-  return (orientation * rotation(turn)).normalized();
 }
 
 /// Maximum distance of centres at which `reshape` must test.

@@ -21,7 +21,7 @@ struct SamplingState {
 
 /// Monte Carlo at constant packing fraction, as an equilibration stage: chains and step sizes adapt throughout.
 /// `reached` when `state` counts the requested sweeps, `stopped` on request between two sweeps; the same call then
-/// continues with bit-identical results. The reason says if chains were cut short. In space chains are for spheres only.
+/// continues with bit-identical results. The reason says if chains were cut short.
 template <int Dim>
 StageReport sample(Configuration<Dim>& configuration, const SamplingOptions& options,
                    std::uint64_t seed, SamplingState& state, const RunControl& control);

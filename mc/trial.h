@@ -9,6 +9,7 @@
 #include "core/contact/ellipse_overlap_batch.h"
 #include "core/contact/ellipse_pair.h"
 #include "core/contact/ellipsoid_overlap_batch.h"
+#include "core/geometry/free_flight.h"
 #include "core/state/configuration.h"
 #include "mc/checkerboard.h"
 #include "mc/simd_cells.h"
@@ -60,6 +61,16 @@ inline std::vector<double>& orientations(Configuration2& configuration) {
 }
 inline std::vector<Quaternion>& orientations(Configuration3& configuration) {
   return configuration.orientation;
+}
+
+/// The orientation after a rotation. In the plane by the first component.
+inline double rotated(const Ellipse&, double angle, const Vec2& turn) {
+  return angle + turn[0];
+}
+/// In space by a vector in the own frame; rotations of a spheroid about its axis are none.
+inline Quaternion rotated(const Ellipsoid& shape, const Quaternion& orientation, Vec3 turn) {
+  if (const int axis = shape.symmetry_axis(); axis != Ellipsoid::none) turn[axis] = 0;
+  return (orientation * rotation(turn)).normalized();
 }
 
 /// Bodies of all particles, in their order.

@@ -71,16 +71,17 @@ VITREL_INLINE SimdBatch component(const BatchBuffer<simd_width>& x,
 
 /// Paths along x (`direction` 0) or y (1).
 template <int direction>
-class FreePathBatch {
+class EllipseFreePathBatch {
  public:
   using Mask = SimdBatch::Mask;
 
-  /// `axis` is the unit vector along the major axis; `max_length` > 0 limits the path.
-  FreePathBatch(const Ellipse& shape, const Vec2& axis, double gap, double max_length)
+  /// `max_length` > 0 limits the path.
+  EllipseFreePathBatch(const OrientedEllipse& body, double gap, double max_length)
       : upper_bound_(max_length), tolerance_(0.25 * gap), end_{max_length, FreePath::none, 0} {
-    const double enlarged = 1 + gap / shape.b;
-    const detail::PathProfile<double> mine(shape.a, shape.b, axis[direction], axis[across]);
-    circumradius_ = enlarged * shape.a;
+    const double enlarged = 1 + gap / body.shape.b;
+    const detail::PathProfile<double> mine(body.shape.a, body.shape.b, body.axis[direction],
+                                           body.axis[across]);
+    circumradius_ = enlarged * body.shape.a;
     height_ = enlarged * mine.height;
     shear_ = enlarged * mine.shear;
     half_chord_ = enlarged * mine.half_chord;

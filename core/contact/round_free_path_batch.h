@@ -44,9 +44,9 @@ class RoundFreePathBatch {
  public:
   using Mask = SimdBatch::Mask;
 
-  template <class Shape, class Axes>
-  RoundFreePathBatch(const Shape& shape, const Axes&, double gap, double max_length)
-      : radius_(shape.circumradius() + gap), max_length_(max_length), length_(max_length) {}
+  template <class OrientedBody>
+  RoundFreePathBatch(const OrientedBody& body, double gap, double max_length)
+      : radius_(body.shape.circumradius() + gap), max_length_(max_length), length_(max_length) {}
 
   double reach_behind(double /*largest*/) const { return 0; }
   double reach_aside(double largest) const { return radius_ + largest; }

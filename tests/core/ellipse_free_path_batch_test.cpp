@@ -72,7 +72,7 @@ Scene random_scene(Stream& draw, const Class& at, int count) {
 
 template <template <int> class Batch, int along>
 FreePath path_end(const Scene& scene, double max_length) {
-  Batch<along> paths(scene.shape, direction(scene.angle), gap, max_length);
+  Batch<along> paths(OrientedEllipse{scene.shape, direction(scene.angle)}, gap, max_length);
   const Vec2 offset(0.25, -0.5);
   for (std::size_t begin = 0; begin < scene.others.size(); begin += simd_width) {
     EllipseBatch group;
@@ -115,9 +115,9 @@ void check(const Scene& scene, double max_length, int& partner, int& free) {
   ASSERT_NEAR(end.offset_at_contact, d.dot(e), rounding);
 }
 
-class FreePathBatchOfEllipses : public testing::TestWithParam<Class> {};
+class FreePathsOfEllipses : public testing::TestWithParam<Class> {};
 
-TEST_P(FreePathBatchOfEllipses, EndsAtTheFirstContact) {
+TEST_P(FreePathsOfEllipses, EndsAtTheFirstContact) {
   Stream draw(71, Purpose::tests);
   int partner = 0, free = 0;
   constexpr int scenes = 10'000;
@@ -125,16 +125,16 @@ TEST_P(FreePathBatchOfEllipses, EndsAtTheFirstContact) {
     const Scene scene = random_scene(draw, GetParam(), 1 + static_cast<int>(draw.below(12)));
     const double max_length = scene.shape.a * draw.uniform(0.1, 5);
     if (k % 2 == 0)
-      check<FreePathBatch, 0>(scene, max_length, partner, free);
+      check<EllipseFreePathBatch, 0>(scene, max_length, partner, free);
     else
-      check<FreePathBatch, 1>(scene, max_length, partner, free);
+      check<EllipseFreePathBatch, 1>(scene, max_length, partner, free);
     if (HasFatalFailure()) FAIL() << "scene " << k;
   }
   EXPECT_GT(partner, scenes / 5);
   EXPECT_GT(free, scenes / 20);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, FreePathBatchOfEllipses,
+INSTANTIATE_TEST_SUITE_P(Shapes, FreePathsOfEllipses,
                          testing::Values(Class{1, 1}, Class{1, 100}, Class{2, 1}, Class{6, 1},
                                          Class{10, 3}, Class{100, 1}, Class{100, 100}));
 
@@ -156,26 +156,26 @@ TEST(RoundFreePathBatch, EndsAtTheFirstContact) {
 }
 
 // The contact distance of oracles: semi-axes 2 and 1, at angles 0 and 90 degrees and d at 45, is √10.
-TEST(FreePathBatch, MeetsCrossedEllipsesAtTheKnownDistance) {
+TEST(EllipseFreePathBatch, MeetsCrossedEllipsesAtTheKnownDistance) {
   const Ellipse shape{2, 1};
   const double height = std::sqrt(5);
   const Scene scene{shape, 0, {{shape, 0.5 * pi, Vec2(10, height)}}};
-  const FreePath end = path_end<FreePathBatch, 0>(scene, 20);
+  const FreePath end = path_end<EllipseFreePathBatch, 0>(scene, 20);
   EXPECT_EQ(end.partner, 0u);
   EXPECT_NEAR(end.length, 10 - height, 10 * gap);
 }
 
 // An ellipse closer than the gap is touched at once if it is ahead, and ignored if it is behind or masked out.
-TEST(FreePathBatch, TouchesAtOnceWhatIsAhead) {
+TEST(EllipseFreePathBatch, TouchesAtOnceWhatIsAhead) {
   const Ellipse shape{2, 1};
   for (const double side : {1., -1.}) {
     const Scene scene{
         shape, 0.3, {{shape, 0.3, side * (2 + 0.5 * gap) * direction(0.3 + 0.5 * pi)}}};
-    const FreePath end = path_end<FreePathBatch, 1>(scene, 1);
+    const FreePath end = path_end<EllipseFreePathBatch, 1>(scene, 1);
     EXPECT_EQ(end.partner, side > 0 ? 0 : FreePath::none);
     EXPECT_EQ(end.length, side > 0 ? 0 : 1);
   }
-  FreePathBatch<0> paths(shape, Vec2(1, 0), gap, 1);
+  EllipseFreePathBatch<0> paths({shape, Vec2(1, 0)}, gap, 1);
   EllipseBatch group;
   group.set(2, shape, Vec2(4.5, 0), Vec2(1, 0));
   paths.add(group, 0, Vec2::Zero(), detail::all_lanes_but(2));

@@ -17,7 +17,6 @@
 #include "mc/event_chain.h"
 #include "mc/insertion.h"
 #include "mc/lattice.h"
-#include "mc/sampler.h"
 #include "mc/swelling.h"
 #include "tests/support/hard_spheres.h"
 #include "tests/support/scenes.h"
@@ -36,40 +35,6 @@ Configuration3 sphere_fluid(int cells, double packing_fraction) {
     chains.tune();
   }
   return c;
-}
-
-// The pressure of the fluid by the contacts of chains and by the contact function. Z − 1 of 500 particles differs from
-// that of infinitely many by about 1/N = 0.2 %; 3.5 standard errors, a false alarm of 5e-4 each.
-TEST(SpheresByMonteCarlo, HaveTheEquationOfState) {
-  for (const double phi : {0.3, 0.45}) {
-    Configuration3 c = sphere_fluid(5, phi);
-    EventChain chains(c, {}, 11);
-    for (int round = 0; round < 200; ++round) {
-      chains.sweep();
-      chains.tune();
-    }
-    std::vector<double> of_chains, of_contacts;
-    ContactPressure pressure;
-    for (int block = 0; block < 20; ++block) {
-      const ChainCounts before = chains.counts();
-      for (int sweep = 0; sweep < 60; ++sweep) {
-        chains.sweep();
-        if (sweep % 6 == 0) pressure.add(c);
-      }
-      const ChainCounts& after = chains.counts();
-      of_chains.push_back(1 + (after.ahead - before.ahead) / (after.length - before.length));
-      of_contacts.push_back(pressure.compressibility());
-      pressure.clear();
-    }
-    const Estimate by_chains = estimate(of_chains), by_contacts = estimate(of_contacts);
-    const double z = hard_sphere_compressibility_factor(phi), finite = 0.002 * (z - 1);
-    std::printf("spheres, phi %g: chains %.4f(%.4f), contacts %.4f(%.4f), equation of state %.4f\n",
-                phi, by_chains.mean, by_chains.error, by_contacts.mean, by_contacts.error, z);
-    EXPECT_LT(by_chains.error, 0.005 * z);
-    EXPECT_LT(by_contacts.error, 0.01 * z);
-    EXPECT_NEAR(by_chains.mean, z, 3.5 * by_chains.error + finite);
-    EXPECT_NEAR(by_contacts.mean, z, 3.5 * by_contacts.error + finite);
-  }
 }
 
 /// Independent values per estimate; they are averages over longer times if the effort is greater.
@@ -93,32 +58,57 @@ Configuration3 fluid_of(const Ellipsoid& shape, double packing_fraction) {
   return c;
 }
 
-Estimate by_monte_carlo(Configuration3& c) {
-  Sampler sampler(c, 11);
-  for (int round = 0; round < 40; ++round) {
-    for (int sweep = 0; sweep < 20; ++sweep) sampler.sweep();
-    sampler.tune();
+/// Z by the contacts of chains, and by the contact function of every fourth state.
+struct ByMonteCarlo {
+  Estimate chains, contact_function;
+};
+ByMonteCarlo by_monte_carlo(Configuration3& c, int samples) {
+  EventChain chains(c, {}, 11);
+  for (int sweep = 0; sweep < 400; ++sweep) {
+    chains.sweep();
+    chains.tune();
   }
-  std::vector<double> values;
+  std::vector<double> of_chains, of_contacts;
   ContactPressure pressure;
   for (int block = 0; block < blocks; ++block) {
-    for (int sample = 0; sample < 40 * effort(); ++sample) {
-      for (int sweep = 0; sweep < 4; ++sweep) sampler.sweep();
+    const ChainCounts before = chains.counts();
+    for (int sample = 0; sample < samples; ++sample) {
+      for (int sweep = 0; sweep < 4; ++sweep) chains.sweep();
       pressure.add(c);
     }
-    values.push_back(pressure.compressibility());
+    const ChainCounts& after = chains.counts();
+    of_chains.push_back(1 + (after.ahead - before.ahead) / (after.length - before.length));
+    of_contacts.push_back(pressure.compressibility());
     pressure.clear();
   }
-  return estimate(values);
+  return {estimate(of_chains), estimate(of_contacts)};
+}
+
+// The pressure of the fluid by the contacts of chains and by the contact function. Z − 1 of 500 particles differs from
+// that of infinitely many by about 1/N = 0.2 %; 3.5 standard errors, a false alarm of 5e-4 each.
+TEST(SpheresByMonteCarlo, HaveTheEquationOfState) {
+  for (const double phi : {0.3, 0.45}) {
+    Configuration3 c = sphere_fluid(5, phi);
+    const auto [by_chains, by_contacts] = by_monte_carlo(c, 15);
+    const double z = hard_sphere_compressibility_factor(phi), finite = 0.002 * (z - 1);
+    std::printf("spheres, phi %g: chains %.4f(%.4f), contacts %.4f(%.4f), equation of state %.4f\n",
+                phi, by_chains.mean, by_chains.error, by_contacts.mean, by_contacts.error, z);
+    EXPECT_LT(by_chains.error, 0.005 * z);
+    EXPECT_LT(by_contacts.error, 0.01 * z);
+    EXPECT_NEAR(by_chains.mean, z, 3.5 * by_chains.error + finite);
+    EXPECT_NEAR(by_contacts.mean, z, 3.5 * by_contacts.error + finite);
+  }
 }
 
 Estimate by_motion(Configuration3 c, FreeRotation rotation) {
   draw_velocities(c, 7, Purpose::velocities, 0, Temperature::relative);
   RunState3 state = begin_run(c, -5);
   FrameRecorder<3> recorder;
-  const double window = 4 + effort();  // the virial scatters less than the contact function
+  const double window = 10. * effort();
   RunPlan3 plan{linear_times(window, window * blocks), window * blocks, &recorder, {}};
-  run(state, {.engine = {.rotation = rotation}}, plan, {});
+  DynamicsOptions options;
+  options.engine.rotation = rotation;
+  run(state, options, plan, {});
   std::vector<double> values;
   for (std::size_t k = 0; k < blocks; ++k)
     values.push_back(virial_compressibility(
@@ -142,15 +132,17 @@ class SolidsByMonteCarlo : public testing::TestWithParam<FluidOfSolids> {
   }
 };
 
-// Two independent roads to one number, which does not depend on how free bodies rotate. 3.5 standard errors of the
+// Three independent roads to one number, which does not depend on how free bodies rotate. 3.5 standard errors of the
 // difference, a false alarm of 5e-4 each.
 TEST_P(SolidsByMonteCarlo, HaveThePressureOfMotion) {
   const auto& [name, shape, phi] = GetParam();
   Configuration3 c = fluid_of(shape, phi);
   ASSERT_NEAR(packing_fraction(c), phi, 1e-9);
-  const Estimate mc = by_monte_carlo(c);
+  const auto [mc, contacts] = by_monte_carlo(c, 40 * effort());
   record("monte_carlo", mc);
-  EXPECT_LT(mc.error, 0.015 * mc.mean);
+  record("contact_function", contacts);
+  EXPECT_LT(mc.error, 0.005 * mc.mean);
+  EXPECT_LT(contacts.error, 0.015 * contacts.mean);
   std::vector<std::pair<const char*, FreeRotation>> rotations{{"motion", FreeRotation::euler}};
   if (shape.is_scalene()) rotations.emplace_back("constant_rotation", FreeRotation::constant);
   for (const auto& [motion, rotation] : rotations) {
@@ -158,6 +150,7 @@ TEST_P(SolidsByMonteCarlo, HaveThePressureOfMotion) {
     record(motion, ed);
     EXPECT_LT(ed.error, 0.01 * mc.mean);
     EXPECT_NEAR(mc.mean, ed.mean, 3.5 * std::hypot(mc.error, ed.error));
+    EXPECT_NEAR(contacts.mean, ed.mean, 3.5 * std::hypot(contacts.error, ed.error));
   }
 }
 

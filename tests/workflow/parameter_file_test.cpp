@@ -39,10 +39,6 @@ struct BadFile {
 // Every rule of `validate`, with the place of the value that breaks it.
 const BadFile bad_files[] = {
     {"[system]\ndimension = 4", "file.toml:2:13: key 'system.dimension' is 4, but must be 2 or 3"},
-    {"[system]\ndimension = 3\n[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"swell\"\n"
-     "[[prepare.stage]]\nmethod = \"sample\"",
-     "key 'prepare.stage.2.moves' is \"chains\", but in three dimensions event chains are for "
-     "spheres"},
     {"[system]\nbox_aspect = [1, 2]",
      "file.toml:2:14: key 'system.box_aspect' has 2 entries, but must be one number, L_y/L_x"},
     {"[system]\ndimension = 3\nbox_aspect = [1, 2, 3]",

@@ -429,15 +429,16 @@ TEST_P(StoppedSolids, ContinueBitIdentical) {
   EXPECT_EQ(parts.trials().tried(), whole.trials().tried());
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, StoppedSolids,
-                         testing::Values(SolidsBy{"swell", SwellStage()},
-                                         SolidsBy{"swell_spheres", SwellStage(), 1},
-                                         SolidsBy{"compress", compression_in_space()},
-                                         SolidsBy{"hybrid", by_both(Moves::local)},
-                                         SolidsBy{"hybrid_chains", by_both(Moves::chains), 1},
-                                         SolidsBy{"sample", sampling(Moves::local)},
-                                         SolidsBy{"sample_chains", sampling(Moves::chains), 1}),
-                         [](const auto& at) { return at.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Methods, StoppedSolids,
+    testing::Values(SolidsBy{"swell", SwellStage()}, SolidsBy{"swell_spheres", SwellStage(), 1},
+                    SolidsBy{"compress", compression_in_space()},
+                    SolidsBy{"hybrid", by_both(Moves::local)},
+                    SolidsBy{"hybrid_chains", by_both(Moves::chains)},
+                    SolidsBy{"sample", sampling(Moves::local)},
+                    SolidsBy{"sample_chains", sampling(Moves::chains)},
+                    SolidsBy{"sample_chains_spheres", sampling(Moves::chains), 1}),
+    [](const auto& at) { return at.param.name; });
 
 TEST(Prepare, AStuckStateIsKept) {
   Parameters parameters = small(0.88);

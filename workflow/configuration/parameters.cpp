@@ -101,8 +101,7 @@ FieldVisitor::Inside fields(Parameters& p, const Sections& sections) {
 void validate(const Parameters& parameters) {
   validate_system(parameters.system);
   validate_species(parameters.species, parameters.system.dimension);
-  validate_stages(parameters.stages, parameters.system,
-                  std::ranges::all_of(parameters.species, is_round));
+  validate_stages(parameters.stages, parameters.system);
   validate_dynamics(parameters.dynamics);
   if (parameters.dynamics.contact) validate_contact(parameters);
   validate_output(parameters);

@@ -40,7 +40,7 @@ std::vector<StageField<CompressStage>> CompressStage::fields() {
           {"sweeps", describe_sweeps}};
 }
 
-void CompressStage::validate(const Rules& rules, const StageSubject&) const {
+void CompressStage::validate(const Rules& rules, int /*dimension*/) const {
   rules.require(max_sweeps >= 1, "max_sweeps", "is 0, but must be at least 1");
   rules.require(sweeps >= 1, "sweeps", "is 0, but must be at least 1");
   rules.positive(pressure, "pressure");

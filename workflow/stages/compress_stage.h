@@ -25,7 +25,7 @@ struct CompressStage : StageDefaults {
   std::uint64_t sweeps = CompressionOptions().sweeps;  ///< without one
 
   static std::vector<StageField<CompressStage>> fields();
-  void validate(const Rules& rules, const StageSubject& subject) const;
+  void validate(const Rules& rules, int dimension) const;
   StageEnding ending() const;
   double end(const SystemParameters& system, double before) const;
   std::string description(double goal) const;

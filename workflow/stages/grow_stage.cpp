@@ -25,7 +25,7 @@ std::vector<StageField<GrowStage>> GrowStage::fields() {
           {"retries", describe_retries}};
 }
 
-void GrowStage::validate(const Rules& rules, const StageSubject&) const {
+void GrowStage::validate(const Rules& rules, int /*dimension*/) const {
   validate_growth_rate(growth_rate, rules);
   validate_reduced_pressure(reduced_pressure, rules);
   rules.require(retries >= 0 && retries <= 30, "retries",

@@ -23,7 +23,7 @@ struct GrowStage : StageDefaults {
   int retries = 5;
 
   static std::vector<StageField<GrowStage>> fields();
-  void validate(const Rules& rules, const StageSubject& subject) const;
+  void validate(const Rules& rules, int dimension) const;
   StageEnding ending() const;
   double end(const SystemParameters& system, double before) const;
   std::string description(double goal) const;

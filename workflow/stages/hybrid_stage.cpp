@@ -25,8 +25,7 @@ std::vector<StageField<HybridStage>> HybridStage::fields() {
           {"moves", describe_moves}};
 }
 
-void HybridStage::validate(const Rules& rules, const StageSubject& subject) const {
-  validate_moves(moves, subject, rules);
+void HybridStage::validate(const Rules& rules, int /*dimension*/) const {
   validate_exchanges(exchanges, rules);
   rules.require(stretch_sweeps >= 1, "stretch_sweeps",
                 "is 0, but must be at least 1; without sweeps the method is \"grow\"");

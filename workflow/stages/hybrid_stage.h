@@ -26,7 +26,7 @@ struct HybridStage : StageDefaults {
   double exchanges = SamplingOptions().exchanges;
 
   static std::vector<StageField<HybridStage>> fields();
-  void validate(const Rules& rules, const StageSubject& subject) const;
+  void validate(const Rules& rules, int dimension) const;
   StageEnding ending() const;
   double end(const SystemParameters& system, double before) const;
   std::string description(double goal) const;

@@ -79,8 +79,7 @@ std::vector<StageField<InsertStage>> InsertStage::fields() {
           {"orientations", describe_orientations}};
 }
 
-void InsertStage::validate(const Rules& rules, const StageSubject& subject) const {
-  const int dimension = subject.dimension;
+void InsertStage::validate(const Rules& rules, int dimension) const {
   rules.require(attempts >= 1, "attempts", "is 0, but must be at least 1");
   rules.require(dimension == 3 || orientations != Orientations::planar, "orientations",
                 "is \"planar\", which has a meaning only with dimension = 3");

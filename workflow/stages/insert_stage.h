@@ -24,7 +24,7 @@ struct InsertStage : StageDefaults {
   std::optional<std::vector<double>> orientation_tensor;
 
   static std::vector<StageField<InsertStage>> fields();
-  void validate(const Rules& rules, const StageSubject& subject) const;
+  void validate(const Rules& rules, int dimension) const;
   double end(const SystemParameters& system, double before) const;
   std::string description(double goal) const;
   template <int Dim>

@@ -37,16 +37,16 @@ std::vector<StageField<LatticeStage>> LatticeStage::fields() {
           {"angle", describe_angle}};
 }
 
-void LatticeStage::validate(const Rules& rules, const StageSubject& subject) const {
+void LatticeStage::validate(const Rules& rules, int dimension) const {
   rules.require(std::isfinite(angle), "angle", "must be a finite number");
   rules.require(arrangement == Arrangement::square || angle == 0, "angle",
                 fmt::format("is {}, but must be 0 on all but the square lattice", show(angle)));
-  rules.require(has_dimension(arrangement, subject.dimension), "arrangement",
+  rules.require(has_dimension(arrangement, dimension), "arrangement",
                 fmt::format("is \"{}\", but must be {}",
                             arrangement_names[static_cast<std::size_t>(arrangement)],
-                            subject.dimension == 2 ? "\"square\" or \"triangular\""
-                                                   : "\"simple_cubic\", \"face_centred_cubic\" or "
-                                                     "\"body_centred_cubic\" in three dimensions"));
+                            dimension == 2 ? "\"square\" or \"triangular\""
+                                           : "\"simple_cubic\", \"face_centred_cubic\" or "
+                                             "\"body_centred_cubic\" in three dimensions"));
 }
 
 double LatticeStage::end(const SystemParameters& system, double) const {

@@ -18,7 +18,7 @@ struct LatticeStage : StageDefaults {
   double angle = LatticeOptions().angle;
 
   static std::vector<StageField<LatticeStage>> fields();
-  void validate(const Rules& rules, const StageSubject& subject) const;
+  void validate(const Rules& rules, int dimension) const;
   double end(const SystemParameters& system, double before) const;
   std::string description(double goal) const;
   template <int Dim>

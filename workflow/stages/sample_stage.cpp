@@ -12,8 +12,7 @@ std::vector<StageField<SampleStage>> SampleStage::fields() {
   return {{"moves", describe_moves}, {"sweeps", describe_sweeps}};
 }
 
-void SampleStage::validate(const Rules& rules, const StageSubject& subject) const {
-  validate_moves(moves, subject, rules);
+void SampleStage::validate(const Rules& rules, int /*dimension*/) const {
   rules.require(sweeps >= 1, "sweeps", "is 0, but must be at least 1");
   validate_exchanges(exchanges, rules);
 }

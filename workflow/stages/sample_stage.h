@@ -19,7 +19,7 @@ struct SampleStage : StageDefaults {
   std::uint64_t sweeps = SamplingOptions().sweeps;
 
   static std::vector<StageField<SampleStage>> fields();
-  void validate(const Rules& rules, const StageSubject& subject) const;
+  void validate(const Rules& rules, int dimension) const;
   StageEnding ending() const { return StageEnding::unchanged; }
   double end(const SystemParameters& system, double before) const;
   std::string description(double goal) const;

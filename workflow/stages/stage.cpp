@@ -162,8 +162,7 @@ void describe_stage(Stage& stage, FieldVisitor& visit) {
   }
 }
 
-void validate_stages(const std::vector<Stage>& stages, const SystemParameters& system,
-                     bool is_round) {
+void validate_stages(const std::vector<Stage>& stages, const SystemParameters& system) {
   if (stages.empty())
     throw BadValue("prepare.stage", "is empty, but there must be at least one [[prepare.stage]]");
   double reached = 0;
@@ -172,7 +171,7 @@ void validate_stages(const std::vector<Stage>& stages, const SystemParameters& s
     std::visit(
         [&](const auto& options) {
           validate_place(options, k == 0, rules);
-          options.validate(rules, {system.dimension, is_round});
+          options.validate(rules, system.dimension);
         },
         stages[k]);
     validate_packing_fraction(stages[k], system, reached, rules);

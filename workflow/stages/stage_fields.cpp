@@ -22,12 +22,6 @@ void validate_reduced_pressure(const std::optional<double>& reduced_pressure, co
                             show(*reduced_pressure), show(max_reduced_pressure)));
 }
 
-void validate_moves(Moves moves, const StageSubject& subject, const Rules& rules) {
-  rules.require(
-      subject.dimension == 2 || subject.is_round || moves == Moves::local, "moves",
-      "is \"chains\", but in three dimensions event chains are for spheres; choose \"local\"");
-}
-
 void validate_exchanges(double exchanges, const Rules& rules) {
   rules.require(
       exchanges >= 0 && exchanges < 1, "exchanges",

@@ -48,8 +48,7 @@ void describe_moves(S& stage, FieldVisitor& visit) {
   static constexpr const char* names[] = {"chains", "local"};
   visit.field({"moves", "",
                "Monte Carlo moves: event chains, which relax density and positions many times "
-               "faster, or local moves of one particle at a time, which can use several threads. "
-               "In three dimensions chains are for spheres only."},
+               "faster, or local moves of one particle at a time, which can use several threads."},
               stage.moves, names);
   visit.when(stage.moves == Moves::local, "moves = \"local\"", [&](FieldVisitor& in) {
     in.field({"exchanges", "",
@@ -70,7 +69,6 @@ void describe_sweeps(S& stage, FieldVisitor& visit) {
 
 void validate_growth_rate(double growth_rate, const Rules& rules);
 void validate_reduced_pressure(const std::optional<double>& reduced_pressure, const Rules& rules);
-void validate_moves(Moves moves, const StageSubject& subject, const Rules& rules);
 void validate_exchanges(double exchanges, const Rules& rules);
 
 }  // namespace vitrel

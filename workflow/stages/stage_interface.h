@@ -40,12 +40,6 @@ enum class StageEnding {
   unchanged,         ///< ends at the packing fraction at which it begins
 };
 
-/// What the options of a stage must suit.
-struct StageSubject {
-  int dimension;
-  bool is_round;  ///< all particles are disks or spheres
-};
-
 /// The input of a stage.
 struct StageContext {
   double packing_fraction;  ///< `end` of the stage
@@ -66,7 +60,7 @@ struct StageDefaults {
   static constexpr bool places_particles = false;
 
   StageEnding ending() const { return StageEnding::packing_fraction; }
-  void validate(const Rules&, const StageSubject&) const {}
+  void validate(const Rules&, int /*dimension*/) const {}
   /// Monte Carlo sweeps draw random numbers by their number, counted over all stages.
   template <class State>
   static void number_sweeps(State&, std::uint64_t /*next_sweep*/) {}

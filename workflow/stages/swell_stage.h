@@ -21,7 +21,7 @@ struct SwellStage : StageDefaults {
   std::uint64_t max_sweeps = SwellingOptions().sweeps;
 
   static std::vector<StageField<SwellStage>> fields();
-  void validate(const Rules& rules, const StageSubject& subject) const;
+  void validate(const Rules& rules, int dimension) const;
   double end(const SystemParameters& system, double before) const;
   std::string description(double goal) const;
   template <int Dim>
