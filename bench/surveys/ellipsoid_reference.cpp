@@ -175,22 +175,24 @@ std::optional<Real> overlap_beyond(const Pair& pair, Real time, Real approach_sp
   return {};
 }
 
+/// Where `holds` begins to be false, between a time at which it is true and one at which it is not.
+template <class Condition>
+Real last_time(Real yes, Real no, const Condition& holds) {
+  while (true) {
+    const Real middle = yes + (no - yes) / 2;
+    if (middle <= yes || middle >= no) return yes;
+    (holds(middle) ? yes : no) = middle;
+  }
+}
+
+/// The surfaces touch where the overlap begins, as computed; rounding may hide a gap as large as the one before it.
 TrueEllipsoidContact crossing_between(const Pair& pair, Real disjoint, Real overlapping,
                                       int pieces) {
-  while (true) {
-    const Real middle = disjoint + (overlapping - disjoint) / 2;
-    if (middle <= disjoint || middle >= overlapping) break;
-    if (pair.overlapping(middle))
-      overlapping = middle;
-    else if (pair.disjoint(middle))
-      disjoint = middle;
-    else
-      break;
-  }
   TrueEllipsoidContact found;
   found.outcome = Outcome::contact;
-  found.time = disjoint + (overlapping - disjoint) / 2;
-  found.uncertainty = (overlapping - disjoint) / 2;
+  found.time = last_time(disjoint, overlapping, [&](Real t) { return !pair.overlapping(t); });
+  found.uncertainty =
+      found.time - last_time(disjoint, found.time, [&](Real t) { return pair.disjoint(t); });
   found.pieces = pieces;
   return found;
 }

@@ -28,10 +28,11 @@ using TrueEllipsoidContact = TrueContactOf<3>;
 /// Euler's equations, since |Iⱼ − Iₖ| ≤ Iᵢ; and ½ d²(nᵀΣn)/dt² = ṅᵀΣṅ + nᵀΣn̈, in which (a² + c²)/2 may be taken from Σ
 /// as |n| = 1, so that its norm is (a² − c²)/2. The times approach the first contact from below, close to
 /// it with Newton's speed. Where G has become as small as rounding, the time by which the surfaces must
-/// have crossed is tried for an overlap, and the crossing bisected.
+/// have crossed is tried for an overlap, and the beginning of the overlap bisected. The uncertainty is the time since the
+/// bodies were last disjoint by more than rounding.
 ///
 /// Rounding of the attitude is counted with an estimate, TaylorTop::sensitivity, not with a proven bound. Near the
-/// separatrix of flat bodies it makes the uncertainty of a contact as large as 1e-8, more than the errors looked for.
+/// separatrix of flat bodies it makes the uncertainty of a contact as large as 1e-6, far more than the time is off.
 ///
 /// `undecided`: no overlap is found there: the surfaces touch, or miss each other by the rounding. Sizes
 /// must not become negative within the horizon.

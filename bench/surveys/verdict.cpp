@@ -36,6 +36,44 @@ Verdict timing(double off, double allowed, bool degenerate, bool at_rounding) {
   return degenerate && at_rounding ? Verdict::correct : Verdict::early;
 }
 
+/// By how much the contact moves if each number of the initial rotations changes by one unit in the last place of its
+/// vector, all in the worst way.
+double effect_of_rounding(const EllipsoidCase& asked, const TrueEllipsoidContact& truth) {
+  constexpr double unit = std::numeric_limits<double>::epsilon();
+  double sum = 0;
+  const auto add = [&](Flight<GrowingEllipsoid> EllipsoidCase::*body, const auto& number_of,
+                       int numbers, double size) {
+    for (int k = 0; k < numbers; ++k) {
+      EllipsoidCase other = asked;
+      number_of(other.*body)[k] += unit * size;
+      let_tumble(other);
+      const TrueEllipsoidContact moved = truth_of(other);
+      if (moved.outcome == TrueEllipsoidContact::Outcome::contact)
+        sum += static_cast<double>(std::abs(moved.time - truth.time));
+    }
+  };
+  for (const auto body : {&EllipsoidCase::one, &EllipsoidCase::two}) {
+    add(
+        body, [](auto& flight) -> Vec3& { return flight.motion.angular_velocity; }, 3,
+        (asked.*body).motion.angular_velocity.norm());
+    add(
+        body, [](auto& flight) -> auto& { return flight.pose.orientation.coeffs(); }, 4, 1);
+  }
+  return sum;
+}
+
+/// By how much the time may be off; `off` tells whether that must be known exactly.
+template <int Dim>
+double allowed_error(const CollisionCaseOf<Dim>& asked, const TrueContactOf<Dim>& truth,
+                     double tolerance, double off, bool degenerate) {
+  constexpr int roundings = 10;
+  if (std::abs(off) <= tolerance) return tolerance;
+  if constexpr (Dim == 3)
+    if (asked.tumbles() && !degenerate)
+      return tolerance + roundings * effect_of_rounding(asked, truth);
+  return tolerance + static_cast<double>(truth.uncertainty);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -58,8 +96,7 @@ Assessment assess(const CollisionCaseOf<Dim>& asked, const TrueContactOf<Dim>& t
                   const Prediction<Dim>& answer, const AllowedError& tolerance) {
   using Truth = typename TrueContactOf<Dim>::Outcome;
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  // The truth itself is no better known than that.
-  const double allowed = tolerance.time * asked.horizon + static_cast<double>(truth.uncertainty);
+  const double tolerated = tolerance.time * asked.horizon;
   Assessment assessment{Verdict::correct, is_degenerate(asked, truth), none, none};
 
   const bool contact = answers_contact(answer);
@@ -69,7 +106,7 @@ Assessment assess(const CollisionCaseOf<Dim>& asked, const TrueContactOf<Dim>& t
     return assessment;
   }
   if (truth.outcome == Truth::overlap_at_start) {
-    assessment.verdict = contact && time <= allowed ? Verdict::correct : Verdict::missed;
+    assessment.verdict = contact && time <= tolerated ? Verdict::correct : Verdict::missed;
     return assessment;
   }
   if (!contact) {
@@ -78,6 +115,9 @@ Assessment assess(const CollisionCaseOf<Dim>& asked, const TrueContactOf<Dim>& t
   }
 
   const auto off = static_cast<double>(time - truth.time);
+  const double allowed = truth.outcome == Truth::contact
+                             ? allowed_error(asked, truth, tolerated, off, assessment.degenerate)
+                             : tolerated;
   const bool near_in_time = truth.outcome == Truth::contact && std::abs(off) <= allowed;
   const auto gap = static_cast<double>(gap_at(asked, time));
   const bool at_rounding = gap <= tolerance.gap * asked.gap_unit();

@@ -20,6 +20,9 @@ struct AllowedError {
 ///   or early, or, if the pair is degenerate and the true gap at the reported time is within the gap
 ///   tolerance, right though early. Overlap counts as a contact at time 0, but as false if the
 ///   surfaces are then apart by more than the tolerance.
+///   To the tolerance is added the uncertainty of τ; if the bodies tumble, and the pair is not degenerate,
+///   instead ten times what one unit in the last place of each number of the initial orientations and
+///   angular velocities does to τ (of its vector; all added), which near the separatrix is much.
 /// - No contact, or undecided (the surfaces touch to within the rounding of the reference): none is
 ///   right; a contact is right if the true gap at the reported time is within the tolerance, else
 ///   false.

@@ -87,9 +87,10 @@ The reference implementation follows a separating axis in 80-bit arithmetic, wit
 the completed criterion of η₁ … η₅ detects the overlap. Of tumbling bodies it integrates Euler's equations by Taylor series,
 and bounds the motion between two times by |ω|² ≤ 2E/I₁, where I₁ is the smallest moment. An answer is correct if its error
 is at most {TOLERANCE:g} of the horizon. If the surfaces cross at less than 0.02 (a₁ + a₂)/horizon, an early answer is also correct if
-the gap is at most 10⁻⁸ of the shortest semi-axis. The uncertainty of the reference is allowed in addition. It is negligible
-except for bodies that tumble close to the separatrix or fast, at κ = 20, where rounding grows by many orders of magnitude:
-there some answers are confirmed only to that uncertainty.
+the gap is at most 10⁻⁸ of the shortest semi-axis. The uncertainty of the reference is allowed in addition; it is negligible
+except at grazing contacts. If the bodies tumble, what is allowed instead is ten times the effect of one unit in the last
+place of each number of their initial orientations and angular velocities: close to the separatrix, and in fast rotation, this
+grows by many orders of magnitude.
 
 Required: every answer of the default method is correct. Its wrong answers: 0 of {sum(row["pairs"] for row in rows.of(DEFAULT))}.
 

@@ -168,6 +168,27 @@ TEST(TumblingClasses, NearSeparatrixHasTheEnergyOfTheMiddleAxis) {
   }
 }
 
+// Close to the separatrix rounding of the initial state moves the contact by some 1e-10, of which ten are allowed.
+TEST(TumblingClasses, AreAsWellKnownAsTheirInitialState) {
+  for (const CaseClassOf<3>& of : ellipsoid_suite()) {
+    if (of.name != "tumbling_near_separatrix" || of.aspect_ratio != 20) continue;
+    constexpr std::uint64_t sensitive = 16'201;
+    const EllipsoidCase asked = make_case(of, seed, sensitive);
+    const TrueEllipsoidContact truth = truth_of(asked);
+    ASSERT_EQ(truth.outcome, Truth::contact);
+    const auto verdict = [&](double off) {
+      Prediction3 answer;
+      answer.outcome = Outcome::contact;
+      answer.time = static_cast<double>(truth.time) + off;
+      return assess(asked, truth, answer, {1e-12, 1e-8}).verdict;
+    };
+    EXPECT_EQ(verdict(1e-9), Verdict::correct);
+    EXPECT_EQ(verdict(-1e-9), Verdict::correct);
+    EXPECT_EQ(verdict(1e-7), Verdict::late);
+    EXPECT_EQ(verdict(-1e-7), Verdict::early);
+  }
+}
+
 // ---- The methods ----
 
 struct Named {
