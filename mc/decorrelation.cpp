@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "core/elementary.h"
+#include "core/state/figure_axis.h"
 #include "mc/contact_pressure.h"
 #include "mc/sampler.h"
 
@@ -15,31 +16,43 @@ constexpr std::uint64_t tuning_share = 5;  // a fifth of the sweeps
 constexpr std::uint64_t sweeps_between_tunings = 5, sweeps_per_pressure = 5;
 constexpr double spacing = 1.0797751623277097 * (1 - 1e-9);  // 30 per decade
 
+/// Of one particle.
+double orientation_kept(const Configuration2& before, const Configuration2& now, std::size_t i) {
+  return cosine_and_sine(2 * (now.angle[i] - before.angle[i])).cosine;
+}
+double orientation_kept(const Configuration3& before, const Configuration3& now, std::size_t i) {
+  const double cosine = figure_axis(now.shape[i], now.orientation[i])
+                            .dot(figure_axis(before.shape[i], before.orientation[i]));
+  return 1.5 * cosine * cosine - 0.5;
+}
+
 /// C₂ between two configurations of the same particles.
-double orientation_correlation(const Configuration2& before, const Configuration2& now) {
+template <int Dim>
+double orientation_correlation(const Configuration<Dim>& before, const Configuration<Dim>& now) {
   double sum = 0;
   for (std::size_t i = 0; i < now.size(); ++i)
-    if (!now.shape[i].is_round())
-      sum += cosine_and_sine(2 * (now.angle[i] - before.angle[i])).cosine;
+    if (!now.shape[i].is_round()) sum += orientation_kept(before, now, i);
   return sum / static_cast<double>(rotor_count(now));
 }
 
-double displacement_in_widths(const Configuration2& before, const Configuration2& now) {
+template <int Dim>
+double displacement_in_widths(const Configuration<Dim>& before, const Configuration<Dim>& now) {
   double sum = 0;
   for (std::size_t i = 0; i < now.size(); ++i) {
-    const double width = 2 * now.shape[i].b;
+    const double width = 2 * now.shape[i].inradius();
     sum += (now.unwrapped(i) - before.unwrapped(i)).squaredNorm() / (width * width);
   }
   return std::sqrt(sum / static_cast<double>(now.size()));
 }
 
 /// Compares configurations with the first one.
+template <int Dim>
 class Comparison {
  public:
-  Comparison(const Configuration2& start, Decorrelation& result)
+  Comparison(const Configuration<Dim>& start, Decorrelation& result)
       : start_(start), rotors_(rotor_count(start) > 0), result_(result) {}
 
-  void compare(const Configuration2& now, std::uint64_t t) {
+  void compare(const Configuration<Dim>& now, std::uint64_t t) {
     const double moved = displacement_in_widths(start_, now);
     if (!result_.displacement_time && moved > 1) result_.displacement_time = t;
     const double kept = rotors_ ? orientation_correlation(start_, now) : 1;
@@ -53,18 +66,19 @@ class Comparison {
   }
 
  private:
-  const Configuration2 start_;
+  const Configuration<Dim> start_;
   const bool rotors_;
   Decorrelation& result_;
 };
 
 }  // namespace
 
-std::optional<Decorrelation> measure_decorrelation(const Configuration2& configuration,
+template <int Dim>
+std::optional<Decorrelation> measure_decorrelation(const Configuration<Dim>& configuration,
                                                    std::uint64_t sweeps, std::uint64_t seed,
                                                    std::uint64_t first_sweep,
                                                    const RunControl& control, int threads) {
-  Configuration2 copy = configuration;
+  Configuration<Dim> copy = configuration;
   Sampler sampler(copy, seed, {.next_sweep = first_sweep}, threads);
   const auto sweep = [&](std::uint64_t done) {
     if (control.stop_requested()) return false;
@@ -91,5 +105,12 @@ std::optional<Decorrelation> measure_decorrelation(const Configuration2& configu
   }
   return result;
 }
+
+template std::optional<Decorrelation> measure_decorrelation(const Configuration2&, std::uint64_t,
+                                                            std::uint64_t, std::uint64_t,
+                                                            const RunControl&, int);
+template std::optional<Decorrelation> measure_decorrelation(const Configuration3&, std::uint64_t,
+                                                            std::uint64_t, std::uint64_t,
+                                                            const RunControl&, int);
 
 }  // namespace vitrel

@@ -14,8 +14,9 @@ namespace vitrel {
 ///
 /// In the first fifth of the sweeps the step sizes adapt; then they are fixed, and everything is measured relative to
 /// the configuration reached, t sweeps later:
-///   - orientation C₂(t) = ⟨cos 2(θ(t) − θ(0))⟩ of the particles that are not round;
-///   - displacement √⟨|r(t) − r(0)|²/(2b)²⟩, in particle widths 2b;
+///   - orientation C₂(t) of the particles that are not round: ⟨cos 2(θ(t) − θ(0))⟩ in the plane, ⟨P₂(w(t)·w(0))⟩ of the
+///     figure axes w (figure_axis.h) in space;
+///   - displacement √⟨|r(t) − r(0)|²/(2b)²⟩, in particle widths 2b, b the shortest semi-axis;
 ///   - Z = βP/ρ in every fifth configuration (contact_pressure.h).
 /// C₂ decays from 1 to 0 as orientations decorrelate; in a nematic it stays near S². With step sizes adapted to the
 /// density, a sweep is a natural unit of time for comparing states at equal acceptance.
@@ -34,7 +35,8 @@ struct Decorrelation {
 
 /// `sweeps` ≥ 1 are numbered from `first_sweep`, with the random streams of the sampler; the result does not depend
 /// on the number of threads. Empty if stopped.
-std::optional<Decorrelation> measure_decorrelation(const Configuration2& configuration,
+template <int Dim>
+std::optional<Decorrelation> measure_decorrelation(const Configuration<Dim>& configuration,
                                                    std::uint64_t sweeps, std::uint64_t seed,
                                                    std::uint64_t first_sweep,
                                                    const RunControl& control, int threads = 1);

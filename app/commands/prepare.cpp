@@ -110,26 +110,16 @@ void print_outcome(const PrepareOptions& options, const Preparation<3>& preparat
   print_rows(quality_rows(quality));
 }
 
-/// Nothing if the run control asked to stop.
-std::optional<Quality> measured(const Preparation<2>& preparation, const Parameters& parameters,
-                                const Session& session, int threads) {
-  return measure_quality(preparation, parameters, session.control(), threads);
-}
-std::optional<PackingQuality> measured(const Preparation<3>& preparation, const Parameters&,
-                                       const Session&, int) {
-  return measure_quality(preparation);
-}
-
 template <int Dim>
 int prepare_state(const PrepareOptions& options, const Parameters& parameters) {
   Session session(options.print.quiet, options.wall_time);
   const Preparation<Dim> preparation =
       prepare<Dim>({parameters, options.output, options.command_line, options.threads},
                    session.control(), session.say());
-  decltype(measured(preparation, parameters, session, 1)) quality;
+  decltype(measure_quality(preparation, parameters, session.control())) quality;
   if (preparation.complete) {
     session.say()("quality report");
-    quality = measured(preparation, parameters, session, options.threads);
+    quality = measure_quality(preparation, parameters, session.control(), options.threads);
   }
   session.clear();
   if (!quality) {

@@ -10,6 +10,7 @@
 #include "mc/lattice.h"
 #include "mc/sampler.h"
 #include "tests/support/scenes.h"
+#include "tests/support/solids.h"
 #include "tests/support/statistics.h"
 
 namespace vitrel {
@@ -152,6 +153,37 @@ TEST(Decorrelation, TheBudgetStopsIt) {
   control.should_stop = [&] { return ++asked > 3; };
   EXPECT_FALSE(measure_decorrelation(dilute(2), 50, 1, 0, control));
   EXPECT_EQ(asked, 4);
+}
+
+// In space, by hand again: P₂ of the axes of spheroids, displacements in widths, and Z of the contact function.
+TEST(Decorrelation, InSpaceMeasuresWhatTheSamplerDoes) {
+  const Configuration3 state =
+      cubic_lattice(5, 0.15, [](std::size_t i) { return i % 2 ? prolate(2) : Ellipsoid{}; });
+  const auto result = measure_decorrelation(state, 100, 7, 3, {}, 2);
+  ASSERT_TRUE(result);
+  Configuration3 copy = state;
+  Sampler sampler(copy, 7, {.next_sweep = 3});
+  for (int k = 1; k <= 20; ++k) {
+    sampler.sweep();
+    if (k % 5 == 0) sampler.tune();
+  }
+  const Configuration3 start = copy;
+  sampler.sweep();
+  double kept = 0, moved = 0;
+  for (std::size_t i = 0; i < copy.size(); ++i) {
+    const double width = 2 * copy.shape[i].inradius();
+    moved += (copy.unwrapped(i) - start.unwrapped(i)).squaredNorm() / (width * width) / 125;
+    if (i % 2 == 0) continue;
+    const Vec3 before = start.orientation[i] * Vec3::UnitX();
+    kept += std::legendre(2, before.dot(copy.orientation[i] * Vec3::UnitX())) / 62;
+  }
+  EXPECT_NEAR(result->orientation[0], kept, 1e-13);
+  EXPECT_NEAR(result->displacement[0], std::sqrt(moved), 1e-13);
+  ContactPressure pressure;
+  pressure.add(copy);
+  EXPECT_EQ(result->compressibility[0], pressure.compressibility());
+  ASSERT_TRUE(result->orientation_time);
+  EXPECT_LT(*result->orientation_time, 60u);
 }
 
 }  // namespace

@@ -108,14 +108,15 @@ TEST_F(PackingFile, HasAPage) {
 
 TEST_F(PackingFile, TakesFromTheQualityReportWhatOnlyThePreparationKnows) {
   PackingQuality quality = measure_quality(lattice(), exact_check(lattice()));
-  quality.reduced_pressure = 17;
+  quality.pressure_from = StateQuality::PressureFrom::sampling;
+  quality.reduced_pressure = {17, 0.5, 0};
   quality.first_orientation_tensor = Vec3(0.5, 0.25, 0.25).asDiagonal();
   quality.collisions = 4321;
   quality.wall_seconds = 2.5;
   quality.backbone = JammedBackbone{{6, 1000, 9.52, 10}, 2e-3};
   write_quality(quality_file(file()), quality);
   const std::string text = packing_page(packing_page_data(file(), {}));
-  EXPECT_THAT(text, HasSubstr("<td>17</td>"));
+  EXPECT_THAT(text, HasSubstr("<td>17.00 ± 0.50</td>"));
   EXPECT_THAT(text, HasSubstr("at the start 0.500, 0.250, 0.250; 0.000"));
   EXPECT_THAT(text, HasSubstr("<td>4321</td>"));
   EXPECT_THAT(text, HasSubstr("<td>2.5 s</td>"));

@@ -142,11 +142,12 @@ TEST(MeasureQuality, TheBudgetStopsIt) {
 PackingQuality packing_grown_to(const std::string& pressure) {
   const Parameters parameters = parse_parameters(
       "[system]\ndimension = 3\nparticles = 64\n[[species]]\naspect_ratio = 1\n"
-      "[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"grow\"\ngrowth_rate = 0.02\n"
+      "[prepare]\nquality_sweeps = 100\n[[prepare.stage]]\n[[prepare.stage]]\nmethod = "
+      "\"grow\"\ngrowth_rate = 0.02\n"
       "reduced_pressure = " +
           pressure,
       "p.toml");
-  return measure_quality(prepare<3>({parameters}, {}, say_nothing));
+  return *measure_quality(prepare<3>({parameters}, {}, say_nothing), parameters, {});
 }
 
 TEST(MeasureQuality, OfAPackingInSpaceCountsContactsIfItIsJammed) {
@@ -156,7 +157,13 @@ TEST(MeasureQuality, OfAPackingInSpaceCountsContactsIfItIsJammed) {
   EXPECT_GT(jammed.backbone->contact_number, 5);
   EXPECT_LT(jammed.backbone->contact_number, 7);
   EXPECT_EQ(quality_json(jammed)["rattlers"], jammed.backbone->rattlers);
-  EXPECT_FALSE(packing_grown_to("20").backbone);
+  EXPECT_EQ(jammed.pressure_from, StateQuality::PressureFrom::growth);
+  EXPECT_FALSE(jammed.decorrelation->displacement_time);
+  const PackingQuality fluid = packing_grown_to("20");
+  EXPECT_FALSE(fluid.backbone);
+  EXPECT_EQ(fluid.pressure_from, StateQuality::PressureFrom::sampling);
+  EXPECT_NEAR(fluid.reduced_pressure.mean, 20, 5);
+  EXPECT_TRUE(fluid.decorrelation->orientation.empty());
 }
 
 // Rotation in flight and collisions turn the particles afterwards.
@@ -167,7 +174,7 @@ TEST(MeasureQuality, OfAPackingInSpaceKnowsTheOrientationsItBeganWith) {
         "aspect_ratio = 3\n[[prepare.stage]]\nmethod = \"insert\"\norientations = " +
             orientations + "\n[[prepare.stage]]\nmethod = \"grow\"\ngrowth_rate = 0.1",
         "p.toml");
-    return measure_quality(prepare<3>({parameters}, {}, say_nothing));
+    return *measure_quality(prepare<3>({parameters}, {}, say_nothing), parameters, {});
   };
   const PackingQuality aligned = grown_from("\"aligned\"");
   EXPECT_TRUE(aligned.first_orientation_tensor->isApprox(Mat3(Vec3(1, 0, 0).asDiagonal()), 1e-14));

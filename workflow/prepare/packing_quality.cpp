@@ -9,20 +9,11 @@
 #include "core/error.h"
 #include "core/io/json.h"
 #include "core/io/text_file.h"
-#include "workflow/prepare/backbone_report.h"
 
 namespace vitrel {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
-/// Of the last stage that grew for long enough to measure it.
-double pressure_of_growth(const Preparation<3>& preparation) {
-  double pressure = unknown;
-  for (const StageRecord& stage : preparation.stages)
-    if (stage.growth.reduced_pressure > 0) pressure = stage.growth.reduced_pressure;
-  return pressure;
-}
 
 std::string components(const Mat3& tensor) {
   // Zero without the sign of a rounding error.
@@ -62,35 +53,51 @@ Json two_point_json(const TwoPointStatistics& found) {
 }
 
 QualityRow orientation_row(const PackingQuality& quality) {
-  const IsotropicRatio chance = isotropic_ratio(quality.axes);
+  const IsotropicRatio chance = isotropic_ratio(quality.rotors);
   return {"orientation ratio ρ", fmt::format("{:.4f}", quality.orientation_ratio),
           fmt::format("λ_max/λ_min; isotropic: {:.4f} ± {:.4f}", chance.mean,
                       chance.standard_deviation)};
 }
 
-}  // namespace
-
-PackingQuality measure_quality(const Configuration3& packing, const ExactCheck<3>& check) {
+void measure_structure(PackingQuality& quality, const Configuration3& packing) {
   const OrientationTensor tensor = orientation_tensor(packing);
-  PackingQuality quality;
-  quality.particles = packing.size();
-  quality.packing_fraction = packing_fraction(packing);
-  quality.reduced_pressure = unknown;
-  quality.axes = tensor.axes;
   quality.orientation_tensor = tensor.matrix;
   quality.orientation_ratio = tensor.ratio();
   quality.two_point = TwoPointGrid(packing).measure(packing);
+}
+
+/// What reports of earlier versions lack is unknown; their pressure is that of a growth.
+void read_pressure(PackingQuality& quality, const Json& report) {
+  quality.reduced_pressure = {
+      number_or(report.at("reduced_pressure"), unknown),
+      number_or(report.value("reduced_pressure_error", Json(nullptr)), unknown), 0};
+  const bool known = std::isfinite(quality.reduced_pressure.mean);
+  quality.pressure_from =
+      pressure_source(report.value("reduced_pressure_from", known ? "growth" : "nothing"));
+}
+
+}  // namespace
+
+PackingQuality measure_quality(const Configuration3& packing, const ExactCheck<3>& check) {
+  PackingQuality quality;
+  quality.particles = packing.size();
+  quality.rotors = rotor_count(packing);
+  quality.packing_fraction = packing_fraction(packing);
+  quality.reduced_pressure = {unknown, unknown, 0};
   quality.overlaps = check.overlaps.size();
   quality.smallest_gap = check.smallest_gap;
+  measure_structure(quality, packing);
   return quality;
 }
 
-PackingQuality measure_quality(const Preparation<3>& preparation) {
-  PackingQuality quality = measure_quality(preparation.configuration, preparation.check);
+std::optional<PackingQuality> measure_quality(const Preparation<3>& preparation,
+                                              const Parameters& parameters,
+                                              const RunControl& control, int threads) {
+  PackingQuality quality;
+  if (!measure_state(quality, preparation, parameters, control, threads)) return std::nullopt;
+  measure_structure(quality, preparation.configuration);
   if (preparation.stages.front().orientation_tensor.size() == 9)
     quality.first_orientation_tensor = Mat3(preparation.stages.front().orientation_tensor.data());
-  quality.reduced_pressure = pressure_of_growth(preparation);
-  quality.backbone = backbone_at_pressure(preparation.configuration, quality.reduced_pressure);
   for (const StageRecord& stage : preparation.stages)
     quality.collisions += stage.growth.counters.collisions;
   quality.wall_seconds = preparation.wall_seconds;
@@ -106,10 +113,11 @@ void add_preparation(PackingQuality& quality, const std::filesystem::path& file)
           fmt::format("{}: is the quality report of another packing; vitrel prepare "
                       "writes both files together",
                       file.string()));
-    quality.reduced_pressure = number_or(report.at("reduced_pressure"), unknown);
+    read_pressure(quality, report);
     if (report.contains("first_orientation_tensor"))
       quality.first_orientation_tensor = tensor_from(report.at("first_orientation_tensor"));
     if (report.contains("rattlers")) quality.backbone = backbone_from(report);
+    quality.decorrelation = decorrelation_from(report.value("time_correlation", Json(nullptr)));
     quality.collisions = report.at("collisions");
     quality.wall_seconds = report.at("wall_seconds");
   } catch (const Json::exception& error) {
@@ -119,20 +127,16 @@ void add_preparation(PackingQuality& quality, const std::filesystem::path& file)
 }
 
 std::vector<QualityRow> quality_rows(const PackingQuality& quality) {
-  std::vector<QualityRow> rows = {
-      {"packing fraction φ", fmt::format("{:.6g}", quality.packing_fraction), ""}};
-  if (std::isfinite(quality.reduced_pressure))
-    rows.push_back({"reduced pressure βP/ρ", fmt::format("{:.4g}", quality.reduced_pressure),
-                    "at the end of the growth"});
-  if (quality.axes > 0) {
+  std::vector<QualityRow> rows = {packing_fraction_row(quality)};
+  if (quality.pressure_from != StateQuality::PressureFrom::nothing)
+    rows.push_back(pressure_row(quality));
+  if (quality.rotors > 0) {
     rows.push_back(tensor_row(quality));
     rows.push_back(orientation_row(quality));
   }
-  rows.push_back({"smallest gap",
-                  std::isfinite(quality.smallest_gap) ? fmt::format("{:.3g}", quality.smallest_gap)
-                                                      : "beyond the longest semi-axis",
-                  fmt::format("exact check: {} overlaps", quality.overlaps)});
-  add_backbone_rows(rows, quality.backbone, quality.particles);
+  rows.push_back(gap_row(quality));
+  add_backbone_rows(rows, quality);
+  add_time_rows(rows, quality, "⟨P₂(w(t)·w(0))⟩");
   if (quality.collisions > 0)
     rows.push_back(
         {"collisions", fmt::format("{}", quality.collisions),
@@ -144,12 +148,14 @@ std::vector<QualityRow> quality_rows(const PackingQuality& quality) {
 }
 
 Json quality_json(const PackingQuality& quality) {
-  const IsotropicRatio chance = isotropic_ratio(quality.axes);
+  const IsotropicRatio chance = isotropic_ratio(quality.rotors);
   Json json = {{"dimension", 3},
                {"particles", quality.particles},
                {"packing_fraction", quality.packing_fraction},
-               {"reduced_pressure", quality.reduced_pressure},
-               {"axes", quality.axes},
+               {"reduced_pressure", quality.reduced_pressure.mean},
+               {"reduced_pressure_error", quality.reduced_pressure.error},
+               {"reduced_pressure_from", name_of(quality.pressure_from)},
+               {"axes", quality.rotors},
                {"orientation_tensor", tensor_json(quality.orientation_tensor)},
                {"orientation_ratio", quality.orientation_ratio},
                {"isotropic_ratio", chance.mean},
@@ -157,6 +163,7 @@ Json quality_json(const PackingQuality& quality) {
                {"two_point", two_point_json(quality.two_point)},
                {"overlaps", quality.overlaps},
                {"smallest_gap", quality.smallest_gap},
+               {"time_correlation", decorrelation_json(quality.decorrelation)},
                {"collisions", quality.collisions},
                {"wall_seconds", quality.wall_seconds}};
   if (quality.first_orientation_tensor)

@@ -5,36 +5,30 @@
 #include <optional>
 #include <vector>
 
-#include "analysis/structure/contacts.h"
 #include "analysis/structure/orientation_tensor.h"
 #include "analysis/structure/two_point.h"
 #include "core/io/json.h"
-#include "workflow/prepare/prepare.h"
-#include "workflow/prepare/quality_row.h"
+#include "workflow/prepare/state_quality.h"
 
 /// @file
 /// How good a prepared state of three dimensions is.
 namespace vitrel {
 
-struct PackingQuality {
-  std::size_t particles = 0;
-  double packing_fraction = 0;
-  double reduced_pressure = 0;             ///< βP/ρ at the end of the growth; NaN without one
-  std::size_t axes = 0;                    ///< bodies that are not round
-  Mat3 orientation_tensor = Mat3::Zero();  ///< 0 without axes
+struct PackingQuality : StateQuality {
+  Mat3 orientation_tensor = Mat3::Zero();        ///< 0 if all bodies are round
   std::optional<Mat3> first_orientation_tensor;  ///< before the particles moved; none if not known
-  double orientation_ratio = 0;                  ///< ρ = λ_max/λ_min; NaN without axes
+  double orientation_ratio = 0;  ///< ρ = λ_max/λ_min; NaN if all bodies are round
   TwoPointStatistics two_point;
-  std::size_t overlaps = 0;
-  double smallest_gap = 0;                 ///< infinity beyond the longest semi-axis
-  std::optional<JammedBackbone> backbone;  ///< from min_jammed_pressure on
-  std::uint64_t collisions = 0;            ///< of all stages; 0 if not known
-  double wall_seconds = 0;                 ///< 0 if not known
+  std::uint64_t collisions = 0;  ///< of all stages; 0 if not known
+  double wall_seconds = 0;       ///< 0 if not known
 };
 
-/// Of a complete preparation.
-PackingQuality measure_quality(const Preparation<3>& preparation);
-/// Of a packing and its exact check: without the first orientations, pressure, backbone, collisions and wall time.
+/// Of a complete preparation (measure_state). Nothing if the run control asked to stop.
+std::optional<PackingQuality> measure_quality(const Preparation<3>& preparation,
+                                              const Parameters& parameters,
+                                              const RunControl& control, int threads = 1);
+/// Of a packing and its exact check: without what only a preparation knows, which is the first orientations, pressure,
+/// backbone, decorrelation, collisions and wall time.
 PackingQuality measure_quality(const Configuration3& packing, const ExactCheck<3>& check);
 /// Adds these, from what write_quality wrote. FileError if that is no report of the same packing.
 void add_preparation(PackingQuality& quality, const std::filesystem::path& file);

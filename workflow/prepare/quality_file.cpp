@@ -9,50 +9,22 @@
 #include "core/error.h"
 #include "core/io/json.h"
 #include "core/io/text_file.h"
-#include "workflow/prepare/backbone_report.h"
 
 namespace vitrel {
 namespace {
 
-using From = Quality::PressureFrom;
-
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-constexpr const char* source_names[] = {"nothing", "sampling", "growth"};
-
-const char* name_of(From from) {
-  return source_names[static_cast<int>(from)];
-}
-
-From source_of(const std::string& name) {
-  return name == name_of(From::growth)     ? From::growth
-         : name == name_of(From::sampling) ? From::sampling
-                                           : From::nothing;
-}
-
-/// A limit, or how far was looked for it in vain.
-Json limit(bool reached, Json value) {
-  return {{"value", std::move(value)}, {"reached", reached}};
-}
-
-Json sweeps_limit(const std::optional<std::uint64_t>& sweeps, std::uint64_t measured) {
-  return limit(sweeps.has_value(), sweeps.value_or(measured));
-}
-
-std::optional<std::uint64_t> sweeps_of(const Json& limit) {
-  if (!limit.at("reached").get<bool>()) return std::nullopt;
-  return limit.at("value").get<std::uint64_t>();
-}
 
 Json correlation_json(const NematicCorrelation& g) {
   if (g.distance.empty()) return nullptr;
   const double length = correlation_length(g);
   const bool reached = std::isfinite(length);
-  return {{"length", limit(reached, reached ? length : g.distance.front() + g.distance.back())},
-          {"distance", g.distance},
-          {"value", g.value},
-          {"pairs", g.pairs}};
+  return {
+      {"length", limit_json(reached, reached ? length : g.distance.front() + g.distance.back())},
+      {"distance", g.distance},
+      {"value", g.value},
+      {"pairs", g.pairs}};
 }
 
 NematicCorrelation correlation_from(const Json& json) {
@@ -62,43 +34,13 @@ NematicCorrelation correlation_from(const Json& json) {
   return g;
 }
 
-Json decorrelation_json(const std::optional<Decorrelation>& decorrelation) {
-  if (!decorrelation) return nullptr;
-  const bool has_rotors = !decorrelation->orientation.empty();
-  return {
-      {"orientation_lost",
-       has_rotors ? sweeps_limit(decorrelation->orientation_time, decorrelation->measured)
-                  : Json(nullptr)},
-      {"moved_by_width", sweeps_limit(decorrelation->displacement_time, decorrelation->measured)},
-      {"measured_sweeps", decorrelation->measured},
-      {"sweeps", decorrelation->sweeps},
-      {"orientation", decorrelation->orientation},
-      {"displacement", decorrelation->displacement},
-      {"reduced_pressure", decorrelation->compressibility}};
-}
-
-std::optional<Decorrelation> decorrelation_from(const Json& json) {
-  if (json.is_null()) return std::nullopt;
-  Decorrelation decorrelation{json.at("sweeps"),
-                              json.at("orientation"),
-                              json.at("displacement"),
-                              json.at("reduced_pressure"),
-                              json.at("measured_sweeps"),
-                              {},
-                              {}};
-  if (!json.at("orientation_lost").is_null())
-    decorrelation.orientation_time = sweeps_of(json.at("orientation_lost"));
-  decorrelation.displacement_time = sweeps_of(json.at("moved_by_width"));
-  return decorrelation;
-}
-
 Quality quality_from(const Json& json) {
   Quality quality;
   quality.particles = json.at("particles");
   quality.rotors = json.at("rotors");
   quality.packing_fraction = json.at("packing_fraction");
   const Json& pressure = json.at("reduced_pressure");
-  quality.pressure_from = source_of(pressure.at("from"));
+  quality.pressure_from = pressure_source(pressure.at("from"));
   quality.reduced_pressure = {number_or(pressure.at("value"), unknown),
                               number_or(pressure.at("error"), unknown), 0};
   quality.nematic_order = json.at("nematic_order");
