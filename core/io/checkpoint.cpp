@@ -1,8 +1,15 @@
 #include "core/io/checkpoint.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <boost/crc.hpp>
+#include <cerrno>
 #include <cstring>
+#include <fstream>
+#include <string_view>
 #include <vector>
 
 #include "core/error.h"
@@ -14,7 +21,51 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Raised whenever the layout changes; a checkpoint serves to continue a run, not to keep data.
-constexpr std::int32_t layout = 3;
+constexpr std::int32_t layout = 4;
+constexpr std::int32_t unsealed_layout = 3;  // of 0.1.0, without a checksum of the file
+
+/// What follows the HDF5 file, which HDF5 ignores, before the CRC-32 of all bytes up to here.
+constexpr std::string_view seal = "vitrel checkpoint CRC-32";
+using Checksum = std::array<char, sizeof(std::uint32_t)>;
+
+/// Of the first `bytes` bytes.
+Checksum checksum_of(const fs::path& path, std::uintmax_t bytes) {
+  std::ifstream file(path, std::ios::binary);
+  boost::crc_32_type crc;
+  std::vector<char> block(1 << 20);
+  while (bytes > 0) {
+    const auto size = std::min<std::uintmax_t>(bytes, block.size());
+    if (!file.read(block.data(), static_cast<std::streamsize>(size)))
+      throw FileError(path.string() + ": cannot be read");
+    crc.process_bytes(block.data(), size);
+    bytes -= size;
+  }
+  return std::bit_cast<Checksum>(static_cast<std::uint32_t>(crc.checksum()));
+}
+
+void append(const fs::path& path, std::string_view bytes) {
+  std::ofstream file(path, std::ios::binary | std::ios::app);
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  if (!file) throw FileError(path.string() + ": cannot be written: " + std::strerror(errno));
+}
+
+void add_checksum(const fs::path& path) {
+  append(path, seal);
+  const Checksum checksum = checksum_of(path, fs::file_size(path));
+  append(path, {checksum.data(), checksum.size()});
+}
+
+bool has_checksum(const fs::path& path) {
+  const std::uintmax_t size = fs::file_size(path), end = seal.size() + sizeof(Checksum);
+  if (size < end) return false;
+  std::string last(end, '\0');
+  std::ifstream(path, std::ios::binary)
+      .seekg(static_cast<std::streamoff>(size - end))
+      .read(last.data(), static_cast<std::streamsize>(end));
+  const Checksum checksum = checksum_of(path, size - sizeof(Checksum));
+  return last == std::string(seal) + std::string(checksum.data(), checksum.size());
+}
 
 fs::path previous_of(const fs::path& path) {
   fs::path previous = path;
@@ -60,12 +111,15 @@ void write_map(h5::Group& root, const std::string& name, const std::map<std::str
 }
 
 template <class T>
-std::map<std::string, T> read_map(const h5::Group& root, const std::string& name) {
-  const h5::Group group = root.group(name);
+std::map<std::string, T> read_map(const h5::File& file, const std::string& name) {
+  const h5::Group group = file.root().group(name);
   const std::vector<std::string> names = split(read_text(group, "names"));
   const std::vector<T> values = group.dataset("values").read<T>();
+  if (names.size() != values.size())
+    throw FileError(fmt::format("{}: the group {} has {} names, but {} values", file.path(), name,
+                                names.size(), values.size()));
   std::map<std::string, T> map;
-  for (std::size_t k = 0; k < names.size(); ++k) map[names[k]] = values.at(k);
+  for (std::size_t k = 0; k < names.size(); ++k) map[names[k]] = values[k];
   return map;
 }
 
@@ -170,7 +224,7 @@ template <int Dim>
 void write_configuration(h5::Group group, const Configuration<Dim>& configuration) {
   const Vec<Dim>& lengths = configuration.box.lengths();
   group.create_array<double>("box", {Dim}, {lengths.data(), Dim});
-  group.create_array<double>("time", {}, {&configuration.time, 1});
+  group.create_array<double>("time", {1}, {&configuration.time, 1});
   write_rows<double>(group, "position", configuration.position);
   write_rows<std::int32_t>(group, "image", configuration.image);
   write_orientations(group, configuration);
@@ -212,13 +266,16 @@ Checkpoint read_checkpoint(const fs::path& path) {
   const h5::Group root = file.root();
   if (!root.has_attribute("checkpoint_layout"))
     throw FileError(path.string() + ": is not a checkpoint of vitrel");
-  if (root.number_attribute<std::int32_t>("checkpoint_layout") != layout)
+  const auto found = root.number_attribute<std::int32_t>("checkpoint_layout");
+  if (found == layout && !has_checksum(path))
+    throw FileError(path.string() + ": is damaged: its checksum is missing or wrong");
+  if (found != layout && found != unsealed_layout)
     throw FileError(path.string() +
                     ": was written by another version of vitrel: finish the run with "
                     "that version, or start it again");
   return {read_configuration(root.group("configuration")),
-          read_map<double>(root, "reals"),
-          read_map<std::uint64_t>(root, "counters"),
+          read_map<double>(file, "reals"),
+          read_map<std::uint64_t>(file, "counters"),
           read_series(root),
           read_texts(root),
           read_text(root, "parameters")};
@@ -244,6 +301,7 @@ void save_checkpoint(const fs::path& path, const Checkpoint& checkpoint) {
     write_text(root, "parameters", checkpoint.parameters);
   }
   file.close();
+  add_checksum(pending.partial());
   pending.commit(previous_of(path));
 }
 

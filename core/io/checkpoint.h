@@ -23,7 +23,7 @@ struct Checkpoint {
 };
 
 /// Writes `<path>.partial`, waits for the disk, keeps the checkpoint before as `<path>.previous`,
-/// and renames. Doubles are stored exactly. Killed at any moment, or on a full disk, at least
+/// and renames. Doubles are stored exactly, and a checksum covers all bytes. Killed at any moment, or on a full disk, at least
 /// one complete checkpoint stays. Throws FileError; both earlier files are then still there.
 void save_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint);
 
@@ -32,7 +32,7 @@ struct LoadedCheckpoint {
   std::string warning;  ///< empty, or why the previous one had to be taken
 };
 
-/// The newest readable one of `path` and `<path>.previous`. Throws FileError if neither is.
+/// The newest undamaged one of `path` and `<path>.previous`. Throws FileError if neither is.
 LoadedCheckpoint load_checkpoint(const std::filesystem::path& path);
 
 /// Whether load_checkpoint has a file to try.

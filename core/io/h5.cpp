@@ -145,7 +145,9 @@ std::string read_string(Id stored, Read&& read) {
 std::string Object::text_attribute(const std::string& name) const {
   const Handle attribute(file_->run(
       "open attribute", name, [&] { return H5Aopen(handle_.id(), name.c_str(), H5P_DEFAULT); }));
-  const Handle type(H5Aget_type(attribute.id()));
+  const Handle type(H5Aget_type(attribute.id())), space(H5Aget_space(attribute.id()));
+  if (H5Sget_simple_extent_npoints(space.id()) != 1)
+    throw_file_error(file_->path(), "read attribute", name, "it is not one string");
   return read_string(type.id(), [&](Id memory, void* out) {
     file_->run("read attribute", name, [&] { return H5Aread(attribute.id(), memory, out); });
   });
@@ -276,24 +278,19 @@ bool Group::has(const std::string& path) const {
   }
 }
 
-namespace {
-
-bool is_of_type(Id location, const std::string& path, H5I_type_t type) {
-  const Id id = H5Oopen(location, path.c_str(), H5P_DEFAULT);
-  if (id < 0) return false;
-  const bool same = H5Iget_type(id) == type;
-  H5Idec_ref(id);
-  return same;
+bool Group::has_object(const std::string& path, int type) const {
+  if (!has(path)) return false;
+  const Handle object(file_->run("open", path_of(path),
+                                 [&] { return H5Oopen(handle_.id(), path.c_str(), H5P_DEFAULT); }));
+  return H5Iget_type(object.id()) == type;
 }
 
-}  // namespace
-
 bool Group::has_group(const std::string& path) const {
-  return has(path) && is_of_type(handle_.id(), path, H5I_GROUP);
+  return has_object(path, H5I_GROUP);
 }
 
 bool Group::has_dataset(const std::string& path) const {
-  return has(path) && is_of_type(handle_.id(), path, H5I_DATASET);
+  return has_object(path, H5I_DATASET);
 }
 
 std::vector<std::string> Group::members() const {
@@ -344,6 +341,20 @@ Dataset Group::create(const std::string& name, Id type, Id space, Id properties)
 
 namespace {
 
+/// Checksums exist for chunks only; one holds all of an array that is not huge.
+Id with_checksum(const Shape& shape, std::size_t size_of_element) {
+  const Id properties = H5Pcreate(H5P_DATASET_CREATE);
+  constexpr std::uint64_t largest = std::uint64_t{1} << 30;  // bytes; HDF5 allows 4 GiB
+  const std::uint64_t bytes = elements(shape) * size_of_element;
+  if (shape.empty() || bytes == 0) return properties;
+  Shape chunk = shape;
+  chunk[0] = std::max<std::uint64_t>(1, chunk[0] / (1 + bytes / largest));
+  H5Pset_chunk(properties, static_cast<int>(chunk.size()),
+               reinterpret_cast<const hsize_t*>(chunk.data()));
+  H5Pset_fletcher32(properties);
+  return properties;
+}
+
 Id create_space(const Shape& shape) {
   if (shape.empty()) return H5Screate(H5S_SCALAR);
   return H5Screate_simple(static_cast<int>(shape.size()),
@@ -355,8 +366,8 @@ Id create_space(const Shape& shape) {
 template <class T>
 Dataset Group::create_array(const std::string& name, const Shape& shape,
                             std::span<const T> values) {
-  const Handle space(create_space(shape));
-  Dataset dataset = create(name, stored_type<T>(), space.id(), H5P_DEFAULT);
+  const Handle space(create_space(shape)), properties(with_checksum(shape, sizeof(T)));
+  Dataset dataset = create(name, stored_type<T>(), space.id(), properties.id());
   dataset.write(values);
   return dataset;
 }
@@ -380,8 +391,9 @@ Dataset Group::create_enumeration(const std::string& name, std::span<const std::
   for (std::int32_t value = 0; value < static_cast<std::int32_t>(names.size()); ++value)
     file_->run("name a value of", path_of(name),
                [&] { return H5Tenum_insert(type.id(), names[value].c_str(), &value); });
-  const Handle space(create_space({values.size()}));
-  Dataset dataset = create(name, type.id(), space.id(), H5P_DEFAULT);
+  const Shape shape{values.size()};
+  const Handle space(create_space(shape)), properties(with_checksum(shape, sizeof(std::int32_t)));
+  Dataset dataset = create(name, type.id(), space.id(), properties.id());
   file_->run("write", dataset.name_, [&] {
     return H5Dwrite(dataset.handle_.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
   });

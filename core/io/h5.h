@@ -127,7 +127,7 @@ class Group : public Object {
   Dataset dataset(const std::string& path) const;
 
   Group create_group(const std::string& name);
-  /// A fixed array; `shape` empty: a scalar.
+  /// A fixed array, with a checksum; `shape` empty: a scalar, without.
   template <class T>
   Dataset create_array(const std::string& name, const Shape& shape, std::span<const T> values);
   Dataset create_text(const std::string& name, const std::string& text);
@@ -145,6 +145,7 @@ class Group : public Object {
   Group(std::shared_ptr<OpenFile> file, Handle handle, std::string name)
       : Object(std::move(file), std::move(handle), std::move(name)) {}
   std::string path_of(const std::string& name) const;
+  bool has_object(const std::string& path, int type) const;
   Dataset create(const std::string& name, Id type, Id space, Id properties);
 };
 

@@ -153,9 +153,18 @@ void TrajectoryReader::read_masses_and_species(Configuration<Dim>& fixed) const 
   if (fixed.mass.size() != fixed.size() || fixed.species.size() != fixed.size())
     fail("the datasets mass and species should have one number per particle, " +
          std::to_string(fixed.size()));
-  const auto [low, high] = std::minmax_element(fixed.species.begin(), fixed.species.end());
   if (fixed.size() == 0) return;
+  for (std::size_t i = 0; i < fixed.size(); ++i)
+    if (!(std::isfinite(fixed.mass[i]) && fixed.mass[i] > 0))
+      fail(fmt::format("the mass of particle {} is {}, but must be finite and above 0", i,
+                       fixed.mass[i]));
+  const auto [low, high] = std::minmax_element(fixed.species.begin(), fixed.species.end());
   if (*low < 0) fail("the dataset " + group_ + "/species should count from 0");
+  const std::size_t most = std::max(fixed.size(), fixed.species_names.size());
+  if (static_cast<std::size_t>(*high) >= most)
+    fail(fmt::format("the species of particle {} is {}, but there are {} particles and {} species",
+                     high - fixed.species.begin(), *high, fixed.size(),
+                     fixed.species_names.size()));
   for (std::size_t k = fixed.species_names.size(); k <= static_cast<std::size_t>(*high); ++k)
     fixed.species_names.push_back(std::to_string(k));
 }

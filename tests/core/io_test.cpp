@@ -385,7 +385,11 @@ TEST_F(TrajectoryFile, DamagedFilesNeverGiveWrongNumbers) {
     try {
       const TrajectoryReader reader(file("damaged.h5"));
       if (reader.frames() != 4) continue;  // the axis itself; its length is checked by append_to
-      EXPECT_TRUE(same_bits(reader.read(3).position, right.position)) << begin;
+      const Configuration2 found = reader.read(3);
+      EXPECT_TRUE(same_bits(found.position, right.position)) << begin;
+      EXPECT_TRUE(same_bits(found.mass, right.mass)) << begin;
+      EXPECT_TRUE(same_bits(found.shape, right.shape)) << begin;
+      EXPECT_EQ(found.species, right.species) << begin;
     } catch (const FileError& error) {
       EXPECT_THAT(error.what(), HasSubstr("damaged.h5"));
       ++failures;
@@ -457,6 +461,36 @@ TEST_F(TrajectoryFile, ReadsWhatOtherProgramsWrite) {
   EXPECT_EQ(frame.shape[0].a, 2);
   EXPECT_EQ(frame.mass[1], 1);
   EXPECT_FALSE(reader.has("image"));
+}
+
+TEST_F(TrajectoryFile, MassesAndSpeciesMustMakeSense) {
+  const auto message_about = [&](const std::array<double, 2>& masses,
+                                 const std::array<std::int32_t, 2>& species) {
+    fs::remove(file("foreign.h5"));
+    write_foreign_file(file("foreign.h5"), true);
+    h5::File written = h5::File::open(file("foreign.h5"), h5::Access::write);
+    h5::Group particles = written.root().group("particles/water");
+    particles.create_array<double>("mass", {2}, masses);
+    particles.create_array<std::int32_t>("species", {2}, species);
+    written.close();
+    return file_error([&] { TrajectoryReader(file("foreign.h5")); });
+  };
+  EXPECT_EQ(message_about({1, 2}, {0, 1}), "(no FileError)");
+  for (const double mass : {0., -1., double{NAN}, double{INFINITY}})
+    EXPECT_THAT(message_about({1, mass}, {0, 0}),
+                HasSubstr("foreign.h5: the mass of particle 1 is"));
+  EXPECT_THAT(message_about({1, 1}, {2'147'483'647, 0}),
+              HasSubstr("the species of particle 0 is 2147483647, but there are 2 particles"));
+}
+
+TEST_F(TrajectoryFile, AnAttributeThatIsNoSingleStringIsRefused) {
+  write_run(file("run.h5"), 1);
+  h5::File written = h5::File::open(file("run.h5"), h5::Access::write);
+  written.root().group("parameters").set_attribute("author", std::vector<std::string>(100, "a"), 1);
+  written.close();
+  EXPECT_THAT(file_error([&] { TrajectoryReader(file("run.h5")); }),
+              testing::AllOf(HasSubstr("run.h5: "), HasSubstr("author"),
+                             HasSubstr("it is not one string")));
 }
 
 /// A box given by cell vectors, no provenance, orientations in single precision.
@@ -660,7 +694,9 @@ TEST_F(CheckpointFile, TheOneBeforeIsKeptAndTakenIfTheNewestIsCutShort) {
     fs::resize_file(path, size);
     const LoadedCheckpoint loaded = load_checkpoint(path);
     expect_same(loaded.checkpoint, some_checkpoint(2));
-    EXPECT_THAT(loaded.warning, HasSubstr(path.string() + ": cannot open"));
+    EXPECT_THAT(loaded.warning,
+                testing::AnyOf(HasSubstr(path.string() + ": cannot open"),
+                               HasSubstr(path.string() + ": is damaged: its checksum is missing")));
     EXPECT_THAT(loaded.warning, HasSubstr("run.checkpoint.previous"));
   }
   // Killed between the two renames.
@@ -671,6 +707,25 @@ TEST_F(CheckpointFile, TheOneBeforeIsKeptAndTakenIfTheNewestIsCutShort) {
   EXPECT_THAT(file_error([&] { load_checkpoint(path); }), HasSubstr("unreadable too"));
   fs::remove(file("run.checkpoint.previous"));
   EXPECT_THAT(file_error([&] { load_checkpoint(path); }), HasSubstr("no earlier checkpoint"));
+}
+
+// The checkpoint itself, or the one before with a warning, or a refusal of both.
+TEST_F(CheckpointFile, AFlippedBitIsHarmlessOrNoticed) {
+  const fs::path path = file("run.checkpoint");
+  for (std::uint64_t step : {1, 2}) save_checkpoint(path, some_checkpoint(step));
+  const std::string whole = contents(path);
+  Stream draw(3, Purpose::tests);
+  int noticed = 0;
+  for (int k = 0; k < 1000; ++k) {
+    std::string damaged = whole;
+    damaged[draw.below(whole.size())] ^= static_cast<char>(1 << draw.below(8));
+    std::ofstream(path, std::ios::binary | std::ios::trunc) << damaged;
+    const LoadedCheckpoint loaded = load_checkpoint(path);
+    noticed += !loaded.warning.empty();
+    expect_same(loaded.checkpoint, some_checkpoint(loaded.warning.empty() ? 2 : 1));
+    ASSERT_FALSE(HasFailure()) << k;
+  }
+  EXPECT_GT(noticed, 100);
 }
 
 TEST_F(CheckpointFile, OfThreeDimensionsComesBackBitByBit) {
