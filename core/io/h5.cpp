@@ -61,6 +61,15 @@ Id stored_type<std::uint8_t>() {
   return H5T_STD_U8LE;
 }
 
+/// What stands for numbers that were never written: HDF5 takes a chunk that it does not find, because its index is
+/// damaged, for one of those.
+template <class T>
+void mark_missing(Id properties, Id type = native_type<T>()) {
+  const T missing = std::numeric_limits<T>::has_quiet_NaN ? std::numeric_limits<T>::quiet_NaN()
+                                                          : std::numeric_limits<T>::min();
+  H5Pset_fill_value(properties, type, &missing);
+}
+
 std::uint64_t elements(const Shape& shape) {
   return std::accumulate(shape.begin(), shape.end(), std::uint64_t{1}, std::multiplies<>());
 }
@@ -342,16 +351,18 @@ Dataset Group::create(const std::string& name, Id type, Id space, Id properties)
 namespace {
 
 /// Checksums exist for chunks only; one holds all of an array that is not huge.
-Id with_checksum(const Shape& shape, std::size_t size_of_element) {
+template <class T>
+Id with_checksum(const Shape& shape, Id type = native_type<T>()) {
   const Id properties = H5Pcreate(H5P_DATASET_CREATE);
   constexpr std::uint64_t largest = std::uint64_t{1} << 30;  // bytes; HDF5 allows 4 GiB
-  const std::uint64_t bytes = elements(shape) * size_of_element;
+  const std::uint64_t bytes = elements(shape) * sizeof(T);
   if (shape.empty() || bytes == 0) return properties;
   Shape chunk = shape;
   chunk[0] = std::max<std::uint64_t>(1, chunk[0] / (1 + bytes / largest));
   H5Pset_chunk(properties, static_cast<int>(chunk.size()),
                reinterpret_cast<const hsize_t*>(chunk.data()));
   H5Pset_fletcher32(properties);
+  mark_missing<T>(properties, type);
   return properties;
 }
 
@@ -366,7 +377,7 @@ Id create_space(const Shape& shape) {
 template <class T>
 Dataset Group::create_array(const std::string& name, const Shape& shape,
                             std::span<const T> values) {
-  const Handle space(create_space(shape)), properties(with_checksum(shape, sizeof(T)));
+  const Handle space(create_space(shape)), properties(with_checksum<T>(shape));
   Dataset dataset = create(name, stored_type<T>(), space.id(), properties.id());
   dataset.write(values);
   return dataset;
@@ -392,7 +403,8 @@ Dataset Group::create_enumeration(const std::string& name, std::span<const std::
     file_->run("name a value of", path_of(name),
                [&] { return H5Tenum_insert(type.id(), names[value].c_str(), &value); });
   const Shape shape{values.size()};
-  const Handle space(create_space(shape)), properties(with_checksum(shape, sizeof(std::int32_t)));
+  const Handle space(create_space(shape)),
+      properties(with_checksum<std::int32_t>(shape, type.id()));
   Dataset dataset = create(name, type.id(), space.id(), properties.id());
   file_->run("write", dataset.name_, [&] {
     return H5Dwrite(dataset.handle_.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
@@ -419,6 +431,7 @@ Dataset Group::create_series(const std::string& name, const Shape& frame_shape,
     H5Pset_deflate(properties.id(), 1);
   }
   H5Pset_fletcher32(properties.id());
+  mark_missing<T>(properties.id());
   return create(name, stored_type<T>(), space.id(), properties.id());
 }
 

@@ -14,6 +14,7 @@ namespace {
 
 /// How far norms may be from 1: quaternions kept in single precision, and those of this program.
 constexpr double single_precision = 1e-6, double_precision = 1e-14;
+constexpr double most_crossings = 0x1p31 - 1;  // of a side of the box, as std::int32_t holds
 
 }  // namespace
 
@@ -258,6 +259,9 @@ void TrajectoryReader::read_positions(std::uint64_t frame,
   const std::vector<double> positions = frame_values("position", meaning, frame, d);
   std::vector<double> images(particles() * Dim);
   if (has("image")) images = frame_values("image", "the box crossings", frame, Dim);
+  if (std::ranges::any_of(images, [](double n) { return std::abs(n) > most_crossings; }))
+    fail("the dataset " + group_ + "/image/value has impossible numbers in frame " +
+         std::to_string(frame));
   for (std::size_t i = 0; i < particles(); ++i) {
     if (Dim == 2 && d == 3 && positions[3 * i + 2] != 0)
       fail("particle " + std::to_string(i) + " has z ≠ 0, but the system is two-dimensional");

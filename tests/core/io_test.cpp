@@ -398,6 +398,30 @@ TEST_F(TrajectoryFile, DamagedFilesNeverGiveWrongNumbers) {
   EXPECT_GT(failures, 10);
 }
 
+// Refused, or the same configuration.
+TEST_F(TrajectoryFile, AFlippedBitIsHarmlessOrNoticed) {
+  write_run(file("run.h5"), 4);
+  const std::string whole = contents(file("run.h5"));
+  const Configuration2 right = TrajectoryReader(file("run.h5")).read<2>(3);
+  Stream draw(3, Purpose::tests);
+  int noticed = 0;
+  for (int k = 0; k < 1000; ++k) {
+    std::string damaged = whole;
+    damaged[draw.below(whole.size())] ^= static_cast<char>(1 << draw.below(8));
+    std::ofstream(file("damaged.h5"), std::ios::binary | std::ios::trunc) << damaged;
+    try {
+      const TrajectoryReader reader(file("damaged.h5"));
+      EXPECT_EQ(reader.frames(), 4u) << k;
+      if (reader.frames() == 4) expect_same_bits(reader.read<2>(3), right);
+    } catch (const FileError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("damaged.h5"));
+      ++noticed;
+    }
+    if (HasFailure()) FAIL() << k;
+  }
+  EXPECT_GT(noticed, 10);
+}
+
 TEST_F(TrajectoryFile, MissingAndForeignFiles) {
   EXPECT_THAT(file_error([&] { TrajectoryReader(file("absent.h5")); }),
               HasSubstr("absent.h5: cannot open the file: No such file"));
