@@ -49,8 +49,9 @@ struct ChainState {
 /// Event-chain Monte Carlo of hard ellipses or ellipsoids at constant N, box and temperature, on one thread.
 ///
 /// A chain: a random particle moves forwards along x, y or, in space, z, each with equal probability, until it touches
-/// another (ellipse_free_path_batch.h, ellipsoid_free_path_batch.h, round_free_path_batch.h). That one continues in the same direction, until the
-/// paths add up to the length of the chain. Nothing is rejected. Orientations change by trial rotations, as in sampler.h.
+/// another (ellipse_free_path_batch.h, ellipsoid_free_path_batch.h, round_free_path_batch.h). That one continues in the
+/// same direction, until the paths add up to the length of the chain. Nothing is rejected. Orientations change by trial
+/// rotations, as in sampler.h.
 ///
 /// One sweep is a fixed number of chains of one length, with trial rotations of random particles spread evenly among
 /// them; `tune` chooses them so that a sweep has about N contacts. Particles are sorted into cells at the start of a
@@ -60,9 +61,9 @@ struct ChainState {
 /// Uniform sampling of all hard states. Divide a chain of length l along x into steps ε → 0. Each of the N lifted
 /// states (hard state, moving particle i) has one successor: i moved by ε or, if it would then overlap j, the same
 /// state with j moving. Conversely each has one predecessor: i moved back by ε or, if it would then overlap k behind
-/// it, the same state with k moving. At fixed orientations a contact depends only on the difference of the two positions, so
-/// j blocks i if and only if i blocks j in the opposite direction. A chain therefore maps lifted states one to one, and
-/// conserves volume (the flow is a translation between contacts): the uniform distribution is invariant (global
+/// it, the same state with k moving. At fixed orientations a contact depends only on the difference of the two positions,
+/// so j blocks i if and only if i blocks j in the opposite direction. A chain therefore maps lifted states one to one,
+/// and conserves volume (the flow is a translation between contacts): the uniform distribution is invariant (global
 /// balance), since particle and direction are drawn uniformly and independently of the state. Rotations satisfy
 /// detailed balance. This does not prove ergodicity; tests compare with independently drawn states.
 ///
@@ -81,7 +82,8 @@ struct ChainState {
 template <int Dim>
 class EventChain {
  public:
-  /// The configuration must be hard, with wrapped positions, and outlive this object. Meanwhile nothing else may move or rotate particles.
+  /// The configuration must be hard, with wrapped positions, and outlive this object. Meanwhile nothing else may move or
+  /// rotate particles.
   EventChain(Configuration<Dim>& configuration, const EventChainOptions& options,
              std::uint64_t seed, const ChainState& state = {});
 

@@ -22,10 +22,10 @@ namespace {
 
 /// Raised whenever the layout changes; a checkpoint serves to continue a run, not to keep data.
 constexpr std::int32_t layout = 4;
-constexpr std::int32_t unsealed_layout = 3;  // of 0.1.0, without a checksum of the file
+constexpr std::int32_t layout_without_checksum = 3;  // of 0.1.0, without a checksum of the file
 
 /// What follows the HDF5 file, which HDF5 ignores, before the CRC-32 of all bytes up to here.
-constexpr std::string_view seal = "vitrel checkpoint CRC-32";
+constexpr std::string_view trailer = "vitrel checkpoint CRC-32";
 using Checksum = std::array<char, sizeof(std::uint32_t)>;
 
 /// Of the first `bytes` bytes.
@@ -51,20 +51,20 @@ void append(const fs::path& path, std::string_view bytes) {
 }
 
 void add_checksum(const fs::path& path) {
-  append(path, seal);
+  append(path, trailer);
   const Checksum checksum = checksum_of(path, fs::file_size(path));
   append(path, {checksum.data(), checksum.size()});
 }
 
 bool has_checksum(const fs::path& path) {
-  const std::uintmax_t size = fs::file_size(path), end = seal.size() + sizeof(Checksum);
+  const std::uintmax_t size = fs::file_size(path), end = trailer.size() + sizeof(Checksum);
   if (size < end) return false;
   std::string last(end, '\0');
   std::ifstream(path, std::ios::binary)
       .seekg(static_cast<std::streamoff>(size - end))
       .read(last.data(), static_cast<std::streamsize>(end));
   const Checksum checksum = checksum_of(path, size - sizeof(Checksum));
-  return last == std::string(seal) + std::string(checksum.data(), checksum.size());
+  return last == std::string(trailer) + std::string(checksum.data(), checksum.size());
 }
 
 fs::path previous_of(const fs::path& path) {
@@ -224,7 +224,7 @@ template <int Dim>
 void write_configuration(h5::Group group, const Configuration<Dim>& configuration) {
   const Vec<Dim>& lengths = configuration.box.lengths();
   group.create_array<double>("box", {Dim}, {lengths.data(), Dim});
-  group.create_array<double>("time", {1}, {&configuration.time, 1});
+  group.create_array<double>("time", {}, {&configuration.time, 1});
   write_rows<double>(group, "position", configuration.position);
   write_rows<std::int32_t>(group, "image", configuration.image);
   write_orientations(group, configuration);
@@ -269,7 +269,7 @@ Checkpoint read_checkpoint(const fs::path& path) {
   const auto found = root.number_attribute<std::int32_t>("checkpoint_layout");
   if (found == layout && !has_checksum(path))
     throw FileError(path.string() + ": is damaged: its checksum is missing or wrong");
-  if (found != layout && found != unsealed_layout)
+  if (found != layout && found != layout_without_checksum)
     throw FileError(path.string() +
                     ": was written by another version of vitrel: finish the run with "
                     "that version, or start it again");

@@ -23,8 +23,8 @@ struct Checkpoint {
 };
 
 /// Writes `<path>.partial`, waits for the disk, keeps the checkpoint before as `<path>.previous`,
-/// and renames. Doubles are stored exactly, and a checksum covers all bytes. Killed at any moment, or on a full disk, at least
-/// one complete checkpoint stays. Throws FileError; both earlier files are then still there.
+/// and renames. Doubles are stored exactly, and a checksum covers all bytes. Killed at any moment, or on
+/// a full disk, at least one complete checkpoint stays. Throws FileError; both earlier files are then still there.
 void save_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint);
 
 struct LoadedCheckpoint {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "core/elementary.h"
 #include "core/error.h"
@@ -14,7 +15,6 @@ namespace {
 
 /// How far norms may be from 1: quaternions kept in single precision, and those of this program.
 constexpr double single_precision = 1e-6, double_precision = 1e-14;
-constexpr double most_crossings = 0x1p31 - 1;  // of a side of the box, as std::int32_t holds
 
 }  // namespace
 
@@ -259,7 +259,8 @@ void TrajectoryReader::read_positions(std::uint64_t frame,
   const std::vector<double> positions = frame_values("position", meaning, frame, d);
   std::vector<double> images(particles() * Dim);
   if (has("image")) images = frame_values("image", "the box crossings", frame, Dim);
-  if (std::ranges::any_of(images, [](double n) { return std::abs(n) > most_crossings; }))
+  constexpr double limit = std::numeric_limits<std::int32_t>::max();
+  if (std::ranges::any_of(images, [](double n) { return std::abs(n) > limit; }))
     fail("the dataset " + group_ + "/image/value has impossible numbers in frame " +
          std::to_string(frame));
   for (std::size_t i = 0; i < particles(); ++i) {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/state/check.h"
-#include "mc/contact_pressure.h"
 #include "mc/hard_core.h"
+#include "tests/support/chain_pressures.h"
 #include "tests/support/fluids.h"
 #include "tests/support/mixtures.h"
 #include "tests/support/statistics.h"
@@ -131,32 +131,6 @@ TEST(EventChain, IsCutShortInAJammedRow) {
   EXPECT_LE(chains.counts().contacts, 100 * 1000u);
 }
 
-/// Z by the chains, and by the contact function of the states that they visit.
-struct Pressures {
-  Estimate of_chains, of_contacts;
-};
-Pressures pressures(Configuration2& c, int blocks) {
-  EventChain chains(c, {}, 11);
-  for (int round = 0; round < 500; ++round) {
-    chains.sweep();
-    chains.tune();
-  }
-  std::vector<double> of_chains, of_contacts;
-  ContactPressure pressure;
-  for (int block = 0; block < blocks; ++block) {
-    const ChainCounts before = chains.counts();
-    for (int sample = 0; sample < 60; ++sample) {
-      for (int sweep = 0; sweep < 5; ++sweep) chains.sweep();
-      pressure.add(c);
-    }
-    const ChainCounts& after = chains.counts();
-    of_chains.push_back(1 + (after.ahead - before.ahead) / (after.length - before.length));
-    of_contacts.push_back(pressure.compressibility());
-    pressure.clear();
-  }
-  return {estimate(of_chains), estimate(of_contacts)};
-}
-
 // Disks: Kolafa & Rottner (2006). Ellipses: the oracle's Monte Carlo with its standard error, another
 // 0.1 % allowed. 3.5 standard errors, a false alarm of 5e-4 each.
 TEST(EventChain, HasTheEquationOfState) {
@@ -167,7 +141,7 @@ TEST(EventChain, HasTheEquationOfState) {
        {Case{1, 0.3, 2.063261, 0}, Case{1, 0.5, 4.106364, 0}, Case{2, 0.5, 4.492, 0.003},
         Case{4, 0.3, 2.6229, 0.0019}, Case{6, 0.3, 3.0335, 0.0020}}) {
     Configuration2 c = swollen_fluid(400, at.aspect_ratio, at.packing_fraction);
-    const Pressures z = pressures(c, 25);
+    const ChainPressures z = chain_pressures(c, {500, 25, 60, 5});
     const double allowed = at.error > 0 ? 0.001 * at.z : 0;
     std::printf(
         "Z at aspect ratio %g, φ = %g: chains %.4f(%.4f), contacts %.4f(%.4f), table %.4f\n",

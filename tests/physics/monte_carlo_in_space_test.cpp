@@ -13,11 +13,11 @@
 #include "edmd/run.h"
 #include "edmd/sampling.h"
 #include "mc/compression.h"
-#include "mc/contact_pressure.h"
 #include "mc/event_chain.h"
 #include "mc/insertion.h"
 #include "mc/lattice.h"
 #include "mc/swelling.h"
+#include "tests/support/chain_pressures.h"
 #include "tests/support/hard_spheres.h"
 #include "tests/support/scenes.h"
 #include "tests/support/solids.h"
@@ -58,38 +58,12 @@ Configuration3 fluid_of(const Ellipsoid& shape, double packing_fraction) {
   return c;
 }
 
-/// Z by the contacts of chains, and by the contact function of every fourth state.
-struct ByMonteCarlo {
-  Estimate chains, contact_function;
-};
-ByMonteCarlo by_monte_carlo(Configuration3& c, int samples) {
-  EventChain chains(c, {}, 11);
-  for (int sweep = 0; sweep < 400; ++sweep) {
-    chains.sweep();
-    chains.tune();
-  }
-  std::vector<double> of_chains, of_contacts;
-  ContactPressure pressure;
-  for (int block = 0; block < blocks; ++block) {
-    const ChainCounts before = chains.counts();
-    for (int sample = 0; sample < samples; ++sample) {
-      for (int sweep = 0; sweep < 4; ++sweep) chains.sweep();
-      pressure.add(c);
-    }
-    const ChainCounts& after = chains.counts();
-    of_chains.push_back(1 + (after.ahead - before.ahead) / (after.length - before.length));
-    of_contacts.push_back(pressure.compressibility());
-    pressure.clear();
-  }
-  return {estimate(of_chains), estimate(of_contacts)};
-}
-
 // The pressure of the fluid by the contacts of chains and by the contact function. Z − 1 of 500 particles differs from
 // that of infinitely many by about 1/N = 0.2 %; 3.5 standard errors, a false alarm of 5e-4 each.
 TEST(SpheresByMonteCarlo, HaveTheEquationOfState) {
   for (const double phi : {0.3, 0.45}) {
     Configuration3 c = sphere_fluid(5, phi);
-    const auto [by_chains, by_contacts] = by_monte_carlo(c, 15);
+    const auto [by_chains, by_contacts] = chain_pressures(c, {400, blocks, 15, 4});
     const double z = hard_sphere_compressibility_factor(phi), finite = 0.002 * (z - 1);
     std::printf("spheres, phi %g: chains %.4f(%.4f), contacts %.4f(%.4f), equation of state %.4f\n",
                 phi, by_chains.mean, by_chains.error, by_contacts.mean, by_contacts.error, z);
@@ -138,7 +112,7 @@ TEST_P(SolidsByMonteCarlo, HaveThePressureOfMotion) {
   const auto& [name, shape, phi] = GetParam();
   Configuration3 c = fluid_of(shape, phi);
   ASSERT_NEAR(packing_fraction(c), phi, 1e-9);
-  const auto [mc, contacts] = by_monte_carlo(c, 40 * effort());
+  const auto [mc, contacts] = chain_pressures(c, {400, blocks, 40 * effort(), 4});
   record("monte_carlo", mc);
   record("contact_function", contacts);
   EXPECT_LT(mc.error, 0.005 * mc.mean);
