@@ -53,6 +53,16 @@ CLI::Option* add_output(CLI::App& sub, fs::path& output, const std::string& what
   return sub.add_option("-o,--output", output, what);
 }
 
+void add_start(CLI::App& sub, StartOptions& start) {
+  CLI::Option* from = sub.add_option(
+      "--from", start.from,
+      "State or run whose last frame to start from: H5MD, GSD, extended XYZ or CSV. Stages of the "
+      "parameter file follow if the first of them moves particles");
+  sub.add_flag("--shrink", start.shrink,
+               "With --from: scale all particles until none overlap, as after single precision")
+      ->needs(from);
+}
+
 void add_threads(CLI::App& sub, int& threads, const std::string& what) {
   sub.add_option("--threads", threads, what + "; the results do not depend on it")->check(positive);
 }
@@ -99,6 +109,7 @@ class CommandLine : public ProgramCommandLine {
     add_output(sub, prepare_.output,
                "State file to write, with its quality report <state>.quality.json beside it")
         ->required();
+    add_start(sub, prepare_.start);
     add_threads(sub, prepare_.threads, "Threads for Monte Carlo (1)");
     add_wall_time(sub, prepare_.wall_time);
     add_print(sub, prepare_.print);
@@ -111,7 +122,7 @@ class CommandLine : public ProgramCommandLine {
     sub.footer(exit_codes + overlap_code + resumed_code + ".");
     add_parameter_file(sub, run_.source);
     add_output(sub, run_.output, "Trajectory to write, with its checkpoint beside it")->required();
-    sub.add_option("--from", run_.from, "State or run whose last frame to start from");
+    add_start(sub, run_.start);
     sub.add_flag("--dry-run", run_.dry_run, "Print what would be done");
     add_threads(sub, run_.threads,
                 "Threads for the Brownian steps and for Monte Carlo in the preparation (1)");
@@ -124,6 +135,9 @@ class CommandLine : public ProgramCommandLine {
                         check_command, check_);
     sub.footer(exit_codes + overlap_code + ", 5 stopped (no overlap so far).");
     sub.add_option("file", check_.input, "State or run")->required();
+    sub.add_option(
+        "--params", check_.parameters,
+        "Parameter file with what the file does not say, such as the semi-axes of species");
     sub.add_flag("--last", check_.last_only, "The last frame only");
     add_print(sub, check_.print);
   }

@@ -72,8 +72,10 @@ Json with_former_keys(Json json) {
 
 }  // namespace
 
-ParameterSource parameter_source(const ParameterOptions& options) {
-  return {options.file, options.overrides, options.seed};
+ParameterSource parameter_source(const ParameterOptions& options, const StartOptions& start) {
+  ParameterSource source{options.file, options.overrides, options.seed};
+  if (!start.from.empty()) source.start = StartFile{start.from, start.shrink};
+  return source;
 }
 
 AnalysisChoice analysis_choice(const AnalysisOptions& options) {

@@ -22,6 +22,11 @@ struct Checkpoint {
   std::string parameters;                    ///< TOML text of the work it belongs to
 };
 
+/// Of its configuration.
+inline int dimension_of(const Checkpoint& checkpoint) {
+  return checkpoint.configuration.index() == 0 ? 2 : 3;
+}
+
 /// Writes `<path>.partial`, waits for the disk, keeps the checkpoint before as `<path>.previous`,
 /// and renames. Doubles are stored exactly, and a checksum covers all bytes. Killed at any moment, or on
 /// a full disk, at least one complete checkpoint stays. Throws FileError; both earlier files are then still there.

@@ -33,6 +33,55 @@ Parameters read(const TomlNode& root) {
   return parameters;
 }
 
+/// The value of a key of a table; null if there is none, or the node is no table.
+TomlNode* find(TomlNode* node, const std::string& key) {
+  auto* entries = node ? node->get<TomlNode::Table>() : nullptr;
+  if (!entries) return nullptr;
+  const auto found = std::ranges::find(*entries, key, &TomlEntry::key);
+  return found == entries->end() ? nullptr : &found->node;
+}
+
+/// The same; a missing key of a table is made.
+TomlNode* find_or_make(TomlNode* node, const std::string& key, const TomlNode& value) {
+  auto* entries = node ? node->get<TomlNode::Table>() : nullptr;
+  if (entries && !find(node, key)) entries->push_back({key, value.where, value});
+  return find(node, key);
+}
+
+/// The default method places particles.
+bool places_particles(const TomlNode& stage) {
+  const TomlEntry* method = stage.find("method");
+  const std::string* name = method ? method->node.get<std::string>() : nullptr;
+  return !name || vitrel::places_particles(*name);
+}
+
+void apply_start(TomlNode& root, const StartFile& start) {
+  const std::string where = "--from " + start.file.string();
+  TomlNode* prepare = find_or_make(&root, "prepare", {TomlNode::Table(), where});
+  TomlNode* list = find_or_make(prepare, "stage", {TomlNode::Array(), where});
+  auto* stages = list ? list->get<TomlNode::Array>() : nullptr;
+  if (!stages) return;  // refused when it is read
+  if (!stages->empty() && places_particles(stages->front())) stages->clear();
+  const auto text = [&](const char* key, const std::string& value) {
+    return TomlEntry{key, where, {value, where}};
+  };
+  TomlNode::Table table = {text("method", StateStage::method), text("file", start.file.string())};
+  if (start.shrink) table.push_back(text("on_overlap", "shrink"));
+  stages->insert(stages->begin(), {std::move(table), where});
+}
+
+/// Files that the document names lie beside it.
+void resolve_state_files(TomlNode& root, const std::filesystem::path& folder) {
+  TomlNode* list = find(find(&root, "prepare"), "stage");
+  auto* stages = list ? list->get<TomlNode::Array>() : nullptr;
+  if (!stages) return;
+  for (TomlNode& stage : *stages) {
+    TomlNode* file = find(&stage, "file");
+    std::string* name = file ? file->get<std::string>() : nullptr;
+    if (name) *name = (folder / *name).lexically_normal().string();
+  }
+}
+
 void apply(TomlNode& root, const std::vector<std::string>& overrides) {
   for (const std::string& assignment : overrides)
     apply_override(root, assignment, "--set " + assignment);
@@ -112,10 +161,12 @@ void validate(const Parameters& parameters) {
 
 Parameters load_parameters(const ParameterSource& source) {
   TomlNode root = read_toml_file(source.file);
+  resolve_state_files(root, source.file.parent_path());
   apply(root, source.overrides);
   if (source.seed)
     apply_override(root, fmt::format("system.seed={}", *source.seed),
                    fmt::format("--seed {}", *source.seed));
+  if (source.start) apply_start(root, *source.start);
   return read(root);
 }
 
@@ -189,6 +240,8 @@ std::optional<ParameterDifference> forbidden_change(const std::string& before,
       effective_parameters(recorded_parameters(before, "recorded parameters"));
   return first_difference(recorded, after, [work](const std::string& key) {
     if (key == "output.checkpoint_interval" || key == "prepare.quality_sweeps") return true;
+    // The state is read at the start only, and may be elsewhere now, or gone.
+    if (key == "prepare.stage.0.file") return true;
     return key.starts_with("analysis.") ||
            (work == Work::preparation &&
             (key.starts_with("dynamics.") || key.starts_with("output.")));

@@ -109,11 +109,19 @@ FieldVisitor::Inside fields(Parameters& parameters, const Sections& sections = {
 /// Throws BadValue for the first impossible value.
 void validate(const Parameters& parameters);
 
+/// A state to start from, as the command line gives it.
+struct StartFile {
+  std::filesystem::path file;
+  bool shrink = false;  ///< until no particles overlap
+};
 /// A file and what the command line puts over it.
 struct ParameterSource {
   std::filesystem::path file;
-  std::vector<std::string> overrides;  ///< each "key=value"
-  std::optional<std::uint64_t> seed;
+  std::vector<std::string> overrides = {};  ///< each "key=value"
+  std::optional<std::uint64_t> seed = {};
+  /// The first stage is then this state. Stages of the file follow it if the first of them moves particles; if that
+  /// places particles, they are how the state was made, and are dropped.
+  std::optional<StartFile> start = {};
 };
 /// Reads, overrides and validates. Throws UserError or FileError.
 Parameters load_parameters(const ParameterSource& source);

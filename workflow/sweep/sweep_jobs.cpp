@@ -134,6 +134,8 @@ std::vector<SweepJob> sweep_jobs(const ParameterSource& source) {
         job_source.overrides.push_back(key + "=" + value);
       }
     job.parameters = load_parameters(job_source);
+    if (StateStage* start = start_state(job.parameters.stages); start && start->file)
+      start->file = std::filesystem::absolute(*start->file).lexically_normal().string();
     job.prepares_only = !place_of(job.parameters, "dynamics");
     if (!ids.insert(job.id).second)
       throw UserError(
