@@ -1,6 +1,7 @@
 #include "tests/app/program.h"
 
 #include <fcntl.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -65,6 +66,14 @@ bool same_bits(const std::vector<double>& x, const std::vector<double>& y) {
 }
 
 }  // namespace
+
+void expect_refusal(const Outcome& outcome, int code, const std::string& part) {
+  EXPECT_EQ(outcome.code, code);
+  EXPECT_THAT(outcome.errors, testing::HasSubstr(part));
+  EXPECT_EQ(outcome.output, "");
+  const auto last_line = outcome.errors.rfind("vitrel");
+  EXPECT_EQ(outcome.errors.find('\n', last_line), outcome.errors.size() - 1) << outcome.errors;
+}
 
 Outcome run_and_signal(const fs::path& folder, const std::vector<std::string>& arguments,
                        const std::function<bool()>& time, int signal) {

@@ -61,7 +61,8 @@ void apply_start(TomlNode& root, const StartFile& start) {
   TomlNode* list = find_or_make(prepare, "stage", {TomlNode::Array(), where});
   auto* stages = list ? list->get<TomlNode::Array>() : nullptr;
   if (!stages) return;  // refused when it is read
-  if (!stages->empty() && places_particles(stages->front())) stages->clear();
+  if (!stages->empty() && places_particles(stages->front()))
+    stages->erase(stages->begin(), start.keeps_moves ? stages->begin() + 1 : stages->end());
   const auto text = [&](const char* key, const std::string& value) {
     return TomlEntry{key, where, {value, where}};
   };
@@ -133,6 +134,12 @@ FieldVisitor::Inside fields(Parameters& p, const Sections& sections) {
       visit.table(
           {"sweep", "", "Several runs from one file; or states, if no key of [dynamics] is given."},
           Style::section, [&](FieldVisitor& in) {
+            in.optional({"ladder", "",
+                         "A key of the grid or of those that advance together. The job with its "
+                         "first value prepares a state; every other one starts from the end of the "
+                         "job with the value before, and goes on with the stages that move "
+                         "particles."},
+                        p.sweep.ladder, std::string("system.packing_fraction"));
             in.grid({"grid", "",
                      "Keys of this file in quotes, each with a list of values. Every combination "
                      "of values is a job."},
@@ -209,6 +216,7 @@ std::string command_template(const std::string& command) {
   Parameters parameters;
   if (found->second.sweep)
     parameters.sweep = {
+        std::nullopt,
         {{"system.seed", {"1", "2"}}},
         {{"system.packing_fraction", {"0.4", "0.6"}}, {"dynamics.duration", {"100.0", "400.0"}}}};
   return fmt::format("# Parameters of `vitrel {}`, all at their defaults.\n\n", command) +

@@ -75,6 +75,8 @@ struct OutputParameters {
 
 /// The values that keys of the file run through in a sweep.
 struct SweepParameters {
+  /// A key whose jobs start from the end of the job with the value before; none: all prepare a state of their own.
+  std::optional<std::string> ladder;
   ParameterGrid grid;      ///< every value of a key with every value of the others
   ParameterGrid together;  ///< the k-th values of all keys together
 };
@@ -113,6 +115,8 @@ void validate(const Parameters& parameters);
 struct StartFile {
   std::filesystem::path file;
   bool shrink = false;  ///< until no particles overlap
+  /// Stages of the parameter file that move particles follow, even if its first stage places them.
+  bool keeps_moves = false;
 };
 /// A file and what the command line puts over it.
 struct ParameterSource {

@@ -47,8 +47,7 @@ PeriodicBox<Dim> box_of(const ForeignFrame& frame, const KnownSystem& known) {
   return PeriodicBox<Dim>(lengths);
 }
 
-/// The names of the frame's species in the order of their numbers: that in which they are known, then that of the
-/// particles.
+/// The names of the frame's species in the order of their numbers: that in which they are known, then the alphabet's.
 std::vector<std::string> species_names(const ForeignFrame& frame, const KnownSystem& known) {
   std::vector<std::string> known_names, names;
   for (const KnownSpecies& species : known.species) known_names.push_back(species.name);
@@ -61,9 +60,8 @@ std::vector<std::string> species_names(const ForeignFrame& frame, const KnownSys
   const std::set<std::string> stated(frame.species.begin(), frame.species.end());
   std::ranges::copy_if(known_names, std::back_inserter(names),
                        [&](const std::string& name) { return stated.contains(name); });
-  for (const std::string& name : frame.species)
-    if (names.size() < stated.size() && std::ranges::find(names, name) == names.end())
-      names.push_back(name);
+  for (const std::string& name : stated)
+    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
   return names;
 }
 

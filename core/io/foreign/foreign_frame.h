@@ -53,7 +53,7 @@ Quaternion unit_quaternion(const Quaternion& q, std::size_t particle);
 int dimension_of(const ForeignFrame& frame, const KnownSystem& known);
 
 /// The configuration that the frame describes. Where nothing says otherwise, particles are of one species "A", at rest,
-/// and have the natural mass (core/state/species.h). Species are numbered as they are known, others follow in their order in the frame.
+/// and have the natural mass (core/state/species.h). Species are numbered as they are known, others follow in alphabetical order.
 /// UserError, which says what is missing or wrong and of which particle.
 template <int Dim>
 Configuration<Dim> configuration_of(const ForeignFrame& frame, const KnownSystem& known);
