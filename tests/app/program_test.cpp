@@ -22,6 +22,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 using testing_program::differing_datasets;
+using testing_program::expect_refusal;
 using testing_program::Folder;
 using testing_program::Outcome;
 using testing_program::run;
@@ -30,15 +31,6 @@ using Json = nlohmann::json;
 const std::string small_system =
     "[system]\nparticles = 30\n[dynamics]\nequilibration = 1\nduration = 10\n"
     "[output]\nsamples = { spacing = \"linear\", interval = 0.5 }\n";
-
-/// One message on standard error, that exit code, and nothing on standard output.
-void expect_refusal(const Outcome& outcome, int code, const std::string& part) {
-  EXPECT_EQ(outcome.code, code);
-  EXPECT_THAT(outcome.errors, HasSubstr(part));
-  EXPECT_EQ(outcome.output, "");
-  const auto last_line = outcome.errors.rfind("vitrel");
-  EXPECT_EQ(outcome.errors.find('\n', last_line), outcome.errors.size() - 1) << outcome.errors;
-}
 
 void expect_keys(const Json& summary, const std::vector<std::string>& keys) {
   for (const std::string& key : keys) EXPECT_TRUE(summary.contains(key)) << key;
