@@ -253,6 +253,8 @@ TEST_F(Pair, RefusesBadBodies) {
   expect_bad_body("semi_axes=1,2", "'body.0.semi_axes' is [1.0, 2.0], but must be [a, b]");
   expect_bad_body("semi_axes=2,-1", "'body.0.semi_axes' is [2.0, -1.0], but must be [a, b]");
   expect_bad_body("semi_axes=2,1,1,1", "but must be [a, b] with a ≥ b > 0, or [a, b, c]");
+  expect_bad_body("semi_axes=1e60,1", "but must be finite, at most 1e+50");
+  expect_bad_body("semi_axes=1,1e-60", "but must not be below 1e-50");
   expect_bad_body("semi_axes=2", "must be an array of numbers, not the number 2");
   expect_bad_body("position=2,1", "'body.0.semi_axes' is missing");
   expect_bad_body("semi_axes=2,1,1", "'body.1.semi_axes' has 2 entries, but body.0.semi_axes 3");
@@ -264,7 +266,8 @@ TEST_F(Pair, RefusesBadBodies) {
   expect_bad_body("semi_axes=2,1,1 angular_velocity=1", "but must be [ω_x, ω_y, ω_z]");
   expect_bad_body("semi_axes=2,1 orientation=1,0,0,0", "has a meaning only with three semi-axes");
   expect_bad_body("semi_axes=2,1,1 angle=1", "has a meaning only with two semi-axes");
-  expect_bad_body("semi_axes=2,1,1 orientation=0,0,0,0", "which is no rotation");
+  expect_bad_body("semi_axes=2,1,1 orientation=0,0,0,0",
+                  "[0.0, 0.0, 0.0, 0.0], but must be a rotation");
   expect_bad_body("semi_axes=2,1 here", "'here' is not key=value; write, for example, --body");
   expect_bad_body("", "'' is not key=value");
   expect_bad_body("semi_axes=2,x", "'[2,x]' is not a TOML value");

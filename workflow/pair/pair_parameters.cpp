@@ -48,9 +48,12 @@ void describe_pair(PairParameters& p, FieldVisitor& visit) {
   visit.list({"body", "", "The two bodies."}, p.body, describe_body);
 }
 
+/// Fourth powers of lengths and velocities must not overflow, nor those of semi-axes vanish.
+constexpr double largest = 1e50, smallest = 1e-50;
+
 void require_finite(std::span<const double> values, const std::string& key, const Rules& rules) {
-  rules.require(std::ranges::all_of(values, [](double x) { return std::isfinite(x); }), key,
-                fmt::format("is {}, but must be finite", to_toml(values)));
+  rules.require(std::ranges::all_of(values, [](double x) { return std::abs(x) <= largest; }), key,
+                fmt::format("is {}, but must be finite, at most {:g}", to_toml(values), largest));
 }
 
 /// A vector; empty: zero.
@@ -65,12 +68,23 @@ void validate_components(const std::vector<double>& vector, std::size_t dimensio
 void validate_semi_axes(const std::vector<double>& axes, const Rules& rules) {
   rules.require(!axes.empty(), "semi_axes",
                 "is missing; give [a, b] of an ellipse or [a, b, c] of an ellipsoid");
-  const bool is_positive =
-      std::ranges::all_of(axes, [](double axis) { return axis > 0 && std::isfinite(axis); });
+  require_finite(axes, "semi_axes", rules);
+  const bool is_positive = std::ranges::min(axes) > 0;
   const bool fits = axes.size() == 3 || (axes.size() == 2 && axes[0] >= axes[1]);
   rules.require(is_positive && fits, "semi_axes",
                 fmt::format("is {}, but must be [a, b] with a ≥ b > 0, or [a, b, c], all above 0",
                             to_toml(axes)));
+  rules.require(std::ranges::min(axes) >= smallest, "semi_axes",
+                fmt::format("is {}, but must not be below {:g}; choose a smaller unit of length",
+                            to_toml(axes), smallest));
+}
+
+void validate_orientation(const std::array<double, 4>& quaternion, const Rules& rules) {
+  double square = 0;
+  for (const double x : quaternion) square += x * x;
+  rules.require(std::isnormal(square), "orientation",
+                fmt::format("is {}, but must be a rotation, such as [1.0, 0.0, 0.0, 0.0]",
+                            to_toml(quaternion)));
 }
 
 void validate_body(const BodyParameters& p, const Rules& rules) {
@@ -79,9 +93,7 @@ void validate_body(const BodyParameters& p, const Rules& rules) {
   validate_components(p.position, dimension, "position", rules);
   validate_components(p.velocity, dimension, "velocity", rules);
   require_finite({&p.angle, 1}, "angle", rules);
-  require_finite(p.orientation, "orientation", rules);
-  rules.require(std::ranges::any_of(p.orientation, [](double x) { return x != 0; }), "orientation",
-                "is 0, which is no rotation; [1, 0, 0, 0] is that by 0");
+  validate_orientation(p.orientation, rules);
   const std::vector<double>& omega = p.angular_velocity;
   const bool is_zero = omega.size() == 1 && omega[0] == 0;
   rules.require(is_zero || omega.size() == (dimension == 2 ? 1u : 3u), "angular_velocity",
@@ -90,7 +102,7 @@ void validate_body(const BodyParameters& p, const Rules& rules) {
   require_finite(omega, "angular_velocity", rules);
 }
 
-/// The distances that the bodies may travel together.
+/// How far both bodies get from the origin, at most.
 double longest_path(const PairParameters& p) {
   double path = 0;
   for (const BodyParameters& body : p.body) {
@@ -116,8 +128,8 @@ void validate_box(const std::vector<double>& box, const PairParameters& p) {
                     to_toml(box), show(length)));
   }
   rules.require(longest_path(p) <= farthest * shortest, "horizon",
-                fmt::format("is {}, in which the bodies travel more than {:g} times the shortest "
-                            "side of the box; lower it",
+                fmt::format("is {}, by which the bodies may be more than {:g} times the shortest "
+                            "side of the box away; lower it, or move them closer",
                             show(p.horizon), farthest));
 }
 
