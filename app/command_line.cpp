@@ -6,6 +6,7 @@
 #include "app/commands/bench.h"
 #include "app/commands/check.h"
 #include "app/commands/export.h"
+#include "app/commands/pair.h"
 #include "app/commands/params.h"
 #include "app/commands/prepare.h"
 #include "app/commands/report.h"
@@ -79,7 +80,7 @@ class CommandLine : public ProgramCommandLine {
   CommandLine(int count, char** words)
       : ProgramCommandLine(
             "Simulation of hard anisotropic particles, from the liquid to the glass.", "vitrel") {
-    prepare_.command_line = run_.command_line = joined(count, words);
+    prepare_.command_line = run_.command_line = impact_.command_line = joined(count, words);
     add_prepare();
     add_run();
     add_check();
@@ -87,6 +88,7 @@ class CommandLine : public ProgramCommandLine {
     add_sweep();
     add_report();
     add_export();
+    add_pair();
     add_bench();
     add_params();
   }
@@ -95,7 +97,12 @@ class CommandLine : public ProgramCommandLine {
   template <class Options>
   CLI::App& add(const std::string& name, const std::string& sentence, int (*work)(const Options&),
                 const Options& options) {
-    CLI::App& sub = *app_.add_subcommand(name, sentence);
+    return add_below(app_, name, sentence, work, options);
+  }
+  template <class Options>
+  CLI::App& add_below(CLI::App& parent, const std::string& name, const std::string& sentence,
+                      int (*work)(const Options&), const Options& options) {
+    CLI::App& sub = *parent.add_subcommand(name, sentence);
     sub.callback([this, work, &options] { chosen_ = [=, &options] { return work(options); }; });
     sub.footer(exit_codes + ".");
     return sub;
@@ -227,6 +234,70 @@ class CommandLine : public ProgramCommandLine {
     add_print(sub, export_.print);
   }
 
+  CLI::App& add_pair_question(CLI::App& pair, const std::string& name, const std::string& sentence,
+                              int (*work)(const PairOptions&)) {
+    CLI::App& sub = add_below(pair, name, sentence, work, pair_);
+    CLI::Option* file =
+        sub.add_option("file", pair_.source.file,
+                       "Both bodies (TOML), instead of --body; vitrel params pair prints one");
+    sub.add_option("--body", pair_.source.bodies,
+                   "A body, given twice: 'semi_axes=2,1 position=3,0 angle=0.5 velocity=-1,0 "
+                   "angular_velocity=0.2', or in space three semi-axes and orientation=w,x,y,z")
+        ->take_all()
+        ->allow_extra_args(false)
+        ->excludes(file);
+    sub.add_option("--box", pair_.source.box,
+                   "Sides Lx,Ly or Lx,Ly,Lz of a periodic box, for all images of the second body");
+    add_overrides(sub, pair_.source.overrides, "body.1.angle=0.3");
+    add_print(sub, pair_.print);
+    return sub;
+  }
+
+  void add_pair() {
+    CLI::App& pair = *app_.add_subcommand(
+        "pair",
+        "Two bodies: overlap, gap and contact time of ellipses or ellipsoids, and the "
+        "restitution coefficients of soft spheres.");
+    pair.require_subcommand(1);
+    add_pair_question(pair, "overlap", "Do two bodies overlap? The exact criterion.",
+                      pair_overlap_command);
+    add_pair_question(pair, "gap", "Distance of two bodies, its direction and its ends.",
+                      pair_gap_command);
+    CLI::App& contact = add_pair_question(pair, "contact-time",
+                                          "When and where two bodies in free flight first touch.",
+                                          pair_contact_time_command);
+    contact.add_option("--horizon", pair_.source.horizon, "Search until this time (100)");
+    contact.add_option("--rotation", pair_.source.rotation,
+                       "Of ellipsoids with three different semi-axes: euler, or constant for a "
+                       "constant angular velocity");
+    contact.add_option("--method", pair_.methods, "Compare this method of vitrel-bench")
+        ->take_all()
+        ->allow_extra_args(false);
+    contact.add_flag("--all-methods", pair_.all_methods, "Compare all methods of vitrel-bench");
+    add_restitution(pair);
+  }
+
+  void add_restitution(CLI::App& pair) {
+    CLI::App& sub = add_below(
+        pair, "restitution",
+        "Restitution coefficients of an impact of two soft spheres, integrated and from the table.",
+        pair_restitution_command, impact_);
+    sub.add_option("params", impact_.source.file, "Parameter file with [dynamics.contact]");
+    add_overrides(sub, impact_.source.overrides,
+                  "youngs_modulus='1 GPa'; keys of [dynamics.contact]");
+    sub.add_option("--speed", impact_.source.speed,
+                   "Relative speed, '5 m/s' (the thermal_speed of the parameters)");
+    sub.add_option("--impact-parameter", impact_.source.impact_parameter,
+                   "Over the sum of the radii, the sine of the impact angle: from 0, head-on (0), "
+                   "to below 1");
+    sub.add_option("--second-radius", impact_.source.second_radius,
+                   "Radius of the second sphere, '0.12 m' (that of the first)");
+    sub.add_option("--table", impact_.table,
+                   "File to write the tabulated coefficients of this pair to, for many speeds and "
+                   "impact parameters: .h5 or .csv");
+    add_print(sub, impact_.print);
+  }
+
   // For the help only: the words after it are passed on unparsed.
   void add_bench() {
     app_.add_subcommand("bench",
@@ -237,7 +308,8 @@ class CommandLine : public ProgramCommandLine {
   void add_params() {
     CLI::App& sub = add("params", "Print a commented template of a command's parameters.",
                         params_command, params_);
-    CLI::Option* of = sub.add_option("command", params_.command, "prepare, run, analyze or sweep");
+    CLI::Option* of =
+        sub.add_option("command", params_.command, "prepare, run, analyze, sweep or pair");
     sub.add_flag("--reference", params_.reference,
                  "All parameters as Markdown (docs/parameters.md)")
         ->excludes(of);
@@ -250,6 +322,8 @@ class CommandLine : public ProgramCommandLine {
   SweepOptions sweep_;
   ReportOptions report_;
   ExportOptions export_;
+  PairOptions pair_;
+  ImpactOptions impact_;
   ParamsOptions params_;
 };
 

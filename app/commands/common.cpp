@@ -47,14 +47,23 @@ bool is_error(const Json& summary, const std::string& key) {
          summary.contains(key.substr(0, key.size() - error_suffix.size()));
 }
 
-std::string value_text(const Json& summary, const std::string& key) {
-  const Json& value = summary.at(key);
+std::string text_of(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
+  if (value.is_array()) {
+    std::string joined;
+    for (const Json& entry : value) joined += (joined.empty() ? "" : ", ") + text_of(entry);
+    return joined;
+  }
   if (!value.is_number_float()) return json_text(value);
   const auto number = value.get<double>();
-  const auto error = summary.find(key + std::string(error_suffix));
-  if (error != summary.end()) return with_error(number, error->get<double>());
   return std::isnan(number) ? "–" : fmt::format("{:.8g}", number);
+}
+
+std::string value_text(const Json& summary, const std::string& key) {
+  const Json& value = summary.at(key);
+  const auto error = summary.find(key + std::string(error_suffix));
+  const bool has_error = value.is_number_float() && error != summary.end();
+  return has_error ? with_error(value.get<double>(), error->get<double>()) : text_of(value);
 }
 
 /// Adds the keys of earlier versions beside those that replaced them, at every depth.

@@ -82,8 +82,7 @@ class ProgramCommandLine {
     } catch (const CLI::ParseError& error) {
       return app_.exit(error) == 0 ? success : user_error;
     }
-    return exit_code_of(app_.get_name() + " " + app_.get_subcommands().front()->get_name(),
-                        [this] { return chosen_(); });
+    return exit_code_of(command_name(), [this] { return chosen_(); });
   }
 
  protected:
@@ -100,6 +99,17 @@ class ProgramCommandLine {
 
   CLI::App app_;
   std::function<int()> chosen_;  ///< set by the subcommand that the command line names
+
+ private:
+  /// The program and the subcommands that the command line names.
+  std::string command_name() const {
+    std::string name = app_.get_name();
+    for (const CLI::App* app = &app_; !app->get_subcommands().empty();) {
+      app = app->get_subcommands().front();
+      name += " " + app->get_name();
+    }
+    return name;
+  }
 };
 
 }  // namespace vitrel

@@ -67,14 +67,6 @@ bool same_bits(const std::vector<double>& x, const std::vector<double>& y) {
 
 }  // namespace
 
-void expect_refusal(const Outcome& outcome, int code, const std::string& part) {
-  EXPECT_EQ(outcome.code, code);
-  EXPECT_THAT(outcome.errors, testing::HasSubstr(part));
-  EXPECT_EQ(outcome.output, "");
-  const auto last_line = outcome.errors.rfind("vitrel");
-  EXPECT_EQ(outcome.errors.find('\n', last_line), outcome.errors.size() - 1) << outcome.errors;
-}
-
 Outcome run_and_signal(const fs::path& folder, const std::vector<std::string>& arguments,
                        const std::function<bool()>& time, int signal) {
   const fs::path output = folder / "standard_output", errors = folder / "standard_error";
@@ -102,6 +94,14 @@ Outcome run(const fs::path& folder, const std::vector<std::string>& arguments) {
   int status = 0;
   waitpid(start(folder, arguments, output, errors), &status, 0);
   return {exit_code(status), content(output), content(errors)};
+}
+
+void expect_refusal(const Outcome& outcome, int code, const std::string& part) {
+  EXPECT_EQ(outcome.code, code);
+  EXPECT_THAT(outcome.errors, ::testing::HasSubstr(part));
+  EXPECT_EQ(outcome.output, "");
+  const auto last_line = outcome.errors.rfind("vitrel");
+  EXPECT_EQ(outcome.errors.find('\n', last_line), outcome.errors.size() - 1) << outcome.errors;
 }
 
 Folder::Folder(const std::string& name)

@@ -19,9 +19,6 @@ struct Outcome {
 /// Runs the program in `folder` to its end.
 Outcome run(const std::filesystem::path& folder, const std::vector<std::string>& arguments);
 
-/// Expects one message on standard error that contains `part`, that exit code, and nothing on standard output.
-void expect_refusal(const Outcome& outcome, int code, const std::string& part);
-
 /// The same, but sends `signal` as soon as it is `time`, unless the program has ended before.
 Outcome run_and_signal(const std::filesystem::path& folder,
                        const std::vector<std::string>& arguments, const std::function<bool()>& time,
@@ -30,6 +27,9 @@ Outcome run_and_signal(const std::filesystem::path& folder,
 Outcome run_and_signal(const std::filesystem::path& folder,
                        const std::vector<std::string>& arguments, std::chrono::milliseconds delay,
                        int signal);
+
+/// One message on standard error, that exit code, and nothing on standard output.
+void expect_refusal(const Outcome& outcome, int code, const std::string& part);
 
 /// An empty folder of this name below the test's temporary folder, removed with everything in it at the
 /// end of the scope.

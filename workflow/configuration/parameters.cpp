@@ -211,7 +211,7 @@ std::string command_template(const std::string& command) {
   const auto found = sections.find(command);
   if (found == sections.end())
     throw UserError(fmt::format(
-        "'{}' has no parameter file; commands that have one: prepare, run, analyze, sweep",
+        "'{}' has no parameter file; commands that have one: prepare, run, analyze, sweep, pair",
         command));
   Parameters parameters;
   if (found->second.sweep)
