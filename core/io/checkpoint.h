@@ -40,6 +40,9 @@ struct LoadedCheckpoint {
 /// The newest undamaged one of `path` and `<path>.previous`. Throws FileError if neither is.
 LoadedCheckpoint load_checkpoint(const std::filesystem::path& path);
 
+/// `<path>.previous`: the one before the newest. Throws FileError.
+Checkpoint load_previous_checkpoint(const std::filesystem::path& path);
+
 /// Whether load_checkpoint has a file to try.
 bool checkpoint_exists(const std::filesystem::path& path);
 

@@ -83,6 +83,8 @@ class TrajectoryWriter {
              const Observables& observables = {});
   /// The time spent on this file by all processes so far, for its provenance.
   void record_wall_seconds(double seconds);
+  /// The parameters of a run that goes on with others.
+  void record_parameters(const std::string& toml);
   /// Waits until the disk has all frames: a checkpoint that counts them may then be saved.
   void synchronize() { file_.synchronize(); }
   /// The same, and closes; the destructor closes too, but cannot report a failure.

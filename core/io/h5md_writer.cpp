@@ -323,6 +323,12 @@ void TrajectoryWriter::record_wall_seconds(double seconds) {
   file_.flush();
 }
 
+void TrajectoryWriter::record_parameters(const std::string& toml) {
+  h5::Group parameters = file_.root().group("parameters");
+  replace_parameters(parameters, toml);
+  file_.flush();
+}
+
 template <int Dim>
 void write_state(const fs::path& path, const Configuration<Dim>& configuration,
                  const Provenance& provenance, bool overwrite) {

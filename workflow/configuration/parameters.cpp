@@ -196,6 +196,7 @@ std::optional<std::string> place_of(const Parameters& parameters, const std::str
 std::string effective_parameters(const Parameters& parameters) {
   Parameters copy = parameters;
   copy.output.interval = sample_interval(parameters);
+  if (copy.output.correlations) copy.output.correlations->longest_lag = longest_lag(parameters);
   Sections all_but_sweep;
   all_but_sweep.sweep = false;
   return write_parameters(fields(copy, all_but_sweep));
@@ -241,19 +242,33 @@ Parameters recorded_parameters(const std::string& text, const std::string& name)
   return parameters;
 }
 
+Parameters continued(Parameters parameters, const Parameters& recorded) {
+  OutputParameters& output = parameters.output;
+  if (!output.interval) output.interval = sample_interval(recorded);
+  if (output.correlations && !output.correlations->longest_lag && recorded.output.correlations)
+    output.correlations->longest_lag = longest_lag(recorded);
+  FreeRotation& rotation = parameters.dynamics.rotation;
+  if (rotation == FreeRotation::euler && !place_of(parameters, "dynamics.rotation"))
+    rotation = recorded.dynamics.rotation;
+  return parameters;
+}
+
 std::optional<ParameterDifference> forbidden_change(const std::string& before,
                                                     const std::string& after, Work work) {
   // As this version would have recorded it: with its keys, and the defaults of those that are new.
-  const std::string recorded =
-      effective_parameters(recorded_parameters(before, "recorded parameters"));
-  return first_difference(recorded, after, [work](const std::string& key) {
-    if (key == "output.checkpoint_interval" || key == "prepare.quality_sweeps") return true;
-    // The state is read at the start only, and may be elsewhere now, or gone.
-    if (key == "prepare.stage.0.file") return true;
-    return key.starts_with("analysis.") ||
-           (work == Work::preparation &&
-            (key.starts_with("dynamics.") || key.starts_with("output.")));
-  });
+  const Parameters recorded = recorded_parameters(before, "recorded parameters");
+  const bool is_longer =
+      parse_parameters(after, "parameters").dynamics.duration > recorded.dynamics.duration;
+  return first_difference(
+      effective_parameters(recorded), after, [work, is_longer](const std::string& key) {
+        if (key == "output.checkpoint_interval" || key == "prepare.quality_sweeps") return true;
+        // The state is read at the start only, and may be elsewhere now, or gone.
+        if (key == "prepare.stage.0.file") return true;
+        if (key == "dynamics.duration" && is_longer) return true;
+        return key.starts_with("analysis.") ||
+               (work == Work::preparation &&
+                (key.starts_with("dynamics.") || key.starts_with("output.")));
+      });
 }
 
 DynamicsOptions dynamics_options(const Parameters& parameters) {
@@ -272,6 +287,10 @@ DynamicsOptions dynamics_options(const Parameters& parameters) {
 double sample_interval(const Parameters& parameters) {
   const double duration = parameters.dynamics.duration;
   return parameters.output.interval.value_or(std::min(std::max(0.1, duration / 200), duration));
+}
+
+double longest_lag(const Parameters& parameters) {
+  return parameters.output.correlations->longest_lag.value_or(0.5 * parameters.dynamics.duration);
 }
 
 std::vector<double> sample_times(const Parameters& parameters) {

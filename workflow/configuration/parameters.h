@@ -58,7 +58,8 @@ struct DynamicsParameters {
 /// Of correlations on the fly.
 struct CorrelationParameters {
   double interval = 0.1;
-  std::vector<double> wave_numbers;  ///< empty: main_wave_number
+  std::optional<double> longest_lag;  ///< none: half the duration
+  std::vector<double> wave_numbers;   ///< empty: main_wave_number
 };
 
 struct OutputParameters {
@@ -144,10 +145,14 @@ std::string command_template(const std::string& command);
 /// The page docs/parameters.md.
 std::string parameter_page();
 
+/// For a run that was begun with `recorded`: keys that are not given, and whose defaults depend on the duration or the
+/// version, stay as they were.
+Parameters continued(Parameters parameters, const Parameters& recorded);
+
 enum class Work { preparation, run };
 /// The first key that differs and may not, when a piece of work is continued with changed parameters.
 /// Changes of what it does not use do not matter, nor those of the checkpoint interval and the quality
-/// sweeps.
+/// sweeps; and a run may become longer.
 std::optional<ParameterDifference> forbidden_change(const std::string& before,
                                                     const std::string& after, Work work);
 
@@ -157,6 +162,8 @@ DynamicsOptions dynamics_options(const Parameters& parameters);
 /// The time between samples with linear spacing; by default a 200th of the duration, but at least 0.1 (or all of a
 /// shorter run), so that the default output of a long run costs little.
 double sample_interval(const Parameters& parameters);
+/// The longest time difference of correlations on the fly.
+double longest_lag(const Parameters& parameters);
 /// Sample times, from 0 to the duration.
 std::vector<double> sample_times(const Parameters& parameters);
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cassert>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -30,6 +29,15 @@ fs::path failed_state_path(const fs::path& output) {
   return output.string() + ".failed.h5";
 }
 
+/// Before time 0 the run equilibrates.
+template <int Dim>
+std::string time_text(const RunState<Dim>& state) {
+  const double time = state.configuration.time;
+  return time < 0 ? fmt::format("time {:.6g} of {:.6g} of the equilibration",
+                                time - state.start_time, -state.start_time)
+                  : fmt::format("time {:.6g}", time + 0.);  // no −0
+}
+
 void refuse_changes(const Parameters& parameters, const std::string& begun_with,
                     const fs::path& output) {
   if (const auto change = forbidden_change(begun_with, effective_parameters(parameters), Work::run))
@@ -50,6 +58,26 @@ void require_trajectory(const RunCheckpoint<Dim>& run, const fs::path& output) {
       output.string(), checkpoint_path(output).string(), run.state.next_sample));
 }
 
+/// Of a complete run the checkpoint before the last. The last is of the end, where a longer run would not have stopped:
+/// to go on from there would differ by rounding.
+template <int Dim>
+RunCheckpoint<Dim> before_the_end(const fs::path& checkpoint) {
+  const auto refusal = [&](const std::string& why) {
+    return FileError(
+        fmt::format("{}.previous: {}; a complete run is made longer from there, so "
+                    "start it anew with its whole duration",
+                    checkpoint.string(), why));
+  };
+  try {
+    RunCheckpoint<Dim> run =
+        run_from_checkpoint<Dim>(load_previous_checkpoint(checkpoint), checkpoint);
+    if (!run.complete) return run;
+  } catch (const FileError& error) {
+    throw refusal(error.what());
+  }
+  throw refusal("is of the end of the run, too");
+}
+
 /// The run to continue, also if its file to start from is no longer there.
 template <int Dim>
 RunCheckpoint<Dim> stored_run(RunRequest& request, const Checkpoint& checkpoint) {
@@ -62,14 +90,13 @@ RunCheckpoint<Dim> stored_run(RunRequest& request, const Checkpoint& checkpoint)
     // Earlier versions recorded the stages of the parameter file, which they did not use.
     if (!start_state(recorded.stages)) request.parameters.stages = recorded.stages;
   }
-  if (std::optional<double>& interval = request.parameters.output.interval; !interval)
-    interval = recorded.output.interval;
-  FreeRotation& rotation = request.parameters.dynamics.rotation;
-  if (rotation == FreeRotation::euler && !place_of(request.parameters, "dynamics.rotation"))
-    rotation = recorded.dynamics.rotation;
+  request.parameters = continued(request.parameters, recorded);
   refuse_changes(request.parameters, checkpoint.parameters, request.output);
   RunCheckpoint<Dim> run = run_from_checkpoint<Dim>(checkpoint, file);
   require_trajectory(run, request.output);
+  const bool is_longer = request.parameters.dynamics.duration > recorded.dynamics.duration;
+  if (run.complete && is_longer) run = before_the_end<Dim>(file);
+  if (is_longer) run.parameters = effective_parameters(request.parameters);
   return run;
 }
 
@@ -117,7 +144,11 @@ class RunJob {
           "another output, or delete it");
   }
 
-  void load() { stored_ = stored_run<Dim>(request_, checkpoint_.load(log_)); }
+  void load() {
+    const Checkpoint checkpoint = checkpoint_.load(log_);
+    stored_ = stored_run<Dim>(request_, checkpoint);
+    is_longer_ = stored_.parameters != checkpoint.parameters;
+  }
 
   // False if the preparation was stopped.
   bool begin() {
@@ -181,14 +212,14 @@ class RunJob {
 
   void advance(bool continues) {
     RunState<Dim>& state = stored_.state;
-    if (continues)
-      log_line(log_, fmt::format("continuing at time {:.6g}", state.configuration.time));
+    if (continues) log_line(log_, "continuing at " + time_text(state));
     const DynamicsOptions options = dynamics();
     log_line(log_, (is_soft() ? "run of soft " : "run of ") +
                        make_engine(state.configuration, options.engine)->description());
     TrajectoryWriter writer = open_trajectory();
     TrajectoryObserver<Dim> observer(writer, measure_run<Dim>);
     make_correlator();
+    if (is_longer_) begin_longer(writer);
     const WorkTimer timer(stored_.wall_seconds);
     RunPlan<Dim> plan{sample_times(request_.parameters), request_.parameters.dynamics.duration,
                       &observer, [&](const RunState<Dim>&) {
@@ -205,6 +236,13 @@ class RunJob {
     writer.record_wall_seconds(stored_.wall_seconds);
     writer.synchronize();
     writer.close();
+    save();
+  }
+
+  /// The checkpoint before that of the end must be one of before the end again, however short the rest is.
+  void begin_longer(TrajectoryWriter& writer) {
+    writer.record_parameters(stored_.parameters);
+    writer.synchronize();
     save();
   }
 
@@ -253,6 +291,7 @@ class RunJob {
   CheckpointFile checkpoint_;
   RunCheckpoint<Dim> stored_;
   std::optional<MultipleTau<Dim>> correlator_;  ///< on the fly, if the parameters ask for it
+  bool is_longer_ = false;                      ///< than it was when it was last worked on
 };
 
 /// Where the run starts; the species of the request become those that run.
@@ -262,8 +301,8 @@ std::string start_text(RunRequest& request) {
   if (checkpoint_exists(checkpoint)) {
     const RunCheckpoint<Dim> run = stored_run<Dim>(request, load_checkpoint(checkpoint).checkpoint);
     return run.complete ? "nothing: the run is complete"
-                        : fmt::format("the checkpoint at time {:.6g}, {} frames",
-                                      run.state.configuration.time, run.state.next_sample);
+                        : fmt::format("the checkpoint at {}, {} frames", time_text(run.state),
+                                      run.state.next_sample);
   }
   const std::vector<Stage>& stages = request.parameters.stages;
   const std::string steps = fmt::format("a preparation in {} stage(s)", stages.size());
@@ -316,7 +355,6 @@ std::string run_plan(RunRequest request) {
 template <int Dim>
 RunOutcome<Dim> run_simulation(const RunRequest& request, const RunControl& control,
                                const Log& log) {
-  assert(request.parameters.system.dimension == Dim);
   return RunJob<Dim>(request, control, log).run();
 }
 
