@@ -53,7 +53,7 @@ class EventDrivenRun {
                              (options_.engine.soft_contact
                                   ? "too dense or too strongly damped for event-driven contacts?)"
                                   : "inelastic collapse?)"));
-      if (plan_.at_block_end) timed_output([&] { plan_.at_block_end(state_); });
+      if (plan_.at_block_end && !finished) timed_output([&] { plan_.at_block_end(state_); });
       control_.report_progress(progress());
       if (finished) return {StageEnd::reached, "the end of the run was reached"};
       if (control_.stop_requested()) return {StageEnd::stopped, "stopped at the end of a block"};
@@ -88,8 +88,8 @@ class EventDrivenRun {
                      options_.brownian_step * static_cast<double>(state_.brownian_steps + 1)
                : std::numeric_limits<double>::infinity();
   }
-  // The horizon of predictions.
-  double horizon() const { return std::min(plan_.end_time, next_step_time()); }
+  // The horizon of predictions: not the end, so that the motion does not depend on it and a run can be made longer.
+  double horizon() const { return next_step_time(); }
   double next_stop() const {
     return std::min({plan_.end_time, next_sample_time(), next_tick_time(), next_step_time()});
   }

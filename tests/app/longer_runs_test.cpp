@@ -142,6 +142,8 @@ TEST(LongerRun, TheEquilibrationIsCalledSo) {
   folder.write("p.toml", in_plane);
   std::vector<std::string> stopped = command("run.h5", "10");
   stopped.insert(stopped.end(), {"--set", "dynamics.equilibration=1e5", "--wall-time", "1e-6"});
+  succeed(folder, {"prepare", "p.toml", "-o", "state.h5", "-q"});
+  stopped.insert(stopped.end(), {"--from", "state.h5"});
   ASSERT_EQ(run(folder.path(), stopped).code, 5);
   stopped.erase(std::find(stopped.begin(), stopped.end(), "-q"));
   const Outcome again = run(folder.path(), stopped);

@@ -40,10 +40,12 @@ std::string text_now(const SweepJob& job, const std::string& before, const fs::p
       continued(job.parameters, recorded_parameters(before, file.string())));
 }
 
-/// Whether what a finished job was asked for is what it is asked for now.
+/// Whether what a finished job was asked for is what it is asked for now: a run of this length, and its analysis.
 bool is_still_done(const SweepJob& job, const fs::path& folder, const std::string& before,
                    const std::string& now) {
-  const auto is_elsewhere = [](const std::string& key) { return !is_of_analysis(key); };
+  const auto is_elsewhere = [](const std::string& key) {
+    return !is_of_analysis(key) && key != "dynamics.duration";
+  };
   return !first_difference(before, now, is_elsewhere) &&
          read_json(folder / "done.json").contains("run") != job.prepares_only;
 }
