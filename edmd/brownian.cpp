@@ -73,34 +73,67 @@ void draw_velocities(Configuration<Dim>& configuration, std::uint64_t seed, Purp
     scale_rotation(configuration, std::sqrt(0.5 * rotations / drawn.rotational_energy));
 }
 
+namespace {
+
+/// Multiplies the energies of the particles by the temperatures of their species, but keeps the momentum at 0.
+template <int Dim>
+void heat_species(Configuration<Dim>& configuration, const std::vector<double>& temperatures) {
+  const Mechanics<Dim> before = mechanics(configuration);
+  double translations = 0, rotations = 0;
+  for (std::size_t i = 0; i < configuration.size(); ++i) {
+    const double t = temperatures[static_cast<std::size_t>(configuration.species[i])];
+    configuration.velocity[i] *= std::sqrt(t);
+    configuration.angular_velocity[i] *= std::sqrt(t);
+    translations += t / static_cast<double>(configuration.size());
+    rotations += t * configuration.shape[i].rotations();
+  }
+  if (!(translations > 0))
+    throw UserError("all species start at temperature 0; give one an initial_temperature above 0");
+  if (configuration.size() > 1) remove_momentum(configuration);
+  const Mechanics<Dim> now = mechanics(configuration);
+  scale_translation(configuration, std::sqrt(translations * before.translational_energy /
+                                             now.translational_energy));
+  if (now.rotational_energy > 0)
+    scale_rotation(configuration, std::sqrt(0.5 * rotations / now.rotational_energy));
+}
+
+/// This share of all energy in translation, the rest in rotation.
+template <int Dim>
+void split_energy(Configuration<Dim>& configuration, double share) {
+  const Mechanics<Dim> drawn = mechanics(configuration);
+  if (share < 1 && !(drawn.rotational_energy > 0))
+    throw UserError(
+        "dynamics.initial_velocities: no particle rotates, as all are round or start at "
+        "temperature 0; use \"maxwell\"");
+  const double total = drawn.translational_energy + drawn.rotational_energy;
+  const auto factor = [total](double part, double energy) {
+    return part > 0 ? std::sqrt(part * total / energy) : 0;
+  };
+  scale_translation(configuration, factor(share, drawn.translational_energy));
+  scale_rotation(configuration, factor(1 - share, drawn.rotational_energy));
+}
+
+}  // namespace
+
 template <int Dim>
 void set_initial_velocities(Configuration<Dim>& configuration, std::uint64_t seed,
-                            InitialVelocities kind, Temperature temperature) {
+                            InitialVelocities kind, Temperature temperature,
+                            const InitialEnergies& energies) {
   if (kind == InitialVelocities::keep) return;
   draw_velocities(configuration, seed, Purpose::velocities, 0, temperature);
-  if (kind == InitialVelocities::maxwell) return;
-  const auto drawn = mechanics(configuration);
-  const double total = drawn.translational_energy + drawn.rotational_energy;
-  if (kind == InitialVelocities::translation) {
-    scale_translation(configuration, std::sqrt(total / drawn.translational_energy));
-    scale_rotation(configuration, 0);
-    return;
-  }
-  if (rotor_count(configuration) == 0)
-    throw UserError(
-        "dynamics.initial_velocities = \"rotation\": all particles are round and cannot rotate; "
-        "use \"maxwell\"");
-  scale_rotation(configuration, std::sqrt(total / drawn.rotational_energy));
-  scale_translation(configuration, 0);
+  if (!energies.temperatures.empty()) heat_species(configuration, energies.temperatures);
+  if (kind == InitialVelocities::translation) split_energy(configuration, 1);
+  if (kind == InitialVelocities::rotation) split_energy(configuration, 0);
+  if (kind == InitialVelocities::split) split_energy(configuration, energies.translation);
 }
 
 template void draw_velocities(Configuration2&, std::uint64_t, Purpose, std::uint64_t, Temperature,
                               int);
-template void set_initial_velocities(Configuration2&, std::uint64_t, InitialVelocities,
-                                     Temperature);
+template void set_initial_velocities(Configuration2&, std::uint64_t, InitialVelocities, Temperature,
+                                     const InitialEnergies&);
 template void draw_velocities(Configuration3&, std::uint64_t, Purpose, std::uint64_t, Temperature,
                               int);
-template void set_initial_velocities(Configuration3&, std::uint64_t, InitialVelocities,
-                                     Temperature);
+template void set_initial_velocities(Configuration3&, std::uint64_t, InitialVelocities, Temperature,
+                                     const InitialEnergies&);
 
 }  // namespace vitrel

@@ -18,9 +18,11 @@ template <int Dim>
 void draw_velocities(Configuration<Dim>& configuration, std::uint64_t seed, Purpose purpose,
                      std::uint64_t step, Temperature temperature, int threads = 1);
 
-/// Throws UserError if a partition of the energy is impossible (rotation, but no particle can rotate).
+/// The velocities of a run at its start. With temperatures of species, energies are Σ kT_i in the place of N kT. Throws
+/// UserError if the energy cannot be distributed so: rotation of round particles, or no energy at all.
 template <int Dim>
 void set_initial_velocities(Configuration<Dim>& configuration, std::uint64_t seed,
-                            InitialVelocities kind, Temperature temperature);
+                            InitialVelocities kind, Temperature temperature,
+                            const InitialEnergies& energies = {});
 
 }  // namespace vitrel

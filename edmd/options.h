@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 /// @file
 /// Options of event-driven dynamics, in a header of their own so that code that reads parameters compiles no algorithm.
@@ -59,6 +60,13 @@ enum class InitialVelocities {
   translation,  ///< drawn, then all energy transferred to translation
   rotation,     ///< drawn, then all energy transferred to rotation
   keep,         ///< those of the configuration
+  split,        ///< drawn, then this share of all energy in translation, and the rest in rotation
+};
+
+/// What drawn velocities hold.
+struct InitialEnergies {
+  double translation = 0.5;               ///< share of all energy, of `split`
+  std::vector<double> temperatures = {};  ///< kT by species; empty: 1
 };
 
 /// Newtonian dynamics, or Brownian: the same with all velocities redrawn every `brownian_step`.

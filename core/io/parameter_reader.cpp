@@ -181,18 +181,15 @@ class Reader final : public FieldVisitor {
     }
   }
 
-  void number_or_table(const Field& field, double& number_value, bool& is_table,
-                       const Inside& inside) override {
+  void value_or_table(const Field& field, bool& is_table, const Inside& value,
+                      const Inside& inside) override {
     const TomlNode* node = find(field);
     if (!node) return;
     is_table = node->get<TomlNode::Table>() != nullptr;
-    if (is_table) {
-      Reader reader(*node, join(path_, field.key));
-      inside(reader);
-      reader.refuse_unknown_keys();
-    } else {
-      number_value = number(*node, field, to_toml(number_value));
-    }
+    if (is_table)
+      table(field, TableStyle::inline_table, inside);
+    else
+      value(*this);
   }
 
   void array(const Field& field, const List& entries) override {

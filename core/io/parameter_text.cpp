@@ -56,6 +56,9 @@ class InlineWriter final : public ValueVisitor {
     for (const auto& [key, value] : items_) items.push_back(value);
     return fmt::format("[{}]", fmt::join(items, ", "));
   }
+  /// Of the last field.
+  const std::string& value() const { return items_.back().second; }
+  const std::string& choices() const { return choices_; }
 
   void table(const Field& field, TableStyle, const Inside& inside) override {
     InlineWriter inner;
@@ -71,12 +74,12 @@ class InlineWriter final : public ValueVisitor {
     }
     put(field, fmt::format("[{}]", fmt::join(tables, ", ")), "");
   }
-  void number_or_table(const Field& field, double& number, bool& is_table,
-                       const Inside& inside) override {
+  void value_or_table(const Field& field, bool& is_table, const Inside& value,
+                      const Inside& inside) override {
     if (is_table)
       table(field, TableStyle::inline_table, inside);
     else
-      put(field, to_toml(number), "");
+      value(*this);
   }
   void optional(const Field&, bool& present, const Inside& inside) override {
     if (present) inside(*this);
@@ -92,17 +95,30 @@ class InlineWriter final : public ValueVisitor {
   }
 
  private:
-  void put(const Field& field, const std::string& value, const std::string&) override {
+  void put(const Field& field, const std::string& value, const std::string& choices) override {
     items_.emplace_back(field.key, value);
+    choices_ = choices;
   }
 
   std::vector<std::pair<std::string, std::string>> items_;
+  std::string choices_;  ///< of the last field
 };
 
 void ValueVisitor::array(const Field& field, const List& entries) {
   InlineWriter writer;
   for (std::size_t k = 0; k < entries.size(); ++k) entries.describe(k, writer);
   put(field, writer.values(), "");
+}
+
+/// The text of a single field, and the words that it may be.
+struct SingleValue {
+  std::string text, choices;
+};
+
+SingleValue single_value(const FieldVisitor::Inside& inside) {
+  InlineWriter writer;
+  inside(writer);
+  return {writer.value(), writer.choices()};
 }
 
 std::string inline_text(const FieldVisitor::Inside& inside) {
@@ -164,11 +180,12 @@ class DocumentWriter final : public ValueVisitor {
     }
   }
 
-  void number_or_table(const Field& field, double& number, bool& is_table,
-                       const Inside& inside) override {
-    comment(field, "");
+  void value_or_table(const Field& field, bool& is_table, const Inside& value,
+                      const Inside& inside) override {
+    const SingleValue single = single_value(value);
+    comment(field, single.choices);
     comment_inline_fields(inside);
-    line(field, is_table ? inline_text(inside) : to_toml(number));
+    line(field, is_table ? inline_text(inside) : single.text);
   }
 
   void optional(const Field&, bool& present, const Inside& inside) override {
@@ -254,8 +271,8 @@ class InlineComments final : public ValueVisitor {
     put(field, "", "");
     list.describe_blank(*this);
   }
-  void number_or_table(const Field& field, double&, bool&, const Inside&) override {
-    put(field, "", "");
+  void value_or_table(const Field& field, bool&, const Inside& value, const Inside&) override {
+    put(field, "", single_value(value).choices);
   }
   void optional(const Field&, bool&, const Inside& inside) override { inside(*this); }
   void when(bool, const std::string& label, const Inside& inside) override {
@@ -304,9 +321,10 @@ class TableWriter final : public ValueVisitor {
   void list(const Field& field, const List& list) override {
     section(field, "[[{}]]", list.describe_blank);
   }
-  void number_or_table(const Field& field, double& number, bool& is_table,
-                       const Inside& inside) override {
-    row_with_fields(field, is_table ? inline_text(inside) : to_toml(number), inside);
+  void value_or_table(const Field& field, bool& is_table, const Inside& value,
+                      const Inside& inside) override {
+    const SingleValue single = single_value(value);
+    row_with_fields(field, is_table ? inline_text(inside) : single.text, inside, single.choices);
   }
   void optional(const Field&, bool& present, const Inside& inside) override {
     const bool outer = absent_;
@@ -333,8 +351,9 @@ class TableWriter final : public ValueVisitor {
                              explanation(field, ""), inner.text());
   }
 
-  void row_with_fields(const Field& field, const std::string& value, const Inside& inside) {
-    put(field, value, "");
+  void row_with_fields(const Field& field, const std::string& value, const Inside& inside,
+                       const std::string& choices = "") {
+    put(field, value, choices);
     const std::string outer = prefix_;
     const bool outer_absent = absent_;
     prefix_ += field.key + ".";

@@ -67,9 +67,9 @@ class FieldVisitor {
   virtual void choice(const Field&, std::size_t& index, std::span<const char* const> names) = 0;
   virtual void table(const Field&, TableStyle, const Inside& inside) = 0;
   virtual void list(const Field&, const List& list) = 0;
-  /// A number, or a table of fields instead; `is_table` tells which.
-  virtual void number_or_table(const Field&, double& number, bool& is_table,
-                               const Inside& inside) = 0;
+  /// A value, or a table of fields instead; `is_table` tells which. `value` names the one field that it is otherwise.
+  virtual void value_or_table(const Field&, bool& is_table, const Inside& value,
+                              const Inside& table) = 0;
   /// An array; `describe` names the one field of each entry, whose key is its number.
   virtual void array(const Field&, const List& entries) = 0;
   /// A field that may be left out; `present` tells whether it is there. `inside` names the one

@@ -45,6 +45,8 @@ struct Species {
   /// In two dimensions the larger of two draws is a. Excludes the four above.
   std::optional<std::vector<Distribution>> semi_axes;
   std::optional<double> mass;  ///< of every particle; a b (a b c: uniform density) if not given
+  std::optional<double>
+      initial_temperature;  ///< kT of drawn velocities at the start of a run; 1 if not given
 };
 
 /// The mass of a particle whose species has none: a b or a b c, that at the density of a round particle of radius 1 and

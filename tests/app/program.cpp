@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -92,8 +93,9 @@ Outcome run_and_signal(const fs::path& folder, const std::vector<std::string>& a
 Outcome run(const fs::path& folder, const std::vector<std::string>& arguments) {
   const fs::path output = folder / "standard_output", errors = folder / "standard_error";
   int status = 0;
-  waitpid(start(folder, arguments, output, errors), &status, 0);
-  return {exit_code(status), content(output), content(errors)};
+  rusage used{};
+  wait4(start(folder, arguments, output, errors), &status, 0, &used);
+  return {exit_code(status), content(output), content(errors), 1024. * used.ru_maxrss};
 }
 
 void expect_refusal(const Outcome& outcome, int code, const std::string& part) {

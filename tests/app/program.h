@@ -14,6 +14,7 @@ struct Outcome {
   int code = 0;  ///< exit code; 128 + number if a signal ended the program
   std::string output;
   std::string errors;
+  double memory_bytes = 0;  ///< largest resident set
 };
 
 /// Runs the program in `folder` to its end.

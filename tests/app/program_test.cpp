@@ -4,6 +4,7 @@
 #include <signal.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <fstream>
 #include <future>
@@ -237,6 +238,31 @@ TEST(Program, TheSpeciesOfAStateWin) {
   expect_refusal(
       run(folder.path(), {"run", "other.toml", "-o", "run.h5", "--from", "k14.h5", "-q"}), 2,
       contradiction);
+}
+
+TEST(Program, TheEnergyMayBeSplitAndSpeciesHeated) {
+  const Folder folder("split_energy");
+  folder.write("p.toml", small_system);
+  const auto energies = [&](const std::string& output, const std::vector<std::string>& settings) {
+    std::vector<std::string> words = {
+        "run", "p.toml", "-o", output, "-q", "--set", "dynamics.equilibration=0"};
+    for (const std::string& setting : settings) words.insert(words.end(), {"--set", setting});
+    const Outcome ran = run(folder.path(), words);
+    EXPECT_EQ(ran.code, 0) << ran.errors;
+    const Mechanics<2> sums = mechanics(TrajectoryReader(folder / output).read<2>(0));
+    return std::array{sums.translational_energy, sums.rotational_energy};
+  };
+  // 30 ellipses: 30 kT and 15 kT.
+  const auto split = energies("split.h5", {"dynamics.initial_velocities={ translation = 0.7 }"});
+  EXPECT_NEAR(split[0], 0.7 * 45, 1e-12);
+  EXPECT_NEAR(split[1], 0.3 * 45, 1e-12);
+  const auto hot =
+      energies("hot.h5", {"species.0.aspect_ratio=2", "species.0.initial_temperature=3"});
+  EXPECT_NEAR(hot[0], 90, 1e-11);
+  EXPECT_NEAR(hot[1], 45, 1e-11);
+  expect_refusal(run(folder.path(), {"run", "p.toml", "-o", "a.h5", "--set",
+                                     "dynamics.initial_velocities={ translation = 1.5 }"}),
+                 2, "key 'dynamics.initial_velocities.translation' is 1.5");
 }
 
 /// Starts from state.h5 and is stopped after the first block, however slow the machine.

@@ -57,11 +57,13 @@ void describe(Everything& p, FieldVisitor& visit) {
                   crystal.field({"atoms_per_cell", "", "Atoms."}, p.atoms_per_cell);
                 });
                 in.field({"axes", "length", "Axes."}, p.axes);
-                in.number_or_table({"spread", "", "Spread."}, p.spread, p.spread_is_table,
-                                   [&](FieldVisitor& t) {
-                                     t.field({"low", "", "Low."}, p.low);
-                                     t.field({"high", "", "High."}, p.high);
-                                   });
+                const Field spread{"spread", "", "Spread."};
+                in.value_or_table(
+                    spread, p.spread_is_table, [&](FieldVisitor& v) { v.field(spread, p.spread); },
+                    [&](FieldVisitor& t) {
+                      t.field({"low", "", "Low."}, p.low);
+                      t.field({"high", "", "High."}, p.high);
+                    });
                 in.quantity({"stiffness", "N/m", "Stiffness."}, p.stiffness);
                 in.table({"samples", "", "Samples."}, FieldVisitor::TableStyle::inline_table,
                          [&](FieldVisitor& t) {

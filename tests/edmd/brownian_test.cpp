@@ -62,6 +62,35 @@ TEST(Velocities, WrongSplitsHoldAllTheEnergy) {
   EXPECT_NEAR(mechanics(c).rotational_energy, 80, 1e-12);
 }
 
+TEST(Velocities, AnySplitHoldsAllTheEnergy) {
+  Configuration2 c = mixture(60);
+  set_initial_velocities(c, 1, InitialVelocities::split, Temperature::total, {.translation = 0.7});
+  EXPECT_NEAR(mechanics(c).translational_energy, 0.7 * 80, 1e-12);
+  EXPECT_NEAR(mechanics(c).rotational_energy, 0.3 * 80, 1e-12);
+}
+
+// The energy of n particles in the plane fluctuates by √(1/n) of itself, here n = 400.
+TEST(Velocities, SpeciesHaveTheirOwnTemperatures) {
+  Configuration2 c;
+  c.resize(1200);
+  for (std::size_t i = 0; i < c.size(); ++i) {
+    c.shape[i] = {2, 0.5};
+    c.species[i] = static_cast<std::int32_t>(i % 3 == 0);
+    c.mass[i] = c.species[i] ? 3 : 1;
+  }
+  c.species_names = {"hot", "cold"};
+  set_initial_velocities(c, 1, InitialVelocities::maxwell, Temperature::total,
+                         {.temperatures = {2, 0.5}});
+  const Mechanics<2> sums = mechanics(c);
+  EXPECT_NEAR(sums.translational_energy, 800 * 2 + 400 * 0.5, 1e-9);
+  EXPECT_NEAR(sums.rotational_energy, 0.5 * (800 * 2 + 400 * 0.5), 1e-9);
+  EXPECT_LT(sums.momentum.norm(), 1e-10);
+  double cold = 0;
+  for (std::size_t i = 0; i < c.size(); i += 3)
+    cold += 0.5 * c.mass[i] * c.velocity[i].squaredNorm() / 400;
+  EXPECT_NEAR(cold, 0.5, 4 * 0.5 * std::sqrt(1. / 400));  // false alarm 6e-5
+}
+
 TEST(Velocities, DisksCannotHoldTheirEnergyInRotation) {
   Configuration2 c;
   c.resize(4);

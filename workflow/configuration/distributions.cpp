@@ -34,7 +34,8 @@ Distribution example_of(double value, double minimum) {
 void describe_distribution(const Field& field, Distribution& d, FieldVisitor& visit) {
   bool is_table = d.kind != Kind::constant;
   std::size_t kind = is_table ? static_cast<std::size_t>(d.kind) - 1 : 0;
-  visit.number_or_table(field, d.mean, is_table, [&](FieldVisitor& in) {
+  const auto number = [&](FieldVisitor& in) { in.field(field, d.mean); };
+  visit.value_or_table(field, is_table, number, [&](FieldVisitor& in) {
     in.choice({"distribution", "",
                "Distribution from which the numbers are drawn, as a table instead of a number."},
               kind, distribution_names);

@@ -77,6 +77,23 @@ void describe_contact(ContactParameters& p, FieldVisitor& visit) {
               p.early_release, early_release_names);
 }
 
+void describe_initial_velocities(DynamicsParameters& p, FieldVisitor& visit) {
+  const Field field{"initial_velocities", "",
+                    "Equilibrium at kT = 1 (maxwell), the same energy entirely in translation or "
+                    "entirely in rotation, or the velocities of the initial state (keep). As a "
+                    "table, any split of the energy."};
+  bool is_split = p.initial_velocities == InitialVelocities::split;
+  InitialVelocities kind = is_split ? InitialVelocities::maxwell : p.initial_velocities;
+  visit.value_or_table(
+      field, is_split, [&](FieldVisitor& in) { in.field(field, kind, velocity_names); },
+      [&](FieldVisitor& in) {
+        in.field(
+            {"translation", "", "Share of the energy in translation; the rest is in rotation."},
+            p.translation_share);
+      });
+  p.initial_velocities = is_split ? InitialVelocities::split : kind;
+}
+
 void describe_dynamics(DynamicsParameters& p, FieldVisitor& visit) {
   visit.field({"kind", "",
                "Free flight and collisions (newtonian), or the same with all velocities redrawn "
@@ -100,10 +117,7 @@ void describe_dynamics(DynamicsParameters& p, FieldVisitor& visit) {
                "energy of N kT (total) or of (N − 1) kT (relative: the degrees of freedom that "
                "remain once the net momentum is removed)."},
               p.temperature, temperature_names);
-  visit.field({"initial_velocities", "",
-               "Equilibrium at kT = 1 (maxwell), the same energy entirely in translation or "
-               "entirely in rotation, or the velocities of the initial state (keep)."},
-              p.initial_velocities, velocity_names);
+  describe_initial_velocities(p, visit);
   visit.field({"rotation", "",
                "Rotation of ellipsoids with three different semi-axes in free flight: by Euler's "
                "equations (euler), or about a constant angular velocity (constant), which is "
@@ -123,6 +137,9 @@ void validate_dynamics(const DynamicsParameters& p) {
   rules.positive(p.brownian_step, "brownian_step");
   rules.not_negative(p.equilibration, "equilibration");
   rules.positive(p.duration, "duration");
+  rules.require(p.translation_share >= 0 && p.translation_share <= 1,
+                "initial_velocities.translation",
+                fmt::format("is {}, but must lie between 0 and 1", show(p.translation_share)));
   rules.require(
       p.restitution > 0 && p.restitution <= 1, "restitution",
       fmt::format("is {}, but must lie above 0 and not above 1 (elastic)", show(p.restitution)));

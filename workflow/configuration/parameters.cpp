@@ -284,6 +284,16 @@ DynamicsOptions dynamics_options(const Parameters& parameters) {
   return options;
 }
 
+InitialEnergies initial_energies(const Parameters& parameters) {
+  InitialEnergies energies{.translation = parameters.dynamics.translation_share};
+  for (const Species& species : parameters.species)
+    energies.temperatures.push_back(species.initial_temperature.value_or(1));
+  const bool are_default =
+      std::ranges::all_of(energies.temperatures, [](double t) { return t == 1; });
+  if (are_default) energies.temperatures.clear();
+  return energies;
+}
+
 double sample_interval(const Parameters& parameters) {
   const double duration = parameters.dynamics.duration;
   return parameters.output.interval.value_or(std::min(std::max(0.1, duration / 200), duration));

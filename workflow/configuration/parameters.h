@@ -51,6 +51,7 @@ struct DynamicsParameters {
   OnOverlap on_overlap = OnOverlap::stop;
   Temperature temperature = Temperature::total;
   InitialVelocities initial_velocities = InitialVelocities::maxwell;
+  double translation_share = InitialEnergies().translation;  ///< of InitialVelocities::split
   FreeRotation rotation = FreeRotation::euler;
   std::optional<ContactParameters> contact;  ///< none: hard particles
 };
@@ -159,6 +160,7 @@ std::optional<ParameterDifference> forbidden_change(const std::string& before,
 /// The same parameters in the form the engine takes them, without the contact of soft particles
 /// (soft_particles.h).
 DynamicsOptions dynamics_options(const Parameters& parameters);
+InitialEnergies initial_energies(const Parameters& parameters);
 /// The time between samples with linear spacing; by default a 200th of the duration, but at least 0.1 (or all of a
 /// shorter run), so that the default output of a long run costs little.
 double sample_interval(const Parameters& parameters);

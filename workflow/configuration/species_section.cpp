@@ -145,6 +145,10 @@ void describe_species(Species& p, FieldVisitor& visit) {
                   "Mass of every particle of this species. The default is a b (a b c), which gives "
                   "all species the same density."},
                  p.mass, 1.0);
+  visit.optional({"initial_temperature", "kT",
+                  "Temperature of the velocities that are drawn at the start of a run; the default "
+                  "is 1. A species at 0 only drifts, so that the net momentum is 0."},
+                 p.initial_temperature, 1.0);
 }
 
 void validate_system(const SystemParameters& p) {
@@ -172,6 +176,7 @@ void validate_species(const std::vector<Species>& species, int dimension) {
                   fmt::format("is {}, but must lie above 0 and not above 1", show(p.fraction)));
     validate_shape(p, dimension, path);
     if (p.mass) rules.positive(*p.mass, "mass");
+    if (p.initial_temperature) rules.not_negative(*p.initial_temperature, "initial_temperature");
     sum += p.fraction;
   }
   if (const auto conflict = species_name_conflict(names))

@@ -297,8 +297,11 @@ void take_species(Parameters& parameters, const Configuration<Dim>& state,
     if (recorded) refuse(distribution_conflict(given, of_state), parameters, origin.file);
     const bool describes = !species_conflict(given, state);
     parameters.species = recorded || !describes ? of_state : given;
+    for (std::size_t k = 0; k < given.size(); ++k)
+      parameters.species[k].initial_temperature = given[k].initial_temperature;
   } else {
     parameters.species = present(of_state);
+    for (Species& species : parameters.species) species.initial_temperature.reset();
   }
   SystemParameters of_state_system;
   of_state_system.box_aspect =

@@ -1,6 +1,7 @@
 #include "workflow/run/run.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -14,6 +15,7 @@
 #include "workflow/prepare/prepare.h"
 #include "workflow/run/correlations_file.h"
 #include "workflow/run/run_checkpoint.h"
+#include "workflow/run/run_cost.h"
 #include "workflow/storage/checkpoint_file.h"
 #include "workflow/storage/trajectory_file.h"
 
@@ -174,7 +176,8 @@ class RunJob {
   void set_velocities(Configuration<Dim>& configuration) const {
     const DynamicsParameters& dynamics = request_.parameters.dynamics;
     set_initial_velocities(configuration, request_.parameters.system.seed,
-                           dynamics.initial_velocities, dynamics.temperature);
+                           dynamics.initial_velocities, dynamics.temperature,
+                           initial_energies(request_.parameters));
     const Mechanics<Dim> sums = mechanics(configuration);
     if (!(sums.translational_energy + sums.rotational_energy > 0))
       throw UserError(
@@ -313,26 +316,46 @@ std::string start_text(RunRequest& request) {
   return stages.size() == 1 ? state : fmt::format("{}, by {}", state, steps);
 }
 
-}  // namespace
-
-int run_dimension(const RunRequest& request) {
-  const fs::path checkpoint = checkpoint_path(request.output);
-  if (checkpoint_exists(checkpoint)) return dimension_of(load_checkpoint(checkpoint).checkpoint);
-  return prepared_dimension({.parameters = request.parameters, .output = request.output});
+/// More than there is of it is a warning.
+std::string room_text(double needed, double available, const char* what) {
+  constexpr double megabyte = 1e6;
+  if (needed <= available) return "";
+  return fmt::format("warning      needs {:.3g} MB of {}, but there are {:.3g} MB\n",
+                     needed / megabyte, what, available / megabyte);
 }
 
-std::string run_plan(RunRequest request) {
+double physical_memory() {
+  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+}
+
+double free_disk(const fs::path& output) {
+  std::error_code unknown;
+  return static_cast<double>(fs::space(fs::absolute(output).parent_path(), unknown).available);
+}
+
+template <int Dim>
+std::string cost_text(const RunRequest& request) {
   const Parameters& p = request.parameters;
-  const std::string start =
-      run_dimension(request) == 2 ? start_text<2>(request) : start_text<3>(request);
-  const std::size_t frames = sample_times(p).size();
-  // Position, image, orientation, angle, and the velocities if asked for, before compression.
-  const double bytes_per_particle = 24 + 12 + 32 + 8 + (p.output.velocities ? 32 : 0);
-  const double size =
-      bytes_per_particle * static_cast<double>(p.system.particles) * static_cast<double>(frames);
-  std::string text = fmt::format("starts from  {}\n", start);
+  const RunCost cost = run_cost(p, representative_particles<Dim>(p));
+  const double correlations = p.output.correlations ? correlator_bytes(p) : 0;
+  const double memory = cost.memory_bytes + correlations;
+  const bool slows = p.dynamics.restitution < 1 || p.dynamics.contact;
+  return fmt::format(
+             "expects      {}{:.2g} events, {:.2g} s after the preparation, {:.3g} MB of "
+             "memory, {:.3g} MB on disk\n",
+             slows ? "at most " : "", cost.events, cost.seconds, memory / 1e6,
+             cost.disk_bytes / 1e6) +
+         room_text(memory, physical_memory(), "memory") +
+         room_text(cost.disk_bytes, free_disk(request.output), "disk");
+}
+
+template <int Dim>
+std::string plan_text(RunRequest request) {
+  const std::string start = start_text<Dim>(request);
+  const Parameters& p = request.parameters;
   const std::string fraction =
       has_unknown_end(p.stages) ? "as prepared" : fmt::format("{}", p.system.packing_fraction);
+  std::string text = fmt::format("starts from  {}\n", start);
   text += fmt::format("system       {} particles, packing fraction {}, seed {}\n",
                       p.system.particles, fraction, p.system.seed);
   for (const Species& species : p.species)
@@ -343,13 +366,25 @@ std::string run_plan(RunRequest request) {
   if (p.dynamics.contact) text += contact_text(*p.dynamics.contact);
   text += fmt::format("time         {} to equilibrate, then {}\n", p.dynamics.equilibration,
                       p.dynamics.duration);
-  text += fmt::format("writes       {}, {} frames, at most {:.3g} MB; checkpoint every {} s\n",
-                      request.output.string(), frames, size / 1e6, p.output.checkpoint_interval);
+  text +=
+      fmt::format("writes       {}, {} frames; checkpoint every {} s\n", request.output.string(),
+                  sample_times(p).size(), p.output.checkpoint_interval);
   if (p.output.correlations)
-    text += fmt::format("correlates   every {}, into {}; {:.3g} MB of memory\n",
-                        p.output.correlations->interval, correlations_path(request.output).string(),
-                        correlator_bytes(p) / 1e6);
-  return text;
+    text += fmt::format("correlates   every {}, into {}\n", p.output.correlations->interval,
+                        correlations_path(request.output).string());
+  return text + cost_text<Dim>(request);
+}
+
+}  // namespace
+
+int run_dimension(const RunRequest& request) {
+  const fs::path checkpoint = checkpoint_path(request.output);
+  if (checkpoint_exists(checkpoint)) return dimension_of(load_checkpoint(checkpoint).checkpoint);
+  return prepared_dimension({.parameters = request.parameters, .output = request.output});
+}
+
+std::string run_plan(RunRequest request) {
+  return run_dimension(request) == 2 ? plan_text<2>(request) : plan_text<3>(request);
 }
 
 template <int Dim>
