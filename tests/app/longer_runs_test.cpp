@@ -80,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Scene{"in_space", of_spheroids}, Scene{"soft", soft},
                     Scene{"correlated",
                           in_plane + "correlations = { interval = 0.3, longest_lag = 4 }\n"}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& scene) { return scene.param.name; });
 
 TEST(LongerRun, KeepsWhatItsBeginningChose) {
   const Folder folder("longer_defaults");

@@ -191,10 +191,13 @@ TEST(OwnStates, AFileIsRefusedInItsOwnTerms) {
   refused("a.csv", "x,y,angle,a,b\n0,0,0,1,0.5\n", "a.csv: frame 0: has no box");
   refused("a.csv", header + "0,0,0,0.5,1,6,6\n",
           "a.csv: frame 0: particle 0 has the semi-axes 0.5 and 1, but should have a ≥ b > 0");
-  refused("a.csv", "name,value\nx,1\n", "a.csv:1: there are no columns x and y, but name, value");
+  refused("a.csv", "name,value\nx,1\n",
+          "a.csv: is neither H5MD, GSD nor extended XYZ, nor CSV, whose first line has columns x "
+          "and y");
   const std::string keys =
       "Lattice=\"6 0 0 0 6 0 0 0 6\" Properties=species:S:1:pos:R:3:radius:R:1\n";
   refused("a.xyz", "2\n" + keys + "A 0 0 0 1\n", "a.xyz:3: the file ends before particle 1 of 2");
+  refused("a.xyz", "1\nProperties=species:S:1\nA\n", "a.xyz:2: there are no positions");
   refused("a.xyz", "1\nProperties=pos:R\nA 0 0 0 1\n", "a.xyz:2: should have Properties=name:type");
   refused("a.xyz", "1\n" + keys + "A 0 0 0 1\n2\n" + keys + "A 0 0 0 1\nA 3 3 3 1\n",
           "a.xyz: frame 1 has other particles than frame 0");

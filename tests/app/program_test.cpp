@@ -209,6 +209,15 @@ TEST(Program, AStateMustFitTheParameters) {
   expect_refusal(run_with("system.packing_fraction=0.4"), 2,
                  "key 'system.packing_fraction' is 0.4, but that of the state is");
   expect_refusal(run_with("dynamics.initial_velocities=keep"), 2, "is at rest");
+  // Before it does anything, the plan refuses the same.
+  for (const auto& [setting, complaint] :
+       {std::pair("system.particles=31", "key 'system.particles' is 31"),
+        {"dynamics.initial_velocities=keep", "is at rest"}})
+    expect_refusal(run(folder.path(), {"run", "p.toml", "-o", "run.h5", "--from", "state.h5",
+                                       "--dry-run", "--set", setting}),
+                   2, complaint);
+  expect_refusal(run(folder.path(), {"run", "p.toml", "-o", "state.h5", "--dry-run"}), 2,
+                 "state.h5: exists, but has no checkpoint beside it");
 }
 
 // What a run records is what ran, whatever the parameter file says or leaves out.
@@ -662,9 +671,9 @@ TEST(Program, ASweepWorksOffItsJobsAndContinues) {
   EXPECT_EQ(run(folder.path(), {"report", "sweep", "-q"}).code, 0);
   EXPECT_TRUE(std::filesystem::exists(folder / "sweep/report.html"));
   std::vector<std::string> other = sweep;
-  other.insert(other.end(), {"--set", "dynamics.duration=11"});
+  other.insert(other.end(), {"--set", "dynamics.duration=9"});
   expect_refusal(run(folder.path(), other), 2,
-                 "was begun with dynamics.duration = 10.0, but now it is 11.0");
+                 "was begun with dynamics.duration = 10.0, but now it is 9.0");
 }
 
 TEST(Program, AFailedJobDoesNotStopTheOthers) {

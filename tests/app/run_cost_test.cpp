@@ -78,7 +78,7 @@ INSTANTIATE_TEST_SUITE_P(
               "name = \"A\"\naspect_ratio = 3\nfraction = 0.5\n[[species]]\nname = \"B\"\n"
               "aspect_ratio = 1.5\nsize = 0.7\nfraction = 0.5\n",
               "kind = \"brownian\"\nduration = 10\n"}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& scene) { return scene.param.name; });
 
 TEST(RunCostOfTooMuch, IsAWarning) {
   const Folder folder("cost_of_too_much");

@@ -180,7 +180,7 @@ Configuration<Dim> read_start(Parameters& parameters, bool overlaps_allowed, con
       log_line(log, fmt::format("{}: all particles are scaled by 1 − {:.3g}, so that none overlap",
                                 name, 1 - scale));
     take_system(parameters, state, name, recorded);
-  } else if (!overlaps_allowed) {
+  } else if (!overlaps_allowed || parameters.stages.size() > 1) {
     refuse_overlaps(state, name);
   }
   return state;

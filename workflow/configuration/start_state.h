@@ -20,7 +20,7 @@ int start_dimension(const Parameters& parameters);
 /// The state to start from. Dimension, number, box and species of `parameters` become its own, and, unless a stage
 /// changes it, the packing fraction. What the parameters give must agree with it in the digits given; otherwise UserError,
 /// with the place of the key. FileError if the file is unreadable; InvariantError if particles overlap, unless they are
-/// to be shrunk, or `overlaps_allowed`.
+/// to be shrunk, or allowed and no stage follows.
 template <int Dim>
 Configuration<Dim> read_start(Parameters& parameters, bool overlaps_allowed, const Log& log);
 

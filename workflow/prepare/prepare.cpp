@@ -43,6 +43,22 @@ void bring_to_rest(Configuration<Dim>& configuration) {
   std::ranges::fill(configuration.angular_velocity, Motion<Dim>().angular_velocity);
 }
 
+/// The parameters of a preparation that goes on; UserError if it was begun with others.
+template <int Dim>
+Parameters resumed_parameters(Parameters parameters, const Checkpoint& begun,
+                              const fs::path& file) {
+  const auto* reached = std::get_if<Configuration<Dim>>(&begun.configuration);
+  if (start_state(parameters.stages) && reached)
+    take_system(parameters, *reached, file.string(), begun.parameters);
+  if (const auto change =
+          forbidden_change(begun.parameters, effective_parameters(parameters), Work::preparation))
+    throw UserError(
+        fmt::format("{}: the preparation was begun with {} = {}, but now it is {}; continue it "
+                    "with its own parameters, or delete this file",
+                    file.string(), change->key, change->first, change->second));
+  return parameters;
+}
+
 /// One request at work.
 template <int Dim>
 class PrepareJob {
@@ -93,8 +109,9 @@ class PrepareJob {
   bool has_places() const { return !done().stages.empty(); }
 
   void begin() {
-    done().configuration =
-        is_given() ? read_start<Dim>(done().parameters, may_overlap(), log_) : drawn_particles();
+    done().configuration = is_given()
+                               ? read_start<Dim>(done().parameters, request_.overlaps_allowed, log_)
+                               : drawn_particles();
     stored_.parameters = effective_parameters(parameters());
     stored_.state = first_state(stage(), 0);
   }
@@ -107,17 +124,7 @@ class PrepareJob {
 
   void load() {
     const Checkpoint loaded = checkpoint_.load(log_);
-    const auto* reached = std::get_if<Configuration<Dim>>(&loaded.configuration);
-    if (is_given() && reached)
-      take_system(done().parameters, *reached, checkpoint_.path().string(), loaded.parameters);
-    const Parameters now = parameters();
-    stored_.parameters = effective_parameters(now);
-    if (const auto change =
-            forbidden_change(loaded.parameters, stored_.parameters, Work::preparation))
-      throw UserError(
-          fmt::format("{}: the preparation was begun with {} = {}, but now it is {}; continue it "
-                      "with its own parameters, or delete this file",
-                      checkpoint_.path().string(), change->key, change->first, change->second));
+    const Parameters now = resumed_parameters<Dim>(parameters(), loaded, checkpoint_.path());
     stored_ = preparation_from_checkpoint<Dim>(loaded, now.stages, checkpoint_.path());
     done().parameters = now;
     timer_ = WorkTimer(done().wall_seconds);
@@ -227,6 +234,15 @@ Preparation<Dim> prepare(const PrepareRequest& request, const RunControl& contro
   return PrepareJob<Dim>(request, control, log).run();
 }
 
+template <int Dim>
+void require_same_preparation(const PrepareRequest& request) {
+  const fs::path checkpoint = checkpoint_path(request.output);
+  if (checkpoint_exists(checkpoint))
+    resumed_parameters<Dim>(request.parameters, load_checkpoint(checkpoint).checkpoint, checkpoint);
+}
+
+template void require_same_preparation<2>(const PrepareRequest&);
+template void require_same_preparation<3>(const PrepareRequest&);
 template struct Preparation<2>;
 template struct Preparation<3>;
 template Preparation<2> prepare<2>(const PrepareRequest&, const RunControl&, const Log&);

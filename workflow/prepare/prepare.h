@@ -28,7 +28,7 @@ struct PrepareRequest {
   std::filesystem::path output = {};
   std::string command_line = {};  ///< for the provenance
   int threads = 1;                ///< of Monte Carlo; the result does not depend on it
-  /// A given state may have overlaps, if no stage follows it.
+  /// A given state may have overlaps; they matter only if a stage follows it.
   bool overlaps_allowed = false;
 };
 
@@ -58,6 +58,10 @@ int prepared_dimension(const PrepareRequest& request);
 /// - InvariantError if a given state has overlaps, or the exact check finds one at the end.
 template <int Dim = 2>
 Preparation<Dim> prepare(const PrepareRequest& request, const RunControl& control, const Log& log);
+
+/// UserError if a preparation of this output was begun with other parameters.
+template <int Dim>
+void require_same_preparation(const PrepareRequest& request);
 
 /// Removes the checkpoint, once what comes after the preparation is safely on disk.
 void forget_preparation(const std::filesystem::path& output);

@@ -102,6 +102,33 @@ RunCheckpoint<Dim> stored_run(RunRequest& request, const Checkpoint& checkpoint)
   return run;
 }
 
+PrepareRequest preparation_request(const RunRequest& request) {
+  return {.parameters = request.parameters,
+          .output = request.output,
+          .command_line = request.command_line,
+          .threads = request.threads,
+          .overlaps_allowed = request.parameters.dynamics.on_overlap == OnOverlap::correct};
+}
+
+void refuse_foreign_output(const fs::path& output) {
+  if (fs::exists(output))
+    throw UserError(output.string() +
+                    ": exists, but has no checkpoint beside it, so it cannot be continued; choose "
+                    "another output, or delete it");
+}
+
+template <int Dim>
+void set_velocities(Configuration<Dim>& configuration, const Parameters& parameters) {
+  const DynamicsParameters& dynamics = parameters.dynamics;
+  set_initial_velocities(configuration, parameters.system.seed, dynamics.initial_velocities,
+                         dynamics.temperature, initial_energies(parameters));
+  const Mechanics<Dim> sums = mechanics(configuration);
+  if (!(sums.translational_energy + sums.rotational_energy > 0))
+    throw UserError(
+        "dynamics.initial_velocities = \"keep\", but the state to start from is at rest; "
+        "use \"maxwell\", or start (--from) from a run with velocities");
+}
+
 /// One request at work.
 template <int Dim>
 class RunJob {
@@ -120,7 +147,7 @@ class RunJob {
     if (continues) {
       load();
     } else {
-      refuse_foreign_output();
+      refuse_foreign_output(request_.output);
       if (!begin()) return {};
     }
     const bool was_complete = stored_.complete;
@@ -138,14 +165,6 @@ class RunJob {
     return request_.parameters.dynamics.on_overlap == OnOverlap::stop;
   }
 
-  void refuse_foreign_output() const {
-    if (fs::exists(request_.output))
-      throw UserError(
-          request_.output.string() +
-          ": exists, but has no checkpoint beside it, so it cannot be continued; choose "
-          "another output, or delete it");
-  }
-
   void load() {
     const Checkpoint checkpoint = checkpoint_.load(log_);
     stored_ = stored_run<Dim>(request_, checkpoint);
@@ -154,35 +173,18 @@ class RunJob {
 
   // False if the preparation was stopped.
   bool begin() {
-    Preparation<Dim> preparation = prepare<Dim>({.parameters = request_.parameters,
-                                                 .output = request_.output,
-                                                 .command_line = request_.command_line,
-                                                 .threads = request_.threads,
-                                                 .overlaps_allowed = !stops_on_overlap()},
-                                                control_, log_);
+    Preparation<Dim> preparation = prepare<Dim>(preparation_request(request_), control_, log_);
     if (!preparation.complete) return false;
     request_.parameters = preparation.parameters;
     stored_.parameters = effective_parameters(request_.parameters);
     Configuration<Dim>& configuration = preparation.configuration;
-    set_velocities(configuration);
+    set_velocities(configuration, request_.parameters);
     stored_.state = begin_run(configuration, -request_.parameters.dynamics.equilibration);
     forget_correlations(request_.output);
     // Before the trajectory: one without a checkpoint is never this run's.
     save();
     forget_preparation(request_.output);
     return true;
-  }
-
-  void set_velocities(Configuration<Dim>& configuration) const {
-    const DynamicsParameters& dynamics = request_.parameters.dynamics;
-    set_initial_velocities(configuration, request_.parameters.system.seed,
-                           dynamics.initial_velocities, dynamics.temperature,
-                           initial_energies(request_.parameters));
-    const Mechanics<Dim> sums = mechanics(configuration);
-    if (!(sums.translational_energy + sums.rotational_energy > 0))
-      throw UserError(
-          "dynamics.initial_velocities = \"keep\", but the state to start from is at rest; "
-          "use \"maxwell\", or start (--from) from a run with velocities");
   }
 
   void make_correlator() {
@@ -307,13 +309,22 @@ std::string start_text(RunRequest& request) {
                         : fmt::format("the checkpoint at {}, {} frames", time_text(run.state),
                                       run.state.next_sample);
   }
+  refuse_foreign_output(request.output);
   const std::vector<Stage>& stages = request.parameters.stages;
+  const bool is_given = start_state(stages) && stages.size() == 1;
+  const PrepareRequest preparation = preparation_request(request);
+  Configuration<Dim> state;
+  if (start_state(stages))
+    state = read_start<Dim>(request.parameters, preparation.overlaps_allowed, {});
+  if (!is_given) {
+    require_same_preparation<Dim>(preparation);
+    state = representative_particles<Dim>(request.parameters);  // at rest, as after other stages
+  }
+  set_velocities(state, request.parameters);
   const std::string steps = fmt::format("a preparation in {} stage(s)", stages.size());
   if (!start_state(stages)) return steps;
-  const bool corrects = request.parameters.dynamics.on_overlap == OnOverlap::correct;
-  read_start<Dim>(request.parameters, corrects && stages.size() == 1, {});
-  const std::string state = stage_description(stages.front(), 0);
-  return stages.size() == 1 ? state : fmt::format("{}, by {}", state, steps);
+  const std::string given = stage_description(stages.front(), 0);
+  return is_given ? given : fmt::format("{}, by {}", given, steps);
 }
 
 /// More than there is of it is a warning.
@@ -380,7 +391,7 @@ std::string plan_text(RunRequest request) {
 int run_dimension(const RunRequest& request) {
   const fs::path checkpoint = checkpoint_path(request.output);
   if (checkpoint_exists(checkpoint)) return dimension_of(load_checkpoint(checkpoint).checkpoint);
-  return prepared_dimension({.parameters = request.parameters, .output = request.output});
+  return prepared_dimension(preparation_request(request));
 }
 
 std::string run_plan(RunRequest request) {

@@ -75,6 +75,12 @@ class CsvFrames final : public ForeignFrames {
     if (cells_.empty())
       throw FileError(lines_.path().string() + ": has no line with the names of columns");
     for (std::string& cell : cells_) cell = column_name(cell);
+    const auto has = [&](const char* name) { return std::ranges::count(cells_, name) > 0; };
+    if (!has("x") && !has("unwrapped_x"))
+      throw FileError(
+          fmt::format("{}: is neither H5MD, GSD nor extended XYZ, nor CSV, whose first "
+                      "line has columns x and y",
+                      lines_.path().string()));
     return cells_;
   }
 

@@ -87,8 +87,7 @@ ParticleTable::ParticleTable(const std::vector<std::string>& columns, const std:
   for (const auto& [third, first] : third_of)
     if (names.contains(third)) require(first, third);
   if (!names.contains("x") && !names.contains("unwrapped_x"))
-    throw FileError(
-        fmt::format("{}: there are no columns x and y, but {}", place, fmt::join(columns, ", ")));
+    throw FileError(place + ": there are no positions");
 }
 
 void ParticleTable::add(const std::vector<std::string_view>& cells, const std::string& place) {
