@@ -113,7 +113,7 @@ TEST(Export, RefusesWithOneMessageAndLeavesNothing) {
   expect({"run.h5", "--to", "pdf"}, 2, "gsd, xyz, csv for trajectories and gnuplot for results");
   expect({"run.h5", "--to", "xyz", "-o", "there.xyz"}, 2, "exists already");
   expect({"run.h5", "--to", "xyz", "--frames", "4"}, 2, "has 4 frame(s)");
-  expect({"there.xyz", "--to", "gsd"}, 3, "not an HDF5 file");
+  expect({"there.xyz", "--to", "gsd"}, 3, "is neither H5MD, GSD nor extended XYZ, nor CSV");
   expect({"nowhere.h5", "--to", "gsd"}, 3, "nowhere.h5");
   expect({"run.h5", "--to", "gsd", "-o", "nowhere/run.gsd"}, 3, "nowhere/run.gsd");
   expect({"run.h5", "--to", "gnuplot"}, 3, "holds no results");

@@ -103,6 +103,8 @@ TEST(SweepStatus, SaysWhatHasChangedInTheParameterFile) {
               ElementsAre("the parameters have changed since seed-1, seed-2 were begun: "
                           "dynamics.duration was 10.0 and is 20.0 now",
                           "no longer among the jobs of the parameter file: seed-3"));
+  sweep.folder().write("p.toml",
+                       "[dynamics]\nduration = 5\n[sweep.grid]\n\"system.seed\" = [1, 2]\n");
   EXPECT_THROW(sweep.run(), UserError);
   // The analysis may change: it is made anew.
   sweep.folder().write("p.toml", "[analysis]\nlongest_lag = 0.25\n" + three_seeds);

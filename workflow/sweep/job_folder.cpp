@@ -21,8 +21,9 @@ Work work_in(const fs::path& folder) {
   return fs::exists(folder / "run.h5") ? Work::run : Work::preparation;
 }
 
-bool is_of_analysis(const std::string& key) {
-  return key.starts_with("analysis.");
+/// Of a finished job. Others make its run longer or its analysis another one.
+bool may_change_unnoticed(const std::string& key) {
+  return !key.starts_with("analysis.") && key != "dynamics.duration";
 }
 
 void refuse_other_parameters(const fs::path& folder, const std::string& before,
@@ -43,10 +44,7 @@ std::string text_now(const SweepJob& job, const std::string& before, const fs::p
 /// Whether what a finished job was asked for is what it is asked for now: a run of this length, and its analysis.
 bool is_still_done(const SweepJob& job, const fs::path& folder, const std::string& before,
                    const std::string& now) {
-  const auto is_elsewhere = [](const std::string& key) {
-    return !is_of_analysis(key) && key != "dynamics.duration";
-  };
-  return !first_difference(before, now, is_elsewhere) &&
+  return !first_difference(before, now, may_change_unnoticed) &&
          read_json(folder / "done.json").contains("run") != job.prepares_only;
 }
 
@@ -100,7 +98,7 @@ std::optional<ParameterDifference> change_since_begun(const SweepJob& job, const
   if (!fs::exists(file)) return std::nullopt;
   const std::string before = read_text(file), now = text_now(job, before, file);
   if (auto forbidden = forbidden_change(before, now, work_in(folder))) return forbidden;
-  return first_difference(before, now, [](const std::string& key) { return !is_of_analysis(key); });
+  return first_difference(before, now, may_change_unnoticed);
 }
 
 void write_job_end(JobStage stage, const std::string& step, int exit_code, const fs::path& folder) {
