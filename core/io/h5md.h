@@ -158,7 +158,7 @@ class TrajectoryObserver : public Observer<Dim> {
 /// semi-axes that are not 0. A frame is read into a configuration of the same dimension; `require_dimension`
 /// says so before any frame is asked for. Orientations in three dimensions must have the norm 1.
 ///
-/// Times must be finite and ascend. FileError names the file, the dataset, and what would be right.
+/// Times must be finite and ascend, and the particles must fit into the box, soft ones with some overlap. FileError names the file, the dataset, and what would be right.
 class TrajectoryReader {
  public:
   /// `known` says what a file other than H5MD may lack: box, dimension, and the semi-axes of species.
@@ -215,6 +215,8 @@ class TrajectoryReader {
                                    std::uint64_t frame, std::size_t per_particle) const;
   template <int Dim>
   void read_box(std::uint64_t frame, Configuration<Dim>& configuration) const;
+  template <int Dim>
+  void require_room(std::uint64_t frame, const Configuration<Dim>& configuration) const;
   template <int Dim>
   void read_positions(std::uint64_t frame, Configuration<Dim>& configuration) const;
   void read_orientations(std::uint64_t frame, Configuration2& configuration) const;

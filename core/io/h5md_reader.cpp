@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -10,6 +11,7 @@
 #include "core/io/foreign/foreign_file.h"
 #include "core/io/h5md.h"
 #include "core/state/species.h"
+#include "core/tolerances.h"
 
 namespace vitrel {
 namespace fs = std::filesystem;
@@ -269,6 +271,26 @@ void TrajectoryReader::read_box(std::uint64_t frame, Configuration<Dim>& configu
          (Dim == 2 ? " should be a rectangle with sides along x and y"
                    : " should be a cuboid with edges along x, y and z"));
   configuration.box = PeriodicBox<Dim>(lengths);
+  require_room(frame, configuration);
+}
+
+/// Otherwise whoever looks for pairs would not come to an end.
+template <int Dim>
+void TrajectoryReader::require_room(std::uint64_t frame,
+                                    const Configuration<Dim>& configuration) const {
+  constexpr double most_boxes = 300;  // core/state/check.h
+  const double longest = largest_circumradius(configuration);
+  const double fraction = packing_fraction(configuration);
+  if (!(longest <= most_boxes * configuration.box.lengths().minCoeff()))
+    fail(
+        fmt::format("in frame {} the longest semi-axis is {}, and the box {}; it should not exceed "
+                    "{} box lengths",
+                    frame, longest, fmt::join(configuration.box.lengths(), " × "), most_boxes));
+  if (!(fraction <= tolerance::densest))
+    fail(
+        fmt::format("in frame {} the particles would fill the box {:.4g} times; box or semi-axes "
+                    "are wrong",
+                    frame, fraction));
 }
 
 template <int Dim>
