@@ -191,14 +191,15 @@ class CommandLine : public ProgramCommandLine {
     sub.footer(exit_codes + ", 5 stopped (nothing was written).");
     sub.add_option("file", export_.input, "State or run, or results of vitrel analyze")->required();
     sub.add_option("--to", export_.format,
-                   "gsd (HOOMD-blue, OVITO), xyz (OVITO, ASE) or csv; in three dimensions also one "
-                   "period with all images: geo (Gmsh), vti (voxels for VTK) or vtp (points for "
-                   "VTK; of several frames a folder with a .pvd file for ParaView); of results: "
-                   "gnuplot (a folder of data and scripts)")
+                   "gsd (HOOMD-blue, OVITO), xyz (OVITO, ASE) or csv; in two dimensions also thesis "
+                   "(plain text, a line of t and all x, y, angle per frame); in three dimensions "
+                   "also one period with all images: geo (Gmsh), vti (voxels for VTK) or vtp "
+                   "(points for VTK; of several frames a folder with a .pvd file for ParaView); of "
+                   "results: gnuplot (a folder of data and scripts)")
         ->required();
     add_output(sub, export_.output,
-               "File or folder to write, which must not exist; default <file> with the new suffix, "
-               "<file>_vtp for several frames, or <results>_gnuplot");
+               "File or folder to write, which must not exist; default <file> with the new suffix "
+               "(.dat for thesis), <file>_vtp for several frames, or <results>_gnuplot");
     sub.add_option("--frames", export_.frames,
                    "Which frames, as Python's slices: 7, -1 (the last), first:end:step (all; to "
                    "geo, to vti and with --images one, the last)");

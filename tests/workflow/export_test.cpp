@@ -275,8 +275,12 @@ TEST(ExportOfAPacking, RefusesWhatDoesNotFit) {
   EXPECT_THAT(message({"flat.h5", "--to", "csv", "--shrink", "0.5"}),
               HasSubstr("three dimensions"));
   EXPECT_THAT(message({"flat.h5", "--to", "vti"}),
-              HasSubstr("no such format, but gsd, xyz, csv for trajectories and gnuplot"));
-  EXPECT_THAT(message({"run.h5", "--to", "pdf"}), HasSubstr("gsd, xyz, csv, geo, vti, vtp"));
+              HasSubstr("flat.h5: is two-dimensional, for which --to takes gsd, xyz, csv, thesis, "
+                        "but not vti\n"));
+  EXPECT_THAT(message({"run.h5", "--to", "thesis"}),
+              HasSubstr("run.h5: is three-dimensional, for which --to takes gsd, xyz, csv, geo, "
+                        "vti, vtp, but not thesis\n"));
+  EXPECT_THAT(message({"run.h5", "--to", "pdf"}), HasSubstr("but not pdf"));
   // What belongs to the images is not there without them.
   EXPECT_THAT(message({"run.h5", "--to", "csv", "--shrink", "0.5"}), HasSubstr("--images"));
   for (const std::string file : {"flat.h5", "run.h5"})
