@@ -114,6 +114,8 @@ class RunJob {
     if (continues) {
       load();
     } else {
+      // A start that cannot be read is named before an output that is in the way.
+      if (request_.from) TrajectoryReader(*request_.from);
       refuse_foreign_output();
       if (!begin()) return {};
     }
