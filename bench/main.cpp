@@ -27,13 +27,13 @@ class CommandLine : public ProgramCommandLine {
     add_thesis();
     add_parts();
     add_others();
+    add_help_and_version();
   }
 
  private:
   CLI::App& add(const std::string& name, const std::string& sentence,
                 const std::function<int()>& run) {
-    CLI::App& sub = *app_.add_subcommand(name, sentence);
-    sub.callback([this, run] { chosen_ = run; });
+    CLI::App& sub = add_command(name, sentence, run);
     sub.footer(exit_codes + ".");
     return sub;
   }

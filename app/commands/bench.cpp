@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <filesystem>
-#include <iostream>
 
 #include "app/terminal/exit_codes.h"
 
@@ -17,10 +16,10 @@ int bench_command(char** words) {
   for (const fs::path& program : {folder / name, folder / "../bench" / name})
     execv(program.c_str(), words);
   execvp(name, words);
-  std::cerr
-      << "vitrel bench: cannot find vitrel-bench beside this program or on PATH; build it with "
-         "cmake -DVITREL_BUILD_BENCH=ON, target vitrel-bench\n";
-  return user_error;
+  return complain("vitrel bench",
+                  "cannot find vitrel-bench beside this program or on PATH; build it with cmake "
+                  "-DVITREL_BUILD_BENCH=ON, target vitrel-bench",
+                  user_error);
 }
 
 }  // namespace vitrel
