@@ -12,8 +12,8 @@
 #include "app/commands/run.h"
 #include "app/commands/sweep.h"
 #include "app/terminal/completion.h"
-#include "app/terminal/help.h"
 #include "app/terminal/manual_page.h"
+#include "app/terminal/program_command_line.h"
 #include "workflow/configuration/parameters.h"
 #include "workflow/export/trajectory_export.h"
 

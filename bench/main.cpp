@@ -1,7 +1,7 @@
 // vitrel-bench: the command line of all subcommands. The only file here that includes CLI11.
 #include <functional>
 
-#include "app/terminal/help.h"
+#include "app/terminal/program_command_line.h"
 #include "bench/programs/collision_time.h"
 #include "bench/programs/overlap.h"
 #include "bench/programs/programs.h"
