@@ -1,10 +1,13 @@
 // Habits that users bring along: help and suggestions, completion, a manual page, colour, lines that fit a terminal.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdio>
-#include <nlohmann/json.hpp>
+#include <cstdlib>
+#include <iterator>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -102,12 +105,9 @@ TEST_F(HabitsTest, HelpAndVersionAreCommandsAndOptions) {
 TEST_F(HabitsTest, AMisspeltWordComesWithTheNearest) {
   expect_refusal({"anaylze", "run.h5", "-o", "a.h5"},
                  "vitrel: 'anaylze' is no command; did you mean 'analyze'?");
-  expect_refusal(
-      {"help", "reprot"}, "vitrel help: command: 'reprot' is none of " + [&] {
-        std::string list;
-        for (const std::string& name : commands()) list += (list.empty() ? "" : ", ") + name;
-        return list;
-      }() + "; did you mean 'report'?");
+  expect_refusal({"help", "reprot"},
+                 fmt::format("vitrel help: command: 'reprot' is none of {}; did you mean 'report'?",
+                             fmt::join(commands(), ", ")));
   expect_refusal({"--versoin"}, "vitrel: '--versoin' is no option; did you mean '--version'?");
   // Rather than that the output is missing.
   expect_refusal({"run", "p.toml", "--ouput", "run.h5"},
@@ -355,7 +355,7 @@ TEST_F(HabitsTest, AMissingStartIsNamedRatherThanTheOutput) {
   EXPECT_EQ(folder.read("existing.h5"), "");
 }
 
-// The thesis's bound is for one kind of particles; small disks fill the holes between large ones.
+// Small disks fill the holes between large ones.
 TEST_F(HabitsTest, AMixtureMayBeDenserThanEqualDisks) {
   const auto plan = [&](const std::string& fraction, const std::string& small_disks) {
     folder.write("p.toml", "[system]\npacking_fraction = " + fraction +
