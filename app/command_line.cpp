@@ -6,6 +6,7 @@
 #include "app/commands/bench.h"
 #include "app/commands/check.h"
 #include "app/commands/export.h"
+#include "app/commands/pair.h"
 #include "app/commands/params.h"
 #include "app/commands/prepare.h"
 #include "app/commands/report.h"
@@ -14,7 +15,7 @@
 #include "app/terminal/completion.h"
 #include "app/terminal/manual_page.h"
 #include "app/terminal/program_command_line.h"
-#include "workflow/configuration/parameters.h"
+#include "workflow/configuration/sections.h"
 #include "workflow/export/trajectory_export.h"
 
 namespace vitrel {
@@ -63,6 +64,16 @@ void add_parameter_file(CLI::App& sub, ParameterOptions& source) {
                  "Seed of all random numbers, the same as --set system.seed=");
 }
 
+void add_start(CLI::App& sub, StartOptions& start) {
+  CLI::Option* from = add_file(
+      sub, "--from", start.from,
+      "State or run whose last frame to start from: H5MD, GSD, extended XYZ or CSV. Stages of the "
+      "parameter file follow if the first of them moves particles");
+  sub.add_flag("--shrink", start.shrink,
+               "With --from: scale all particles until none overlap, as after single precision")
+      ->needs(from);
+}
+
 void add_threads(CLI::App& sub, int& threads, const std::string& what) {
   sub.add_option("--threads", threads, what + "; the results do not depend on it")->check(positive);
 }
@@ -86,7 +97,7 @@ class CommandLine : public ProgramCommandLine {
   CommandLine(int count, char** words)
       : ProgramCommandLine(
             "Simulation of hard anisotropic particles, from the liquid to the glass.", "vitrel") {
-    prepare_.command_line = run_.command_line = joined(count, words);
+    prepare_.command_line = run_.command_line = impact_.command_line = joined(count, words);
     add_prepare();
     add_run();
     add_check();
@@ -94,6 +105,7 @@ class CommandLine : public ProgramCommandLine {
     add_sweep();
     add_report();
     add_export();
+    add_pair();
     add_bench();
     add_params();
     add_completion();
@@ -101,15 +113,19 @@ class CommandLine : public ProgramCommandLine {
     add_help_and_version();
     app_.footer(
         "vitrel help <command> lists the options of a command. On a terminal errors are red, "
-        "unless "
-        "NO_COLOR is set.");
+        "unless NO_COLOR is set.");
   }
 
  private:
   template <class Options>
   CLI::App& add(const std::string& name, const std::string& sentence, int (*work)(const Options&),
                 const Options& options) {
-    CLI::App& sub = add_command(name, sentence, [work, &options] { return work(options); });
+    return add_below(app_, name, sentence, work, options);
+  }
+  template <class Options>
+  CLI::App& add_below(CLI::App& parent, const std::string& name, const std::string& sentence,
+                      int (*work)(const Options&), const Options& options) {
+    CLI::App& sub = add_command(parent, name, sentence, [work, &options] { return work(options); });
     sub.footer(exit_codes + ".");
     return sub;
   }
@@ -122,6 +138,7 @@ class CommandLine : public ProgramCommandLine {
     add_output(sub, prepare_.output,
                "State file to write, with its quality report <state>.quality.json beside it")
         ->required();
+    add_start(sub, prepare_.start);
     add_threads(sub, prepare_.threads, "Threads for Monte Carlo (1)");
     add_wall_time(sub, prepare_.wall_time);
     add_print(sub, prepare_.print);
@@ -134,7 +151,7 @@ class CommandLine : public ProgramCommandLine {
     sub.footer(exit_codes + overlap_code + resumed_code + ".");
     add_parameter_file(sub, run_.source);
     add_output(sub, run_.output, "Trajectory to write, with its checkpoint beside it")->required();
-    add_file(sub, "--from", run_.from, "State or run whose last frame to start from");
+    add_start(sub, run_.start);
     sub.add_flag("--dry-run", run_.dry_run, "Print what would be done");
     add_threads(sub, run_.threads,
                 "Threads for the Brownian steps and for Monte Carlo in the preparation (1)");
@@ -147,6 +164,8 @@ class CommandLine : public ProgramCommandLine {
                         check_command, check_);
     sub.footer(exit_codes + overlap_code + ", 5 stopped (no overlap so far).");
     add_file(sub, "file", check_.input, "State or run")->required();
+    add_file(sub, "--params", check_.parameters,
+             "Parameter file with what the file does not say, such as the semi-axes of species");
     sub.add_flag("--last", check_.last_only, "The last frame only");
     add_print(sub, check_.print);
   }
@@ -237,9 +256,75 @@ class CommandLine : public ProgramCommandLine {
     add_print(sub, export_.print);
   }
 
+  CLI::App& add_pair_question(CLI::App& pair, const std::string& name, const std::string& sentence,
+                              int (*work)(const PairOptions&)) {
+    CLI::App& sub = add_below(pair, name, sentence, work, pair_);
+    CLI::Option* file =
+        add_file(sub, "file", pair_.source.file,
+                 "Both bodies (TOML), instead of --body; vitrel params pair prints one");
+    sub.add_option("--body", pair_.source.bodies,
+                   "A body, given twice: 'semi_axes=2,1 position=3,0 angle=0.5 velocity=-1,0 "
+                   "angular_velocity=0.2', or in space three semi-axes and orientation=w,x,y,z")
+        ->take_all()
+        ->allow_extra_args(false)
+        ->excludes(file);
+    sub.add_option("--box", pair_.source.box,
+                   "Sides Lx,Ly or Lx,Ly,Lz of a periodic box, for all images of the second body");
+    add_overrides(sub, pair_.source.overrides, "body.1.angle=0.3");
+    add_print(sub, pair_.print);
+    return sub;
+  }
+
+  void add_pair() {
+    CLI::App& pair =
+        add_command(app_, "pair",
+                    "Two bodies: overlap, gap and contact time of ellipses or ellipsoids, and the "
+                    "restitution coefficients of soft spheres.",
+                    {});
+    pair.require_subcommand(1);
+    add_pair_question(pair, "overlap", "Do two bodies overlap? The exact criterion.",
+                      pair_overlap_command);
+    add_pair_question(pair, "gap", "Distance of two bodies, its direction and its ends.",
+                      pair_gap_command);
+    CLI::App& contact = add_pair_question(pair, "contact-time",
+                                          "When and where two bodies in free flight first touch.",
+                                          pair_contact_time_command);
+    contact.add_option("--horizon", pair_.source.horizon, "Search until this time (100)");
+    add_choice(contact, "--rotation", pair_.source.rotation,
+               {std::begin(rotation_names), std::end(rotation_names)}, "ROTATION",
+               "Of ellipsoids with three different semi-axes: euler, or constant for a "
+               "constant angular velocity");
+    contact.add_option("--method", pair_.methods, "Compare this method of vitrel-bench")
+        ->take_all()
+        ->allow_extra_args(false);
+    contact.add_flag("--all-methods", pair_.all_methods, "Compare all methods of vitrel-bench");
+    add_restitution(pair);
+  }
+
+  void add_restitution(CLI::App& pair) {
+    CLI::App& sub = add_below(
+        pair, "restitution",
+        "Restitution coefficients of an impact of two soft spheres, integrated and from the table.",
+        pair_restitution_command, impact_);
+    add_file(sub, "params", impact_.source.file, "Parameter file with [dynamics.contact]");
+    add_overrides(sub, impact_.source.overrides,
+                  "youngs_modulus='1 GPa'; keys of [dynamics.contact]");
+    sub.add_option("--speed", impact_.source.speed,
+                   "Relative speed, '5 m/s' (the thermal_speed of the parameters)");
+    sub.add_option("--impact-parameter", impact_.source.impact_parameter,
+                   "Over the sum of the radii, the sine of the impact angle: from 0, head-on (0), "
+                   "to below 1");
+    sub.add_option("--second-radius", impact_.source.second_radius,
+                   "Radius of the second sphere, '0.12 m' (that of the first)");
+    add_file(sub, "--table", impact_.table,
+             "File to write the tabulated coefficients of this pair to, for many speeds and "
+             "impact parameters: .h5 or .csv");
+    add_print(sub, impact_.print);
+  }
+
   // For the help only: the words after it are passed on unparsed.
   void add_bench() {
-    add_command("bench",
+    add_command(app_, "bench",
                 "Measure the numerical methods against a guaranteed reference: runs vitrel-bench, "
                 "which is built beside this program.",
                 {})
@@ -249,15 +334,15 @@ class CommandLine : public ProgramCommandLine {
   void add_params() {
     CLI::App& sub = add("params", "Print a commented template of a command's parameters.",
                         params_command, params_);
-    CLI::Option* of = add_choice(sub, "command", params_.command, commands_with_parameters(),
-                                 "COMMAND", "prepare, run, analyze or sweep");
+    CLI::Option* of = add_choice(sub, "command", params_.command, commands_with_templates(),
+                                 "COMMAND", "prepare, run, analyze, sweep or pair");
     sub.add_flag("--reference", params_.reference,
                  "All parameters as Markdown (docs/parameters.md)")
         ->excludes(of);
   }
 
   void add_completion() {
-    CLI::App& sub = add_command("completion",
+    CLI::App& sub = add_command(app_, "completion",
                                 "Print a script by which a shell completes what you type.", [this] {
                                   return print(shell_ == "bash" ? bash_completion(description())
                                                                 : zsh_completion(description()));
@@ -269,7 +354,7 @@ class CommandLine : public ProgramCommandLine {
   }
 
   void add_manual() {
-    add_command("man", "Print the manual page: vitrel man | man -l -",
+    add_command(app_, "man", "Print the manual page: vitrel man | man -l -",
                 [this] { return print(manual_page(description())); });
   }
 
@@ -280,6 +365,8 @@ class CommandLine : public ProgramCommandLine {
   SweepOptions sweep_;
   ReportOptions report_;
   ExportOptions export_;
+  PairOptions pair_;
+  ImpactOptions impact_;
   ParamsOptions params_;
   std::string shell_;  ///< of `completion`
 };

@@ -4,6 +4,7 @@
 #include "app/terminal/program_command_line.h"
 #include "bench/programs/collision_time.h"
 #include "bench/programs/overlap.h"
+#include "bench/programs/pair.h"
 #include "bench/programs/programs.h"
 #include "bench/programs/thesis.h"
 #include "bench/programs/whole_run.h"
@@ -23,6 +24,7 @@ class CommandLine : public ProgramCommandLine {
     output_.command_line = joined(count, words);
     add_collision_time();
     add_overlap();
+    add_pair();
     add_whole_run();
     add_thesis();
     add_parts();
@@ -33,7 +35,7 @@ class CommandLine : public ProgramCommandLine {
  private:
   CLI::App& add(const std::string& name, const std::string& sentence,
                 const std::function<int()>& run) {
-    CLI::App& sub = add_command(name, sentence, run);
+    CLI::App& sub = add_command(app_, name, sentence, run);
     sub.footer(exit_codes + ".");
     return sub;
   }
@@ -44,6 +46,9 @@ class CommandLine : public ProgramCommandLine {
     sub.add_option("--wall-time", output_.wall_time,
                    "Stop cleanly after this many seconds (exit code 5)")
         ->check(not_negative);
+    add_print(sub);
+  }
+  void add_print(CLI::App& sub) {
     sub.add_flag("-q,--quiet", output_.quiet, "No progress and no table");
     sub.add_flag("--json", output_.json, "Rows as JSON on standard output");
   }
@@ -109,6 +114,15 @@ class CommandLine : public ProgramCommandLine {
     add_methods(sub, overlap_);
     add_pairs(sub, overlap_, "Pairs of each class (20000)",
               "Seconds that a criterion may take (1)");
+  }
+  void add_pair() {
+    CLI::App& sub = add("pair", "The contact time of one pair by every method.",
+                        [this] { return pair(pair_, output_); });
+    sub.add_option("pair", pair_.pair,
+                   "Both bodies as TOML text; vitrel pair contact-time --all-methods passes it")
+        ->required();
+    add_methods(sub, pair_);
+    add_print(sub);
   }
   void add_whole_run() {
     CLI::App& sub =
@@ -187,6 +201,7 @@ class CommandLine : public ProgramCommandLine {
   OutputOptions output_;
   CollisionTimeOptions collision_time_;
   OverlapOptions overlap_;
+  PairMethodsOptions pair_;
   WholeRunOptions whole_run_;
   ThesisOptions thesis_;
   PartsOptions parts_;

@@ -18,4 +18,8 @@ inline constexpr double contact_gap(double extent) {
 /// Packing fractions and species fractions given by a user are met to this relative accuracy.
 inline constexpr double given_fraction = 1e-12;
 
+/// How far the norm of a unit quaternion may be from 1: one stored in single precision, which is normalised, and one that
+/// is used as it is, so that what the program wrote it reads back unchanged.
+inline constexpr double norm_in_single_precision = 1e-6, norm_in_double_precision = 1e-14;
+
 }  // namespace vitrel::tolerance

@@ -53,8 +53,8 @@ class EventDrivenRun {
                              (options_.engine.soft_contact
                                   ? "too dense or too strongly damped for event-driven contacts?)"
                                   : "inelastic collapse?)"));
-      if (plan_.at_block_end) timed_output([&] { plan_.at_block_end(state_); });
-      control_.report_progress({progress(), state_.configuration.time, "time"});
+      if (plan_.at_block_end && !finished) timed_output([&] { plan_.at_block_end(state_); });
+      control_.report_progress(progress());
       if (finished) return {StageEnd::reached, "the end of the run was reached"};
       if (control_.stop_requested()) return {StageEnd::stopped, "stopped at the end of a block"};
     }
@@ -88,8 +88,8 @@ class EventDrivenRun {
                      options_.brownian_step * static_cast<double>(state_.brownian_steps + 1)
                : std::numeric_limits<double>::infinity();
   }
-  // The horizon of predictions.
-  double horizon() const { return std::min(plan_.end_time, next_step_time()); }
+  // The horizon of predictions: not the end, so that the motion does not depend on it and a run can be made longer.
+  double horizon() const { return next_step_time(); }
   double next_stop() const {
     return std::min({plan_.end_time, next_sample_time(), next_tick_time(), next_step_time()});
   }
@@ -131,9 +131,13 @@ class EventDrivenRun {
         std::max(state_.largest_momentum, mechanics(state_.configuration).momentum.norm());
   }
 
-  double progress() const {
-    const double whole = plan_.end_time - state_.start_time;
-    return whole > 0 ? (state_.configuration.time - state_.start_time) / whole : 1;
+  /// Before time 0 the run equilibrates.
+  Progress progress() const {
+    const double time = state_.configuration.time, start = state_.start_time;
+    const double whole = plan_.end_time - start;
+    const double fraction = whole > 0 ? (time - start) / whole : 1;
+    return time < 0 ? Progress{fraction, time - start, "equilibration"}
+                    : Progress{fraction, time, "time"};
   }
 
   RunState<Dim>& state_;

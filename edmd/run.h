@@ -13,7 +13,7 @@
 namespace vitrel {
 
 /// The complete state of a run, a plain value that is written to checkpoints. Only states at the end of a block
-/// continue with bit-identical results.
+/// continue with bit-identical results; that at the end of the run does not.
 template <int Dim>
 struct RunState {
   Configuration<Dim> configuration;  ///< synchronised; its time runs from −equilibration
@@ -42,7 +42,8 @@ struct Ticks {
 };
 
 /// The schedule of a run: sample times in ascending order (simulated time), the end, and the observers.
-/// `observer` sees every sample; `at_block_end` gets a state from which the run continues with bit-identical results.
+/// `observer` sees every sample; `at_block_end` gets a state from which the run continues with bit-identical results,
+/// also to a later end. The end itself is no such state.
 /// Samples and ticks do not change the motion, but a block may end at one of them: from there on, runs with different
 /// schedules differ by rounding.
 template <int Dim>

@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/io/h5md.h"
 #include "core/io/json.h"
+#include "workflow/configuration/start_state.h"
 #include "workflow/storage/check.h"
 
 namespace vitrel {
@@ -39,10 +40,10 @@ Json summary(const FileCheck<Dim>& check, const std::filesystem::path& file) {
 }
 
 template <int Dim>
-int check_and_print(const CheckOptions& options) {
+int check_and_print(const CheckOptions& options, const TrajectoryReader& reader) {
   Session session(options.print.quiet);
   session.say()("check of " + options.input.string());
-  const FileCheck<Dim> check = check_file<Dim>(options.input, options.last_only, session.control());
+  const FileCheck<Dim> check = check_file<Dim>(reader, options.last_only, session.control());
   session.clear();
   if (check.frames == 0) return stopped;
   print_summary(options.print, summary(check, options.input));
@@ -59,8 +60,11 @@ int check_and_print(const CheckOptions& options) {
 }  // namespace
 
 int check_command(const CheckOptions& options) {
-  return TrajectoryReader(options.input).dimension() == 2 ? check_and_print<2>(options)
-                                                          : check_and_print<3>(options);
+  KnownSystem known;
+  if (!options.parameters.empty()) known = known_system(load_parameters({options.parameters}));
+  const TrajectoryReader reader(options.input, known);
+  return reader.dimension() == 2 ? check_and_print<2>(options, reader)
+                                 : check_and_print<3>(options, reader);
 }
 
 }  // namespace vitrel

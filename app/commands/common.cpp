@@ -54,14 +54,23 @@ std::string emphasized(const std::string& key, const Json& value, const std::str
   return key == "overlaps" && value > 0 ? styled(text, Style::error, STDOUT_FILENO) : text;
 }
 
-std::string value_text(const Json& summary, const std::string& key) {
-  const Json& value = summary.at(key);
+std::string text_of(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
+  if (value.is_array()) {
+    std::string joined;
+    for (const Json& entry : value) joined += (joined.empty() ? "" : ", ") + text_of(entry);
+    return joined;
+  }
   if (!value.is_number_float()) return json_text(value);
   const auto number = value.get<double>();
-  const auto error = summary.find(key + std::string(error_suffix));
-  if (error != summary.end()) return with_error(number, error->get<double>());
   return std::isnan(number) ? "–" : fmt::format("{:.8g}", number);
+}
+
+std::string value_text(const Json& summary, const std::string& key) {
+  const Json& value = summary.at(key);
+  const auto error = summary.find(key + std::string(error_suffix));
+  const bool has_error = value.is_number_float() && error != summary.end();
+  return has_error ? with_error(value.get<double>(), error->get<double>()) : text_of(value);
 }
 
 /// Adds the keys of earlier versions beside those that replaced them, at every depth.
@@ -79,8 +88,10 @@ Json with_former_keys(Json json) {
 
 }  // namespace
 
-ParameterSource parameter_source(const ParameterOptions& options) {
-  return {options.file, options.overrides, options.seed};
+ParameterSource parameter_source(const ParameterOptions& options, const StartOptions& start) {
+  ParameterSource source{options.file, options.overrides, options.seed};
+  if (!start.from.empty()) source.start = StartFile{start.from, start.shrink};
+  return source;
 }
 
 AnalysisChoice analysis_choice(const AnalysisOptions& options) {

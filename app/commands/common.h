@@ -17,7 +17,7 @@ struct ParameterSource;
 struct SweepProgress;
 class ProgressDisplay;
 
-ParameterSource parameter_source(const ParameterOptions& options);
+ParameterSource parameter_source(const ParameterOptions& options, const StartOptions& start = {});
 /// UserError if --set names anything but a parameter of the analysis.
 AnalysisChoice analysis_choice(const AnalysisOptions& options);
 /// Shows an analysis on the display.

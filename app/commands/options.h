@@ -23,6 +23,12 @@ struct ParameterOptions {
   std::optional<std::uint64_t> seed;
 };
 
+/// The state to start from; without a file, the parameters say.
+struct StartOptions {
+  std::filesystem::path from;
+  bool shrink = false;
+};
+
 /// Parameters of an analysis; without a file, those in the run.
 struct AnalysisOptions {
   std::filesystem::path file;

@@ -6,13 +6,22 @@
 #include "app/terminal/session.h"
 #include "core/error.h"
 #include "workflow/configuration/parameters.h"
+#include "workflow/pair/pair_parameters.h"
 
 namespace vitrel {
+
+std::vector<std::string> commands_with_templates() {
+  std::vector<std::string> names = commands_with_parameters();
+  names.push_back("pair");
+  return names;
+}
 
 int params_command(const ParamsOptions& options) {
   if (!options.reference && options.command.empty())
     throw UserError("name a command, for example: vitrel params run > params.toml");
-  fmt::print("{}", options.reference ? parameter_page() : command_template(options.command));
+  fmt::print("{}", options.reference           ? parameter_page()
+                   : options.command == "pair" ? pair_template()
+                                               : command_template(options.command));
   flush_output();
   return success;
 }

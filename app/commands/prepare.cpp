@@ -122,11 +122,10 @@ void print_outcome(const PrepareOptions& options, const Preparation<3>& preparat
 }
 
 template <int Dim>
-int prepare_state(const PrepareOptions& options, const Parameters& parameters) {
+int prepare_state(const PrepareOptions& options, const PrepareRequest& request) {
   Session session(options.print.quiet, options.wall_time);
-  const Preparation<Dim> preparation =
-      prepare<Dim>({parameters, options.output, options.command_line, options.threads},
-                   session.control(), session.say());
+  const Preparation<Dim> preparation = prepare<Dim>(request, session.control(), session.say());
+  const Parameters& parameters = preparation.parameters;
   decltype(measure_quality(preparation, parameters, session.control())) quality;
   if (preparation.complete) {
     session.say()("quality report");
@@ -155,10 +154,11 @@ int prepare_state(const PrepareOptions& options, const Parameters& parameters) {
 }  // namespace
 
 int prepare_command(const PrepareOptions& options) {
-  const Parameters parameters = load_parameters(parameter_source(options.source));
+  const PrepareRequest request{load_parameters(parameter_source(options.source, options.start)),
+                               options.output, options.command_line, options.threads};
   require_new(options.output);
-  return parameters.system.dimension == 2 ? prepare_state<2>(options, parameters)
-                                          : prepare_state<3>(options, parameters);
+  return prepared_dimension(request) == 2 ? prepare_state<2>(options, request)
+                                          : prepare_state<3>(options, request);
 }
 
 }  // namespace vitrel

@@ -8,6 +8,7 @@ struct PrepareOptions {
   PrintOptions print;
   ParameterOptions source;
   std::filesystem::path output;
+  StartOptions start;
   int threads = 1;
   double wall_time = 0;      ///< seconds; 0: no limit
   std::string command_line;  ///< for the provenance

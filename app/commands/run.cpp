@@ -29,17 +29,19 @@ int run_and_print(const RunOptions& options, const RunRequest& request) {
 }  // namespace
 
 int run_command(const RunOptions& options) {
-  RunRequest request{load_parameters(parameter_source(options.source)), options.output,
-                     std::nullopt, options.command_line, options.threads};
-  if (!options.from.empty()) request.from = options.from;
-  require_output_file(options.output, {options.source.file, options.from});
+  const RunRequest request{load_parameters(parameter_source(options.source, options.start)),
+                           options.output, options.command_line, options.threads};
+  std::vector<std::filesystem::path> inputs = {options.source.file};
+  if (const StateStage* start = start_state(request.parameters.stages); start && start->file)
+    inputs.emplace_back(*start->file);
+  require_output_file(options.output, inputs);
   if (options.dry_run) {
     fmt::print("{}", run_plan(request));
     flush_output();
     return success;
   }
-  return request.parameters.system.dimension == 2 ? run_and_print<2>(options, request)
-                                                  : run_and_print<3>(options, request);
+  return run_dimension(request) == 2 ? run_and_print<2>(options, request)
+                                     : run_and_print<3>(options, request);
 }
 
 }  // namespace vitrel

@@ -8,8 +8,8 @@ struct RunOptions {
   PrintOptions print;
   ParameterOptions source;
   std::filesystem::path output;
-  std::filesystem::path from;  ///< state or run to start from; empty: prepare first
-  bool dry_run = false;        ///< print what would be done
+  StartOptions start;
+  bool dry_run = false;  ///< print what would be done
   int threads = 1;
   double wall_time = 0;      ///< seconds; 0: no limit
   std::string command_line;  ///< for the provenance

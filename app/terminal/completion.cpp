@@ -43,23 +43,43 @@ std::string all_names(const Descriptions& options) {
 }
 
 /// What may follow the options of a command that take a value, a line for all with the same.
-std::string value_cases(const CommandDescription& command) {
+std::string value_cases(const std::string& path, const CommandDescription& command) {
   std::map<std::string, std::vector<std::string>> patterns;
   for (const OptionDescription& option : command.options)
     if (!option.value.empty())
       for (const std::string& name : option.names)
-        patterns[offer(option)].push_back(command.name + ":" + name);
+        patterns[offer(option)].push_back(path + ":" + name);
   std::string cases;
   for (const auto& [offered, names] : patterns)
     cases += fmt::format("    {}) offer={} ;;\n", fmt::join(names, " | "), quoted(offered));
   return cases;
 }
 
-std::string word_cases(const std::string& command, const Descriptions& options,
-                       const std::string& argument) {
-  return fmt::format("        {0}:-*) offer={1} ;;\n        {0}:*) offer={2} ;;\n", command,
-                     quoted(all_names(options)), quoted(argument));
+/// The commands below, or else what the first argument may be.
+std::string offer_of_words(const CommandDescription& command) {
+  std::vector<std::string> names;
+  for (const CommandDescription& below : command.commands) names.push_back(below.name);
+  if (!names.empty()) return fmt::format("{}", fmt::join(names, " "));
+  return command.arguments.empty() ? "" : offer(command.arguments.front());
 }
+
+std::string word_cases(const std::string& path, const CommandDescription& command) {
+  return fmt::format("        {0}:-*) offer={1} ;;\n        {0}:*) offer={2} ;;\n", path,
+                     quoted(all_names(command.options)), quoted(offer_of_words(command)));
+}
+
+/// Of a command and all those below it, each by its path, such as vitrel/pair/gap.
+struct BashCases {
+  std::vector<std::string> parents;
+  std::string values, words;
+
+  void add(const std::string& path, const CommandDescription& command) {
+    values += value_cases(path, command);
+    words += word_cases(path, command);
+    if (!command.commands.empty()) parents.push_back(path);
+    for (const CommandDescription& below : command.commands) add(path + "/" + below.name, below);
+  }
+};
 
 // ---- zsh --------------------------------------------------------------------------------------------
 
@@ -91,28 +111,53 @@ std::string specifications(const CommandDescription& command) {
   return lines;
 }
 
+/// A function that completes a command which has others below it, after those of these others.
+std::string zsh_function(const std::string& name, const CommandDescription& command) {
+  std::string functions, commands, cases;
+  for (const CommandDescription& below : command.commands) {
+    const bool has_function = !below.commands.empty();
+    const std::string function = name + "_" + below.name;
+    if (has_function) functions += zsh_function(function, below);
+    commands += fmt::format("    {}\n", quoted(below.name + ":" + below.sentence));
+    cases += fmt::format("    {}) {} ;;\n", below.name,
+                         has_function ? function : "_arguments" + specifications(below));
+  }
+  return functions + fmt::format(R"({0}() {{
+  local curcontext=$curcontext state line
+  local -a commands=(
+{1}  )
+  _arguments -C{2} \
+      '1:command:->command' '*::argument:->argument'
+  [[ $state == command ]] && _describe command commands
+  [[ $state == argument ]] || return
+  case $words[1] in
+{3}  esac
+}}
+)",
+                                 name, commands, specifications(command), cases);
+}
+
 }  // namespace
 
 std::string bash_completion(const ProgramDescription& program) {
-  std::string values, words, commands;
-  for (const CommandDescription& command : program.commands) {
-    commands += (commands.empty() ? "" : " ") + command.name;
-    values += value_cases(command);
-    words += word_cases(command.name, command.options,
-                        command.arguments.empty() ? "" : offer(command.arguments.front()));
-  }
+  BashCases cases;
+  cases.add(program.name, program);
   return fmt::format(
       R"(# Completion of {0} for bash, printed by `{0} completion bash`.
 _{0}() {{
-  local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD - 1]}} command='' offer=''
+  local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD - 1]}} path={0} offer='' k
   # Bash takes --option=value for three words.
   [[ $word == = ]] && word=''
   [[ $before == = ]] && before=${{COMP_WORDS[COMP_CWORD - 2]}}
-  ((COMP_CWORD > 1)) && command=${{COMP_WORDS[1]}}
-  case $command:$before in
-{1}    *)
-      case $command:$word in
-{2}{3}      esac
+  for ((k = 1; k < COMP_CWORD; ++k)); do
+    case $path in
+      {1}) path+=/${{COMP_WORDS[k]}} ;;
+    esac
+  done
+  case $path:$before in
+{2}    *)
+      case $path:$word in
+{3}      esac
       ;;
   esac
   case $offer in
@@ -125,38 +170,21 @@ _{0}() {{
 }}
 complete -F _{0} {0}
 )",
-      program.name, values, word_cases("", program.options, commands), words);
+      program.name, fmt::join(cases.parents, " | "), cases.values, cases.words);
 }
 
 std::string zsh_completion(const ProgramDescription& program) {
-  std::string commands, cases, options;
-  for (const OptionDescription& option : program.options) options += option_specifications(option);
-  for (const CommandDescription& command : program.commands) {
-    commands += fmt::format("    {}\n", quoted(command.name + ":" + command.sentence));
-    cases += fmt::format("    {}) _arguments{} ;;\n", command.name, specifications(command));
-  }
   return fmt::format(
       R"(#compdef {0}
 # Completion of {0} for zsh, printed by `{0} completion zsh`.
-_{0}() {{
-  local curcontext=$curcontext state line
-  local -a commands=(
-{1}  )
-  _arguments -C{2} \
-      '1:command:->command' '*::argument:->argument'
-  [[ $state == command ]] && _describe command commands
-  [[ $state == argument ]] || return
-  case $words[1] in
-{3}  esac
-}}
-# The file of the function runs as its first call; sourced, it only defines it.
+{1}# The file of the function runs as its first call; sourced, it only defines it.
 if [[ $funcstack[1] == _{0} ]]; then
   _{0} "$@"
 else
   compdef _{0} {0}
 fi
 )",
-      program.name, commands, options, cases);
+      program.name, zsh_function("_" + program.name, program));
 }
 
 }  // namespace vitrel

@@ -37,28 +37,41 @@ std::string entry(const OptionDescription& option, bool is_argument) {
   if (!is_argument && !option.value.empty()) tag += " " + italic(option.value);
   if (option.required) tag += " (required)";
   std::string text = option.sentence + ".";
-  if (option.repeated) text += " May be given several times.";
+  if (option.repeated && !is_argument) text += " May be given several times.";
   if (!option.excludes.empty())
     text += fmt::format(" Excludes {}.", fmt::join(option.excludes, ", "));
   return ".TP\n" + tag + '\n' + line(text);
 }
 
-std::string usage(const ProgramDescription& program, const CommandDescription& command) {
-  std::string text = bold(program.name + " " + command.name);
+/// Of a command with this full name.
+std::string usage(const std::string& name, const CommandDescription& command) {
+  std::string text = bold(name);
+  if (!command.commands.empty()) text += " " + italic("command");
   if (!command.options.empty()) text += " [" + italic("options") + "]";
-  for (const OptionDescription& argument : command.arguments)
-    text += argument.required ? " " + italic(argument.names.front())
-                              : " [" + italic(argument.names.front()) + "]";
+  for (const OptionDescription& argument : command.arguments) {
+    const std::string words = italic(argument.names.front()) + (argument.repeated ? " ..." : "");
+    text += argument.required ? " " + words : " [" + words + "]";
+  }
   return text + '\n';
 }
 
-std::string section(const ProgramDescription& program, const CommandDescription& command) {
-  std::string text = ".SS " + usage(program, command) + line(command.sentence);
+std::string section(const std::string& name, const CommandDescription& command) {
+  std::string text = ".SS " + usage(name, command) + line(command.sentence);
   for (const OptionDescription& argument : command.arguments) text += entry(argument, true);
   // Help is an option of the program, too, and stands there.
   for (const OptionDescription& option : command.options)
     if (option.names.back() != "--help") text += entry(option, false);
   return command.footer.empty() ? text : text + ".PP\n" + line(command.footer);
+}
+
+/// Of all commands below the one of this full name.
+std::string sections(const std::string& name, const CommandDescription& parent) {
+  std::string text;
+  for (const CommandDescription& command : parent.commands) {
+    const std::string full_name = name + " " + command.name;
+    text += section(full_name, command) + sections(full_name, command);
+  }
+  return text;
 }
 
 /// The sentence without capital letter and full stop, as indexes of manual pages have it.
@@ -76,14 +89,11 @@ std::string manual_page(const ProgramDescription& program) {
   std::string text = fmt::format(".TH {} 1 \"\" \"{} {}\" \"User Commands\"\n", escaped(title),
                                  program.name, program.version);
   text += ".SH NAME\n" + escaped(program.name) + " \\- " + line(clause(program.sentence));
-  text += ".SH SYNOPSIS\n" + bold(program.name) + " " + italic("command") + " [" +
-          italic("options") + "] ...\n";
+  text += ".SH SYNOPSIS\n" + usage(program.name, program);
   text += ".SH DESCRIPTION\n" + line(program.sentence) + line(program.footer);
   text += ".SH OPTIONS\n";
   for (const OptionDescription& option : program.options) text += entry(option, false);
-  text += ".SH COMMANDS\n";
-  for (const CommandDescription& command : program.commands) text += section(program, command);
-  return text;
+  return text + ".SH COMMANDS\n" + sections(program.name, program);
 }
 
 }  // namespace vitrel

@@ -43,7 +43,8 @@ class ProgramCommandLine {
     } catch (const CLI::ParseError& error) {
       return complain_about(error);
     }
-    return exit_code_of(name_with(app_.get_subcommands().front()), chosen_);
+    const CLI::App& command = named_command();
+    return exit_code_of(full_name(command), work_.at(&command));
   }
 
  protected:
@@ -54,21 +55,24 @@ class ProgramCommandLine {
     app_.set_version_flag("--version", program_version());
   }
 
-  /// A command that does this work, which returns the exit code.
-  CLI::App& add_command(const std::string& name, const std::string& sentence,
+  /// A command of the program, or of another command, that does this work, which returns the exit code.
+  CLI::App& add_command(CLI::App& parent, const std::string& name, const std::string& sentence,
                         const std::function<int()>& work) {
-    CLI::App& command = *app_.add_subcommand(name, sentence);
+    CLI::App& command = *parent.add_subcommand(name, sentence);
     command.group(heading("Commands"));
-    command.callback([this, work] { chosen_ = work; });
+    work_[&command] = work;
     return command;
   }
 
   /// The commands of every program, when it has all others.
   void add_help_and_version() {
-    CLI::App& help = add_command("help", "Print the options of a command, or the list of commands.",
-                                 [this] { return print(help_text()); });
-    add_command("version", "Print the version.", [] { return print(program_version() + '\n'); });
-    add_choice(help, "command", topic_, command_names(), "COMMAND", "Which command");
+    CLI::App& help =
+        add_command(app_, "help", "Print the options of a command, or the list of commands.",
+                    [this] { return print_help(); });
+    add_command(app_, "version", "Print the version.",
+                [] { return print(program_version() + '\n'); });
+    CLI::Option* topic = help.add_option("command", topic_, "Which command");
+    choices_[topic->type_name("COMMAND")] = command_names(app_);
   }
 
   /// An option, or an argument, with one of a few words for its value.
@@ -80,16 +84,7 @@ class ProgramCommandLine {
     return option->type_name(value_name)->check(one_of(choices));
   }
 
-  ProgramDescription description() const {
-    ProgramDescription program = {app_.get_name(),         program_version(),
-                                  app_.get_description(),  app_.get_footer(),
-                                  options_of(app_, false), {}};
-    for (const CLI::App* command : app_.get_subcommands({}))
-      program.commands.push_back({command->get_name(), command->get_description(),
-                                  command->get_footer(), options_of(*command, true),
-                                  options_of(*command, false)});
-    return program;
-  }
+  ProgramDescription description() const { return {described(app_), program_version()}; }
 
   /// To standard output; returns the exit code.
   static int print(const std::string& text) {
@@ -99,29 +94,45 @@ class ProgramCommandLine {
   }
 
   CLI::App app_;
-  std::function<int()> chosen_;  ///< set by the command that the command line names
 
  private:
-  std::string name_with(const CLI::App* command) const {
-    return app_.get_name() + " " + command->get_name();
+  /// "vitrel pair gap".
+  static std::string full_name(const CLI::App& command) {
+    const CLI::App* parent = command.get_parent();
+    return (parent ? full_name(*parent) + " " : "") + command.get_name();
   }
 
-  std::string help_text() const {
-    return topic_.empty()
-               ? app_.get_formatter()->make_help(&app_, app_.get_name(), CLI::AppFormatMode::Normal)
-               : app_.get_subcommand(topic_)->help(app_.get_name());
+  /// The command that the words name, or the first one on the way there with a word that nothing takes.
+  const CLI::App& named_command() const {
+    const CLI::App* command = &app_;
+    while (command->remaining().empty() && !command->get_subcommands().empty())
+      command = command->get_subcommands().front();
+    return *command;
+  }
+
+  int print_help() const {
+    const CLI::App* command = &app_;
+    for (const std::string& word : topic_) {
+      const auto named =
+          command->get_subcommands([&](const CLI::App* below) { return below->check_name(word); });
+      if (named.empty()) return complain_about(*command, refusal(*command, word));
+      command = named.front();
+    }
+    return print(
+        app_.get_formatter()->make_help(command, full_name(*command), CLI::AppFormatMode::Normal));
   }
 
   /// In one message. A word that nothing takes comes first, as it may be why something is missing.
   int complain_about(const CLI::ParseError& error) const {
-    const std::vector<CLI::App*> chosen = app_.get_subcommands();
-    const bool is_inside = !chosen.empty() && app_.remaining().empty();
-    const CLI::App& place = is_inside ? *chosen.front() : app_;
-    const std::vector<std::string> unknown = place.remaining();
-    const std::string name = is_inside ? name_with(&place) : app_.get_name();
-    std::string message = !unknown.empty() ? refusal(place, unknown.front())
-                          : is_inside      ? in_words(error)
-                                           : "a command is missing";
+    const CLI::App& command = named_command();
+    const std::vector<std::string> unknown = command.remaining();
+    return complain_about(command, !unknown.empty()        ? refusal(command, unknown.front())
+                                   : has_commands(command) ? "a command is missing"
+                                                           : in_words(error));
+  }
+
+  static int complain_about(const CLI::App& command, std::string message) {
+    const std::string name = full_name(command);
     if (!message.ends_with('?')) message += "; " + name + " --help lists what there is";
     return complain(name, message, user_error);
   }
@@ -132,19 +143,21 @@ class ProgramCommandLine {
   }
 
   /// Why the word may not stand there.
-  std::string refusal(const CLI::App& place, const std::string& word) const {
+  static std::string refusal(const CLI::App& command, const std::string& word) {
     if (word.starts_with('-')) {
       const std::string name = word.substr(0, word.find('='));
-      return fmt::format("'{}' is no option{}", name, suggestion(name, long_names(place)));
+      return fmt::format("'{}' is no option{}", name, suggestion(name, long_names(command)));
     }
-    if (&place == &app_)
-      return fmt::format("'{}' is no command{}", word, suggestion(word, command_names()));
+    if (has_commands(command))
+      return fmt::format("'{}' is no command{}", word, suggestion(word, command_names(command)));
     return fmt::format("'{}' is one word too many", word);
   }
 
-  std::vector<std::string> command_names() const {
+  static bool has_commands(const CLI::App& app) { return !app.get_subcommands({}).empty(); }
+
+  static std::vector<std::string> command_names(const CLI::App& app) {
     std::vector<std::string> names;
-    for (const CLI::App* command : app_.get_subcommands({})) names.push_back(command->get_name());
+    for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
     return names;
   }
 
@@ -153,6 +166,14 @@ class ProgramCommandLine {
     for (const CLI::Option* option : app.get_options())
       for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
     return names;
+  }
+
+  CommandDescription described(const CLI::App& app) const {
+    CommandDescription result = {app.get_name(),        app.get_description(),  app.get_footer(),
+                                 options_of(app, true), options_of(app, false), {}};
+    for (const CLI::App* command : app.get_subcommands({}))
+      result.commands.push_back(described(*command));
+    return result;
   }
 
   std::vector<OptionDescription> options_of(const CLI::App& app, bool are_arguments) const {
@@ -179,7 +200,8 @@ class ProgramCommandLine {
     return result;
   }
 
-  std::string topic_;  ///< of `help`
+  std::map<const CLI::App*, std::function<int()>> work_;
+  std::vector<std::string> topic_;  ///< of `help`
   std::map<const CLI::Option*, std::vector<std::string>> choices_;
 };
 

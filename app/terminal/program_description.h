@@ -16,21 +16,19 @@ struct OptionDescription {
   bool repeated = false;  ///< may be given several times
 };
 
+/// A command, which has either arguments or commands of its own.
 struct CommandDescription {
   std::string name;
   std::string sentence;
   std::string footer;
   std::vector<OptionDescription> arguments, options;
+  std::vector<CommandDescription> commands;
 };
 
 /// The command line of a program, as its help describes it, for texts about it. A value called file_value or
 /// folder_value is the path of one.
-struct ProgramDescription {
-  std::string name, version;
-  std::string sentence;
-  std::string footer;
-  std::vector<OptionDescription> options;
-  std::vector<CommandDescription> commands;
+struct ProgramDescription : CommandDescription {
+  std::string version;
 };
 
 inline constexpr const char* file_value = "FILE";

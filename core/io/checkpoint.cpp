@@ -322,6 +322,10 @@ LoadedCheckpoint load_checkpoint(const fs::path& path) {
   }
 }
 
+Checkpoint load_previous_checkpoint(const fs::path& path) {
+  return read_checkpoint(previous_of(path));
+}
+
 bool checkpoint_exists(const fs::path& path) {
   return fs::exists(path) || fs::exists(previous_of(path));
 }

@@ -22,6 +22,11 @@ struct Checkpoint {
   std::string parameters;                    ///< TOML text of the work it belongs to
 };
 
+/// Of its configuration.
+inline int dimension_of(const Checkpoint& checkpoint) {
+  return checkpoint.configuration.index() == 0 ? 2 : 3;
+}
+
 /// Writes `<path>.partial`, waits for the disk, keeps the checkpoint before as `<path>.previous`,
 /// and renames. Doubles are stored exactly, and a checksum covers all bytes. Killed at any moment, or on
 /// a full disk, at least one complete checkpoint stays. Throws FileError; both earlier files are then still there.
@@ -34,6 +39,9 @@ struct LoadedCheckpoint {
 
 /// The newest undamaged one of `path` and `<path>.previous`. Throws FileError if neither is.
 LoadedCheckpoint load_checkpoint(const std::filesystem::path& path);
+
+/// `<path>.previous`: the one before the newest. Throws FileError.
+Checkpoint load_previous_checkpoint(const std::filesystem::path& path);
 
 /// Whether load_checkpoint has a file to try.
 bool checkpoint_exists(const std::filesystem::path& path);

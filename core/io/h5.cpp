@@ -435,6 +435,11 @@ Dataset Group::create_series(const std::string& name, const Shape& frame_shape,
   return create(name, stored_type<T>(), space.id(), properties.id());
 }
 
+void Group::remove(const std::string& name) {
+  file_->run("remove", path_of(name),
+             [&] { return H5Ldelete(handle_.id(), name.c_str(), H5P_DEFAULT); });
+}
+
 void Group::link(const std::string& name, const std::string& target) {
   file_->run("link", path_of(name), [&] {
     return H5Lcreate_hard(handle_.id(), ('/' + target).c_str(), handle_.id(), name.c_str(),

@@ -137,6 +137,7 @@ class Group : public Object {
   /// A series with no frame yet.
   template <class T>
   Dataset create_series(const std::string& name, const Shape& frame_shape, SeriesStorage storage);
+  void remove(const std::string& name);
   /// A second name for a member of the file; `target` is its path from the root.
   void link(const std::string& name, const std::string& target);
 

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/io/foreign/foreign_frame.h"
 #include "core/io/h5.h"
 #include "core/io/provenance.h"
 #include "core/state/configuration.h"
@@ -47,6 +48,7 @@ using Observables = std::map<std::string, double>;
 struct TrajectoryOptions {
   bool velocities = false;                    ///< store velocity and angular velocity
   bool close_pairs = false;                   ///< of soft particles
+  bool images = true, angles = true;          ///< false where a file of another program has none
   std::vector<std::string> observables = {};  ///< names of the numbers that come with every frame
   bool overwrite = false;                     ///< replace an existing file instead of refusing
 };
@@ -81,6 +83,8 @@ class TrajectoryWriter {
              const Observables& observables = {});
   /// The time spent on this file by all processes so far, for its provenance.
   void record_wall_seconds(double seconds);
+  /// The parameters of a run that goes on with others.
+  void record_parameters(const std::string& toml);
   /// Waits until the disk has all frames: a checkpoint that counts them may then be saved.
   void synchronize() { file_.synchronize(); }
   /// The same, and closes; the destructor closes too, but cannot report a failure.
@@ -117,7 +121,9 @@ class TrajectoryWriter {
   h5::File file_;
   std::size_t particles_ = 0;
   std::uint64_t frames_ = 0;
-  h5::Dataset step_, time_, edges_, position_, image_, orientation_;
+  int dimension_ = 0;
+  h5::Dataset step_, time_, edges_, position_, orientation_;
+  std::optional<h5::Dataset> image_;
   std::optional<h5::Dataset> angle_;  ///< of two dimensions
   std::optional<h5::Dataset> velocity_, angular_velocity_;
   std::optional<ClosePairs> close_pairs_;
@@ -141,19 +147,22 @@ class TrajectoryObserver : public Observer<Dim> {
 };
 
 /// Reads trajectories one frame at a time: vitrel's own, and those of other programs as far as they
-/// have what is asked for. Two-dimensional files and fixed boxes are understood; positions are
-/// wrapped into a box centred at the origin. What a file of another program may lack, and what then
-/// is read: image: 0; velocity, angular_velocity: 0; mass: 1; species: one, "A"; angle: taken from
-/// the orientation, then not unwrapped. `require` turns such a lack into an error where it matters.
+/// have what is asked for, in H5MD, GSD, extended XYZ or CSV (core/io/foreign). Of H5MD, two-dimensional files, fixed
+/// boxes and elements that do not depend on time (`position` a dataset, then the only frame) are understood; positions
+/// are wrapped into a box centred at the origin. What a file of another program may lack, and what then
+/// is read: image: 0; velocity, angular_velocity: 0; mass: a b (a b c); species: one, "A"; angle: taken from
+/// the orientation, then not unwrapped; orientation: that of the axes, if all particles are round. `require` turns such
+/// a lack into an error where it matters.
 ///
-/// The dimension is the one the file states; one that states none is three-dimensional if it has third
+/// The dimension is the one the file states; H5MD that states none is three-dimensional if it has third
 /// semi-axes that are not 0. A frame is read into a configuration of the same dimension; `require_dimension`
-/// says so before any frame is asked for. In three dimensions there must be orientations, of norm 1.
+/// says so before any frame is asked for. Orientations in three dimensions must have the norm 1.
 ///
 /// Times must be finite and ascend. FileError names the file, the dataset, and what would be right.
 class TrajectoryReader {
  public:
-  explicit TrajectoryReader(const std::filesystem::path& path);
+  /// `known` says what a file other than H5MD may lack: box, dimension, and the semi-axes of species.
+  explicit TrajectoryReader(const std::filesystem::path& path, const KnownSystem& known = {});
 
   std::uint64_t frames() const { return times_.size(); }
   std::size_t particles() const;
@@ -172,9 +181,9 @@ class TrajectoryReader {
   void read(std::uint64_t frame, Configuration<Dim>& configuration) const;
 
   /// Whether the file has the element "velocity", "image", … of the particles.
-  bool has(const std::string& element) const;
+  bool has(const std::string& name) const;
   /// Throws FileError if it has not; `purpose` completes "needed for …".
-  void require(const std::string& element, const std::string& purpose) const;
+  void require(const std::string& name, const std::string& purpose) const;
 
   std::vector<std::string> observable_names() const;
   bool has_observable(const std::string& name) const;
@@ -197,8 +206,12 @@ class TrajectoryReader {
                   const h5::Shape& shape) const;
   template <int Dim>
   void read_masses_and_species(Configuration<Dim>& fixed) const;
-  std::size_t columns(const h5::Dataset& values) const;
-  std::vector<double> frame_values(const std::string& element, const std::string& meaning,
+  bool is_fixed(const std::string& name) const;
+  const h5::Dataset& element(const std::string& name, const std::string& meaning) const;
+  std::size_t columns(const std::string& name, const std::string& meaning) const;
+  template <int Dim>
+  bool has_no_orientations(const Configuration<Dim>& configuration) const;
+  std::vector<double> frame_values(const std::string& name, const std::string& meaning,
                                    std::uint64_t frame, std::size_t per_particle) const;
   template <int Dim>
   void read_box(std::uint64_t frame, Configuration<Dim>& configuration) const;
@@ -224,5 +237,7 @@ class TrajectoryReader {
 /// The last frame of a trajectory. FileError if there is none.
 template <int Dim = 2>
 Configuration<Dim> read_state(const std::filesystem::path& path);
+template <int Dim>
+Configuration<Dim> read_state(const TrajectoryReader& reader);
 
 }  // namespace vitrel

@@ -7,19 +7,15 @@
 
 #include "core/elementary.h"
 #include "core/error.h"
+#include "core/io/foreign/foreign_file.h"
 #include "core/io/h5md.h"
+#include "core/state/species.h"
 
 namespace vitrel {
 namespace fs = std::filesystem;
-namespace {
 
-/// How far norms may be from 1: quaternions kept in single precision, and those of this program.
-constexpr double single_precision = 1e-6, double_precision = 1e-14;
-
-}  // namespace
-
-TrajectoryReader::TrajectoryReader(const fs::path& path)
-    : path_(path), file_(h5::File::open(path, h5::Access::read)), root_(file_.root()) {
+TrajectoryReader::TrajectoryReader(const fs::path& path, const KnownSystem& known)
+    : path_(path), file_(open_as_h5md(path, known)), root_(file_.root()) {
   if (!root_.has_group("particles")) fail("there is no group particles: it is not an H5MD file");
   const std::vector<std::string> groups = root_.group("particles").members();
   if (groups.empty()) fail("the group particles is empty: it should hold one group of particles");
@@ -61,14 +57,15 @@ const h5::Dataset& TrajectoryReader::dataset(const std::string& name,
 /// Frames are counted by `step`, the last thing written of a frame; a single number is the
 /// increment.
 void TrajectoryReader::read_axes() {
-  const h5::Dataset& position =
-      dataset(group_ + "/position/value", "the positions, one frame after another");
+  const h5::Dataset& position = element("position", "the positions, one frame after another");
+  if (is_fixed("position")) {
+    steps_ = {0};
+    times_ = {0};
+    return;
+  }
   const h5::Dataset& step = dataset(group_ + "/position/step", "the step of every frame");
   const h5::Dataset& time = dataset(group_ + "/position/time", "the time of every frame");
   const h5::Shape shape = position.shape();
-  if (shape.size() != 3 || shape[1] != particles())
-    fail("the dataset " + position.name() + " should have the shape frames × " +
-         std::to_string(particles()) + " particles × directions");
   const auto axis = [&](const h5::Dataset& values) {
     std::vector<double> numbers = values.read<double>();
     if (!values.shape().empty()) return numbers;
@@ -146,6 +143,9 @@ void TrajectoryReader::read_masses_and_species(Configuration<Dim>& fixed) const 
   fixed.species_names = {"A"};
   if (root_.has_dataset(group_ + "/mass"))
     fixed.mass = root_.dataset(group_ + "/mass").read<double>();
+  else
+    std::ranges::transform(fixed.shape, fixed.mass.begin(),
+                           [](const auto& shape) { return natural_mass(shape); });
   if (root_.has_dataset(group_ + "/species")) {
     const h5::Dataset species = root_.dataset(group_ + "/species");
     fixed.species = species.read<std::int32_t>();
@@ -192,20 +192,41 @@ void TrajectoryReader::read(std::uint64_t frame, Configuration<Dim>& configurati
   read_close_pairs(frame, configuration);
 }
 
-/// Numbers per particle in a frame of a series.
-std::size_t TrajectoryReader::columns(const h5::Dataset& values) const {
+/// Whether the element is the same in all frames: a dataset instead of a group.
+bool TrajectoryReader::is_fixed(const std::string& name) const {
+  return root_.has_dataset(group_ + '/' + name);
+}
+
+const h5::Dataset& TrajectoryReader::element(const std::string& name,
+                                             const std::string& meaning) const {
+  const bool fixed = is_fixed(name);
+  const h5::Dataset& values = dataset(group_ + '/' + name + (fixed ? "" : "/value"), meaning);
   const h5::Shape shape = values.shape();
-  return shape.size() == 3 ? shape[2] : 1;
+  const std::size_t of_particles = fixed ? 0 : 1;
+  if (shape.size() <= of_particles || shape.size() > of_particles + 2 ||
+      shape[of_particles] != particles())
+    fail(fmt::format("the dataset {} should have the shape {}{} particles × numbers", values.name(),
+                     fixed ? "" : "frames × ", particles()));
+  return values;
+}
+
+/// Numbers per particle of an element.
+std::size_t TrajectoryReader::columns(const std::string& name, const std::string& meaning) const {
+  const h5::Shape shape = element(name, meaning).shape();
+  return shape.size() == (is_fixed(name) ? 2 : 3) ? shape.back() : 1;
 }
 
 /// A frame of an element with at least `per_particle` numbers per particle; others are cut off.
-std::vector<double> TrajectoryReader::frame_values(const std::string& element,
+std::vector<double> TrajectoryReader::frame_values(const std::string& name,
                                                    const std::string& meaning, std::uint64_t frame,
                                                    std::size_t per_particle) const {
-  const h5::Dataset& values = dataset(group_ + '/' + element + "/value", meaning);
-  const std::size_t stored = columns(values);
+  const h5::Dataset& values = element(name, meaning);
+  const std::size_t stored = columns(name, meaning);
   std::vector<double> numbers(particles() * stored);
-  values.read_frame<double>(frame, numbers);
+  if (is_fixed(name))
+    numbers = values.read<double>();
+  else
+    values.read_frame<double>(frame, numbers);
   if (stored < per_particle)
     fail("the dataset " + values.name() + " should have " + std::to_string(per_particle) +
          " numbers per particle");
@@ -254,7 +275,7 @@ template <int Dim>
 void TrajectoryReader::read_positions(std::uint64_t frame,
                                       Configuration<Dim>& configuration) const {
   const std::string meaning = "the coordinates";
-  const std::size_t stored = columns(dataset(group_ + "/position/value", meaning));
+  const std::size_t stored = columns("position", meaning);
   const std::size_t d = Dim == 2 && stored <= 2 ? 2 : 3;
   const std::vector<double> positions = frame_values("position", meaning, frame, d);
   std::vector<double> images(particles() * Dim);
@@ -272,7 +293,14 @@ void TrajectoryReader::read_positions(std::uint64_t frame,
   }
 }
 
+/// Round particles need no orientations.
+template <int Dim>
+bool TrajectoryReader::has_no_orientations(const Configuration<Dim>& configuration) const {
+  return !has("angle") && !has("orientation") && rotor_count(configuration) == 0;
+}
+
 void TrajectoryReader::read_orientations(std::uint64_t frame, Configuration2& configuration) const {
+  if (has_no_orientations(configuration)) return;
   if (has("angle") || !has("orientation")) {
     configuration.angle = frame_values("angle", "the angle of every particle in radians", frame, 1);
     return;
@@ -288,15 +316,15 @@ void TrajectoryReader::read_orientations(std::uint64_t frame, Configuration2& co
 }
 
 void TrajectoryReader::read_orientations(std::uint64_t frame, Configuration3& configuration) const {
+  if (has_no_orientations(configuration)) return;
   const std::vector<double> quaternions = frame_values("orientation", "quaternions", frame, 4);
   for (std::size_t i = 0; i < particles(); ++i) {
     const double* q = &quaternions[4 * i];
-    configuration.orientation[i] = Quaternion(q[0], q[1], q[2], q[3]);
-    const double excess = std::abs(configuration.orientation[i].norm() - 1);
-    if (excess > single_precision)
-      fail(fmt::format("the orientation of particle {} has the norm {}, but should have 1", i,
-                       configuration.orientation[i].norm()));
-    if (excess > double_precision) configuration.orientation[i].normalize();
+    try {
+      configuration.orientation[i] = unit_quaternion(Quaternion(q[0], q[1], q[2], q[3]), i);
+    } catch (const UserError& error) {
+      fail(error.what());
+    }
   }
 }
 
@@ -351,14 +379,13 @@ void TrajectoryReader::read_close_pairs(std::uint64_t frame,
   }
 }
 
-bool TrajectoryReader::has(const std::string& element) const {
-  return root_.has_dataset(group_ + '/' + element + "/value");
+bool TrajectoryReader::has(const std::string& name) const {
+  return is_fixed(name) || root_.has_dataset(group_ + '/' + name + "/value");
 }
 
-void TrajectoryReader::require(const std::string& element, const std::string& purpose) const {
-  if (!has(element))
-    fail("the dataset " + group_ + '/' + element + "/value is missing: it is needed for " +
-         purpose);
+void TrajectoryReader::require(const std::string& name, const std::string& purpose) const {
+  if (!has(name))
+    fail("the dataset " + group_ + '/' + name + "/value is missing: it is needed for " + purpose);
 }
 
 std::vector<std::string> TrajectoryReader::observable_names() const {
@@ -386,17 +413,24 @@ Provenance TrajectoryReader::provenance() const {
 }
 
 template <int Dim>
-Configuration<Dim> read_state(const fs::path& path) {
-  const TrajectoryReader reader(path);
+Configuration<Dim> read_state(const TrajectoryReader& reader) {
   if (reader.frames() == 0)
-    throw FileError(path.string() + ": has no frames: a state is the last frame of a trajectory");
+    throw FileError(reader.path().string() +
+                    ": has no frames: a state is the last frame of a trajectory");
   return reader.read<Dim>(reader.frames() - 1);
+}
+
+template <int Dim>
+Configuration<Dim> read_state(const fs::path& path) {
+  return read_state<Dim>(TrajectoryReader(path));
 }
 
 template Configuration2 TrajectoryReader::read(std::uint64_t) const;
 template Configuration3 TrajectoryReader::read(std::uint64_t) const;
 template void TrajectoryReader::read(std::uint64_t, Configuration2&) const;
 template void TrajectoryReader::read(std::uint64_t, Configuration3&) const;
+template Configuration2 read_state<2>(const TrajectoryReader&);
+template Configuration3 read_state<3>(const TrajectoryReader&);
 template Configuration2 read_state<2>(const fs::path&);
 template Configuration3 read_state<3>(const fs::path&);
 

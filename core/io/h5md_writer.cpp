@@ -123,9 +123,9 @@ h5::File create_layout(const fs::path& path, const Configuration<Dim>& configura
   h5::Group particles = root.create_group("particles").create_group("all");
   create_position(particles, n);
   create_box(particles, Dim);
-  create_element<std::int32_t>(particles, "image", {n, 3}, compressed);
+  if (options.images) create_element<std::int32_t>(particles, "image", {n, 3}, compressed);
   create_element<double>(particles, "orientation", {n, 4}, plain);
-  if (Dim == 2) create_element<double>(particles, "angle", {n}, plain);
+  if (Dim == 2 && options.angles) create_element<double>(particles, "angle", {n}, plain);
   if (options.velocities) {
     create_element<double>(particles, "velocity", {n, 3}, plain);
     create_element<double>(particles, "angular_velocity", {n, 3}, Dim == 2 ? compressed : plain);
@@ -192,11 +192,12 @@ TrajectoryWriter::TrajectoryWriter(h5::File file)
       time_(required(file_, all + "/position/time")),
       edges_(required(file_, all + "/box/edges/value")),
       position_(required(file_, series_path("position"))),
-      image_(required(file_, series_path("image"))),
       orientation_(required(file_, series_path("orientation"))),
+      image_(optional_dataset(file_, series_path("image"))),
       angle_(optional_dataset(file_, series_path("angle"))),
       velocity_(optional_dataset(file_, series_path("velocity"))),
       angular_velocity_(optional_dataset(file_, series_path("angular_velocity"))) {
+  dimension_ = read_provenance(file_.root().group("parameters")).dimension;
   particles_ = position_.shape().at(1);
   frames_ = step_.shape().at(0);
   if (const std::string pairs = all + "/close_pairs"; file_.root().has_group(pairs))
@@ -216,7 +217,7 @@ std::vector<std::string> TrajectoryWriter::observable_names() const {
 template <int Dim>
 void TrajectoryWriter::check(const Configuration<Dim>& configuration,
                              const Observables& observables) const {
-  if (angle_.has_value() != (Dim == 2))
+  if (dimension_ != Dim)
     throw UserError(
         fmt::format("{}: holds frames of the other dimension than {}, the one of the "
                     "configuration to be added",
@@ -235,9 +236,9 @@ void TrajectoryWriter::check(const Configuration<Dim>& configuration,
 }
 
 void TrajectoryWriter::resize(std::uint64_t frames) {
-  for (h5::Dataset* dataset : {&step_, &time_, &edges_, &position_, &image_, &orientation_})
+  for (h5::Dataset* dataset : {&step_, &time_, &edges_, &position_, &orientation_})
     dataset->resize(frames);
-  for (std::optional<h5::Dataset>* dataset : {&angle_, &velocity_, &angular_velocity_})
+  for (std::optional<h5::Dataset>* dataset : {&image_, &angle_, &velocity_, &angular_velocity_})
     if (*dataset) (*dataset)->resize(frames);
   for (auto& [name, dataset] : observables_) dataset.resize(frames);
   if (close_pairs_) close_pairs_->end.resize(frames);
@@ -290,9 +291,10 @@ void TrajectoryWriter::write_particles(const Configuration<Dim>& configuration) 
     append(angular_velocities, configuration.angular_velocity[i]);
   }
   position_.write_frame<double>(frames_, positions);
-  image_.write_frame<std::int32_t>(frames_, images);
   orientation_.write_frame<double>(frames_, orientations);
-  if constexpr (Dim == 2) angle_->write_frame<double>(frames_, configuration.angle);
+  if (image_) image_->write_frame<std::int32_t>(frames_, images);
+  if constexpr (Dim == 2)
+    if (angle_) angle_->write_frame<double>(frames_, configuration.angle);
   if (velocity_) velocity_->write_frame<double>(frames_, velocities);
   if (angular_velocity_) angular_velocity_->write_frame<double>(frames_, angular_velocities);
 }
@@ -318,6 +320,12 @@ void TrajectoryWriter::ClosePairs::write(std::uint64_t frame,
 void TrajectoryWriter::record_wall_seconds(double seconds) {
   h5::Group parameters = file_.root().group("parameters");
   parameters.set_attribute("wall_seconds", seconds);
+  file_.flush();
+}
+
+void TrajectoryWriter::record_parameters(const std::string& toml) {
+  h5::Group parameters = file_.root().group("parameters");
+  replace_parameters(parameters, toml);
   file_.flush();
 }
 

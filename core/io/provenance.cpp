@@ -43,8 +43,9 @@ void write_text(h5::Group& group, const std::string& name, const std::string& te
 }
 
 std::string read_text(const h5::Group& group, const std::string& name) {
-  if (group.has_attribute(name)) return group.text_attribute(name);
-  return group.has_dataset(name) ? group.dataset(name).read_text() : std::string();
+  // A dataset may have replaced an attribute.
+  if (group.has_dataset(name)) return group.dataset(name).read_text();
+  return group.has_attribute(name) ? group.text_attribute(name) : std::string();
 }
 
 template <class T>
@@ -89,6 +90,11 @@ void write_provenance(h5::Group& group, const Provenance& provenance) {
   write_text(group, "parent", provenance.parent);
   write_text(group, "started", provenance.started);
   group.set_attribute("wall_seconds", provenance.wall_seconds);
+}
+
+void replace_parameters(h5::Group& group, const std::string& toml) {
+  if (group.has_dataset("toml")) group.remove("toml");
+  write_text(group, "toml", toml);
 }
 
 Provenance read_provenance(const h5::Group& group) {

@@ -33,6 +33,8 @@ Provenance current_provenance(std::string command_line, std::string parameters, 
 /// Stores the fields as attributes of `group` (the TOML text as "toml"); a text above 60 000 bytes,
 /// which an attribute cannot hold, becomes a dataset of the same name. Throws FileError.
 void write_provenance(h5::Group& group, const Provenance& provenance);
+/// Replaces the TOML text.
+void replace_parameters(h5::Group& group, const std::string& toml);
 /// Fields that are not there keep their defaults.
 Provenance read_provenance(const h5::Group& group);
 

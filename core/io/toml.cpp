@@ -183,7 +183,7 @@ TomlNode read_toml_file(const std::filesystem::path& path) {
   if (!file || !(text << file.rdbuf()))
     throw FileError(path.string() +
                     ": cannot be read, or is empty; a parameter file is expected "
-                    "(vitrel params run prints one)");
+                    "(vitrel params <command> prints one)");
   return parse_toml(text.str(), path.string());
 }
 

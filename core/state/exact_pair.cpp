@@ -261,19 +261,22 @@ std::optional<Finding> quick_finding(const Particle<Dim>& one, const Particle<Di
 
 }  // namespace
 
+Particle<2> particle(const Ellipse& shape, const Pose2& pose) {
+  const Real angle = pose.angle;
+  return {
+      pose.position.cast<Real>(), {shape.a, shape.b, std::cos(angle), std::sin(angle)}, shape.a};
+}
+
+Particle<3> particle(const Ellipsoid& shape, const Pose3& pose) {
+  return {pose.position.cast<Real>(), {shape, pose.orientation}, shape.circumradius()};
+}
+
 Particle<2> particle(const Configuration2& configuration, std::size_t i) {
-  const Ellipse& shape = configuration.shape[i];
-  const Real angle = configuration.angle[i];
-  return {configuration.position[i].cast<Real>(),
-          {shape.a, shape.b, std::cos(angle), std::sin(angle)},
-          shape.a};
+  return particle(configuration.shape[i], configuration.pose(i));
 }
 
 Particle<3> particle(const Configuration3& configuration, std::size_t i) {
-  const Ellipsoid& shape = configuration.shape[i];
-  return {configuration.position[i].cast<Real>(),
-          {shape, configuration.orientation[i]},
-          shape.circumradius()};
+  return particle(configuration.shape[i], configuration.pose(i));
 }
 
 Finding examine(const Particle<2>& one, const Particle<2>& two, const Point<2>& d, Real enough) {

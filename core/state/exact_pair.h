@@ -24,7 +24,9 @@ struct Particle {
   Real circumradius;
 };
 
-/// Particle i of a configuration, unchanged.
+/// The body at its pose, unchanged; particle i of a configuration.
+Particle<2> particle(const Ellipse& shape, const Pose2& pose);
+Particle<3> particle(const Ellipsoid& shape, const Pose3& pose);
 Particle<2> particle(const Configuration2& configuration, std::size_t i);
 Particle<3> particle(const Configuration3& configuration, std::size_t i);
 

@@ -71,20 +71,20 @@ void draw_shape(const Species& species, Stream& stream, Ellipsoid& shape) {
   shape = {Vec3(a, a / ratio1, a / ratio2)};
 }
 
-/// The mass at the density of a round particle of radius 1 and mass 1.
-double natural_mass(const Ellipse& shape) {
-  return shape.a * shape.b;
-}
-double natural_mass(const Ellipsoid& shape) {
-  return shape.semi_axes.prod();
-}
-
 // Fisher and Yates.
 void shuffle(std::vector<std::int32_t>& values, Stream stream) {
   for (std::size_t i = values.size(); i > 1; --i) std::swap(values[i - 1], values[stream.below(i)]);
 }
 
 }  // namespace
+
+double natural_mass(const Ellipse& shape) {
+  return shape.a * shape.b;
+}
+
+double natural_mass(const Ellipsoid& shape) {
+  return shape.semi_axes.prod();
+}
 
 double Distribution::draw(Stream& stream) const {
   constexpr int max_draws = 10'000;

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "core/geometry/ellipse.h"
+#include "core/geometry/ellipsoid.h"
 #include "core/geometry/vector.h"
 
 /// @file
@@ -44,6 +46,11 @@ struct Species {
   std::optional<std::vector<Distribution>> semi_axes;
   std::optional<double> mass;  ///< of every particle; a b (a b c: uniform density) if not given
 };
+
+/// The mass of a particle whose species has none: a b or a b c, that at the density of a round particle of radius 1 and
+/// mass 1.
+double natural_mass(const Ellipse& shape);
+double natural_mass(const Ellipsoid& shape);
 
 /// The number of particles of each species: the shares rounded down, and the remaining particles given to the
 /// largest remainders (the earlier species on a tie). The counts add up to `particles`.

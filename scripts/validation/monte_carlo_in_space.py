@@ -1,4 +1,4 @@
-"""Monte Carlo in space: constant pressure of spheres, the pressure of ellipsoids, and the speed of trials."""
+"""Monte Carlo in space: the pressure and the order of ellipsoids, and the speed of trials."""
 
 import concurrent.futures
 import json
@@ -10,15 +10,10 @@ import tempfile
 from validation.common import (apart, carnahan_starling, estimate, expect, output_of, properties_of_test, summary_of, table,
                                text_of)
 
-TITLE = "Monte Carlo in space: spheres and ellipsoids"
+TITLE = "Monte Carlo in space: ellipsoids"
 
 VOLUME = 4 * math.pi / 3  # of a sphere of size 1
-PARTICLES = 864  # 6³ cells of a face-centred cubic crystal
-SEEDS = 8
-LARGEST_ERROR = 0.0005  # of φ
 ERRORS = 3
-# Sweeps per seed, by packing fraction; averages are over the second half.
-SWEEPS = {0.30: 500_000, 0.45: 350_000, 0.60: 250_000}
 SOLIDS = "Fluids/SolidsByMonteCarlo.HaveThePressureOfMotion"
 METHODS = ("monte_carlo", "contact_function", "motion", "constant_rotation")
 # Semi-axes, packing fraction and effort of the instances of that test.
@@ -42,14 +37,6 @@ method = "swell"
 method = "lattice"
 arrangement = "face_centred_cubic"
 """}
-
-
-def fluid(phi):
-    """Z of the fluid: Kolafa, Labík and Malijevský (2004)."""
-    x = phi / (1 - phi)
-    powers = {1: 4, 2: 6, 3: 2.3647684, 4: -0.8698551, 5: 1.1062803, 6: -1.1014221, 7: 0.66605866, 8: -0.03633431,
-              10: -0.20965164, 14: 0.10555569, 22: -0.0087238}
-    return 1 + sum(factor * x**power for power, factor in powers.items())
 
 
 def convex_measures(semi_axes):
@@ -93,62 +80,6 @@ def isotropic_fluid(semi_axes, phi):
 
     own, spheres = virial_coefficients(a, t), virial_coefficients(0, 0)
     return series(own) + own[0] / 4 * (carnahan_starling(phi) - series(spheres))
-
-
-def crystal(phi):
-    """Z of the face-centred cubic crystal (Speedy 1998) of PARTICLES spheres.
-
-    The centre of mass of a finite crystal moves freely: all but one particle contribute Z, and that one 1.
-    """
-    z = phi / (math.pi / math.sqrt(18))
-    infinite = 3 / (1 - z) - 0.5921 * (z - 0.7072) / (z - 0.601)
-    return infinite - (infinite - 1) / PARTICLES
-
-
-STATES = (("fluid", 0.30, fluid), ("fluid", 0.45, fluid), ("crystal", 0.60, crystal))
-
-
-def parameters(phi, compressibility, sweeps):
-    return f"""[system]
-dimension = 3
-particles = {PARTICLES}
-packing_fraction = {phi}
-
-[[species]]
-aspect_ratio = 1
-
-[[prepare.stage]]
-method = "lattice"
-arrangement = "face_centred_cubic"
-
-[[prepare.stage]]
-method = "sample"
-sweeps = 2000
-
-[[prepare.stage]]
-method = "compress"
-pressure = {phi / VOLUME * compressibility!r}
-sweeps = {sweeps}
-"""
-
-
-def packing_fraction(build, phi, compressibility, seed):
-    """The mean packing fraction at the pressure of this Z."""
-    with tempfile.TemporaryDirectory() as folder:
-        file = pathlib.Path(folder, "pressure.toml")
-        file.write_text(parameters(phi, compressibility, SWEEPS[phi]), encoding="utf-8")
-        summary = summary_of(build, "prepare", file, "-o", pathlib.Path(folder, "state.h5"), "--set", f"system.seed={seed}")
-    return summary["stages"][-1]["mean_packing_fraction"]
-
-
-def constant_pressure_row(phase, phi, compressibility, means):
-    mean, error = (value / phi for value in estimate(means))
-    deviation = mean - 1
-    name = f"{phase}, φ = {phi}"
-    expect(error <= LARGEST_ERROR, f"{name}: an error of {error:.3%}")
-    expect(abs(deviation) <= ERRORS * error, f"{name}: φ is off by {deviation:+.3%} ± {error:.3%}")
-    return [phase, phi, f"{compressibility:.5f}", f"{mean * phi:.6f}", f"{error:.3%}", f"{deviation:+.3%}",
-            f"{deviation / error:+.1f}"]
 
 
 def pressures(build, number, effort):
@@ -243,30 +174,16 @@ def speed(build):
 
 
 def measure(build):
-    states = [(phase, phi, equation(phi)) for phase, phi, equation in STATES]
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         solids = [pool.submit(pressures, build, number, effort)
                   for number, (_, _, effort) in enumerate((*SPHEROIDS, *SCALENE))]
         orders = [{start: [pool.submit(nematic_order, build, phi, sweeps, start, seed)
                            for seed in range(1, ORDER_SEEDS + 1)] for start in STARTS} for phi, sweeps, _, _ in ORDER]
-        fractions = [[pool.submit(packing_fraction, build, phi, z, seed) for seed in range(1, SEEDS + 1)]
-                     for _, phi, z in states]
-    spheres = [constant_pressure_row(*state, [one.result() for one in means])
-               for state, means in zip(states, fractions)]
     spheroids = [spheroid_row(name, phi, found.result()) for (name, phi, _), found in zip(SPHEROIDS, solids)]
     scalene = [scalene_row(name, phi, found.result()) for (name, phi, _), found in zip(SCALENE, solids[len(SPHEROIDS):])]
     order = [order_row(*state, {start: estimate([one.result() for one in found]) for start, found in of_starts.items()})
              for state, of_starts in zip(ORDER, orders)]
-    return f"""Hard spheres at the pressure P = ρZ of an equation of state must have its packing fraction: Kolafa, Labík and Malijevský,
-Phys. Chem. Chem. Phys. 6, 2335 (2004), for the fluid, and Speedy, J. Phys.: Condens. Matter 10, 4387 (1998), for the
-face-centred cubic crystal. In a crystal of N particles the centre of mass is free, so that Z is lower by (Z − 1)/N. All
-runs begin on the crystal, N = {PARTICLES}, and the fluid melts in 2000 sweeps of event chains. The box keeps its shape.
-{SEEDS} seeds; averages are over the second half of {", ".join(f"{sweeps} (φ = {phi})" for phi, sweeps in SWEEPS.items())} sweeps.
-Required: a standard error of at most {LARGEST_ERROR:.2%} of φ, and a deviation of at most {ERRORS} standard errors.
-
-{table(["", "φ", "Z", "φ, measured", "standard error", "deviation", "in standard errors"], spheres)}
-
-Ellipsoids, N = 343: Z by Monte Carlo from the contacts of event chains and, in the states that these visit, from the contact
+    return f"""Ellipsoids, N = 343: Z by Monte Carlo from the contacts of event chains and, in the states that these visit, from the contact
 function; and by motion from the virial of the collisions. 20 blocks each. Beside them is the equation of state of Vega, Mol.
 Phys. 92, 651 (1997), with its difference from the motion. That equation is a fit; its difference must be at most {EQUATION_OF_STATE:.0%}.
 Spheroids; required: a difference between chains and motion of at most {LARGEST_DIFFERENCE:.1%}.

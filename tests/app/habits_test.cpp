@@ -30,6 +30,7 @@ using testing_program::Folder;
 using testing_program::Outcome;
 using testing_program::run;
 using testing_program::run_on_terminal;
+using Words = std::vector<std::string>;
 
 const std::string small_system =
     "[system]\nparticles = 30\n[dynamics]\nequilibration = 0\nduration = 5\n"
@@ -54,27 +55,49 @@ std::vector<std::string> entries_below(const std::string& heading, const std::st
   return words;
 }
 
+Words join(Words first, const Words& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
+/// "vitrel pair gap".
+std::string full_name(const Words& command) {
+  return fmt::format("vitrel {}", fmt::join(command, " "));
+}
+
 class HabitsTest : public testing::Test {
  protected:
-  std::string output_of(const std::vector<std::string>& words) const {
+  std::string output_of(const Words& words) const {
     const Outcome outcome = run(folder.path(), words);
     EXPECT_EQ(outcome.code, 0) << outcome.errors;
     EXPECT_EQ(outcome.errors, "");
     return outcome.output;
   }
-  std::vector<std::string> commands() const {
-    return entries_below("Commands:", output_of({"help"}));
+  std::string help_of(const Words& command) const { return output_of(join({"help"}, command)); }
+  /// Those of the program, or of a command that has some.
+  Words commands(const Words& parent = {}) const {
+    return entries_below("Commands:", help_of(parent));
+  }
+  /// Each by its words, such as pair gap.
+  std::vector<Words> all_commands() const {
+    std::vector<Words> all;
+    for (const std::string& command : commands()) {
+      all.push_back({command});
+      for (const std::string& below : commands({command})) all.push_back({command, below});
+    }
+    return all;
   }
   /// The names of the options of a command, each dash included.
-  std::set<std::string> options_of(const std::string& command) const {
+  std::set<std::string> options_of(const Words& command) const {
     std::set<std::string> names;
-    for (const std::string& entry : entries_below("Options:", output_of({"help", command}))) {
+    for (const std::string& entry : entries_below("Options:", help_of(command))) {
       std::istringstream parts(entry);
       for (std::string name; std::getline(parts, name, ',');) names.insert(name);
     }
     return names;
   }
-  void expect_refusal(const std::vector<std::string>& words, const std::string& errors) const {
+  /// That message alone.
+  void expect_refusal(const Words& words, const std::string& errors) const {
     const Outcome outcome = run(folder.path(), words);
     EXPECT_EQ(outcome.code, 2);
     EXPECT_EQ(outcome.errors, errors + "\n");
@@ -89,14 +112,15 @@ class HabitsTest : public testing::Test {
 TEST_F(HabitsTest, HelpAndVersionAreCommandsAndOptions) {
   EXPECT_EQ(output_of({"help"}), output_of({"--help"}));
   EXPECT_EQ(output_of({"version"}), output_of({"--version"}));
-  const std::vector<std::string> names = commands();
-  EXPECT_THAT(names, IsSupersetOf({"prepare", "run", "check", "analyze", "sweep", "report",
-                                   "export", "params", "completion", "man", "help", "version"}));
-  for (const std::string& command : names) {
-    const std::string help = output_of({"help", command});
-    EXPECT_THAT(help, HasSubstr("Usage: vitrel " + command));
-    if (command != "bench") {  // whose own help is that of vitrel-bench
-      EXPECT_EQ(help, output_of({command, "--help"}));
+  EXPECT_THAT(commands(),
+              IsSupersetOf({"prepare", "run", "check", "analyze", "sweep", "report", "export",
+                            "pair", "params", "completion", "man", "help", "version"}));
+  EXPECT_THAT(commands({"pair"}), ElementsAre("overlap", "gap", "contact-time", "restitution"));
+  for (const Words& command : all_commands()) {
+    const std::string help = help_of(command);
+    EXPECT_THAT(help, HasSubstr("Usage: " + full_name(command)));
+    if (command.front() != "bench") {  // whose own help is that of vitrel-bench
+      EXPECT_EQ(help, output_of(join(command, {"--help"})));
     }
     for (const std::string& line : lines_of(help)) EXPECT_LE(columns(line), line_width) << line;
   }
@@ -105,15 +129,22 @@ TEST_F(HabitsTest, HelpAndVersionAreCommandsAndOptions) {
 TEST_F(HabitsTest, AMisspeltWordComesWithTheNearest) {
   expect_refusal({"anaylze", "run.h5", "-o", "a.h5"},
                  "vitrel: 'anaylze' is no command; did you mean 'analyze'?");
-  expect_refusal({"help", "reprot"},
-                 fmt::format("vitrel help: command: 'reprot' is none of {}; did you mean 'report'?",
-                             fmt::join(commands(), ", ")));
+  expect_refusal({"pair", "overlp", "--body", "semi_axes=2,1"},
+                 "vitrel pair: 'overlp' is no command; did you mean 'overlap'?");
+  expect_refusal({"help", "reprot"}, "vitrel: 'reprot' is no command; did you mean 'report'?");
+  expect_refusal({"help", "pair", "overlp"},
+                 "vitrel pair: 'overlp' is no command; did you mean 'overlap'?");
   expect_refusal({"--versoin"}, "vitrel: '--versoin' is no option; did you mean '--version'?");
   // Rather than that the output is missing.
   expect_refusal({"run", "p.toml", "--ouput", "run.h5"},
                  "vitrel run: '--ouput' is no option; did you mean '--output'?");
   expect_refusal({"run", "p.toml", "--ouput=run.h5"},
                  "vitrel run: '--ouput' is no option; did you mean '--output'?");
+  expect_refusal({"pair", "gap", "--bdoy", "semi_axes=2,1"},
+                 "vitrel pair gap: '--bdoy' is no option; did you mean '--body'?");
+  expect_refusal({"pair", "contact-time", "--rotation", "eular"},
+                 "vitrel pair contact-time: --rotation: 'eular' is none of euler, constant; did "
+                 "you mean 'euler'?");
   expect_refusal({"export", "run.h5", "--to", "thesi"},
                  "vitrel export: --to: 'thesi' is none of gsd, xyz, csv, thesis, geo, vti, vtp, "
                  "gnuplot; did you mean 'thesis'?");
@@ -121,6 +152,8 @@ TEST_F(HabitsTest, AMisspeltWordComesWithTheNearest) {
 
 TEST_F(HabitsTest, WhereNothingIsNearTheMessageSaysWhoListsWhatThereIs) {
   expect_refusal({}, "vitrel: a command is missing; vitrel --help lists what there is");
+  expect_refusal({"pair"},
+                 "vitrel pair: a command is missing; vitrel pair --help lists what there is");
   expect_refusal({"frobnicate"},
                  "vitrel: 'frobnicate' is no command; vitrel --help lists what there is");
   expect_refusal({"check", "run.h5", "-x"},
@@ -128,6 +161,9 @@ TEST_F(HabitsTest, WhereNothingIsNearTheMessageSaysWhoListsWhatThereIs) {
   expect_refusal({"check", "a.h5", "b.h5"},
                  "vitrel check: 'b.h5' is one word too many; vitrel check --help lists what there "
                  "is");
+  expect_refusal({"pair", "gap", "a.toml", "b.toml"},
+                 "vitrel pair gap: 'b.toml' is one word too many; vitrel pair gap --help lists "
+                 "what there is");
   expect_refusal({"run", "p.toml"},
                  "vitrel run: --output is required; vitrel run --help lists what there is");
   expect_refusal({"run", "p.toml", "-o"},
@@ -154,7 +190,7 @@ bool is_installed(const std::string& program) {
 }
 
 /// What bash offers for the last of the words; as the shell does, `=` is a word of its own.
-std::vector<std::string> offered(const Folder& folder, const std::vector<std::string>& words) {
+std::vector<std::string> offered(const Folder& folder, const Words& words) {
   std::string script = "source <(vitrel completion bash)\nCOMP_WORDS=(vitrel";
   for (const std::string& word : words) script += " \"" + word + "\"";
   script += ")\nCOMP_CWORD=" + std::to_string(words.size()) +
@@ -176,7 +212,7 @@ TEST_F(HabitsTest, BashCompletesCommandsOptionsChoicesAndFiles) {
               UnorderedElementsAre("gsd", "geo", "gnuplot"));
   EXPECT_THAT(offered(folder, {"export", "--to", "="}), Contains("thesis"));
   EXPECT_THAT(offered(folder, {"params", ""}),
-              UnorderedElementsAre("prepare", "run", "analyze", "sweep"));
+              UnorderedElementsAre("prepare", "run", "analyze", "sweep", "pair"));
   EXPECT_THAT(offered(folder, {"help", "pre"}), ElementsAre("prepare"));
   EXPECT_THAT(offered(folder, {"completion", ""}), UnorderedElementsAre("bash", "zsh"));
   EXPECT_THAT(offered(folder, {"sweep", "p.toml", "--export", ""}), ElementsAre("snakemake"));
@@ -184,10 +220,17 @@ TEST_F(HabitsTest, BashCompletesCommandsOptionsChoicesAndFiles) {
   EXPECT_THAT(offered(folder, {"run", "p.toml", "--from", "run."}), ElementsAre("run.h5"));
   EXPECT_THAT(offered(folder, {"sweep", "p.toml", "-o", "r"}), ElementsAre("runs"));
   EXPECT_THAT(offered(folder, {"run", "--threads", ""}), IsEmpty());
-  for (const std::string& command : commands())
-    EXPECT_THAT(offered(folder, {command, "-"}),
+  EXPECT_THAT(offered(folder, {"pair", ""}),
+              testing::UnorderedElementsAreArray(commands({"pair"})));
+  EXPECT_THAT(offered(folder, {"pair", "ov"}), ElementsAre("overlap"));
+  EXPECT_THAT(offered(folder, {"pair", "gap", "--b"}), UnorderedElementsAre("--body", "--box"));
+  EXPECT_THAT(offered(folder, {"pair", "contact-time", "--rotation", ""}),
+              UnorderedElementsAre("euler", "constant"));
+  EXPECT_THAT(offered(folder, {"pair", "gap", "run."}), ElementsAre("run.h5"));
+  for (const Words& command : all_commands())
+    EXPECT_THAT(offered(folder, join(command, {"-"})),
                 testing::UnorderedElementsAreArray(options_of(command)))
-        << command;
+        << full_name(command);
 }
 
 // Whoever has the package bash-completion gets it from there; the script is right without it.
@@ -196,20 +239,37 @@ TEST_F(HabitsTest, TheCompletionOfBashIsRegistered) {
             "complete -F _vitrel vitrel\n");
 }
 
+std::string part_between(const std::string& text, const std::string& first,
+                         const std::string& end) {
+  const auto begin = text.find(first);
+  EXPECT_NE(begin, text.npos) << first;
+  return begin == text.npos ? "" : text.substr(begin, text.find(end, begin) - begin);
+}
+
+/// The function of a command that has commands, or of the program.
+std::string zsh_function(const std::string& script, const Words& command) {
+  std::string name = "_vitrel";
+  for (const std::string& word : command) name += "_" + word;
+  return part_between(script, "\n" + name + "() {", "\n}");
+}
+
 TEST_F(HabitsTest, TheCompletionOfZshNamesAllCommandsAndOptions) {
   const std::string script = output_of({"completion", "zsh"});
   EXPECT_THAT(script, StartsWith("#compdef vitrel\n"));
-  for (const std::string& command : commands()) {
-    EXPECT_THAT(script, HasSubstr("'" + command + ":"));
-    const auto begin = script.find("    " + command + ") _arguments");
-    ASSERT_NE(begin, script.npos) << command;
-    const std::string specifications = script.substr(begin, script.find(";;", begin) - begin);
+  for (const Words& command : all_commands()) {
+    const std::string& name = command.back();
+    const std::string parent = zsh_function(script, {command.begin(), command.end() - 1});
+    EXPECT_THAT(parent, HasSubstr("'" + name + ":"));
+    const std::string specifications =
+        commands(command).empty() ? part_between(parent, "    " + name + ") _arguments", ";;")
+                                  : zsh_function(script, command);
     for (const std::string& option : options_of(command)) {
       const bool is_there = specifications.find(")" + option) != specifications.npos ||
                             specifications.find("*" + option) != specifications.npos;
-      EXPECT_TRUE(is_there) << command << " " << option;
+      EXPECT_TRUE(is_there) << full_name(command) << " " << option;
     }
   }
+  EXPECT_THAT(script, HasSubstr("    pair) _vitrel_pair ;;"));
   EXPECT_THAT(script, HasSubstr(":FORMAT:(gsd xyz csv thesis geo vti vtp gnuplot)'"));
   EXPECT_THAT(script, HasSubstr("':params:_files'"));
   EXPECT_THAT(script, HasSubstr("Run all jobs of [sweep]"));
@@ -220,6 +280,13 @@ TEST_F(HabitsTest, TheCompletionOfZshNamesAllCommandsAndOptions) {
 }
 
 // ---- the manual page --------------------------------------------------------------------------------
+
+/// As the page has text that one types.
+std::string bold_in_manual(const std::string& text) {
+  std::string typed;
+  for (const char c : text) typed += c == '-' ? "\\-" : std::string(1, c);
+  return "\\fB" + typed + "\\fR";
+}
 
 TEST_F(HabitsTest, TheManualPageHasEveryCommandWithItsOptions) {
   const std::string page = output_of({"man"});
@@ -238,17 +305,15 @@ TEST_F(HabitsTest, TheManualPageHasEveryCommandWithItsOptions) {
     if (request == ".SS") current = line;
     sections[current] += line + '\n';
   }
-  for (const std::string& command : commands()) {
+  for (const Words& command : all_commands()) {
     const auto found = std::ranges::find_if(sections, [&](const auto& section) {
-      return section.first.starts_with(".SS \\fBvitrel " + command + "\\fR");
+      return section.first.starts_with(".SS " + bold_in_manual(full_name(command)));
     });
-    ASSERT_NE(found, sections.end()) << command;
-    for (std::string option : options_of(command)) {
-      if (option == "-h" || option == "--help") continue;
-      std::string typed;
-      for (const char c : option) typed += c == '-' ? "\\-" : std::string(1, c);
-      EXPECT_THAT(found->second, HasSubstr("\\fB" + typed + "\\fR")) << command;
-    }
+    ASSERT_NE(found, sections.end()) << full_name(command);
+    for (const std::string& option : options_of(command))
+      if (option != "-h" && option != "--help") {
+        EXPECT_THAT(found->second, HasSubstr(bold_in_manual(option))) << full_name(command);
+      }
   }
 }
 
@@ -262,7 +327,7 @@ TEST_F(HabitsTest, TheManualPageIsShown) {
     if (!is_installed(viewer)) continue;
     // On paper terminals bold is a letter over itself.
     const std::string shown = shell(folder, command + " 2>&1 | sed 's/.\\x08//g'");
-    for (const std::string& name : commands()) EXPECT_THAT(shown, HasSubstr("vitrel " + name));
+    for (const Words& name : all_commands()) EXPECT_THAT(shown, HasSubstr(full_name(name)));
     EXPECT_THAT(shown, Not(HasSubstr("warning")));
     EXPECT_THAT(shown, Not(HasSubstr("\\")));
   }
@@ -274,7 +339,7 @@ constexpr const char* red = "\033[1;31m";
 constexpr const char* bold = "\033[1m";
 
 TEST_F(HabitsTest, ErrorsAreRedOnATerminal) {
-  const std::vector<std::string> missing = {"check", "nothere.h5"};
+  const Words missing = {"check", "nothere.h5"};
   const Outcome shown = run_on_terminal(folder.path(), missing);
   EXPECT_EQ(shown.code, 3);
   EXPECT_THAT(shown.output, HasSubstr(red + std::string("vitrel check:\033[0m nothere.h5: ")));
@@ -285,8 +350,8 @@ TEST_F(HabitsTest, ErrorsAreRedOnATerminal) {
 }
 
 TEST_F(HabitsTest, NoColourWhereNobodySeesItOrWantsIt) {
-  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
-           {"check", "nothere.h5"}, {"anaylze"}, {"help", "run"}}) {
+  for (const Words& words :
+       std::vector<Words>{{"check", "nothere.h5"}, {"anaylze"}, {"help", "run"}}) {
     const auto shown = [&](const std::map<std::string, std::string>& environment) {
       return run_on_terminal(folder.path(), words, environment).output;
     };
@@ -343,8 +408,7 @@ TEST_F(HabitsTest, TheOutputOfPreparationsFitsEightyColumns) {
 TEST_F(HabitsTest, AMissingStartIsNamedRatherThanTheOutput) {
   folder.write("p.toml", small_system);
   folder.write("existing.h5", "");
-  const std::vector<std::string> words = {"run", "p.toml",      "--from", "nothere.h5",
-                                          "-o",  "existing.h5", "-q"};
+  const Words words = {"run", "p.toml", "--from", "nothere.h5", "-o", "existing.h5", "-q"};
   const Outcome missing = run(folder.path(), words);
   EXPECT_EQ(missing.code, 3);
   EXPECT_THAT(missing.errors, StartsWith("vitrel run: nothere.h5: cannot open the file"));

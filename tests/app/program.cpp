@@ -1,6 +1,7 @@
 #include "tests/app/program.h"
 
 #include <fcntl.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <pty.h>
 #include <signal.h>
@@ -126,6 +127,14 @@ Outcome run_on_terminal(const fs::path& folder, const std::vector<std::string>& 
   int status = 0;
   waitpid(pid, &status, 0);
   return {exit_code(status), shown, ""};
+}
+
+void expect_refusal(const Outcome& outcome, int code, const std::string& part) {
+  EXPECT_EQ(outcome.code, code);
+  EXPECT_THAT(outcome.errors, ::testing::HasSubstr(part));
+  EXPECT_EQ(outcome.output, "");
+  const auto last_line = outcome.errors.rfind("vitrel");
+  EXPECT_EQ(outcome.errors.find('\n', last_line), outcome.errors.size() - 1) << outcome.errors;
 }
 
 Folder::Folder(const std::string& name)

@@ -34,6 +34,9 @@ Outcome run_and_signal(const std::filesystem::path& folder,
                        const std::vector<std::string>& arguments, std::chrono::milliseconds delay,
                        int signal);
 
+/// One message on standard error, that exit code, and nothing on standard output.
+void expect_refusal(const Outcome& outcome, int code, const std::string& part);
+
 /// An empty folder of this name below the test's temporary folder, removed with everything in it at the
 /// end of the scope.
 class Folder {

@@ -22,6 +22,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 using testing_program::differing_datasets;
+using testing_program::expect_refusal;
 using testing_program::Folder;
 using testing_program::Outcome;
 using testing_program::run;
@@ -30,15 +31,6 @@ using Json = nlohmann::json;
 const std::string small_system =
     "[system]\nparticles = 30\n[dynamics]\nequilibration = 1\nduration = 10\n"
     "[output]\nsamples = { spacing = \"linear\", interval = 0.5 }\n";
-
-/// One message on standard error, that exit code, and nothing on standard output.
-void expect_refusal(const Outcome& outcome, int code, const std::string& part) {
-  EXPECT_EQ(outcome.code, code);
-  EXPECT_THAT(outcome.errors, HasSubstr(part));
-  EXPECT_EQ(outcome.output, "");
-  const auto last_line = outcome.errors.rfind("vitrel");
-  EXPECT_EQ(outcome.errors.find('\n', last_line), outcome.errors.size() - 1) << outcome.errors;
-}
 
 void expect_keys(const Json& summary, const std::vector<std::string>& keys) {
   for (const std::string& key : keys) EXPECT_TRUE(summary.contains(key)) << key;
@@ -212,8 +204,9 @@ TEST(Program, AStateMustFitTheParameters) {
                {"run", "p.toml", "-o", "run.h5", "--from", "state.h5", "-q", "--set", setting});
   };
   expect_refusal(run_with("system.particles=31"), 2,
-                 "holds 30 particles, but system.particles is 31");
-  expect_refusal(run_with("system.packing_fraction=0.4"), 2, "has the packing fraction 0.5");
+                 "key 'system.particles' is 31, but that of the state is 30 (state.h5)");
+  expect_refusal(run_with("system.packing_fraction=0.4"), 2,
+                 "key 'system.packing_fraction' is 0.4, but that of the state is");
   expect_refusal(run_with("dynamics.initial_velocities=keep"), 2, "is at rest");
 }
 
@@ -522,8 +515,9 @@ TEST(Program, SaysWhatThreeDimensionsDoNotHave) {
   folder.write("p.toml", small_packing);
   ASSERT_EQ(run(folder.path(), {"prepare", "p.toml", "-o", "state.h5", "-q"}).code, 0);
   folder.write("flat.toml", small_system);
-  expect_refusal(run(folder.path(), {"run", "flat.toml", "-o", "a.h5", "--from", "state.h5", "-q"}),
-                 3, "state.h5: is three-dimensional");
+  expect_refusal(run(folder.path(), {"run", "flat.toml", "-o", "a.h5", "--from", "state.h5", "-q",
+                                     "--set", "system.dimension=2"}),
+                 2, "key 'system.dimension' is 2, but that of the state is 3 (state.h5)");
 }
 
 // Without [dynamics] the jobs of a sweep are packings; with it, runs.

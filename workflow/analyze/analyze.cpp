@@ -21,6 +21,7 @@
 #include "workflow/analyze/relaxation_tables.h"
 #include "workflow/configuration/parameters.h"
 #include "workflow/configuration/species_names.h"
+#include "workflow/configuration/start_state.h"
 #include "workflow/run/correlations_file.h"
 #include "workflow/storage/trajectory_file.h"
 
@@ -51,9 +52,14 @@ struct RunAnalysis {
 };
 
 Parameters analysis_parameters(const TrajectoryReader& reader, const AnalysisChoice& choice) {
-  if (choice.parameters)
-    return load_parameters({*choice.parameters, choice.overrides, std::nullopt});
+  if (choice.parameters) return load_parameters({*choice.parameters, choice.overrides});
   return parse_parameters(reader.provenance().parameters, reader.path().string(), choice.overrides);
+}
+
+TrajectoryReader open_run(const std::filesystem::path& file, const AnalysisChoice& choice) {
+  if (!choice.parameters) return TrajectoryReader(file);
+  return TrajectoryReader(file,
+                          known_system(load_parameters({*choice.parameters, choice.overrides})));
 }
 
 /// What displacements need of a file; those of round particles, and in space, need no angles.
@@ -285,10 +291,11 @@ std::filesystem::path csv_file(const std::filesystem::path& results, const std::
 
 /// Of a run of this dimension.
 template <int Dim>
-AnalysedRun analyze(const std::filesystem::path& file, const AnalysisChoice& choice,
+AnalysedRun analyze(TrajectoryReader opened, const AnalysisChoice& choice,
                     const AnalysisProgress& progress) {
+  const std::filesystem::path file = opened.path();
   AnalysedRun analysed{file, {}};
-  TrajectoryFile<Dim> trajectory(file);
+  TrajectoryFile<Dim> trajectory(std::move(opened));
   const TrajectoryReader& reader = trajectory.reader();
   if (trajectory.frames() == 0)
     throw UserError(file.string() + ": has no frames yet; continue the run");
@@ -327,8 +334,9 @@ std::uint64_t AnalysedRun::seed() const {
 
 AnalysedRun analyze_run(const std::filesystem::path& file, const AnalysisChoice& choice,
                         const AnalysisProgress& progress) {
-  const bool is_plane = TrajectoryReader(file).dimension() == 2;
-  return (is_plane ? analyze<2> : analyze<3>)(file, choice, progress);
+  TrajectoryReader reader = open_run(file, choice);
+  const bool is_plane = reader.dimension() == 2;
+  return (is_plane ? analyze<2> : analyze<3>)(std::move(reader), choice, progress);
 }
 
 std::filesystem::path results_path(const std::filesystem::path& run) {
@@ -354,7 +362,7 @@ AnalysedRun stored_or_analyzed(const std::filesystem::path& file, const Analysis
   } catch (const FileError&) {
     return analyze_run(file, choice, progress);
   }
-  const Parameters parameters = analysis_parameters(TrajectoryReader(file), choice);
+  const Parameters parameters = analysis_parameters(open_run(file, choice), choice);
   const bool is_up_to_date = stored.results.text(analyzer_key) == analyzer() &&
                              stored.results.text(analysis_key) == effective_parameters(parameters);
   return is_up_to_date ? stored : analyze_run(file, choice, progress);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/io/number_text.h"
 #include "workflow/configuration/rules.h"
 
 namespace vitrel {
@@ -100,17 +101,27 @@ bool same(const Distribution& one, const Distribution& two) {
   return one.mean == two.mean && one.standard_deviation == two.standard_deviation;
 }
 
-bool allows(const Distribution& d, double value) {
-  if (d.kind == Kind::constant) return std::abs(value - d.mean) <= slack * std::abs(d.mean);
+bool agree(double given, double found, Agreement agreement) {
+  const double rounding = slack * std::abs(given);
+  const double digits = agreement == Agreement::digits ? half_last_digit(given) : 0;
+  return std::abs(found - given) <= std::max(rounding, digits * (1 + slack));
+}
+
+bool allows(const Distribution& d, double value, Agreement agreement) {
+  if (d.kind == Kind::constant) return agree(d.mean, value, agreement);
   const bool above = value >= d.minimum * (1 - slack);
   if (d.kind != Kind::uniform) return above;
   return above && value >= d.low - slack * std::abs(d.low) && value <= d.high * (1 + slack);
 }
 
-bool allow(const std::vector<Distribution>& entries, std::vector<double> values) {
+bool allow(const std::vector<Distribution>& entries, std::vector<double> values,
+           Agreement agreement) {
+  const auto allowed = [agreement](const Distribution& d, double value) {
+    return allows(d, value, agreement);
+  };
   std::ranges::sort(values);
   do {
-    if (std::ranges::equal(entries, values, allows)) return true;
+    if (std::ranges::equal(entries, values, allowed)) return true;
   } while (std::ranges::next_permutation(values).found);
   return false;
 }

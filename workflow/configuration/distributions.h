@@ -42,9 +42,16 @@ std::string text(const std::vector<Distribution>& entries);
 
 bool same(const Distribution& one, const Distribution& two);
 
-/// Whether the value can have been drawn, but for the rounding of shapes that were computed from ratios and sizes.
-bool allows(const Distribution& d, double value);
+/// How well a constant must agree with a number.
+enum class Agreement {
+  rounding,  ///< but for the rounding of shapes that were computed from ratios and sizes
+  digits  ///< to the digits given, of which three count at least: 0.5 agrees with 0.5004, 0.898242 with 0.8982416
+};
+bool agree(double given, double found, Agreement agreement);
+/// Whether the value can have been drawn.
+bool allows(const Distribution& d, double value, Agreement agreement = Agreement::rounding);
 /// The same for values in any order.
-bool allow(const std::vector<Distribution>& entries, std::vector<double> values);
+bool allow(const std::vector<Distribution>& entries, std::vector<double> values,
+           Agreement agreement = Agreement::rounding);
 
 }  // namespace vitrel

@@ -10,13 +10,35 @@ namespace {
 using Style = FieldVisitor::TableStyle;
 
 constexpr const char* kind_names[] = {"newtonian", "brownian"};
-constexpr const char* rotation_names[] = {"euler", "constant"};
 constexpr const char* on_overlap_names[] = {"stop", "correct"};
 constexpr const char* temperature_names[] = {"total", "relative"};
 constexpr const char* velocity_names[] = {"maxwell", "translation", "rotation", "keep"};
 constexpr const char* law_names[] = {"linear_dashpot", "viscoelastic"};
 constexpr const char* coefficients_names[] = {"tabulated", "integrated"};
 constexpr const char* early_release_names[] = {"alone", "together"};
+
+/// Whether contacts at the thermal speed are such that coefficients can be had.
+void validate_impact(const ContactParameters& p, const Rules& rules) {
+  const bool is_dashpot = p.law == ContactParameters::Law::linear_dashpot;
+  const ContactScales scales = thermal_scales(p);
+  rules.require(
+      scales.damping <= max_scaled_damping, is_dashpot ? "damping" : "dissipative_time",
+      fmt::format("is so large that nothing is left of the thermal speed (c_dis = {:.3g}, at "
+                  "most {:g}, with this radius, density and stiffness); lower it",
+                  scales.damping, max_scaled_damping));
+  rules.require(
+      2 * p.radius >= min_scaled_distance * scales.length,
+      is_dashpot ? "stiffness" : "youngs_modulus",
+      fmt::format("is so small that particles pass through each other at the thermal speed "
+                  "(2 R/X = {:.3g}, at least {:g}); raise it",
+                  2 * p.radius / scales.length, min_scaled_distance));
+}
+
+}  // namespace
+
+const char* law_name(ContactParameters::Law law) {
+  return law_names[static_cast<std::size_t>(law)];
+}
 
 void describe_contact(ContactParameters& p, FieldVisitor& visit) {
   using Law = ContactParameters::Law;
@@ -53,29 +75,6 @@ void describe_contact(ContactParameters& p, FieldVisitor& visit) {
                "A particle that is hit during a contact is released alone, as published, or "
                "together with its partner, which conserves the angular momentum."},
               p.early_release, early_release_names);
-}
-
-/// Whether contacts at the thermal speed are such that coefficients can be had.
-void validate_impact(const ContactParameters& p, const Rules& rules) {
-  constexpr double max_damping = 1e5, min_distance = 0.01;
-  const bool is_dashpot = p.law == ContactParameters::Law::linear_dashpot;
-  const ContactScales scales = thermal_scales(p);
-  rules.require(
-      scales.damping <= max_damping, is_dashpot ? "damping" : "dissipative_time",
-      fmt::format("is so large that nothing is left of the thermal speed (c_dis = {:.3g}, at "
-                  "most {:g}, with this radius, density and stiffness); lower it",
-                  scales.damping, max_damping));
-  rules.require(
-      2 * p.radius >= min_distance * scales.length, is_dashpot ? "stiffness" : "youngs_modulus",
-      fmt::format("is so small that particles pass through each other at the thermal speed "
-                  "(2 R/X = {:.3g}, at least {:g}); raise it",
-                  2 * p.radius / scales.length, min_distance));
-}
-
-}  // namespace
-
-const char* law_name(ContactParameters::Law law) {
-  return law_names[static_cast<std::size_t>(law)];
 }
 
 void describe_dynamics(DynamicsParameters& p, FieldVisitor& visit) {

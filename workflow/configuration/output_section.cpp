@@ -29,6 +29,10 @@ void describe_correlations(CorrelationParameters& p, FieldVisitor& visit) {
   visit.field(
       {"interval", "time", "Time between correlated states; this is the shortest time difference."},
       p.interval);
+  visit.optional({"longest_lag", "time",
+                  "Longest time difference. The default is half the duration; a run that is made "
+                  "longer keeps that of its beginning."},
+                 p.longest_lag, 50.0);
   visit.field({"wave_numbers", "1/length",
                "Wave numbers q of the self-intermediate scattering functions F_s(q, t). If empty: "
                "approximately that of the main peak of the structure factor, 2π √(2ρ/√3) with the "
@@ -43,6 +47,11 @@ void validate_correlations(const CorrelationParameters& p, double duration) {
                 fmt::format("is {}, but must lie between 1e-12 of dynamics.duration = {} and all "
                             "of it",
                             show(p.interval), show(duration)));
+  if (p.longest_lag)
+    rules.require(*p.longest_lag >= p.interval && *p.longest_lag <= duration, "longest_lag",
+                  fmt::format("is {}, but must lie between the interval {} and dynamics.duration = "
+                              "{}",
+                              show(*p.longest_lag), show(p.interval), show(duration)));
   for (std::size_t k = 0; k < p.wave_numbers.size(); ++k)
     rules.positive(p.wave_numbers[k], fmt::format("wave_numbers.{}", k));
 }
@@ -56,11 +65,12 @@ void describe_output(OutputParameters& p, FieldVisitor& visit) {
                "Whether the velocities of all particles are also written. Energies and pressure do "
                "not need them."},
               p.velocities);
-  const Field correlations{"correlations", "",
-                           "Correlations measured during the run, from states that need not be "
-                           "written: displacement, rotation, self-scattering and orientation, over "
-                           "times from the interval to half the run. The file has the name of the "
-                           "run with the suffix .correlations.h5. By default none are measured."};
+  const Field correlations{
+      "correlations", "",
+      "Correlations measured during the run, from states that need not be "
+      "written: displacement, rotation, self-scattering and orientation, over "
+      "times from the interval to half the run, or longest_lag. The file has the name of the "
+      "run with the suffix .correlations.h5. By default none are measured."};
   visit.optional(correlations, p.correlations, CorrelationParameters(),
                  [&](FieldVisitor& in, CorrelationParameters& inner) {
                    in.table(correlations, Style::inline_table,

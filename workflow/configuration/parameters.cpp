@@ -40,6 +40,56 @@ Parameters read(const TomlNode& root) {
   return parameters;
 }
 
+/// The value of a key of a table; null if there is none, or the node is no table.
+TomlNode* find(TomlNode* node, const std::string& key) {
+  auto* entries = node ? node->get<TomlNode::Table>() : nullptr;
+  if (!entries) return nullptr;
+  const auto found = std::ranges::find(*entries, key, &TomlEntry::key);
+  return found == entries->end() ? nullptr : &found->node;
+}
+
+/// The same; a missing key of a table is made.
+TomlNode* find_or_make(TomlNode* node, const std::string& key, const TomlNode& value) {
+  auto* entries = node ? node->get<TomlNode::Table>() : nullptr;
+  if (entries && !find(node, key)) entries->push_back({key, value.where, value});
+  return find(node, key);
+}
+
+/// The default method places particles.
+bool places_particles(const TomlNode& stage) {
+  const TomlEntry* method = stage.find("method");
+  const std::string* name = method ? method->node.get<std::string>() : nullptr;
+  return !name || vitrel::places_particles(*name);
+}
+
+void apply_start(TomlNode& root, const StartFile& start) {
+  const std::string where = "--from " + start.file.string();
+  TomlNode* prepare = find_or_make(&root, "prepare", {TomlNode::Table(), where});
+  TomlNode* list = find_or_make(prepare, "stage", {TomlNode::Array(), where});
+  auto* stages = list ? list->get<TomlNode::Array>() : nullptr;
+  if (!stages) return;  // refused when it is read
+  if (!stages->empty() && places_particles(stages->front()))
+    stages->erase(stages->begin(), start.keeps_moves ? stages->begin() + 1 : stages->end());
+  const auto text = [&](const char* key, const std::string& value) {
+    return TomlEntry{key, where, {value, where}};
+  };
+  TomlNode::Table table = {text("method", StateStage::method), text("file", start.file.string())};
+  if (start.shrink) table.push_back(text("on_overlap", "shrink"));
+  stages->insert(stages->begin(), {std::move(table), where});
+}
+
+/// Files that the document names lie beside it.
+void resolve_state_files(TomlNode& root, const std::filesystem::path& folder) {
+  TomlNode* list = find(find(&root, "prepare"), "stage");
+  auto* stages = list ? list->get<TomlNode::Array>() : nullptr;
+  if (!stages) return;
+  for (TomlNode& stage : *stages) {
+    TomlNode* file = find(&stage, "file");
+    std::string* name = file ? file->get<std::string>() : nullptr;
+    if (name) *name = (folder / *name).lexically_normal().string();
+  }
+}
+
 void apply(TomlNode& root, const std::vector<std::string>& overrides) {
   for (const std::string& assignment : overrides)
     apply_override(root, assignment, "--set " + assignment);
@@ -91,6 +141,12 @@ FieldVisitor::Inside fields(Parameters& p, const Sections& sections) {
       visit.table(
           {"sweep", "", "Several runs from one file; or states, if no key of [dynamics] is given."},
           Style::section, [&](FieldVisitor& in) {
+            in.optional({"ladder", "",
+                         "A key of the grid or of those that advance together. The job with its "
+                         "first value prepares a state; every other one starts from the end of the "
+                         "job with the value before, and goes on with the stages that move "
+                         "particles."},
+                        p.sweep.ladder, std::string("system.packing_fraction"));
             in.grid({"grid", "",
                      "Keys of this file in quotes, each with a list of values. Every combination "
                      "of values is a job."},
@@ -121,10 +177,12 @@ void validate(const Parameters& parameters) {
 
 Parameters load_parameters(const ParameterSource& source) {
   TomlNode root = read_toml_file(source.file);
+  resolve_state_files(root, source.file.parent_path());
   apply(root, source.overrides);
   if (source.seed)
     apply_override(root, fmt::format("system.seed={}", *source.seed),
                    fmt::format("--seed {}", *source.seed));
+  if (source.start) apply_start(root, *source.start);
   return read(root);
 }
 
@@ -147,6 +205,7 @@ std::optional<std::string> place_of(const Parameters& parameters, const std::str
 std::string effective_parameters(const Parameters& parameters) {
   Parameters copy = parameters;
   copy.output.interval = sample_interval(parameters);
+  if (copy.output.correlations) copy.output.correlations->longest_lag = longest_lag(parameters);
   Sections all_but_sweep;
   all_but_sweep.sweep = false;
   return write_parameters(fields(copy, all_but_sweep));
@@ -166,6 +225,7 @@ std::string command_template(const std::string& command) {
   Parameters parameters;
   if (found->second.sweep)
     parameters.sweep = {
+        std::nullopt,
         {{"system.seed", {"1", "2"}}},
         {{"system.packing_fraction", {"0.4", "0.6"}}, {"dynamics.duration", {"100.0", "400.0"}}}};
   return fmt::format("# Parameters of `vitrel {}`, all at their defaults.\n\n", command) +
@@ -190,17 +250,33 @@ Parameters recorded_parameters(const std::string& text, const std::string& name)
   return parameters;
 }
 
+Parameters continued(Parameters parameters, const Parameters& recorded) {
+  OutputParameters& output = parameters.output;
+  if (!output.interval) output.interval = sample_interval(recorded);
+  if (output.correlations && !output.correlations->longest_lag && recorded.output.correlations)
+    output.correlations->longest_lag = longest_lag(recorded);
+  FreeRotation& rotation = parameters.dynamics.rotation;
+  if (rotation == FreeRotation::euler && !place_of(parameters, "dynamics.rotation"))
+    rotation = recorded.dynamics.rotation;
+  return parameters;
+}
+
 std::optional<ParameterDifference> forbidden_change(const std::string& before,
                                                     const std::string& after, Work work) {
   // As this version would have recorded it: with its keys, and the defaults of those that are new.
-  const std::string recorded =
-      effective_parameters(recorded_parameters(before, "recorded parameters"));
-  return first_difference(recorded, after, [work](const std::string& key) {
-    if (key == "output.checkpoint_interval" || key == "prepare.quality_sweeps") return true;
-    return key.starts_with("analysis.") ||
-           (work == Work::preparation &&
-            (key.starts_with("dynamics.") || key.starts_with("output.")));
-  });
+  const Parameters recorded = recorded_parameters(before, "recorded parameters");
+  const bool is_longer =
+      parse_parameters(after, "parameters").dynamics.duration > recorded.dynamics.duration;
+  return first_difference(
+      effective_parameters(recorded), after, [work, is_longer](const std::string& key) {
+        if (key == "output.checkpoint_interval" || key == "prepare.quality_sweeps") return true;
+        // The state is read at the start only, and may be elsewhere now, or gone.
+        if (key == "prepare.stage.0.file") return true;
+        if (key == "dynamics.duration" && is_longer) return true;
+        return key.starts_with("analysis.") ||
+               (work == Work::preparation &&
+                (key.starts_with("dynamics.") || key.starts_with("output.")));
+      });
 }
 
 DynamicsOptions dynamics_options(const Parameters& parameters) {
@@ -219,6 +295,10 @@ DynamicsOptions dynamics_options(const Parameters& parameters) {
 double sample_interval(const Parameters& parameters) {
   const double duration = parameters.dynamics.duration;
   return parameters.output.interval.value_or(std::min(std::max(0.1, duration / 200), duration));
+}
+
+double longest_lag(const Parameters& parameters) {
+  return parameters.output.correlations->longest_lag.value_or(0.5 * parameters.dynamics.duration);
 }
 
 std::vector<double> sample_times(const Parameters& parameters) {

@@ -58,7 +58,8 @@ struct DynamicsParameters {
 /// Of correlations on the fly.
 struct CorrelationParameters {
   double interval = 0.1;
-  std::vector<double> wave_numbers;  ///< empty: main_wave_number
+  std::optional<double> longest_lag;  ///< none: half the duration
+  std::vector<double> wave_numbers;   ///< empty: main_wave_number
 };
 
 struct OutputParameters {
@@ -75,6 +76,8 @@ struct OutputParameters {
 
 /// The values that keys of the file run through in a sweep.
 struct SweepParameters {
+  /// A key whose jobs start from the end of the job with the value before; none: all prepare a state of their own.
+  std::optional<std::string> ladder;
   ParameterGrid grid;      ///< every value of a key with every value of the others
   ParameterGrid together;  ///< the k-th values of all keys together
 };
@@ -109,11 +112,21 @@ FieldVisitor::Inside fields(Parameters& parameters, const Sections& sections = {
 /// Throws BadValue for the first impossible value.
 void validate(const Parameters& parameters);
 
+/// A state to start from, as the command line gives it.
+struct StartFile {
+  std::filesystem::path file;
+  bool shrink = false;  ///< until no particles overlap
+  /// Stages of the parameter file that move particles follow, even if its first stage places them.
+  bool keeps_moves = false;
+};
 /// A file and what the command line puts over it.
 struct ParameterSource {
   std::filesystem::path file;
-  std::vector<std::string> overrides;  ///< each "key=value"
-  std::optional<std::uint64_t> seed;
+  std::vector<std::string> overrides = {};  ///< each "key=value"
+  std::optional<std::uint64_t> seed = {};
+  /// The first stage is then this state. Stages of the file follow it if the first of them moves particles; if that
+  /// places particles, they are how the state was made, and are dropped.
+  std::optional<StartFile> start = {};
 };
 /// Reads, overrides and validates. Throws UserError or FileError.
 Parameters load_parameters(const ParameterSource& source);
@@ -134,10 +147,14 @@ std::string command_template(const std::string& command);
 /// The page docs/parameters.md.
 std::string parameter_page();
 
+/// For a run that was begun with `recorded`: keys that are not given, and whose defaults depend on the duration or the
+/// version, stay as they were.
+Parameters continued(Parameters parameters, const Parameters& recorded);
+
 enum class Work { preparation, run };
 /// The first key that differs and may not, when a piece of work is continued with changed parameters.
 /// Changes of what it does not use do not matter, nor those of the checkpoint interval and the quality
-/// sweeps.
+/// sweeps; and a run may become longer.
 std::optional<ParameterDifference> forbidden_change(const std::string& before,
                                                     const std::string& after, Work work);
 
@@ -147,6 +164,8 @@ DynamicsOptions dynamics_options(const Parameters& parameters);
 /// The time between samples with linear spacing; by default a 200th of the duration, but at least 0.1 (or all of a
 /// shorter run), so that the default output of a long run costs little.
 double sample_interval(const Parameters& parameters);
+/// The longest time difference of correlations on the fly.
+double longest_lag(const Parameters& parameters);
 /// Sample times, from 0 to the duration.
 std::vector<double> sample_times(const Parameters& parameters);
 

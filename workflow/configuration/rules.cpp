@@ -13,7 +13,7 @@ std::string show(double value) {
 }
 
 void Rules::require(bool holds, const std::string& key, const std::string& complaint) const {
-  if (!holds) throw BadValue(path_ + "." + key, complaint);
+  if (!holds) throw BadValue(path_.empty() ? key : path_ + "." + key, complaint);
 }
 
 void Rules::positive(double value, const std::string& key) const {

@@ -18,7 +18,7 @@ struct PackingBound {
 /// wrong and what would be right, if its rule does not hold.
 class Rules {
  public:
-  /// `path`: dotted key of the table.
+  /// `path`: dotted key of the table; empty: the document.
   explicit Rules(std::string path) : path_(std::move(path)) {}
 
   void require(bool holds, const std::string& key, const std::string& complaint) const;

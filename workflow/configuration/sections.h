@@ -23,7 +23,11 @@ Species default_species();
 /// Whether all its particles are disks or spheres.
 bool is_round(const Species& p);
 
+/// The words for FreeRotation.
+inline constexpr const char* rotation_names[] = {"euler", "constant"};
+
 void describe_dynamics(DynamicsParameters& p, FieldVisitor& visit);
+void describe_contact(ContactParameters& p, FieldVisitor& visit);
 void validate_dynamics(const DynamicsParameters& p);
 /// Of soft particles, which the species and the dynamics must fit.
 void validate_contact(const Parameters& parameters);

@@ -6,8 +6,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <numbers>
-#include <set>
-#include <utility>
 #include <vector>
 
 #include "core/elementary.h"
@@ -18,9 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// In thermal speeds: beyond are 10⁻⁹ of the impacts of a gas, and those of one that has cooled for long.
-constexpr double slowest = 1e-5, fastest = 20;
-
 LinearDashpot in_units(const LinearDashpot& force, const UnitsOfRun& unit) {
   return {force.stiffness * unit.time * unit.time / unit.mass,
           force.damping * unit.time / unit.mass};
@@ -30,16 +25,19 @@ Viscoelastic in_units(const Viscoelastic& force, const UnitsOfRun& unit) {
           force.poissons_ratio, force.dissipative_time / unit.time};
 }
 
-/// All pairs of the particles' kinds; of many kinds, of some spread over all radii.
 template <int Dim>
-std::vector<ContactPair> pairs_of(const Configuration<Dim>& configuration) {
-  using Kind = std::pair<double, double>;  // radius, mass
-  std::set<Kind> all;
+std::set<KindOfSphere> kinds_of(const Configuration<Dim>& configuration) {
+  std::set<KindOfSphere> kinds;
   for (std::size_t i = 0; i < configuration.size(); ++i)
-    all.insert({configuration.shape[i].circumradius(), configuration.mass[i]});
+    kinds.insert({configuration.shape[i].circumradius(), configuration.mass[i]});
+  return kinds;
+}
+
+/// All pairs of the kinds; of many kinds, of some spread over all radii.
+std::vector<ContactPair> pairs_of(const std::set<KindOfSphere>& all) {
   constexpr std::size_t enough = 32;
-  const std::vector<Kind> sorted(all.begin(), all.end());
-  std::vector<Kind> kinds;
+  const std::vector<KindOfSphere> sorted(all.begin(), all.end());
+  std::vector<KindOfSphere> kinds;
   const std::size_t count = std::min(sorted.size(), enough);
   for (std::size_t k = 0; k < count; ++k)
     kinds.push_back(sorted[count > 1 ? k * (sorted.size() - 1) / (count - 1) : 0]);
@@ -80,18 +78,26 @@ RestitutionTable table_for(const ForceForm& form, const RestitutionDomain& domai
   return std::move(kept.table);
 }
 
-template <ContactForce Force, int Dim>
-std::shared_ptr<SoftContact> contact_by(const Force& force, const ContactParameters& parameters,
-                                        const Configuration<Dim>& configuration, int threads,
+/// `force` is in units of the run.
+template <ContactForce Force>
+RestitutionTable table_of(const Force& force, const std::set<KindOfSphere>& kinds, int threads,
+                          const Log& log) {
+  const RestitutionDomain domain =
+      restitution_domain(force, pairs_of(kinds), slowest_tabulated, fastest_tabulated);
+  return table_for(form_of<Force>(), domain, threads, log);
+}
+
+template <ContactForce Force>
+std::shared_ptr<SoftContact> contact_by(const Force& force,
+                                        ContactParameters::Coefficients coefficients,
+                                        const std::set<KindOfSphere>& kinds, int threads,
                                         const Log& log) {
   const ForceForm form = form_of<Force>();
-  if (parameters.coefficients == ContactParameters::Coefficients::integrated)
+  if (coefficients == ContactParameters::Coefficients::integrated)
     return std::make_shared<SoftContactOf<Force, IntegratedRestitution>>(
         force, IntegratedRestitution(form));
-  const RestitutionDomain domain =
-      restitution_domain(force, pairs_of(configuration), slowest, fastest);
   return std::make_shared<SoftContactOf<Force, TabulatedRestitution>>(
-      force, TabulatedRestitution(form, table_for(form, domain, threads, log)));
+      force, TabulatedRestitution(form, table_of(force, kinds, threads, log)));
 }
 
 /// `use(force)` for the force of the law.
@@ -114,17 +120,30 @@ UnitsOfRun units_of_run(const ContactParameters& p) {
 }
 
 ContactScales thermal_scales(const ContactParameters& p) {
-  const ContactPair pair = reference_pair(p);
-  return with_force(p, [&](const auto& force) { return force.scales(p.thermal_speed, pair); });
+  return contact_scales(p, reference_pair(p), p.thermal_speed);
+}
+
+ContactScales contact_scales(const ContactParameters& p, const ContactPair& pair, double speed) {
+  return with_force(p, [&](const auto& force) { return force.scales(speed, pair); });
+}
+
+ForceForm form_of_law(const ContactParameters& p) {
+  return with_force(p, []<ContactForce Force>(const Force&) { return form_of<Force>(); });
+}
+
+RestitutionTable restitution_table(const ContactParameters& p, const std::set<KindOfSphere>& kinds,
+                                   int threads, const Log& log) {
+  return with_force(p, [&](const auto& force) {
+    return table_of(in_units(force, units_of_run(p)), kinds, threads, log);
+  });
 }
 
 std::string contact_text(const ContactParameters& p) {
   const UnitsOfRun unit = units_of_run(p);
   const ContactPair pair = reference_pair(p);
   const ContactScales scales = thermal_scales(p);
-  const Restitution head_on = with_force(p, [&]<ContactForce Force>(const Force&) {
-    return integrate_contact<Force>(scaled_impact(scales, pair, p.thermal_speed, 0));
-  });
+  const Restitution head_on =
+      form_of_law(p).integrate(scaled_impact(scales, pair, p.thermal_speed, 0));
   return fmt::format(
       "contact      {}; head-on at {:.4g} m/s it lasts {:.3g} s and leaves {:.4g} of the speed\n"
       "units        length {:.4g} m, mass {:.4g} kg, time {:.4g} s\n",
@@ -138,7 +157,8 @@ std::shared_ptr<SoftContact> soft_contact(const ContactParameters& parameters,
                                           const Log& log) {
   const UnitsOfRun unit = units_of_run(parameters);
   return with_force(parameters, [&](const auto& force) {
-    return contact_by(in_units(force, unit), parameters, configuration, threads, log);
+    return contact_by(in_units(force, unit), parameters.coefficients, kinds_of(configuration),
+                      threads, log);
   });
 }
 

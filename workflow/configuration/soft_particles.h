@@ -1,6 +1,8 @@
 #pragma once
 
+#include <compare>
 #include <memory>
+#include <set>
 #include <string>
 
 #include "core/state/configuration.h"
@@ -11,6 +13,12 @@
 /// @file
 /// From the parameters of soft particles to their contacts in a run.
 namespace vitrel {
+
+class RestitutionTable;
+
+/// Contacts that coefficients can be had of: c_dis at most, l/X at least. Beyond, nothing is left of the speed, or the
+/// particles pass through each other.
+inline constexpr double max_scaled_damping = 1e5, min_scaled_distance = 0.01;
 
 /// What the units of the run are in SI units.
 struct UnitsOfRun {
@@ -23,13 +31,34 @@ UnitsOfRun units_of_run(const ContactParameters& parameters);
 /// The scales of an impact of two particles of size 1 that meet head-on at the thermal speed.
 ContactScales thermal_scales(const ContactParameters& parameters);
 
+/// The same at any speed, m/s, of any pair in SI units.
+ContactScales contact_scales(const ContactParameters& parameters, const ContactPair& pair,
+                             double speed);
+ForceForm form_of_law(const ContactParameters& parameters);
+
 /// The law, the units, and what becomes of two particles of size 1 that meet head-on at the thermal
 /// speed, in lines for a person.
 std::string contact_text(const ContactParameters& parameters);
 
-/// For particles of these radii and masses. A table covers relative speeds from 1e-5 to 20 thermal
-/// speeds, is kept in $XDG_CACHE_HOME/vitrel (~/.cache/vitrel) and made if it is not there; `log` gets a
-/// line if so. Its tolerance is 1e-8, or 1e-6 if pairs damp differently and there is one more variable.
+/// In units of the run.
+struct KindOfSphere {
+  double radius, mass;
+
+  auto operator<=>(const KindOfSphere&) const = default;
+};
+
+/// The relative speeds that a table covers, in thermal speeds: beyond are 10⁻⁹ of the impacts of a gas, and those of
+/// one that has cooled for long.
+inline constexpr double slowest_tabulated = 1e-5, fastest_tabulated = 20;
+
+/// The coefficients of all pairs of these kinds. The table is kept in $XDG_CACHE_HOME/vitrel (~/.cache/vitrel) and
+/// made if it is not there; `log` gets a line if so. Its tolerance is 1e-8, or 1e-6 if pairs damp differently and
+/// there is one more variable.
+RestitutionTable restitution_table(const ContactParameters& parameters,
+                                   const std::set<KindOfSphere>& kinds, int threads,
+                                   const Log& log);
+
+/// For particles of these radii and masses, by such a table unless all contacts are integrated.
 template <int Dim>
 std::shared_ptr<SoftContact> soft_contact(const ContactParameters& parameters,
                                           const Configuration<Dim>& configuration, int threads,

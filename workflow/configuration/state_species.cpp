@@ -12,13 +12,6 @@
 namespace vitrel {
 namespace {
 
-double natural_mass(const Ellipse& shape) {
-  return shape.a * shape.b;
-}
-double natural_mass(const Ellipsoid& shape) {
-  return shape.semi_axes.prod();
-}
-
 double size_of(const Ellipse& shape) {
   return std::sqrt(shape.a * shape.b);
 }
@@ -40,36 +33,40 @@ struct Misfit {
   std::string given, found;
 };
 
-std::optional<Misfit> misfit(const char* key, const Distribution& given, double found) {
-  if (allows(given, found)) return std::nullopt;
+std::optional<Misfit> misfit(const char* key, const Distribution& given, double found,
+                             Agreement agreement) {
+  if (allows(given, found, agreement)) return std::nullopt;
   return Misfit{key, text(given), fmt::format("{}", found)};
 }
 
-std::optional<Misfit> ratio_misfit(const Species& species, const std::vector<double>& axes) {
+std::optional<Misfit> ratio_misfit(const Species& species, const std::vector<double>& axes,
+                                   Agreement agreement) {
   const double first = axes[0] / axes[1], second = axes[0] / axes.back();
   if (species.aspect_ratios) {
-    const auto one = misfit("aspect_ratios", (*species.aspect_ratios)[0], first);
-    return one ? one : misfit("aspect_ratios", (*species.aspect_ratios)[1], second);
+    const auto one = misfit("aspect_ratios", (*species.aspect_ratios)[0], first, agreement);
+    return one ? one : misfit("aspect_ratios", (*species.aspect_ratios)[1], second, agreement);
   }
   const Distribution ratio = species.aspect_ratio.value_or(constant(1));
-  const auto one = misfit("aspect_ratio", ratio, first);
-  return one ? one : misfit("aspect_ratio", ratio, second);
+  const auto one = misfit("aspect_ratio", ratio, first, agreement);
+  return one ? one : misfit("aspect_ratio", ratio, second, agreement);
 }
 
 template <class Shape>
-std::optional<Misfit> misfit(const Species& species, const Shape& shape, double mass) {
+std::optional<Misfit> misfit(const Species& species, const Shape& shape, double mass,
+                             Agreement agreement) {
   const std::vector<double> axes = axes_of(shape);
   if (species.semi_axes) {
-    if (!allow(*species.semi_axes, axes))
+    if (!allow(*species.semi_axes, axes, agreement))
       return Misfit{"semi_axes", text(*species.semi_axes), to_toml(std::span<const double>(axes))};
   } else {
-    if (auto found = ratio_misfit(species, axes)) return found;
-    auto found = species.first_semi_axis
-                     ? misfit("first_semi_axis", *species.first_semi_axis, axes[0])
-                     : misfit("size", species.size.value_or(constant(1)), size_of(shape));
+    if (auto found = ratio_misfit(species, axes, agreement)) return found;
+    auto found =
+        species.first_semi_axis
+            ? misfit("first_semi_axis", *species.first_semi_axis, axes[0], agreement)
+            : misfit("size", species.size.value_or(constant(1)), size_of(shape), agreement);
     if (found) return found;
   }
-  return misfit("mass", constant(species.mass.value_or(natural_mass(shape))), mass);
+  return misfit("mass", constant(species.mass.value_or(natural_mass(shape))), mass, agreement);
 }
 
 // ---- all particles ----------------------------------------------------------------------------------
@@ -158,8 +155,25 @@ std::optional<Parameters> recorded_parameters(const Configuration<Dim>& state,
   }
 }
 
-/// One species as its particles are: without a shape if theirs differ, without a mass if theirs are
-/// a b (a b c), or differ.
+/// The semi-axis of all these particles, or the range of theirs.
+template <int Dim>
+Distribution range_of(const Configuration<Dim>& state, const std::vector<std::size_t>& members,
+                      std::size_t axis) {
+  std::vector<double> lengths;
+  for (const std::size_t i : members) lengths.push_back(axes_of(state.shape[i])[axis]);
+  const auto [low, high] = std::ranges::minmax(lengths);
+  if (agree(lengths.front(), low, Agreement::rounding) &&
+      agree(lengths.front(), high, Agreement::rounding))
+    return constant(lengths.front());
+  Distribution range;
+  range.kind = Distribution::Kind::uniform;
+  range.low = range.minimum = low;
+  range.high = high;
+  return range;
+}
+
+/// One species as its particles are: with the ranges of their semi-axes where they differ, and without a mass if
+/// theirs are natural, or differ.
 template <int Dim>
 Species as_found(const Configuration<Dim>& state, std::size_t species) {
   Species found;
@@ -169,12 +183,11 @@ Species as_found(const Configuration<Dim>& state, std::size_t species) {
     if (static_cast<std::size_t>(state.species[i]) == species) members.push_back(i);
   found.fraction = static_cast<double>(members.size()) / static_cast<double>(state.size());
   if (members.empty()) return found;
+  found.semi_axes.emplace();
+  for (std::size_t axis = 0; axis < Dim; ++axis)
+    found.semi_axes->push_back(range_of(state, members, axis));
   const auto all = [&](const auto& holds) { return std::ranges::all_of(members, holds); };
-  std::vector<Distribution> axes;
-  for (const double axis : axes_of(state.shape[members.front()])) axes.push_back(constant(axis));
   const double mass = state.mass[members.front()];
-  if (all([&](std::size_t i) { return allow(axes, axes_of(state.shape[i])); }))
-    found.semi_axes = axes;
   if (!all([&](std::size_t i) {
         return allows(constant(natural_mass(state.shape[i])), state.mass[i]);
       }) &&
@@ -191,14 +204,9 @@ std::vector<Species> as_found(const Configuration<Dim>& state) {
   return species;
 }
 
-std::vector<Species> fully_described(std::vector<Species> species, const std::string& file) {
+/// Those that have particles.
+std::vector<Species> present(std::vector<Species> species) {
   std::erase_if(species, [](const Species& kind) { return kind.fraction == 0; });
-  for (const Species& kind : species)
-    if (!kind.semi_axes)
-      throw UserError(fmt::format(
-          "{}: the particles of species {} differ in shape, and no parameters are recorded; "
-          "give [[species]] with the distribution they come from",
-          file, kind.name));
   return species;
 }
 
@@ -253,7 +261,7 @@ std::optional<SpeciesConflict> box_conflict(const Parameters& parameters,
                                             const SystemParameters& of_state) {
   const Vec<Dim> given = box_proportions<Dim>(parameters.system);
   const Vec<Dim> found = box_proportions<Dim>(of_state);
-  const auto same = [](double one, double two) { return allows(constant(one), two); };
+  const auto same = [](double one, double two) { return agree(one, two, Agreement::digits); };
   if (!place_of(parameters, "system.box_aspect") || std::ranges::equal(given, found, same))
     return std::nullopt;
   return SpeciesConflict{
@@ -266,11 +274,12 @@ std::optional<SpeciesConflict> box_conflict(const Parameters& parameters,
 
 template <int Dim>
 std::optional<SpeciesConflict> species_conflict(const std::vector<Species>& species,
-                                                const Configuration<Dim>& state) {
+                                                const Configuration<Dim>& state,
+                                                Agreement agreement) {
   if (auto conflict = composition_conflict(species, state)) return conflict;
   for (std::size_t i = 0; i < state.size(); ++i) {
     const auto k = static_cast<std::size_t>(state.species[i]);
-    if (const auto found = misfit(species[k], state.shape[i], state.mass[i]))
+    if (const auto found = misfit(species[k], state.shape[i], state.mass[i], agreement))
       return SpeciesConflict{key_of(k, found->key), fmt::format("is {}, but particle {} has {}",
                                                                 found->given, i, found->found)};
   }
@@ -284,11 +293,12 @@ void take_species(Parameters& parameters, const Configuration<Dim>& state,
   const std::vector<Species> of_state = recorded ? recorded->species : as_found(state);
   if (place_of(parameters, "species")) {
     const std::vector<Species> given = completed(parameters, of_state);
-    refuse(species_conflict(given, state), parameters, origin.file);
+    refuse(species_conflict(given, state, Agreement::digits), parameters, origin.file);
     if (recorded) refuse(distribution_conflict(given, of_state), parameters, origin.file);
-    parameters.species = recorded ? of_state : given;
+    const bool describes = !species_conflict(given, state);
+    parameters.species = recorded || !describes ? of_state : given;
   } else {
-    parameters.species = recorded ? of_state : fully_described(of_state, origin.file);
+    parameters.species = present(of_state);
   }
   SystemParameters of_state_system;
   of_state_system.box_aspect =
@@ -303,9 +313,9 @@ void take_species(Parameters& parameters, const Configuration<Dim>& state,
 }
 
 template std::optional<SpeciesConflict> species_conflict(const std::vector<Species>&,
-                                                         const Configuration2&);
+                                                         const Configuration2&, Agreement);
 template std::optional<SpeciesConflict> species_conflict(const std::vector<Species>&,
-                                                         const Configuration3&);
+                                                         const Configuration3&, Agreement);
 template void take_species(Parameters&, const Configuration2&, const StateOrigin&);
 template void take_species(Parameters&, const Configuration3&, const StateOrigin&);
 

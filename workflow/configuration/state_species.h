@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/state/configuration.h"
+#include "workflow/configuration/distributions.h"
 #include "workflow/configuration/parameters.h"
 
 /// @file
@@ -17,12 +18,13 @@ struct SpeciesConflict {
 };
 
 /// The first contradiction between species and particles: names, counts per species, aspect ratios, sizes,
-/// semi-axes and masses. Constants must agree to a relative 1e-9, draws must lie within the bounds of
-/// their distribution. Every stage of a preparation keeps the shapes and scales the box, so that this
+/// semi-axes and masses. Constants must agree to a relative 1e-9, or to the digits given; draws must lie within the
+/// bounds of their distribution. Every stage of a preparation keeps the shapes and scales the box, so that this
 /// holds at any packing fraction.
 template <int Dim>
 std::optional<SpeciesConflict> species_conflict(const std::vector<Species>& species,
-                                                const Configuration<Dim>& state);
+                                                const Configuration<Dim>& state,
+                                                Agreement agreement = Agreement::rounding);
 
 /// Where a state comes from.
 struct StateOrigin {
@@ -31,9 +33,9 @@ struct StateOrigin {
 };
 
 /// Replaces the species and the box aspect by those of the state: as recorded, if the record agrees with
-/// the particles; otherwise as given, or, where nothing is given, as the particles are. UserError
-/// with the place of the key if what the parameters give (Parameters::given) contradicts the state, or if
-/// nothing is given and recorded, but the shapes of a species differ.
+/// the particles; otherwise as given, if that agrees to rounding; otherwise as the particles are, with ranges of their
+/// semi-axes where they differ. UserError with the place of the key if what the parameters give (Parameters::given)
+/// contradicts the state in the digits given.
 template <int Dim>
 void take_species(Parameters& parameters, const Configuration<Dim>& state,
                   const StateOrigin& origin);

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 #include "analysis/structure/orientation_tensor.h"
 #include "core/error.h"
 #include "core/io/h5md.h"
+#include "workflow/configuration/start_state.h"
 #include "workflow/prepare/prepare_checkpoint.h"
 #include "workflow/storage/checkpoint_file.h"
 
@@ -49,12 +49,12 @@ class PrepareJob {
  public:
   PrepareJob(const PrepareRequest& request, const RunControl& control, const Log& log)
       : request_(request),
-        parameters_(request.parameters),
         log_(log),
         control_(control),
-        checkpoint_(checkpoint_path(request.output), parameters_.output.checkpoint_interval) {
+        checkpoint_(checkpoint_path(request.output),
+                    request.parameters.output.checkpoint_interval) {
     control_.on_resumable = [this] { save_if_due(); };
-    stored_.parameters = effective_parameters(parameters_);
+    done().parameters = request.parameters;
   }
 
   Preparation<Dim> run() {
@@ -62,7 +62,7 @@ class PrepareJob {
       load();
     else
       begin();
-    while (done().stages.size() < parameters_.stages.size()) {
+    while (done().stages.size() < parameters().stages.size()) {
       log_line(log_, description());
       if (!run_stage()) {
         if (has_places() && keeps_files()) save();
@@ -71,7 +71,7 @@ class PrepareJob {
     }
     note_time();
     done().check = exact_check(done().configuration);
-    if (!done().check.clean())
+    if (!done().check.clean() && !may_overlap())
       throw InvariantError(
           "the prepared state has overlapping particles; this is a defect of the program");
     done().complete = true;
@@ -79,37 +79,52 @@ class PrepareJob {
   }
 
  private:
-  const Stage& stage() const { return parameters_.stages[done().stages.size()]; }
+  const Parameters& parameters() const { return done().parameters; }
+  const Stage& stage() const { return parameters().stages[done().stages.size()]; }
   Preparation<Dim>& done() { return stored_.done; }
   const Preparation<Dim>& done() const { return stored_.done; }
-  std::uint64_t seed() const { return parameters_.system.seed; }
+  std::uint64_t seed() const { return parameters().system.seed; }
+  bool is_given() const { return start_state(parameters().stages) != nullptr; }
+  bool may_overlap() const {
+    return request_.overlaps_allowed && is_given() && parameters().stages.size() == 1;
+  }
   bool keeps_files() const { return !request_.output.empty(); }
   /// The first stage places the particles; before its end there is nothing worth keeping.
   bool has_places() const { return !done().stages.empty(); }
 
   void begin() {
-    const SystemParameters& system = parameters_.system;
-    const auto particles = static_cast<std::size_t>(system.particles);
     done().configuration =
-        draw_particles<Dim>(parameters_.species, particles, system.packing_fraction,
-                            box_proportions<Dim>(system), system.seed);
+        is_given() ? read_start<Dim>(done().parameters, may_overlap(), log_) : drawn_particles();
+    stored_.parameters = effective_parameters(parameters());
     stored_.state = first_state(stage(), 0);
+  }
+
+  Configuration<Dim> drawn_particles() const {
+    const SystemParameters& system = parameters().system;
+    return draw_particles<Dim>(parameters().species, static_cast<std::size_t>(system.particles),
+                               system.packing_fraction, box_proportions<Dim>(system), system.seed);
   }
 
   void load() {
     const Checkpoint loaded = checkpoint_.load(log_);
+    const auto* reached = std::get_if<Configuration<Dim>>(&loaded.configuration);
+    if (is_given() && reached)
+      take_system(done().parameters, *reached, checkpoint_.path().string(), loaded.parameters);
+    const Parameters now = parameters();
+    stored_.parameters = effective_parameters(now);
     if (const auto change =
             forbidden_change(loaded.parameters, stored_.parameters, Work::preparation))
       throw UserError(
           fmt::format("{}: the preparation was begun with {} = {}, but now it is {}; continue it "
                       "with its own parameters, or delete this file",
                       checkpoint_.path().string(), change->key, change->first, change->second));
-    stored_ = preparation_from_checkpoint<Dim>(loaded, parameters_.stages, checkpoint_.path());
+    stored_ = preparation_from_checkpoint<Dim>(loaded, now.stages, checkpoint_.path());
+    done().parameters = now;
     timer_ = WorkTimer(done().wall_seconds);
     stage_timer_ = WorkTimer(stored_.stage_seconds);
     log_line(log_, fmt::format("continuing at stage {} of {}",
-                               std::min(done().stages.size() + 1, parameters_.stages.size()),
-                               parameters_.stages.size()));
+                               std::min(done().stages.size() + 1, parameters().stages.size()),
+                               parameters().stages.size()));
   }
 
   void note_time() {
@@ -130,10 +145,11 @@ class PrepareJob {
   bool run_stage() {
     const StageReport report = advance_stage(
         stage(), stored_.state, done().configuration,
-        {end_of_stage(stage(), parameters_.system, reached()), seed(), request_.threads}, control_);
+        {end_of_stage(stage(), parameters().system, reached()), seed(), request_.threads},
+        control_);
     note_time();
     if (report.end == StageEnd::stopped) return false;
-    bring_to_rest(done().configuration);
+    if (!std::holds_alternative<StateStage>(stage())) bring_to_rest(done().configuration);
     if (report.end == StageEnd::stalled) refuse_stuck(report);
     note_stage(report);
     begin_next_stage();
@@ -159,7 +175,7 @@ class PrepareJob {
   }
 
   void begin_next_stage() {
-    const bool is_last = done().stages.size() == parameters_.stages.size();
+    const bool is_last = done().stages.size() == parameters().stages.size();
     stored_.state = is_last ? StageState() : first_state(stage(), done().next_sweep);
     stage_timer_ = WorkTimer();
   }
@@ -178,11 +194,10 @@ class PrepareJob {
   }
 
   std::string description() const {
-    return stage_description(stage(), end_of_stage(stage(), parameters_.system, reached()));
+    return stage_description(stage(), end_of_stage(stage(), parameters().system, reached()));
   }
 
   const PrepareRequest& request_;
-  const Parameters& parameters_;
   const Log& log_;
   RunControl control_;
   CheckpointFile checkpoint_;
@@ -199,9 +214,16 @@ TrialCounts Preparation<Dim>::trials() const {
   return all;
 }
 
+int prepared_dimension(const PrepareRequest& request) {
+  const fs::path checkpoint = checkpoint_path(request.output);
+  if (!start_state(request.parameters.stages)) return request.parameters.system.dimension;
+  if (!request.output.empty() && checkpoint_exists(checkpoint))
+    return dimension_of(load_checkpoint(checkpoint).checkpoint);
+  return start_dimension(request.parameters);
+}
+
 template <int Dim>
 Preparation<Dim> prepare(const PrepareRequest& request, const RunControl& control, const Log& log) {
-  assert(request.parameters.system.dimension == Dim);
   return PrepareJob<Dim>(request, control, log).run();
 }
 

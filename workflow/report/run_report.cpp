@@ -107,7 +107,7 @@ template <int Dim>
 void add_runs(const std::vector<AnalysedRun>& runs, ReportData& data) {
   const std::vector<std::size_t> room = movie_room(runs.size());
   for (std::size_t k = 0; k < runs.size(); ++k) {
-    TrajectoryFile<Dim> trajectory(runs[k].file);
+    TrajectoryFile<Dim> trajectory{TrajectoryReader(runs[k].file)};
     data.runs.push_back(report_run(runs[k], trajectory, room[k]));
     if (k > 0) continue;
     add_titles(runs, trajectory.read(0), data);

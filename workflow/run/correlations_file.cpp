@@ -14,7 +14,7 @@ const std::string prefix = "correlations_";
 
 MultipleTauOptions correlator_options(const Parameters& parameters) {
   const CorrelationParameters& p = *parameters.output.correlations;
-  return {p.interval, 0.5 * parameters.dynamics.duration, p.wave_numbers};
+  return {p.interval, longest_lag(parameters), p.wave_numbers};
 }
 
 Table correlation_table(CorrelatedGroup group) {

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cassert>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -11,7 +10,7 @@
 #include "core/io/json.h"
 #include "core/state/check.h"
 #include "workflow/configuration/soft_particles.h"
-#include "workflow/configuration/state_species.h"
+#include "workflow/configuration/start_state.h"
 #include "workflow/prepare/prepare.h"
 #include "workflow/run/correlations_file.h"
 #include "workflow/run/run_checkpoint.h"
@@ -30,30 +29,13 @@ fs::path failed_state_path(const fs::path& output) {
   return output.string() + ".failed.h5";
 }
 
+/// Before time 0 the run equilibrates.
 template <int Dim>
-void require_fit(const Configuration<Dim>& state, const Parameters& parameters,
-                 const fs::path& file) {
-  const auto wanted = static_cast<std::size_t>(parameters.system.particles);
-  if (state.size() != wanted)
-    throw UserError(
-        fmt::format("{}: holds {} particles, but system.particles is {}; make them equal",
-                    file.string(), state.size(), wanted));
-  if (ends_at_pressure(parameters.stages)) return;
-  const double fraction = packing_fraction(state);
-  if (std::abs(fraction - parameters.system.packing_fraction) > 1e-9)
-    throw UserError(
-        fmt::format("{}: has the packing fraction {:.10g}, but system.packing_fraction is {}; "
-                    "make them equal",
-                    file.string(), fraction, parameters.system.packing_fraction));
-}
-
-/// The state to start from; the species of `parameters` become its own.
-template <int Dim>
-Configuration<Dim> read_start(const fs::path& file, Parameters& parameters) {
-  Configuration<Dim> state = read_state<Dim>(file);
-  require_fit(state, parameters, file);
-  take_species(parameters, state, {file.string(), TrajectoryReader(file).provenance().parameters});
-  return state;
+std::string time_text(const RunState<Dim>& state) {
+  const double time = state.configuration.time;
+  return time < 0 ? fmt::format("time {:.6g} of {:.6g} of the equilibration",
+                                time - state.start_time, -state.start_time)
+                  : fmt::format("time {:.6g}", time + 0.);  // no −0
 }
 
 void refuse_changes(const Parameters& parameters, const std::string& begun_with,
@@ -76,23 +58,45 @@ void require_trajectory(const RunCheckpoint<Dim>& run, const fs::path& output) {
       output.string(), checkpoint_path(output).string(), run.state.next_sample));
 }
 
+/// Of a complete run the checkpoint before the last. The last is of the end, where a longer run would not have stopped:
+/// to go on from there would differ by rounding.
+template <int Dim>
+RunCheckpoint<Dim> before_the_end(const fs::path& checkpoint) {
+  const auto refusal = [&](const std::string& why) {
+    return FileError(
+        fmt::format("{}.previous: {}; a complete run is made longer from there, so "
+                    "start it anew with its whole duration",
+                    checkpoint.string(), why));
+  };
+  try {
+    RunCheckpoint<Dim> run =
+        run_from_checkpoint<Dim>(load_previous_checkpoint(checkpoint), checkpoint);
+    if (!run.complete) return run;
+  } catch (const FileError& error) {
+    throw refusal(error.what());
+  }
+  throw refusal("is of the end of the run, too");
+}
+
 /// The run to continue, also if its file to start from is no longer there.
 template <int Dim>
 RunCheckpoint<Dim> stored_run(RunRequest& request, const Checkpoint& checkpoint) {
   const fs::path file = checkpoint_path(request.output);
   const auto* state = std::get_if<Configuration<Dim>>(&checkpoint.configuration);
-  if (request.from && state)
-    take_species(request.parameters, *state, {file.string(), checkpoint.parameters});
   // Defaults are not the same in all versions.
   const Parameters recorded = recorded_parameters(checkpoint.parameters, file.string());
-  if (std::optional<double>& interval = request.parameters.output.interval; !interval)
-    interval = recorded.output.interval;
-  FreeRotation& rotation = request.parameters.dynamics.rotation;
-  if (rotation == FreeRotation::euler && !place_of(request.parameters, "dynamics.rotation"))
-    rotation = recorded.dynamics.rotation;
+  if (start_state(request.parameters.stages) && state) {
+    take_system(request.parameters, *state, file.string(), checkpoint.parameters);
+    // Earlier versions recorded the stages of the parameter file, which they did not use.
+    if (!start_state(recorded.stages)) request.parameters.stages = recorded.stages;
+  }
+  request.parameters = continued(request.parameters, recorded);
   refuse_changes(request.parameters, checkpoint.parameters, request.output);
   RunCheckpoint<Dim> run = run_from_checkpoint<Dim>(checkpoint, file);
   require_trajectory(run, request.output);
+  const bool is_longer = request.parameters.dynamics.duration > recorded.dynamics.duration;
+  if (run.complete && is_longer) run = before_the_end<Dim>(file);
+  if (is_longer) run.parameters = effective_parameters(request.parameters);
   return run;
 }
 
@@ -114,8 +118,6 @@ class RunJob {
     if (continues) {
       load();
     } else {
-      // A start that cannot be read is named before an output that is in the way.
-      if (request_.from) TrajectoryReader(*request_.from);
       refuse_foreign_output();
       if (!begin()) return {};
     }
@@ -142,43 +144,31 @@ class RunJob {
           "another output, or delete it");
   }
 
-  void load() { stored_ = stored_run<Dim>(request_, checkpoint_.load(log_)); }
+  void load() {
+    const Checkpoint checkpoint = checkpoint_.load(log_);
+    stored_ = stored_run<Dim>(request_, checkpoint);
+    is_longer_ = stored_.parameters != checkpoint.parameters;
+  }
 
   // False if the preparation was stopped.
   bool begin() {
-    Configuration<Dim> configuration;
-    if (request_.from) {
-      configuration = read_start<Dim>(*request_.from, request_.parameters);
-      stored_.parameters = effective_parameters(request_.parameters);
-      if (!place_of(request_.parameters, "species"))
-        log_line(log_, "species as in " + request_.from->string());
-      if (!is_soft()) configuration.close_pairs.clear();
-    } else {
-      Preparation<Dim> preparation = prepare<Dim>(
-          {request_.parameters, request_.output, request_.command_line, request_.threads}, control_,
-          log_);
-      if (!preparation.complete) return false;
-      configuration = std::move(preparation.configuration);
-    }
-    if (stops_on_overlap()) refuse_overlaps(configuration);
+    Preparation<Dim> preparation = prepare<Dim>({.parameters = request_.parameters,
+                                                 .output = request_.output,
+                                                 .command_line = request_.command_line,
+                                                 .threads = request_.threads,
+                                                 .overlaps_allowed = !stops_on_overlap()},
+                                                control_, log_);
+    if (!preparation.complete) return false;
+    request_.parameters = preparation.parameters;
+    stored_.parameters = effective_parameters(request_.parameters);
+    Configuration<Dim>& configuration = preparation.configuration;
     set_velocities(configuration);
     stored_.state = begin_run(configuration, -request_.parameters.dynamics.equilibration);
     forget_correlations(request_.output);
     // Before the trajectory: one without a checkpoint is never this run's.
     save();
-    if (!request_.from) forget_preparation(request_.output);
+    forget_preparation(request_.output);
     return true;
-  }
-
-  void refuse_overlaps(const Configuration<Dim>& configuration) const {
-    const ExactCheck<Dim> check = exact_check(configuration);
-    if (check.clean()) return;
-    const PairImage<Dim>& pair = check.overlaps.front();
-    throw InvariantError(
-        fmt::format("the state to start from has {} overlapping pair(s), the first of particles {} "
-                    "and {}; start from a state without{}",
-                    check.overlaps.size(), pair.i, pair.j,
-                    is_soft() ? "" : ", or set dynamics.on_overlap = \"correct\""));
   }
 
   void set_velocities(Configuration<Dim>& configuration) const {
@@ -209,7 +199,8 @@ class RunJob {
     const RunState<Dim>& state = stored_.state;
     if (state.next_sample > 0)
       return TrajectoryWriter::append_to(request_.output, state.next_sample);
-    const std::string parent = request_.from ? request_.from->string() : "";
+    const StateStage* start = start_state(request_.parameters.stages);
+    const std::string parent = start ? start->file.value_or("") : "";
     const Provenance provenance = current_provenance(request_.command_line, stored_.parameters,
                                                      request_.parameters.system.seed, parent);
     return TrajectoryWriter::create(request_.output, state.configuration, provenance,
@@ -221,14 +212,14 @@ class RunJob {
 
   void advance(bool continues) {
     RunState<Dim>& state = stored_.state;
-    if (continues)
-      log_line(log_, fmt::format("continuing at time {:.6g}", state.configuration.time));
+    if (continues) log_line(log_, "continuing at " + time_text(state));
     const DynamicsOptions options = dynamics();
     log_line(log_, (is_soft() ? "run of soft " : "run of ") +
                        make_engine(state.configuration, options.engine)->description());
     TrajectoryWriter writer = open_trajectory();
     TrajectoryObserver<Dim> observer(writer, measure_run<Dim>);
     make_correlator();
+    if (is_longer_) begin_longer(writer);
     const WorkTimer timer(stored_.wall_seconds);
     RunPlan<Dim> plan{sample_times(request_.parameters), request_.parameters.dynamics.duration,
                       &observer, [&](const RunState<Dim>&) {
@@ -245,6 +236,13 @@ class RunJob {
     writer.record_wall_seconds(stored_.wall_seconds);
     writer.synchronize();
     writer.close();
+    save();
+  }
+
+  /// The checkpoint before that of the end must be one of before the end again, however short the rest is.
+  void begin_longer(TrajectoryWriter& writer) {
+    writer.record_parameters(stored_.parameters);
+    writer.synchronize();
     save();
   }
 
@@ -293,6 +291,7 @@ class RunJob {
   CheckpointFile checkpoint_;
   RunCheckpoint<Dim> stored_;
   std::optional<MultipleTau<Dim>> correlator_;  ///< on the fly, if the parameters ask for it
+  bool is_longer_ = false;                      ///< than it was when it was last worked on
 };
 
 /// Where the run starts; the species of the request become those that run.
@@ -302,22 +301,30 @@ std::string start_text(RunRequest& request) {
   if (checkpoint_exists(checkpoint)) {
     const RunCheckpoint<Dim> run = stored_run<Dim>(request, load_checkpoint(checkpoint).checkpoint);
     return run.complete ? "nothing: the run is complete"
-                        : fmt::format("the checkpoint at time {:.6g}, {} frames",
-                                      run.state.configuration.time, run.state.next_sample);
+                        : fmt::format("the checkpoint at {}, {} frames", time_text(run.state),
+                                      run.state.next_sample);
   }
-  if (request.from) {
-    read_start<Dim>(*request.from, request.parameters);
-    return "the state in " + request.from->string();
-  }
-  return fmt::format("a preparation in {} stage(s)", request.parameters.stages.size());
+  const std::vector<Stage>& stages = request.parameters.stages;
+  const std::string steps = fmt::format("a preparation in {} stage(s)", stages.size());
+  if (!start_state(stages)) return steps;
+  const bool corrects = request.parameters.dynamics.on_overlap == OnOverlap::correct;
+  read_start<Dim>(request.parameters, corrects && stages.size() == 1, {});
+  const std::string state = stage_description(stages.front(), 0);
+  return stages.size() == 1 ? state : fmt::format("{}, by {}", state, steps);
 }
 
 }  // namespace
 
+int run_dimension(const RunRequest& request) {
+  const fs::path checkpoint = checkpoint_path(request.output);
+  if (checkpoint_exists(checkpoint)) return dimension_of(load_checkpoint(checkpoint).checkpoint);
+  return prepared_dimension({.parameters = request.parameters, .output = request.output});
+}
+
 std::string run_plan(RunRequest request) {
   const Parameters& p = request.parameters;
   const std::string start =
-      p.system.dimension == 2 ? start_text<2>(request) : start_text<3>(request);
+      run_dimension(request) == 2 ? start_text<2>(request) : start_text<3>(request);
   const std::size_t frames = sample_times(p).size();
   // Position, image, orientation, angle, and the velocities if asked for, before compression.
   const double bytes_per_particle = 24 + 12 + 32 + 8 + (p.output.velocities ? 32 : 0);
@@ -325,7 +332,7 @@ std::string run_plan(RunRequest request) {
       bytes_per_particle * static_cast<double>(p.system.particles) * static_cast<double>(frames);
   std::string text = fmt::format("starts from  {}\n", start);
   const std::string fraction =
-      ends_at_pressure(p.stages) ? "as prepared" : fmt::format("{}", p.system.packing_fraction);
+      has_unknown_end(p.stages) ? "as prepared" : fmt::format("{}", p.system.packing_fraction);
   text += fmt::format("system       {} particles, packing fraction {}, seed {}\n",
                       p.system.particles, fraction, p.system.seed);
   for (const Species& species : p.species)
@@ -348,7 +355,6 @@ std::string run_plan(RunRequest request) {
 template <int Dim>
 RunOutcome<Dim> run_simulation(const RunRequest& request, const RunControl& control,
                                const Log& log) {
-  assert(request.parameters.system.dimension == Dim);
   return RunJob<Dim>(request, control, log).run();
 }
 

@@ -22,11 +22,12 @@ namespace vitrel {
 struct RunRequest {
   Parameters parameters;
   std::filesystem::path output;
-  std::optional<std::filesystem::path> from =
-      {};                         ///< state to start from, whose species win; none: prepare
   std::string command_line = {};  ///< for the provenance
   int threads = 1;                ///< the results do not depend on it
 };
+
+/// The dimension of the run: of its checkpoint if it was begun, else of what it starts from.
+int run_dimension(const RunRequest& request);
 
 /// What the request would do, in lines for a person. Nothing is written. Throws like run for what is there
 /// already: the state to start from, or the run to continue.

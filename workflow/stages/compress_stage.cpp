@@ -47,7 +47,7 @@ void CompressStage::validate(const Rules& rules, int /*dimension*/) const {
 }
 
 StageEnding CompressStage::ending() const {
-  return packing_fraction ? StageEnding::packing_fraction : StageEnding::pressure;
+  return packing_fraction ? StageEnding::packing_fraction : StageEnding::unknown;
 }
 
 double CompressStage::end(const SystemParameters&, double before) const {

@@ -14,7 +14,7 @@ namespace vitrel {
 
 template <class S>
 StageEnding growth_ending(const S& stage) {
-  return stage.reduced_pressure ? StageEnding::pressure : StageEnding::packing_fraction;
+  return stage.reduced_pressure ? StageEnding::unknown : StageEnding::packing_fraction;
 }
 
 template <class S>

@@ -140,6 +140,25 @@ void validate_packing_fraction(const Stage& stage, const SystemParameters& syste
 
 }  // namespace
 
+bool places_particles(const std::string& method) {
+  bool places = false;
+  each_kind([&]<class S>(const S&) { places |= S::places_particles && method == S::method; });
+  return places;
+}
+
+const StateStage* start_state(const std::vector<Stage>& stages) {
+  return stages.empty() ? nullptr : std::get_if<StateStage>(&stages.front());
+}
+
+StateStage* start_state(std::vector<Stage>& stages) {
+  return stages.empty() ? nullptr : std::get_if<StateStage>(&stages.front());
+}
+
+bool keep_packing_fraction(const std::vector<Stage>& stages) {
+  return std::all_of(stages.begin() + 1, stages.end(),
+                     [](const Stage& stage) { return ending(stage) == StageEnding::unchanged; });
+}
+
 const char* method_name(const Stage& stage) {
   return std::visit([]<class S>(const S&) { return S::method; }, stage);
 }
@@ -178,7 +197,7 @@ void validate_stages(const std::vector<Stage>& stages, const SystemParameters& s
     validate_packing_fraction(stages[k], system, bound, reached, rules);
     reached = end_of_stage(stages[k], system, reached);
   }
-  if (!ends_at_pressure(stages) &&
+  if (!has_unknown_end(stages) &&
       std::abs(reached - system.packing_fraction) > packing_fraction_slack)
     throw BadValue(
         fmt::format("prepare.stage.{}", stages.size() - 1),
@@ -192,11 +211,11 @@ double end_of_stage(const Stage& stage, const SystemParameters& system, double b
   return std::visit([&](const auto& options) { return options.end(system, before); }, stage);
 }
 
-bool ends_at_pressure(const std::vector<Stage>& stages) {
+bool has_unknown_end(const std::vector<Stage>& stages) {
   const auto last = std::find_if(stages.rbegin(), stages.rend(), [](const Stage& stage) {
     return ending(stage) != StageEnding::unchanged;
   });
-  return last != stages.rend() && ending(*last) == StageEnding::pressure;
+  return last != stages.rend() && ending(*last) == StageEnding::unknown;
 }
 
 std::string stage_description(const Stage& stage, double packing_fraction) {

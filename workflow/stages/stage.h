@@ -10,6 +10,7 @@
 #include "workflow/stages/insert_stage.h"
 #include "workflow/stages/lattice_stage.h"
 #include "workflow/stages/sample_stage.h"
+#include "workflow/stages/state_stage.h"
 #include "workflow/stages/swell_stage.h"
 
 /// @file
@@ -18,10 +19,20 @@ namespace vitrel {
 
 /// All stages; the first is the default.
 using Stage = std::variant<InsertStage, LatticeStage, SwellStage, CompressStage, GrowStage,
-                           HybridStage, SampleStage>;
+                           HybridStage, SampleStage, StateStage>;
 
 /// Its name in the parameter file.
 const char* method_name(const Stage& stage);
+
+/// Whether the method of this name places the particles, so that it must come first.
+bool places_particles(const std::string& method);
+
+/// The options of the first stage if it takes the particles from a state; else null.
+const StateStage* start_state(const std::vector<Stage>& stages);
+StateStage* start_state(std::vector<Stage>& stages);
+
+/// Whether the packing fraction stays that of the end of the first stage.
+bool keep_packing_fraction(const std::vector<Stage>& stages);
 
 /// Describes `method`, which selects the stage, and the keys of all stages. The keys of a stage exist only with its
 /// method.
@@ -38,8 +49,8 @@ void validate_stages(const std::vector<Stage>& stages, const SystemParameters& s
 /// and `before` is returned.
 double end_of_stage(const Stage& stage, const SystemParameters& system, double before);
 
-/// Whether a pressure determines the packing fraction at which the preparation ends.
-bool ends_at_pressure(const std::vector<Stage>& stages);
+/// Whether the packing fraction at which the preparation ends is not known in advance.
+bool has_unknown_end(const std::vector<Stage>& stages);
 
 /// A short description of the stage with its options; `packing_fraction` is that of end_of_stage.
 std::string stage_description(const Stage& stage, double packing_fraction);

@@ -36,7 +36,7 @@ struct NoState {};
 
 enum class StageEnding {
   packing_fraction,  ///< ends at a packing fraction known in advance
-  pressure,          ///< a pressure determines the end
+  unknown,           ///< a pressure, or a state that is not read yet, determines the end
   unchanged,         ///< ends at the packing fraction at which it begins
 };
 

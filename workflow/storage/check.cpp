@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "core/error.h"
-#include "core/io/h5md.h"
+#include "core/state/contact_scale.h"
 
 namespace vitrel {
 namespace {
@@ -18,19 +18,20 @@ void note_overlaps(FileCheck<Dim>& result, const ExactCheck<Dim>& check, std::ui
   result.overlaps += check.overlaps.size();
   for (const PairImage<Dim>& pair : check.overlaps) {
     if (result.complaints.size() == max_complaints) return;
-    result.complaints.push_back(
-        fmt::format("frame {} (time {:.6g}): particles {} and {}, image ({})", frame, time, pair.i,
-                    pair.j, fmt::join(pair.shift.data(), pair.shift.data() + Dim, ", ")));
+    result.complaints.push_back(fmt::format(
+        "frame {} (time {:.6g}): particles {} and {}, image ({}), would touch if scaled by 1 − "
+        "{:.3g}",
+        frame, time, pair.i, pair.j, fmt::join(pair.shift.data(), pair.shift.data() + Dim, ", "),
+        1 - contact_scale(result.last, pair)));
   }
 }
 
 }  // namespace
 
 template <int Dim>
-FileCheck<Dim> check_file(const std::filesystem::path& file, bool last_only,
+FileCheck<Dim> check_file(const TrajectoryReader& reader, bool last_only,
                           const RunControl& control) {
-  const TrajectoryReader reader(file);
-  if (reader.frames() == 0) throw FileError(file.string() + ": has no frame to check");
+  if (reader.frames() == 0) throw FileError(reader.path().string() + ": has no frame to check");
   FileCheck<Dim> result;
   result.smallest_gap = std::numeric_limits<double>::infinity();
   const std::uint64_t first = last_only ? reader.frames() - 1 : 0;
@@ -50,7 +51,7 @@ FileCheck<Dim> check_file(const std::filesystem::path& file, bool last_only,
   return result;
 }
 
-template FileCheck<2> check_file(const std::filesystem::path&, bool, const RunControl&);
-template FileCheck<3> check_file(const std::filesystem::path&, bool, const RunControl&);
+template FileCheck<2> check_file(const TrajectoryReader&, bool, const RunControl&);
+template FileCheck<3> check_file(const TrajectoryReader&, bool, const RunControl&);
 
 }  // namespace vitrel

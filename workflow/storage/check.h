@@ -1,10 +1,10 @@
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "core/io/h5md.h"
 #include "core/state/check.h"
 #include "core/state/configuration.h"
 #include "core/state/stage.h"
@@ -25,9 +25,9 @@ struct FileCheck {
 };
 
 /// Every frame of a trajectory or state of that dimension, or the last only. The run control may stop it between frames.
-/// Throws FileError if the file cannot be read, is damaged, or has no frame.
+/// Throws FileError if the file is damaged or has no frame.
 template <int Dim>
-FileCheck<Dim> check_file(const std::filesystem::path& file, bool last_only,
+FileCheck<Dim> check_file(const TrajectoryReader& reader, bool last_only,
                           const RunControl& control);
 
 }  // namespace vitrel

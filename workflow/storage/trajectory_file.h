@@ -1,7 +1,7 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "analysis/dynamics/energy.h"
@@ -23,7 +23,7 @@ Observables measure_run(const Frame<Dim>& frame);
 template <int Dim>
 class TrajectoryFile final : public Trajectory<Dim> {
  public:
-  explicit TrajectoryFile(const std::filesystem::path& path) : reader_(path) {
+  explicit TrajectoryFile(TrajectoryReader reader) : reader_(std::move(reader)) {
     reader_.require_dimension(Dim);
   }
   const std::vector<double>& times() const override { return reader_.times(); }

@@ -34,10 +34,18 @@ void refuse_other_parameters(const fs::path& folder, const std::string& before,
                     folder.string(), change->key, change->first, change->second));
 }
 
-/// Whether what a finished job was asked for is what it is asked for now.
+/// The parameters of a job that was begun with others.
+std::string text_now(const SweepJob& job, const std::string& before, const fs::path& file) {
+  return effective_parameters(
+      continued(job.parameters, recorded_parameters(before, file.string())));
+}
+
+/// Whether what a finished job was asked for is what it is asked for now: a run of this length, and its analysis.
 bool is_still_done(const SweepJob& job, const fs::path& folder, const std::string& before,
                    const std::string& now) {
-  const auto is_elsewhere = [](const std::string& key) { return !is_of_analysis(key); };
+  const auto is_elsewhere = [](const std::string& key) {
+    return !is_of_analysis(key) && key != "dynamics.duration";
+  };
   return !first_difference(before, now, is_elsewhere) &&
          read_json(folder / "done.json").contains("run") != job.prepares_only;
 }
@@ -74,9 +82,10 @@ fs::path job_product(const fs::path& folder) {
 void write_job_folder(const SweepJob& job, const fs::path& folder) {
   make_folder(folder);
   const fs::path file = folder / "parameters.toml";
-  const std::string text = effective_parameters(job.parameters);
+  std::string text = effective_parameters(job.parameters);
   if (fs::exists(file)) {
     const std::string before = read_text(file);
+    text = text_now(job, before, file);
     refuse_other_parameters(folder, before, text);
     if (job_stage(folder) == JobStage::done && !is_still_done(job, folder, before, text))
       fs::remove(folder / "done.json");
@@ -89,7 +98,7 @@ void write_job_folder(const SweepJob& job, const fs::path& folder) {
 std::optional<ParameterDifference> change_since_begun(const SweepJob& job, const fs::path& folder) {
   const fs::path file = folder / "parameters.toml";
   if (!fs::exists(file)) return std::nullopt;
-  const std::string before = read_text(file), now = effective_parameters(job.parameters);
+  const std::string before = read_text(file), now = text_now(job, before, file);
   if (auto forbidden = forbidden_change(before, now, work_in(folder))) return forbidden;
   return first_difference(before, now, [](const std::string& key) { return !is_of_analysis(key); });
 }

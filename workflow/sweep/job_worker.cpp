@@ -91,8 +91,7 @@ std::vector<std::string> JobWorker::command(const Step& step) const {
   const auto file = [&](const char* name) { return (folder_ / name).string(); };
   std::vector<std::string> words = {program_.string(), step.name};
   if (step.name == std::string_view("analyze"))
-    words.insert(words.end(), {file(job_.prepares_only ? "state.h5" : "run.h5"), "--params",
-                               file("parameters.toml")});
+    words.insert(words.end(), {file(product_of(job_)), "--params", file("parameters.toml")});
   else
     words.push_back(file("parameters.toml"));
   if (step.name == std::string_view("run")) words.insert(words.end(), {"--from", file("state.h5")});

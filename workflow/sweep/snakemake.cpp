@@ -36,6 +36,7 @@ rule all:
 # with its trajectory a run would lose what it is to continue. A job that was stopped (exit code 5),
 # killed, or had no room on the disk is tried again and continues; one that failed for good is not.
 rule job:
+    input: lambda wildcards: [f"{BEFORE[id]}/done.json" for id in [wildcards.id] if id in BEFORE]
     output: "{id}/done.json"
     wildcard_constraints: id="[^/]+"
     retries: 20 if workflow.mode == Mode.default else 0  # not inside a job of the cluster
@@ -89,7 +90,11 @@ std::string snakefile(const ParameterSource& source, const std::vector<SweepJob>
                       python(program.string()));
   text += fmt::format("SETTINGS = {}\nJOBS = [\n", python(settings));
   for (const SweepJob& job : jobs) text += fmt::format("    {},\n", python(job.id));
-  return text + "]\n" + snakefile_rules;
+  text += "]\nBEFORE = {  # jobs that start from the end of another one\n";
+  for (const SweepJob& job : jobs)
+    if (!job.predecessor.empty())
+      text += fmt::format("    {}: {},\n", python(job.id), python(job.predecessor));
+  return text + "}\n" + snakefile_rules;
 }
 
 }  // namespace

@@ -66,6 +66,12 @@ class Sweep {
   /// Of a single job, beside others that work on other jobs.
   SweepOutcome run_beside_others() {
     const fs::path folder = request_.folder / jobs_.front().id;
+    const std::string& predecessor = jobs_.front().predecessor;
+    if (!is_done(predecessor))
+      throw UserError(
+          fmt::format("{}: starts from the end of the job {}, which is not done; run "
+                      "that first",
+                      jobs_.front().id, predecessor));
     make_folder(folder);
     FolderLock sweep(request_.folder), job(folder);
     if (!wait_for(sweep, FolderLock::Share::with_others) ||
@@ -98,6 +104,7 @@ class Sweep {
     while (!active_.empty() || (!waiting_.empty() && !stopping_)) {
       pass_on_stop();
       fill();
+      give_up_blocked();
       for (auto& worker : active_) worker->poll();
       collect();
       report_progress();
@@ -105,6 +112,11 @@ class Sweep {
     }
     outcome_.stopped = outcome_.done + outcome_.failed < jobs_.size();
     return outcome_;
+  }
+
+  /// Whether the job of this name is done, if there is a name.
+  bool is_done(const std::string& id) const {
+    return id.empty() || job_stage(request_.folder / id) == JobStage::done;
   }
 
   void note_done(const SweepJob& job) {
@@ -134,15 +146,33 @@ class Sweep {
     for (auto& worker : active_) worker->ask_to_stop();
   }
 
+  /// The next job whose predecessor is done.
+  std::deque<const SweepJob*>::iterator next_ready() {
+    return std::ranges::find_if(waiting_,
+                                [&](const SweepJob* job) { return is_done(job->predecessor); });
+  }
+
   void fill() {
-    while (!stopping_ && !waiting_.empty() &&
-           active_.size() < static_cast<std::size_t>(request_.parallel)) {
-      const SweepJob& job = *waiting_.front();
-      waiting_.pop_front();
+    while (!stopping_ && active_.size() < static_cast<std::size_t>(request_.parallel)) {
+      const auto next = next_ready();
+      if (next == waiting_.end()) return;
+      const SweepJob& job = **next;
+      waiting_.erase(next);
       say_(fmt::format("{}: started", job.id));
       active_.push_back(
           std::make_unique<JobWorker>(job, request_.folder / job.id, request_.program));
     }
+  }
+
+  /// Without a predecessor that is or becomes done, a job cannot begin.
+  void give_up_blocked() {
+    if (!active_.empty() || stopping_ || next_ready() != waiting_.end()) return;
+    for (const SweepJob* job : waiting_) {
+      say_(fmt::format("{}: not begun, as {} is not done", job->id, job->predecessor));
+      finished_work_ += work_of(*job);
+    }
+    outcome_.failed += waiting_.size();
+    waiting_.clear();
   }
 
   void collect() {

@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -93,6 +95,35 @@ void refuse_overridden_keys(const std::vector<Axis>& axes, const ParameterSource
     }
 }
 
+/// The combination with the value of the ladder before; none for the first.
+std::optional<std::vector<Assignments>> combination_before(std::vector<Assignments> combination,
+                                                           const std::vector<Axis>& axes,
+                                                           const std::string& ladder) {
+  for (std::size_t a = 0; a < axes.size(); ++a) {
+    const Assignments& keys = axes[a].front();
+    if (std::ranges::find(keys, ladder, &Assignments::value_type::first) == keys.end()) continue;
+    const auto here = std::ranges::find(axes[a], combination[a]);
+    if (here == axes[a].begin()) return std::nullopt;
+    combination[a] = *std::prev(here);
+    return combination;
+  }
+  return std::nullopt;
+}
+
+/// The parameters lie in the folder of the job then.
+void name_state_absolutely(Parameters& parameters) {
+  if (StateStage* start = start_state(parameters.stages); start && start->file)
+    start->file = std::filesystem::absolute(*start->file).lexically_normal().string();
+}
+
+/// From the end of another job of the same kind. The path is relative to the folder of the job.
+void start_from(SweepJob& job, const std::string& predecessor, ParameterSource source) {
+  job.predecessor = predecessor;
+  source.start =
+      StartFile{.file = "../" + predecessor + "/" + product_of(job), .keeps_moves = true};
+  job.parameters = load_parameters(source);
+}
+
 double wave_number_of(const Parameters& p) {
   const auto& system = p.system;
   const auto particles = static_cast<std::size_t>(system.particles);
@@ -121,12 +152,14 @@ void share_wave_number(std::vector<SweepJob>& jobs) {
 }  // namespace
 
 std::vector<SweepJob> sweep_jobs(const ParameterSource& source) {
-  const std::vector<Axis> axes = axes_of(load_parameters(source).sweep);
+  const Parameters common = load_parameters(source);
+  const std::vector<Axis> axes = axes_of(common.sweep);
   refuse_overridden_keys(axes, source);
   std::vector<SweepJob> jobs;
   std::set<std::string> ids;
   for (const std::vector<Assignments>& combination : combinations_of(axes)) {
-    SweepJob job{job_id(combination), {}, {}, false};
+    SweepJob job;
+    job.id = job_id(combination);
     ParameterSource job_source = source;
     for (const Assignments& choice : combination)
       for (const auto& [key, value] : choice) {
@@ -135,6 +168,10 @@ std::vector<SweepJob> sweep_jobs(const ParameterSource& source) {
       }
     job.parameters = load_parameters(job_source);
     job.prepares_only = !place_of(job.parameters, "dynamics");
+    name_state_absolutely(job.parameters);
+    if (common.sweep.ladder)
+      if (const auto before = combination_before(combination, axes, *common.sweep.ladder))
+        start_from(job, job_id(*before), job_source);
     if (!ids.insert(job.id).second)
       throw UserError(
           fmt::format("{}: two jobs of the sweep have the name {}; every value of a key of "
@@ -145,6 +182,10 @@ std::vector<SweepJob> sweep_jobs(const ParameterSource& source) {
   }
   share_wave_number(jobs);
   return jobs;
+}
+
+const char* product_of(const SweepJob& job) {
+  return job.prepares_only ? "state.h5" : "run.h5";
 }
 
 const SweepJob& job_named(const std::vector<SweepJob>& jobs, const std::string& id) {

@@ -18,8 +18,12 @@ struct SweepJob {
   std::string id;
   std::vector<std::pair<std::string, std::string>> values;  ///< dotted key, TOML text of the value
   Parameters parameters;
-  bool prepares_only;  ///< no key of [dynamics] is given: the job is a state, not a run
+  bool prepares_only = false;  ///< no key of [dynamics] is given: the job is a state, not a run
+  std::string predecessor;     ///< the job of the ladder from whose end it starts; may be empty
 };
+
+/// The end of a job, a run or state in its folder.
+const char* product_of(const SweepJob& job);
 
 /// All combinations, those of the keys that advance together slowest, the last key of the grid
 /// fastest; a file without either is one job. Throws UserError if a combination is impossible, if two

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "app/commands/options.h"
+#include "workflow/pair/impact.h"
+#include "workflow/pair/pair_parameters.h"
+
+namespace vitrel {
+
+struct PairOptions {
+  PrintOptions print;
+  PairSource source;
+  std::vector<std::string> methods;  ///< names in vitrel-bench; empty: that of the engine
+  bool all_methods = false;          ///< all those of vitrel-bench
+};
+
+struct ImpactOptions {
+  PrintOptions print;
+  ImpactSource source;
+  std::filesystem::path table;  ///< to write; empty: none
+  std::string command_line;
+};
+
+// Each returns the exit code, or throws one of the errors of core/error.h.
+
+int pair_overlap_command(const PairOptions& options);
+int pair_gap_command(const PairOptions& options);
+int pair_contact_time_command(const PairOptions& options);
+int pair_restitution_command(const ImpactOptions& options);
+
+}  // namespace vitrel

@@ -1,0 +1,131 @@
+#include "bench/programs/pair.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "app/terminal/exit_codes.h"
+#include "bench/methods/ellipsoids/methods.h"
+#include "bench/programs/number_text.h"
+#include "bench/surveys/choice.h"
+#include "bench/surveys/timed_batches.h"
+#include "core/io/json.h"
+#include "workflow/pair/pair.h"
+
+namespace vitrel::bench {
+namespace {
+
+/// What a method answers, and how long it takes.
+struct Answer {
+  std::string method;
+  double tolerance;
+  Outcome outcome;
+  double time;  ///< NaN without a contact
+  double ns_per_call;
+};
+
+const char* outcome_text(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::contact:
+      return "contact";
+    case Outcome::none:
+      return "no contact";
+    case Outcome::overlap:
+      return "overlap";
+    case Outcome::not_converged:
+      break;
+  }
+  return "no answer";
+}
+
+std::vector<Method> methods_for(const Pair<2>&) {
+  return collision_time_methods();
+}
+std::vector<MethodOf<3>> methods_for(const Pair<3>&) {
+  return ellipsoid_methods();
+}
+
+template <class Shape>
+Flight<Growing<Shape>> of_size_one(const Flight<Shape>& flight) {
+  return {{flight.body, 1, 0}, flight.pose, flight.motion};
+}
+
+template <int Dim>
+CollisionCaseOf<Dim> case_of(const Pair<Dim>& pair) {
+  CollisionCaseOf<Dim> asked{of_size_one(pair.one), of_size_one(pair.two), pair.horizon};
+  if constexpr (Dim == 3)
+    if (pair.tumbles()) let_tumble(asked);
+  return asked;
+}
+
+template <int Dim>
+Answer ask(const MethodOf<Dim>& method, const Pair<Dim>& pair) {
+  constexpr double seconds = 0.1;
+  PairContact<Dim> found;
+  TimedBatches batches(seconds);
+  const auto predict = [&](const Pair<Dim>& alone) { return method.predict(case_of(alone)); };
+  while (const std::size_t count = batches.next(std::numeric_limits<std::size_t>::max()))
+    batches.run(count, [&] {
+      for (std::size_t k = 0; k < count; ++k) found = first_contact_of_images<Dim>(pair, predict);
+    });
+  const Prediction<Dim>& prediction = found.prediction;
+  const bool is_contact = prediction.outcome == Outcome::contact;
+  return {method.name, method.tolerance, prediction.outcome, is_contact ? prediction.time : NAN,
+          batches.ns_per_call()};
+}
+
+/// The default method first, whether it is asked for or not.
+template <int Dim>
+std::vector<Answer> answers(const Pair<Dim>& pair, const std::vector<std::string>& names) {
+  const auto all = methods_for(pair);
+  std::vector<Answer> found = {ask(all.front(), pair)};
+  for (const MethodOf<Dim>& method : chosen(all, names, "method"))
+    if (method.name != all.front().name) found.push_back(ask(method, pair));
+  return found;
+}
+
+/// Null if it is not a number.
+Json number(double value) {
+  return std::isnan(value) ? Json(nullptr) : Json(value);
+}
+
+Json rows_json(const std::vector<Answer>& answers) {
+  Json rows = Json::array();
+  for (const Answer& of : answers)
+    rows.push_back({{"method", of.method},
+                    {"tolerance", of.tolerance},
+                    {"outcome", outcome_text(of.outcome)},
+                    {"time", number(of.time)},
+                    {"difference", number(of.time - answers.front().time)},
+                    {"ns_per_call", of.ns_per_call}});
+  return rows;
+}
+
+std::string rows_text(const std::vector<Answer>& answers) {
+  constexpr const char* line = "{:<22} {:<12} {:<20} {:>12} {:>10}\n";
+  std::string text =
+      fmt::format(fmt::runtime(line), "method", "outcome", "time", "difference", "per call");
+  for (const Answer& of : answers) {
+    const bool is_contact = !std::isnan(of.time);
+    const double difference = of.time - answers.front().time;
+    text += fmt::format(fmt::runtime(line), of.method, outcome_text(of.outcome),
+                        is_contact ? fmt::format("{:.15g}", of.time) : "–", error_text(difference),
+                        time_text(of.ns_per_call));
+  }
+  return text;
+}
+
+}  // namespace
+
+int pair(const PairMethodsOptions& options, const OutputOptions& output) {
+  const PairParameters parameters = parse_pair(options.pair, "pair");
+  const std::vector<Answer> found = parameters.dimension() == 2
+                                        ? answers(pair_of<2>(parameters), options.methods)
+                                        : answers(pair_of<3>(parameters), options.methods);
+  Report(output).print(rows_json(found), rows_text(found));
+  return success;
+}
+
+}  // namespace vitrel::bench

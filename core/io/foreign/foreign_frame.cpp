@@ -1,0 +1,252 @@
+#include "core/io/foreign/foreign_frame.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <set>
+
+#include "core/elementary.h"
+#include "core/error.h"
+#include "core/state/species.h"
+#include "core/tolerances.h"
+
+namespace vitrel {
+namespace {
+
+template <class Entry>
+void require_entries(const std::vector<Entry>& entries, std::size_t particles, const char* what) {
+  if (!entries.empty() && entries.size() != particles)
+    throw UserError(fmt::format("has {} particles, but {} {}", particles, entries.size(), what));
+}
+
+void require_equal_numbers(const ForeignFrame& frame, std::size_t n) {
+  if (n == 0) throw UserError("has no positions");
+  require_entries(frame.position, n, "positions");
+  require_entries(frame.unwrapped, n, "unwrapped positions");
+  require_entries(frame.image, n, "images");
+  require_entries(frame.angle, n, "angles");
+  require_entries(frame.orientation, n, "orientations");
+  require_entries(frame.semi_axes, n, "semi-axes");
+  require_entries(frame.mass, n, "masses");
+  require_entries(frame.velocity, n, "velocities");
+  require_entries(frame.angular_velocity, n, "angular velocities");
+  require_entries(frame.species, n, "species");
+}
+
+template <int Dim>
+PeriodicBox<Dim> box_of(const ForeignFrame& frame, const KnownSystem& known) {
+  const std::optional<Vec3>& edges = frame.box ? frame.box : known.box;
+  if (!edges) throw UserError("has no box");
+  const Vec<Dim> lengths = edges->template head<Dim>();
+  if (!lengths.allFinite() || lengths.minCoeff() <= 0)
+    throw UserError(fmt::format("has the box {}, but its edges should be finite and above 0",
+                                fmt::join(lengths, " × ")));
+  return PeriodicBox<Dim>(lengths);
+}
+
+/// The names of the frame's species in the order of their numbers: that in which they are known, then the alphabet's.
+std::vector<std::string> species_names(const ForeignFrame& frame, const KnownSystem& known) {
+  std::vector<std::string> known_names, names;
+  for (const KnownSpecies& species : known.species) known_names.push_back(species.name);
+  if (frame.species.empty()) {
+    if (known_names.size() > 1)
+      throw UserError(fmt::format("does not say which of the species {} its particles belong to",
+                                  fmt::join(known_names, ", ")));
+    return known_names.empty() ? std::vector<std::string>{"A"} : known_names;
+  }
+  const std::set<std::string> stated(frame.species.begin(), frame.species.end());
+  std::ranges::copy_if(known_names, std::back_inserter(names),
+                       [&](const std::string& name) { return stated.contains(name); });
+  for (const std::string& name : stated)
+    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+  return names;
+}
+
+std::int32_t species_number(const std::vector<std::string>& names, const ForeignFrame& frame,
+                            std::size_t i) {
+  if (frame.species.empty()) return 0;
+  return static_cast<std::int32_t>(std::ranges::find(names, frame.species[i]) - names.begin());
+}
+
+const KnownSpecies* known_species(const KnownSystem& known, const std::string& name) {
+  const auto found = std::ranges::find(known.species, name, &KnownSpecies::name);
+  return found == known.species.end() ? nullptr : &*found;
+}
+
+Vec3 semi_axes_of(const ForeignFrame& frame, const KnownSpecies* known, std::size_t i,
+                  const std::string& name) {
+  if (!frame.semi_axes.empty()) return frame.semi_axes[i];
+  if (known && known->semi_axes) return *known->semi_axes;
+  throw UserError(fmt::format(
+      "has no semi-axes for species {}; give them there, or as a [[species]] whose particles all "
+      "have the same",
+      name));
+}
+
+template <class Shape>
+double mass_of(const ForeignFrame& frame, const KnownSpecies* known, std::size_t i,
+               const Shape& shape) {
+  const double mass = !frame.mass.empty()    ? frame.mass[i]
+                      : known && known->mass ? *known->mass
+                                             : natural_mass(shape);
+  if (!(std::isfinite(mass) && mass > 0))
+    throw UserError(
+        fmt::format("particle {} has the mass {}, but should have one above 0", i, mass));
+  return mass;
+}
+
+void set_shape(Ellipse& shape, const Vec3& axes, std::size_t i) {
+  if (!(axes.head<2>().allFinite() && axes[0] >= axes[1] && axes[1] > 0))
+    throw UserError(fmt::format(
+        "particle {} has the semi-axes {} and {}, but should have a ≥ b > 0", i, axes[0], axes[1]));
+  shape = {axes[0], axes[1]};
+}
+
+void set_shape(Ellipsoid& shape, const Vec3& axes, std::size_t i) {
+  if (!(axes.allFinite() && axes.minCoeff() > 0))
+    throw UserError(fmt::format("particle {} has the semi-axes {}, but they should be above 0", i,
+                                fmt::join(axes, ", ")));
+  shape = {axes};
+}
+
+template <int Dim>
+void set_particles(Configuration<Dim>& configuration, const ForeignFrame& frame,
+                   const KnownSystem& known) {
+  configuration.species_names = species_names(frame, known);
+  for (std::size_t i = 0; i < configuration.size(); ++i) {
+    const std::int32_t species = species_number(configuration.species_names, frame, i);
+    const std::string& name = configuration.species_names[static_cast<std::size_t>(species)];
+    const KnownSpecies* const kind = known_species(known, name);
+    configuration.species[i] = species;
+    set_shape(configuration.shape[i], semi_axes_of(frame, kind, i, name), i);
+    configuration.mass[i] = mass_of(frame, kind, i, configuration.shape[i]);
+  }
+}
+
+/// The whole boxes between a position and its unwrapped one.
+template <int Dim>
+Shift<Dim> boxes_between(const PeriodicBox<Dim>& box, const Vec<Dim>& wrapped,
+                         const Vec<Dim>& unwrapped, std::size_t i) {
+  const Vec<Dim> boxes = (unwrapped - wrapped).cwiseQuotient(box.lengths());
+  constexpr double most = std::numeric_limits<std::int32_t>::max();
+  constexpr double rounding = 1e-6;  // of numbers in single precision
+  for (int k = 0; k < Dim; ++k)
+    if (!(std::abs(boxes[k]) < most && std::abs(boxes[k] - std::round(boxes[k])) < rounding))
+      throw UserError(
+          fmt::format("particle {} is at {}, and unwrapped at {}: they are not whole boxes apart",
+                      i, fmt::join(wrapped, ", "), fmt::join(unwrapped, ", ")));
+  return boxes.array().round().template cast<std::int32_t>();
+}
+
+template <int Dim>
+void set_positions(Configuration<Dim>& configuration, const ForeignFrame& frame) {
+  const std::vector<Vec3>& positions = frame.position.empty() ? frame.unwrapped : frame.position;
+  for (std::size_t i = 0; i < configuration.size(); ++i) {
+    Vec<Dim>& position = configuration.position[i] = positions[i].template head<Dim>();
+    if (!position.allFinite() ||
+        (position.cwiseQuotient(configuration.box.lengths()).cwiseAbs().maxCoeff() > 1e9))
+      throw UserError(fmt::format("particle {} is at {}, but should be near the box", i,
+                                  fmt::join(position, ", ")));
+    if (Dim == 2 && positions[i][2] != 0)
+      throw UserError(fmt::format("particle {} has z = {}, but the system is two-dimensional", i,
+                                  positions[i][2]));
+    if (!frame.image.empty())
+      configuration.image[i] = frame.image[i].template head<Dim>();
+    else if (!frame.unwrapped.empty() && !frame.position.empty())
+      configuration.image[i] = boxes_between<Dim>(configuration.box, position,
+                                                  frame.unwrapped[i].template head<Dim>(), i);
+    configuration.box.wrap_if_outside(position, configuration.image[i]);
+  }
+}
+
+[[noreturn]] void throw_no_orientation(std::size_t i, const char* what) {
+  throw UserError(fmt::format("has no {}, but particle {} is not round", what, i));
+}
+
+void set_orientations(Configuration2& configuration, const ForeignFrame& frame) {
+  for (std::size_t i = 0; i < configuration.size(); ++i) {
+    double& angle = configuration.angle[i];
+    if (!frame.angle.empty()) {
+      angle = frame.angle[i];
+      if (!std::isfinite(angle))
+        throw UserError(
+            fmt::format("particle {} has the angle {}, but it should be finite", i, angle));
+    } else if (!frame.orientation.empty()) {
+      const Quaternion q = unit_quaternion(frame.orientation[i], i);
+      if (q.x() != 0 || q.y() != 0)
+        throw UserError(fmt::format(
+            "particle {} is turned out of the plane, but the system is two-dimensional", i));
+      angle = 2 * polar_angle(q.z(), q.w());
+    } else if (!configuration.shape[i].is_round()) {
+      throw_no_orientation(i, "angles");
+    }
+  }
+}
+
+void set_orientations(Configuration3& configuration, const ForeignFrame& frame) {
+  for (std::size_t i = 0; i < configuration.size(); ++i) {
+    if (!frame.orientation.empty())
+      configuration.orientation[i] = unit_quaternion(frame.orientation[i], i);
+    else if (!configuration.shape[i].is_round())
+      throw_no_orientation(i, "orientations");
+  }
+}
+
+void set_angular_velocity(double& angular_velocity, const Vec3& stated) {
+  angular_velocity = stated[2];
+}
+void set_angular_velocity(Vec3& angular_velocity, const Vec3& stated) {
+  angular_velocity = stated;
+}
+
+template <int Dim>
+void set_velocities(Configuration<Dim>& configuration, const ForeignFrame& frame) {
+  for (std::size_t i = 0; i < configuration.size(); ++i) {
+    const Vec3 v = frame.velocity.empty() ? Vec3(Vec3::Zero()) : frame.velocity[i];
+    const Vec3 w = frame.angular_velocity.empty() ? Vec3(Vec3::Zero()) : frame.angular_velocity[i];
+    if (!v.allFinite() || !w.allFinite())
+      throw UserError(fmt::format("the velocities of particle {} should be finite", i));
+    configuration.velocity[i] = v.template head<Dim>();
+    set_angular_velocity(configuration.angular_velocity[i], w);
+  }
+}
+
+}  // namespace
+
+Quaternion unit_quaternion(const Quaternion& q, std::size_t particle) {
+  const double excess = std::abs(q.norm() - 1);
+  if (!(excess <= tolerance::norm_in_single_precision))
+    throw UserError(fmt::format("the orientation of particle {} has the norm {}, but should have 1",
+                                particle, q.norm()));
+  return excess > tolerance::norm_in_double_precision ? q.normalized() : q;
+}
+
+int dimension_of(const ForeignFrame& frame, const KnownSystem& known) {
+  return frame.dimension.value_or(known.dimension.value_or(3));
+}
+
+template <int Dim>
+Configuration<Dim> configuration_of(const ForeignFrame& frame, const KnownSystem& known) {
+  if (known.dimension && dimension_of(frame, known) != *known.dimension)
+    throw UserError(fmt::format("is {}-dimensional, but should be {}-dimensional",
+                                Dim == 2 ? "two" : "three", Dim == 2 ? "three" : "two"));
+  const std::size_t n = std::max(frame.position.size(), frame.unwrapped.size());
+  require_equal_numbers(frame, n);
+  Configuration<Dim> configuration;
+  configuration.resize(n);
+  configuration.time = frame.time.value_or(static_cast<double>(frame.step.value_or(0)));
+  configuration.box = box_of<Dim>(frame, known);
+  set_particles(configuration, frame, known);
+  set_positions(configuration, frame);
+  set_orientations(configuration, frame);
+  set_velocities(configuration, frame);
+  return configuration;
+}
+
+template Configuration2 configuration_of<2>(const ForeignFrame&, const KnownSystem&);
+template Configuration3 configuration_of<3>(const ForeignFrame&, const KnownSystem&);
+
+}  // namespace vitrel

@@ -1,0 +1,193 @@
+#include "core/io/foreign/particle_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <set>
+
+#include "core/error.h"
+
+namespace vitrel {
+namespace {
+
+constexpr const char* species_column = "species";
+constexpr std::array<const char*, 3> directions = {"x", "y", "z"};
+
+/// Columns of which all or none must be there.
+const std::vector<std::vector<std::string>> groups = {{"frame"},
+                                                      {"step"},
+                                                      {"time"},
+                                                      {"id"},
+                                                      {"angle"},
+                                                      {"radius"},
+                                                      {"mass"},
+                                                      {"omega"},
+                                                      {"box_x", "box_y"},
+                                                      {"x", "y"},
+                                                      {"unwrapped_x", "unwrapped_y"},
+                                                      {"image_x", "image_y"},
+                                                      {"vx", "vy"},
+                                                      {"a", "b"},
+                                                      {"qw", "qx", "qy", "qz"},
+                                                      {"omega_x", "omega_y", "omega_z"}};
+/// Third components, with the columns that they belong to.
+const std::map<std::string, std::string> third_of = {
+    {"box_z", "box_x"},     {"z", "x"},   {"unwrapped_z", "unwrapped_x"},
+    {"image_z", "image_x"}, {"vz", "vx"}, {"c", "a"}};
+
+bool counts(const std::string& column) {
+  return third_of.contains(column) || std::ranges::any_of(groups, [&](const auto& group) {
+           return std::ranges::find(group, column) != group.end();
+         });
+}
+
+std::string_view trimmed(std::string_view text) {
+  constexpr const char* blank = " \t\r";
+  const std::size_t begin = text.find_first_not_of(blank);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(blank) - begin + 1);
+}
+
+double number(std::string_view cell, const std::string& column, const std::string& place) {
+  double value = 0;
+  const char* const end = cell.data() + cell.size();
+  // from_chars takes no sign in front of a positive number.
+  const char* const begin = cell.data() + (cell.starts_with('+') ? 1 : 0);
+  const auto [stop, error] = std::from_chars(begin, end, value);
+  if (error != std::errc() || stop != end || !std::isfinite(value))
+    throw FileError(
+        fmt::format("{}: {} is \"{}\", but should be a finite number", place, column, cell));
+  return value;
+}
+
+}  // namespace
+
+ParticleTable::ParticleTable(const std::vector<std::string>& columns, const std::string& place) {
+  const std::set<std::string> names(columns.begin(), columns.end());
+  for (const std::string& name : columns) {
+    const bool is_number = counts(name);
+    if ((is_number || name == species_column) && std::ranges::count(columns, name) > 1)
+      throw FileError(fmt::format("{}: the column {} comes twice", place, name));
+    columns_.push_back(is_number || name == species_column ? name : "");
+    if (is_number) numbers_[name];
+  }
+  const auto require = [&](const std::string& wanted, const std::string& because) {
+    if (!names.contains(wanted))
+      throw FileError(
+          fmt::format("{}: there is a column {}, but none named {}", place, because, wanted));
+  };
+  for (const auto& group : groups)
+    for (const std::string& name : group)
+      if (names.contains(name))
+        for (const std::string& other : group) require(other, name);
+  for (const auto& [third, first] : third_of)
+    if (names.contains(third)) require(first, third);
+  if (!names.contains("x") && !names.contains("unwrapped_x"))
+    throw FileError(
+        fmt::format("{}: there are no columns x and y, but {}", place, fmt::join(columns, ", ")));
+}
+
+void ParticleTable::add(const std::vector<std::string_view>& cells, const std::string& place) {
+  if (cells.size() != columns_.size())
+    throw FileError(fmt::format("{}: has {} cells, but there are {} columns", place, cells.size(),
+                                columns_.size()));
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    if (columns_[k].empty()) continue;
+    const std::string_view cell = trimmed(cells[k]);
+    if (columns_[k] == species_column)
+      species_.emplace_back(cell);
+    else
+      numbers_[columns_[k]].push_back(number(cell, columns_[k], place));
+  }
+  ++rows_;
+}
+
+void ParticleTable::clear() {
+  for (auto& [name, values] : numbers_) values.clear();
+  species_.clear();
+  rows_ = 0;
+}
+
+ParticleTable::Order ParticleTable::by_id(const std::string& place) const {
+  Order order(rows_);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto found = numbers_.find("id");
+  if (found == numbers_.end()) return order;
+  const std::vector<double>& id = found->second;
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return id[i]; });
+  const auto twice = std::ranges::adjacent_find(order, {}, [&](std::size_t i) { return id[i]; });
+  if (twice != order.end())
+    throw FileError(fmt::format("{}: the id {} comes twice", place, id[*twice]));
+  return order;
+}
+
+std::vector<double> ParticleTable::numbers(const std::string& column, const Order& order) const {
+  std::vector<double> values;
+  const auto found = numbers_.find(column);
+  if (found == numbers_.end()) return values;
+  for (const std::size_t i : order) values.push_back(found->second[i]);
+  return values;
+}
+
+std::vector<Vec3> ParticleTable::vectors(const std::string& prefix,
+                                         const std::array<const char*, 3>& columns,
+                                         const Order& order) const {
+  std::vector<Vec3> result;
+  if (!has(prefix + columns[0])) return result;
+  result.assign(order.size(), Vec3::Zero());
+  for (int k = 0; k < 3; ++k) {
+    const std::vector<double> component = numbers(prefix + columns[k], order);
+    for (std::size_t i = 0; i < component.size(); ++i) result[i][k] = component[i];
+  }
+  return result;
+}
+
+std::vector<Vec3> ParticleTable::semi_axes(const Order& order) const {
+  std::vector<Vec3> axes = vectors("", {"a", "b", "c"}, order);
+  for (const double radius : numbers("radius", axes.empty() ? order : Order()))
+    axes.push_back(Vec3::Constant(radius));
+  return axes;
+}
+
+std::optional<double> ParticleTable::single(const std::string& column) const {
+  if (!has(column) || rows_ == 0) return std::nullopt;
+  return numbers_.at(column).front();
+}
+
+ForeignFrame ParticleTable::frame(const std::string& place) const {
+  const Order order = by_id(place);
+  ForeignFrame frame;
+  frame.dimension = has("z") ? 3 : 2;
+  frame.time = single("time");
+  if (const auto step = single("step")) frame.step = std::llround(*step);
+  if (has("box_x")) frame.box = vectors("box_", directions, {0}).front();
+  frame.position = vectors("", directions, order);
+  frame.unwrapped = vectors("unwrapped_", directions, order);
+  for (const Vec3& image : vectors("image_", directions, order)) {
+    constexpr double most = 1e9;
+    if (!(image.cwiseAbs().maxCoeff() <= most))
+      throw FileError(fmt::format("{}: an image is {}, but should be a few boxes away", place,
+                                  fmt::join(image, ", ")));
+    frame.image.push_back(image.array().round().cast<std::int32_t>());
+  }
+  frame.angle = numbers("angle", order);
+  const std::vector<double> w = numbers("qw", order);
+  const std::vector<Vec3> vector_part = vectors("q", directions, order);
+  for (std::size_t i = 0; i < w.size(); ++i)
+    frame.orientation.emplace_back(w[i], vector_part[i][0], vector_part[i][1], vector_part[i][2]);
+  frame.semi_axes = semi_axes(order);
+  frame.mass = numbers("mass", order);
+  frame.velocity = vectors("v", directions, order);
+  frame.angular_velocity = vectors("omega_", directions, order);
+  for (const double omega : numbers("omega", order))
+    frame.angular_velocity.emplace_back(0, 0, omega);
+  if (!species_.empty())
+    for (const std::size_t i : order) frame.species.push_back(species_[i]);
+  return frame;
+}
+
+}  // namespace vitrel

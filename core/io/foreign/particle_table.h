@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/io/foreign/foreign_frame.h"
+
+namespace vitrel {
+
+/// Rows of named columns, a particle each, as CSV and extended XYZ have them. The columns that count, all optional but
+/// the positions:
+///
+///     frame, step, time, box_x, box_y, box_z     the same in all rows
+///     id                                         the order of the particles
+///     species
+///     x, y, z; unwrapped_x, …; image_x, …        one of the first two
+///     angle; qw, qx, qy, qz                      radians; a quaternion
+///     a, b, c, or radius                         semi-axes
+///     mass; vx, vy, vz; omega, or omega_x, …
+///
+/// Others are skipped. A table with the column z is three-dimensional.
+class ParticleTable {
+ public:
+  /// FileError, for `place`, if a column comes twice, or one of several that belong together is missing.
+  ParticleTable(const std::vector<std::string>& columns, const std::string& place);
+
+  bool has(const std::string& column) const { return numbers_.contains(column); }
+  /// One cell per column. FileError, for `place` ("file:line"), if their number is another one or one is no number.
+  void add(const std::vector<std::string_view>& cells, const std::string& place);
+  std::size_t rows() const { return rows_; }
+  /// Removes all rows.
+  void clear();
+
+  /// All rows as one frame. FileError, for `place`, if an id comes twice.
+  ForeignFrame frame(const std::string& place) const;
+
+ private:
+  using Order = std::vector<std::size_t>;
+
+  /// In this order; empty if there is no such column.
+  std::vector<double> numbers(const std::string& column, const Order& order) const;
+  /// Of three columns "x", "y", "z" behind a prefix; the third may be missing and is then 0.
+  std::vector<Vec3> vectors(const std::string& prefix, const std::array<const char*, 3>& columns,
+                            const Order& order) const;
+  std::vector<Vec3> semi_axes(const Order& order) const;
+  std::optional<double> single(const std::string& column) const;
+  Order by_id(const std::string& place) const;
+
+  std::vector<std::string> columns_;  ///< "" for those that are skipped
+  std::map<std::string, std::vector<double>> numbers_;
+  std::vector<std::string> species_;
+  std::size_t rows_ = 0;
+};
+
+}  // namespace vitrel

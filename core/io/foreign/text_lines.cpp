@@ -1,0 +1,33 @@
+#include "core/io/foreign/text_lines.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "core/error.h"
+
+namespace vitrel {
+
+TextLines::TextLines(const std::filesystem::path& path) : path_(path), stream_(path) {
+  if (!stream_)
+    throw FileError(
+        fmt::format("{}: cannot open the file: {}", path.string(), std::strerror(errno)));
+}
+
+bool TextLines::next(std::string& line) {
+  if (!std::getline(stream_, line)) {
+    if (stream_.bad()) throw FileError(path_.string() + ": cannot read the file");
+    return false;
+  }
+  constexpr const char* byte_order_mark = "\xEF\xBB\xBF";
+  if (number_++ == 0 && line.starts_with(byte_order_mark)) line.erase(0, 3);
+  if (line.ends_with('\r')) line.pop_back();
+  return true;
+}
+
+std::string TextLines::place() const {
+  return fmt::format("{}:{}", path_.string(), number_);
+}
+
+}  // namespace vitrel

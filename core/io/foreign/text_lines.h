@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace vitrel {
+
+/// The lines of a text file, without their ends (\n or \r\n) and a mark of UTF-8 at the start. FileError.
+class TextLines {
+ public:
+  explicit TextLines(const std::filesystem::path& path);
+
+  /// False at the end of the file.
+  bool next(std::string& line);
+  /// "file:line", of the last line.
+  std::string place() const;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+  std::ifstream stream_;
+  std::uint64_t number_ = 0;
+};
+
+}  // namespace vitrel

@@ -1,0 +1,196 @@
+#include "workflow/configuration/start_state.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/state/check.h"
+#include "core/state/contact_scale.h"
+#include "core/state/species.h"
+#include "workflow/configuration/distributions.h"
+#include "workflow/configuration/state_species.h"
+
+namespace vitrel {
+namespace {
+
+bool is_constant(const std::optional<Distribution>& d) {
+  return !d || d->kind == Distribution::Kind::constant;
+}
+
+bool has_one_shape(const Species& species) {
+  const auto all_constant = [](const auto& entries) {
+    return !entries || std::ranges::all_of(*entries, is_constant);
+  };
+  return is_constant(species.aspect_ratio) && is_constant(species.size) &&
+         is_constant(species.first_semi_axis) && all_constant(species.aspect_ratios) &&
+         all_constant(species.semi_axes);
+}
+
+Vec3 semi_axes_of(const Ellipse& shape) {
+  return {shape.a, shape.b, shape.b};
+}
+Vec3 semi_axes_of(const Ellipsoid& shape) {
+  return shape.semi_axes;
+}
+
+/// Of a species whose particles are all alike.
+template <int Dim>
+Vec3 semi_axes_of(Species species) {
+  species.fraction = 1;
+  constexpr double any = 0.1;
+  return semi_axes_of(draw_particles<Dim>({species}, 1, any, Vec<Dim>::Ones(), 1).shape[0]);
+}
+
+const StateStage& start_of(const Parameters& parameters) {
+  return *start_state(parameters.stages);
+}
+
+/// How messages call the state.
+std::string name_of(const Parameters& parameters) {
+  const StateStage& stage = start_of(parameters);
+  return stage.file ? *stage.file : place_of(parameters, "prepare.stage.0").value_or("the state");
+}
+
+template <int Dim>
+Configuration<Dim> inline_state(const Parameters& parameters) {
+  try {
+    return configuration_of<Dim>(start_of(parameters).frame(Dim), known_system(parameters));
+  } catch (const UserError& error) {
+    throw UserError(fmt::format("{}: the state {}", name_of(parameters), error.what()));
+  }
+}
+
+void refuse_other(const Parameters& parameters, const std::string& key, const std::string& given,
+                  const std::string& found, const std::string& file) {
+  const auto place = place_of(parameters, key);
+  throw UserError(
+      fmt::format("{}: key '{}' is {}, but that of the state is {} ({}); leave it out, "
+                  "and that of the state is taken",
+                  place.value_or(file), key, given, found, file));
+}
+
+bool agrees(double given, double found) {
+  return agree(given, found, Agreement::digits);
+}
+bool agrees(std::int64_t given, std::int64_t found) {
+  return given == found;
+}
+
+template <class Number>
+void take(Number& value, Number found, const char* key, const Parameters& parameters,
+          const std::string& file) {
+  if (place_of(parameters, key) && !agrees(value, found))
+    refuse_other(parameters, key, fmt::format("{}", value), fmt::format("{}", found), file);
+  value = found;
+}
+
+template <int Dim>
+void refuse_overlaps(const Configuration<Dim>& state, const std::string& file) {
+  const ExactCheck<Dim> check = exact_check(state);
+  if (check.clean()) return;
+  const auto deepest = std::ranges::min_element(
+      check.overlaps, {}, [&](const PairImage<Dim>& pair) { return contact_scale(state, pair); });
+  throw InvariantError(fmt::format(
+      "{}: has {} overlapping pair(s), the deepest of particles {} and {}, image ({}), which would "
+      "touch if scaled by {:.10g}; start from a state without, or scale all particles until none "
+      "overlap (--shrink, or on_overlap = \"shrink\" of the stage)",
+      file, check.overlaps.size(), deepest->i, deepest->j,
+      fmt::join(deepest->shift.data(), deepest->shift.data() + Dim, ", "),
+      contact_scale(state, *deepest)));
+}
+
+}  // namespace
+
+KnownSystem known_system(const Parameters& parameters) {
+  KnownSystem known;
+  const int dimension = parameters.system.dimension;
+  if (place_of(parameters, "system.dimension")) known.dimension = dimension;
+  const StateStage* stage = start_state(parameters.stages);
+  if (stage && stage->box) {
+    known.box = Vec3(Vec3::Ones());
+    std::ranges::copy(*stage->box, known.box->data());
+  }
+  if (!place_of(parameters, "species")) return known;
+  for (const Species& species : parameters.species) {
+    KnownSpecies& one = known.species.emplace_back(KnownSpecies{species.name});
+    one.mass = species.mass;
+    if (has_one_shape(species))
+      one.semi_axes = dimension == 2 ? semi_axes_of<2>(species) : semi_axes_of<3>(species);
+  }
+  return known;
+}
+
+int start_dimension(const Parameters& parameters) {
+  const StateStage& stage = start_of(parameters);
+  if (!stage.file) return parameters.system.dimension;
+  return TrajectoryReader(*stage.file, known_system(parameters)).dimension();
+}
+
+namespace {
+
+template <int Dim>
+void take_agreeing(Parameters& parameters, const Configuration<Dim>& state, const std::string& file,
+                   const std::string& recorded) {
+  SystemParameters& system = parameters.system;
+  if (place_of(parameters, "system.dimension") && system.dimension != Dim)
+    refuse_other(parameters, "system.dimension", fmt::format("{}", system.dimension),
+                 fmt::format("{}", Dim), file);
+  system.dimension = Dim;
+  take(system.particles, static_cast<std::int64_t>(state.size()), "system.particles", parameters,
+       file);
+  const double fraction = packing_fraction(state);
+  if (keep_packing_fraction(parameters.stages))
+    take(system.packing_fraction, fraction, "system.packing_fraction", parameters, file);
+  if (StateStage* stage = start_state(parameters.stages)) stage->packing_fraction = fraction;
+  take_species(parameters, state, {file, recorded});
+}
+
+}  // namespace
+
+template <int Dim>
+void take_system(Parameters& parameters, const Configuration<Dim>& state, const std::string& file,
+                 const std::string& recorded) {
+  const bool may_be_shrunk = start_of(parameters).on_overlap == StateStage::OnOverlap::shrink;
+  const std::map<std::string, std::string> given = parameters.given;
+  if (may_be_shrunk) parameters.given.clear();
+  take_agreeing(parameters, state, file, recorded);
+  parameters.given = given;
+}
+
+template <int Dim>
+Configuration<Dim> read_start(Parameters& parameters, bool overlaps_allowed, const Log& log) {
+  const StateStage stage = start_of(parameters);
+  const std::string name = name_of(parameters);
+  Configuration<Dim> state;
+  std::string recorded;
+  if (stage.file) {
+    const TrajectoryReader reader(*stage.file, known_system(parameters));
+    state = read_state<Dim>(reader);
+    recorded = reader.provenance().parameters;
+  } else {
+    state = inline_state<Dim>(parameters);
+  }
+  if (!parameters.dynamics.contact) state.close_pairs.clear();
+  take_agreeing(parameters, state, name, recorded);
+  if (!place_of(parameters, "species")) log_line(log, "species as in " + name);
+  if (stage.on_overlap == StateStage::OnOverlap::shrink) {
+    const double scale = shrink_to_contact(state);
+    if (scale < 1)
+      log_line(log, fmt::format("{}: all particles are scaled by 1 − {:.3g}, so that none overlap",
+                                name, 1 - scale));
+    take_system(parameters, state, name, recorded);
+  } else if (!overlaps_allowed) {
+    refuse_overlaps(state, name);
+  }
+  return state;
+}
+
+template void take_system(Parameters&, const Configuration2&, const std::string&,
+                          const std::string&);
+template void take_system(Parameters&, const Configuration3&, const std::string&,
+                          const std::string&);
+template Configuration2 read_start(Parameters&, bool, const Log&);
+template Configuration3 read_start(Parameters&, bool, const Log&);
+
+}  // namespace vitrel

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/io/foreign/foreign_frame.h"
+#include "workflow/stages/stage_interface.h"
+
+namespace vitrel {
+
+/// A state from a file, or from arrays in the parameter file. The configuration that it is given is the state already:
+/// number, species, box and packing fraction of the system come from it (configuration/start_state.h).
+struct StateStage : StageDefaults {
+  static constexpr const char* method = "state";
+  static constexpr const char* summary = "a state from a file, or from arrays in this file";
+  static constexpr bool places_particles = true;
+
+  enum class OnOverlap { stop, shrink };
+  using Rows = std::vector<std::vector<double>>;
+
+  std::optional<std::string> file;
+  OnOverlap on_overlap = OnOverlap::stop;
+  std::optional<std::vector<double>> box;
+  // Instead of a file, a row per particle:
+  std::optional<Rows> positions, velocities, quaternions, semi_axes;
+  std::optional<std::vector<double>> angles, masses;
+  std::optional<Rows> angular_velocities;  ///< in the plane rows of one number
+  std::optional<std::vector<std::string>> species;
+
+  /// Of the state, once it is known; no key of the parameter file.
+  std::optional<double> packing_fraction;
+
+  static std::vector<StageField<StateStage>> fields();
+  StageEnding ending() const;
+  void validate(const Rules& rules, int dimension) const;
+  double end(const SystemParameters& system, double before) const;
+  std::string description(double goal) const;
+  template <int Dim>
+  StageReport advance(Configuration<Dim>& configuration, NoState& state,
+                      const StageContext& context, const RunControl& control) const;
+
+  /// The particles of the arrays.
+  ForeignFrame frame(int dimension) const;
+};
+
+}  // namespace vitrel
