@@ -12,7 +12,11 @@
 #include "app/commands/report.h"
 #include "app/commands/run.h"
 #include "app/commands/sweep.h"
-#include "app/terminal/help.h"
+#include "app/terminal/completion.h"
+#include "app/terminal/manual_page.h"
+#include "app/terminal/program_command_line.h"
+#include "workflow/configuration/sections.h"
+#include "workflow/export/trajectory_export.h"
 
 namespace vitrel {
 namespace {
@@ -32,9 +36,10 @@ void add_print(CLI::App& sub, PrintOptions& print) {
 
 void add_overrides(CLI::App& sub, std::vector<std::string>& overrides, const std::string& example) {
   sub.add_option("--set", overrides,
-                 "key=value, instead of the value in the file: --set " + example)
+                 "Value of a key, instead of that in the file: --set " + example)
       ->take_all()
-      ->allow_extra_args(false);
+      ->allow_extra_args(false)
+      ->type_name("KEY=VALUE");
 }
 
 void add_wall_time(CLI::App& sub, double& seconds) {
@@ -42,21 +47,26 @@ void add_wall_time(CLI::App& sub, double& seconds) {
       ->check(not_negative);
 }
 
+CLI::Option* add_file(CLI::App& sub, const std::string& name, fs::path& file,
+                      const std::string& what) {
+  return sub.add_option(name, file, what)->type_name(file_value);
+}
+
+CLI::Option* add_output(CLI::App& sub, fs::path& output, const std::string& what) {
+  return add_file(sub, "-o,--output", output, what);
+}
+
 void add_parameter_file(CLI::App& sub, ParameterOptions& source) {
-  sub.add_option("params", source.file, "Parameter file (TOML); vitrel params prints one")
+  add_file(sub, "params", source.file, "Parameter file (TOML); vitrel params prints one")
       ->required();
   add_overrides(sub, source.overrides, "dynamics.duration=10");
   sub.add_option("--seed", source.seed,
                  "Seed of all random numbers, the same as --set system.seed=");
 }
 
-CLI::Option* add_output(CLI::App& sub, fs::path& output, const std::string& what) {
-  return sub.add_option("-o,--output", output, what);
-}
-
 void add_start(CLI::App& sub, StartOptions& start) {
-  CLI::Option* from = sub.add_option(
-      "--from", start.from,
+  CLI::Option* from = add_file(
+      sub, "--from", start.from,
       "State or run whose last frame to start from: H5MD, GSD, extended XYZ or CSV. Stages of the "
       "parameter file follow if the first of them moves particles");
   sub.add_flag("--shrink", start.shrink,
@@ -69,9 +79,16 @@ void add_threads(CLI::App& sub, int& threads, const std::string& what) {
 }
 
 void add_analysis(CLI::App& sub, AnalysisOptions& analysis) {
-  sub.add_option("--params", analysis.file,
-                 "Parameter file with [analysis], instead of that in the run");
+  add_file(sub, "--params", analysis.file,
+           "Parameter file with [analysis], instead of that in the run");
   add_overrides(sub, analysis.overrides, "analysis.longest_lag=0.1");
+}
+
+std::vector<std::string> all_formats() {
+  std::vector<std::string> names;
+  for (const ExportFormat& format : export_formats()) names.push_back(format.name);
+  names.push_back("gnuplot");
+  return names;
 }
 
 /// The options of all commands, each filled where its command is the one chosen.
@@ -91,6 +108,12 @@ class CommandLine : public ProgramCommandLine {
     add_pair();
     add_bench();
     add_params();
+    add_completion();
+    add_manual();
+    add_help_and_version();
+    app_.footer(
+        "vitrel help <command> lists the options of a command. On a terminal errors are red, "
+        "unless NO_COLOR is set.");
   }
 
  private:
@@ -102,8 +125,7 @@ class CommandLine : public ProgramCommandLine {
   template <class Options>
   CLI::App& add_below(CLI::App& parent, const std::string& name, const std::string& sentence,
                       int (*work)(const Options&), const Options& options) {
-    CLI::App& sub = *parent.add_subcommand(name, sentence);
-    sub.callback([this, work, &options] { chosen_ = [=, &options] { return work(options); }; });
+    CLI::App& sub = add_command(parent, name, sentence, [work, &options] { return work(options); });
     sub.footer(exit_codes + ".");
     return sub;
   }
@@ -141,10 +163,9 @@ class CommandLine : public ProgramCommandLine {
     CLI::App& sub = add("check", "Exact check of a state or of all frames of a run for overlaps.",
                         check_command, check_);
     sub.footer(exit_codes + overlap_code + ", 5 stopped (no overlap so far).");
-    sub.add_option("file", check_.input, "State or run")->required();
-    sub.add_option(
-        "--params", check_.parameters,
-        "Parameter file with what the file does not say, such as the semi-axes of species");
+    add_file(sub, "file", check_.input, "State or run")->required();
+    add_file(sub, "--params", check_.parameters,
+             "Parameter file with what the file does not say, such as the semi-axes of species");
     sub.add_flag("--last", check_.last_only, "The last frame only");
     add_print(sub, check_.print);
   }
@@ -155,7 +176,7 @@ class CommandLine : public ProgramCommandLine {
                         "times and the glass transition, from the results of its jobs, or with "
                         "--params or --set from their runs.",
                         analyze_command, analyze_);
-    CLI::Option* run = sub.add_option("run", analyze_.input, "Run, or folder of a job or a sweep");
+    CLI::Option* run = add_file(sub, "run", analyze_.input, "Run, or folder of a job or a sweep");
     sub.add_flag("--list", analyze_.list, "All tables as Markdown (docs/observables.md)")
         ->excludes(run);
     add_output(sub, analyze_.output,
@@ -176,7 +197,7 @@ class CommandLine : public ProgramCommandLine {
     sub.footer(exit_codes + overlap_code + resumed_code +
                "; of jobs that failed, the first one's.");
     add_parameter_file(sub, sweep_.source);
-    add_output(sub, sweep_.output, "Folder of the sweep")->required();
+    add_output(sub, sweep_.output, "Folder of the sweep")->required()->type_name(folder_value);
     CLI::Option* parallel =
         sub.add_option("-j,--jobs", sweep_.parallel, "Jobs at a time")->check(positive);
     CLI::Option* status =
@@ -185,10 +206,9 @@ class CommandLine : public ProgramCommandLine {
     CLI::Option* job = sub.add_option(
         "--job", sweep_.job, "Run this job only; other processes may run other jobs meanwhile");
     CLI::Option* exported =
-        sub.add_option("--export", sweep_.export_as,
-                       "Run nothing; write the sweep into its folder as a workflow for snakemake, "
-                       "which runs it here or on Slurm")
-            ->check(CLI::IsMember({"snakemake"}));
+        add_choice(sub, "--export", sweep_.export_as, {"snakemake"}, "WORKFLOW",
+                   "Run nothing; write the sweep into its folder as a workflow for snakemake, "
+                   "which runs it here or on Slurm");
     job->excludes(parallel)->excludes(status)->excludes(exported);
     exported->excludes(parallel)->excludes(status);
     add_wall_time(sub, sweep_.wall_time);
@@ -198,7 +218,7 @@ class CommandLine : public ProgramCommandLine {
   void add_report() {
     CLI::App& sub = add("report", "One HTML page about a prepared state, a run or a sweep.",
                         report_command, report_);
-    sub.add_option("run", report_.input, "State, run, or folder of a job or a sweep")->required();
+    add_file(sub, "run", report_.input, "State, run, or folder of a job or a sweep")->required();
     add_output(sub, report_.output,
                "Page to write; default <state>.html, <run>.html or <sweep>/report.html");
     add_analysis(sub, report_.analysis);
@@ -210,16 +230,18 @@ class CommandLine : public ProgramCommandLine {
         add("export", "Write a state, a run or results in the format of another program.",
             export_command, export_);
     sub.footer(exit_codes + ", 5 stopped (nothing was written).");
-    sub.add_option("file", export_.input, "State or run, or results of vitrel analyze")->required();
-    sub.add_option("--to", export_.format,
-                   "gsd (HOOMD-blue, OVITO), xyz (OVITO, ASE) or csv; in three dimensions also one "
-                   "period with all images: geo (Gmsh), vti (voxels for VTK) or vtp (points for "
-                   "VTK; of several frames a folder with a .pvd file for ParaView); of results: "
-                   "gnuplot (a folder of data and scripts)")
+    add_file(sub, "file", export_.input, "State or run, or results of vitrel analyze")->required();
+    add_choice(
+        sub, "--to", export_.format, all_formats(), "FORMAT",
+        "gsd (HOOMD-blue, OVITO), xyz (OVITO, ASE) or csv; in two dimensions also thesis (plain "
+        "text, a line of t and all x, y, angle per frame); in three dimensions also one period "
+        "with all images: geo (Gmsh), vti (voxels for VTK) or vtp (points for VTK; of several "
+        "frames a folder with a .pvd file for ParaView); of results: gnuplot (a folder of data and "
+        "scripts)")
         ->required();
     add_output(sub, export_.output,
-               "File or folder to write, which must not exist; default <file> with the new suffix, "
-               "<file>_vtp for several frames, or <results>_gnuplot");
+               "File or folder to write, which must not exist; default <file> with the new suffix "
+               "(.dat for thesis), <file>_vtp for several frames, or <results>_gnuplot");
     sub.add_option("--frames", export_.frames,
                    "Which frames, as Python's slices: 7, -1 (the last), first:end:step (all; to "
                    "geo, to vti and with --images one, the last)");
@@ -228,9 +250,9 @@ class CommandLine : public ProgramCommandLine {
                  "body that meets the box, instead of a line per frame and particle");
     sub.add_option("--shrink", export_.shrink,
                    "With all images: all semi-axes times this (1), for room between bodies")
-        ->check(CLI::Range(1e-3, 1.0));
+        ->check(between(1e-3, 1));
     sub.add_option("--voxels", export_.voxels, "To vti: voxels along the longest edge (100)")
-        ->check(CLI::Range(1, 2000));
+        ->check(between(1, 2000));
     add_print(sub, export_.print);
   }
 
@@ -238,8 +260,8 @@ class CommandLine : public ProgramCommandLine {
                               int (*work)(const PairOptions&)) {
     CLI::App& sub = add_below(pair, name, sentence, work, pair_);
     CLI::Option* file =
-        sub.add_option("file", pair_.source.file,
-                       "Both bodies (TOML), instead of --body; vitrel params pair prints one");
+        add_file(sub, "file", pair_.source.file,
+                 "Both bodies (TOML), instead of --body; vitrel params pair prints one");
     sub.add_option("--body", pair_.source.bodies,
                    "A body, given twice: 'semi_axes=2,1 position=3,0 angle=0.5 velocity=-1,0 "
                    "angular_velocity=0.2', or in space three semi-axes and orientation=w,x,y,z")
@@ -254,10 +276,11 @@ class CommandLine : public ProgramCommandLine {
   }
 
   void add_pair() {
-    CLI::App& pair = *app_.add_subcommand(
-        "pair",
-        "Two bodies: overlap, gap and contact time of ellipses or ellipsoids, and the "
-        "restitution coefficients of soft spheres.");
+    CLI::App& pair =
+        add_command(app_, "pair",
+                    "Two bodies: overlap, gap and contact time of ellipses or ellipsoids, and the "
+                    "restitution coefficients of soft spheres.",
+                    {});
     pair.require_subcommand(1);
     add_pair_question(pair, "overlap", "Do two bodies overlap? The exact criterion.",
                       pair_overlap_command);
@@ -267,9 +290,10 @@ class CommandLine : public ProgramCommandLine {
                                           "When and where two bodies in free flight first touch.",
                                           pair_contact_time_command);
     contact.add_option("--horizon", pair_.source.horizon, "Search until this time (100)");
-    contact.add_option("--rotation", pair_.source.rotation,
-                       "Of ellipsoids with three different semi-axes: euler, or constant for a "
-                       "constant angular velocity");
+    add_choice(contact, "--rotation", pair_.source.rotation,
+               {std::begin(rotation_names), std::end(rotation_names)}, "ROTATION",
+               "Of ellipsoids with three different semi-axes: euler, or constant for a "
+               "constant angular velocity");
     contact.add_option("--method", pair_.methods, "Compare this method of vitrel-bench")
         ->take_all()
         ->allow_extra_args(false);
@@ -282,7 +306,7 @@ class CommandLine : public ProgramCommandLine {
         pair, "restitution",
         "Restitution coefficients of an impact of two soft spheres, integrated and from the table.",
         pair_restitution_command, impact_);
-    sub.add_option("params", impact_.source.file, "Parameter file with [dynamics.contact]");
+    add_file(sub, "params", impact_.source.file, "Parameter file with [dynamics.contact]");
     add_overrides(sub, impact_.source.overrides,
                   "youngs_modulus='1 GPa'; keys of [dynamics.contact]");
     sub.add_option("--speed", impact_.source.speed,
@@ -292,27 +316,46 @@ class CommandLine : public ProgramCommandLine {
                    "to below 1");
     sub.add_option("--second-radius", impact_.source.second_radius,
                    "Radius of the second sphere, '0.12 m' (that of the first)");
-    sub.add_option("--table", impact_.table,
-                   "File to write the tabulated coefficients of this pair to, for many speeds and "
-                   "impact parameters: .h5 or .csv");
+    add_file(sub, "--table", impact_.table,
+             "File to write the tabulated coefficients of this pair to, for many speeds and "
+             "impact parameters: .h5 or .csv");
     add_print(sub, impact_.print);
   }
 
   // For the help only: the words after it are passed on unparsed.
   void add_bench() {
-    app_.add_subcommand("bench",
-                        "Measure the numerical methods against a guaranteed reference: runs "
-                        "vitrel-bench, which is built beside this program.");
+    add_command(app_, "bench",
+                "Measure the numerical methods against a guaranteed reference: runs vitrel-bench, "
+                "which is built beside this program.",
+                {})
+        .footer("vitrel bench --help lists what it measures.");
   }
 
   void add_params() {
     CLI::App& sub = add("params", "Print a commented template of a command's parameters.",
                         params_command, params_);
-    CLI::Option* of =
-        sub.add_option("command", params_.command, "prepare, run, analyze, sweep or pair");
+    CLI::Option* of = add_choice(sub, "command", params_.command, commands_with_templates(),
+                                 "COMMAND", "prepare, run, analyze, sweep or pair");
     sub.add_flag("--reference", params_.reference,
                  "All parameters as Markdown (docs/parameters.md)")
         ->excludes(of);
+  }
+
+  void add_completion() {
+    CLI::App& sub = add_command(app_, "completion",
+                                "Print a script by which a shell completes what you type.", [this] {
+                                  return print(shell_ == "bash" ? bash_completion(description())
+                                                                : zsh_completion(description()));
+                                });
+    sub.footer(
+        "For the running shell: source <(vitrel completion bash). For all, put that line into "
+        "~/.bashrc, or into ~/.zshrc with zsh instead of bash, after compinit.");
+    add_choice(sub, "shell", shell_, {"bash", "zsh"}, "SHELL", "bash or zsh")->required();
+  }
+
+  void add_manual() {
+    add_command(app_, "man", "Print the manual page: vitrel man | man -l -",
+                [this] { return print(manual_page(description())); });
   }
 
   PrepareOptions prepare_;
@@ -325,6 +368,7 @@ class CommandLine : public ProgramCommandLine {
   PairOptions pair_;
   ImpactOptions impact_;
   ParamsOptions params_;
+  std::string shell_;  ///< of `completion`
 };
 
 }  // namespace

@@ -1,7 +1,7 @@
 // vitrel-bench: the command line of all subcommands. The only file here that includes CLI11.
 #include <functional>
 
-#include "app/terminal/help.h"
+#include "app/terminal/program_command_line.h"
 #include "bench/programs/collision_time.h"
 #include "bench/programs/overlap.h"
 #include "bench/programs/pair.h"
@@ -29,13 +29,13 @@ class CommandLine : public ProgramCommandLine {
     add_thesis();
     add_parts();
     add_others();
+    add_help_and_version();
   }
 
  private:
   CLI::App& add(const std::string& name, const std::string& sentence,
                 const std::function<int()>& run) {
-    CLI::App& sub = *app_.add_subcommand(name, sentence);
-    sub.callback([this, run] { chosen_ = run; });
+    CLI::App& sub = add_command(app_, name, sentence, run);
     sub.footer(exit_codes + ".");
     return sub;
   }

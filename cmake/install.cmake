@@ -20,3 +20,20 @@ write_basic_package_version_file(vitrel-config-version.cmake COMPATIBILITY SameM
 install(FILES ${PROJECT_BINARY_DIR}/vitrel-config.cmake
               ${PROJECT_BINARY_DIR}/vitrel-config-version.cmake
         DESTINATION ${package_folder} COMPONENT development)
+
+# The manual page and the completions for shells, which the program itself prints. Builds for certain processors are
+# installed beside a portable one, which every machine can run; programs for other machines cannot run here.
+if(NOT CMAKE_CROSSCOMPILING AND VITREL_PROCESSOR MATCHES "^(native)?$")
+  function(vitrel_install_text file destination)
+    set(path ${PROJECT_BINARY_DIR}/texts/${file})
+    list(JOIN ARGN "\" \"" arguments)
+    install(CODE "
+      file(MAKE_DIRECTORY \"${PROJECT_BINARY_DIR}/texts\")
+      execute_process(COMMAND \"$<TARGET_FILE:vitrel>\" \"${arguments}\" OUTPUT_FILE \"${path}\"
+                      COMMAND_ERROR_IS_FATAL ANY)" COMPONENT program)
+    install(FILES ${path} DESTINATION ${destination} COMPONENT program)
+  endfunction()
+  vitrel_install_text(vitrel.1 ${CMAKE_INSTALL_MANDIR}/man1 man)
+  vitrel_install_text(vitrel ${CMAKE_INSTALL_DATADIR}/bash-completion/completions completion bash)
+  vitrel_install_text(_vitrel ${CMAKE_INSTALL_DATADIR}/zsh/site-functions completion zsh)
+endif()

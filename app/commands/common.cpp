@@ -1,6 +1,7 @@
 #include "app/commands/common.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -8,6 +9,7 @@
 
 #include "app/terminal/progress.h"
 #include "app/terminal/session.h"
+#include "app/terminal/style.h"
 #include "core/error.h"
 #include "core/io/json.h"
 #include "core/io/number_text.h"
@@ -45,6 +47,11 @@ constexpr std::string_view error_suffix = "_error";
 bool is_error(const Json& summary, const std::string& key) {
   return key.ends_with(error_suffix) &&
          summary.contains(key.substr(0, key.size() - error_suffix.size()));
+}
+
+/// Overlaps stand out on a terminal.
+std::string emphasized(const std::string& key, const Json& value, const std::string& text) {
+  return key == "overlaps" && value > 0 ? styled(text, Style::error, STDOUT_FILENO) : text;
 }
 
 std::string text_of(const Json& value) {
@@ -130,7 +137,8 @@ void print_summary(const PrintOptions& options, const Json& summary) {
   } else if (!options.quiet) {
     for (const auto& [key, value] : summary.items()) {
       const std::string text = value_text(summary, key);
-      if (!is_error(summary, key) && !text.empty()) fmt::print("{:<26} {}\n", key, text);
+      if (!is_error(summary, key) && !text.empty())
+        fmt::print("{:<26} {}\n", key, emphasized(key, value, text));
     }
   }
   flush_output();

@@ -10,6 +10,12 @@
 
 namespace vitrel {
 
+std::vector<std::string> commands_with_templates() {
+  std::vector<std::string> names = commands_with_parameters();
+  names.push_back("pair");
+  return names;
+}
+
 int params_command(const ParamsOptions& options) {
   if (!options.reference && options.command.empty())
     throw UserError("name a command, for example: vitrel params run > params.toml");

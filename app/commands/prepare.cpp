@@ -7,6 +7,7 @@
 #include "app/commands/common.h"
 #include "app/terminal/exit_codes.h"
 #include "app/terminal/session.h"
+#include "app/terminal/text_lines.h"
 #include "core/io/h5md.h"
 #include "core/io/json.h"
 #include "workflow/prepare/packing_quality.h"
@@ -86,9 +87,19 @@ Json summary(const Preparation<3>& preparation, const Parameters& parameters,
   return result;
 }
 
+/// Three columns. A remark is wrapped, and begins below a value that is too long for its column.
+std::string row_text(const QualityRow& row) {
+  constexpr std::size_t values = 27, remarks = 51;
+  std::string text = fmt::format("{:<{}}{}", row.name, values, row.value);
+  if (row.remark.empty()) return text;
+  const bool fits = columns(text) < remarks;
+  const std::size_t column = fits ? remarks : values;
+  text += fits ? std::string(remarks - columns(text), ' ') : '\n' + std::string(values, ' ');
+  return text + indented(wrapped(row.remark, line_width - column), column);
+}
+
 void print_rows(const std::vector<QualityRow>& rows) {
-  for (const QualityRow& row : rows)
-    fmt::print("{:<26} {:<26} {}\n", row.name, row.value, row.remark);
+  for (const QualityRow& row : rows) fmt::print("{}\n", row_text(row));
   flush_output();
 }
 

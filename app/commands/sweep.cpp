@@ -67,11 +67,11 @@ int sweep_command(const SweepOptions& options) {
   const SweepOutcome outcome = run_jobs(options);
   print_table(options, jobs_of(options));
   if (outcome.failed > 0) {
-    fmt::print(stderr,
-               "vitrel sweep: {} job(s) failed; log.txt in their folders says why, and the same "
-               "command tries them again\n",
-               outcome.failed);
-    return outcome.first_failure;
+    return complain("vitrel sweep",
+                    fmt::format("{} job(s) failed; log.txt in their folders says why, and the same "
+                                "command tries them again",
+                                outcome.failed),
+                    outcome.first_failure);
   }
   if (outcome.stopped) remark(options.print, "stopped; the same command continues");
   return outcome.stopped ? stopped : success;

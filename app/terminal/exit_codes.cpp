@@ -1,20 +1,19 @@
 #include "app/terminal/exit_codes.h"
 
+#include <unistd.h>
+
 #include <iostream>
 #include <new>
 #include <system_error>
 
+#include "app/terminal/style.h"
 #include "core/error.h"
 
 namespace vitrel {
-namespace {
-
-int complain(const std::string& program, const char* message, ExitCode code) {
-  std::cerr << program << ": " << message << '\n';
+int complain(const std::string& program, const std::string& message, int code) {
+  std::cerr << styled(program + ":", Style::error, STDERR_FILENO) << ' ' << message << '\n';
   return code;
 }
-
-}  // namespace
 
 int exit_code_of(const std::string& program, const std::function<int()>& work) {
   try {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/terminal/style.h"
+
 namespace vitrel {
 namespace {
 
@@ -17,7 +19,7 @@ double seconds_between(auto from, auto to) {
 
 ProgressDisplay::Mode ProgressDisplay::mode(bool quiet) {
   if (quiet) return Mode::silent;
-  return isatty(STDERR_FILENO) ? Mode::terminal : Mode::lines;
+  return is_terminal(STDERR_FILENO) ? Mode::terminal : Mode::lines;
 }
 
 void ProgressDisplay::begin(const std::string& label) {

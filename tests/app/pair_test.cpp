@@ -303,7 +303,7 @@ TEST_F(PairContactTime, RefusesBadOptions) {
   refuses({"--box", "5,5,5"}, "must have 2 sides");
   refuses({"--box", "5,-5"}, "'box' is -5.0, but must be positive");
   refuses({"--box", "5,1.9"}, "no side may be shorter than 2.0");
-  refuses({"--rotation", "fast"}, "must be one of \"euler\", \"constant\"");
+  refuses({"--rotation", "fast"}, "'fast' is none of euler, constant");
   refuses({"--set", "body.1.spin=1"}, "--set body.1.spin=1: key 'body.1.spin' is unknown");
 }
 

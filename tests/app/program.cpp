@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <pty.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -31,18 +32,28 @@ void redirect(const fs::path& file, int descriptor) {
   dup2(opened, descriptor);
 }
 
-pid_t start(const fs::path& folder, const std::vector<std::string>& arguments,
-            const fs::path& output, const fs::path& errors) {
+/// The command line of the program; valid as long as the arguments.
+std::vector<char*> command_line(const std::vector<std::string>& arguments) {
   std::vector<char*> words = {const_cast<char*>(VITREL_PROGRAM)};
   for (const std::string& argument : arguments)
     words.push_back(const_cast<char*>(argument.c_str()));
   words.push_back(nullptr);
+  return words;
+}
+
+[[noreturn]] void execute(const fs::path& folder, char* const* words) {
+  if (chdir(folder.c_str()) == 0) execv(words[0], words);
+  _exit(127);
+}
+
+pid_t start(const fs::path& folder, const std::vector<std::string>& arguments,
+            const fs::path& output, const fs::path& errors) {
+  const std::vector<char*> words = command_line(arguments);
   const pid_t pid = fork();
   if (pid == 0) {
     redirect(output, STDOUT_FILENO);
     redirect(errors, STDERR_FILENO);
-    if (chdir(folder.c_str()) == 0) execv(words[0], words.data());
-    _exit(127);
+    execute(folder, words.data());
   }
   return pid;
 }
@@ -96,6 +107,28 @@ Outcome run(const fs::path& folder, const std::vector<std::string>& arguments) {
   rusage used{};
   wait4(start(folder, arguments, output, errors), &status, 0, &used);
   return {exit_code(status), content(output), content(errors), 1024. * used.ru_maxrss};
+}
+
+Outcome run_on_terminal(const fs::path& folder, const std::vector<std::string>& arguments,
+                        const std::map<std::string, std::string>& environment) {
+  const std::vector<char*> words = command_line(arguments);
+  int terminal = -1;
+  const pid_t pid = forkpty(&terminal, nullptr, nullptr, nullptr);
+  if (pid == 0) {
+    unsetenv("NO_COLOR");
+    setenv("TERM", "xterm", 1);
+    for (const auto& [name, value] : environment) setenv(name.c_str(), value.c_str(), 1);
+    execute(folder, words.data());
+  }
+  // Reading fails when the program has ended and all it printed has been read.
+  std::string shown;
+  char part[4096];
+  for (ssize_t count = 0; (count = read(terminal, part, sizeof part)) > 0;)
+    shown.append(part, static_cast<std::size_t>(count));
+  close(terminal);
+  int status = 0;
+  waitpid(pid, &status, 0);
+  return {exit_code(status), shown, ""};
 }
 
 void expect_refusal(const Outcome& outcome, int code, const std::string& part) {

@@ -20,6 +20,12 @@ struct Outcome {
 /// Runs the program in `folder` to its end.
 Outcome run(const std::filesystem::path& folder, const std::vector<std::string>& arguments);
 
+/// The same with a terminal for standard output and standard error, both in `output` as they appear; TERM is xterm and
+/// NO_COLOR unset but for `environment`.
+Outcome run_on_terminal(const std::filesystem::path& folder,
+                        const std::vector<std::string>& arguments,
+                        const std::map<std::string, std::string>& environment = {});
+
 /// The same, but sends `signal` as soon as it is `time`, unless the program has ended before.
 Outcome run_and_signal(const std::filesystem::path& folder,
                        const std::vector<std::string>& arguments, const std::function<bool()>& time,

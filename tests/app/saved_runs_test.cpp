@@ -24,6 +24,7 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
+using testing_program::expect_refusal;
 using testing_program::Folder;
 using testing_program::Outcome;
 using testing_program::run;
@@ -47,14 +48,6 @@ void write_run(const Folder& folder) {
             0);
 }
 
-void expect_refusal(const Folder& folder, const std::vector<std::string>& arguments, int code,
-                    const std::string& part) {
-  const Outcome outcome = run(folder.path(), arguments);
-  EXPECT_EQ(outcome.code, code) << testing::PrintToString(arguments);
-  EXPECT_THAT(outcome.errors, HasSubstr(part)) << testing::PrintToString(arguments);
-  EXPECT_EQ(outcome.output, "");
-}
-
 TEST(SavedRuns, NoCommandOverwritesWhatItReads) {
   const Folder folder("overwrites_input");
   write_run(folder);
@@ -64,14 +57,17 @@ TEST(SavedRuns, NoCommandOverwritesWhatItReads) {
   const char* is_read = "is read, and must not be overwritten; choose another output";
   for (const char* command : {"analyze", "report"})
     for (const char* output : {"run.h5", "./run.h5", "link.h5"})
-      expect_refusal(folder, {command, "run.h5", "-o", output}, 2, is_read);
+      expect_refusal(run(folder.path(), {command, "run.h5", "-o", output}), 2, is_read);
   for (const char* command : {"analyze", "report"})
-    expect_refusal(folder, {command, "run.h5", "--params", "p.toml", "-o", "p.toml"}, 2, is_read);
-  expect_refusal(folder, {"report", "state.h5", "-o", "state.h5"}, 2, is_read);
-  expect_refusal(folder, {"run", "p.toml", "--from", "run.h5", "-o", "run.h5"}, 2, is_read);
-  expect_refusal(folder, {"run", "p.toml", "-o", "p.toml"}, 2, is_read);
-  expect_refusal(folder, {"prepare", "p.toml", "-o", "p.toml"}, 2, "exists already");
-  expect_refusal(folder, {"export", "run.h5", "--to", "xyz", "-o", "run.h5"}, 2, "exists already");
+    expect_refusal(run(folder.path(), {command, "run.h5", "--params", "p.toml", "-o", "p.toml"}), 2,
+                   is_read);
+  expect_refusal(run(folder.path(), {"report", "state.h5", "-o", "state.h5"}), 2, is_read);
+  expect_refusal(run(folder.path(), {"run", "p.toml", "--from", "run.h5", "-o", "run.h5"}), 2,
+                 is_read);
+  expect_refusal(run(folder.path(), {"run", "p.toml", "-o", "p.toml"}), 2, is_read);
+  expect_refusal(run(folder.path(), {"prepare", "p.toml", "-o", "p.toml"}), 2, "exists already");
+  expect_refusal(run(folder.path(), {"export", "run.h5", "--to", "xyz", "-o", "run.h5"}), 2,
+                 "exists already");
   for (const auto& [name, bytes] : before) EXPECT_EQ(content(folder / name), bytes) << name;
 }
 
@@ -83,12 +79,13 @@ TEST(SavedRuns, AnalysisOverwritesNothingButItsResults) {
   fs::copy_file(folder / "run.h5.correlations.h5", folder / "correlations.h5");
   for (const char* output : {"notes.txt", "other.h5", "state.h5", "correlations.h5"}) {
     const std::string before = content(folder / output);
-    expect_refusal(folder, {"analyze", "run.h5", "-o", output}, 2,
+    expect_refusal(run(folder.path(), {"analyze", "run.h5", "-o", output}), 2,
                    std::string(output) + ": exists and holds no results of vitrel analyze");
     EXPECT_EQ(content(folder / output), before);
   }
-  expect_refusal(folder, {"analyze", "run.h5", "-o", "."}, 2, ".: is a folder");
-  expect_refusal(folder, {"analyze", "run.h5", "-o", "/dev/null"}, 2, "/dev/null: is a device");
+  expect_refusal(run(folder.path(), {"analyze", "run.h5", "-o", "."}), 2, ".: is a folder");
+  expect_refusal(run(folder.path(), {"analyze", "run.h5", "-o", "/dev/null"}), 2,
+                 "/dev/null: is a device");
   ASSERT_EQ(run(folder.path(), {"analyze", "run.h5", "-q"}).code, 0);
   const std::string first = content(folder / "run_results/displacements_all.csv");
   ASSERT_EQ(
@@ -103,7 +100,7 @@ TEST(SavedRuns, AReportOverwritesNothingButPages) {
   for (const char* output : {"run_results.h5", "p.toml", "state.quality.json"}) {
     const std::string before = content(folder / output);
     for (const char* input : {"run.h5", "state.h5"})
-      expect_refusal(folder, {"report", input, "-o", output}, 2,
+      expect_refusal(run(folder.path(), {"report", input, "-o", output}), 2,
                      std::string(output) + ": exists and is not an HTML page");
     EXPECT_EQ(content(folder / output), before);
   }
@@ -175,29 +172,30 @@ TEST(SavedRuns, TheOutputIsLookedAtFirst) {
   for (std::vector<std::string> command : commands) {
     command.insert(command.end(), {"-o", "absent/output"});
     expect_refusal(
-        folder, command, 3,
+        run(folder.path(), command), 3,
         "absent/output: cannot be written: there is no folder " + (folder / "absent").string());
   }
-  expect_refusal(folder, {"bench", "thesis", "-o", "p.toml/output"}, 3,
+  expect_refusal(run(folder.path(), {"bench", "thesis", "-o", "p.toml/output"}), 3,
                  "p.toml/output: the folder cannot be made");
-  expect_refusal(folder, {"analyze", "no_run.h5", "-o", "p.toml"}, 2,
+  expect_refusal(run(folder.path(), {"analyze", "no_run.h5", "-o", "p.toml"}), 2,
                  "p.toml: exists and holds no");
-  expect_refusal(folder, {"analyze", "absent.h5"}, 3, "absent.h5: there is no such file");
+  expect_refusal(run(folder.path(), {"analyze", "absent.h5"}), 3,
+                 "absent.h5: there is no such file");
 }
 
 TEST(SavedRuns, SettingsWithoutEffectAreRefused) {
   const Folder folder("no_effect");
   write_run(folder);
   for (const char* command : {"analyze", "report"}) {
-    expect_refusal(folder, {command, "run.h5", "--set", "dynamics.duration=5"}, 2,
+    expect_refusal(run(folder.path(), {command, "run.h5", "--set", "dynamics.duration=5"}), 2,
                    "--set dynamics.duration=5: has no effect on an existing run; only "
                    "parameters of its analysis, analysis.…, can be set");
-    expect_refusal(folder, {command, "run.h5", "--set", "analysis.longest_leg=1"}, 2,
+    expect_refusal(run(folder.path(), {command, "run.h5", "--set", "analysis.longest_leg=1"}), 2,
                    "key 'analysis.longest_leg' is unknown");
   }
   const char* no_analysis = "is a single state, whose page holds no analysis";
-  expect_refusal(folder, {"report", "state.h5", "--params", "p.toml"}, 2, no_analysis);
-  expect_refusal(folder, {"report", "state.h5", "--set", "analysis.longest_lag=0.1"}, 2,
+  expect_refusal(run(folder.path(), {"report", "state.h5", "--params", "p.toml"}), 2, no_analysis);
+  expect_refusal(run(folder.path(), {"report", "state.h5", "--set", "analysis.longest_lag=0.1"}), 2,
                  no_analysis);
   EXPECT_FALSE(fs::exists(folder / "state.html"));
 }
@@ -284,8 +282,9 @@ TEST_F(SavedSweep, ItsOwnFilesAreNotOverwritten) {
   const std::string id = "sweep/packing_fraction-0.3_seed-2/";
   for (const char* file : {"run.h5", "results.h5"})
     for (const char* command : {"analyze", "report"})
-      expect_refusal(folder_, {command, "sweep", "-o", id + file}, 2, "is read, and must not be");
-  expect_refusal(folder_, {"analyze", "sweep", "-o", "sweep"}, 2, "sweep: is a folder");
+      expect_refusal(run(folder_.path(), {command, "sweep", "-o", id + file}), 2,
+                     "is read, and must not be");
+  expect_refusal(run(folder_.path(), {"analyze", "sweep", "-o", "sweep"}), 2, "sweep: is a folder");
 }
 
 TEST_F(SavedSweep, AJobsFolderStandsForItsRun) {
@@ -318,8 +317,9 @@ TEST_F(SavedSweep, JobsThatAreNotFinishedAreNamed) {
               AllOf(HasSubstr("; 2 of 4 jobs are finished</p>"), HasSubstr(left_out)));
   for (const auto& entry : fs::recursive_directory_iterator(folder_ / "sweep"))
     if (entry.path().filename() == "done.json") fs::remove(entry.path());
-  expect_refusal(folder_, {"analyze", "sweep"}, 2, "none of the 4 jobs of this sweep is finished");
-  expect_refusal(folder_, {"analyze", "."}, 2,
+  expect_refusal(run(folder_.path(), {"analyze", "sweep"}), 2,
+                 "none of the 4 jobs of this sweep is finished");
+  expect_refusal(run(folder_.path(), {"analyze", "."}), 2,
                  "is neither the folder of a sweep nor that of a job");
 }
 
@@ -384,8 +384,8 @@ TEST(SavedRuns, TheListOfTablesNeedsNoRun) {
   const Outcome list = run(folder.path(), {"analyze", "--list"});
   EXPECT_EQ(list.code, 0);
   EXPECT_THAT(list.output, HasSubstr("## `structure_factor`"));
-  expect_refusal(folder, {"analyze"}, 2, "name a run or the folder of a sweep");
-  expect_refusal(folder, {"analyze", "--list", "run.h5"}, 2, "--list");
+  expect_refusal(run(folder.path(), {"analyze"}), 2, "name a run or the folder of a sweep");
+  expect_refusal(run(folder.path(), {"analyze", "--list", "run.h5"}), 2, "--list");
 }
 
 }  // namespace

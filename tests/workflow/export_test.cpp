@@ -110,7 +110,8 @@ TEST(Export, RefusesWithOneMessageAndLeavesNothing) {
     EXPECT_THAT(outcome.errors, HasSubstr(part));
     EXPECT_EQ(outcome.output, "");
   };
-  expect({"run.h5", "--to", "pdf"}, 2, "gsd, xyz, csv for trajectories and gnuplot for results");
+  expect({"run.h5", "--to", "pdf"}, 2,
+         "'pdf' is none of gsd, xyz, csv, thesis, geo, vti, vtp, gnuplot");
   expect({"run.h5", "--to", "xyz", "-o", "there.xyz"}, 2, "exists already");
   expect({"run.h5", "--to", "xyz", "--frames", "4"}, 2, "has 4 frame(s)");
   expect({"there.xyz", "--to", "gsd"}, 3, "is neither H5MD, GSD nor extended XYZ, nor CSV");
@@ -275,8 +276,12 @@ TEST(ExportOfAPacking, RefusesWhatDoesNotFit) {
   EXPECT_THAT(message({"flat.h5", "--to", "csv", "--shrink", "0.5"}),
               HasSubstr("three dimensions"));
   EXPECT_THAT(message({"flat.h5", "--to", "vti"}),
-              HasSubstr("no such format, but gsd, xyz, csv for trajectories and gnuplot"));
-  EXPECT_THAT(message({"run.h5", "--to", "pdf"}), HasSubstr("gsd, xyz, csv, geo, vti, vtp"));
+              HasSubstr("flat.h5: is two-dimensional, for which --to takes gsd, xyz, csv, thesis, "
+                        "but not vti\n"));
+  EXPECT_THAT(message({"run.h5", "--to", "thesis"}),
+              HasSubstr("run.h5: is three-dimensional, for which --to takes gsd, xyz, csv, geo, "
+                        "vti, vtp, but not thesis\n"));
+  EXPECT_THAT(message({"run.h5", "--to", "pdf"}), HasSubstr("'pdf' is none of gsd, xyz, csv"));
   // What belongs to the images is not there without them.
   EXPECT_THAT(message({"run.h5", "--to", "csv", "--shrink", "0.5"}), HasSubstr("--images"));
   for (const std::string file : {"flat.h5", "run.h5"})

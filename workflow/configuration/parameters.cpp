@@ -6,12 +6,19 @@
 #include <map>
 
 #include "edmd/sampling.h"
+#include "workflow/configuration/packing_bound.h"
 #include "workflow/configuration/sections.h"
 
 namespace vitrel {
 namespace {
 
 using Style = FieldVisitor::TableStyle;
+
+using CommandSections = std::pair<std::string, Sections>;
+const CommandSections command_sections[] = {{"prepare", {true, true, false, false, false}},
+                                            {"run", {true, true, true, false, false}},
+                                            {"analyze", {false, false, false, true, false}},
+                                            {"sweep", {true, true, true, true, true}}};
 
 void collect_places(const TomlNode& node, const std::string& key,
                     std::map<std::string, std::string>& places) {
@@ -157,7 +164,9 @@ FieldVisitor::Inside fields(Parameters& p, const Sections& sections) {
 void validate(const Parameters& parameters) {
   validate_system(parameters.system);
   validate_species(parameters.species, parameters.system.dimension);
-  validate_stages(parameters.stages, parameters.system);
+  const PackingBound bound = packing_bound(parameters.species, parameters.system.dimension);
+  Rules("system").packing_fraction(parameters.system.packing_fraction, "packing_fraction", bound);
+  validate_stages(parameters.stages, parameters.system, bound);
   validate_dynamics(parameters.dynamics);
   if (parameters.dynamics.contact) validate_contact(parameters);
   validate_output(parameters);
@@ -202,18 +211,17 @@ std::string effective_parameters(const Parameters& parameters) {
   return write_parameters(fields(copy, all_but_sweep));
 }
 
+std::vector<std::string> commands_with_parameters() {
+  std::vector<std::string> names;
+  for (const auto& [name, sections] : command_sections) names.push_back(name);
+  return names;
+}
+
 std::string command_template(const std::string& command) {
-  static const std::map<std::string, Sections> sections = {
-      {"prepare", {true, true, false, false, false}},
-      {"run", {true, true, true, false, false}},
-      {"analyze", {false, false, false, true, false}},
-      {"sweep", {true, true, true, true, true}},
-  };
-  const auto found = sections.find(command);
-  if (found == sections.end())
-    throw UserError(fmt::format(
-        "'{}' has no parameter file; commands that have one: prepare, run, analyze, sweep, pair",
-        command));
+  const auto found = std::ranges::find(command_sections, command, &CommandSections::first);
+  if (found == std::end(command_sections))
+    throw UserError(fmt::format("'{}' has no parameter file; commands that have one: {}", command,
+                                fmt::join(commands_with_parameters(), ", ")));
   Parameters parameters;
   if (found->second.sweep)
     parameters.sweep = {

@@ -141,6 +141,8 @@ Parameters recorded_parameters(const std::string& text, const std::string& name)
 /// All values in force as TOML text, without [sweep]; equal parameters give equal text.
 std::string effective_parameters(const Parameters& parameters);
 
+/// Those that take a parameter file.
+std::vector<std::string> commands_with_parameters();
 /// The commented template of one command's parameters; UserError if the command takes none.
 std::string command_template(const std::string& command);
 /// The page docs/parameters.md.

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "core/io/parameters.h"
 
@@ -31,12 +30,11 @@ void Rules::at_least(std::int64_t value, std::int64_t least, const std::string& 
   require(value >= least, key, fmt::format("is {}, but must be at least {}", value, least));
 }
 
-void Rules::packing_fraction(double value, const std::string& key, int dimension) const {
-  // Ellipses of one kind pack no denser than disks: π/√12. Of ellipsoids no such bound is known.
-  const double densest = dimension == 2 ? std::numbers::pi / std::sqrt(12.0) : 1;
-  require(value > 0 && value < densest, key,
-          fmt::format("is {}, but a packing fraction lies between 0 and {}", show(value),
-                      dimension == 2 ? "π/√12 = 0.9069" : "1"));
+void Rules::packing_fraction(double value, const std::string& key,
+                             const PackingBound& bound) const {
+  require(
+      value > 0 && value < bound.value, key,
+      fmt::format("is {}, but a packing fraction lies between 0 and {}", show(value), bound.text));
 }
 
 }  // namespace vitrel

@@ -8,6 +8,12 @@ namespace vitrel {
 /// The value as the parameter file would hold it.
 std::string show(double value);
 
+/// A packing fraction that particles cannot exceed (packing_bound.h), as a number and in words.
+struct PackingBound {
+  double value;
+  const char* text;
+};
+
 /// The rules that the values of one table must obey. Each function throws BadValue, which says what is
 /// wrong and what would be right, if its rule does not hold.
 class Rules {
@@ -19,8 +25,8 @@ class Rules {
   void positive(double value, const std::string& key) const;
   void not_negative(double value, const std::string& key) const;
   void at_least(std::int64_t value, std::int64_t least, const std::string& key) const;
-  /// Above 0 and below the densest packing that is known to bound all shapes.
-  void packing_fraction(double value, const std::string& key, int dimension) const;
+  /// Above 0 and below the bound.
+  void packing_fraction(double value, const std::string& key, const PackingBound& bound) const;
 
  private:
   std::string path_;

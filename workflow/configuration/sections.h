@@ -14,6 +14,7 @@ FieldVisitor::Inside section_of(auto& part, auto describe) {
 }
 
 void describe_system(SystemParameters& p, FieldVisitor& visit);
+/// But for the packing fraction, whose bound depends on the species.
 void validate_system(const SystemParameters& p);
 
 void describe_species(Species& p, FieldVisitor& visit);

@@ -157,7 +157,6 @@ void validate_system(const SystemParameters& p) {
                 fmt::format("is {}, but must be 2 or 3", p.dimension));
   rules.require(p.particles >= 1 && p.particles <= 100'000'000, "particles",
                 fmt::format("is {}, but must lie between 1 and 100000000", p.particles));
-  rules.packing_fraction(p.packing_fraction, "packing_fraction", p.dimension);
   validate_box_aspect(p, rules);
 }
 

@@ -14,6 +14,7 @@
 #include "workflow/export/gsd.h"
 #include "workflow/export/packing.h"
 #include "workflow/export/pending_folder.h"
+#include "workflow/export/thesis.h"
 #include "workflow/export/xyz.h"
 
 namespace vitrel {
@@ -30,12 +31,13 @@ bool is_of_packing(const ExportRequest& request) {
 }
 
 void check_format(const ExportRequest& request, int dimension) {
-  std::vector<std::string> formats = {"gsd", "xyz", "csv"};
-  if (dimension == 3) formats.insert(formats.end(), {"geo", "vti", "vtp"});
-  if (std::find(formats.begin(), formats.end(), request.format) == formats.end())
-    throw UserError(fmt::format(
-        "--to {}: there is no such format, but {} for trajectories{} and gnuplot for results",
-        request.format, fmt::join(formats, ", "), dimension == 2 ? "" : " in three dimensions"));
+  std::vector<std::string> suitable;
+  for (const ExportFormat& format : export_formats())
+    if (dimension == 2 ? format.in_the_plane : format.in_space) suitable.push_back(format.name);
+  if (std::ranges::find(suitable, request.format) == suitable.end())
+    throw UserError(fmt::format("{}: is {}-dimensional, for which --to takes {}, but not {}",
+                                request.input.string(), dimension == 2 ? "two" : "three",
+                                fmt::join(suitable, ", "), request.format));
 }
 
 void check_options(const ExportRequest& request, int dimension) {
@@ -86,6 +88,8 @@ std::optional<ExportedTrajectory> copy_frames(const TrajectoryReader& reader, co
 template <int Dim>
 std::unique_ptr<FrameSink<Dim>> file_sink(const std::string& format, const fs::path& path,
                                           StoredMotion motion) {
+  if constexpr (Dim == 2)
+    if (format == "thesis") return std::make_unique<ThesisSink>(path);
   if (format == "gsd") return std::make_unique<GsdSink<Dim>>(path, motion);
   if (format == "xyz") return std::make_unique<XyzSink<Dim>>(path, motion);
   return std::make_unique<CsvSink<Dim>>(path, motion);
@@ -144,11 +148,18 @@ std::optional<ExportedTrajectory> export_series(const TrajectoryReader& reader,
 
 }  // namespace
 
+const std::vector<ExportFormat>& export_formats() {
+  static const std::vector<ExportFormat> formats = {
+      {"gsd", true, true},  {"xyz", true, true},  {"csv", true, true}, {"thesis", true, false},
+      {"geo", false, true}, {"vti", false, true}, {"vtp", false, true}};
+  return formats;
+}
+
 fs::path default_output(const ExportRequest& request) {
   fs::path output = request.input;
   if (request.format == "vtp" && chosen_frames(TrajectoryReader(request.input), request).size() > 1)
     return output.replace_extension() += "_vtp";
-  return output.replace_extension(request.format);
+  return output.replace_extension(request.format == "thesis" ? "dat" : request.format);
 }
 
 std::optional<ExportedTrajectory> export_trajectory(const ExportRequest& request,

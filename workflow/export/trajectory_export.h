@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/state/stage.h"
 
@@ -12,12 +13,20 @@ namespace vitrel {
 /// Trajectories and states are exported as
 ///
 ///     gsd, xyz, csv      the particles of every frame: gsd.h, xyz.h, csv.h
+///     thesis             in the plane, the same: thesis.h
 ///     geo, vti, vtp      in space: one period with all images that meet the box, and so csv with
 ///                        `images` (packing.h). Of several frames vtp makes a folder, a ParaView
 ///                        series; the others take one frame
+struct ExportFormat {
+  std::string name;
+  bool in_the_plane, in_space;
+};
+/// All of them.
+const std::vector<ExportFormat>& export_formats();
+
 struct ExportRequest {
   std::filesystem::path input;   ///< trajectory or state
-  std::string format;            ///< one of these, in space or in the plane
+  std::string format;            ///< the name of one that has the dimension of the input
   std::filesystem::path output;  ///< must not exist
   std::optional<std::string> frames =
       {};  ///< which ones, as FrameRange reads it; all, or the last where it is one
@@ -35,8 +44,8 @@ struct ExportedTrajectory {
       false;  ///< csv of a file of one frame in space, a packing, without its images
 };
 
-/// Beside the input: with the format as its suffix, or, of a series, the folder `<input>_vtp`. Ignores
-/// `output`. Throws UserError and FileError.
+/// Beside the input: with the format as its suffix (.dat for thesis), or, of a series, the folder
+/// `<input>_vtp`. Ignores `output`. Throws UserError and FileError.
 std::filesystem::path default_output(const ExportRequest& request);
 
 /// Copies the frames, one in memory at a time; the output appears under its name when it is

@@ -126,10 +126,10 @@ void validate_place(const S&, bool is_first, const Rules& rules) {
                                   listed(methods(moves), "or")));
 }
 
-void validate_packing_fraction(const Stage& stage, const SystemParameters& system, double before,
-                               const Rules& rules) {
+void validate_packing_fraction(const Stage& stage, const SystemParameters& system,
+                               const PackingBound& bound, double before, const Rules& rules) {
   const std::optional<double> own = own_packing_fraction(stage);
-  if (own) rules.packing_fraction(*own, "packing_fraction", system.dimension);
+  if (own) rules.packing_fraction(*own, "packing_fraction", bound);
   const double goal = own.value_or(end_of_stage(stage, system, before));
   // A stage without a packing fraction of its own ends at that of the system.
   (own ? rules : Rules("system"))
@@ -181,7 +181,8 @@ void describe_stage(Stage& stage, FieldVisitor& visit) {
   }
 }
 
-void validate_stages(const std::vector<Stage>& stages, const SystemParameters& system) {
+void validate_stages(const std::vector<Stage>& stages, const SystemParameters& system,
+                     const PackingBound& bound) {
   if (stages.empty())
     throw BadValue("prepare.stage", "is empty, but there must be at least one [[prepare.stage]]");
   double reached = 0;
@@ -193,7 +194,7 @@ void validate_stages(const std::vector<Stage>& stages, const SystemParameters& s
           options.validate(rules, system.dimension);
         },
         stages[k]);
-    validate_packing_fraction(stages[k], system, reached, rules);
+    validate_packing_fraction(stages[k], system, bound, reached, rules);
     reached = end_of_stage(stages[k], system, reached);
   }
   if (!has_unknown_end(stages) &&

@@ -40,8 +40,10 @@ void describe_stage(Stage& stage, FieldVisitor& visit);
 
 /// Throws BadValue, for keys of [[prepare.stage]] or system.packing_fraction, if an option of a stage is invalid or if
 /// the stages do not fit together: the first places the particles, the others move them, none lowers the packing
-/// fraction, and the last one reaches that of the system unless a pressure ends it.
-void validate_stages(const std::vector<Stage>& stages, const SystemParameters& system);
+/// fraction, and the last one reaches that of the system unless a pressure ends it. No packing fraction may exceed
+/// `bound`.
+void validate_stages(const std::vector<Stage>& stages, const SystemParameters& system,
+                     const PackingBound& bound);
 
 /// The packing fraction at which a stage that begins at `before` ends. If a pressure ends the stage, this is unknown
 /// and `before` is returned.

@@ -1,0 +1,475 @@
+// Habits that users bring along: help and suggestions, completion, a manual page, colour, lines that fit a terminal.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <iterator>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "app/terminal/text_lines.h"
+#include "core/io/h5md.h"
+#include "tests/app/program.h"
+
+namespace vitrel {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::IsSupersetOf;
+using testing::Not;
+using testing::StartsWith;
+using testing::UnorderedElementsAre;
+using testing_program::Folder;
+using testing_program::Outcome;
+using testing_program::run;
+using testing_program::run_on_terminal;
+using Words = std::vector<std::string>;
+
+const std::string small_system =
+    "[system]\nparticles = 30\n[dynamics]\nequilibration = 0\nduration = 5\n"
+    "[output]\nsamples = { spacing = \"linear\", interval = 0.5 }\n";
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+/// The words that begin the entries below a heading of the help.
+std::vector<std::string> entries_below(const std::string& heading, const std::string& help) {
+  std::vector<std::string> words;
+  bool is_below = false;
+  for (const std::string& line : lines_of(help)) {
+    if (line.empty() || line.front() != ' ') is_below = line == heading;
+    const bool begins = line.starts_with("  ") && line[2] != ' ';
+    if (is_below && begins) words.push_back(line.substr(2, line.find_first_of(" ", 2) - 2));
+  }
+  return words;
+}
+
+Words join(Words first, const Words& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
+/// "vitrel pair gap".
+std::string full_name(const Words& command) {
+  return fmt::format("vitrel {}", fmt::join(command, " "));
+}
+
+class HabitsTest : public testing::Test {
+ protected:
+  std::string output_of(const Words& words) const {
+    const Outcome outcome = run(folder.path(), words);
+    EXPECT_EQ(outcome.code, 0) << outcome.errors;
+    EXPECT_EQ(outcome.errors, "");
+    return outcome.output;
+  }
+  std::string help_of(const Words& command) const { return output_of(join({"help"}, command)); }
+  /// Those of the program, or of a command that has some.
+  Words commands(const Words& parent = {}) const {
+    return entries_below("Commands:", help_of(parent));
+  }
+  /// Each by its words, such as pair gap.
+  std::vector<Words> all_commands() const {
+    std::vector<Words> all;
+    for (const std::string& command : commands()) {
+      all.push_back({command});
+      for (const std::string& below : commands({command})) all.push_back({command, below});
+    }
+    return all;
+  }
+  /// The names of the options of a command, each dash included.
+  std::set<std::string> options_of(const Words& command) const {
+    std::set<std::string> names;
+    for (const std::string& entry : entries_below("Options:", help_of(command))) {
+      std::istringstream parts(entry);
+      for (std::string name; std::getline(parts, name, ',');) names.insert(name);
+    }
+    return names;
+  }
+  /// That message alone.
+  void expect_refusal(const Words& words, const std::string& errors) const {
+    const Outcome outcome = run(folder.path(), words);
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_EQ(outcome.errors, errors + "\n");
+    EXPECT_EQ(outcome.output, "");
+  }
+
+  const Folder folder{"habits"};
+};
+
+// ---- help, version, suggestions ---------------------------------------------------------------------
+
+TEST_F(HabitsTest, HelpAndVersionAreCommandsAndOptions) {
+  EXPECT_EQ(output_of({"help"}), output_of({"--help"}));
+  EXPECT_EQ(output_of({"version"}), output_of({"--version"}));
+  EXPECT_THAT(commands(),
+              IsSupersetOf({"prepare", "run", "check", "analyze", "sweep", "report", "export",
+                            "pair", "params", "completion", "man", "help", "version"}));
+  EXPECT_THAT(commands({"pair"}), ElementsAre("overlap", "gap", "contact-time", "restitution"));
+  for (const Words& command : all_commands()) {
+    const std::string help = help_of(command);
+    EXPECT_THAT(help, HasSubstr("Usage: " + full_name(command)));
+    if (command.front() != "bench") {  // whose own help is that of vitrel-bench
+      EXPECT_EQ(help, output_of(join(command, {"--help"})));
+    }
+    for (const std::string& line : lines_of(help)) EXPECT_LE(columns(line), line_width) << line;
+  }
+}
+
+TEST_F(HabitsTest, AMisspeltWordComesWithTheNearest) {
+  expect_refusal({"anaylze", "run.h5", "-o", "a.h5"},
+                 "vitrel: 'anaylze' is no command; did you mean 'analyze'?");
+  expect_refusal({"pair", "overlp", "--body", "semi_axes=2,1"},
+                 "vitrel pair: 'overlp' is no command; did you mean 'overlap'?");
+  expect_refusal({"help", "reprot"}, "vitrel: 'reprot' is no command; did you mean 'report'?");
+  expect_refusal({"help", "pair", "overlp"},
+                 "vitrel pair: 'overlp' is no command; did you mean 'overlap'?");
+  expect_refusal({"--versoin"}, "vitrel: '--versoin' is no option; did you mean '--version'?");
+  // Rather than that the output is missing.
+  expect_refusal({"run", "p.toml", "--ouput", "run.h5"},
+                 "vitrel run: '--ouput' is no option; did you mean '--output'?");
+  expect_refusal({"run", "p.toml", "--ouput=run.h5"},
+                 "vitrel run: '--ouput' is no option; did you mean '--output'?");
+  expect_refusal({"pair", "gap", "--bdoy", "semi_axes=2,1"},
+                 "vitrel pair gap: '--bdoy' is no option; did you mean '--body'?");
+  expect_refusal({"pair", "contact-time", "--rotation", "eular"},
+                 "vitrel pair contact-time: --rotation: 'eular' is none of euler, constant; did "
+                 "you mean 'euler'?");
+  expect_refusal({"export", "run.h5", "--to", "thesi"},
+                 "vitrel export: --to: 'thesi' is none of gsd, xyz, csv, thesis, geo, vti, vtp, "
+                 "gnuplot; did you mean 'thesis'?");
+}
+
+TEST_F(HabitsTest, WhereNothingIsNearTheMessageSaysWhoListsWhatThereIs) {
+  expect_refusal({}, "vitrel: a command is missing; vitrel --help lists what there is");
+  expect_refusal({"pair"},
+                 "vitrel pair: a command is missing; vitrel pair --help lists what there is");
+  expect_refusal({"frobnicate"},
+                 "vitrel: 'frobnicate' is no command; vitrel --help lists what there is");
+  expect_refusal({"check", "run.h5", "-x"},
+                 "vitrel check: '-x' is no option; vitrel check --help lists what there is");
+  expect_refusal({"check", "a.h5", "b.h5"},
+                 "vitrel check: 'b.h5' is one word too many; vitrel check --help lists what there "
+                 "is");
+  expect_refusal({"pair", "gap", "a.toml", "b.toml"},
+                 "vitrel pair gap: 'b.toml' is one word too many; vitrel pair gap --help lists "
+                 "what there is");
+  expect_refusal({"run", "p.toml"},
+                 "vitrel run: --output is required; vitrel run --help lists what there is");
+  expect_refusal({"run", "p.toml", "-o"},
+                 "vitrel run: --output needs a value: --output FILE; vitrel run --help lists what "
+                 "there is");
+}
+
+// ---- completion -------------------------------------------------------------------------------------
+
+/// What a command of the shell prints, which runs in that folder with the program first on PATH.
+std::string shell(const Folder& folder, const std::string& command) {
+  const std::string program = std::filesystem::path(VITREL_PROGRAM).parent_path().string();
+  const std::string whole = "cd '" + folder.path().string() + "' && PATH='" + program +
+                            "':\"$PATH\" && " + command + " 2>&1";
+  FILE* pipe = popen(whole.c_str(), "r");
+  std::string printed;
+  for (int c = 0; (c = std::fgetc(pipe)) != EOF;) printed += static_cast<char>(c);
+  EXPECT_EQ(pclose(pipe), 0) << whole << '\n' << printed;
+  return printed;
+}
+
+bool is_installed(const std::string& program) {
+  return std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0;
+}
+
+/// What bash offers for the last of the words; as the shell does, `=` is a word of its own.
+std::vector<std::string> offered(const Folder& folder, const Words& words) {
+  std::string script = "source <(vitrel completion bash)\nCOMP_WORDS=(vitrel";
+  for (const std::string& word : words) script += " \"" + word + "\"";
+  script += ")\nCOMP_CWORD=" + std::to_string(words.size()) +
+            "\n_vitrel\n((${#COMPREPLY[@]})) && printf '%s\\n' \"${COMPREPLY[@]}\" || true\n";
+  folder.write("complete.bash", script);
+  return lines_of(shell(folder, "bash --norc complete.bash"));
+}
+
+TEST_F(HabitsTest, BashCompletesCommandsOptionsChoicesAndFiles) {
+  folder.write("run.h5", "");
+  folder.write("ru n.h5", "");
+  std::filesystem::create_directory(folder / "runs");
+  EXPECT_THAT(offered(folder, {""}), testing::UnorderedElementsAreArray(commands()));
+  EXPECT_THAT(offered(folder, {"ex"}), ElementsAre("export"));
+  EXPECT_THAT(offered(folder, {"-"}), UnorderedElementsAre("-h", "--help", "--version"));
+  EXPECT_THAT(offered(folder, {"export", "--to", ""}),
+              UnorderedElementsAre("gsd", "xyz", "csv", "thesis", "geo", "vti", "vtp", "gnuplot"));
+  EXPECT_THAT(offered(folder, {"export", "run.h5", "--to", "=", "g"}),
+              UnorderedElementsAre("gsd", "geo", "gnuplot"));
+  EXPECT_THAT(offered(folder, {"export", "--to", "="}), Contains("thesis"));
+  EXPECT_THAT(offered(folder, {"params", ""}),
+              UnorderedElementsAre("prepare", "run", "analyze", "sweep", "pair"));
+  EXPECT_THAT(offered(folder, {"help", "pre"}), ElementsAre("prepare"));
+  EXPECT_THAT(offered(folder, {"completion", ""}), UnorderedElementsAre("bash", "zsh"));
+  EXPECT_THAT(offered(folder, {"sweep", "p.toml", "--export", ""}), ElementsAre("snakemake"));
+  EXPECT_THAT(offered(folder, {"check", "ru"}), UnorderedElementsAre("run.h5", "ru n.h5", "runs"));
+  EXPECT_THAT(offered(folder, {"run", "p.toml", "--from", "run."}), ElementsAre("run.h5"));
+  EXPECT_THAT(offered(folder, {"sweep", "p.toml", "-o", "r"}), ElementsAre("runs"));
+  EXPECT_THAT(offered(folder, {"run", "--threads", ""}), IsEmpty());
+  EXPECT_THAT(offered(folder, {"pair", ""}),
+              testing::UnorderedElementsAreArray(commands({"pair"})));
+  EXPECT_THAT(offered(folder, {"pair", "ov"}), ElementsAre("overlap"));
+  EXPECT_THAT(offered(folder, {"pair", "gap", "--b"}), UnorderedElementsAre("--body", "--box"));
+  EXPECT_THAT(offered(folder, {"pair", "contact-time", "--rotation", ""}),
+              UnorderedElementsAre("euler", "constant"));
+  EXPECT_THAT(offered(folder, {"pair", "gap", "run."}), ElementsAre("run.h5"));
+  for (const Words& command : all_commands())
+    EXPECT_THAT(offered(folder, join(command, {"-"})),
+                testing::UnorderedElementsAreArray(options_of(command)))
+        << full_name(command);
+}
+
+// Whoever has the package bash-completion gets it from there; the script is right without it.
+TEST_F(HabitsTest, TheCompletionOfBashIsRegistered) {
+  EXPECT_EQ(shell(folder, "bash --norc -uc 'source <(vitrel completion bash); complete -p vitrel'"),
+            "complete -F _vitrel vitrel\n");
+}
+
+std::string part_between(const std::string& text, const std::string& first,
+                         const std::string& end) {
+  const auto begin = text.find(first);
+  EXPECT_NE(begin, text.npos) << first;
+  return begin == text.npos ? "" : text.substr(begin, text.find(end, begin) - begin);
+}
+
+/// The function of a command that has commands, or of the program.
+std::string zsh_function(const std::string& script, const Words& command) {
+  std::string name = "_vitrel";
+  for (const std::string& word : command) name += "_" + word;
+  return part_between(script, "\n" + name + "() {", "\n}");
+}
+
+TEST_F(HabitsTest, TheCompletionOfZshNamesAllCommandsAndOptions) {
+  const std::string script = output_of({"completion", "zsh"});
+  EXPECT_THAT(script, StartsWith("#compdef vitrel\n"));
+  for (const Words& command : all_commands()) {
+    const std::string& name = command.back();
+    const std::string parent = zsh_function(script, {command.begin(), command.end() - 1});
+    EXPECT_THAT(parent, HasSubstr("'" + name + ":"));
+    const std::string specifications =
+        commands(command).empty() ? part_between(parent, "    " + name + ") _arguments", ";;")
+                                  : zsh_function(script, command);
+    for (const std::string& option : options_of(command)) {
+      const bool is_there = specifications.find(")" + option) != specifications.npos ||
+                            specifications.find("*" + option) != specifications.npos;
+      EXPECT_TRUE(is_there) << full_name(command) << " " << option;
+    }
+  }
+  EXPECT_THAT(script, HasSubstr("    pair) _vitrel_pair ;;"));
+  EXPECT_THAT(script, HasSubstr(":FORMAT:(gsd xyz csv thesis geo vti vtp gnuplot)'"));
+  EXPECT_THAT(script, HasSubstr("':params:_files'"));
+  EXPECT_THAT(script, HasSubstr("Run all jobs of [sweep]"));
+  folder.write("_vitrel", script);
+  if (is_installed("zsh")) {
+    EXPECT_EQ(shell(folder, "zsh -n _vitrel"), "");
+  }
+}
+
+// ---- the manual page --------------------------------------------------------------------------------
+
+/// As the page has text that one types.
+std::string bold_in_manual(const std::string& text) {
+  std::string typed;
+  for (const char c : text) typed += c == '-' ? "\\-" : std::string(1, c);
+  return "\\fB" + typed + "\\fR";
+}
+
+TEST_F(HabitsTest, TheManualPageHasEveryCommandWithItsOptions) {
+  const std::string page = output_of({"man"});
+  EXPECT_THAT(page, StartsWith(".TH VITREL 1 "));
+  EXPECT_THAT(page, HasSubstr("\n.SH NAME\nvitrel \\- simulation of hard anisotropic particles"));
+  std::map<std::string, std::string> sections;
+  std::string current;
+  for (const std::string& line : lines_of(page)) {
+    std::istringstream words(line);
+    std::string request;
+    words >> request;
+    if (line.starts_with('.')) {
+      EXPECT_THAT((std::set<std::string>{".TH", ".SH", ".SS", ".TP", ".PP"}), Contains(request));
+    }
+    EXPECT_FALSE(line.starts_with('\'') || line.empty()) << line;
+    if (request == ".SS") current = line;
+    sections[current] += line + '\n';
+  }
+  for (const Words& command : all_commands()) {
+    const auto found = std::ranges::find_if(sections, [&](const auto& section) {
+      return section.first.starts_with(".SS " + bold_in_manual(full_name(command)));
+    });
+    ASSERT_NE(found, sections.end()) << full_name(command);
+    for (const std::string& option : options_of(command))
+      if (option != "-h" && option != "--help") {
+        EXPECT_THAT(found->second, HasSubstr(bold_in_manual(option))) << full_name(command);
+      }
+  }
+}
+
+TEST_F(HabitsTest, TheManualPageIsShown) {
+  folder.write("vitrel.1", output_of({"man"}));
+  const std::vector<std::pair<std::string, std::string>> viewers = {
+      {"man", "MANWIDTH=100 man -l vitrel.1"},
+      {"groff", "groff -man -ww -Tascii -P-c vitrel.1"},
+      {"mandoc", "mandoc -Tascii -Werror vitrel.1"}};
+  for (const auto& [viewer, command] : viewers) {
+    if (!is_installed(viewer)) continue;
+    // On paper terminals bold is a letter over itself.
+    const std::string shown = shell(folder, command + " 2>&1 | sed 's/.\\x08//g'");
+    for (const Words& name : all_commands()) EXPECT_THAT(shown, HasSubstr(full_name(name)));
+    EXPECT_THAT(shown, Not(HasSubstr("warning")));
+    EXPECT_THAT(shown, Not(HasSubstr("\\")));
+  }
+}
+
+// ---- colour -----------------------------------------------------------------------------------------
+
+constexpr const char* red = "\033[1;31m";
+constexpr const char* bold = "\033[1m";
+
+TEST_F(HabitsTest, ErrorsAreRedOnATerminal) {
+  const Words missing = {"check", "nothere.h5"};
+  const Outcome shown = run_on_terminal(folder.path(), missing);
+  EXPECT_EQ(shown.code, 3);
+  EXPECT_THAT(shown.output, HasSubstr(red + std::string("vitrel check:\033[0m nothere.h5: ")));
+  EXPECT_THAT(run_on_terminal(folder.path(), {"anaylze"}).output,
+              StartsWith(red + std::string("vitrel:\033[0m 'anaylze' is no command")));
+  EXPECT_THAT(run_on_terminal(folder.path(), {"help"}).output,
+              HasSubstr(bold + std::string("Commands\033[0m:")));
+}
+
+TEST_F(HabitsTest, NoColourWhereNobodySeesItOrWantsIt) {
+  for (const Words& words :
+       std::vector<Words>{{"check", "nothere.h5"}, {"anaylze"}, {"help", "run"}}) {
+    const auto shown = [&](const std::map<std::string, std::string>& environment) {
+      return run_on_terminal(folder.path(), words, environment).output;
+    };
+    EXPECT_THAT(shown({}), HasSubstr("\033["));
+    // no-color.org: an empty value does not count.
+    EXPECT_THAT(shown({{"NO_COLOR", ""}}), HasSubstr("\033["));
+    EXPECT_THAT(shown({{"NO_COLOR", "1"}}), Not(HasSubstr("\033[")));
+    EXPECT_THAT(shown({{"TERM", "dumb"}}), Not(HasSubstr("\033[")));
+    EXPECT_THAT(shown({{"TERM", ""}}), Not(HasSubstr("\033[")));
+    const Outcome piped = run(folder.path(), words);
+    EXPECT_THAT(piped.output + piped.errors, Not(HasSubstr("\033[")));
+  }
+}
+
+TEST_F(HabitsTest, OverlapsAreRedOnATerminal) {
+  folder.write("p.toml", small_system);
+  ASSERT_EQ(run(folder.path(), {"prepare", "p.toml", "-o", "state.h5", "-q"}).code, 0);
+  Configuration2 state = read_state(folder / "state.h5");
+  EXPECT_THAT(run_on_terminal(folder.path(), {"check", "state.h5"}).output, Not(HasSubstr(red)));
+  state.position[7] = state.position[3];
+  write_state(folder / "overlap.h5", state, Provenance{});
+  EXPECT_THAT(run_on_terminal(folder.path(), {"check", "overlap.h5"}).output,
+              testing::ContainsRegex("overlaps +\033\\[1;31m[1-9]"));
+  EXPECT_THAT(run(folder.path(), {"check", "overlap.h5"}).output,
+              testing::ContainsRegex("overlaps +[1-9]"));
+}
+
+// ---- tables -----------------------------------------------------------------------------------------
+
+TEST_F(HabitsTest, TheOutputOfPreparationsFitsEightyColumns) {
+  folder.write("plane.toml", small_system);
+  folder.write("jammed.toml",
+               "[system]\nparticles = 30\n[[species]]\naspect_ratio = 1.4\n[[prepare.stage]]\n"
+               "[[prepare.stage]]\nmethod = \"grow\"\nreduced_pressure = 1e6\n");
+  folder.write("space.toml",
+               "[system]\ndimension = 3\nparticles = 20\npacking_fraction = 0.2\n[[species]]\n"
+               "aspect_ratio = 3\n[[prepare.stage]]\norientations = \"tensor\"\n"
+               "orientation_tensor = [0.7, 0.2, 0.1]\n[[prepare.stage]]\nmethod = \"grow\"\n"
+               "growth_rate = 0.1\n");
+  const std::map<std::string, std::string> expected = {{"plane", "hexatic order ψ₆"},
+                                                       {"jammed", "rattlers"},
+                                                       {"space", "orientation tensor ⟨w wᵀ⟩"}};
+  for (const auto& [name, row] : expected) {
+    const Outcome outcome = run(folder.path(), {"prepare", name + ".toml", "-o", name + ".h5"});
+    ASSERT_EQ(outcome.code, 0) << outcome.errors;
+    EXPECT_THAT(outcome.output, HasSubstr("\n" + row));
+    for (const std::string& text : {outcome.output, outcome.errors})
+      for (const std::string& line : lines_of(text)) EXPECT_LE(columns(line), 80u) << line;
+  }
+}
+
+// ---- refusals ---------------------------------------------------------------------------------------
+
+TEST_F(HabitsTest, AMissingStartIsNamedRatherThanTheOutput) {
+  folder.write("p.toml", small_system);
+  folder.write("existing.h5", "");
+  const Words words = {"run", "p.toml", "--from", "nothere.h5", "-o", "existing.h5", "-q"};
+  const Outcome missing = run(folder.path(), words);
+  EXPECT_EQ(missing.code, 3);
+  EXPECT_THAT(missing.errors, StartsWith("vitrel run: nothere.h5: cannot open the file"));
+  ASSERT_EQ(run(folder.path(), {"prepare", "p.toml", "-o", "nothere.h5", "-q"}).code, 0);
+  const Outcome in_the_way = run(folder.path(), words);
+  EXPECT_EQ(in_the_way.code, 2);
+  EXPECT_THAT(in_the_way.errors, StartsWith("vitrel run: existing.h5: exists, but has no check"));
+  EXPECT_EQ(folder.read("existing.h5"), "");
+}
+
+// Small disks fill the holes between large ones.
+TEST_F(HabitsTest, AMixtureMayBeDenserThanEqualDisks) {
+  const auto plan = [&](const std::string& fraction, const std::string& small_disks) {
+    folder.write("p.toml", "[system]\npacking_fraction = " + fraction +
+                               "\n[[species]]\nname = \"large\"\naspect_ratio = 1\nfraction = 0.5\n"
+                               "[[species]]\nname = \"small\"\naspect_ratio = 1\nfraction = 0.5\n" +
+                               small_disks);
+    return run(folder.path(), {"run", "p.toml", "-o", "run.h5", "--dry-run"});
+  };
+  EXPECT_EQ(plan("0.91", "size = 0.2\n").code, 0);
+  EXPECT_THAT(
+      plan("0.91", "").errors,
+      HasSubstr("p.toml:2:20: key 'system.packing_fraction' is 0.91, but a packing fraction "
+                "lies between 0 and π/√12 = 0.9069 where all particles have the same area"));
+  EXPECT_EQ(plan("0.91", "").code, 2);
+  EXPECT_EQ(plan("1.0", "size = 0.2\n").code, 2);
+}
+
+// ---- the text of the thesis -------------------------------------------------------------------------
+
+TEST_F(HabitsTest, ARunBecomesTheTextThatTheThesisReads) {
+  folder.write("p.toml", small_system);
+  ASSERT_EQ(run(folder.path(), {"run", "p.toml", "-o", "run.h5", "-q"}).code, 0);
+  ASSERT_EQ(run(folder.path(), {"export", "run.h5", "--to", "thesis", "-q"}).code, 0);
+  const std::vector<std::string> lines = lines_of(folder.read("run.dat"));
+  const TrajectoryReader reader(folder / "run.h5");
+  ASSERT_EQ(lines.size(), reader.frames());
+  for (std::uint64_t k = 0; k < reader.frames(); ++k) {
+    const Configuration2 state = reader.read(k);
+    std::vector<double> expected = {state.time};
+    for (std::size_t i = 0; i < state.size(); ++i)
+      expected.insert(expected.end(),
+                      {state.position[i].x(), state.position[i].y(), state.angle[i]});
+    std::istringstream line(lines[k]);
+    EXPECT_EQ(std::vector<double>(std::istream_iterator<double>(line), {}), expected) << k;
+  }
+  // Positions are those in the box, also of particles that have left it.
+  const Configuration2 last = reader.read(reader.frames() - 1);
+  EXPECT_TRUE(std::ranges::any_of(last.image, [](const auto& image) { return image.any(); }));
+}
+
+TEST_F(HabitsTest, TheTextOfTheThesisIsForThePlane) {
+  folder.write("p.toml",
+               "[system]\ndimension = 3\nparticles = 5\npacking_fraction = 0.01\n[[species]]\n"
+               "aspect_ratio = 1\n[[prepare.stage]]\n");
+  ASSERT_EQ(run(folder.path(), {"prepare", "p.toml", "-o", "state.h5", "-q"}).code, 0);
+  expect_refusal({"export", "state.h5", "--to", "thesis", "-q"},
+                 "vitrel export: state.h5: is three-dimensional, for which --to takes gsd, xyz, "
+                 "csv, geo, vti, vtp, but not thesis");
+  EXPECT_FALSE(std::filesystem::exists(folder / "state.dat"));
+}
+
+}  // namespace
+}  // namespace vitrel
