@@ -57,12 +57,12 @@ TEST(Hardening, AbsurdGeometryIsRefusedAtOnce) {
                      {"analyze", "state.h5"},
                      {"run", "p.toml", "--from", "state.h5", "-o", "run.h5"}},
                     "state.h5: in frame 0 the ");
-  write_changed<3>(folder, [](auto& c) { c.box = PeriodicBox<3>(1e-1 * c.box.lengths()); });
+  write_changed<3>(folder, [](auto& c) { c.box = PeriodicBox<3>(0.05 * c.box.lengths()); });
   expect_all_refuse(folder,
                     {{"check", "state.h5"},
                      {"export", "state.h5", "--to", "geo"},
                      {"export", "state.h5", "--to", "vti"}},
-                    "state.h5: in frame 0 the particles would fill the box 8.378 times");
+                    "state.h5: in frame 0 the particles would fill the box 67.02 times");
   write_changed<3>(folder, [](auto& c) { c.shape[0].semi_axes[0] = 1e300; });
   expect_all_refuse(
       folder,

@@ -428,7 +428,7 @@ TEST_F(TrajectoryFile, MissingAndForeignFiles) {
   std::ofstream(file("text.h5")) << "not HDF5, but long enough to look at\n";
   EXPECT_THAT(file_error([&] { TrajectoryReader(file("text.h5")); }),
               HasSubstr("is neither H5MD, GSD nor extended XYZ, nor CSV"));
-  std::ofstream(file("binary.h5")) << "not HDF5" << '\0';
+  std::ofstream(file("binary.h5")) << "not" << '\0' << "HDF5";
   EXPECT_THAT(file_error([&] { TrajectoryReader(file("binary.h5")); }), HasSubstr("not an HDF5"));
   h5::File::create(file("empty.h5")).close();
   EXPECT_THAT(file_error([&] { TrajectoryReader(file("empty.h5")); }),

@@ -316,7 +316,7 @@ struct Watched {
   std::size_t blocks = 0, releases = 0, close_pairs = 0;
 };
 
-/// Checks every block's end.
+/// Checks the end of every block, that of the run among them.
 Watched watched_run(const Configuration3& start, double end, const DynamicsOptions& options) {
   Watched watched{begin_run(start, 0)};
   RunPlan3 plan;
@@ -328,6 +328,7 @@ Watched watched_run(const Configuration3& start, double end, const DynamicsOptio
     EXPECT_TRUE(exact_check(state.configuration).clean());
   };
   run(watched.state, options, plan, {});
+  plan.at_block_end(watched.state);
   return watched;
 }
 
@@ -423,8 +424,7 @@ TEST(SoftGas, ContinuesBitByBit) {
   plan.at_block_end = [&](const RunState2& state) { interruptions.push_back(state); };
   run(whole, options, plan, {});
   plan.at_block_end = nullptr;
-  ASSERT_GT(interruptions.size(), 2u);
-  interruptions.pop_back();
+  ASSERT_GE(interruptions.size(), 2u);
   std::size_t releases = 0, close_pairs = 0;
   for (RunState2& state : interruptions) {
     releases += state.configuration.releases.size();
