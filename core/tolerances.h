@@ -22,7 +22,7 @@ inline constexpr double given_fraction = 1e-12;
 /// is used as it is, so that what the program wrote it reads back unchanged.
 inline constexpr double norm_in_single_precision = 1e-6, norm_in_double_precision = 1e-14;
 
-/// A packing fraction that no configuration has, hard or soft, in order or not. A file with a higher one is damaged.
-inline constexpr double densest = 10;
+/// A packing fraction that no configuration has, not even of soft particles in contact. A file with a higher one is damaged.
+inline constexpr double densest = 2;
 
 }  // namespace vitrel::tolerance

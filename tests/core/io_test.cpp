@@ -48,7 +48,8 @@ class CheckpointFile : public Files {};
 Configuration2 random_configuration(std::size_t n, std::uint64_t step) {
   Stream draw(11, Purpose::tests, step);
   Configuration2 configuration;
-  configuration.box = PeriodicBox<2>(Vec2(draw.uniform(3, 9), draw.uniform(3, 9)));
+  const double scale = std::sqrt(static_cast<double>(n));
+  configuration.box = PeriodicBox<2>(scale * Vec2(draw.uniform(3, 9), draw.uniform(3, 9)));
   configuration.time = 0.1 * static_cast<double>(step);
   configuration.resize(n);
   configuration.species_names = {"large", "small"};
