@@ -55,6 +55,8 @@ TEST(OwnStates, AShortTableStartsPreparationAndRun) {
   EXPECT_THAT(TrajectoryReader(folder / "run.h5").provenance().parameters,
               AllOf(HasSubstr("particles = 3"), HasSubstr("semi_axes = [1.0, 0.5]"),
                     HasSubstr("method = \"state\"")));
+  succeed(folder, {"run", VITREL_PARAMS "/own_state.toml", "--from", "mine.csv", "-o", "own.h5",
+                   "-q", "--set", "dynamics.duration=1"});
   // The stages that move particles follow, if the file does not place them itself.
   folder.write("denser.toml",
                "[system]\npacking_fraction = 0.4\n[[prepare.stage]]\nmethod = \"swell\"\n");
