@@ -17,6 +17,7 @@ using testing_program::expect_refusal;
 using testing_program::Folder;
 using testing_program::Outcome;
 using testing_program::run;
+using testing_program::succeed;
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
@@ -40,11 +41,6 @@ const std::string soft =
 
 std::vector<std::string> command(const std::string& output, const std::string& duration) {
   return {"run", "p.toml", "-o", output, "-q", "--set", "dynamics.duration=" + duration};
-}
-
-void succeed(const Folder& folder, const std::vector<std::string>& arguments) {
-  const Outcome outcome = run(folder.path(), arguments);
-  EXPECT_EQ(outcome.code, 0) << outcome.errors;
 }
 
 struct Scene {

@@ -18,6 +18,7 @@ using testing_program::expect_refusal;
 using testing_program::Folder;
 using testing_program::Outcome;
 using testing_program::run;
+using testing_program::succeed;
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
@@ -28,11 +29,6 @@ constexpr const char* three_ellipses =
     "0,2,1.2,1,0.5,6,6\n";
 const std::string run_in_plane =
     "[dynamics]\nequilibration = 0\nduration = 4\n[output]\nsamples.interval = 1\n";
-
-void succeed(const Folder& folder, const std::vector<std::string>& arguments) {
-  const Outcome outcome = run(folder.path(), arguments);
-  EXPECT_EQ(outcome.code, 0) << outcome.errors;
-}
 
 Json summary_of(const Folder& folder, std::vector<std::string> arguments) {
   arguments.insert(arguments.end(), {"--json", "-q"});

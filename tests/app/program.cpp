@@ -139,6 +139,11 @@ void expect_refusal(const Outcome& outcome, int code, const std::string& part) {
   EXPECT_EQ(outcome.errors.find('\n', last_line), outcome.errors.size() - 1) << outcome.errors;
 }
 
+void succeed(const Folder& folder, const std::vector<std::string>& arguments) {
+  const Outcome outcome = run(folder.path(), arguments);
+  EXPECT_EQ(outcome.code, 0) << outcome.errors;
+}
+
 Folder::Folder(const std::string& name)
     : path_(fs::path(::testing::TempDir()) / ("vitrel_" + name + "_" + std::to_string(getpid()))) {
   fs::remove_all(path_);

@@ -57,6 +57,9 @@ class Folder {
   std::filesystem::path path_;
 };
 
+/// Runs the program there and expects the exit code 0.
+void succeed(const Folder& folder, const std::vector<std::string>& arguments);
+
 /// The values of datasets by their names.
 using Datasets = std::map<std::string, std::vector<double>>;
 

@@ -1,16 +1,11 @@
 #include "workflow/export/gsd_file.h"
 
 #include <algorithm>
-#include <bit>
 #include <cassert>
 #include <type_traits>
 
 namespace vitrel {
 namespace {
-
-static_assert(std::endian::native == std::endian::little, "GSD files are little-endian");
-
-constexpr std::uint64_t names_unit = 64;
 
 template <class T>
 std::string_view bytes_of(std::span<const T> values) {
@@ -33,12 +28,12 @@ constexpr std::uint8_t type_number() {
 GsdFile::GsdFile(const std::filesystem::path& path, const std::string& application,
                  const std::string& schema, std::uint32_t schema_version)
     : file_(path) {
-  header_.magic = 0x65DF65DF65DF65DF;
+  header_.magic = gsd::magic;
   header_.version = 2u << 16;
   header_.schema_version = schema_version;
   application.copy(header_.application.data(), header_.application.size() - 1);
   schema.copy(header_.schema.data(), header_.schema.size() - 1);
-  file_.write(bytes_of(std::span<const Header>(&header_, 1)));  // its place; the rest by close
+  file_.write(bytes_of(std::span<const gsd::Header>(&header_, 1)));  // its place; the rest by close
 }
 
 template <class T>
@@ -61,9 +56,9 @@ void GsdFile::write_names() {
   std::string block;
   for (const std::string& name : names_) block += name + '\0';
   // One zero byte more ends the list.
-  header_.names_units = block.size() / names_unit + 1;
+  header_.names_units = block.size() / gsd::names_unit + 1;
   header_.names_location = file_.size();
-  block.resize(header_.names_units * names_unit);
+  block.resize(header_.names_units * gsd::names_unit);
   file_.write(block);
 }
 
@@ -71,13 +66,13 @@ void GsdFile::write_index() {
   index_.push_back({});  // ends the list
   header_.index_entries = index_.size();
   header_.index_location = file_.size();
-  file_.write(bytes_of(std::span<const Entry>(index_)));
+  file_.write(bytes_of(std::span<const gsd::Entry>(index_)));
 }
 
 void GsdFile::close() {
   write_names();
   write_index();
-  file_.write_at_start(bytes_of(std::span<const Header>(&header_, 1)));
+  file_.write_at_start(bytes_of(std::span<const gsd::Header>(&header_, 1)));
   file_.close();
 }
 

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "core/io/foreign/gsd_layout.h"
 #include "workflow/export/frame_sink.h"
 
 namespace vitrel {
@@ -36,31 +36,14 @@ class GsdFile {
   void close();
 
  private:
-  struct Header {
-    std::uint64_t magic;
-    std::uint64_t index_location, index_entries;
-    std::uint64_t names_location, names_units;
-    std::uint32_t schema_version, version;
-    std::array<char, 64> application, schema;
-    std::array<char, 80> reserved;
-  };
-  struct Entry {
-    std::uint64_t frame, rows;
-    std::int64_t location;
-    std::uint32_t columns;
-    std::uint16_t name;
-    std::uint8_t type, flags;
-  };
-  static_assert(sizeof(Header) == 256 && sizeof(Entry) == 32);
-
   std::uint16_t number_of(const std::string& name);
   void write_names();
   void write_index();
 
   OutputFile file_;
-  Header header_{};
+  gsd::Header header_{};
   std::vector<std::string> names_;
-  std::vector<Entry> index_;
+  std::vector<gsd::Entry> index_;
   std::uint64_t frame_ = 0;
 };
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cerrno>
 #include <cstring>
 
@@ -11,21 +10,6 @@
 
 namespace vitrel {
 namespace {
-
-static_assert(std::endian::native == std::endian::little, "GSD files are little-endian");
-
-constexpr std::uint64_t magic = 0x65DF65DF65DF65DF;
-constexpr std::uint64_t name_width = 64;
-
-struct Header {
-  std::uint64_t magic;
-  std::uint64_t index_location, index_entries;
-  std::uint64_t names_location, names_units;
-  std::uint32_t schema_version, version;
-  std::array<char, 64> application, schema;
-  std::array<char, 80> reserved;
-};
-static_assert(sizeof(Header) == 256);
 
 /// Bytes of a number of this type; 0 if there is no such type.
 std::uint64_t width_of(std::uint8_t type) {
@@ -69,15 +53,16 @@ GsdReader::GsdReader(const std::filesystem::path& path)
   if (!stream_)
     throw FileError(fmt::format("{}: cannot open the file: {}", path_, std::strerror(errno)));
   size_ = static_cast<std::uint64_t>(stream_.tellg());
-  Header header;
+  gsd::Header header;
   read_bytes(0, sizeof(header), &header);
-  if (header.magic != magic) fail("is no GSD file");
+  if (header.magic != gsd::magic) fail("is no GSD file");
   const std::uint32_t layer = header.version >> 16;
   if (layer != 1 && layer != 2)
     fail(fmt::format("has the file layer {}, but 1 and 2 can be read", layer));
   schema_ = text_of(header.schema.data(), header.schema.size());
-  if (header.names_units > size_ / name_width) fail("is damaged: its names do not fit into it");
-  read_names(header.names_location, header.names_units * name_width, layer == 1);
+  if (header.names_units > size_ / gsd::names_unit)
+    fail("is damaged: its names do not fit into it");
+  read_names(header.names_location, header.names_units * gsd::names_unit, layer == 1);
   read_index(header.index_location, header.index_entries);
 }
 
@@ -99,19 +84,19 @@ void GsdReader::read_names(std::uint64_t location, std::uint64_t bytes, bool fix
   read_bytes(location, bytes, block.data());
   for (std::size_t k = 0; k < block.size();) {
     const std::string name =
-        text_of(&block[k], fixed_width ? std::size_t{name_width} : block.size() - k);
+        text_of(&block[k], fixed_width ? std::size_t{gsd::names_unit} : block.size() - k);
     if (name.empty()) break;
     names_.push_back(name);
-    k += fixed_width ? name_width : name.size() + 1;
+    k += fixed_width ? gsd::names_unit : name.size() + 1;
   }
 }
 
 /// Up to an entry without a place.
 void GsdReader::read_index(std::uint64_t location, std::uint64_t entries) {
-  if (entries > size_ / sizeof(Entry)) fail("is damaged: its index does not fit into it");
-  std::vector<Entry> index(entries);
-  read_bytes(location, entries * sizeof(Entry), index.data());
-  for (const Entry& entry : index) {
+  if (entries > size_ / sizeof(gsd::Entry)) fail("is damaged: its index does not fit into it");
+  std::vector<gsd::Entry> index(entries);
+  read_bytes(location, entries * sizeof(gsd::Entry), index.data());
+  for (const gsd::Entry& entry : index) {
     if (entry.location == 0) break;
     if (entry.name >= names_.size() || entry.frame > entries)
       fail("is damaged: its index has an impossible entry");
@@ -120,13 +105,13 @@ void GsdReader::read_index(std::uint64_t location, std::uint64_t entries) {
   }
 }
 
-const GsdReader::Entry* GsdReader::find(const std::string& name, std::uint64_t frame) const {
+const gsd::Entry* GsdReader::find(const std::string& name, std::uint64_t frame) const {
   for (const std::uint64_t place : {frame, std::uint64_t{0}})
     if (const auto found = index_.find({name, place}); found != index_.end()) return &found->second;
   return nullptr;
 }
 
-std::vector<std::byte> GsdReader::bytes_of(const Entry& entry) {
+std::vector<std::byte> GsdReader::bytes_of(const gsd::Entry& entry) {
   const std::uint64_t width = width_of(entry.type);
   const bool is_impossible = width == 0 || entry.columns == 0 || entry.location < 0 ||
                              entry.rows > size_ / width / entry.columns;
@@ -137,13 +122,13 @@ std::vector<std::byte> GsdReader::bytes_of(const Entry& entry) {
 }
 
 GsdReader::Chunk GsdReader::read(const std::string& name, std::uint64_t frame) {
-  const Entry* entry = find(name, frame);
+  const gsd::Entry* entry = find(name, frame);
   if (!entry) return {};
   return {entry->rows, entry->columns, numbers(entry->type, bytes_of(*entry))};
 }
 
 std::vector<std::string> GsdReader::read_texts(const std::string& name, std::uint64_t frame) {
-  const Entry* entry = find(name, frame);
+  const gsd::Entry* entry = find(name, frame);
   if (!entry) return {};
   const std::vector<std::byte> bytes = bytes_of(*entry);
   const std::size_t width = entry->columns * width_of(entry->type);

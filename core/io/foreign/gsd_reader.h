@@ -1,12 +1,13 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <string>
 #include <vector>
+
+#include "core/io/foreign/gsd_layout.h"
 
 namespace vitrel {
 
@@ -33,27 +34,18 @@ class GsdReader {
   [[noreturn]] void fail(const std::string& what) const;
 
  private:
-  struct Entry {
-    std::uint64_t frame, rows;
-    std::int64_t location;
-    std::uint32_t columns;
-    std::uint16_t name;
-    std::uint8_t type, flags;
-  };
-  static_assert(sizeof(Entry) == 32);
-
   void read_bytes(std::uint64_t offset, std::uint64_t count, void* out);
   void read_names(std::uint64_t location, std::uint64_t bytes, bool fixed_width);
   void read_index(std::uint64_t location, std::uint64_t entries);
-  const Entry* find(const std::string& name, std::uint64_t frame) const;
-  std::vector<std::byte> bytes_of(const Entry& entry);
+  const gsd::Entry* find(const std::string& name, std::uint64_t frame) const;
+  std::vector<std::byte> bytes_of(const gsd::Entry& entry);
 
   std::string path_;
   std::ifstream stream_;
   std::uint64_t size_ = 0, frames_ = 0;
   std::string schema_;
   std::vector<std::string> names_;
-  std::map<std::pair<std::string, std::uint64_t>, Entry> index_;
+  std::map<std::pair<std::string, std::uint64_t>, gsd::Entry> index_;
 };
 
 }  // namespace vitrel
