@@ -6,7 +6,7 @@
 
 namespace vitrel {
 
-/// The lines of a text file, without their ends (\n or \r\n) and a mark of UTF-8 at the start. FileError.
+/// The lines of a text file, without their ends (of Unix or Windows) and a mark of UTF-8 at the start. FileError.
 class TextLines {
  public:
   explicit TextLines(const std::filesystem::path& path);
