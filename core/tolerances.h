@@ -25,4 +25,8 @@ inline constexpr double norm_in_single_precision = 1e-6, norm_in_double_precisio
 /// A packing fraction that no configuration has, not even of soft particles in contact. A file with a higher one is damaged.
 inline constexpr double densest = 2;
 
+/// Limit of positions and semi-axes in box lengths. Shifts then stay below 2¹¹, so that shift ∘ L
+/// is exact in 64 bits, 53 of which belong to L. Larger: the exact check would no longer be exact.
+inline constexpr double max_box_lengths = 300;
+
 }  // namespace vitrel::tolerance

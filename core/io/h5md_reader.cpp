@@ -278,14 +278,13 @@ void TrajectoryReader::read_box(std::uint64_t frame, Configuration<Dim>& configu
 template <int Dim>
 void TrajectoryReader::require_room(std::uint64_t frame,
                                     const Configuration<Dim>& configuration) const {
-  constexpr double most_boxes = 300;  // core/state/check.h
   const double longest = largest_circumradius(configuration);
   const double fraction = packing_fraction(configuration);
-  if (!(longest <= most_boxes * configuration.box.lengths().minCoeff()))
-    fail(
-        fmt::format("in frame {} the longest semi-axis is {}, and the box {}; it should not exceed "
-                    "{} box lengths",
-                    frame, longest, fmt::join(configuration.box.lengths(), " × "), most_boxes));
+  if (!(longest <= tolerance::max_box_lengths * configuration.box.lengths().minCoeff()))
+    fail(fmt::format(
+        "in frame {} the longest semi-axis is {}, and the box {}; it should not exceed "
+        "{} box lengths",
+        frame, longest, fmt::join(configuration.box.lengths(), " × "), tolerance::max_box_lengths));
   if (!(fraction <= tolerance::densest))
     fail(
         fmt::format("in frame {} the particles would fill the box {:.4g} times; box or semi-axes "

@@ -12,6 +12,7 @@
 #include "core/elementary.h"
 #include "core/error.h"
 #include "core/state/exact_pair.h"
+#include "core/tolerances.h"
 
 namespace vitrel {
 namespace {
@@ -20,12 +21,8 @@ using exact::Particle;
 using exact::Point;
 using exact::Real;
 
-/// Limit of positions and semi-axes in box lengths. Shifts then stay below 2¹¹, so that shift ∘ L
-/// is exact in 64 bits, 53 of which belong to L.
-constexpr double max_boxes = 300;
-
 std::string within_boxes() {
-  return std::to_string(static_cast<int>(max_boxes)) + " box lengths";
+  return std::to_string(static_cast<int>(tolerance::max_box_lengths)) + " box lengths";
 }
 
 void validate_body(const Configuration2& configuration, std::size_t i, const std::string& who) {
@@ -33,7 +30,7 @@ void validate_body(const Configuration2& configuration, std::size_t i, const std
   if (!std::isfinite(configuration.angle[i]))
     throw InvariantError(who + ": its angle must be finite");
   if (!(shape.b > 0 && shape.a >= shape.b &&
-        shape.a <= max_boxes * configuration.box.lengths().minCoeff()))
+        shape.a <= tolerance::max_box_lengths * configuration.box.lengths().minCoeff()))
     throw InvariantError(who + ": its semi-axes must obey b > 0 and b ≤ a ≤ " + within_boxes());
 }
 
@@ -43,7 +40,8 @@ void validate_body(const Configuration3& configuration, std::size_t i, const std
   if (!(std::abs(configuration.orientation[i].norm() - 1) <= rounding))
     throw InvariantError(who + ": its orientation must be a quaternion of norm 1");
   if (!((semi_axes.array() > 0).all() &&
-        semi_axes.maxCoeff() <= max_boxes * configuration.box.lengths().minCoeff()))
+        semi_axes.maxCoeff() <=
+            tolerance::max_box_lengths * configuration.box.lengths().minCoeff()))
     throw InvariantError(who + ": its semi-axes must be above 0 and at most " + within_boxes());
 }
 
@@ -55,7 +53,8 @@ void validate(const Configuration<Dim>& configuration) {
   for (std::size_t i = 0; i < configuration.size(); ++i) {
     const Vec<Dim>& position = configuration.position[i];
     const std::string who = "exact check: particle " + std::to_string(i);
-    if (!position.allFinite() || (position.cwiseAbs().array() > max_boxes * lengths.array()).any())
+    if (!position.allFinite() ||
+        (position.cwiseAbs().array() > tolerance::max_box_lengths * lengths.array()).any())
       throw InvariantError(who + ": its position must be finite and within " + within_boxes() +
                            " of the origin");
     validate_body(configuration, i, who);

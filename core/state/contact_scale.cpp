@@ -11,22 +11,14 @@
 #include "core/state/check.h"
 
 namespace vitrel {
-namespace {
-
-double value(const Configuration2& c, std::size_t i, std::size_t j, const Vec2& d) {
-  return perram_wertheim(c.shape[i], c.angle[i], c.shape[j], c.angle[j], d).value;
-}
-double value(const Configuration3& c, std::size_t i, std::size_t j, const Vec3& d) {
-  return perram_wertheim(c.shape[i], c.orientation[i], c.shape[j], c.orientation[j], d).value;
-}
-
-}  // namespace
-
 template <int Dim>
 double contact_scale(const Configuration<Dim>& configuration, const PairImage<Dim>& pair) {
   const Vec<Dim> d = configuration.position[pair.j] - configuration.position[pair.i] +
                      configuration.box.translation(pair.shift);
-  return std::sqrt(value(configuration, pair.i, pair.j, d));
+  const auto one = configuration.pose(pair.i), two = configuration.pose(pair.j);
+  return std::sqrt(perram_wertheim(configuration.shape[pair.i], orientation_of(one),
+                                   configuration.shape[pair.j], orientation_of(two), d)
+                       .value);
 }
 
 template <int Dim>

@@ -17,6 +17,7 @@ using testing_program::Datasets;
 using testing_program::Folder;
 using testing_program::Outcome;
 using testing_program::run;
+using testing_program::succeed;
 
 std::vector<std::string> versions() {
   std::vector<std::string> names;
@@ -34,15 +35,13 @@ class Fixtures : public testing::TestWithParam<std::string> {
   }
 
   void expect_success(const std::vector<std::string>& arguments) const {
-    const Outcome outcome = run(folder_.path(), arguments);
-    EXPECT_EQ(outcome.code, 0) << testing::PrintToString(arguments) << outcome.errors;
+    succeed(folder_, arguments);
   }
   /// The summary of a command that must succeed.
   Json summary(std::vector<std::string> arguments) const {
     arguments.push_back("--json");
-    const Outcome outcome = run(folder_.path(), arguments);
-    EXPECT_EQ(outcome.code, 0) << testing::PrintToString(arguments) << outcome.errors;
-    return outcome.code == 0 ? Json::parse(outcome.output) : Json::object();
+    const std::string output = succeed(folder_, arguments);
+    return output.empty() ? Json::object() : Json::parse(output);
   }
   void expect_no_overlap(const std::string& file, std::uint64_t frames) const {
     const Json check = summary({"check", file});

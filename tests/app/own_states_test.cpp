@@ -32,9 +32,8 @@ const std::string run_in_plane =
 
 Json summary_of(const Folder& folder, std::vector<std::string> arguments) {
   arguments.insert(arguments.end(), {"--json", "-q"});
-  const Outcome outcome = run(folder.path(), arguments);
-  EXPECT_EQ(outcome.code, 0) << outcome.errors;
-  return outcome.code == 0 ? Json::parse(outcome.output) : Json();
+  const std::string output = succeed(folder, arguments);
+  return output.empty() ? Json() : Json::parse(output);
 }
 
 TEST(OwnStates, AShortTableStartsPreparationAndRun) {

@@ -139,9 +139,10 @@ void expect_refusal(const Outcome& outcome, int code, const std::string& part) {
   EXPECT_EQ(outcome.errors.find('\n', last_line), outcome.errors.size() - 1) << outcome.errors;
 }
 
-void succeed(const Folder& folder, const std::vector<std::string>& arguments) {
+std::string succeed(const Folder& folder, const std::vector<std::string>& arguments) {
   const Outcome outcome = run(folder.path(), arguments);
-  EXPECT_EQ(outcome.code, 0) << outcome.errors;
+  EXPECT_EQ(outcome.code, 0) << testing::PrintToString(arguments) << outcome.errors;
+  return outcome.output;
 }
 
 Folder::Folder(const std::string& name)

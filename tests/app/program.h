@@ -57,8 +57,8 @@ class Folder {
   std::filesystem::path path_;
 };
 
-/// Runs the program there and expects the exit code 0.
-void succeed(const Folder& folder, const std::vector<std::string>& arguments);
+/// Runs the program there, expects the exit code 0, and returns what it prints.
+std::string succeed(const Folder& folder, const std::vector<std::string>& arguments);
 
 /// The values of datasets by their names.
 using Datasets = std::map<std::string, std::vector<double>>;

@@ -51,15 +51,20 @@ struct RunAnalysis {
   std::optional<GlassRun> glass;
 };
 
-Parameters analysis_parameters(const TrajectoryReader& reader, const AnalysisChoice& choice) {
-  if (choice.parameters) return load_parameters({*choice.parameters, choice.overrides});
-  return parse_parameters(reader.provenance().parameters, reader.path().string(), choice.overrides);
-}
+/// A run and the parameters of its analysis.
+struct OpenRun {
+  TrajectoryReader reader;
+  Parameters parameters;
+};
 
-TrajectoryReader open_run(const std::filesystem::path& file, const AnalysisChoice& choice) {
-  if (!choice.parameters) return TrajectoryReader(file);
-  return TrajectoryReader(file,
-                          known_system(load_parameters({*choice.parameters, choice.overrides})));
+OpenRun open_run(const std::filesystem::path& file, const AnalysisChoice& choice) {
+  if (choice.parameters) {
+    Parameters parameters = load_parameters({*choice.parameters, choice.overrides});
+    return {TrajectoryReader(file, known_system(parameters)), std::move(parameters)};
+  }
+  TrajectoryReader reader(file);
+  const std::string recorded = reader.provenance().parameters;
+  return {std::move(reader), parse_parameters(recorded, file.string(), choice.overrides)};
 }
 
 /// What displacements need of a file; those of round particles, and in space, need no angles.
@@ -291,16 +296,15 @@ std::filesystem::path csv_file(const std::filesystem::path& results, const std::
 
 /// Of a run of this dimension.
 template <int Dim>
-AnalysedRun analyze(TrajectoryReader opened, const AnalysisChoice& choice,
-                    const AnalysisProgress& progress) {
-  const std::filesystem::path file = opened.path();
+AnalysedRun analyze(OpenRun opened, const AnalysisProgress& progress) {
+  const std::filesystem::path file = opened.reader.path();
+  const Parameters& parameters = opened.parameters;
   AnalysedRun analysed{file, {}};
-  TrajectoryFile<Dim> trajectory(std::move(opened));
+  TrajectoryFile<Dim> trajectory(std::move(opened.reader));
   const TrajectoryReader& reader = trajectory.reader();
   if (trajectory.frames() == 0)
     throw UserError(file.string() + ": has no frames yet; continue the run");
   require_own_names(reader);
-  const Parameters parameters = analysis_parameters(reader, choice);
   const RunAnalysis run =
       naming(file, [&] { return measure(trajectory, analysed.name(), parameters, progress); });
   Results& results = analysed.results = results_of(run);
@@ -313,6 +317,11 @@ AnalysedRun analyze(TrajectoryReader opened, const AnalysisChoice& choice,
   if (run.energy.time.empty()) leave_out(results, "energies", no_energies);
   analysed.glass = run.glass;
   return analysed;
+}
+
+AnalysedRun analyze(OpenRun opened, const AnalysisProgress& progress) {
+  const bool is_plane = opened.reader.dimension() == 2;
+  return (is_plane ? analyze<2> : analyze<3>)(std::move(opened), progress);
 }
 
 }  // namespace
@@ -334,9 +343,7 @@ std::uint64_t AnalysedRun::seed() const {
 
 AnalysedRun analyze_run(const std::filesystem::path& file, const AnalysisChoice& choice,
                         const AnalysisProgress& progress) {
-  TrajectoryReader reader = open_run(file, choice);
-  const bool is_plane = reader.dimension() == 2;
-  return (is_plane ? analyze<2> : analyze<3>)(std::move(reader), choice, progress);
+  return analyze(open_run(file, choice), progress);
 }
 
 std::filesystem::path results_path(const std::filesystem::path& run) {
@@ -362,10 +369,11 @@ AnalysedRun stored_or_analyzed(const std::filesystem::path& file, const Analysis
   } catch (const FileError&) {
     return analyze_run(file, choice, progress);
   }
-  const Parameters parameters = analysis_parameters(open_run(file, choice), choice);
+  OpenRun opened = open_run(file, choice);
+  const std::string parameters = effective_parameters(opened.parameters);
   const bool is_up_to_date = stored.results.text(analyzer_key) == analyzer() &&
-                             stored.results.text(analysis_key) == effective_parameters(parameters);
-  return is_up_to_date ? stored : analyze_run(file, choice, progress);
+                             stored.results.text(analysis_key) == parameters;
+  return is_up_to_date ? stored : analyze(std::move(opened), progress);
 }
 
 std::vector<std::string> former_tables(const std::filesystem::path& file) {

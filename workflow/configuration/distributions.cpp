@@ -102,6 +102,15 @@ bool same(const Distribution& one, const Distribution& two) {
   return one.mean == two.mean && one.standard_deviation == two.standard_deviation;
 }
 
+std::optional<double> constant_product(const std::vector<Distribution>& factors) {
+  double result = 1;
+  for (const Distribution& factor : factors) {
+    if (factor.kind != Kind::constant) return std::nullopt;
+    result *= factor.mean;
+  }
+  return result;
+}
+
 bool agree(double given, double found, Agreement agreement) {
   const double rounding = slack * std::abs(given);
   const double digits = agreement == Agreement::digits ? half_last_digit(given) : 0;

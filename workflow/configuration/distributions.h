@@ -48,6 +48,9 @@ enum class Agreement {
   digits  ///< to the digits given, of which three count at least: 0.5 agrees with 0.5004, 0.898242 with 0.8982416
 };
 bool agree(double given, double found, Agreement agreement);
+/// Nothing if one of them is drawn.
+std::optional<double> constant_product(const std::vector<Distribution>& factors);
+
 /// Whether the value can have been drawn.
 bool allows(const Distribution& d, double value, Agreement agreement = Agreement::rounding);
 /// The same for values in any order.

@@ -17,24 +17,14 @@ std::vector<Distribution> ratios(const Species& species, int dimension) {
                      species.aspect_ratio.value_or(constant(1)));
 }
 
-/// Nothing if one of them is drawn.
-std::optional<double> product(const std::vector<Distribution>& factors) {
-  double result = 1;
-  for (const Distribution& factor : factors) {
-    if (factor.kind != Distribution::Kind::constant) return std::nullopt;
-    result *= factor.mean;
-  }
-  return result;
-}
-
 /// a b, or a b c, of all particles of the species; nothing if they differ in it.
 std::optional<double> semi_axis_product(const Species& species, int dimension) {
-  if (species.semi_axes) return product(*species.semi_axes);
+  if (species.semi_axes) return constant_product(*species.semi_axes);
   const auto all = static_cast<std::size_t>(dimension);
   if (!species.first_semi_axis)
-    return product(std::vector(all, species.size.value_or(constant(1))));
-  const auto of_ratios = product(ratios(species, dimension));
-  const auto of_first = product(std::vector(all, *species.first_semi_axis));
+    return constant_product(std::vector(all, species.size.value_or(constant(1))));
+  const auto of_ratios = constant_product(ratios(species, dimension));
+  const auto of_first = constant_product(std::vector(all, *species.first_semi_axis));
   return of_ratios && of_first ? std::optional(*of_first / *of_ratios) : std::nullopt;
 }
 

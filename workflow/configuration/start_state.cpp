@@ -5,8 +5,10 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/io/foreign/foreign_file.h"
 #include "core/state/check.h"
 #include "core/state/contact_scale.h"
+#include "core/state/in_space.h"
 #include "core/state/species.h"
 #include "workflow/configuration/distributions.h"
 #include "workflow/configuration/state_species.h"
@@ -27,19 +29,12 @@ bool has_one_shape(const Species& species) {
          all_constant(species.semi_axes);
 }
 
-Vec3 semi_axes_of(const Ellipse& shape) {
-  return {shape.a, shape.b, shape.b};
-}
-Vec3 semi_axes_of(const Ellipsoid& shape) {
-  return shape.semi_axes;
-}
-
 /// Of a species whose particles are all alike.
 template <int Dim>
 Vec3 semi_axes_of(Species species) {
   species.fraction = 1;
   constexpr double any = 0.1;
-  return semi_axes_of(draw_particles<Dim>({species}, 1, any, Vec<Dim>::Ones(), 1).shape[0]);
+  return semi_axes_in_space(draw_particles<Dim>({species}, 1, any, Vec<Dim>::Ones(), 1).shape[0]);
 }
 
 const StateStage& start_of(const Parameters& parameters) {
@@ -61,13 +56,9 @@ Configuration<Dim> inline_state(const Parameters& parameters) {
   }
 }
 
-void refuse_other(const Parameters& parameters, const std::string& key, const std::string& given,
-                  const std::string& found, const std::string& file) {
-  const auto place = place_of(parameters, key);
-  throw UserError(
-      fmt::format("{}: key '{}' is {}, but that of the state is {} ({}); leave it out, "
-                  "and that of the state is taken",
-                  place.value_or(file), key, given, found, file));
+template <class Number>
+SpeciesConflict other_number(const char* key, Number given, Number found) {
+  return {key, fmt::format("is {}, but that of the state is {}", given, found)};
 }
 
 bool agrees(double given, double found) {
@@ -81,7 +72,7 @@ template <class Number>
 void take(Number& value, Number found, const char* key, const Parameters& parameters,
           const std::string& file) {
   if (place_of(parameters, key) && !agrees(value, found))
-    refuse_other(parameters, key, fmt::format("{}", value), fmt::format("{}", found), file);
+    refuse(other_number(key, value, found), parameters, file);
   value = found;
 }
 
@@ -124,7 +115,7 @@ KnownSystem known_system(const Parameters& parameters) {
 int start_dimension(const Parameters& parameters) {
   const StateStage& stage = start_of(parameters);
   if (!stage.file) return parameters.system.dimension;
-  return TrajectoryReader(*stage.file, known_system(parameters)).dimension();
+  return dimension_of_file(*stage.file, known_system(parameters));
 }
 
 namespace {
@@ -134,8 +125,7 @@ void take_agreeing(Parameters& parameters, const Configuration<Dim>& state, cons
                    const std::string& recorded) {
   SystemParameters& system = parameters.system;
   if (place_of(parameters, "system.dimension") && system.dimension != Dim)
-    refuse_other(parameters, "system.dimension", fmt::format("{}", system.dimension),
-                 fmt::format("{}", Dim), file);
+    refuse(other_number("system.dimension", system.dimension, Dim), parameters, file);
   system.dimension = Dim;
   take(system.particles, static_cast<std::int64_t>(state.size()), "system.particles", parameters,
        file);

@@ -213,12 +213,9 @@ std::vector<Species> present(std::vector<Species> species) {
 /// That of constant semi-axes, if these are given.
 std::optional<Distribution> size_of(const Species& species) {
   if (!species.semi_axes) return species.size;
-  double product = 1;
-  for (const Distribution& axis : *species.semi_axes) {
-    if (axis.kind != Distribution::Kind::constant) return std::nullopt;
-    product *= axis.mean;
-  }
-  return constant(root(product, static_cast<int>(species.semi_axes->size())));
+  const std::optional<double> product = constant_product(*species.semi_axes);
+  if (!product) return std::nullopt;
+  return constant(root(*product, static_cast<int>(species.semi_axes->size())));
 }
 
 /// What is given, and what is not, as in `other`.
@@ -232,19 +229,6 @@ std::vector<Species> completed(const Parameters& parameters, const std::vector<S
     species[k].first_semi_axis = other[k].first_semi_axis;
   }
   return species;
-}
-
-void refuse(const std::optional<SpeciesConflict>& conflict, const Parameters& parameters,
-            const std::string& file) {
-  if (!conflict) return;
-  const std::size_t field = conflict->key.rfind('.');
-  const auto place = place_of(parameters, conflict->key);
-  const auto around = place_of(parameters, conflict->key.substr(0, field));
-  throw UserError(fmt::format("{}: key '{}' {} ({}); leave it out, and that of the state is taken",
-                              place    ? *place
-                              : around ? *around
-                                       : file,
-                              conflict->key, conflict->complaint, file));
 }
 
 /// The sides of the box over the first one; one number if they are equal.
@@ -271,6 +255,19 @@ std::optional<SpeciesConflict> box_conflict(const Parameters& parameters,
 }
 
 }  // namespace
+
+void refuse(const std::optional<SpeciesConflict>& conflict, const Parameters& parameters,
+            const std::string& file) {
+  if (!conflict) return;
+  const std::size_t field = conflict->key.rfind('.');
+  const auto place = place_of(parameters, conflict->key);
+  const auto around = place_of(parameters, conflict->key.substr(0, field));
+  throw UserError(fmt::format("{}: key '{}' {} ({}); leave it out, and that of the state is taken",
+                              place    ? *place
+                              : around ? *around
+                                       : file,
+                              conflict->key, conflict->complaint, file));
+}
 
 template <int Dim>
 std::optional<SpeciesConflict> species_conflict(const std::vector<Species>& species,

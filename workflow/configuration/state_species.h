@@ -32,6 +32,10 @@ struct StateOrigin {
   std::string parameters;  ///< recorded there, TOML; may be empty
 };
 
+/// Throws UserError, with the place of the key, if there is a conflict with the state in that file.
+void refuse(const std::optional<SpeciesConflict>& conflict, const Parameters& parameters,
+            const std::string& file);
+
 /// Replaces the species and the box aspect by those of the state: as recorded, if the record agrees with
 /// the particles; otherwise as given, if that agrees to rounding; otherwise as the particles are, with ranges of their
 /// semi-axes where they differ. UserError with the place of the key if what the parameters give (Parameters::given)

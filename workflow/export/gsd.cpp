@@ -12,7 +12,7 @@
 
 #include "core/error.h"
 #include "core/io/provenance.h"
-#include "workflow/export/in_space.h"
+#include "core/state/in_space.h"
 
 namespace vitrel {
 namespace {

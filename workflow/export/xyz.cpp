@@ -5,7 +5,7 @@
 #include <cctype>
 #include <iterator>
 
-#include "workflow/export/in_space.h"
+#include "core/state/in_space.h"
 
 namespace vitrel {
 namespace {

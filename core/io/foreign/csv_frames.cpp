@@ -32,11 +32,8 @@ std::vector<std::string> cells_of(const std::string& line) {
 }
 
 /// "x" of "x [length]".
-std::string column_name(std::string cell) {
-  cell.resize(std::min(cell.find('['), cell.size()));
-  const std::size_t begin = cell.find_first_not_of(" \t\r");
-  if (begin == std::string::npos) return "";
-  return cell.substr(begin, cell.find_last_not_of(" \t\r") - begin + 1);
+std::string column_name(const std::string& cell) {
+  return std::string(trimmed(std::string_view(cell).substr(0, cell.find('['))));
 }
 
 /// The column whose values tell the frames apart, if there is one.

@@ -43,6 +43,12 @@ std::unique_ptr<ForeignFrames> open_frames(const fs::path& path, Format format) 
   return format == Format::xyz ? open_xyz(path) : open_csv(path);
 }
 
+ForeignFrame first_frame(ForeignFrames& frames, const std::string& path) {
+  ForeignFrame frame;
+  if (!frames.next(frame)) throw FileError(path + ": has no frames");
+  return frame;
+}
+
 /// A file that nobody else uses, and that is removed at the end of the scope.
 class TemporaryFile {
  public:
@@ -83,8 +89,7 @@ class Conversion {
       : path_(path.string()), known_(known), frames_(open_frames(path, format)) {}
 
   void write_to(const fs::path& copy) {
-    ForeignFrame frame;
-    if (!frames_->next(frame)) throw FileError(path_ + ": has no frames");
+    ForeignFrame frame = first_frame(*frames_, path_);
     dimension_of(frame, known_) == 2 ? write<2>(copy, frame) : write<3>(copy, frame);
   }
 
@@ -133,6 +138,12 @@ h5::File open_as_h5md(const fs::path& path, const KnownSystem& known) {
   const TemporaryFile copy;
   Conversion(path, format, known).write_to(copy.name());
   return h5::File::open(copy.name(), h5::Access::read);
+}
+
+int dimension_of_file(const fs::path& path, const KnownSystem& known) {
+  const Format format = format_of(path);
+  if (format == Format::hdf5) return TrajectoryReader(path).dimension();
+  return dimension_of(first_frame(*open_frames(path, format), path.string()), known);
 }
 
 }  // namespace vitrel

@@ -14,4 +14,7 @@ namespace vitrel {
 /// All frames must have the same particles. FileError, which names the place in the file.
 h5::File open_as_h5md(const std::filesystem::path& path, const KnownSystem& known);
 
+/// The dimension of the file, of which this reads no more than the first frame. FileError.
+int dimension_of_file(const std::filesystem::path& path, const KnownSystem& known);
+
 }  // namespace vitrel

@@ -72,15 +72,8 @@ class GsdFrames final : public ForeignFrames {
 
   std::vector<double> column(const std::string& name, double otherwise) {
     std::vector<double> values = rows(name, 1);
-    if (values.empty()) values.assign(checked_particles(), otherwise);
+    if (values.empty()) values.assign(particles_, otherwise);
     return values;
-  }
-
-  /// Positions must be there; what the schema supplies for so many particles then fits into the memory.
-  std::size_t checked_particles() {
-    if (file_.read("particles/position", number_).rows != particles_)
-      fail("particles/position should have a row for each of the particles/N particles");
-    return particles_;
   }
 
   std::vector<Vec3> vectors(const std::string& name) {
@@ -107,8 +100,10 @@ class GsdFrames final : public ForeignFrames {
   }
 
   void set_places(ForeignFrame& frame) {
-    checked_particles();
     frame.position = vectors("particles/position");
+    // What the schema supplies for so many particles then fits into the memory, too.
+    if (frame.position.size() != particles_)
+      fail("particles/position should have a row for each of the particles/N particles");
     frame.orientation = quaternions("particles/orientation");
     if (frame.orientation.empty()) frame.orientation.assign(particles_, Quaternion::Identity());
     for (const Vec3& image : vectors("particles/image")) {

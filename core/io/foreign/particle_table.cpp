@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <set>
 
 #include "core/error.h"
+#include "core/io/foreign/text_lines.h"
 
 namespace vitrel {
 namespace {
@@ -43,13 +43,6 @@ bool counts(const std::string& column) {
   return third_of.contains(column) || std::ranges::any_of(groups, [&](const auto& group) {
            return std::ranges::find(group, column) != group.end();
          });
-}
-
-std::string_view trimmed(std::string_view text) {
-  constexpr const char* blank = " \t\r";
-  const std::size_t begin = text.find_first_not_of(blank);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(blank) - begin + 1);
 }
 
 double number(std::string_view cell, const std::string& column, const std::string& place) {

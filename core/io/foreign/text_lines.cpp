@@ -9,6 +9,13 @@
 
 namespace vitrel {
 
+std::string_view trimmed(std::string_view text) {
+  constexpr const char* blank = " \t\r";
+  const std::size_t begin = text.find_first_not_of(blank);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(blank) - begin + 1);
+}
+
 TextLines::TextLines(const std::filesystem::path& path) : path_(path), stream_(path) {
   if (!stream_)
     throw FileError(

@@ -3,8 +3,12 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <string_view>
 
 namespace vitrel {
+
+/// Without the blanks around it.
+std::string_view trimmed(std::string_view text);
 
 /// The lines of a text file, without their ends (of Unix or Windows) and a mark of UTF-8 at the start. FileError.
 class TextLines {
