@@ -61,7 +61,8 @@ void add_parameter_file(CLI::App& sub, ParameterOptions& source) {
       ->required();
   add_overrides(sub, source.overrides, "dynamics.duration=10");
   sub.add_option("--seed", source.seed,
-                 "Seed of all random numbers, the same as --set system.seed=");
+                 "Seed of all random numbers, the same as --set system.seed=")
+      ->check(seed_number);
 }
 
 void add_start(CLI::App& sub, StartOptions& start) {

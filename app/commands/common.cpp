@@ -35,6 +35,7 @@ void refuse_other_key(const std::string& assignment) {
 }
 
 void require_folder_of(const fs::path& output) {
+  if (output.empty()) throw UserError("-o: the name of the output is empty");
   const fs::path folder = fs::absolute(output).parent_path();
   if (!fs::is_directory(folder))
     throw FileError(fmt::format("{}: cannot be written: there is no folder {}", output.string(),

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <filesystem>
 #include <iostream>
 #include <new>
 #include <system_error>
@@ -24,6 +25,8 @@ int exit_code_of(const std::string& program, const std::function<int()>& work) {
     return complain(program, error.what(), file_error);
   } catch (const InvariantError& error) {
     return complain(program, error.what(), broken_invariant);
+  } catch (const std::filesystem::filesystem_error& error) {
+    return complain(program, error.path1().string() + ": " + error.code().message(), file_error);
   } catch (const std::system_error& error) {
     return complain(program, error.what(), file_error);
   } catch (const std::bad_alloc&) {
@@ -31,7 +34,10 @@ int exit_code_of(const std::string& program, const std::function<int()>& work) {
                     "out of memory; fewer particles or a smaller analysis.memory need less",
                     user_error);
   } catch (const std::exception& error) {
-    return complain(program, error.what(), defect);
+    return complain(program,
+                    std::string("a defect of the program (") + error.what() +
+                        "); please report it with the command and its files",
+                    defect);
   }
 }
 

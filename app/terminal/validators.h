@@ -5,6 +5,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -33,6 +35,18 @@ inline CLI::Validator between(double low, double high) {
   return number_that([=](double number) { return number >= low && number <= high; },
                      fmt::format("a number between {} and {}", low, high));
 }
+
+/// Of a seed: TOML has no greater numbers.
+inline const CLI::Validator seed_number = {
+    [](const std::string& text) {
+      std::int64_t number = 0;
+      const char* const end = text.data() + text.size();
+      const auto [stop, error] = std::from_chars(text.data(), end, number);
+      const bool fits = error == std::errc() && stop == end && number >= 0;
+      return fits ? std::string()
+                  : text + " is not a whole number between 0 and 9223372036854775807";
+    },
+    ""};
 
 inline CLI::Validator one_of(const std::vector<std::string>& choices) {
   return {[choices](const std::string& word) {

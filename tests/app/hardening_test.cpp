@@ -110,6 +110,20 @@ TEST(Hardening, AnArrayInThePlaceOfAStringIsRefused) {
   }
 }
 
+TEST(Hardening, OddNamesAndSeedsAreRefusedInPlainWords) {
+  const Folder folder("odd_names");
+  folder.write("p.toml", "# all defaults\n");
+  for (const char* command : {"prepare", "run"}) {
+    expect_refusal(run(folder.path(), {command, "p.toml", "-o", ""}), 2,
+                   "-o: the name of the output is empty");
+    expect_refusal(run(folder.path(), {command, "p.toml", "-o", std::string(300, 'a')}), 3,
+                   "aaa: File name too long");
+    for (const char* seed : {"-1", "9223372036854775808", "1e3", "one"})
+      expect_refusal(run(folder.path(), {command, "p.toml", "-o", "a.h5", "--seed", seed}), 2,
+                     std::string(seed) + " is not a whole number between 0 and");
+  }
+}
+
 // The names and the values of a checkpoint no longer fit together.
 TEST(Hardening, ADamagedCheckpointIsNamedAndTheOneBeforeUsed) {
   const Folder folder("damaged_checkpoint");
