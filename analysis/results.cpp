@@ -99,6 +99,14 @@ std::vector<std::string> table_names(const h5::Group& root, const std::filesyste
   return split(root.text_attribute("tables"));
 }
 
+void require_equal_lengths(const Table& table, const std::filesystem::path& path) {
+  for (const Column& column : table.columns)
+    if (column.value.size() != table.rows() ||
+        (!column.error.empty() && column.error.size() != table.rows()))
+      throw FileError(fmt::format("{}: column {} of table {} has not {} rows like the first",
+                                  path.string(), column.name, table.name, table.rows()));
+}
+
 Table read_table(const h5::Group& root, const std::string& name) {
   const h5::Group group = root.group(name);
   Table table{name, group.text_attribute("description"), {}};
@@ -201,8 +209,11 @@ Results read_results(const std::filesystem::path& path) {
   const h5::File file = h5::File::open(path, h5::Access::read);
   const h5::Group root = file.root();
   Results results;
-  for (const std::string& name : table_names(root, path))
-    rename_former(results.tables.emplace_back(read_table(root, name)));
+  for (const std::string& name : table_names(root, path)) {
+    Table& table = results.tables.emplace_back(read_table(root, name));
+    require_equal_lengths(table, path);
+    rename_former(table);
+  }
   const h5::Group provenance = root.group("provenance");
   for (const std::string& name : split(provenance.text_attribute("entries")))
     results.provenance.emplace_back(name, provenance.dataset(name).read_text());

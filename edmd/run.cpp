@@ -60,9 +60,12 @@ class EventDrivenRun {
     }
   }
 
-  // One block; true if the end of the run was reached.
+  // One block; true if the end of the run was reached. Samples, ticks and steps take time, too, though their count depends
+  // on the schedule alone: after many of them the block ends, so that a stop and checkpoints do not have to wait for
+  // events.
   bool run_block() {
-    while (true) {
+    constexpr int max_stops = 256;
+    for (int stops = 0; stops < max_stops; ++stops) {
       const double stop = next_stop();
       if (engine_->advance(stop, state_.counters) == Engine<Dim>::Stop::block_end) return false;
       if (stop == next_sample_time()) observe(plan_.observer, state_.next_sample, stop);
@@ -71,6 +74,7 @@ class EventDrivenRun {
       if (stop >= plan_.end_time && std::min(next_sample_time(), next_tick_time()) > plan_.end_time)
         return true;
     }
+    return false;
   }
 
   double next_sample_time() const {

@@ -44,7 +44,7 @@ struct Ticks {
 /// The schedule of a run: sample times in ascending order (simulated time), the end, and the observers.
 /// `observer` sees every sample; `at_block_end` gets a state from which the run continues with bit-identical results,
 /// also to a later end. The end itself is no such state.
-/// Samples and ticks do not change the motion, but a block may end at one of them: from there on, runs with different
+/// Samples and ticks do not change the motion, but blocks end after a number of them: from there on, runs with different
 /// schedules differ by rounding.
 template <int Dim>
 struct RunPlan {

@@ -122,8 +122,7 @@ void print_outcome(const PrepareOptions& options, const Preparation<3>& preparat
 }
 
 template <int Dim>
-int prepare_state(const PrepareOptions& options, const PrepareRequest& request) {
-  Session session(options.print.quiet, options.wall_time);
+int prepare_state(const PrepareOptions& options, const PrepareRequest& request, Session& session) {
   const Preparation<Dim> preparation = prepare<Dim>(request, session.control(), session.say());
   const Parameters& parameters = preparation.parameters;
   decltype(measure_quality(preparation, parameters, session.control())) quality;
@@ -141,7 +140,12 @@ int prepare_state(const PrepareOptions& options, const PrepareRequest& request) 
   provenance.wall_seconds = preparation.wall_seconds;
   // The state comes last: where there is one, all is there.
   write_quality(quality_file(options.output), *quality);
-  write_state(options.output, preparation.configuration, provenance);
+  try {
+    write_state(options.output, preparation.configuration, provenance);
+  } catch (const FileError&) {
+    std::filesystem::remove(quality_file(options.output));
+    throw;
+  }
   forget_preparation(options.output);
   if (options.print.json) {
     print_summary(options.print, summary(preparation, parameters, *quality, options.output));
@@ -157,8 +161,9 @@ int prepare_command(const PrepareOptions& options) {
   const PrepareRequest request{load_parameters(parameter_source(options.source, options.start)),
                                options.output, options.command_line, options.threads};
   require_new(options.output);
-  return prepared_dimension(request) == 2 ? prepare_state<2>(options, request)
-                                          : prepare_state<3>(options, request);
+  Session session(options.print.quiet, options.wall_time);
+  return prepared_dimension(request) == 2 ? prepare_state<2>(options, request, session)
+                                          : prepare_state<3>(options, request, session);
 }
 
 }  // namespace vitrel

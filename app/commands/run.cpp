@@ -15,8 +15,7 @@ namespace vitrel {
 namespace {
 
 template <int Dim>
-int run_and_print(const RunOptions& options, const RunRequest& request) {
-  Session session(options.print.quiet, options.wall_time);
+int run_and_print(const RunOptions& options, const RunRequest& request, Session& session) {
   const RunOutcome<Dim> outcome = run_simulation<Dim>(request, session.control(), session.say());
   session.clear();
   const bool has_begun = outcome.state.configuration.size() > 0;
@@ -40,8 +39,9 @@ int run_command(const RunOptions& options) {
     flush_output();
     return success;
   }
-  return run_dimension(request) == 2 ? run_and_print<2>(options, request)
-                                     : run_and_print<3>(options, request);
+  Session session(options.print.quiet, options.wall_time);
+  return run_dimension(request) == 2 ? run_and_print<2>(options, request, session)
+                                     : run_and_print<3>(options, request, session);
 }
 
 }  // namespace vitrel

@@ -50,7 +50,7 @@ int export_workflow(const SweepOptions& options) {
 }
 
 SweepOutcome run_jobs(const SweepOptions& options) {
-  Session session(options.print.quiet, options.wall_time);
+  Session session(options.print.quiet, options.wall_time, StopDeadline::none);
   session.begin("sweep");
   const auto say = [&session](const std::string& line) { session.note(line); };
   const SweepRequest request{parameter_source(options.source), options.output, this_program(),

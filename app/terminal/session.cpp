@@ -6,19 +6,16 @@
 #include <cstdio>
 #include <cstring>
 
-#include "app/terminal/stop_signals.h"
 #include "core/error.h"
 
 namespace vitrel {
 
 namespace fs = std::filesystem;
 
-Session::Session(bool quiet, double wall_time)
-    : display_(ProgressDisplay::mode(quiet)), wall_time_(wall_time) {
-  catch_stop_signals();
-  control_.should_stop = [this] {
-    return stop_signalled() || (wall_time_ > 0 && seconds() > wall_time_);
-  };
+Session::Session(bool quiet, double wall_time, StopDeadline deadline)
+    : display_(ProgressDisplay::mode(quiet)) {
+  catch_stop_signals(wall_time, deadline);
+  control_.should_stop = stop_requested;
   control_.on_progress = [this](const Progress& progress) { display_.show(progress); };
   say_ = [this](const std::string& line) {
     display_.say(line);

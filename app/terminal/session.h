@@ -6,6 +6,7 @@
 #include <string>
 
 #include "app/terminal/progress.h"
+#include "app/terminal/stop_signals.h"
 #include "core/state/stage.h"
 
 namespace vitrel {
@@ -15,7 +16,8 @@ namespace vitrel {
 class Session {
  public:
   /// `wall_time` in seconds; 0: no limit.
-  explicit Session(bool quiet, double wall_time = 0);
+  explicit Session(bool quiet, double wall_time = 0,
+                   StopDeadline deadline = StopDeadline::soon);
 
   const RunControl& control() const { return control_; }
   /// Begins a step: prints a line, and the label of the progress that follows.
@@ -30,7 +32,6 @@ class Session {
 
  private:
   ProgressDisplay display_;
-  double wall_time_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   RunControl control_;
   std::function<void(const std::string&)> say_;

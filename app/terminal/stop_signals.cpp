@@ -1,31 +1,78 @@
 #include "app/terminal/stop_signals.h"
 
-#include <csignal>
+#include <sys/time.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <cstring>
+
+#include "app/terminal/exit_codes.h"
 #include "workflow/sweep/process.h"
 
 namespace vitrel {
 namespace {
 
-volatile std::sig_atomic_t signalled = 0;
+constexpr unsigned grace_seconds = 1;
 
-extern "C" void note_signal(int number) {
-  signalled = 1;
+volatile std::sig_atomic_t stop_asked = 0;
+volatile std::sig_atomic_t has_deadline = 0;
+
+// In handlers only calls that are safe there.
+
+void print(const char* text) {
+  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text, std::strlen(text));
+}
+
+extern "C" void ask_to_stop(int number) {
+  if (!stop_asked && has_deadline) alarm(grace_seconds);
+  stop_asked = 1;
   if (number == SIGINT) std::signal(SIGINT, SIG_DFL);
+}
+
+// The first alarm is the wall time, the second the deadline.
+extern "C" void note_alarm(int number) {
+  if (!stop_asked) return ask_to_stop(number);
+  if (isatty(STDERR_FILENO)) print("\r\033[K");  // instead of the line of progress
+  print(
+      "stopped at once, without the work since the last checkpoint; the same command continues\n");
+  _exit(stopped);
+}
+
+void handle(int number, void (*handler)(int)) {
+  struct sigaction before {};
+  sigaction(number, nullptr, &before);
+  if (before.sa_handler == SIG_IGN) return;
+  struct sigaction action {};
+  action.sa_handler = handler;
+  sigemptyset(&action.sa_mask);
+  action.sa_flags = SA_RESTART;
+  sigaction(number, &action, nullptr);
+}
+
+void set_alarm(double seconds) {
+  constexpr double shortest = 1e-6, longest = 1e9;
+  const double bounded = std::clamp(seconds, shortest, longest);
+  itimerval timer{};
+  timer.it_value.tv_sec = static_cast<time_t>(bounded);
+  timer.it_value.tv_usec =
+      static_cast<suseconds_t>(std::ceil(1e6 * (bounded - std::floor(bounded))));
+  setitimer(ITIMER_REAL, &timer, nullptr);
 }
 
 }  // namespace
 
-void catch_stop_signals() {
-  struct sigaction action {};
-  action.sa_handler = note_signal;
-  sigemptyset(&action.sa_mask);
-  action.sa_flags = SA_RESTART;
-  for (const int number : stop_signals) sigaction(number, &action, nullptr);
+void catch_stop_signals(double wall_time, StopDeadline deadline) {
+  has_deadline = deadline == StopDeadline::soon;
+  for (const int number : stop_signals) handle(number, ask_to_stop);
+  handle(SIGALRM, note_alarm);
+  handle(SIGXFSZ, SIG_IGN);
+  if (wall_time > 0) set_alarm(wall_time);
 }
 
-bool stop_signalled() {
-  return signalled != 0;
+bool stop_requested() {
+  return stop_asked != 0;
 }
 
 }  // namespace vitrel

@@ -1,13 +1,20 @@
 #pragma once
 
 /// @file
-/// A clean stop on request: the signals of workflow/sweep/process.h only set a flag, which work asks for
-/// where it can be resumed.
+/// A clean stop on request: the signals of workflow/sweep/process.h and the wall time set a flag, which work asks for
+/// where it can be resumed. Work that does not get there soon is ended as if it were killed, which all files survive.
 namespace vitrel {
 
-/// Installs the handlers. A second SIGINT ends the program at once.
-void catch_stop_signals();
+enum class StopDeadline {
+  soon,  ///< a second after the request the program ends with exit code 5, whatever it does
+  none   ///< for a program that waits for others, which have their own
+};
 
-bool stop_signalled();
+/// From now on signals and the end of the wall time request a stop. `wall_time` in seconds from now; 0: no limit. Signals
+/// that are ignored already (nohup) stay so. A second SIGINT ends the program at once. A file that exceeds the limit of
+/// the system becomes an error of writing, instead of SIGXFSZ.
+void catch_stop_signals(double wall_time, StopDeadline deadline);
+
+bool stop_requested();
 
 }  // namespace vitrel

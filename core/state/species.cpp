@@ -1,5 +1,7 @@
 #include "core/state/species.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -71,6 +73,16 @@ void draw_shape(const Species& species, Stream& stream, Ellipsoid& shape) {
   shape = {Vec3(a, a / ratio1, a / ratio2)};
 }
 
+template <class Shape>
+void require_tested_aspect(const Species& species, const Shape& shape) {
+  const double aspect = shape.circumradius() / shape.inradius();
+  if (!(aspect <= max_aspect))
+    throw UserError(
+        fmt::format("species {}: the longest semi-axis of a particle is {:.4g} times the shortest, "
+                    "but must be at most {} times: contacts of longer particles are not tested",
+                    species.name, aspect, max_aspect));
+}
+
 // Fisher and Yates.
 void shuffle(std::vector<std::int32_t>& values, Stream stream) {
   for (std::size_t i = values.size(); i > 1; --i) std::swap(values[i - 1], values[stream.below(i)]);
@@ -135,6 +147,7 @@ Configuration<Dim> draw(const std::vector<Species>& species, std::size_t particl
     const Species& kind = species[static_cast<std::size_t>(system.species[i])];
     Stream stream(seed, Purpose::shapes, 1, i);
     draw_shape(kind, stream, system.shape[i]);
+    require_tested_aspect(kind, system.shape[i]);
     system.mass[i] = kind.mass.value_or(natural_mass(system.shape[i]));
   }
   return system;

@@ -58,10 +58,14 @@ double natural_mass(const Ellipsoid& shape);
 /// largest remainders (the earlier species on a tie). The counts add up to `particles`.
 std::vector<std::size_t> species_counts(const std::vector<Species>& species, std::size_t particles);
 
+/// The largest ratio of the longest to the shortest semi-axis of a particle that is drawn. Contacts are tested up to it.
+inline constexpr double max_aspect = 1000;
+
 /// N particles at rest at the origin, mixed in a random order, in the box of that packing fraction
 /// whose sides have these proportions. The order comes from the stream (seed, shapes, 0, 0) and the
 /// shape of particle i from (seed, shapes, 1, i). Shapes are not rescaled: the unit of length is that
-/// of the sizes given. At least one species; the fractions add up to 1.
+/// of the sizes given. At least one species; the fractions add up to 1. Throws UserError if a particle exceeds
+/// max_aspect.
 template <int Dim>
 Configuration<Dim> draw_particles(const std::vector<Species>& species, std::size_t particles,
                                   double packing_fraction, const Vec<Dim>& proportions,

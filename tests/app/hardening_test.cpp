@@ -1,7 +1,9 @@
 // Damaged and absurd files, as fuzzing found them: one message, the right exit code, no crash and no hang.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <functional>
 
 #include "core/io/h5.h"
@@ -122,6 +124,110 @@ TEST(Hardening, OddNamesAndSeedsAreRefusedInPlainWords) {
       expect_refusal(run(folder.path(), {command, "p.toml", "-o", "a.h5", "--seed", seed}), 2,
                      std::string(seed) + " is not a whole number between 0 and");
   }
+}
+
+/// Work that is far from its end, and what it has said once it is under way.
+struct LongWork {
+  std::vector<std::string> words;
+  std::string sign;
+};
+
+// Blocks of events, stages and attempts take as long as the input asks for.
+TEST(Hardening, AStopIsAnsweredWhateverTheWork) {
+  const Folder folder("long_work");
+  folder.write("p.toml", "[dynamics]\nequilibration = 0\nduration = 1e4\n");
+  folder.write("dense.toml",
+               "[system]\nparticles = 20\npacking_fraction = 0.9\n[[species]]\naspect_ratio = 1\n"
+               "[[prepare.stage]]\nmethod = \"insert\"\npacking_fraction = 0.9\n"
+               "attempts = 1000000000000000000\n");
+  const auto run_with = [](const std::vector<std::string>& assignments) {
+    std::vector<std::string> words = {"run", "p.toml", "-o", "out.h5"};
+    for (const std::string& assignment : assignments)
+      words.insert(words.end(), {"--set", assignment});
+    return words;
+  };
+  const LongWork works[] = {
+      {run_with({"output.samples.interval=1e-3"}), "run of"},
+      {run_with({"dynamics.kind=brownian", "dynamics.brownian_step=1e-9"}), "run of"},
+      {run_with({"output.correlations.interval=1e-7"}), "run of"},
+      {run_with({"system.particles=300000", "system.packing_fraction=0.3"}), "insert at"},
+      {run_with({"system.particles=1", "output.samples.spacing=logarithmic",
+                 "output.samples.per_decade=1000000"}),
+       "run of"},
+      {{"prepare", "dense.toml", "-o", "out.h5"}, "insert at"}};
+  const int signals[] = {SIGTERM, SIGINT, SIGUSR1, SIGHUP, SIGXCPU};
+  std::size_t signal = 0;
+  for (const LongWork& work : works) {
+    SCOPED_TRACE(testing::PrintToString(work.words));
+    const auto is_under_way = [&] {
+      return folder.read("standard_error").find(work.sign) != std::string::npos;
+    };
+    const auto outcome = testing_program::run_and_signal(folder.path(), work.words, is_under_way,
+                                                         signals[signal++ % std::size(signals)]);
+    EXPECT_EQ(outcome.code, 5) << outcome.errors;
+    EXPECT_THAT(outcome.errors, testing::HasSubstr("the same command continues"));
+    auto limited = work.words;
+    limited.insert(limited.end(), {"--wall-time", "0.3"});
+    EXPECT_EQ(run(folder.path(), limited).code, 5);
+    for (const char* file : {"out.h5", "out.h5.checkpoint", "out.h5.checkpoint.previous",
+                             "out.h5.preparation", "out.h5.correlations.h5", "standard_error"})
+      std::filesystem::remove(folder / file);
+  }
+}
+
+// nohup starts a program with SIGHUP ignored.
+TEST(Hardening, AnIgnoredSignalStaysIgnored) {
+  const Folder folder("ignored_signal");
+  folder.write("p.toml", "[system]\nparticles = 50\n[dynamics]\nduration = 300\n");
+  const auto before = std::signal(SIGHUP, SIG_IGN);
+  const auto outcome = testing_program::run_and_signal(
+      folder.path(), {"run", "p.toml", "-o", "run.h5"},
+      [&] { return folder.read("standard_error").find("run of") != std::string::npos; }, SIGHUP);
+  std::signal(SIGHUP, before);
+  EXPECT_EQ(outcome.code, 0) << outcome.errors;
+}
+
+/// Runs the program where no file may become larger.
+testing_program::Outcome run_with_file_limit(rlim_t bytes, const Folder& folder,
+                                             const std::vector<std::string>& words) {
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit limit{bytes, before.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &limit);
+  const auto outcome = run(folder.path(), words);
+  setrlimit(RLIMIT_FSIZE, &before);
+  return outcome;
+}
+
+TEST(Hardening, AFileThatMayNotGrowIsAnErrorOfWriting) {
+  const Folder folder("file_size_limit");
+  folder.write("p.toml",
+               "[system]\nparticles = 50\n[dynamics]\nequilibration = 0\nduration = 20\n"
+               "[output]\ncheckpoint_interval = 0\nsamples.interval = 0.05\n");
+  expect_refusal(run_with_file_limit(300'000, folder, {"run", "p.toml", "-o", "run.h5", "-q"}), 3,
+                 "File too large");
+  testing_program::succeed(folder, {"check", "run.h5", "-q"});
+  testing_program::succeed(folder, {"run", "p.toml", "-o", "run.h5", "-q"});
+}
+
+TEST(Hardening, WithoutRoomForAStateThereIsNoQualityReportEither) {
+  const Folder folder("no_room_for_state");
+  folder.write("p.toml", "[prepare]\nquality_sweeps = 1\n");
+  const std::vector<std::string> prepare = {"prepare", "p.toml", "-o", "state.h5", "-q"};
+  expect_refusal(run_with_file_limit(20'000, folder, prepare), 3, "state.h5");
+  EXPECT_FALSE(std::filesystem::exists(folder / "state.quality.json"));
+  testing_program::succeed(folder, prepare);
+  EXPECT_TRUE(std::filesystem::exists(folder / "state.quality.json"));
+}
+
+TEST(Hardening, ARunIsNotContinuedThroughALink) {
+  const Folder folder("link");
+  folder.write("p.toml", "[system]\nparticles = 20\n[dynamics]\nduration = 1\n");
+  testing_program::succeed(folder, {"run", "p.toml", "-o", "run.h5", "-q"});
+  std::filesystem::create_symlink("run.h5", folder / "link.h5");
+  for (const char* last : {"-q", "--dry-run"})
+    expect_refusal(run(folder.path(), {"run", "p.toml", "-o", "link.h5", last}), 2,
+                   "link.h5: is a link to run.h5");
 }
 
 // The names and the values of a checkpoint no longer fit together.

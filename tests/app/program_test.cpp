@@ -322,6 +322,26 @@ TEST(Program, ACheckpointWithoutItsTrajectoryIsRefusedAndKept) {
   EXPECT_EQ(run(folder.path(), whole).code, 0);
 }
 
+TEST(Program, ACheckpointBesideAnotherTrajectoryIsRefused) {
+  const Folder folder("another_trajectory");
+  folder.write("p.toml", small_system);
+  const std::vector<std::string> whole = {"run", "p.toml", "-o", "run.h5", "-q"};
+  const auto refused = [&](const std::vector<std::string>& change, const std::string& why) {
+    std::vector<std::string> other = {"run", "p.toml", "-o", "other.h5", "-q"};
+    other.insert(other.end(), change.begin(), change.end());
+    succeed(folder, other);
+    std::filesystem::rename(folder / "other.h5", folder / "run.h5");
+    std::filesystem::remove(folder / "other.h5.checkpoint");
+    std::filesystem::remove(folder / "other.h5.checkpoint.previous");
+    const std::string before = folder.read("run.h5");
+    expect_refusal(run(folder.path(), whole), 3, why);
+    EXPECT_EQ(folder.read("run.h5"), before);
+  };
+  succeed(folder, whole);
+  refused({"--seed", "77"}, "run.h5: was written with system.seed = 77, not 1, but");
+  refused({"--set", "dynamics.duration=0.5"}, " frames instead of ");
+}
+
 // The first checkpoint is saved before the trajectory is made.
 TEST(Program, ACheckpointBeforeTheFirstFrameNeedsNoTrajectory) {
   const Folder folder("no_frame_yet");

@@ -220,6 +220,24 @@ TEST(Run, BudgetStopsAtABlockEndAndTheRunGoesOn) {
   EXPECT_EQ(run(state, {}, plan_until(50), {}).end, StageEnd::reached);
 }
 
+// However dense they are, blocks end, so that the run can be stopped; and it continues to the same bits.
+TEST(Run, ManySamplesTicksAndStepsEndABlock) {
+  DynamicsOptions options;
+  options.brownian = true;
+  options.brownian_step = 1e-5;
+  const double end = 0.01;
+  RunControl stop_at_once;
+  stop_at_once.should_stop = [] { return true; };
+  RunState2 whole = begin_run(thesis_scene(), 0), parts = whole;
+  run(whole, options, plan_until(end), {});
+  int blocks = 1;
+  while (run(parts, options, plan_until(end), stop_at_once).end == StageEnd::stopped) ++blocks;
+  EXPECT_EQ(blocks, 4);  // of 256 in all 1000 steps and 2 samples
+  EXPECT_EQ(parts.brownian_steps, whole.brownian_steps);
+  EXPECT_EQ(parts.configuration.position, whole.configuration.position);
+  EXPECT_EQ(parts.configuration.velocity, whole.configuration.velocity);
+}
+
 Configuration2 scene_with_an_overlap() {
   Configuration2 c = thesis_scene();
   c.position[1] = c.position[0] + Vec2(0.9, 0.3);

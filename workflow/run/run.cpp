@@ -1,9 +1,7 @@
 #include "workflow/run/run.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
@@ -15,7 +13,7 @@
 #include "workflow/prepare/prepare.h"
 #include "workflow/run/correlations_file.h"
 #include "workflow/run/run_checkpoint.h"
-#include "workflow/run/run_cost.h"
+#include "workflow/run/run_start.h"
 #include "workflow/storage/checkpoint_file.h"
 #include "workflow/storage/trajectory_file.h"
 
@@ -24,109 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path checkpoint_path(const fs::path& output) {
-  return output.string() + ".checkpoint";
-}
 fs::path failed_state_path(const fs::path& output) {
   return output.string() + ".failed.h5";
-}
-
-/// Before time 0 the run equilibrates.
-template <int Dim>
-std::string time_text(const RunState<Dim>& state) {
-  const double time = state.configuration.time;
-  return time < 0 ? fmt::format("time {:.6g} of {:.6g} of the equilibration",
-                                time - state.start_time, -state.start_time)
-                  : fmt::format("time {:.6g}", time + 0.);  // no −0
-}
-
-void refuse_changes(const Parameters& parameters, const std::string& begun_with,
-                    const fs::path& output) {
-  if (const auto change = forbidden_change(begun_with, effective_parameters(parameters), Work::run))
-    throw UserError(
-        fmt::format("{}: the run was begun with {} = {}, but now it is {}; continue it "
-                    "with its own parameters, or choose another output",
-                    output.string(), change->key, change->first, change->second));
-}
-
-/// Frames that a checkpoint counts must be in the trajectory; one that counts none may come before it.
-template <int Dim>
-void require_trajectory(const RunCheckpoint<Dim>& run, const fs::path& output) {
-  if (run.state.next_sample == 0 || fs::exists(output)) return;
-  throw FileError(fmt::format(
-      "{}: is missing, but {} is there, the checkpoint of the run that wrote {} frame(s) to it; "
-      "restore the file, delete the checkpoint (and its .previous, if there) to start anew, or "
-      "choose another output",
-      output.string(), checkpoint_path(output).string(), run.state.next_sample));
-}
-
-/// Of a complete run the checkpoint before the last. The last is of the end, where a longer run would not have stopped:
-/// to go on from there would differ by rounding.
-template <int Dim>
-RunCheckpoint<Dim> before_the_end(const fs::path& checkpoint) {
-  const auto refusal = [&](const std::string& why) {
-    return FileError(
-        fmt::format("{}.previous: {}; a complete run is made longer from there, so "
-                    "start it anew with its whole duration",
-                    checkpoint.string(), why));
-  };
-  try {
-    RunCheckpoint<Dim> run =
-        run_from_checkpoint<Dim>(load_previous_checkpoint(checkpoint), checkpoint);
-    if (!run.complete) return run;
-  } catch (const FileError& error) {
-    throw refusal(error.what());
-  }
-  throw refusal("is of the end of the run, too");
-}
-
-/// The run to continue, also if its file to start from is no longer there.
-template <int Dim>
-RunCheckpoint<Dim> stored_run(RunRequest& request, const Checkpoint& checkpoint) {
-  const fs::path file = checkpoint_path(request.output);
-  const auto* state = std::get_if<Configuration<Dim>>(&checkpoint.configuration);
-  // Defaults are not the same in all versions.
-  const Parameters recorded = recorded_parameters(checkpoint.parameters, file.string());
-  if (start_state(request.parameters.stages) && state) {
-    take_system(request.parameters, *state, file.string(), checkpoint.parameters);
-    // Earlier versions recorded the stages of the parameter file, which they did not use.
-    if (!start_state(recorded.stages)) request.parameters.stages = recorded.stages;
-  }
-  request.parameters = continued(request.parameters, recorded);
-  refuse_changes(request.parameters, checkpoint.parameters, request.output);
-  RunCheckpoint<Dim> run = run_from_checkpoint<Dim>(checkpoint, file);
-  require_trajectory(run, request.output);
-  const bool is_longer = request.parameters.dynamics.duration > recorded.dynamics.duration;
-  if (run.complete && is_longer) run = before_the_end<Dim>(file);
-  if (is_longer) run.parameters = effective_parameters(request.parameters);
-  return run;
-}
-
-PrepareRequest preparation_request(const RunRequest& request) {
-  return {.parameters = request.parameters,
-          .output = request.output,
-          .command_line = request.command_line,
-          .threads = request.threads,
-          .overlaps_allowed = request.parameters.dynamics.on_overlap == OnOverlap::correct};
-}
-
-void refuse_foreign_output(const fs::path& output) {
-  if (fs::exists(output))
-    throw UserError(output.string() +
-                    ": exists, but has no checkpoint beside it, so it cannot be continued; choose "
-                    "another output, or delete it");
-}
-
-template <int Dim>
-void set_velocities(Configuration<Dim>& configuration, const Parameters& parameters) {
-  const DynamicsParameters& dynamics = parameters.dynamics;
-  set_initial_velocities(configuration, parameters.system.seed, dynamics.initial_velocities,
-                         dynamics.temperature, initial_energies(parameters));
-  const Mechanics<Dim> sums = mechanics(configuration);
-  if (!(sums.translational_energy + sums.rotational_energy > 0))
-    throw UserError(
-        "dynamics.initial_velocities = \"keep\", but the state to start from is at rest; "
-        "use \"maxwell\", or start (--from) from a run with velocities");
 }
 
 /// One request at work.
@@ -299,103 +196,12 @@ class RunJob {
   bool is_longer_ = false;                      ///< than it was when it was last worked on
 };
 
-/// Where the run starts; the species of the request become those that run.
-template <int Dim>
-std::string start_text(RunRequest& request) {
-  const fs::path checkpoint = checkpoint_path(request.output);
-  if (checkpoint_exists(checkpoint)) {
-    const RunCheckpoint<Dim> run = stored_run<Dim>(request, load_checkpoint(checkpoint).checkpoint);
-    return run.complete ? "nothing: the run is complete"
-                        : fmt::format("the checkpoint at {}, {} frames", time_text(run.state),
-                                      run.state.next_sample);
-  }
-  refuse_foreign_output(request.output);
-  const std::vector<Stage>& stages = request.parameters.stages;
-  const bool is_given = start_state(stages) && stages.size() == 1;
-  const PrepareRequest preparation = preparation_request(request);
-  Configuration<Dim> state;
-  if (start_state(stages))
-    state = read_start<Dim>(request.parameters, preparation.overlaps_allowed, {});
-  if (!is_given) {
-    require_same_preparation<Dim>(preparation);
-    state = representative_particles<Dim>(request.parameters);  // at rest, as after other stages
-  }
-  set_velocities(state, request.parameters);
-  const std::string steps = fmt::format("a preparation in {} stage(s)", stages.size());
-  if (!start_state(stages)) return steps;
-  const std::string given = stage_description(stages.front(), 0);
-  return is_given ? given : fmt::format("{}, by {}", given, steps);
-}
-
-/// More than there is of it is a warning.
-std::string room_text(double needed, double available, const char* what) {
-  constexpr double megabyte = 1e6;
-  if (needed <= available) return "";
-  return fmt::format("warning      needs {:.3g} MB of {}, but there are {:.3g} MB\n",
-                     needed / megabyte, what, available / megabyte);
-}
-
-double physical_memory() {
-  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
-}
-
-double free_disk(const fs::path& output) {
-  std::error_code unknown;
-  return static_cast<double>(fs::space(fs::absolute(output).parent_path(), unknown).available);
-}
-
-template <int Dim>
-std::string cost_text(const RunRequest& request) {
-  const Parameters& p = request.parameters;
-  const RunCost cost = run_cost(p, representative_particles<Dim>(p));
-  const double correlations = p.output.correlations ? correlator_bytes(p) : 0;
-  const double memory = cost.memory_bytes + correlations;
-  const bool slows = p.dynamics.restitution < 1 || p.dynamics.contact;
-  return fmt::format(
-             "expects      {}{:.2g} events, {:.2g} s after the preparation, {:.3g} MB of "
-             "memory, {:.3g} MB on disk\n",
-             slows ? "at most " : "", cost.events, cost.seconds, memory / 1e6,
-             cost.disk_bytes / 1e6) +
-         room_text(memory, physical_memory(), "memory") +
-         room_text(cost.disk_bytes, free_disk(request.output), "disk");
-}
-
-template <int Dim>
-std::string plan_text(RunRequest request) {
-  const std::string start = start_text<Dim>(request);
-  const Parameters& p = request.parameters;
-  const std::string fraction =
-      has_unknown_end(p.stages) ? "as prepared" : fmt::format("{}", p.system.packing_fraction);
-  std::string text = fmt::format("starts from  {}\n", start);
-  text += fmt::format("system       {} particles, packing fraction {}, seed {}\n",
-                      p.system.particles, fraction, p.system.seed);
-  for (const Species& species : p.species)
-    text += fmt::format("species      {}, fraction {:.4g}\n", species.name, species.fraction);
-  text += p.dynamics.kind == DynamicsParameters::Kind::brownian
-              ? fmt::format("dynamics     brownian, step {}\n", p.dynamics.brownian_step)
-              : std::string("dynamics     newtonian\n");
-  if (p.dynamics.contact) text += contact_text(*p.dynamics.contact);
-  text += fmt::format("time         {} to equilibrate, then {}\n", p.dynamics.equilibration,
-                      p.dynamics.duration);
-  text +=
-      fmt::format("writes       {}, {} frames; checkpoint every {} s\n", request.output.string(),
-                  sample_times(p).size(), p.output.checkpoint_interval);
-  if (p.output.correlations)
-    text += fmt::format("correlates   every {}, into {}\n", p.output.correlations->interval,
-                        correlations_path(request.output).string());
-  return text + cost_text<Dim>(request);
-}
-
 }  // namespace
 
 int run_dimension(const RunRequest& request) {
   const fs::path checkpoint = checkpoint_path(request.output);
   if (checkpoint_exists(checkpoint)) return dimension_of(load_checkpoint(checkpoint).checkpoint);
   return prepared_dimension(preparation_request(request));
-}
-
-std::string run_plan(RunRequest request) {
-  return run_dimension(request) == 2 ? plan_text<2>(request) : plan_text<3>(request);
 }
 
 template <int Dim>

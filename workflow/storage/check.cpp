@@ -10,7 +10,7 @@
 namespace vitrel {
 namespace {
 
-constexpr std::size_t max_complaints = 5;
+constexpr std::size_t max_complaints = 2;
 
 template <int Dim>
 void note_overlaps(FileCheck<Dim>& result, const ExactCheck<Dim>& check, std::uint64_t frame,

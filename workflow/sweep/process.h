@@ -11,9 +11,9 @@
 
 namespace vitrel {
 
-/// What asks the program for a clean stop: Ctrl-C, a batch system, or a batch system's warning that time
-/// runs out.
-inline constexpr std::array<int, 3> stop_signals = {SIGINT, SIGTERM, SIGUSR1};
+/// What asks the program for a clean stop: Ctrl-C, a terminal that is closed, a batch system or its warning that time
+/// runs out, or the limit of processor time.
+inline constexpr std::array<int, 5> stop_signals = {SIGINT, SIGHUP, SIGTERM, SIGUSR1, SIGXCPU};
 
 /// A child process that does not outlive this one: if this process dies, however, the child is
 /// killed. Must be started from the thread that lives as long as the child is wanted.

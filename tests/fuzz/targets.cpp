@@ -1,0 +1,160 @@
+#include "tests/fuzz/targets.h"
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "core/random/stream.h"
+#include "tests/fuzz/execution.h"
+#include "tests/fuzz/mutations.h"
+
+namespace vitrel::fuzz {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string content(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+void write(const fs::path& file, const std::string& text) {
+  std::ofstream(file, std::ios::binary) << text;
+}
+
+/// A small run in each of the dimensions, and of soft disks.
+const std::string plane =
+    "[system]\nparticles = 12\npacking_fraction = 0.4\n"
+    "[[species]]\nname = \"A\"\nfraction = 0.5\naspect_ratio = 2\n"
+    "[[species]]\nname = \"B\"\nfraction = 0.5\naspect_ratio = 1\nsize = 0.8\n"
+    "[dynamics]\nequilibration = 0\nduration = 2\n"
+    "[output]\nvelocities = true\n"
+    "samples = { spacing = \"linear\", interval = 0.5 }\ncorrelations = { interval = 0.1 }\n";
+const std::string space =
+    "[system]\ndimension = 3\nparticles = 10\npacking_fraction = 0.2\n"
+    "[[species]]\nsemi_axes = [1.25, 1, 0.8]\n"
+    "[dynamics]\nequilibration = 0\nduration = 2\n"
+    "[output]\nvelocities = true\n"
+    "samples = { spacing = \"linear\", interval = 0.5 }\n";
+const std::string soft =
+    "[system]\nparticles = 12\npacking_fraction = 0.5\n[[species]]\naspect_ratio = 1\n"
+    "[dynamics]\nequilibration = 0\nduration = 2\n"
+    "[dynamics.contact]\nlaw = \"linear_dashpot\"\nstiffness = \"1e5 N/m\"\ndamping = \"200 "
+    "kg/s\"\n"
+    "[output]\nvelocities = true\n"
+    "samples = { spacing = \"linear\", interval = 0.5 }\n";
+const std::string sweep = plane + "[sweep.grid]\n\"system.seed\" = [1, 2]\n";
+const char* const pair =
+    "[[body]]\nsemi_axes = [2, 1]\nposition = [0, 0]\nangle = 0.1\n"
+    "velocity = [1, 0]\nangular_velocity = 0.2\n"
+    "[[body]]\nsemi_axes = [1, 1]\nposition = [4, 0.5]\n";
+
+void succeed(const std::vector<std::string>& command) {
+  const Outcome outcome = execute(command);
+  if (outcome.code == 0) return;
+  std::string text = "cannot be made:";
+  for (const std::string& word : command) text += " " + word;
+  throw std::runtime_error(text + ": " + outcome.errors);
+}
+
+/// The contents of files in the working folder.
+std::vector<std::string> contents(const std::vector<fs::path>& files) {
+  std::vector<std::string> texts;
+  for (const fs::path& file : files) texts.push_back(content(file));
+  return texts;
+}
+
+std::vector<std::string> parameter_files() {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(VITREL_PARAMS))
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  std::ranges::sort(files);
+  std::vector<std::string> texts = contents(files);
+  texts.insert(texts.end(), {plane, space, soft, sweep});
+  return texts;
+}
+
+std::vector<std::vector<std::string>> commands_for(const std::string& file) {
+  return {{"check", file, "-q"},
+          {"analyze", file, "-q", "-o", "results.h5"},
+          {"export", file, "--to", "csv", "-o", "out.csv", "-q"},
+          {"run", "p.toml", "--from", file, "-o", "out.h5", "--dry-run"}};
+}
+
+/// A file of another program, whose shapes are in the parameter file where it has none.
+Target foreign(const std::string& format, Kind kind) {
+  const std::string file = "foreign." + format;
+  auto commands = commands_for(file);
+  commands.push_back({"check", file, "--params", "p.toml", "-q"});
+  return {format, file, kind, contents({"plane." + format, "space." + format, "soft." + format}),
+          commands};
+}
+
+Target trajectory() {
+  auto commands = commands_for("fuzzed.h5");
+  commands.push_back({"report", "fuzzed.h5", "-o", "report.html", "-q"});
+  commands.push_back({"export", "fuzzed.h5", "--to", "xyz", "-o", "out.xyz", "-q"});
+  return {"trajectory", "fuzzed.h5", Kind::hdf5, contents({"plane.h5", "space.h5", "soft.h5"}),
+          commands};
+}
+
+}  // namespace
+
+std::vector<Target> make_targets(const fs::path& folder) {
+  fs::current_path(folder);
+  for (const auto& [name, text] : {std::pair{"plane", plane}, {"space", space}, {"soft", soft}}) {
+    const std::string file = std::string(name) + ".h5";
+    write(std::string(name) + ".toml", text);
+    succeed({"run", std::string(name) + ".toml", "-o", file, "-q"});
+    for (const char* format : {"csv", "xyz", "gsd"})
+      succeed({"export", file, "--to", format, "-o", std::string(name) + "." + format, "-q"});
+  }
+  succeed({"analyze", "plane.h5", "-o", "plane.results.h5", "-q"});
+  write("p.toml", plane);
+  fs::copy_file("plane.h5", "run.h5");
+  return {{"parameters",
+           "fuzzed.toml",
+           Kind::text,
+           parameter_files(),
+           {{"run", "fuzzed.toml", "-o", "out.h5", "--dry-run"},
+            {"sweep", "fuzzed.toml", "-o", "sweep", "--status"}}},
+          {"pairs",
+           "pair.toml",
+           Kind::text,
+           {pair},
+           {{"pair", "gap", "pair.toml"},
+            {"pair", "contact-time", "pair.toml"},
+            {"pair", "overlap", "pair.toml"}}},
+          trajectory(),
+          {"checkpoint",
+           "run.h5.checkpoint",
+           Kind::hdf5,
+           contents({"plane.h5.checkpoint"}),
+           {{"run", "p.toml", "-o", "run.h5", "--dry-run"}}},
+          {"correlations",
+           "plane.h5.correlations.h5",
+           Kind::hdf5,
+           contents({"plane.h5.correlations.h5"}),
+           {{"analyze", "plane.h5", "-o", "results.h5", "-q"}}},
+          foreign("gsd", Kind::bytes),
+          foreign("xyz", Kind::text),
+          foreign("csv", Kind::text)};
+}
+
+const std::vector<std::string>& write_input(const Target& target, Stream& stream) {
+  const std::string& original = target.originals[stream.below(target.originals.size())];
+  const std::vector<std::string>& command = target.commands[stream.below(target.commands.size())];
+  for (const char* output : {"out.h5", "out.csv", "out.xyz", "results.h5", "report.html"})
+    fs::remove(output);
+  write(target.file, original);
+  // Half of the HDF5 files are damaged as such: the library finds damaged bytes by its checksums.
+  const bool is_done =
+      target.kind == Kind::hdf5 && stream.below(2) && damage_hdf5(target.file, stream);
+  const auto damaged = target.kind == Kind::text ? damaged_text : damaged_bytes;
+  if (!is_done) write(target.file, damaged(original, target.originals, stream));
+  return command;
+}
+
+}  // namespace vitrel::fuzz

@@ -1,0 +1,110 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "workflow/configuration/soft_particles.h"
+#include "workflow/configuration/start_state.h"
+#include "workflow/run/correlations_file.h"
+#include "workflow/run/run.h"
+#include "workflow/run/run_cost.h"
+#include "workflow/run/run_start.h"
+#include "workflow/storage/checkpoint_file.h"
+
+namespace vitrel {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Where the run starts; the species of the request become those that run.
+template <int Dim>
+std::string start_text(RunRequest& request) {
+  const fs::path checkpoint = checkpoint_path(request.output);
+  if (checkpoint_exists(checkpoint)) {
+    const RunCheckpoint<Dim> run = stored_run<Dim>(request, load_checkpoint(checkpoint).checkpoint);
+    return run.complete ? "nothing: the run is complete"
+                        : fmt::format("the checkpoint at {}, {} frames", time_text(run.state),
+                                      run.state.next_sample);
+  }
+  refuse_foreign_output(request.output);
+  const std::vector<Stage>& stages = request.parameters.stages;
+  const bool is_given = start_state(stages) && stages.size() == 1;
+  const PrepareRequest preparation = preparation_request(request);
+  Configuration<Dim> state;
+  if (start_state(stages))
+    state = read_start<Dim>(request.parameters, preparation.overlaps_allowed, {});
+  if (!is_given) {
+    require_same_preparation<Dim>(preparation);
+    state = representative_particles<Dim>(request.parameters);  // at rest, as after other stages
+  }
+  set_velocities(state, request.parameters);
+  const std::string steps = fmt::format("a preparation in {} stage(s)", stages.size());
+  if (!start_state(stages)) return steps;
+  const std::string given = stage_description(stages.front(), 0);
+  return is_given ? given : fmt::format("{}, by {}", given, steps);
+}
+
+/// More than there is of it is a warning.
+std::string room_text(double needed, double available, const char* what) {
+  constexpr double megabyte = 1e6;
+  if (needed <= available) return "";
+  return fmt::format("warning      needs {:.3g} MB of {}, but there are {:.3g} MB\n",
+                     needed / megabyte, what, available / megabyte);
+}
+
+double physical_memory() {
+  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+}
+
+double free_disk(const fs::path& output) {
+  std::error_code unknown;
+  return static_cast<double>(fs::space(fs::absolute(output).parent_path(), unknown).available);
+}
+
+template <int Dim>
+std::string cost_text(const RunRequest& request) {
+  const Parameters& p = request.parameters;
+  const RunCost cost = run_cost(p, representative_particles<Dim>(p));
+  const double correlations = p.output.correlations ? correlator_bytes(p) : 0;
+  const double memory = cost.memory_bytes + correlations;
+  const bool slows = p.dynamics.restitution < 1 || p.dynamics.contact;
+  return fmt::format(
+             "expects      {}{:.2g} events, {:.2g} s after the preparation, {:.3g} MB of "
+             "memory, {:.3g} MB on disk\n",
+             slows ? "at most " : "", cost.events, cost.seconds, memory / 1e6,
+             cost.disk_bytes / 1e6) +
+         room_text(memory, physical_memory(), "memory") +
+         room_text(cost.disk_bytes, free_disk(request.output), "disk");
+}
+
+template <int Dim>
+std::string plan_text(RunRequest request) {
+  const std::string start = start_text<Dim>(request);
+  const Parameters& p = request.parameters;
+  const std::string fraction =
+      has_unknown_end(p.stages) ? "as prepared" : fmt::format("{}", p.system.packing_fraction);
+  std::string text = fmt::format("starts from  {}\n", start);
+  text += fmt::format("system       {} particles, packing fraction {}, seed {}\n",
+                      p.system.particles, fraction, p.system.seed);
+  for (const Species& species : p.species)
+    text += fmt::format("species      {}, fraction {:.4g}\n", species.name, species.fraction);
+  text += p.dynamics.kind == DynamicsParameters::Kind::brownian
+              ? fmt::format("dynamics     brownian, step {}\n", p.dynamics.brownian_step)
+              : std::string("dynamics     newtonian\n");
+  if (p.dynamics.contact) text += contact_text(*p.dynamics.contact);
+  text += fmt::format("time         {} to equilibrate, then {}\n", p.dynamics.equilibration,
+                      p.dynamics.duration);
+  text +=
+      fmt::format("writes       {}, {} frames; checkpoint every {} s\n", request.output.string(),
+                  sample_times(p).size(), p.output.checkpoint_interval);
+  if (p.output.correlations)
+    text += fmt::format("correlates   every {}, into {}\n", p.output.correlations->interval,
+                        correlations_path(request.output).string());
+  return text + cost_text<Dim>(request);
+}
+
+}  // namespace
+
+std::string run_plan(RunRequest request) {
+  return run_dimension(request) == 2 ? plan_text<2>(request) : plan_text<3>(request);
+}
+
+}  // namespace vitrel

@@ -1,0 +1,160 @@
+#include "workflow/run/run_start.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "core/error.h"
+#include "core/io/h5md.h"
+#include "workflow/configuration/start_state.h"
+#include "workflow/storage/checkpoint_file.h"
+
+namespace vitrel {
+namespace {
+
+namespace fs = std::filesystem;
+
+void refuse_changes(const Parameters& parameters, const std::string& begun_with,
+                    const fs::path& output) {
+  if (const auto change = forbidden_change(begun_with, effective_parameters(parameters), Work::run))
+    throw UserError(
+        fmt::format("{}: the run was begun with {} = {}, but now it is {}; continue it "
+                    "with its own parameters, or choose another output",
+                    output.string(), change->key, change->first, change->second));
+}
+
+/// What keeps the file from being the trajectory of the run, if anything.
+template <int Dim>
+std::optional<std::string> difference(const TrajectoryReader& trajectory,
+                                      const RunCheckpoint<Dim>& run) {
+  if (trajectory.dimension() != Dim) return "is of another dimension";
+  if (const auto change =
+          forbidden_change(trajectory.provenance().parameters, run.parameters, Work::run))
+    return fmt::format("was written with {} = {}, not {}", change->key, change->first,
+                       change->second);
+  const std::uint64_t counted = run.state.next_sample;
+  if (trajectory.frames() < counted)
+    return fmt::format("has {} frames instead of {}", trajectory.frames(), counted);
+  if (counted == 0) return std::nullopt;
+  const Parameters parameters = recorded_parameters(run.parameters, "the checkpoint");
+  const double time = trajectory.times()[counted - 1];
+  const double expected = sample_times(parameters).at(counted - 1);
+  if (time != expected)
+    return fmt::format("has frame {} at time {}, not {}", counted - 1, time, expected);
+  const auto frame = trajectory.read<Dim>(counted - 1);
+  const Configuration<Dim>& state = run.state.configuration;
+  const bool same_particles = frame.species == state.species && frame.mass == state.mass;
+  return same_particles ? std::nullopt : std::optional<std::string>("has other particles");
+}
+
+/// Frames that a checkpoint counts must be in the trajectory; one that counts none may come before it.
+template <int Dim>
+void require_trajectory(const RunCheckpoint<Dim>& run, const fs::path& output) {
+  const auto refusal = [&](const std::string& why) {
+    return FileError(fmt::format(
+        "{}: {}, but {} is there, the checkpoint of the run that wrote {} frame(s) to it; restore "
+        "the file, delete the checkpoint (and its .previous, if there) to start anew, or choose "
+        "another output",
+        output.string(), why, checkpoint_path(output).string(), run.state.next_sample));
+  };
+  if (fs::exists(output)) {
+    if (const auto why = difference(TrajectoryReader(output), run)) throw refusal(*why);
+  } else if (run.state.next_sample > 0) {
+    throw refusal("is missing");
+  }
+}
+
+/// Of a complete run the checkpoint before the last. The last is of the end, where a longer run would not have stopped:
+/// to go on from there would differ by rounding.
+template <int Dim>
+RunCheckpoint<Dim> before_the_end(const fs::path& checkpoint) {
+  const auto refusal = [&](const std::string& why) {
+    return FileError(
+        fmt::format("{}.previous: {}; a complete run is made longer from there, so "
+                    "start it anew with its whole duration",
+                    checkpoint.string(), why));
+  };
+  try {
+    RunCheckpoint<Dim> run =
+        run_from_checkpoint<Dim>(load_previous_checkpoint(checkpoint), checkpoint);
+    if (!run.complete) return run;
+  } catch (const FileError& error) {
+    throw refusal(error.what());
+  }
+  throw refusal("is of the end of the run, too");
+}
+
+}  // namespace
+
+fs::path checkpoint_path(const fs::path& output) {
+  return output.string() + ".checkpoint";
+}
+
+template <int Dim>
+RunCheckpoint<Dim> stored_run(RunRequest& request, const Checkpoint& checkpoint) {
+  const fs::path file = checkpoint_path(request.output);
+  const auto* state = std::get_if<Configuration<Dim>>(&checkpoint.configuration);
+  // Defaults are not the same in all versions.
+  const Parameters recorded = recorded_parameters(checkpoint.parameters, file.string());
+  if (start_state(request.parameters.stages) && state) {
+    take_system(request.parameters, *state, file.string(), checkpoint.parameters);
+    // Earlier versions recorded the stages of the parameter file, which they did not use.
+    if (!start_state(recorded.stages)) request.parameters.stages = recorded.stages;
+  }
+  request.parameters = continued(request.parameters, recorded);
+  refuse_changes(request.parameters, checkpoint.parameters, request.output);
+  RunCheckpoint<Dim> run = run_from_checkpoint<Dim>(checkpoint, file);
+  require_trajectory(run, request.output);
+  const bool is_longer = request.parameters.dynamics.duration > recorded.dynamics.duration;
+  if (run.complete && is_longer) run = before_the_end<Dim>(file);
+  if (is_longer) run.parameters = effective_parameters(request.parameters);
+  return run;
+}
+
+PrepareRequest preparation_request(const RunRequest& request) {
+  return {.parameters = request.parameters,
+          .output = request.output,
+          .command_line = request.command_line,
+          .threads = request.threads,
+          .overlaps_allowed = request.parameters.dynamics.on_overlap == OnOverlap::correct};
+}
+
+void refuse_foreign_output(const fs::path& output) {
+  if (!fs::exists(output)) return;
+  if (fs::is_symlink(output))
+    throw UserError(fmt::format("{}: is a link to {}, which a run is continued by; give that name",
+                                output.string(), fs::read_symlink(output).string()));
+  throw UserError(output.string() +
+                  ": exists, but has no checkpoint beside it, so it cannot be continued; choose "
+                  "another output, or delete it");
+}
+
+template <int Dim>
+void set_velocities(Configuration<Dim>& configuration, const Parameters& parameters) {
+  const DynamicsParameters& dynamics = parameters.dynamics;
+  set_initial_velocities(configuration, parameters.system.seed, dynamics.initial_velocities,
+                         dynamics.temperature, initial_energies(parameters));
+  const Mechanics<Dim> sums = mechanics(configuration);
+  if (!(sums.translational_energy + sums.rotational_energy > 0))
+    throw UserError(
+        "dynamics.initial_velocities = \"keep\", but the state to start from is at rest; "
+        "use \"maxwell\", or start (--from) from a run with velocities");
+}
+
+// Before time 0 the run equilibrates.
+template <int Dim>
+std::string time_text(const RunState<Dim>& state) {
+  const double time = state.configuration.time;
+  return time < 0 ? fmt::format("time {:.6g} of {:.6g} of the equilibration",
+                                time - state.start_time, -state.start_time)
+                  : fmt::format("time {:.6g}", time + 0.);  // no −0
+}
+
+template RunCheckpoint<2> stored_run(RunRequest&, const Checkpoint&);
+template RunCheckpoint<3> stored_run(RunRequest&, const Checkpoint&);
+template void set_velocities(Configuration2&, const Parameters&);
+template void set_velocities(Configuration3&, const Parameters&);
+template std::string time_text(const RunState<2>&);
+template std::string time_text(const RunState<3>&);
+
+}  // namespace vitrel

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "core/io/checkpoint.h"
+#include "workflow/prepare/prepare.h"
+#include "workflow/run/run.h"
+#include "workflow/run/run_checkpoint.h"
+
+/// @file
+/// Where a run starts: at the end of its preparation, or at its checkpoint.
+namespace vitrel {
+
+/// Of the run with this output.
+std::filesystem::path checkpoint_path(const std::filesystem::path& output);
+
+/// The run to continue, also if its file to start from is no longer there; parameters of the request that depend on it
+/// are set. A complete run that becomes longer goes on from the checkpoint before its last. UserError if the request has
+/// parameters that may not change, FileError if the trajectory is not there, or not that of the run.
+template <int Dim>
+RunCheckpoint<Dim> stored_run(RunRequest& request, const Checkpoint& checkpoint);
+
+/// What prepares the state to start from.
+PrepareRequest preparation_request(const RunRequest& request);
+
+/// UserError if there is an output to which no checkpoint belongs.
+void refuse_foreign_output(const std::filesystem::path& output);
+
+/// Those at the start of the run. UserError if all particles are at rest.
+template <int Dim>
+void set_velocities(Configuration<Dim>& configuration, const Parameters& parameters);
+
+/// The time of the run for a person.
+template <int Dim>
+std::string time_text(const RunState<Dim>& state);
+
+}  // namespace vitrel
