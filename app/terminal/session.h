@@ -16,8 +16,7 @@ namespace vitrel {
 class Session {
  public:
   /// `wall_time` in seconds; 0: no limit.
-  explicit Session(bool quiet, double wall_time = 0,
-                   StopDeadline deadline = StopDeadline::soon);
+  explicit Session(bool quiet, double wall_time = 0, StopDeadline deadline = StopDeadline::soon);
 
   const RunControl& control() const { return control_; }
   /// Begins a step: prints a line, and the label of the progress that follows.
