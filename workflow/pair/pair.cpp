@@ -1,5 +1,7 @@
 #include "workflow/pair/pair.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +11,7 @@
 #include "core/contact/ellipsoid_gap.h"
 #include "core/contact/perram_wertheim.h"
 #include "core/elementary.h"
+#include "core/error.h"
 #include "core/geometry/free_flight.h"
 #include "core/geometry/tumbling_ellipsoid.h"
 #include "core/state/exact_pair.h"
@@ -112,6 +115,27 @@ Prediction<Dim> predict_as_the_engine(const Pair<Dim>& pair) {
   return converged_contact(pair.one, pair.two, pair.horizon, contact_gap);
 }
 
+double norm(double angular_velocity) {
+  return std::abs(angular_velocity);
+}
+double norm(const Vec3& angular_velocity) {
+  return angular_velocity.norm();
+}
+
+/// A search takes a few steps per radian.
+template <int Dim>
+void require_few_rotations(const Pair<Dim>& pair) {
+  constexpr double most = 1e6;  // radians; angles then keep ten digits
+  for (const Flight<Solid<Dim>>* flight : {&pair.one, &pair.two}) {
+    const double radians = norm(flight->motion.angular_velocity) * pair.horizon;
+    if (!(radians <= most))
+      throw UserError(
+          fmt::format("a body turns by {:.3g} radians until the horizon, but at most {:g} are "
+                      "possible; lower horizon or angular_velocity",
+                      radians, most));
+  }
+}
+
 /// The first contact up to `end` with any image within `reach`, when the separation is d.
 template <int Dim>
 PairContact<Dim> earliest_contact(const Pair<Dim>& pair, const PredictContact<Dim>& predict,
@@ -175,6 +199,7 @@ PairGap<Dim> gap_at(const Pair<Dim>& pair, double time) {
 template <int Dim>
 PairContact<Dim> first_contact_of_images(const Pair<Dim>& pair,
                                          const PredictContact<Dim>& predict) {
+  require_few_rotations(pair);
   const Vec<Dim> d = pair.two.pose.position - pair.one.pose.position;
   const Vec<Dim> v = pair.two.motion.velocity - pair.one.motion.velocity;
   const double touch = pair.one.body.circumradius() + pair.two.body.circumradius();

@@ -58,7 +58,7 @@ struct PairContact {
 template <int Dim>
 using PredictContact = std::function<Prediction<Dim>(const Pair<Dim>&)>;
 
-/// The first contact that `predict` finds with any image.
+/// The first contact that `predict` finds with any image. UserError if a body turns too often until the horizon.
 template <int Dim>
 PairContact<Dim> first_contact_of_images(const Pair<Dim>& pair, const PredictContact<Dim>& predict);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "core/state/species.h"
 #include "workflow/configuration/rules.h"
 #include "workflow/configuration/sections.h"
 
@@ -74,6 +75,10 @@ void validate_semi_axes(const std::vector<double>& axes, const Rules& rules) {
   rules.require(is_positive && fits, "semi_axes",
                 fmt::format("is {}, but must be [a, b] with a ≥ b > 0, or [a, b, c], all above 0",
                             to_toml(axes)));
+  const double aspect = std::ranges::max(axes) / std::ranges::min(axes);
+  rules.require(aspect <= max_aspect, "semi_axes",
+                fmt::format("is {}, but the longest may be at most {} times the shortest",
+                            to_toml(axes), max_aspect));
   rules.require(std::ranges::min(axes) >= smallest, "semi_axes",
                 fmt::format("is {}, but must not be below {:g}; choose a smaller unit of length",
                             to_toml(axes), smallest));
