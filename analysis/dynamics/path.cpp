@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "analysis/structure/orientation_tensor.h"
@@ -26,9 +27,19 @@ std::vector<Vec3> body_axes(const Ellipsoid& shape, std::size_t count) {
   return axes;
 }
 
+/// Angles by the shortest turns from frame to frame, of which the largest is noted.
+FrameSeries unwrapped(FrameSeries angle, double& largest_turn) {
+  for (std::size_t k = 1; k < angle.size(); ++k) {
+    const double turn = std::remainder(angle[k] - angle[k - 1], 2 * std::numbers::pi);
+    largest_turn = std::max(largest_turn, std::abs(turn));
+    angle[k] = angle[k - 1] + turn;
+  }
+  return angle;
+}
+
 void follow(Path<2>& path, const Ellipse&, std::size_t) {
   const FrameSeries& angle = path.track->orientation[0];
-  path.turn[0] = angle;
+  path.turn[0] = path.track->counts_turns ? angle : unwrapped(angle, path.largest_turn);
   DirectionSeries<2>& axis = path.directions.emplace_back();
   for (const double theta : angle) {
     axis[0].push_back(std::cos(theta));

@@ -18,8 +18,9 @@ struct Track {
   static constexpr std::size_t orientation_numbers = Dim == 2 ? 1 : 4;
 
   std::array<FrameSeries, Dim> position;  ///< unwrapped
-  /// In the plane the unwrapped angle; in space the quaternion w, x, y, z.
+  /// In the plane the angle; in space the quaternion w, x, y, z.
   std::array<FrameSeries, orientation_numbers> orientation;
+  bool counts_turns = true;  ///< whether the angle is unwrapped
 };
 
 /// Bytes that the track of one particle takes.

@@ -40,10 +40,13 @@ extern "C" void note_alarm(int number) {
   _exit(stopped);
 }
 
+bool is_ignored(int number) {
+  struct sigaction action {};
+  sigaction(number, nullptr, &action);
+  return action.sa_handler == SIG_IGN;
+}
+
 void handle(int number, void (*handler)(int)) {
-  struct sigaction before {};
-  sigaction(number, nullptr, &before);
-  if (before.sa_handler == SIG_IGN) return;
   struct sigaction action {};
   action.sa_handler = handler;
   sigemptyset(&action.sa_mask);
@@ -65,7 +68,9 @@ void set_alarm(double seconds) {
 
 void catch_stop_signals(double wall_time, StopDeadline deadline) {
   has_deadline = deadline == StopDeadline::soon;
-  for (const int number : stop_signals) handle(number, ask_to_stop);
+  const bool is_nohup = is_ignored(SIGHUP);
+  for (const int number : stop_signals)
+    if (number != SIGHUP || !is_nohup) handle(number, ask_to_stop);
   handle(SIGALRM, note_alarm);
   handle(SIGXFSZ, SIG_IGN);
   if (wall_time > 0) set_alarm(wall_time);

@@ -10,8 +10,8 @@ enum class StopDeadline {
   none   ///< for a program that waits for others, which have their own
 };
 
-/// From now on signals and the end of the wall time request a stop. `wall_time` in seconds from now; 0: no limit. Signals
-/// that are ignored already (nohup) stay so. A second SIGINT ends the program at once. A file that exceeds the limit of
+/// From now on signals and the end of the wall time request a stop. `wall_time` in seconds from now; 0: no limit. SIGHUP
+/// that is ignored already (nohup) stays so; shells ignore others for their own sake. A second SIGINT ends the program at once. A file that exceeds the limit of
 /// the system becomes an error of writing, instead of SIGXFSZ.
 void catch_stop_signals(double wall_time, StopDeadline deadline);
 

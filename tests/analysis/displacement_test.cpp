@@ -79,6 +79,43 @@ TEST(Displacement, FreeBrownianParticlesFollowTheClosedForms) {
   EXPECT_GT(result.lag.back(), 37);
 }
 
+/// A run whose angles are known up to whole turns, of every `step`-th frame.
+class UncountedTurns : public Trajectory2 {
+ public:
+  UncountedTurns(MemoryTrajectory2& counted, std::size_t step) : counted_(counted), step_(step) {
+    for (std::size_t k = 0; k < counted.frames(); k += step) times_.push_back(counted.times()[k]);
+  }
+  const std::vector<double>& times() const override { return times_; }
+  const Configuration2& read(std::size_t k) override {
+    frame_ = counted_.read(k * step_);
+    for (double& angle : frame_.angle) angle = std::remainder(angle, 2 * std::numbers::pi);
+    return frame_;
+  }
+  bool counts_turns() const override { return false; }
+
+ private:
+  MemoryTrajectory2& counted_;
+  std::size_t step_;
+  std::vector<double> times_;
+  Configuration2 frame_;
+};
+
+// Turns from frame to frame are short, and then they are not.
+TEST(Displacement, UncountedTurnsAreTheShortestOrUnknown) {
+  MemoryTrajectory2 counted = free_brownian(ellipses(20), 401, 5);
+  UncountedTurns all(counted, 1), few(counted, 100);
+  const DisplacementGroup right = displacements(counted).groups[0];
+  const DisplacementGroup found = displacements(all).groups[0];
+  ASSERT_EQ(found.rotation.value.size(), right.rotation.value.size());
+  EXPECT_GT(right.rotation.value.back(), 1);
+  for (std::size_t l = 0; l < right.rotation.value.size(); ++l)
+    EXPECT_NEAR(found.rotation.value[l], right.rotation.value[l], 1e-12 * right.rotation.value[l]);
+  const Displacements unknown = displacements(few);
+  EXPECT_FALSE(unknown.unknown_turns.empty());
+  EXPECT_TRUE(unknown.groups[0].rotation.value.empty());
+  EXPECT_FALSE(unknown.groups[0].orientation[0].value.empty());
+}
+
 /// Counts of truths within one and two errors over many runs.
 struct Coverage {
   int runs = 0, one = 0, two = 0, blocked = 0;

@@ -176,7 +176,7 @@ TEST(Hardening, AStopIsAnsweredWhateverTheWork) {
 }
 
 // nohup starts a program with SIGHUP ignored.
-TEST(Hardening, AnIgnoredSignalStaysIgnored) {
+TEST(Hardening, AnIgnoredHangupStaysIgnored) {
   const Folder folder("ignored_signal");
   folder.write("p.toml", "[system]\nparticles = 50\n[dynamics]\nduration = 300\n");
   const auto before = std::signal(SIGHUP, SIG_IGN);

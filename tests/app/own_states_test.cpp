@@ -259,6 +259,29 @@ TEST(OwnStates, ShapesMayComeFromTheParameters) {
   EXPECT_EQ(first.position[0], Vec3(-3.5, -3.5, -2.5));
 }
 
+// Up to the precision of the format: GSD has floats, and no angles that count turns.
+TEST(OwnStates, RunsInOtherFormatsAreAnalysedLikeTheirOwn) {
+  const Folder folder("analyse_other_formats");
+  folder.write("p.toml", "[system]\nparticles = 20\n" + run_in_plane + "velocities = true\n");
+  succeed(folder, {"run", "p.toml", "-o", "run.h5", "-q", "--set", "output.samples.interval=0.1"});
+  succeed(folder, {"analyze", "run.h5", "-o", "right.h5", "-q"});
+  const testing_program::Datasets right = testing_program::all_datasets(folder / "right.h5");
+  for (const auto& [format, tolerance] : {std::pair("csv", 0.), {"xyz", 0.}, {"gsd", 1e-5}}) {
+    const std::string file = std::string("run.") + format, results = file + ".results.h5";
+    succeed(folder, {"export", "run.h5", "--to", format, "-o", file, "-q"});
+    succeed(folder, {"analyze", file, "-o", results, "-q"});
+    const testing_program::Datasets found = testing_program::all_datasets(folder / results);
+    for (const char* name :
+         {"/displacements_all/msd", "/displacements_all/msr", "/energies/rotational"}) {
+      SCOPED_TRACE(file + ": " + name);
+      const std::vector<double>&one = right.at(name), &other = found.at(name);
+      ASSERT_EQ(one.size(), other.size());
+      for (std::size_t k = 0; k < one.size(); ++k)
+        EXPECT_NEAR(one[k], other[k], tolerance * one[k]);
+    }
+  }
+}
+
 TEST(OwnStates, DifferentParticlesNeedNoSpecies) {
   const Folder folder("polydisperse");
   folder.write("mine.csv", "x,y,radius,box_x,box_y\n-2,0,1,8,8\n0.5,0,0.8,8,8\n0,3,0.9,8,8\n");

@@ -62,6 +62,17 @@ class Snakemake(unittest.TestCase):
         runs = [moved / job / "run.h5" for job in JOBS[:2]]
         self.assertIn("particles/all/position/value", differing_datasets(*runs))
 
+    def test_a_ladder_equals_the_local_one(self):
+        ladder = SYSTEM + ('[[prepare.stage]]\nmethod = "insert"\n[[prepare.stage]]\nmethod = "swell"\n'
+                           '[sweep]\nladder = "system.packing_fraction"\n'
+                           '[sweep.grid]\n"dynamics.duration" = [5]\n"system.packing_fraction" = [0.3, 0.4, 0.5]\n')
+        self.sweep(ladder, "local")
+        self.sweep(ladder, "exported", "--export", "snakemake")
+        output_of(SNAKEMAKE, cwd=self.folder / "exported")
+        jobs = [job.parent.name for job in (self.folder / "local").glob("*/done.json")]
+        self.assertEqual(len(jobs), 3)
+        self.assertEqual(differing_files(self.folder / "local", self.folder / "exported", jobs)[0], [])
+
     def test_a_stopped_job_continues(self):
         long = SYSTEM + '[sweep.grid]\n"system.particles" = [200]\n"dynamics.duration" = [500]\n'
         self.sweep(long, "local")

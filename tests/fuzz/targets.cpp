@@ -111,36 +111,36 @@ std::vector<Target> make_targets(const fs::path& folder) {
     for (const char* format : {"csv", "xyz", "gsd"})
       succeed({"export", file, "--to", format, "-o", std::string(name) + "." + format, "-q"});
   }
-  succeed({"analyze", "plane.h5", "-o", "plane.results.h5", "-q"});
   write("p.toml", plane);
   fs::copy_file("plane.h5", "run.h5");
-  return {{"parameters",
-           "fuzzed.toml",
-           Kind::text,
-           parameter_files(),
-           {{"run", "fuzzed.toml", "-o", "out.h5", "--dry-run"},
-            {"sweep", "fuzzed.toml", "-o", "sweep", "--status"}}},
-          {"pairs",
-           "pair.toml",
-           Kind::text,
-           {pair},
-           {{"pair", "gap", "pair.toml"},
-            {"pair", "contact-time", "pair.toml"},
-            {"pair", "overlap", "pair.toml"}}},
-          trajectory(),
-          {"checkpoint",
-           "run.h5.checkpoint",
-           Kind::hdf5,
-           contents({"plane.h5.checkpoint"}),
-           {{"run", "p.toml", "-o", "run.h5", "--dry-run"}}},
-          {"correlations",
-           "plane.h5.correlations.h5",
-           Kind::hdf5,
-           contents({"plane.h5.correlations.h5"}),
-           {{"analyze", "plane.h5", "-o", "results.h5", "-q"}}},
-          foreign("gsd", Kind::bytes),
-          foreign("xyz", Kind::text),
-          foreign("csv", Kind::text)};
+  return {
+      {"parameters",
+       "fuzzed.toml",
+       Kind::text,
+       parameter_files(),
+       {{"run", "fuzzed.toml", "-o", "out.h5", "--dry-run"},
+        {"sweep", "fuzzed.toml", "-o", "sweep", "--status"}}},
+      {"pairs",
+       "pair.toml",
+       Kind::text,
+       {pair},
+       {{"pair", "gap", "pair.toml"},
+        {"pair", "contact-time", "pair.toml"},
+        {"pair", "overlap", "pair.toml"}}},
+      trajectory(),
+      {"checkpoint",
+       "run.h5.checkpoint",
+       Kind::hdf5,
+       contents({"plane.h5.checkpoint"}),
+       {{"run", "p.toml", "-o", "run.h5", "--dry-run"}}},
+      {"correlations",
+       "plane.h5.correlations.h5",
+       Kind::hdf5,
+       contents({"plane.h5.correlations.h5"}),
+       {{"analyze", "plane.h5", "-o", "results.h5", "-q", "--set", "analysis.structure.frames=0"}}},
+      foreign("gsd", Kind::bytes),
+      foreign("xyz", Kind::text),
+      foreign("csv", Kind::text)};
 }
 
 const std::vector<std::string>& write_input(const Target& target, Stream& stream) {

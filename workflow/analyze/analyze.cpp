@@ -67,14 +67,6 @@ OpenRun open_run(const std::filesystem::path& file, const AnalysisChoice& choice
   return {std::move(reader), parse_parameters(recorded, file.string(), choice.overrides)};
 }
 
-/// What displacements need of a file; those of round particles, and in space, need no angles.
-void require_tracks(const TrajectoryReader& reader, std::size_t rotors) {
-  reader.require("image",
-                 "displacements: positions in the box do not tell how often it was crossed");
-  if (rotors > 0 && reader.dimension() == 2)
-    reader.require("angle", "rotations: orientations do not tell the number of turns");
-}
-
 /// Tables of files with one species are not called after it.
 void require_own_names(const TrajectoryReader& reader) {
   if (reader.species_names().size() < 2) return;
@@ -202,7 +194,8 @@ RunAnalysis measure(TrajectoryFile<Dim>& trajectory, const std::string& name,
   describe_run(run, trajectory);
   const bool has_motion = run.frames > 1;
   if (has_motion) {
-    require_tracks(reader, run.rotors);
+    reader.require("image",
+                   "displacements: positions in the box do not tell how often it was crossed");
     run.dynamics = measure_dynamics(trajectory, parameters.analysis, progress);
   }
   begin(progress, "structure");

@@ -31,6 +31,7 @@ class TrajectoryFile final : public Trajectory<Dim> {
     reader_.read(k, frame_);
     return frame_;
   }
+  bool counts_turns() const override { return reader_.has("angle"); }
   const TrajectoryReader& reader() const { return reader_; }
 
  private:

@@ -35,10 +35,10 @@ class HeldSignals {
   HeldSignals(const HeldSignals&) = delete;
   HeldSignals& operator=(const HeldSignals&) = delete;
 
-  // In the child: a stop ends it, instead of being noted by a handler that exec forgets. What is ignored (nohup) stays so.
+  // In the child: a stop ends it, instead of being noted by a handler that exec forgets. Ignored hangups (nohup) stay so.
   void release_to_default() const {
     for (const int number : stop_signals)
-      if (signal(number, SIG_DFL) == SIG_IGN) signal(number, SIG_IGN);
+      if (signal(number, SIG_DFL) == SIG_IGN && number == SIGHUP) signal(number, SIG_IGN);
     sigprocmask(SIG_SETMASK, &before_, nullptr);
   }
 
