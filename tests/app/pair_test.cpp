@@ -254,7 +254,8 @@ TEST_F(Pair, RefusesBadBodies) {
   expect_bad_body("semi_axes=2,-1", "'body.0.semi_axes' is [2.0, -1.0], but must be [a, b]");
   expect_bad_body("semi_axes=2,1,1,1", "but must be [a, b] with a ≥ b > 0, or [a, b, c]");
   expect_bad_body("semi_axes=1e60,1", "but must be finite, at most 1e+50");
-  expect_bad_body("semi_axes=1,1e-60", "but must not be below 1e-50");
+  expect_bad_body("semi_axes=1e4,1", "the longest may be at most 1000 times the shortest");
+  expect_bad_body("semi_axes=1e-60,1e-60", "but must not be below 1e-50");
   expect_bad_body("semi_axes=2", "must be an array of numbers, not the number 2");
   expect_bad_body("position=2,1", "'body.0.semi_axes' is missing");
   expect_bad_body("semi_axes=2,1,1", "'body.1.semi_axes' has 2 entries, but body.0.semi_axes 3");

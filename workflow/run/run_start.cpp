@@ -28,15 +28,18 @@ template <int Dim>
 std::optional<std::string> difference(const TrajectoryReader& trajectory,
                                       const RunCheckpoint<Dim>& run) {
   if (trajectory.dimension() != Dim) return "is of another dimension";
-  if (const auto change =
-          forbidden_change(trajectory.provenance().parameters, run.parameters, Work::run))
+  // Versions differ in what they record.
+  const Parameters parameters = recorded_parameters(run.parameters, "the checkpoint");
+  const Parameters written =
+      recorded_parameters(trajectory.provenance().parameters, trajectory.path().string());
+  if (const auto change = forbidden_change(effective_parameters(written),
+                                           effective_parameters(parameters), Work::run))
     return fmt::format("was written with {} = {}, not {}", change->key, change->first,
                        change->second);
   const std::uint64_t counted = run.state.next_sample;
   if (trajectory.frames() < counted)
     return fmt::format("has {} frames instead of {}", trajectory.frames(), counted);
   if (counted == 0) return std::nullopt;
-  const Parameters parameters = recorded_parameters(run.parameters, "the checkpoint");
   const double time = trajectory.times()[counted - 1];
   const double expected = sample_times(parameters).at(counted - 1);
   if (time != expected)
