@@ -246,6 +246,16 @@ TEST_F(Pair, InABoxTheClosestImageCounts) {
   EXPECT_NEAR(along["gap"], 2.5 * std::sqrt(2) - 4, 1e-12);
 }
 
+TEST_F(Pair, RefusesRotationsThatNoSearchCanFollow) {
+  for (const char* spinning :
+       {"semi_axes=2,1 angular_velocity=2e4", "semi_axes=2,1,1 angular_velocity=0,1.5e4,1.5e4"}) {
+    const std::string other =
+        std::string(spinning).starts_with("semi_axes=2,1,1") ? "semi_axes=1,1,1" : "semi_axes=1,1";
+    expect_refusal(ask({"contact-time", "--body", spinning, "--body", other}), 2,
+                   "radians until the horizon, but at most 1e+06 are possible");
+  }
+}
+
 TEST_F(Pair, RefusesBadBodies) {
   expect_bad_body("semi_axes=2,1 positon=1,1",
                   "--body 'semi_axes=2,1 positon=1,1': key 'body.0.positon' is unknown; did you "
