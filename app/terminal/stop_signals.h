@@ -7,12 +7,12 @@ namespace vitrel {
 
 enum class StopDeadline {
   soon,  ///< a second after the request the program ends with exit code 5, whatever it does
-  none   ///< for a program that waits for others, which have their own
+  none   ///< for what cannot be continued, or waits for other programs, which have their own
 };
 
 /// From now on signals and the end of the wall time request a stop. `wall_time` in seconds from now; 0: no limit. SIGHUP
-/// that is ignored already (nohup) stays so; shells ignore others for their own sake. A second SIGINT ends the program at once. A file that exceeds the limit of
-/// the system becomes an error of writing, instead of SIGXFSZ.
+/// that is ignored already (nohup) stays so; shells ignore others for their own sake. A second SIGINT ends the program at
+/// once. A file that exceeds the limit of the system becomes an error of writing, instead of SIGXFSZ.
 void catch_stop_signals(double wall_time, StopDeadline deadline);
 
 bool stop_requested();

@@ -13,7 +13,7 @@
 namespace vitrel::bench {
 
 Report::Report(const OutputOptions& options)
-    : options_(options), session_(options.quiet, options.wall_time) {
+    : options_(options), session_(options.quiet, options.wall_time, StopDeadline::none) {
   if (is_wanted()) require_output_folder(options.folder);
 }
 
