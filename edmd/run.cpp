@@ -60,9 +60,8 @@ class EventDrivenRun {
     }
   }
 
-  // One block; true if the end of the run was reached. Samples, ticks and steps take time, too, though their count depends
-  // on the schedule alone: after many of them the block ends, so that a stop and checkpoints do not have to wait for
-  // events.
+  // One block; true if the end of the run was reached. It also ends after many samples, ticks and steps, however few
+  // events come between them: a stop and checkpoints wait for the end of a block.
   bool run_block() {
     constexpr int max_stops = 256;
     for (int stops = 0; stops < max_stops; ++stops) {

@@ -17,13 +17,6 @@ namespace vitrel {
 
 namespace {
 
-bool same_shape(const Ellipse& one, const Ellipse& two) {
-  return one.a == two.a && one.b == two.b;
-}
-bool same_shape(const Ellipsoid& one, const Ellipsoid& two) {
-  return one.semi_axes == two.semi_axes;
-}
-
 void swap_orientations(OrientedEllipse& one, OrientedEllipse& two) {
   std::swap(one.axis, two.axis);
 }
@@ -131,7 +124,7 @@ void Sampler<Dim>::fill_domain(std::size_t domain) {
   for (std::size_t k = begin; k < end; ++k) {
     const std::size_t i = order_[k];
     // It may have shrunk.
-    if (!same_shape(bodies_[i].shape, configuration_.shape[i]))
+    if (bodies_[i].shape != configuration_.shape[i])
       bodies_[i] = oriented(configuration_.shape[i], orientations(configuration_)[i]);
     cells_.insert(i, cell_of_[i], bodies_[i], configuration_.position[i], free_lists_[domain]);
   }
@@ -236,7 +229,7 @@ template <int Dim>
 void Sampler<Dim>::exchange(std::size_t i, std::size_t j, DomainContext& context) {
   const Solid<Dim>& shape_i = configuration_.shape[i];
   const Solid<Dim>& shape_j = configuration_.shape[j];
-  if (same_shape(shape_i, shape_j)) return;
+  if (shape_i == shape_j) return;
   ++context.tally.counts.exchanges_tried;
   swap_places(i, j);
   const bool i_is_larger = shape_i.volume() > shape_j.volume();

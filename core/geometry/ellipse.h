@@ -12,6 +12,7 @@ struct Ellipse {
   double a = 1;
   double b = 1;
 
+  bool operator==(const Ellipse&) const = default;
   double circumradius() const { return a; }
   double inradius() const { return b; }
   double volume() const { return std::numbers::pi * a * b; }

@@ -20,6 +20,7 @@ struct Ellipsoid {
   static constexpr int dimension = 3;
   Vec3 semi_axes = Vec3::Ones();
 
+  bool operator==(const Ellipsoid& other) const { return semi_axes == other.semi_axes; }
   double circumradius() const { return semi_axes.maxCoeff(); }
   double inradius() const { return semi_axes.minCoeff(); }
   double volume() const { return 4 * std::numbers::pi / 3 * semi_axes.prod(); }

@@ -41,6 +41,11 @@ void Configuration3::resize(std::size_t n) {
 }
 
 template <int Dim>
+bool same_particles(const Configuration<Dim>& one, const Configuration<Dim>& two) {
+  return one.species == two.species && one.mass == two.mass && one.shape == two.shape;
+}
+
+template <int Dim>
 double packing_fraction(const Configuration<Dim>& configuration) {
   double volume = 0;
   for (const Solid<Dim>& shape : configuration.shape) volume += shape.volume();
@@ -91,6 +96,8 @@ std::size_t rotation_count(const Configuration<Dim>& configuration) {
   return count;
 }
 
+template bool same_particles(const Configuration2&, const Configuration2&);
+template bool same_particles(const Configuration3&, const Configuration3&);
 template double packing_fraction(const Configuration2&);
 template double packing_fraction(const Configuration3&);
 template double largest_circumradius(const Configuration2&);

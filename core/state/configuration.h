@@ -103,6 +103,10 @@ struct Configuration<3> : Particles<3> {
 using Configuration2 = Configuration<2>;
 using Configuration3 = Configuration<3>;
 
+/// Whether the same particles, by number, species, masses and shapes, are in both.
+template <int Dim>
+bool same_particles(const Configuration<Dim>& one, const Configuration<Dim>& two);
+
 /// Total area (volume) of the particles over that of the box.
 template <int Dim>
 double packing_fraction(const Configuration<Dim>& configuration);

@@ -12,7 +12,7 @@ TITLE = "Constant pressure: packing fractions of hard spheres"
 
 VOLUME = 4 * math.pi / 3  # of a sphere of size 1
 PARTICLES = 864  # 6³ cells of a face-centred cubic crystal
-FEWEST_SEEDS, MOST_SEEDS = 16, 96
+MIN_SEEDS, MAX_SEEDS = 16, 96
 SEEDS_AT_ONCE = 4
 LARGEST_ERROR = 0.0005  # of φ
 ERRORS = 3
@@ -77,7 +77,7 @@ def packing_fraction(build, phi, compressibility, seed):
 def independent_fractions(build, phi, compressibility, pool):
     """Packing fractions of as many seeds as the standard error needs."""
     fractions = []
-    while len(fractions) < FEWEST_SEEDS or (estimate(fractions)[1] > LARGEST_ERROR * phi and len(fractions) < MOST_SEEDS):
+    while len(fractions) < MIN_SEEDS or (estimate(fractions)[1] > LARGEST_ERROR * phi and len(fractions) < MAX_SEEDS):
         seeds = range(len(fractions) + 1, len(fractions) + SEEDS_AT_ONCE + 1)
         fractions += pool.map(lambda seed: packing_fraction(build, phi, compressibility, seed), seeds)
     return fractions

@@ -1,9 +1,11 @@
 #include "tests/fuzz/execution.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
 
@@ -45,6 +47,10 @@ std::string content(int file) {
 }
 
 }  // namespace
+
+std::string command_line(const std::vector<std::string>& words) {
+  return fmt::format("vitrel {}", fmt::join(words, " "));
+}
 
 Outcome execute(const std::vector<std::string>& words) {
   std::vector<std::string> all = {"vitrel"};

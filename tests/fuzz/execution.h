@@ -10,6 +10,9 @@ struct Outcome {
   std::string errors;  ///< what it wrote to standard error
 };
 
+/// As it is typed.
+std::string command_line(const std::vector<std::string>& words);
+
 /// Runs the program in this process, with these words after its name. Standard output is dropped.
 Outcome execute(const std::vector<std::string>& words);
 

@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double longest_seconds = 5;  // of processor time, for one input
+constexpr double max_seconds = 5;  // of processor time, for one input
 constexpr std::uint64_t inputs_per_process = 1000;
 constexpr int finding_code = 99;
 
@@ -53,18 +53,14 @@ double processor_seconds(clockid_t clock) {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  return fmt::format("vitrel {}", fmt::join(words, " "));
-}
-
 /// What is wrong with an outcome, if anything.
 std::optional<std::string> complaint(const Outcome& outcome) {
-  constexpr std::ptrdiff_t most_lines = 3;
+  constexpr std::ptrdiff_t max_lines = 3;
   if (outcome.code < 0 || outcome.code > 5 || outcome.code == 1)
     return fmt::format("exit code {}", outcome.code);
   const std::ptrdiff_t lines = std::ranges::count(outcome.errors, '\n');
   if (outcome.code != 0 && lines == 0) return "no message";
-  if (outcome.code != 0 && lines > most_lines) return fmt::format("{} lines", lines);
+  if (outcome.code != 0 && lines > max_lines) return fmt::format("{} lines", lines);
   return std::nullopt;
 }
 
@@ -76,10 +72,11 @@ std::optional<std::string> complaint(const Outcome& outcome) {
     shared.input = input;
     Stream stream(options.seed, Purpose::tests, 0, input);
     const std::vector<std::string>& command = write_input(target, stream);
-    std::snprintf(shared.finding, sizeof shared.finding, "%s", joined(command).c_str());
+    std::snprintf(shared.finding, sizeof shared.finding, "%s", command_line(command).c_str());
     const Outcome outcome = execute(command);
     if (const auto what = complaint(outcome)) {
-      const std::string text = fmt::format("{}: {}:\n{}", joined(command), *what, outcome.errors);
+      const std::string text =
+          fmt::format("{}: {}:\n{}", command_line(command), *what, outcome.errors);
       std::snprintf(shared.finding, sizeof shared.finding, "%s", text.c_str());
       _exit(finding_code);
     }
@@ -94,11 +91,11 @@ std::optional<std::string> watch(pid_t process, const Shared& shared) {
   int status = 0;
   bool hangs = false;
   while (waitpid(process, &status, WNOHANG) == 0) {
-    hangs = hangs || processor_seconds(clock) - shared.begun > longest_seconds;
+    hangs = hangs || processor_seconds(clock) - shared.begun > max_seconds;
     if (hangs) kill(process, SIGKILL);
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
-  if (hangs) return fmt::format("{}: takes longer than {} s", shared.finding, longest_seconds);
+  if (hangs) return fmt::format("{}: takes longer than {} s", shared.finding, max_seconds);
   if (WIFSIGNALED(status))
     return fmt::format("{}: {}", shared.finding, strsignal(WTERMSIG(status)));
   if (WEXITSTATUS(status) == finding_code) return shared.finding;

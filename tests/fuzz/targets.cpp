@@ -1,10 +1,12 @@
 #include "tests/fuzz/targets.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <fstream>
-#include <sstream>
 #include <stdexcept>
 
+#include "core/io/text_file.h"
 #include "core/random/stream.h"
 #include "tests/fuzz/execution.h"
 #include "tests/fuzz/mutations.h"
@@ -14,12 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string content(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
-
+/// Without waiting for the disk, as a file is written for every input.
 void write(const fs::path& file, const std::string& text) {
   std::ofstream(file, std::ios::binary) << text;
 }
@@ -54,15 +51,13 @@ const char* const pair =
 void succeed(const std::vector<std::string>& command) {
   const Outcome outcome = execute(command);
   if (outcome.code == 0) return;
-  std::string text = "cannot be made:";
-  for (const std::string& word : command) text += " " + word;
-  throw std::runtime_error(text + ": " + outcome.errors);
+  throw std::runtime_error(fmt::format("{}: {}", command_line(command), outcome.errors));
 }
 
 /// The contents of files in the working folder.
 std::vector<std::string> contents(const std::vector<fs::path>& files) {
   std::vector<std::string> texts;
-  for (const fs::path& file : files) texts.push_back(content(file));
+  for (const fs::path& file : files) texts.push_back(read_text(file));
   return texts;
 }
 

@@ -125,14 +125,14 @@ double norm(const Vec3& angular_velocity) {
 /// A search takes a few steps per radian.
 template <int Dim>
 void require_few_rotations(const Pair<Dim>& pair) {
-  constexpr double most = 1e6;  // radians; angles then keep ten digits
+  constexpr double max_radians = 1e6;  // angles then keep ten digits
   for (const Flight<Solid<Dim>>* flight : {&pair.one, &pair.two}) {
     const double radians = norm(flight->motion.angular_velocity) * pair.horizon;
-    if (!(radians <= most))
+    if (!(radians <= max_radians))
       throw UserError(
           fmt::format("a body turns by {:.3g} radians until the horizon, but at most {:g} are "
                       "possible; lower horizon or angular_velocity",
-                      radians, most));
+                      radians, max_radians));
   }
 }
 

@@ -26,14 +26,13 @@ void refuse_changes(const Parameters& parameters, const std::string& begun_with,
 /// What keeps the file from being the trajectory of the run, if anything.
 template <int Dim>
 std::optional<std::string> difference(const TrajectoryReader& trajectory,
-                                      const RunCheckpoint<Dim>& run) {
+                                      const RunCheckpoint<Dim>& run, const Parameters& recorded) {
   if (trajectory.dimension() != Dim) return "is of another dimension";
   // Versions differ in what they record.
-  const Parameters parameters = recorded_parameters(run.parameters, "the checkpoint");
   const Parameters written =
       recorded_parameters(trajectory.provenance().parameters, trajectory.path().string());
   if (const auto change = forbidden_change(effective_parameters(written),
-                                           effective_parameters(parameters), Work::run))
+                                           effective_parameters(recorded), Work::run))
     return fmt::format("was written with {} = {}, not {}", change->key, change->first,
                        change->second);
   const std::uint64_t counted = run.state.next_sample;
@@ -41,18 +40,19 @@ std::optional<std::string> difference(const TrajectoryReader& trajectory,
     return fmt::format("has {} frames instead of {}", trajectory.frames(), counted);
   if (counted == 0) return std::nullopt;
   const double time = trajectory.times()[counted - 1];
-  const double expected = sample_times(parameters).at(counted - 1);
+  const double expected = sample_times(recorded).at(counted - 1);
   if (time != expected)
     return fmt::format("has frame {} at time {}, not {}", counted - 1, time, expected);
-  const auto frame = trajectory.read<Dim>(counted - 1);
-  const Configuration<Dim>& state = run.state.configuration;
-  const bool same_particles = frame.species == state.species && frame.mass == state.mass;
-  return same_particles ? std::nullopt : std::optional<std::string>("has other particles");
+  if (!same_particles(trajectory.read<Dim>(counted - 1), run.state.configuration))
+    return "has other particles";
+  return std::nullopt;
 }
 
-/// Frames that a checkpoint counts must be in the trajectory; one that counts none may come before it.
+/// Frames that a checkpoint counts must be in the trajectory; one that counts none may come before it. `recorded` are the
+/// parameters of the run.
 template <int Dim>
-void require_trajectory(const RunCheckpoint<Dim>& run, const fs::path& output) {
+void require_trajectory(const RunCheckpoint<Dim>& run, const Parameters& recorded,
+                        const fs::path& output) {
   const auto refusal = [&](const std::string& why) {
     return FileError(fmt::format(
         "{}: {}, but {} is there, the checkpoint of the run that wrote {} frame(s) to it; restore "
@@ -61,7 +61,7 @@ void require_trajectory(const RunCheckpoint<Dim>& run, const fs::path& output) {
         output.string(), why, checkpoint_path(output).string(), run.state.next_sample));
   };
   if (fs::exists(output)) {
-    if (const auto why = difference(TrajectoryReader(output), run)) throw refusal(*why);
+    if (const auto why = difference(TrajectoryReader(output), run, recorded)) throw refusal(*why);
   } else if (run.state.next_sample > 0) {
     throw refusal("is missing");
   }
@@ -107,7 +107,7 @@ RunCheckpoint<Dim> stored_run(RunRequest& request, const Checkpoint& checkpoint)
   request.parameters = continued(request.parameters, recorded);
   refuse_changes(request.parameters, checkpoint.parameters, request.output);
   RunCheckpoint<Dim> run = run_from_checkpoint<Dim>(checkpoint, file);
-  require_trajectory(run, request.output);
+  require_trajectory(run, recorded, request.output);
   const bool is_longer = request.parameters.dynamics.duration > recorded.dynamics.duration;
   if (run.complete && is_longer) run = before_the_end<Dim>(file);
   if (is_longer) run.parameters = effective_parameters(request.parameters);

@@ -70,18 +70,6 @@ class TemporaryFile {
   std::string name_;
 };
 
-template <int Dim>
-bool same_particles(const Configuration<Dim>& one, const Configuration<Dim>& two) {
-  const auto same_shape = [](const auto& a, const auto& b) {
-    if constexpr (Dim == 2)
-      return a.a == b.a && a.b == b.b;
-    else
-      return a.semi_axes == b.semi_axes;
-  };
-  return one.size() == two.size() && one.species == two.species && one.mass == two.mass &&
-         std::ranges::equal(one.shape, two.shape, same_shape);
-}
-
 /// Copies all frames of a file; frames are counted for the messages.
 class Conversion {
  public:
