@@ -12,7 +12,8 @@ TITLE = "Constant pressure: packing fractions of hard spheres"
 
 VOLUME = 4 * math.pi / 3  # of a sphere of size 1
 PARTICLES = 864  # 6³ cells of a face-centred cubic crystal
-SEEDS = 16
+FEWEST_SEEDS, MOST_SEEDS = 16, 96
+SEEDS_AT_ONCE = 4
 LARGEST_ERROR = 0.0005  # of φ
 ERRORS = 3
 # Sweeps per seed, by packing fraction; averages are over the second half.
@@ -73,28 +74,35 @@ def packing_fraction(build, phi, compressibility, seed):
     return summary["stages"][-1]["mean_packing_fraction"]
 
 
+def independent_fractions(build, phi, compressibility, pool):
+    """Packing fractions of as many seeds as the standard error needs."""
+    fractions = []
+    while len(fractions) < FEWEST_SEEDS or (estimate(fractions)[1] > LARGEST_ERROR * phi and len(fractions) < MOST_SEEDS):
+        seeds = range(len(fractions) + 1, len(fractions) + SEEDS_AT_ONCE + 1)
+        fractions += pool.map(lambda seed: packing_fraction(build, phi, compressibility, seed), seeds)
+    return fractions
+
+
 def constant_pressure_row(phase, phi, compressibility, means):
     mean, error = (value / phi for value in estimate(means))
     deviation = mean - 1
     name = f"{phase}, φ = {phi}"
     expect(error <= LARGEST_ERROR, f"{name}: an error of {error:.3%}")
     expect(abs(deviation) <= ERRORS * error, f"{name}: φ is off by {deviation:+.3%} ± {error:.3%}")
-    return [phase, phi, f"{compressibility:.5f}", f"{mean * phi:.6f}", f"{error:.3%}", f"{deviation:+.3%}",
+    return [phase, phi, f"{compressibility:.5f}", len(means), f"{mean * phi:.6f}", f"{error:.3%}", f"{deviation:+.3%}",
             f"{deviation / error:+.1f}"]
 
 
 def measure(build):
     states = [(phase, phi, equation(phi)) for phase, phi, equation in STATES]
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        fractions = [[pool.submit(packing_fraction, build, phi, z, seed) for seed in range(1, SEEDS + 1)]
-                     for _, phi, z in states]
-    rows = [constant_pressure_row(*state, [one.result() for one in means]) for state, means in zip(states, fractions)]
+        rows = [constant_pressure_row(phase, phi, z, independent_fractions(build, phi, z, pool)) for phase, phi, z in states]
     return f"""Hard spheres at the pressure P = ρZ of an equation of state must have its packing fraction: Kolafa, Labík and Malijevský,
 Phys. Chem. Chem. Phys. 6, 2335 (2004), for the fluid, and Speedy, J. Phys.: Condens. Matter 10, 4387 (1998), for the
 face-centred cubic crystal. In a crystal of N particles the centre of mass is free, so that Z is lower by (Z − 1)/N. All
 runs begin on the crystal, N = {PARTICLES}, and the fluid melts in 2000 sweeps of event chains. The box keeps its shape.
-{SEEDS} seeds; averages are over the second half of {", ".join(f"{sweeps} (φ = {phi})" for phi, sweeps in SWEEPS.items())} sweeps.
+Seeds are added until the standard error is small enough; averages are over the second half of {", ".join(f"{sweeps} (φ = {phi})" for phi, sweeps in SWEEPS.items())} sweeps.
 Required: a standard error of at most {LARGEST_ERROR:.2%} of φ, and a deviation of at most {ERRORS} standard errors.
 
-{table(["", "φ", "Z", "φ, measured", "standard error", "deviation", "in standard errors"], rows)}
+{table(["", "φ", "Z", "seeds", "φ, measured", "standard error", "deviation", "in standard errors"], rows)}
 """
