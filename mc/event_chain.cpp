@@ -9,14 +9,11 @@
 #include "core/contact/ellipse_free_path_batch.h"
 #include "core/contact/ellipsoid_free_path_batch.h"
 #include "core/elementary.h"
-#include "mc/hard_core.h"
 
 namespace vitrel {
 
 namespace {
 
-/// Gap at contact, in hard-core margins: so far above one that rounding does not matter.
-constexpr double contact_margins = 1.25;
 /// Initial length of chains, in √(V/N): few contacts at any density.
 constexpr double initial_length = 1e-3;
 /// A chain is cut short after its target number of contacts times this factor.
@@ -67,14 +64,9 @@ VITREL_INLINE void for_each_beside(const Checkerboard<Dim>& board, const Cell<Di
 template <int Dim>
 EventChain<Dim>::EventChain(Configuration<Dim>& configuration, const EventChainOptions& options,
                             std::uint64_t seed, const ChainState& state)
-    : configuration_(configuration),
-      largest_(largest_circumradius(configuration)),
-      margin_(hard_margin(configuration)),
-      half_box_(0.5 * configuration.box.lengths()),
-      rounding_(16 * std::numeric_limits<double>::epsilon() * half_box_.maxCoeff()),
+    : particles_(configuration),
+      rounding_(16 * std::numeric_limits<double>::epsilon() * particles_.half_box().maxCoeff()),
       options_(options),
-      bodies_(oriented_bodies(configuration)),
-      free_list_(SimdCells<Dim>::none),
       seed_(seed),
       state_(state) {
   const auto particles = static_cast<double>(configuration.size());
@@ -82,14 +74,10 @@ EventChain<Dim>::EventChain(Configuration<Dim>& configuration, const EventChainO
     state_.chains = configuration.size();
     state_.length = initial_length * root(configuration.box.volume() / particles, Dim);
   }
-  double smallest = largest_;
-  for (std::size_t i = 0; i < configuration.size(); ++i) {
-    smallest = std::min(smallest, configuration.shape[i].inradius());
-    if (!configuration.shape[i].is_round()) rotors_.push_back(static_cast<Index>(i));
-  }
-  // The maximum contact distance of two particles (ellipse_free_path_batch.h, ellipsoid_free_path_batch.h).
-  const double enlarged = 1 + 2 * contact_margins * margin_ / smallest;
-  board_.emplace(configuration_.box, 2 * enlarged * largest_, configuration_.size());
+  for (std::size_t i = 0; i < configuration.size(); ++i)
+    if (!configuration.shape[i].is_round())
+      rotors_.push_back(static_cast<typename HardParticles<Dim>::Index>(i));
+  if (options.exchanges.any()) exchanges_.emplace(particles_, options.exchanges);
 }
 
 template <int Dim>
@@ -100,37 +88,6 @@ void EventChain<Dim>::set_plan(const Plan& plan) {
   state_.rotation.size = plan.rotation_step;
 }
 
-template <int Dim>
-void EventChain<Dim>::arrange() {
-  const std::size_t n = configuration_.size();
-  cells_.resize(board_->cells(), n);
-  for (std::size_t cell = 0; cell < board_->cells(); ++cell) cells_.clear(cell);
-  free_list_ = cells_.free_groups(0, n);
-  for (std::size_t i = 0; i < n; ++i)
-    cells_.insert(i, board_->index(board_->cell_of(configuration_.position[i])), bodies_[i],
-                  configuration_.position[i], free_list_);
-}
-
-template <int Dim>
-void EventChain<Dim>::rotate(std::size_t i, const Vec<Dim>& turn) {
-  const Vec<Dim>& position = configuration_.position[i];
-  Orientation<Dim>& orientation = orientations(configuration_)[i];
-  const Orientation<Dim> trial = rotated(configuration_.shape[i], orientation, turn);
-  const OrientedBody<Dim> body = oriented(configuration_.shape[i], trial);
-  OverlapTestCounts tests;
-  ++state_.counts.rotations_tried;
-  ++state_.rotation.tried;
-  if (!clear_of_others(*board_, cells_, i, body, bodies_, margin_, position,
-                       board_->cell_of(position), tests) ||
-      !clear_of_periodic_images(configuration_.box, body.shape, axes_of(body), margin_))
-    return;
-  ++state_.counts.rotations_accepted;
-  ++state_.rotation.accepted;
-  orientation = trial;
-  bodies_[i] = body;
-  cells_.group_of(i).turn(cells_.lane_of(i), body);
-}
-
 /// Rotations of random particles, until there are as many as `goal`.
 template <int Dim>
 void EventChain<Dim>::rotate_some(std::uint64_t& done, std::uint64_t goal, Stream& draw) {
@@ -139,18 +96,29 @@ void EventChain<Dim>::rotate_some(std::uint64_t& done, std::uint64_t goal, Strea
     Vec<Dim> turn;
     for (int k = 0; k < Dim; ++k)
       turn[k] = state_.rotation.size * plus_minus_one(words[static_cast<std::size_t>(k) + 1]);
-    rotate(rotors_[pick(words[0], rotors_.size())], turn);
+    OverlapTestCounts tests;
+    const bool accepted = particles_.try_turn(rotors_[pick(words[0], rotors_.size())], turn, tests);
+    ++state_.counts.rotations_tried;
+    state_.counts.rotations_accepted += accepted;
+    state_.rotation.count(1, accepted);
   }
 }
 
 template <int Dim>
+void EventChain<Dim>::exchange_some(Stream& draw) {
+  OverlapTestCounts tests;
+  exchanges_->try_all(draw, state_.counts.exchanges, tests);
+  exchanges_->run_chain(draw, state_.counts.exchanges, tests);
+}
+
+template <int Dim>
 void EventChain<Dim>::sweep() {
-  arrange();
+  particles_.arrange();
   Stream draw(seed_, Purpose::trial_moves, state_.next_sweep, 0);
   std::uint64_t rotations = 0;
   for (std::uint64_t chain = 1; chain <= state_.chains; ++chain) {
     const Stream::Block words = next_words(draw);
-    const std::size_t first = pick(words[0], configuration_.size());
+    const std::size_t first = pick(words[0], particles_.configuration().size());
     if constexpr (Dim == 2)
       (words[1] & 1) == 0 ? run_chain<0>(first) : run_chain<1>(first);
     else if (const std::size_t direction = pick(words[1], 3); direction == 0)
@@ -159,6 +127,7 @@ void EventChain<Dim>::sweep() {
       direction == 1 ? run_chain<1>(first) : run_chain<2>(first);
     if (!rotors_.empty()) rotate_some(rotations, chain * state_.rotations / state_.chains, draw);
   }
+  if (exchanges_) exchange_some(draw);
   ++state_.next_sweep;
   ++state_.sweeps;
 }
@@ -186,7 +155,7 @@ void EventChain<Dim>::run(std::size_t first) {
     const FreePath path = next_contact<direction, PathBatch>(moving, remaining);
     ++state_.counts.searches;
     const bool touches = path.partner != FreePath::none;
-    const std::size_t next = touches ? cells_.particle_in(path.partner) : moving;
+    const std::size_t next = touches ? particles_.cells().particle_in(path.partner) : moving;
     advance<direction>(moving, path.length);
     remaining -= path.length;
     if (!touches) continue;
@@ -204,22 +173,26 @@ void EventChain<Dim>::run(std::size_t first) {
 template <int Dim>
 template <int direction, class PathBatch>
 FreePath EventChain<Dim>::next_contact(std::size_t i, double remaining) const {
-  const Vec<Dim> position = configuration_.position[i];
-  const Cell<Dim> cell = board_->cell_of(position);
-  const Vec<Dim> width = board_->cell_size();
-  const Vec<Dim> into = position - board_->corner(cell);
+  const auto& board = particles_.board();
+  const auto& cells = particles_.cells();
+  const double largest = particles_.largest();
+  const Vec<Dim> position = particles_.configuration().position[i];
+  const Cell<Dim> cell = board.cell_of(position);
+  const Vec<Dim> width = board.cell_size();
+  const Vec<Dim> into = position - board.corner(cell);
   const double to_border = std::max(width[direction] - into[direction], 0.) + rounding_;
-  PathBatch paths =
-      paths_of<PathBatch>(bodies_, i, contact_margins * margin_, std::min(remaining, to_border));
-  const double aside = paths.reach_aside(largest_) + rounding_;
-  const double first_before = into[direction] - paths.reach_behind(largest_) - rounding_;
-  const std::size_t own = cells_.group_index(i);
-  const SimdBatch::Mask all(true), others = detail::all_lanes_but(cells_.lane_of(i));
+  PathBatch paths = paths_of<PathBatch>(particles_.bodies(), i,
+                                        HardParticles<Dim>::contact_margins * particles_.margin(),
+                                        std::min(remaining, to_border));
+  const double aside = paths.reach_aside(largest) + rounding_;
+  const double first_before = into[direction] - paths.reach_behind(largest) - rounding_;
+  const std::size_t own = cells.group_index(i);
+  const SimdBatch::Mask all(true), others = detail::all_lanes_but(cells.lane_of(i));
   const auto add = [&](const Cell<Dim>& near, const Translation<Dim>& translation) {
     const Vec<Dim> offset = offset_of<Dim>(translation, position);
-    std::size_t at = board_->index(near);
+    std::size_t at = board.index(near);
     do {
-      const auto& group = cells_[at];
+      const auto& group = cells[at];
       paths.add(group, SimdCells<Dim>::first_slot(at), offset, at == own ? others : all);
       at = group.next;
     } while (at != SimdCells<Dim>::none);
@@ -229,12 +202,12 @@ FreePath EventChain<Dim>::next_contact(std::size_t i, double remaining) const {
   };
   Cell<Dim> near;
   Translation<Dim> translation;
-  for (const Line<Dim>& line : board_->near(cell, direction)) {
-    const double last_after = into[direction] + paths.reach_ahead(largest_);
+  for (const Line<Dim>& line : board.near(cell, direction)) {
+    const double last_after = into[direction] + paths.reach_ahead(largest);
     if (line.begin + width[direction] < first_before || line.begin > last_after) continue;
     near[direction] = line.cell;
     translation[direction] = line.translation;
-    for_each_beside<(direction + 1) % Dim, direction>(*board_, cell, is_beside, near, translation,
+    for_each_beside<(direction + 1) % Dim, direction>(board, cell, is_beside, near, translation,
                                                       add);
   }
   return paths.end();
@@ -243,19 +216,14 @@ FreePath EventChain<Dim>::next_contact(std::size_t i, double remaining) const {
 template <int Dim>
 template <int direction>
 void EventChain<Dim>::advance(std::size_t i, double length) {
-  auto& group = cells_.group_of(i);
-  const int lane = cells_.lane_of(i);
-  Vec<Dim>& position = configuration_.position[i];
+  Vec<Dim> position = particles_.configuration().position[i];
   position[direction] += length;
-  if (position[direction] >= half_box_[direction])
-    configuration_.box.wrap(position, configuration_.image[i]);
-  const std::size_t cell = board_->index(board_->cell_of(position));
-  if (group.cell == cell) {
-    group.move_along(direction, lane, position[direction]);
-  } else {
-    cells_.remove(i, free_list_);
-    cells_.insert(i, cell, bodies_[i], position, free_list_);
-  }
+  Shift<Dim> crossed = Shift<Dim>::Zero();
+  if (position[direction] >= particles_.half_box()[direction])
+    particles_.configuration().box.wrap(position, crossed);
+  const auto& board = particles_.board();
+  particles_.move(i, position, crossed, board.index(board.cell_of(position)),
+                  particles_.free_list(0));
 }
 
 template <int Dim>
@@ -264,10 +232,10 @@ void EventChain<Dim>::tune() {
   state_.rotation.tune(enough_trials, std::numbers::pi / 2);
   const std::uint64_t chains = state_.counts.chains - state_.tuned_chains;
   if (chains < enough_chains) return;
-  const double particles = static_cast<double>(configuration_.size());
+  const double particles = static_cast<double>(particles_.configuration().size());
   const double found = static_cast<double>(state_.counts.contacts - state_.tuned_contacts) /
                        static_cast<double>(chains);
-  const double longest = options_.contacts * 2 * half_box_.maxCoeff();
+  const double longest = options_.contacts * 2 * particles_.half_box().maxCoeff();
   const double length =
       std::min(longest, state_.length * std::clamp(options_.contacts / found, 0.125, 2.));
   const double expected = std::max(1., found * length / state_.length);

@@ -6,19 +6,19 @@
 
 #include "core/random/stream.h"
 #include "core/state/configuration.h"
-#include "mc/checkerboard.h"
-#include "mc/simd_cells.h"
+#include "mc/exchanges.h"
+#include "mc/hard_particles.h"
 #include "mc/sweep_state.h"
-#include "mc/trial.h"
 
 namespace vitrel {
 
 struct FreePath;
 
-/// Targets for the tuning of event chains. The defaults come from bench/event_chain.md.
+/// Targets for the tuning of event chains, whose defaults come from bench/event_chain.md, and exchanges of places.
 struct EventChainOptions {
   double contacts = 100;  ///< per chain
   double rotations = 1;   ///< trial rotations per contact; no effect if all are round
+  ExchangeOptions exchanges = {};
 };
 
 /// Totals of event chains.
@@ -27,6 +27,7 @@ struct ChainCounts {
   std::uint64_t cut_short = 0;  ///< chains cut short
   std::uint64_t searches = 0;   ///< free paths searched; a path also ends at each cell border
   std::uint64_t rotations_tried = 0, rotations_accepted = 0;
+  ExchangeCounts exchanges;
   double length = 0;  ///< Σ l
   double ahead = 0;   ///< Σ (r_j − r_i)·e over the contacts
 
@@ -54,8 +55,8 @@ struct ChainState {
 /// rotations, as in sampler.h.
 ///
 /// One sweep is a fixed number of chains of one length, with trial rotations of random particles spread evenly among
-/// them; `tune` chooses them so that a sweep has about N contacts. Particles are sorted into cells at the start of a
-/// sweep. Sweep s draws from the stream (seed, trial_moves, s, 0): chains that start from a stored state continue with
+/// them, and exchanges of places (exchanges.h) at its end; `tune` chooses them so that a sweep has about N contacts.
+/// Particles are sorted into cells at the start of a sweep. Sweep s draws from the stream (seed, trial_moves, s, 0): chains that start from a stored state continue with
 /// bit-identical results.
 ///
 /// Uniform sampling of all hard states. Divide a chain of length l along x into steps ε → 0. Each of the N lifted
@@ -111,9 +112,6 @@ class EventChain {
   const ChainCounts& counts() const { return state_.counts; }
 
  private:
-  using Index = typename SimdCells<Dim>::Index;
-
-  void arrange();
   template <int direction>
   void run_chain(std::size_t first);
   template <int direction, class PathBatch>
@@ -123,18 +121,13 @@ class EventChain {
   template <int direction>
   void advance(std::size_t i, double length);
   void rotate_some(std::uint64_t& done, std::uint64_t goal, Stream& draw);
-  void rotate(std::size_t i, const Vec<Dim>& turn);
+  void exchange_some(Stream& draw);
 
-  Configuration<Dim>& configuration_;
-  double largest_, margin_;
-  Vec<Dim> half_box_;
+  HardParticles<Dim> particles_;
+  std::optional<Exchanges<Dim>> exchanges_;
   double rounding_;  // bound of the rounding of positions
   EventChainOptions options_;
-  std::vector<OrientedBody<Dim>> bodies_;
-  std::vector<Index> rotors_;  // the particles that are not round
-  std::optional<Checkerboard<Dim>> board_;
-  SimdCells<Dim> cells_;
-  typename SimdCells<Dim>::FreeList free_list_;
+  std::vector<typename HardParticles<Dim>::Index> rotors_;  // the particles that are not round
   std::uint64_t seed_;
   ChainState state_;
 };

@@ -50,11 +50,21 @@ struct CompressionOptions {
 /// about as fast, or local trial moves (sampler.h), which can use several threads.
 enum class Moves { chains, local };
 
+/// Exchanges of places between particles of different sizes (exchanges.h).
+struct ExchangeOptions {
+  double trials =
+      0;  ///< of two particles, per particle and sweep; of local moves, they are this share
+  double partners = 1;    ///< closeness of the two: share of all ranks of size, 0 … 1
+  double collective = 0;  ///< steps of collective exchanges, per particle and sweep
+
+  bool any() const { return trials > 0 || collective > 0; }
+};
+
 struct SamplingOptions {
   std::uint64_t sweeps = 1000;
   Moves moves = Moves::chains;
-  double exchanges = 0;  ///< share of the local moves (sampler.h)
-  int threads = 1;       ///< of local moves; the result does not depend on it
+  ExchangeOptions exchanges = {};
+  int threads = 1;  ///< of local moves; the result does not depend on it
 };
 
 }  // namespace vitrel

@@ -6,10 +6,9 @@
 
 #include "core/random/stream.h"
 #include "core/state/configuration.h"
-#include "mc/checkerboard.h"
-#include "mc/simd_cells.h"
+#include "mc/exchanges.h"
+#include "mc/hard_particles.h"
 #include "mc/sweep_state.h"
-#include "mc/trial.h"
 
 namespace vitrel {
 
@@ -20,8 +19,7 @@ namespace vitrel {
 /// ellipsoid rotates by a vector, uniform in a cube about its own axes, a spheroid by one normal to its axis. The trial
 /// is accepted if the particle then keeps the hard-core margin (hard_core.h) to all others.
 ///
-/// In mixtures, a share of the trials instead picks two particles, which exchange positions and angles if both then
-/// fit. In polydisperse systems this relaxes dense liquids many orders of magnitude faster.
+/// In mixtures, a share of the trials instead are exchanges of places (exchanges.h). A sweep can end with collective ones.
 ///
 /// One sweep is N trials:
 ///   1. The borders between domains (checkerboard.h) are shifted at random, and all particles are sorted into cells,
@@ -29,6 +27,7 @@ namespace vitrel {
 ///   2. The colours follow each other in random order. Each domain of the current colour, with n particles, makes n
 ///      trials, each with one of these at random (an exchange: with two). A move of the centre into another domain
 ///      is rejected.
+///   3. Collective exchanges of all particles, on one thread.
 /// Domains of one colour share no particles and do not interact, so they are swept in parallel. Sweep s draws from the
 /// stream (seed, trial_moves, s, 0), its domain k from (seed, trial_moves, s, k + 1): the state is bit-identical for any
 /// number of threads, and a sampler started at sweep s continues like one that has reached it.
@@ -38,12 +37,11 @@ namespace vitrel {
 /// reverse are proposed with the same probability (to 1e-14: one of n is picked by a number of 53 bits), and accepted
 /// according to the hard states alone. (In space a rotation is undone by the opposite one about the same axes of the
 /// body.) So each trial satisfies detailed balance with respect to the uniform distribution, and so does the sweep, since
-/// its order is random. Borders and order are drawn independently of the state. Nothing else is rejected: cells have no
-/// capacity limit. All borders move, so they do not cut off states from each other. Acceptance is decided by proofs
-/// (ellipse_overlap_batch.h, ellipsoid_overlap_batch.h) that depend on the state only, to the rounding of the margin.
+/// its order is random. Borders and order are drawn independently of the state. Nothing else is rejected. All borders
+/// move, so they do not cut off states from each other.
 ///
 /// Step sizes change only in `tune`, which belongs to equilibration.
-/// Sources: metropolis1953; for the checkerboard anderson2013, for exchanges berthier2016.
+/// Sources: metropolis1953; for the checkerboard anderson2013.
 template <int Dim>
 class Sampler {
  public:
@@ -58,18 +56,17 @@ class Sampler {
   /// if these are too few.
   void tune();
 
-  /// Replaces the shape of particle i if it then keeps twice the hard-core margin to all others (twice, so that a
-  /// later scaling of all lengths keeps the margin in spite of rounding).
-  bool reshape(std::size_t i, const Solid<Dim>& shape);
-
-  /// Scales the sides of the box and all positions by these factors, if all particles then keep the
-  /// margin to each other; shapes and angles stay.
-  bool rescale(const Vec<Dim>& factors);
+  /// HardParticles::try_reshape and try_rescale.
+  bool reshape(std::size_t i, const Solid<Dim>& shape) {
+    return particles_.try_reshape(i, shape, overlap_tests_);
+  }
+  bool rescale(const Vec<Dim>& factors) {
+    return particles_.try_rescale(factors, threads_, overlap_tests_);
+  }
 
   void set_steps(double translation, double rotation);
-  /// The share of trials, initially 0, that instead exchange the positions and angles of two particles of different
-  /// shapes.
-  void set_exchanges(double share) { exchanges_ = share; }
+  /// Exchanges of places; initially none. Shapes must then stay as they are.
+  void set_exchanges(const ExchangeOptions& options);
   /// The state given at construction, advanced by the work since.
   const SweepState& state() const { return state_; }
   const TrialCounts& counts() const { return state_.counts; }
@@ -82,48 +79,19 @@ class Sampler {
     TrialCounts counts;
     OverlapTestCounts overlap_tests;
   };
-  struct DomainContext;
   using Words = Stream::Block;  // random words of one trial
-  using Body = OrientedBody<Dim>;
-  using Cells = SimdCells<Dim>;
-  using Cell = typename Checkerboard<Dim>::Cell;
 
-  void fit_box();
-  void fit_board();
-  bool is_hard();
-  void arrange();
-  void fill_domain(std::size_t domain);
   void sweep_domains(const std::vector<std::size_t>& domains);
   void sweep_domain(std::size_t domain, Tally& tally);
-  void translate(std::size_t i, const Words& words, DomainContext& context);
-  void rotate(std::size_t i, const Words& words, DomainContext& context);
-  void exchange(std::size_t i, std::size_t j, DomainContext& context);
-  bool is_exchange(std::uint64_t word) const {
-    return static_cast<double>(word >> 11) * 0x1p-53 < exchanges_;
-  }
+  void translate(std::size_t i, const Words& words, std::size_t domain, Tally& tally);
+  void rotate(std::size_t i, const Words& words, Tally& tally);
+  double exchange_share() const { return exchanges_ ? exchanges_->options().trials : 0; }
   Vec<Dim> step(const Words& words) const;
-  void swap_places(std::size_t i, std::size_t j);
-  decltype(auto) body_of(std::size_t i) const;
-  bool fits(std::size_t i, OverlapTestCounts& tests) const;
-  bool is_clear(std::size_t i, const Body& body, const Vec<Dim>& position, double margin,
-                OverlapTestCounts& tests) const;
-  bool clear_of_itself(const Body& body, double margin) const;
   void add(const Tally& tally);
 
-  Configuration<Dim>& configuration_;
-  double largest_, margin_;
-  Vec<Dim> half_box_;
-  double shortest_side_;
+  HardParticles<Dim> particles_;
+  std::optional<Exchanges<Dim>> exchanges_;
   int threads_;
-  std::vector<Body> bodies_;
-  std::optional<Checkerboard<Dim>> board_;
-  Cells cells_;
-  std::vector<typename Cells::Index> order_;    // particles, domain by domain and cell by cell
-  std::vector<typename Cells::Index> cell_of_;  // of every particle, while sorting
-  std::vector<typename Cells::Index> begin_;    // of every cell in order_, while sorting
-  std::vector<std::size_t> domain_begin_;       // of every domain in order_
-  std::vector<typename Cells::FreeList> free_lists_;  // of every domain
-  double exchanges_ = 0;
   std::uint64_t seed_;
   SweepState state_;
   OverlapTestCounts overlap_tests_;

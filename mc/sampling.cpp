@@ -39,7 +39,7 @@ StageReport sample(Configuration<Dim>& configuration, const SamplingOptions& opt
                    std::uint64_t seed, SamplingState& state, const RunControl& control) {
   StageEnd end;
   if (options.moves == Moves::chains) {
-    EventChain chains(configuration, {}, seed, state.chains);
+    EventChain chains(configuration, {.exchanges = options.exchanges}, seed, state.chains);
     end = run_sweeps(chains, state.chains, options.sweeps, 1, control);
   } else {
     Sampler sampler(configuration, seed, state.local, options.threads);

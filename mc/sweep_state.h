@@ -5,19 +5,31 @@
 
 namespace vitrel {
 
+/// Counts of exchanges of places (exchanges.h).
+struct ExchangeCounts {
+  std::uint64_t tried = 0, accepted = 0;        ///< of two particles of different shapes
+  std::uint64_t steps = 0, accepted_steps = 0;  ///< of collective exchanges
+
+  void add(const ExchangeCounts& other) {
+    tried += other.tried;
+    accepted += other.accepted;
+    steps += other.steps;
+    accepted_steps += other.accepted_steps;
+  }
+};
+
 struct TrialCounts {
   std::uint64_t translations_tried = 0, translations_accepted = 0;
   std::uint64_t rotations_tried = 0, rotations_accepted = 0;
-  std::uint64_t exchanges_tried = 0, exchanges_accepted = 0;  ///< of different shapes
+  ExchangeCounts exchanges;
 
-  std::uint64_t tried() const { return translations_tried + rotations_tried + exchanges_tried; }
+  std::uint64_t tried() const { return translations_tried + rotations_tried + exchanges.tried; }
   void add(const TrialCounts& other) {
     translations_tried += other.translations_tried;
     translations_accepted += other.translations_accepted;
     rotations_tried += other.rotations_tried;
     rotations_accepted += other.rotations_accepted;
-    exchanges_tried += other.exchanges_tried;
-    exchanges_accepted += other.exchanges_accepted;
+    exchanges.add(other.exchanges);
   }
 };
 
@@ -25,6 +37,11 @@ struct TrialCounts {
 struct OverlapTestCounts {
   std::uint64_t batches = 0;       ///< batches of up to `simd_width` ellipses
   std::uint64_t scalar_pairs = 0;  ///< pairs decided one by one
+
+  void add(const OverlapTestCounts& other) {
+    batches += other.batches;
+    scalar_pairs += other.scalar_pairs;
+  }
 };
 
 /// A trial step size, adapted to the acceptance.

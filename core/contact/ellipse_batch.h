@@ -37,7 +37,6 @@ struct EllipseBatch {
   }
   void move(int lane, const Vec2& position) { x[lane] = position.x(), y[lane] = position.y(); }
   /// Sets coordinate k of the position, or the axis, alone: numbers that were just written are slow to read in batches.
-  void move_along(int k, int lane, double coordinate) { (k == 0 ? x : y)[lane] = coordinate; }
   void turn(int lane, const OrientedEllipse& body) {
     ux[lane] = body.axis.x(), uy[lane] = body.axis.y();
   }

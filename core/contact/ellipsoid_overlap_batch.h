@@ -62,9 +62,6 @@ struct EllipsoidBatch {
   void move(int lane, const Vec3& position) {
     x[lane] = position.x(), y[lane] = position.y(), z[lane] = position.z();
   }
-  void move_along(int k, int lane, double coordinate) {
-    (k == 0 ? x : k == 1 ? y : z)[lane] = coordinate;
-  }
   void turn(int /*lane*/, const OrientedEllipsoid& /*body*/) {}  // spheres do not tell
   void copy(int lane, const EllipsoidBatch& from, int from_lane) {
     move(lane, from.position(from_lane));

@@ -46,14 +46,14 @@ TEST_P(SamplerInSpaceOf, ExchangesKeepTheStateHard) {
   Configuration3 c = inserted();
   Sampler sampler(c, 5);
   sampler.set_steps(0.3, 0.3);
-  sampler.set_exchanges(0.5);
+  sampler.set_exchanges({.trials = 0.5});
   for (int sweep = 0; sweep < 100; ++sweep) sampler.sweep();
   ASSERT_TRUE(exact_check(c).clean());
   const bool one_shape = std::ranges::all_of(
       c.shape, [&](const Ellipsoid& s) { return s.semi_axes == c.shape[0].semi_axes; });
-  EXPECT_EQ(sampler.counts().exchanges_tried == 0, one_shape);
+  EXPECT_EQ(sampler.counts().exchanges.tried == 0, one_shape);
   if (!one_shape) {
-    EXPECT_GT(sampler.counts().exchanges_accepted, c.size() / 10);
+    EXPECT_GT(sampler.counts().exchanges.accepted, c.size() / 10);
   }
 }
 
@@ -62,7 +62,7 @@ TEST_P(SamplerInSpaceOf, AnyNumberOfThreadsGivesTheSameState) {
   const auto moved = [&](int threads) {
     Configuration3 c = start;
     Sampler sampler(c, 7, {.next_sweep = 3}, threads);
-    sampler.set_exchanges(0.2);
+    sampler.set_exchanges({.trials = 0.2});
     for (int round = 0; round < 3; ++round) {
       for (int sweep = 0; sweep < 10; ++sweep) sampler.sweep();
       sampler.tune();
@@ -166,7 +166,7 @@ TEST(SamplerInSpace, VisitsHardStatesEqually) {
     }
     Sampler sampler(c, 3);
     sampler.set_steps(2, 1);
-    sampler.set_exchanges(exchanges);
+    sampler.set_exchanges({.trials = exchanges});
     for (int block = 0; block < 300; ++block) {
       std::array<double, 4> sums{};
       constexpr int samples = 100;
@@ -183,7 +183,7 @@ TEST(SamplerInSpace, VisitsHardStatesEqually) {
       EXPECT_LT(here.error, 0.03 * there.mean);
       EXPECT_NEAR(here.mean, there.mean, 4 * std::hypot(here.error, there.error)) << m;
     }
-    EXPECT_EQ(sampler.counts().exchanges_accepted > 0, exchanges > 0);
+    EXPECT_EQ(sampler.counts().exchanges.accepted > 0, exchanges > 0);
   }
 }
 

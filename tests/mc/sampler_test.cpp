@@ -46,7 +46,7 @@ TEST_P(SamplerOf, ExchangesKeepTheStateHard) {
   const Configuration2 start = c;
   Sampler sampler(c, 5);
   sampler.set_steps(0.3, 0.3);
-  sampler.set_exchanges(0.5);
+  sampler.set_exchanges({.trials = 0.5});
   for (int sweep = 0; sweep < 200; ++sweep) sampler.sweep();
   ASSERT_TRUE(exact_check(c).clean());
   const auto same_axes = [](const Ellipse& x, const Ellipse& y) {
@@ -56,9 +56,9 @@ TEST_P(SamplerOf, ExchangesKeepTheStateHard) {
   const bool one_shape = std::ranges::all_of(
       c.shape, [&](const Ellipse& shape) { return same_axes(shape, c.shape[0]); });
   const TrialCounts& counts = sampler.counts();
-  EXPECT_EQ(counts.exchanges_tried == 0, one_shape);
+  EXPECT_EQ(counts.exchanges.tried == 0, one_shape);
   if (std::string(GetParam().name) == "many shapes and sizes") {
-    EXPECT_GT(counts.exchanges_accepted, c.size());
+    EXPECT_GT(counts.exchanges.accepted, c.size());
   }
 }
 
@@ -67,7 +67,7 @@ TEST_P(SamplerOf, AnyNumberOfThreadsGivesTheSameState) {
   const auto moved = [&](int threads) {
     Configuration2 c = start;
     Sampler sampler(c, 7, {.next_sweep = 3}, threads);
-    sampler.set_exchanges(0.2);
+    sampler.set_exchanges({.trials = 0.2});
     for (int round = 0; round < 5; ++round) {
       for (int sweep = 0; sweep < 10; ++sweep) sampler.sweep();
       sampler.tune();
@@ -190,9 +190,9 @@ TEST(Sampler, ExchangesVisitHardStatesEqually) {
   for (std::size_t i = 0; i < c.size(); i += 2) c.shape[i] = {1.5, 0.35};
   const std::array<std::vector<double>, 3> expected = independent_states(c, 20'000);
   Sampler sampler(c, 3);
-  sampler.set_exchanges(0.5);
+  sampler.set_exchanges({.trials = 0.5});
   expect_hard_states_equally(c, sampler, expected);
-  EXPECT_GT(sampler.counts().exchanges_accepted, 16 * 10'000u);
+  EXPECT_GT(sampler.counts().exchanges.accepted, 16 * 10'000u);
 }
 
 // Two ellipses in a box: every hard state must be as likely as any other. The share of time that

@@ -79,7 +79,7 @@ TEST(Hybrid, ExchangesLetSpreadSizesJamLater) {
     insert_particles(c, {}, 1, {});
     HybridOptions options;
     options.reduced_pressure = 1e4;
-    options.stretch = {.sweeps = 50, .moves = Moves::local, .exchanges = exchanges};
+    options.stretch = {.sweeps = 50, .moves = Moves::local, .exchanges = {.trials = exchanges}};
     HybridState state;
     hybrid(c, options, state, {});
     EXPECT_TRUE(exact_check(c).clean());

@@ -22,11 +22,12 @@ std::vector<StageField<HybridStage>> HybridStage::fields() {
           {"reduced_pressure", describe_reduced_pressure},
           {"growth_rate", describe_growth_rate},
           {"stretch_sweeps", describe_stretch_sweeps},
-          {"moves", describe_moves}};
+          {"moves", describe_moves},
+          {"exchanges", describe_exchanges}};
 }
 
 void HybridStage::validate(const Rules& rules, int /*dimension*/) const {
-  validate_exchanges(exchanges, rules);
+  validate_exchanges(*this, rules);
   rules.require(stretch_sweeps >= 1, "stretch_sweeps",
                 "is 0, but must be at least 1; without sweeps the method is \"grow\"");
   validate_growth_rate(growth_rate, rules);

@@ -23,7 +23,7 @@ struct HybridStage : StageDefaults {
   double growth_rate = GrowthOptions().growth_rate;
   std::uint64_t stretch_sweeps = HybridOptions().stretch.sweeps;
   Moves moves = SamplingOptions().moves;
-  double exchanges = SamplingOptions().exchanges;
+  ExchangeOptions exchanges;
 
   static std::vector<StageField<HybridStage>> fields();
   void validate(const Rules& rules, int dimension) const;

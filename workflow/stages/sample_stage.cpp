@@ -9,12 +9,13 @@
 namespace vitrel {
 
 std::vector<StageField<SampleStage>> SampleStage::fields() {
-  return {{"moves", describe_moves}, {"sweeps", describe_sweeps}};
+  return {
+      {"moves", describe_moves}, {"exchanges", describe_exchanges}, {"sweeps", describe_sweeps}};
 }
 
 void SampleStage::validate(const Rules& rules, int /*dimension*/) const {
   rules.require(sweeps >= 1, "sweeps", "is 0, but must be at least 1");
-  validate_exchanges(exchanges, rules);
+  validate_exchanges(*this, rules);
 }
 
 double SampleStage::end(const SystemParameters&, double before) const {

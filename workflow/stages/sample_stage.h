@@ -15,7 +15,7 @@ struct SampleStage : StageDefaults {
   static constexpr const char* summary = "Monte Carlo at constant packing fraction";
 
   Moves moves = SamplingOptions().moves;
-  double exchanges = SamplingOptions().exchanges;
+  ExchangeOptions exchanges;
   std::uint64_t sweeps = SamplingOptions().sweeps;
 
   static std::vector<StageField<SampleStage>> fields();

@@ -22,12 +22,24 @@ void validate_reduced_pressure(const std::optional<double>& reduced_pressure, co
                             show(*reduced_pressure), show(max_reduced_pressure)));
 }
 
-void validate_exchanges(double exchanges, const Rules& rules) {
+void validate_exchanges(const ExchangeOptions& exchanges, Moves moves, const Rules& rules) {
+  constexpr double most = 1e6;
+  if (moves == Moves::local)
+    rules.require(
+        exchanges.trials >= 0 && exchanges.trials < 1, "exchanges",
+        fmt::format("is {}, but a share of the moves lies between 0 and 1, 1 excluded: they "
+                    "move nothing by themselves",
+                    show(exchanges.trials)));
+  else
+    rules.require(
+        exchanges.trials >= 0 && exchanges.trials <= most, "exchanges",
+        fmt::format("is {}, but must lie between 0 and {}", show(exchanges.trials), show(most)));
+  rules.require(exchanges.partners > 0 && exchanges.partners <= 1, "exchange_partners",
+                fmt::format("is {}, but a share of the ranks lies above 0 and not above 1",
+                            show(exchanges.partners)));
   rules.require(
-      exchanges >= 0 && exchanges < 1, "exchanges",
-      fmt::format("is {}, but a share of the moves lies between 0 and 1, 1 excluded: they "
-                  "move nothing by themselves",
-                  show(exchanges)));
+      exchanges.collective >= 0 && exchanges.collective <= most, "collective_exchanges",
+      fmt::format("is {}, but must lie between 0 and {}", show(exchanges.collective), show(most)));
 }
 
 }  // namespace vitrel

@@ -50,13 +50,29 @@ void describe_moves(S& stage, FieldVisitor& visit) {
                "Monte Carlo moves: event chains, which relax density and positions many times "
                "faster, or local moves of one particle at a time, which can use several threads."},
               stage.moves, names);
-  visit.when(stage.moves == Moves::local, "moves = \"local\"", [&](FieldVisitor& in) {
-    in.field({"exchanges", "",
-              "Fraction of the moves that exchange the positions of two particles of different "
-              "shape. For a broad size distribution 0.2 relaxes dense liquids many times faster; "
-              "for two very different sizes exchanges gain nothing."},
-             stage.exchanges);
+}
+
+template <class S>
+void describe_exchanges(S& stage, FieldVisitor& visit) {
+  visit.field(
+      {"exchanges", "",
+       "Exchanges of the places of two particles of different shape, as a share of the local "
+       "moves, or per particle and sweep beside event chains. For a broad size "
+       "distribution 0.2 relaxes dense liquids many times faster; for two very different "
+       "sizes exchanges gain nothing."},
+      stage.exchanges.trials);
+  visit.when(stage.exchanges.trials > 0, "exchanges above 0", [&](FieldVisitor& in) {
+    in.field(
+        {"exchange_partners", "",
+         "How close in size the two are, as a share of the ranks of all sizes: 1 exchanges any "
+         "two."},
+        stage.exchanges.partners);
   });
+  visit.field({"collective_exchanges", "",
+               "Steps of collective exchanges per particle and sweep, in which places are given "
+               "larger and larger particles until one does not fit. For sizes distributed "
+               "continuously and one aspect ratio."},
+              stage.exchanges.collective);
 }
 
 template <class S>
@@ -68,7 +84,12 @@ void describe_sweeps(S& stage, FieldVisitor& visit) {
 }
 
 void validate_growth_rate(double growth_rate, const Rules& rules);
+void validate_exchanges(const ExchangeOptions& exchanges, Moves moves, const Rules& rules);
 void validate_reduced_pressure(const std::optional<double>& reduced_pressure, const Rules& rules);
-void validate_exchanges(double exchanges, const Rules& rules);
+
+template <class S>
+void validate_exchanges(const S& stage, const Rules& rules) {
+  validate_exchanges(stage.exchanges, stage.moves, rules);
+}
 
 }  // namespace vitrel

@@ -16,6 +16,7 @@ void StageRecord::add(const SamplingState& sampling) {
   chain_contacts += chains.counts.contacts;
   trials.rotations_tried += chains.counts.rotations_tried;
   trials.rotations_accepted += chains.counts.rotations_accepted;
+  trials.exchanges.add(chains.counts.exchanges);
 }
 
 }  // namespace vitrel

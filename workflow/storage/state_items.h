@@ -34,13 +34,20 @@ void each_item_of_growth(Growth& growth, const std::string& path, Visit&& visit)
 }
 
 template <class Counts, class Visit>
+void each_item_of_exchanges(Counts& counts, const std::string& path, Visit&& visit) {
+  visit.if_recorded(path + "exchanges_tried", counts.tried);
+  visit.if_recorded(path + "exchanges_accepted", counts.accepted);
+  visit.if_recorded(path + "exchange_steps", counts.steps);
+  visit.if_recorded(path + "accepted_exchange_steps", counts.accepted_steps);
+}
+
+template <class Counts, class Visit>
 void each_item_of_trials(Counts& counts, const std::string& path, Visit&& visit) {
   visit(path + "translations_tried", counts.translations_tried);
   visit(path + "translations_accepted", counts.translations_accepted);
   visit(path + "rotations_tried", counts.rotations_tried);
   visit(path + "rotations_accepted", counts.rotations_accepted);
-  visit(path + "exchanges_tried", counts.exchanges_tried);
-  visit(path + "exchanges_accepted", counts.exchanges_accepted);
+  each_item_of_exchanges(counts.exchanges, path, visit);
 }
 
 template <class Step, class Visit>
@@ -73,6 +80,7 @@ void each_item_of_chains(Chains& state, const std::string& path, Visit&& visit) 
   visit(path + "looks", state.counts.searches);
   visit(path + "rotations_tried", state.counts.rotations_tried);
   visit(path + "rotations_accepted", state.counts.rotations_accepted);
+  each_item_of_exchanges(state.counts.exchanges, path, visit);
   visit(path + "all_length", state.counts.length);
   visit(path + "all_ahead", state.counts.ahead);
   visit(path + "tuned_chains", state.tuned_chains);
