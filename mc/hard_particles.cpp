@@ -58,22 +58,24 @@ void HardParticles<Dim>::fit_board() {
 }
 
 template <int Dim>
-void HardParticles<Dim>::arrange(int threads, bool by_domain) {
-  sort();
-  const std::size_t n = configuration_.size();
-  cells_.resize(board_->cells(), n);
-  if (!by_domain) {
-    free_lists_.assign(1, cells_.free_groups(0, n));
-    for (std::size_t domain = 0; domain < board_->domains(); ++domain)
-      fill_domain(domain, free_lists_.front());
-    return;
+void HardParticles<Dim>::arrange() {
+  cells_.resize(board_->cells(), configuration_.size());
+  for (std::size_t cell = 0; cell < board_->cells(); ++cell) cells_.clear(cell);
+  free_lists_.assign(1, cells_.free_groups(0, configuration_.size()));
+  for (std::size_t i = 0; i < configuration_.size(); ++i) {
+    const Vec<Dim>& position = configuration_.position[i];
+    cells_.insert(i, board_->index(board_->cell_of(position)), bodies_[i], position,
+                  free_lists_.front());
   }
+}
+
+template <int Dim>
+void HardParticles<Dim>::arrange_by_domain(int threads) {
+  sort();
+  cells_.resize(board_->cells(), configuration_.size());
   free_lists_.assign(board_->domains(), FreeList(Cells::none));
   in_parallel(board_->domains(), threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t domain = begin; domain < end; ++domain) {
-      free_lists_[domain] = cells_.free_groups(domain_begin_[domain], domain_begin_[domain + 1]);
-      fill_domain(domain, free_lists_[domain]);
-    }
+    for (std::size_t domain = begin; domain < end; ++domain) fill_domain(domain);
   });
 }
 
@@ -101,13 +103,14 @@ void HardParticles<Dim>::sort() {
 }
 
 template <int Dim>
-void HardParticles<Dim>::fill_domain(std::size_t domain, FreeList& free_list) {
+void HardParticles<Dim>::fill_domain(std::size_t domain) {
   board_->for_each_cell(domain, [&](std::size_t cell) { cells_.clear(cell); });
+  free_lists_[domain] = cells_.free_groups(domain_begin_[domain], domain_begin_[domain + 1]);
   for (const std::size_t i : members(domain)) {
     // It may have shrunk.
     if (bodies_[i].shape != configuration_.shape[i])
       bodies_[i] = oriented(configuration_.shape[i], orientations(configuration_)[i]);
-    cells_.insert(i, cell_of_[i], bodies_[i], configuration_.position[i], free_list);
+    cells_.insert(i, cell_of_[i], bodies_[i], configuration_.position[i], free_lists_[domain]);
   }
 }
 
@@ -126,21 +129,6 @@ bool HardParticles<Dim>::is_clear_as(std::size_t i, const Body& body, double mar
 template <int Dim>
 bool HardParticles<Dim>::fits(std::size_t i, OverlapTestCounts& tests) const {
   return is_clear_as(i, bodies_[i], margin_, tests);
-}
-
-template <int Dim>
-void HardParticles<Dim>::move(std::size_t i, const Vec<Dim>& position, const Shift<Dim>& crossed,
-                              std::size_t cell, FreeList& free_list) {
-  configuration_.position[i] = position;
-  configuration_.image[i] += crossed;
-  auto& group = cells_.group_of(i);
-  if (group.cell == cell) {
-    group.move(cells_.lane_of(i), position);
-    return;
-  }
-  const Body body = body_of(i);
-  cells_.remove(i, free_list);
-  cells_.insert(i, cell, body, position, free_list);
 }
 
 template <int Dim>

@@ -34,11 +34,10 @@ class HardParticles {
   /// particles, or change shapes except to smaller ones.
   explicit HardParticles(Configuration<Dim>& configuration);
 
-  /// Sorts all particles into cells, in the order of their numbers.
-  void arrange() { arrange(1, false); }
-  /// The same by domains with free groups of their own, on this number of threads. Particles then may not leave their
-  /// domain.
-  void arrange_by_domain(int threads) { arrange(threads, true); }
+  /// Sorts all particles into cells, in the order of their numbers. Shapes must not have shrunk since construction.
+  void arrange();
+  /// The same, on this number of threads, with free groups for each domain: particles then may not leave their domain.
+  void arrange_by_domain(int threads);
 
   Configuration<Dim>& configuration() { return configuration_; }
   const Configuration<Dim>& configuration() const { return configuration_; }
@@ -51,10 +50,11 @@ class HardParticles {
   /// The largest semi-axis of all.
   double largest() const { return largest_; }
   const Vec<Dim>& half_box() const { return half_box_; }
-  /// The particles that a domain held when they were arranged, and its free groups; without domains, those of domain 0.
+  /// The particles that a domain held when they were arranged by domain.
   std::span<const Index> members(std::size_t domain) const {
     return {order_.data() + domain_begin_[domain], order_.data() + domain_begin_[domain + 1]};
   }
+  /// The free groups of a domain, or of all together (0).
   FreeList& free_list(std::size_t domain) { return free_lists_[domain]; }
 
   /// The body of particle i from where it is read fastest.
@@ -75,7 +75,14 @@ class HardParticles {
 
   /// Moves particle i to a wrapped position in this cell, which has crossed the borders of the box so often.
   void move(std::size_t i, const Vec<Dim>& position, const Shift<Dim>& crossed, std::size_t cell,
-            FreeList& free_list);
+            FreeList& free_list) {
+    configuration_.position[i] = position;
+    configuration_.image[i] += crossed;
+    if (auto& group = cells_.group_of(i); group.cell == cell)
+      group.move(cells_.lane_of(i), position);
+    else
+      change_cell(i, position, cell, free_list);
+  }
   /// Turns particle i by an angle (the first component), in space by a vector in its own frame.
   bool try_turn(std::size_t i, const Vec<Dim>& turn, OverlapTestCounts& tests);
   /// Exchanges the positions and orientations of particles i and j; with domains, of one.
@@ -90,11 +97,15 @@ class HardParticles {
   bool try_rescale(const Vec<Dim>& factors, int threads, OverlapTestCounts& tests);
 
  private:
-  void arrange(int threads, bool by_domain);
   void sort();
-  void fill_domain(std::size_t domain, FreeList& free_list);
+  void fill_domain(std::size_t domain);
   void fit_box();
   void fit_board();
+  void change_cell(std::size_t i, const Vec<Dim>& position, std::size_t cell, FreeList& free_list) {
+    const Body body = body_of(i);
+    cells_.remove(i, free_list);
+    cells_.insert(i, cell, body, position, free_list);
+  }
   bool fits(std::size_t i, OverlapTestCounts& tests) const;
   bool is_hard(int threads, OverlapTestCounts& tests) const;
 

@@ -50,11 +50,12 @@ TEST(Sampling, TellsOfChainsThatWereCutShort) {
 TEST(Sampling, GoesOnBitByBitAfterStops) {
   for (const Moves moves : {Moves::chains, Moves::local}) {
     Configuration2 whole = inserted_fluid(60, 3, 0.4), parts = whole;
+    const SamplingOptions options{150, moves, {.trials = 0.2, .partners = 0.5, .collective = 1}};
     SamplingState undisturbed, state;
-    sample(whole, {150, moves}, 3, undisturbed, {});
+    sample(whole, options, 3, undisturbed, {});
     int asked = 0, stops = 0;
     const RunControl control{[&] { return ++asked % 13 == 0; }, {}, {}};
-    for (; sample(parts, {150, moves}, 3, state, control).end == StageEnd::stopped; ++stops) {
+    for (; sample(parts, options, 3, state, control).end == StageEnd::stopped; ++stops) {
     }
     EXPECT_GT(stops, 5);
     EXPECT_EQ(parts.position, whole.position);

@@ -201,8 +201,16 @@ const BadFile bad_files[] = {
      "has a meaning only with method = \"insert\""},
     {"[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"sample\"\nmoves = \"local\"\nexchanges = 1",
      "file.toml:5:13: key 'prepare.stage.1.exchanges' is 1.0, but a share of the moves lies"},
-    {"[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"sample\"\nexchanges = 0.1",
-     "file.toml:4:1: key 'prepare.stage.1.exchanges' has a meaning only with moves = \"local\""},
+    {"[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"sample\"\nexchanges = -1",
+     "file.toml:4:13: key 'prepare.stage.1.exchanges' is -1.0, but must lie between 0 and"},
+    {"[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"sample\"\nexchange_partners = 0.1",
+     "file.toml:4:1: key 'prepare.stage.1.exchange_partners' has a meaning only with exchanges above "
+     "0"},
+    {"[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"sample\"\nexchanges = 1\n"
+     "exchange_partners = 0",
+     "file.toml:5:21: key 'prepare.stage.1.exchange_partners' is 0.0, but a share of the ranks"},
+    {"[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"hybrid\"\ncollective_exchanges = inf",
+     "file.toml:4:24: key 'prepare.stage.1.collective_exchanges' is inf, but must"},
     {"[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"hybrid\"\nstretch_sweeps = 0",
      "file.toml:4:18: key 'prepare.stage.1.stretch_sweeps' is 0, but must be at least 1"},
     {"[system]\npacking_fraction = 0.3\n[[prepare.stage]]\nmethod = \"insert\"\npacking_fraction = "
