@@ -164,6 +164,9 @@ class CommandLine : public ProgramCommandLine {
     for (const auto& [name, sentence, run] :
          {std::tuple("event-chain", "Do event chains decorrelate states faster than local moves?",
                      &event_chain),
+          std::tuple("exchanges",
+                     "How long does each method take to forget a dense polydisperse liquid?",
+                     &exchanges),
           std::tuple("sampler", "How fast is Monte Carlo sampling?", &sampler),
           std::tuple("soft-spheres",
                      "Dynamics of soft spheres: accuracy, speed, cooling, conservation.",

@@ -17,6 +17,7 @@ struct PartsOptions {
   bool quick = false;              ///< few particles, short runs: to see that it works
 };
 int event_chain(const PartsOptions& options);
+int exchanges(const PartsOptions& options);
 int sampler(const PartsOptions& options);
 int soft_spheres(const PartsOptions& options);
 int ellipsoids(const PartsOptions& options);

@@ -29,6 +29,15 @@ double draw_once(const Distribution& d, Stream& stream) {
     }
     case Distribution::Kind::uniform:
       return stream.uniform(d.low, d.high);
+    case Distribution::Kind::power_law: {
+      // With m = exponent + 1 the distribution function is linear in x^m. From the bound at which the density of ln x
+      // is greater, so that no power overflows.
+      const double width = logarithm(d.high / d.low), m = d.exponent + 1, u = stream.uniform();
+      if (m == 0) return d.low * exponential(u * width);
+      const double from_bound =
+          logarithm_of_one_plus(u * exponential_minus_one(-std::abs(m) * width)) / m;
+      return (m < 0 ? d.low : d.high) * exponential(from_bound);
+    }
   }
   return d.mean;
 }

@@ -20,13 +20,17 @@ struct Configuration;
 
 /// One number, or a distribution of numbers.
 struct Distribution {
-  enum class Kind { constant, gaussian, lognormal, uniform };
+  enum class Kind { constant, gaussian, lognormal, uniform, power_law };
 
   Kind kind = Kind::constant;
   double mean = 1;                ///< constant: the value; gaussian, lognormal: ⟨x⟩
   double standard_deviation = 0;  ///< gaussian, lognormal: of x itself, not of ln x
-  double low = 0, high = 0;       ///< uniform
+  double low = 0, high = 0;       ///< uniform, power law
   double minimum = 0;             ///< smaller draws are drawn again; of no effect on a constant
+  double exponent = -3;           ///< power law: density ∝ x^exponent between low and high
+
+  /// Whether low and high bound it.
+  bool is_bounded() const { return kind == Kind::uniform || kind == Kind::power_law; }
 
   double draw(Stream& stream) const;
 };

@@ -200,6 +200,21 @@ TEST(Distribution, HasTheMomentsAskedFor) {
   expect_moments({Kind::uniform, 1, 0, 1, 4, 0}, 2.5, 3 / std::sqrt(12.0), 1.8);
 }
 
+// ⟨x^k⟩ of a density ∝ x^n between 1 and 2 is the ratio of two integrals of powers.
+TEST(Distribution, PowerLawHasItsMoments) {
+  for (const double n : {-3., -1., 0., 2.5}) {
+    const auto integral = [](double power) {
+      return power == -1 ? std::log(2.0) : (std::pow(2.0, power + 1) - 1) / (power + 1);
+    };
+    const auto moment = [&](int k) { return integral(n + k) / integral(n); };
+    const double mean = moment(1), variance = moment(2) - mean * mean;
+    const double fourth = moment(4) - 4 * mean * moment(3) + 6 * mean * mean * moment(2) -
+                          3 * mean * mean * mean * mean;
+    expect_moments({.kind = Distribution::Kind::power_law, .low = 1, .high = 2, .exponent = n},
+                   mean, std::sqrt(variance), fourth / (variance * variance));
+  }
+}
+
 TEST(Distribution, DrawsBelowTheMinimumAreDrawnAgain) {
   Stream stream(5, Purpose::tests);
   const Distribution half{Distribution::Kind::gaussian, 1, 0.5, 0, 0, 1};

@@ -371,7 +371,7 @@ semi_axes = [2, 0.1]
 name = "B"
 fraction = 0.6666666666666667
 aspect_ratio = { distribution = "lognormal", mean = 2.5, standard_deviation = 0.3 }
-size = { distribution = "uniform", low = 0.7, high = 1.3 }
+size = { distribution = "power_law", low = 0.7, high = 1.3, exponent = -2.5 }
 mass = 3.3
 [[prepare.stage]]
 [[prepare.stage]]

@@ -14,7 +14,7 @@ namespace {
 
 using Kind = Distribution::Kind;
 
-constexpr const char* distribution_names[] = {"gaussian", "lognormal", "uniform"};
+constexpr const char* distribution_names[] = {"gaussian", "lognormal", "uniform", "power_law"};
 
 /// Rounding of shapes that were computed from ratios and sizes, and of numbers typed with ten digits.
 constexpr double slack = 1e-9;
@@ -39,15 +39,19 @@ void describe_distribution(const Field& field, Distribution& d, FieldVisitor& vi
     in.choice({"distribution", "",
                "Distribution from which the numbers are drawn, as a table instead of a number."},
               kind, distribution_names);
-    in.when(kind != 2, "distribution = \"gaussian\" or \"lognormal\"", [&](FieldVisitor& bell) {
+    in.when(kind < 2, "distribution = \"gaussian\" or \"lognormal\"", [&](FieldVisitor& bell) {
       bell.field({"mean", "", "Mean."}, d.mean);
       bell.field(
           {"standard_deviation", "", "Standard deviation of the values (not of their logarithms)."},
           d.standard_deviation);
     });
-    in.when(kind == 2, "distribution = \"uniform\"", [&](FieldVisitor& flat) {
-      flat.field({"low", "", "Lower bound."}, d.low);
-      flat.field({"high", "", "Upper bound."}, d.high);
+    in.when(kind >= 2, "distribution = \"uniform\" or \"power_law\"", [&](FieldVisitor& bounded) {
+      bounded.field({"low", "", "Lower bound."}, d.low);
+      bounded.field({"high", "", "Upper bound."}, d.high);
+    });
+    in.when(kind == 3, "distribution = \"power_law\"", [&](FieldVisitor& law) {
+      law.field({"exponent", "", "Exponent of the density, ∝ x^exponent between the bounds."},
+                d.exponent);
     });
     in.field({"minimum", "", "Smaller values are drawn again."}, d.minimum);
   });
@@ -64,7 +68,14 @@ void validate_distribution(const Distribution& d, double least, const std::strin
   const Rules rules(key);
   rules.require(d.minimum >= least && std::isfinite(d.minimum), "minimum",
                 fmt::format("is {}, but {}", show(d.minimum), bound));
-  if (d.kind == Kind::uniform) {
+  if (d.is_bounded()) {
+    constexpr double steepest = 100;
+    const bool is_law = d.kind == Kind::power_law;
+    rules.require(!is_law || d.low > 0, "low",
+                  fmt::format("is {}, but must be above 0 for a power law", show(d.low)));
+    rules.require(!is_law || std::abs(d.exponent) <= steepest, "exponent",
+                  fmt::format("is {}, but must lie between -{} and {}", show(d.exponent),
+                              show(steepest), show(steepest)));
     rules.require(d.high > d.low && std::isfinite(d.high) && std::isfinite(d.low), "high",
                   fmt::format("is {}, but must be above low = {}", show(d.high), show(d.low)));
     rules.require(
@@ -82,6 +93,8 @@ std::string text(const Distribution& d) {
   if (d.kind == Kind::constant) return fmt::format("{}", d.mean);
   if (d.kind == Kind::uniform)
     return fmt::format("uniform from {} to {}, at least {}", d.low, d.high, d.minimum);
+  if (d.kind == Kind::power_law)
+    return fmt::format("∝ x^{} from {} to {}, at least {}", d.exponent, d.low, d.high, d.minimum);
   return fmt::format("{} with mean {} and standard deviation {}, at least {}",
                      d.kind == Kind::gaussian ? "gaussian" : "lognormal", d.mean,
                      d.standard_deviation, d.minimum);
@@ -98,7 +111,9 @@ bool same(const Distribution& one, const Distribution& two) {
   if (one.kind != two.kind) return false;
   if (one.kind == Kind::constant) return one.mean == two.mean;
   if (one.minimum != two.minimum) return false;
-  if (one.kind == Kind::uniform) return one.low == two.low && one.high == two.high;
+  if (one.is_bounded())
+    return one.low == two.low && one.high == two.high &&
+           (one.kind == Kind::uniform || one.exponent == two.exponent);
   return one.mean == two.mean && one.standard_deviation == two.standard_deviation;
 }
 
@@ -120,7 +135,7 @@ bool agree(double given, double found, Agreement agreement) {
 bool allows(const Distribution& d, double value, Agreement agreement) {
   if (d.kind == Kind::constant) return agree(d.mean, value, agreement);
   const bool above = value >= d.minimum * (1 - slack);
-  if (d.kind != Kind::uniform) return above;
+  if (!d.is_bounded()) return above;
   return above && value >= d.low - slack * std::abs(d.low) && value <= d.high * (1 + slack);
 }
 
