@@ -31,6 +31,9 @@ Exchanges<Dim>::Exchanges(HardParticles<Dim>& particles, const ExchangeOptions& 
   std::iota(by_rank_.begin(), by_rank_.end(), Index{0});
   std::ranges::stable_sort(by_rank_, {}, [&](Index i) { return shapes[i].volume(); });
   nested_ = is_nested();
+  if (std::ranges::all_of(shapes, [](const auto& shape) { return shape.is_round(); }))
+    for (std::size_t rank = 0; rank < by_rank_.size(); ++rank)
+      radii_.push_back(shape_of_rank(rank).circumradius());
 }
 
 template <int Dim>
@@ -126,6 +129,7 @@ template <int Dim>
 std::size_t Exchanges<Dim>::sure_steps(std::size_t rank, std::size_t most,
                                        OverlapTestCounts& tests) {
   if (!nested_) return 0;
+  if (!radii_.empty()) return sure_round_steps(rank, most);
   const std::size_t active = by_rank_[rank];
   const auto& body = particles_.bodies()[active];
   const auto succeed = [&](std::size_t steps) {
@@ -142,6 +146,14 @@ std::size_t Exchanges<Dim>::sure_steps(std::size_t rank, std::size_t most,
   }
   guess_ = std::max<std::size_t>(1, sure);
   return sure;
+}
+
+template <int Dim>
+std::size_t Exchanges<Dim>::sure_round_steps(std::size_t rank, std::size_t most) const {
+  const auto own = radii_.begin() + static_cast<std::ptrdiff_t>(rank);
+  const auto first_too_large = std::upper_bound(
+      own + 1, own + 1 + static_cast<std::ptrdiff_t>(most), particles_.free_radius(by_rank_[rank]));
+  return static_cast<std::size_t>(first_too_large - own) - 1;
 }
 
 template class Exchanges<2>;

@@ -33,7 +33,7 @@ namespace vitrel {
 ///
 /// If each particle fits into the next one in rank, a particle that fits into a place proves that all steps to it succeed:
 /// those between are smaller, and the others only shrink. A search by doubling and bisection then finds the first step
-/// that may fail, and the result is that of single steps.
+/// that may fail, and the result is that of single steps. For round particles it follows from the distances.
 ///
 /// Sources: berthier2016, ninarello2017; the collective exchanges are those of ghimenti2024, in steps.
 template <int Dim>
@@ -42,7 +42,7 @@ class Exchanges {
   using Words = Stream::Block;
   using Index = typename HardParticles<Dim>::Index;
 
-  /// The particles must outlive this object and keep their shapes, but for common factors.
+  /// The particles must outlive this object and keep their shapes.
   Exchanges(HardParticles<Dim>& particles, const ExchangeOptions& options);
 
   const ExchangeOptions& options() const { return options_; }
@@ -70,10 +70,12 @@ class Exchanges {
   const Solid<Dim>& shape_of_rank(std::size_t rank) const;
   bool is_nested() const;
   std::size_t sure_steps(std::size_t rank, std::size_t most, OverlapTestCounts& tests);
+  std::size_t sure_round_steps(std::size_t rank, std::size_t most) const;
 
   HardParticles<Dim>& particles_;
   ExchangeOptions options_;
   std::vector<Index> by_rank_;
+  std::vector<double> radii_;  // by rank, if all are round
   bool nested_;
   std::size_t guess_ = 1;                  // of sure steps
   std::vector<Index> ranked_;              // domain by domain

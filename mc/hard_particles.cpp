@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <limits>
 #include <mutex>
 #include <utility>
 
@@ -123,6 +124,25 @@ bool HardParticles<Dim>::is_clear_as(std::size_t i, const Body& body, double mar
       clear_of_periodic_images(configuration_.box, body.shape, axes_of(body), margin);
   return clear_of_itself && clear_of_others(*board_, cells_, i, body, bodies_, margin, position,
                                             board_->cell_of(position), tests);
+}
+
+template <int Dim>
+double HardParticles<Dim>::free_radius(std::size_t i) const {
+  constexpr double rounded_down = 1 - 4 * std::numeric_limits<double>::epsilon();
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  constexpr unsigned all = (1u << simd_width) - 1;
+  const auto others = detail::all_lanes_but(cells_.lane_of(i));
+  const Vec<Dim>& position = configuration_.position[i];
+  SimdBatch least(infinity);
+  for_each_near_group(*board_, cells_, i, position, board_->cell_of(position),
+                      [&](const auto& group, const Vec<Dim>& offset, unsigned lanes) {
+                        const SimdBatch distance = sqrt(group.squared_distances(offset));
+                        const SimdBatch radius = rounded_down * distance - group.circumradii();
+                        least =
+                            min(least, lanes == all ? radius : select(others, radius, infinity));
+                        return true;
+                      });
+  return std::min(hmin(least), 0.5 * shortest_side_) - margin_;
 }
 
 // Whether particle i keeps the margin where it is.

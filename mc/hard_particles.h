@@ -73,6 +73,9 @@ class HardParticles {
   /// Whether particle i would keep this margin to all others and its own images with this body, where it is.
   bool is_clear_as(std::size_t i, const Body& body, double margin, OverlapTestCounts& tests) const;
 
+  /// If all particles are round: a radius with which particle i keeps the margin where it is, the largest one to rounding.
+  double free_radius(std::size_t i) const;
+
   /// Moves particle i to a wrapped position in this cell, which has crossed the borders of the box so often.
   void move(std::size_t i, const Vec<Dim>& position, const Shift<Dim>& crossed, std::size_t cell,
             FreeList& free_list) {

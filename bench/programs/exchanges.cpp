@@ -34,7 +34,7 @@ namespace {
 
 struct Effort {
   int particles = 1000;
-  double seconds = 8;        ///< of each method in each state
+  double seconds = 10;       ///< of each method in each state
   double mixing = 8;         ///< seconds before
   int passages = 30;         ///< enough of them
   std::size_t states = 100;  ///< of each liquid, at most
@@ -203,22 +203,27 @@ struct Motion : Method<Dim> {
 template <int Dim>
 using Methods = std::vector<std::unique_ptr<Method<Dim>>>;
 
-/// Partners of this closeness, and one step per particle and sweep (see the part "choices").
-constexpr ExchangeOptions no_exchanges{}, any_two{.trials = 0.2},
-    close_two{.trials = 0.2, .partners = 0.1}, collective{.collective = 1};
+/// Of the part "choices", the best beside local moves and beside chains.
+constexpr ExchangeOptions none{}, any_two_local{.trials = 0.2}, collective_local{.collective = 4},
+    any_two{.trials = 0.8}, close_two{.trials = 0.8, .partners = 0.1}, collective{.collective = 8};
 
 template <int Dim>
 Methods<Dim> all_methods(const Configuration<Dim>& start) {
   Methods<Dim> all;
+  const auto add_local = [&](const char* name, const ExchangeOptions& exchanges) {
+    all.push_back(std::make_unique<LocalMoves<Dim>>(name, start, exchanges));
+  };
+  const auto add_chains = [&](const char* name, const ExchangeOptions& exchanges) {
+    all.push_back(std::make_unique<Chains<Dim>>(name, start, exchanges));
+  };
   all.push_back(std::make_unique<Motion<Dim>>(start));
-  all.push_back(std::make_unique<LocalMoves<Dim>>("local moves", start, no_exchanges));
-  all.push_back(std::make_unique<Chains<Dim>>("event chains", start, no_exchanges));
-  all.push_back(std::make_unique<LocalMoves<Dim>>("local, exchanges of any two", start, any_two));
-  all.push_back(std::make_unique<LocalMoves<Dim>>("local, close exchanges", start, close_two));
-  all.push_back(
-      std::make_unique<LocalMoves<Dim>>("local, collective exchanges", start, collective));
-  all.push_back(std::make_unique<Chains<Dim>>("chains, close exchanges", start, close_two));
-  all.push_back(std::make_unique<Chains<Dim>>("chains, collective exchanges", start, collective));
+  add_local("local moves", none);
+  add_local("local moves, exchanges of any two", any_two_local);
+  add_local("local moves, collective exchanges", collective_local);
+  add_chains("chains", none);
+  add_chains("chains, exchanges of any two", any_two);
+  add_chains("chains, exchanges of two close in size", close_two);
+  add_chains("chains, collective exchanges", collective);
   return all;
 }
 
@@ -327,12 +332,12 @@ Json measure_liquid(double aspect_ratio, const std::vector<double>& packing_frac
 }
 
 Json measure_disks(const Effort& effort) {
-  return measure_liquid<2>(1, {0.6, 0.7, 0.75, 0.78, 0.8, 0.82, 0.84, 0.86}, effort,
-                           all_methods<2>);
+  return measure_liquid<2>(1, {0.6, 0.7, 0.75, 0.77, 0.78, 0.79, 0.8, 0.81, 0.82, 0.83, 0.84},
+                           effort, all_methods<2>);
 }
 Json measure_ellipses(const Effort& effort) {
-  return measure_liquid<2>(2, {0.6, 0.7, 0.75, 0.78, 0.8, 0.82, 0.84, 0.86}, effort,
-                           all_methods<2>);
+  return measure_liquid<2>(2, {0.6, 0.7, 0.75, 0.77, 0.78, 0.79, 0.8, 0.81, 0.82, 0.83, 0.84},
+                           effort, all_methods<2>);
 }
 Json measure_spheres(const Effort& effort) {
   return measure_liquid<3>(1, {0.4, 0.5, 0.55, 0.58, 0.6, 0.62, 0.64}, effort, all_methods<3>);
@@ -351,7 +356,7 @@ Json measure_choices(const Effort& effort) {
     for (const double partners : {1., 0.3, 0.1, 0.03, 0.01})
       add({.trials = 0.2, .partners = partners});
     for (const double trials : {0.05, 0.5, 0.8}) add({.trials = trials, .partners = 0.1});
-    for (const double steps : {0.25, 1., 4., 16.}) add({.collective = steps});
+    for (const double steps : {1., 2., 4., 8., 16., 32.}) add({.collective = steps});
     return all;
   });
 }

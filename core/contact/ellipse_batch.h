@@ -36,7 +36,7 @@ struct EllipseBatch {
     set(lane, from.shape(from_lane), from.position(from_lane), from.axis(from_lane));
   }
   void move(int lane, const Vec2& position) { x[lane] = position.x(), y[lane] = position.y(); }
-  /// Sets coordinate k of the position, or the axis, alone: numbers that were just written are slow to read in batches.
+  /// Sets the axis alone: numbers that were just written are slow to read in batches.
   void turn(int lane, const OrientedEllipse& body) {
     ux[lane] = body.axis.x(), uy[lane] = body.axis.y();
   }
@@ -44,6 +44,13 @@ struct EllipseBatch {
   void swap_shapes(int lane, EllipseBatch& other, int other_lane) {
     std::swap(a[lane], other.a[other_lane]);
     std::swap(b[lane], other.b[other_lane]);
+  }
+
+  SimdBatch circumradii() const { return a.load(); }
+  /// The squares of the positions, moved by an offset.
+  SimdBatch squared_distances(const Vec2& offset) const {
+    const SimdBatch dx = x.load() + offset.x(), dy = y.load() + offset.y();
+    return dx * dx + dy * dy;
   }
 
   Ellipse shape(int lane) const { return {a[lane], b[lane]}; }

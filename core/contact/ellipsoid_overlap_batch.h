@@ -74,6 +74,14 @@ struct EllipsoidBatch {
     std::swap(inner[lane], other.inner[other_lane]);
   }
 
+  SimdBatch circumradii() const { return outer.load(); }
+  /// The squares of the positions, moved by an offset.
+  SimdBatch squared_distances(const Vec3& offset) const {
+    const SimdBatch dx = x.load() + offset.x(), dy = y.load() + offset.y(),
+                    dz = z.load() + offset.z();
+    return dx * dx + dy * dy + dz * dz;
+  }
+
   Vec3 position(int lane) const { return {x[lane], y[lane], z[lane]}; }
 };
 

@@ -67,7 +67,8 @@ double size_correlation(const Configuration<Dim>& c) {
 
 using Estimates = std::array<Estimate, 3>;
 
-/// By any sampler, in blocks of samples that are so many sweeps apart.
+/// By any sampler, in blocks of samples that are so many sweeps apart. Blocks must be much longer than it takes local moves to
+/// mix sizes: about 1000 sweeps at the densities of these tests.
 template <int Dim, class AnySampler>
 Estimates measured(Configuration<Dim>& c, AnySampler& sampler, int sweeps_per_sample) {
   constexpr int tuning = 1000, blocks = 20, samples = 100;
@@ -124,15 +125,15 @@ void expect_same_liquid(double aspect_ratio, double packing_fraction) {
 }
 
 TEST(ExchangeEquilibrium, OfPolydisperseDisks) {
-  expect_same_liquid<2>(1, 0.65);
+  expect_same_liquid<2>(1, 0.55);
 }
 
 TEST(ExchangeEquilibrium, OfPolydisperseEllipses) {
-  expect_same_liquid<2>(2, 0.6);
+  expect_same_liquid<2>(2, 0.5);
 }
 
 TEST(ExchangeEquilibrium, OfPolydisperseSpheres) {
-  expect_same_liquid<3>(1, 0.4);
+  expect_same_liquid<3>(1, 0.3);
 }
 
 }  // namespace

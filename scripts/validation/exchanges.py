@@ -1,0 +1,130 @@
+"""Time to forget a dense polydisperse liquid, with and without exchanges of places: rewrites bench/exchanges.md and .svg."""
+
+import datetime
+
+from validation.common import ROOT, clock_rate, commit_of, expect, measured, processor, pyplot, table, write_figure
+from validation.figures import COLOURS, MARKERS, legend
+
+TITLE = "Exchanges of places"
+PAGE = ROOT / "bench" / "exchanges.md"
+FIGURE = ROOT / "bench" / "exchanges.svg"
+
+LIQUIDS = {"disks": "disks", "ellipses": "ellipses, κ = 2", "spheres": "spheres"}
+QUANTITIES = ("places", "orientations", "sizes")
+MOTION, COLLECTIVE = "motion", "chains, collective exchanges"
+
+
+def time_text(time):
+    return "–" if not time else f"{time['seconds']:.3g} ± {time['error']:.1g}" if time["times"] > 1 else f"{time['seconds']:.2g}"
+
+
+def states(rows):
+    """A line per state and method."""
+    known = [q for q in QUANTITIES if any(method.get(q) for row in rows for method in row["methods"])]
+    lines = []
+    for row in rows:
+        for method in row["methods"]:
+            accepted = method.get("exchanges_accepted", method.get("steps_accepted"))
+            lines.append([row["packing_fraction"], method["method"], *(time_text(method.get(q)) for q in known),
+                          "–" if accepted is None else f"{accepted:.3f}", f"{1e6 * method['seconds'] / method['sweeps']:.0f}"])
+    return table(["φ", "method", *(f"{q}, s" for q in known), "accepted", "µs per sweep"], lines)
+
+
+def curves(rows, quantity):
+    """(φ, seconds, error) of every method that forgot this quantity more than once."""
+    found = {}
+    for row in rows:
+        for method in row["methods"]:
+            time = method.get(quantity)
+            points = found.setdefault(method["method"], [])
+            if time and time["times"] > 1:
+                points.append((row["packing_fraction"], time["seconds"], time["error"]))
+    return found
+
+
+def draw(data, file):
+    figure, all_axes = pyplot().subplots(1, 3, figsize=(12.5, 4.2), sharey=True, layout="constrained")
+    for axes, (key, name) in zip(all_axes, LIQUIDS.items()):
+        for k, (method, points) in enumerate(curves(data[key], "sizes").items()):
+            axes.errorbar([p[0] for p in points], [p[1] for p in points], yerr=[p[2] for p in points], label=method,
+                          color=COLOURS[k % len(COLOURS)], marker=MARKERS[k % len(MARKERS)], markersize=5, linewidth=1)
+        axes.set(title=name, xlabel="packing fraction φ", yscale="log")
+        axes.title.set_fontsize("medium")
+        axes.grid(alpha=0.25)
+    all_axes[0].set_ylabel("processor time until sizes are forgotten / s")
+    write_figure(legend(figure, all_axes[-1]), file)
+
+
+def choices(rows):
+    lines = [[method["method"], *(time_text(method.get(q)) for q in ("places", "sizes")),
+              f"{method.get('exchanges_accepted', method.get('steps_accepted')):.3f}",
+              f"{1e6 * method['seconds'] / method['sweeps']:.0f}"] for row in rows for method in row["methods"]]
+    return table(["beside, trials per particle, partners, steps per particle", "places, s", "sizes, s", "accepted",
+                  "µs per sweep"], lines)
+
+
+def page(data):
+    psi = " and ".join(f"{data[key]:.1f}" for key in ("ns_per_psi", "ns_per_psi_at_the_end"))
+    liquids = "\n\n".join(f"## {name[0].upper() + name[1:]}\n\n{states(data[key])}" for key, name in LIQUIDS.items())
+    return f"""# How long does each method take to forget a dense polydisperse liquid?
+
+    scripts/validate exchanges                            # builds, measures and writes this page
+    build/release/bench/vitrel-bench exchanges disks choices      # parts of it, as JSON
+
+Measured on {datetime.date.today()}, commit {commit_of(data)}, {processor()}{clock_rate()}, {data["compiler"]}, `{data["flags"]}`.
+Calibration: {psi} ns per Ψ (the function of Vieillard-Baron of two ellipses, from their angles; at the
+beginning and at the end of the run).
+
+N = {data["disks"][0]["particles"]} particles with sizes σ distributed as σ⁻³ between 0.45 and 1 of the largest, a standard deviation of 23 %. Every
+state is mixed by event chains with collective exchanges. Each method then runs on one thread until it has forgotten the
+state 30 times, or for 10 s. Compared are the state at the beginning and the present one, whatever the numbers of the
+particles: sums over pairs of particles of both whose centres are closer than 0.3 (V/N)^(1/D), relative to the motion of
+all. *Places* counts such pairs, *orientations* adds cos 2Δθ of the axes, *sizes* the product of the deviations of the sizes
+from their mean. Forgotten is what has fallen to 1/e of what is more than chance. Times are processor time, their errors
+standard errors; a dash says that the method did not forget within its time.
+
+*Exchanges* are those of `mc/exchanges.h`: of any two particles, of two close in size (a tenth of the ranks), and collective
+ones.
+
+![Processor time until the sizes are forgotten against the packing fraction, of all methods]({FIGURE.name})
+
+{liquids}
+
+## Choices
+
+Disks at φ = {data["choices"][0]["packing_fraction"]}. A share of the local moves are exchanges of two; beside event chains there are as many per
+particle and sweep.
+
+{choices(data["choices"])}
+"""
+
+
+def gain(row, method, other, quantity="sizes"):
+    """How many times as fast one method forgets as another; nothing if one does not."""
+    times = {m["method"]: m.get(quantity) for m in row["methods"]}
+    if not times.get(method) or not times.get(other):
+        return None
+    return times[other]["seconds"] / times[method]["seconds"]
+
+
+def check(rows):
+    """Where motion is slow but can still be measured, collective exchanges must be faster."""
+    gains = [(row["packing_fraction"], gain(row, COLLECTIVE, MOTION)) for row in rows]
+    known = [(phi, value) for phi, value in gains if value]
+    expect(known and known[-1][1] > 2, f"collective exchanges gain too little: {known}")
+
+
+def measure(_build):
+    data = measured("exchanges", "release")
+    PAGE.write_text(page(data), encoding="utf-8")
+    draw(data, FIGURE)
+    for key in LIQUIDS:
+        check(data[key])
+    return f"""This command writes [How long does each method take to forget a dense polydisperse liquid?](../bench/exchanges.md).
+Required: at the highest density that motion forgets within its time, event chains with collective exchanges are more than
+twice as fast.
+
+![Processor time until the sizes are forgotten against the packing fraction, of all methods](../bench/exchanges.svg)
+
+{states(data["disks"])}
+"""
