@@ -19,6 +19,7 @@
 #include "bench/surveys/mean.h"
 #include "core/elementary.h"
 #include "core/error.h"
+#include "core/neighbors/pairs.h"
 #include "core/state/check.h"
 #include "core/state/figure_axis.h"
 #include "core/state/species.h"
@@ -80,7 +81,7 @@ using Overlap = std::array<double, quantities>;
 template <int Dim>
 class Memory {
  public:
-  explicit Memory(const Configuration<Dim>& from) : from_(from) {
+  explicit Memory(const Configuration<Dim>& from) : from_(from), cells_(make_cells(from)) {
     const auto n = static_cast<double>(from.size());
     for (const Solid<Dim>& shape : from.shape) mean_ += root(shape.volume(), Dim) / n;
     for (std::size_t i = 0; i < from.size(); ++i) square_ += deviation(i) * deviation(i);
@@ -93,16 +94,13 @@ class Memory {
     for (std::size_t i = 0; i < now.size(); ++i)
       drift += (now.unwrapped(i) - from_.unwrapped(i)) / n;
     Overlap sum{};
-    const Vec<Dim>& lengths = now.box.lengths();
-    for (std::size_t i = 0; i < now.size(); ++i)
-      for (std::size_t j = 0; j < now.size(); ++j) {
-        Vec<Dim> d = now.position[j] - drift - from_.position[i];
-        for (int k = 0; k < Dim; ++k) d[k] -= lengths[k] * std::round(d[k] / lengths[k]);
-        if (d.squaredNorm() > reach_ * reach_) continue;
-        sum[places] += 1 / n;
-        sum[orientations_of_bodies] += alignment(from_, i, now, j) / n;
-        sum[sizes] += deviation(i) * deviation(j) / square_;
-      }
+    for (std::size_t j = 0; j < now.size(); ++j)
+      cells_.for_each_near(now.position[j] - drift, reach_,
+                           [&](std::size_t i, const Shift<Dim>&, const Vec<Dim>&) {
+                             sum[places] += 1 / n;
+                             sum[orientations_of_bodies] += alignment(from_, i, now, j) / n;
+                             sum[sizes] += deviation(i) * deviation(j) / square_;
+                           });
     return sum;
   }
 
@@ -117,6 +115,7 @@ class Memory {
   double deviation(std::size_t i) const { return root(from_.shape[i].volume(), Dim) - mean_; }
 
   Configuration<Dim> from_;
+  CellGrid<Dim> cells_;
   double mean_ = 0, square_ = 0, reach_ = 0;
 };
 
@@ -204,8 +203,8 @@ template <int Dim>
 using Methods = std::vector<std::unique_ptr<Method<Dim>>>;
 
 /// Of the part "choices", the best beside local moves and beside chains.
-constexpr ExchangeOptions none{}, any_two_local{.trials = 0.2}, collective_local{.collective = 4},
-    any_two{.trials = 0.8}, close_two{.trials = 0.8, .partners = 0.1}, collective{.collective = 8};
+constexpr ExchangeOptions none{}, any_two_local{.trials = 0.2}, collective{.collective = 4},
+    any_two{.trials = 0.8}, close_two{.trials = 0.8, .partners = 0.1};
 
 template <int Dim>
 Methods<Dim> all_methods(const Configuration<Dim>& start) {
@@ -219,7 +218,7 @@ Methods<Dim> all_methods(const Configuration<Dim>& start) {
   all.push_back(std::make_unique<Motion<Dim>>(start));
   add_local("local moves", none);
   add_local("local moves, exchanges of any two", any_two_local);
-  add_local("local moves, collective exchanges", collective_local);
+  add_local("local moves, collective exchanges", collective);
   add_chains("chains", none);
   add_chains("chains, exchanges of any two", any_two);
   add_chains("chains, exchanges of two close in size", close_two);
@@ -356,6 +355,7 @@ Json measure_choices(const Effort& effort) {
     for (const double partners : {1., 0.3, 0.1, 0.03, 0.01})
       add({.trials = 0.2, .partners = partners});
     for (const double trials : {0.05, 0.5, 0.8}) add({.trials = trials, .partners = 0.1});
+    add({.trials = 0.8});
     for (const double steps : {1., 2., 4., 8., 16., 32.}) add({.collective = steps});
     return all;
   });
