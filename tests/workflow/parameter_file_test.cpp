@@ -204,7 +204,8 @@ const BadFile bad_files[] = {
     {"[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"sample\"\nexchanges = -1",
      "file.toml:4:13: key 'prepare.stage.1.exchanges' is -1.0, but must lie between 0 and"},
     {"[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"sample\"\nexchange_partners = 0.1",
-     "file.toml:4:1: key 'prepare.stage.1.exchange_partners' has a meaning only with exchanges above "
+     "file.toml:4:1: key 'prepare.stage.1.exchange_partners' has a meaning only with exchanges "
+     "above "
      "0"},
     {"[[prepare.stage]]\n[[prepare.stage]]\nmethod = \"sample\"\nexchanges = 1\n"
      "exchange_partners = 0",
