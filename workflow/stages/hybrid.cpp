@@ -25,8 +25,10 @@ class Hybrid {
   StageReport run() {
     while (true) {
       const bool grows = state_.stretches % 2 == 0;
-      StageReport report = grows ? growth() : sampling();
-      if (report.end != StageEnd::reached || (grows && at_goal())) return report;
+      const StageReport report = grows ? growth() : sampling();
+      if (report.end != StageEnd::reached) return report;
+      if (grows && at_pressure()) return {report.end, "the reduced pressure was reached"};
+      if (grows && state_.stretch_end == goal()) return report;
       ++state_.stretches;
       state_.stretch_end = 0;
       control_.report_progress({progress(), packing_fraction(configuration_), "packing fraction"});
@@ -56,10 +58,10 @@ class Hybrid {
     return options_.packing_fraction.value_or(std::numeric_limits<double>::infinity());
   }
 
-  bool at_goal() const {
-    const double z = state_.growth.reduced_pressure;
-    return state_.stretch_end == goal() ||
-           (options_.reduced_pressure && z >= *options_.reduced_pressure);
+  /// At the end of an interval of growth, whichever goal ended it.
+  bool at_pressure() const {
+    return options_.reduced_pressure &&
+           state_.growth.reduced_pressure >= *options_.reduced_pressure;
   }
 
   StageReport sampling() {
