@@ -24,7 +24,7 @@ STATES = (
     (1, (SPREAD,), 0.86, False),
     (2, (SPREAD,), 0.88, False),
     (1, (LAW,), 0.89, False),
-    (2, (LAW,), 0.92, False),
+    (2, (LAW,), 0.893, False),
 )
 NAMES = {(1,): "one", (1, 1.4): "1 : 1.4", (SPREAD,): "0.6 … 1.4", (LAW,): "σ⁻³"}
 METHODS = {

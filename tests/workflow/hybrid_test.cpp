@@ -69,7 +69,7 @@ TEST(Hybrid, JamsTheLaterTheMoreMonteCarloRelaxes) {
 }
 
 // Where sizes are spread, exchanges of places let the mixture relax at packing fractions at which nobody
-// moves far any more: it jams at 0.854, or 0.88 with collective exchanges, instead of 0.841.
+// moves far any more: it jams at 0.854, or 0.898 with collective exchanges, instead of 0.841.
 TEST(Hybrid, ExchangesLetSpreadSizesJamLater) {
   const auto jammed_at = [](Moves moves, const ExchangeOptions& exchanges) {
     Species species;
