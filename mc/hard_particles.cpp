@@ -17,6 +17,11 @@ void swap_orientations(OrientedEllipse& one, OrientedEllipse& two) {
   std::swap(one.axis, two.axis);
 }
 void swap_orientations(OrientedEllipsoid& one, OrientedEllipsoid& two) {
+  if (one.shape.is_round() &&
+      two.shape.is_round()) {  // orientations do not change their shape matrices
+    std::swap(one.orientation, two.orientation);
+    return;
+  }
   const Quaternion of_one = one.orientation;
   one = {one.shape, two.orientation};
   two = {two.shape, of_one};
