@@ -60,8 +60,7 @@ Json work_summary(const Preparation<2>& preparation, const std::filesystem::path
       {"acceptance_translation", ratio(counts.translations_accepted, counts.translations_tried)},
       {"acceptance_rotation", ratio(counts.rotations_accepted, counts.rotations_tried)},
       {"acceptance_exchange", ratio(counts.exchanges.accepted, counts.exchanges.tried)},
-      {"acceptance_collective_exchange",
-       ratio(counts.exchanges.accepted_steps, counts.exchanges.steps)},
+      {"acceptance_collective", ratio(counts.exchanges.accepted_steps, counts.exchanges.steps)},
       {"wall_seconds", preparation.wall_seconds},
       {"trial_moves_per_second", static_cast<double>(counts.tried()) / preparation.wall_seconds}};
 }
