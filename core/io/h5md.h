@@ -195,6 +195,7 @@ class TrajectoryReader {
   const std::filesystem::path& path() const { return path_; }
 
  private:
+  bool has_dataset(const std::string& name) const;
   const h5::Dataset& dataset(const std::string& name, const std::string& meaning) const;
   [[noreturn]] void fail(const std::string& what) const;
   void read_axes();
@@ -234,6 +235,8 @@ class TrajectoryReader {
   std::vector<std::int64_t> steps_;
   std::variant<Configuration2, Configuration3> fixed_;   ///< what all frames share
   mutable std::map<std::string, h5::Dataset> datasets_;  ///< those in use stay open
+  mutable std::map<std::string, bool>
+      present_;  ///< whether the file has these datasets; slow to ask
 };
 
 /// The last frame of a trajectory. FileError if there is none.

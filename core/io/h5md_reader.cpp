@@ -51,8 +51,7 @@ const h5::Dataset& TrajectoryReader::dataset(const std::string& name,
                                              const std::string& meaning) const {
   const auto open = datasets_.find(name);
   if (open != datasets_.end()) return open->second;
-  if (!root_.has_dataset(name))
-    fail("the dataset " + name + " is missing: it should hold " + meaning);
+  if (!has_dataset(name)) fail("the dataset " + name + " is missing: it should hold " + meaning);
   return datasets_.emplace(name, root_.dataset(name)).first->second;
 }
 
@@ -143,12 +142,12 @@ void TrajectoryReader::set_shapes(Configuration3& fixed, const std::vector<doubl
 template <int Dim>
 void TrajectoryReader::read_masses_and_species(Configuration<Dim>& fixed) const {
   fixed.species_names = {"A"};
-  if (root_.has_dataset(group_ + "/mass"))
+  if (has_dataset(group_ + "/mass"))
     fixed.mass = root_.dataset(group_ + "/mass").read<double>();
   else
     std::ranges::transform(fixed.shape, fixed.mass.begin(),
                            [](const auto& shape) { return natural_mass(shape); });
-  if (root_.has_dataset(group_ + "/species")) {
+  if (has_dataset(group_ + "/species")) {
     const h5::Dataset species = root_.dataset(group_ + "/species");
     fixed.species = species.read<std::int32_t>();
     fixed.species_names = species.enumeration();
@@ -194,9 +193,15 @@ void TrajectoryReader::read(std::uint64_t frame, Configuration<Dim>& configurati
   read_close_pairs(frame, configuration);
 }
 
+bool TrajectoryReader::has_dataset(const std::string& name) const {
+  const auto known = present_.find(name);
+  if (known != present_.end()) return known->second;
+  return present_.emplace(name, root_.has_dataset(name)).first->second;
+}
+
 /// Whether the element is the same in all frames: a dataset instead of a group.
 bool TrajectoryReader::is_fixed(const std::string& name) const {
-  return root_.has_dataset(group_ + '/' + name);
+  return has_dataset(group_ + '/' + name);
 }
 
 const h5::Dataset& TrajectoryReader::element(const std::string& name,
@@ -245,7 +250,7 @@ std::vector<double> TrajectoryReader::frame_values(const std::string& name,
 template <int Dim>
 void TrajectoryReader::read_box(std::uint64_t frame, Configuration<Dim>& configuration) const {
   const std::string path = group_ + "/box/edges";
-  const bool fixed = root_.has_dataset(path);
+  const bool fixed = has_dataset(path);
   const h5::Dataset& edges = dataset(fixed ? path : path + "/value", "the box lengths");
   h5::Shape shape = edges.shape();
   if (!fixed && !shape.empty()) shape.erase(shape.begin());
@@ -371,7 +376,7 @@ template <int Dim>
 void TrajectoryReader::read_close_pairs(std::uint64_t frame,
                                         Configuration<Dim>& configuration) const {
   const std::string group = group_ + "/close_pairs/";
-  if (!root_.has_dataset(group + "end")) return;
+  if (!has_dataset(group + "end")) return;
   const auto column = [&](const char* name) -> const h5::Dataset& {
     return dataset(group + name, "the close pairs of every frame");
   };
@@ -401,7 +406,7 @@ void TrajectoryReader::read_close_pairs(std::uint64_t frame,
 }
 
 bool TrajectoryReader::has(const std::string& name) const {
-  return is_fixed(name) || root_.has_dataset(group_ + '/' + name + "/value");
+  return is_fixed(name) || has_dataset(group_ + '/' + name + "/value");
 }
 
 void TrajectoryReader::require(const std::string& name, const std::string& purpose) const {
