@@ -335,8 +335,8 @@ Json measure_disks(const Effort& effort) {
                            effort, all_methods<2>);
 }
 Json measure_ellipses(const Effort& effort) {
-  return measure_liquid<2>(2, {0.6, 0.7, 0.75, 0.77, 0.78, 0.79, 0.8, 0.81, 0.82, 0.83, 0.84},
-                           effort, all_methods<2>);
+  return measure_liquid<2>(2, {0.6, 0.7, 0.75, 0.8, 0.82, 0.84, 0.85, 0.86, 0.87, 0.88}, effort,
+                           all_methods<2>);
 }
 Json measure_spheres(const Effort& effort) {
   return measure_liquid<3>(1, {0.4, 0.5, 0.55, 0.58, 0.6, 0.62, 0.64}, effort, all_methods<3>);
