@@ -3,7 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/elementary.h"
 #include "core/state/figure_axis.h"
 #include "mc/contact_pressure.h"
 #include "mc/sampler.h"
@@ -16,22 +15,11 @@ constexpr std::uint64_t tuning_share = 5;  // a fifth of the sweeps
 constexpr std::uint64_t sweeps_between_tunings = 5, sweeps_per_pressure = 5;
 constexpr double spacing = 1.0797751623277097 * (1 - 1e-9);  // 30 per decade
 
-/// Of one particle.
-double orientation_kept(const Configuration2& before, const Configuration2& now, std::size_t i) {
-  return cosine_and_sine(2 * (now.angle[i] - before.angle[i])).cosine;
-}
-double orientation_kept(const Configuration3& before, const Configuration3& now, std::size_t i) {
-  const double cosine = figure_axis(now.shape[i], now.orientation[i])
-                            .dot(figure_axis(before.shape[i], before.orientation[i]));
-  return 1.5 * cosine * cosine - 0.5;
-}
-
-/// C₂ between two configurations of the same particles.
 template <int Dim>
 double orientation_correlation(const Configuration<Dim>& before, const Configuration<Dim>& now) {
   double sum = 0;
   for (std::size_t i = 0; i < now.size(); ++i)
-    if (!now.shape[i].is_round()) sum += orientation_kept(before, now, i);
+    if (!now.shape[i].is_round()) sum += alignment(before, i, now, i);
   return sum / static_cast<double>(rotor_count(now));
 }
 

@@ -6,10 +6,8 @@
 
 #include <array>
 #include <cmath>
-#include <functional>
 #include <memory>
 #include <numbers>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -60,17 +58,6 @@ Configuration<Dim> dilute_liquid(double aspect_ratio, int particles) {
 
 // ---- what is measured ---------------------------------------------------------------------------------
 
-double alignment(const Configuration2& one, std::size_t i, const Configuration2& two,
-                 std::size_t j) {
-  return std::cos(2 * (one.angle[i] - two.angle[j]));
-}
-double alignment(const Configuration3& one, std::size_t i, const Configuration3& two,
-                 std::size_t j) {
-  const double cosine = figure_axis(one.shape[i], one.orientation[i])
-                            .dot(figure_axis(two.shape[j], two.orientation[j]));
-  return 1.5 * cosine * cosine - 0.5;
-}
-
 enum Quantity { places, orientations_of_bodies, sizes, quantities };
 constexpr std::array<const char*, quantities> quantity_names{"places", "orientations", "sizes"};
 using Overlap = std::array<double, quantities>;
@@ -85,7 +72,7 @@ class Memory {
     const auto n = static_cast<double>(from.size());
     for (const Solid<Dim>& shape : from.shape) mean_ += root(shape.volume(), Dim) / n;
     for (std::size_t i = 0; i < from.size(); ++i) square_ += deviation(i) * deviation(i);
-    reach_ = 0.3 * root(from.box.volume() / n, Dim);
+    reach_ = share * root(from.box.volume() / n, Dim);
   }
 
   Overlap overlap(const Configuration<Dim>& now) const {
@@ -107,11 +94,13 @@ class Memory {
   /// When a quantity counts as forgotten: what is more than chance has fallen to 1/e.
   Overlap goals() const {
     const double ball = Dim == 2 ? std::numbers::pi : 4 * std::numbers::pi / 3;
-    const double chance = ball * std::pow(0.3, Dim);
+    const double chance = ball * power(share, Dim);
     return {chance + (1 - chance) / std::numbers::e, 1 / std::numbers::e, 1 / std::numbers::e};
   }
 
  private:
+  static constexpr double share = 0.3;  // of (V/N)^(1/D)
+
   double deviation(std::size_t i) const { return root(from_.shape[i].volume(), Dim) - mean_; }
 
   Configuration<Dim> from_;

@@ -235,8 +235,7 @@ class TrajectoryReader {
   std::vector<std::int64_t> steps_;
   std::variant<Configuration2, Configuration3> fixed_;   ///< what all frames share
   mutable std::map<std::string, h5::Dataset> datasets_;  ///< those in use stay open
-  mutable std::map<std::string, bool>
-      present_;  ///< whether the file has these datasets; slow to ask
+  mutable std::map<std::string, bool> present_;          ///< these datasets, or not; slow to ask
 };
 
 /// The last frame of a trajectory. FileError if there is none.

@@ -1,6 +1,8 @@
 #pragma once
 
+#include "core/elementary.h"
 #include "core/geometry/ellipsoid.h"
+#include "core/state/configuration.h"
 
 namespace vitrel {
 
@@ -11,6 +13,19 @@ inline Vec3 figure_axis(const Ellipsoid& body, const Quaternion& orientation) {
   int axis = body.symmetry_axis();
   if (axis == Ellipsoid::none) body.semi_axes.maxCoeff(&axis);
   return orientation * Vec3::Unit(axis);
+}
+
+/// How much particle i of one configuration and j of another are aligned: cos 2(θ_j − θ_i) in the plane, P₂ of the cosine
+/// between their figure axes in space. Not for round bodies.
+inline double alignment(const Configuration2& one, std::size_t i, const Configuration2& other,
+                        std::size_t j) {
+  return cosine_and_sine(2 * (other.angle[j] - one.angle[i])).cosine;
+}
+inline double alignment(const Configuration3& one, std::size_t i, const Configuration3& other,
+                        std::size_t j) {
+  const double cosine = figure_axis(other.shape[j], other.orientation[j])
+                            .dot(figure_axis(one.shape[i], one.orientation[i]));
+  return 1.5 * cosine * cosine - 0.5;
 }
 
 }  // namespace vitrel

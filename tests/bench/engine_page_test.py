@@ -13,6 +13,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "scripts"))
 
 from validation import engine  # noqa: E402 (needs the path)
 from validation.common import Failure  # noqa: E402
+from page_format import assert_well_formed  # noqa: E402 (after the path is set)
 
 PROGRAM = sys.argv.pop()
 # Equation of state of disks: Kolafa & Rottner (2006) at φ = 0.5.
@@ -63,13 +64,7 @@ class EnginePage(unittest.TestCase):
             self.assertLess(row["lazy"][0]["searches"], row["eager"]["searches"])
 
     def test_page_is_well_formed(self):
-        page = engine.page(self.data, self.data)
-        self.assertNotIn("nan", page)
-        self.assertEqual(page.count("\n## "), 8)
-        for block in page.split("\n\n"):
-            if block.startswith("| "):
-                columns = {line.count("|") for line in block.splitlines()}
-                self.assertEqual(len(columns), 1, block)
+        assert_well_formed(self, engine.page(self.data, self.data), 8)
 
     def test_chart_is_drawn(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -13,6 +13,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "scripts"))
 
 from validation import exchanges  # noqa: E402 (needs the path)
 from validation.common import Failure  # noqa: E402
+from page_format import assert_well_formed  # noqa: E402 (after the path is set)
 
 PROGRAM = sys.argv.pop()
 
@@ -49,13 +50,7 @@ class ExchangesPage(unittest.TestCase):
         self.assertTrue(all(0 < share < 1 for share in accepted), accepted)
 
     def test_page_is_well_formed(self):
-        page = exchanges.page(self.data)
-        self.assertNotIn("nan", page)
-        self.assertEqual(page.count("\n## "), 4)
-        for block in page.split("\n\n"):
-            if block.startswith("| "):
-                columns = {line.count("|") for line in block.splitlines()}
-                self.assertEqual(len(columns), 1, block)
+        assert_well_formed(self, exchanges.page(self.data), 4)
 
     def test_chart_is_drawn(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -12,6 +12,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "scripts"))
 
 from validation import sampler  # noqa: E402 (needs the path)
 from validation.common import Failure  # noqa: E402
+from page_format import assert_well_formed  # noqa: E402 (after the path is set)
 
 PROGRAM = sys.argv.pop()
 
@@ -42,13 +43,7 @@ class SamplerPage(unittest.TestCase):
             self.assertAlmostEqual(row["translations_accepted"], row["plain"]["translations_accepted"], delta=0.15)
 
     def test_page_is_well_formed(self):
-        page = sampler.page(self.data, self.data)
-        self.assertNotIn("nan", page)
-        self.assertEqual(page.count("\n## "), 3)
-        for block in page.split("\n\n"):
-            if block.startswith("| "):
-                columns = {line.count("|") for line in block.splitlines()}
-                self.assertEqual(len(columns), 1, block)
+        assert_well_formed(self, sampler.page(self.data, self.data), 3)
 
     def test_threads_that_gain_too_little_fail(self):
         def row(one, two):
