@@ -219,6 +219,9 @@ class TrajectoryReader {
   template <int Dim>
   void require_room(std::uint64_t frame, const Configuration<Dim>& configuration) const;
   template <int Dim>
+  void require_near_box(std::uint64_t frame, std::size_t i,
+                        const Configuration<Dim>& configuration) const;
+  template <int Dim>
   void read_positions(std::uint64_t frame, Configuration<Dim>& configuration) const;
   void read_orientations(std::uint64_t frame, Configuration2& configuration) const;
   void read_orientations(std::uint64_t frame, Configuration3& configuration) const;

@@ -8,6 +8,7 @@
 
 #include "core/elementary.h"
 #include "core/error.h"
+#include "core/io/box_crossings.h"
 #include "core/io/foreign/foreign_file.h"
 #include "core/io/h5md.h"
 #include "core/state/species.h"
@@ -298,6 +299,16 @@ void TrajectoryReader::require_room(std::uint64_t frame,
 }
 
 template <int Dim>
+void TrajectoryReader::require_near_box(std::uint64_t frame, std::size_t i,
+                                        const Configuration<Dim>& configuration) const {
+  const Vec<Dim>& position = configuration.position[i];
+  const Vec<Dim> boxes = position.cwiseQuotient(configuration.box.lengths());
+  if (!(boxes.cwiseAbs().maxCoeff() <= max_box_crossings))
+    fail(fmt::format("in frame {} particle {} is at {}, but should be near the box", frame, i,
+                     fmt::join(position, ", ")));
+}
+
+template <int Dim>
 void TrajectoryReader::read_positions(std::uint64_t frame,
                                       Configuration<Dim>& configuration) const {
   const std::string meaning = "the coordinates";
@@ -306,14 +317,14 @@ void TrajectoryReader::read_positions(std::uint64_t frame,
   const std::vector<double> positions = frame_values("position", meaning, frame, d);
   std::vector<double> images(particles() * Dim);
   if (has("image")) images = frame_values("image", "the box crossings", frame, Dim);
-  constexpr double limit = std::numeric_limits<std::int32_t>::max();
-  if (std::ranges::any_of(images, [](double n) { return std::abs(n) > limit; }))
+  if (std::ranges::any_of(images, [](double n) { return std::abs(n) > max_box_crossings; }))
     fail("the dataset " + group_ + "/image/value has impossible numbers in frame " +
          std::to_string(frame));
   for (std::size_t i = 0; i < particles(); ++i) {
     if (Dim == 2 && d == 3 && positions[3 * i + 2] != 0)
       fail("particle " + std::to_string(i) + " has z ≠ 0, but the system is two-dimensional");
     configuration.position[i] = Vec<Dim>(&positions[d * i]);
+    require_near_box(frame, i, configuration);
     configuration.image[i] = Vec<Dim>(&images[Dim * i]).template cast<std::int32_t>();
     configuration.box.wrap_if_outside(configuration.position[i], configuration.image[i]);
   }

@@ -74,6 +74,29 @@ TEST(Hardening, AbsurdGeometryIsRefusedAtOnce) {
   expect_all_refuse(folder, {{"analyze", "state.h5"}}, "the longest semi-axis is 1e+300");
 }
 
+// Wrapped into the box, it would have crossed it more often than 32 bits can count.
+TEST(Hardening, PositionsFarFromTheBoxAreRefused) {
+  const Folder folder("far_positions");
+  folder.write("p.toml", "[dynamics]\ninitial_velocities = \"keep\"\n");
+  write_changed<3>(folder, [](auto&) {});
+  {
+    h5::File file = h5::File::open(folder / "state.h5", h5::Access::write);
+    h5::Dataset positions = file.root().dataset("particles/all/position/value");
+    std::vector<double> values(3 * 12);
+    positions.read_frame<double>(0, values);
+    values[3 * 7] = -1e300;
+    positions.write_frame<double>(0, values);
+    file.close();
+  }
+  expect_all_refuse(
+      folder,
+      {{"check", "state.h5"},
+       {"export", "state.h5", "--to", "xyz"},
+       {"analyze", "state.h5"},
+       {"run", "p.toml", "--from", "state.h5", "-o", "run.h5"}},
+      "state.h5: in frame 0 particle 7 is at -1e+300, 0, 0, but should be near the box");
+}
+
 TEST(Hardening, MassesAndSpeciesThatCannotBeAreRefusedByAllCommands) {
   const Folder folder("masses");
   folder.write("p.toml", "[dynamics]\ninitial_velocities = \"keep\"\n");

@@ -10,6 +10,7 @@
 
 #include "core/elementary.h"
 #include "core/error.h"
+#include "core/io/box_crossings.h"
 #include "core/state/species.h"
 #include "core/tolerances.h"
 
@@ -131,10 +132,10 @@ template <int Dim>
 Shift<Dim> boxes_between(const PeriodicBox<Dim>& box, const Vec<Dim>& wrapped,
                          const Vec<Dim>& unwrapped, std::size_t i) {
   const Vec<Dim> boxes = (unwrapped - wrapped).cwiseQuotient(box.lengths());
-  constexpr double most = std::numeric_limits<std::int32_t>::max();
   constexpr double rounding = 1e-6;  // of numbers in single precision
   for (int k = 0; k < Dim; ++k)
-    if (!(std::abs(boxes[k]) < most && std::abs(boxes[k] - std::round(boxes[k])) < rounding))
+    if (!(std::abs(boxes[k]) <= max_box_crossings &&
+          std::abs(boxes[k] - std::round(boxes[k])) < rounding))
       throw UserError(
           fmt::format("particle {} is at {}, and unwrapped at {}: they are not whole boxes apart",
                       i, fmt::join(wrapped, ", "), fmt::join(unwrapped, ", ")));
@@ -147,7 +148,8 @@ void set_positions(Configuration<Dim>& configuration, const ForeignFrame& frame)
   for (std::size_t i = 0; i < configuration.size(); ++i) {
     Vec<Dim>& position = configuration.position[i] = positions[i].template head<Dim>();
     if (!position.allFinite() ||
-        (position.cwiseQuotient(configuration.box.lengths()).cwiseAbs().maxCoeff() > 1e9))
+        (position.cwiseQuotient(configuration.box.lengths()).cwiseAbs().maxCoeff() >
+         max_box_crossings))
       throw UserError(fmt::format("particle {} is at {}, but should be near the box", i,
                                   fmt::join(position, ", ")));
     if (Dim == 2 && positions[i][2] != 0)

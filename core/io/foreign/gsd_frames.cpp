@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/io/box_crossings.h"
 #include "core/io/foreign/gsd_reader.h"
 #include "core/io/json.h"
 
@@ -107,7 +108,8 @@ class GsdFrames final : public ForeignFrames {
     frame.orientation = quaternions("particles/orientation");
     if (frame.orientation.empty()) frame.orientation.assign(particles_, Quaternion::Identity());
     for (const Vec3& image : vectors("particles/image")) {
-      if (!(image.cwiseAbs().maxCoeff() <= 1e9)) fail("particles/image has impossible numbers");
+      if (!(image.cwiseAbs().maxCoeff() <= max_box_crossings))
+        fail("particles/image has impossible numbers");
       frame.image.push_back(image.cast<std::int32_t>());
     }
     if (frame.image.empty()) frame.image.assign(particles_, Shift<3>::Zero());

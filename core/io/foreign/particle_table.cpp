@@ -9,6 +9,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/io/box_crossings.h"
 #include "core/io/foreign/text_lines.h"
 
 namespace vitrel {
@@ -160,8 +161,7 @@ ForeignFrame ParticleTable::frame(const std::string& place) const {
   frame.position = vectors("", directions, order);
   frame.unwrapped = vectors("unwrapped_", directions, order);
   for (const Vec3& image : vectors("image_", directions, order)) {
-    constexpr double most = 1e9;
-    if (!(image.cwiseAbs().maxCoeff() <= most))
+    if (!(image.cwiseAbs().maxCoeff() <= max_box_crossings))
       throw FileError(fmt::format("{}: an image is {}, but should be a few boxes away", place,
                                   fmt::join(image, ", ")));
     frame.image.push_back(image.array().round().cast<std::int32_t>());
