@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -24,10 +25,10 @@
 /// program includes this.
 namespace vitrel {
 
-/// The whole command line, for the provenance.
+/// The whole command line, for the provenance; of the program its name without the folder.
 inline std::string joined(int count, char** words) {
-  std::string line;
-  for (int k = 0; k < count; ++k) line += (k > 0 ? " " : "") + std::string(words[k]);
+  std::string line = std::filesystem::path(words[0]).filename().string();
+  for (int k = 1; k < count; ++k) line += " " + std::string(words[k]);
   return line;
 }
 
