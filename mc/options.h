@@ -61,10 +61,11 @@ struct ExchangeOptions {
 };
 
 struct SamplingOptions {
-  std::uint64_t sweeps = 1000;
+  std::uint64_t sweeps = 1000;  ///< with a number of decorrelations: maximum
   Moves moves = Moves::chains;
   ExchangeOptions exchanges = {};
-  int threads = 1;  ///< of local moves; the result does not depend on it
+  int threads = 1;                   ///< of local moves; the result does not depend on it
+  std::uint64_t decorrelations = 0;  ///< (decorrelation_count.h); 0: not counted
 };
 
 }  // namespace vitrel

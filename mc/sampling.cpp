@@ -1,5 +1,9 @@
 #include "mc/sampling.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
 #include <string>
 
 #include "mc/sampler.h"
@@ -8,28 +12,51 @@ namespace vitrel {
 
 namespace {
 
-/// `sampler` is a Sampler or an EventChain, and `state` its own.
-template <class AnySampler, class State>
-StageEnd run_sweeps(AnySampler& sampler, State& state, std::uint64_t sweeps,
-                    std::uint64_t sweeps_between_tunings, const RunControl& control) {
-  while (state.sweeps < sweeps) {
+/// How far the stage is: of the sweeps or of the decorrelations.
+Progress progress(const SamplingOptions& options, const SamplingState& state) {
+  const auto sweeps = static_cast<double>(state.sweeps());
+  const double share = sweeps / static_cast<double>(options.sweeps);
+  if (options.decorrelations == 0) return {share, sweeps, "sweep"};
+  const auto count = static_cast<double>(state.decorrelation.count);
+  return {std::max(share, count / static_cast<double>(options.decorrelations)), count,
+          "decorrelation"};
+}
+
+/// `sampler` is a Sampler or an EventChain, and `own` its part of the state.
+template <int Dim, class AnySampler, class State>
+StageEnd run_sweeps(const Configuration<Dim>& configuration, AnySampler& sampler, State& own,
+                    const SamplingOptions& options, std::uint64_t sweeps_between_tunings,
+                    SamplingState& state, const RunControl& control) {
+  std::optional<DecorrelationCount<Dim>> count;
+  if (options.decorrelations > 0) count.emplace(configuration, state.decorrelation, own.sweeps);
+  const auto decorrelated = [&] {
+    return count && state.decorrelation.count >= options.decorrelations;
+  };
+  while (own.sweeps < options.sweeps && !decorrelated()) {
     if (control.stop_requested()) return StageEnd::stopped;
     sampler.sweep();
     if (sampler.state().sweeps % sweeps_between_tunings == 0) sampler.tune();
-    state = sampler.state();
-    const auto done = static_cast<double>(state.sweeps);
-    control.report_progress({done / static_cast<double>(sweeps), done, "sweep"});
+    own = sampler.state();
+    if (count) count->update(own.sweeps);
+    control.report_progress(progress(options, state));
     control.notify_resumable();
   }
-  return StageEnd::reached;
+  return count && !decorrelated() ? StageEnd::stalled : StageEnd::reached;
 }
 
-std::string end_text(const ChainCounts& counts) {
-  std::string all = "all sweeps were completed";
+std::string work_text(const SamplingOptions& options, const SamplingState& state) {
+  if (options.decorrelations == 0) return "all sweeps were completed";
+  return fmt::format("decorrelated {} times in {} sweeps", state.decorrelation.count,
+                     state.sweeps());
+}
+
+std::string end_text(const SamplingOptions& options, const SamplingState& state) {
+  const ChainCounts& counts = state.chains.counts;
+  const std::string all = work_text(options, state);
   if (counts.cut_short == 0) return all;
-  return all + ", but " + std::to_string(counts.cut_short) + " of " +
-         std::to_string(counts.chains) +
-         " chains were cut short in jammed rows, which violates balance";
+  return fmt::format(
+      "{}, but {} of {} chains were cut short in jammed rows, which violates balance", all,
+      counts.cut_short, counts.chains);
 }
 
 }  // namespace
@@ -40,14 +67,19 @@ StageReport sample(Configuration<Dim>& configuration, const SamplingOptions& opt
   StageEnd end;
   if (options.moves == Moves::chains) {
     EventChain chains(configuration, {.exchanges = options.exchanges}, seed, state.chains);
-    end = run_sweeps(chains, state.chains, options.sweeps, 1, control);
+    end = run_sweeps(configuration, chains, state.chains, options, 1, state, control);
   } else {
     Sampler sampler(configuration, seed, state.local, options.threads);
     sampler.set_exchanges(options.exchanges);
-    end = run_sweeps(sampler, state.local, options.sweeps, sweeps_per_tuning, control);
+    end =
+        run_sweeps(configuration, sampler, state.local, options, sweeps_per_tuning, state, control);
   }
   if (end == StageEnd::stopped) return {end, "sampling was stopped"};
-  return {end, end_text(state.chains.counts)};
+  if (end == StageEnd::stalled)
+    return {end, fmt::format("only {} of {} decorrelations within max_sweeps = {}; raise it, or "
+                             "exchange places",
+                             state.decorrelation.count, options.decorrelations, options.sweeps)};
+  return {end, end_text(options, state)};
 }
 
 template StageReport sample(Configuration2&, const SamplingOptions&, std::uint64_t, SamplingState&,

@@ -4,6 +4,7 @@
 
 #include "core/state/configuration.h"
 #include "core/state/stage.h"
+#include "mc/decorrelation_count.h"
 #include "mc/event_chain.h"
 #include "mc/options.h"
 #include "mc/sweep_state.h"
@@ -14,14 +15,16 @@ namespace vitrel {
 struct SamplingState {
   ChainState chains;
   SweepState local;
+  DecorrelationState decorrelation;  ///< unused without a number of decorrelations
 
   std::uint64_t sweeps() const { return chains.sweeps + local.sweeps; }
   void number_sweeps(std::uint64_t next) { chains.next_sweep = local.next_sweep = next; }
 };
 
 /// Monte Carlo at constant packing fraction, as an equilibration stage: chains and step sizes adapt throughout.
-/// `reached` when `state` counts the requested sweeps, `stopped` on request between two sweeps; the same call then
-/// continues with bit-identical results. The reason says if chains were cut short.
+/// `reached` when `state` counts the requested sweeps or decorrelations, `stalled` if these take more than the maximum of
+/// sweeps, `stopped` on request between two sweeps; the same call then continues with bit-identical results. The reason
+/// says if chains were cut short.
 template <int Dim>
 StageReport sample(Configuration<Dim>& configuration, const SamplingOptions& options,
                    std::uint64_t seed, SamplingState& state, const RunControl& control);

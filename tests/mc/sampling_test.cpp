@@ -2,8 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+
 #include "core/state/check.h"
+#include "mc/place_correlation.h"
+#include "mc/sampler.h"
 #include "tests/support/fluids.h"
+#include "tests/support/mixtures_in_space.h"
 
 namespace vitrel {
 namespace {
@@ -64,6 +70,65 @@ TEST(Sampling, GoesOnBitByBitAfterStops) {
     EXPECT_EQ(state.chains.counts.contacts, undisturbed.chains.counts.contacts);
     EXPECT_EQ(state.local.translation.size, undisturbed.local.translation.size);
   }
+}
+
+// The count is that of a comparison after every sweep at which one is due, made by hand.
+TEST(Sampling, GoesOnUntilDecorrelated) {
+  Configuration2 c = inserted_fluid(60, 2, 0.4);
+  Configuration2 copy = c;
+  const SamplingOptions options{.sweeps = 100000, .moves = Moves::local, .decorrelations = 4};
+  SamplingState state;
+  const StageReport report = sample(c, options, 3, state, {});
+  EXPECT_EQ(report.end, StageEnd::reached);
+  EXPECT_EQ(state.decorrelation.count, 4u);
+  EXPECT_LT(state.sweeps(), 10000u);
+  EXPECT_NE(report.reason.find("decorrelated 4 times in "), std::string::npos) << report.reason;
+
+  Sampler sampler(copy, 3);
+  std::uint64_t sweeps = 0, begin = 0, next = 1, count = 0;
+  std::array<bool, 2> decayed{};
+  PlaceCorrelation<2> first(copy);
+  while (count < 4) {
+    sampler.sweep();
+    if (++sweeps % sweeps_per_tuning == 0) sampler.tune();
+    if (sweeps < next) continue;
+    const PlaceCorrelations now = first.with(copy);
+    decayed[0] = decayed[0] || now.places < std::exp(-1);
+    decayed[1] = decayed[1] || now.orientations < std::exp(-1);
+    EXPECT_EQ(now.sizes, 0);
+    next = sweeps + 1 + (sweeps - begin) / 10;
+    if (!decayed[0] || !decayed[1]) continue;
+    ++count, begin = sweeps, next = sweeps + 1, decayed = {};
+    first = PlaceCorrelation<2>(copy);
+  }
+  EXPECT_EQ(state.sweeps(), sweeps);
+}
+
+TEST(Sampling, CountsDecorrelationsAcrossStops) {
+  Configuration3 whole = inserted_mixture(
+      MixtureInSpace{"spheroids", 60, 0.1, {species_of(1, always(2), between(0.5, 1.5))}});
+  Configuration3 parts = whole;
+  const SamplingOptions options{
+      .sweeps = 100000, .exchanges = {.collective = 2}, .decorrelations = 3};
+  SamplingState undisturbed, state;
+  EXPECT_EQ(sample(whole, options, 3, undisturbed, {}).end, StageEnd::reached);
+  int asked = 0, stops = 0;
+  const RunControl control{[&] { return ++asked % 5 == 0; }, {}, {}};
+  for (; sample(parts, options, 3, state, control).end == StageEnd::stopped; ++stops) {
+  }
+  EXPECT_GT(stops, 2);
+  EXPECT_EQ(parts.position, whole.position);
+  EXPECT_EQ(state.sweeps(), undisturbed.sweeps());
+  EXPECT_EQ(state.decorrelation.count, 3u);
+}
+
+TEST(Sampling, TellsOfStatesThatDoNotDecorrelate) {
+  Configuration2 c = inserted_fluid(60, 2, 0.4);
+  SamplingState state;
+  const StageReport report = sample(c, {.sweeps = 3, .decorrelations = 2}, 1, state, {});
+  EXPECT_EQ(report.end, StageEnd::stalled);
+  EXPECT_EQ(report.reason,
+            "only 0 of 2 decorrelations within max_sweeps = 3; raise it, or exchange places");
 }
 
 }  // namespace

@@ -16,6 +16,8 @@ void each_item_of_record(Record& record, const std::string& path, Visit&& visit)
   visit(path + "mean_packing_fraction_error", record.mean_packing_fraction.error);
   visit(path + "sweeps", record.sweeps);
   visit(path + "chain_contacts", record.chain_contacts);
+  visit.if_recorded(path + "chain_pressure", record.chain_pressure);
+  visit.if_recorded(path + "decorrelations", record.decorrelations);
   visit(path + "wall_seconds", record.wall_seconds);
   visit.if_recorded(path + "orientation_tensor", record.orientation_tensor);
   each_item_of_trials(record.trials, path, visit);

@@ -7,14 +7,36 @@
 #include "workflow/stages/stage_record.h"
 
 namespace vitrel {
+namespace {
+
+void describe_decorrelations(SampleStage& stage, FieldVisitor& visit) {
+  visit.field(
+      {"decorrelations", "",
+       "If above 0, sampling goes on until the state has decorrelated this often: until "
+       "places, orientations and sizes, each place by place, have fallen to 1/e, again and "
+       "again. From 10 on, the analysis of a run that starts from the state takes it for one in "
+       "equilibrium."},
+      stage.decorrelations);
+}
+
+}  // namespace
 
 std::vector<StageField<SampleStage>> SampleStage::fields() {
-  return {
-      {"moves", describe_moves}, {"exchanges", describe_exchanges}, {"sweeps", describe_sweeps}};
+  return {{"moves", describe_moves},
+          {"exchanges", describe_exchanges},
+          {"decorrelations", describe_decorrelations},
+          {"max_sweeps", describe_max_sweeps},
+          {"sweeps", describe_sweeps}};
 }
 
 void SampleStage::validate(const Rules& rules, int /*dimension*/) const {
   rules.require(sweeps >= 1, "sweeps", "is 0, but must be at least 1");
+  rules.require(max_sweeps >= 1, "max_sweeps", "is 0, but must be at least 1");
+  const SampleStage defaults;
+  rules.require(decorrelations == 0 || sweeps == defaults.sweeps, "sweeps",
+                "has no effect beside decorrelations; give max_sweeps instead");
+  rules.require(decorrelations > 0 || max_sweeps == defaults.max_sweeps, "max_sweeps",
+                "has no effect without decorrelations; give sweeps instead");
   validate_exchanges(*this, rules);
 }
 
@@ -23,14 +45,16 @@ double SampleStage::end(const SystemParameters&, double before) const {
 }
 
 std::string SampleStage::description(double) const {
-  return fmt::format("sample for {} sweeps", sweeps);
+  return decorrelations > 0 ? fmt::format("sample until decorrelated {} times", decorrelations)
+                            : fmt::format("sample for {} sweeps", sweeps);
 }
 
 template <int Dim>
 StageReport SampleStage::advance(Configuration<Dim>& configuration, SamplingState& state,
                                  const StageContext& context, const RunControl& control) const {
-  return sample(configuration, {sweeps, moves, exchanges, context.threads}, context.seed, state,
-                control);
+  const SamplingOptions options{decorrelations > 0 ? max_sweeps : sweeps, moves, exchanges,
+                                context.threads, decorrelations};
+  return sample(configuration, options, context.seed, state, control);
 }
 
 template StageReport SampleStage::advance(Configuration2&, SamplingState&, const StageContext&,

@@ -16,7 +16,9 @@ struct SampleStage : StageDefaults {
 
   Moves moves = SamplingOptions().moves;
   ExchangeOptions exchanges;
+  std::uint64_t decorrelations = SamplingOptions().decorrelations;
   std::uint64_t sweeps = SamplingOptions().sweeps;
+  std::uint64_t max_sweeps = 1000000;
 
   static std::vector<StageField<SampleStage>> fields();
   void validate(const Rules& rules, int dimension) const;

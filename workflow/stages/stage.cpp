@@ -159,6 +159,12 @@ bool keep_packing_fraction(const std::vector<Stage>& stages) {
                      [](const Stage& stage) { return ending(stage) == StageEnding::unchanged; });
 }
 
+bool end_in_equilibrium(const std::vector<Stage>& stages) {
+  constexpr std::uint64_t enough = 10;
+  const auto* sampling = std::get_if<SampleStage>(&stages.back());
+  return sampling && sampling->decorrelations >= enough;
+}
+
 const char* method_name(const Stage& stage) {
   return std::visit([]<class S>(const S&) { return S::method; }, stage);
 }

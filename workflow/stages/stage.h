@@ -34,6 +34,9 @@ StateStage* start_state(std::vector<Stage>& stages);
 /// Whether the packing fraction stays that of the end of the first stage.
 bool keep_packing_fraction(const std::vector<Stage>& stages);
 
+/// Whether the last stage samples, and the state must decorrelate at least ten times in it.
+bool end_in_equilibrium(const std::vector<Stage>& stages);
+
 /// Describes `method`, which selects the stage, and the keys of all stages. The keys of a stage exist only with its
 /// method.
 void describe_stage(Stage& stage, FieldVisitor& visit);

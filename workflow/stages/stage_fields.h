@@ -22,7 +22,9 @@ void describe_packing_fraction(S& stage, FieldVisitor& visit) {
 template <class S>
 void describe_max_sweeps(S& stage, FieldVisitor& visit) {
   visit.field(
-      {"max_sweeps", "", "Maximum number of sweeps to reach a packing fraction.", "most_sweeps"},
+      {"max_sweeps", "",
+       "Maximum number of sweeps to reach a packing fraction or a number of decorrelations.",
+       "most_sweeps"},
       stage.max_sweeps);
 }
 
@@ -79,7 +81,8 @@ template <class S>
 void describe_sweeps(S& stage, FieldVisitor& visit) {
   visit.field({"sweeps", "",
                "Number of sweeps. A sweep makes as many trial moves as there are particles. For "
-               "compress, only without a packing fraction."},
+               "compress, only without a packing fraction; for sample, only without a number of "
+               "decorrelations."},
               stage.sweeps);
 }
 

@@ -14,6 +14,8 @@ void StageRecord::add(const SamplingState& sampling) {
   const ChainState& chains = sampling.chains;
   sweeps += chains.sweeps;
   chain_contacts += chains.counts.contacts;
+  if (chains.counts.chains > 0) chain_pressure = chains.counts.compressibility();
+  decorrelations += sampling.decorrelation.count;
   trials.rotations_tried += chains.counts.rotations_tried;
   trials.rotations_accepted += chains.counts.rotations_accepted;
   trials.exchanges.add(chains.counts.exchanges);

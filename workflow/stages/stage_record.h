@@ -19,11 +19,18 @@ struct StageRecord {
   Estimate mean_packing_fraction = {0, 0, 0};  ///< second half of a compression without target
   std::uint64_t sweeps = 0;
   std::uint64_t chain_contacts = 0;  ///< contacts of event chains
+  double chain_pressure = 0;         ///< βP/ρ from them; 0 without any
+  std::uint64_t decorrelations = 0;  ///< if they were counted
   TrialCounts trials;
   GrowthState growth;  ///< of growth and hybrid; its counters are 0 for other stages
   double wall_seconds = 0;
   /// In three dimensions, at the end: all components of OrientationTensor::matrix.
   std::vector<double> orientation_tensor = {};
+
+  /// βP/ρ at the end of growth or, without any, from event chains; 0 without both.
+  double reduced_pressure() const {
+    return growth.reduced_pressure > 0 ? growth.reduced_pressure : chain_pressure;
+  }
 
   void add(const SweepState& moves);
   void add(const SamplingState& sampling);

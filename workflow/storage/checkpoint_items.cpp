@@ -49,6 +49,10 @@ void ItemReader::if_recorded(const std::string& name, std::uint64_t& value) cons
   if (checkpoint_.counters.contains(name)) (*this)(name, value);
 }
 
+void ItemReader::if_recorded(const std::string& name, bool& value) const {
+  if (checkpoint_.counters.contains(name)) (*this)(name, value);
+}
+
 void ItemReader::if_recorded(const std::string& name, std::vector<double>& value) const {
   if (checkpoint_.series.contains(name)) (*this)(name, value);
 }

@@ -47,6 +47,7 @@ class ItemReader {
   /// An item that earlier versions did not write: `value` remains if it is missing.
   void if_recorded(const std::string& name, double& value) const;
   void if_recorded(const std::string& name, std::uint64_t& value) const;
+  void if_recorded(const std::string& name, bool& value) const;
   void if_recorded(const std::string& name, std::vector<double>& value) const;
 
  private:

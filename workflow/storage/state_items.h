@@ -87,10 +87,22 @@ void each_item_of_chains(Chains& state, const std::string& path, Visit&& visit) 
   visit(path + "tuned_contacts", state.tuned_contacts);
 }
 
+template <class Decorrelation, class Visit>
+void each_item_of_decorrelation(Decorrelation& state, const std::string& path, Visit&& visit) {
+  visit.if_recorded(path + "count", state.count);
+  visit.if_recorded(path + "places", state.places);
+  visit.if_recorded(path + "orientations", state.orientations);
+  visit.if_recorded(path + "sizes", state.sizes);
+  visit.if_recorded(path + "begin", state.begin);
+  visit.if_recorded(path + "next", state.next);
+  visit.if_recorded(path + "first", state.first);
+}
+
 template <class Sampling, class Visit>
 void each_item_of_sampling(Sampling& state, const std::string& path, Visit&& visit) {
   each_item_of_chains(state.chains, path + "chains.", visit);
   each_item_of_moves(state.local, path + "local.", visit);
+  each_item_of_decorrelation(state.decorrelation, path + "decorrelation.", visit);
 }
 
 }  // namespace vitrel
