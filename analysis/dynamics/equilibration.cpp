@@ -159,31 +159,35 @@ void compare_halves(const HalvesOfCurve& c, double slowest, std::vector<Comparis
   }
 }
 
-std::string shortage(const std::string& name, double time, double duration) {
-  if (duration >= min_relaxations * time) return "";
+std::string shortage(const std::string& name, double time, double duration, double needed) {
+  if (duration >= needed * time) return "";
   return fmt::format("the run lasts {:.3g} times {} = {:.4g}; {:g} times are needed",
-                     duration / time, name, time, min_relaxations);
+                     duration / time, name, time, needed);
 }
 
 std::string shortage(const ScalarSeries& series, double correlation_time, double duration) {
   if (!is_known(series)) return series.name + " is not known at all times";
-  return shortage("the correlation time of " + series.name, correlation_time, duration);
+  return shortage("the correlation time of " + series.name, correlation_time, duration,
+                  min_relaxations);
 }
 
 /// Why the run is too short for a relaxation time; empty if it is not.
-std::string shortage(const NamedTime& named, double duration) {
+std::string shortage(const NamedTime& named, double duration, double needed) {
   const double time = known_time(named.time);
   if (std::isnan(time)) return fmt::format("{}: {}", named.name, named.time.reason);
-  return shortage(named.name, time, duration);
+  return shortage(named.name, time, duration, needed);
 }
 
 /// Why the run is too short for a verdict; empty if it is not.
 std::string shortage(const RunEvidence& run, const std::vector<double>& of_series,
                      const std::string& untested, double slowest) {
   if (run.times.empty()) return "no relaxation time";
+  const double needed =
+      run.starts_in_equilibrium ? min_relaxations_from_equilibrium : min_relaxations;
   std::string reason;
   for (const NamedTime& time : run.times)
-    if (reason.empty()) reason = shortage(time, run.duration);
+    if (reason.empty()) reason = shortage(time, run.duration, needed);
+  if (run.starts_in_equilibrium) return reason;
   for (std::size_t k = 0; k < run.series.size() && reason.empty(); ++k)
     reason = shortage(run.series[k], of_series[k], run.duration);
   if (reason.empty() && !untested.empty())

@@ -40,7 +40,8 @@ struct RunEvidence {
   double duration;
   std::vector<ScalarSeries> series;
   std::vector<HalvesOfCurve> curves;
-  std::vector<NamedTime> times;  ///< all that must have relaxed
+  std::vector<NamedTime> times;        ///< all that must have relaxed
+  bool starts_in_equilibrium = false;  ///< its first state was drawn from equilibrium
 };
 
 enum class EquilibrationVerdict { equilibrated, ageing, too_short };
@@ -72,12 +73,17 @@ struct Equilibration {
 ///    blocks; or if a series could not be tested for drift. Without any series, if no curve could be
 ///    compared.
 ///
-/// So equilibrated means tested. Ageing means that the run shows a change; slow change with little
+/// A run that starts in equilibrium stays there, so its length need not tell: it is too short only below three relaxation
+/// times, or if one is not within the measured ones. The tests for ageing are those that can be made.
+///
+/// So equilibrated means tested, by the run or by what prepared it. Ageing means that the run shows a change; slow change with little
 /// statistics is "too short" or passes. A drift of six of its standard errors is found in more than
 /// 95 % of the cases.
 Equilibration judge_equilibration(const RunEvidence& run);
 
 /// A run must last that many of its relaxation times: blocks of two of them each.
 inline constexpr double min_relaxations = 2 * min_blocks;
+/// The same of a run that starts in equilibrium.
+inline constexpr double min_relaxations_from_equilibrium = 3;
 
 }  // namespace vitrel

@@ -90,6 +90,7 @@ GlassRunData known_data(const GlassSource& run, int dimension, const std::vector
   data.packing_fraction = run.packing_fraction;
   data.seed = run.seed;
   data.rotors = run.rotors;
+  data.starts_in_equilibrium = run.starts_in_equilibrium;
   data.duration = times.back() - times.front();
   data.wave_number = found.wave_numbers.front();
   data.scattering = decay(found, found.groups.front().self_scattering.front());

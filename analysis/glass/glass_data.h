@@ -16,6 +16,7 @@ struct GlassSource {
   std::uint64_t seed;
   double packing_fraction;
   std::size_t rotors;
+  bool starts_in_equilibrium;  ///< its first state was drawn from equilibrium
   const Displacements& displacements;
   const CompressibilitySeries& compressibility;
   const OrderSeries& order;

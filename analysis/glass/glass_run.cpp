@@ -41,7 +41,11 @@ void judge_orientation(GlassRun& run, const GlassRunData& data) {
 }
 
 void judge(GlassRun& run, const GlassRunData& data) {
-  RunEvidence evidence{data.duration, data.series, data.halves, {{"tau_alpha", run.translation}}};
+  RunEvidence evidence{data.duration,
+                       data.series,
+                       data.halves,
+                       {{"tau_alpha", run.translation}},
+                       data.starts_in_equilibrium};
   run.translation_equilibration = judge_equilibration(evidence);
   if (data.rotors > 0) {
     evidence.series.push_back({"the nematic order", data.nematic_order});

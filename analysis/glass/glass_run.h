@@ -21,9 +21,10 @@ struct GlassRunData {
   std::uint64_t seed;
   std::size_t rotors;
   double duration;
-  double wave_number;  ///< q of F_s
-  Decay scattering;    ///< F_s(q, t)
-  Decay orientation;   ///< L_2(t), of a nematic seen from its director; empty without rotors
+  bool starts_in_equilibrium;  ///< its first state was drawn from equilibrium
+  double wave_number;          ///< q of F_s
+  Decay scattering;            ///< F_s(q, t)
+  Decay orientation;  ///< L_2(t), of a nematic seen from its director; empty without rotors
   std::vector<double> nematic_order;  ///< S at evenly spaced times; empty without rotors
   std::vector<ScalarSeries> series;   ///< others that must not drift: compressibility, energy
   std::vector<HalvesOfCurve>

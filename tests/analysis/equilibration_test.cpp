@@ -147,6 +147,24 @@ TEST(Equilibration, SixteenRelaxationTimesAreNeeded) {
             EquilibrationVerdict::equilibrated);
 }
 
+TEST(Equilibration, ThreeRelaxationTimesAreNeededFromEquilibrium) {
+  const auto from_equilibrium = [](double time) {
+    RunEvidence run = stationary(1);
+    run.starts_in_equilibrium = true;
+    run.times = {{"tau", known(time)}};
+    return judge_equilibration(run);
+  };
+  EXPECT_EQ(from_equilibrium(1365).verdict, EquilibrationVerdict::equilibrated);
+  const Equilibration shorter = from_equilibrium(1366);
+  EXPECT_EQ(shorter.verdict, EquilibrationVerdict::too_short);
+  EXPECT_NE(shorter.reason.find("3 times are needed"), std::string::npos) << shorter.reason;
+  RunEvidence drifting = stationary(1);
+  drifting.starts_in_equilibrium = true;
+  for (std::size_t k = 0; k < frames; ++k)
+    drifting.series[1].value[k] += static_cast<double>(k) / frames;
+  EXPECT_EQ(judge_equilibration(drifting).verdict, EquilibrationVerdict::ageing);
+}
+
 TEST(Equilibration, WithoutEvidenceThereIsNotEnoughTime) {
   EXPECT_EQ(judge_equilibration({100, {}, {}, {}}).verdict, EquilibrationVerdict::too_short);
   RunEvidence run{4096, {}, {}, {{"tau", known(1)}}};

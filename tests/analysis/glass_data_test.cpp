@@ -16,8 +16,8 @@ struct Told {
     const Displacements found = displacements(trajectory);
     const OrderSeries orders{{order}, {0.1}};
     const CompressibilitySeries no_pressure{};
-    const GlassSource run{
-        "run", 1, 0.5, 30, found, no_pressure, orders, diffusion, rotational_diffusion};
+    const GlassSource run{"run", 1,           0.5,    30,        false,
+                          found, no_pressure, orders, diffusion, rotational_diffusion};
     data = glass_run_data(trajectory, run, {},
                           [&](const Progress& progress) { progresses.push_back(progress); });
   }

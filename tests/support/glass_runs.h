@@ -37,7 +37,7 @@ inline std::vector<double> noise_about(double mean, double width, std::uint64_t 
 /// 500 rotors with relaxation times tau_t and tau_r, and nematic order S.
 inline GlassRunData run_with(double packing_fraction, double tau_t, double tau_r, double order,
                              double duration = 1e4) {
-  GlassRunData data;
+  GlassRunData data{};
   data.name = "job";
   data.packing_fraction = packing_fraction;
   data.seed = 1;
