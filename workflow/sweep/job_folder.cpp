@@ -74,7 +74,9 @@ JobStage job_stage(const fs::path& folder) {
 }
 
 fs::path job_product(const fs::path& folder) {
-  return folder / (fs::exists(folder / "run.h5") ? "run.h5" : "state.h5");
+  const fs::path run = folder / "run.h5", done = folder / "done.json";
+  const bool is_run = fs::exists(run) || (fs::exists(done) && read_json(done).contains("run"));
+  return is_run ? run : folder / "state.h5";
 }
 
 void write_job_folder(const SweepJob& job, const fs::path& folder) {
