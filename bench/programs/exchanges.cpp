@@ -8,6 +8,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,16 +16,14 @@
 #include "bench/programs/parts.h"
 #include "bench/surveys/engine_speed.h"
 #include "bench/surveys/mean.h"
-#include "core/elementary.h"
 #include "core/error.h"
-#include "core/neighbors/pairs.h"
 #include "core/state/check.h"
-#include "core/state/figure_axis.h"
 #include "core/state/species.h"
 #include "edmd/brownian.h"
 #include "edmd/engine.h"
 #include "mc/event_chain.h"
 #include "mc/insertion.h"
+#include "mc/place_correlation.h"
 #include "mc/sampler.h"
 #include "mc/swelling.h"
 
@@ -33,12 +32,14 @@ namespace {
 
 struct Effort {
   int particles = 1000;
-  double seconds = 10;       ///< of each method in each state
-  double mixing = 8;         ///< seconds before
-  int passages = 30;         ///< enough of them
-  std::size_t states = 100;  ///< of each liquid, at most
+  double seconds = 10;  ///< of each method in each state
+  double motion_seconds =
+      150;  ///< of motion, what others are compared with, until it has forgotten a few times
+  double mixing = 8;           ///< seconds before
+  int few = 3, passages = 30;  ///< a few, and enough of them
+  std::size_t states = 100;    ///< of each liquid, at most
 };
-const Effort quick{64, 0.05, 0.05, 2, 2};
+const Effort quick{64, 0.05, 0.05, 0.05, 1, 2, 2};
 
 /// Sizes ∝ σ⁻³ between 0.45 and 1 of the largest, 23 % polydispersity (ghimenti2024).
 template <int Dim>
@@ -56,57 +57,16 @@ Configuration<Dim> dilute_liquid(double aspect_ratio, int particles) {
   return c;
 }
 
-// ---- what is measured ---------------------------------------------------------------------------------
-
 enum Quantity { places, orientations_of_bodies, sizes, quantities };
 constexpr std::array<const char*, quantities> quantity_names{"places", "orientations", "sizes"};
-using Overlap = std::array<double, quantities>;
 
-/// How much of a configuration another one still shows, whatever the numbers of its particles: sums over pairs of
-/// particles of both whose centres are closer than 0.3 (V/N)^(1/D), relative to the motion of all. Of 1, of the alignment
-/// and of the product of the deviations of sizes from their mean; 1 at the beginning.
+/// What the later configuration still shows of the first one.
 template <int Dim>
-class Memory {
- public:
-  explicit Memory(const Configuration<Dim>& from) : from_(from), cells_(make_cells(from)) {
-    const auto n = static_cast<double>(from.size());
-    for (const Solid<Dim>& shape : from.shape) mean_ += root(shape.volume(), Dim) / n;
-    for (std::size_t i = 0; i < from.size(); ++i) square_ += deviation(i) * deviation(i);
-    reach_ = share * root(from.box.volume() / n, Dim);
-  }
-
-  Overlap overlap(const Configuration<Dim>& now) const {
-    Vec<Dim> drift = Vec<Dim>::Zero();
-    const auto n = static_cast<double>(now.size());
-    for (std::size_t i = 0; i < now.size(); ++i)
-      drift += (now.unwrapped(i) - from_.unwrapped(i)) / n;
-    Overlap sum{};
-    for (std::size_t j = 0; j < now.size(); ++j)
-      cells_.for_each_near(now.position[j] - drift, reach_,
-                           [&](std::size_t i, const Shift<Dim>&, const Vec<Dim>&) {
-                             sum[places] += 1 / n;
-                             sum[orientations_of_bodies] += alignment(from_, i, now, j) / n;
-                             sum[sizes] += deviation(i) * deviation(j) / square_;
-                           });
-    return sum;
-  }
-
-  /// When a quantity counts as forgotten: what is more than chance has fallen to 1/e.
-  Overlap goals() const {
-    const double ball = Dim == 2 ? std::numbers::pi : 4 * std::numbers::pi / 3;
-    const double chance = ball * power(share, Dim);
-    return {chance + (1 - chance) / std::numbers::e, 1 / std::numbers::e, 1 / std::numbers::e};
-  }
-
- private:
-  static constexpr double share = 0.3;  // of (V/N)^(1/D)
-
-  double deviation(std::size_t i) const { return root(from_.shape[i].volume(), Dim) - mean_; }
-
-  Configuration<Dim> from_;
-  CellGrid<Dim> cells_;
-  double mean_ = 0, square_ = 0, reach_ = 0;
-};
+std::array<double, quantities> shown(const PlaceCorrelation<Dim>& first,
+                                     const Configuration<Dim>& later) {
+  const PlaceCorrelations now = first.with(later);
+  return {now.places, now.orientations, now.sizes};
+}
 
 // ---- methods ------------------------------------------------------------------------------------------
 
@@ -159,11 +119,13 @@ struct Chains : Method<Dim> {
   EventChain<Dim> chains;
 };
 
+constexpr const char* motion = "motion";
+
 /// Newton's laws, in steps of about as many collisions as there are particles.
 template <int Dim>
 struct Motion : Method<Dim> {
   explicit Motion(const Configuration<Dim>& start)
-      : Method<Dim>("motion", start), engine(make_engine(started(), EngineOptions{})) {
+      : Method<Dim>(motion, start), engine(make_engine(started(), EngineOptions{})) {
     engine->load(this->state);
   }
   Configuration<Dim>& started() {
@@ -230,10 +192,15 @@ void mix(Method<Dim>& method, double seconds) {
 template <int Dim>
 class Passages {
  public:
-  Passages(Method<Dim>& method, const Effort& effort) : method_(method), effort_(effort) {}
+  Passages(Method<Dim>& method, const Effort& effort)
+      : method_(method),
+        effort_(effort),
+        longest_(method.name == motion ? effort.motion_seconds : effort.seconds) {}
 
   Json measure() {
-    while (seconds_ < effort_.seconds && passages_ < effort_.passages) pass();
+    while (seconds_ < longest_ && passages_ < effort_.passages &&
+           (seconds_ < effort_.seconds || passages_ < effort_.few))
+      pass();
     Json json = {{"method", method_.name}, {"seconds", seconds_}, {"sweeps", sweeps_}};
     json.update(method_.counts());
     for (std::size_t q = 0; q < quantities; ++q)
@@ -241,29 +208,30 @@ class Passages {
         json[quantity_names[q]] = time_json(times_[q]);
     return json;
   }
+  bool has_forgotten() const { return passages_ > 0; }
 
  private:
   /// Until everything is forgotten or the time is up. Looks at times that increase by a tenth.
   void pass() {
     method_.write();
-    const Memory<Dim> memory(method_.state);
-    const Overlap goals = memory.goals();
+    constexpr double goal = 1 / std::numbers::e;
+    const PlaceCorrelation<Dim> first(method_.state);
     std::array<bool, quantities> done{};
     done[orientations_of_bodies] = rotor_count(method_.state) == 0;
-    Overlap before;
+    std::array<double, quantities> before;
     before.fill(1);
     double spent = 0, spent_before = 0;
-    for (std::uint64_t sweeps = 0; seconds_ < effort_.seconds;) {
+    for (std::uint64_t sweeps = 0; seconds_ < longest_;) {
       const std::uint64_t more = 1 + sweeps / 10;
       const double start = processor_seconds();
       for (std::uint64_t k = 0; k < more; ++k) method_.sweep();
       const double took = processor_seconds() - start;
       spent += took, seconds_ += took, sweeps += more, sweeps_ += more;
       method_.write();
-      const Overlap now = memory.overlap(method_.state);
+      const std::array<double, quantities> now = shown(first, method_.state);
       for (std::size_t q = 0; q < quantities; ++q) {
-        if (done[q] || now[q] > goals[q]) continue;
-        const double share = (before[q] - goals[q]) / (before[q] - now[q]);
+        if (done[q] || now[q] > goal) continue;
+        const double share = (before[q] - goal) / (before[q] - now[q]);
         times_[q].push_back(spent_before + share * (spent - spent_before));
         done[q] = true;
       }
@@ -283,18 +251,21 @@ class Passages {
 
   Method<Dim>& method_;
   const Effort& effort_;
+  double longest_;  // in seconds
   double seconds_ = 0;
   std::uint64_t sweeps_ = 0;
   int passages_ = 0;
   std::array<std::vector<double>, quantities> times_;
 };
 
-/// Denser and denser states of one liquid, each mixed by collective exchanges before it is measured.
+/// Denser and denser states of one liquid, each mixed by collective exchanges before it is measured. A method that has not
+/// forgotten one of them is left out of the next ones.
 template <int Dim, class Make>
 Json measure_liquid(double aspect_ratio, const std::vector<double>& packing_fractions,
                     const Effort& effort, const Make& make_methods) {
   Configuration<Dim> c = dilute_liquid<Dim>(aspect_ratio, effort.particles);
   Json rows = Json::array();
+  std::set<std::string> too_slow;
   for (const double phi : packing_fractions) {
     if (rows.size() == effort.states) break;
     say(fmt::format("{} dimensions, kappa = {}, phi = {}", Dim, aspect_ratio, phi));
@@ -306,8 +277,11 @@ Json measure_liquid(double aspect_ratio, const std::vector<double>& packing_frac
     c = mixing.state;
     Json methods = Json::array();
     for (auto& method : make_methods(c)) {
+      if (too_slow.contains(method->name)) continue;
       mix(*method, 0.1 * effort.mixing);
-      methods.push_back(Passages<Dim>(*method, effort).measure());
+      Passages<Dim> passages(*method, effort);
+      methods.push_back(passages.measure());
+      if (!passages.has_forgotten()) too_slow.insert(method->name);
       if (!exact_check(method->state).clean()) throw InvariantError(method->name + ": overlap");
     }
     rows.push_back({{"dimension", Dim},
@@ -320,8 +294,9 @@ Json measure_liquid(double aspect_ratio, const std::vector<double>& packing_frac
 }
 
 Json measure_disks(const Effort& effort) {
-  return measure_liquid<2>(1, {0.6, 0.7, 0.75, 0.77, 0.78, 0.79, 0.8, 0.81, 0.82, 0.83, 0.84},
-                           effort, all_methods<2>);
+  return measure_liquid<2>(
+      1, {0.6, 0.7, 0.75, 0.77, 0.78, 0.785, 0.79, 0.795, 0.8, 0.81, 0.82, 0.83, 0.84}, effort,
+      all_methods<2>);
 }
 Json measure_ellipses(const Effort& effort) {
   return measure_liquid<2>(2, {0.6, 0.7, 0.75, 0.8, 0.82, 0.84, 0.85, 0.86, 0.87, 0.88}, effort,

@@ -1,6 +1,7 @@
 """Time to forget a dense polydisperse liquid, with and without exchanges of places: rewrites bench/exchanges.md and .svg."""
 
 import datetime
+import math
 
 from validation.common import ROOT, clock_rate, commit_of, expect, measured, processor, pyplot, table, write_figure
 from validation.figures import COLOURS, MARKERS, legend
@@ -65,6 +66,7 @@ def choices(rows):
 
 def page(data):
     psi = " and ".join(f"{data[key]:.1f}" for key in ("ns_per_psi", "ns_per_psi_at_the_end"))
+    growth, gains = speed_ups(data["disks"])
     liquids = "\n\n".join(f"## {name[0].upper() + name[1:]}\n\n{states(data[key])}" for key, name in LIQUIDS.items())
     return f"""# How long does each method take to forget a dense polydisperse liquid?
 
@@ -77,7 +79,8 @@ beginning and at the end of the run).
 
 N = {data["disks"][0]["particles"]} particles with sizes σ distributed as σ⁻³ between 0.45 and 1 of the largest, a standard deviation of 23 %. Every
 state is mixed by event chains with collective exchanges. Each method then runs on one thread until it has forgotten the
-state 30 times, or for 10 s. Compared are the state at the beginning and the present one, whatever the numbers of the
+state 30 times, or for 10 s; motion, with which the others are compared, for up to 150 s until it has forgotten three
+times. A method that has not forgotten a state is left out of the denser ones. Compared are the state at the beginning and the present one, whatever the numbers of the
 particles: sums over pairs of particles of both whose centres are closer than 0.3 (V/N)^(1/D), relative to the motion of
 all. *Places* counts such pairs, *orientations* adds cos 2Δθ of the axes, *sizes* the product of the deviations of the sizes
 from their mean. Forgotten is what has fallen to 1/e of what is more than chance. Times are processor time, their errors
@@ -89,6 +92,14 @@ ones.
 ![Processor time until the sizes are forgotten against the packing fraction, of all methods]({FIGURE.name})
 
 {liquids}
+
+## Speed-up over motion
+
+How many times as fast event chains with collective exchanges forget the places of disks as motion does. The times of motion
+grow by a factor of {growth} over the densities where they were measured more than once. Beyond, a ratio is that to the law of Vogel and Fulcher
+fitted to them, if they grow by 1000 or more.
+
+{gains}
 
 ## Choices
 
@@ -105,6 +116,58 @@ def gain(row, method, other, quantity="sizes"):
     if not times.get(method) or not times.get(other):
         return None
     return times[other]["seconds"] / times[method]["seconds"]
+
+
+# ---- the speed-up over motion ----------------------------------------------------------------------------
+
+CONFIDENCE = 2.71  # rise of χ² that leaves 5 % on one side
+LEAST_GROWTH = 1e3  # of the times of motion, for a law to be fitted to them
+
+
+def fitted(points, phi_c, at):
+    """χ² of ln t = c + s φ/(φ_c − φ), weighted by the errors of ln t, and ln t at another φ by this law."""
+    def x(phi):
+        return phi / (phi_c - phi)
+
+    rows = [(x(phi), math.log(t), (t / error) ** 2) for phi, t, error in points]
+    weight = sum(w for _, _, w in rows)
+    mean_x, mean_y = (sum(row[k] * row[2] for row in rows) / weight for k in (0, 1))
+    slope = sum(w * (a - mean_x) * (b - mean_y) for a, b, w in rows) / sum(w * (a - mean_x) ** 2 for a, _, w in rows)
+    chi = sum(w * (b - mean_y - slope * (a - mean_x)) ** 2 for a, b, w in rows)
+    return chi, mean_y + slope * (x(at) - mean_x)
+
+
+def extrapolated(points, at):
+    """The time at this density by the law of Vogel and Fulcher, and its lower 95 % limit: that of all φ_c whose χ² is within
+    2.71 of the least, all errors enlarged where the law does not fit.
+    """
+    highest = max(points[-1][0], at)
+    tried = [fitted(points, highest + 10 ** (-4 + 0.002 * k), at) for k in range(2000)]
+    least = min(chi for chi, _ in tried)
+    scale = max(1, least / max(1, len(points) - 3))
+    return (math.exp(min(tried)[1]),
+            math.exp(min(value for chi, value in tried if chi <= least + CONFIDENCE * scale)))
+
+
+def speed_ups(rows, quantity="places"):
+    """How many times as fast collective exchanges forget as motion, at every density: measured or, where motion is too slow,
+    by the law fitted to it.
+    """
+    motion = [point for point in curves(rows, quantity).get(MOTION, []) if point[2]]
+    has_law = len(motion) >= 5 and motion[-1][1] >= LEAST_GROWTH * motion[0][1]
+    lines = []
+    for phi, seconds, error in curves(rows, quantity).get(COLLECTIVE, []):
+        known = next(((t, e) for at, t, e in motion if at == phi), None)
+        if known:
+            ratio = known[0] / seconds
+            relative = math.hypot(known[1] / known[0], error / seconds)
+            lines.append([phi, f"{ratio:.3g} ± {ratio * relative:.1g}", f"{ratio * math.exp(-1.645 * relative):.3g}", "measured"])
+        elif has_law:
+            value, lower = extrapolated(motion, phi)
+            lines.append([phi, f"{value / seconds:.2g}", f"{lower / seconds * math.exp(-1.645 * error / seconds):.2g}",
+                          "by the law"])
+    growth = f"{motion[-1][1] / motion[0][1]:.3g}" if motion else "–"
+    return growth, table(["φ", "ratio", "lower 95 % limit", ""], lines)
 
 
 def check(rows):

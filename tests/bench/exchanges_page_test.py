@@ -2,6 +2,7 @@
 """The page about exchanges of places, from a quick run of the benchmark: exchanges_page_test.py program."""
 
 import json
+import math
 import pathlib
 import subprocess
 import sys
@@ -30,14 +31,38 @@ class ExchangesPage(unittest.TestCase):
         done = subprocess.run([PROGRAM, "exchanges", "--quick"], capture_output=True, text=True, check=True)
         cls.data = json.loads(done.stdout)
 
-    def test_every_method_is_measured_in_every_state(self):
+    def test_every_method_is_measured_until_it_is_too_slow(self):
         for key in exchanges.LIQUIDS:
-            self.assertEqual(len(self.data[key]), 2)
-            for row in self.data[key]:
-                self.assertEqual(len(row["methods"]), 8)
-                for method in row["methods"]:
-                    self.assertGreater(method["sweeps"], 0)
-                    self.assertEqual("orientations" in method, key == "ellipses")
+            first, second = self.data[key]
+            self.assertEqual(len(first["methods"]), 8)
+            left = {method["method"] for method in second["methods"]}
+            for method in first["methods"]:
+                self.assertGreater(method["sweeps"], 0)
+                self.assertEqual("orientations" in method, key == "ellipses")
+                if method["sizes"] and method["places"] and method.get("orientations", True):
+                    self.assertIn(method["method"], left)
+
+    def test_speed_up_follows_from_the_law_of_motion(self):
+        def law(phi):
+            return math.exp(0.55 * phi / (0.85 - phi))
+
+        densities = [0.6, 0.7, 0.75, 0.78, 0.79, 0.8]
+        rows = [state(law(phi), 0.1) | {"packing_fraction": phi} for phi in densities]
+        rows.append(state(None, 0.1) | {"packing_fraction": 0.82})
+        for row in rows:
+            for method in row["methods"]:
+                if method["sizes"]:
+                    method["places"] = {"seconds": method["sizes"]["seconds"], "error": 0.01 * method["sizes"]["seconds"],
+                                        "times": 9}
+        motion = exchanges.curves(rows, "places")[exchanges.MOTION]
+        value, lower = exchanges.extrapolated(motion, 0.82)
+        self.assertLess(abs(math.log(value / law(0.82))), 0.1)
+        self.assertLess(lower, value)
+        self.assertGreater(lower, 0.3 * value)
+        growth, gains = exchanges.speed_ups(rows)
+        self.assertIn("by the law", gains)
+        self.assertEqual(float(growth), float(f"{law(0.8) / law(0.6):.3g}"))
+        self.assertNotIn("by the law", exchanges.speed_ups([*rows[:5], rows[6]])[1])
 
     def test_a_dilute_liquid_is_forgotten(self):
         for method in self.data["disks"][0]["methods"]:
@@ -50,7 +75,7 @@ class ExchangesPage(unittest.TestCase):
         self.assertTrue(all(0 < share < 1 for share in accepted), accepted)
 
     def test_page_is_well_formed(self):
-        assert_well_formed(self, exchanges.page(self.data), 4)
+        assert_well_formed(self, exchanges.page(self.data), 5)
 
     def test_chart_is_drawn(self):
         with tempfile.TemporaryDirectory() as folder:
