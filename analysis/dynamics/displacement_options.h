@@ -14,6 +14,7 @@ struct DisplacementOptions {
   std::vector<double> wave_numbers = {};
   /// n of L_n; empty: 2 and 4 in the plane, 1 and 2 in space.
   std::vector<double> orders = {};
+  std::vector<double> waiting_times = {};     ///< of ageing (ageing.h)
   double overlap_distance = 0.3;              ///< a of the overlap Q
   std::size_t memory = std::size_t{1} << 30;  ///< bytes for particle tracks
   int threads = all_cores;                    ///< at most; the result does not depend on it

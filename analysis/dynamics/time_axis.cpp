@@ -30,11 +30,12 @@ std::vector<Lag> even_lags(std::span<const double> times, const TimeAxisOptions&
   const auto longest =
       std::max<std::size_t>(1, static_cast<std::size_t>(options.longest_lag * intervals));
   const double growth = std::pow(10, 1 / static_cast<double>(options.lags_per_decade));
+  const std::size_t max_origins = options.only_first_origin ? 1 : options.max_origins;
   std::vector<Lag> lags;
   double next = 1;
   for (std::size_t frames = 1; frames <= longest;) {
     const double time = (times.back() - times.front()) * static_cast<double>(frames) / intervals;
-    lags.push_back(even_lag(frames, time, times.size(), options.max_origins));
+    lags.push_back(even_lag(frames, time, times.size(), max_origins));
     if (frames < options.every_lag_up_to) {
       next = static_cast<double>(++frames);
     } else {
@@ -61,9 +62,10 @@ double tolerance(const Difference& one, const Difference& other) {
   return std::min(one.uncertainty + other.uncertainty, widest * one.time);
 }
 
-std::vector<Difference> first_differences(std::span<const double> times) {
+/// From so many frames.
+std::vector<Difference> first_differences(std::span<const double> times, std::size_t first_frames) {
   std::vector<Difference> found;
-  for (std::size_t from = 0; from + 1 < times.size(); ++from) {
+  for (std::size_t from = 0; from < first_frames; ++from) {
     if (from > 0 && found.size() + times.size() - 1 - from > max_pairs) break;
     for (std::size_t to = from + 1; to < times.size(); ++to) found.emplace_back(times, from, to);
   }
@@ -102,10 +104,11 @@ std::vector<Difference> common_differences(const std::vector<Difference>& sorted
   return chosen;
 }
 
-/// All pairs of frames that far apart.
-std::vector<FramePair> pairs_of(const Difference& wanted, std::span<const double> times) {
+/// All pairs of frames that far apart, the first of them one of so many.
+std::vector<FramePair> pairs_of(const Difference& wanted, std::span<const double> times,
+                                std::size_t first_frames) {
   std::vector<FramePair> pairs;
-  for (std::size_t from = 0, to = 0; from < times.size(); ++from) {
+  for (std::size_t from = 0, to = 0; from < first_frames; ++from) {
     const auto away = [&](const Difference& d) { return d.time - wanted.time; };
     for (; to < times.size(); ++to) {
       const Difference difference(times, from, to);
@@ -130,9 +133,10 @@ std::size_t max_within(double duration, const std::vector<FramePair>& pairs,
   return most;
 }
 
-Lag lag_of(const Difference& wanted, std::span<const double> times, std::size_t max_origins) {
+Lag lag_of(const Difference& wanted, std::span<const double> times, std::size_t first_frames,
+           std::size_t max_origins) {
   std::vector<FramePair> pairs;
-  const std::vector<FramePair> all = pairs_of(wanted, times);
+  const std::vector<FramePair> all = pairs_of(wanted, times, first_frames);
   const std::size_t stride = stride_to(max_origins, all.size());
   double excess = 0;
   for (std::size_t k = 0; k < all.size(); k += stride) {
@@ -147,12 +151,13 @@ Lag lag_of(const Difference& wanted, std::span<const double> times, std::size_t 
 }
 
 std::vector<Lag> uneven_lags(std::span<const double> times, const TimeAxisOptions& options) {
+  const std::size_t first_frames = options.only_first_origin ? 1 : times.size() - 1;
   std::vector<Lag> lags;
   double least = 0;  // so far apart that no pair of frames belongs to two lags
   for (const Difference& wanted :
-       common_differences(first_differences(times), options.lags_per_decade)) {
+       common_differences(first_differences(times, first_frames), options.lags_per_decade)) {
     if (wanted.time < least) continue;
-    lags.push_back(lag_of(wanted, times, options.max_origins));
+    lags.push_back(lag_of(wanted, times, first_frames, options.max_origins));
     least = wanted.time * (1 + 3 * widest);
   }
   return lags;

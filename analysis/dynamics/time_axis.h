@@ -16,6 +16,7 @@ struct TimeAxisOptions {
       100;  ///< in sample intervals; longer lags are spaced logarithmically,
   std::size_t lags_per_decade = 50;  ///< that many to a decade
   std::size_t max_origins = 4096;    ///< time origins per lag; evenly thinned beyond
+  bool only_first_origin = false;    ///< the first frame is the only origin
 };
 
 struct FramePair {

@@ -49,8 +49,13 @@ Chart correlation(const char* heading, const char* symbol, std::vector<Curve> cu
 }
 
 /// Of scattering functions, numbered like the wave numbers in this column.
-Chart at_wave_numbers(Chart chart, const char* wave_number = "q") {
-  chart.wave_number = wave_number;
+Chart at_wave_numbers(Chart chart, const char* column = "q") {
+  chart.numbers = {"wave_numbers", column, "q"};
+  return chart;
+}
+
+Chart at_waiting_times(Chart chart) {
+  chart.numbers = {"waiting_times", "waiting_time", "t_w"};
   return chart;
 }
 
@@ -231,6 +236,105 @@ Observable cage_relative_observable() {
                                              "Fₛ(q, t)", {{"fs_#", "#"}}))}};
 }
 
+/// All time differences of all waiting times, ascending.
+std::vector<double> times_of(const std::vector<AgedMotion>& ageing) {
+  std::vector<double> times;
+  for (const AgedMotion& aged : ageing)
+    times.insert(times.end(), aged.motion.lag.begin(), aged.motion.lag.end());
+  std::ranges::sort(times);
+  const auto same = [](double one, double next) { return next - one <= 1e-9 * next; };
+  const auto rest = std::ranges::unique(times, same);
+  times.erase(rest.begin(), rest.end());
+  return times;
+}
+
+/// At these times, NaN where there is no value.
+Column aged_column(const std::string& name, const char* unit, const std::vector<double>& times,
+                   const std::vector<double>& known, const Correlation& correlation) {
+  Column column{name, unit, std::vector<double>(times.size(), std::nan("")),
+                std::vector<double>(times.size(), std::nan(""))};
+  for (std::size_t k = 0; k < known.size(); ++k) {
+    const auto place = std::ranges::lower_bound(times, known[k] * (1 - 1e-9)) - times.begin();
+    column.value[static_cast<std::size_t>(place)] = correlation.value[k];
+    column.error[static_cast<std::size_t>(place)] = correlation.error[k];
+  }
+  return column;
+}
+
+Table ageing_table(const std::vector<AgedMotion>& ageing) {
+  const std::vector<double> times = times_of(ageing);
+  Table table{"ageing",
+              "Correlations of the frame at a waiting time with that at a time after it; the k-th "
+              "waiting time is in table waiting_times. msd and msr: mean squared displacement and "
+              "rotation, fs: F_s at the first of the wave numbers, l: L_2, in space <P_2>.",
+              {time_column(times)}};
+  for (std::size_t k = 0; k < ageing.size(); ++k) {
+    const Displacements& found = ageing[k].motion;
+    const DisplacementGroup& all = found.groups.front();
+    const auto add = [&](const char* name, const char* unit, const Correlation& correlation) {
+      if (!correlation.value.empty())
+        table.columns.push_back(
+            aged_column(fmt::format("{}_{}", name, k + 1), unit, times, found.lag, correlation));
+    };
+    add("msd", "length^2", all.translation);
+    add("msr", "rad^2", all.rotation);
+    add("fs", "1", all.self_scattering.front());
+    if (all.rotors > 0) add("l", "1", all.orientation.front());
+  }
+  return table;
+}
+
+Observable ageing_observable(int dimension) {
+  const bool in_plane = dimension == 2;
+  return {
+      .table = "ageing",
+      .what = "Displacements, rotations and correlations after every waiting time.",
+      .needs = {.motion = true, .waiting_times = true},
+      .charts = {at_waiting_times(mean_square("Mean squared displacement after waiting",
+                                              "⟨|r(t_w + t) − r(t_w)|²⟩", {{"msd_#", "#"}})),
+                 at_waiting_times(mean_square("Mean squared rotation after waiting",
+                                              in_plane ? "⟨Δθ²⟩" : "⟨|Δφ|²⟩", {{"msr_#", "#"}})),
+                 at_waiting_times(correlation("Self-intermediate scattering after waiting",
+                                              "Fₛ(q, t)", {{"fs_#", "#"}})),
+                 at_waiting_times(correlation("Orientational correlation after waiting",
+                                              in_plane ? "L₂(t) = ⟨cos 2Δθ⟩" : "⟨P₂(u(0)·u(t))⟩",
+                                              {{"l_#", "#"}}))}};
+}
+
+Table waiting_time_table(const std::vector<AgedMotion>& ageing) {
+  Table table{"waiting_times",
+              "Waiting times t_w of the ageing, and the length over which orientations were "
+              "correlated then: beyond it <cos 2(difference of two angles)> stays below 1/e.",
+              {}};
+  Column index{"index", "1", {}, {}}, time{"waiting_time", "time", {}, {}},
+      length{"nematic_length", "length", {}, {}};
+  for (const AgedMotion& aged : ageing) {
+    index.value.push_back(static_cast<double>(index.value.size() + 1));
+    time.value.push_back(aged.waiting_time);
+    length.value.push_back(aged.nematic_length);
+  }
+  table.columns = {std::move(index), std::move(time)};
+  if (!std::isnan(length.value.front())) table.columns.push_back(std::move(length));
+  return table;
+}
+
+Observable waiting_time_observable(int dimension) {
+  Observable observable{.table = "waiting_times",
+                        .what = "Waiting times of the ageing.",
+                        .needs = {.motion = true, .waiting_times = true}};
+  if (dimension != 2) return observable;
+  observable.what = "Waiting times of the ageing, and the length of nematic domains at them.";
+  observable.charts = {{.section = Chart::Section::course,
+                        .heading = "Length of nematic domains",
+                        .symbol = "ξ",
+                        .curves = {{"nematic_length", "ξ", true}},
+                        .scale = Chart::Scale::from_zero,
+                        .x = "waiting_time",
+                        .x_symbol = "t_w",
+                        .is_x_logarithmic = true}};
+  return observable;
+}
+
 Table wave_number_table(const RunDynamics& dynamics) {
   Table table{
       "wave_numbers",
@@ -283,6 +387,10 @@ std::vector<Table> dynamics_tables(const RunDynamics& dynamics) {
   tables.push_back(collective_table(dynamics.collective));
   if (std::ranges::any_of(found.origins, [](std::size_t n) { return n > 1; }))
     tables.push_back(susceptibility_table(found));
+  if (!dynamics.ageing.empty()) {
+    tables.push_back(ageing_table(dynamics.ageing));
+    tables.push_back(waiting_time_table(dynamics.ageing));
+  }
   return tables;
 }
 
@@ -296,6 +404,8 @@ std::vector<Observable> dynamics_observables(int dimension) {
                          .needs = {.motion = true}});
   observables.push_back(collective_observable());
   observables.push_back(susceptibility_observable());
+  observables.push_back(ageing_observable(dimension));
+  observables.push_back(waiting_time_observable(dimension));
   return observables;
 }
 

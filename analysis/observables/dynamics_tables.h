@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/dynamics/ageing.h"
 #include "analysis/dynamics/cage_relative.h"
 #include "analysis/dynamics/collective_scattering.h"
 #include "analysis/dynamics/displacement.h"
@@ -18,6 +19,7 @@ struct RunDynamics {
   Displacements displacements;
   CollectiveScattering collective;                 ///< at the wave numbers of the displacements
   std::optional<CageRelative> cage_relative = {};  ///< in two dimensions, at the same wave numbers
+  std::vector<AgedMotion> ageing = {};             ///< for every waiting time
 };
 
 std::vector<Table> dynamics_tables(const RunDynamics& dynamics);

@@ -34,8 +34,12 @@ struct Chart {
   std::vector<double> levels = {};  ///< horizontal lines
   Level level_of_run = Level::none;
   std::vector<Curve> references = {};  ///< drawn dashed: what theory expects
-  /// The column of the table `wave_numbers` that has the numbers `#` stands for; empty: they are indices.
-  std::string wave_number = {};
+  /// What `#` stands for in a name with an index: the value of a column in the row with this index. Without a table it
+  /// stands for itself.
+  struct Numbers {
+    std::string table, column, symbol;
+  };
+  Numbers numbers = {};
   bool has_power_laws = false;    ///< slopes of ballistic motion and diffusion beside the curves
   bool is_angle_of_axis = false;  ///< the same after half a turn
   std::string if_missing = {};    ///< said in place of the chart of a table without these columns
@@ -48,6 +52,7 @@ struct Needs {
   bool velocities = false;  ///< particles that move
   /// Frames for averages, which `analysis.structure.frames = 0` leaves out.
   bool averages = false;
+  bool waiting_times = false;  ///< `analysis.waiting_times`
 };
 
 /// A table of an analysis.

@@ -132,6 +132,21 @@ TEST(TimeAxis, PowersOfTwoHaveTwoOrigins) {
   }
 }
 
+TEST(TimeAxis, TheFirstFrameMayBeTheOnlyOrigin) {
+  const TimeAxisOptions options{.longest_lag = 1, .only_first_origin = true};
+  const Times uneven = cycles(20, 1);
+  for (const Times& times : {even_times(300, 0.1), uneven}) {
+    const std::vector<Lag> lags = time_axis(times, options);
+    EXPECT_GT(lags.size(), 40u);
+    for (const Lag& lag : lags) {
+      EXPECT_EQ(lag.origins, 1u);
+      EXPECT_EQ(lag.from(0), 0u);
+      EXPECT_NEAR(lag.time, times[lag.to(0)] - times[0], 1e-6 * lag.time);
+    }
+    EXPECT_NEAR(lags.back().time, times.back() - times.front(), 0.05 * times.back());
+  }
+}
+
 TEST(TimeAxis, BlocksOfUnevenOriginsLastForFourLags) {
   const Times times = cycles(200, 1);
   std::size_t shared = 0;

@@ -24,6 +24,7 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
+using testing::StartsWith;
 using testing_program::expect_refusal;
 using testing_program::Folder;
 using testing_program::Outcome;
@@ -374,8 +375,11 @@ TEST(SavedRuns, EveryTableIsListedWithWhatItIs) {
     folder.write("p.toml", parameters);
     // Between frames no body turns so far that the number of turns would be unknown.
     ASSERT_EQ(run(folder.path(), {"run", "p.toml", "-o", "run.h5", "-q", "--set", often}).code, 0);
-    ASSERT_EQ(run(folder.path(), {"analyze", "run.h5", "-q"}).code, 0);
-    expect_listed(read_results(folder / "run_results.h5"), dimension);
+    const std::string waiting = "analysis.waiting_times=[0, 0.5]";
+    ASSERT_EQ(run(folder.path(), {"analyze", "run.h5", "-q", "--set", waiting}).code, 0);
+    const Results results = read_results(folder / "run_results.h5");
+    expect_listed(results, dimension);
+    EXPECT_THAT(results.text("command_line"), StartsWith("vitrel run p.toml "));
   }
 }
 

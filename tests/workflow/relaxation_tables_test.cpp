@@ -31,7 +31,7 @@ double truth(double kind, double parameter) {
 // 0.06 per mille for each of 20 rows.
 void expect_closed_forms(Trajectory2& trajectory) {
   Results results;
-  store_relaxation_times(displacements(trajectory, {.wave_numbers = {2, 3}}), results);
+  store_relaxation_times(displacements(trajectory, {.wave_numbers = {2, 3}}), nullptr, results);
   const Table& table = *results.find("relaxation_times");
   // Both quantities twice in "all" and "ellipse", F_s in "disk".
   EXPECT_EQ(table.find("group")->value, (std::vector<double>{0, 0, 0, 0, 1, 1, 1, 1, 2, 2}));
@@ -54,6 +54,26 @@ void expect_closed_forms(Trajectory2& trajectory) {
 TEST(RelaxationTables, FreeBrownianParticlesFollowTheClosedForms) {
   MemoryTrajectory2 trajectory = free_brownian(ellipses_and_disks(), 801, 1);
   expect_closed_forms(trajectory);
+}
+
+// Independent particles move by 1 + ⟨1/n⟩ as much relative to n neighbours, and n is about 6.
+TEST(RelaxationTables, RelativeToTheCageFreeParticlesRelaxSooner) {
+  MemoryTrajectory2 trajectory = free_brownian(ellipses_and_disks(), 801, 1);
+  const DisplacementOptions options{.wave_numbers = {2, 3}};
+  const auto cage = cage_relative(trajectory, options);
+  ASSERT_TRUE(cage);
+  Results results;
+  store_relaxation_times(displacements(trajectory, options), &*cage, results);
+  const Table& table = *results.find("relaxation_times");
+  ASSERT_EQ(table.rows(), 12u);
+  for (const std::size_t row : {10, 11}) {
+    EXPECT_EQ(table.find("group")->value[row], 0);
+    EXPECT_EQ(table.find("kind")->value[row], 4);
+    const double parameter = table.find("parameter")->value[row];
+    EXPECT_EQ(parameter, row == 10 ? 2 : 3);
+    EXPECT_NEAR(table.find("tau")->value[row] * (1 + 1 / 6.), truth(0, parameter),
+                0.1 * truth(0, parameter));
+  }
 }
 
 TEST(RelaxationTables, SoTheyDoSampledInCycles) {
@@ -90,11 +110,11 @@ TEST(RelaxationTables, HaveAllAxesOfScaleneEllipsoids) {
   constexpr double deviation = 0.25;
   MemoryTrajectory3 trajectory = turning_about_the_middle_axis(deviation);
   Results results;
-  store_relaxation_times(displacements(trajectory, {.wave_numbers = {1}}), results);
+  store_relaxation_times(displacements(trajectory, {.wave_numbers = {1}}), nullptr, results);
   const Table& table = *results.find("relaxation_times");
   EXPECT_EQ(table.find("kind")->value, (std::vector<double>{0, 1, 1, 2, 2, 3, 3}));
   EXPECT_EQ(table.find("parameter")->value, (std::vector<double>{1, 1, 2, 1, 2, 1, 2}));
-  EXPECT_EQ(table.find("kind")->labels.size(), 4u);
+  EXPECT_EQ(table.find("kind")->labels.size(), 5u);
   const double variance = deviation * deviation;
   const double truth[] = {2 / variance, -std::log((4 / std::numbers::e - 1) / 3) / (2 * variance)};
   const Column& tau = *table.find("tau");
@@ -117,7 +137,7 @@ TEST(RelaxationTables, SayWhyThereIsNoTime) {
   MemoryTrajectory2 trajectory = free_brownian(disks, 101, 3);
   const Displacements found = displacements(trajectory, {.wave_numbers = {0.05, 40}});
   Results results;
-  store_relaxation_times(found, results);
+  store_relaxation_times(found, nullptr, results);
   const Table& table = *results.find("relaxation_times");
   ASSERT_EQ(table.rows(), 2u);
   for (std::size_t row = 0; row < 2; ++row) EXPECT_TRUE(std::isnan(table.find("tau")->value[row]));

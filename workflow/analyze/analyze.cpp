@@ -104,6 +104,8 @@ RunDynamics measure_dynamics(TrajectoryFile<Dim>& trajectory, DisplacementOption
     begin(progress, "cage-relative displacements");
     dynamics.cage_relative = cage_relative(trajectory, options, progress.report);
   }
+  begin(progress, "ageing");
+  dynamics.ageing = ageing(trajectory, options, progress.report);
   return dynamics;
 }
 
@@ -128,19 +130,20 @@ double collisions_between_frames(const TrajectoryReader& reader) {
 /// Judged, if the run can be.
 template <int Dim>
 std::optional<GlassRun> measure_glass(TrajectoryFile<Dim>& trajectory, const std::string& name,
-                                      const RunAnalysis& run, const DisplacementOptions& options,
+                                      const RunAnalysis& run, const Parameters& parameters,
                                       const AnalysisProgress& progress) {
   const GlassSource source{.name = name,
                            .seed = trajectory.reader().provenance().seed,
                            .packing_fraction = run.packing_fraction,
                            .rotors = run.rotors,
+                           .starts_in_equilibrium = end_in_equilibrium(parameters.stages),
                            .displacements = run.dynamics->displacements,
                            .compressibility = run.compressibility,
                            .order = run.structure.order,
                            .diffusion = run.diffusion,
                            .rotational_diffusion = run.rotational_diffusion};
   begin(progress, "relaxation and halves");
-  const auto data = glass_run_data(trajectory, source, options, progress.report);
+  const auto data = glass_run_data(trajectory, source, parameters.analysis, progress.report);
   if (!data) return std::nullopt;
   return judge_glass_run(*data);
 }
@@ -207,7 +210,7 @@ RunAnalysis measure(TrajectoryFile<Dim>& trajectory, const std::string& name,
   const Displacements& found = run.dynamics->displacements;
   run.diffusion = long_time_diffusion(found, found.groups.front().translation, Dim, times);
   run.rotational_diffusion = rotational_diffusion(found, run.rotors, Dim, times);
-  run.glass = measure_glass(trajectory, name, run, parameters.analysis, progress);
+  run.glass = measure_glass(trajectory, name, run, parameters, progress);
   return run;
 }
 
@@ -266,7 +269,8 @@ void leave_out(Results& results, const std::string& what, const std::string& why
 void add_motion(const RunAnalysis& run, const std::vector<double>& times, Results& results) {
   const Displacements& found = run.dynamics->displacements;
   results.provenance.emplace_back("time_axis", time_axis_text(times, found));
-  store_relaxation_times(found, results);
+  const auto& cage = run.dynamics->cage_relative;
+  store_relaxation_times(found, cage ? &*cage : nullptr, results);
   if (found.dimension == 2 && !run.dynamics->cage_relative)
     leave_out(results, "cage_relative", "analysis.memory is too small for all positions at once");
   if (!found.unknown_turns.empty()) leave_out(results, "rotations", found.unknown_turns);

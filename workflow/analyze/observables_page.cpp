@@ -16,6 +16,7 @@ std::string needs_text(const Needs& needs) {
   if (needs.rotors) parts.emplace_back("particles that are not round");
   if (needs.velocities) parts.emplace_back("velocities");
   if (needs.averages) parts.emplace_back("`analysis.structure.frames` above 0");
+  if (needs.waiting_times) parts.emplace_back("`analysis.waiting_times`");
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 

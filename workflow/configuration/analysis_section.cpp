@@ -37,6 +37,10 @@ void describe_analysis(DisplacementOptions& p, FieldVisitor& visit) {
                "Orders n of the orientational correlations, ⟨cos n(θ(t) − θ(0))⟩ in the plane and "
                "Legendre's ⟨P_n(u(0)·u(t))⟩ in space. If empty: 2 and 4, in space 1 and 2."},
               p.orders);
+  visit.field({"waiting_times", "time",
+               "Waiting times since the first sample, each followed by correlations of its frame "
+               "alone with all later ones: how a glass ages. Sample evenly for them."},
+              p.waiting_times);
   visit.field({"overlap_distance", "length",
                "Cutoff distance of the overlap function and the four-point susceptibility: a "
                "particle that has moved by less counts as immobile. Choose it somewhat larger than "
@@ -76,6 +80,12 @@ void validate_analysis(const DisplacementOptions& p) {
                   fmt::format("has {}, but must hold whole numbers from 1 to 100", show(n)));
   for (std::size_t k = 1; k < p.orders.size(); ++k)
     rules.require(p.orders[k] > p.orders[k - 1], "orders", "must hold increasing numbers");
+  for (const double time : p.waiting_times)
+    rules.require(time >= 0, "waiting_times",
+                  fmt::format("has {}, but must hold times from 0 on", show(time)));
+  for (std::size_t k = 1; k < p.waiting_times.size(); ++k)
+    rules.require(p.waiting_times[k] > p.waiting_times[k - 1], "waiting_times",
+                  "must hold increasing times");
   rules.positive(p.overlap_distance, "overlap_distance");
   rules.at_least(static_cast<std::int64_t>(p.memory), 1 << 20, "memory");
 }

@@ -78,6 +78,11 @@ Json curves_data(const std::vector<Curve>& curves) {
   return data;
 }
 
+Json numbers_data(const Chart::Numbers& numbers) {
+  if (numbers.table.empty()) return nullptr;
+  return {{"table", numbers.table}, {"column", numbers.column}, {"symbol", numbers.symbol}};
+}
+
 Json chart_data(const Observable& observable, const Chart& chart) {
   constexpr const char* sections[] = {"motion", "relaxation", "structure", "course", "density"};
   constexpr const char* scales[] = {"linear", "logarithmic", "fromZero", "decay", "aroundOne"};
@@ -95,7 +100,7 @@ Json chart_data(const Observable& observable, const Chart& chart) {
           {"logX", chart.is_x_logarithmic},
           {"levels", chart.levels},
           {"levelOfRun", levels[static_cast<int>(chart.level_of_run)]},
-          {"waveNumber", chart.wave_number},
+          {"numbers", numbers_data(chart.numbers)},
           {"hasPowerLaws", chart.has_power_laws},
           {"isAngleOfAxis", chart.is_angle_of_axis},
           {"ifMissing", chart.if_missing}};

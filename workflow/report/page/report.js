@@ -10,13 +10,13 @@ function rangeText(symbol, values) {
   return `${symbol} = ${low === high ? low : `${low} … ${high}, varying between runs`}`;
 }
 
-/** The k-th wave number of these runs; collective functions have that of the wave vectors of the box. */
-function waveNumberText(k, of, origin, column) {
+/** The k-th wave number or waiting time of these runs; collective functions have that of the wave vectors of the box. */
+function numberText(k, of, origin, { table, column, symbol }) {
   const values = of.flatMap((run) => {
-    const table = run.tables[origin + 'wave_numbers']?.columns;
-    return (table?.[column] ?? table?.q)?.value[table.index.value.indexOf(k)] ?? [];
+    const columns = run.tables[origin + table]?.columns;
+    return (columns?.[column] ?? columns?.[symbol])?.value[columns.index.value.indexOf(k)] ?? [];
   });
-  return values.length ? rangeText('q', values) : `q${subscript(k)}`;
+  return values.length ? rangeText(symbol, values) : `${symbol}${subscript(k)}`;
 }
 
 /** An axis looks the same after half a turn: of the angles that stand for it, the nearest to the one before. */
@@ -30,9 +30,9 @@ const onTheFly = 'on_the_fly_';
 const isOnTheFly = (group) => group.startsWith(onTheFly);
 
 /** Labels are for these runs together. */
-function shownColumns(table, { curves, waveNumber }, of, group = '') {
+function shownColumns(table, { curves, numbers }, of, group = '') {
   const origin = isOnTheFly(group) ? onTheFly : '';
-  return namedColumns(table.columns, curves, waveNumber ? (k) => waveNumberText(Number(k), of, origin, waveNumber) : undefined);
+  return namedColumns(table.columns, curves, numbers ? (k) => numberText(Number(k), of, origin, numbers) : undefined);
 }
 
 /** The groups of particles that some run has a table of the chart for: "" if the table has no group. */
