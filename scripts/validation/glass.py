@@ -1,22 +1,307 @@
-"""The glass transition of ellipses: relaxation times against density, nematic order or glass, and fits of φ_c."""
+"""The glass of ellipses and disks, prepared where dynamics cannot go: rewrites docs/glass.md and its figures."""
 
 import json
+import math
+import pathlib
+import re
+import tempfile
 
-from validation.common import PARAMS, ROOT, expect, output_of, summary_of, table
+from validation.common import PARAMS, ROOT, expect, output_of, pyplot, settings, summary_of, table, write_figure
+from validation.figures import COLOURS
 
-TITLE = "The glass transition of ellipses"
-FOLDER = ROOT / "out" / "glass"  # kept, so that an interrupted study continues
-SMALLEST_NEMATIC = 0.5
-LONGEST = 4 * 3600 * 2  # seconds of one core
+TITLE = "The glass"
+PAGE = ROOT / "docs" / "glass.md"
+DATA = ROOT / "docs" / "data" / "glass"  # of finished jobs the results; the rest stays on the machine that runs them
+QUICK = ROOT / "out" / "glass"
+
+LIQUIDS = {"glass_polydisperse": "ellipses, κ = 2", "glass_polydisperse_disks": "disks"}
+AGEING = "glass_fast"
+STUDIES = [*LIQUIDS, AGEING]
+LOWEST = 0.60  # the packing fraction that times are relative to
+LEAST_GROWTH = 1e3  # of the slowest time, of both liquids
 # Packing fractions of the glass transitions in the experiment on monolayers with κ = 6 (Zheng, Wang & Han 2011).
 EXPERIMENT_ROTATION, EXPERIMENT_TRANSLATION = 0.72, 0.79
 
 
+# ---- running ----------------------------------------------------------------------------------------------
+
+def reduced(name, folder):
+    """The parameter file of a study with fewer particles and every other one of the lower densities."""
+    text = (PARAMS / f"{name}.toml").read_text(encoding="utf-8")
+    text = re.sub(r"^particles = .*", "particles = 400", text, flags=re.MULTILINE)
+    head, sweep = text.split("[sweep", 1)
+    every_other = re.compile(r"\[([\d., ]+, [\d., ]+)\]")
+    kept = 6 if name != AGEING else 3
+    sweep = every_other.sub(lambda found: f"[{', '.join(found[1].split(', ')[:kept])}]", sweep)
+    folder.mkdir(parents=True, exist_ok=True)
+    file = folder / f"{name}.toml"
+    file.write_text(f"{head}[sweep{sweep}", encoding="utf-8")
+    return file
+
+
+class Study:
+    """One sweep, run or continued, and its analysis."""
+
+    def __init__(self, build, name, quick):
+        self.build, self.name = build, name
+        self.folder = (QUICK if quick else DATA) / name.removeprefix("glass_")
+        self.parameters = reduced(name, QUICK) if quick else PARAMS / f"{name}.toml"
+
+    def run(self):
+        self.vitrel("sweep", self.parameters, "-o", self.folder, "-j", "2", "--quiet")
+
+    def status(self):
+        return self.vitrel("sweep", self.parameters, "-o", self.folder, "--status")
+
+    def vitrel(self, *words):
+        """In the folder of the project, so that what is kept names no path outside of it."""
+        inside = [word.relative_to(ROOT) if isinstance(word, pathlib.Path) else word for word in words]
+        return output_of([self.build / "app/vitrel", *map(str, inside)], cwd=ROOT)
+
+    def analyze(self):
+        with tempfile.TemporaryDirectory() as folder:
+            summary = summary_of(self.build, "analyze", self.folder, "-o", pathlib.Path(folder, "results.h5"))
+        self.fits, self.remarks = summary["glass"]["fits"], summary["glass"]["remarks"]
+        self.verdicts = {self.key(run): run for run in summary["runs"]}
+        self.jobs = sorted((Job(path.parent) for path in self.folder.glob("*/done.json")), key=lambda job: self.key(job.values))
+        for job in self.jobs:
+            job.verdict = self.verdicts[self.key(job.values)]
+            expect(job.done["run"]["overlaps"] == 0, f"{self.name}, {job.done['id']}: overlaps")
+
+    @staticmethod
+    def key(run):
+        return (round(run.get("packing_fraction", run.get("system.packing_fraction")), 6),
+                run.get("seed", run.get("system.seed")))
+
+    def seconds(self):
+        return sum(job.seconds() for job in self.jobs)
+
+    def mean_time(self, phi, which):
+        """The geometric mean over seeds; nothing if one of them has no such time."""
+        times = [job.time(which) for job in self.jobs if job.phi == phi]
+        if not times or any(time is None for time in times):
+            return None
+        return math.exp(sum(math.log(time[0]) for time in times) / len(times))
+
+    def slowest(self, phi):
+        """The slower of τ_α and τ_2."""
+        times = [self.mean_time(phi, "alpha"), self.mean_time(phi, "2")]
+        known = [time for time in times if time is not None]
+        return max(known) if known else None
+
+    def densities(self):
+        return sorted({job.phi for job in self.jobs})
+
+    def growth(self):
+        """Of the slowest time, from the lowest density to the highest at which it is known; and that density."""
+        known = [(phi, self.slowest(phi)) for phi in self.densities() if self.slowest(phi)]
+        expect(known and known[0][0] == LOWEST, f"{self.name}: no time at {LOWEST}")
+        return known[-1][1] / known[0][1], known[-1][0]
+
+
+class Job:
+    """One finished run."""
+
+    def __init__(self, folder):
+        import h5py  # only here: a test imports all validations
+
+        self.done = json.loads((folder / "done.json").read_text(encoding="utf-8"))
+        self.values = self.done["values"]
+        self.phi, self.seed = self.values["system.packing_fraction"], self.values["system.seed"]
+        with h5py.File(folder / "results.h5") as file:
+            self.tables = {name: {column: values[...] for column, values in group.items()}
+                           for name, group in file.items() if name != "provenance"}
+
+    def seconds(self):
+        return self.done["prepare"]["wall_seconds"] + self.done["run"]["wall_seconds"]
+
+    def stage(self):
+        """The last stage of the preparation."""
+        return self.done["prepare"]["stages"][-1]
+
+    def time(self, which):
+        """A relaxation time and its error: "alpha", "cage" or "2"; nothing if it is not known."""
+        kind, parameter = {"alpha": (0, None), "cage": (4, None), "2": (1, 2)}[which]
+        times = self.tables["relaxation_times"]
+        for k in range(len(times["tau"])):
+            if times["group"][k] == 0 and times["kind"][k] == kind and parameter in (None, times["parameter"][k]):
+                return None if math.isnan(times["tau"][k]) else (times["tau"][k], times["tau_error"][k])
+        return None
+
+    def curve(self, name, on_the_fly=None):
+        """A column of a table over time; at shorter times, if it is named, one of the correlations on the fly."""
+        found, (source, column) = [], name
+        sampled = self.tables[source]
+        if on_the_fly:
+            early = self.tables["on_the_fly_all"]
+            first = sampled["time"][0]
+            found += [(t, y) for t, y in zip(early["time"], early[on_the_fly]) if t < first]
+        found += zip(sampled["time"], sampled[column])
+        return [(t, y) for t, y in found if t > 0 and not math.isnan(y)]
+
+
+# ---- figures ----------------------------------------------------------------------------------------------
+
+TIMES = {"alpha": ("τ_α", "o"), "cage": ("τ_α relative to the cage", "s"), "2": ("τ₂", "D")}
+
+
+def shape_of_law(fit, phi):
+    """ln τ but for a constant."""
+    if fit["law"] == "power law":
+        return -fit["exponent"] * math.log(fit["phi_c"] - phi)
+    return fit["exponent"] * phi / (fit["phi_c"] - phi)
+
+
+def draw_law(axes, study, fit, which, colour):
+    points = [(phi, study.mean_time(phi, which)) for phi in study.densities()]
+    window = [(phi, time) for phi, time in points if time and fit["window"][0] <= phi + 1e-6 and phi <= fit["window"][1] + 1e-6]
+    constant = sum(math.log(time) - shape_of_law(fit, phi) for phi, time in window) / len(window)
+    low, high = window[0][0], window[-1][0]
+    grid = [low + (high - low) * k / 100 for k in range(101)]
+    axes.plot([phi for phi in grid if phi < fit["phi_c"]],
+              [math.exp(constant + shape_of_law(fit, phi)) for phi in grid if phi < fit["phi_c"]],
+              color=colour, linewidth=0.9, linestyle="-" if fit["law"] == "power law" else ":")
+
+
+def times_figure(studies, folder):
+    figure, all_axes = pyplot().subplots(1, 2, figsize=(10, 4.4), sharey=True, layout="constrained")
+    for axes, study in zip(all_axes, studies):
+        for k, (which, (name, marker)) in enumerate(TIMES.items()):
+            known = [(job, job.time(which)) for job in study.jobs if job.time(which)]
+            for filled in (True, False):
+                part = [(job.phi, time) for job, time in known if (job.verdict["verdict"] == "equilibrated") == filled]
+                axes.errorbar([phi for phi, _ in part], [t for _, (t, _) in part], yerr=[e for _, (_, e) in part],
+                              color=COLOURS[k], marker=marker, linestyle="none", markersize=5,
+                              markerfacecolor=COLOURS[k] if filled else "white", label=name if filled and part else None)
+        for fit in study.fits:
+            which = {"translation, tau_alpha": "alpha", "rotation, tau_2": "2"}.get(fit["kind"])
+            if which and fit["phi_c"] is not None:
+                draw_law(axes, study, fit, which, COLOURS[list(TIMES).index(which)])
+        axes.set(title=LIQUIDS[study.name], xlabel="packing fraction φ", yscale="log")
+        axes.title.set_fontsize("medium")
+        axes.grid(alpha=0.25)
+    all_axes[0].set_ylabel("relaxation time")
+    all_axes[0].legend(frameon=False, fontsize="small", loc="upper left")
+    write_figure(figure, folder / "glass_times.svg")
+
+
+def family(axes, study, curve, seed=1):
+    """One curve per density, from blue to red."""
+    colours = pyplot().get_cmap("coolwarm")
+    jobs = [job for job in study.jobs if job.seed == seed]
+    for k, job in enumerate(jobs):
+        points = job.curve(*curve)
+        axes.plot([t for t, _ in points], [y for _, y in points], linewidth=1.1,
+                  color=colours(k / max(1, len(jobs) - 1)), label=f"{job.phi:g}")
+    axes.set(xscale="log", xlabel="t")
+    axes.grid(alpha=0.25)
+
+
+def motion_figure(study, folder):
+    figure, (left, right) = pyplot().subplots(1, 2, figsize=(10, 4.4), layout="constrained")
+    family(left, study, (("displacements_all", "msd"), "msd"))
+    family(right, study, (("displacements_all", "msr"), "msr"))
+    left.set(yscale="log", ylabel="mean squared displacement ⟨Δr²⟩")
+    right.set(yscale="log", ylabel="mean squared rotation ⟨Δθ²⟩")
+    left.legend(title="φ", frameon=False, fontsize="x-small", ncols=2)
+    write_figure(figure, folder / "glass_motion.svg")
+
+
+def relaxation_figure(study, folder):
+    figure, axes = pyplot().subplots(2, 2, figsize=(10, 7), sharex=True, layout="constrained")
+    for place, (curve, label) in zip(axes.flat, [
+            ((("self_scattering_all", "fs_1"),), "F_s(q, t)"), ((("orientation_all", "l_2"), "l_2"), "L₂(t)"),
+            ((("displacements_all", "non_gaussian"),), "α₂(t)"), ((("susceptibility", "chi_4"),), "χ₄(t)")]):
+        family(place, study, curve)
+        place.set_ylabel(label)
+    axes[0, 0].legend(title="φ", frameon=False, fontsize="x-small", ncols=2)
+    write_figure(figure, folder / "glass_relaxation.svg")
+
+
+def ageing_figure(study, folder):
+    chosen = [phi for phi in (0.64, 0.72, 0.80) if phi in study.densities()] or study.densities()[:3]
+    figure, axes = pyplot().subplots(2, len(chosen), figsize=(4 * len(chosen), 6.4), sharex=True, sharey="row",
+                                     layout="constrained", squeeze=False)
+    colours = pyplot().get_cmap("viridis")
+    for column, phi in enumerate(chosen):
+        job = next(job for job in study.jobs if job.phi == phi)
+        waits = job.tables["waiting_times"]
+        for k, waited in enumerate(waits["waiting_time"], start=1):
+            for row, name in enumerate((f"msr_{k}", f"l_{k}")):
+                points = job.curve(("ageing", name))
+                axes[row, column].plot([t for t, _ in points], [y for _, y in points], linewidth=1.1,
+                                       color=colours(0.9 * (k - 1) / max(1, len(waits["index"]) - 1)), label=f"{waited:g}")
+        axes[0, column].set(title=f"φ = {phi:g}", xscale="log", yscale="log")
+        axes[1, column].set_xlabel("t")
+        for row in range(2):
+            axes[row, column].grid(alpha=0.25)
+    axes[0, 0].set_ylabel("mean squared rotation ⟨Δθ²⟩")
+    axes[1, 0].set_ylabel("L₂(t)")
+    axes[0, 0].legend(title="waiting time", frameon=False, fontsize="x-small")
+    write_figure(figure, folder / "glass_ageing.svg")
+
+
+SLOW = "prepare.stage.1.growth_rate=0.001"
+
+
+def domains_figure(build, study, folder):
+    """Every particle of states as they are made, by the angle of its axis; the last one is made slowly. Its length of
+    orientational correlations.
+    """
+    densities = [phi for phi in (0.60, 0.72, 0.82) if phi in study.densities()] or study.densities()[:3]
+    chosen = [(phi, []) for phi in densities] + [(densities[len(densities) // 2], [SLOW])]
+    plots = pyplot()
+    figure, all_axes = plots.subplots(1, len(chosen), figsize=(3.6 * len(chosen), 3.9), layout="constrained", squeeze=False)
+    for axes, (phi, changes) in zip(all_axes[0], chosen):
+        with tempfile.TemporaryDirectory() as scratch:
+            state = pathlib.Path(scratch, "state.h5")
+            summary = summary_of(build, "prepare", study.parameters,
+                                 *settings([f"system.packing_fraction={phi}", *changes]), "-o", state)
+            draw_ellipses(axes, state)
+        axes.set_title(f"φ = {phi:g}" + ", made slowly" * bool(changes), fontsize="medium")
+    figure.savefig(folder / "glass_domains.png", dpi=130, metadata={"Software": None})
+    plots.close(figure)
+    return summary["quality"]["nematic_correlation"]["length"]["value"]
+
+
+def draw_ellipses(axes, state):
+    import h5py
+    import numpy
+    from matplotlib import collections
+
+    with h5py.File(state) as file:
+        particles = file["particles/all"]
+        position, angle = particles["position/value"][-1], particles["angle/value"][-1]
+        semi_axes, box = particles["semiaxes"][...], numpy.diagonal(particles["box/edges/value"][-1])
+    ellipses = collections.EllipseCollection(2 * semi_axes[:, 0], 2 * semi_axes[:, 1], numpy.degrees(angle), units="xy",
+                                             offsets=position[:, :2], transOffset=axes.transData, array=angle % numpy.pi,
+                                             cmap="hsv", clim=(0, numpy.pi), linewidths=0)
+    axes.add_collection(ellipses)
+    axes.set(xlim=(-box[0] / 2, box[0] / 2), ylim=(-box[1] / 2, box[1] / 2), aspect="equal", xticks=[], yticks=[])
+
+
+# ---- text -------------------------------------------------------------------------------------------------
+
 def number(value, error=None, digits=3):
-    if value is None:
+    if value is None or (isinstance(value, float) and math.isnan(value)):
         return "–"
     text = f"{value:.{digits}g}"
-    return text if error is None else f"{text} ± {error:.1g}"
+    return text if error is None or math.isnan(error) else f"{text} ± {error:.1g}"
+
+
+def time_text(job, which):
+    return number(*(job.time(which) or (None,)))
+
+
+def run_rows(study):
+    return [[f"{job.phi:g}", job.seed, f"{job.verdict['duration']:g}", time_text(job, "alpha"), time_text(job, "cage"),
+             time_text(job, "2"), job.verdict["verdict_translation"], job.verdict["verdict"],
+             job.stage()["decorrelations"], f"{job.stage()['wall_seconds']:.3g}", f"{job.done['run']['wall_seconds']:.3g}"]
+            for job in study.jobs]
+
+
+RUN_HEAD = ["φ", "seed", "duration", "τ_α", "τ_α, cage", "τ₂", "translation", "all", "decorrelations", "Monte Carlo / s",
+            "dynamics / s"]
 
 
 def density(fit):
@@ -25,122 +310,147 @@ def density(fit):
     return f"> {fit['phi_c_least']:.3f}" if fit["phi_c_least"] is not None else "–"
 
 
-class Study:
-    """One sweep, run or continued, with its analysis."""
-
-    def __init__(self, build, name):
-        self.name, self.folder = name, FOLDER / name
-        FOLDER.mkdir(parents=True, exist_ok=True)
-        summary_of(build, "sweep", PARAMS / f"{name}.toml", "-o", self.folder, "-j", "2", "--quiet")
-        summary = summary_of(build, "analyze", self.folder, "--quiet")
-        output_of([build / "app/vitrel", "report", self.folder, "--quiet"])
-        self.jobs = [json.loads(path.read_text()) for path in sorted(self.folder.glob("*/done.json"))]
-        self.runs, self.fits, self.remarks = summary["runs"], summary["glass"]["fits"], summary["glass"]["remarks"]
-
-    def seconds(self):
-        return sum(job[step]["wall_seconds"] for job in self.jobs for step in ("prepare", "run"))
-
-    def check(self):
-        expect(all("verdict" in run for run in self.runs), f"{self.name}: the analysis of a run is incomplete")
-        for job in self.jobs:
-            expect(job["run"]["overlaps"] == 0, f"{self.name}, {job['id']}: overlaps")
-
-    def rows(self):
-        return [[f"{r['packing_fraction']:.2f}", f"{r['seed']}", f"{r['duration']:.0f}",
-                 number(r["nematic_order"], r["nematic_order_error"], 2),
-                 number(r["tau_translation"], r["tau_translation_error"]),
-                 number(r["tau_rotation"], r["tau_rotation_error"]),
-                 r["orientation"], r["verdict_translation"], r["verdict"]] for r in self.runs]
-
-    def reasons(self):
-        """Why runs are excluded from the fits of translation or, otherwise, of rotation."""
-        lines = []
-        for r in self.runs:
-            what, reason = (("all", r["reason_translation"]) if r["reason_translation"] else ("rotation", r["reason"]))
-            if reason:
-                lines.append(f"- φ = {r['packing_fraction']:.2f}, seed {r['seed']}, {what}: {reason}")
-        return "\n".join(lines)
-
-    def fit_rows(self):
-        return [[f["kind"], f["law"], density(f), number(f["exponent"], f["exponent_error"]),
-                 "{:.2f} … {:.2f}".format(*f["window"]) if f["dof"] else "–",
-                 number(f["chi2"] / f["dof"], digits=2) if f["dof"] else "–", f["reason"] or "–"] for f in self.fits]
-
-    def text(self):
-        runs = table(["φ", "seed", "duration", "S", "τ_α", "τ_2", "orientations", "translation", "all"], self.rows())
-        fits = table(["quantity", "law", "φ_c", "exponent", "best window", "χ²/dof", "reason for no fit"], self.fit_rows())
-        remarks = "\n\n".join(self.remarks)
-        return f"{runs}\n\n{remarks}\n\nRuns excluded from the fits:\n\n{self.reasons()}\n\n{fits}"
-
-    def order(self):
-        values = [run["nematic_order"] for run in self.runs]
-        return min(values), max(values)
-
-    def growth(self, key):
-        """The increase of a time from the lowest density to the highest, averaged over seeds."""
-        def mean(phi):
-            values = [run[key] for run in self.runs if abs(run["packing_fraction"] - phi) < 1e-6]
-            return None if None in values else sum(values) / len(values)
-        ends = [mean(end(run["packing_fraction"] for run in self.runs)) for end in (min, max)]
-        return " to ".join(number(value) for value in ends)
-
-    def exponent(self, kind, law):
-        fit = next(fit for fit in self.fits if (fit["kind"], fit["law"]) == (kind, law))
-        return number(fit["exponent"], fit["exponent_error"])
-
-    def found(self, kind):
-        return "; ".join(f"{density(fit)} ({fit['law']})" for fit in self.fits if fit["kind"] == kind) or "–"
+def fit_rows(study):
+    return [[fit["kind"], fit["law"], density(fit), number(fit["exponent"], fit["exponent_error"]),
+             "{:.3f} … {:.3f}".format(*fit["window"]) if fit["dof"] else "–",
+             number(fit["chi2"] / fit["dof"], digits=2) if fit["dof"] else "–", fit["reason"] or "–"] for fit in study.fits]
 
 
-def comparison(nematic, isotropic):
-    """Both transitions of both systems, compared with the experiment."""
-    kinds = {"φ_θ, orientations": ("rotation in the nematic, tau_2", "rotation, tau_2", EXPERIMENT_ROTATION),
-             "φ_T, positions": ("translation, tau_alpha", "translation, tau_alpha", EXPERIMENT_TRANSLATION)}
-    return table(["", "κ = 6, nematic", "κ = 2, isotropic", "experiment, κ = 6"],
-                 [[name, nematic.found(first), isotropic.found(second), experiment]
-                  for name, (first, second, experiment) in kinds.items()])
+FIT_HEAD = ["quantity", "law", "φ_c", "exponent", "best window", "χ²/dof", "reason for no fit"]
+
+
+def fit_of(study, kind, law):
+    return next(fit for fit in study.fits if (fit["kind"], fit["law"]) == (kind, law))
+
+
+def order_by(study, law):
+    """Whether rotation and translation stop together by this law, in one sentence."""
+    rotation, translation = (fit_of(study, kind, law) for kind in ("rotation, tau_2", "translation, tau_alpha"))
+    name = "the power law" if law == "power law" else "the law of Vogel and Fulcher"
+    for what, fit in (("τ₂", rotation), ("τ_α", translation)):
+        if fit["phi_c"] is None:
+            return f"By {name} there is no statement: it does not hold for {what} ({fit['reason'] or 'φ_c is not bounded'})."
+    distance = translation["phi_c"] - rotation["phi_c"]
+    error = math.hypot(translation["phi_c_error"], rotation["phi_c_error"])
+    together = "together within two standard errors" if abs(distance) < 2 * error else \
+        "rotation first" if distance > 0 else "translation first"
+    return f"By {name}, rotation stops at φ = {density(rotation)} and translation at {density(translation)}: {together}."
+
+
+def ratios(study, which):
+    """τ₂ over a time of translation at the lowest and the highest density that have both."""
+    known = [(phi, study.mean_time(phi, "2"), study.mean_time(phi, which)) for phi in study.densities()]
+    known = [(phi, rotation / translation) for phi, rotation, translation in known if rotation and translation]
+    (low, first), (high, last) = known[0], known[-1]
+    return f"goes from {first:.2g} at φ = {low:g} to {last:.2g} at {high:g}"
+
+
+def ratio_text(study):
+    """How far apart rotation and translation are at both ends."""
+    return f"τ₂/τ_α {ratios(study, 'alpha')}; with τ_α relative to the cage the ratio {ratios(study, 'cage')}."
+
+
+def ageing_rows(study):
+    rows = []
+    for job in study.jobs:
+        waits = job.tables["waiting_times"]
+        for k, waited in enumerate(waits["waiting_time"], start=1):
+            rows.append([f"{job.phi:g}", f"{waited:g}", number(waits["nematic_length"][k - 1]),
+                         *(fallen(job.curve(("ageing", f"{name}_{k}"))) for name in ("fs", "l")),
+                         number(job.curve(("ageing", f"msd_{k}"))[-1][1]), number(job.curve(("ageing", f"msr_{k}"))[-1][1])])
+    return rows
+
+
+def fallen(points):
+    """The time at which a correlation has fallen to 1/e, or how far it has at the longest time."""
+    for (before, above), (after, below) in zip(points, points[1:]):
+        if above > 1 / math.e >= below:
+            return number(before * (after / before) ** ((above - 1 / math.e) / (above - below)))
+    time, value = points[-1]
+    return f"< {number(points[0][0])}" if points[0][1] <= 1 / math.e else f"{value:.2f} at {time:g}"
+
+
+def domains_text(study):
+    """The length of the domains at the lowest and the highest density, as made and at the last waiting time."""
+    lengths = []
+    for job in (study.jobs[0], study.jobs[-1]):
+        waits = job.tables["waiting_times"]
+        lengths.append(f"from {waits['nematic_length'][0]:.2g} to {waits['nematic_length'][-1]:.2g} at φ = {job.phi:g}")
+    waits = study.jobs[0].tables["waiting_times"]["waiting_time"]
+    return f"Between t_w = {waits[0]:g} and {waits[-1]:g} ξ grows {lengths[0]}, and {lengths[1]}."
+
+
+def stop_rows(study):
+    """The lowest density of each waiting time from which on a correlation does not fall to 1/e in the time that follows the
+    last one; and that time.
+    """
+    first = study.jobs[0]
+    waits = first.tables["waiting_times"]["waiting_time"]
+    window = first.verdict["duration"] - waits[-1]
+
+    def stops(name, k):
+        moving = [job.phi for job in study.jobs
+                  if any(t <= window and y <= 1 / math.e for t, y in job.curve(("ageing", f"{name}_{k}")))]
+        beyond = [job.phi for job in study.jobs if not moving or job.phi > max(moving)]
+        return f"{beyond[0]:g}" if beyond else f"> {max(moving):g}"
+
+    return window, [[f"{waited:g}", stops("l", k), stops("fs", k)] for k, waited in enumerate(waits, start=1)]
+
+
+def page(liquids, ageing, slow):
+    text = (ROOT / "scripts/validation/glass_page.md").read_text(encoding="utf-8")
+    values = {"ageing": table(["φ", "t_w", "ξ", "τ_α", "τ₂", "MSD at the end", "MSR at the end"], ageing_rows(ageing)),
+              "hours": f"{sum(study.seconds() for study in (*liquids, ageing)) / 3600:.1f}",
+              "order": " ".join(order_by(liquids[0], law) for law in ("power law", "Vogel–Fulcher")),
+              "ratio": ratio_text(liquids[0]), "domains": domains_text(ageing),
+              "slow": f"{slow:.2g}"}
+    window, stops = stop_rows(ageing)
+    values |= {"window": f"{window:g}", "stops": table(["t_w", "rotation stops at φ", "translation stops at φ"], stops)}
+    for study, key in zip(liquids, ("ellipses", "disks")):
+        growth, densest = study.growth()
+        values |= {f"runs_{key}": table(RUN_HEAD, run_rows(study)), f"fits_{key}": table(FIT_HEAD, fit_rows(study)),
+                   f"growth_{key}": f"{growth:.3g}", f"densest_{key}": f"{densest:g}"}
+    for key, value in values.items():
+        text = text.replace(f"@{key}@", value)
+    return text
+
+
+def draw(build, liquids, ageing, folder):
+    """All figures; the length of orientational correlations in a state that is made slowly."""
+    times_figure(liquids, folder)
+    motion_figure(liquids[0], folder)
+    relaxation_figure(liquids[0], folder)
+    ageing_figure(ageing, folder)
+    return domains_figure(build, ageing, folder)
+
+
+def studied(build, is_quick):
+    studies = [Study(build, name, is_quick) for name in STUDIES]
+    for study in studies:
+        study.run()
+        study.analyze()
+    return studies
 
 
 def measure(build):
-    nematic, isotropic = (Study(build, name) for name in ("glass_sweep", "glass_sweep_binary"))
-    for study in (nematic, isotropic):
-        study.check()
-    order = isotropic.order()[1]
-    expect(order < SMALLEST_NEMATIC, f"the binary mixture is not isotropic: S is up to {order:.2f}")
-    seconds = nematic.seconds() + isotropic.seconds()
-    expect(seconds < LONGEST, f"the study took {seconds / 7200:.1f} hours on two cores")
-    low, high = nematic.order()
-    return f"""\
-Protocol: random insertion at φ = 0.3, event-driven growth at the rate 10⁻³ to the final density, Brownian dynamics
-(τ_B = 0.1, N = 500) for half the duration as equilibration, then for the duration. τ_α is defined by F_s(q, t) = 1/e, with
-q = 3.2 for κ = 6 and q = 2.7 for κ = 2. τ_2 is defined by L_2(t) = 1/e; in a nematic this is the connected part, relative to
-the director. Only equilibrated runs enter the fits. Fits of translation use the verdict on translation. Errors of φ_c
-include those of the fit and of the choice of densities. Preparation and dynamics took {seconds / 7200:.1f} hours on two cores.
+    *liquids, ageing = studied(build, is_quick=False)
+    for study in liquids:
+        growth, densest = study.growth()
+        expect(growth >= LEAST_GROWTH, f"{study.name}: times grow only {growth:.3g}-fold up to {densest}")
+    slow = draw(build, liquids, ageing, ROOT / "docs" / "figures")
+    PAGE.write_text(page(liquids, ageing, slow), encoding="utf-8")
+    return """This command writes [The glass](glass.md), from the results in docs/data/glass and from the jobs that are missing
+there, which it runs. `--status` tells which are; `--quick` goes through the whole chain with fewer particles and densities
+and writes to out/glass."""
 
-{comparison(nematic, isotropic)}
 
-Monodisperse ellipses with κ = 6 are nematic at every density of the study (S = {low:.2f} … {high:.2f}). Nematic order limits
-the mean squared rotation, and slow growth does not lead to an isotropic orientational glass. From the lowest density to the
-highest, the relaxation time of rotation about the director increases from τ_2 = {nematic.growth("tau_rotation")} and that
-of translation from τ_α = {nematic.growth("tau_translation")}. The order parameter itself relaxes on the time scale of the
-runs and differs between seeds. At most densities there is thus no verdict of equilibrium, and there is no φ_θ. The power law
-gives φ_T with the exponent {nematic.exponent("translation, tau_alpha", "power law")}, while mode-coupling theory requires at
-least 1.77. The Vogel–Fulcher law gives a different φ_T. The agreement of the power-law value with the experiment is
-therefore no evidence. The two transitions of the experiment do not lie on this path through the nematic.
+def quick(build):
+    *liquids, ageing = studied(build, is_quick=True)
+    slow = draw(build, liquids, ageing, QUICK)
+    (QUICK / "glass.md").write_text(page(liquids, ageing, slow), encoding="utf-8")
+    return f"{QUICK.relative_to(ROOT)}/glass.md, in {sum(study.seconds() for study in (*liquids, ageing)):.0f} s of runs"
 
-Binary ellipses with κ = 2 stay isotropic (S ≤ {order:.2f}) and form a glass. By the power law, orientations arrest at a lower
-density than positions, as in the experiment. The difference is smaller than in the experiment, however, and smaller than
-the difference between the two laws. τ_2 grows from {isotropic.growth("tau_rotation")} and τ_α
-from {isotropic.growth("tau_translation")}; the system still relaxes at the highest density, above the φ_θ of the power law.
-The exponents, {isotropic.exponent("translation, tau_alpha", "power law")} and {isotropic.exponent("rotation, tau_2", "power law")}, are again below 1.77: the data cover two decades in τ_2, and the laws
-extrapolate beyond them. Other simulations of such mixtures also find no two separate transitions (Xu et al. 2014). The
-mode-coupling density of binary disks with the same size ratio is 0.795 (Weysser & Hajnal 2011).
 
-### Monodisperse ellipses, κ = 6
-
-{nematic.text()}
-
-### Equimolar binary ellipses, κ = 2, size ratio 1.4
-
-{isotropic.text()}
-"""
+def status(build):
+    return "\n".join(f"{study.folder.relative_to(ROOT)}\n{study.status()}"
+                     for study in (Study(build, name, False) for name in STUDIES))
