@@ -53,6 +53,11 @@ class Study:
     def status(self):
         return self.vitrel("sweep", self.parameters, "-o", self.folder, "--status")
 
+    def left(self):
+        """How many jobs have no results yet, and how many there are."""
+        jobs = json.loads(self.vitrel("sweep", self.parameters, "-o", self.folder, "--status", "--json"))["jobs"]
+        return sum(job["stage"] != "done" for job in jobs), len(jobs)
+
     def vitrel(self, *words):
         """In the folder of the project, so that what is kept names no path outside of it."""
         inside = [word.relative_to(ROOT) if isinstance(word, pathlib.Path) else word for word in words]
@@ -397,13 +402,19 @@ def stop_rows(study):
     return window, [[f"{waited:g}", stops("l", k), stops("fs", k)] for k, waited in enumerate(waits, start=1)]
 
 
+def left_text(studies):
+    """Nothing if all runs are finished."""
+    left, jobs = (sum(counts) for counts in zip(*(study.left() for study in studies)))
+    return f"{left} of {jobs} runs are not finished yet. " if left else ""
+
+
 def page(liquids, ageing, slow):
     text = (ROOT / "scripts/validation/glass_page.md").read_text(encoding="utf-8")
     values = {"ageing": table(["φ", "t_w", "ξ", "τ_α", "τ₂", "MSD at the end", "MSR at the end"], ageing_rows(ageing)),
               "hours": f"{sum(study.seconds() for study in (*liquids, ageing)) / 3600:.1f}",
               "order": " ".join(order_by(liquids[0], law) for law in ("power law", "Vogel–Fulcher")),
               "ratio": ratio_text(liquids[0]), "domains": domains_text(ageing),
-              "slow": f"{slow:.2g}"}
+              "slow": f"{slow:.2g}", "left": left_text((*liquids, ageing))}
     window, stops = stop_rows(ageing)
     values |= {"window": f"{window:g}", "stops": table(["t_w", "rotation stops at φ", "translation stops at φ"], stops)}
     for study, key in zip(liquids, ("ellipses", "disks")):

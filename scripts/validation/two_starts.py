@@ -12,7 +12,8 @@ TITLE = "Equilibrium from two sides"
 LIQUIDS = {"disks": (1, (0.79, 0.80)), "ellipses, κ = 2": (2, (0.865, 0.875))}
 PARTICLES = 1000
 EXCESS = 0.008  # of the packing fraction of the state that is expanded
-MIXING, SAMPLES = 6, 24  # decorrelations, before and while samples are taken
+APART = 3  # decorrelations between samples, so that these are independent
+MIXING, SAMPLES = 4, 24  # samples that are discarded, and taken
 LARGEST_ERROR, MOST_APART = 0.003, 4  # of Z, relative; of two estimates, in standard errors
 LARGEST_HEXATIC = 0.3
 NEIGHBOUR = 1.2  # circumcircles of this size overlap
@@ -20,7 +21,7 @@ NEIGHBOUR = 1.2  # circumcircles of this size overlap
 STAGES = {
     "compressed": '[[prepare.stage]]\nmethod = "grow"\ngrowth_rate = 0.01',
     "dense": '[[prepare.stage]]\nmethod = "hybrid"\ncollective_exchanges = 4',
-    "sampled": '[[prepare.stage]]\nmethod = "sample"\ncollective_exchanges = 4\ndecorrelations = 1',
+    "sampled": '[[prepare.stage]]\nmethod = "sample"\ncollective_exchanges = 4\ndecorrelations = %d' % APART,
 }
 
 
@@ -99,7 +100,7 @@ def structure(file):
 
 
 def samples(build, folder, liquid, state):
-    """Each one decorrelation after the one before."""
+    """Each so many decorrelations after the one before."""
     folder = folder / state.stem
     folder.mkdir()
     file = parameters(folder, "sampled", *liquid, STAGES["sampled"])
@@ -110,7 +111,7 @@ def samples(build, folder, liquid, state):
         summary = summary_of(build, "prepare", file, "--from", state, "--set", f"system.seed={1000 + k}", "-o", following)
         expect(summary["overlaps"] == 0, f"{following}: overlaps")
         stage = summary["stages"][-1]
-        expect(stage["decorrelations"] == 1, f"{following}: not decorrelated")
+        expect(stage["decorrelations"] == APART, f"{following}: not decorrelated")
         found.append({"Z": stage["reduced_pressure"], **structure(following),
                       "ψ₆": summary["quality"]["hexatic_order"]["global"], "sweeps": stage["sweeps"],
                       "seconds": stage["wall_seconds"]})
@@ -173,8 +174,8 @@ def measure(build):
                 folder = pathlib.Path(folder)
                 below, above = (side(build, folder, kappa, phi) for side in (from_below, from_above))
             rows += compared(name, phi, below, above)
-            sweeps = sum(sample["sweeps"] for sample in below + above) / (2 * SAMPLES)
-            seconds = sum(sample["seconds"] for sample in below + above) / (2 * SAMPLES)
+            sweeps = sum(sample["sweeps"] for sample in below + above) / (2 * SAMPLES * APART)
+            seconds = sum(sample["seconds"] for sample in below + above) / (2 * SAMPLES * APART)
             print(f"{name}, φ = {phi}: {sweeps:.0f} sweeps, {seconds:.2g} s per decorrelation", flush=True)
         text.append(f"### {name[0].upper() + name[1:]}\n\n" + table(
             ["φ", "quantity", "compressed fast", "expanded", "apart / standard errors", "drift / standard errors"], rows))
@@ -182,8 +183,8 @@ def measure(build):
 N = {PARTICLES} particles with sizes σ distributed as σ⁻³ (23 %), at the highest density of the [study of the glass](glass.md)
 and 0.01 above it. One state is compressed from random places at φ = 0.3 by growth at the rate 0.01, the other one expanded
 from a state that is {EXCESS} denser, prepared by growth that alternates with event chains and collective exchanges. Then
-both are sampled by event chains with four steps of collective exchanges per particle and sweep: {MIXING} decorrelations of places, orientations
-and sizes (`decorrelations` of the stage `sample`) are discarded, and after each of {SAMPLES} more everything is measured. Z is that of
+both are sampled by event chains with four steps of collective exchanges per particle and sweep: everything is measured {SAMPLES}
+times, {APART} decorrelations of places, orientations and sizes apart (`decorrelations` of the stage `sample`), after {MIXING * APART} of them. Z is that of
 the chains, between two samples. Required: Z to {LARGEST_ERROR:.1%}; all quantities of both starts, and of both halves of
 each, within {MOST_APART} standard errors; ψ₆ below {LARGEST_HEXATIC}. *Sizes of neighbours*: Σ δ_i δ_j over neighbours, per particle, δ the
 deviation of the size from the mean in standard deviations. *S of sizes*: ⟨|Σ δ_j exp(iq·r_j)|²⟩/N at the smallest wave
