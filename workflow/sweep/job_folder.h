@@ -29,7 +29,7 @@ const char* name_of(JobStage stage);
 JobStage job_stage(const std::filesystem::path& folder);
 
 /// The run of a job, or if it only prepares a state, that. Of a finished job the file may have been removed: its results
-/// are enough for whatever is made of the whole sweep.
+/// are enough for the analysis of the whole sweep.
 std::filesystem::path job_product(const std::filesystem::path& folder);
 
 /// Makes the folder. Of a job that was done, the analysis is to be made anew if its parameters have changed, and so
