@@ -409,7 +409,7 @@ def left_text(studies):
 
 
 def page(liquids, ageing, slow):
-    text = (ROOT / "scripts/validation/glass_page.md").read_text(encoding="utf-8")
+    text = (ROOT / "scripts/validation/glass_page.txt").read_text(encoding="utf-8")
     values = {"ageing": table(["φ", "t_w", "ξ", "τ_α", "τ₂", "MSD at the end", "MSR at the end"], ageing_rows(ageing)),
               "hours": f"{sum(study.seconds() for study in (*liquids, ageing)) / 3600:.1f}",
               "order": " ".join(order_by(liquids[0], law) for law in ("power law", "Vogel–Fulcher")),
