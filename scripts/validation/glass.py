@@ -5,6 +5,7 @@ import math
 import pathlib
 import re
 import tempfile
+import textwrap
 
 from validation.common import PARAMS, ROOT, expect, output_of, pyplot, settings, summary_of, table, write_figure
 from validation.figures import COLOURS
@@ -402,6 +403,14 @@ def stop_rows(study):
     return window, [[f"{waited:g}", stops("l", k), stops("fs", k)] for k, waited in enumerate(waits, start=1)]
 
 
+def wrapped(text):
+    """Paragraphs in lines of 120 characters; tables, headings, pictures and code stay."""
+    blocks = [block if block[0] in "|#! " else textwrap.fill(" ".join(block.split()), 120, break_long_words=False,
+                                                             break_on_hyphens=False)
+              for block in text.strip().split("\n\n")]
+    return "\n\n".join(blocks) + "\n"
+
+
 def left_text(studies):
     """Nothing if all runs are finished."""
     left, jobs = (sum(counts) for counts in zip(*(study.left() for study in studies)))
@@ -423,7 +432,7 @@ def page(liquids, ageing, slow):
                    f"growth_{key}": f"{growth:.3g}", f"densest_{key}": f"{densest:g}"}
     for key, value in values.items():
         text = text.replace(f"@{key}@", value)
-    return text
+    return wrapped(text)
 
 
 def draw(build, liquids, ageing, folder):
