@@ -41,7 +41,7 @@ std::vector<AgedMotion> ageing(Trajectory<Dim>& trajectory, DisplacementOptions 
                                const ProgressReport& report) {
   options.axis.only_first_origin = true;
   options.axis.longest_lag = 1;
-  options.wave_numbers = {wave_numbers_or_main(options.wave_numbers, trajectory.read(0)).front()};
+  if (!options.wave_numbers.empty()) options.wave_numbers.resize(1);
   options.orders = {2};
   const std::vector<double>& times = trajectory.times();
   std::vector<AgedMotion> aged;

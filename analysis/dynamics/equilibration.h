@@ -76,8 +76,8 @@ struct Equilibration {
 /// A run that starts in equilibrium stays there, so its length need not tell: it is too short only below three relaxation
 /// times, or if one is not within the measured ones. The tests for ageing are those that can be made.
 ///
-/// So equilibrated means tested, by the run or by what prepared it. Ageing means that the run shows a change; slow change with little
-/// statistics is "too short" or passes. A drift of six of its standard errors is found in more than
+/// So equilibrated means tested, by the run or by what prepared it. Ageing means that the run shows a change; slow
+/// change with little statistics is "too short" or passes. A drift of six of its standard errors is found in more than
 /// 95 % of the cases.
 Equilibration judge_equilibration(const RunEvidence& run);
 

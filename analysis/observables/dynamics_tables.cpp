@@ -236,13 +236,15 @@ Observable cage_relative_observable() {
                                              "Fₛ(q, t)", {{"fs_#", "#"}}))}};
 }
 
+constexpr double rounding = 1e-9;  // of time differences after several waiting times
+
 /// All time differences of all waiting times, ascending.
 std::vector<double> times_of(const std::vector<AgedMotion>& ageing) {
   std::vector<double> times;
   for (const AgedMotion& aged : ageing)
     times.insert(times.end(), aged.motion.lag.begin(), aged.motion.lag.end());
   std::ranges::sort(times);
-  const auto same = [](double one, double next) { return next - one <= 1e-9 * next; };
+  const auto same = [](double one, double next) { return next - one <= rounding * next; };
   const auto rest = std::ranges::unique(times, same);
   times.erase(rest.begin(), rest.end());
   return times;
@@ -254,7 +256,7 @@ Column aged_column(const std::string& name, const char* unit, const std::vector<
   Column column{name, unit, std::vector<double>(times.size(), std::nan("")),
                 std::vector<double>(times.size(), std::nan(""))};
   for (std::size_t k = 0; k < known.size(); ++k) {
-    const auto place = std::ranges::lower_bound(times, known[k] * (1 - 1e-9)) - times.begin();
+    const auto place = std::ranges::lower_bound(times, known[k] * (1 - rounding)) - times.begin();
     column.value[static_cast<std::size_t>(place)] = correlation.value[k];
     column.error[static_cast<std::size_t>(place)] = correlation.error[k];
   }

@@ -90,6 +90,8 @@ def preparation(particles, aspect_ratio, sizes, *sections):
     return "\n\n".join((system, species, *sections)) + "\n"
 
 
+# Sizes ∝ σ⁻³ between 0.45 and 1 of the largest, 23 % polydispersity.
+POWER_LAW = '{ distribution = "power_law", low = 0.725, high = 1.61 }'
 INSERT = '[[prepare.stage]]\nmethod = "insert"\npacking_fraction = 0.3'
 
 

@@ -6,14 +6,13 @@ import re
 import subprocess
 import tempfile
 
-from validation.common import INSERT, expect, preparation, shape, summary_of, table
+from validation.common import INSERT, POWER_LAW, expect, preparation, shape, summary_of, table
 
 TITLE = "Dense states: methods, packing fractions and times"
 PARTICLES = 1000
 
 # Aspect ratio, sizes, packing fraction, and whether the first method must reach it.
 SPREAD = '{ distribution = "uniform", low = 0.6, high = 1.4 }'
-LAW = '{ distribution = "power_law", low = 0.725, high = 1.61 }'
 STATES = (
     (1, (1, 1.4), 0.83, True),
     (1, (1, 1.4), 0.845, False),
@@ -23,10 +22,10 @@ STATES = (
     (6, (1,), 0.80, True),
     (1, (SPREAD,), 0.86, False),
     (2, (SPREAD,), 0.88, False),
-    (1, (LAW,), 0.89, False),
-    (2, (LAW,), 0.893, False),
+    (1, (POWER_LAW,), 0.89, False),
+    (2, (POWER_LAW,), 0.893, False),
 )
-NAMES = {(1,): "one", (1, 1.4): "1 : 1.4", (SPREAD,): "0.6 … 1.4", (LAW,): "σ⁻³"}
+NAMES = {(1,): "one", (1, 1.4): "1 : 1.4", (SPREAD,): "0.6 … 1.4", (POWER_LAW,): "σ⁻³"}
 METHODS = {
     "grow, rate 1e-3": 'method = "grow"\ngrowth_rate = 1e-3',
     "grow, rate 1e-2": 'method = "grow"\ngrowth_rate = 1e-2',

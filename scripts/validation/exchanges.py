@@ -121,7 +121,7 @@ def gain(row, method, other, quantity="sizes"):
 # ---- the speed-up over motion ----------------------------------------------------------------------------
 
 CONFIDENCE = 2.71  # rise of χ² that leaves 5 % on one side
-LEAST_GROWTH = 1e3  # of the times of motion, for a law to be fitted to them
+MIN_GROWTH = 1e3  # of the times of motion: a law is fitted only to three decades
 
 
 def fitted(points, phi_c, at):
@@ -139,14 +139,14 @@ def fitted(points, phi_c, at):
 
 def extrapolated(points, at):
     """The time at this density by the law of Vogel and Fulcher, and its lower 95 % limit: that of all φ_c whose χ² is within
-    2.71 of the least, all errors enlarged where the law does not fit.
+    2.71 of the minimum, all errors enlarged where the law does not fit.
     """
     highest = max(points[-1][0], at)
     tried = [fitted(points, highest + 10 ** (-4 + 0.002 * k), at) for k in range(2000)]
-    least = min(chi for chi, _ in tried)
-    scale = max(1, least / max(1, len(points) - 3))
+    minimum = min(chi for chi, _ in tried)
+    scale = max(1, minimum / max(1, len(points) - 3))
     return (math.exp(min(tried)[1]),
-            math.exp(min(value for chi, value in tried if chi <= least + CONFIDENCE * scale)))
+            math.exp(min(value for chi, value in tried if chi <= minimum + CONFIDENCE * scale)))
 
 
 def speed_ups(rows, quantity="places"):
@@ -154,7 +154,7 @@ def speed_ups(rows, quantity="places"):
     by the law fitted to it.
     """
     motion = [point for point in curves(rows, quantity).get(MOTION, []) if point[2]]
-    has_law = len(motion) >= 5 and motion[-1][1] >= LEAST_GROWTH * motion[0][1]
+    has_law = len(motion) >= 5 and motion[-1][1] >= MIN_GROWTH * motion[0][1]
     lines = []
     for phi, seconds, error in curves(rows, quantity).get(COLLECTIVE, []):
         known = next(((t, e) for at, t, e in motion if at == phi), None)

@@ -19,21 +19,18 @@ LIQUIDS = {"glass_polydisperse": "ellipses, κ = 2", "glass_polydisperse_disks":
 AGEING = "glass_fast"
 STUDIES = [*LIQUIDS, AGEING]
 LOWEST = 0.60  # the packing fraction that times are relative to
-LEAST_GROWTH = 1e3  # of the slowest time, of both liquids
-# Packing fractions of the glass transitions in the experiment on monolayers with κ = 6 (Zheng, Wang & Han 2011).
-EXPERIMENT_ROTATION, EXPERIMENT_TRANSLATION = 0.72, 0.79
+MIN_GROWTH = 1e3  # of the slowest time, of both liquids
 
 
 # ---- running ----------------------------------------------------------------------------------------------
 
 def reduced(name, folder):
-    """The parameter file of a study with fewer particles and every other one of the lower densities."""
+    """The parameter file of a study with fewer particles, and of its densities only the lowest."""
+    kept = 3 if name == AGEING else 6
     text = (PARAMS / f"{name}.toml").read_text(encoding="utf-8")
     text = re.sub(r"^particles = .*", "particles = 400", text, flags=re.MULTILINE)
     head, sweep = text.split("[sweep", 1)
-    every_other = re.compile(r"\[([\d., ]+, [\d., ]+)\]")
-    kept = 6 if name != AGEING else 3
-    sweep = every_other.sub(lambda found: f"[{', '.join(found[1].split(', ')[:kept])}]", sweep)
+    sweep = re.sub(r"= \[(.*)\]", lambda found: f"= [{', '.join(found[1].split(', ')[:kept])}]", sweep)
     folder.mkdir(parents=True, exist_ok=True)
     file = folder / f"{name}.toml"
     file.write_text(f"{head}[sweep{sweep}", encoding="utf-8")
@@ -67,11 +64,11 @@ class Study:
     def analyze(self):
         with tempfile.TemporaryDirectory() as folder:
             summary = summary_of(self.build, "analyze", self.folder, "-o", pathlib.Path(folder, "results.h5"))
-        self.fits, self.remarks = summary["glass"]["fits"], summary["glass"]["remarks"]
-        self.verdicts = {self.key(run): run for run in summary["runs"]}
+        self.fits = summary["glass"]["fits"]
+        verdicts = {self.key(run): run for run in summary["runs"]}
         self.jobs = sorted((Job(path.parent) for path in self.folder.glob("*/done.json")), key=lambda job: self.key(job.values))
         for job in self.jobs:
-            job.verdict = self.verdicts[self.key(job.values)]
+            job.verdict = verdicts[self.key(job.values)]
             expect(job.done["run"]["overlaps"] == 0, f"{self.name}, {job.done['id']}: overlaps")
 
     @staticmethod
@@ -456,7 +453,7 @@ def measure(build):
     *liquids, ageing = studied(build, is_quick=False)
     for study in liquids:
         growth, densest = study.growth()
-        expect(growth >= LEAST_GROWTH, f"{study.name}: times grow only {growth:.3g}-fold up to {densest}")
+        expect(growth >= MIN_GROWTH, f"{study.name}: times grow only {growth:.3g}-fold up to {densest}")
     slow = draw(build, liquids, ageing, ROOT / "docs" / "figures")
     PAGE.write_text(page(liquids, ageing, slow), encoding="utf-8")
     return """This command writes [The glass](glass.md), from the results in docs/data/glass and from the jobs that are missing

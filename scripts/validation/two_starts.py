@@ -4,7 +4,7 @@ import pathlib
 import shutil
 import tempfile
 
-from validation.common import INSERT, apart, estimate, expect, summary_of, table
+from validation.common import INSERT, POWER_LAW, apart, estimate, expect, preparation, settings, summary_of, table
 
 TITLE = "Equilibrium from two sides"
 
@@ -14,8 +14,8 @@ PARTICLES = 1000
 EXCESS = 0.008  # of the packing fraction of the state that is expanded
 APART = 3  # decorrelations between samples, so that these are independent
 MIXING, SAMPLES = 4, 24  # samples that are discarded, and taken
-LARGEST_ERROR, MOST_APART = 0.003, 4  # of Z, relative; of two estimates, in standard errors
-LARGEST_HEXATIC = 0.3
+MAX_ERROR, MAX_DISTANCE = 0.003, 4  # of Z, relative; of two estimates, in standard errors
+MAX_HEXATIC = 0.3
 NEIGHBOUR = 1.2  # circumcircles of this size overlap
 
 STAGES = {
@@ -25,25 +25,16 @@ STAGES = {
 }
 
 
-def parameters(folder, name, kappa, phi, *stages):
+def parameters(folder, name, kappa, *stages):
     """A parameter file of this liquid, always with the same particles: Z depends on the sizes that were drawn."""
     file = folder / f"{name}.toml"
-    file.write_text(f"""[system]
-particles = {PARTICLES}
-packing_fraction = {phi}
-seed = 1
-
-[[species]]
-name = "A"
-fraction = 1.0
-aspect_ratio = {kappa}
-size = {{ distribution = "power_law", low = 0.725, high = 1.61 }}
-
-[prepare]
-quality_sweeps = 0
-
-""" + "\n\n".join(stages) + "\n", encoding="utf-8")
+    file.write_text(preparation(PARTICLES, kappa, (POWER_LAW,), "[prepare]\nquality_sweeps = 0", *stages), encoding="utf-8")
     return file
+
+
+def prepared(build, file, phi, state, *changes):
+    """The summary of the preparation of a state at this packing fraction."""
+    return summary_of(build, "prepare", file, *settings([f"system.packing_fraction={phi}"]), *changes, "-o", state)
 
 
 def expand(source, target, factor):
@@ -103,12 +94,13 @@ def samples(build, folder, liquid, state):
     """Each so many decorrelations after the one before."""
     folder = folder / state.stem
     folder.mkdir()
-    file = parameters(folder, "sampled", *liquid, STAGES["sampled"])
+    kappa, phi = liquid
+    file = parameters(folder, "sampled", kappa, STAGES["sampled"])
     found = []
     for k in range(MIXING + SAMPLES):
         following = folder / f"sample_{k}.h5"
         # The seed of every sample is its own.
-        summary = summary_of(build, "prepare", file, "--from", state, "--set", f"system.seed={1000 + k}", "-o", following)
+        summary = prepared(build, file, phi, following, "--from", state, *settings([f"system.seed={1000 + k}"]))
         expect(summary["overlaps"] == 0, f"{following}: overlaps")
         stage = summary["stages"][-1]
         expect(stage["decorrelations"] == APART, f"{following}: not decorrelated")
@@ -123,13 +115,13 @@ def samples(build, folder, liquid, state):
 
 def from_below(build, folder, kappa, phi):
     state = folder / "compressed.h5"
-    summary_of(build, "prepare", parameters(folder, "compressed", kappa, phi, INSERT, STAGES["compressed"]), "-o", state)
+    prepared(build, parameters(folder, "compressed", kappa, INSERT, STAGES["compressed"]), phi, state)
     return samples(build, folder, (kappa, phi), state)
 
 
 def from_above(build, folder, kappa, phi):
     dense, state = folder / "dense.h5", folder / "expanded.h5"
-    summary_of(build, "prepare", parameters(folder, "dense", kappa, phi + EXCESS, INSERT, STAGES["dense"]), "-o", dense)
+    prepared(build, parameters(folder, "dense", kappa, INSERT, STAGES["dense"]), phi + EXCESS, dense)
     expand(dense, state, ((phi + EXCESS) / phi) ** 0.5)
     return samples(build, folder, (kappa, phi), state)
 
@@ -156,12 +148,12 @@ def compared(name, phi, below, above):
         drifts = [drift(found, quantity) for found in (below, above)]
         rows.append([phi, quantity, *(f"{value:.4g} ± {error:.2g}" for value, error in (one[quantity], other[quantity])),
                      f"{distance:.1f}", " and ".join(f"{value:.1f}" for value in drifts)])
-        expect(distance < MOST_APART, f"{name}, φ = {phi}: {quantity} differs: {one[quantity]}, {other[quantity]}")
-        expect(max(drifts) < MOST_APART, f"{name}, φ = {phi}: {quantity} drifts")
+        expect(distance < MAX_DISTANCE, f"{name}, φ = {phi}: {quantity} differs: {one[quantity]}, {other[quantity]}")
+        expect(max(drifts) < MAX_DISTANCE, f"{name}, φ = {phi}: {quantity} drifts")
     for found in (one, other):
         value, error = found["Z"]
-        expect(error <= LARGEST_ERROR * value, f"{name}, φ = {phi}: the error of Z, {error:.3g}, is too large")
-        expect(found["ψ₆"][0] < LARGEST_HEXATIC, f"{name}, φ = {phi}: hexatic order")
+        expect(error <= MAX_ERROR * value, f"{name}, φ = {phi}: the error of Z, {error:.3g}, is too large")
+        expect(found["ψ₆"][0] < MAX_HEXATIC, f"{name}, φ = {phi}: hexatic order")
     return rows
 
 
@@ -185,8 +177,8 @@ and 0.01 above it. One state is compressed from random places at φ = 0.3 by gro
 from a state that is {EXCESS} denser, prepared by growth that alternates with event chains and collective exchanges. Then
 both are sampled by event chains with four steps of collective exchanges per particle and sweep: everything is measured {SAMPLES}
 times, {APART} decorrelations of places, orientations and sizes apart (`decorrelations` of the stage `sample`), after {MIXING * APART} of them. Z is that of
-the chains, between two samples. Required: Z to {LARGEST_ERROR:.1%}; all quantities of both starts, and of both halves of
-each, within {MOST_APART} standard errors; ψ₆ below {LARGEST_HEXATIC}. *Sizes of neighbours*: Σ δ_i δ_j over neighbours, per particle, δ the
+the chains, between two samples. Required: Z to {MAX_ERROR:.1%}; all quantities of both starts, and of both halves of
+each, within {MAX_DISTANCE} standard errors; ψ₆ below {MAX_HEXATIC}. *Sizes of neighbours*: Σ δ_i δ_j over neighbours, per particle, δ the
 deviation of the size from the mean in standard deviations. *S of sizes*: ⟨|Σ δ_j exp(iq·r_j)|²⟩/N at the smallest wave
 numbers; a liquid that separates by size would show large and growing values there.
 

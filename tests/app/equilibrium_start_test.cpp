@@ -16,6 +16,7 @@ using testing_program::Folder;
 using testing_program::Outcome;
 using testing_program::run;
 using testing_program::succeed;
+using testing_program::summary_of;
 using Json = nlohmann::json;
 
 std::string liquid(const std::string& sampling) {
@@ -37,7 +38,7 @@ Json analysis_from(const Folder& folder, const std::string& decorrelations) {
   folder.write("p.toml", liquid("decorrelations = " + decorrelations));
   const std::string output = "run" + decorrelations + ".h5";
   succeed(folder, {"run", "p.toml", "-o", output, "-q"});
-  return Json::parse(run(folder.path(), {"analyze", output, "-q", "--json"}).output);
+  return summary_of(folder, {"analyze", output});
 }
 
 TEST(EquilibriumStart, IsVouchedForByTenDecorrelations) {
@@ -51,8 +52,7 @@ TEST(EquilibriumStart, IsVouchedForByTenDecorrelations) {
 TEST(EquilibriumStart, ThePreparationCountsDecorrelations) {
   const Folder folder("decorrelations");
   folder.write("p.toml", liquid("decorrelations = 3"));
-  const Json summary =
-      Json::parse(run(folder.path(), {"prepare", "p.toml", "-o", "s.h5", "--json"}).output);
+  const Json summary = summary_of(folder, {"prepare", "p.toml", "-o", "s.h5"});
   const Json& stage = summary["stages"].back();
   EXPECT_EQ(stage["decorrelations"], 3);
   EXPECT_GT(stage["sweeps"], 10);
@@ -83,8 +83,7 @@ TEST(EquilibriumStart, SweepsAreAnalysedFromTheirResultsAlone) {
     if (job.is_directory())
       for (const char* file : {"run.h5", "state.h5"}) std::filesystem::remove(job.path() / file);
   EXPECT_EQ(run(folder.path(), analysis).output, before.output);
-  const Json status = Json::parse(
-      run(folder.path(), {"sweep", "p.toml", "-o", "all", "--status", "--json"}).output);
+  const Json status = summary_of(folder, {"sweep", "p.toml", "-o", "all", "--status"});
   for (const Json& job : status["jobs"]) EXPECT_EQ(job["stage"], "done");
   succeed(folder, {"sweep", "p.toml", "-o", "all", "-q"});
   EXPECT_FALSE(std::filesystem::exists(folder / "all/packing_fraction-0.5/run.h5"));

@@ -19,6 +19,7 @@ using testing_program::Folder;
 using testing_program::Outcome;
 using testing_program::run;
 using testing_program::succeed;
+using testing_program::summary_of;
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
@@ -29,12 +30,6 @@ constexpr const char* three_ellipses =
     "0,2,1.2,1,0.5,6,6\n";
 const std::string run_in_plane =
     "[dynamics]\nequilibration = 0\nduration = 4\n[output]\nsamples.interval = 1\n";
-
-Json summary_of(const Folder& folder, std::vector<std::string> arguments) {
-  arguments.insert(arguments.end(), {"--json", "-q"});
-  const std::string output = succeed(folder, arguments);
-  return output.empty() ? Json() : Json::parse(output);
-}
 
 TEST(OwnStates, AShortTableStartsPreparationAndRun) {
   const Folder folder("from_csv");

@@ -11,6 +11,7 @@
 
 #include <cstring>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
 
@@ -143,6 +144,12 @@ std::string succeed(const Folder& folder, const std::vector<std::string>& argume
   const Outcome outcome = run(folder.path(), arguments);
   EXPECT_EQ(outcome.code, 0) << testing::PrintToString(arguments) << outcome.errors;
   return outcome.output;
+}
+
+nlohmann::json summary_of(const Folder& folder, std::vector<std::string> arguments) {
+  arguments.insert(arguments.end(), {"--json", "-q"});
+  const std::string output = succeed(folder, arguments);
+  return output.empty() ? nlohmann::json() : nlohmann::json::parse(output);
 }
 
 Folder::Folder(const std::string& name)

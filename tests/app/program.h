@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -59,6 +60,9 @@ class Folder {
 
 /// Runs the program there, expects the exit code 0, and returns what it prints.
 std::string succeed(const Folder& folder, const std::vector<std::string>& arguments);
+
+/// The same of a command that prints a summary as JSON; null if it prints nothing.
+nlohmann::json summary_of(const Folder& folder, std::vector<std::string> arguments);
 
 /// The values of datasets by their names.
 using Datasets = std::map<std::string, std::vector<double>>;

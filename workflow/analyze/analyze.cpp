@@ -104,8 +104,10 @@ RunDynamics measure_dynamics(TrajectoryFile<Dim>& trajectory, DisplacementOption
     begin(progress, "cage-relative displacements");
     dynamics.cage_relative = cage_relative(trajectory, options, progress.report);
   }
-  begin(progress, "ageing");
-  dynamics.ageing = ageing(trajectory, options, progress.report);
+  if (!options.waiting_times.empty()) {
+    begin(progress, "ageing");
+    dynamics.ageing = ageing(trajectory, options, progress.report);
+  }
   return dynamics;
 }
 

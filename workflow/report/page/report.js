@@ -14,7 +14,7 @@ function rangeText(symbol, values) {
 function numberText(k, of, origin, { table, column, symbol }) {
   const values = of.flatMap((run) => {
     const columns = run.tables[origin + table]?.columns;
-    return (columns?.[column] ?? columns?.[symbol])?.value[columns.index.value.indexOf(k)] ?? [];
+    return (columns?.[column] ?? columns?.q)?.value[columns.index.value.indexOf(k)] ?? [];
   });
   return values.length ? rangeText(symbol, values) : `${symbol}${subscript(k)}`;
 }
