@@ -100,6 +100,22 @@ def estimate(values):
     return statistics.mean(values), statistics.stdev(values) / math.sqrt(len(values))
 
 
+def series_estimate(values):
+    """Mean and standard error of a series of values that are correlated: the correlations up to the first that is not
+    positive are summed.
+    """
+    n, mean = len(values), statistics.mean(values)
+    deviations = [value - mean for value in values]
+    variance = sum(d * d for d in deviations) / n
+    time = 1.0
+    for lag in range(1, n // 2):
+        correlation = sum(a * b for a, b in zip(deviations, deviations[lag:])) / n / variance
+        if correlation <= 0:
+            break
+        time += 2 * correlation
+    return mean, math.sqrt(variance * n / (n - 1) * time / n)
+
+
 def text_of(mean, error, digits=3):
     return f"{mean:.{digits}f} ± {error:.{digits}f}"
 

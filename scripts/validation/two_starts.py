@@ -2,9 +2,10 @@
 
 import pathlib
 import shutil
+import statistics
 import tempfile
 
-from validation.common import INSERT, POWER_LAW, apart, estimate, expect, preparation, settings, summary_of, table
+from validation.common import INSERT, POWER_LAW, apart, expect, preparation, series_estimate, settings, summary_of, table
 
 TITLE = "Equilibrium from two sides"
 
@@ -12,8 +13,8 @@ TITLE = "Equilibrium from two sides"
 LIQUIDS = {"disks": (1, (0.79, 0.80)), "ellipses, κ = 2": (2, (0.855, 0.865))}
 PARTICLES = 1000
 EXCESS = 0.008  # of the packing fraction of the state that is expanded
-APART = 3  # decorrelations between samples, so that these are independent
-MIXING, SAMPLES = 4, 24  # samples that are discarded, and taken
+APART = 3  # decorrelations between samples
+MIXING, SAMPLES = 12, 32  # samples that are discarded, and taken
 MAX_ERROR, MAX_DISTANCE = 0.003, 4  # of Z, relative; of two estimates, in standard errors
 MAX_HEXATIC = 0.3
 NEIGHBOUR = 1.2  # circumcircles of this size overlap
@@ -130,13 +131,15 @@ QUANTITIES = ("Z", "S(q), main peak", "S(q), small q", "sizes of neighbours", "S
 
 
 def estimates(found):
-    return {name: estimate([sample[name] for sample in found]) for name in QUANTITIES}
+    return {name: series_estimate([sample[name] for sample in found]) for name in QUANTITIES}
 
 
 def drift(found, name):
     """The second half against the first, in standard errors."""
     values = [sample[name] for sample in found]
-    return apart(estimate(values[:len(values) // 2]), estimate(values[len(values) // 2:]))
+    half = len(values) // 2
+    _, error = series_estimate(values)
+    return abs(statistics.mean(values[:half]) - statistics.mean(values[half:])) / (2 * error)
 
 
 def compared(name, phi, below, above):
@@ -177,7 +180,7 @@ and 0.01 above it. One state is compressed from random places at φ = 0.3 by gro
 from a state that is {EXCESS} denser, prepared by growth that alternates with event chains and collective exchanges. Then
 both are sampled by event chains with four steps of collective exchanges per particle and sweep: everything is measured {SAMPLES}
 times, {APART} decorrelations of places, orientations and sizes apart (`decorrelations` of the stage `sample`), after {MIXING * APART} of them. Z is that of
-the chains, between two samples. Required: Z to {MAX_ERROR:.1%}; all quantities of both starts, and of both halves of
+the chains, between two samples. Errors take the correlation of the samples into account. Required: Z to {MAX_ERROR:.1%}; all quantities of both starts, and of both halves of
 each, within {MAX_DISTANCE} standard errors; ψ₆ below {MAX_HEXATIC}. *Sizes of neighbours*: Σ δ_i δ_j over neighbours, per particle, δ the
 deviation of the size from the mean in standard deviations. *S of sizes*: ⟨|Σ δ_j exp(iq·r_j)|²⟩/N at the smallest wave
 numbers; a liquid that separates by size would show large and growing values there.

@@ -3,6 +3,7 @@
 
 import math
 import pathlib
+import random
 import sys
 import tomllib
 import unittest
@@ -12,7 +13,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "scripts"))
 
 from validation import constant_pressure, liquid_crystal, packings  # noqa: E402 (needs the path)
-from validation.common import Failure  # noqa: E402
+from validation.common import Failure, estimate, series_estimate  # noqa: E402
 
 
 def found(deviation, relative_error, packing_fraction=0.5):
@@ -58,6 +59,23 @@ class ConstantPressure(unittest.TestCase):
         mean, error = constant_pressure.mean_deviation([found(0.001, 0.003), found(0.003, 0.004)])
         self.assertAlmostEqual(mean, 0.002)
         self.assertAlmostEqual(error, 0.0025)
+
+
+class Series(unittest.TestCase):
+    def setUp(self):
+        draw = random.Random(1)
+        self.independent = [draw.gauss(0, 1) for _ in range(4000)]
+
+    def test_independent_values_have_their_standard_error(self):
+        self.assertAlmostEqual(series_estimate(self.independent)[1] / estimate(self.independent)[1], 1, delta=0.2)
+
+    def test_correlated_values_have_a_larger_error(self):
+        # x' = a x + noise: the variance of the mean is (1 + a)/(1 - a) times that of independent values.
+        values, x = [], 0
+        for noise in self.independent:
+            x = 0.8 * x + noise
+            values.append(x)
+        self.assertAlmostEqual(series_estimate(values)[1] / (3 * estimate(values)[1]), 1, delta=0.2)
 
 
 class LiquidCrystal(unittest.TestCase):
