@@ -180,9 +180,56 @@ Shape Dataset::shape() const {
   return shape;
 }
 
+namespace {
+
+bool has_checksums(Id creation) {
+  for (int k = 0; k < H5Pget_nfilters(creation); ++k) {
+    unsigned flags = 0, configuration = 0;
+    std::size_t values = 0;
+    if (H5Pget_filter2(creation, static_cast<unsigned>(k), &flags, &values, nullptr, 0, nullptr,
+                       &configuration) == H5Z_FILTER_FLETCHER32)
+      return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+// HDF5 itself reads beyond the memory of such a chunk.
+void Dataset::require_checksums(std::uint64_t first, std::uint64_t last) const {
+  constexpr hsize_t checksum = 4;
+  const Handle creation(
+      file_->run("inspect", name_, [&] { return H5Dget_create_plist(handle_.id()); }));
+  if (H5Pget_layout(creation.id()) != H5D_CHUNKED || !has_checksums(creation.id())) return;
+  const Shape extent = shape();
+  Shape chunk(extent.size());
+  H5Pget_chunk(creation.id(), static_cast<int>(chunk.size()),
+               reinterpret_cast<hsize_t*>(chunk.data()));
+  Shape at(extent.size(), 0);
+  at[0] = first / chunk[0] * chunk[0];
+  while (at[0] <= last) {
+    unsigned skipped = 0;
+    haddr_t address = HADDR_UNDEF;
+    hsize_t bytes = 0;
+    file_->run("inspect", name_, [&] {
+      return H5Dget_chunk_info_by_coord(handle_.id(), reinterpret_cast<const hsize_t*>(at.data()),
+                                        &skipped, &address, &bytes);
+    });
+    if (address != HADDR_UNDEF && bytes < checksum)
+      throw_file_error(file_->path(), "read", name_, "the file is damaged");
+    std::size_t axis = at.size() - 1;
+    for (at[axis] += chunk[axis]; axis > 0 && at[axis] >= extent[axis]; at[axis] += chunk[axis]) {
+      at[axis] = 0;
+      --axis;
+    }
+  }
+}
+
 template <class T>
 std::vector<T> Dataset::read() const {
-  std::vector<T> values(elements(shape()));
+  const Shape extent = shape();
+  std::vector<T> values(elements(extent));
+  if (!values.empty() && !extent.empty()) require_checksums(0, extent[0] - 1);
   file_->run("read", name_, [&] {
     return H5Dread(handle_.id(), native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
   });
@@ -248,6 +295,7 @@ void Dataset::write_frame(std::uint64_t frame, std::span<const T> values) {
 template <class T>
 void Dataset::read_frame(std::uint64_t frame, std::span<T> values) const {
   const FrameSpaces spaces = frame_spaces(frame, values.size());
+  require_checksums(frame, frame);
   file_->run("read", name_, [&] {
     return H5Dread(handle_.id(), native_type<T>(), spaces.memory.id(), spaces.file.id(),
                    H5P_DEFAULT, values.data());

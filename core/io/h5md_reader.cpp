@@ -284,6 +284,12 @@ void TrajectoryReader::read_box(std::uint64_t frame, Configuration<Dim>& configu
 template <int Dim>
 void TrajectoryReader::require_room(std::uint64_t frame,
                                     const Configuration<Dim>& configuration) const {
+  const Vec<Dim>& lengths = configuration.box.lengths();
+  if (!(lengths.maxCoeff() <= max_box_proportion * lengths.minCoeff()))
+    fail(
+        fmt::format("in frame {} the box is {}; its sides should not differ by more than a factor "
+                    "of {:g}",
+                    frame, fmt::join(lengths, " × "), max_box_proportion));
   const double longest = largest_circumradius(configuration);
   const double fraction = packing_fraction(configuration);
   if (!(longest <= tolerance::max_box_lengths * configuration.box.lengths().minCoeff()))
@@ -410,8 +416,15 @@ void TrajectoryReader::read_close_pairs(std::uint64_t frame,
           fmt::format("row {} of {}pair should be two particles, i ≤ j < {}, at a distance above 0",
                       row, group, n));
     const auto i = static_cast<std::size_t>(pair[0]), j = static_cast<std::size_t>(pair[1]);
-    const Shift<Dim> shift =
-        Shift<Dim>(lag.data()) - configuration.image[i] + configuration.image[j];
+    Shift<Dim> shift;
+    for (int axis = 0; axis < Dim; ++axis) {
+      const std::int64_t boxes = std::int64_t{lag[static_cast<std::size_t>(axis)]} -
+                                 configuration.image[i][axis] + configuration.image[j][axis];
+      if (static_cast<double>(std::abs(boxes)) > 2 * tolerance::max_box_lengths)
+        fail(fmt::format("row {} of {}lag should be the shift between two particles that are close",
+                         row, group));
+      shift[axis] = static_cast<std::int32_t>(boxes);
+    }
     configuration.close_pairs.push_back({{i, j, shift}, distance});
   }
 }

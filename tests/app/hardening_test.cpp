@@ -4,10 +4,13 @@
 #include <sys/resource.h>
 
 #include <csignal>
+#include <cstring>
+#include <fstream>
 #include <functional>
 
 #include "core/io/h5.h"
 #include "core/io/h5md.h"
+#include "core/io/text_file.h"
 #include "tests/app/program.h"
 
 namespace vitrel {
@@ -95,6 +98,49 @@ TEST(Hardening, PositionsFarFromTheBoxAreRefused) {
        {"analyze", "state.h5"},
        {"run", "p.toml", "--from", "state.h5", "-o", "run.h5"}},
       "state.h5: in frame 0 particle 7 is at -1e+300, 0, 0, but should be near the box");
+}
+
+// The exact check, which scales by the longest side, and the shell of wave vectors would not come to an end.
+TEST(Hardening, BoxesOfExtremeProportionsAreRefused) {
+  const Folder folder("proportions");
+  write_changed<3>(folder, [](auto& c) { c.box = PeriodicBox<3>({60, 10, 1e20}); });
+  expect_all_refuse(
+      folder, {{"check", "state.h5"}, {"analyze", "state.h5"}},
+      "state.h5: in frame 0 the box is 60 × 10 × 1e+20; its sides should not differ by "
+      "more than a factor of 1e+06");
+}
+
+TEST(Hardening, ClosePairsOfDistantImagesAreRefused) {
+  const Folder folder("close_pairs");
+  folder.write("p.toml", "[dynamics]\ninitial_velocities = \"keep\"\n");
+  Configuration<2> c = line_of_bodies<2>();
+  c.close_pairs = {{{0, 1, {INT32_MAX, 0}}, 1}};
+  TrajectoryWriter writer = TrajectoryWriter::create(folder / "state.h5", c, Provenance{},
+                                                     {.velocities = true, .close_pairs = true});
+  writer.write(c, 0);
+  writer.close();
+  expect_all_refuse(folder, {{"check", "state.h5"}, {"export", "state.h5", "--to", "xyz"}},
+                    "state.h5: row 0 of particles/all/close_pairs/lag should be the shift");
+}
+
+// HDF5 takes the checksum off what it has read without asking for its length.
+TEST(Hardening, AChunkShorterThanItsChecksumIsRefused) {
+  const Folder folder("short_chunk");
+  write_changed<3>(folder, [](auto&) {});
+  std::string file = read_text(folder / "state.h5");
+  // The keys of chunks in the index: stored size, filters left out, and offsets in the array and in an element.
+  std::string key(8 + 4 * 8, '\0');
+  const auto set_size = [&](std::uint32_t bytes) { std::memcpy(key.data(), &bytes, sizeof bytes); };
+  set_size(3 * 12 * sizeof(double) + 4);
+  const std::string whole = key;
+  set_size(1);
+  std::size_t damaged = 0;
+  for (std::size_t at = 0; (at = file.find(whole, at)) != std::string::npos; ++damaged)
+    file.replace(at, key.size(), key);
+  ASSERT_GT(damaged, 0u);
+  std::ofstream(folder / "state.h5", std::ios::binary) << file;
+  expect_all_refuse(folder, {{"check", "state.h5"}, {"export", "state.h5", "--to", "xyz"}},
+                    "the file is damaged");
 }
 
 TEST(Hardening, MassesAndSpeciesThatCannotBeAreRefusedByAllCommands) {
