@@ -59,14 +59,19 @@ void describe_distribution(const Field& field, Distribution& d, FieldVisitor& vi
 }
 
 void validate_distribution(const Distribution& d, double least, const std::string& key) {
-  const std::string bound = fmt::format("must be at least {}", show(least));
+  const std::string bound =
+      fmt::format("must be at least {} and at most {}", show(least), show(max_draw));
   if (d.kind == Kind::constant) {
-    if (!(d.mean >= least) || !std::isfinite(d.mean))
+    if (!(d.mean >= least && d.mean <= max_draw))
       throw BadValue(key, fmt::format("is {}, but {}", show(d.mean), bound));
     return;
   }
   const Rules rules(key);
-  rules.require(d.minimum >= least && std::isfinite(d.minimum), "minimum",
+  const auto require_bounded = [&](double value, const char* name) {
+    rules.require(value <= max_draw, name,
+                  fmt::format("is {}, but must be at most {}", show(value), show(max_draw)));
+  };
+  rules.require(d.minimum >= least && d.minimum <= max_draw, "minimum",
                 fmt::format("is {}, but {}", show(d.minimum), bound));
   if (d.is_bounded()) {
     constexpr double steepest = 100;
@@ -76,17 +81,20 @@ void validate_distribution(const Distribution& d, double least, const std::strin
     rules.require(!is_law || std::abs(d.exponent) <= steepest, "exponent",
                   fmt::format("is {}, but must lie between -{} and {}", show(d.exponent),
                               show(steepest), show(steepest)));
-    rules.require(d.high > d.low && std::isfinite(d.high) && std::isfinite(d.low), "high",
+    rules.require(d.high > d.low && std::isfinite(d.low), "high",
                   fmt::format("is {}, but must be above low = {}", show(d.high), show(d.low)));
+    require_bounded(d.high, "high");
     rules.require(
         d.high > d.minimum, "high",
         fmt::format("is {}, but must be above minimum = {}", show(d.high), show(d.minimum)));
     return;
   }
   rules.positive(d.standard_deviation, "standard_deviation");
+  require_bounded(d.standard_deviation, "standard_deviation");
   rules.require(
-      d.mean >= d.minimum && std::isfinite(d.mean), "mean",
+      d.mean >= d.minimum, "mean",
       fmt::format("is {}, but must be at least minimum = {}", show(d.mean), show(d.minimum)));
+  require_bounded(d.mean, "mean");
 }
 
 std::string text(const Distribution& d) {

@@ -13,6 +13,8 @@ namespace vitrel {
 
 /// Sizes are relative to 1, ratios to one another: a thousandth is as small as they may sensibly be.
 inline constexpr double min_draw = 0.001;
+/// Lengths and ratios beyond have no use; far beyond, volumes and masses would not be finite.
+inline constexpr double max_draw = 1e6;
 
 Distribution constant(double value);
 /// A number in the template of the parameter file; as a table, it draws above `minimum`.

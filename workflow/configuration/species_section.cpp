@@ -39,7 +39,12 @@ void validate_semi_axes(const Species& p, int dimension, const std::string& path
                 fmt::format("is {}, but must be {}", text(axes),
                             dimension == 2 ? "[a, b] with a ≥ b > 0" : "[a, b, c], all above 0"));
   for (std::size_t k = 0; k < axes.size(); ++k)
-    if (axes[k].kind != Distribution::Kind::constant)
+    if (axes[k].kind == Distribution::Kind::constant)
+      rules.require(axes[k].mean >= 1 / max_draw && axes[k].mean <= max_draw,
+                    fmt::format("semi_axes.{}", k),
+                    fmt::format("is {}, but must lie between {} and {}", show(axes[k].mean),
+                                show(1 / max_draw), show(max_draw)));
+    else
       validate_distribution(axes[k], min_draw, fmt::format("{}.semi_axes.{}", path, k));
 }
 
