@@ -6,7 +6,4 @@ namespace vitrel {
 /// both together are whole numbers of 32 bits.
 inline constexpr double max_box_crossings = 1e9;
 
-/// The longest side of a box over the shortest.
-inline constexpr double max_box_proportion = 1e6;
-
 }  // namespace vitrel

@@ -284,19 +284,20 @@ void TrajectoryReader::read_box(std::uint64_t frame, Configuration<Dim>& configu
 template <int Dim>
 void TrajectoryReader::require_room(std::uint64_t frame,
                                     const Configuration<Dim>& configuration) const {
+  constexpr double max_proportion = 1e6;  // of the sides
   const Vec<Dim>& lengths = configuration.box.lengths();
-  if (!(lengths.maxCoeff() <= max_box_proportion * lengths.minCoeff()))
+  if (!(lengths.maxCoeff() <= max_proportion * lengths.minCoeff()))
     fail(
         fmt::format("in frame {} the box is {}; its sides should not differ by more than a factor "
                     "of {:g}",
-                    frame, fmt::join(lengths, " × "), max_box_proportion));
+                    frame, fmt::join(lengths, " × "), max_proportion));
   const double longest = largest_circumradius(configuration);
   const double fraction = packing_fraction(configuration);
-  if (!(longest <= tolerance::max_box_lengths * configuration.box.lengths().minCoeff()))
-    fail(fmt::format(
-        "in frame {} the longest semi-axis is {}, and the box {}; it should not exceed "
-        "{} box lengths",
-        frame, longest, fmt::join(configuration.box.lengths(), " × "), tolerance::max_box_lengths));
+  if (!(longest <= tolerance::max_box_lengths * lengths.minCoeff()))
+    fail(
+        fmt::format("in frame {} the longest semi-axis is {}, and the box {}; it should not exceed "
+                    "{} box lengths",
+                    frame, longest, fmt::join(lengths, " × "), tolerance::max_box_lengths));
   if (!(fraction <= tolerance::densest))
     fail(
         fmt::format("in frame {} the particles would fill the box {:.4g} times; box or semi-axes "

@@ -112,7 +112,6 @@ TEST(Hardening, BoxesOfExtremeProportionsAreRefused) {
 
 TEST(Hardening, ClosePairsOfDistantImagesAreRefused) {
   const Folder folder("close_pairs");
-  folder.write("p.toml", "[dynamics]\ninitial_velocities = \"keep\"\n");
   Configuration<2> c = line_of_bodies<2>();
   c.close_pairs = {{{0, 1, {INT32_MAX, 0}}, 1}};
   TrajectoryWriter writer = TrajectoryWriter::create(folder / "state.h5", c, Provenance{},
