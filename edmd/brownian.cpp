@@ -30,18 +30,25 @@ void remove_momentum(Configuration<Dim>& configuration) {
   }
 }
 
-double thermal_spin(const Configuration2& configuration, std::size_t i, Stream& draw) {
-  if (configuration.shape[i].is_round()) return 0;
+double thermal_spin(const Configuration2& configuration, std::size_t i, Contacts contacts,
+                    Stream& draw) {
+  if (rotations(configuration.shape[i], contacts) == 0) return 0;
   return draw.normal() / std::sqrt(configuration.inertia(i));
 }
 
-Vec3 thermal_spin(const Configuration3& configuration, std::size_t i, Stream& draw) {
+Vec3 thermal_spin(const Configuration3& configuration, std::size_t i, Contacts contacts,
+                  Stream& draw) {
   const Ellipsoid& shape = configuration.shape[i];
-  if (shape.is_round()) return Vec3::Zero();
+  if (rotations(shape, contacts) == 0) return Vec3::Zero();
   const Vec3 inertia = configuration.inertia(i);
   Vec3 own;
   for (int k = 0; k < 3; ++k)
-    own[k] = k == shape.symmetry_axis() ? 0 : draw.normal() / std::sqrt(inertia[k]);
+    own[k] = k == shape.symmetry_axis() && contacts == Contacts::smooth
+                 ? 0
+                 : draw.normal() / std::sqrt(inertia[k]);
+  // The part along the axis of a spheroid is L/I⊥ (ellipsoid.h).
+  if (const int axis = shape.symmetry_axis(); axis != Ellipsoid::none)
+    own[axis] /= std::sqrt(spin_factor(shape));
   return configuration.orientation[i] * own;
 }
 
@@ -55,37 +62,37 @@ double translational_target(const Configuration<Dim>& configuration, Temperature
 
 template <int Dim>
 void draw_velocities(Configuration<Dim>& configuration, std::uint64_t seed, Purpose purpose,
-                     std::uint64_t step, Temperature temperature, int threads) {
+                     std::uint64_t step, Temperature temperature, Contacts contacts, int threads) {
   in_parallel(configuration.size(), threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       Stream draw(seed, purpose, step, i);
       const double thermal = 1 / std::sqrt(configuration.mass[i]);
       for (double& v : configuration.velocity[i]) v = thermal * draw.normal();
-      configuration.angular_velocity[i] = thermal_spin(configuration, i, draw);
+      configuration.angular_velocity[i] = thermal_spin(configuration, i, contacts, draw);
     }
   });
   if (configuration.size() > 1) remove_momentum(configuration);
   const auto drawn = mechanics(configuration);
   scale_translation(configuration, std::sqrt(translational_target(configuration, temperature) /
                                              drawn.translational_energy));
-  const double rotations = static_cast<double>(rotation_count(configuration));
-  if (rotations > 0)
-    scale_rotation(configuration, std::sqrt(0.5 * rotations / drawn.rotational_energy));
+  const auto count = static_cast<double>(rotation_count(configuration, contacts));
+  if (count > 0) scale_rotation(configuration, std::sqrt(0.5 * count / drawn.rotational_energy));
 }
 
 namespace {
 
 /// Multiplies the energies of the particles by the temperatures of their species, but keeps the momentum at 0.
 template <int Dim>
-void heat_species(Configuration<Dim>& configuration, const std::vector<double>& temperatures) {
+void heat_species(Configuration<Dim>& configuration, const std::vector<double>& temperatures,
+                  Contacts contacts) {
   const Mechanics<Dim> before = mechanics(configuration);
-  double translations = 0, rotations = 0;
+  double translations = 0, turns = 0;
   for (std::size_t i = 0; i < configuration.size(); ++i) {
     const double t = temperatures[static_cast<std::size_t>(configuration.species[i])];
     configuration.velocity[i] *= std::sqrt(t);
     configuration.angular_velocity[i] *= std::sqrt(t);
     translations += t / static_cast<double>(configuration.size());
-    rotations += t * configuration.shape[i].rotations();
+    turns += t * rotations(configuration.shape[i], contacts);
   }
   if (!(translations > 0))
     throw UserError("all species start at temperature 0; give one an initial_temperature above 0");
@@ -94,7 +101,7 @@ void heat_species(Configuration<Dim>& configuration, const std::vector<double>& 
   scale_translation(configuration, std::sqrt(translations * before.translational_energy /
                                              now.translational_energy));
   if (now.rotational_energy > 0)
-    scale_rotation(configuration, std::sqrt(0.5 * rotations / now.rotational_energy));
+    scale_rotation(configuration, std::sqrt(0.5 * turns / now.rotational_energy));
 }
 
 /// This share of all energy in translation, the rest in rotation.
@@ -103,8 +110,8 @@ void split_energy(Configuration<Dim>& configuration, double share) {
   const Mechanics<Dim> drawn = mechanics(configuration);
   if (share < 1 && !(drawn.rotational_energy > 0))
     throw UserError(
-        "dynamics.initial_velocities: no particle rotates, as all are round or start at "
-        "temperature 0; use \"maxwell\"");
+        "dynamics.initial_velocities: no particle rotates, as all are round and smooth, or "
+        "start at temperature 0; use \"maxwell\"");
   const double total = drawn.translational_energy + drawn.rotational_energy;
   const auto factor = [total](double part, double energy) {
     return part > 0 ? std::sqrt(part * total / energy) : 0;
@@ -118,22 +125,22 @@ void split_energy(Configuration<Dim>& configuration, double share) {
 template <int Dim>
 void set_initial_velocities(Configuration<Dim>& configuration, std::uint64_t seed,
                             InitialVelocities kind, Temperature temperature,
-                            const InitialEnergies& energies) {
+                            const InitialEnergies& energies, Contacts contacts) {
   if (kind == InitialVelocities::keep) return;
-  draw_velocities(configuration, seed, Purpose::velocities, 0, temperature);
-  if (!energies.temperatures.empty()) heat_species(configuration, energies.temperatures);
+  draw_velocities(configuration, seed, Purpose::velocities, 0, temperature, contacts);
+  if (!energies.temperatures.empty()) heat_species(configuration, energies.temperatures, contacts);
   if (kind == InitialVelocities::translation) split_energy(configuration, 1);
   if (kind == InitialVelocities::rotation) split_energy(configuration, 0);
   if (kind == InitialVelocities::split) split_energy(configuration, energies.translation);
 }
 
 template void draw_velocities(Configuration2&, std::uint64_t, Purpose, std::uint64_t, Temperature,
-                              int);
+                              Contacts, int);
 template void set_initial_velocities(Configuration2&, std::uint64_t, InitialVelocities, Temperature,
-                                     const InitialEnergies&);
+                                     const InitialEnergies&, Contacts);
 template void draw_velocities(Configuration3&, std::uint64_t, Purpose, std::uint64_t, Temperature,
-                              int);
+                              Contacts, int);
 template void set_initial_velocities(Configuration3&, std::uint64_t, InitialVelocities, Temperature,
-                                     const InitialEnergies&);
+                                     const InitialEnergies&, Contacts);
 
 }  // namespace vitrel

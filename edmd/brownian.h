@@ -8,7 +8,7 @@ namespace vitrel {
 
 /// Draws all velocities: v ~ N(0, kT/m) per component and ω ~ N(0, kT/I), from the streams (seed, purpose, step,
 /// particle); then removes the net momentum and rescales translation and rotation to exactly the energies of
-/// `temperature`. Rotations that smooth collisions cannot change are not modelled: round particles have ω = 0, and
+/// `temperature`. Rotations that contacts do not change are at rest: if they are smooth, round particles have ω = 0, and
 /// spheroids have no spin about their axes. A single particle keeps its momentum.
 ///
 /// The result does not depend on the number of threads. This is both the initial draw and the Brownian step
@@ -16,13 +16,15 @@ namespace vitrel {
 /// D_r0 = kT τ_B/(2I).
 template <int Dim>
 void draw_velocities(Configuration<Dim>& configuration, std::uint64_t seed, Purpose purpose,
-                     std::uint64_t step, Temperature temperature, int threads = 1);
+                     std::uint64_t step, Temperature temperature,
+                     Contacts contacts = Contacts::smooth, int threads = 1);
 
 /// The velocities of a run at its start. With temperatures of species, energies are Σ kT_i in the place of N kT. Throws
-/// UserError if the energy cannot be distributed so: rotation of round particles, or no energy at all.
+/// UserError if the energy cannot be distributed so: rotation of smooth round particles, or no energy at all.
 template <int Dim>
 void set_initial_velocities(Configuration<Dim>& configuration, std::uint64_t seed,
                             InitialVelocities kind, Temperature temperature,
-                            const InitialEnergies& energies = {});
+                            const InitialEnergies& energies = {},
+                            Contacts contacts = Contacts::smooth);
 
 }  // namespace vitrel

@@ -23,9 +23,22 @@ class CollisionExecutor {
   static constexpr int dimension = State::dimension;
 
   CollisionExecutor(State& state, const EngineOptions& options)
-      : state_(state), options_(options) {}
+      : state_(state),
+        laws_(options.laws),
+        tc_(options.contact_duration),
+        collapses_(laws_.are_inelastic() && !(tc_ > 0)) {}
 
-  void begin_block() { collapse_.begin_block(); }
+  void begin_block(const Configuration<dimension>& configuration) {
+    collapse_.begin_block();
+    species_.clear();
+    if (!laws_.are_the_same())
+      for (const Index k : state_.external_id) species_.push_back(configuration.species[k]);
+    last_collision_.assign(tc_ > 0 ? state_.size() : 0, -State::never);
+  }
+  /// As the state's, by this time.
+  void reset_clocks(double elapsed) {
+    for (double& time : last_collision_) time -= elapsed;
+  }
 
   /// The collision of particle i with the partner of its event. Predictions for both must follow.
   void collide_pair(Index i, const Event<B>& event, RunCounters& counters) {
@@ -33,8 +46,9 @@ class CollisionExecutor {
     const double since = state_.now - std::max(state_.last_change(i), state_.last_change(j));
     const Vector d = meet(i, event);
     const Vector normal = event.normal_along(d);
-    const double speed = impact(i, j, d, normal, options_.restitution, counters);
-    if (options_.restitution < 1) collapse_.detect(i, j, speed * since);
+    if (tc_ > 0 && i != j) restore_gap(i, j, d, normal);
+    const double speed = collide(i, j, d, normal, counters);
+    if (collapses_) collapse_.detect(i, j, speed * since);
     if constexpr (!State::is_round) state_.neighborhoods->store_axis(i, event.partner, normal);
   }
 
@@ -50,8 +64,8 @@ class CollisionExecutor {
     ++counters.correction_moves;
   }
 
-  /// Applies an instantaneous collision. Returns the approach speed of the surfaces.
-  double impact(Index i, Index j, const Vector& d, const Vector& n, double restitution,
+  /// Applies an instantaneous smooth collision.
+  Impact impact(Index i, Index j, const Vector& d, const Vector& n, double restitution,
                 RunCounters& counters) {
     Motion<dimension> motion1 = state_.particles[i].motion(),
                       motion2 = state_.particles[j].motion();
@@ -65,10 +79,93 @@ class CollisionExecutor {
     ++counters.collisions;
     counters.virial += result.impulse * n.dot(d);
     counters.dissipated += 0.5 * result.impulse * result.speed * (1 - restitution);
-    return result.speed;
+    return result;
   }
 
  private:
+  const ContactLaw& law(Index i, Index j) const {
+    return laws_.are_the_same() ? laws_.common() : laws_.of(species_[i], species_[j]);
+  }
+
+  /// By the law of the pair. Returns the approach speed of the surfaces.
+  double collide(Index i, Index j, const Vector& d, const Vector& n, RunCounters& counters) {
+    const ContactLaw& law = this->law(i, j);
+    if (tc_ > 0 && collide_again(i, j, d, n, law, counters)) return 0;
+    if (law.is_rough() && i != j) return rub(i, j, d, n, law, counters);
+    return impact(i, j, d, n, restitution_of(law, i, j, n), counters).speed;
+  }
+
+  double restitution_of(const ContactLaw& law, Index i, Index j, const Vector& n) const {
+    if (law.restitution.is_elastic()) return 1;
+    const double speed = speed_of_approach(i, j, n);
+    return std::max(law.restitution(speed), std::min(1., separation_speed(i, j) / speed));
+  }
+
+  /// Surfaces that separate more slowly would touch again at once by rounding; or, with the contact-time model, before
+  /// t_c, as they rotate towards each other with an acceleration of the order of v²/R.
+  double separation_speed(Index i, Index j) const {
+    constexpr double of_fastest = 1e-13;  // far above the rounding of velocities
+    const double size = std::min(state_.shape(i).inradius(), state_.shape(j).inradius());
+    return std::max(of_fastest, tc_ * state_.fastest / size) * state_.fastest;
+  }
+
+  /// The contact-time model (inelastic_collapse.h): an elastic, smooth collision, if one of the two has just collided.
+  bool collide_again(Index i, Index j, const Vector& d, const Vector& n, const ContactLaw& law,
+                     RunCounters& counters) {
+    const double since = state_.now - std::max(last_collision_[i], last_collision_[j]);
+    last_collision_[i] = last_collision_[j] = state_.now;
+    if (since >= tc_) return false;
+    const Impact result = impact(i, j, d, n, 1, counters);
+    const double restitution = law.restitution(result.speed);
+    ++counters.short_flights;
+    // E_n = J u/4.
+    counters.spared += 0.25 * (1 - restitution * restitution) * result.impulse * result.speed;
+    return true;
+  }
+
+  /// Pairs that stay in contact with the contact-time model come closer by rounding, from one collision to the next. They
+  /// are moved apart to the contact gap, about their centre of mass.
+  void restore_gap(Index i, Index j, const Vector& d, const Vector& n) {
+    const double gap = n.dot(d - surface_from(i, n) + surface_from(j, -n));
+    if (!(gap < state_.contact_gap)) return;
+    const double inverse_mass1 = state_.type(i).inertia.inverse_mass,
+                 inverse_mass2 = state_.type(j).inertia.inverse_mass;
+    const Vector shift = (state_.contact_gap - gap) / (inverse_mass1 + inverse_mass2) * n;
+    state_.particles[i].position -= inverse_mass1 * shift;
+    state_.particles[j].position += inverse_mass2 * shift;
+  }
+
+  /// A rough collision. Returns the approach speed.
+  double rub(Index i, Index j, const Vector& d, const Vector& n, const ContactLaw& law,
+             RunCounters& counters) {
+    Motion<dimension> motion1 = state_.full_motion(i), motion2 = state_.full_motion(j);
+    const RoughContact<dimension> contact{n, surface_from(i, n), surface_from(j, -n)};
+    const double speed = speed_of_approach(i, j, n);
+    const RoughImpact<dimension> result =
+        collide_rough(motion1, state_.full_inertia_now(i), motion2, state_.full_inertia_now(j),
+                      contact, restitution_of(law, i, j, n), law);
+    state_.set_full_motion(i, motion1);
+    state_.set_full_motion(j, motion2);
+    ++state_.collisions;
+    ++counters.collisions;
+    counters.virial -= result.impulse.dot(d);
+    counters.dissipated += result.dissipated;
+    return speed;
+  }
+
+  double speed_of_approach(Index i, Index j, const Vector& n) const {
+    const Motion<dimension> motion1 = state_.particles[i].motion(),
+                            motion2 = state_.particles[j].motion();
+    if (i != j && State::is_round) return (motion1.velocity - motion2.velocity).dot(n);
+    return approach_speed(motion1, motion2, contact_geometry(i, j, n));
+  }
+
+  /// From its centre to the point of its surface with this outward normal.
+  Vector surface_from(Index i, const Vector& outward) const {
+    return surface_point(scaled(state_.shape(i), state_.size_now().size),
+                         state_.particles[i].pose(), outward);
+  }
+
   // Brings both to the present. Returns their separation.
   Vector meet(Index i, const Event<B>& event) {
     state_.advance_to_now(i);
@@ -94,16 +191,17 @@ class CollisionExecutor {
 
   Impact collide_shaped(Index i, Index j, Motion<dimension>& motion1, Motion<dimension>& motion2,
                         const Vector& n, double restitution) const {
-    const CommonSize size = state_.size_now();
-    const auto arm = [&](Index k, const Vector& outward) {
-      return surface_point(scaled(state_.shape(k), size.size), state_.particles[k].pose(), outward);
-    };
-    const Vector arm1 = arm(i, n), arm2 = arm(j, -n);
-    const double growth = size.growth_rate / size.size * (arm1 - arm2).dot(n);
-    const ContactGeometry<dimension> contact{n, cross(arm1, n), cross(arm2, n), growth};
+    const ContactGeometry<dimension> contact = contact_geometry(i, j, n);
     return i == j ? collide_with_own_image(motion1, state_.inertia_now(i), contact, restitution)
-                  : collide(motion1, state_.inertia_now(i), motion2, state_.inertia_now(j), contact,
-                            restitution);
+                  : vitrel::collide(motion1, state_.inertia_now(i), motion2, state_.inertia_now(j),
+                                    contact, restitution);
+  }
+
+  ContactGeometry<dimension> contact_geometry(Index i, Index j, const Vector& n) const {
+    const CommonSize size = state_.size_now();
+    const Vector arm1 = surface_from(i, n), arm2 = surface_from(j, -n);
+    const double growth = size.growth_rate / size.size * (arm1 - arm2).dot(n);
+    return {n, cross(arm1, n), cross(arm2, n), growth};
   }
 
   [[noreturn]] void report_self_overlap(Index i) const {
@@ -113,7 +211,11 @@ class CollisionExecutor {
   }
 
   State& state_;
-  const EngineOptions& options_;
+  const ContactLaws& laws_;
+  const double tc_;
+  const bool collapses_;  ///< whether inelastic collapse is possible, and stops the run
+  std::vector<std::int32_t> species_;    ///< of particles; if laws differ
+  std::vector<double> last_collision_;   ///< of particles; of the contact-time model
   InelasticCollapse<B> collapse_{state_};
 };
 

@@ -22,6 +22,14 @@ Inertia<3> inertia_of(const Ellipsoid& shape, double mass) {
   return {1 / mass, (mass * shape.inertia_per_mass()).cwiseInverse().asDiagonal()};
 }
 
+Inertia<2> full_inertia_of(const Ellipse& shape, double mass) {
+  return {1 / mass, 1 / (mass * shape.inertia_per_mass())};
+}
+
+Inertia<3> full_inertia_of(const Ellipsoid& shape, double mass) {
+  return {1 / mass, (mass * shape.full_inertia_per_mass()).cwiseInverse().asDiagonal()};
+}
+
 Inertia<2> in_space(const Inertia<2>& own, const Pose2&, double size) {
   return {own.inverse_mass, own.inverse_moment / (size * size)};
 }
@@ -78,6 +86,70 @@ Impact collide_with_own_image(Motion3& motion, const Inertia<3>& inertia,
   return {speed, impulse};
 }
 
+namespace {
+
+/// ω × ρ
+Vec2 rotated(double angular_velocity, const Vec2& arm) {
+  return angular_velocity * perpendicular(arm);
+}
+Vec3 rotated(const Vec3& angular_velocity, const Vec3& arm) {
+  return angular_velocity.cross(arm);
+}
+
+/// [ρ]ₓ I⁻¹ [ρ]ₓᵀ
+Mat2 rotational_part(double inverse_moment, const Vec2& arm) {
+  const Vec2 across = perpendicular(arm);
+  return inverse_moment * across * across.transpose();
+}
+Mat3 rotational_part(const Mat3& inverse_moment, const Vec3& arm) {
+  Mat3 skew;
+  skew << 0, -arm.z(), arm.y(), arm.z(), 0, -arm.x(), -arm.y(), arm.x(), 0;
+  return skew * inverse_moment * skew.transpose();
+}
+
+/// The largest κ ≤ `wanted` with |κ B_t| ≤ μ (A n + κ B)·n, for A n and B the parts of the impulse that κ leaves and
+/// multiplies; all on the side of −n.
+double stuck_part(double wanted, double friction, double pressing, double pressing_of_part,
+                  double tangential_of_part) {
+  if (!(pressing > 0)) return 0;
+  const double excess = tangential_of_part / friction - pressing_of_part;
+  return excess * wanted > pressing ? pressing / excess : wanted;
+}
+
+}  // namespace
+
+template <int Dim>
+RoughImpact<Dim> collide_rough(Motion<Dim>& one, const Inertia<Dim>& inertia1, Motion<Dim>& two,
+                               const Inertia<Dim>& inertia2, const RoughContact<Dim>& contact,
+                               double restitution, const ContactLaw& law) {
+  using Matrix = Eigen::Matrix<double, Dim, Dim>;
+  const Vec<Dim>& n = contact.normal;
+  const Vec<Dim> v = one.velocity + rotated(one.angular_velocity, contact.arm1) - two.velocity -
+                     rotated(two.angular_velocity, contact.arm2);
+  const Matrix k = (inertia1.inverse_mass + inertia2.inverse_mass) * Matrix::Identity() +
+                   rotational_part(inertia1.inverse_moment, contact.arm1) +
+                   rotational_part(inertia2.inverse_moment, contact.arm2);
+  const double speed = v.dot(n), compliance = n.dot(k * n);
+  const Vec<Dim> frictionless = -speed / compliance * n;
+  const Vec<Dim> sticking = -(k.inverse() * v);
+  const Vec<Dim> part = sticking - frictionless;
+  const double norm = n.norm(), pressing_of_part = -part.dot(n) / norm;
+  const double share =
+      law.is_rough()
+          ? stuck_part(1 + law.tangential_restitution, law.friction,
+                       (1 + restitution) * speed / compliance * norm, pressing_of_part,
+                       (part + pressing_of_part / norm * n).norm())
+          : 0;
+  const Vec<Dim> impulse = (1 + restitution) * frictionless + share * part;
+  const double along = 0.5 * speed * speed / compliance, across = -0.5 * part.dot(v);
+  one.velocity += inertia1.inverse_mass * impulse;
+  two.velocity -= inertia2.inverse_mass * impulse;
+  one.angular_velocity += inertia1.inverse_moment * cross(contact.arm1, impulse);
+  two.angular_velocity -= inertia2.inverse_moment * cross(contact.arm2, impulse);
+  return {impulse,
+          (1 - restitution) * (1 + restitution) * along + share * (2 - share) * across};
+}
+
 template double approach_speed(const Motion<2>&, const Motion<2>&, const ContactGeometry<2>&);
 template Impact collide(Motion<2>&, const Inertia<2>&, Motion<2>&, const Inertia<2>&,
                         const ContactGeometry<2>&, double);
@@ -85,5 +157,10 @@ template Impact collide(Motion<2>&, const Inertia<2>&, Motion<2>&, const Inertia
 template double approach_speed(const Motion<3>&, const Motion<3>&, const ContactGeometry<3>&);
 template Impact collide(Motion<3>&, const Inertia<3>&, Motion<3>&, const Inertia<3>&,
                         const ContactGeometry<3>&, double);
+
+template RoughImpact<2> collide_rough(Motion<2>&, const Inertia<2>&, Motion<2>&, const Inertia<2>&,
+                                      const RoughContact<2>&, double, const ContactLaw&);
+template RoughImpact<3> collide_rough(Motion<3>&, const Inertia<3>&, Motion<3>&, const Inertia<3>&,
+                                      const RoughContact<3>&, double, const ContactLaw&);
 
 }  // namespace vitrel

@@ -2,9 +2,12 @@
 
 #include "core/geometry/ellipse.h"
 #include "core/geometry/ellipsoid.h"
+#include "edmd/contact_law.h"
 
 /// @file
-/// The collision of two smooth (frictionless) bodies with coefficient of restitution e.
+/// The collision of two bodies: smooth (frictionless) ones with coefficient of restitution e, and rough ones.
+///
+/// Smooth bodies:
 ///
 ///     k_i = arm_i = (x − r_i) × n,   u_n = (v₁ − v₂)·n + ω₁·k₁ − ω₂·k₂ + s   (> 0: approaching)
 ///     J = (1 + e) u_n/(1/m₁ + 1/m₂ + k₁·I₁⁻¹k₁ + k₂·I₂⁻¹k₂)
@@ -13,6 +16,26 @@
 /// n is the unit contact normal from 1 to 2, x the contact point, and s the speed at which growth moves the
 /// surfaces towards each other. In two dimensions k, ω and I are numbers. Momentum and angular momentum are
 /// conserved exactly; the energy changes by J (s − u_n (1 − e)/2).
+///
+/// Rough bodies, by the law of chatterjee1998, of which the smooth one is the case μ = 0. Let v be the velocity of the
+/// surface of 1 relative to that of 2 at the contact point, P the impulse on 1, and K = M⁻¹ the matrix by which P
+/// changes v; n, k_i and J as above.
+///
+///     K = Σ_i (1/m_i + [ρ_i]ₓ I_i⁻¹ [ρ_i]ₓᵀ),  ρ_i from the centre of i to the contact point
+///     P_I = −n (n·v)/(n·K n)    takes the normal speed away, without friction
+///     P_II = −K⁻¹ v             takes all of v away
+///     P = (1 + e) P_I + κ (P_II − P_I)
+///
+/// κ = 1 + β, lowered until |P_t| ≤ μ P_n: the cone of Coulomb's friction, which for μ = ∞ still excludes P_n < 0. With
+/// E_n = (n·v)²/(2 n·K n) and E_t = v·K⁻¹v/2 − E_n, the energies of v along and across the normal, P_I and P_II − P_I
+/// are orthogonal with respect to K, so that
+///
+///     n·v' = −e n·v,   E' = e² E_n + (1 − κ)² E_t ≤ E_n + E_t:
+///
+/// no impact creates energy, whatever the shapes. For disks and spheres this is the law of Walton and Braun
+/// (walton1986). The normal and the tangential motion of other bodies couple.
+///
+/// The law takes the true moments and angular velocities, also of rotations that smooth collisions do not change.
 namespace vitrel {
 
 /// The inertia of a body in the space frame. If an inverse moment of inertia is 0, the rotation is not modelled.
@@ -25,6 +48,9 @@ struct Inertia {
 /// The same in the body frame, at size 1.
 Inertia<2> inertia_of(const Ellipse& shape, double mass);
 Inertia<3> inertia_of(const Ellipsoid& shape, double mass);
+/// With all true moments.
+Inertia<2> full_inertia_of(const Ellipse& shape, double mass);
+Inertia<3> full_inertia_of(const Ellipsoid& shape, double mass);
 /// The space-frame inertia of a body of this size from its body-frame inertia.
 Inertia<2> in_space(const Inertia<2>& own, const Pose2& pose, double size);
 Inertia<3> in_space(const Inertia<3>& own, const Pose3& pose, double size);
@@ -58,5 +84,25 @@ Impact collide_with_own_image(Motion2& motion, const Inertia<2>& inertia,
                               const ContactGeometry<2>& contact, double restitution);
 Impact collide_with_own_image(Motion3& motion, const Inertia<3>& inertia,
                               const ContactGeometry<3>& contact, double restitution);
+
+/// Where two bodies touch.
+template <int Dim>
+struct RoughContact {
+  Vec<Dim> normal;      ///< from 1 to 2
+  Vec<Dim> arm1, arm2;  ///< from the centres to the contact point
+};
+
+template <int Dim>
+struct RoughImpact {
+  Vec<Dim> impulse;   ///< P, on 1
+  double dissipated;  ///< (1 − e²) E_n + (1 − (1 − κ)²) E_t
+};
+
+/// The collision of two different rough bodies, of which neither grows, with e at the approach speed n·v and μ and β of
+/// the law.
+template <int Dim>
+RoughImpact<Dim> collide_rough(Motion<Dim>& one, const Inertia<Dim>& inertia1, Motion<Dim>& two,
+                               const Inertia<Dim>& inertia2, const RoughContact<Dim>& contact,
+                               double restitution, const ContactLaw& law);
 
 }  // namespace vitrel

@@ -29,6 +29,9 @@ struct RunCounters {
   /// (soft/soft_contact.h).
   double virial = 0;
   double dissipated = 0;  ///< energy lost in inelastic collisions
+  std::uint64_t short_flights = 0;  ///< collisions that the contact-time model made elastic
+  double spared = 0;  ///< energy of the normal motion that they would have lost
+  double supplied = 0;  ///< energy gained by kicks (driving.h)
 
   /// Adds the counts that predictions make.
   void add_predictions(const RunCounters& other) {

@@ -14,6 +14,10 @@ namespace vitrel {
 /// Inelastic collapse: infinitely many collisions of a few particles in a finite time; or of one pair, like a bouncing
 /// ball, whose rotation brings the surfaces together again. The criterion: the distances travelled between collisions
 /// stay below the contact gap several times in a row.
+///
+/// Runs stop there, unless they use the contact-time model (luding1998): a collision within the time t_c after the one
+/// before of either particle is elastic and smooth, as it would be if contacts took that long and the particles were
+/// still in touch. Its effect is small if t_c is well below the time between collisions.
 template <Body B>
 class InelasticCollapse {
  public:
@@ -38,8 +42,8 @@ class InelasticCollapse {
     throw InvariantError(
         "inelastic collapse at time " + std::to_string(state_.base + state_.now) + ": particles " +
         std::to_string(state_.external_id[i]) + " and " + std::to_string(state_.external_id[j]) +
-        " collide repeatedly without moving; use a coefficient of restitution closer to 1 "
-        "or a shorter run");
+        " collide repeatedly without moving; dynamics.contact_duration, the t_c of the contact-time model, "
+        "goes on from here; or use a coefficient of restitution closer to 1, or a shorter run");
   }
 
   const SimulationState<B>& state_;

@@ -5,6 +5,9 @@
 #include <optional>
 #include <vector>
 
+#include "core/state/configuration.h"
+#include "edmd/contact_law.h"
+
 /// @file
 /// Options of event-driven dynamics, in a header of their own so that code that reads parameters compiles no algorithm.
 namespace vitrel {
@@ -30,12 +33,15 @@ enum class NeighborSearch {
 enum class FreeRotation { euler, constant };
 
 struct EngineOptions {
-  double restitution = 1;
+  ContactLaws laws;  ///< of hard particles
+  /// t_c of the contact-time model (inelastic_collapse.h); 0: off
+  double contact_duration = 0;
   OnOverlap on_overlap = OnOverlap::stop;
   /// From `load` on, all semi-axes are those loaded times 1 + growth_rate · time. Masses are constant, moments of
   /// inertia are those of the current axes, and angular velocities are constant in flight.
   double growth_rate = 0;
-  /// If set, the particles are soft: round, and not growing. `restitution` then has no effect.
+  /// If set, the particles are soft: round, and not growing; `laws` and
+  /// `contact_duration` then have no effect.
   std::shared_ptr<SoftContact> soft_contact;
   FreeRotation rotation = FreeRotation::euler;
   EarlyRelease early_release = EarlyRelease::alone;
@@ -44,14 +50,19 @@ struct EngineOptions {
   int threads = 1;
 };
 
+/// What the laws of contact make of rotations.
+inline Contacts contacts(const EngineOptions& options) {
+  return options.laws.are_rough() ? Contacts::rough : Contacts::smooth;
+}
+
 /// The kinetic energy that corresponds to kT = 1 once the net momentum has been removed.
 ///
 ///     total:    Σ m v²/2 = D N kT/2 in D dimensions; the mean squared displacement of free particles then has no
 ///               term of order 1/N
 ///     relative: Σ m v²/2 = D (N − 1) kT/2; Newtonian equipartition is then exact
 ///
-/// The rotational energy is N_rot kT/2 in both, N_rot the number of rotational degrees of freedom that smooth
-/// collisions change: 1 for an ellipse, 2 for a spheroid, 3 for a scalene ellipsoid, 0 for a round particle.
+/// The rotational energy is N_rot kT/2 in both, N_rot the number of rotational degrees of freedom that contacts change
+/// (rotation_count).
 enum class Temperature { total, relative };
 
 /// The initial velocities of a run.
@@ -69,9 +80,16 @@ struct InitialEnergies {
   std::vector<double> temperatures = {};  ///< kT by species; empty: 1
 };
 
+/// Random kicks (driving.h).
+struct Driving {
+  double interval = 0.01;  ///< τ, time between kicks
+  double power = 1;        ///< P, mean energy supplied to a particle per unit of time
+};
+
 /// Newtonian dynamics, or Brownian: the same with all velocities redrawn every `brownian_step`.
 struct DynamicsOptions {
   EngineOptions engine;
+  std::optional<Driving> driving = {};  ///< of Newtonian dynamics
   bool brownian = false;
   double brownian_step = 0.1;  ///< τ_B
   Temperature temperature = Temperature::total;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "edmd/driving.h"
 #include "edmd/sampling.h"
 
 namespace vitrel {
@@ -52,7 +53,8 @@ class EventDrivenRun {
                              ": a block of events took no simulated time (" +
                              (options_.engine.soft_contact
                                   ? "too dense or too strongly damped for event-driven contacts?)"
-                                  : "inelastic collapse?)"));
+                                  : "inelastic collapse? dynamics.contact_duration goes on from "
+                                    "there)"));
       if (plan_.at_block_end && !finished) timed_output([&] { plan_.at_block_end(state_); });
       control_.report_progress(progress());
       if (finished) return {StageEnd::reached, "the end of the run was reached"};
@@ -69,7 +71,7 @@ class EventDrivenRun {
       if (engine_->advance(stop, state_.counters) == Engine<Dim>::Stop::block_end) return false;
       if (stop == next_sample_time()) observe(plan_.observer, state_.next_sample, stop);
       if (stop == next_tick_time()) observe(plan_.ticks.observer, state_.next_tick, stop);
-      if (stop == next_step_time()) redraw_velocities();
+      if (stop == next_step_time()) change_velocities();
       if (stop >= plan_.end_time && std::min(next_sample_time(), next_tick_time()) > plan_.end_time)
         return true;
     }
@@ -86,10 +88,10 @@ class EventDrivenRun {
                : std::numeric_limits<double>::infinity();
   }
   double next_step_time() const {
-    return options_.brownian
-               ? state_.start_time +
-                     options_.brownian_step * static_cast<double>(state_.brownian_steps + 1)
-               : std::numeric_limits<double>::infinity();
+    const double interval = options_.brownian  ? options_.brownian_step
+                            : options_.driving ? options_.driving->interval
+                                               : std::numeric_limits<double>::infinity();
+    return state_.start_time + interval * static_cast<double>(state_.velocity_steps + 1);
   }
   // The horizon of predictions: not the end, so that the motion does not depend on it and a run can be made longer.
   double horizon() const { return next_step_time(); }
@@ -115,15 +117,24 @@ class EventDrivenRun {
     state_.output_seconds += spent.count();
   }
 
-  void redraw_velocities() {
-    engine_->write(state_.configuration);
+  // A Brownian step, or kicks.
+  void change_velocities() {
+    Configuration<Dim>& configuration = state_.configuration;
+    const int threads = options_.engine.threads;
+    engine_->write(configuration);
     record_conservation();
-    ++state_.brownian_steps;
-    state_.configuration.releases.clear();  // to velocities of before
-    draw_velocities(state_.configuration, options_.seed, Purpose::brownian_step,
-                    state_.brownian_steps, options_.temperature, options_.engine.threads);
-    engine_->set_velocities(state_.configuration, horizon(), state_.counters);
-    state_.flight_energy = total_energy(state_.configuration) + state_.counters.dissipated;
+    ++state_.velocity_steps;
+    if (options_.brownian) {
+      configuration.releases.clear();  // to velocities of before
+      draw_velocities(configuration, options_.seed, Purpose::brownian_step, state_.velocity_steps,
+                      options_.temperature, contacts(options_.engine), threads);
+    } else {
+      const double before = total_energy(configuration);
+      kick(configuration, *options_.driving, options_.seed, state_.velocity_steps, threads);
+      state_.counters.supplied += total_energy(configuration) - before;
+    }
+    engine_->set_velocities(configuration, horizon(), state_.counters);
+    state_.flight_energy = total_energy(configuration) + state_.counters.dissipated;
   }
 
   void record_conservation() {

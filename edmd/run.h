@@ -18,7 +18,7 @@ template <int Dim>
 struct RunState {
   Configuration<Dim> configuration;  ///< synchronised; its time runs from −equilibration
   RunCounters counters;
-  std::uint64_t brownian_steps = 0;
+  std::uint64_t velocity_steps = 0;  ///< draws of Brownian dynamics, or kicks
   std::uint64_t next_sample = 0;
   std::uint64_t next_tick = 0;
   double start_time = 0;        ///< of the whole run
@@ -56,7 +56,7 @@ struct RunPlan {
 };
 
 /// Runs to the end, or to the end of the block in which the run control requests a stop. A sample or tick that
-/// coincides with a Brownian step is taken before the velocities are redrawn. Throws InvariantError on an overlap, and
+/// coincides with a Brownian step or a kick is taken before the velocities change. Throws InvariantError on an overlap, and
 /// if time does not advance (inelastic collapse); `state` is then the state at the failure.
 template <int Dim>
 StageReport run(RunState<Dim>& state, const DynamicsOptions& options, const RunPlan<Dim>& plan,

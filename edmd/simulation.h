@@ -99,7 +99,7 @@ template <Body B>
 void Simulation<B>::load(const Configuration<dimension>& configuration, double horizon) {
   state_.load(configuration, options_.neighbors.value_or(NeighborSearch::lists), target_neighbors);
   soft_.load(configuration);
-  executor_.begin_block();
+  executor_.begin_block(configuration);
   horizon_ = horizon - state_.base;
   // Times are rounded as well as positions: meanwhile nothing moves farther than the extent.
   longest_time_ = state_.fastest > 0 ? state_.extent / state_.fastest : never;
@@ -182,6 +182,7 @@ template <Body B>
 void Simulation<B>::reset_clocks() {
   const double elapsed = state_.reset_clocks();
   soft_.reset_clocks(elapsed);
+  executor_.reset_clocks(elapsed);
   horizon_ -= elapsed;
   std::vector<double> times(state_.size());
   for (Index i = 0; i < state_.size(); ++i) times[i] = calendar_.time(i) - elapsed;

@@ -36,10 +36,11 @@ struct SimulationState {
   static constexpr bool has_cells = is_round && !grows<B>;
 
   using Particle = FlightRecord<B>;
-  /// Of a sphere; other bodies have theirs in the record.
+  /// Of a sphere at a time; other bodies have theirs in the record.
   struct Rotation {
     Orientation<dimension> orientation;
     AngularVelocity<dimension> angular_velocity;
+    double time = 0;
   };
   /// The free rotation of a tumbling body since its motion changed.
   struct Tumbling {
@@ -66,8 +67,7 @@ struct SimulationState {
   std::vector<ParticleType> types;
   TypeIndex type_index;
   LargeVector<Particle> particles;
-  LargeVector<Rotation> rotations;  // of spheres, at rotation_time
-  double rotation_time = 0;
+  LargeVector<Rotation> rotations;  // of spheres
   LargeVector<Tumbling> tumbling;  // of tumbling bodies
   LargeVector<Shift<dimension>> image;
   LargeVector<Index> version;  // changes of motion or image so far
@@ -123,6 +123,10 @@ struct SimulationState {
   Inertia<dimension> inertia_now(Index i) const {
     return in_space(type(i).inertia, particles[i].pose(), size_now().size);
   }
+  /// Motions with all rotations, as rough contacts need them, of a particle that has been advanced to now.
+  Motion<dimension> full_motion(Index i) const;
+  void set_full_motion(Index i, Motion<dimension> motion);
+  Inertia<dimension> full_inertia_now(Index i) const;
   void advance_to_now(Index i) { particles[i] = record_now(i); }
   /// Advances the record of a tumbling body if it has turned so far since then that the bound of the contact screen
   /// becomes loose.
@@ -174,6 +178,8 @@ struct SimulationState {
   void load_types(const Configuration<dimension>& configuration);
   void find_neighbors(NeighborSearch method, double target);
   Rotation rotation_now(Index i) const;
+  Vector with_scaled_spin(Index i, const Vector& angular_velocity, bool to_true) const
+      requires(dimension == 3);
   std::span<Neighbor<B>> renew_neighbors(Index i);
 };
 
@@ -184,7 +190,7 @@ double SimulationState<B>::reset_clocks() {
   const double elapsed = now;
   base += elapsed;
   now = collisions = 0;
-  rotation_time -= elapsed;
+  for (Rotation& rotation : rotations) rotation.time -= elapsed;
   for (Tumbling& body : tumbling) body.since -= elapsed;
   for (Particle& particle : particles) {
     particle.time -= elapsed;

@@ -32,6 +32,9 @@ inline Ellipse particle_shape(const Ellipse& shape) {
 inline Ellipsoid particle_shape(const Ellipsoid& shape) {
   return shape;
 }
+inline Ellipse particle_shape(const Disk& shape) {
+  return {shape.radius, shape.radius};
+}
 inline Ellipsoid particle_shape(const Sphere& shape) {
   return {Vec3::Constant(shape.radius)};
 }
@@ -94,7 +97,6 @@ void SimulationState<B>::load_particles(const Configuration<dimension>& configur
   external_id = spatial_order<dimension>(box, configuration.position);
   particles.clear();
   rotations.clear();
-  rotation_time = 0;
   image.clear();
   version.assign(external_id.size(), 0);
   for (const Index k : external_id) {
@@ -104,7 +106,7 @@ void SimulationState<B>::load_particles(const Configuration<dimension>& configur
     const AngularVelocity<dimension>& angular_velocity = configuration.angular_velocity[k];
     particles.push_back(flight_record<B>(pose, {configuration.velocity[k], angular_velocity}));
     if constexpr (!Particle::has_rotation)
-      rotations.push_back({orientation_of(pose), angular_velocity});
+      rotations.push_back({orientation_of(pose), angular_velocity, 0});
     image.push_back(boxes);
   }
 }
@@ -175,21 +177,59 @@ void SimulationState<B>::set_velocities(const Configuration<dimension>& configur
     const Motion<dimension> motion{configuration.velocity[external_id[i]],
                                    configuration.angular_velocity[external_id[i]]};
     if constexpr (!Particle::has_rotation)
-      rotations[i] = {rotation_now(i).orientation, motion.angular_velocity};
+      rotations[i] = {rotation_now(i).orientation, motion.angular_velocity, now};
     advance_to_now(i);
     set_motion(i, motion);
     fastest = std::max(fastest, motion.velocity.norm());
   }
-  rotation_time = now;
 }
 
 // Of a sphere.
 template <Body B>
 typename SimulationState<B>::Rotation SimulationState<B>::rotation_now(Index i) const {
-  const auto& [orientation, angular_velocity] = rotations[i];
+  const auto& [orientation, angular_velocity, time] = rotations[i];
   const Pose<dimension> pose{Vector::Zero(), orientation};
   const Motion<dimension> motion{Vector::Zero(), angular_velocity};
-  return {orientation_of(advanced(pose, motion, now - rotation_time)), angular_velocity};
+  return {orientation_of(advanced(pose, motion, now - time)), angular_velocity, now};
+}
+
+// Of a spheroid the record holds L/I⊥ (ellipsoid.h), which is not its angular velocity if it spins.
+template <Body B>
+auto SimulationState<B>::full_motion(Index i) const -> Motion<dimension> {
+  Motion<dimension> motion = particles[i].motion();
+  if constexpr (!Particle::has_rotation)
+    motion.angular_velocity = rotations[i].angular_velocity;
+  else if constexpr (dimension == 3)
+    motion.angular_velocity = with_scaled_spin(i, motion.angular_velocity, true);
+  return motion;
+}
+
+template <Body B>
+void SimulationState<B>::set_full_motion(Index i, Motion<dimension> motion) {
+  if constexpr (!Particle::has_rotation)
+    rotations[i] = {rotation_now(i).orientation, motion.angular_velocity, now};
+  else if constexpr (dimension == 3)
+    motion.angular_velocity = with_scaled_spin(i, motion.angular_velocity, false);
+  set_motion(i, motion);
+}
+
+template <Body B>
+auto SimulationState<B>::full_inertia_now(Index i) const -> Inertia<dimension> {
+  const Inertia<dimension> own =
+      full_inertia_of(detail::particle_shape(shape(i)), 1 / type(i).inertia.inverse_mass);
+  return in_space(own, particles[i].pose(), 1);
+}
+
+// Of a spheroid with the part along its axis multiplied by I⊥/I∥, or divided.
+template <Body B>
+auto SimulationState<B>::with_scaled_spin(Index i, const Vector& angular_velocity, bool to_true) const
+    -> Vector requires(dimension == 3) {
+  const auto& body = shape(i);
+  const int axis = body.symmetry_axis();
+  if (axis == Ellipsoid::none) return angular_velocity;
+  const Vector a = particles[i].orientation() * Vector::Unit(axis);
+  const double factor = to_true ? spin_factor(body) : 1 / spin_factor(body);
+  return angular_velocity + (factor - 1) * a.dot(angular_velocity) * a;
 }
 
 }  // namespace vitrel

@@ -297,7 +297,7 @@ void AllPairs::impact(const Event& event, const Vec2& d, RunCounters& counters) 
   const Vec2& n = event.normal;
   const Vec2 arm1 = event.point - one.pose.position;
   const ContactGeometry<2> contact{n, cross(arm1, n), cross(arm1 - d, n)};
-  const double restitution = options_.engine.restitution;
+  const double restitution = options_.engine.laws.common().restitution(0);
   const auto [speed, impulse] =
       collide(one.motion, one.inertia, two.motion, two.inertia, contact, restitution);
   ++counters.collisions;

@@ -2,9 +2,13 @@
 
 namespace vitrel {
 
-Vec3 Ellipsoid::inertia_per_mass() const {
+Vec3 Ellipsoid::full_inertia_per_mass() const {
   const Vec3 squares = semi_axes.cwiseAbs2();
-  const Vec3 moments = 0.2 * (Vec3::Constant(squares.sum()) - squares);
+  return 0.2 * (Vec3::Constant(squares.sum()) - squares);
+}
+
+Vec3 Ellipsoid::inertia_per_mass() const {
+  const Vec3 moments = full_inertia_per_mass();
   const int axis = symmetry_axis();
   return axis == none ? moments : Vec3::Constant(moments[(axis + 1) % 3]);
 }

@@ -12,7 +12,8 @@ namespace vitrel {
 /// Rotation. The body is homogeneous; its principal moments are m (b² + c²)/5 and cyclic permutations.
 /// Spheroids: smooth collisions exert no torque about the axis of symmetry, and in free flight the shape rotates
 /// uniformly about the angular momentum L with ω = L/I⊥. This ω is the stored angular velocity. With it the spheroid
-/// moves like a body with three equal moments I⊥, which is exact, and L = I⊥ ω.
+/// moves like a body with three equal moments I⊥, which is exact, and L = I⊥ ω. This holds with any spin about the axis
+/// (of rough bodies): the true angular velocity then is ω + (I⊥/I∥ − 1)(ω·a) a, a the axis of symmetry.
 /// Scalene bodies tumble by Euler's equations as `TumblingEllipsoid`. As plain ellipsoids they keep ω constant in flight:
 /// a model (after the article on packing) in which L is not conserved, but ω in the body frame is, and so is the energy.
 /// Phase-space volume is conserved, so all static averages are those of equilibrium. Growing bodies move like that.
@@ -42,9 +43,19 @@ struct Ellipsoid {
 
   /// Moments of inertia over the mass about the own axes; of a spheroid I⊥ three times.
   Vec3 inertia_per_mass() const;
+  /// The true ones, also of a spheroid about its axis.
+  Vec3 full_inertia_per_mass() const;
 };
 
 static_assert(Body<Ellipsoid>);
+
+/// I⊥/I∥ of a spheroid: the factor from the part of the stored angular velocity along the axis to the true spin.
+inline double spin_factor(const Ellipsoid& spheroid) {
+  const Vec3 squares = spheroid.semi_axes.cwiseAbs2();
+  const int axis = spheroid.symmetry_axis();
+  const double across = squares[(axis + 1) % 3];
+  return 0.5 * (squares[axis] + across) / across;
+}
 
 /// The same shape, of another size.
 inline Ellipsoid scaled(const Ellipsoid& ellipsoid, double size) {

@@ -15,6 +15,7 @@ enum class Purpose : std::uint64_t {
   trial_moves = 5,
   box_trials = 6,
   isotropic_axes = 7,
+  kicks = 8,
   benchmark_cases = 90,
   tests = 100,
 };

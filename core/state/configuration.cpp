@@ -25,7 +25,13 @@ double rotational_energy(const Configuration2& configuration, std::size_t i) {
 
 double rotational_energy(const Configuration3& configuration, std::size_t i) {
   const Vec3 own = configuration.orientation[i].conjugate() * configuration.angular_velocity[i];
-  return 0.5 * configuration.inertia(i).dot(own.cwiseAbs2());
+  const Vec3 squares = own.cwiseAbs2();
+  const double energy = 0.5 * configuration.inertia(i).dot(squares);
+  const Ellipsoid& shape = configuration.shape[i];
+  const int axis = shape.symmetry_axis();
+  return axis == Ellipsoid::none
+             ? energy
+             : energy + 0.5 * configuration.inertia(i)[axis] * (spin_factor(shape) - 1) * squares[axis];
 }
 
 }  // namespace
@@ -76,8 +82,7 @@ Mechanics<Dim> mechanics(const Configuration<Dim>& configuration) {
     const Vec<Dim>& v = velocities[i];
     sums.momentum += configuration.mass[i] * v;
     sums.translational_energy += 0.5 * configuration.mass[i] * v.squaredNorm();
-    if (!configuration.shape[i].is_round())
-      sums.rotational_energy += rotational_energy(configuration, i);
+    sums.rotational_energy += rotational_energy(configuration, i);
   }
   return sums;
 }
@@ -89,10 +94,10 @@ std::size_t rotor_count(const Configuration<Dim>& configuration) {
 }
 
 template <int Dim>
-std::size_t rotation_count(const Configuration<Dim>& configuration) {
+std::size_t rotation_count(const Configuration<Dim>& configuration, Contacts contacts) {
   std::size_t count = 0;
   for (const Solid<Dim>& shape : configuration.shape)
-    count += static_cast<std::size_t>(shape.rotations());
+    count += static_cast<std::size_t>(rotations(shape, contacts));
   return count;
 }
 
@@ -108,7 +113,7 @@ template Mechanics<2> mechanics(const Configuration2&);
 template Mechanics<3> mechanics(const Configuration3&);
 template std::size_t rotor_count(const Configuration2&);
 template std::size_t rotor_count(const Configuration3&);
-template std::size_t rotation_count(const Configuration2&);
-template std::size_t rotation_count(const Configuration3&);
+template std::size_t rotation_count(const Configuration2&, Contacts);
+template std::size_t rotation_count(const Configuration3&, Contacts);
 
 }  // namespace vitrel

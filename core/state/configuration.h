@@ -118,8 +118,8 @@ double largest_circumradius(const Configuration<Dim>& configuration);
 template <int Dim>
 std::vector<Vec<Dim>> velocities_after_contact(const Configuration<Dim>& configuration);
 
-/// Sums over all particles. Rotations that smooth collisions cannot change are not modelled and do not count: those of
-/// round particles, and of spheroids about their axes. Velocities are those after contact.
+/// Sums over all particles, with velocities after contact. Rotations that smooth collisions cannot change are at rest,
+/// unless contacts are rough or the particles came with them: those of round particles, and of spheroids about their axes.
 template <int Dim>
 struct Mechanics {
   Vec<Dim> momentum = Vec<Dim>::Zero();
@@ -131,9 +131,18 @@ Mechanics<Dim> mechanics(const Configuration<Dim>& configuration);
 /// Number of particles that are not round.
 template <int Dim>
 std::size_t rotor_count(const Configuration<Dim>& configuration);
-/// Number of rotations that are modelled: of an ellipse 1, a spheroid 2, a scalene ellipsoid 3, a round
-/// body 0.
+/// Smooth contacts do not change all rotations, rough ones do.
+enum class Contacts { smooth, rough };
+/// Number of rotations that contacts change. Smooth: of an ellipse 1, a spheroid 2, a scalene ellipsoid 3, a round body 0.
+/// Rough: 1 in two dimensions, 3 in three.
+inline int rotations(const Ellipse& shape, Contacts contacts) {
+  return contacts == Contacts::rough ? 1 : shape.rotations();
+}
+inline int rotations(const Ellipsoid& shape, Contacts contacts) {
+  return contacts == Contacts::rough ? 3 : shape.rotations();
+}
+/// Of all particles.
 template <int Dim>
-std::size_t rotation_count(const Configuration<Dim>& configuration);
+std::size_t rotation_count(const Configuration<Dim>& configuration, Contacts contacts = Contacts::smooth);
 
 }  // namespace vitrel

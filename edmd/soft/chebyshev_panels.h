@@ -175,7 +175,8 @@ auto ChebyshevPanels<Dim, Nodes, Values>::sum(const double* panel, const Point& 
   const double* row = panel + head_size;
   Row rows = Row::Zero();
   for (int i = 0; i < terms / Nodes; ++i, row += row_size) {
-    double weight = t[Dim - 2][i % Nodes];
+    double weight = 1;
+    if constexpr (Dim >= 2) weight = t[Dim - 2][i % Nodes];
     if constexpr (Dim == 3) weight *= t[0][i / Nodes];
     rows += weight * Eigen::Map<const Row>(row);
   }
@@ -245,7 +246,9 @@ template <int Dim, int Nodes, int Values>
 bool ChebyshevPanels<Dim, Nodes, Values>::agrees(const Box<Dim>& box, const Function& function,
                                                  const double* panel, double tolerance) {
   // Points of a low-discrepancy lattice (Roberts's generalised golden ratio), moved to the grid.
-  const double ratio = Dim == 2 ? 1.32471795724474602596 : 1.22074408460575947536;
+  constexpr double ratios[] = {1.61803398874989484820, 1.32471795724474602596,
+                               1.22074408460575947536};
+  const double ratio = ratios[Dim - 1];
   for (int k = 1; k <= test_points; ++k) {
     Point scaled;
     for (int axis = 0; axis < Dim; ++axis) {

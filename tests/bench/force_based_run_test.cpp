@@ -95,7 +95,7 @@ TEST(ForceBasedRun, HasTheTrajectoriesOfTheMatrixOfRestitution) {
     const auto of_coarse = differences(state.configuration, coarse);
     const auto of_fine = differences(state.configuration, fine);
     EngineOptions hard;
-    hard.restitution = dissipative_time > 0 ? 0.9 : 1;
+    hard.laws = dissipative_time > 0 ? 0.9 : 1;
     const auto of_hard = differences(event_driven(gas(), hard).configuration, fine);
     EXPECT_GT(state.counters.collisions, 150u);
     for (const double share : {0.5, 0.7})

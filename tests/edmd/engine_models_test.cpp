@@ -85,7 +85,7 @@ TEST(Models, AMixtureMovesAsOneThatDoesNotGrow) {
 
 TEST(Models, InelasticDisksMoveAsInelasticEllipses) {
   EngineOptions options;
-  options.restitution = 0.8;
+  options.laws = 0.8;
   expect_same_motion(disks(), *make_disk_engine(options), *make_ellipse_engine(options));
 }
 
@@ -95,7 +95,7 @@ TEST(Models, DisksWithCellsMoveAsThoseWithLists) {
   cells.neighbors = NeighborSearch::cells;
   lists.neighbors = NeighborSearch::lists;
   for (const double restitution : {1., 0.9}) {
-    cells.restitution = lists.restitution = restitution;
+    cells.laws = lists.laws = restitution;
     expect_same_motion(disks(), *make_disk_engine(cells), *make_disk_engine(lists));
   }
   const Configuration2 few = moving(square_lattice(4, 0.7, 0, [](std::size_t) {
@@ -267,7 +267,7 @@ RunState2 brownian_run(const Configuration2& start, int threads) {
 TEST_P(Invariance, ThreadsChangeNoBitOfABrownianRun) {
   const Configuration2 start = GetParam().scene();
   const RunState2 one = brownian_run(start, 1);
-  EXPECT_EQ(one.brownian_steps, 60u);
+  EXPECT_EQ(one.velocity_steps, 60u);
   EXPECT_GT(one.counters.collisions, 30u);
   for (const int threads : {2, 3}) {
     const RunState2 more = brownian_run(start, threads);

@@ -233,7 +233,7 @@ TEST(Run, ManySamplesTicksAndStepsEndABlock) {
   int blocks = 1;
   while (run(parts, options, plan_until(end), stop_at_once).end == StageEnd::stopped) ++blocks;
   EXPECT_EQ(blocks, 4);  // of 256 in all 1000 steps and 2 samples
-  EXPECT_EQ(parts.brownian_steps, whole.brownian_steps);
+  EXPECT_EQ(parts.velocity_steps, whole.velocity_steps);
   EXPECT_EQ(parts.configuration.position, whole.configuration.position);
   EXPECT_EQ(parts.configuration.velocity, whole.configuration.velocity);
 }
@@ -262,7 +262,7 @@ TEST(Run, CorrectionMovesAreCountedAndResolveTheOverlap) {
 TEST(Run, InelasticCollisionsDissipateWhatTheyCount) {
   RunState2 state = begin_run(thesis_scene(), 0);
   DynamicsOptions options;
-  options.engine.restitution = 0.9;
+  options.engine.laws = 0.9;
   run(state, options, plan_until(5), {});
   EXPECT_GT(state.counters.dissipated, 1);
   EXPECT_LE(state.energy_drift, 1e-12);

@@ -372,7 +372,7 @@ TEST(SoftGas, HardLimitIsTheHardEngine) {
     const DynamicsOptions options =
         soft(LinearDashpot{stiffness, damping * std::sqrt(0.5 * stiffness)});
     DynamicsOptions hard;
-    hard.engine.restitution = restitution;
+    hard.engine.laws = restitution;
     const RunState3 soft_short = run_until(c, 0.2, options), hard_short = run_until(c, 0.2, hard);
     EXPECT_GT(hard_short.counters.collisions, c.size() / 8);
     EXPECT_EQ(soft_short.counters.collisions, hard_short.counters.collisions);

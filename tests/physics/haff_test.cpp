@@ -57,7 +57,7 @@ Cooling cool(std::uint64_t seed, double restitution, double time) {
   const Mechanics before = mechanics(cooling.configuration);
   const double hot = kinetic_temperature(cooling.configuration);
   DynamicsOptions options;
-  options.engine.restitution = restitution;
+  options.engine.laws = restitution;
   run(cooling, options, {{}, time, nullptr, {}}, {});
   const Mechanics after = mechanics(cooling.configuration);
   const double ratio = hot / kinetic_temperature(cooling.configuration);
@@ -132,7 +132,7 @@ TEST_P(InelasticCollapse, IsReportedAndNotLoopedOn) {
   RunState2 state = begin_run(start, -5);
   run(state, {}, {{}, 0, nullptr, {}}, {});
   DynamicsOptions options;
-  options.engine.restitution = at.restitution;
+  options.engine.laws = at.restitution;
   try {
     run(state, options, {{}, 1e9, nullptr, {}}, {});
     FAIL() << "ran to the end";

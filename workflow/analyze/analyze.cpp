@@ -19,6 +19,7 @@
 #include "workflow/analyze/glass_report.h"
 #include "workflow/analyze/glass_tables.h"
 #include "workflow/analyze/relaxation_tables.h"
+#include "workflow/configuration/hard_contacts.h"
 #include "workflow/configuration/parameters.h"
 #include "workflow/configuration/species_names.h"
 #include "workflow/configuration/start_state.h"
@@ -176,13 +177,22 @@ std::vector<Column> state_columns(const Configuration3& state) {
           {"isotropic_ratio_deviation", "1", {isotropic.standard_deviation}, {}}};
 }
 
+/// Smooth, if the file does not say.
+Contacts recorded_contacts(const TrajectoryReader& reader) {
+  const std::string recorded = reader.provenance().parameters;
+  if (recorded.empty()) return Contacts::smooth;
+  return contact_laws(recorded_parameters(recorded, reader.path().string())).are_rough()
+             ? Contacts::rough
+             : Contacts::smooth;
+}
+
 template <int Dim>
 void describe_run(RunAnalysis& run, TrajectoryFile<Dim>& trajectory) {
   const std::vector<double>& times = trajectory.times();
   const Configuration<Dim>& state = trajectory.read(trajectory.frames() - 1);
   run.particles = state.size();
   run.rotors = rotor_count(state);
-  run.rotations = rotation_count(state);
+  run.rotations = rotation_count(state, recorded_contacts(trajectory.reader()));
   run.packing_fraction = packing_fraction(state);
   run.state = state_columns(state);
   run.frames = trajectory.frames();

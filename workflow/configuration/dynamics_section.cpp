@@ -106,8 +106,7 @@ void describe_dynamics(DynamicsParameters& p, FieldVisitor& visit) {
   visit.field({"equilibration", "time", "Duration of the run before sampling starts, at time 0."},
               p.equilibration);
   visit.field({"duration", "time", "Duration of the sampled part of the run."}, p.duration);
-  visit.field({"restitution", "", "Coefficient of restitution, 1 for elastic collisions."},
-              p.restitution);
+  describe_collisions(p, visit);
   visit.field({"on_overlap", "",
                "Action if two particles overlap: stop with exit code 4, or apply and count the "
                "correction move of the thesis."},
@@ -140,9 +139,6 @@ void validate_dynamics(const DynamicsParameters& p) {
   rules.require(p.translation_share >= 0 && p.translation_share <= 1,
                 "initial_velocities.translation",
                 fmt::format("is {}, but must lie between 0 and 1", show(p.translation_share)));
-  rules.require(
-      p.restitution > 0 && p.restitution <= 1, "restitution",
-      fmt::format("is {}, but must lie above 0 and not above 1 (elastic)", show(p.restitution)));
 }
 
 void validate_contact(const Parameters& parameters) {
@@ -167,7 +163,14 @@ void validate_contact(const Parameters& parameters) {
   const Rules dynamics("dynamics");
   const std::string hard_only =
       "is for hard particles, but [dynamics.contact] makes them soft; leave it out";
-  dynamics.require(parameters.dynamics.restitution == 1, "restitution", hard_only);
+  const DynamicsParameters& all = parameters.dynamics;
+  dynamics.require(all.restitution.form == RestitutionParameters::Form::constant &&
+                       all.restitution.value == 1,
+                   "restitution", hard_only);
+  dynamics.require(all.friction == 0, "friction", hard_only);
+  dynamics.require(all.pairs.empty(), "pair", hard_only);
+  dynamics.require(all.contact_duration == 0, "contact_duration", hard_only);
+  dynamics.require(!all.driving, "driving", hard_only);
   dynamics.require(parameters.dynamics.on_overlap == OnOverlap::stop, "on_overlap", hard_only);
 }
 

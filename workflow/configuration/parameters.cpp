@@ -6,6 +6,7 @@
 #include <map>
 
 #include "edmd/sampling.h"
+#include "workflow/configuration/hard_contacts.h"
 #include "workflow/configuration/packing_bound.h"
 #include "workflow/configuration/sections.h"
 
@@ -168,6 +169,7 @@ void validate(const Parameters& parameters) {
   Rules("system").packing_fraction(parameters.system.packing_fraction, "packing_fraction", bound);
   validate_stages(parameters.stages, parameters.system, bound);
   validate_dynamics(parameters.dynamics);
+  validate_collisions(parameters);
   if (parameters.dynamics.contact) validate_contact(parameters);
   validate_output(parameters);
   validate_analysis(parameters.analysis);
@@ -282,7 +284,9 @@ std::optional<ParameterDifference> forbidden_change(const std::string& before,
 DynamicsOptions dynamics_options(const Parameters& parameters) {
   const DynamicsParameters& p = parameters.dynamics;
   DynamicsOptions options;
-  options.engine.restitution = p.restitution;
+  options.engine.laws = contact_laws(parameters);
+  options.engine.contact_duration = p.contact_duration;
+  options.driving = p.driving;
   options.engine.on_overlap = p.on_overlap;
   options.engine.rotation = p.rotation;
   options.brownian = p.kind == DynamicsParameters::Kind::brownian;

@@ -40,6 +40,22 @@ struct ContactParameters {
 /// As the parameter file calls it.
 const char* law_name(ContactParameters::Law law);
 
+/// A coefficient of normal restitution (edmd/contact_law.h).
+struct RestitutionParameters {
+  enum class Form { constant, viscoelastic, table };
+
+  Form form = Form::constant;
+  double value = 1, speed = 1;
+  std::vector<double> speeds, values;
+};
+
+/// The contacts of two species, where they differ from those of all.
+struct PairLawParameters {
+  std::string first = "A", second = "A";
+  std::optional<RestitutionParameters> restitution;
+  std::optional<double> friction, tangential_restitution;
+};
+
 struct DynamicsParameters {
   enum class Kind { newtonian, brownian };
 
@@ -47,7 +63,11 @@ struct DynamicsParameters {
   double brownian_step = 0.1;
   double equilibration = 10;
   double duration = 100;
-  double restitution = 1;
+  RestitutionParameters restitution;
+  double friction = 0, tangential_restitution = 0;
+  std::vector<PairLawParameters> pairs;
+  double contact_duration = 0;
+  std::optional<Driving> driving;
   OnOverlap on_overlap = OnOverlap::stop;
   Temperature temperature = Temperature::total;
   InitialVelocities initial_velocities = InitialVelocities::maxwell;

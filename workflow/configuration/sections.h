@@ -27,6 +27,9 @@ bool is_round(const Species& p);
 inline constexpr const char* rotation_names[] = {"euler", "constant"};
 
 void describe_dynamics(DynamicsParameters& p, FieldVisitor& visit);
+/// Of hard particles: their laws of contact and what drives them.
+void describe_collisions(DynamicsParameters& p, FieldVisitor& visit);
+void validate_collisions(const Parameters& parameters);
 void describe_contact(ContactParameters& p, FieldVisitor& visit);
 void validate_dynamics(const DynamicsParameters& p);
 /// Of soft particles, which the species and the dynamics must fit.

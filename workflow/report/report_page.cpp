@@ -73,7 +73,7 @@ std::string table_row(const ReportRun& run) {
   return "<tr><th scope=\"row\">" + density_text(run.packing_fraction) + "</th>" +
          text("compressibility_factor") + text("diffusion") + text("rotational_diffusion") +
          text("translational_energy") +
-         (value("rotors") == 0 ? cell("–") : text("rotational_energy")) +
+         (value("rotations") == 0 ? cell("–") : text("rotational_energy")) +
          count_cell(value("collisions")) + count_cell(run.collisions_per_second) +
          cell(std::isfinite(duration) ? fmt::format("{:.6g}", duration) : "–") +
          count_cell(value("particles")) + cell(escaped(run.name)) + "</tr>\n";

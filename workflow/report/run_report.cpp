@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-#include "workflow/configuration/parameters.h"
+#include "workflow/configuration/hard_contacts.h"
 #include "workflow/storage/trajectory_file.h"
 #include "workflow/sweep/sweep_results.h"
 
@@ -27,7 +27,11 @@ std::string dynamics_text(const DynamicsParameters& p) {
   std::string text = p.kind == DynamicsParameters::Kind::brownian
                          ? fmt::format("Brownian, step {:g}", p.brownian_step)
                          : "Newtonian";
-  if (p.restitution < 1) text += fmt::format(", restitution {:g}", p.restitution);
+  if (has_constant_restitution(p))
+    text += fmt::format(", restitution {:g}", p.restitution.value);
+  else if (is_dissipative(p))
+    text += p.friction > 0 ? ", inelastic and rough contacts" : ", inelastic contacts";
+  if (p.driving) text += ", driven";
   if (p.contact)
     text += p.contact->law == Contact::Law::viscoelastic ? ", viscoelastic contacts"
                                                          : ", contacts with linear dashpots";
@@ -36,8 +40,8 @@ std::string dynamics_text(const DynamicsParameters& p) {
 
 /// Which of Haff's laws holds; none for dynamics that conserve the energy or draw velocities again.
 std::optional<Cooling> cooling_of(const DynamicsParameters& p) {
-  if (p.kind == DynamicsParameters::Kind::brownian) return std::nullopt;
-  if (p.restitution < 1) return Cooling{2, "the coefficient of restitution is constant"};
+  if (p.kind == DynamicsParameters::Kind::brownian || p.driving) return std::nullopt;
+  if (has_constant_restitution(p)) return Cooling{2, "the coefficient of restitution is constant"};
   if (!p.contact) return std::nullopt;
   if (p.contact->law == Contact::Law::linear_dashpot && p.contact->linear_dashpot.damping > 0)
     return Cooling{2,

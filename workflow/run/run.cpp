@@ -8,6 +8,7 @@
 #include "core/io/h5md.h"
 #include "core/io/json.h"
 #include "core/state/check.h"
+#include "workflow/configuration/hard_contacts.h"
 #include "workflow/configuration/soft_particles.h"
 #include "workflow/configuration/start_state.h"
 #include "workflow/prepare/prepare.h"
@@ -215,8 +216,9 @@ Json run_summary(const RunRequest& request, const RunOutcome<Dim>& outcome) {
   const RunState<Dim>& state = outcome.state;
   const RunCounters& counters = state.counters;
   const TrajectoryReader trajectory(request.output);
+  const Contacts contacts = vitrel::contacts(dynamics_options(request.parameters).engine);
   const CompressibilitySeries z = stored_compressibility(trajectory, observed_energies(trajectory),
-                                                         rotation_count(state.configuration));
+                                                         rotation_count(state.configuration, contacts));
   const double simulated = state.configuration.time - state.start_time;
   const auto collisions = static_cast<double>(counters.collisions);
   Json summary = {
@@ -239,7 +241,14 @@ Json run_summary(const RunRequest& request, const RunOutcome<Dim>& outcome) {
       {"wall_seconds", outcome.wall_seconds},
       {"collisions_per_second", collisions / (outcome.wall_seconds - state.output_seconds)},
       {"collisions_per_second_with_output", collisions / outcome.wall_seconds}};
-  if (request.parameters.dynamics.contact) {
+  const DynamicsParameters& dynamics = request.parameters.dynamics;
+  if (is_dissipative(dynamics) || dynamics.contact) summary["dissipated_energy"] = counters.dissipated;
+  if (dynamics.driving) summary["supplied_energy"] = counters.supplied;
+  if (dynamics.contact_duration > 0) {
+    summary["short_flights"] = counters.short_flights;
+    summary["spared_energy"] = counters.spared;
+  }
+  if (dynamics.contact) {
     summary["blocked_rotations"] = counters.blocked_rotations;
     summary["early_releases"] = counters.early_releases;
     summary["blocked_rotations_per_collision"] =
@@ -247,7 +256,6 @@ Json run_summary(const RunRequest& request, const RunOutcome<Dim>& outcome) {
     summary["early_releases_per_collision"] =
         static_cast<double>(counters.early_releases) / collisions;
     summary["integrated_contacts"] = counters.integrations;
-    summary["dissipated_energy"] = counters.dissipated;
   }
   if (request.parameters.output.correlations)
     summary["correlations"] = correlations_path(request.output).string();

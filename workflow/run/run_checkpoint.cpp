@@ -19,7 +19,7 @@ void each_item(Run& run, Visit&& visit) {
   visit("largest_momentum", state.largest_momentum);
   visit("wall_seconds", run.wall_seconds);
   visit.if_recorded("output_seconds", state.output_seconds);
-  visit("brownian_steps", state.brownian_steps);
+  visit("brownian_steps", state.velocity_steps);
   visit("next_sample", state.next_sample);
   visit("next_tick", state.next_tick);
   visit("correlations", run.correlations);

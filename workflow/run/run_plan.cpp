@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "workflow/configuration/hard_contacts.h"
 #include "workflow/configuration/soft_particles.h"
 #include "workflow/configuration/start_state.h"
 #include "workflow/run/correlations_file.h"
@@ -65,7 +66,8 @@ std::string cost_text(const RunRequest& request) {
   const RunCost cost = run_cost(p, representative_particles<Dim>(p));
   const double correlations = p.output.correlations ? correlator_bytes(p) : 0;
   const double memory = cost.memory_bytes + correlations;
-  const bool slows = p.dynamics.restitution < 1 || p.dynamics.contact;
+  const bool slows =
+      (is_dissipative(p.dynamics) || p.dynamics.contact) && !p.dynamics.driving;
   return fmt::format(
              "expects      {}{:.2g} events, {:.2g} s after the preparation, {:.3g} MB of "
              "memory, {:.3g} MB on disk\n",
@@ -89,7 +91,7 @@ std::string plan_text(RunRequest request) {
   text += p.dynamics.kind == DynamicsParameters::Kind::brownian
               ? fmt::format("dynamics     brownian, step {}\n", p.dynamics.brownian_step)
               : std::string("dynamics     newtonian\n");
-  if (p.dynamics.contact) text += contact_text(*p.dynamics.contact);
+  text += p.dynamics.contact ? contact_text(*p.dynamics.contact) : hard_contact_text(p.dynamics);
   text += fmt::format("time         {} to equilibrate, then {}\n", p.dynamics.equilibration,
                       p.dynamics.duration);
   text +=

@@ -136,7 +136,8 @@ template <int Dim>
 void set_velocities(Configuration<Dim>& configuration, const Parameters& parameters) {
   const DynamicsParameters& dynamics = parameters.dynamics;
   set_initial_velocities(configuration, parameters.system.seed, dynamics.initial_velocities,
-                         dynamics.temperature, initial_energies(parameters));
+                         dynamics.temperature, initial_energies(parameters),
+                         contacts(dynamics_options(parameters).engine));
   const Mechanics<Dim> sums = mechanics(configuration);
   if (!(sums.translational_energy + sums.rotational_energy > 0))
     throw UserError(

@@ -21,6 +21,9 @@ void each_item_of_counters(Counters& counters, const std::string& path, Visit&& 
   visit(path + "refused_turns", counters.blocked_rotations);
   visit(path + "early_releases", counters.early_releases);
   visit(path + "integrations", counters.integrations);
+  visit.if_recorded(path + "short_flights", counters.short_flights);
+  visit.if_recorded(path + "spared", counters.spared);
+  visit.if_recorded(path + "supplied", counters.supplied);
 }
 
 template <class Growth, class Visit>

@@ -1,0 +1,252 @@
+#include "workflow/configuration/hard_contacts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "workflow/configuration/sections.h"
+
+namespace vitrel {
+namespace {
+
+using Form = RestitutionParameters::Form;
+
+constexpr const char* form_names[] = {"viscoelastic", "table"};
+
+NormalRestitution normal_restitution(const RestitutionParameters& p) {
+  switch (p.form) {
+    case Form::constant: return p.value;
+    case Form::viscoelastic: return NormalRestitution::viscoelastic(p.value, p.speed);
+    case Form::table: return NormalRestitution::tabulated(p.speeds, p.values);
+  }
+  return {};
+}
+
+/// The keys that a pair does not give are those of all pairs.
+ContactLaw contact_law(const DynamicsParameters& all, const PairLawParameters& pair) {
+  return {normal_restitution(pair.restitution.value_or(all.restitution)),
+          pair.friction.value_or(all.friction),
+          pair.tangential_restitution.value_or(all.tangential_restitution)};
+}
+
+void describe_restitution(const Field& field, RestitutionParameters& p, FieldVisitor& visit) {
+  bool is_table = p.form != Form::constant;
+  std::size_t form = p.form == Form::table ? 1 : 0;
+  visit.value_or_table(
+      field, is_table, [&](FieldVisitor& in) { in.field(field, p.value); },
+      [&](FieldVisitor& in) {
+        in.choice({"form", "",
+                   "Dependence on the approach speed of the surfaces: viscoelastic spheres, or a "
+                   "table."},
+                  form, form_names);
+        in.when(form == 0, "form = \"viscoelastic\"", [&](FieldVisitor& of) {
+          of.field({"value", "", "Coefficient at this speed; it tends to 1 for slow impacts."},
+                   p.value);
+          of.field({"speed", "speed", "The speed."}, p.speed);
+        });
+        in.when(form == 1, "form = \"table\"", [&](FieldVisitor& of) {
+          of.field({"speeds", "speed", "Speeds in ascending order."}, p.speeds);
+          of.field({"values", "",
+                    "Coefficients at these speeds: linear between them, constant outside."},
+                   p.values);
+        });
+      });
+  p.form = !is_table ? Form::constant : form == 0 ? Form::viscoelastic : Form::table;
+}
+
+void describe_pair(PairLawParameters& p, FieldVisitor& visit) {
+  visit.field({"first", "", "Name of a species."}, p.first);
+  visit.field({"second", "", "Name of the other species, or of the same."}, p.second);
+  const Field restitution{"restitution", "", "As for all pairs."};
+  visit.optional(restitution, p.restitution, RestitutionParameters(),
+                 [&](FieldVisitor& in, RestitutionParameters& inner) {
+                   describe_restitution(restitution, inner, in);
+                 });
+  visit.optional({"friction", "", "As for all pairs."}, p.friction, 0.0);
+  visit.optional({"tangential_restitution", "", "As for all pairs."}, p.tangential_restitution,
+                 0.0);
+}
+
+void validate_restitution(const RestitutionParameters& p, const std::string& path,
+                          const std::string& key) {
+  const Rules rules(path);
+  const auto require_value = [&](double e, const std::string& where) {
+    rules.require(e >= 0 && e <= 1, where,
+                  fmt::format("is {}, but must lie between 0 and 1 (elastic)", show(e)));
+  };
+  if (p.form == Form::constant) require_value(p.value, key);
+  if (p.form == Form::viscoelastic) {
+    rules.require(p.value > 0 && p.value < 1, key + ".value",
+                  fmt::format("is {}, but must lie above 0 and below 1", show(p.value)));
+    rules.positive(p.speed, key + ".speed");
+  }
+  if (p.form == Form::table) {
+    rules.require(!p.speeds.empty() && p.speeds.size() == p.values.size(), key + ".values",
+                  fmt::format("has {} numbers, but must have as many as {}.speeds, which has {}, "
+                              "and at least one",
+                              p.values.size(), key, p.speeds.size()));
+    rules.require(std::ranges::is_sorted(p.speeds, std::less_equal()) && p.speeds.front() >= 0 &&
+                      std::isfinite(p.speeds.back()),
+                  key + ".speeds", "must hold finite numbers from 0 on, each above the one before");
+    for (const double e : p.values) require_value(e, key + ".values");
+  }
+}
+
+void validate_friction(double friction, double tangential_restitution, const std::string& path) {
+  const Rules rules(path);
+  rules.require(friction >= 0, "friction",
+                fmt::format("is {}, but must be 0 (smooth) or above, or inf (no slip)",
+                            show(friction)));
+  rules.require(tangential_restitution >= -1 && tangential_restitution <= 1,
+                "tangential_restitution",
+                fmt::format("is {}, but must lie between -1 and 1", show(tangential_restitution)));
+}
+
+void validate_pairs(const Parameters& parameters) {
+  const std::vector<PairLawParameters>& pairs = parameters.dynamics.pairs;
+  const auto is_species = [&](const std::string& name) {
+    return std::ranges::find(parameters.species, name, &Species::name) != parameters.species.end();
+  };
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const PairLawParameters& pair = pairs[k];
+    const std::string path = fmt::format("dynamics.pair.{}", k);
+    const Rules rules(path);
+    for (const auto& [key, name] : {std::pair("first", pair.first), {"second", pair.second}})
+      rules.require(is_species(name), key,
+                    fmt::format("is \"{}\", but must be the name of a species", name));
+    for (std::size_t j = 0; j < k; ++j)
+      rules.require(std::minmax(pair.first, pair.second) !=
+                        std::minmax(pairs[j].first, pairs[j].second),
+                    "second", fmt::format("makes the same pair as dynamics.pair.{}", j));
+    if (pair.restitution) validate_restitution(*pair.restitution, path, "restitution");
+    validate_friction(pair.friction.value_or(0), pair.tangential_restitution.value_or(0), path);
+  }
+}
+
+std::string restitution_text(const RestitutionParameters& p) {
+  switch (p.form) {
+    case Form::constant: return fmt::format("e = {:g}", p.value);
+    case Form::viscoelastic:
+      return fmt::format("e = {:g} at speed {:g}, viscoelastic", p.value, p.speed);
+    case Form::table:
+      return fmt::format("e = {:g} … {:g} at speeds {:g} … {:g}, from a table", p.values.front(),
+                         p.values.back(), p.speeds.front(), p.speeds.back());
+  }
+  return {};
+}
+
+std::string law_text(const RestitutionParameters& restitution, double friction, double beta) {
+  if (!ContactLaw{0.0, friction, beta}.is_rough()) return restitution_text(restitution) + ", smooth";
+  return fmt::format("{}, μ = {:g}, β = {:g}", restitution_text(restitution), friction, beta);
+}
+
+bool may_lose_energy(const RestitutionParameters& p) {
+  return p.form != Form::constant || p.value < 1;
+}
+
+bool is_rough(const DynamicsParameters& p, const PairLawParameters& pair) {
+  return ContactLaw{0.0, pair.friction.value_or(p.friction),
+                    pair.tangential_restitution.value_or(p.tangential_restitution)}
+      .is_rough();
+}
+
+}  // namespace
+
+void describe_collisions(DynamicsParameters& p, FieldVisitor& visit) {
+  describe_restitution({"restitution", "",
+                        "Coefficient of normal restitution, from 0 to 1 (elastic). As a table, a "
+                        "function of the speed."},
+                       p.restitution, visit);
+  visit.field({"friction", "",
+               "Coulomb's friction coefficient μ: 0 for smooth particles, inf for contacts that do "
+               "not slip. Where there is friction, round particles spin, too."},
+              p.friction);
+  visit.field({"tangential_restitution", "",
+               "Coefficient β of rough contacts that do not slip: the tangential speed of the "
+               "surfaces remains (-1), vanishes (0) or is reversed (1)."},
+              p.tangential_restitution);
+  visit.list({"pair", "",
+              "A pair of species whose contacts are different. What is not given is as for all "
+              "pairs."},
+             p.pairs, describe_pair);
+  visit.field({"contact_duration", "time",
+               "Time t_c of the contact-time model: a collision that comes sooner after the one "
+               "before of either particle is elastic and smooth, so that inelastic collapse does "
+               "not stop the run; 0 for none. It should be well below the time between collisions."},
+              p.contact_duration);
+  const Field driving{"driving", "",
+                      "Random kicks of all particles, which conserve the momentum: homogeneous "
+                      "heating, for steady states of inelastic particles."};
+  visit.optional(driving, p.driving, Driving(), [&](FieldVisitor& in, Driving& inner) {
+    in.table(driving, FieldVisitor::TableStyle::inline_table, [&](FieldVisitor& of) {
+      of.field({"interval", "time",
+                "Time between kicks. It should be well below the time between collisions."},
+               inner.interval);
+      of.field({"power", "kT/time",
+                "Mean energy that a particle gains per unit of time."},
+               inner.power);
+    });
+  });
+}
+
+void validate_collisions(const Parameters& parameters) {
+  const DynamicsParameters& p = parameters.dynamics;
+  const Rules rules("dynamics");
+  validate_restitution(p.restitution, "dynamics", "restitution");
+  validate_friction(p.friction, p.tangential_restitution, "dynamics");
+  validate_pairs(parameters);
+  rules.not_negative(p.contact_duration, "contact_duration");
+  if (!p.driving) return;
+  rules.require(p.kind == DynamicsParameters::Kind::newtonian, "driving",
+                "is for kind = \"newtonian\"; Brownian dynamics draws all velocities");
+  const Rules driving("dynamics.driving");
+  driving.positive(p.driving->interval, "interval");
+  driving.positive(p.driving->power, "power");
+}
+
+ContactLaws contact_laws(const Parameters& parameters) {
+  const DynamicsParameters& p = parameters.dynamics;
+  const ContactLaw all = contact_law(p, {});
+  if (p.pairs.empty()) return all;
+  const auto index = [&](const std::string& name) {
+    const auto found = std::ranges::find(parameters.species, name, &Species::name);
+    return static_cast<std::size_t>(found - parameters.species.begin());
+  };
+  ContactLaws laws(parameters.species.size(), all);
+  for (const PairLawParameters& pair : p.pairs)
+    laws.set(index(pair.first), index(pair.second), contact_law(p, pair));
+  return laws;
+}
+
+bool has_constant_restitution(const DynamicsParameters& p) {
+  return p.pairs.empty() && p.restitution.form == Form::constant && p.restitution.value < 1 &&
+         !is_rough(p, {});
+}
+
+bool is_dissipative(const DynamicsParameters& p) {
+  const auto loses = [&](const PairLawParameters& pair) {
+    return may_lose_energy(pair.restitution.value_or(p.restitution)) || is_rough(p, pair);
+  };
+  return loses({}) || std::ranges::any_of(p.pairs, loses);
+}
+
+std::string hard_contact_text(const DynamicsParameters& p) {
+  std::string text;
+  if (is_dissipative(p))
+    text += fmt::format("contacts     {}\n", law_text(p.restitution, p.friction, p.tangential_restitution));
+  for (const PairLawParameters& pair : p.pairs)
+    text += fmt::format("             {} and {}: {}\n", pair.first, pair.second,
+                        law_text(pair.restitution.value_or(p.restitution),
+                                 pair.friction.value_or(p.friction),
+                                 pair.tangential_restitution.value_or(p.tangential_restitution)));
+  if (p.contact_duration > 0)
+    text += fmt::format("             elastic and smooth within t_c = {:g} after a collision\n",
+                        p.contact_duration);
+  if (p.driving)
+    text += fmt::format("driven       by kicks every {:g}, power {:g} per particle\n",
+                        p.driving->interval, p.driving->power);
+  return text;
+}
+
+}  // namespace vitrel
