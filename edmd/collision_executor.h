@@ -46,7 +46,6 @@ class CollisionExecutor {
     const double since = state_.now - std::max(state_.last_change(i), state_.last_change(j));
     const Vector d = meet(i, event);
     const Vector normal = event.normal_along(d);
-    if (tc_ > 0 && i != j) restore_gap(i, j, d, normal);
     const double speed = collide(i, j, d, normal, counters);
     if (collapses_) collapse_.detect(i, j, speed * since);
     if constexpr (!State::is_round) state_.neighborhoods->store_axis(i, event.partner, normal);
@@ -98,15 +97,21 @@ class CollisionExecutor {
   double restitution_of(const ContactLaw& law, Index i, Index j, const Vector& n) const {
     if (law.restitution.is_elastic()) return 1;
     const double speed = speed_of_approach(i, j, n);
-    return std::max(law.restitution(speed), std::min(1., separation_speed(i, j) / speed));
+    const double separating = separation_speed(i, j) / speed;
+    return std::max(law.restitution(speed), tc_ > 0 ? separating : std::min(1., separating));
   }
 
-  /// Surfaces that separate more slowly would touch again at once by rounding; or, with the contact-time model, before
-  /// t_c, as they rotate towards each other with an acceleration of the order of v²/R.
+  /// Surfaces that separate more slowly would touch again at once by rounding. With the contact-time model they must also
+  /// come clear of the contact gap, and not touch again before t_c, although they may rotate towards each other with an
+  /// acceleration of the order of v²/R: there slower ones gain the speed, whose energy is accounted for.
   double separation_speed(Index i, Index j) const {
     constexpr double of_fastest = 1e-13;  // far above the rounding of velocities
+    constexpr double contact_gaps = 1000;
+    if (State::is_round || !(tc_ > 0)) return of_fastest * state_.fastest;
     const double size = std::min(state_.shape(i).inradius(), state_.shape(j).inradius());
-    return std::max(of_fastest, tc_ * state_.fastest / size) * state_.fastest;
+    const double share = std::max(tc_ * state_.fastest / size,
+                                  std::sqrt(contact_gaps * state_.contact_gap / size));
+    return share * state_.fastest;
   }
 
   /// The contact-time model (inelastic_collapse.h): an elastic, smooth collision, if one of the two has just collided.
@@ -115,24 +120,13 @@ class CollisionExecutor {
     const double since = state_.now - std::max(last_collision_[i], last_collision_[j]);
     last_collision_[i] = last_collision_[j] = state_.now;
     if (since >= tc_) return false;
-    const Impact result = impact(i, j, d, n, 1, counters);
-    const double restitution = law.restitution(result.speed);
+    const double speed = speed_of_approach(i, j, n), restitution = law.restitution(speed);
+    const double elastic = std::max(1., separation_speed(i, j) / speed);
+    const Impact result = impact(i, j, d, n, elastic, counters);
+    const double along = result.impulse * speed / (2 * (1 + elastic));
     ++counters.short_flights;
-    // E_n = J u/4.
-    counters.spared += 0.25 * (1 - restitution * restitution) * result.impulse * result.speed;
+    counters.spared += (1 - restitution * restitution) * along;
     return true;
-  }
-
-  /// Pairs that stay in contact with the contact-time model come closer by rounding, from one collision to the next. They
-  /// are moved apart to the contact gap, about their centre of mass.
-  void restore_gap(Index i, Index j, const Vector& d, const Vector& n) {
-    const double gap = n.dot(d - surface_from(i, n) + surface_from(j, -n));
-    if (!(gap < state_.contact_gap)) return;
-    const double inverse_mass1 = state_.type(i).inertia.inverse_mass,
-                 inverse_mass2 = state_.type(j).inertia.inverse_mass;
-    const Vector shift = (state_.contact_gap - gap) / (inverse_mass1 + inverse_mass2) * n;
-    state_.particles[i].position -= inverse_mass1 * shift;
-    state_.particles[j].position += inverse_mass2 * shift;
   }
 
   /// A rough collision. Returns the approach speed.
