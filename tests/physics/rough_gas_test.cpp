@@ -12,8 +12,7 @@ namespace vitrel {
 namespace {
 
 Configuration3 spheres(int cells, double packing_fraction) {
-  return cubic_lattice(cells, simple_cubic, packing_fraction,
-                       [](std::size_t) { return Ellipsoid{Vec3::Ones()}; });
+  return cubic_lattice(cells, simple_cubic, packing_fraction, Ellipsoid{Vec3::Ones()});
 }
 
 struct Temperatures {
