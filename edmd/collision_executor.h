@@ -106,7 +106,7 @@ class CollisionExecutor {
   /// acceleration of the order of v²/R: there slower ones gain the speed, whose energy is accounted for.
   double separation_speed(Index i, Index j) const {
     constexpr double of_fastest = 1e-13;  // far above the rounding of velocities
-    constexpr double contact_gaps = 1000;
+    constexpr double contact_gaps = 1e5;
     if (State::is_round || !(tc_ > 0)) return of_fastest * state_.fastest;
     const double size = std::min(state_.shape(i).inradius(), state_.shape(j).inradius());
     const double share = std::max(tc_ * state_.fastest / size,
