@@ -122,11 +122,23 @@ void split_energy(Configuration<Dim>& configuration, double share) {
 
 }  // namespace
 
+/// Of particles whose spin smooth contacts never change.
+template <int Dim>
+void stop_round_particles(Configuration<Dim>& configuration) {
+  for (std::size_t i = 0; i < configuration.size(); ++i)
+    if (configuration.shape[i].is_round())
+      configuration.angular_velocity[i] =
+          AngularVelocity<Dim>(0 * configuration.angular_velocity[i]);
+}
+
 template <int Dim>
 void set_initial_velocities(Configuration<Dim>& configuration, std::uint64_t seed,
                             InitialVelocities kind, Temperature temperature,
                             const InitialEnergies& energies, Contacts contacts) {
-  if (kind == InitialVelocities::keep) return;
+  if (kind == InitialVelocities::keep) {
+    if (contacts == Contacts::smooth) stop_round_particles(configuration);
+    return;
+  }
   draw_velocities(configuration, seed, Purpose::velocities, 0, temperature, contacts);
   if (!energies.temperatures.empty()) heat_species(configuration, energies.temperatures, contacts);
   if (kind == InitialVelocities::translation) split_energy(configuration, 1);

@@ -26,14 +26,12 @@ class CollisionExecutor {
       : state_(state),
         laws_(options.laws),
         tc_(options.contact_duration),
+        has_contact_times_(tc_ > 0 || are_soft(options)),
         collapses_(laws_.are_inelastic() && !(tc_ > 0)) {}
 
-  void begin_block(const Configuration<dimension>& configuration) {
+  void begin_block() {
     collapse_.begin_block();
-    species_.clear();
-    if (!laws_.are_the_same())
-      for (const Index k : state_.external_id) species_.push_back(configuration.species[k]);
-    last_collision_.assign(tc_ > 0 ? state_.size() : 0, -State::never);
+    last_collision_.assign(has_contact_times_ ? state_.size() : 0, -State::never);
   }
   /// As the state's, by this time.
   void reset_clocks(double elapsed) {
@@ -63,6 +61,17 @@ class CollisionExecutor {
     ++counters.correction_moves;
   }
 
+  /// A soft pair that cannot rotate (soft/soft_contact.h) collides as hard particles with this restitution; by the
+  /// contact-time model, t_c the duration of the contact.
+  void collide_soft_pair(Index i, Index j, const Vector& d, const Vector& n, double restitution,
+                         double contact_duration, RunCounters& counters) {
+    if (flight_is_short(i, j, contact_duration))
+      collide_again(i, j, d, n, restitution, counters);
+    else
+      impact(i, j, d, n, restitution, counters);
+  }
+
+ private:
   /// Applies an instantaneous smooth collision.
   Impact impact(Index i, Index j, const Vector& d, const Vector& n, double restitution,
                 RunCounters& counters) {
@@ -81,15 +90,13 @@ class CollisionExecutor {
     return result;
   }
 
- private:
-  const ContactLaw& law(Index i, Index j) const {
-    return laws_.are_the_same() ? laws_.common() : laws_.of(species_[i], species_[j]);
-  }
-
   /// By the law of the pair. Returns the approach speed of the surfaces.
   double collide(Index i, Index j, const Vector& d, const Vector& n, RunCounters& counters) {
-    const ContactLaw& law = this->law(i, j);
-    if (tc_ > 0 && collide_again(i, j, d, n, law, counters)) return 0;
+    const ContactLaw& law = state_.of_pair(laws_, i, j);
+    if (tc_ > 0 && flight_is_short(i, j, tc_)) {
+      collide_again(i, j, d, n, law.restitution(speed_of_approach(i, j, n)), counters);
+      return 0;
+    }
     if (law.is_rough() && i != j) return rub(i, j, d, n, law, counters);
     return impact(i, j, d, n, restitution_of(law, i, j, n), counters).speed;
   }
@@ -109,24 +116,27 @@ class CollisionExecutor {
     constexpr double contact_gaps = 1e5;
     if (State::is_round || !(tc_ > 0)) return of_fastest * state_.fastest;
     const double size = std::min(state_.shape(i).inradius(), state_.shape(j).inradius());
-    const double share = std::max(tc_ * state_.fastest / size,
-                                  std::sqrt(contact_gaps * state_.contact_gap / size));
+    const double share =
+        std::max(tc_ * state_.fastest / size, std::sqrt(contact_gaps * state_.contact_gap / size));
     return share * state_.fastest;
   }
 
-  /// The contact-time model (inelastic_collapse.h): an elastic, smooth collision, if one of the two has just collided.
-  bool collide_again(Index i, Index j, const Vector& d, const Vector& n, const ContactLaw& law,
-                     RunCounters& counters) {
+  /// Whether one of the two collided within this time before the present collision of theirs.
+  bool flight_is_short(Index i, Index j, double contact_duration) {
     const double since = state_.now - std::max(last_collision_[i], last_collision_[j]);
     last_collision_[i] = last_collision_[j] = state_.now;
-    if (since >= tc_) return false;
-    const double speed = speed_of_approach(i, j, n), restitution = law.restitution(speed);
+    return since < contact_duration;
+  }
+
+  /// By the contact-time model (inelastic_collapse.h): an elastic, smooth collision instead of this restitution.
+  void collide_again(Index i, Index j, const Vector& d, const Vector& n, double restitution,
+                     RunCounters& counters) {
+    const double speed = speed_of_approach(i, j, n);
     const double elastic = std::max(1., separation_speed(i, j) / speed);
     const Impact result = impact(i, j, d, n, elastic, counters);
     const double along = result.impulse * speed / (2 * (1 + elastic));
     ++counters.short_flights;
     counters.spared += (1 - restitution * restitution) * along;
-    return true;
   }
 
   /// A rough collision. Returns the approach speed.
@@ -207,9 +217,9 @@ class CollisionExecutor {
   State& state_;
   const ContactLaws& laws_;
   const double tc_;
+  const bool has_contact_times_;
   const bool collapses_;  ///< whether inelastic collapse is possible, and stops the run
-  std::vector<std::int32_t> species_;    ///< of particles; if laws differ
-  std::vector<double> last_collision_;   ///< of particles; of the contact-time model
+  std::vector<double> last_collision_;  ///< of particles; of the contact-time model
   InelasticCollapse<B> collapse_{state_};
 };
 

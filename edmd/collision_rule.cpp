@@ -135,19 +135,17 @@ RoughImpact<Dim> collide_rough(Motion<Dim>& one, const Inertia<Dim>& inertia1, M
   const Vec<Dim> part = sticking - frictionless;
   const double norm = n.norm(), pressing_of_part = -part.dot(n) / norm;
   const double share =
-      law.is_rough()
-          ? stuck_part(1 + law.tangential_restitution, law.friction,
-                       (1 + restitution) * speed / compliance * norm, pressing_of_part,
-                       (part + pressing_of_part / norm * n).norm())
-          : 0;
+      law.is_rough() ? stuck_part(1 + law.tangential_restitution, law.friction,
+                                  (1 + restitution) * speed / compliance * norm, pressing_of_part,
+                                  (part + pressing_of_part / norm * n).norm())
+                     : 0;
   const Vec<Dim> impulse = (1 + restitution) * frictionless + share * part;
   const double along = 0.5 * speed * speed / compliance, across = -0.5 * part.dot(v);
   one.velocity += inertia1.inverse_mass * impulse;
   two.velocity -= inertia2.inverse_mass * impulse;
   one.angular_velocity += inertia1.inverse_moment * cross(contact.arm1, impulse);
   two.angular_velocity -= inertia2.inverse_moment * cross(contact.arm2, impulse);
-  return {impulse,
-          (1 - restitution) * (1 + restitution) * along + share * (2 - share) * across};
+  return {impulse, (1 - restitution) * (1 + restitution) * along + share * (2 - share) * across};
 }
 
 template double approach_speed(const Motion<2>&, const Motion<2>&, const ContactGeometry<2>&);

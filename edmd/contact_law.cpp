@@ -75,12 +75,12 @@ bool NormalRestitution::is_elastic() const {
 }
 
 bool ContactLaws::are_rough() const {
-  return std::ranges::any_of(laws_, &ContactLaw::is_rough);
+  return std::ranges::any_of(values(), &ContactLaw::is_rough);
 }
 
 bool ContactLaws::are_inelastic() const {
-  return std::ranges::any_of(
-      laws_, [](const ContactLaw& law) { return !law.restitution.is_elastic(); });
+  return std::ranges::any_of(values(),
+                             [](const ContactLaw& law) { return !law.restitution.is_elastic(); });
 }
 
 }  // namespace vitrel

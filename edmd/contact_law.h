@@ -1,10 +1,11 @@
 #pragma once
 
-#include <cstddef>
 #include <limits>
 #include <utility>
 #include <variant>
 #include <vector>
+
+#include "edmd/pairs_of_species.h"
 
 /// @file
 /// The laws by which hard particles collide (collision_rule.h), one for each pair of species.
@@ -55,32 +56,16 @@ struct ContactLaw {
 };
 
 /// The laws of all pairs of species.
-class ContactLaws {
+class ContactLaws : public PairsOfSpecies<ContactLaw> {
  public:
-  /// One law for all.
-  ContactLaws(ContactLaw law = {}) : laws_{std::move(law)} {}  // NOLINT: a law is all laws
-  ContactLaws(double restitution) : ContactLaws(ContactLaw{restitution}) {}  // NOLINT
-  /// One law for all but pairs that are set.
-  ContactLaws(std::size_t species, const ContactLaw& law)
-      : species_(species), laws_(species * species, law) {}
+  using PairsOfSpecies::PairsOfSpecies;
+  ContactLaws(double restitution)  // NOLINT: a number is a law
+      : PairsOfSpecies(ContactLaw{restitution}) {}
 
-  void set(std::size_t one, std::size_t two, const ContactLaw& law) {
-    laws_[one * species_ + two] = laws_[two * species_ + one] = law;
-  }
-
-  bool are_the_same() const { return laws_.size() == 1; }
-  const ContactLaw& common() const { return laws_.front(); }
-  const ContactLaw& of(std::size_t one, std::size_t two) const {
-    return laws_[one * species_ + two];
-  }
   /// Whether any contact changes rotations that smooth ones do not.
   bool are_rough() const;
   /// Whether e < 1 for any pair and speed.
   bool are_inelastic() const;
-
- private:
-  std::size_t species_ = 1;
-  std::vector<ContactLaw> laws_;
 };
 
 }  // namespace vitrel

@@ -14,7 +14,7 @@ namespace {
 
 template <int Dim>
 void require_round(const Configuration<Dim>& configuration, const EngineOptions& options) {
-  if (options.soft_contact && (options.growth_rate != 0 || rotor_count(configuration) > 0))
+  if (are_soft(options) && (options.growth_rate != 0 || rotor_count(configuration) > 0))
     throw UserError("soft particles must be round and cannot grow");
 }
 

@@ -28,10 +28,10 @@ struct RunCounters {
   /// Σ J n·d over collisions, d from centre to centre; for soft contacts the equivalent term
   /// (soft/soft_contact.h).
   double virial = 0;
-  double dissipated = 0;  ///< energy lost in inelastic collisions
+  double dissipated = 0;            ///< energy lost in inelastic collisions
   std::uint64_t short_flights = 0;  ///< collisions that the contact-time model made elastic
-  double spared = 0;  ///< energy of the normal motion that they would have lost
-  double supplied = 0;  ///< energy gained by kicks (driving.h)
+  double spared = 0;                ///< energy of the normal motion that they would have lost
+  double supplied = 0;              ///< energy gained by kicks (driving.h)
 
   /// Adds the counts that predictions make.
   void add_predictions(const RunCounters& other) {

@@ -42,7 +42,8 @@ class InelasticCollapse {
     throw InvariantError(
         "inelastic collapse at time " + std::to_string(state_.base + state_.now) + ": particles " +
         std::to_string(state_.external_id[i]) + " and " + std::to_string(state_.external_id[j]) +
-        " collide repeatedly without moving; dynamics.contact_duration, the t_c of the contact-time model, "
+        " collide repeatedly without moving; dynamics.contact_duration, the t_c of the "
+        "contact-time model, "
         "goes on from here; or use a coefficient of restitution closer to 1, or a shorter run");
   }
 

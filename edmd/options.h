@@ -40,15 +40,18 @@ struct EngineOptions {
   /// From `load` on, all semi-axes are those loaded times 1 + growth_rate · time. Masses are constant, moments of
   /// inertia are those of the current axes, and angular velocities are constant in flight.
   double growth_rate = 0;
-  /// If set, the particles are soft: round, and not growing; `laws` and
-  /// `contact_duration` then have no effect.
-  std::shared_ptr<SoftContact> soft_contact;
+  /// If set, the particles are soft: round, and not growing; `laws` and `contact_duration` then have no effect.
+  PairsOfSpecies<std::shared_ptr<SoftContact>> soft_contact = {};
   FreeRotation rotation = FreeRotation::euler;
   EarlyRelease early_release = EarlyRelease::alone;
   std::optional<NeighborSearch> neighbors = {};  ///< none: by density
   /// Threads that predict all particles; results do not depend on their number.
   int threads = 1;
 };
+
+inline bool are_soft(const EngineOptions& options) {
+  return options.soft_contact.values().front() != nullptr;
+}
 
 /// What the laws of contact make of rotations.
 inline Contacts contacts(const EngineOptions& options) {

@@ -51,7 +51,7 @@ class EventDrivenRun {
       if (!finished && !(state_.configuration.time > block_start))
         throw InvariantError("time stands still at " + std::to_string(block_start) +
                              ": a block of events took no simulated time (" +
-                             (options_.engine.soft_contact
+                             (are_soft(options_.engine)
                                   ? "too dense or too strongly damped for event-driven contacts?)"
                                   : "inelastic collapse? dynamics.contact_duration goes on from "
                                     "there)"));

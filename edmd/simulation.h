@@ -99,7 +99,7 @@ template <Body B>
 void Simulation<B>::load(const Configuration<dimension>& configuration, double horizon) {
   state_.load(configuration, options_.neighbors.value_or(NeighborSearch::lists), target_neighbors);
   soft_.load(configuration);
-  executor_.begin_block(configuration);
+  executor_.begin_block();
   horizon_ = horizon - state_.base;
   // Times are rounded as well as positions: meanwhile nothing moves farther than the extent.
   longest_time_ = state_.fastest > 0 ? state_.extent / state_.fastest : never;

@@ -63,12 +63,13 @@ struct SimulationState {
   double contact_gap = 0;
   double fastest = 0;              // speed of a surface, at the start of the block
   std::vector<Index> external_id;  // particle numbers of the configuration
-  std::vector<Shape> shapes;       // by type, at size 1
+  std::vector<std::int32_t> species;
+  std::vector<Shape> shapes;  // by type, at size 1
   std::vector<ParticleType> types;
   TypeIndex type_index;
   LargeVector<Particle> particles;
   LargeVector<Rotation> rotations;  // of spheres
-  LargeVector<Tumbling> tumbling;  // of tumbling bodies
+  LargeVector<Tumbling> tumbling;   // of tumbling bodies
   LargeVector<Shift<dimension>> image;
   LargeVector<Index> version;  // changes of motion or image so far
   std::optional<Neighborhoods<B>> neighborhoods;
@@ -77,6 +78,10 @@ struct SimulationState {
   std::size_t size() const { return particles.size(); }
   const ParticleType& type(Index i) const { return types[type_index[i]]; }
   const Shape& shape(Index i) const { return shapes[type_index[i]]; }
+  template <class T>
+  const T& of_pair(const PairsOfSpecies<T>& pairs, Index i, Index j) const {
+    return pairs.are_the_same() ? pairs.common() : pairs.of(species[i], species[j]);
+  }
   CommonSize size_now() const {
     if constexpr (grows<B>) return {1 + growth_rate * now, growth_rate};
     return {};

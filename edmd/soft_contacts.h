@@ -50,7 +50,7 @@ class SoftContacts {
 
   SoftContacts(State& state, const EngineOptions& options) : state_(state), options_(options) {}
 
-  bool is_active() const { return options_.soft_contact != nullptr; }
+  bool is_active() const { return are_soft(options_); }
   void load(const Configuration<dimension>& configuration);
   void write(Configuration<dimension>& configuration) const;
 
@@ -178,13 +178,13 @@ void SoftContacts<B>::begin_collision(Index i, const Image& partner, CollisionEx
   const UnwrappedPair unwrapped = unwrapped_pair(i, partner);  // not sorted
   if (d.norm() >= pair.distance) close_pairs_.erase(unwrapped.ascending());
   pair.distance = std::min(pair.distance, d.norm());
-  const Restitution restitution =
-      options_.soft_contact->collide(pair, speed, (v + speed * normal).norm(), counters);
+  const Restitution restitution = state_.of_pair(options_.soft_contact, i, j)
+                                      ->collide(pair, speed, (v + speed * normal).norm(), counters);
   const RelativeMotion<dimension> after = after_contact<dimension>({d, v}, restitution);
   const Vector shortening = d - after.position;
   if (!try_displace(unwrapped, share(i, j) * shortening, -share(j, i) * shortening)) {
     ++counters.blocked_rotations;
-    executor.impact(i, j, d, normal, -restitution.rate, counters);
+    executor.collide_soft_pair(i, j, d, normal, -restitution.rate, restitution.duration, counters);
     return;
   }
   counters.virial += pair.mass * (after.position.dot(after.velocity) - d.dot(v) -

@@ -96,6 +96,7 @@ template <Body B>
 void SimulationState<B>::load_particles(const Configuration<dimension>& configuration) {
   external_id = spatial_order<dimension>(box, configuration.position);
   particles.clear();
+  species.clear();
   rotations.clear();
   image.clear();
   version.assign(external_id.size(), 0);
@@ -108,6 +109,7 @@ void SimulationState<B>::load_particles(const Configuration<dimension>& configur
     if constexpr (!Particle::has_rotation)
       rotations.push_back({orientation_of(pose), angular_velocity, 0});
     image.push_back(boxes);
+    species.push_back(configuration.species[k]);
   }
 }
 
@@ -222,8 +224,8 @@ auto SimulationState<B>::full_inertia_now(Index i) const -> Inertia<dimension> {
 
 // Of a spheroid with the part along its axis multiplied by I⊥/I∥, or divided.
 template <Body B>
-auto SimulationState<B>::with_scaled_spin(Index i, const Vector& angular_velocity, bool to_true) const
-    -> Vector requires(dimension == 3) {
+auto SimulationState<B>::with_scaled_spin(Index i, const Vector& angular_velocity,
+                                          bool to_true) const -> Vector requires(dimension == 3) {
   const auto& body = shape(i);
   const int axis = body.symmetry_axis();
   if (axis == Ellipsoid::none) return angular_velocity;

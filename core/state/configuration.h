@@ -118,8 +118,8 @@ double largest_circumradius(const Configuration<Dim>& configuration);
 template <int Dim>
 std::vector<Vec<Dim>> velocities_after_contact(const Configuration<Dim>& configuration);
 
-/// Sums over all particles, with velocities after contact. Rotations that smooth collisions cannot change are at rest,
-/// unless contacts are rough or the particles came with them: those of round particles, and of spheroids about their axes.
+/// Sums over all particles, with velocities after contact. Round particles are at rest in runs with smooth contacts,
+/// which cannot make them spin.
 template <int Dim>
 struct Mechanics {
   Vec<Dim> momentum = Vec<Dim>::Zero();
@@ -143,6 +143,7 @@ inline int rotations(const Ellipsoid& shape, Contacts contacts) {
 }
 /// Of all particles.
 template <int Dim>
-std::size_t rotation_count(const Configuration<Dim>& configuration, Contacts contacts = Contacts::smooth);
+std::size_t rotation_count(const Configuration<Dim>& configuration,
+                           Contacts contacts = Contacts::smooth);
 
 }  // namespace vitrel

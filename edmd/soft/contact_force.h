@@ -6,9 +6,10 @@
 /// @file
 /// Forces between two soft, frictionless spheres (disks) in contact, and their natural scales.
 ///
-/// A force is a value type: the parameters of a material in SI units and the functions of `ContactForce`. To add one,
-/// write such a type in its own header, and a source file with the explicit instantiations, like linear_dashpot.h and
-/// linear_dashpot.cpp.
+/// A force is a value type: the parameters of a material in SI units and the functions of `ContactForce`. Two materials
+/// touch like two bodies in series: both feel the force, and each takes its share of the compression, to first order in
+/// the damping (`mixed(one, other)` of each force). To add a force, write such a type in its own header, and a source
+/// file with the explicit instantiations, like linear_dashpot.h and linear_dashpot.cpp.
 ///
 /// ξ = l − r > 0 is the compression, l = R₁ + R₂ and r the distance of the centres; ξ̇ > 0 while the pair approaches. The
 /// force chooses a length X and a time T such that dξ̃/dt̃ = 1 at first contact (X/T is the normal speed). With ξ̃ = ξ/X

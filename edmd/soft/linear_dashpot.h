@@ -34,6 +34,13 @@ struct LinearDashpot {
   static double elastic_inverse(double elastic) { return std::sqrt(elastic); }
 };
 
+/// 2/k = 1/k₁ + 1/k₂,  2 γ/k² = γ₁/k₁² + γ₂/k₂²
+inline LinearDashpot mixed(const LinearDashpot& one, const LinearDashpot& other) {
+  const double k1 = one.stiffness, k2 = other.stiffness;
+  const double share1 = k2 / (k1 + k2), share2 = k1 / (k1 + k2);
+  return {2 * k1 * share1, 2 * (share1 * share1 * one.damping + share2 * share2 * other.damping)};
+}
+
 static_assert(ContactForce<LinearDashpot>);
 
 }  // namespace vitrel

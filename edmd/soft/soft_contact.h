@@ -22,7 +22,9 @@
 /// From then on the trajectories are exact. Two exceptions, both counted:
 ///
 ///     (a)  in its new position one of the pair would be closer than contact to a third particle (and closer than
-///          before): the two collide as hard spheres, with the coefficient of restitution −ε_ṙ;
+///          before): the two collide as hard spheres, with the coefficient of restitution −ε_ṙ. In dense, strongly
+///          damped systems such collisions would collapse (inelastic_collapse.h): if one of the two had one within the
+///          duration τ of this contact before, the collision is elastic, as in the contact-time model, and counted;
 ///     (b)  a third particle hits one of the pair before τ has passed: its E^v is executed first.
 ///
 /// Conserved to rounding: momentum; energy, if elastic; angular momentum, except in (b), since the distance of the pair

@@ -45,6 +45,17 @@ struct Viscoelastic {
   static double elastic_inverse(double elastic) { return std::sqrt(elastic); }
 };
 
+/// With the effective modulus E, 1/E = 1/E₁ + 1/E₂, E_i = Y_i/(1 − ν_i²): A = E (A₁/E₁ + A₂/E₂), and ρ = 4/3 E √R_eff,
+/// that of Y = 2 E and ν = 0.
+inline Viscoelastic mixed(const Viscoelastic& one, const Viscoelastic& other) {
+  const auto plane_modulus = [](const Viscoelastic& v) {
+    return v.youngs_modulus / (1 - v.poissons_ratio * v.poissons_ratio);
+  };
+  const double e1 = plane_modulus(one), e2 = plane_modulus(other);
+  const double share1 = e2 / (e1 + e2), share2 = e1 / (e1 + e2);
+  return {2 * e1 * share1, 0, share1 * one.dissipative_time + share2 * other.dissipative_time};
+}
+
 static_assert(ContactForce<Viscoelastic>);
 
 }  // namespace vitrel

@@ -20,15 +20,15 @@ Configuration2 an_ellipse_and_a_disk(double time) {
   return configuration;
 }
 
-// ½·2·(1 + (1 + t)²) + ½·3·4 and ½·2·(5/4)·9, each over two particles; the disk does not turn.
+// ½·2·(1 + (1 + t)²) + ½·3·4 and ½·2·(5/4)·9 + ½·3·(1/2)·2500, each over two particles.
 TEST(Energy, PerParticleByHand) {
   MemoryTrajectory2 trajectory({an_ellipse_and_a_disk(0), an_ellipse_and_a_disk(1)});
   const EnergySeries series = energies(trajectory);
   EXPECT_EQ(series.time, (std::vector<double>{0, 1}));
   EXPECT_DOUBLE_EQ(series.translational[0], 4);
   EXPECT_DOUBLE_EQ(series.translational[1], 5.5);
-  EXPECT_DOUBLE_EQ(series.rotational[1], 5.625);
-  EXPECT_DOUBLE_EQ(series.total[0], 9.625);
+  EXPECT_DOUBLE_EQ(series.rotational[1], 943.125);
+  EXPECT_DOUBLE_EQ(series.total[0], 947.125);
 }
 
 TEST(TimeAverage, HasNoErrorForUnevenTimes) {

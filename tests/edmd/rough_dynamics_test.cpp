@@ -31,8 +31,7 @@ RunState<Dim> run_until(const Configuration<Dim>& start, double end,
 }
 
 Configuration2 disks(double packing_fraction = 0.3) {
-  return moving(
-      square_lattice(10, packing_fraction, 0, [](std::size_t) { return Ellipse{1, 1}; }));
+  return moving(square_lattice(10, packing_fraction, 0, [](std::size_t) { return Ellipse{1, 1}; }));
 }
 Configuration2 ellipses() {
   return moving(square_lattice(10, 0.3, 0.8, [](std::size_t i) {
@@ -107,8 +106,7 @@ void expect_conserved_angular_momentum(Configuration<Dim> start) {
   };
   const RunState<Dim> end = run_until(start, 10, with(ContactLaw{0.9, 0.7, 0.3}));
   EXPECT_GT(end.counters.collisions, 20u);
-  const AngularVelocity<Dim> change =
-      angular_momentum(end.configuration) - angular_momentum(start);
+  const AngularVelocity<Dim> change = angular_momentum(end.configuration) - angular_momentum(start);
   if constexpr (Dim == 2)
     EXPECT_NEAR(change, 0, 1e-10);
   else
@@ -208,11 +206,46 @@ TEST(ContactTimeModel, GoesOnWhereRunsStop) {
   }
 }
 
+// Clusters without any normal speed: surfaces that turn towards each other touch again and again.
+template <int Dim>
+void expect_to_stay_hard(const Configuration<Dim>& start) {
+  for (const double contact_duration : {1e-7, 1e-5})
+    for (const double friction : {0., 0.5}) {
+      SCOPED_TRACE(testing::Message() << "t_c = " << contact_duration << ", friction " << friction);
+      const RunState<Dim> end =
+          run_until(start, 20, with(ContactLaw{0., friction, 0}, contact_duration));
+      EXPECT_LT(end.energy_drift, 1e-10);
+      EXPECT_TRUE(exact_check(end.configuration).clean());
+    }
+}
+
+TEST(ContactTimeModel, KeepsPlasticParticlesOfAllShapesHard) {
+  expect_to_stay_hard(disks(0.5));
+  expect_to_stay_hard(ellipses());
+  expect_to_stay_hard(spheres());
+  expect_to_stay_hard(spheroids());
+  expect_to_stay_hard(all_kinds());
+}
+
 TEST(ContactTimeModel, DoesNothingToAThinGasOfRareCollisions) {
   const Configuration2 start = disks(0.02);
   const RunState2 with_it = run_until(start, 5, with(0.9, 1e-9));
   EXPECT_EQ(with_it.counters.short_flights, 0u);
   EXPECT_EQ(difference(with_it.configuration, run_until(start, 5, with(0.9)).configuration), 0);
+}
+
+// Every step begins at kT = 1 again, whatever the collisions of the one before have taken.
+TEST(BrownianSteps, KeepAnInelasticGasHot) {
+  DynamicsOptions options = with(ContactLaw{0.5, 0.3, 0});
+  options.brownian = true;
+  options.brownian_step = 0.5;
+  const RunState2 end = run_until(ellipses(), 20, options);
+  EXPECT_LT(end.energy_drift, 1e-12);
+  EXPECT_GT(end.counters.dissipated, 0);
+  const Mechanics<2> sums = mechanics(end.configuration);
+  EXPECT_NEAR(sums.translational_energy, 100, 1e-9);  // of the draw at the end
+  EXPECT_NEAR(sums.rotational_energy, 50, 1e-9);
+  EXPECT_TRUE(exact_check(end.configuration).clean());
 }
 
 TEST(Driving, KicksConserveMomentumAndSupplyThePower) {
@@ -227,8 +260,7 @@ TEST(Driving, KicksConserveMomentumAndSupplyThePower) {
     kick(kicked, driving, 5, static_cast<std::uint64_t>(step));
     EXPECT_LT((mechanics(kicked).momentum - momentum).norm(), 1e-11);
     EXPECT_EQ(kicked.angular_velocity[3], c.angular_velocity[3]);
-    const double gain =
-        mechanics(kicked).translational_energy - mechanics(c).translational_energy;
+    const double gain = mechanics(kicked).translational_energy - mechanics(c).translational_energy;
     supplied += gain / kicks;
     squares += gain * gain / kicks;
   }
@@ -252,10 +284,10 @@ TEST(Driving, KeepsAnInelasticGasHot) {
   EXPECT_LT(end.largest_momentum, 1e-10);
   EXPECT_NEAR(end.counters.supplied / (0.5 * 200 * 100), 1, 0.1);
   const Mechanics<2> sums = mechanics(end.configuration);
-  EXPECT_NEAR(sums.translational_energy,
-              mechanics(disks()).translational_energy + end.counters.supplied -
-                  end.counters.dissipated,
-              1e-8);
+  EXPECT_NEAR(
+      sums.translational_energy,
+      mechanics(disks()).translational_energy + end.counters.supplied - end.counters.dissipated,
+      1e-8);
 }
 
 }  // namespace

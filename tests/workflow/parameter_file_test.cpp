@@ -128,6 +128,18 @@ const BadFile bad_files[] = {
     {"[dynamics.contact]\nradius = \"1e-200 m\"", "nothing is left of the thermal speed (c_dis = "},
     {"[dynamics.contact]\nyoungs_modulus = \"1e-6 Pa\"",
      "'dynamics.contact.youngs_modulus' is so small that particles pass through each other"},
+    {"[[species]]\naspect_ratio = 1\n[dynamics.contact]\n[[dynamics.contact.material]]\nspecies = "
+     "\"B\"\n",
+     "file.toml:5:11: key 'dynamics.contact.material.0.species' is \"B\", but must be the name of "
+     "a species"},
+    {"[[species]]\naspect_ratio = 1\n[dynamics.contact]\n[[dynamics.contact.material]]\nspecies = "
+     "\"A\"\n"
+     "stiffness = \"1 N/m\"\n",
+     "'dynamics.contact.material.0.stiffness' is not a key of law = \"viscoelastic\""},
+    {"[[species]]\naspect_ratio = 1\n[dynamics.contact]\n[[dynamics.contact.material]]\nspecies = "
+     "\"A\"\n"
+     "youngs_modulus = \"-1 Pa\"\n",
+     "'dynamics.contact.material.0.youngs_modulus' is -1.0, but must be positive"},
     {"[dynamics.contact]\nlaw = \"linear_dashpot\"\ndamping = \"1e12 kg/s\"",
      "'dynamics.contact.damping' is so large that nothing is left"},
     {"[dynamics.contact]\nlaw = \"linear_dashpot\"\nstiffness = \"1e-3 N/m\"",
@@ -248,6 +260,37 @@ const BadFile bad_files[] = {
     {"[dynamics]\nequilibration = -1", "file.toml:2:17: key 'dynamics.equilibration' is -1.0"},
     {"[dynamics]\nduration = inf", "file.toml:2:12: key 'dynamics.duration' is inf"},
     {"[dynamics]\nrestitution = 1.1", "file.toml:2:15: key 'dynamics.restitution' is 1.1"},
+    {"[dynamics]\nrestitution = -0.1", "file.toml:2:15: key 'dynamics.restitution' is -0.1"},
+    {"[dynamics]\nrestitution = { form = \"viscoelastic\", value = 1, speed = 1 }",
+     "key 'dynamics.restitution.value' is 1.0, but must lie above 0 and below 1"},
+    {"[dynamics]\nrestitution = { form = \"viscoelastic\", value = 0.9, speed = 0 }",
+     "key 'dynamics.restitution.speed' is 0.0, but must be positive"},
+    {"[dynamics]\nrestitution = { form = \"table\", speeds = [1, 2], values = [0.9] }",
+     "key 'dynamics.restitution.values' has 1 numbers, but must have as many as "
+     "restitution.speeds, which has 2"},
+    {"[dynamics]\nrestitution = { form = \"table\", speeds = [2, 1], values = [0.9, 0.8] }",
+     "key 'dynamics.restitution.speeds' must hold finite numbers from 0 on, each above the one "
+     "before"},
+    {"[dynamics]\nrestitution = { form = \"table\", speeds = [1, 2], values = [0.9, 1.8] }",
+     "key 'dynamics.restitution.values' is 1.8, but must lie between 0 and 1"},
+    {"[dynamics]\nfriction = -1", "file.toml:2:12: key 'dynamics.friction' is -1.0, but must be 0"},
+    {"[dynamics]\nfriction = nan", "key 'dynamics.friction' is nan"},
+    {"[dynamics]\ntangential_restitution = 1.5",
+     "key 'dynamics.tangential_restitution' is 1.5, but must lie between -1 and 1"},
+    {"[dynamics]\ncontact_duration = -1", "key 'dynamics.contact_duration' is -1.0"},
+    {"[dynamics]\ndriving = { interval = 0, power = 1 }",
+     "key 'dynamics.driving.interval' is 0.0, but must be positive"},
+    {"[dynamics]\nkind = \"brownian\"\ndriving = { interval = 1, power = 1 }",
+     "key 'dynamics.driving' is for kind = \"newtonian\""},
+    {"[[dynamics.pair]]\nfirst = \"A\"\nsecond = \"B\"",
+     "file.toml:3:10: key 'dynamics.pair.0.second' is \"B\", but must be the name of a species"},
+    {"[[dynamics.pair]]\nfirst = \"A\"\nsecond = \"A\"\nrestitution = 2",
+     "key 'dynamics.pair.0.restitution' is 2.0"},
+    {"[[dynamics.pair]]\nfirst = \"A\"\nsecond = \"A\"\n[[dynamics.pair]]\nfirst = \"A\"\nsecond = "
+     "\"A\"\n",
+     "key 'dynamics.pair.1.second' makes the same pair as dynamics.pair.0"},
+    {"[[species]]\naspect_ratio = 1\n[dynamics]\nfriction = 0.5\n[dynamics.contact]\n",
+     "key 'dynamics.friction' is for hard particles"},
     {"[dynamics]\nkind = \"brownan\"",
      "file.toml:2:8: key 'dynamics.kind' is \"brownan\", but must be one of "
      "\"newtonian\", \"brownian\"; did you mean 'brownian'?"},

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <memory>
 #include <numbers>
 
 #include "edmd/soft/restitution.h"
@@ -24,6 +25,10 @@ class SoftParticles : public testing::Test {
     setenv("XDG_CACHE_HOME", folder_.c_str(), 1);
   }
   ~SoftParticles() override { std::filesystem::remove_all(folder_); }
+
+  /// Of spheres of these radii.
+  std::shared_ptr<SoftContact> one_contact(const ContactParameters& contact,
+                                           const std::vector<double>& radii) const;
 
   std::filesystem::path folder_;
   std::vector<std::string> said_;
@@ -52,6 +57,17 @@ ContactParameters figure_6() {
   return p;
 }
 
+Parameters with_contact(const ContactParameters& contact, std::vector<std::string> species = {}) {
+  Parameters p;
+  p.dynamics.contact = contact;
+  p.species.clear();
+  for (std::string& name : species) {
+    p.species.emplace_back();
+    p.species.back().name = std::move(name);
+  }
+  return p;
+}
+
 template <ContactForce Force>
 void expect_contact_in_si(const Force& force, const ContactParameters& p, SoftContact& contact,
                           double radius2, double tolerance) {
@@ -74,6 +90,11 @@ void expect_contact_in_si(const Force& force, const ContactParameters& p, SoftCo
     }
 }
 
+std::shared_ptr<SoftContact> SoftParticles::one_contact(const ContactParameters& contact,
+                                                        const std::vector<double>& radii) const {
+  return soft_contact(with_contact(contact), spheres(radii), 2, say_).common();
+}
+
 // Figure 6 of mueller2013: 0.1 m, 1140 kg/m³, 5 m/s.
 TEST_F(SoftParticles, TheUnitsAreThoseOfTheReferenceParticle) {
   const UnitsOfRun unit = units_of_run(figure_6());
@@ -89,14 +110,12 @@ TEST_F(SoftParticles, ContactsAreThoseOfTheMaterialInSiUnits) {
     p.coefficients = coefficients;
     const bool exact = coefficients == ContactParameters::Coefficients::integrated;
     p.law = ContactParameters::Law::linear_dashpot;
-    expect_contact_in_si(p.linear_dashpot, p, *soft_contact(p, spheres({1, 1}), 2, say_), 1,
-                         exact ? 1e-11 : 3e-8);
+    expect_contact_in_si(p.linear_dashpot, p, *one_contact(p, {1, 1}), 1, exact ? 1e-11 : 3e-8);
     p.law = ContactParameters::Law::viscoelastic;
-    expect_contact_in_si(p.viscoelastic, p, *soft_contact(p, spheres({1, 1}), 2, say_), 1,
-                         exact ? 1e-11 : 3e-8);
+    expect_contact_in_si(p.viscoelastic, p, *one_contact(p, {1, 1}), 1, exact ? 1e-11 : 3e-8);
   }
   // Unlike radii damp differently: one variable more.
-  const auto contact = soft_contact(p, spheres({1, 0.9}), 2, say_);
+  const auto contact = one_contact(p, {1, 0.9});
   for (const double radius : {1., 0.9})
     expect_contact_in_si(p.viscoelastic, p, *contact, radius, 3e-6);
 }
@@ -106,20 +125,86 @@ TEST_F(SoftParticles, TheTableIsMadeOnceAndUsedWherePossible) {
   RunCounters counters;
   const ContactPair pair = contact_pair(1, 1, 1, 1);
   for (int k = 0; k < 2; ++k) {
-    const auto contact = soft_contact(p, spheres({1, 1}), 2, say_);
+    const auto contact = one_contact(p, {1, 1});
     contact->collide(pair, 1, 1, counters);
     EXPECT_EQ(counters.integrations, 0u);
   }
   EXPECT_EQ(said_.size(), 1u);
-  const auto contact = soft_contact(p, spheres({1, 1}), 2, say_);
+  const auto contact = one_contact(p, {1, 1});
   contact->collide(pair, 1e-7, 1e-7, counters);
   contact->collide(contact_pair(1, 1, 2, 8), 1, 1, counters);
   EXPECT_EQ(counters.integrations, 2u);
 }
 
+MaterialParameters steel() {
+  MaterialParameters m;
+  m.species = "steel";
+  m.youngs_modulus = 2e11;
+  m.poissons_ratio = 0.3;
+  m.dissipative_time = 1e-6;
+  return m;
+}
+
+// Hertz's law of two different bodies: F = 4/3 E √R_eff ξ^(3/2).
+TEST_F(SoftParticles, MaterialsMixAsTheirEffectiveModulus) {
+  ContactParameters p = figure_6();
+  p.law = ContactParameters::Law::viscoelastic;
+  p.viscoelastic = {1e7, 0.5, 1e-3};
+  p.materials = {steel()};
+  const double rubber = 1e7 / (1 - 0.5 * 0.5), other = 2e11 / (1 - 0.3 * 0.3);
+  const double effective = 1 / (1 / rubber + 1 / other);
+  const double time = effective * (1e-3 / rubber + 1e-6 / other);
+  Configuration3 both = spheres({1, 1});
+  both.species = {0, 1};
+  for (const auto coefficients :
+       {ContactParameters::Coefficients::integrated, ContactParameters::Coefficients::tabulated}) {
+    p.coefficients = coefficients;
+    const double tolerance =
+        coefficients == ContactParameters::Coefficients::integrated ? 1e-11 : 3e-8;
+    const auto contacts = soft_contact(with_contact(p, {"rubber", "steel"}), both, 2, say_);
+    expect_contact_in_si(p.viscoelastic, p, *contacts.of(0, 0), 1, tolerance);
+    expect_contact_in_si(Viscoelastic{2e11, 0.3, 1e-6}, p, *contacts.of(1, 1), 1, tolerance);
+    EXPECT_EQ(contacts.of(0, 1), contacts.of(1, 0));
+    const Viscoelastic mixture{effective * 2 * (1 - 0.3 * 0.3), 0.3, time};
+    expect_contact_in_si(mixture, p, *contacts.of(0, 1), 1, tolerance);
+  }
+}
+
+// Two springs with dashpots in series, slowly compressed by ξ at the rate ξ̇: to first order in the damping both carry the
+// force k ξ + γ ξ̇.
+TEST_F(SoftParticles, DashpotsMixInSeries) {
+  const LinearDashpot one{2000, 3}, other{500, 0.2};
+  const LinearDashpot mixture = mixed(one, other);
+  const double tiny = 1e-6;
+  const double rate = tiny, compression = 1;
+  // One body is half of a contact of two equal ones: twice as stiff.
+  const double share = other.stiffness / (one.stiffness + other.stiffness);
+  const auto force = [&](const LinearDashpot& body, double part, double part_rate) {
+    return 2 * (body.stiffness * part + body.damping * part_rate);
+  };
+  // The parts of the compression that balance the forces.
+  const double imbalance =
+      force(one, share, share * rate) - force(other, 1 - share, (1 - share) * rate);
+  const double shift = -imbalance / (2 * (one.stiffness + other.stiffness));
+  EXPECT_NEAR(force(one, share + shift, share * rate),
+              mixture.force(compression, rate, contact_pair(1, 1, 1, 1)), 1e-15 * 2000);
+  const LinearDashpot same = mixed(one, one);
+  EXPECT_DOUBLE_EQ(same.stiffness, one.stiffness);
+  EXPECT_DOUBLE_EQ(same.damping, one.damping);
+}
+
+TEST_F(SoftParticles, ASpeciesWithoutParticlesDoesNoHarm) {
+  ContactParameters p = figure_6();
+  p.law = ContactParameters::Law::viscoelastic;
+  p.materials = {steel()};
+  const auto contacts =
+      soft_contact(with_contact(p, {"rubber", "steel"}), spheres({1, 1}), 2, say_);
+  expect_contact_in_si(p.viscoelastic, p, *contacts.of(0, 0), 1, 3e-8);
+}
+
 TEST_F(SoftParticles, WithoutAFolderTheTableIsNotKept) {
   setenv("XDG_CACHE_HOME", "/dev/null", 1);
-  const auto contact = soft_contact(figure_6(), spheres({1, 1}), 2, say_);
+  const auto contact = one_contact(figure_6(), {1, 1});
   ASSERT_EQ(said_.size(), 2u);
   EXPECT_THAT(said_[1], testing::HasSubstr("the table is not kept"));
 }

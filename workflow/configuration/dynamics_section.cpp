@@ -17,6 +17,19 @@ constexpr const char* law_names[] = {"linear_dashpot", "viscoelastic"};
 constexpr const char* coefficients_names[] = {"tabulated", "integrated"};
 constexpr const char* early_release_names[] = {"alone", "together"};
 
+void describe_material(MaterialParameters& p, FieldVisitor& visit) {
+  const auto quantity = [&](const Field& field, std::optional<double>& value, double example) {
+    visit.optional(field, value, example,
+                   [&](FieldVisitor& in, double& inner) { in.quantity(field, inner); });
+  };
+  visit.field({"species", "", "Name of the species."}, p.species);
+  quantity({"stiffness", "N/m", "Of law = \"linear_dashpot\"."}, p.stiffness, 1e6);
+  quantity({"damping", "kg/s", "Of law = \"linear_dashpot\"."}, p.damping, 0);
+  quantity({"youngs_modulus", "Pa", "Of law = \"viscoelastic\"."}, p.youngs_modulus, 1e9);
+  visit.optional({"poissons_ratio", "", "Of law = \"viscoelastic\"."}, p.poissons_ratio, 0.4);
+  quantity({"dissipative_time", "s", "Of law = \"viscoelastic\"."}, p.dissipative_time, 0);
+}
+
 /// Whether contacts at the thermal speed are such that coefficients can be had.
 void validate_impact(const ContactParameters& p, const Rules& rules) {
   const bool is_dashpot = p.law == ContactParameters::Law::linear_dashpot;
@@ -32,6 +45,43 @@ void validate_impact(const ContactParameters& p, const Rules& rules) {
       fmt::format("is so small that particles pass through each other at the thermal speed "
                   "(2 R/X = {:.3g}, at least {:g}); raise it",
                   2 * p.radius / scales.length, min_scaled_distance));
+}
+
+void validate_force(const ContactParameters& p, const Rules& rules) {
+  rules.positive(p.linear_dashpot.stiffness, "stiffness");
+  rules.not_negative(p.linear_dashpot.damping, "damping");
+  rules.positive(p.viscoelastic.youngs_modulus, "youngs_modulus");
+  const double ratio = p.viscoelastic.poissons_ratio;
+  rules.require(ratio > -1 && ratio <= 0.5, "poissons_ratio",
+                fmt::format("is {}, but must lie above -1 and not above 0.5", show(ratio)));
+  rules.not_negative(p.viscoelastic.dissipative_time, "dissipative_time");
+  validate_impact(p, rules);
+}
+
+void validate_materials(const Parameters& parameters) {
+  const ContactParameters& p = *parameters.dynamics.contact;
+  const bool is_dashpot = p.law == ContactParameters::Law::linear_dashpot;
+  for (std::size_t k = 0; k < p.materials.size(); ++k) {
+    const MaterialParameters& material = p.materials[k];
+    const Rules rules(fmt::format("dynamics.contact.material.{}", k));
+    rules.require(species_index(parameters, material.species).has_value(), "species",
+                  fmt::format("is \"{}\", but must be the name of a species", material.species));
+    for (std::size_t j = 0; j < k; ++j)
+      rules.require(material.species != p.materials[j].species, "species",
+                    fmt::format("is that of dynamics.contact.material.{}", j));
+    const auto other_law = [&](const std::optional<double>& value, const char* key) {
+      rules.require(!value, key, fmt::format("is not a key of law = \"{}\"", law_name(p.law)));
+    };
+    if (is_dashpot) {
+      other_law(material.youngs_modulus, "youngs_modulus");
+      other_law(material.poissons_ratio, "poissons_ratio");
+      other_law(material.dissipative_time, "dissipative_time");
+    } else {
+      other_law(material.stiffness, "stiffness");
+      other_law(material.damping, "damping");
+    }
+    validate_force(of_material(p, material), rules);
+  }
 }
 
 }  // namespace
@@ -75,6 +125,13 @@ void describe_contact(ContactParameters& p, FieldVisitor& visit) {
                "A particle that is hit during a contact is released alone, as published, or "
                "together with its partner, which conserves the angular momentum."},
               p.early_release, early_release_names);
+}
+
+void describe_materials(ContactParameters& p, FieldVisitor& visit) {
+  visit.list({"material", "",
+              "The material of a species. What is not given is as for all. Different materials "
+              "touch as bodies in series: each takes its share of the compression."},
+             p.materials, describe_material);
 }
 
 void describe_initial_velocities(DynamicsParameters& p, FieldVisitor& visit) {
@@ -127,7 +184,10 @@ void describe_dynamics(DynamicsParameters& p, FieldVisitor& visit) {
                       "particles are hard."};
   visit.optional(contact, p.contact, ContactParameters(),
                  [&](FieldVisitor& in, ContactParameters& inner) {
-                   in.table(contact, Style::section, section_of(inner, describe_contact));
+                   in.table(contact, Style::section, [&](FieldVisitor& of) {
+                     describe_contact(inner, of);
+                     describe_materials(inner, of);
+                   });
                  });
 }
 
@@ -147,14 +207,8 @@ void validate_contact(const Parameters& parameters) {
   rules.positive(p.radius, "radius");
   rules.positive(p.density, "density");
   rules.positive(p.thermal_speed, "thermal_speed");
-  rules.positive(p.linear_dashpot.stiffness, "stiffness");
-  rules.not_negative(p.linear_dashpot.damping, "damping");
-  rules.positive(p.viscoelastic.youngs_modulus, "youngs_modulus");
-  const double ratio = p.viscoelastic.poissons_ratio;
-  rules.require(ratio > -1 && ratio <= 0.5, "poissons_ratio",
-                fmt::format("is {}, but must lie above -1 and not above 0.5", show(ratio)));
-  rules.not_negative(p.viscoelastic.dissipative_time, "dissipative_time");
-  validate_impact(p, rules);
+  validate_force(p, rules);
+  validate_materials(parameters);
   for (std::size_t k = 0; k < parameters.species.size(); ++k)
     if (!is_round(parameters.species[k]))
       throw BadValue(fmt::format("species.{}", k),
@@ -164,9 +218,9 @@ void validate_contact(const Parameters& parameters) {
   const std::string hard_only =
       "is for hard particles, but [dynamics.contact] makes them soft; leave it out";
   const DynamicsParameters& all = parameters.dynamics;
-  dynamics.require(all.restitution.form == RestitutionParameters::Form::constant &&
-                       all.restitution.value == 1,
-                   "restitution", hard_only);
+  dynamics.require(
+      all.restitution.form == RestitutionParameters::Form::constant && all.restitution.value == 1,
+      "restitution", hard_only);
   dynamics.require(all.friction == 0, "friction", hard_only);
   dynamics.require(all.pairs.empty(), "pair", hard_only);
   dynamics.require(all.contact_duration == 0, "contact_duration", hard_only);

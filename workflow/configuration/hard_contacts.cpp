@@ -16,9 +16,12 @@ constexpr const char* form_names[] = {"viscoelastic", "table"};
 
 NormalRestitution normal_restitution(const RestitutionParameters& p) {
   switch (p.form) {
-    case Form::constant: return p.value;
-    case Form::viscoelastic: return NormalRestitution::viscoelastic(p.value, p.speed);
-    case Form::table: return NormalRestitution::tabulated(p.speeds, p.values);
+    case Form::constant:
+      return p.value;
+    case Form::viscoelastic:
+      return NormalRestitution::viscoelastic(p.value, p.speed);
+    case Form::table:
+      return NormalRestitution::tabulated(p.speeds, p.values);
   }
   return {};
 }
@@ -95,9 +98,9 @@ void validate_restitution(const RestitutionParameters& p, const std::string& pat
 
 void validate_friction(double friction, double tangential_restitution, const std::string& path) {
   const Rules rules(path);
-  rules.require(friction >= 0, "friction",
-                fmt::format("is {}, but must be 0 (smooth) or above, or inf (no slip)",
-                            show(friction)));
+  rules.require(
+      friction >= 0, "friction",
+      fmt::format("is {}, but must be 0 (smooth) or above, or inf (no slip)", show(friction)));
   rules.require(tangential_restitution >= -1 && tangential_restitution <= 1,
                 "tangential_restitution",
                 fmt::format("is {}, but must lie between -1 and 1", show(tangential_restitution)));
@@ -105,20 +108,17 @@ void validate_friction(double friction, double tangential_restitution, const std
 
 void validate_pairs(const Parameters& parameters) {
   const std::vector<PairLawParameters>& pairs = parameters.dynamics.pairs;
-  const auto is_species = [&](const std::string& name) {
-    return std::ranges::find(parameters.species, name, &Species::name) != parameters.species.end();
-  };
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const PairLawParameters& pair = pairs[k];
     const std::string path = fmt::format("dynamics.pair.{}", k);
     const Rules rules(path);
     for (const auto& [key, name] : {std::pair("first", pair.first), {"second", pair.second}})
-      rules.require(is_species(name), key,
+      rules.require(species_index(parameters, name).has_value(), key,
                     fmt::format("is \"{}\", but must be the name of a species", name));
     for (std::size_t j = 0; j < k; ++j)
-      rules.require(std::minmax(pair.first, pair.second) !=
-                        std::minmax(pairs[j].first, pairs[j].second),
-                    "second", fmt::format("makes the same pair as dynamics.pair.{}", j));
+      rules.require(
+          std::minmax(pair.first, pair.second) != std::minmax(pairs[j].first, pairs[j].second),
+          "second", fmt::format("makes the same pair as dynamics.pair.{}", j));
     if (pair.restitution) validate_restitution(*pair.restitution, path, "restitution");
     validate_friction(pair.friction.value_or(0), pair.tangential_restitution.value_or(0), path);
   }
@@ -126,7 +126,8 @@ void validate_pairs(const Parameters& parameters) {
 
 std::string restitution_text(const RestitutionParameters& p) {
   switch (p.form) {
-    case Form::constant: return fmt::format("e = {:g}", p.value);
+    case Form::constant:
+      return fmt::format("e = {:g}", p.value);
     case Form::viscoelastic:
       return fmt::format("e = {:g} at speed {:g}, viscoelastic", p.value, p.speed);
     case Form::table:
@@ -137,7 +138,8 @@ std::string restitution_text(const RestitutionParameters& p) {
 }
 
 std::string law_text(const RestitutionParameters& restitution, double friction, double beta) {
-  if (!ContactLaw{0.0, friction, beta}.is_rough()) return restitution_text(restitution) + ", smooth";
+  if (!ContactLaw{0.0, friction, beta}.is_rough())
+    return restitution_text(restitution) + ", smooth";
   return fmt::format("{}, μ = {:g}, β = {:g}", restitution_text(restitution), friction, beta);
 }
 
@@ -170,11 +172,12 @@ void describe_collisions(DynamicsParameters& p, FieldVisitor& visit) {
               "A pair of species whose contacts are different. What is not given is as for all "
               "pairs."},
              p.pairs, describe_pair);
-  visit.field({"contact_duration", "time",
-               "Time t_c of the contact-time model: a collision that comes sooner after the one "
-               "before of either particle is elastic and smooth, so that inelastic collapse does "
-               "not stop the run; 0 for none. It should be well below the time between collisions."},
-              p.contact_duration);
+  visit.field(
+      {"contact_duration", "time",
+       "Time t_c of the contact-time model: a collision that comes sooner after the one "
+       "before of either particle is elastic and smooth, so that inelastic collapse does "
+       "not stop the run; 0 for none. It should be well below the time between collisions."},
+      p.contact_duration);
   const Field driving{"driving", "",
                       "Random kicks of all particles, which conserve the momentum: homogeneous "
                       "heating, for steady states of inelastic particles."};
@@ -183,8 +186,7 @@ void describe_collisions(DynamicsParameters& p, FieldVisitor& visit) {
       of.field({"interval", "time",
                 "Time between kicks. It should be well below the time between collisions."},
                inner.interval);
-      of.field({"power", "kT/time",
-                "Mean energy that a particle gains per unit of time."},
+      of.field({"power", "kT/time", "Mean energy that a particle gains per unit of time."},
                inner.power);
     });
   });
@@ -209,13 +211,10 @@ ContactLaws contact_laws(const Parameters& parameters) {
   const DynamicsParameters& p = parameters.dynamics;
   const ContactLaw all = contact_law(p, {});
   if (p.pairs.empty()) return all;
-  const auto index = [&](const std::string& name) {
-    const auto found = std::ranges::find(parameters.species, name, &Species::name);
-    return static_cast<std::size_t>(found - parameters.species.begin());
-  };
   ContactLaws laws(parameters.species.size(), all);
   for (const PairLawParameters& pair : p.pairs)
-    laws.set(index(pair.first), index(pair.second), contact_law(p, pair));
+    laws.set(*species_index(parameters, pair.first), *species_index(parameters, pair.second),
+             contact_law(p, pair));
   return laws;
 }
 
@@ -234,12 +233,13 @@ bool is_dissipative(const DynamicsParameters& p) {
 std::string hard_contact_text(const DynamicsParameters& p) {
   std::string text;
   if (is_dissipative(p))
-    text += fmt::format("contacts     {}\n", law_text(p.restitution, p.friction, p.tangential_restitution));
+    text += fmt::format("contacts     {}\n",
+                        law_text(p.restitution, p.friction, p.tangential_restitution));
   for (const PairLawParameters& pair : p.pairs)
-    text += fmt::format("             {} and {}: {}\n", pair.first, pair.second,
-                        law_text(pair.restitution.value_or(p.restitution),
-                                 pair.friction.value_or(p.friction),
-                                 pair.tangential_restitution.value_or(p.tangential_restitution)));
+    text += fmt::format(
+        "             {} and {}: {}\n", pair.first, pair.second,
+        law_text(pair.restitution.value_or(p.restitution), pair.friction.value_or(p.friction),
+                 pair.tangential_restitution.value_or(p.tangential_restitution)));
   if (p.contact_duration > 0)
     text += fmt::format("             elastic and smooth within t_c = {:g} after a collision\n",
                         p.contact_duration);

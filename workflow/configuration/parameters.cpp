@@ -195,6 +195,12 @@ Parameters parse_parameters(const std::string& text, const std::string& name,
   return read(root);
 }
 
+std::optional<std::size_t> species_index(const Parameters& parameters, const std::string& name) {
+  const auto found = std::ranges::find(parameters.species, name, &Species::name);
+  if (found == parameters.species.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - parameters.species.begin());
+}
+
 std::optional<std::string> place_of(const Parameters& parameters, const std::string& key) {
   const auto found = parameters.given.lower_bound(key);
   if (found == parameters.given.end()) return std::nullopt;

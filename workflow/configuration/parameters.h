@@ -22,6 +22,13 @@
 /// read the same file; each uses the sections it needs.
 namespace vitrel {
 
+/// The material of a species, where it differs from that of all.
+struct MaterialParameters {
+  std::string species = "A";
+  std::optional<double> stiffness, damping;                                ///< of LinearDashpot
+  std::optional<double> youngs_modulus, poissons_ratio, dissipative_time;  ///< of Viscoelastic
+};
+
 /// Soft particles: a law of contact and what gives the units of the run their size, all in SI units.
 struct ContactParameters {
   enum class Law { linear_dashpot, viscoelastic };
@@ -33,6 +40,7 @@ struct ContactParameters {
   Law law = Law::viscoelastic;
   LinearDashpot linear_dashpot{1e6, 0};
   Viscoelastic viscoelastic{1e9, 0.4, 0};
+  std::vector<MaterialParameters> materials;
   Coefficients coefficients = Coefficients::tabulated;
   EarlyRelease early_release = EarlyRelease::alone;
 };
@@ -118,6 +126,9 @@ struct Parameters {
 
   Parameters();
 };
+
+/// The number of the species of this name.
+std::optional<std::size_t> species_index(const Parameters& parameters, const std::string& name);
 
 /// The place where a key, or any key in that table, is given.
 std::optional<std::string> place_of(const Parameters& parameters, const std::string& key);

@@ -25,25 +25,33 @@ Viscoelastic in_units(const Viscoelastic& force, const UnitsOfRun& unit) {
           force.poissons_ratio, force.dissipative_time / unit.time};
 }
 
+using Kinds = std::set<KindOfSphere>;
+
 template <int Dim>
-std::set<KindOfSphere> kinds_of(const Configuration<Dim>& configuration) {
-  std::set<KindOfSphere> kinds;
+Kinds kinds_of(const Configuration<Dim>& configuration,
+               std::optional<std::size_t> species = std::nullopt) {
+  Kinds kinds;
   for (std::size_t i = 0; i < configuration.size(); ++i)
-    kinds.insert({configuration.shape[i].circumradius(), configuration.mass[i]});
+    if (!species || static_cast<std::size_t>(configuration.species[i]) == *species)
+      kinds.insert({configuration.shape[i].circumradius(), configuration.mass[i]});
   return kinds;
 }
 
-/// All pairs of the kinds; of many kinds, of some spread over all radii.
-std::vector<ContactPair> pairs_of(const std::set<KindOfSphere>& all) {
+/// Of many kinds, some spread over all radii.
+std::vector<KindOfSphere> some_of(const Kinds& all) {
   constexpr std::size_t enough = 32;
   const std::vector<KindOfSphere> sorted(all.begin(), all.end());
   std::vector<KindOfSphere> kinds;
   const std::size_t count = std::min(sorted.size(), enough);
   for (std::size_t k = 0; k < count; ++k)
     kinds.push_back(sorted[count > 1 ? k * (sorted.size() - 1) / (count - 1) : 0]);
+  return kinds;
+}
+
+std::vector<ContactPair> pairs_of(const Kinds& some, const Kinds& others) {
   std::vector<ContactPair> pairs;
-  for (const auto& [radius1, mass1] : kinds)
-    for (const auto& [radius2, mass2] : kinds)
+  for (const auto& [radius1, mass1] : some_of(some))
+    for (const auto& [radius2, mass2] : some_of(others))
       pairs.push_back(contact_pair(radius1, mass1, radius2, mass2));
   return pairs;
 }
@@ -80,24 +88,24 @@ RestitutionTable table_for(const ForceForm& form, const RestitutionDomain& domai
 
 /// `force` is in units of the run.
 template <ContactForce Force>
-RestitutionTable table_of(const Force& force, const std::set<KindOfSphere>& kinds, int threads,
+RestitutionTable table_of(const Force& force, const std::vector<ContactPair>& pairs, int threads,
                           const Log& log) {
   const RestitutionDomain domain =
-      restitution_domain(force, pairs_of(kinds), slowest_tabulated, fastest_tabulated);
+      restitution_domain(force, pairs, slowest_tabulated, fastest_tabulated);
   return table_for(form_of<Force>(), domain, threads, log);
 }
 
 template <ContactForce Force>
 std::shared_ptr<SoftContact> contact_by(const Force& force,
                                         ContactParameters::Coefficients coefficients,
-                                        const std::set<KindOfSphere>& kinds, int threads,
+                                        const std::vector<ContactPair>& pairs, int threads,
                                         const Log& log) {
   const ForceForm form = form_of<Force>();
   if (coefficients == ContactParameters::Coefficients::integrated)
     return std::make_shared<SoftContactOf<Force, IntegratedRestitution>>(
         force, IntegratedRestitution(form));
   return std::make_shared<SoftContactOf<Force, TabulatedRestitution>>(
-      force, TabulatedRestitution(form, table_of(force, kinds, threads, log)));
+      force, TabulatedRestitution(form, table_of(force, pairs, threads, log)));
 }
 
 /// `use(force)` for the force of the law.
@@ -110,6 +118,30 @@ auto with_force(const ContactParameters& p, Use&& use) {
 ContactPair reference_pair(const ContactParameters& p) {
   const UnitsOfRun unit = units_of_run(p);
   return contact_pair(unit.length, unit.mass, unit.length, unit.mass);
+}
+
+std::string head_on_text(const ContactParameters& p) {
+  const ContactScales scales = thermal_scales(p);
+  const Restitution head_on =
+      form_of_law(p).integrate(scaled_impact(scales, reference_pair(p), p.thermal_speed, 0));
+  return fmt::format("head-on at {:.4g} m/s it lasts {:.3g} s and leaves {:.4g} of the speed",
+                     p.thermal_speed, head_on.duration * scales.time, -head_on.rate);
+}
+
+/// The parameters of every species.
+std::vector<ContactParameters> contacts_by_species(const Parameters& parameters) {
+  const ContactParameters& all = parameters.dynamics.contact.value();
+  std::vector<ContactParameters> contacts(parameters.species.size(), all);
+  for (const MaterialParameters& material : all.materials)
+    contacts[species_index(parameters, material.species).value()] = of_material(all, material);
+  return contacts;
+}
+
+const LinearDashpot& force_of(const ContactParameters& p, const LinearDashpot&) {
+  return p.linear_dashpot;
+}
+const Viscoelastic& force_of(const ContactParameters& p, const Viscoelastic&) {
+  return p.viscoelastic;
 }
 
 }  // namespace
@@ -134,37 +166,67 @@ ForceForm form_of_law(const ContactParameters& p) {
 RestitutionTable restitution_table(const ContactParameters& p, const std::set<KindOfSphere>& kinds,
                                    int threads, const Log& log) {
   return with_force(p, [&](const auto& force) {
-    return table_of(in_units(force, units_of_run(p)), kinds, threads, log);
+    return table_of(in_units(force, units_of_run(p)), pairs_of(kinds, kinds), threads, log);
   });
 }
 
 std::string contact_text(const ContactParameters& p) {
   const UnitsOfRun unit = units_of_run(p);
-  const ContactPair pair = reference_pair(p);
-  const ContactScales scales = thermal_scales(p);
-  const Restitution head_on =
-      form_of_law(p).integrate(scaled_impact(scales, pair, p.thermal_speed, 0));
-  return fmt::format(
-      "contact      {}; head-on at {:.4g} m/s it lasts {:.3g} s and leaves {:.4g} of the speed\n"
-      "units        length {:.4g} m, mass {:.4g} kg, time {:.4g} s\n",
-      law_name(p.law), p.thermal_speed, head_on.duration * scales.time, -head_on.rate, unit.length,
-      unit.mass, unit.time);
+  std::string text = fmt::format("contact      {}; {}\n", law_name(p.law), head_on_text(p));
+  for (const MaterialParameters& material : p.materials)
+    text += fmt::format("             two of {}: {}\n", material.species,
+                        head_on_text(of_material(p, material)));
+  return text + fmt::format("units        length {:.4g} m, mass {:.4g} kg, time {:.4g} s\n",
+                            unit.length, unit.mass, unit.time);
+}
+
+ContactParameters of_material(const ContactParameters& all, const MaterialParameters& material) {
+  ContactParameters p = all;
+  p.linear_dashpot = {material.stiffness.value_or(p.linear_dashpot.stiffness),
+                      material.damping.value_or(p.linear_dashpot.damping)};
+  p.viscoelastic = {material.youngs_modulus.value_or(p.viscoelastic.youngs_modulus),
+                    material.poissons_ratio.value_or(p.viscoelastic.poissons_ratio),
+                    material.dissipative_time.value_or(p.viscoelastic.dissipative_time)};
+  return p;
 }
 
 template <int Dim>
-std::shared_ptr<SoftContact> soft_contact(const ContactParameters& parameters,
-                                          const Configuration<Dim>& configuration, int threads,
-                                          const Log& log) {
-  const UnitsOfRun unit = units_of_run(parameters);
-  return with_force(parameters, [&](const auto& force) {
-    return contact_by(in_units(force, unit), parameters.coefficients, kinds_of(configuration),
+PairsOfSpecies<std::shared_ptr<SoftContact>> soft_contact(const Parameters& parameters,
+                                                          const Configuration<Dim>& configuration,
+                                                          int threads, const Log& log) {
+  const ContactParameters& all = parameters.dynamics.contact.value();
+  const auto contact = [&]<ContactForce Force>(const Force& force, const Kinds& some,
+                                               const Kinds& others) {
+    return contact_by(in_units(force, units_of_run(all)), all.coefficients, pairs_of(some, others),
                       threads, log);
+  };
+  return with_force(all, [&](const auto& force) -> PairsOfSpecies<std::shared_ptr<SoftContact>> {
+    if (all.materials.empty()) {
+      const Kinds kinds = kinds_of(configuration);
+      return contact(force, kinds, kinds);
+    }
+    const std::vector<ContactParameters> of = contacts_by_species(parameters);
+    std::vector<Kinds> kinds;
+    for (std::size_t k = 0; k < of.size(); ++k) {
+      kinds.push_back(kinds_of(configuration, k));
+      if (kinds[k].empty()) kinds[k].insert({1, 1});  // a species of so few that it has no particle
+    }
+    PairsOfSpecies<std::shared_ptr<SoftContact>> contacts(of.size(), nullptr);
+    for (std::size_t i = 0; i < of.size(); ++i)
+      for (std::size_t j = 0; j <= i; ++j) {
+        const auto& mine = force_of(of[i], force);
+        contacts.set(
+            i, j, contact(i == j ? mine : mixed(mine, force_of(of[j], force)), kinds[i], kinds[j]));
+      }
+    return contacts;
   });
 }
 
-template std::shared_ptr<SoftContact> soft_contact(const ContactParameters&, const Configuration2&,
-                                                   int, const Log&);
-template std::shared_ptr<SoftContact> soft_contact(const ContactParameters&, const Configuration3&,
-                                                   int, const Log&);
+template PairsOfSpecies<std::shared_ptr<SoftContact>> soft_contact(const Parameters&,
+                                                                   const Configuration2&, int,
+                                                                   const Log&);
+template PairsOfSpecies<std::shared_ptr<SoftContact>> soft_contact(const Parameters&,
+                                                                   const Configuration3&, int,
+                                                                   const Log&);
 
 }  // namespace vitrel

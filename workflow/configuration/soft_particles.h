@@ -40,6 +40,9 @@ ForceForm form_of_law(const ContactParameters& parameters);
 /// speed, in lines for a person.
 std::string contact_text(const ContactParameters& parameters);
 
+/// As those of all, but of this material.
+ContactParameters of_material(const ContactParameters& all, const MaterialParameters& material);
+
 /// In units of the run.
 struct KindOfSphere {
   double radius, mass;
@@ -58,10 +61,11 @@ RestitutionTable restitution_table(const ContactParameters& parameters,
                                    const std::set<KindOfSphere>& kinds, int threads,
                                    const Log& log);
 
-/// For particles of these radii and masses, by such a table unless all contacts are integrated.
+/// For particles of these radii and masses, by such a table unless all contacts are integrated; where materials differ,
+/// by a table for each pair of species. Throws std::bad_optional_access if the particles have no [dynamics.contact].
 template <int Dim>
-std::shared_ptr<SoftContact> soft_contact(const ContactParameters& parameters,
-                                          const Configuration<Dim>& configuration, int threads,
-                                          const Log& log);
+PairsOfSpecies<std::shared_ptr<SoftContact>> soft_contact(const Parameters& parameters,
+                                                          const Configuration<Dim>& configuration,
+                                                          int threads, const Log& log);
 
 }  // namespace vitrel

@@ -154,7 +154,7 @@ class RunJob {
     options.engine.threads = request_.threads;
     if (const auto& contact = request_.parameters.dynamics.contact) {
       options.engine.soft_contact =
-          soft_contact(*contact, stored_.state.configuration, request_.threads, log_);
+          soft_contact(request_.parameters, stored_.state.configuration, request_.threads, log_);
       options.engine.early_release = contact->early_release;
     }
     return options;
@@ -244,7 +244,7 @@ Json run_summary(const RunRequest& request, const RunOutcome<Dim>& outcome) {
   const DynamicsParameters& dynamics = request.parameters.dynamics;
   if (is_dissipative(dynamics) || dynamics.contact) summary["dissipated_energy"] = counters.dissipated;
   if (dynamics.driving) summary["supplied_energy"] = counters.supplied;
-  if (dynamics.contact_duration > 0) {
+  if (dynamics.contact_duration > 0 || dynamics.contact) {
     summary["short_flights"] = counters.short_flights;
     summary["spared_energy"] = counters.spared;
   }
