@@ -236,7 +236,7 @@ TEST(ContactTimeModel, DoesNothingToAThinGasOfRareCollisions) {
 
 // Every step begins at kT = 1 again, whatever the collisions of the one before have taken.
 TEST(BrownianSteps, KeepAnInelasticGasHot) {
-  DynamicsOptions options = with(ContactLaw{0.5, 0.3, 0});
+  DynamicsOptions options = with(ContactLaw{0.5, 0.3, 0}, 1e-5);
   options.brownian = true;
   options.brownian_step = 0.5;
   const RunState2 end = run_until(ellipses(), 20, options);
