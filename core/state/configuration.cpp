@@ -29,9 +29,9 @@ double rotational_energy(const Configuration3& configuration, std::size_t i) {
   const double energy = 0.5 * configuration.inertia(i).dot(squares);
   const Ellipsoid& shape = configuration.shape[i];
   const int axis = shape.symmetry_axis();
-  return axis == Ellipsoid::none
-             ? energy
-             : energy + 0.5 * configuration.inertia(i)[axis] * (spin_factor(shape) - 1) * squares[axis];
+  return axis == Ellipsoid::none ? energy
+                                 : energy + 0.5 * configuration.inertia(i)[axis] *
+                                                (spin_factor(shape) - 1) * squares[axis];
 }
 
 }  // namespace

@@ -113,8 +113,12 @@ ContactLaw random_law(Stream& draw) {
   return {draw.below(8) == 0 ? 0 : draw.uniform(0, 1), friction, draw.uniform(-1, 1)};
 }
 
-double magnitude(double x) { return std::abs(x); }
-double magnitude(const Vec3& x) { return x.norm(); }
+double magnitude(double x) {
+  return std::abs(x);
+}
+double magnitude(const Vec3& x) {
+  return x.norm();
+}
 
 /// The two parts of the energy of the relative motion at the contact, from the impulse that takes the normal part away,
 /// and from that which takes all of it away; each found by letting the bodies collide.

@@ -217,8 +217,8 @@ Json run_summary(const RunRequest& request, const RunOutcome<Dim>& outcome) {
   const RunCounters& counters = state.counters;
   const TrajectoryReader trajectory(request.output);
   const Contacts contacts = vitrel::contacts(dynamics_options(request.parameters).engine);
-  const CompressibilitySeries z = stored_compressibility(trajectory, observed_energies(trajectory),
-                                                         rotation_count(state.configuration, contacts));
+  const CompressibilitySeries z = stored_compressibility(
+      trajectory, observed_energies(trajectory), rotation_count(state.configuration, contacts));
   const double simulated = state.configuration.time - state.start_time;
   const auto collisions = static_cast<double>(counters.collisions);
   Json summary = {
@@ -242,7 +242,8 @@ Json run_summary(const RunRequest& request, const RunOutcome<Dim>& outcome) {
       {"collisions_per_second", collisions / (outcome.wall_seconds - state.output_seconds)},
       {"collisions_per_second_with_output", collisions / outcome.wall_seconds}};
   const DynamicsParameters& dynamics = request.parameters.dynamics;
-  if (is_dissipative(dynamics) || dynamics.contact) summary["dissipated_energy"] = counters.dissipated;
+  if (is_dissipative(dynamics) || dynamics.contact)
+    summary["dissipated_energy"] = counters.dissipated;
   if (dynamics.driving) summary["supplied_energy"] = counters.supplied;
   if (dynamics.contact_duration > 0 || dynamics.contact) {
     summary["short_flights"] = counters.short_flights;

@@ -66,8 +66,7 @@ std::string cost_text(const RunRequest& request) {
   const RunCost cost = run_cost(p, representative_particles<Dim>(p));
   const double correlations = p.output.correlations ? correlator_bytes(p) : 0;
   const double memory = cost.memory_bytes + correlations;
-  const bool slows =
-      (is_dissipative(p.dynamics) || p.dynamics.contact) && !p.dynamics.driving;
+  const bool slows = (is_dissipative(p.dynamics) || p.dynamics.contact) && !p.dynamics.driving;
   return fmt::format(
              "expects      {}{:.2g} events, {:.2g} s after the preparation, {:.3g} MB of "
              "memory, {:.3g} MB on disk\n",
