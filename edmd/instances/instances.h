@@ -10,7 +10,12 @@
 /// body.
 namespace vitrel {
 
-/// Completes the description of an engine of round particles.
+/// Complete the description of an engine of round particles.
+inline std::string rotation_of_round(const EngineOptions& options) {
+  return contacts(options) == Contacts::rough
+             ? " that spin, since contacts are rough"
+             : " without orientation, since every particle is round";
+}
 inline std::string neighbor_text(const EngineOptions& options) {
   return options.neighbors == NeighborSearch::cells
              ? "; cells without neighbour lists, since they are not dense"

@@ -223,6 +223,15 @@ bool has_constant_restitution(const DynamicsParameters& p) {
          !is_rough(p, {});
 }
 
+bool cools_by_haff(const DynamicsParameters& p) {
+  const auto is_constant = [&](const PairLawParameters& pair) {
+    return pair.restitution.value_or(p.restitution).form == Form::constant;
+  };
+  const bool loses =
+      may_lose_energy(p.restitution) || (is_rough(p, {}) && p.tangential_restitution < 1);
+  return !p.contact && loses && is_constant({}) && std::ranges::all_of(p.pairs, is_constant);
+}
+
 bool is_dissipative(const DynamicsParameters& p) {
   const auto loses = [&](const PairLawParameters& pair) {
     return may_lose_energy(pair.restitution.value_or(p.restitution)) || is_rough(p, pair);

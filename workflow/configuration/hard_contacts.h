@@ -18,6 +18,8 @@ std::string hard_contact_text(const DynamicsParameters& dynamics);
 
 /// Whether all contacts have the same constant coefficient of restitution below 1, and no friction.
 bool has_constant_restitution(const DynamicsParameters& dynamics);
+/// Whether no law depends on the speed: a gas then cools by Haff's law.
+bool cools_by_haff(const DynamicsParameters& dynamics);
 /// Whether contacts can dissipate energy.
 bool is_dissipative(const DynamicsParameters& dynamics);
 

@@ -133,6 +133,13 @@ double disk(const Parameters& p, int dimension, double particles) {
   return file + of_particle * particles + frames * (per_frame + per_particle * particles);
 }
 
+/// How often all velocities change between collisions: in Brownian steps, or by kicks.
+double velocity_changes(const DynamicsParameters& p) {
+  const double time = p.equilibration + p.duration;
+  if (p.kind == DynamicsParameters::Kind::brownian) return time / p.brownian_step;
+  return p.driving ? time / p.driving->interval : 0;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -144,7 +151,9 @@ RunCost run_cost(const Parameters& p, const Configuration<Dim>& some) {
   cost.collisions =
       particles * time * collisions_per_particle_and_time(some, p.system.packing_fraction);
   cost.events = events_per_collision * cost.collisions;
-  cost.seconds = cost.events * seconds_per_event(Dim, is_round);
+  // Each change of the velocities predicts all particles, at about the cost of an event.
+  cost.seconds =
+      (cost.events + particles * velocity_changes(p.dynamics)) * seconds_per_event(Dim, is_round);
   cost.memory_bytes = memory(Dim, is_round, particles);
   cost.disk_bytes = disk(p, Dim, particles);
   return cost;
