@@ -41,9 +41,9 @@ constexpr std::array<std::string_view, 14> not_drawn = {"origins",
 constexpr std::array<std::string_view, 7> logarithmic_units = {
     "length^2", "length^4", "rad^2", "rad^4", "time", "length^2/time", "rad^2/time"};
 /// Beginnings of the names of tables over time differences.
-constexpr std::array<std::string_view, 6> correlations = {
-    "displacements_", "self_scattering_",      "orientation_",
-    "susceptibility", "collective_scattering", "on_the_fly_"};
+constexpr std::array<std::string_view, 8> correlations = {
+    "displacements_", "self_scattering_", "orientation_", "susceptibility",
+    "cage_relative",  "ageing",           "on_the_fly_",  "collective_scattering"};
 
 bool is_over_time_differences(const Table& table) {
   return table.columns.front().name == "time" &&

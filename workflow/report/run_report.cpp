@@ -41,7 +41,12 @@ std::string dynamics_text(const DynamicsParameters& p) {
 /// Which of Haff's laws holds; none for dynamics that conserve the energy or draw velocities again.
 std::optional<Cooling> cooling_of(const DynamicsParameters& p) {
   if (p.kind == DynamicsParameters::Kind::brownian || p.driving) return std::nullopt;
-  if (cools_by_haff(p)) return Cooling{2, "the coefficients of restitution are constant"};
+  if (cools_by_haff(p))
+    return Cooling{
+        2, p.friction > 0
+               ? "the coefficients of restitution are constant; it begins when rotation and "
+                 "translation have reached their ratio"
+               : "the coefficients of restitution are constant"};
   if (!p.contact) return std::nullopt;
   if (p.contact->law == Contact::Law::linear_dashpot && p.contact->linear_dashpot.damping > 0)
     return Cooling{2,
