@@ -170,10 +170,12 @@ def commit_of(data):
 
 
 def measured(command, preset, *parts):
-    """The output of a subcommand of vitrel-bench built with this preset."""
+    """The output of a subcommand of vitrel-bench built with this preset; build/<preset>/<command>.json keeps it."""
     for step in (["--preset", preset], ["--build", "--preset", preset, "--target", "vitrel-bench"]):
         subprocess.run(["cmake", *step], cwd=ROOT, check=True)
-    return json.loads(output_of([ROOT / "build" / preset / "bench/vitrel-bench", command, *parts]))
+    output = output_of([ROOT / "build" / preset / "bench/vitrel-bench", command, *parts])
+    (ROOT / "build" / preset / f"{command}.json").write_text(output, encoding="utf-8")
+    return json.loads(output)
 
 
 def compared(build, command, file, *options):

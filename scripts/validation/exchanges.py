@@ -97,7 +97,8 @@ ones.
 
 How many times as fast event chains with collective exchanges forget the places of disks as motion does. The times of motion
 grow by a factor of {growth} over the densities where they were measured more than once. Beyond, a ratio is that to the law of Vogel and Fulcher
-fitted to them, if they grow by 1000 or more.
+fitted to them, if they grow by 1000 or more and the law does not diverge before; otherwise only the lower limit is given that
+holds because motion does not become faster.
 
 {gains}
 
@@ -139,19 +140,21 @@ def fitted(points, phi_c, at):
 
 def extrapolated(points, at):
     """The time at this density by the law of Vogel and Fulcher, and its lower 95 % limit: that of all φ_c whose χ² is within
-    2.71 of the minimum, all errors enlarged where the law does not fit.
+    2.71 of the minimum, all errors enlarged where the law does not fit. None if the law diverges before.
     """
     highest = max(points[-1][0], at)
     tried = [fitted(points, highest + 10 ** (-4 + 0.002 * k), at) for k in range(2000)]
     minimum = min(chi for chi, _ in tried)
     scale = max(1, minimum / max(1, len(points) - 3))
+    if min(tried) == tried[0]:
+        return None
     return (math.exp(min(tried)[1]),
             math.exp(min(value for chi, value in tried if chi <= minimum + CONFIDENCE * scale)))
 
 
 def speed_ups(rows, quantity="places"):
     """How many times as fast collective exchanges forget as motion, at every density: measured or, where motion is too slow,
-    by the law fitted to it.
+    by the law fitted to it, or more than if motion became no slower.
     """
     motion = [point for point in curves(rows, quantity).get(MOTION, []) if point[2]]
     has_law = len(motion) >= 5 and motion[-1][1] >= MIN_GROWTH * motion[0][1]
@@ -162,10 +165,14 @@ def speed_ups(rows, quantity="places"):
             ratio = known[0] / seconds
             relative = math.hypot(known[1] / known[0], error / seconds)
             lines.append([phi, f"{ratio:.3g} ± {ratio * relative:.1g}", f"{ratio * math.exp(-1.645 * relative):.3g}", "measured"])
-        elif has_law:
-            value, lower = extrapolated(motion, phi)
+        elif found := extrapolated(motion, phi) if has_law else None:
+            value, lower = found
             lines.append([phi, f"{value / seconds:.2g}", f"{lower / seconds * math.exp(-1.645 * error / seconds):.2g}",
                           "by the law"])
+        elif motion:
+            last, last_error = motion[-1][1:]
+            relative = math.hypot(last_error / last, error / seconds)
+            lines.append([phi, "–", f"{last / seconds * math.exp(-1.645 * relative):.3g}", f"motion as at {motion[-1][0]}"])
     growth = f"{motion[-1][1] / motion[0][1]:.3g}" if motion else "–"
     return growth, table(["φ", "ratio", "lower 95 % limit", ""], lines)
 

@@ -104,7 +104,7 @@ def draw(rows, temperatures, ratio):
     left.loglog(time[1:], translation[1:], color=COLOURS[0], label="translation")
     left.loglog(time[1:], rotation[1:], color=COLOURS[1], label="rotation")
     left.loglog(time[1:], ratio * translation[1:], "--", color="black", linewidth=0.8, label=f"{ratio:.3f} × translation")
-    left.set(title="Rough spheres that cool (e = 0.9, β = 0, no slip)", xlabel="time", ylabel="energy per particle / kT")
+    left.set(title="Rough spheres that cool (e = 0.9, β = 0, no slip)", xlabel="time", ylabel="energy / kT")
     for k, row in enumerate(rows):
         edges, density = row["histogram"]
         middle = [(a + b) / 2 for a, b in zip(edges, edges[1:])]

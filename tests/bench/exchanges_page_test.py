@@ -64,6 +64,19 @@ class ExchangesPage(unittest.TestCase):
         self.assertEqual(float(growth), float(f"{law(0.8) / law(0.6):.3g}"))
         self.assertNotIn("by the law", exchanges.speed_ups([*rows[:5], rows[6]])[1])
 
+    def test_without_a_law_motion_is_no_faster_than_before(self):
+        rows = [state(2, 0.1) | {"packing_fraction": 0.7}, state(None, 0.1) | {"packing_fraction": 0.8}]
+        for row in rows:
+            for method in row["methods"]:
+                if method["sizes"]:
+                    method["places"] = method["sizes"] | {"error": 0.001, "times": 9}
+        self.assertIn("| 0.8 | – |", exchanges.speed_ups(rows)[1])
+
+    def test_a_law_that_diverges_before_gives_no_time(self):
+        motion = [(phi, seconds, 0.01 * seconds) for phi, seconds in
+                  ((phi, math.exp(0.05 * phi / (0.801 - phi))) for phi in (0.6, 0.7, 0.75, 0.78, 0.79, 0.799, 0.8))]
+        self.assertIsNone(exchanges.extrapolated(motion, 0.82))
+
     def test_a_dilute_liquid_is_forgotten(self):
         for method in self.data["disks"][0]["methods"]:
             for quantity in ("places", "sizes"):
