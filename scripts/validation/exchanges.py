@@ -97,8 +97,8 @@ ones.
 
 How many times as fast event chains with collective exchanges forget the places of disks as motion does. The times of motion
 grow by a factor of {growth} over the densities where they were measured more than once. Beyond, a ratio is that to the law of Vogel and Fulcher
-fitted to them, if they grow by 1000 or more and the law does not diverge before; otherwise only the lower limit is given that
-holds because motion does not become faster.
+fitted to them, if they grow by 1000 or more, up to {MAX_EXTRAPOLATION:.0f} times the longest time measured. Farther away only the lower limit
+is given, by the law or because motion does not become faster.
 
 {gains}
 
@@ -122,6 +122,7 @@ def gain(row, method, other, quantity="sizes"):
 # ---- the speed-up over motion ----------------------------------------------------------------------------
 
 CONFIDENCE = 2.71  # rise of χ² that leaves 5 % on one side
+MAX_EXTRAPOLATION = 1e3  # of times of motion over the longest one measured
 MIN_GROWTH = 1e3  # of the times of motion: a law is fitted only to three decades
 
 
@@ -139,17 +140,19 @@ def fitted(points, phi_c, at):
 
 
 def extrapolated(points, at):
-    """The time at this density by the law of Vogel and Fulcher, and its lower 95 % limit: that of all φ_c whose χ² is within
-    2.71 of the minimum, all errors enlarged where the law does not fit. None if the law diverges before.
+    """The time at this density by the law of Vogel and Fulcher, or infinity if that is too far away, and its lower 95 % limit:
+    that of all φ_c whose χ² is within 2.71 of the minimum, all errors enlarged where the law does not fit. None if the law
+    diverges before, or the limit is too far away.
     """
     highest = max(points[-1][0], at)
     tried = [fitted(points, highest + 10 ** (-4 + 0.002 * k), at) for k in range(2000)]
     minimum = min(chi for chi, _ in tried)
     scale = max(1, minimum / max(1, len(points) - 3))
-    if min(tried) == tried[0]:
+    lowest = min(value for chi, value in tried if chi <= minimum + CONFIDENCE * scale)
+    farthest = math.log(MAX_EXTRAPOLATION * points[-1][1])
+    if min(tried) == tried[0] or lowest > farthest:
         return None
-    return (math.exp(min(tried)[1]),
-            math.exp(min(value for chi, value in tried if chi <= minimum + CONFIDENCE * scale)))
+    return math.exp(min(tried)[1]) if min(tried)[1] <= farthest else math.inf, math.exp(lowest)
 
 
 def speed_ups(rows, quantity="places"):
@@ -167,7 +170,7 @@ def speed_ups(rows, quantity="places"):
             lines.append([phi, f"{ratio:.3g} ± {ratio * relative:.1g}", f"{ratio * math.exp(-1.645 * relative):.3g}", "measured"])
         elif found := extrapolated(motion, phi) if has_law else None:
             value, lower = found
-            lines.append([phi, f"{value / seconds:.2g}", f"{lower / seconds * math.exp(-1.645 * error / seconds):.2g}",
+            lines.append([phi, f"{value / seconds:.2g}" if value < math.inf else "–", f"{lower / seconds * math.exp(-1.645 * error / seconds):.2g}",
                           "by the law"])
         elif motion:
             last, last_error = motion[-1][1:]
