@@ -170,8 +170,8 @@ def speed_ups(rows, quantity="places"):
             lines.append([phi, f"{ratio:.3g} ± {ratio * relative:.1g}", f"{ratio * math.exp(-1.645 * relative):.3g}", "measured"])
         elif found := extrapolated(motion, phi) if has_law else None:
             value, lower = found
-            lines.append([phi, f"{value / seconds:.2g}" if value < math.inf else "–", f"{lower / seconds * math.exp(-1.645 * error / seconds):.2g}",
-                          "by the law"])
+            lines.append([phi, f"{value / seconds:.2g}" if value < math.inf else "–",
+                          f"{lower / seconds * math.exp(-1.645 * error / seconds):.2g}", "by the law"])
         elif motion:
             last, last_error = motion[-1][1:]
             relative = math.hypot(last_error / last, error / seconds)

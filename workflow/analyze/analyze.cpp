@@ -181,9 +181,7 @@ std::vector<Column> state_columns(const Configuration3& state) {
 Contacts recorded_contacts(const TrajectoryReader& reader) {
   const std::string recorded = reader.provenance().parameters;
   if (recorded.empty()) return Contacts::smooth;
-  return contact_laws(recorded_parameters(recorded, reader.path().string())).are_rough()
-             ? Contacts::rough
-             : Contacts::smooth;
+  return contacts_of(recorded_parameters(recorded, reader.path().string()).dynamics);
 }
 
 template <int Dim>

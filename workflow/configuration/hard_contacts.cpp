@@ -218,6 +218,11 @@ ContactLaws contact_laws(const Parameters& parameters) {
   return laws;
 }
 
+Contacts contacts_of(const DynamicsParameters& p) {
+  const auto rough = [&](const PairLawParameters& pair) { return is_rough(p, pair); };
+  return rough({}) || std::ranges::any_of(p.pairs, rough) ? Contacts::rough : Contacts::smooth;
+}
+
 bool has_constant_restitution(const DynamicsParameters& p) {
   return p.pairs.empty() && p.restitution.form == Form::constant && p.restitution.value < 1 &&
          !is_rough(p, {});

@@ -12,6 +12,9 @@ namespace vitrel {
 /// Of the species in the order of the parameters, which is that of the configuration.
 ContactLaws contact_laws(const Parameters& parameters);
 
+/// Whether any contact is rough.
+Contacts contacts_of(const DynamicsParameters& dynamics);
+
 /// The laws of a run of which these are the dynamics, in lines for a person; empty for elastic and smooth contacts of
 /// particles that nothing drives.
 std::string hard_contact_text(const DynamicsParameters& dynamics);

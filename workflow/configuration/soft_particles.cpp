@@ -108,11 +108,15 @@ std::shared_ptr<SoftContact> contact_by(const Force& force,
       force, TabulatedRestitution(form, table_of(force, pairs, threads, log)));
 }
 
-/// `use(force)` for the force of the law.
+/// `use(member)` for the member that is the force of the law; `use(force)` for that force.
+template <class Use>
+auto with_force_member(const ContactParameters& p, Use&& use) {
+  return p.law == ContactParameters::Law::linear_dashpot ? use(&ContactParameters::linear_dashpot)
+                                                         : use(&ContactParameters::viscoelastic);
+}
 template <class Use>
 auto with_force(const ContactParameters& p, Use&& use) {
-  return p.law == ContactParameters::Law::linear_dashpot ? use(p.linear_dashpot)
-                                                         : use(p.viscoelastic);
+  return with_force_member(p, [&](auto member) { return use(p.*member); });
 }
 
 ContactPair reference_pair(const ContactParameters& p) {
@@ -135,13 +139,6 @@ std::vector<ContactParameters> contacts_by_species(const Parameters& parameters)
   for (const MaterialParameters& material : all.materials)
     contacts[species_index(parameters, material.species).value()] = of_material(all, material);
   return contacts;
-}
-
-const LinearDashpot& force_of(const ContactParameters& p, const LinearDashpot&) {
-  return p.linear_dashpot;
-}
-const Viscoelastic& force_of(const ContactParameters& p, const Viscoelastic&) {
-  return p.viscoelastic;
 }
 
 }  // namespace
@@ -200,10 +197,10 @@ PairsOfSpecies<std::shared_ptr<SoftContact>> soft_contact(const Parameters& para
     return contact_by(in_units(force, units_of_run(all)), all.coefficients, pairs_of(some, others),
                       threads, log);
   };
-  return with_force(all, [&](const auto& force) -> PairsOfSpecies<std::shared_ptr<SoftContact>> {
+  return with_force_member(all, [&](auto force) -> PairsOfSpecies<std::shared_ptr<SoftContact>> {
     if (all.materials.empty()) {
       const Kinds kinds = kinds_of(configuration);
-      return contact(force, kinds, kinds);
+      return contact(all.*force, kinds, kinds);
     }
     const std::vector<ContactParameters> of = contacts_by_species(parameters);
     std::vector<Kinds> kinds;
@@ -214,9 +211,8 @@ PairsOfSpecies<std::shared_ptr<SoftContact>> soft_contact(const Parameters& para
     PairsOfSpecies<std::shared_ptr<SoftContact>> contacts(of.size(), nullptr);
     for (std::size_t i = 0; i < of.size(); ++i)
       for (std::size_t j = 0; j <= i; ++j) {
-        const auto& mine = force_of(of[i], force);
-        contacts.set(
-            i, j, contact(i == j ? mine : mixed(mine, force_of(of[j], force)), kinds[i], kinds[j]));
+        const auto& mine = of[i].*force;
+        contacts.set(i, j, contact(i == j ? mine : mixed(mine, of[j].*force), kinds[i], kinds[j]));
       }
     return contacts;
   });

@@ -62,7 +62,7 @@ RestitutionTable restitution_table(const ContactParameters& parameters,
                                    const Log& log);
 
 /// For particles of these radii and masses, by such a table unless all contacts are integrated; where materials differ,
-/// by a table for each pair of species. Throws std::bad_optional_access if the particles have no [dynamics.contact].
+/// by a table for each pair of species. Of parameters with [dynamics.contact].
 template <int Dim>
 PairsOfSpecies<std::shared_ptr<SoftContact>> soft_contact(const Parameters& parameters,
                                                           const Configuration<Dim>& configuration,

@@ -216,9 +216,10 @@ Json run_summary(const RunRequest& request, const RunOutcome<Dim>& outcome) {
   const RunState<Dim>& state = outcome.state;
   const RunCounters& counters = state.counters;
   const TrajectoryReader trajectory(request.output);
-  const Contacts contacts = vitrel::contacts(dynamics_options(request.parameters).engine);
-  const CompressibilitySeries z = stored_compressibility(
-      trajectory, observed_energies(trajectory), rotation_count(state.configuration, contacts));
+  const DynamicsParameters& dynamics = request.parameters.dynamics;
+  const CompressibilitySeries z =
+      stored_compressibility(trajectory, observed_energies(trajectory),
+                             rotation_count(state.configuration, contacts_of(dynamics)));
   const double simulated = state.configuration.time - state.start_time;
   const auto collisions = static_cast<double>(counters.collisions);
   Json summary = {
@@ -241,7 +242,6 @@ Json run_summary(const RunRequest& request, const RunOutcome<Dim>& outcome) {
       {"wall_seconds", outcome.wall_seconds},
       {"collisions_per_second", collisions / (outcome.wall_seconds - state.output_seconds)},
       {"collisions_per_second_with_output", collisions / outcome.wall_seconds}};
-  const DynamicsParameters& dynamics = request.parameters.dynamics;
   if (is_dissipative(dynamics) || dynamics.contact)
     summary["dissipated_energy"] = counters.dissipated;
   if (dynamics.driving) summary["supplied_energy"] = counters.supplied;

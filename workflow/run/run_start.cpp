@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/io/h5md.h"
+#include "workflow/configuration/hard_contacts.h"
 #include "workflow/configuration/start_state.h"
 #include "workflow/storage/checkpoint_file.h"
 
@@ -136,8 +137,7 @@ template <int Dim>
 void set_velocities(Configuration<Dim>& configuration, const Parameters& parameters) {
   const DynamicsParameters& dynamics = parameters.dynamics;
   set_initial_velocities(configuration, parameters.system.seed, dynamics.initial_velocities,
-                         dynamics.temperature, initial_energies(parameters),
-                         contacts(dynamics_options(parameters).engine));
+                         dynamics.temperature, initial_energies(parameters), contacts_of(dynamics));
   const Mechanics<Dim> sums = mechanics(configuration);
   if (!(sums.translational_energy + sums.rotational_energy > 0))
     throw UserError(
