@@ -66,7 +66,7 @@ class CollisionExecutor {
   void collide_soft_pair(Index i, Index j, const Vector& d, const Vector& n, double restitution,
                          double contact_duration, RunCounters& counters) {
     if (flight_is_short(i, j, contact_duration))
-      collide_again(i, j, d, n, restitution, counters);
+      collide_again(i, j, d, n, speed_of_approach(i, j, n), restitution, counters);
     else
       impact(i, j, d, n, restitution, counters);
   }
@@ -93,17 +93,25 @@ class CollisionExecutor {
   /// By the law of the pair. Returns the approach speed of the surfaces.
   double collide(Index i, Index j, const Vector& d, const Vector& n, RunCounters& counters) {
     const ContactLaw& law = state_.of_pair(laws_, i, j);
-    if (tc_ > 0 && flight_is_short(i, j, tc_)) {
-      collide_again(i, j, d, n, law.restitution(speed_of_approach(i, j, n)), counters);
+    const bool is_short = tc_ > 0 && flight_is_short(i, j, tc_);
+    const bool is_rough = law.is_rough() && i != j;
+    if (!is_short && !is_rough && law.restitution.is_elastic())
+      return impact(i, j, d, n, 1, counters).speed;
+    const double speed = speed_of_approach(i, j, n);
+    if (is_short) {
+      collide_again(i, j, d, n, speed, law.restitution(speed), counters);
       return 0;
     }
-    if (law.is_rough() && i != j) return rub(i, j, d, n, law, counters);
-    return impact(i, j, d, n, restitution_of(law, i, j, n), counters).speed;
+    const double restitution = restitution_of(law, i, j, speed);
+    if (is_rough)
+      rub(i, j, d, n, law, restitution, counters);
+    else
+      impact(i, j, d, n, restitution, counters);
+    return speed;
   }
 
-  double restitution_of(const ContactLaw& law, Index i, Index j, const Vector& n) const {
+  double restitution_of(const ContactLaw& law, Index i, Index j, double speed) const {
     if (law.restitution.is_elastic()) return 1;
-    const double speed = speed_of_approach(i, j, n);
     const double separating = separation_speed(i, j) / speed;
     return std::max(law.restitution(speed), tc_ > 0 ? separating : std::min(1., separating));
   }
@@ -129,9 +137,8 @@ class CollisionExecutor {
   }
 
   /// By the contact-time model (inelastic_collapse.h): an elastic, smooth collision instead of this restitution.
-  void collide_again(Index i, Index j, const Vector& d, const Vector& n, double restitution,
-                     RunCounters& counters) {
-    const double speed = speed_of_approach(i, j, n);
+  void collide_again(Index i, Index j, const Vector& d, const Vector& n, double speed,
+                     double restitution, RunCounters& counters) {
     const double elastic = std::max(1., separation_speed(i, j) / speed);
     const Impact result = impact(i, j, d, n, elastic, counters);
     const double along = result.impulse * speed / (2 * (1 + elastic));
@@ -139,22 +146,20 @@ class CollisionExecutor {
     counters.spared += (1 - restitution * restitution) * along;
   }
 
-  /// A rough collision. Returns the approach speed.
-  double rub(Index i, Index j, const Vector& d, const Vector& n, const ContactLaw& law,
-             RunCounters& counters) {
+  /// A rough collision.
+  void rub(Index i, Index j, const Vector& d, const Vector& n, const ContactLaw& law,
+           double restitution, RunCounters& counters) {
     Motion<dimension> motion1 = state_.full_motion(i), motion2 = state_.full_motion(j);
     const RoughContact<dimension> contact{n, surface_from(i, n), surface_from(j, -n)};
-    const double speed = speed_of_approach(i, j, n);
     const RoughImpact<dimension> result =
         collide_rough(motion1, state_.full_inertia_now(i), motion2, state_.full_inertia_now(j),
-                      contact, restitution_of(law, i, j, n), law);
+                      contact, restitution, law);
     state_.set_full_motion(i, motion1);
     state_.set_full_motion(j, motion2);
     ++state_.collisions;
     ++counters.collisions;
     counters.virial -= result.impulse.dot(d);
     counters.dissipated += result.dissipated;
-    return speed;
   }
 
   double speed_of_approach(Index i, Index j, const Vector& n) const {
