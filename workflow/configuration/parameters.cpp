@@ -178,7 +178,7 @@ void validate(const Parameters& parameters) {
 }
 
 Parameters load_parameters(const ParameterSource& source) {
-  TomlNode root = read_toml_file(source.file);
+  TomlNode root = source.file.empty() ? parse_toml("", "parameters") : read_toml_file(source.file);
   resolve_state_files(root, source.file.parent_path());
   apply(root, source.overrides);
   if (source.seed)

@@ -1,0 +1,154 @@
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "core/io/h5md.h"
+#include "core/io/json.h"
+#include "core/state/stage.h"
+#include "python/bindings/arrays.h"
+#include "python/bindings/bindings.h"
+#include "workflow/analyze/analyze.h"
+#include "workflow/configuration/parameters.h"
+#include "workflow/prepare/prepare.h"
+#include "workflow/run/run.h"
+
+namespace vitrel::python {
+namespace {
+
+/// Python hears of the work: `say(line)` and `show(fraction, quantity, value)`. Both may be None.
+struct Listener {
+  py::object say, show;
+
+  Log log() const {
+    return [this](const std::string& line) {
+      const py::gil_scoped_acquire acquire;
+      if (!say.is_none()) say(line);
+    };
+  }
+  void report(const Progress& progress) const {
+    const py::gil_scoped_acquire acquire;
+    if (!show.is_none()) show(progress.fraction, progress.quantity, progress.value);
+  }
+};
+
+/// Work stops at its next block when Python has a signal to handle, like that of Ctrl-C.
+class Interruption {
+ public:
+  bool requested() {
+    const auto now = std::chrono::steady_clock::now();
+    if (is_pending_ || now - last_ < std::chrono::milliseconds(50)) return is_pending_;
+    last_ = now;
+    const py::gil_scoped_acquire acquire;
+    is_pending_ = PyErr_CheckSignals() != 0;
+    return is_pending_;
+  }
+  /// Once the work has ended, with the interpreter: raises KeyboardInterrupt or what else the signal raised.
+  void raise() const {
+    if (is_pending_) throw py::error_already_set();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+  bool is_pending_ = false;
+};
+
+RunControl control_of(Interruption& interruption, const Listener& listener) {
+  return {[&] { return interruption.requested(); },
+          [&](const Progress& progress) { listener.report(progress); },
+          {}};
+}
+
+Parameters parameters_of(const std::filesystem::path& file,
+                         const std::vector<std::string>& overrides,
+                         const std::optional<std::filesystem::path>& start, bool shrink) {
+  ParameterSource source{file, overrides, std::nullopt};
+  if (start) source.start = StartFile{*start, shrink};
+  return load_parameters(source);
+}
+
+template <int Dim>
+py::object prepared(const PrepareRequest& request, Interruption& interruption,
+                    const Listener& listener) {
+  Preparation<Dim> preparation = [&] {
+    const py::gil_scoped_release release;
+    return prepare<Dim>(request, control_of(interruption, listener), listener.log());
+  }();
+  interruption.raise();
+  return py::make_tuple(std::move(preparation.configuration),
+                        effective_parameters(preparation.parameters));
+}
+
+/// The state and the parameters that made it.
+py::object prepare_state(const std::filesystem::path& file,
+                         const std::vector<std::string>& overrides,
+                         const std::optional<std::filesystem::path>& start, bool shrink,
+                         int threads, py::object say, py::object show) {
+  const Listener listener{std::move(say), std::move(show)};
+  Interruption interruption;
+  const PrepareRequest request{
+      parameters_of(file, overrides, start, shrink), {}, "vitrel.prepare", threads};
+  return prepared_dimension(request) == 2 ? prepared<2>(request, interruption, listener)
+                                          : prepared<3>(request, interruption, listener);
+}
+
+template <int Dim>
+std::string run_of(const RunRequest& request, Interruption& interruption,
+                   const Listener& listener) {
+  const RunOutcome<Dim> outcome = [&] {
+    const py::gil_scoped_release release;
+    return run_simulation<Dim>(request, control_of(interruption, listener), listener.log());
+  }();
+  interruption.raise();
+  return run_summary(request, outcome).dump();
+}
+
+/// The summary of the run, as JSON.
+std::string run_file(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+                     const std::optional<std::filesystem::path>& start,
+                     const std::filesystem::path& output, int threads, py::object say,
+                     py::object show) {
+  const Listener listener{std::move(say), std::move(show)};
+  Interruption interruption;
+  const RunRequest request{parameters_of(file, overrides, start, false), output, "vitrel.run",
+                           threads};
+  return run_dimension(request) == 2 ? run_of<2>(request, interruption, listener)
+                                     : run_of<3>(request, interruption, listener);
+}
+
+/// (name, unit, values, errors or None, labels)
+py::tuple column_of(const Column& column) {
+  const py::object errors = column.error.empty()
+                                ? py::object(py::none())
+                                : py::object(owned(std::vector<double>(column.error)));
+  return py::make_tuple(column.name, column.unit, owned(std::vector<double>(column.value)), errors,
+                        column.labels);
+}
+
+/// (summary as JSON, [(name, description, columns)])
+py::tuple analyze_file(const std::filesystem::path& file,
+                       const std::vector<std::string>& overrides) {
+  AnalysisChoice choice;
+  choice.overrides = overrides;
+  const AnalysedRun run = [&] {
+    const py::gil_scoped_release release;
+    return analyze_run(file, choice);
+  }();
+  py::list tables;
+  for (const Table& table : run.results.tables) {
+    py::list columns;
+    for (const Column& column : table.columns) columns.append(column_of(column));
+    tables.append(py::make_tuple(table.name, table.description, columns));
+  }
+  return py::make_tuple(analysis_summary(run).dump(), tables);
+}
+
+}  // namespace
+
+void bind_work(py::module_& module) {
+  module.def("prepare", &prepare_state, py::arg("file"), py::arg("overrides"), py::arg("start"),
+             py::arg("shrink"), py::arg("threads"), py::arg("say"), py::arg("show"));
+  module.def("run", &run_file, py::arg("file"), py::arg("overrides"), py::arg("start"),
+             py::arg("output"), py::arg("threads"), py::arg("say"), py::arg("show"));
+  module.def("analyze", &analyze_file, py::arg("file"), py::arg("overrides"));
+}
+
+}  // namespace vitrel::python
