@@ -1,0 +1,25 @@
+"""Hard anisotropic particles, from the liquid to the glass.
+
+A state is prepared from parameters, or made from arrays or a file; a run follows it; an analysis gives tables:
+
+>>> import vitrel
+>>> state = vitrel.prepare(aspect_ratio=2, particles=1000, packing_fraction=0.78, seed=1)
+>>> run = vitrel.run(state, kind="brownian", duration=100, output="run.h5")
+>>> run.analyze()["displacements_all"]["msd"]
+
+Lengths are in units of √(a b) (in space ∛(a b c)) of a particle of size 1, times in √(m ℓ²/kT) of that length ℓ.
+Mistakes raise `UserError`, files that cannot be read or written `FileError`, overlaps in a hard run `InvariantError`,
+with the messages of the program.
+"""
+
+from ._vitrel import FileError, InvariantError, UserError, commit, version
+from .pairs import Bodies, Contact, Gap, first_contact, gap, overlap
+from .results import Column, Results, Table
+from .runs import Run, load, run
+from .states import State, prepare, read
+
+__version__ = version
+__all__ = [
+    "Bodies", "Column", "Contact", "FileError", "Gap", "InvariantError", "Results", "Run", "State", "Table", "UserError",
+    "commit", "first_contact", "gap", "load", "overlap", "prepare", "read", "run", "version",
+]

@@ -1,0 +1,92 @@
+"""Two hard bodies, for arrays of pairs at once."""
+
+from typing import NamedTuple, Optional
+
+import numpy
+
+from . import _vitrel
+
+
+class Bodies:
+    """N ellipses or ellipsoids in free flight.
+
+    Parameters
+    ----------
+    semi_axes : array_like, shape (N, 2) or (N, 3)
+        In the plane in descending order. Two numbers are ellipses, three are ellipsoids.
+    position : array_like, shape (N, 2) or (N, 3)
+    angle : array_like, shape (N,), optional
+        Of the first semi-axis, in radians; of ellipses.
+    orientation : array_like, shape (N, 4), optional
+        Unit quaternions w, x, y, z from the axes of the body to those of space; of ellipsoids.
+    velocity : array_like, shape (N, 2) or (N, 3), optional
+    angular_velocity : array_like, shape (N,) or (N, 3), optional
+        In the axes of space.
+
+    Every array may be that of a single body, without the first dimension: all N are then alike.
+    """
+
+    def __init__(self, semi_axes, position, *, angle=0.0, orientation=(1.0, 0.0, 0.0, 0.0), velocity=None,
+                 angular_velocity=None):
+        semi_axes = numpy.atleast_1d(numpy.asarray(semi_axes, dtype=float))
+        self.dimension = semi_axes.shape[-1]
+        if self.dimension not in (2, 3):
+            raise _vitrel.UserError("semi_axes must be two numbers, of ellipses, or three, of ellipsoids")
+        in_plane = self.dimension == 2
+        still, at_rest = numpy.zeros(self.dimension), numpy.zeros(() if in_plane else 3)
+        given = [semi_axes, position, angle if in_plane else orientation, still if velocity is None else velocity,
+                 at_rest if angular_velocity is None else angular_velocity]
+        rows = [numpy.asarray(values, dtype=float) for values in given]
+        # Dimensions of one body's entry.
+        own = [1, 1, 0 if in_plane else 1, 1, 0 if in_plane else 1]
+        count = numpy.broadcast_shapes((1,), *(array.shape[:array.ndim - k] for array, k in zip(rows, own)))
+        kind = _vitrel.Ellipses if in_plane else _vitrel.Ellipsoids
+        self._bodies = kind(*(numpy.broadcast_to(array, count + array.shape[array.ndim - k:])
+                              for array, k in zip(rows, own)))
+
+    def __len__(self):
+        return len(self._bodies)
+
+
+def overlap(one: Bodies, two: Bodies, box: Optional[numpy.ndarray] = None) -> numpy.ndarray:
+    """Whether each pair overlaps, by the exact criterion; a touch is no overlap.
+
+    Parameters
+    ----------
+    one, two : Bodies
+        As many of both.
+    box : array_like, shape (2,) or (3,), optional
+        Lengths of a periodic box: any image of the second body counts.
+
+    Returns
+    -------
+    numpy.ndarray of bool, shape (N,)
+    """
+    return _vitrel.overlap(one._bodies, two._bodies, box)
+
+
+class Gap(NamedTuple):
+    """Distances of surfaces. Normal and points are NaN where the bodies overlap."""
+
+    gap: numpy.ndarray  #: (N,), of an overlap minus its depth
+    normal: numpy.ndarray  #: (N, D), unit vectors from the first body to the second
+    point_1: numpy.ndarray  #: (N, D), the closest point of the first body
+    point_2: numpy.ndarray  #: (N, D), that of the second
+
+
+def gap(one: Bodies, two: Bodies, box: Optional[numpy.ndarray] = None) -> Gap:
+    """The distance of the surfaces of each pair, to rounding; arguments as of `overlap`."""
+    return Gap(*_vitrel.gap(one._bodies, two._bodies, box))
+
+
+class Contact(NamedTuple):
+    """First contacts. Normal and point are NaN where there is none."""
+
+    time: numpy.ndarray  #: (N,), infinite if there is none before the horizon, NaN if the bodies overlap at the start
+    normal: numpy.ndarray  #: (N, D), unit vectors from the first body to the second
+    point: numpy.ndarray  #: (N, D)
+
+
+def first_contact(one: Bodies, two: Bodies, horizon: float, box: Optional[numpy.ndarray] = None) -> Contact:
+    """When each pair touches first in free flight, up to `horizon`; other arguments as of `overlap`."""
+    return Contact(*_vitrel.first_contact(one._bodies, two._bodies, box, horizon))

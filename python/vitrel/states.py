@@ -1,0 +1,153 @@
+"""Configurations of particles."""
+
+import os
+
+import numpy
+
+from . import _vitrel
+from .settings import listener, overrides
+
+
+class State:
+    """Particles in a periodic box: ellipses in the plane, or ellipsoids in space.
+
+    Arrays are views, which cannot be written; a changed state is made from arrays (`State.from_arrays`).
+
+    Attributes
+    ----------
+    position, velocity : numpy.ndarray, shape (N, D)
+        The box is centred at the origin, and positions are inside; `unwrapped` has those that do not jump.
+    angle : numpy.ndarray, shape (N,)
+        Of the first semi-axis, in radians, unwrapped; in the plane.
+    orientation : numpy.ndarray, shape (N, 4)
+        Quaternions w, x, y, z from the axes of the body to those of space; in space.
+    angular_velocity : numpy.ndarray, shape (N,) or (N, 3)
+    semi_axes : numpy.ndarray, shape (N, D)
+    mass, species : numpy.ndarray, shape (N,)
+        Species are numbers in `species_names`.
+    box : numpy.ndarray, shape (D,)
+    """
+
+    _ARRAYS = ("position", "image", "velocity", "angular_velocity", "mass", "species", "semi_axes", "angle", "orientation",
+               "box", "species_names", "time")
+
+    def __init__(self, state, parameters="", file=None):
+        self._state, self.parameters, self._file = state, parameters, file
+
+    @classmethod
+    def from_arrays(cls, position, semi_axes, box, *, angle=None, orientation=None, mass=None, velocity=None,
+                    angular_velocity=None, species=None):
+        """A state of these particles; arrays as the attributes of the class, `species` names.
+
+        One shape, mass or species may stand for those of all. Positions may be anywhere. Without masses particles have
+        the mass a b (in space a b c).
+        """
+        position = numpy.asarray(position, dtype=float)
+        count, dimension = position.shape
+        spread = lambda values, *shape: None if values is None else numpy.broadcast_to(
+            numpy.asarray(values, dtype=float), (count, *shape))
+        if isinstance(species, str):
+            species = [species] * count
+        state = _vitrel.state_from_arrays(
+            dimension, position, numpy.broadcast_to(numpy.asarray(box, dtype=float), (dimension,)),
+            spread(semi_axes, dimension), spread(angle), spread(orientation, 4), spread(mass), spread(velocity, dimension),
+            spread(angular_velocity) if dimension == 2 else spread(angular_velocity, 3),
+            None if species is None else list(map(str, species)))
+        return cls(state)
+
+    def __getattr__(self, name):
+        if name in State._ARRAYS:
+            return getattr(self._state, name)
+        raise AttributeError(f"State has no attribute '{name}'")
+
+    def __dir__(self):
+        return [*super().__dir__(), *(name for name in State._ARRAYS if hasattr(self._state, name))]
+
+    def __len__(self):
+        return len(self._state)
+
+    def __repr__(self):
+        return f"<State: {len(self)} particles in {self.dimension} dimensions, packing fraction {self.packing_fraction:.6g}>"
+
+    @property
+    def dimension(self):
+        return self.position.shape[1]
+
+    @property
+    def packing_fraction(self):
+        return self._state.packing_fraction()
+
+    @property
+    def unwrapped(self):
+        """Positions that do not jump by box lengths, shape (N, D)."""
+        return self.position + self.image * self.box
+
+    def check(self):
+        """The exact check: `overlaps`, pairs (M, 2) of particles that overlap, and `smallest_gap`."""
+        return self._state.check()
+
+    def write(self, path, overwrite=False):
+        """Writes the state as H5MD, which `vitrel run --from` and `vitrel.read` take."""
+        self._state.write(os.fspath(path), self.parameters, overwrite)
+
+    def draw(self, axes=None, colour="angle"):
+        """Draws ellipses with their periodic images; returns the matplotlib axes.
+
+        `colour` is "angle" or an array of one number for each particle.
+        """
+        if self.dimension != 2:
+            raise _vitrel.UserError("states in space are not drawn; write() and open them in OVITO or ParaView")
+        from matplotlib import collections, pyplot
+
+        if axes is None:
+            axes = pyplot.figure(figsize=(6, 6), layout="constrained").add_subplot()
+        values = numpy.mod(self.angle, numpy.pi) if isinstance(colour, str) else numpy.asarray(colour)
+        shifts = [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1)]
+        centres = numpy.concatenate([self.position + numpy.asarray(shift) * self.box for shift in shifts])
+        reach = numpy.tile(self.semi_axes[:, 0], len(shifts))
+        near = (numpy.abs(centres) < self.box / 2 + reach[:, None]).all(axis=1)
+        times = len(shifts)
+        ellipses = collections.EllipseCollection(
+            2 * numpy.tile(self.semi_axes[:, 0], times)[near], 2 * numpy.tile(self.semi_axes[:, 1], times)[near],
+            numpy.degrees(numpy.tile(self.angle, times)[near]), units="xy", offsets=centres[near],
+            offset_transform=axes.transData, array=numpy.tile(values, times)[near],
+            cmap="twilight" if isinstance(colour, str) else "viridis", edgecolors="black", linewidths=0.3)
+        axes.add_collection(ellipses)
+        half = self.box / 2
+        axes.set(xlim=(-half[0], half[0]), ylim=(-half[1], half[1]), aspect="equal", xticks=[], yticks=[])
+        return axes
+
+
+def prepare(file=None, *, start=None, shrink=False, threads=1, quiet=False, **settings):
+    """Prepares a state.
+
+    Parameters
+    ----------
+    file : path, optional
+        A parameter file; without one, all keys have their defaults.
+    start : State or path, optional
+        A state to start from, instead of inserting particles.
+    shrink : bool
+        Shrinks that state until no particles overlap.
+    **settings
+        Keys of the parameter file: `particles`, `packing_fraction`, `dimension`, `seed`, `aspect_ratio`, `semi_axes` and
+        `size_spread` (a Gaussian distribution), keys of `[prepare]`, and any other with two underscores for every dot:
+        ``prepare(system__particles=1000)``.
+
+    Returns
+    -------
+    State
+    """
+    from .runs import start_file
+
+    say, show = listener(quiet)
+    with start_file(start) as path:
+        state, parameters = _vitrel.prepare("" if file is None else os.fspath(file), overrides("prepare", settings), path,
+                                            shrink, threads, say, show)
+    return State(state, parameters)
+
+
+def read(path, frame=-1):
+    """A state from a file of any format that `vitrel prepare --from` reads; of a trajectory this frame."""
+    frames = _vitrel.Frames(os.fspath(path))
+    return State(frames[frame if frame >= 0 else len(frames) + frame], frames.parameters)
