@@ -1,0 +1,10 @@
+"""Where the program is: beside the package that is tested."""
+
+import os
+
+import pytest
+
+
+@pytest.fixture
+def vitrel_program():
+    return os.environ["VITREL_PROGRAM"]
