@@ -10,15 +10,11 @@
 #include "app/terminal/exit_codes.h"
 #include "app/terminal/progress.h"
 #include "core/error.h"
-#include "core/io/h5md.h"
 #include "core/io/json.h"
 #include "core/io/text_file.h"
 #include "workflow/analyze/analyze.h"
-#include "workflow/report/packing_report.h"
-#include "workflow/report/run_report.h"
-#include "workflow/report/state_report.h"
+#include "workflow/report/page.h"
 #include "workflow/sweep/sweep.h"
-#include "workflow/sweep/sweep_results.h"
 
 namespace vitrel {
 namespace {
@@ -42,74 +38,40 @@ void require_place(const fs::path& output, const std::vector<fs::path>& inputs) 
         "another output, or delete it");
 }
 
-int write_page(const ReportOptions& options, const fs::path& output, const std::string& text,
-               const Json& about) {
-  write_text(output, text);
-  Json summary = {{"output", output.string()}};
-  summary.update(about);
-  print_summary(options.print, summary);
-  return success;
+/// Beside a state or a run, or in the folder of a sweep, unless the command line says where.
+fs::path output_of(const ReportOptions& options, const fs::path& input) {
+  if (!options.output.empty()) return options.output;
+  return fs::is_directory(input) ? input / "report.html" : fs::path(input).replace_extension("html");
 }
 
-/// Beside a state or a run, unless the command line says where.
-fs::path output_of(const ReportOptions& options, const fs::path& file) {
-  return options.output.empty() ? fs::path(file).replace_extension("html") : options.output;
+/// What the page is made of, which it must not replace.
+std::vector<fs::path> inputs_of(const ReportOptions& options, const fs::path& input) {
+  if (fs::is_directory(input)) return sweep_progress(input).files();
+  return {input, options.analysis.file};
 }
 
-int report_state(const ReportOptions& options) {
-  if (analysis_choice(options.analysis).given())
-    throw UserError(options.input.string() +
-                    ": is a single state, whose page holds no analysis; leave out --params and "
-                    "--set");
-  const fs::path output = output_of(options, options.input);
-  require_place(output, {options.input});
-  return write_page(options, output, state_page(state_page_data(options.input)), {{"states", 1}});
-}
-
-int report_packing(const ReportOptions& options, const fs::path& packing) {
-  const fs::path output = output_of(options, packing);
-  const AnalysisChoice choice = analysis_choice(options.analysis);
-  require_place(output, {packing, options.analysis.file});
-  ProgressDisplay display(ProgressDisplay::mode(options.print.quiet));
-  const PackingPage page = packing_page_data(packing, choice, shown_on(display));
-  display.clear();
-  return write_page(options, output, packing_page(page), {{"packings", 1}});
-}
-
-int report_run(const ReportOptions& options, const fs::path& run) {
-  const fs::path output = output_of(options, run);
-  const AnalysisChoice choice = analysis_choice(options.analysis);
-  require_place(output, {run, options.analysis.file});
-  ProgressDisplay display(ProgressDisplay::mode(options.print.quiet));
-  const ReportData data = report_data({stored_or_analyzed(run, choice, shown_on(display))});
-  display.clear();
-  return write_page(options, output, report_page(data), {{"runs", 1}});
-}
-
-int report_sweep(const ReportOptions& options, const fs::path& folder) {
-  const fs::path output = options.output.empty() ? folder / "report.html" : options.output;
-  const AnalysisChoice choice = analysis_choice(options.analysis);
-  const SweepProgress sweep = sweep_progress(folder);
-  require_place(output, sweep.files());
-  remark_left_out(options.print, folder, sweep);
-  ProgressDisplay display(ProgressDisplay::mode(options.print.quiet));
-  ReportData data = report_data(analysed_jobs(sweep, choice, shown_on(display)));
-  display.clear();
-  if (!sweep.unfinished.empty()) {
-    data.subtitle += "; " + sweep.share();
-    data.provenance.emplace_back("left_out", sweep.left_out());
+const char* key_of(PageSubject subject) {
+  switch (subject) {
+    case PageSubject::state: return "states";
+    case PageSubject::packing: return "packings";
+    default: return "runs";
   }
-  return write_page(options, output, report_page(data), {{"runs", sweep.finished.size()}});
 }
 
 }  // namespace
 
 int report_command(const ReportOptions& options) {
   const fs::path input = run_or_sweep(options.input);
-  if (fs::is_directory(input)) return report_sweep(options, input);
-  const TrajectoryReader reader(input);
-  if (reader.frames() != 1) return report_run(options, input);
-  return reader.dimension() == 3 ? report_packing(options, input) : report_state(options);
+  const fs::path output = output_of(options, input);
+  const AnalysisChoice choice = analysis_choice(options.analysis);
+  require_place(output, inputs_of(options, input));
+  if (fs::is_directory(input)) remark_left_out(options.print, input, sweep_progress(input));
+  ProgressDisplay display(ProgressDisplay::mode(options.print.quiet));
+  const Page page = page_of(input, choice, shown_on(display));
+  display.clear();
+  write_text(output, page.html);
+  print_summary(options.print, {{"output", output.string()}, {key_of(page.subject), page.count}});
+  return success;
 }
 
 }  // namespace vitrel

@@ -12,5 +12,6 @@ void bind_errors(pybind11::module_& module);
 void bind_pairs(pybind11::module_& module);
 void bind_states(pybind11::module_& module);
 void bind_work(pybind11::module_& module);
+void bind_results(pybind11::module_& module);
 
 }  // namespace vitrel::python

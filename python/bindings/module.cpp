@@ -22,4 +22,5 @@ PYBIND11_MODULE(_vitrel, module) {
   vitrel::python::bind_pairs(module);
   vitrel::python::bind_states(module);
   vitrel::python::bind_work(module);
+  vitrel::python::bind_results(module);
 }

@@ -6,6 +6,7 @@
 #include "core/parallel.h"
 #include "python/bindings/arrays.h"
 #include "python/bindings/bindings.h"
+#include "workflow/pair/impact.h"
 #include "workflow/pair/pair.h"
 
 namespace vitrel::python {
@@ -153,11 +154,45 @@ void bind(py::module_& module, const char* name) {
              py::arg("horizon"));
 }
 
+/// Rows (ε_r, ε_φ, ε_t, ε_ṙ, duration in s) of impacts of soft spheres.
+py::array_t<double> restitution(const std::filesystem::path& file,
+                                const std::vector<std::string>& overrides, const Doubles& speed,
+                                const Doubles& impact_parameter, const Doubles& second_radius) {
+  const std::size_t n = require_rows(speed, 0, "speed");
+  require_rows(impact_parameter, 0, "impact_parameter", n);
+  require_rows(second_radius, 0, "second_radius", n);
+  Impact impact = load_impact({file, overrides, "", "", ""});
+  std::vector<double> rows;
+  rows.reserve(5 * n);
+  {
+    const py::gil_scoped_release release;
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto k = static_cast<py::ssize_t>(i);
+      impact.speed = *speed.data(k);
+      impact.impact_parameter = *impact_parameter.data(k);
+      impact.second_radius = *second_radius.data(k);
+      validate(impact);
+      const Restitution found = integrated(impact);
+      rows.insert(rows.end(), {found.distance, found.angle, found.duration, found.rate,
+                               found.duration * impact.scales().time});
+    }
+  }
+  return owned(std::move(rows)).attr("reshape")(-1, 5);
+}
+
 }  // namespace
 
 void bind_pairs(py::module_& module) {
   bind<2>(module, "Ellipses");
   bind<3>(module, "Ellipsoids");
+  module.def("restitution", &restitution, py::arg("file"), py::arg("overrides"), py::arg("speed"),
+             py::arg("impact_parameter"), py::arg("second_radius"));
+  module.def(
+      "contact_radius",
+      [](const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+        return load_impact({file, overrides, "", "", ""}).contact.radius;
+      },
+      py::arg("file"), py::arg("overrides"));
 }
 
 }  // namespace vitrel::python

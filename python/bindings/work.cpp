@@ -1,15 +1,16 @@
 #include <chrono>
+#include <memory>
 #include <nlohmann/json.hpp>
 
-#include "core/io/h5md.h"
 #include "core/io/json.h"
+#include "core/state/observer.h"
 #include "core/state/stage.h"
 #include "python/bindings/arrays.h"
 #include "python/bindings/bindings.h"
-#include "workflow/analyze/analyze.h"
 #include "workflow/configuration/parameters.h"
 #include "workflow/prepare/prepare.h"
 #include "workflow/run/run.h"
+#include "workflow/sweep/sweep.h"
 
 namespace vitrel::python {
 namespace {
@@ -28,6 +29,21 @@ struct Listener {
     const py::gil_scoped_acquire acquire;
     if (!show.is_none()) show(progress.fraction, progress.quantity, progress.value);
   }
+};
+
+/// Calls `see(state)` with a copy of every frame.
+template <int Dim>
+class FrameListener final : public Observer<Dim> {
+ public:
+  explicit FrameListener(const py::object& see) : see_(see) {}
+  void observe(const Frame<Dim>& frame) override {
+    auto copy = std::make_unique<Configuration<Dim>>(frame.configuration);
+    const py::gil_scoped_acquire acquire;
+    see_(py::cast(std::move(copy)));
+  }
+
+ private:
+  const py::object& see_;
 };
 
 /// Work stops at its next block when Python has a signal to handle, like that of Ctrl-C.
@@ -91,11 +107,13 @@ py::object prepare_state(const std::filesystem::path& file,
 }
 
 template <int Dim>
-std::string run_of(const RunRequest& request, Interruption& interruption,
-                   const Listener& listener) {
+std::string run_of(const RunRequest& request, Interruption& interruption, const Listener& listener,
+                   const py::object& see) {
+  FrameListener<Dim> frames(see);
   const RunOutcome<Dim> outcome = [&] {
     const py::gil_scoped_release release;
-    return run_simulation<Dim>(request, control_of(interruption, listener), listener.log());
+    return run_simulation<Dim>(request, control_of(interruption, listener), listener.log(),
+                               see.is_none() ? nullptr : &frames);
   }();
   interruption.raise();
   return run_summary(request, outcome).dump();
@@ -105,40 +123,28 @@ std::string run_of(const RunRequest& request, Interruption& interruption,
 std::string run_file(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                      const std::optional<std::filesystem::path>& start,
                      const std::filesystem::path& output, int threads, py::object say,
-                     py::object show) {
+                     py::object show, const py::object& see) {
   const Listener listener{std::move(say), std::move(show)};
   Interruption interruption;
   const RunRequest request{parameters_of(file, overrides, start, false), output, "vitrel.run",
                            threads};
-  return run_dimension(request) == 2 ? run_of<2>(request, interruption, listener)
-                                     : run_of<3>(request, interruption, listener);
+  return run_dimension(request) == 2 ? run_of<2>(request, interruption, listener, see)
+                                     : run_of<3>(request, interruption, listener, see);
 }
 
-/// (name, unit, values, errors or None, labels)
-py::tuple column_of(const Column& column) {
-  const py::object errors = column.error.empty()
-                                ? py::object(py::none())
-                                : py::object(owned(std::vector<double>(column.error)));
-  return py::make_tuple(column.name, column.unit, owned(std::vector<double>(column.value)), errors,
-                        column.labels);
-}
-
-/// (summary as JSON, [(name, description, columns)])
-py::tuple analyze_file(const std::filesystem::path& file,
-                       const std::vector<std::string>& overrides) {
-  AnalysisChoice choice;
-  choice.overrides = overrides;
-  const AnalysedRun run = [&] {
+/// How many jobs are done, failed, and whether the sweep was stopped.
+py::tuple sweep_folder(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+                       const std::filesystem::path& folder, const std::filesystem::path& program,
+                       int parallel, py::object say, py::object show) {
+  const Listener listener{std::move(say), std::move(show)};
+  Interruption interruption;
+  const SweepRequest request{{file, overrides}, folder, program, parallel};
+  const SweepOutcome outcome = [&] {
     const py::gil_scoped_release release;
-    return analyze_run(file, choice);
+    return run_sweep(request, control_of(interruption, listener), listener.log());
   }();
-  py::list tables;
-  for (const Table& table : run.results.tables) {
-    py::list columns;
-    for (const Column& column : table.columns) columns.append(column_of(column));
-    tables.append(py::make_tuple(table.name, table.description, columns));
-  }
-  return py::make_tuple(analysis_summary(run).dump(), tables);
+  interruption.raise();
+  return py::make_tuple(outcome.done, outcome.failed);
 }
 
 }  // namespace
@@ -147,8 +153,10 @@ void bind_work(py::module_& module) {
   module.def("prepare", &prepare_state, py::arg("file"), py::arg("overrides"), py::arg("start"),
              py::arg("shrink"), py::arg("threads"), py::arg("say"), py::arg("show"));
   module.def("run", &run_file, py::arg("file"), py::arg("overrides"), py::arg("start"),
-             py::arg("output"), py::arg("threads"), py::arg("say"), py::arg("show"));
-  module.def("analyze", &analyze_file, py::arg("file"), py::arg("overrides"));
+             py::arg("output"), py::arg("threads"), py::arg("say"), py::arg("show"),
+             py::arg("see"));
+  module.def("sweep", &sweep_folder, py::arg("file"), py::arg("overrides"), py::arg("folder"),
+             py::arg("program"), py::arg("parallel"), py::arg("say"), py::arg("show"));
 }
 
 }  // namespace vitrel::python

@@ -25,30 +25,6 @@ void describe_impact(Impact& p, FieldVisitor& visit) {
   visit.quantity({"second_radius", "m", "Radius of the second particle."}, p.second_radius);
 }
 
-void validate(const Impact& p) {
-  const Rules rules("");
-  rules.positive(p.speed, "speed");
-  rules.require(p.impact_parameter >= 0 && p.impact_parameter < 1, "impact_parameter",
-                fmt::format("is {}, but must lie from 0 (head-on) to below 1 (grazing)",
-                            show(p.impact_parameter)));
-  constexpr double largest_ratio = 1000;
-  const double ratio = p.second_radius / p.contact.radius;
-  rules.require(
-      ratio >= 1 / largest_ratio && ratio <= largest_ratio, "second_radius",
-      fmt::format("is {} m, but must lie between {} m and {} m, in proportion to the first",
-                  show(p.second_radius), p.contact.radius / largest_ratio,
-                  p.contact.radius * largest_ratio));
-  const ScaledImpact scaled = p.scaled();
-  rules.require(scaled.damping <= max_scaled_damping, "second_radius",
-                fmt::format("is so small that nothing is left of the speed (c_dis = {:.3g}, at "
-                            "most {:g}); raise it",
-                            scaled.damping, max_scaled_damping));
-  rules.require(scaled.distance >= min_scaled_distance, "speed",
-                fmt::format("is so high that the spheres pass through each other (l/X = {:.3g}, at "
-                            "least {:g}); lower it",
-                            scaled.distance, min_scaled_distance));
-}
-
 /// All values as TOML text.
 std::string impact_text(const Impact& impact) {
   Impact copy = impact;
@@ -113,6 +89,30 @@ ContactScales Impact::scales() const {
 
 ScaledImpact Impact::scaled() const {
   return scaled_impact(scales(), pair(), normal_speed(), speed * impact_parameter);
+}
+
+void validate(const Impact& p) {
+  const Rules rules("");
+  rules.positive(p.speed, "speed");
+  rules.require(p.impact_parameter >= 0 && p.impact_parameter < 1, "impact_parameter",
+                fmt::format("is {}, but must lie from 0 (head-on) to below 1 (grazing)",
+                            show(p.impact_parameter)));
+  constexpr double largest_ratio = 1000;
+  const double ratio = p.second_radius / p.contact.radius;
+  rules.require(
+      ratio >= 1 / largest_ratio && ratio <= largest_ratio, "second_radius",
+      fmt::format("is {} m, but must lie between {} m and {} m, in proportion to the first",
+                  show(p.second_radius), p.contact.radius / largest_ratio,
+                  p.contact.radius * largest_ratio));
+  const ScaledImpact scaled = p.scaled();
+  rules.require(scaled.damping <= max_scaled_damping, "second_radius",
+                fmt::format("is so small that nothing is left of the speed (c_dis = {:.3g}, at "
+                            "most {:g}); raise it",
+                            scaled.damping, max_scaled_damping));
+  rules.require(scaled.distance >= min_scaled_distance, "speed",
+                fmt::format("is so high that the spheres pass through each other (l/X = {:.3g}, at "
+                            "least {:g}); lower it",
+                            scaled.distance, min_scaled_distance));
 }
 
 Impact load_impact(const ImpactSource& source) {

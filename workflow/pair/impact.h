@@ -37,6 +37,8 @@ struct Impact {
 /// Reads and validates. Without a speed that of the parameters (thermal_speed), without a second radius the first.
 /// Throws UserError or FileError.
 Impact load_impact(const ImpactSource& source);
+/// UserError if the speed, the impact parameter or the second radius is impossible.
+void validate(const Impact& impact);
 
 /// ε_r, ε_φ, ε_t and ε_ṙ by integration.
 Restitution integrated(const Impact& impact);

@@ -27,14 +27,31 @@ fs::path failed_state_path(const fs::path& output) {
   return output.string() + ".failed.h5";
 }
 
+/// Two observers, of which the second may be missing.
+template <int Dim>
+class Observers final : public Observer<Dim> {
+ public:
+  Observers(Observer<Dim>& first, Observer<Dim>* second) : first_(first), second_(second) {}
+  void observe(const Frame<Dim>& frame) override {
+    first_.observe(frame);
+    if (second_) second_->observe(frame);
+  }
+
+ private:
+  Observer<Dim>& first_;
+  Observer<Dim>* second_;
+};
+
 /// One request at work.
 template <int Dim>
 class RunJob {
  public:
-  RunJob(const RunRequest& request, const RunControl& control, const Log& log)
+  RunJob(const RunRequest& request, const RunControl& control, const Log& log,
+         Observer<Dim>* observer)
       : request_(request),
         control_(control),
         log_(log),
+        observer_(observer),
         checkpoint_(checkpoint_path(request.output),
                     request.parameters.output.checkpoint_interval) {
     stored_.parameters = effective_parameters(request.parameters);
@@ -120,12 +137,13 @@ class RunJob {
     log_line(log_, (is_soft() ? "run of soft " : "run of ") +
                        make_engine(state.configuration, options.engine)->description());
     TrajectoryWriter writer = open_trajectory();
-    TrajectoryObserver<Dim> observer(writer, measure_run<Dim>);
+    TrajectoryObserver<Dim> file(writer, measure_run<Dim>);
+    Observers<Dim> observers(file, observer_);
     make_correlator();
     if (is_longer_) begin_longer(writer);
     const WorkTimer timer(stored_.wall_seconds);
     RunPlan<Dim> plan{sample_times(request_.parameters), request_.parameters.dynamics.duration,
-                      &observer, [&](const RunState<Dim>&) {
+                      &observers, [&](const RunState<Dim>&) {
                         stored_.wall_seconds = timer.seconds();
                         if (!checkpoint_.is_due()) return;
                         // The disk has the frames before a checkpoint counts them.
@@ -191,6 +209,7 @@ class RunJob {
   RunRequest request_;  ///< its species become those of the state that the run starts from
   const RunControl& control_;
   const Log& log_;
+  Observer<Dim>* observer_;  ///< of the caller; may be null
   CheckpointFile checkpoint_;
   RunCheckpoint<Dim> stored_;
   std::optional<MultipleTau<Dim>> correlator_;  ///< on the fly, if the parameters ask for it
@@ -207,8 +226,8 @@ int run_dimension(const RunRequest& request) {
 
 template <int Dim>
 RunOutcome<Dim> run_simulation(const RunRequest& request, const RunControl& control,
-                               const Log& log) {
-  return RunJob<Dim>(request, control, log).run();
+                               const Log& log, Observer<Dim>* observer) {
+  return RunJob<Dim>(request, control, log, observer).run();
 }
 
 template <int Dim>
@@ -263,8 +282,10 @@ Json run_summary(const RunRequest& request, const RunOutcome<Dim>& outcome) {
   return summary;
 }
 
-template RunOutcome<2> run_simulation<2>(const RunRequest&, const RunControl&, const Log&);
-template RunOutcome<3> run_simulation<3>(const RunRequest&, const RunControl&, const Log&);
+template RunOutcome<2> run_simulation<2>(const RunRequest&, const RunControl&, const Log&,
+                                         Observer<2>*);
+template RunOutcome<3> run_simulation<3>(const RunRequest&, const RunControl&, const Log&,
+                                         Observer<3>*);
 template Json run_summary(const RunRequest&, const RunOutcome<2>&);
 template Json run_summary(const RunRequest&, const RunOutcome<3>&);
 

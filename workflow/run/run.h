@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/io/json.h"
+#include "core/state/observer.h"
 #include "core/state/stage.h"
 #include "edmd/run.h"
 #include "workflow/configuration/parameters.h"
@@ -41,14 +42,15 @@ struct RunOutcome {
   double wall_seconds = 0;  ///< of all processes that worked on the run
 };
 
-/// For parameters of that dimension, which must be valid. `log` gets a line about every step. Throws
+/// For parameters of that dimension, which must be valid. `log` gets a line about every step, and `observer`, if there is
+/// one, every frame that the run writes from here on; what it throws ends the run at its last checkpoint. Throws
 /// - UserError if the output exists but is no run that can be continued, belongs to other
 ///   parameters, or the state to start from does not fit them;
 /// - FileError; the run continues from its last checkpoint once the cause is removed;
 /// - InvariantError on an overlap or a standstill; the state is then in `<output>.failed.h5`.
 template <int Dim>
 RunOutcome<Dim> run_simulation(const RunRequest& request, const RunControl& control,
-                               const Log& log);
+                               const Log& log, Observer<Dim>* observer = nullptr);
 
 /// The figures of a run, from its trajectory and its last state: what `vitrel run --json` prints.
 /// `overlaps` counts pairs of the last state. Throws FileError if the trajectory cannot be read.

@@ -1,0 +1,102 @@
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "analysis/observables/observable.h"
+#include "analysis/statistics/blocking.h"
+#include "analysis/trajectory.h"
+#include "core/io/json.h"
+#include "python/bindings/arrays.h"
+#include "python/bindings/bindings.h"
+#include "workflow/analyze/analyze.h"
+#include "workflow/analyze/glass_report.h"
+#include "workflow/report/page.h"
+#include "workflow/report/page_tables.h"
+#include "workflow/sweep/sweep_results.h"
+
+namespace vitrel::python {
+namespace {
+
+/// (name, unit, values, errors or None, labels)
+py::tuple column_of(const Column& column) {
+  const py::object errors = column.error.empty()
+                                ? py::object(py::none())
+                                : py::object(owned(std::vector<double>(column.error)));
+  return py::make_tuple(column.name, column.unit, owned(std::vector<double>(column.value)), errors,
+                        column.labels);
+}
+
+/// [(name, description, columns)]
+py::list tables_of(const Results& results) {
+  py::list tables;
+  for (const Table& table : results.tables) {
+    py::list columns;
+    for (const Column& column : table.columns) columns.append(column_of(column));
+    tables.append(py::make_tuple(table.name, table.description, columns));
+  }
+  return tables;
+}
+
+AnalysisChoice choice_of(const std::vector<std::string>& overrides) {
+  AnalysisChoice choice;
+  choice.overrides = overrides;
+  return choice;
+}
+
+/// (summary as JSON, tables, [(name, text)] of the provenance)
+py::tuple analyze_file(const std::filesystem::path& file,
+                       const std::vector<std::string>& overrides) {
+  const AnalysedRun run = [&] {
+    const py::gil_scoped_release release;
+    return analyze_run(file, choice_of(overrides));
+  }();
+  return py::make_tuple(analysis_summary(run).dump(), tables_of(run.results),
+                        run.results.provenance);
+}
+
+/// The same of a sweep, and the files of its finished jobs.
+py::tuple analyze_sweep(const std::filesystem::path& folder,
+                        const std::vector<std::string>& overrides) {
+  std::vector<AnalysedRun> runs;
+  GlassStudy study;
+  const SweepProgress sweep = sweep_progress(folder);
+  {
+    const py::gil_scoped_release release;
+    runs = analysed_jobs(sweep, choice_of(overrides));
+    study = glass_study(runs);
+  }
+  std::vector<std::filesystem::path> files;
+  for (const AnalysedRun& run : runs) files.push_back(run.file);
+  const Results results = results_of_sweep(runs, study);
+  return py::make_tuple(glass_summary(study).dump(), tables_of(results), results.provenance, files,
+                        sweep.unfinished);
+}
+
+/// As HTML.
+std::string page(const std::filesystem::path& input) {
+  const py::gil_scoped_release release;
+  return page_of(input, {}).html;
+}
+
+/// Mean and standard error of a series; without an error if it is not evenly spaced in time.
+py::tuple average(const Doubles& time, const Doubles& value) {
+  const std::size_t n = require_rows(time, 0, "time");
+  require_rows(value, 0, "value", n);
+  const Estimate estimate = slow_average({value.data(), n});
+  return py::make_tuple(estimate.mean, evenly_spaced({time.data(), n})
+                                           ? estimate.error
+                                           : std::numeric_limits<double>::quiet_NaN());
+}
+
+}  // namespace
+
+void bind_results(py::module_& module) {
+  module.def("analyze", &analyze_file, py::arg("file"), py::arg("overrides"));
+  module.def("analyze_sweep", &analyze_sweep, py::arg("folder"), py::arg("overrides"));
+  module.def("page", &page, py::arg("input"));
+  module.def("average", &average, py::arg("time"), py::arg("value"));
+  module.def(
+      "charts", [](int dimension) { return charts_data(observables(dimension)).dump(); },
+      py::arg("dimension"));
+}
+
+}  // namespace vitrel::python
