@@ -41,7 +41,8 @@ void require_place(const fs::path& output, const std::vector<fs::path>& inputs) 
 /// Beside a state or a run, or in the folder of a sweep, unless the command line says where.
 fs::path output_of(const ReportOptions& options, const fs::path& input) {
   if (!options.output.empty()) return options.output;
-  return fs::is_directory(input) ? input / "report.html" : fs::path(input).replace_extension("html");
+  return fs::is_directory(input) ? input / "report.html"
+                                 : fs::path(input).replace_extension("html");
 }
 
 /// What the page is made of, which it must not replace.
@@ -52,9 +53,12 @@ std::vector<fs::path> inputs_of(const ReportOptions& options, const fs::path& in
 
 const char* key_of(PageSubject subject) {
   switch (subject) {
-    case PageSubject::state: return "states";
-    case PageSubject::packing: return "packings";
-    default: return "runs";
+    case PageSubject::state:
+      return "states";
+    case PageSubject::packing:
+      return "packings";
+    default:
+      return "runs";
   }
 }
 

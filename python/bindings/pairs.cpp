@@ -95,12 +95,12 @@ void for_each_pair(const Bodies<Dim>& one, const Bodies<Dim>& two,
 }
 
 template <int Dim>
-py::array_t<bool> overlaps(const Bodies<Dim>& one, const Bodies<Dim>& two,
-                           const std::optional<Doubles>& box) {
+py::array_t<bool> overlapping(const Bodies<Dim>& one, const Bodies<Dim>& two,
+                              const std::optional<Doubles>& box) {
   py::array_t<bool> result(static_cast<py::ssize_t>(one.size()));
   bool* const out = result.mutable_data();
   for_each_pair(one, two, box, 0,
-                [&](std::size_t i, const Pair<Dim>& pair) { out[i] = gap_at(pair, 0).overlap; });
+                [&](std::size_t i, const Pair<Dim>& pair) { out[i] = overlaps(pair); });
   return result;
 }
 
@@ -148,7 +148,7 @@ void bind(py::module_& module, const char* name) {
            py::arg("position"), py::arg("orientation"), py::arg("velocity"),
            py::arg("angular_velocity"))
       .def("__len__", &Bodies<Dim>::size);
-  module.def("overlap", &overlaps<Dim>, py::arg("one"), py::arg("two"), py::arg("box"));
+  module.def("overlap", &overlapping<Dim>, py::arg("one"), py::arg("two"), py::arg("box"));
   module.def("gap", &gaps<Dim>, py::arg("one"), py::arg("two"), py::arg("box"));
   module.def("first_contact", &contacts<Dim>, py::arg("one"), py::arg("two"), py::arg("box"),
              py::arg("horizon"));
@@ -157,10 +157,11 @@ void bind(py::module_& module, const char* name) {
 /// Rows (ε_r, ε_φ, ε_t, ε_ṙ, duration in s) of impacts of soft spheres.
 py::array_t<double> restitution(const std::filesystem::path& file,
                                 const std::vector<std::string>& overrides, const Doubles& speed,
-                                const Doubles& impact_parameter, const Doubles& second_radius) {
+                                const Doubles& impact_parameter,
+                                const std::optional<Doubles>& second_radius) {
   const std::size_t n = require_rows(speed, 0, "speed");
   require_rows(impact_parameter, 0, "impact_parameter", n);
-  require_rows(second_radius, 0, "second_radius", n);
+  if (second_radius) require_rows(*second_radius, 0, "second_radius", n);
   Impact impact = load_impact({file, overrides, "", "", ""});
   std::vector<double> rows;
   rows.reserve(5 * n);
@@ -170,7 +171,7 @@ py::array_t<double> restitution(const std::filesystem::path& file,
       const auto k = static_cast<py::ssize_t>(i);
       impact.speed = *speed.data(k);
       impact.impact_parameter = *impact_parameter.data(k);
-      impact.second_radius = *second_radius.data(k);
+      if (second_radius) impact.second_radius = *second_radius->data(k);
       validate(impact);
       const Restitution found = integrated(impact);
       rows.insert(rows.end(), {found.distance, found.angle, found.duration, found.rate,
@@ -187,12 +188,6 @@ void bind_pairs(py::module_& module) {
   bind<3>(module, "Ellipsoids");
   module.def("restitution", &restitution, py::arg("file"), py::arg("overrides"), py::arg("speed"),
              py::arg("impact_parameter"), py::arg("second_radius"));
-  module.def(
-      "contact_radius",
-      [](const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-        return load_impact({file, overrides, "", "", ""}).contact.radius;
-      },
-      py::arg("file"), py::arg("overrides"));
 }
 
 }  // namespace vitrel::python

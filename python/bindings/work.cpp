@@ -1,6 +1,7 @@
 #include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "core/io/json.h"
 #include "core/state/observer.h"
@@ -15,20 +16,60 @@
 namespace vitrel::python {
 namespace {
 
-/// Python hears of the work: `say(line)` and `show(fraction, quantity, value)`. Both may be None.
-struct Listener {
-  py::object say, show;
+using Clock = std::chrono::steady_clock;
+
+/// Whether an interval has passed since it was last so: the interpreter is not asked at every block.
+class Interval {
+ public:
+  explicit Interval(Clock::duration length) : length_(length) {}
+  bool passed() {
+    const Clock::time_point now = Clock::now();
+    if (now - last_ < length_) return false;
+    last_ = now;
+    return true;
+  }
+
+ private:
+  Clock::duration length_;
+  Clock::time_point last_ = Clock::now();
+};
+
+/// Python hears of the work: `say(line)` and `show(fraction, quantity, value)`. Both may be None. It stops the work at
+/// its next block when it has a signal to handle, like that of Ctrl-C.
+class Listener {
+ public:
+  Listener(py::object say, py::object show) : say_(std::move(say)), show_(std::move(show)) {}
 
   Log log() const {
     return [this](const std::string& line) {
       const py::gil_scoped_acquire acquire;
-      if (!say.is_none()) say(line);
+      if (!say_.is_none()) say_(line);
     };
   }
-  void report(const Progress& progress) const {
-    const py::gil_scoped_acquire acquire;
-    if (!show.is_none()) show(progress.fraction, progress.quantity, progress.value);
+  RunControl control() {
+    return {[this] { return is_interrupted(); }, [this](const Progress& p) { show(p); }, {}};
   }
+  /// Once the work has ended: KeyboardInterrupt, or what else the signal raised.
+  void raise() const {
+    if (interruption_) throw py::error_already_set(*interruption_);
+  }
+
+ private:
+  bool is_interrupted() {
+    if (interruption_ || !check_.passed()) return interruption_.has_value();
+    const py::gil_scoped_acquire acquire;
+    if (PyErr_CheckSignals() != 0) interruption_.emplace();
+    return interruption_.has_value();
+  }
+  void show(const Progress& progress) {
+    if (!display_.passed()) return;
+    const py::gil_scoped_acquire acquire;
+    if (!show_.is_none()) show_(progress.fraction, progress.quantity, progress.value);
+  }
+
+  py::object say_, show_;
+  Interval check_{std::chrono::milliseconds(50)}, display_{std::chrono::milliseconds(100)};
+  std::optional<py::error_already_set> interruption_;
 };
 
 /// Calls `see(state)` with a copy of every frame.
@@ -46,33 +87,6 @@ class FrameListener final : public Observer<Dim> {
   const py::object& see_;
 };
 
-/// Work stops at its next block when Python has a signal to handle, like that of Ctrl-C.
-class Interruption {
- public:
-  bool requested() {
-    const auto now = std::chrono::steady_clock::now();
-    if (is_pending_ || now - last_ < std::chrono::milliseconds(50)) return is_pending_;
-    last_ = now;
-    const py::gil_scoped_acquire acquire;
-    is_pending_ = PyErr_CheckSignals() != 0;
-    return is_pending_;
-  }
-  /// Once the work has ended, with the interpreter: raises KeyboardInterrupt or what else the signal raised.
-  void raise() const {
-    if (is_pending_) throw py::error_already_set();
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-  bool is_pending_ = false;
-};
-
-RunControl control_of(Interruption& interruption, const Listener& listener) {
-  return {[&] { return interruption.requested(); },
-          [&](const Progress& progress) { listener.report(progress); },
-          {}};
-}
-
 Parameters parameters_of(const std::filesystem::path& file,
                          const std::vector<std::string>& overrides,
                          const std::optional<std::filesystem::path>& start, bool shrink) {
@@ -82,13 +96,12 @@ Parameters parameters_of(const std::filesystem::path& file,
 }
 
 template <int Dim>
-py::object prepared(const PrepareRequest& request, Interruption& interruption,
-                    const Listener& listener) {
+py::object prepared(const PrepareRequest& request, Listener& listener) {
   Preparation<Dim> preparation = [&] {
     const py::gil_scoped_release release;
-    return prepare<Dim>(request, control_of(interruption, listener), listener.log());
+    return prepare<Dim>(request, listener.control(), listener.log());
   }();
-  interruption.raise();
+  listener.raise();
   return py::make_tuple(std::move(preparation.configuration),
                         effective_parameters(preparation.parameters));
 }
@@ -98,24 +111,22 @@ py::object prepare_state(const std::filesystem::path& file,
                          const std::vector<std::string>& overrides,
                          const std::optional<std::filesystem::path>& start, bool shrink,
                          int threads, py::object say, py::object show) {
-  const Listener listener{std::move(say), std::move(show)};
-  Interruption interruption;
+  Listener listener{std::move(say), std::move(show)};
   const PrepareRequest request{
       parameters_of(file, overrides, start, shrink), {}, "vitrel.prepare", threads};
-  return prepared_dimension(request) == 2 ? prepared<2>(request, interruption, listener)
-                                          : prepared<3>(request, interruption, listener);
+  return prepared_dimension(request) == 2 ? prepared<2>(request, listener)
+                                          : prepared<3>(request, listener);
 }
 
 template <int Dim>
-std::string run_of(const RunRequest& request, Interruption& interruption, const Listener& listener,
-                   const py::object& see) {
+std::string run_of(const RunRequest& request, Listener& listener, const py::object& see) {
   FrameListener<Dim> frames(see);
   const RunOutcome<Dim> outcome = [&] {
     const py::gil_scoped_release release;
-    return run_simulation<Dim>(request, control_of(interruption, listener), listener.log(),
+    return run_simulation<Dim>(request, listener.control(), listener.log(),
                                see.is_none() ? nullptr : &frames);
   }();
-  interruption.raise();
+  listener.raise();
   return run_summary(request, outcome).dump();
 }
 
@@ -124,26 +135,24 @@ std::string run_file(const std::filesystem::path& file, const std::vector<std::s
                      const std::optional<std::filesystem::path>& start,
                      const std::filesystem::path& output, int threads, py::object say,
                      py::object show, const py::object& see) {
-  const Listener listener{std::move(say), std::move(show)};
-  Interruption interruption;
+  Listener listener{std::move(say), std::move(show)};
   const RunRequest request{parameters_of(file, overrides, start, false), output, "vitrel.run",
                            threads};
-  return run_dimension(request) == 2 ? run_of<2>(request, interruption, listener, see)
-                                     : run_of<3>(request, interruption, listener, see);
+  return run_dimension(request) == 2 ? run_of<2>(request, listener, see)
+                                     : run_of<3>(request, listener, see);
 }
 
 /// How many jobs are done, failed, and whether the sweep was stopped.
 py::tuple sweep_folder(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                        const std::filesystem::path& folder, const std::filesystem::path& program,
                        int parallel, py::object say, py::object show) {
-  const Listener listener{std::move(say), std::move(show)};
-  Interruption interruption;
+  Listener listener{std::move(say), std::move(show)};
   const SweepRequest request{{file, overrides}, folder, program, parallel};
   const SweepOutcome outcome = [&] {
     const py::gil_scoped_release release;
-    return run_sweep(request, control_of(interruption, listener), listener.log());
+    return run_sweep(request, listener.control(), listener.log());
   }();
-  interruption.raise();
+  listener.raise();
   return py::make_tuple(outcome.done, outcome.failed);
 }
 

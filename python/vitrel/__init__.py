@@ -13,13 +13,15 @@ with the messages of the program.
 """
 
 from ._vitrel import FileError, InvariantError, UserError, commit, version
-from .pairs import Bodies, Contact, Gap, first_contact, gap, overlap
-from .results import Column, Results, Table
+from .pairs import Bodies, Contact, Gap, Restitution, first_contact, gap, overlap, restitution
+from .results import Chart, Column, Results, Table
 from .runs import Run, load, run
 from .states import State, prepare, read
+from .sweeps import Sweep, load_sweep, sweep
 
 __version__ = version
 __all__ = [
-    "Bodies", "Column", "Contact", "FileError", "Gap", "InvariantError", "Results", "Run", "State", "Table", "UserError",
-    "commit", "first_contact", "gap", "load", "overlap", "prepare", "read", "run", "version",
+    "Bodies", "Chart", "Column", "Contact", "FileError", "Gap", "InvariantError", "Restitution", "Results", "Run", "State",
+    "Sweep", "Table", "UserError", "commit", "first_contact", "gap", "load", "load_sweep", "overlap", "prepare", "read",
+    "restitution", "run", "sweep", "version",
 ]

@@ -1,10 +1,12 @@
 """Two hard bodies, for arrays of pairs at once."""
 
+import os
 from typing import NamedTuple, Optional
 
 import numpy
 
 from . import _vitrel
+from .settings import toml
 
 
 class Bodies:
@@ -90,3 +92,38 @@ class Contact(NamedTuple):
 def first_contact(one: Bodies, two: Bodies, horizon: float, box: Optional[numpy.ndarray] = None) -> Contact:
     """When each pair touches first in free flight, up to `horizon`; other arguments as of `overlap`."""
     return Contact(*_vitrel.first_contact(one._bodies, two._bodies, box, horizon))
+
+
+class Restitution(NamedTuple):
+    """The restitution matrix of soft spheres: how distance, angle, time and rate change in a collision."""
+
+    distance: numpy.ndarray  #: (N,), ε_r, of the centres at the end, in units of the distance at first contact
+    angle: numpy.ndarray  #: (N,), ε_φ, by which the line of centres turns, rad
+    duration: numpy.ndarray  #: (N,), ε_t, in units of the time scale of the force
+    rate: numpy.ndarray  #: (N,), ε_ṙ < 0, the normal speed at the end over that at first contact
+    time: numpy.ndarray  #: (N,), the duration in seconds
+
+
+def restitution(speed, impact_parameter=0.0, second_radius=None, file=None, **contact) -> Restitution:
+    """Integrates collisions of two soft spheres.
+
+    Parameters
+    ----------
+    speed : array_like, shape (N,)
+        Of the relative velocity of the centres at first contact, m/s.
+    impact_parameter : array_like, shape (N,), optional
+        Over the sum of the radii; 0 is head-on, 1 grazing.
+    second_radius : array_like, shape (N,), optional
+        m, of the same density; by default that of the first sphere.
+    file : path, optional
+        A parameter file with `[dynamics.contact]`.
+    **contact
+        Keys of `[dynamics.contact]`: the material.
+    """
+    given = [numpy.asarray(values, dtype=float) for values in (speed, impact_parameter)]
+    if second_radius is not None:
+        given.append(numpy.asarray(second_radius, dtype=float))
+    shape = numpy.broadcast_shapes((1,), *(values.shape for values in given))
+    given = [numpy.broadcast_to(values, shape) for values in given] + [None] * (3 - len(given))
+    lines = [f"{key.replace('__', '.')}={toml(value)}" for key, value in contact.items()]
+    return Restitution(*_vitrel.restitution("" if file is None else os.fspath(file), lines, *given).T)

@@ -1,99 +1,262 @@
-"""Tables of results: arrays with errors and units."""
+"""Tables of results: arrays with errors and units, and the charts that show them."""
 
+import functools
 import json
+import re
 from collections.abc import Mapping
-from typing import NamedTuple, Optional
+from typing import Iterator, List, Optional
 
 import numpy
 
+from . import _vitrel
 
-class Column(NamedTuple):
-    """One quantity, one value for each row of its table."""
+# In units of the reference particle, whose semi-axes have the product 1.
+_UNITS = {
+    2: {"length": "√(ab)", "length^2": "ab", "1/length": "1/√(ab)", "time": "√(m ab/kT)", "rad^2": "rad²"},
+    3: {"length": "∛(abc)", "length^2": "(abc)^⅔", "1/length": "1/∛(abc)", "time": "√(m (abc)^⅔/kT)", "rad^2": "rad²"},
+}
 
-    name: str
-    unit: str  #: "1" for pure numbers
-    value: numpy.ndarray
-    error: Optional[numpy.ndarray]  #: standard errors, NaN where unknown; None if the column has none
-    labels: list  #: what the values 0, 1, 2 … stand for, if they are codes
+
+class Column:
+    """One quantity, one value for each row of its table.
+
+    Attributes
+    ----------
+    name : str
+    unit : str
+        "1" for pure numbers.
+    value : numpy.ndarray, shape (rows,)
+    error : numpy.ndarray, shape (rows,), or None
+        Standard errors, NaN where unknown; None if the column has none.
+    labels : list of str
+        What the values 0, 1, 2 … stand for, if they are codes.
+    table : Table
+    """
+
+    def __init__(self, name, unit, value, error=None, labels=()):
+        self.name, self.unit, self.value, self.error, self.labels = name, unit, value, error, list(labels)
+        self.table: Optional["Table"] = None
 
     def __array__(self, dtype=None):
         return numpy.asarray(self.value, dtype=dtype)
+
+    def __len__(self) -> int:
+        return len(self.value)
+
+    def __repr__(self) -> str:
+        return f"<Column {self.name} / {self.unit}: {self.value!r}>"
+
+    def to_pandas(self):
+        """A pandas.Series over the first column of the table."""
+        return self.table.to_pandas().set_index(next(iter(self.table)))[self.name]
+
+    def plot(self, axes=None, **style):
+        """Draws the column as `Table.plot` does."""
+        return self.table.plot(self.name, axes=axes, **style)
 
 
 class Table(Mapping):
     """Columns by name.
 
-    >>> msd = run.analyze()["displacements_all"]
+    >>> msd = run.results["displacements_all"]
     >>> msd["time"].value, msd["msd"].value, msd["msd"].error
     """
 
-    def __init__(self, name, description, columns):
-        self.name, self.description = name, description
+    def __init__(self, name, description, columns, dimension=2):
+        self.name, self.description, self.dimension = name, description, dimension
         self._columns = {column.name: column for column in columns}
+        for column in columns:
+            column.table = self
 
-    def __getitem__(self, name):
+    def __getitem__(self, name: str) -> Column:
         return self._columns[name]
 
-    def __iter__(self):
+    def __iter__(self) -> Iterator[str]:
         return iter(self._columns)
 
-    def __len__(self):
+    def __len__(self) -> int:
         return len(self._columns)
 
-    def __repr__(self):
-        rows = len(next(iter(self._columns.values())).value) if self._columns else 0
+    def __repr__(self) -> str:
+        rows = len(next(iter(self._columns.values()))) if self._columns else 0
         return f"<Table {self.name}: {rows} rows of {', '.join(self)}>"
 
     def to_pandas(self):
-        """A pandas.DataFrame; errors are columns `name_error`."""
+        """A pandas.DataFrame. Errors are columns `name_error`; codes are their labels."""
         import pandas
 
         data = {}
         for column in self.values():
-            data[column.name] = column.value
+            data[column.name] = ([column.labels[int(code)] for code in column.value] if column.labels else column.value)
             if column.error is not None:
                 data[f"{column.name}_error"] = column.error
         return pandas.DataFrame(data)
 
-    def plot(self, *columns, axes=None):
-        """Draws these columns, or the second one, against the first; returns the matplotlib axes."""
-        from matplotlib import pyplot
+    def plot(self, *columns, x: Optional[str] = None, axes=None, **style):
+        """Draws columns with their errors, with the axes that the report page gives them.
 
-        if axes is None:
-            axes = pyplot.figure(layout="constrained").add_subplot()
+        Parameters
+        ----------
+        *columns : str
+            By default the second column of the table.
+        x : str, optional
+            The abscissa; by default the first column of the table.
+        axes : matplotlib.axes.Axes, optional
+        **style
+            Of matplotlib's `errorbar`.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+        """
         names = list(self)
-        x = self[names[0]]
-        for name in columns or names[1:2]:
-            y = self[name]
-            axes.errorbar(x.value, y.value, yerr=y.error, label=name, marker="o", markersize=3, linewidth=1)
-        axes.set(xlabel=_with_unit(x), ylabel=_with_unit(self[name]) if len(columns) < 2 else "")
-        if numpy.all(numpy.asarray(x.value)[1:] > 0) and x.name == "time":
-            axes.set_xscale("log")
+        columns = columns or tuple(names[1:2])
+        chart = next((chart for name in columns for chart in charts(self, name)), None)
+        if chart is None:
+            chart = Chart(self, {"symbol": columns[0] if len(columns) == 1 else "", "x": names[0], "xSymbol": names[0]}, {})
+        if x is not None:
+            chart = Chart(self, {**chart.description, "x": x, "xSymbol": x, "logX": False}, chart.labels)
+        return chart.plot(axes, columns, **style)
+
+
+class Chart:
+    """Curves of one table that belong together, as the report page shows them.
+
+    Attributes
+    ----------
+    heading : str
+    table : Table
+    labels : dict
+        Columns and the names of their curves.
+    """
+
+    def __init__(self, table, description, labels):
+        self.table, self.description, self.labels = table, description, labels
+
+    @property
+    def heading(self) -> str:
+        return self.description["heading"]
+
+    def __repr__(self) -> str:
+        return f"<Chart {self.heading}: {', '.join(self.labels)} of {self.table.name}>"
+
+    def plot(self, axes=None, columns=None, **style):
+        """Draws all curves, or these columns; returns the matplotlib axes."""
+        axes = _axes(axes)
+        x = self.table[self.description["x"]]
+        columns = columns or list(self.labels)
+        for name in columns:
+            column = self.table[name]
+            axes.errorbar(x.value, column.value, yerr=column.error, label=self.labels.get(name, name),
+                          **{"marker": "o", "markersize": 3, "linewidth": 1, **style})
+        for level in self.description.get("levels", []):
+            axes.axhline(level, color="0.6", linewidth=0.8, zorder=0)
+        axes.set(xlabel=self._label(self.description["xSymbol"], x.unit),
+                 ylabel=self._label(self.description["symbol"], self.table[columns[0]].unit))
+        self._scale(axes)
         if len(columns) > 1:
             axes.legend(frameon=False)
         return axes
 
+    def _label(self, symbol, unit):
+        unit = _UNITS[self.table.dimension].get(unit, unit)
+        return symbol if unit in ("", "1") else f"{symbol} / {unit}"
 
-def _with_unit(column):
-    return column.name if column.unit == "1" else f"{column.name} / {column.unit}"
+    def _scale(self, axes):
+        if self.description.get("logX"):
+            axes.set_xscale("log")
+        scale = self.description.get("scale")
+        if scale == "logarithmic":
+            axes.set_yscale("log")
+        elif scale in ("fromZero", "aroundOne"):
+            axes.set_ylim(bottom=0)
+
+
+def charts(table, column=None):
+    """The charts of a table; only those that show this column, if there is one."""
+    found = []
+    for description in _descriptions(table.dimension):
+        if not _is_of(table.name, description):
+            continue
+        labels = _labels(table, description)
+        if labels and description["x"] in table and (column is None or column in labels):
+            found.append(Chart(table, description, labels))
+    return found
+
+
+@functools.lru_cache(maxsize=None)
+def _descriptions(dimension):
+    return json.loads(_vitrel.charts(dimension))
+
+
+def _is_of(table, description):
+    name = description["table"]
+    return table.startswith(name + "_") if description["hasGroups"] else table == name
+
+
+def _labels(table, description):
+    """Columns of the chart, and what their curves are called; `#` stands for a number, `*` for a text."""
+    labels = {}
+    for curve in description["curves"]:
+        pattern = re.escape(curve["column"]).replace(r"\#", r"(\d+)").replace("#", r"(\d+)").replace(r"\*", "(.+)")
+        for name in table:
+            if match := re.fullmatch(pattern, name):
+                text = match[1] if match.groups() else ""
+                labels.setdefault(name, re.sub("[#*]", text, curve["label"]))
+    return labels
+
+
+def _axes(axes):
+    if axes is not None:
+        return axes
+    from matplotlib import pyplot
+
+    return pyplot.figure(layout="constrained").add_subplot()
 
 
 class Results(Mapping):
-    """All tables of an analysis by name, and its summary."""
+    """Tables by name.
 
-    def __init__(self, summary, tables):
-        self.summary = json.loads(summary)
-        self._tables = {name: Table(name, description, [Column(*column) for column in columns])
-                        for name, description, columns in tables}
+    Attributes
+    ----------
+    summary : dict
+        Averages, with errors `name_error`, and verdicts.
+    provenance : dict
+        Where the results come from, and what was left out.
+    """
 
-    def __getitem__(self, name):
+    def __init__(self, summary, tables: List[Table], provenance=None):
+        self.summary, self.provenance = summary, dict(provenance or {})
+        self._tables = {table.name: table for table in tables}
+
+    def __getitem__(self, name: str) -> Table:
         return self._tables[name]
 
-    def __iter__(self):
+    def __iter__(self) -> Iterator[str]:
         return iter(self._tables)
 
-    def __len__(self):
+    def __len__(self) -> int:
         return len(self._tables)
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"<Results: {', '.join(self)}>"
+
+    @property
+    def charts(self) -> List[Chart]:
+        """All charts of the report page for which there are tables."""
+        return [chart for table in self.values() for chart in charts(table)]
+
+    def find(self, name: str):
+        """The table of this name, or else the first column of this name in any table; KeyError if there is neither."""
+        if name in self:
+            return self[name]
+        for table in self.values():
+            if name in table and len(table) > 1 and table.name != "summary":
+                return table[name]
+        raise KeyError(name)
+
+
+def tables_of(tables, dimension):
+    """From what the compiled module gives."""
+    return [Table(name, description, [Column(*column) for column in columns], dimension)
+            for name, description, columns in tables]

@@ -1,13 +1,19 @@
 """Runs of event-driven dynamics, and their analysis."""
 
 import contextlib
+import functools
+import html
 import json
 import os
 import pathlib
 import tempfile
+from typing import Callable, Iterator, Mapping, Optional
+
+import numpy
 
 from . import _vitrel
-from .results import Results
+from .observations import Observations
+from .results import Results, tables_of
 from .settings import listener, overrides
 from .states import State
 
@@ -24,51 +30,107 @@ def start_file(start):
         yield str(path)
 
 
-class Run:
-    """A run on file.
+class Page:
+    """What has a report page: one HTML file that needs nothing beside it."""
+
+    path: pathlib.Path
+
+    def report(self, path=None) -> pathlib.Path:
+        """Writes the page, by default beside the run or into the folder of the sweep; returns its path."""
+        default = self.path / "report.html" if self.path.is_dir() else self.path.with_suffix(".html")
+        path = default if path is None else pathlib.Path(path)
+        path.write_text(_vitrel.page(self.path), encoding="utf-8")
+        return path
+
+    def _repr_html_(self) -> str:
+        page = html.escape(_vitrel.page(self.path))
+        return f'<iframe srcdoc="{page}" style="width: 100%; height: 42em; border: 0"></iframe>'
+
+
+class Run(Page):
+    """A run on file: a sequence of states.
+
+    Every table of its analysis is an attribute, and so is every column, of the first table that has it:
+    ``run.msd.plot()``.
 
     Attributes
     ----------
     path : pathlib.Path
     summary : dict
         What `vitrel run --json` prints; empty if the run was only loaded.
-    times : numpy.ndarray
-        Of the frames.
+    observed : Results or None
+        The observables that were given to `vitrel.run`.
     """
 
-    def __init__(self, path, summary=None):
-        self.path, self.summary = pathlib.Path(path), summary or {}
-        self._frames = _vitrel.Frames(os.fspath(path))
+    def __init__(self, path, summary: Optional[dict] = None, observed: Optional[Results] = None):
+        self.path, self.summary, self.observed = pathlib.Path(path), summary or {}, observed
+        self._frames = _vitrel.Frames(self.path)
 
-    def __len__(self):
+    def __len__(self) -> int:
         return len(self._frames)
 
-    def __getitem__(self, frame):
-        """The state of a frame."""
+    def __getitem__(self, frame: int) -> State:
         return State(self._frames[frame if frame >= 0 else len(self) + frame], self._frames.parameters)
 
-    def __iter__(self):
+    def __iter__(self) -> Iterator[State]:
         return (self[k] for k in range(len(self)))
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"<Run {self.path}: {len(self)} frames>"
 
+    def __getattr__(self, name: str):
+        if name.startswith("_"):
+            raise AttributeError(name)
+        try:
+            return self.results.find(name)
+        except KeyError:
+            raise AttributeError(f"neither Run nor its results have '{name}'; tables are {', '.join(self.results)}") from None
+
     @property
-    def times(self):
+    def dimension(self) -> int:
+        return self._frames.dimension
+
+    @property
+    def times(self) -> numpy.ndarray:
+        """Of the frames, shape (frames,)."""
         return self._frames.times
 
     @property
-    def parameters(self):
+    def parameters(self) -> str:
         """All values in force, TOML."""
         return self._frames.parameters
 
-    def analyze(self, **settings):
-        """All tables that the run has what they need for; settings are keys of `[analysis]`."""
-        return Results(*_vitrel.analyze(str(self.path), overrides("analysis", settings)))
+    @functools.cached_property
+    def results(self) -> Results:
+        """The analysis with the settings that the run was made with."""
+        return self.analyze()
+
+    def analyze(self, observe: Optional[Mapping[str, Callable]] = None, **settings) -> Results:
+        """All tables that the run has what they need for.
+
+        Parameters
+        ----------
+        observe : mapping of str to callable, optional
+            Observables of one's own, as of `vitrel.run`, evaluated for all frames. Each becomes a table, and its mean and
+            error stand in the summary.
+        **settings
+            Keys of `[analysis]`.
+        """
+        summary, tables, provenance = _vitrel.analyze(self.path, overrides("analysis", settings))
+        summary, tables = json.loads(summary), tables_of(tables, self.dimension)
+        if observe:
+            own = Observations(observe).results(self)
+            summary.update(own.summary)
+            tables += own.values()
+        return Results(summary, tables, provenance)
 
 
-def run(start=None, file=None, *, output, threads=1, quiet=False, **settings):
+def run(start=None, file=None, *, output, observe: Optional[Mapping[str, Callable]] = None,
+        on_frame: Optional[Callable[[State], None]] = None, threads: int = 1, quiet: bool = False, **settings) -> Run:
     """Runs a state, or goes on with the run in `output`.
+
+    The run is stored with a checkpoint beside it. What was interrupted, by Ctrl-C or an error of a callback, continues with
+    the same call; with a longer duration, a complete run does.
 
     Parameters
     ----------
@@ -77,22 +139,38 @@ def run(start=None, file=None, *, output, threads=1, quiet=False, **settings):
     file : path, optional
         A parameter file; without one, all keys have their defaults.
     output : path
-        The file of the run; what was interrupted continues.
+        The file of the run.
+    observe : mapping of str to callable, optional
+        Functions of a State that return a number or an array of one dimension, evaluated at every frame. `Run.observed`
+        has a table for each, and means with errors by blocking.
+    on_frame : callable, optional
+        Called with the State of every frame.
+    threads : int
+        Results do not depend on it.
+    quiet : bool
+        No progress on the terminal.
     **settings
         Keys of `[dynamics]` (`kind`, `duration`, `brownian_step` …), `samples` and `correlations`, and any other key with
         two underscores for every dot. The particles are those of the state.
-
-    Returns
-    -------
-    Run
     """
-    say, show = listener(quiet)
-    with start_file(start) as path:
-        summary = _vitrel.run("" if file is None else os.fspath(file), overrides("dynamics", settings), path,
-                              os.fspath(output), threads, say, show)
-    return Run(output, json.loads(summary))
+    observations = Observations(observe or {})
+
+    def see(state):
+        state = State(state)
+        observations.observe(state)
+        if on_frame is not None:
+            on_frame(state)
+
+    say, show, end = listener(quiet)
+    with start_file(start) as path, contextlib.closing(end):
+        summary = _vitrel.run("" if file is None else os.fspath(file), overrides("dynamics", settings), path, os.fspath(output),
+                              threads, say, show, see if observe or on_frame else None)
+    found = Run(output, json.loads(summary))
+    if observe:
+        found.observed = observations.results(found)
+    return found
 
 
-def load(path):
-    """A run that was saved."""
+def load(path) -> Run:
+    """A run that was saved, by vitrel or in any format that `vitrel analyze` reads."""
     return Run(path)

@@ -1,5 +1,6 @@
 """Configurations of particles."""
 
+import contextlib
 import os
 
 import numpy
@@ -101,7 +102,10 @@ class State:
 
         if axes is None:
             axes = pyplot.figure(figsize=(6, 6), layout="constrained").add_subplot()
-        values = numpy.mod(self.angle, numpy.pi) if isinstance(colour, str) else numpy.asarray(colour)
+        by_angle = isinstance(colour, str) and colour == "angle"
+        values = numpy.mod(self.angle, numpy.pi) if by_angle else numpy.asarray(colour)
+        if values.shape != (len(self),):
+            raise _vitrel.UserError(f"colour must be \"angle\" or an array of the shape ({len(self)},)")
         shifts = [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1)]
         centres = numpy.concatenate([self.position + numpy.asarray(shift) * self.box for shift in shifts])
         reach = numpy.tile(self.semi_axes[:, 0], len(shifts))
@@ -111,7 +115,7 @@ class State:
             2 * numpy.tile(self.semi_axes[:, 0], times)[near], 2 * numpy.tile(self.semi_axes[:, 1], times)[near],
             numpy.degrees(numpy.tile(self.angle, times)[near]), units="xy", offsets=centres[near],
             offset_transform=axes.transData, array=numpy.tile(values, times)[near],
-            cmap="twilight" if isinstance(colour, str) else "viridis", edgecolors="black", linewidths=0.3)
+            cmap="twilight" if by_angle else "viridis", edgecolors="black", linewidths=0.3)
         axes.add_collection(ellipses)
         half = self.box / 2
         axes.set(xlim=(-half[0], half[0]), ylim=(-half[1], half[1]), aspect="equal", xticks=[], yticks=[])
@@ -140,8 +144,8 @@ def prepare(file=None, *, start=None, shrink=False, threads=1, quiet=False, **se
     """
     from .runs import start_file
 
-    say, show = listener(quiet)
-    with start_file(start) as path:
+    say, show, end = listener(quiet)
+    with start_file(start) as path, contextlib.closing(end):
         state, parameters = _vitrel.prepare("" if file is None else os.fspath(file), overrides("prepare", settings), path,
                                             shrink, threads, say, show)
     return State(state, parameters)

@@ -5,6 +5,6 @@ import os
 import pytest
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def vitrel_program():
     return os.environ["VITREL_PROGRAM"]

@@ -1,5 +1,8 @@
 """Pairs of bodies, against the command line and closed forms."""
 
+import json
+import subprocess
+
 import numpy
 import pytest
 import vitrel
@@ -57,3 +60,23 @@ def test_mistakes_are_named(axes, position, words):
 def test_numbers_of_bodies_must_agree():
     with pytest.raises(vitrel.UserError, match="as many"):
         vitrel.overlap(circles([[0, 0]] * 2), circles([[0, 0]] * 3))
+
+
+def test_elastic_spheres_keep_their_speed():
+    found = vitrel.restitution([0.5, 1, 2], [0, 0.3, 0.9], law="linear_dashpot", damping="0 kg/s")
+    assert found.rate == pytest.approx([-1] * 3) and found.distance == pytest.approx([1] * 3)
+    assert found.angle[0] == pytest.approx(0) and (found.angle[1:] > 0).all() and (found.time > 0).all()
+
+
+def test_a_restitution_matrix_is_that_of_the_command_line(vitrel_program):
+    given = {"law": "viscoelastic", "dissipative_time": "1e-5 s"}
+    printed = subprocess.run(
+        [vitrel_program, "pair", "restitution", "--speed", "1.5 m/s", "--impact-parameter", "0.4", "--json",
+         "--set", "law=\"viscoelastic\"", "--set", "dissipative_time=\"1e-5 s\""],
+        check=True, capture_output=True, text=True)
+    integrated = json.loads(printed.stdout)["integrated"]
+    found = vitrel.restitution(1.5, 0.4, **given)
+    for name, value in integrated.items():
+        assert getattr(found, name)[0] == value
+    with pytest.raises(vitrel.UserError, match="impact_parameter"):
+        vitrel.restitution(1, 2)

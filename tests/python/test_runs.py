@@ -1,43 +1,17 @@
-"""States, runs and results: the same as from the command line."""
+"""Runs: the same as from the command line, and what Python adds to them."""
 
+import os
+import signal
 import subprocess
+import sys
+import time
 
 import h5py
 import numpy
 import pytest
 import vitrel
 
-SMALL = {"particles": 100, "packing_fraction": 0.5, "aspect_ratio": 2, "seed": 3}
-
-
-@pytest.fixture(scope="module")
-def state():
-    return vitrel.prepare(quality_sweeps=0, **SMALL)
-
-
-def test_a_state_has_its_arrays(state):
-    assert len(state) == 100 and state.dimension == 2
-    assert state.position.shape == (100, 2) and state.angle.shape == (100,)
-    assert state.packing_fraction == pytest.approx(0.5, rel=1e-12)
-    assert state.check()["overlaps"].shape == (0, 2)
-    assert state.semi_axes[0] == pytest.approx([2**0.5, 0.5**0.5])
-    with pytest.raises(ValueError):
-        state.position[0] = 0
-
-
-def test_arrays_make_a_state(state):
-    copy = vitrel.State.from_arrays(state.position, state.semi_axes, state.box, angle=state.angle)
-    assert (copy.position == state.position).all() and (copy.angle == state.angle).all()
-    assert copy.packing_fraction == state.packing_fraction
-    with pytest.raises(vitrel.UserError, match="angle"):
-        vitrel.State.from_arrays(state.position, state.semi_axes, state.box, angle=state.angle * numpy.nan)
-
-
-def test_files_keep_a_state(state, tmp_path):
-    state.write(tmp_path / "state.h5")
-    assert (vitrel.read(tmp_path / "state.h5").position == state.position).all()
-    with pytest.raises(vitrel.FileError, match="missing.h5"):
-        vitrel.read(tmp_path / "missing.h5")
+SMALL = {"particles": 100, "packing_fraction": 0.5, "aspect_ratio": 2, "seed": 3, "prepare__quality_sweeps": 0}
 
 
 def datasets(path):
@@ -48,25 +22,116 @@ def datasets(path):
     return found
 
 
-def test_a_run_is_that_of_the_command_line(tmp_path, vitrel_program):
-    run = vitrel.run(output=tmp_path / "a.h5", duration=5, equilibration=0, prepare__quality_sweeps=0, **SMALL)
-    (tmp_path / "p.toml").write_text(
+def command_line(program, folder, output):
+    (folder / "p.toml").write_text(
         "[system]\nparticles = 100\npacking_fraction = 0.5\nseed = 3\n[[species]]\naspect_ratio = 2\n"
         "[dynamics]\nduration = 5\nequilibration = 0\n", encoding="utf-8")
-    subprocess.run([vitrel_program, "run", tmp_path / "p.toml", "-o", tmp_path / "b.h5", "--quiet"], check=True)
+    subprocess.run([program, "run", folder / "p.toml", "-o", output, "--quiet"], check=True)
+
+
+def test_a_run_is_that_of_the_command_line(tmp_path, vitrel_program):
+    run = vitrel.run(output=tmp_path / "a.h5", duration=5, equilibration=0, **SMALL)
+    command_line(vitrel_program, tmp_path, tmp_path / "b.h5")
     assert datasets(tmp_path / "a.h5") == datasets(tmp_path / "b.h5")
     assert run.summary["overlaps"] == 0 and len(run) == len(run.times)
-    assert run[-1].position.shape == (100, 2)
+    assert run[-1].position.shape == (100, 2) and run[-1].time == run.times[-1]
 
 
-def test_results_are_arrays(state, tmp_path):
-    run = vitrel.run(state, output=tmp_path / "run.h5", duration=20, equilibration=1, kind="brownian")
-    results = run.analyze()
-    table = results["displacements_all"]
-    assert table["msd"].value.shape == table["time"].value.shape and table["msd"].unit == "length^2"
-    assert results.summary["particles"] == 100
-    frame = table.to_pandas()
-    assert list(frame["msd"]) == list(table["msd"].value)
+def test_a_file_gives_parameters(tmp_path, vitrel_program):
+    command_line(vitrel_program, tmp_path, tmp_path / "b.h5")
+    vitrel.run(file=tmp_path / "p.toml", output=tmp_path / "c.h5")
+    assert datasets(tmp_path / "b.h5") == datasets(tmp_path / "c.h5")
+
+
+def test_a_complete_run_can_become_longer(tmp_path):
+    state = vitrel.prepare(particles=50, packing_fraction=0.4, aspect_ratio=2, quality_sweeps=0)
+    settings = {"output": tmp_path / "run.h5", "equilibration": 0, "samples__interval": 0.5}
+    assert vitrel.run(state, duration=2, **settings).times[-1] == 2
+    assert vitrel.run(state, duration=4, **settings).times[-1] == 4
+
+
+def nematic(state):
+    """Nematic order."""
+    return abs(numpy.exp(2j * state.angle).mean())
+
+
+def test_observables_take_part_in_a_run_and_in_its_analysis(tmp_path):
+    seen = []
+    run = vitrel.run(output=tmp_path / "run.h5", duration=20, equilibration=0, on_frame=seen.append,
+                     observe={"order": nematic, "centre": lambda state: state.unwrapped.mean(axis=0)}, **SMALL)
+    assert [state.time for state in seen] == run.times.tolist()
+    assert (seen[3].position == run[3].position).all()
+    table = run.observed["order"]
+    assert table["time"].value.tolist() == run.times.tolist() and table.description == "Nematic order."
+    assert table["order"].value.tolist() == [nematic(state) for state in run]
+    assert run.observed.summary["order"] == pytest.approx(table["order"].value.mean())
+    assert run.observed.summary["order_error"] > 0
+    assert list(run.observed["centre"]) == ["time", "centre_0", "centre_1"]
+    again = run.analyze(observe={"order": nematic})
+    assert again["order"]["order"].value.tolist() == table["order"].value.tolist()
+    assert again.summary["order_error"] == run.observed.summary["order_error"] and "msd" in again["displacements_all"]
+
+
+def test_an_error_of_a_callback_ends_the_run_which_can_continue(tmp_path):
+    class Enough(Exception):
+        pass
+
+    def stop(state):
+        if state.time > 1:
+            raise Enough("at one")
+
+    settings = {"output": tmp_path / "run.h5", "duration": 4, "equilibration": 0, "samples__interval": 0.5, **SMALL}
+    with pytest.raises(Enough, match="at one"):
+        vitrel.run(on_frame=stop, **settings)
+    run = vitrel.run(observe={"order": nematic}, **settings)
+    assert run.observed["order"]["time"].value.tolist() == [0.5 * k for k in range(9)]
+
+
+def test_observables_of_changing_shape_are_refused(tmp_path):
+    with pytest.raises(vitrel.UserError, match="'several' has"):
+        vitrel.run(output=tmp_path / "run.h5", duration=1, equilibration=0,
+                   observe={"several": lambda state: [0] * (1 + (state.time > 0))}, **SMALL)
+    with pytest.raises(vitrel.UserError, match="2 dimensions"):
+        vitrel.run(output=tmp_path / "other.h5", duration=1, equilibration=0,
+                   observe={"all": lambda state: state.position}, **SMALL)
+
+
+def test_control_c_stops_at_a_checkpoint(tmp_path):
+    script = (
+        "import sys, vitrel\n"
+        "print('begins', flush=True)\n"
+        "try:\n"
+        "    vitrel.run(output=sys.argv[1], particles=100, packing_fraction=0.5, aspect_ratio=2, duration=1e6,\n"
+        "               prepare__quality_sweeps=0, on_frame=lambda state: print(state.time, flush=True))\n"
+        "except KeyboardInterrupt:\n"
+        "    print('interrupted', flush=True)\n")
+    process = subprocess.Popen([sys.executable, "-c", script, tmp_path / "run.h5"], stdout=subprocess.PIPE, text=True)
+    while not process.stdout.readline().startswith("0"):
+        assert process.poll() is None
+    process.send_signal(signal.SIGINT)
+    assert process.stdout.read().splitlines()[-1] == "interrupted"
+    assert process.wait() == 0
+    assert (tmp_path / "run.h5.checkpoint").exists()
+
+
+def test_other_threads_go_on_meanwhile(tmp_path):
+    import threading
+
+    ticks = []
+    running = threading.Event()
+    running.set()
+
+    def tick():
+        while running.is_set():
+            ticks.append(time.monotonic())
+            time.sleep(0.001)
+
+    thread = threading.Thread(target=tick)
+    thread.start()
+    vitrel.run(output=tmp_path / "run.h5", duration=50, equilibration=0, **SMALL)
+    running.clear()
+    thread.join()
+    assert len(ticks) > 10
 
 
 def test_mistakes_are_those_of_the_program(tmp_path):
@@ -74,3 +139,6 @@ def test_mistakes_are_those_of_the_program(tmp_path):
         vitrel.prepare(particles=10, packing_fraction=2.0, aspect_ratio=1)
     with pytest.raises(vitrel.UserError, match="unknown"):
         vitrel.run(output=tmp_path / "x.h5", no_such_key=1)
+    with pytest.raises(vitrel.FileError, match="missing"):
+        vitrel.load(tmp_path / "missing.h5")
+    assert os.listdir(tmp_path) == []

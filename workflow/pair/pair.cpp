@@ -84,6 +84,17 @@ double reach_of_smallest_gap(const Pair<Dim>& pair, const Vec<Dim>& d) {
   return reach * (1 + 1e-12);
 }
 
+/// From centre 1 to centre 2, the images of body 2 counted.
+template <int Dim>
+exact::Point<Dim> exact_separation(const Pair<Dim>& pair, const exact::Particle<Dim>& one,
+                                   const exact::Particle<Dim>& two, const Shift<Dim>& shift) {
+  exact::Point<Dim> d = two.centre - one.centre;
+  if (pair.box)
+    d += shift.template cast<exact::Real>().cwiseProduct(
+        pair.box->lengths().template cast<exact::Real>());
+  return d;
+}
+
 /// The normal and the closest points; d is the separation of the centres.
 template <int Dim>
 void add_closest_points(const Solid<Dim>& one, const Pose<Dim>& pose1, const Solid<Dim>& two,
@@ -170,6 +181,21 @@ Pair<Dim> pair_of(const PairParameters& p) {
 }
 
 template <int Dim>
+bool overlaps(const Pair<Dim>& pair) {
+  const Vec<Dim> d = pair.two.pose.position - pair.one.pose.position;
+  const double touch = pair.one.body.circumradius() + pair.two.body.circumradius();
+  const double reach = touch + 1e-12 * (touch + d.norm());  // beyond rounding
+  if (!pair.box && d.norm() > reach) return false;
+  const auto one = exact::particle(pair.one.body, pair.one.pose);
+  const auto two = exact::particle(pair.two.body, pair.two.pose);
+  bool found = false;
+  for_each_image(pair, d, reach, [&](const Shift<Dim>& shift) {
+    found = found || exact::examine(one, two, exact_separation(pair, one, two, shift), 0).overlap;
+  });
+  return found;
+}
+
+template <int Dim>
 PairGap<Dim> gap_at(const Pair<Dim>& pair, double time) {
   const Solid<Dim>&body1 = pair.one.body, &body2 = pair.two.body;
   const Pose<Dim> pose1 = pose_at(pair, pair.one, time), pose2 = pose_at(pair, pair.two, time);
@@ -179,11 +205,8 @@ PairGap<Dim> gap_at(const Pair<Dim>& pair, double time) {
   PairGap<Dim> closest;
   closest.gap = infinity;
   for_each_image(pair, d, reach_of_smallest_gap(pair, d), [&](const Shift<Dim>& shift) {
-    exact::Point<Dim> exact_d = two.centre - one.centre;
-    if (pair.box)
-      exact_d += shift.template cast<exact::Real>().cwiseProduct(
-          pair.box->lengths().template cast<exact::Real>());
-    const exact::Finding found = exact::examine(one, two, exact_d, infinity);
+    const exact::Finding found =
+        exact::examine(one, two, exact_separation(pair, one, two, shift), infinity);
     if (!(found.gap < closest.gap)) return;
     closest.overlap = found.overlap;
     closest.gap = static_cast<double>(found.gap);
@@ -224,6 +247,8 @@ template struct Pair<2>;
 template struct Pair<3>;
 template Pair<2> pair_of(const PairParameters&);
 template Pair<3> pair_of(const PairParameters&);
+template bool overlaps(const Pair<2>&);
+template bool overlaps(const Pair<3>&);
 template PairGap<2> gap_at(const Pair<2>&, double);
 template PairGap<3> gap_at(const Pair<3>&, double);
 template PairContact<2> first_contact_of_images(const Pair<2>&, const PredictContact<2>&);

@@ -28,10 +28,15 @@ struct Pair {
 template <int Dim>
 Pair<Dim> pair_of(const PairParameters& parameters);
 
+/// Whether the bodies overlap at time 0, by the exact criterion (core/state/check.h): a touch is none. Much faster than the
+/// gap.
+template <int Dim>
+bool overlaps(const Pair<Dim>& pair);
+
 /// The image of body 2 that is closest to body 1, or overlaps it most deeply.
 template <int Dim>
 struct PairGap {
-  bool overlap = false;  ///< by the exact criterion (core/state/check.h): a touch is none
+  bool overlap = false;  ///< as `overlaps`
   /// The distance of the surfaces; of an overlap minus its depth, the shortest translation that undoes it (of
   /// crossed bodies a close upper bound of that). Good to rounding of the coordinates.
   double gap = 0;

@@ -43,8 +43,10 @@ Page page_of(const std::filesystem::path& input, const AnalysisChoice& choice,
              const AnalysisProgress& progress) {
   const PageSubject subject = page_subject(input);
   switch (subject) {
-    case PageSubject::sweep: return page_of_sweep(input, choice, progress);
-    case PageSubject::state: return page_of_state(input, choice);
+    case PageSubject::sweep:
+      return page_of_sweep(input, choice, progress);
+    case PageSubject::state:
+      return page_of_state(input, choice);
     case PageSubject::packing:
       return {subject, 1, packing_page(packing_page_data(input, choice, progress))};
     case PageSubject::run:

@@ -225,8 +225,8 @@ int run_dimension(const RunRequest& request) {
 }
 
 template <int Dim>
-RunOutcome<Dim> run_simulation(const RunRequest& request, const RunControl& control,
-                               const Log& log, Observer<Dim>* observer) {
+RunOutcome<Dim> run_simulation(const RunRequest& request, const RunControl& control, const Log& log,
+                               Observer<Dim>* observer) {
   return RunJob<Dim>(request, control, log, observer).run();
 }
 

@@ -49,8 +49,8 @@ struct RunOutcome {
 /// - FileError; the run continues from its last checkpoint once the cause is removed;
 /// - InvariantError on an overlap or a standstill; the state is then in `<output>.failed.h5`.
 template <int Dim>
-RunOutcome<Dim> run_simulation(const RunRequest& request, const RunControl& control,
-                               const Log& log, Observer<Dim>* observer = nullptr);
+RunOutcome<Dim> run_simulation(const RunRequest& request, const RunControl& control, const Log& log,
+                               Observer<Dim>* observer = nullptr);
 
 /// The figures of a run, from its trajectory and its last state: what `vitrel run --json` prints.
 /// `overlaps` counts pairs of the last state. Throws FileError if the trajectory cannot be read.

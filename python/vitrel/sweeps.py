@@ -1,0 +1,104 @@
+"""Many runs from one set of parameters."""
+
+import contextlib
+import functools
+import json
+import os
+import pathlib
+import shutil
+from typing import List, Mapping, Optional, Sequence
+
+from . import _vitrel
+from .results import Results, tables_of
+from .runs import Page, Run
+from .settings import listener, overrides, toml
+
+
+class Sweep(Page):
+    """The finished jobs of a sweep.
+
+    Attributes
+    ----------
+    path : pathlib.Path
+        Its folder.
+    """
+
+    def __init__(self, path):
+        self.path = pathlib.Path(path)
+
+    def __repr__(self) -> str:
+        return f"<Sweep {self.path}: {len(self.runs)} runs>"
+
+    def analyze(self, **settings) -> Results:
+        """What the runs say together.
+
+        Table `runs` has a row for each, with all averages; `relaxation` and `glass_fit` are relaxation times, verdicts and
+        fits of the laws of the glass transition, which the summary gives in words.
+        """
+        return self._analyze(settings)[0]
+
+    def _analyze(self, settings):
+        summary, tables, provenance, files, unfinished = _vitrel.analyze_sweep(self.path, overrides("analysis", settings))
+        results = Results(json.loads(summary), tables_of(tables, Run(files[0]).dimension), provenance)
+        return results, files, unfinished
+
+    @functools.cached_property
+    def _analysis(self):
+        return self._analyze({})
+
+    @property
+    def results(self) -> Results:
+        """The analysis with the settings of the sweep."""
+        return self._analysis[0]
+
+    @property
+    def runs(self) -> List[Run]:
+        """By packing fraction, then by seed."""
+        return [Run(file) for file in self._analysis[1]]
+
+    @property
+    def unfinished(self) -> List[str]:
+        """Names of the jobs that are not done."""
+        return self._analysis[2]
+
+
+def sweep(file=None, *, output, grid: Optional[Mapping[str, Sequence]] = None, parallel: Optional[int] = None,
+          program=None, quiet: bool = False, **settings) -> Sweep:
+    """Prepares, runs and analyses all jobs of a sweep; what is complete is left alone, and what was cut off continues.
+
+    Parameters
+    ----------
+    file : path, optional
+        A parameter file; without one, all keys have their defaults.
+    output : path
+        The folder, with a folder in it for each job.
+    grid : mapping of str to sequence, optional
+        Keys with dots and the values that they run through, each with every value of the others:
+        ``{"system.packing_fraction": [0.5, 0.6]}``.
+    parallel : int, optional
+        Jobs at a time; by default as many as there are processors.
+    program : path, optional
+        The program `vitrel`, which works on the jobs; by default the one that the shell would find.
+    **settings
+        As of `vitrel.run`.
+    """
+    program = program or shutil.which("vitrel")
+    if program is None:
+        raise _vitrel.FileError("the program vitrel, which works on the jobs of a sweep, is not in the path; give its place as "
+                                "program=")
+    lines = overrides("dynamics", settings)
+    if grid:
+        lines.append(f"sweep.grid={toml(dict(grid))}")
+    say, show, end = listener(quiet)
+    with contextlib.closing(end):
+        done, failed = _vitrel.sweep("" if file is None else os.fspath(file), lines, os.fspath(output), os.fspath(program),
+                                     parallel or os.cpu_count() or 1, say, show)
+    if failed:
+        raise RuntimeError(f"{failed} of {done + failed} jobs failed; log.txt in their folders of {output} says why, and the "
+                           "same call tries them again")
+    return Sweep(output)
+
+
+def load_sweep(path) -> Sweep:
+    """A sweep that was run, here or by `vitrel sweep`, or is running."""
+    return Sweep(path)

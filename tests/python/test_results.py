@@ -1,0 +1,71 @@
+"""Results: tables, charts, pages."""
+
+import subprocess
+
+import h5py
+import numpy
+import pytest
+import vitrel
+from matplotlib import pyplot
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory):
+    path = tmp_path_factory.mktemp("run") / "run.h5"
+    return vitrel.run(output=path, duration=20, equilibration=1, kind="brownian", particles=100, packing_fraction=0.5,
+                      aspect_ratio=2, seed=3, prepare__quality_sweeps=0)
+
+
+@pytest.fixture(autouse=True)
+def close_figures():
+    yield
+    pyplot.close("all")
+
+
+def test_results_are_those_of_the_command_line(run, tmp_path, vitrel_program):
+    subprocess.run([vitrel_program, "analyze", run.path, "-o", tmp_path / "results.h5", "--quiet"], check=True)
+    with h5py.File(tmp_path / "results.h5") as file:
+        assert set(run.results) == {name for name in file if name != "provenance"}
+        for name, table in run.results.items():
+            for column in table.values():
+                assert numpy.array_equal(file[name][column.name][()], column.value, equal_nan=True)
+
+
+def test_columns_have_errors_and_units(run):
+    msd = run.msd
+    assert msd is run.results["displacements_all"]["msd"]
+    assert msd.value.shape == msd.error.shape == run.results["displacements_all"]["time"].value.shape
+    assert msd.unit == "length^2" and numpy.asarray(msd) is msd.value
+    assert run.summary["particles"] == 100 and run.results.summary["particles"] == 100
+    with pytest.raises(AttributeError, match="no_such"):
+        run.no_such
+
+
+def test_tables_become_data_frames(run):
+    frame = run.displacements_all.to_pandas()
+    assert list(frame["msd"]) == list(run.msd.value) and list(frame["msd_error"]) == list(run.msd.error)
+    series = run.msd.to_pandas()
+    assert list(series) == list(run.msd.value) and series.index.name == "time"
+
+
+def test_a_column_has_the_axes_of_the_page(run, tmp_path):
+    axes = run.msd.plot()
+    assert axes.get_xscale() == axes.get_yscale() == "log"
+    assert "ab" in axes.get_ylabel() and axes.get_xlabel().startswith("t /")
+    line = axes.containers[0].lines[0]
+    assert line.get_ydata().tolist() == run.msd.value.tolist()
+    axes.figure.savefig(tmp_path / "msd.svg")
+
+
+def test_every_chart_of_the_page_can_be_drawn(run):
+    assert {"Mean squared displacement", "Pair correlation"} <= {chart.heading for chart in run.results.charts}
+    for chart in run.results.charts:
+        axes = chart.plot()
+        assert len(axes.containers) == len(chart.labels)
+        pyplot.close("all")
+
+
+def test_pages(run, tmp_path):
+    page = run.report(tmp_path / "page.html").read_text(encoding="utf-8")
+    assert page.lower().startswith("<!doctype html")
+    assert run._repr_html_().startswith("<iframe srcdoc=")

@@ -1,0 +1,79 @@
+"""States: arrays, files, pictures."""
+
+import numpy
+import pytest
+import vitrel
+from matplotlib import pyplot
+
+
+@pytest.fixture(scope="module")
+def state():
+    return vitrel.prepare(particles=100, packing_fraction=0.5, aspect_ratio=2, seed=3, quality_sweeps=0)
+
+
+def test_a_state_has_its_arrays(state):
+    assert len(state) == 100 and state.dimension == 2
+    assert state.position.shape == (100, 2) and state.angle.shape == (100,)
+    assert state.packing_fraction == pytest.approx(0.5, rel=1e-12)
+    assert state.check()["overlaps"].shape == (0, 2) and state.check()["smallest_gap"] > 0
+    assert state.semi_axes[0] == pytest.approx([2**0.5, 0.5**0.5])
+    assert not hasattr(state, "orientation")
+    with pytest.raises(ValueError):
+        state.position[0] = 0
+
+
+def test_arrays_are_views_that_keep_the_state(state):
+    assert state.position.base is not None
+    position = vitrel.prepare(particles=10, packing_fraction=0.2, aspect_ratio=1, quality_sweeps=0).position
+    assert numpy.isfinite(position).all()
+
+
+def test_arrays_make_a_state(state):
+    copy = vitrel.State.from_arrays(state.position, state.semi_axes, state.box, angle=state.angle)
+    assert (copy.position == state.position).all() and (copy.angle == state.angle).all()
+    assert copy.packing_fraction == state.packing_fraction
+    with pytest.raises(vitrel.UserError, match="angle"):
+        vitrel.State.from_arrays(state.position, state.semi_axes, state.box, angle=state.angle * numpy.nan)
+
+
+def test_overlaps_are_found():
+    overlapping = vitrel.State.from_arrays([[0, 0], [1.5, 0], [5, 5]], [1, 1], [20, 20])
+    assert overlapping.check()["overlaps"].tolist() == [[0, 1]]
+    shrunk = vitrel.prepare(start=overlapping, shrink=True)
+    assert shrunk.check()["overlaps"].size == 0
+    assert shrunk.semi_axes[0, 0] == pytest.approx(0.75, rel=1e-6)
+
+
+def test_states_in_space_have_quaternions():
+    turned = [0.5, 0.5, 0.5, 0.5]
+    state = vitrel.State.from_arrays([[0, 0, 0]], [3, 2, 1], [10, 10, 10], orientation=[turned])
+    assert state.orientation.tolist() == [turned] and state.dimension == 3
+    assert state.packing_fraction == pytest.approx(4 / 3 * numpy.pi * 6 / 1000)
+    with pytest.raises(vitrel.UserError, match="OVITO"):
+        state.draw()
+
+
+def test_files_keep_a_state(state, tmp_path):
+    state.write(tmp_path / "state.h5")
+    assert (vitrel.read(tmp_path / "state.h5").position == state.position).all()
+    with pytest.raises(vitrel.UserError, match="exists already"):
+        state.write(tmp_path / "state.h5")
+    with pytest.raises(vitrel.FileError, match="missing.h5"):
+        vitrel.read(tmp_path / "missing.h5")
+
+
+def test_other_formats_are_read(tmp_path):
+    (tmp_path / "two.csv").write_text("x,y,a,b,angle\n0,0,1,0.5,0\n3,0,1,0.5,1\n", encoding="utf-8")
+    state = vitrel.prepare(stage=[{"method": "state", "file": str(tmp_path / "two.csv"), "box": [10, 10]}])
+    assert state.angle.tolist() == [0, 1]
+
+
+def test_a_picture_shows_every_particle_and_its_images(state, tmp_path):
+    axes = state.draw()
+    drawn = axes.collections[0]
+    assert len(drawn.get_offsets()) > len(state)
+    axes.figure.savefig(tmp_path / "state.pdf")
+    assert (tmp_path / "state.pdf").read_bytes().startswith(b"%PDF")
+    with pytest.raises(vitrel.UserError, match="colour"):
+        state.draw(colour=[1, 2, 3])
+    pyplot.close("all")

@@ -1,0 +1,42 @@
+"""Sweeps: many runs, one table."""
+
+import pytest
+import vitrel
+
+GRID = {"system.packing_fraction": [0.3, 0.4], "system.seed": [1, 2]}
+SMALL = {"particles": 50, "aspect_ratio": 2, "duration": 10, "equilibration": 1}
+
+
+@pytest.fixture(scope="module")
+def sweep(tmp_path_factory, vitrel_program):
+    return vitrel.sweep(output=tmp_path_factory.mktemp("sweep") / "runs", grid=GRID, program=vitrel_program, parallel=2,
+                        prepare__quality_sweeps=0, **SMALL)
+
+
+def test_results_are_one_table(sweep):
+    runs = sweep.results["runs"].to_pandas()
+    assert list(runs["packing_fraction"].round(6)) == [0.3, 0.3, 0.4, 0.4] and list(runs["seed"]) == [1, 2, 1, 2]
+    assert len(sweep.runs) == 4 and sweep.unfinished == []
+    assert runs["compressibility_factor"].is_monotonic_increasing or len(set(runs["compressibility_factor"])) == 4
+    assert sweep.runs[0].msd.value[-1] > sweep.runs[-1].msd.value[-1]
+
+
+def test_fits_and_remarks_are_in_the_summary(sweep):
+    assert "fits" in sweep.results.summary
+
+
+def test_a_sweep_is_loaded(sweep):
+    again = vitrel.load_sweep(sweep.path)
+    assert again.results["runs"].to_pandas().equals(sweep.results["runs"].to_pandas())
+    assert again.report().read_text(encoding="utf-8").lower().startswith("<!doctype html")
+
+
+def test_without_jobs_there_is_nothing_to_load(tmp_path):
+    with pytest.raises(vitrel.UserError):
+        vitrel.load_sweep(tmp_path).results
+
+
+def test_jobs_that_fail_are_counted(tmp_path, vitrel_program):
+    with pytest.raises(RuntimeError, match="1 of 1 jobs failed"):
+        vitrel.sweep(output=tmp_path / "runs", program=vitrel_program, particles=50, packing_fraction=0.8, aspect_ratio=2,
+                     prepare__stage=[{"method": "insert"}])
