@@ -194,6 +194,11 @@ class CommandLine : public ProgramCommandLine {
     prediction
         .add_option("--repeats", first_contact_.repeats, "Repetitions; the fastest counts (15)")
         ->check(positive);
+    CLI::App& arrays = add("pair-arrays", "How fast are overlaps and first contacts of many pairs?",
+                           [this] { return pair_arrays(pair_arrays_); });
+    arrays.add_option("file", pair_arrays_.file, "8 doubles for each body, two bodies a pair")
+        ->required();
+    arrays.add_option("--horizon", pair_arrays_.horizon, "Of first contacts (10)")->check(positive);
     add("structure-factor", "The structure factor by Fourier transform beside the direct sum.",
         structure_factor);
     add("restitution", "How accurate and how fast is the restitution matrix?", [this] {
@@ -211,6 +216,7 @@ class CommandLine : public ProgramCommandLine {
   EngineSpeedOptions engine_;
   CalendarOptions calendar_;
   FirstContactOptions first_contact_;
+  PairArraysOptions pair_arrays_;
 };
 
 }  // namespace

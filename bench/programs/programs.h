@@ -42,6 +42,12 @@ struct FirstContactOptions {
 };
 int first_contact_time(const FirstContactOptions& options);
 
+struct PairArraysOptions {
+  std::string file;     ///< 8 doubles a body: a, b, x, y, angle, v_x, v_y, angular velocity
+  double horizon = 10;  ///< of first contacts
+};
+int pair_arrays(const PairArraysOptions& options);
+
 int structure_factor();
 int restitution(bool quick);  ///< quick: few points
 

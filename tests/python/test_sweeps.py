@@ -39,4 +39,4 @@ def test_without_jobs_there_is_nothing_to_load(tmp_path):
 def test_jobs_that_fail_are_counted(tmp_path, vitrel_program):
     with pytest.raises(RuntimeError, match="1 of 1 jobs failed"):
         vitrel.sweep(output=tmp_path / "runs", program=vitrel_program, particles=50, packing_fraction=0.8, aspect_ratio=2,
-                     prepare__stage=[{"method": "insert"}])
+                     prepare__stage=[{"method": "insert", "packing_fraction": 0.8}])

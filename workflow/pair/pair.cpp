@@ -188,9 +188,11 @@ bool overlaps(const Pair<Dim>& pair) {
   if (!pair.box && d.norm() > reach) return false;
   const auto one = exact::particle(pair.one.body, pair.one.pose);
   const auto two = exact::particle(pair.two.body, pair.two.pose);
+  constexpr double any_gap = -std::numeric_limits<double>::infinity();
   bool found = false;
   for_each_image(pair, d, reach, [&](const Shift<Dim>& shift) {
-    found = found || exact::examine(one, two, exact_separation(pair, one, two, shift), 0).overlap;
+    found =
+        found || exact::examine(one, two, exact_separation(pair, one, two, shift), any_gap).overlap;
   });
   return found;
 }
