@@ -64,6 +64,7 @@ class Table(Mapping):
 
     def __init__(self, name, description, columns, dimension=2):
         self.name, self.description, self.dimension = name, description, dimension
+        self.results: Optional["Results"] = None
         self._columns = {column.name: column for column in columns}
         for column in columns:
             column.table = self
@@ -190,7 +191,8 @@ def _descriptions(dimension):
 
 
 def _is_of(table, description):
-    name = description["table"]
+    """Charts over the density show one number of every run of a sweep."""
+    name = "runs" if description["section"] == "density" else description["table"]
     return table.startswith(name + "_") if description["hasGroups"] else table == name
 
 
@@ -198,12 +200,25 @@ def _labels(table, description):
     """Columns of the chart, and what their curves are called; `#` stands for a number, `*` for a text."""
     labels = {}
     for curve in description["curves"]:
-        pattern = re.escape(curve["column"]).replace(r"\#", r"(\d+)").replace("#", r"(\d+)").replace(r"\*", "(.+)")
+        pattern = re.escape(curve["column"]).replace(r"\#", r"(\d+)").replace(r"\*", "(.+)")
         for name in table:
             if match := re.fullmatch(pattern, name):
-                text = match[1] if match.groups() else ""
+                text = _placeholder(table, description, match[1]) if match.groups() else ""
                 labels.setdefault(name, re.sub("[#*]", text, curve["label"]))
     return labels
+
+
+def _placeholder(table, description, text):
+    """What a number in the name of a column stands for: a wave number or a waiting time."""
+    if not text.isdecimal():
+        return text.replace("_", "–")
+    numbers = description["numbers"]
+    found = table.results and numbers and table.results.get(numbers["table"])
+    if not found or "index" not in found:
+        return text.translate(str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"))
+    row = list(found["index"].value).index(int(text))
+    column = found[numbers["column"] if numbers["column"] in found else "q"]
+    return f"{numbers['symbol']} = {column.value[row]:.3g}"
 
 
 def _axes(axes):
@@ -228,6 +243,8 @@ class Results(Mapping):
     def __init__(self, summary, tables: List[Table], provenance=None):
         self.summary, self.provenance = summary, dict(provenance or {})
         self._tables = {table.name: table for table in tables}
+        for table in tables:
+            table.results = self
 
     def __getitem__(self, name: str) -> Table:
         return self._tables[name]

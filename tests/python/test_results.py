@@ -65,6 +65,13 @@ def test_every_chart_of_the_page_can_be_drawn(run):
         pyplot.close("all")
 
 
+def test_curves_are_named_after_their_wave_numbers(run):
+    results = run.analyze(wave_numbers=[2.0, 5.0])
+    labels = next(chart.labels for chart in results.charts if chart.table.name == "self_scattering_all")
+    assert list(labels.values()) == ["q = 2", "q = 5"]
+    assert list(next(chart.labels for chart in results.charts if "l_2" in chart.labels).values()) == ["L₂", "L₄"]
+
+
 def test_pages(run, tmp_path):
     page = run.report(tmp_path / "page.html").read_text(encoding="utf-8")
     assert page.lower().startswith("<!doctype html")

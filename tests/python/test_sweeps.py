@@ -21,6 +21,12 @@ def test_results_are_one_table(sweep):
     assert sweep.runs[0].msd.value[-1] > sweep.runs[-1].msd.value[-1]
 
 
+def test_charts_show_one_number_of_every_run(sweep):
+    chart = next(chart for chart in sweep.results.charts if "compressibility_factor" in chart.labels)
+    line = chart.plot().containers[0].lines[0]
+    assert len(line.get_xdata()) == 4
+
+
 def test_fits_and_remarks_are_in_the_summary(sweep):
     assert "fits" in sweep.results.summary
 

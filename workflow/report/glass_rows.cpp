@@ -120,14 +120,15 @@ std::string time_row(const Row& row, const Notation& notation) {
   if (row.value("group") != 0) return "";
   const std::string parameter = row.text("parameter");
   const std::string time = time_text(row, notation.unit_of_time);
-  if (row.value("kind") == 0)
-    return html_row("relaxation time τ<sub>α</sub>",
+  constexpr std::array<std::string_view, 5> of_what = {
+      "", "", " of the middle axis", " of the shortest axis", " relative to the cage"};
+  const std::string_view what = row.word("kind", of_what);
+  const double kind = row.value("kind");
+  if (kind == 0 || kind == 4)
+    return html_row(fmt::format("relaxation time τ<sub>α</sub>{}", what),
                     {time, fmt::format("F<sub>s</sub>(q, t) = 1/e at q = {}/{}", parameter,
                                        notation.unit_of_length)});
-  constexpr std::array<std::string_view, 4> of_axis = {"", "", " of the middle axis",
-                                                       " of the shortest axis"};
-  return html_row(fmt::format("rotational relaxation time τ<sub>{}</sub>{}", parameter,
-                              row.word("kind", of_axis)),
+  return html_row(fmt::format("rotational relaxation time τ<sub>{}</sub>{}", parameter, what),
                   {time, fmt::format("{}<sub>{}</sub>(t) = 1/e", notation.correlation, parameter)});
 }
 
