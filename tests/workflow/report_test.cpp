@@ -284,13 +284,13 @@ TEST(ReportPage, RunsThatCannotBeJudgedSayWhy) {
 }
 
 TEST(ReportPage, RelaxationTimesRelativeToTheCageAreThoseOfScattering) {
-  const std::string result = result_of({{{"relaxation_times",
-                                          "",
-                                          {report_example::plain("group", "1", {0}),
-                                           report_example::plain("kind", "1", {4}),
-                                           report_example::plain("parameter", "1/length", {2.4}),
-                                           report_example::plain("tau", "time", {5})}}},
-                                        {}});
+  const std::string result = result_of(
+      {{{"relaxation_times",
+         "",
+         {report_example::plain("group", "1", {0}), report_example::plain("kind", "1", {4}),
+          report_example::plain("parameter", "1/length", {2.4}),
+          report_example::plain("tau", "time", {5})}}},
+       {}});
   EXPECT_EQ(count(result, "τ<sub>α</sub> relative to the cage</th><td>5 √(m ab/kT)</td>"), 1u);
   EXPECT_EQ(count(result, "F<sub>s</sub>(q, t) = 1/e at q = 2.4/√(ab)"), 1u);
 }
