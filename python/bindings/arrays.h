@@ -23,7 +23,7 @@ namespace py = pybind11;
 using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
 /// Rows of `columns` numbers, or of one if that is 0: UserError if the shape is another.
-inline std::size_t require_rows(const Doubles& array, int columns, const std::string& name) {
+inline std::size_t require_rows(const py::array& array, int columns, const std::string& name) {
   const bool fits =
       columns == 0 ? array.ndim() == 1 : array.ndim() == 2 && array.shape(1) == columns;
   if (!fits)
@@ -33,7 +33,7 @@ inline std::size_t require_rows(const Doubles& array, int columns, const std::st
 }
 
 /// As `require_rows`, and exactly this number.
-inline void require_rows(const Doubles& array, int columns, const std::string& name,
+inline void require_rows(const py::array& array, int columns, const std::string& name,
                          std::size_t n) {
   if (const std::size_t found = require_rows(array, columns, name); found != n)
     throw UserError(fmt::format("{} has {} rows, but must have {}", name, found, n));

@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -12,63 +13,81 @@
 namespace vitrel::python {
 namespace {
 
-/// N bodies in free flight, from arrays.
+/// Numbers in rows with any strides, such as those of one number for all rows.
+using Rows = py::array_t<double, py::array::forcecast>;
+
+template <int Dim>
+Vec<Dim> row_of(const py::detail::unchecked_reference<double, 2>& rows, std::size_t i) {
+  Vec<Dim> row;
+  for (int k = 0; k < Dim; ++k) row[k] = rows(static_cast<py::ssize_t>(i), k);
+  return row;
+}
+
+/// N bodies in free flight: views of arrays, which stay those of the caller.
 template <int Dim>
 class Bodies {
  public:
-  Bodies(Doubles semi_axes, Doubles position, Doubles orientation, Doubles velocity,
-         Doubles angular_velocity)
-      : semi_axes_(std::move(semi_axes)),
-        position_(std::move(position)),
-        orientation_(std::move(orientation)),
-        velocity_(std::move(velocity)),
-        angular_velocity_(std::move(angular_velocity)) {
-    const std::size_t n = require_rows(semi_axes_, Dim, "semi_axes");
-    require_rows(position_, Dim, "position", n);
-    require_rows(orientation_, Dim == 2 ? 0 : 4, Dim == 2 ? "angle" : "orientation", n);
-    require_rows(velocity_, Dim, "velocity", n);
-    require_rows(angular_velocity_, Dim == 2 ? 0 : 3, "angular_velocity", n);
-    for (std::size_t i = 0; i < n; ++i) require_valid(i);
+  Bodies(const Rows& semi_axes, const Rows& position, const Rows& orientation, const Rows& velocity,
+         const Rows& angular_velocity)
+      : arrays_{semi_axes, position, orientation, velocity, angular_velocity},
+        size_(require_rows(semi_axes, Dim, "semi_axes")),
+        semi_axes_(semi_axes.unchecked<2>()),
+        position_(position.unchecked<2>()),
+        velocity_(velocity.unchecked<2>()),
+        orientation_(orientation.unchecked < is_plane ? 1 : 2 > ()),
+        angular_velocity_(angular_velocity.unchecked < is_plane ? 1 : 2 > ()) {
+    require_rows(position, Dim, "position", size_);
+    require_rows(orientation, is_plane ? 0 : 4, is_plane ? "angle" : "orientation", size_);
+    require_rows(velocity, Dim, "velocity", size_);
+    require_rows(angular_velocity, is_plane ? 0 : 3, "angular_velocity", size_);
+    for (std::size_t i = 0; i < size_; ++i) at(i);
   }
 
-  std::size_t size() const { return static_cast<std::size_t>(semi_axes_.shape(0)); }
+  std::size_t size() const { return size_; }
 
+  /// UserError if a number is impossible.
   Flight<Solid<Dim>> at(std::size_t i) const {
-    const Vec<Dim> axes = row<Dim>(semi_axes_, i);
     const auto k = static_cast<py::ssize_t>(i);
-    if constexpr (Dim == 2) {
-      return {{axes[0], axes[1]},
-              {row<2>(position_, i), *orientation_.data(k)},
-              {row<2>(velocity_, i), *angular_velocity_.data(k)}};
+    const Vec<Dim> axes = row_of<Dim>(semi_axes_, i);
+    if constexpr (is_plane) {
+      const Flight<Ellipse> body{{axes[0], axes[1]},
+                                 {row_of<2>(position_, i), orientation_(k)},
+                                 {row_of<2>(velocity_, i), angular_velocity_(k)}};
+      require(i, axes[0] >= axes[1], "semi_axes must be in descending order");
+      require(i, std::isfinite(body.pose.angle), "angle must be finite");
+      require(i, std::isfinite(body.motion.angular_velocity), "angular_velocity must be finite");
+      require_finite(i, axes, body);
+      return body;
     } else {
-      const double* q = orientation_.data(k);
-      return {{axes},
-              {row<3>(position_, i), Quaternion(q[0], q[1], q[2], q[3]).normalized()},
-              {row<3>(velocity_, i), row<3>(angular_velocity_, i)}};
+      const Quaternion turn(orientation_(k, 0), orientation_(k, 1), orientation_(k, 2),
+                            orientation_(k, 3));
+      const Flight<Ellipsoid> body{{axes},
+                                   {row_of<3>(position_, i), turn.normalized()},
+                                   {row_of<3>(velocity_, i), row_of<3>(angular_velocity_, i)}};
+      require(i, body.pose.orientation.coeffs().allFinite(), "orientation must not be 0");
+      require(i, body.motion.angular_velocity.allFinite(), "angular_velocity must be finite");
+      require_finite(i, axes, body);
+      return body;
     }
   }
 
  private:
-  void require_valid(std::size_t i) const {
-    const Flight<Solid<Dim>> body = at(i);
-    const Vec<Dim> axes = row<Dim>(semi_axes_, i);
-    const auto require = [i](bool holds, const char* what) {
-      if (!holds) throw UserError(fmt::format("body {}: {}", i, what));
-    };
-    require(axes.allFinite() && axes.minCoeff() > 0, "semi_axes must be positive");
-    if constexpr (Dim == 2) {
-      require(axes[0] >= axes[1], "semi_axes must be in descending order");
-      require(std::isfinite(body.pose.angle), "angle must be finite");
-      require(std::isfinite(body.motion.angular_velocity), "angular_velocity must be finite");
-    } else {
-      require(body.pose.orientation.coeffs().allFinite(), "orientation must not be 0");
-      require(body.motion.angular_velocity.allFinite(), "angular_velocity must be finite");
-    }
-    require(body.pose.position.allFinite(), "position must be finite");
-    require(body.motion.velocity.allFinite(), "velocity must be finite");
+  static constexpr bool is_plane = Dim == 2;
+  using Turns = py::detail::unchecked_reference<double, is_plane ? 1 : 2>;
+
+  static void require(std::size_t i, bool holds, const char* what) {
+    if (!holds) throw UserError(fmt::format("body {}: {}", i, what));
+  }
+  static void require_finite(std::size_t i, const Vec<Dim>& axes, const Flight<Solid<Dim>>& body) {
+    require(i, axes.allFinite() && axes.minCoeff() > 0, "semi_axes must be positive");
+    require(i, body.pose.position.allFinite(), "position must be finite");
+    require(i, body.motion.velocity.allFinite(), "velocity must be finite");
   }
 
-  Doubles semi_axes_, position_, orientation_, velocity_, angular_velocity_;
+  std::array<Rows, 5> arrays_;  ///< keeps them alive
+  std::size_t size_;
+  py::detail::unchecked_reference<double, 2> semi_axes_, position_, velocity_;
+  Turns orientation_, angular_velocity_;
 };
 
 template <int Dim>
@@ -144,8 +163,8 @@ py::tuple contacts(const Bodies<Dim>& one, const Bodies<Dim>& two,
 template <int Dim>
 void bind(py::module_& module, const char* name) {
   py::class_<Bodies<Dim>>(module, name)
-      .def(py::init<Doubles, Doubles, Doubles, Doubles, Doubles>(), py::arg("semi_axes"),
-           py::arg("position"), py::arg("orientation"), py::arg("velocity"),
+      .def(py::init<const Rows&, const Rows&, const Rows&, const Rows&, const Rows&>(),
+           py::arg("semi_axes"), py::arg("position"), py::arg("orientation"), py::arg("velocity"),
            py::arg("angular_velocity"))
       .def("__len__", &Bodies<Dim>::size);
   module.def("overlap", &overlapping<Dim>, py::arg("one"), py::arg("two"), py::arg("box"));

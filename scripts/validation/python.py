@@ -44,7 +44,7 @@ def pairs_from_arrays(build, vitrel, numpy):
     rows = bodies(numpy)
     with tempfile.NamedTemporaryFile() as file:
         rows.tofile(file.name)
-        native = json.loads(output_of([build / "bench/vitrel-bench", "pair-arrays", file.name, "--horizon", HORIZON]))
+        native = json.loads(output_of([build / "bench/vitrel-bench", "pair-arrays", file.name, "--horizon", str(HORIZON)]))
 
     def both():
         return [vitrel.Bodies(part[:, :2], part[:, 2:4], angle=part[:, 4], velocity=part[:, 5:7], angular_velocity=part[:, 7])

@@ -242,6 +242,10 @@ PairContact<Dim> first_contact_of_images(const Pair<Dim>& pair,
 
 template <int Dim>
 PairContact<Dim> first_contact(const Pair<Dim>& pair) {
+  if (!pair.box) {
+    require_few_rotations(pair);
+    return {predict_as_the_engine(pair)};
+  }
   return first_contact_of_images<Dim>(pair, predict_as_the_engine<Dim>);
 }
 
