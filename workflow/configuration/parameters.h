@@ -153,7 +153,7 @@ struct StartFile {
 };
 /// A file and what the command line puts over it.
 struct ParameterSource {
-  std::filesystem::path file;  ///< empty: all defaults
+  std::filesystem::path file;               ///< empty: all defaults
   std::vector<std::string> overrides = {};  ///< each "key=value"
   std::optional<std::uint64_t> seed = {};
   /// The first stage is then this state. Stages of the file follow it if the first of them moves particles; if that
