@@ -1,6 +1,6 @@
 """Observables written in Python."""
 
-from typing import Callable, Mapping
+from typing import Callable, Dict, Mapping
 
 import numpy
 
@@ -20,7 +20,7 @@ class Observations:
 
     def __init__(self, functions: Mapping[str, Callable]):
         self._functions = dict(functions)
-        self._values = {name: {} for name in self._functions}
+        self._values: Dict[str, Dict[float, numpy.ndarray]] = {name: {} for name in self._functions}
 
     def observe(self, state: State) -> None:
         """Adds the values of a frame."""

@@ -120,10 +120,8 @@ def restitution(speed, impact_parameter=0.0, second_radius=None, file=None, **co
     **contact
         Keys of `[dynamics.contact]`: the material.
     """
-    given = [numpy.asarray(values, dtype=float) for values in (speed, impact_parameter)]
-    if second_radius is not None:
-        given.append(numpy.asarray(second_radius, dtype=float))
-    shape = numpy.broadcast_shapes((1,), *(values.shape for values in given))
-    given = [numpy.broadcast_to(values, shape) for values in given] + [None] * (3 - len(given))
+    given = [numpy.asarray(values, dtype=float) for values in (speed, impact_parameter, second_radius) if values is not None]
+    rows = numpy.broadcast_arrays(numpy.zeros(1), *given)[1:]
+    radii = rows[2] if second_radius is not None else None
     lines = [f"{key.replace('__', '.')}={toml(value)}" for key, value in contact.items()]
-    return Restitution(*_vitrel.restitution("" if file is None else os.fspath(file), lines, *given).T)
+    return Restitution(*_vitrel.restitution("" if file is None else os.fspath(file), lines, rows[0], rows[1], radii).T)

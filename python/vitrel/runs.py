@@ -116,8 +116,8 @@ class Run(Page):
         **settings
             Keys of `[analysis]`.
         """
-        summary, tables, provenance = _vitrel.analyze(self.path, overrides("analysis", settings))
-        summary, tables = json.loads(summary), tables_of(tables, self.dimension)
+        text, columns, provenance = _vitrel.analyze(self.path, overrides("analysis", settings))
+        summary, tables = json.loads(text), tables_of(columns, self.dimension)
         if observe:
             own = Observations(observe).results(self)
             summary.update(own.summary)
