@@ -13,7 +13,6 @@
 #include "app/commands/run.h"
 #include "app/commands/sweep.h"
 #include "app/terminal/completion.h"
-#include "app/terminal/manual_page.h"
 #include "app/terminal/program_command_line.h"
 #include "workflow/configuration/sections.h"
 #include "workflow/export/trajectory_export.h"
@@ -352,11 +351,6 @@ class CommandLine : public ProgramCommandLine {
         "For the running shell: source <(vitrel completion bash). For all, put that line into "
         "~/.bashrc, or into ~/.zshrc with zsh instead of bash, after compinit.");
     add_choice(sub, "shell", shell_, {"bash", "zsh"}, "SHELL", "bash or zsh")->required();
-  }
-
-  void add_manual() {
-    add_command(app_, "man", "Print the manual page: vitrel man | man -l -",
-                [this] { return print(manual_page(description())); });
   }
 
   PrepareOptions prepare_;

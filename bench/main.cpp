@@ -29,6 +29,7 @@ class CommandLine : public ProgramCommandLine {
     add_thesis();
     add_parts();
     add_others();
+    add_manual();
     add_help_and_version();
   }
 

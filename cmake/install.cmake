@@ -21,19 +21,34 @@ install(FILES ${PROJECT_BINARY_DIR}/vitrel-config.cmake
               ${PROJECT_BINARY_DIR}/vitrel-config-version.cmake
         DESTINATION ${package_folder} COMPONENT development)
 
-# The manual page and the completions for shells, which the program itself prints. Builds for certain processors are
+# The manual pages and the completions for shells, which the programs themselves print. Builds for certain processors are
 # installed beside a portable one, which every machine can run; programs for other machines cannot run here.
-if(NOT CMAKE_CROSSCOMPILING AND VITREL_PROCESSOR MATCHES "^(native)?$")
-  function(vitrel_install_text file destination)
+if(NOT CMAKE_CROSSCOMPILING AND NOT VITREL_BESIDE_PORTABLE)
+  # vitrel_install_text(<program> <component> <file> <destination> <words>…)
+  function(vitrel_install_text program component file destination)
     set(path ${PROJECT_BINARY_DIR}/texts/${file})
     list(JOIN ARGN "\" \"" arguments)
     install(CODE "
       file(MAKE_DIRECTORY \"${PROJECT_BINARY_DIR}/texts\")
-      execute_process(COMMAND \"$<TARGET_FILE:vitrel>\" \"${arguments}\" OUTPUT_FILE \"${path}\"
-                      COMMAND_ERROR_IS_FATAL ANY)" COMPONENT program)
-    install(FILES ${path} DESTINATION ${destination} COMPONENT program)
+      execute_process(COMMAND \"$<TARGET_FILE:${program}>\" \"${arguments}\" OUTPUT_FILE \"${path}\"
+                      COMMAND_ERROR_IS_FATAL ANY)" COMPONENT ${component})
+    install(FILES ${path} DESTINATION ${destination} COMPONENT ${component})
   endfunction()
-  vitrel_install_text(vitrel.1 ${CMAKE_INSTALL_MANDIR}/man1 man)
-  vitrel_install_text(vitrel ${CMAKE_INSTALL_DATADIR}/bash-completion/completions completion bash)
-  vitrel_install_text(_vitrel ${CMAKE_INSTALL_DATADIR}/zsh/site-functions completion zsh)
+  set(manual_folder ${CMAKE_INSTALL_MANDIR}/man1)
+  vitrel_install_text(vitrel program vitrel.1 ${manual_folder} man)
+  vitrel_install_text(vitrel program vitrel ${CMAKE_INSTALL_DATADIR}/bash-completion/completions completion bash)
+  # Debian keeps the folder of functions for those of the machine.
+  set(zsh_folder zsh/site-functions)
+  if(CMAKE_INSTALL_PREFIX STREQUAL "/usr")
+    set(zsh_folder zsh/vendor-completions)
+  endif()
+  vitrel_install_text(vitrel program _vitrel ${CMAKE_INSTALL_DATADIR}/${zsh_folder} completion zsh)
+  if(VITREL_BUILD_BENCH)
+    vitrel_install_text(vitrel-bench bench vitrel-bench.1 ${manual_folder} man)
+  endif()
+endif()
+
+# The parameter files, to run and to start from.
+if(NOT VITREL_BESIDE_PORTABLE)
+  install(DIRECTORY params/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT program)
 endif()

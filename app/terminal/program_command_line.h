@@ -14,6 +14,7 @@
 
 #include "app/terminal/exit_codes.h"
 #include "app/terminal/help.h"
+#include "app/terminal/manual_page.h"
 #include "app/terminal/program_description.h"
 #include "app/terminal/session.h"
 #include "app/terminal/validators.h"
@@ -63,6 +64,12 @@ class ProgramCommandLine {
     command.group(heading("Commands"));
     work_[&command] = work;
     return command;
+  }
+
+  void add_manual() {
+    const std::string name = app_.get_name();
+    add_command(app_, "man", fmt::format("Print the manual page: {0} man | man -l -", name),
+                [this] { return print(manual_page(description())); });
   }
 
   /// The commands of every program, when it has all others.

@@ -104,8 +104,10 @@ def measure(build):
     native = build / "app/vitrel"
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        subprocess.run([ROOT / "scripts/install_portable", folder / "prefix"], check=True)
-        installed = folder / "prefix/bin/vitrel"
+        subprocess.run([ROOT / "scripts/release", "--try"], check=True)
+        package, = (ROOT / "build/packages").glob("vitrel_*.deb")
+        subprocess.run(["dpkg-deb", "--extract", package, folder / "prefix"], check=True)
+        installed = folder / "prefix/usr/bin/vitrel"
         expect("x86-64-v3" in library(installed, {}), "the dynamic linker does not take the build for x86-64-v3")
         expect("x86-64-v3" not in library(installed, OLD_PROCESSOR), "an old processor gets the build for x86-64-v3")
         same = [differences(native, installed), differences(native, installed, "--masked")]
@@ -114,8 +116,8 @@ def measure(build):
         for scene in SCENES:
             found = speeds(programs, scene, folder / scene[0])
             rows.append([*scene[::2], *(f"{found[name] / found['native']:.2f}" for name in ("x86-64-v3", "x86-64"))])
-    return f"""`scripts/install_portable` builds vitrel for x86-64 and for x86-64-v3, and the dynamic linker takes the second one
-where the processor has AVX2. All scenes of `scripts/checksums` were run by the native build, by the installation, and by
+    return f"""The package `vitrel` has builds for x86-64 and for x86-64-v3, and the dynamic linker takes the second one where
+the processor has AVX2. All scenes of `scripts/checksums` were run by the native build, by the installation, and by
 the installation under the mask of an old processor, which gets the first one and the functions of the C library without
 fused multiply-add. Trajectories and checkpoints must have the same bits; tables must agree within {TABLES} of their
 largest number.

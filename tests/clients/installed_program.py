@@ -13,8 +13,8 @@ def output(*words):
 
 for file, words in {"man/man1/vitrel.1": ["man"],
                     "bash-completion/completions/vitrel": ["completion", "bash"],
-                    "zsh/site-functions/_vitrel": ["completion", "zsh"]}.items():
-    text = (prefix / "share" / file).read_text(encoding="utf-8")
+                    "zsh/*/_vitrel": ["completion", "zsh"]}.items():
+    text = next((prefix / "share").glob(file)).read_text(encoding="utf-8")
     assert text == output(program, *words), file
     assert "export" in text, file
 
