@@ -4,7 +4,7 @@ set(pages ${CPACK_VITREL_SOURCE}/cmake/packages)
 
 # The changelog of the packages refers to that of vitrel and has the date of its release.
 set(version ${CPACK_PACKAGE_VERSION})
-file(STRINGS ${CPACK_VITREL_SOURCE}/CHANGELOG.md heading REGEX "^## \\[${version}\\]")
+file(STRINGS ${CPACK_VITREL_SOURCE}/CHANGELOG.md heading ENCODING UTF-8 REGEX "^## \\[${version}\\]")
 if(NOT heading MATCHES "[0-9]+-[0-9]+-[0-9]+")
   message(FATAL_ERROR "CHANGELOG.md has no section \"## [${version}] – <date>\"")
 endif()
