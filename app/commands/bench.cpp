@@ -20,8 +20,8 @@ void become_bench(const std::vector<std::string>& words) {
     execv(program.c_str(), arguments.data());
   execvp(name.c_str(), arguments.data());
   throw UserError(
-      "cannot find vitrel-bench beside this program or on PATH; build it with "
-      "cmake -DVITREL_BUILD_BENCH=ON, target vitrel-bench");
+      "cannot find vitrel-bench beside this program or on PATH; install its package, or build it "
+      "with cmake -DVITREL_BUILD_BENCH=ON, target vitrel-bench");
 }
 
 int bench_command(char** words) {
