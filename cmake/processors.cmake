@@ -20,5 +20,6 @@ endfunction()
 # Lets what is installed in this folder find the private libraries, wherever the prefix is.
 function(vitrel_find_private_libraries target folder)
   file(RELATIVE_PATH path /${folder} /${VITREL_PRIVATE_FOLDER})
-  set_target_properties(${target} PROPERTIES INSTALL_RPATH "$ORIGIN/${path}")
+  # Relative in the build folder, too: files of a release do not depend on its name, nor on its length.
+  set_target_properties(${target} PROPERTIES INSTALL_RPATH "$ORIGIN/${path}" BUILD_RPATH_USE_ORIGIN ON)
 endfunction()
