@@ -1,0 +1,96 @@
+"""The manual: Sphinx reads the Markdown of the repository in place, so that its links are those of the web view.
+
+scripts/build_manual calls it. Pages are those of `include_patterns`. The lists of links in docs/index.md are the table of
+contents: each second-level heading there becomes a caption of the navigation.
+"""
+
+import pathlib
+import re
+import sys
+
+from docutils import nodes
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / "python"))
+
+project = "vitrel"
+author = "the authors of vitrel"
+version = release = re.search(r"project\(vitrel VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
+
+extensions = ["myst_parser", "numpydoc", "sphinx.ext.autodoc", "sphinx.ext.mathjax", "sphinx_copybutton"]
+root_doc = "docs/index"
+include_patterns = ["docs/**", "bench/*.md", "README.md", "*/README.md", "CONTRIBUTING.md"]
+exclude_patterns = ["build*", "out", ".*", "docs/data", "**/CMakeFiles"]
+
+myst_enable_extensions = ["dollarmath"]
+myst_heading_anchors = 4
+myst_update_mathjax = False
+# Fonts and input are those that scripts/build_manual copies beside the pages.
+mathjax_path = "mathjax/MathJax.js?config=TeX-AMS_SVG"
+mathjax2_config = {"messageStyle": "none", "showMathMenu": False, "SVG": {"blacker": 1}}
+
+# The reference needs the Python sources only, not the compiled module.
+autodoc_mock_imports = ["vitrel._vitrel", "h5py"]
+autodoc_member_order = "bysource"
+autodoc_typehints = "none"
+numpydoc_show_class_members = False
+
+html_theme = "furo"
+html_title = f"vitrel {release}"
+html_copy_source = False
+html_show_sphinx = False
+html_static_path = []
+html_css_files = []
+pygments_style = "tango"
+# Plain listings of output.
+highlight_language = "text"
+
+
+def toctrees(text):
+    """The table of contents of the start page, from its headings and the lists of links below them."""
+    trees = []
+    for heading, body in re.findall(r"^## (.+)\n((?:(?!## ).*\n)*)", text + "\n", re.MULTILINE):
+        pages = [page for page in re.findall(r"^- \[[^]]+\]\(([^)#]+)\.md\)", body, re.MULTILINE)]
+        if pages:
+            trees.append("\n".join(["```{toctree}", ":hidden:", f":caption: {heading}", "", *pages, "```"]))
+    return "\n\n".join(trees)
+
+
+def python_reference():
+    """The documentation of everything that the package exports."""
+    names = re.findall(r'"(\w+)"', re.search(r"__all__ = \[(.*?)\]", (ROOT / "python/vitrel/__init__.py").read_text(),
+                                            re.DOTALL)[1])
+    compiled = re.findall(r"\w+", re.search(r"from \._vitrel import (.+)", (ROOT / "python/vitrel/__init__.py").read_text())[1])
+    lines = []
+    for name in names:
+        if name not in compiled:
+            kind = "autoclass" if name[0].isupper() else "autofunction"
+            lines += [f"## {name}", "", "```{eval-rst}", f".. {kind}:: vitrel.{name}"]
+            lines += ["   :members:"] if kind == "autoclass" else []
+            lines += ["```", ""]
+    return "\n".join(lines)
+
+
+def complete_source(app, page, source):
+    if page == root_doc:
+        source[0] += "\n" + toctrees(source[0])
+    elif page == "docs/python":
+        source[0] += "\n" + python_reference()
+
+
+def link_to_folder(app, env, node, text):
+    """A link to a folder leads to its README, or is plain text."""
+    target = node.get("reftarget", "")
+    folder = (ROOT / node["refdoc"]).parent / target if "refdoc" in node else None
+    if node.get("reftype") != "myst" or folder is None or not folder.is_dir():
+        return None
+    page = folder.resolve().relative_to(ROOT).as_posix() + "/README"
+    if page not in env.found_docs:
+        return text
+    uri = app.builder.get_relative_uri(node["refdoc"], page)
+    return nodes.reference("", "", text, internal=True, refuri=uri)
+
+
+def setup(app):
+    app.connect("source-read", complete_source)
+    app.connect("missing-reference", link_to_folder)

@@ -1,0 +1,174 @@
+"""Runs the code blocks of a page of the manual, in their order, in a temporary folder: run_page.py PAGE. The programs are
+those of PATH, the Python package is that of PYTHONPATH.
+
+    sh        run by bash; the first command that fails ends the test
+    python    run in one interpreter for the whole page
+    toml, csv written to the file that a comment before the block names, or checked as what follows another file
+    cpp       must be part of a file that other tests compile, which a comment names
+    text      not run: output, and formulas
+
+`params` is a link to the parameter files. Comments on the line before a block, which no reader sees:
+
+    <!-- file: NAME -->                written to NAME
+    <!-- after: FILE -->               written to a file after the contents of FILE, which must be valid parameters then
+    <!-- part of: FILE -->             must be a part of FILE
+    <!-- in the test: A → B -->        runs with A replaced by B, such as a smaller number; A must be there
+    <!-- not run: REASON -->           run_page.py --not-run lists all of these
+"""
+
+import ast
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import textwrap
+import traceback
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+COMMENT = re.compile(r"<!-- (file|after|part of|in the test|not run): (.+) -->")
+FENCE = re.compile(r"^( *)```(.*)$")
+LANGUAGES = {"sh", "python", "toml", "csv", "cpp", "text", ""}
+
+
+class Wrong(Exception):
+    """A block does not do what the page says."""
+
+
+class Block:
+    """A fenced block: language, comments (kind, text), text, and the number of its first line."""
+
+    def __init__(self, language, comments, text, line):
+        self.language, self.comments, self.text, self.line = language, comments, text, line
+
+    def comment(self, kind):
+        return next((text for name, text in self.comments if name == kind), None)
+
+
+def blocks_of(page):
+    """All fenced blocks of a page."""
+    blocks, comments, inside = [], [], None
+    for number, line in enumerate(page.read_text(encoding="utf-8").splitlines(), 1):
+        fence = FENCE.match(line)
+        if inside is not None:
+            if fence and not fence[2].strip():
+                inside.text = textwrap.dedent(inside.text)
+                blocks.append(inside)
+                inside = None
+            else:
+                inside.text += line + "\n"
+        elif fence:
+            inside, comments = Block(fence[2].strip(), comments, "", number + 1), []
+        elif found := COMMENT.fullmatch(line.strip()):
+            comments.append(found.groups())
+        elif line.strip():
+            if comments:
+                raise Wrong(f"{page}:{number}: a comment to the test stands before no block")
+    if inside is not None:
+        raise Wrong(f"{page}:{inside.line}: the block has no end")
+    return blocks
+
+
+def in_test(block):
+    """The text of a block with the numbers of the test."""
+    text = block.text
+    for kind, change in block.comments:
+        if kind == "in the test":
+            old, new = change.split(" → ")
+            if old not in text:
+                raise Wrong(f"'{old}' is not there to be replaced")
+            text = text.replace(old, new)
+    return text
+
+
+def run_shell(block):
+    done = subprocess.run(["bash", "-euo", "pipefail", "-c", in_test(block)], stdin=subprocess.DEVNULL, check=False)
+    if done.returncode:
+        raise Wrong(f"exit code {done.returncode}")
+
+
+def run_python(block, page, namespace):
+    # As if the lines before were empty: tracebacks name the lines of the page.
+    tree = ast.parse("\n" * (block.line - 1) + in_test(block), filename=str(page))
+    # As an interactive interpreter, show the value of the last expression.
+    last = tree.body.pop() if isinstance(tree.body[-1], ast.Expr) else None
+    exec(compile(tree, str(page), "exec"), namespace)
+    if last is not None:
+        value = eval(compile(ast.Expression(last.value), str(page), "eval"), namespace)
+        if value is not None:
+            print(repr(value))
+
+
+def write_file(block):
+    if base := block.comment("after"):
+        file = pathlib.Path(f"block_{block.line}.toml")
+        file.write_text((ROOT / base).read_text(encoding="utf-8") + "\n" + in_test(block), encoding="utf-8")
+        done = subprocess.run(["vitrel", "run", file, "-o", file.with_suffix(".h5"), "--dry-run"], check=False)
+        if done.returncode:
+            raise Wrong(f"not valid after {base}: exit code {done.returncode}")
+        return
+    name = block.comment("file")
+    if name is None:
+        raise Wrong("which file is this? <!-- file: NAME -->")
+    path = pathlib.Path(name)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(in_test(block), encoding="utf-8")
+
+
+def require_part(block):
+    name = block.comment("part of")
+    if name is None:
+        raise Wrong("which file is this a part of? <!-- part of: FILE -->")
+    if "\n" + block.text not in "\n" + textwrap.dedent((ROOT / name).read_text(encoding="utf-8")):
+        raise Wrong(f"the block is no part of {name}")
+
+
+def run_block(block, page, namespace):
+    if block.comment("not run") or block.language == "text":
+        return
+    if block.language not in LANGUAGES:
+        raise Wrong(f"unknown language '{block.language}'")
+    if block.language == "":
+        raise Wrong("the block has no language; that of output is text")
+    print(f"-- line {block.line}, {block.language}", flush=True)
+    if block.language == "cpp" or block.comment("part of"):
+        require_part(block)
+    elif block.language == "sh":
+        run_shell(block)
+    elif block.language == "python":
+        run_python(block, page, namespace)
+    else:
+        write_file(block)
+
+
+def run_page(page):
+    blocks = blocks_of(page)
+    namespace = {"__name__": "__main__"}
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        pathlib.Path("params").symlink_to(ROOT / "params")
+        for block in blocks:
+            try:
+                run_block(block, page, namespace)
+            except Exception as error:
+                if not isinstance(error, Wrong):
+                    traceback.print_exc()
+                sys.exit(f"{page}:{block.line}: {error}")
+        os.chdir("/")
+
+
+def list_not_run():
+    for page in sorted((ROOT / "docs").rglob("*.md")):
+        for block in blocks_of(page):
+            if reason := block.comment("not run"):
+                print(f"{page.relative_to(ROOT)}:{block.line}: {block.language}: {reason}")
+
+
+if __name__ == "__main__":
+    if sys.argv[1:] == ["--not-run"]:
+        list_not_run()
+    elif len(sys.argv) == 2:
+        run_page(pathlib.Path(sys.argv[1]).resolve())
+    else:
+        sys.exit(__doc__)
