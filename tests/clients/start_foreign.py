@@ -42,7 +42,7 @@ def read_examples_of_the_page():
     assert len(code.strip().splitlines()) <= 10, "docs/imports.md promises a short example"
     exec(compile(code, str(PAGE), "exec"), {})
     check_start("mine.h5", 2, 2, 2 * np.pi * 0.5 / 36)
-    (table,) = [block for block in blocks("") if block.startswith("x,y")]
+    (table,) = blocks("csv")
     pathlib.Path("mine.csv").write_text(table, encoding="utf-8")
     check_start("mine.csv", 2, 2, 2 * np.pi * 0.5 / 36)
 

@@ -12,7 +12,9 @@ those of PATH, the Python package is that of PYTHONPATH.
     <!-- file: NAME -->                written to NAME
     <!-- after: FILE -->               written to a file after the contents of FILE, which must be valid parameters then
     <!-- part of: FILE -->             must be a part of FILE
+    <!-- first: COMMAND -->            runs COMMAND before the block, to make files that the reader has already
     <!-- in the test: A → B -->        runs with A replaced by B, such as a smaller number; A must be there
+    <!-- needs: PROGRAM -->            not run where this program is not built
     <!-- not run: REASON -->           run_page.py --not-run lists all of these
 """
 
@@ -20,14 +22,16 @@ import ast
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
 import textwrap
+import time
 import traceback
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-COMMENT = re.compile(r"<!-- (file|after|part of|in the test|not run): (.+) -->")
+COMMENT = re.compile(r"<!-- (file|after|part of|first|in the test|needs|not run): (.+) -->")
 FENCE = re.compile(r"^( *)```(.*)$")
 LANGUAGES = {"sh", "python", "toml", "csv", "cpp", "text", ""}
 
@@ -82,8 +86,8 @@ def in_test(block):
     return text
 
 
-def run_shell(block):
-    done = subprocess.run(["bash", "-euo", "pipefail", "-c", in_test(block)], stdin=subprocess.DEVNULL, check=False)
+def run_shell(commands):
+    done = subprocess.run(["bash", "-euo", "pipefail", "-c", commands], stdin=subprocess.DEVNULL, check=False)
     if done.returncode:
         raise Wrong(f"exit code {done.returncode}")
 
@@ -118,24 +122,33 @@ def write_file(block):
 
 def require_part(block):
     name = block.comment("part of")
-    if name is None:
-        raise Wrong("which file is this a part of? <!-- part of: FILE -->")
-    if "\n" + block.text not in "\n" + textwrap.dedent((ROOT / name).read_text(encoding="utf-8")):
+    wanted = [line.strip() for line in block.text.splitlines()]
+    lines = [line.strip() for line in (ROOT / name).read_text(encoding="utf-8").splitlines()]
+    if not any(lines[k:k + len(wanted)] == wanted for k in range(len(lines))):
         raise Wrong(f"the block is no part of {name}")
 
 
 def run_block(block, page, namespace):
+    if block.comment("part of"):
+        require_part(block)
     if block.comment("not run") or block.language == "text":
+        return
+    if (program := block.comment("needs")) and not shutil.which(program):
+        print(f"-- line {block.line}: not run, there is no {program}", flush=True)
         return
     if block.language not in LANGUAGES:
         raise Wrong(f"unknown language '{block.language}'")
     if block.language == "":
         raise Wrong("the block has no language; that of output is text")
     print(f"-- line {block.line}, {block.language}", flush=True)
-    if block.language == "cpp" or block.comment("part of"):
-        require_part(block)
+    for kind, command in block.comments:
+        if kind == "first":
+            run_shell(command)
+    if block.language == "cpp":
+        if not block.comment("part of"):
+            raise Wrong("which file is this a part of? <!-- part of: FILE -->")
     elif block.language == "sh":
-        run_shell(block)
+        run_shell(in_test(block))
     elif block.language == "python":
         run_python(block, page, namespace)
     else:
@@ -149,12 +162,14 @@ def run_page(page):
         os.chdir(folder)
         pathlib.Path("params").symlink_to(ROOT / "params")
         for block in blocks:
+            begin = time.monotonic()
             try:
                 run_block(block, page, namespace)
             except Exception as error:
                 if not isinstance(error, Wrong):
                     traceback.print_exc()
                 sys.exit(f"{page}:{block.line}: {error}")
+            print(f"-- {time.monotonic() - begin:.1f} s", flush=True)
         os.chdir("/")
 
 
