@@ -9,6 +9,7 @@ import re
 import sys
 
 from docutils import nodes
+from pygments.lexers.special import TextLexer
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "python"))
@@ -50,7 +51,7 @@ def toctrees(text):
     """The table of contents of the start page, from its headings and the lists of links below them."""
     trees = []
     for heading, body in re.findall(r"^## (.+)\n((?:(?!## ).*\n)*)", text + "\n", re.MULTILINE):
-        pages = [page for page in re.findall(r"^- \[[^]]+\]\(([^)#]+)\.md\)", body, re.MULTILINE)]
+        pages = [page for page in re.findall(r"^- \[[^]]+\]\(([^)#]+)\.md(?:#[^)]*)?\)", body, re.MULTILINE)]
         if pages:
             trees.append("\n".join(["```{toctree}", ":hidden:", f":caption: {heading}", "", *pages, "```"]))
     return "\n\n".join(trees)
@@ -82,7 +83,7 @@ def link_to_folder(app, env, node, text):
     """A link to a folder leads to its README, or is plain text."""
     target = node.get("reftarget", "")
     folder = (ROOT / node["refdoc"]).parent / target if "refdoc" in node else None
-    if node.get("reftype") != "myst" or folder is None or not folder.is_dir():
+    if folder is None or not target or not folder.is_dir():
         return None
     page = folder.resolve().relative_to(ROOT).as_posix() + "/README"
     if page not in env.found_docs:
@@ -92,5 +93,6 @@ def link_to_folder(app, env, node, text):
 
 
 def setup(app):
+    app.add_lexer("csv", TextLexer)
     app.connect("source-read", complete_source)
     app.connect("missing-reference", link_to_folder)
