@@ -40,8 +40,8 @@ html_theme = "furo"
 html_title = f"vitrel {release}"
 html_copy_source = False
 html_show_sphinx = False
-html_static_path = []
-html_css_files = []
+html_static_path = ["manual.css"]
+html_css_files = ["manual.css"]
 pygments_style = "tango"
 # Plain listings of output.
 highlight_language = "text"
@@ -51,9 +51,10 @@ def toctrees(text):
     """The table of contents of the start page, from its headings and the lists of links below them."""
     trees = []
     for heading, body in re.findall(r"^## (.+)\n((?:(?!## ).*\n)*)", text + "\n", re.MULTILINE):
-        pages = [page for page in re.findall(r"^- \[[^]]+\]\(([^)#]+)\.md(?:#[^)]*)?\)", body, re.MULTILINE)]
+        pages = re.findall(r"^- \[([^]]+)\]\(([^)#]+)\.md(?:#[^)]*)?\)", body, re.MULTILINE)
         if pages:
-            trees.append("\n".join(["```{toctree}", ":hidden:", f":caption: {heading}", "", *pages, "```"]))
+            entries = [f"{title} <{page}>" for title, page in pages]
+            trees.append("\n".join(["```{toctree}", ":hidden:", f":caption: {heading}", "", *entries, "```"]))
     return "\n\n".join(trees)
 
 
@@ -79,6 +80,12 @@ def complete_source(app, page, source):
         source[0] += "\n" + python_reference()
 
 
+def without_aliases(app, what, name, member, options, lines):
+    """Fields of named tuples that have no text of their own."""
+    if lines and lines[0].startswith("Alias for field number"):
+        lines.clear()
+
+
 def link_to_folder(app, env, node, text):
     """A link to a folder leads to its README, or is plain text."""
     target = node.get("reftarget", "")
@@ -96,3 +103,4 @@ def setup(app):
     app.add_lexer("csv", TextLexer)
     app.connect("source-read", complete_source)
     app.connect("missing-reference", link_to_folder)
+    app.connect("autodoc-process-docstring", without_aliases)
