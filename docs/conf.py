@@ -4,6 +4,7 @@ scripts/build_manual calls it. Pages are those of `include_patterns`. The lists 
 contents: each second-level heading there becomes a caption of the navigation.
 """
 
+import os
 import pathlib
 import re
 import sys
@@ -12,6 +13,8 @@ from docutils import nodes
 from pygments.lexers.special import TextLexer
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
+# What `cmake --build --preset release --target docs` writes.
+DOXYGEN = "build/release/docs/html/index.html"
 sys.path.insert(0, str(ROOT / "python"))
 
 project = "vitrel"
@@ -76,6 +79,9 @@ def python_reference():
 def complete_source(app, page, source):
     if page == root_doc:
         source[0] += "\n" + toctrees(source[0])
+    elif page == "docs/cpp" and (ROOT / DOXYGEN).exists():
+        reference = os.path.relpath(ROOT / DOXYGEN, pathlib.Path(app.outdir, "docs"))
+        source[0] += f'\nThe reference that was built: <a href="{reference}">core, mc, edmd, analysis, workflow</a>.\n'
     elif page == "docs/python":
         source[0] += "\n" + python_reference()
 

@@ -173,16 +173,45 @@ def run_page(page):
         os.chdir("/")
 
 
+def pages():
+    """All pages of the manual that show commands."""
+    return [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md")),
+            *sorted((ROOT / "bench").glob("*.md"))]
+
+
+def indented_commands(page):
+    """Lines of indented blocks with commands: measurements."""
+    inside = False
+    for number, line in enumerate(page.read_text(encoding="utf-8").splitlines(), 1):
+        inside ^= bool(FENCE.match(line))
+        if not inside and re.match(r" {4}(scripts|build)/|    vitrel", line):
+            yield number, line.strip()
+
+
 def list_not_run():
-    for page in sorted((ROOT / "docs").rglob("*.md")):
+    for page in pages():
+        name = page.relative_to(ROOT)
         for block in blocks_of(page):
             if reason := block.comment("not run"):
-                print(f"{page.relative_to(ROOT)}:{block.line}: {block.language}: {reason}")
+                print(f"{name}:{block.line}: {reason}")
+        for number, command in indented_commands(page):
+            print(f"{name}:{number}: a long measurement: {command}")
+
+
+def check_scripts():
+    """Scripts and validations that a page names are there, whether or not their commands run."""
+    for page in pages():
+        for word, name in re.findall(r"(?<![\w/])scripts/(validate )?(\w+)(?![\w.])", page.read_text(encoding="utf-8")):
+            file = ROOT / "scripts" / (f"validation/{name}.py" if word else name)
+            if not file.exists() and name not in ("validate", "validation"):
+                sys.exit(f"{page}: there is no {file.relative_to(ROOT)}")
 
 
 if __name__ == "__main__":
     if sys.argv[1:] == ["--not-run"]:
         list_not_run()
+    elif sys.argv[1:] == ["--scripts"]:
+        check_scripts()
     elif len(sys.argv) == 2:
         run_page(pathlib.Path(sys.argv[1]).resolve())
     else:
