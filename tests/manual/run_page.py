@@ -199,12 +199,16 @@ def list_not_run():
 
 
 def check_scripts():
-    """Scripts and validations that a page names are there, whether or not their commands run."""
+    """Scripts and validations that a page names are there, whether or not their commands run; every figure has a script."""
     for page in pages():
         for word, name in re.findall(r"(?<![\w/])scripts/(validate )?(\w+)(?![\w.])", page.read_text(encoding="utf-8")):
             file = ROOT / "scripts" / (f"validation/{name}.py" if word else name)
             if not file.exists() and name not in ("validate", "validation"):
                 sys.exit(f"{page}: there is no {file.relative_to(ROOT)}")
+    drawn = (ROOT / "scripts/manual_figures").read_text(encoding="utf-8")
+    for figure in (ROOT / "docs/figures/manual").iterdir():
+        if f'"{figure.stem}": ' not in drawn:
+            sys.exit(f"{figure}: scripts/manual_figures does not draw it")
 
 
 if __name__ == "__main__":
