@@ -4,6 +4,7 @@ scripts/build_manual calls it. Pages are those of `include_patterns`. The lists 
 contents: each second-level heading there becomes a caption of the navigation.
 """
 
+import ast
 import os
 import pathlib
 import re
@@ -43,6 +44,7 @@ html_theme = "furo"
 html_title = f"vitrel {release}"
 html_copy_source = False
 html_show_sphinx = False
+html_show_copyright = False
 html_static_path = ["manual.css"]
 html_css_files = ["manual.css"]
 pygments_style = "tango"
@@ -63,9 +65,11 @@ def toctrees(text):
 
 def python_reference():
     """The documentation of everything that the package exports."""
-    names = re.findall(r'"(\w+)"', re.search(r"__all__ = \[(.*?)\]", (ROOT / "python/vitrel/__init__.py").read_text(),
-                                            re.DOTALL)[1])
-    compiled = re.findall(r"\w+", re.search(r"from \._vitrel import (.+)", (ROOT / "python/vitrel/__init__.py").read_text())[1])
+    tree = ast.parse((ROOT / "python/vitrel/__init__.py").read_text())
+    names = next(ast.literal_eval(item.value) for item in tree.body
+                 if isinstance(item, ast.Assign) and item.targets[0].id == "__all__")
+    compiled = {alias.name for item in tree.body if isinstance(item, ast.ImportFrom) and item.module == "_vitrel"
+                for alias in item.names}
     lines = []
     for name in names:
         if name not in compiled:
