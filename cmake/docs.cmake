@@ -24,8 +24,10 @@ set(DOXYGEN_HTML_EXTRA_STYLESHEET ${PROJECT_SOURCE_DIR}/docs/reference.css)
 set(DOXYGEN_USE_MDFILE_AS_MAINPAGE ${PROJECT_SOURCE_DIR}/README.md)
 set(DOXYGEN_EXCLUDE_PATTERNS */bench/*.h)
 # Formulas in TeX, shown without a network.
-set(DOXYGEN_FILTER_PATTERNS */how-it-works/*.md=${PROJECT_SOURCE_DIR}/cmake/doxygen_formulas)
+set(DOXYGEN_FILTER_PATTERNS */how-it-works/*.md=${PROJECT_SOURCE_DIR}/cmake/doxygen_page
+    */tutorials/*.md=${PROJECT_SOURCE_DIR}/cmake/doxygen_page)
 set(DOXYGEN_USE_MATHJAX YES)
+set(DOXYGEN_MATHJAX_EXTENSIONS TeX/AMSmath TeX/AMSsymbols)
 set(DOXYGEN_MATHJAX_RELPATH /usr/share/javascript/mathjax)
 doxygen_add_docs(docs README.md CONTRIBUTING.md core mc edmd analysis workflow app/README.md bench params scripts tests/README.md docs
                  WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
