@@ -92,7 +92,7 @@ def complete_source(app, page, source):
 
 def without_aliases(app, what, name, member, options, lines):
     """Fields of named tuples that have no text of their own."""
-    if lines and lines[0].startswith("Alias for field number"):
+    if any(line.startswith("Alias for field number") for line in lines):
         lines.clear()
 
 

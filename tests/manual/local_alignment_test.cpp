@@ -29,8 +29,8 @@ std::vector<Table> measured(const Configuration2& frame) {
   return observable->tables(true);
 }
 
-// Every other column is turned by 60 degrees: of its four neighbours, a particle is parallel to the two in its column, and
-// at 60 degrees to the two beside it, cos 120° = −1/2.
+// Every other column is turned by 60 degrees: of its four neighbours, a particle is parallel to the two
+// in its column, and at 60 degrees to the two beside it, cos 120° = −1/2.
 TEST(LocalAlignment, OfAlternatingColumns) {
   const std::vector<Table> tables = measured(alternating_columns());
   EXPECT_NEAR(tables.front().find("alignment")->value.front(), (2 - 2 * 0.5) / 4, 1e-12);

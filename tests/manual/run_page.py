@@ -199,7 +199,7 @@ def list_not_run():
 
 
 def check_scripts():
-    """Scripts and validations that a page names are there, whether or not their commands run; every figure has a script."""
+    """All scripts and validations that pages name are there, whether or not they run, and every figure has one."""
     for page in pages():
         for word, name in re.findall(r"(?<![\w/])scripts/(validate )?(\w+)(?![\w.])", page.read_text(encoding="utf-8")):
             file = ROOT / "scripts" / (f"validation/{name}.py" if word else name)

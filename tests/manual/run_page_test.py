@@ -56,7 +56,8 @@ WRONG = {
     "a command fails": "```sh\nfalse\ntrue\n```\n",
     "a file is missing": "```sh\nvitrel check missing.h5\n```\n",
     "an unknown option": "```sh\nvitrel check --frobnicate x.h5\n```\n",
-    "a key is misspelt": "<!-- file: a.toml -->\n```toml\n[system]\nparticels = 1\n```\n```sh\nvitrel run a.toml -o a.h5 --dry-run\n```\n",
+    "a key is misspelt": "<!-- file: a.toml -->\n```toml\n[system]\nparticels = 1\n```\n"
+                         "```sh\nvitrel run a.toml -o a.h5 --dry-run\n```\n",
     "Python raises": "```python\nimport vitrel\nvitrel.no_such_name\n```\n",
     "no language": "```\nvitrel version\n```\n",
     "unknown language": "```shell\ntrue\n```\n",
