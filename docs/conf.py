@@ -81,6 +81,8 @@ def python_reference():
 
 
 def complete_source(app, page, source):
+    if page.endswith("/README") and f"(../{page}.md" not in (ROOT / "docs/index.md").read_text(encoding="utf-8"):
+        source[0] = "---\norphan: true\n---\n\n" + source[0]
     if page == root_doc:
         source[0] += "\n" + toctrees(source[0])
     elif page == "docs/cpp" and (ROOT / DOXYGEN).exists():
