@@ -46,7 +46,7 @@ def parameters(kappa, sizes, fraction, method):
 
 def packing_fraction_of_failure(words):
     """The packing fraction at which a preparation reports that it is stuck."""
-    found = re.search(r"packing fraction of ([0-9.]+)", words)
+    found = re.search(r"(?:packing fraction of|it is) ([0-9.]+[0-9])", words)
     return found and float(found[1])
 
 
