@@ -12,6 +12,8 @@ from .settings import toml
 class Bodies:
     """N ellipses or ellipsoids in free flight.
 
+    Every array may be that of a single body, without the first dimension: all N are then alike.
+
     Parameters
     ----------
     semi_axes : array_like, shape (N, 2) or (N, 3)
@@ -24,8 +26,6 @@ class Bodies:
     velocity : array_like, shape (N, 2) or (N, 3), optional
     angular_velocity : array_like, shape (N,) or (N, 3), optional
         In the axes of space.
-
-    Every array may be that of a single body, without the first dimension: all N are then alike.
     """
 
     def __init__(self, semi_axes, position, *, angle=0.0, orientation=(1.0, 0.0, 0.0, 0.0), velocity=None,
