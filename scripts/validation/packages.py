@@ -1,6 +1,6 @@
 """The packages in a bare Debian: from `apt install` to the picture of the demo, Python, and a client of the libraries.
 
-Needs root, but mounts nothing that outlives a command: every command in the new system has its own view of the mounts.
+Needs root, but no mount and no process outlives a command: every command for the new system has namespaces of its own.
 """
 
 import contextlib
@@ -18,6 +18,7 @@ TITLE = "The packages in a bare Debian"
 PACKAGES = ROOT / "build/packages"
 LIMIT = 120  # seconds from `apt install` to the page
 SUITE = "bookworm"
+APART = ["unshare", "--mount", "--pid", "--fork", "--kill-child", "--mount-proc"]
 
 STATE = """
 import vitrel
@@ -44,7 +45,7 @@ def install_bare_system(root):
     sources = archives()
     expect(SUITE in sources, f"apt has no archive of {SUITE}; run apt-get update")
     mirror = sources[SUITE].split()[1]
-    output_of(["unshare", "--mount", "debootstrap", "--variant=minbase", SUITE, root, mirror])
+    output_of([*APART, "debootstrap", "--variant=minbase", SUITE, root, mirror])
     (root / "etc/apt/sources.list").write_text("\n".join(sources.values()) + "\n", encoding="utf-8")
     settings = [line for line in lines_of(["apt-config", "dump"]) if line.startswith("Acquire::")]
     (root / "etc/apt/apt.conf.d/99host").write_text("\n".join(settings) + "\n", encoding="utf-8")
@@ -72,8 +73,8 @@ def inside(root, command, **variables):
     """The standard output of a shell command in the system."""
     environment = {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "HOME": "/root", "LC_ALL": "C.UTF-8",
                    "DEBIAN_FRONTEND": "noninteractive", **variables}
-    return output_of(["unshare", "--mount", "--pid", "--fork", f"--root={root}", "--wd=/root", "--mount-proc",
-                      "sh", "-euc", command], env=environment, stdin=subprocess.DEVNULL)
+    return output_of([*APART, f"--root={root}", "--wd=/root", "sh", "-euc", command], env=environment,
+                     stdin=subprocess.DEVNULL)
 
 
 def install(root, *names):
