@@ -20,6 +20,8 @@ if(VITREL_BUILD_BENCH)
   find_package(NLopt 2.7 REQUIRED)
 endif()
 if(VITREL_BUILD_PYTHON)
+  # Debian's interpreter finds the packages that the tests need; another one in the path may not.
+  find_program(Python3_EXECUTABLE python3 PATHS /usr/bin NO_DEFAULT_PATH)
   find_package(Python3 3.11 REQUIRED COMPONENTS Interpreter Development.Module)
   find_package(pybind11 2.10 REQUIRED)
 endif()
