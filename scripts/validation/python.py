@@ -5,6 +5,7 @@ import pathlib
 import statistics
 import sys
 import tempfile
+import textwrap
 import time
 
 from validation.common import expect, output_of, table
@@ -92,11 +93,13 @@ def measure(build):
     expect(share < MAX_CALLBACK, f"a callback takes {100 * share:.1f} % of the run")
     lines = [(name, f"{1e9 * native / PAIRS:.0f}", f"{1e9 * python / PAIRS:.0f}", f"{native / python:.2f}", found)
              for name, native, python, found in rows]
-    return (
+    pairs = (
         f"{PAIRS:,} pairs of ellipses (κ = 2) with random places, directions and motion: one loop of one processor in C++, and "
-        f"the function of the package, from NumPy arrays to NumPy arrays. Both find the same numbers of overlaps and "
-        f"contacts. At least {MIN_RATE} of the rate of C++ is required. The best of {REPEATS} repetitions.\n\n"
-        + table(["", "C++ (ns a pair)", "Python (ns a pair)", "rate of Python over C++", "found"], lines)
-        + f"\n\nA run of {PARTICLES} ellipses (κ = 2, φ = 0.6) that writes a frame every {COLLISIONS_PER_FRAME} collisions, with "
-        f"and without a function that is called with every frame: {100 * share:+.1f} % (median of {ROUNDS} pairs of runs of "
+        f"the function of the package, from NumPy arrays to NumPy arrays. Both find the same numbers of overlaps and contacts. "
+        f"At least {MIN_RATE} of the rate of C++ is required. The best of {REPEATS} repetitions.")
+    callback = (
+        f"A run of {PARTICLES} ellipses (κ = 2, φ = 0.6) that writes a frame every {COLLISIONS_PER_FRAME} collisions, with and "
+        f"without a function that is called with every frame: {100 * share:+.1f} % (median of {ROUNDS} pairs of runs of "
         f"{seconds:.1f} s), of which the copy of the frame is a part; below {100 * MAX_CALLBACK:.0f} % is required.")
+    head = ["", "C++ (ns a pair)", "Python (ns a pair)", "rate of Python over C++", "found"]
+    return "\n\n".join([textwrap.fill(pairs, 120), table(head, lines), textwrap.fill(callback, 120)])
