@@ -29,6 +29,6 @@ set(DOXYGEN_FILTER_PATTERNS */how-it-works/*.md=${PROJECT_SOURCE_DIR}/cmake/doxy
 set(DOXYGEN_USE_MATHJAX YES)
 set(DOXYGEN_MATHJAX_EXTENSIONS TeX/AMSmath TeX/AMSsymbols)
 set(DOXYGEN_MATHJAX_RELPATH /usr/share/javascript/mathjax)
-doxygen_add_docs(docs README.md CONTRIBUTING.md core mc edmd analysis workflow app/README.md bench params scripts tests/README.md docs
+doxygen_add_docs(docs README.md CONTRIBUTING.md core mc edmd analysis workflow app/README.md python/README.md bench params scripts tests/README.md docs
                  WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
                  COMMENT "Writing the reference to ${DOXYGEN_OUTPUT_DIRECTORY}/html")
