@@ -79,7 +79,7 @@ class Run(Page):
         return f"<Run {self.path}: {len(self)} frames>"
 
     def __getattr__(self, name: str):
-        if name.startswith("_"):
+        if name.startswith("_") or hasattr(type(self), name):  # no column, but what failed in a property
             raise AttributeError(name)
         try:
             return self.results.find(name)
