@@ -76,7 +76,8 @@ if(VITREL_BUILD_PYTHON)
       "python3 (>= ${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}), \
 python3 (<< ${Python3_VERSION_MAJOR}.${next_minor}), python3-numpy")
 endif()
-set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS python3-matplotlib)
+# The program works on the jobs of a sweep.
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "vitrel, python3-matplotlib")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS python3-pandas)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
     ${PROJECT_SOURCE_DIR}/cmake/packages/python/postinst ${PROJECT_SOURCE_DIR}/cmake/packages/python/prerm)
