@@ -5,12 +5,11 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
-#include <limits>
 #include <type_traits>
 #include <vector>
 
 #include "bench/programs/programs.h"
+#include "bench/surveys/best_seconds.h"
 #include "bench/surveys/recorded_class.h"
 #include "core/contact/first_contact.h"
 #include "core/error.h"
@@ -65,13 +64,7 @@ template <class B>
 void measure(const FirstContactOptions& options, const std::vector<CollisionCase>& cases) {
   const auto questions = questions_about<B>(cases);
   std::vector<Prediction2> answers(questions.size());
-  double best = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < options.repeats; ++k) {
-    const auto start = std::chrono::steady_clock::now();
-    answer_all(questions, answers);
-    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
-    best = std::min(best, spent.count());
-  }
+  const double best = best_seconds(options.repeats, [&] { answer_all(questions, answers); });
   double steps = 0, contacts = 0;
   for (const Prediction2& answer : answers) {
     steps += answer.steps;

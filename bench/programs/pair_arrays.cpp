@@ -5,13 +5,15 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
+#include <algorithm>
 #include <fstream>
-#include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "bench/programs/programs.h"
+#include "bench/surveys/best_seconds.h"
 #include "core/contact/first_contact.h"
 #include "core/error.h"
 #include "core/io/json.h"
@@ -42,18 +44,6 @@ std::vector<Body> read_bodies(const std::string& path) {
   return bodies;
 }
 
-template <class Work>
-double best_seconds(Work&& work) {
-  double best = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < repeats; ++k) {
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
-    best = std::min(best, spent.count());
-  }
-  return best;
-}
-
 }  // namespace
 
 int pair_arrays(const PairArraysOptions& options) {
@@ -62,11 +52,11 @@ int pair_arrays(const PairArraysOptions& options) {
   for (std::size_t k = 0; k < bodies.size(); k += 2)
     pairs.push_back({bodies[k].flight(), bodies[k + 1].flight(), std::nullopt, options.horizon});
   std::vector<char> overlapping(pairs.size());
-  const double overlap_seconds = best_seconds([&] {
+  const double overlap_seconds = best_seconds(repeats, [&] {
     for (std::size_t k = 0; k < pairs.size(); ++k) overlapping[k] = overlaps(pairs[k]);
   });
   std::vector<Prediction2> contacts(pairs.size());
-  const double contact_seconds = best_seconds([&] {
+  const double contact_seconds = best_seconds(repeats, [&] {
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       const Pair<2>& pair = pairs[k];
       const double reach = pair.one.body.circumradius() + pair.two.body.circumradius();

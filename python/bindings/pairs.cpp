@@ -2,9 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <variant>
 
-#include "core/parallel.h"
 #include "python/bindings/arrays.h"
 #include "python/bindings/bindings.h"
 #include "workflow/pair/impact.h"

@@ -5,6 +5,7 @@
 #include "analysis/statistics/blocking.h"
 #include "analysis/trajectory.h"
 #include "core/io/json.h"
+#include "core/io/text_file.h"
 #include "python/bindings/arrays.h"
 #include "python/bindings/bindings.h"
 #include "workflow/analyze/analyze.h"
@@ -77,6 +78,12 @@ std::string page(const std::filesystem::path& input) {
   return page_of(input, {}).html;
 }
 
+void write_page(const std::filesystem::path& input, const std::filesystem::path& output) {
+  require_place_of_page(output);
+  const py::gil_scoped_release release;
+  write_text(output, page_of(input, {}).html);
+}
+
 /// Mean and standard error of a series; without an error if it is not evenly spaced in time.
 py::tuple average(const Doubles& time, const Doubles& value) {
   const std::size_t n = require_rows(time, 0, "time");
@@ -93,6 +100,7 @@ void bind_results(py::module_& module) {
   module.def("analyze", &analyze_file, py::arg("file"), py::arg("overrides"));
   module.def("analyze_sweep", &analyze_sweep, py::arg("folder"), py::arg("overrides"));
   module.def("page", &page, py::arg("input"));
+  module.def("write_page", &write_page, py::arg("input"), py::arg("output"));
   module.def("average", &average, py::arg("time"), py::arg("value"));
   module.def(
       "charts", [](int dimension) { return charts_data(observables(dimension)).dump(); },

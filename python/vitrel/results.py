@@ -4,7 +4,7 @@ import functools
 import json
 import re
 from collections.abc import Mapping
-from typing import Iterator, List, Optional
+from typing import Dict, Iterable, Iterator, List, Optional, TypeVar
 
 import numpy
 
@@ -55,7 +55,26 @@ class Column:
         return self.table.plot(self.name, axes=axes, **style)
 
 
-class Table(Mapping):
+_Item = TypeVar("_Item", Column, "Table")
+
+
+class _ByName(Mapping[str, _Item]):
+    """What is found by its attribute `name`, in the order given."""
+
+    def __init__(self, items: Iterable[_Item]):
+        self._items: Dict[str, _Item] = {item.name: item for item in items}
+
+    def __getitem__(self, name: str) -> _Item:
+        return self._items[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._items)
+
+    def __len__(self) -> int:
+        return len(self._items)
+
+
+class Table(_ByName[Column]):
     """Columns by name.
 
     >>> msd = run.results["displacements_all"]
@@ -65,21 +84,12 @@ class Table(Mapping):
     def __init__(self, name, description, columns, dimension=2):
         self.name, self.description, self.dimension = name, description, dimension
         self.results: Optional["Results"] = None
-        self._columns = {column.name: column for column in columns}
+        super().__init__(columns)
         for column in columns:
             column.table = self
 
-    def __getitem__(self, name: str) -> Column:
-        return self._columns[name]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._columns)
-
-    def __len__(self) -> int:
-        return len(self._columns)
-
     def __repr__(self) -> str:
-        rows = len(next(iter(self._columns.values()))) if self._columns else 0
+        rows = len(next(iter(self.values()))) if self else 0
         return f"<Table {self.name}: {rows} rows of {', '.join(self)}>"
 
     def to_pandas(self):
@@ -229,7 +239,7 @@ def _axes(axes):
     return pyplot.figure(layout="constrained").add_subplot()
 
 
-class Results(Mapping):
+class Results(_ByName[Table]):
     """Tables by name.
 
     Attributes
@@ -242,18 +252,9 @@ class Results(Mapping):
 
     def __init__(self, summary, tables: List[Table], provenance=None):
         self.summary, self.provenance = summary, dict(provenance or {})
-        self._tables = {table.name: table for table in tables}
+        super().__init__(tables)
         for table in tables:
             table.results = self
-
-    def __getitem__(self, name: str) -> Table:
-        return self._tables[name]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._tables)
-
-    def __len__(self) -> int:
-        return len(self._tables)
 
     def __repr__(self) -> str:
         return f"<Results: {', '.join(self)}>"

@@ -6,7 +6,6 @@ import html
 import json
 import os
 import pathlib
-import tempfile
 from typing import Callable, Iterator, Mapping, Optional
 
 import numpy
@@ -15,19 +14,7 @@ from . import _vitrel
 from .observations import Observations
 from .results import Results, tables_of
 from .settings import listener, overrides
-from .states import State
-
-
-@contextlib.contextmanager
-def start_file(start):
-    """The file of a state to start from, for as long as it is needed; None if there is none."""
-    if not isinstance(start, State):
-        yield None if start is None else os.fspath(start)
-        return
-    with tempfile.TemporaryDirectory() as folder:
-        path = pathlib.Path(folder, "state.h5")
-        start.write(path)
-        yield str(path)
+from .states import State, start_file
 
 
 class Page:
@@ -36,10 +23,13 @@ class Page:
     path: pathlib.Path
 
     def report(self, path=None) -> pathlib.Path:
-        """Writes the page, by default beside the run or into the folder of the sweep; returns its path."""
+        """Writes the page, by default beside the run or into the folder of the sweep; returns its path.
+
+        It replaces a page that is there, and nothing else.
+        """
         default = self.path / "report.html" if self.path.is_dir() else self.path.with_suffix(".html")
         path = default if path is None else pathlib.Path(path)
-        path.write_text(_vitrel.page(self.path), encoding="utf-8")
+        _vitrel.write_page(self.path, path)
         return path
 
     def _repr_html_(self) -> str:

@@ -2,6 +2,8 @@
 
 import contextlib
 import os
+import pathlib
+import tempfile
 
 import numpy
 
@@ -122,6 +124,18 @@ class State:
         return axes
 
 
+@contextlib.contextmanager
+def start_file(start):
+    """The file of a state to start from, for as long as it is needed; None if there is none."""
+    if not isinstance(start, State):
+        yield None if start is None else os.fspath(start)
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder, "state.h5")
+        start.write(path)
+        yield str(path)
+
+
 def prepare(file=None, *, start=None, shrink=False, threads=1, quiet=False, **settings):
     """Prepares a state.
 
@@ -142,8 +156,6 @@ def prepare(file=None, *, start=None, shrink=False, threads=1, quiet=False, **se
     -------
     State
     """
-    from .runs import start_file
-
     say, show, end = listener(quiet)
     with start_file(start) as path, contextlib.closing(end):
         state, parameters = _vitrel.prepare("" if file is None else os.fspath(file), overrides("prepare", settings), path,

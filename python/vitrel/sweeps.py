@@ -27,7 +27,7 @@ class Sweep(Page):
         self.path = pathlib.Path(path)
 
     def __repr__(self) -> str:
-        return f"<Sweep {self.path}: {len(self.runs)} runs>"
+        return f"<Sweep {self.path}>"
 
     def analyze(self, **settings) -> Results:
         """What the runs say together.

@@ -76,3 +76,13 @@ def test_pages(run, tmp_path):
     page = run.report(tmp_path / "page.html").read_text(encoding="utf-8")
     assert page.lower().startswith("<!doctype html")
     assert run._repr_html_().startswith("<iframe srcdoc=")
+
+
+def test_a_page_replaces_nothing_but_a_page(run, tmp_path):
+    notes = tmp_path / "notes.html"
+    notes.write_text("mine", encoding="utf-8")
+    for other in (notes, run.path):
+        before = other.read_bytes()
+        with pytest.raises(vitrel.UserError, match="is not an HTML page"):
+            run.report(other)
+        assert other.read_bytes() == before

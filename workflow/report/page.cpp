@@ -1,5 +1,10 @@
 #include "workflow/report/page.h"
 
+#include <strings.h>
+
+#include <fstream>
+#include <string_view>
+
 #include "core/error.h"
 #include "core/io/h5md.h"
 #include "workflow/report/packing_report.h"
@@ -30,6 +35,13 @@ Page page_of_state(const std::filesystem::path& file, const AnalysisChoice& choi
   return {PageSubject::state, 1, state_page(state_page_data(file))};
 }
 
+bool is_page(const std::filesystem::path& file) {
+  constexpr std::string_view beginning = "<!doctype html";
+  std::string found(beginning.size(), ' ');
+  std::ifstream(file, std::ios::binary).read(found.data(), std::ssize(found));
+  return strncasecmp(found.data(), beginning.data(), beginning.size()) == 0;
+}
+
 }  // namespace
 
 PageSubject page_subject(const std::filesystem::path& input) {
@@ -53,6 +65,14 @@ Page page_of(const std::filesystem::path& input, const AnalysisChoice& choice,
       return {subject, 1, report_page(report_data({stored_or_analyzed(input, choice, progress)}))};
   }
   return {};
+}
+
+void require_place_of_page(const std::filesystem::path& output) {
+  if (std::filesystem::exists(output) && !is_page(output))
+    throw UserError(
+        output.string() +
+        ": exists and is not an HTML page; vitrel report overwrites nothing else; choose "
+        "another output, or delete it");
 }
 
 }  // namespace vitrel

@@ -26,4 +26,7 @@ struct Page {
 Page page_of(const std::filesystem::path& input, const AnalysisChoice& choice,
              const AnalysisProgress& progress = {});
 
+/// UserError if something is at this place that is not an HTML page, which alone a page may replace.
+void require_place_of_page(const std::filesystem::path& output);
+
 }  // namespace vitrel
