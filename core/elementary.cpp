@@ -50,7 +50,8 @@ double without_turns(double angle) {
 
 CosineAndSine cosine_and_sine(double angle) {
   constexpr double largest = 0x1p53;
-  if (!(std::abs(angle) <= largest)) return {std::cos(angle), std::sin(angle)};
+  if (!(std::abs(angle) <= largest))
+    angle = std::fmod(angle, 2 * std::numbers::pi);  // exact; not a number for ∞
   if (!(std::abs(angle) < detail::max_reducible_angle)) angle = without_turns(angle);
   CosineAndSine result;
   detail::reduced_cosine_and_sine<double>(angle, result.cosine, result.sine);
@@ -114,10 +115,32 @@ double polar_angle(double y, double x) {
   return std::copysign(x < 0 ? std::numbers::pi - angle : angle, y);
 }
 
+namespace {
+
+// A third of the exponent, by the bits, is within 5 % of the root; each of Halley's steps cubes that error.
+double cubic_root_of_normal(double x) {
+  constexpr std::int64_t bias = std::int64_t{715094163}
+                                << 32;  // two thirds of that of the exponent (FreeBSD's cbrt)
+  double near = std::bit_cast<double>(std::bit_cast<std::int64_t>(x) / 3 + bias);
+  for (int step = 0; step < 3; ++step) {
+    const double cube = near * near * near;
+    near *= (cube + 2 * x) / (2 * cube + x);
+  }
+  const double square = near * near;
+  return near - (near * square - x) / (3 * square);
+}
+
+}  // namespace
+
 double root(double x, int n) {
   if (n == 2) return std::sqrt(x);
-  const double near = std::cbrt(x), square = near * near;
-  return x == 0 ? 0 : near - (near * square - x) / (3 * square);
+  const double size = std::abs(x);
+  if (!(size > 0 && size <= std::numeric_limits<double>::max())) return x;
+  constexpr double small = 0x1p-900,
+                   scale = 0x1p300;  // so that neither cubes nor their quotients leave the range
+  if (size < small) return root(x * scale, 3) / 0x1p100;
+  if (size > 1 / small) return root(x / scale, 3) * 0x1p100;
+  return std::copysign(cubic_root_of_normal(size), x);
 }
 
 }  // namespace vitrel

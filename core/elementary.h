@@ -58,7 +58,8 @@ template <class T>
 
 }  // namespace detail
 
-/// Cosine and sine to within 4 units in the last place of 1; beyond 2⁵³ they are those of the C library.
+/// Cosine and sine to within 4 units in the last place of 1, up to 2⁵³; neighbouring numbers beyond it are more than a
+/// radian apart.
 struct CosineAndSine {
   double cosine, sine;
 };

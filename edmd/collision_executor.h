@@ -85,7 +85,7 @@ class CollisionExecutor {
     if (i != j) state_.set_motion(j, motion2);
     ++state_.collisions;
     ++counters.collisions;
-    counters.virial += result.impulse * n.dot(d);
+    counters.virial += result.impulse * dot(n, d);
     counters.dissipated += 0.5 * result.impulse * result.speed * (1 - restitution);
     return result;
   }
@@ -158,14 +158,14 @@ class CollisionExecutor {
     state_.set_full_motion(j, motion2);
     ++state_.collisions;
     ++counters.collisions;
-    counters.virial -= result.impulse.dot(d);
+    counters.virial -= dot(result.impulse, d);
     counters.dissipated += result.dissipated;
   }
 
   double speed_of_approach(Index i, Index j, const Vector& n) const {
     const Motion<dimension> motion1 = state_.particles[i].motion(),
                             motion2 = state_.particles[j].motion();
-    if (i != j && State::is_round) return (motion1.velocity - motion2.velocity).dot(n);
+    if (i != j && State::is_round) return dot(motion1.velocity - motion2.velocity, n);
     return approach_speed(motion1, motion2, contact_geometry(i, j, n));
   }
 
@@ -189,10 +189,10 @@ class CollisionExecutor {
                  inverse_mass2 = state_.type(j).inertia.inverse_mass;
     const double growth = state_.size_now().growth_rate *
                           (state_.shape(i).circumradius() + state_.shape(j).circumradius());
-    const double speed = (motion1.velocity - motion2.velocity).dot(n) + growth;
+    const double speed = dot(motion1.velocity - motion2.velocity, n) + growth;
     // n has norm 1 to rounding, with a systematic error for equal disks: with n² here energy is still conserved.
     const double impulse =
-        (1 + restitution) * speed / ((inverse_mass1 + inverse_mass2) * n.squaredNorm());
+        (1 + restitution) * speed / ((inverse_mass1 + inverse_mass2) * squared_norm(n));
     motion1.velocity -= impulse * inverse_mass1 * n;
     motion2.velocity += impulse * inverse_mass2 * n;
     return {speed, impulse};
@@ -209,7 +209,7 @@ class CollisionExecutor {
   ContactGeometry<dimension> contact_geometry(Index i, Index j, const Vector& n) const {
     const CommonSize size = state_.size_now();
     const Vector arm1 = surface_from(i, n), arm2 = surface_from(j, -n);
-    const double growth = size.growth_rate / size.size * (arm1 - arm2).dot(n);
+    const double growth = size.growth_rate / size.size * dot(arm1 - arm2, n);
     return {n, cross(arm1, n), cross(arm2, n), growth};
   }
 

@@ -2,17 +2,6 @@
 
 namespace vitrel {
 
-namespace {
-
-double product(double one, double two) {
-  return one * two;
-}
-double product(const Vec3& one, const Vec3& two) {
-  return one.dot(two);
-}
-
-}  // namespace
-
 Inertia<2> inertia_of(const Ellipse& shape, double mass) {
   return {1 / mass, shape.is_round() ? 0 : 1 / (mass * shape.inertia_per_mass())};
 }
@@ -35,15 +24,15 @@ Inertia<2> in_space(const Inertia<2>& own, const Pose2&, double size) {
 }
 
 Inertia<3> in_space(const Inertia<3>& own, const Pose3& pose, double size) {
-  const Mat3 turn = pose.orientation.toRotationMatrix();
+  const Mat3 turn = rotation_matrix(pose.orientation);
   return {own.inverse_mass, turn * (own.inverse_moment / (size * size)) * turn.transpose()};
 }
 
 template <int Dim>
 double approach_speed(const Motion<Dim>& one, const Motion<Dim>& two,
                       const ContactGeometry<Dim>& contact) {
-  return (one.velocity - two.velocity).dot(contact.normal) +
-         product(one.angular_velocity, contact.arm1) - product(two.angular_velocity, contact.arm2) +
+  return dot(one.velocity - two.velocity, contact.normal) +
+         dot(one.angular_velocity, contact.arm1) - dot(two.angular_velocity, contact.arm2) +
          contact.growth;
 }
 
@@ -55,8 +44,8 @@ Impact collide(Motion<Dim>& one, const Inertia<Dim>& inertia1, Motion<Dim>& two,
   const AngularVelocity<Dim> spin2 = inertia2.inverse_moment * contact.arm2;
   // n has norm 1 to rounding, with a systematic error for equal disks: with n² here energy is still conserved.
   const double compliance =
-      (inertia1.inverse_mass + inertia2.inverse_mass) * contact.normal.squaredNorm() +
-      product(spin1, contact.arm1) + product(spin2, contact.arm2);
+      (inertia1.inverse_mass + inertia2.inverse_mass) * squared_norm(contact.normal) +
+      dot(spin1, contact.arm1) + dot(spin2, contact.arm2);
   const double speed = approach_speed(one, two, contact);
   const double impulse = (1 + restitution) * speed / compliance;
   one.velocity -= impulse * inertia1.inverse_mass * contact.normal;
@@ -80,8 +69,8 @@ Impact collide_with_own_image(Motion3& motion, const Inertia<3>& inertia,
                               const ContactGeometry<3>& contact, double restitution) {
   const Vec3 arm = contact.arm1 - contact.arm2;
   const Vec3 spin = inertia.inverse_moment * arm;
-  const double speed = motion.angular_velocity.dot(arm) + contact.growth;
-  const double impulse = (1 + restitution) * speed / spin.dot(arm);
+  const double speed = dot(motion.angular_velocity, arm) + contact.growth;
+  const double impulse = (1 + restitution) * speed / dot(spin, arm);
   motion.angular_velocity -= impulse * spin;
   return {speed, impulse};
 }
@@ -129,18 +118,18 @@ RoughImpact<Dim> collide_rough(Motion<Dim>& one, const Inertia<Dim>& inertia1, M
   const Matrix k = (inertia1.inverse_mass + inertia2.inverse_mass) * Matrix::Identity() +
                    rotational_part(inertia1.inverse_moment, contact.arm1) +
                    rotational_part(inertia2.inverse_moment, contact.arm2);
-  const double speed = v.dot(n), compliance = n.dot(k * n);
+  const double speed = dot(v, n), compliance = dot(n, k * n);
   const Vec<Dim> frictionless = -speed / compliance * n;
-  const Vec<Dim> sticking = -(k.inverse() * v);
+  const Vec<Dim> sticking = -(inverse(k) * v);
   const Vec<Dim> part = sticking - frictionless;
-  const double norm = n.norm(), pressing_of_part = -part.dot(n) / norm;
+  const double length = norm(n), pressing_of_part = -dot(part, n) / length;
   const double share =
       law.is_rough() ? stuck_part(1 + law.tangential_restitution, law.friction,
-                                  (1 + restitution) * speed / compliance * norm, pressing_of_part,
-                                  (part + pressing_of_part / norm * n).norm())
+                                  (1 + restitution) * speed / compliance * length, pressing_of_part,
+                                  norm(part + pressing_of_part / length * n))
                      : 0;
   const Vec<Dim> impulse = (1 + restitution) * frictionless + share * part;
-  const double along = 0.5 * speed * speed / compliance, across = -0.5 * part.dot(v);
+  const double along = 0.5 * speed * speed / compliance, across = -0.5 * dot(part, v);
   one.velocity += inertia1.inverse_mass * impulse;
   two.velocity -= inertia2.inverse_mass * impulse;
   one.angular_velocity += inertia1.inverse_moment * cross(contact.arm1, impulse);

@@ -119,8 +119,8 @@ class ContactSearch {
   double time_to_watch(Index i, Index j, const Vec<dimension>& d) const {
     constexpr double fraction = 0.05;
     const Vec<dimension> relative = state_.particles[j].velocity - state_.particles[i].velocity;
-    if (on_overlap_ == OnOverlap::stop || !(d.dot(relative) > 0)) return 0;
-    return fraction * (state_.shape(i).inradius() + state_.shape(j).inradius()) / relative.norm();
+    if (on_overlap_ == OnOverlap::stop || !(dot(d, relative) > 0)) return 0;
+    return fraction * (state_.shape(i).inradius() + state_.shape(j).inradius()) / norm(relative);
   }
 
   const State& state_;

@@ -8,8 +8,8 @@ void separate(Motion<Dim>& one, const Inertia<Dim>& inertia1, Motion<Dim>& two,
   const double m1 = 1 / inertia1.inverse_mass;
   const double m2 = 1 / inertia2.inverse_mass;
   const Vec<Dim> common = (m1 * one.velocity + m2 * two.velocity) / (m1 + m2);
-  const double speed = (two.velocity - one.velocity).norm();
-  const Vec<Dim> apart = d.normalized();
+  const double speed = norm(two.velocity - one.velocity);
+  const Vec<Dim> apart = normalized(d);
   one.velocity = common - m2 / (m1 + m2) * speed * apart;
   two.velocity = common + m1 / (m1 + m2) * speed * apart;
 }

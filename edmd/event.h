@@ -35,7 +35,7 @@ struct alignas(32) Event {
   }
   Vector normal_along(const Vector& separation) const {
     if constexpr (State::is_round)
-      return separation.normalized();
+      return normalized(separation);
     else
       return normal.value;
   }

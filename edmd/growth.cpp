@@ -204,11 +204,11 @@ class Growth {
   double progress() const {
     double done = 0;
     if (options_.packing_fraction)
-      done = std::log(packing_fraction() / start_fraction_) /
-             std::log(*options_.packing_fraction / start_fraction_);
+      done = logarithm(packing_fraction() / start_fraction_) /
+             logarithm(*options_.packing_fraction / start_fraction_);
     if (options_.reduced_pressure)
-      done = std::max(done, std::log(std::max(1.0, state_.reduced_pressure)) /
-                                std::log(*options_.reduced_pressure));
+      done = std::max(done, logarithm(std::max(1.0, state_.reduced_pressure)) /
+                                logarithm(*options_.reduced_pressure));
     return std::clamp(done, 0.0, 1.0);
   }
 

@@ -142,7 +142,7 @@ class EventDrivenRun {
     const double drift = std::abs(energy - state_.flight_energy) / state_.flight_energy;
     state_.energy_drift = std::max(state_.energy_drift, drift);
     state_.largest_momentum =
-        std::max(state_.largest_momentum, mechanics(state_.configuration).momentum.norm());
+        std::max(state_.largest_momentum, norm(mechanics(state_.configuration).momentum));
   }
 
   /// Before time 0 the run equilibrates.
@@ -171,7 +171,7 @@ RunState<Dim> begin_run(const Configuration<Dim>& configuration, double start_ti
   state.configuration.time = start_time;
   state.start_time = start_time;
   state.flight_energy = total_energy(configuration);
-  state.largest_momentum = mechanics(configuration).momentum.norm();
+  state.largest_momentum = norm(mechanics(configuration).momentum);
   return state;
 }
 

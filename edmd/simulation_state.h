@@ -92,7 +92,7 @@ struct SimulationState {
     if constexpr (tumbles<B>) {
       const AsymmetricTop::State state = tumbling[i].top.at(now - tumbling[i].since);
       record.position += (now - record.time) * record.velocity;
-      record.rotation.orientation = Quaternion(state.axes).normalized();
+      record.rotation.orientation = quaternion_of(state.axes);
       record.rotation.angular_velocity = state.angular_velocity;
     } else {
       record.set_pose(record.pose_at(now));
@@ -122,7 +122,7 @@ struct SimulationState {
     Motion<dimension> motion = particles[i].motion();
     if constexpr (tumbles<B>)
       motion.angular_velocity =
-          particles[i].rotation.max_angular_speed * motion.angular_velocity.normalized();
+          particles[i].rotation.max_angular_speed * normalized(motion.angular_velocity);
     return motion;
   }
   Inertia<dimension> inertia_now(Index i) const {

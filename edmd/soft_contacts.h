@@ -169,17 +169,17 @@ void SoftContacts<B>::begin_collision(Index i, const Image& partner, CollisionEx
   const Index j = partner.other;
   const Vector d = state_.separation(i, partner);
   const Vector v = state_.particles[j].velocity - state_.particles[i].velocity;
-  const Vector normal = d.normalized();
-  const double speed = -v.dot(normal);
+  const Vector normal = normalized(d);
+  const double speed = -dot(v, normal);
   if (!(speed > grazing_speed * state_.fastest))
     return separate_grazing(i, j, (speed + separation_speed * state_.fastest) * normal);
 
   ContactPair pair = contact_pair_of(i, j);
   const UnwrappedPair unwrapped = unwrapped_pair(i, partner);  // not sorted
-  if (d.norm() >= pair.distance) close_pairs_.erase(unwrapped.ascending());
-  pair.distance = std::min(pair.distance, d.norm());
+  if (norm(d) >= pair.distance) close_pairs_.erase(unwrapped.ascending());
+  pair.distance = std::min(pair.distance, norm(d));
   const Restitution restitution = state_.of_pair(options_.soft_contact, i, j)
-                                      ->collide(pair, speed, (v + speed * normal).norm(), counters);
+                                      ->collide(pair, speed, norm(v + speed * normal), counters);
   const RelativeMotion<dimension> after = after_contact<dimension>({d, v}, restitution);
   const Vector shortening = d - after.position;
   if (!try_displace(unwrapped, share(i, j) * shortening, -share(j, i) * shortening)) {
@@ -187,9 +187,9 @@ void SoftContacts<B>::begin_collision(Index i, const Image& partner, CollisionEx
     executor.collide_soft_pair(i, j, d, normal, -restitution.rate, restitution.duration, counters);
     return;
   }
-  counters.virial += pair.mass * (after.position.dot(after.velocity) - d.dot(v) -
-                                  restitution.duration * after.velocity.squaredNorm());
-  counters.dissipated += 0.5 * pair.mass * (v.squaredNorm() - after.velocity.squaredNorm());
+  counters.virial += pair.mass * (dot(after.position, after.velocity) - dot(d, v) -
+                                  restitution.duration * squared_norm(after.velocity));
+  counters.dissipated += 0.5 * pair.mass * (squared_norm(v) - squared_norm(after.velocity));
   ++counters.collisions;
   begin_contact(unwrapped, after, state_.now + restitution.duration);
 }
@@ -215,7 +215,7 @@ void SoftContacts<B>::begin_contact(const UnwrappedPair& pair,
   releases_[j] = {end, i, common + share2 * after.velocity};
   state_.particles[i].velocity = state_.particles[j].velocity = common;
   ++state_.collisions;
-  const double distance = after.position.norm();
+  const double distance = norm(after.position);
   if (distance < contact_pair_of(i, j).distance)
     add_close_pair(pair, distance - state_.contact_gap);
 }
@@ -256,7 +256,7 @@ bool SoftContacts<B>::has_clearance(Index i, const UnwrappedPair& pair, const Ve
     const Vector d = state_.pose_now(k).position + state_.box.translation(neighbor.shift()) -
                      state_.particles[i].position;
     const Vector before = d + displacement_of(i) - displacement_of(k);
-    return d.norm() >= std::min(sum_of_radii(i, k) + state_.contact_gap, before.norm());
+    return norm(d) >= std::min(sum_of_radii(i, k) + state_.contact_gap, norm(before));
   });
 }
 
@@ -300,7 +300,7 @@ bool SoftContacts<B>::is_still_close(const UnwrappedPair& pair) const {
   const Shift<dimension> shift = pair.unwrapped_shift - state_.image[pair.i] + state_.image[pair.j];
   const Vector d = state_.pose_now(pair.j).position + state_.box.translation(shift) -
                    state_.pose_now(pair.i).position;
-  return d.norm() < sum_of_radii(pair.i, pair.j) + state_.contact_gap;
+  return norm(d) < sum_of_radii(pair.i, pair.j) + state_.contact_gap;
 }
 
 template <Body B>
@@ -313,7 +313,7 @@ void SoftContacts<B>::load(const Configuration<dimension>& configuration) {
   for (const auto& [particle, partner, time, velocity] : configuration.releases) {
     releases_[internal_id[particle]] = {std::max(time - state_.base, state_.now),
                                         internal_id[partner], velocity};
-    state_.fastest = std::max(state_.fastest, velocity.norm());
+    state_.fastest = std::max(state_.fastest, norm(velocity));
   }
   for (const auto& [pair, distance] : configuration.close_pairs) {
     const Index i = internal_id[pair.i], j = internal_id[pair.j];

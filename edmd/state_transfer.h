@@ -53,12 +53,6 @@ inline double angle_magnitude(double angle) {
 inline double angle_magnitude(const Quaternion&) {
   return 1;
 }
-inline double spin_magnitude(double angular_velocity) {
-  return std::abs(angular_velocity);
-}
-inline double spin_magnitude(const Vec3& angular_velocity) {
-  return angular_velocity.norm();
-}
 
 }  // namespace detail
 
@@ -84,9 +78,8 @@ void SimulationState<B>::load(const Configuration<dimension>& configuration, Nei
     // Angles are also rounded, which moves the surface by up to max_support_rate times the rounding error.
     extent = std::max({extent, shape(i).circumradius(),
                        max_support_rate * detail::angle_magnitude(particle.orientation())});
-    fastest = std::max(
-        fastest, particle.velocity.norm() +
-                     max_support_rate * detail::spin_magnitude(fastest_motion(i).angular_velocity));
+    fastest = std::max(fastest, norm(particle.velocity) +
+                                    max_support_rate * norm(fastest_motion(i).angular_velocity));
   }
   contact_gap = tolerance::contact_gap(extent);
   find_neighbors(method, target_neighbors);
@@ -182,7 +175,7 @@ void SimulationState<B>::set_velocities(const Configuration<dimension>& configur
       rotations[i] = {rotation_now(i).orientation, motion.angular_velocity, now};
     advance_to_now(i);
     set_motion(i, motion);
-    fastest = std::max(fastest, motion.velocity.norm());
+    fastest = std::max(fastest, norm(motion.velocity));
   }
 }
 
@@ -231,7 +224,7 @@ auto SimulationState<B>::with_scaled_spin(Index i, const Vector& angular_velocit
   if (axis == Ellipsoid::none) return angular_velocity;
   const Vector a = particles[i].orientation() * Vector::Unit(axis);
   const double factor = to_true ? spin_factor(body) : 1 / spin_factor(body);
-  return angular_velocity + (factor - 1) * a.dot(angular_velocity) * a;
+  return angular_velocity + (factor - 1) * dot(a, angular_velocity) * a;
 }
 
 }  // namespace vitrel

@@ -1,6 +1,5 @@
 #include "mc/axis_distribution.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -45,13 +44,36 @@ Vec3 deviations(const Vec3& moments) {
   return angular_gaussian_variances(moments).cwiseSqrt();
 }
 
+/// The eigenvalues of a symmetric matrix, and its eigenvectors as columns, by Jacobi's rotations.
+template <class Matrix>
+void diagonalise(Matrix& matrix, Matrix& vectors) {
+  constexpr int n = Matrix::RowsAtCompileTime, max_sweeps = 20;  // about 5 suffice
+  vectors = Matrix::Identity();
+  for (int sweep = 0; sweep < max_sweeps && !matrix.isDiagonal(0); ++sweep)
+    for (int i = 0; i < n; ++i)
+      for (int j = i + 1; j < n; ++j) {
+        if (matrix(i, j) == 0) continue;
+        const double slope = (matrix(j, j) - matrix(i, i)) / (2 * matrix(i, j));
+        const double tangent =
+            std::copysign(1, slope) / (std::abs(slope) + std::sqrt(1 + slope * slope));
+        const double cosine = 1 / std::sqrt(1 + tangent * tangent);
+        Matrix turn = Matrix::Identity();
+        turn(i, i) = turn(j, j) = cosine;
+        turn(i, j) = tangent * cosine;
+        turn(j, i) = -tangent * cosine;
+        matrix = turn.transpose() * matrix * turn;
+        matrix(i, j) = matrix(j, i) = 0;
+        vectors = vectors * turn;
+      }
+}
+
 }  // namespace
 
 Vec3 angular_gaussian_moments(const Vec3& variances) {
   const Vec3 mu = variances.cwiseInverse();
   Vec3 moments;
   for (int k = 0; k < 3; ++k) moments[k] = carlson_r_d(mu[(k + 1) % 3], mu[(k + 2) % 3], mu[k]);
-  return std::sqrt(mu.prod()) / 3 * moments;
+  return std::sqrt(prod(mu)) / 3 * moments;
 }
 
 Vec3 angular_gaussian_variances(const Vec3& moments) {
@@ -68,17 +90,18 @@ Vec3 angular_gaussian_variances(const Vec3& moments) {
 
 template <int Dim>
 AxisDistribution<Dim>::AxisDistribution(const Tensor& tensor) {
-  const Eigen::SelfAdjointEigenSolver<Tensor> principal(tensor);
-  Vec<Dim> moments = principal.eigenvalues().cwiseMax(0);
-  moments /= moments.sum();
-  map_ = principal.eigenvectors() * deviations(moments).asDiagonal();
+  Tensor principal = tensor, axes;
+  diagonalise(principal, axes);
+  Vec<Dim> moments = principal.diagonal().cwiseMax(0);
+  moments /= sum(moments);
+  map_ = axes * deviations(moments).asDiagonal();
 }
 
 template <int Dim>
 Vec<Dim> AxisDistribution<Dim>::operator()(Stream& draw) const {
   Vec<Dim> normal;
   for (int k = 0; k < Dim; ++k) normal[k] = draw.normal();
-  return (map_ * normal).normalized();
+  return normalized(map_ * normal);
 }
 
 template class AxisDistribution<2>;

@@ -28,7 +28,7 @@ double displacement_in_widths(const Configuration<Dim>& before, const Configurat
   double sum = 0;
   for (std::size_t i = 0; i < now.size(); ++i) {
     const double width = 2 * now.shape[i].inradius();
-    sum += (now.unwrapped(i) - before.unwrapped(i)).squaredNorm() / (width * width);
+    sum += squared_norm(now.unwrapped(i) - before.unwrapped(i)) / (width * width);
   }
   return std::sqrt(sum / static_cast<double>(now.size()));
 }

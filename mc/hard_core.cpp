@@ -5,6 +5,7 @@
 
 #include "core/contact/contact_queries.h"
 #include "core/contact/perram_wertheim.h"
+#include "core/elementary.h"
 #include "core/neighbors/pairs.h"
 #include "core/tolerances.h"
 
@@ -66,7 +67,7 @@ double shrink_to_contact(const Configuration<Dim>& configuration, double lowest)
     const Solid<Dim>& two = configuration.shape[j];
     // The circumcircles touch at a smaller factor than the largest found: this pair cannot matter.
     const double circles = one.circumradius() + two.circumradius();
-    if (circles * circles < factor * factor * d.squaredNorm()) return;
+    if (circles * circles < factor * factor * squared_norm(d)) return;
     const double f = perram_wertheim(one, orientation_of(configuration.pose(i)), two,
                                      orientation_of(configuration.pose(j)), d)
                          .value;
@@ -92,7 +93,7 @@ void scale_box(Configuration<Dim>& configuration, double factor) {
 template <int Dim>
 void scale_to_packing_fraction(Configuration<Dim>& configuration, double packing_fraction) {
   const double ratio = vitrel::packing_fraction(configuration) / packing_fraction;
-  scale_box(configuration, Dim == 2 ? std::sqrt(ratio) : std::cbrt(ratio));
+  scale_box(configuration, root(ratio, Dim));
 }
 
 template double hard_margin(const Configuration2&);

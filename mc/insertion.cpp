@@ -34,19 +34,26 @@ std::vector<std::size_t> largest_first(const Configuration<Dim>& configuration) 
   return order;
 }
 
+/// One component after the other: the order of draws in one expression would be the compiler's.
+template <int Dim>
+Vec<Dim> random_position(const PeriodicBox<Dim>& box, Stream& draw) {
+  Vec<Dim> position;
+  for (int k = 0; k < Dim; ++k) position[k] = draw.uniform(-0.5, 0.5) * box.lengths()[k];
+  return position;
+}
+
 Pose2 random_pose(const PeriodicBox<2>& box, bool aligned, Stream& draw) {
-  const Vec2& lengths = box.lengths();
-  const Vec2 position(draw.uniform(-0.5, 0.5) * lengths.x(), draw.uniform(-0.5, 0.5) * lengths.y());
+  const Vec2 position = random_position(box, draw);
   return {position, aligned ? 0 : draw.uniform(0, std::numbers::pi)};
 }
 
 /// The orientation is uniform over all rotations: a direction in four dimensions.
 Pose3 random_pose(const PeriodicBox<3>& box, bool aligned, Stream& draw) {
   Pose3 pose;
-  for (int k = 0; k < 3; ++k) pose.position[k] = draw.uniform(-0.5, 0.5) * box.lengths()[k];
+  pose.position = random_position(box, draw);
   if (aligned) return pose;
   for (int k = 0; k < 4; ++k) pose.orientation.coeffs()[k] = draw.normal();
-  pose.orientation.normalize();
+  pose.orientation = normalized(pose.orientation);
   return pose;
 }
 
@@ -57,10 +64,10 @@ void turn_to(const Ellipse&, const Vec2& u, Pose2& pose) {
 /// By the smallest rotation, so that a random orientation stays random around u.
 void turn_to(const Ellipsoid& shape, const Vec3& u, Pose3& pose) {
   const Vec3 axis = figure_axis(shape, pose.orientation);
-  const Vec3 near = axis.dot(u) < 0 ? Vec3(-u) : u;
+  const Vec3 near = dot(axis, u) < 0 ? Vec3(-u) : u;
   const Vec3 across = axis.cross(near);
-  const Quaternion turn(1 + axis.dot(near), across.x(), across.y(), across.z());
-  pose.orientation = (turn * pose.orientation).normalized();
+  const Quaternion turn(1 + dot(axis, near), across.x(), across.y(), across.z());
+  pose.orientation = normalized(turn * pose.orientation);
 }
 
 template <int Dim>

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/contact/perram_wertheim.h"
+#include "core/elementary.h"
 #include "core/error.h"
 #include "core/random/stream.h"
 #include "mc/hard_core.h"
@@ -41,8 +42,8 @@ template <int Dim>
 double distortion(const Vec<Dim>& box, const Vec<Dim>& spacing, const Counts<Dim>& counts) {
   Vec<Dim> change = Vec<Dim>::Zero();
   for (int k = 1; k < Dim; ++k)
-    change[k] = std::log(box[k] / box[0] * static_cast<double>(counts[0]) /
-                         (static_cast<double>(counts[k]) * (spacing[k] / spacing[0])));
+    change[k] = logarithm(box[k] / box[0] * static_cast<double>(counts[0]) /
+                          (static_cast<double>(counts[k]) * (spacing[k] / spacing[0])));
   double sum = 0;
   for (int k = 0; k < Dim; ++k)
     for (int l = 0; l < k; ++l) sum += (change[k] - change[l]) * (change[k] - change[l]);
@@ -93,9 +94,9 @@ void fit_box(PeriodicBox<Dim>& box, const Counts<Dim>& counts, const Vec<Dim>& s
   for (int k = 1; k < Dim; ++k)
     aspect[k] =
         static_cast<double>(counts[k]) * (spacing[k] / spacing[0]) / static_cast<double>(counts[0]);
-  const double cube = volume / aspect.prod();
-  Vec<Dim> lengths = (Dim == 2 ? std::sqrt(cube) : std::cbrt(cube)) * aspect;
-  lengths[Dim - 1] = volume / lengths.template head<Dim - 1>().prod();
+  const double cube = volume / prod(aspect);
+  Vec<Dim> lengths = root(cube, Dim) * aspect;
+  lengths[Dim - 1] = volume / prod(lengths.template head<Dim - 1>());
   box = PeriodicBox<Dim>(lengths);
 }
 
@@ -183,8 +184,7 @@ void refuse_overlaps(const Configuration<Dim>& configuration) {
   const double shrink = shrink_to_contact(configuration, 0.5);
   throw UserError("this lattice is too dense: particles " + std::to_string(overlap->first) +
                   " and " + std::to_string(overlap->second) + " overlap at a packing fraction of " +
-                  std::to_string(now) + "; it reaches " +
-                  std::to_string(now / std::pow(shrink, Dim)) +
+                  std::to_string(now) + "; it reaches " + std::to_string(now / power(shrink, Dim)) +
                   ", for higher densities insert and swell");
 }
 
@@ -223,7 +223,7 @@ double densest_square_lattice(const Ellipse& shape, double angle) {
       if (x == 0 && y <= 0) continue;
       const Vec2 site(x, y);
       constant =
-          std::max(constant, contact_distance(shape, angle, shape, angle, site) / site.norm());
+          std::max(constant, contact_distance(shape, angle, shape, angle, site) / norm(site));
     }
   return shape.volume() / (constant * constant);
 }

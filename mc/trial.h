@@ -70,7 +70,7 @@ inline double rotated(const Ellipse&, double angle, const Vec2& turn) {
 /// In space by a vector in the own frame; rotations of a spheroid about its axis are none.
 inline Quaternion rotated(const Ellipsoid& shape, const Quaternion& orientation, Vec3 turn) {
   if (const int axis = shape.symmetry_axis(); axis != Ellipsoid::none) turn[axis] = 0;
-  return (orientation * rotation(turn)).normalized();
+  return normalized(orientation * rotation(turn));
 }
 
 /// Bodies of all particles, in their order.

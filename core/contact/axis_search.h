@@ -32,9 +32,9 @@ constexpr Interval empty_interval{1, 0};
 template <int Dim>
 Interval time_within(const Vec<Dim>& d, const Vec<Dim>& v, double reach, double growth,
                      double horizon) {
-  const double c = d.squaredNorm() - reach * reach;
-  const double b = d.dot(v) - reach * growth;
-  const double a = v.squaredNorm() - growth * growth;  // a t² + 2 b t + c ≤ 0 while within
+  const double c = squared_norm(d) - reach * reach;
+  const double b = dot(d, v) - reach * growth;
+  const double a = squared_norm(v) - growth * growth;  // a t² + 2 b t + c ≤ 0 while within
   const double discriminant = b * b - a * c;
   const bool outside = c > 0;
   if (outside && discriminant < 0) return empty_interval;
@@ -45,20 +45,6 @@ Interval time_within(const Vec<Dim>& d, const Vec<Dim>& v, double reach, double 
   // The second root, without cancellation.
   const double end = b <= 0 ? (root - b) / a : -c / (root + b);
   return {begin, std::min(end, horizon)};
-}
-
-/// Length and scalar product of steps in the tangent plane of the axes.
-inline double length(double rotation) {
-  return std::abs(rotation);
-}
-inline double product(double one, double two) {
-  return one * two;
-}
-inline double length(const Vec2& step) {
-  return step.norm();
-}
-inline double product(const Vec2& one, const Vec2& two) {
-  return one.dot(two);
 }
 
 }  // namespace detail
@@ -164,15 +150,12 @@ class AxisSearch {
     double margin, rate, acceleration;  // margin to the contact gap; −g̈
   };
   Approach approach(double rate) const {
-    using detail::product;
     const double c = here_.determinant();
     const Step mixed = flight_.slope_rate(n_, here_);
     const Step pull = here_.adjugate(mixed);
-    return {
-        mixed,
-        (here_.gap - contact_gap_) * c + 0.5 * product(here_.slope, here_.adjugate(here_.slope)),
-        rate * c + product(here_.slope, pull),
-        flight_.acceleration(here_) * c - product(mixed, pull)};
+    return {mixed,
+            (here_.gap - contact_gap_) * c + 0.5 * dot(here_.slope, here_.adjugate(here_.slope)),
+            rate * c + dot(here_.slope, pull), flight_.acceleration(here_) * c - dot(mixed, pull)};
   }
 
   // Whether the gap, to second order, reaches zero with at least half of the square of its rate.
@@ -197,7 +180,7 @@ class AxisSearch {
       const double correction = 0.5 * a.acceleration * newton * closing;
       const double duration = newton * (1 - correction + 2 * correction * correction);
       const Step rotation = here_.adjugate(here_.slope + a.mixed * duration) * inverse;
-      if (!(flight_.time() + duration < end && detail::length(rotation) < 1)) break;
+      if (!(flight_.time() + duration < end && norm(rotation) < 1)) break;
       flight_.go_to(flight_.time() + duration);
       set_axis(detail::turned(n_, rotation));
       rate = flight_.gap_rate(n_, here_);

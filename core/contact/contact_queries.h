@@ -12,14 +12,14 @@ namespace vitrel {
 inline bool separated(const Ellipse& one, const Pose2& pose1, const Ellipse& two,
                       const Pose2& pose2, const Vec2& d, double margin) {
   const double outer = one.a + two.a + margin;
-  if (d.squaredNorm() >= outer * outer) return true;
+  if (squared_norm(d) >= outer * outer) return true;
   return separated(one, direction(pose1.angle), two, direction(pose2.angle), d, margin);
 }
 
 inline bool separated(const Disk& one, const Pose2&, const Disk& two, const Pose2&, const Vec2& d,
                       double margin) {
   const double reach = one.radius + two.radius + margin;
-  return d.squaredNorm() >= reach * reach;
+  return squared_norm(d) >= reach * reach;
 }
 
 inline bool separated(const Ellipsoid& one, const Pose3& pose1, const Ellipsoid& two,
@@ -30,7 +30,7 @@ inline bool separated(const Ellipsoid& one, const Pose3& pose1, const Ellipsoid&
 inline bool separated(const Sphere& one, const Pose3&, const Sphere& two, const Pose3&,
                       const Vec3& d, double margin) {
   const double reach = one.radius + two.radius + margin;
-  return d.squaredNorm() >= reach * reach;
+  return squared_norm(d) >= reach * reach;
 }
 
 inline SupportGap support_gap(const Ellipse& one, const Pose2& pose1, const Ellipse& two,

@@ -66,7 +66,7 @@ class PerramWertheimRatio {
   Vec2 unit_sum(double weight1, double weight2) const {
     Vec2 w(weight1 * wx_[0] + weight2 * wx_[1], weight1 * wy_[0] + weight2 * wy_[1]);
     if (w.isZero(0)) w = d_.isZero(0) ? Vec2(1, 0) : d_;
-    const double square = w.squaredNorm();
+    const double square = squared_norm(w);
     return std::sqrt(square) * (1 / square) * w;
   }
 
@@ -105,7 +105,7 @@ SeparatingAxis find_separating_axis(const EllipsePair& pair) {
 bool improve_axis(const EllipsePair& pair, Vec2& n, GapAlongAxis& here) {
   // A gain below the rounding of g = n·d − h₁ − h₂ is not visible.
   constexpr double negligible = 1e-17;
-  if (!(here.curvature > 0) || here.gain() < negligible * n.dot(pair.d)) return false;
+  if (!(here.curvature > 0) || here.gain() < negligible * dot(n, pair.d)) return false;
   double turn = here.slope / here.curvature;
   for (int halving = 0; halving < 30; ++halving, turn *= 0.25) {
     const Vec2 trial = turned(n, turn);
@@ -140,7 +140,7 @@ SupportGap support_gap(const Ellipse& one, double angle1, const Ellipse& two, do
 
 bool separated(const Ellipse& one, const Vec2& u1, const Ellipse& two, const Vec2& u2,
                const Vec2& d, double margin) {
-  const double distance_squared = d.squaredNorm();
+  const double distance_squared = squared_norm(d);
   const double outer = one.a + two.a + margin;
   if (distance_squared >= outer * outer) return true;
   const double inner = one.b + two.b + margin;

@@ -19,7 +19,7 @@ namespace vitrel {
 
 /// Support function of an ellipse with unit major axis u along the unit vector n.
 inline double support(const Ellipse& ellipse, const Vec2& u, const Vec2& n) {
-  const double along = u.dot(n);
+  const double along = dot(u, n);
   return std::sqrt(ellipse.b * ellipse.b + ellipse.aa_minus_bb() * along * along);
 }
 
@@ -45,7 +45,7 @@ bool separated(const Ellipse& one, const Vec2& u1, const Ellipse& two, const Vec
 
 /// The point of the first ellipse's surface with outward unit normal n, relative to its centre.
 inline Vec2 surface_point(const Ellipse& ellipse, const Vec2& u, const Vec2& n) {
-  const Vec2 sigma_n = ellipse.b * ellipse.b * n + ellipse.aa_minus_bb() * u.dot(n) * u;
+  const Vec2 sigma_n = ellipse.b * ellipse.b * n + ellipse.aa_minus_bb() * dot(u, n) * u;
   return sigma_n / support(ellipse, u, n);
 }
 

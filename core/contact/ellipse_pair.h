@@ -5,12 +5,6 @@
 
 namespace vitrel {
 
-/// The unit vector at `angle`.
-inline Vec2 direction(double angle) {
-  const CosineAndSine u = cosine_and_sine(angle);
-  return {u.cosine, u.sine};
-}
-
 /// Two ellipses at one instant, in the form that the support gap uses. Element 0 is body 1.
 struct EllipsePair {
   SimdPair bb;           ///< b²
@@ -114,7 +108,7 @@ VITREL_INLINE GapAlongAxis gap_along(const EllipsePair& pair, const Vec2& n) {
   GapAlongAxis g;
   static_cast<SupportAlong<SimdPair>&>(g) =
       support_along<SimdPair>(pair.bb, pair.aa_minus_bb, pair.aabb, pair.ux, pair.uy, n.x(), n.y());
-  g.gap = n.dot(pair.d) - total(g.height);
+  g.gap = dot(n, pair.d) - total(g.height);
   g.slope = cross(n, pair.d) - total(g.turning);
   g.curvature = g.gap + total(g.radius);
   return g;

@@ -84,15 +84,15 @@ class EllipsePairInFlight {
   /// From centre 1 to its surface point with normal n.
   Vec2 arm1(const Axis& n) const {
     const Vec2 u(pair_.ux[0], pair_.uy[0]);
-    const double along = u.dot(n);
+    const double along = dot(u, n);
     const double h = std::sqrt(pair_.bb[0] + pair_.aa_minus_bb[0] * along * along);
     return pair_.size[0] / h * (pair_.bb[0] * n + pair_.aa_minus_bb[0] * along * u);
   }
 
   /// ġ along the axis n, where `g` is the gap.
   double gap_rate(const Vec2& n, const GapAlongAxis& g) const {
-    if constexpr (!grows) return n.dot(v_) + reduce(omega_ * g.turning);
-    return n.dot(v_) + reduce(pair_.size * omega_ * g.turning - growth_ * g.height);
+    if constexpr (!grows) return dot(n, v_) + reduce(omega_ * g.turning);
+    return dot(n, v_) + reduce(pair_.size * omega_ * g.turning - growth_ * g.height);
   }
 
   /// d²g/dφdt.

@@ -77,7 +77,7 @@ VITREL_INLINE AxesOf<T> scaled(const AxesOf<T>& directions, const Vec3Of<T>& len
 }
 
 inline AxesOf<double> axes_of(const Quaternion& orientation, const Vec3& semi_axes) {
-  const Mat3 turn = orientation.toRotationMatrix();
+  const Mat3 turn = rotation_matrix(orientation);
   return {components(semi_axes[0] * turn.col(0)), components(semi_axes[1] * turn.col(1)),
           components(semi_axes[2] * turn.col(2))};
 }

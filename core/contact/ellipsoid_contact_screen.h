@@ -34,7 +34,7 @@ class ContactScreen<B> : public detail::CandidateTimes<simd_width> {
     axes_ = detail::axes_of(mine.orientation(), lengths);
     if constexpr (!tumbles<B>) {
       const Vec3 own = mine.orientation().conjugate() * mine.angular_velocity();
-      tau_ = tumbling<double>(components(own.normalized()), components(lengths.cwiseAbs2()));
+      tau_ = tumbling<double>(components(normalized(own)), components(lengths.cwiseAbs2()));
     }
   }
 

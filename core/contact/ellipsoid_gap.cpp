@@ -11,7 +11,7 @@ constexpr int max_lambda_steps = 200;
 constexpr int max_newton_steps = 60;
 
 Axis3 axis_along(const Vec3& w) {
-  return completed(components(w.normalized()));
+  return completed(components(normalized(w)));
 }
 
 /// The Perram–Wertheim function of a pair.
@@ -30,12 +30,14 @@ class PerramWertheimAxis {
 
   /// C⁻¹d up to a factor.
   Vec3 direction(double lambda) const {
-    const Vec3 w = adjugate((1 - lambda) * one_ + lambda * two_) * d_;
+    const Vec3 w = adjugate(Mat3((1 - lambda) * one_ + lambda * two_)) * d_;
     return w.isZero(0) || !w.allFinite() ? d_ : w;
   }
 
   /// h₁(w)/h₂(w).
-  double heights_ratio(const Vec3& w) const { return std::sqrt(w.dot(one_ * w) / w.dot(two_ * w)); }
+  double heights_ratio(const Vec3& w) const {
+    return std::sqrt(dot(w, one_ * w) / dot(w, two_ * w));
+  }
 
  private:
   static Mat3 matrix(const EllipsoidPair& pair, int lane) {
@@ -46,15 +48,8 @@ class PerramWertheimAxis {
     g << row(pair.axes.first), row(pair.axes.second), row(pair.axes.third);
     return g.transpose() * g;
   }
-  static Mat3 adjugate(const Mat3& c) {
-    Mat3 a;
-    a.col(0) = c.col(1).cross(c.col(2));
-    a.col(1) = c.col(2).cross(c.col(0));
-    a.col(2) = c.col(0).cross(c.col(1));
-    return a;
-  }
   double inverse_form(const Mat3& sigma) const {
-    return d_.dot(adjugate(sigma) * d_) / sigma.determinant();
+    return dot(d_, adjugate(sigma) * d_) / determinant(sigma);
   }
 
   Vec3 d_;
@@ -63,7 +58,7 @@ class PerramWertheimAxis {
 
 EllipsoidPair pair_at_rest(const Ellipsoid& one, const Quaternion& orientation1,
                            const Ellipsoid& two, const Quaternion& orientation2, const Vec3& d) {
-  const Mat3 turn1 = orientation1.toRotationMatrix(), turn2 = orientation2.toRotationMatrix();
+  const Mat3 turn1 = rotation_matrix(orientation1), turn2 = rotation_matrix(orientation2);
   const auto axis = [&](int k) -> Vec3Of<SimdPair> {
     const Vec3 u = one.semi_axes[k] * turn1.col(k), v = two.semi_axes[k] * turn2.col(k);
     return {{u.x(), v.x()}, {u.y(), v.y()}, {u.z(), v.z()}};
@@ -103,7 +98,7 @@ SeparatingAxis3 find_separating_axis(const EllipsoidPair& pair) {
 bool improve_axis(const EllipsoidPair& pair, Axis3& n, GapAlongAxis3& here) {
   // A gain below the rounding of g = n·d − h₁ − h₂ is not visible.
   constexpr double negligible = 1e-17;
-  if (!here.is_concave() || here.gain() < negligible * vector(n.n).dot(pair.d)) return false;
+  if (!here.is_concave() || here.gain() < negligible * dot(vector(n.n), pair.d)) return false;
   Tangent step = here.newton();
   for (int halving = 0; halving < 30; ++halving, step *= 0.25) {
     const Axis3 trial = turned(n, step);
@@ -123,7 +118,7 @@ void polish_axis(const EllipsoidPair& pair, Axis3& n, const GapAlongAxis3& here)
   if (!here.is_concave()) return;
   Tangent step = here.newton();
   n = turned(n, step);
-  for (int k = 1; k < max_steps && !(step.norm() < quadratic); ++k) {
+  for (int k = 1; k < max_steps && !(norm(step) < quadratic); ++k) {
     const GapAlongAxis3 now = gap_along(pair, n);
     if (!now.is_concave()) return;
     step = now.newton();
@@ -147,7 +142,7 @@ SupportGap3 support_gap(const Ellipsoid& one, const Quaternion& orientation1, co
 
 bool separated(const Ellipsoid& one, const Quaternion& orientation1, const Ellipsoid& two,
                const Quaternion& orientation2, const Vec3& d, double margin) {
-  const double distance_squared = d.squaredNorm();
+  const double distance_squared = squared_norm(d);
   const double outer = one.circumradius() + two.circumradius() + margin;
   if (distance_squared >= outer * outer) return true;
   const double inner = one.inradius() + two.inradius() + margin;
@@ -164,7 +159,7 @@ bool separated(const Ellipsoid& one, const Quaternion& orientation1, const Ellip
 
 Vec3 surface_point(const Ellipsoid& body, const Quaternion& orientation, const Vec3& n) {
   const Vec3 scaled = body.semi_axes.cwiseProduct(orientation.conjugate() * n);
-  return orientation * body.semi_axes.cwiseProduct(scaled / scaled.norm());
+  return orientation * body.semi_axes.cwiseProduct(scaled / norm(scaled));
 }
 
 }  // namespace vitrel

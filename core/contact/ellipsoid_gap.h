@@ -38,7 +38,7 @@ namespace detail {
 
 /// The axis rotated by a step in its tangent plane.
 inline Axis3 turned(const Axis3& axis, const Tangent& step) {
-  const double q = 0.5 * step.norm();
+  const double q = 0.5 * norm(step);
   const double scale = 1 / (1 + q * q);
   const Vec3 n = (1 - q * q) * scale * vector(axis.n) +
                  scale * (step[0] * vector(axis.e1) + step[1] * vector(axis.e2));
@@ -46,7 +46,7 @@ inline Axis3 turned(const Axis3& axis, const Tangent& step) {
 }
 
 inline Tangent clamped(const Tangent& step, double longest) {
-  const double length = step.norm();
+  const double length = norm(step);
   return length <= longest ? step : Tangent(longest / length * step);
 }
 

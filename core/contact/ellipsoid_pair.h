@@ -169,7 +169,7 @@ struct GapAlongAxis3 : SupportOf<SimdPair> {
   /// The Newton step to the maximum; the gradient where g is not concave.
   Tangent newton() const { return is_concave() ? Tangent(adjugate(slope) / determinant()) : slope; }
   /// The gain of that step in g, to second order (meaningful only if concave).
-  double gain() const { return 0.5 * slope.dot(newton()); }
+  double gain() const { return 0.5 * dot(slope, newton()); }
 };
 
 using Axis3 = AxisOf<double>;

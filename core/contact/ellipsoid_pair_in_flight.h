@@ -83,13 +83,13 @@ class EllipsoidPairInFlight {
 
   /// ġ along the axis n, where `g` is the gap.
   double gap_rate(const Axis& n, const Gap& g) const {
-    return vector(n.n).dot(v_) - reduce(pair_.size * g.rate + growth_ * g.height);
+    return dot(vector(n.n), v_) - reduce(pair_.size * g.rate + growth_ * g.height);
   }
 
   /// d/dt of the gradient of g.
   Tangent slope_rate(const Axis& n, const Gap& g) const {
-    return {vector(n.e1).dot(v_) + reduce(pair_.size * g.mixed1 - growth_ * g.s1),
-            vector(n.e2).dot(v_) + reduce(pair_.size * g.mixed2 - growth_ * g.s2)};
+    return {dot(vector(n.e1), v_) + reduce(pair_.size * g.mixed1 - growth_ * g.s1),
+            dot(vector(n.e2), v_) + reduce(pair_.size * g.mixed2 - growth_ * g.s2)};
   }
 
   /// −g̈.

@@ -32,13 +32,13 @@ class UniformRotation {
 
   template <class B>
   void place(int lane, const Ellipsoid& shape, const Flight<B>& flight) {
-    const Mat3 turn = flight.pose.orientation.toRotationMatrix();
+    const Mat3 turn = rotation_matrix(flight.pose.orientation);
     const Vec3& angular_velocity = flight.motion.angular_velocity;
     set_lane(axes.first, lane, shape.semi_axes[0] * turn.col(0));
     set_lane(axes.second, lane, shape.semi_axes[1] * turn.col(1));
     set_lane(axes.third, lane, shape.semi_axes[2] * turn.col(2));
     set_lane(omega, lane, angular_velocity);
-    speed_.set(lane, angular_velocity.norm());
+    speed_.set(lane, norm(angular_velocity));
     set_lane(body_omega_, lane, turn.transpose() * angular_velocity);
     set_lane(squares_, lane, shape.semi_axes.cwiseAbs2());
     const double longest = shape.circumradius(), shortest = shape.inradius();

@@ -1,8 +1,9 @@
 #include "core/contact/perram_wertheim.h"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <limits>
+
+#include "core/elementary.h"
 
 namespace vitrel {
 namespace {
@@ -36,19 +37,19 @@ struct Axes {
   Axes(const Ellipse& ellipse, double angle)
       : aa(ellipse.a * ellipse.a),
         bb(ellipse.b * ellipse.b),
-        major(std::cos(angle), std::sin(angle)),
+        major(direction(angle)),
         minor(perpendicular(major)) {}
 
   double determinant() const { return aa * bb; }
   Vec2 shape_times(const Vec2& x) const {
-    return (aa * major.dot(x)) * major + (bb * minor.dot(x)) * minor;
+    return (aa * dot(major, x)) * major + (bb * dot(minor, x)) * minor;
   }
   Vec2 adjugate_times(const Vec2& x) const {
-    return (bb * major.dot(x)) * major + (aa * minor.dot(x)) * minor;
+    return (bb * dot(major, x)) * major + (aa * dot(minor, x)) * minor;
   }
   double adjugate_form(const Vec2& x) const {
-    const double along = major.dot(x);
-    const double across = minor.dot(x);
+    const double along = dot(major, x);
+    const double across = dot(minor, x);
     return bb * along * along + aa * across * across;
   }
 
@@ -57,10 +58,38 @@ struct Axes {
 };
 
 double mixed_determinant(const Axes& one, const Axes& two) {
-  const double c = one.major.dot(two.major);
-  const double s = one.minor.dot(two.major);
+  const double c = dot(one.major, two.major);
+  const double s = dot(one.minor, two.major);
   return c * c * (one.aa * two.bb + one.bb * two.aa) + s * s * (one.aa * two.aa + one.bb * two.bb);
 }
+
+/// Solves A x = b for a positive definite A = L Lᵀ.
+class Cholesky {
+ public:
+  explicit Cholesky(const Mat3& a) {
+    for (int j = 0; j < 3; ++j)
+      for (int i = j; i < 3; ++i) {
+        double rest = a(i, j);
+        for (int k = 0; k < j; ++k) rest -= l_(i, k) * l_(j, k);
+        l_(i, j) = i == j ? std::sqrt(rest) : rest / l_(j, j);
+      }
+  }
+
+  Vec3 solve(Vec3 x) const {
+    for (int i = 0; i < 3; ++i) {
+      for (int k = 0; k < i; ++k) x[i] -= l_(i, k) * x[k];
+      x[i] /= l_(i, i);
+    }
+    for (int i = 2; i >= 0; --i) {
+      for (int k = i + 1; k < 3; ++k) x[i] -= l_(k, i) * x[k];
+      x[i] /= l_(i, i);
+    }
+    return x;
+  }
+
+ private:
+  Mat3 l_;  ///< its lower triangle
+};
 
 /// Two ellipsoids, given by the matrices of their semi-axes (as columns), and d.
 struct EllipsoidPair {
@@ -69,27 +98,27 @@ struct EllipsoidPair {
   Mat3 sigma1 = axes1 * axes1.transpose(), sigma2 = axes2 * axes2.transpose();
 
   /// y = (Σ₁ + tΣ₂)⁻¹d, along the common normal at the maximum of F.
-  Vec3 direction(double t) const { return (sigma1 + t * sigma2).llt().solve(d); }
+  Vec3 direction(double t) const { return Cholesky(sigma1 + t * sigma2).solve(d); }
 
-  double height1(const Vec3& n) const { return (axes1.transpose() * n).norm(); }
-  double height2(const Vec3& n) const { return (axes2.transpose() * n).norm(); }
+  double height1(const Vec3& n) const { return norm(axes1.transpose() * n); }
+  double height2(const Vec3& n) const { return norm(axes2.transpose() * n); }
 
   Derivatives derivatives(double t) const {
-    const Eigen::LLT<Mat3> both(sigma1 + t * sigma2);
+    const Cholesky both(sigma1 + t * sigma2);
     const Vec3 y = both.solve(d);
     const Vec3 z = sigma2 * y;
-    const double hh1 = (axes1.transpose() * y).squaredNorm();
-    const double hh2 = y.dot(z);
+    const double hh1 = squared_norm(axes1.transpose() * y);
+    const double hh2 = dot(y, z);
     const double along = hh1 + t * hh2;
     const double weight = t * hh2 / along;
-    return {(hh1 - t * t * hh2) / ((1 + t) * along), 2 * t * t * z.dot(both.solve(z)) / along -
+    return {(hh1 - t * t * hh2) / ((1 + t) * along), 2 * t * t * dot(z, both.solve(z)) / along -
                                                          weight - weight * weight -
                                                          t / ((1 + t) * (1 + t))};
   }
 };
 
 Mat3 semi_axes(const Ellipsoid& ellipsoid, const Quaternion& orientation) {
-  return orientation.toRotationMatrix() * ellipsoid.semi_axes.asDiagonal();
+  return rotation_matrix(orientation) * ellipsoid.semi_axes.asDiagonal();
 }
 
 /// The root of the slope in [low, high], where the slope falls from positive to negative.
@@ -103,7 +132,7 @@ double maximizer(const Function& f, double low, double high) {
     const auto [slope, curvature] = f.derivatives(t);
     if (std::abs(slope) <= negligible) break;
     (slope > 0 ? low : high) = t;
-    double next = curvature < 0 ? t * std::exp(-slope / curvature) : low;
+    double next = curvature < 0 ? t * exponential(-slope / curvature) : low;
     if (!(next > low && next < high)) next = std::sqrt(low * high);
     if (next == t) break;
     t = next;
@@ -118,44 +147,44 @@ PerramWertheim<2> perram_wertheim(const Ellipse& one, double angle1, const Ellip
   const Axes first(one, angle1);
   const Axes second(two, angle2);
   // Normalise d, so that the square of a tiny d does not underflow.
-  const double distance = d.norm();
+  const double distance = norm(d);
   if (distance == 0) return {0, 0.5, Vec2::UnitX(), Vec2::Zero()};
   const Vec2 e = d / distance;
 
   const ContactFunction f{first.adjugate_form(e), second.adjugate_form(e), first.determinant(),
                           second.determinant(), mixed_determinant(first, second)};
   const double t = maximizer(f, one.b / two.a, one.a / two.b);
-  const Vec2 normal = (first.adjugate_times(e) + t * second.adjugate_times(e)).normalized();
+  const Vec2 normal = normalized(first.adjugate_times(e) + t * second.adjugate_times(e));
   // The surface of ellipse 1 has normal n at Σ₁n/h₁(n); scaled by μ it is the common point.
   const Vec2 sigma_n = first.shape_times(normal);
   const double mu = distance * std::sqrt(f.value(t));
-  return {mu * mu, t / (1 + t), normal, (mu / std::sqrt(normal.dot(sigma_n))) * sigma_n};
+  return {mu * mu, t / (1 + t), normal, (mu / std::sqrt(dot(normal, sigma_n))) * sigma_n};
 }
 
 double contact_distance(const Ellipse& one, double angle1, const Ellipse& two, double angle2,
                         const Vec2& direction) {
-  const Vec2 e = direction.normalized();
+  const Vec2 e = normalized(direction);
   return 1 / std::sqrt(perram_wertheim(one, angle1, two, angle2, e).value);
 }
 
 PerramWertheim<3> perram_wertheim(const Ellipsoid& one, const Quaternion& orientation1,
                                   const Ellipsoid& two, const Quaternion& orientation2,
                                   const Vec3& d) {
-  const double distance = d.norm();
+  const double distance = norm(d);
   if (distance == 0) return {0, 0.5, Vec3::UnitX(), Vec3::Zero()};
   const EllipsoidPair pair{semi_axes(one, orientation1), semi_axes(two, orientation2),
                            d / distance};
   const double t =
       maximizer(pair, one.inradius() / two.circumradius(), one.circumradius() / two.inradius());
-  const Vec3 n = pair.direction(t).normalized();
+  const Vec3 n = normalized(pair.direction(t));
   const double h1 = pair.height1(n);
-  const double mu = distance * n.dot(pair.d) / (h1 + pair.height2(n));
+  const double mu = distance * dot(n, pair.d) / (h1 + pair.height2(n));
   return {mu * mu, t / (1 + t), n, (mu / h1) * (pair.sigma1 * n)};
 }
 
 double contact_distance(const Ellipsoid& one, const Quaternion& orientation1, const Ellipsoid& two,
                         const Quaternion& orientation2, const Vec3& direction) {
-  const Vec3 e = direction.normalized();
+  const Vec3 e = normalized(direction);
   return 1 / std::sqrt(perram_wertheim(one, orientation1, two, orientation2, e).value);
 }
 

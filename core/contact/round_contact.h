@@ -39,21 +39,21 @@ Prediction<B::dimension> round_contact(const Flight<B>& one, const Round& round1
   const Vec<B::dimension> d = two.pose.position - one.pose.position;
   const Vec<B::dimension> v = two.motion.velocity - one.motion.velocity;
   const double touch = round1.radius + round2.radius;
-  if (d.squaredNorm() < touch * touch)
-    return {Outcome::overlap, 0, d.normalized(), one.pose.position, 1};
+  if (squared_norm(d) < touch * touch)
+    return {Outcome::overlap, 0, normalized(d), one.pose.position, 1};
   const double reach = touch + contact_gap;
   const double growth = round1.growth + round2.growth;
-  const double distance = d.norm();
+  const double distance = norm(d);
   const double c = (distance - reach) * (distance + reach);
-  const double b = d.dot(v) - reach * growth;
-  const double a = v.squaredNorm() - growth * growth;  // a t² + 2 b t + c ≤ 0 while within reach
+  const double b = dot(d, v) - reach * growth;
+  const double a = squared_norm(v) - growth * growth;  // a t² + 2 b t + c ≤ 0 while within reach
   const double discriminant = b * b - a * c;
   if (b >= 0 && a >= 0) return {};
   if (c > 0 && discriminant < 0) return {};
   const double root = std::sqrt(std::max(discriminant, 0.0));
   const double time = b < 0 ? closing_time(b, c, root) : overtaking_time(a, b, root);
   if (!(time <= horizon)) return {};
-  const Vec<B::dimension> normal = (d + v * time).normalized();
+  const Vec<B::dimension> normal = normalized(d + v * time);
   const double radius1 = round1.radius + round1.growth * time;
   return {Outcome::contact, time, normal,
           one.pose.position + one.motion.velocity * time + radius1 * normal, 1};

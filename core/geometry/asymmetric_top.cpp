@@ -77,7 +77,7 @@ struct SortedAxes {
 /// The rows are axes of a frame along the angular momentum, in the axes of the body: L̂ × (L̂ × e₃) reversed, L̂ × e₃
 /// reversed, L̂.
 Mat3 frame_along(const Vec3& momentum) {
-  const Vec3 l = momentum.normalized();
+  const Vec3 l = normalized(momentum);
   const double across = std::sqrt(l[0] * l[0] + l[1] * l[1]);
   const double x = l[0] / across, y = l[1] / across;
   Mat3 frame;
@@ -103,8 +103,8 @@ double AsymmetricTop::max_acceleration_factor(const Ellipsoid& shape) {
 
 AsymmetricTop::AsymmetricTop(const Ellipsoid& shape, const Quaternion& orientation,
                              const Vec3& angular_velocity) {
-  const Mat3 axes = orientation.toRotationMatrix();
-  const double speed = angular_velocity.norm();
+  const Mat3 axes = rotation_matrix(orientation);
+  const double speed = norm(angular_velocity);
   if (!shape.is_scalene() || !(speed > 0)) {
     rotate_uniformly(axes, angular_velocity);
     return;
@@ -147,7 +147,7 @@ AsymmetricTop::AsymmetricTop(const Ellipsoid& shape, const Quaternion& orientati
   const double pole = carlson_rf(nu, nu + m, 1 + nu);  // homogeneous of degree −½
   const double complementary_quarter = complete_integral(m);
   is_dual_ = m > 0.5;
-  const double momentum = moments_.cwiseProduct(omega).norm();
+  const double momentum = norm(moments_.cwiseProduct(omega));
   precession_rate_ = momentum / (i2 * p);
   if (is_dual_)
     set_dual_series(complementary_quarter, pole);
@@ -165,7 +165,7 @@ void AsymmetricTop::rotate_uniformly(const Mat3& axes, const Vec3& angular_veloc
   is_uniform_ = true;
   start_ = axes;
   angular_velocity_ = angular_velocity;
-  max_speed_ = angular_velocity.norm();
+  max_speed_ = norm(angular_velocity);
 }
 
 // u from −2K to 2K with these values, which are normalised up to rounding.
@@ -265,7 +265,7 @@ AsymmetricTop::Functions AsymmetricTop::dual_functions(double u) const {
 
 AsymmetricTop::State AsymmetricTop::at(double time) const {
   if (is_uniform_) {
-    const Mat3 turn = rotation(angular_velocity_ * time).toRotationMatrix();
+    const Mat3 turn = rotation_matrix(rotation(angular_velocity_ * time));
     return {turn * start_, angular_velocity_, Vec3::Zero()};
   }
   const double u = phase0_ + phase_rate_ * time;

@@ -23,7 +23,7 @@ class CapsuleOf {
  public:
   explicit CapsuleOf(const Ellipsoid& shape) {
     const double a = shape.semi_axes.maxCoeff(&axis_);
-    radius_ = shape.semi_axes.sum() - a - shape.semi_axes.minCoeff();
+    radius_ = sum(shape.semi_axes) - a - shape.semi_axes.minCoeff();
     half_length_ = (a * a - radius_ * radius_) / a;
   }
 
@@ -41,22 +41,22 @@ class CapsuleOf {
 /// segments any s is nearly as good.
 inline bool farther_apart(const Capsule& one, const Capsule& two, const Vec3& d, double limit) {
   constexpr double parallel = 1e-14;
-  const double a = one.half.squaredNorm(), b = one.half.dot(two.half), c = two.half.squaredNorm();
+  const double a = squared_norm(one.half), b = dot(one.half, two.half), c = squared_norm(two.half);
   const double det = a * c - b * b;
   const double reach = one.radius + two.radius + limit;
   // Includes the error of s for nearly parallel segments, 2√parallel of their lengths, and rounding.
   const double least = reach * reach * (1 + 1e-5) + 1e-8 * (a + c);
-  const double along_normal = d.dot(one.half.cross(two.half));
+  const double along_normal = dot(d, one.half.cross(two.half));
   if (det > 1e-6 * a * c && along_normal * along_normal > least * det) return true;
 
   const auto nearest = [](double position, double length) {
     return length > 0 ? std::clamp(position / length, -1., 1.) : 0;
   };
-  const double along1 = one.half.dot(d), along2 = two.half.dot(d);
+  const double along1 = dot(one.half, d), along2 = dot(two.half, d);
   const double first = det > parallel * a * c ? nearest(along1 * c - b * along2, det) : 0;
   const double t = nearest(first * b - along2, c);
   const double s = nearest(along1 + t * b, a);
-  return (d + t * two.half - s * one.half).squaredNorm() > least;
+  return squared_norm(d + t * two.half - s * one.half) > least;
 }
 
 }  // namespace vitrel

@@ -42,9 +42,9 @@ EllipseFunction ellipse_function(const Flight<Ellipse>& flight, double time, con
   const Mat2 quadric = rotation * q.asDiagonal() * rotation.transpose();
 
   EllipseFunction e;
-  e.value = p.dot(qp) - 1;
-  e.gradient << 2 * qp.dot(p_t), 2 * rotation * qp;
-  e.hessian(0, 0) = 2 * (q.cwiseProduct(p_t).dot(p_t) + qp.dot(p_tt));
+  e.value = dot(p, qp) - 1;
+  e.gradient << 2 * dot(qp, p_t), 2 * rotation * qp;
+  e.hessian(0, 0) = 2 * (dot(q.cwiseProduct(p_t), p_t) + dot(qp, p_tt));
   e.hessian.bottomRightCorner<2, 2>() = 2 * quadric;
   // ∂/∂t of ∇ₓE = 2 R Q p: Ṙ = ω R J.
   const Vec2 mixed = 2 * rotation * (omega * perpendicular(qp) + q.cwiseProduct(p_t));

@@ -4,7 +4,7 @@ namespace vitrel {
 
 Vec3 Ellipsoid::full_inertia_per_mass() const {
   const Vec3 squares = semi_axes.cwiseAbs2();
-  return 0.2 * (Vec3::Constant(squares.sum()) - squares);
+  return 0.2 * (Vec3::Constant(sum(squares)) - squares);
 }
 
 Vec3 Ellipsoid::inertia_per_mass() const {
@@ -14,7 +14,7 @@ Vec3 Ellipsoid::inertia_per_mass() const {
 }
 
 Mat3 shape_matrix(const Ellipsoid& ellipsoid, const Quaternion& orientation) {
-  const Mat3 axes = orientation.toRotationMatrix() * ellipsoid.semi_axes.asDiagonal();
+  const Mat3 axes = rotation_matrix(orientation) * ellipsoid.semi_axes.asDiagonal();
   return axes * axes.transpose();
 }
 

@@ -24,7 +24,7 @@ struct Ellipsoid {
   bool operator==(const Ellipsoid& other) const { return semi_axes == other.semi_axes; }
   double circumradius() const { return semi_axes.maxCoeff(); }
   double inradius() const { return semi_axes.minCoeff(); }
-  double volume() const { return 4 * std::numbers::pi / 3 * semi_axes.prod(); }
+  double volume() const { return 4 * std::numbers::pi / 3 * prod(semi_axes); }
   double max_support_rate() const { return circumradius() - inradius(); }
 
   bool is_round() const { return semi_axes[0] == semi_axes[1] && semi_axes[1] == semi_axes[2]; }

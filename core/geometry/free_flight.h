@@ -12,7 +12,7 @@ namespace vitrel {
 
 /// exp(ω t/2): the rotation by the vector ω t.
 inline Quaternion rotation(const Vec3& turn) {
-  const double half = 0.5 * turn.norm();
+  const double half = 0.5 * norm(turn);
   // sin(x)/x to rounding where the quotient would be lost.
   const auto [cosine, sine] = cosine_and_sine(half);
   const double sinc = half < 1e-8 ? 1 : sine / half;
@@ -28,7 +28,7 @@ inline Pose2 advanced(const Pose2& pose, const Motion2& motion, double time) {
 }
 inline Pose3 advanced(const Pose3& pose, const Motion3& motion, double time) {
   return {pose.position + motion.velocity * time,
-          (rotation(motion.angular_velocity * time) * pose.orientation).normalized()};
+          normalized(rotation(motion.angular_velocity * time) * pose.orientation)};
 }
 
 /// The pose at that time.

@@ -23,7 +23,7 @@ class PeriodicBox {
 
   const Vec<Dim>& lengths() const { return lengths_; }
   /// Area in two dimensions.
-  double volume() const { return lengths_.prod(); }
+  double volume() const { return prod(lengths_); }
 
   Vec<Dim> translation(const Shift<Dim>& shift) const {
     return shift.template cast<double>().cwiseProduct(lengths_);
@@ -76,7 +76,7 @@ class PeriodicBox {
     Shift<Dim> shift = low;
     while (true) {
       const Vec<Dim> separation = d + translation(shift);
-      if (separation.squaredNorm() <= reach * reach) visit(shift, separation);
+      if (squared_norm(separation) <= reach * reach) visit(shift, separation);
       int k = Dim - 1;
       while (k >= 0 && shift[k] == high[k]) shift[k] = low[k], --k;
       if (k < 0) return;

@@ -48,7 +48,7 @@ struct Flight<TumblingEllipsoid> {
 
 inline Pose3 pose_at(const Flight<TumblingEllipsoid>& flight, double time) {
   return {flight.pose.position + flight.motion.velocity * time,
-          Quaternion(flight.top.at(flight.top_time + time).axes).normalized()};
+          quaternion_of(flight.top.at(flight.top_time + time).axes)};
 }
 
 /// Bodies whose angular velocity changes in free flight.

@@ -63,7 +63,7 @@ class CellGrid {
       const Vec<Dim> offset = box_.translation(shift) - position;
       for (Index j = first_[cell]; j != none; j = points_[j].next) {
         const Vec<Dim> separation = points_[j].position + offset;
-        if (separation.squaredNorm() > reach * reach) continue;
+        if (squared_norm(separation) > reach * reach) continue;
         if (!goes_on(visit, static_cast<std::size_t>(j), shift, separation)) return false;
       }
       return true;

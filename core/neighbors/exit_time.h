@@ -17,23 +17,16 @@ inline double rotation_angle(double from, double to) {
 }
 inline double rotation_angle(const Quaternion& from, const Quaternion& to) {
   const Quaternion turn = from.conjugate() * to;
-  return 2 * polar_angle(turn.vec().norm(), std::abs(turn.w()));
-}
-
-inline double magnitude(double angular_velocity) {
-  return std::abs(angular_velocity);
-}
-inline double magnitude(const Vec3& angular_velocity) {
-  return angular_velocity.norm();
+  return 2 * polar_angle(norm(turn.vec()), std::abs(turn.w()));
 }
 
 /// The first s ≥ 0 with |r + v s| = slack + growth s, for |r| ≤ slack; 0 if already outside.
 template <class Vector>
 double crossing(const Vector& r, const Vector& v, double slack, double growth) {
-  const double c = r.squaredNorm() - slack * slack;
+  const double c = squared_norm(r) - slack * slack;
   if (!(slack > 0) || c >= 0) return 0;
-  const double a = v.squaredNorm() - growth * growth;
-  const double b = r.dot(v) - slack * growth;
+  const double a = squared_norm(v) - growth * growth;
+  const double b = dot(r, v) - slack * growth;
   // a s² + 2 b s + c = 0 with c < 0: the first positive root, without cancellation.
   const double discriminant = b * b - a * c;
   if (discriminant < 0) return std::numeric_limits<double>::infinity();
@@ -47,7 +40,7 @@ double crossing(const Vector& r, const Vector& v, double slack, double growth) {
 /// continue in either sense, in three the bound is rotation away from the reference.
 inline double exit_time(const Vec2& moved, const Motion2& motion, double rotated,
                         double max_support_rate, double slack, double slack_rate) {
-  const double turning = max_support_rate * magnitude(motion.angular_velocity);
+  const double turning = max_support_rate * norm(motion.angular_velocity);
   const double away = std::copysign(1.0, motion.angular_velocity) * rotated;
   const double exit = crossing(moved, motion.velocity, slack - away, -turning - slack_rate);
   // A body that rotates back passes the reference before it leaves in the other sense.
@@ -58,7 +51,7 @@ inline double exit_time(const Vec2& moved, const Motion2& motion, double rotated
 inline double exit_time(const Vec3& moved, const Motion3& motion, double rotated,
                         double max_support_rate, double slack, double slack_rate) {
   return crossing(moved, motion.velocity, slack - rotated,
-                  -max_support_rate * magnitude(motion.angular_velocity) - slack_rate);
+                  -max_support_rate * norm(motion.angular_velocity) - slack_rate);
 }
 
 }  // namespace vitrel::detail

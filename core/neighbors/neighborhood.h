@@ -102,8 +102,8 @@ class Neighborhoods {
   Pose<dimension> ahead_of(std::size_t i, const Pose<dimension>& pose,
                            const Motion<dimension>& motion) const {
     constexpr double part = 0.4;
-    const double rate = motion.velocity.norm() +
-                        shape(i).max_support_rate() * detail::magnitude(motion.angular_velocity);
+    const double rate =
+        norm(motion.velocity) + shape(i).max_support_rate() * norm(motion.angular_velocity);
     if (!(rate > 0)) return pose;
     Pose<dimension> ahead = advanced(pose, motion, part * margin_ / rate);
     const Vector half = 0.5 * box_.lengths();
@@ -229,7 +229,7 @@ class Neighborhoods {
       const auto& shape = inner_.shape(i);
       const double size = std::max(body.size, mine.size);
       const double moved =
-          (body.position - mine.position).norm() +
+          norm(body.position - mine.position) +
           size * shape.max_support_rate() *
               std::abs(detail::rotation_angle(mine.orientation(), body.orientation())) +
           std::max(body.size - mine.size, 0.f) * shape.circumradius();

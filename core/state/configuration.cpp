@@ -26,7 +26,7 @@ double rotational_energy(const Configuration2& configuration, std::size_t i) {
 double rotational_energy(const Configuration3& configuration, std::size_t i) {
   const Vec3 own = configuration.orientation[i].conjugate() * configuration.angular_velocity[i];
   const Vec3 squares = own.cwiseAbs2();
-  const double energy = 0.5 * configuration.inertia(i).dot(squares);
+  const double energy = 0.5 * dot(configuration.inertia(i), squares);
   const Ellipsoid& shape = configuration.shape[i];
   const int axis = shape.symmetry_axis();
   return axis == Ellipsoid::none ? energy
@@ -81,7 +81,7 @@ Mechanics<Dim> mechanics(const Configuration<Dim>& configuration) {
   for (std::size_t i = 0; i < configuration.size(); ++i) {
     const Vec<Dim>& v = velocities[i];
     sums.momentum += configuration.mass[i] * v;
-    sums.translational_energy += 0.5 * configuration.mass[i] * v.squaredNorm();
+    sums.translational_energy += 0.5 * configuration.mass[i] * squared_norm(v);
     sums.rotational_energy += rotational_energy(configuration, i);
   }
   return sums;

@@ -23,8 +23,8 @@ inline double alignment(const Configuration2& one, std::size_t i, const Configur
 }
 inline double alignment(const Configuration3& one, std::size_t i, const Configuration3& other,
                         std::size_t j) {
-  const double cosine = figure_axis(other.shape[j], other.orientation[j])
-                            .dot(figure_axis(one.shape[i], one.orientation[i]));
+  const double cosine = dot(figure_axis(other.shape[j], other.orientation[j]),
+                            figure_axis(one.shape[i], one.orientation[i]));
   return 1.5 * cosine * cosine - 0.5;
 }
 

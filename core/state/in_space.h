@@ -1,7 +1,6 @@
 #pragma once
 
-#include <cmath>
-
+#include "core/elementary.h"
 #include "core/state/configuration.h"
 
 /// @file
@@ -25,8 +24,8 @@ inline const Vec3& angular_velocity_in_space(const Vec3& angular_velocity) {
 }
 
 inline Quaternion orientation_in_space(const Configuration2& configuration, std::size_t i) {
-  const double half = 0.5 * configuration.angle[i];
-  return {std::cos(half), 0, 0, std::sin(half)};
+  const auto [cosine, sine] = cosine_and_sine(0.5 * configuration.angle[i]);
+  return {cosine, 0, 0, sine};
 }
 inline const Quaternion& orientation_in_space(const Configuration3& configuration, std::size_t i) {
   return configuration.orientation[i];

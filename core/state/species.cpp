@@ -78,7 +78,7 @@ void draw_shape(const Species& species, Stream& stream, Ellipsoid& shape) {
   }
   const double a = species.first_semi_axis
                        ? species.first_semi_axis->draw(stream)
-                       : draw_or_one(species.size, stream) * std::cbrt(ratio1 * ratio2);
+                       : draw_or_one(species.size, stream) * root(ratio1 * ratio2, 3);
   shape = {Vec3(a, a / ratio1, a / ratio2)};
 }
 
@@ -104,7 +104,7 @@ double natural_mass(const Ellipse& shape) {
 }
 
 double natural_mass(const Ellipsoid& shape) {
-  return shape.semi_axes.prod();
+  return prod(shape.semi_axes);
 }
 
 double Distribution::draw(Stream& stream) const {
@@ -177,8 +177,8 @@ Configuration<Dim> draw_particles(const std::vector<Species>& species, std::size
                                   std::uint64_t seed) {
   Configuration<Dim> system = draw<Dim>(species, particles, seed);
   const Vec<Dim> relative = proportions / proportions[0];
-  const double cube = total_volume(system) / packing_fraction / relative.prod();
-  const double width = Dim == 2 ? std::sqrt(cube) : std::cbrt(cube);
+  const double cube = total_volume(system) / packing_fraction / prod(relative);
+  const double width = root(cube, Dim);
   system.box = PeriodicBox<Dim>(relative * width);
   return system;
 }

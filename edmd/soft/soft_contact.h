@@ -91,11 +91,11 @@ struct RelativeMotion {
 template <int Dim>
 RelativeMotion<Dim> after_contact(const RelativeMotion<Dim>& before,
                                   const Restitution& restitution) {
-  const double distance = before.position.norm();
+  const double distance = norm(before.position);
   const Vec<Dim> n = before.position / distance;
-  const double approach = -before.velocity.dot(n);
+  const double approach = -dot(before.velocity, n);
   const Vec<Dim> across = before.velocity + approach * n;
-  const double speed = across.norm();
+  const double speed = norm(across);
   const Vec<Dim> t = speed > 0 ? Vec<Dim>(across / speed) : Vec<Dim>::Zero();
   const auto [c, s] = cosine_and_sine(restitution.angle);
   const Vec<Dim> turned = c * n + s * t;

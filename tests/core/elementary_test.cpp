@@ -36,6 +36,14 @@ TEST(Elementary, CosineAndSine) {
   }
 }
 
+TEST(Elementary, CosineAndSineOfAnyNumber) {
+  for (const double angle : {0x1p53, -1e17, 1e300, std::numeric_limits<double>::max()}) {
+    const auto [cosine, sine] = cosine_and_sine(angle);
+    EXPECT_NEAR(cosine * cosine + sine * sine, 1, 1e-15) << angle;
+  }
+  EXPECT_TRUE(std::isnan(cosine_and_sine(infinity).sine));
+}
+
 TEST(Elementary, Logarithm) {
   Stream draw(2, Purpose::tests);
   double largest = 0, largest_plus = 0;
@@ -94,12 +102,15 @@ TEST(Elementary, RootsAndPowers) {
   Stream draw(5, Purpose::tests);
   double largest = 0;
   for (int trial = 0; trial < 100'000; ++trial) {
-    const double x = of_any_size(draw, -20, 20);
+    const double x = of_any_size(draw, trial % 2 ? -20 : -323, trial % 2 ? 20 : 308);
     largest = std::max(largest, units(root(x, 3), std::cbrt(static_cast<long double>(x))));
+    ASSERT_EQ(root(-x, 3), -root(x, 3));
   }
   EXPECT_LT(largest, 1);
   EXPECT_EQ(root(9, 2), 3);
-  EXPECT_EQ(root(27, 3), 3);
+  for (int n = 0; n < 1000; ++n) ASSERT_EQ(root(power(n, 3), 3), n);
+  EXPECT_EQ(root(infinity, 3), infinity);
+  EXPECT_TRUE(std::isnan(root(std::numeric_limits<double>::quiet_NaN(), 3)));
   EXPECT_EQ(power(3, 4), 81);
   EXPECT_EQ(power(3, 0), 1);
 }

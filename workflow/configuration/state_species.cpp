@@ -16,7 +16,7 @@ double size_of(const Ellipse& shape) {
   return std::sqrt(shape.a * shape.b);
 }
 double size_of(const Ellipsoid& shape) {
-  return std::cbrt(shape.semi_axes.prod());
+  return root(prod(shape.semi_axes), 3);
 }
 
 std::vector<double> axes_of(const Ellipse& shape) {

@@ -37,7 +37,7 @@ Flight<Ellipsoid> flight_of(const BodyParameters& p, const Ellipsoid&) {
   const auto& [w, x, y, z] = p.orientation;
   const bool turns = p.angular_velocity.size() == 3;
   return {{vector_of<3>(p.semi_axes)},
-          {vector_of<3>(p.position), Quaternion(w, x, y, z).normalized()},
+          {vector_of<3>(p.position), normalized(Quaternion(w, x, y, z))},
           {vector_of<3>(p.velocity), turns ? vector_of<3>(p.angular_velocity) : Vec3::Zero()}};
 }
 

@@ -38,10 +38,10 @@ std::vector<Vec<Dim>> directions() {
   for (int k = 0; k < count; ++k) {
     const double place = (k + 0.5) / count;
     if constexpr (Dim == 2) {
-      result.emplace_back(std::cos(pi * place), std::sin(pi * place));
+      result.push_back(direction(pi * place));
     } else {
-      const double ring = std::sqrt(1 - place * place), angle = golden_angle * k;
-      result.emplace_back(ring * std::cos(angle), ring * std::sin(angle), place);
+      const Vec2 across = std::sqrt(1 - place * place) * direction(golden_angle * k);
+      result.emplace_back(across.x(), across.y(), place);
     }
   }
   return result;
@@ -60,15 +60,15 @@ double lever_term(const Configuration2& c, std::size_t i, const Vec2& point, con
   return c.shape[i].is_round() ? 0 : lever * lever / c.inertia(i);
 }
 double lever_term(const Configuration3& c, std::size_t i, const Vec3& point, const Vec3& n) {
-  return point.cross(n).cwiseAbs2().cwiseQuotient(c.inertia(i)).sum();
+  return sum(point.cross(n).cwiseAbs2().cwiseQuotient(c.inertia(i)));
 }
 
 /// The projected area of an ellipsoid along n is π times this; the mean over all n is a quarter of the surface.
 double boundary_term(const Vec2& axes, const Vec2& n) {
-  return 2 * pi * axes.cwiseProduct(n).norm();
+  return 2 * pi * norm(axes.cwiseProduct(n));
 }
 double boundary_term(const Vec3& axes, const Vec3& n) {
-  return 4 * pi * (axes.prod() * n.cwiseQuotient(axes)).norm();
+  return 4 * pi * norm(prod(axes) * n.cwiseQuotient(axes));
 }
 
 template <int Dim>
@@ -78,13 +78,13 @@ Averages averages_of(const Configuration<Dim>& c, std::size_t i) {
   const double weight = 1.0 / static_cast<double>(normals.size());
   Averages one;
   for (const Vec<Dim>& n : normals) {
-    const double h = axes.cwiseProduct(n).norm();
+    const double h = norm(axes.cwiseProduct(n));
     const Vec<Dim> point = axes.cwiseAbs2().cwiseProduct(n) / h;
     one.support += weight * h;
     one.boundary += weight * boundary_term(axes, n);
     one.inverse_mass += weight * (1 / c.mass[i] + lever_term(c, i, point, n));
   }
-  one.size = Dim == 2 ? pi * axes.prod() : 4 * pi / 3 * axes.prod();
+  one.size = Dim == 2 ? pi * prod(axes) : 4 * pi / 3 * prod(axes);
   one.squared_support = one.support * one.support;
   return one;
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/elementary.h"
+
 namespace vitrel {
 namespace {
 
@@ -73,10 +75,10 @@ class Hybrid {
   double progress() const {
     double done = 0;
     if (options_.packing_fraction)
-      done = std::log(packing_fraction(configuration_) / start_) / std::log(goal() / start_);
+      done = logarithm(packing_fraction(configuration_) / start_) / logarithm(goal() / start_);
     if (options_.reduced_pressure)
-      done = std::max(done, std::log(std::max(1.0, state_.growth.reduced_pressure)) /
-                                std::log(*options_.reduced_pressure));
+      done = std::max(done, logarithm(std::max(1.0, state_.growth.reduced_pressure)) /
+                                logarithm(*options_.reduced_pressure));
     return std::clamp(done, 0.0, 1.0);
   }
 

@@ -219,11 +219,11 @@ void set_velocities(Configuration<Dim>& configuration, const ForeignFrame& frame
 }  // namespace
 
 Quaternion unit_quaternion(const Quaternion& q, std::size_t particle) {
-  const double excess = std::abs(q.norm() - 1);
+  const double excess = std::abs(norm(q) - 1);
   if (!(excess <= tolerance::norm_in_single_precision))
     throw UserError(fmt::format("the orientation of particle {} has the norm {}, but should have 1",
-                                particle, q.norm()));
-  return excess > tolerance::norm_in_double_precision ? q.normalized() : q;
+                                particle, norm(q)));
+  return excess > tolerance::norm_in_double_precision ? normalized(q) : q;
 }
 
 int dimension_of(const ForeignFrame& frame, const KnownSystem& known) {

@@ -1,0 +1,48 @@
+#!/usr/bin/python3
+"""scripts/check_arithmetic finds what leaves bits open: one source with and without each of them."""
+
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+SCRIPT = pathlib.Path(__file__).parents[2] / "scripts" / "check_arithmetic"
+
+GOOD = """
+double f(Stream& random, const Vec3& u, const Mat3& m) {
+  const double x = random.uniform(), y = random.uniform(0, 1);
+  const Vec2 both{random.uniform(), random.normal()};
+  const double one = x > y ? random.uniform() : random.normal();
+  return std::sqrt(std::abs(x)) + std::floor(y) + dot(u, m * u) + here.determinant() + cosine_and_sine(x).sine;  // u.dot(u)
+}
+friend Simd operator*(const Simd& x, const Simd& y);
+"""
+
+REFUSED = ["std::cbrt(x)", "std::exp2(x)", "std::fma(x, y, z)", "u.dot(v)", "(u - v).norm()", "pair->slope.squaredNorm()",
+           "v.template head<2>().prod()", "m.inverse()", "q.toRotationMatrix()", "Eigen::SelfAdjointEigenSolver<Mat3>(m)",
+           "f(random.uniform(), random.uniform())", "random.uniform() * lengths.x() +\n random.normal()",
+           "g(random, h(random))", "Vec3 operator*(const Mat3& m, const Vec3& v)"]
+
+
+class CheckArithmetic(unittest.TestCase):
+    def complaints(self, line, path="mc/move.cpp"):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / path
+            file.parent.mkdir(parents=True)
+            file.write_text(f"void g(Stream& random) {{\n{line};\n}}\n")
+            return subprocess.run([SCRIPT, folder], capture_output=True, text=True).stdout
+
+    def test_accepts(self):
+        self.assertEqual(self.complaints(GOOD), "")
+
+    def test_refuses(self):
+        for line in REFUSED:
+            with self.subTest(line):
+                self.assertIn("mc/move.cpp:2: ", self.complaints(line))
+
+    def test_analysis_is_free(self):
+        self.assertEqual(self.complaints("u.dot(v)", "analysis/table.cpp"), "")
+
+
+if __name__ == "__main__":
+    unittest.main()
