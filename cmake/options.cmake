@@ -26,14 +26,14 @@ set(VITREL_SANITIZE "" CACHE STRING "Sanitizers, for example address,undefined")
 
 # These reach the users of an installed library too: functions defined in headers are compiled there
 # again and must compute the same. Trajectories have the same bits on every processor, therefore no fused multiply-add:
-# neither contracted expressions nor those that Eigen writes out where the processor has it. Nor shall the alignment of
-# Eigen's types depend on the instructions.
+# neither contracted expressions nor those that Eigen writes out where the processor has it. The alignment of
+# Eigen's types is the same everywhere, too.
 add_library(vitrel_options INTERFACE)
 add_library(vitrel::options ALIAS vitrel_options)
 set_target_properties(vitrel_options PROPERTIES EXPORT_NAME options)
 target_compile_features(vitrel_options INTERFACE cxx_std_20)
 target_compile_options(vitrel_options INTERFACE -ffp-contract=off)
-target_compile_definitions(vitrel_options INTERFACE EIGEN_DONT_VECTORIZE)
+target_compile_definitions(vitrel_options INTERFACE EIGEN_DONT_VECTORIZE EIGEN_MAX_STATIC_ALIGN_BYTES=16)
 if(VITREL_PROCESSOR)
   set(VITREL_PROCESSOR_FLAGS -march=${VITREL_PROCESSOR})
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")

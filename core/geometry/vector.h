@@ -148,7 +148,8 @@ M inverse(const M& m) {
   return adjugate(m) / determinant(m);
 }
 
-inline Quaternion operator*(const Quaternion& p, const Quaternion& q) {
+template <class T>
+Eigen::Quaternion<T> operator*(const Eigen::Quaternion<T>& p, const Eigen::Quaternion<T>& q) {
   return {p.w() * q.w() - p.x() * q.x() - p.y() * q.y() - p.z() * q.z(),
           p.w() * q.x() + p.x() * q.w() + p.y() * q.z() - p.z() * q.y(),
           p.w() * q.y() + p.y() * q.w() + p.z() * q.x() - p.x() * q.z(),
@@ -156,9 +157,9 @@ inline Quaternion operator*(const Quaternion& p, const Quaternion& q) {
 }
 
 /// v rotated by q.
-template <FixedSize V>
-Vec3 operator*(const Quaternion& q, const V& v) {
-  const Vec3 plain = v, twice = 2 * q.vec().cross(plain);
+template <class T, FixedSize V>
+Eigen::Matrix<T, 3, 1> operator*(const Eigen::Quaternion<T>& q, const V& v) {
+  const Eigen::Matrix<T, 3, 1> plain = v, twice = 2 * q.vec().cross(plain);
   return plain + q.w() * twice + q.vec().cross(twice);
 }
 

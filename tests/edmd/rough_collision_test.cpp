@@ -5,6 +5,7 @@
 
 #include "core/contact/contact_queries.h"
 #include "core/random/stream.h"
+#include "core/state/configuration.h"
 #include "edmd/collision_rule.h"
 
 namespace vitrel {
