@@ -19,6 +19,7 @@ configure_package_config_file(cmake/vitrel-config.cmake.in vitrel-config.cmake
 write_basic_package_version_file(vitrel-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/vitrel-config.cmake
               ${PROJECT_BINARY_DIR}/vitrel-config-version.cmake
+              cmake/vitrel-requirements.cmake
         DESTINATION ${package_folder} COMPONENT development)
 
 # The manual pages and the completions for shells, which the programs themselves print. Builds for certain processors are

@@ -17,6 +17,13 @@ function(vitrel_precompiled name)
   target_precompile_headers(${name} PRIVATE ${ARG_HEADERS})
 endfunction()
 
+# CMake 4 warns about headers to be reused that are not precompiled.
+function(vitrel_reuse_precompiled target from)
+  if(NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)
+    target_precompile_headers(${target} REUSE_FROM ${from})
+  endif()
+endfunction()
+
 # What many sources include. Headers still include what they need (scripts/check_headers). JSON is not among
 # them: every source would pay for its functions.
 set(VITREL_PRECOMPILED
@@ -39,14 +46,14 @@ function(vitrel_library name)
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} LINKER_LANGUAGE CXX)
   vitrel_private_options(${target})
   target_link_libraries(${target} PRIVATE fmt::fmt)
-  target_precompile_headers(${target} REUSE_FROM vitrel_precompiled)
+  vitrel_reuse_precompiled(${target} vitrel_precompiled)
   if(ARG_COLD)
     add_library(${target}_cold OBJECT ${ARG_COLD})
     target_link_libraries(${target}_cold PRIVATE vitrel::options ${ARG_LINK} ${ARG_PRIVATE_LINK} fmt::fmt)
     target_include_directories(${target}_cold PRIVATE ${PROJECT_SOURCE_DIR})
     vitrel_private_options(${target}_cold)
     target_compile_options(${target}_cold PRIVATE ${VITREL_COLD})
-    target_precompile_headers(${target}_cold REUSE_FROM vitrel_cold_precompiled)
+    vitrel_reuse_precompiled(${target}_cold vitrel_cold_precompiled)
     target_sources(${target} PRIVATE $<TARGET_OBJECTS:${target}_cold>)
   endif()
 endfunction()

@@ -16,13 +16,7 @@ if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CROSSCOMPILING)
 endif()
 set(VITREL_PROCESSOR "${processor_by_default}" CACHE STRING
     "Whose instructions to use, as in -march: native, x86-64-v3 ...; empty: those of all processors of the family")
-# clang-tidy reads <quadmath.h> of GCC, after its own headers.
-if(CMAKE_CXX_CLANG_TIDY)
-  execute_process(COMMAND ${CMAKE_CXX_COMPILER} -print-file-name=include
-                  OUTPUT_VARIABLE compiler_headers OUTPUT_STRIP_TRAILING_WHITESPACE)
-  list(APPEND CMAKE_CXX_CLANG_TIDY --extra-arg=-idirafter${compiler_headers})
-endif()
-set(VITREL_SANITIZE "" CACHE STRING "Sanitizers, for example address,undefined")
+set(VITREL_SANITIZE "" CACHE STRING "Sanitizers, for example address,undefined,float-cast-overflow")
 
 # These reach the users of an installed library too: functions defined in headers are compiled there
 # again and must compute the same. Trajectories have the same bits on every processor, therefore no fused multiply-add:

@@ -184,7 +184,7 @@ struct SimulationState {
   void find_neighbors(NeighborSearch method, double target);
   Rotation rotation_now(Index i) const;
   Vector with_scaled_spin(Index i, const Vector& angular_velocity, bool to_true) const
-      requires(dimension == 3);
+      requires(B::dimension == 3);
   std::span<Neighbor<B>> renew_neighbors(Index i);
 };
 

@@ -218,7 +218,8 @@ auto SimulationState<B>::full_inertia_now(Index i) const -> Inertia<dimension> {
 // Of a spheroid with the part along its axis multiplied by I⊥/I∥, or divided.
 template <Body B>
 auto SimulationState<B>::with_scaled_spin(Index i, const Vector& angular_velocity,
-                                          bool to_true) const -> Vector requires(dimension == 3) {
+                                          bool to_true) const -> Vector
+    requires(B::dimension == 3) {
   const auto& body = shape(i);
   const int axis = body.symmetry_axis();
   if (axis == Ellipsoid::none) return angular_velocity;

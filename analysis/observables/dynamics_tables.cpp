@@ -245,8 +245,7 @@ std::vector<double> times_of(const std::vector<AgedMotion>& ageing) {
     times.insert(times.end(), aged.motion.lag.begin(), aged.motion.lag.end());
   std::ranges::sort(times);
   const auto same = [](double one, double next) { return next - one <= rounding * next; };
-  const auto rest = std::ranges::unique(times, same);
-  times.erase(rest.begin(), rest.end());
+  times.erase(std::unique(times.begin(), times.end(), same), times.end());
   return times;
 }
 

@@ -1,9 +1,9 @@
 #pragma once
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -38,10 +38,9 @@ class Help : public CLI::Formatter {
     return Formatter::make_group(heading(group), are_positionals, options);
   }
   std::string make_subcommand(const CLI::App* app) const override {
-    std::ostringstream text;
-    CLI::detail::format_help(text, app->get_name(), in_column(app->get_description()),
-                             get_column_width());
-    return text.str();
+    const std::size_t width = get_column_width();
+    return fmt::format("  {:<{}}{}\n", app->get_name(), width - 2,
+                       indented(in_column(app->get_description()), width));
   }
   std::string make_option_desc(const CLI::Option* option) const override {
     return in_column(option->get_description());

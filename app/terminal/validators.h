@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
+#include <cstdlib>
 #include <functional>
 #include <string>
 #include <vector>
@@ -20,10 +21,10 @@ namespace vitrel {
 inline CLI::Validator number_that(const std::function<bool(double)>& fits,
                                   const std::string& wanted) {
   return {[=](const std::string& text) {
-            double number = 0;
-            return CLI::detail::lexical_cast(text, number) && fits(number)
-                       ? std::string()
-                       : text + " is not " + wanted;
+            char* end = nullptr;
+            const double number = std::strtod(text.c_str(), &end);
+            const bool is_number = !text.empty() && *end == '\0';
+            return is_number && fits(number) ? std::string() : text + " is not " + wanted;
           },
           ""};
 }

@@ -7,6 +7,13 @@
 
 namespace vitrel::bench {
 
+// Boost reduces an angle in the precision of its type, which leaves few digits of a sine or cosine close to 0.
+template <>
+std::pair<Float128, Float128> cosine_and_sine(const Float128& angle) {
+  const boost::multiprecision::cpp_bin_float_100 wide(angle);
+  return {Float128(cos(wide)), Float128(sin(wide))};
+}
+
 namespace {
 
 /// R(x, y) = xxx x³ + xxy x²y + xyy xy² + yyy y³ as a function of time.

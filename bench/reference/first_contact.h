@@ -1,6 +1,6 @@
 #pragma once
 
-#include <boost/multiprecision/float128.hpp>
+#include <boost/multiprecision/cpp_bin_float.hpp>
 
 #include "core/geometry/growing.h"
 
@@ -51,7 +51,8 @@ struct TrueContactOf {
 };
 using TrueContact = TrueContactOf<2>;
 
-using Float128 = boost::multiprecision::float128;
+/// 113 bits of mantissa on every platform.
+using Float128 = boost::multiprecision::cpp_bin_float_quad;
 
 template <class Real = long double>
 TrueContact true_first_contact(const Flight<GrowingEllipse>& one, const Flight<GrowingEllipse>& two,

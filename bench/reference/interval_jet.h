@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 /// @file
 /// Interval arithmetic in any binary floating-point type, and functions of time with two
@@ -10,7 +11,7 @@
 ///
 /// Results are rounded outwards: every operation widens its result by two units in the last place,
 /// more than the rounding of the operation itself. The elementary functions of the type are taken
-/// to be right to within the same two units (those of glibc and libquadmath are, to one).
+/// to be right to within the same two units (those of glibc are, to one).
 namespace vitrel::bench {
 
 template <class Real>
@@ -128,13 +129,16 @@ Direction<Real> turned(const Direction<Real>& from, const Real& delta) {
           clipped(from.sine * cosine + from.cosine * sine)};
 }
 
+template <class Real>
+std::pair<Real, Real> cosine_and_sine(const Real& angle) {
+  return {std::cos(angle), std::sin(angle)};
+}
+
 /// The directions of the angles in an interval.
 template <class Real>
 Direction<Real> direction(const Interval<Real>& angle) {
-  using std::cos;
-  using std::sin;
   const Real middle = angle.middle();
-  const Real c = cos(middle), s = sin(middle);
+  const auto [c, s] = cosine_and_sine(middle);
   return turned<Real>({Interval<Real>::widened(c, c), Interval<Real>::widened(s, s)},
                       std::max(angle.high - middle, middle - angle.low));
 }

@@ -1,5 +1,6 @@
 // Habits that users bring along: help and suggestions, completion, a manual page, colour, lines that fit a terminal.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 #include "workflow/configuration/parameters.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>

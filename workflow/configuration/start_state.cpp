@@ -1,6 +1,7 @@
 #include "workflow/configuration/start_state.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 

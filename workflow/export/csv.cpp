@@ -1,6 +1,7 @@
 #include "workflow/export/csv.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <iterator>
 #include <string_view>

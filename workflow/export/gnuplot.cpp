@@ -1,6 +1,7 @@
 #include "workflow/export/gnuplot.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,7 @@
 #include "workflow/export/trajectory_export.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <memory>

@@ -1,6 +1,7 @@
 #include "workflow/storage/check.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <limits>
 

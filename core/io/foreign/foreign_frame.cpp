@@ -1,6 +1,7 @@
 #include "core/io/foreign/foreign_frame.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
