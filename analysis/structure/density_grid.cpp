@@ -70,9 +70,8 @@ bool advance(std::array<int, Dim>& n, const std::array<int, Dim>& most) {
   return false;
 }
 
-int min_nodes(double length, double to) {
-  const double least = length * to / (2 * pi * largest_grid_wave);
-  return std::max(spline_order, static_cast<int>(std::ceil(least)));
+double min_nodes(double length, double to) {
+  return std::max<double>(spline_order, std::ceil(length * to / (2 * pi * largest_grid_wave)));
 }
 
 template <std::size_t Dim>
@@ -121,7 +120,7 @@ struct DensityGrid<Dim>::Transform {
 
 template <int Dim>
 DensityGrid<Dim>::DensityGrid(const Vec<Dim>& lengths, double from, double to) : lengths_(lengths) {
-  for (int k = 0; k < Dim; ++k) count_[k] = fast_size(min_nodes(lengths[k], to));
+  for (int k = 0; k < Dim; ++k) count_[k] = fast_size(static_cast<int>(min_nodes(lengths[k], to)));
   std::size_t pitch = 1;
   for (std::size_t k = Dim; k-- > 0;) {
     pitch_[k] = pitch;

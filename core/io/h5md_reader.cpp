@@ -13,6 +13,7 @@
 #include "core/io/h5md.h"
 #include "core/state/species.h"
 #include "core/tolerances.h"
+#include "core/whole_number.h"
 
 namespace vitrel {
 namespace fs = std::filesystem;
@@ -78,7 +79,13 @@ void TrajectoryReader::read_axes() {
     for (std::size_t k = 0; k < numbers.size(); ++k) numbers[k] = offset + increment * k;
     return numbers;
   };
-  for (const double number : axis(step)) steps_.push_back(std::llround(number));
+  for (const double number : axis(step)) {
+    const auto whole = whole_number<std::int64_t>(std::round(number));
+    if (!whole)
+      fail(fmt::format("the step of frame {} (dataset {}) is {}, but should be a whole number",
+                       steps_.size(), step.name(), number));
+    steps_.push_back(*whole);
+  }
   times_ = axis(time);
   if (times_.size() < steps_.size() || shape[0] < steps_.size())
     fail("the datasets time and value of " + group_ + "/position have fewer frames than step");
@@ -324,7 +331,7 @@ void TrajectoryReader::read_positions(std::uint64_t frame,
   const std::vector<double> positions = frame_values("position", meaning, frame, d);
   std::vector<double> images(particles() * Dim);
   if (has("image")) images = frame_values("image", "the box crossings", frame, Dim);
-  if (std::ranges::any_of(images, [](double n) { return std::abs(n) > max_box_crossings; }))
+  if (std::ranges::any_of(images, [](double n) { return !(std::abs(n) <= max_box_crossings); }))
     fail("the dataset " + group_ + "/image/value has impossible numbers in frame " +
          std::to_string(frame));
   for (std::size_t i = 0; i < particles(); ++i) {

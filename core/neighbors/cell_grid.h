@@ -23,12 +23,11 @@ class CellGrid {
   /// For about `particles` points and queries of about `reach`.
   CellGrid(const PeriodicBox<Dim>& box, double reach, std::size_t particles) : box_(box) {
     constexpr double cells_per_particle = 4;
-    const auto max_count =
-        static_cast<std::int64_t>(std::ceil(root(cells_per_particle * particles, Dim))) + 1;
+    const double max_count = std::ceil(root(cells_per_particle * particles, Dim)) + 1;
     std::int64_t cells = 1;
     for (int k = 0; k < Dim; ++k) {
-      const auto target = static_cast<std::int64_t>(box.lengths()[k] / (0.5 * reach));
-      count_[k] = std::clamp<std::int64_t>(target, 1, max_count);
+      const double target = box.lengths()[k] / (0.5 * reach);
+      count_[k] = static_cast<std::int64_t>(std::clamp(target, 1.0, max_count));
       width_[k] = box.lengths()[k] / static_cast<double>(count_[k]);
       cells *= count_[k];
     }

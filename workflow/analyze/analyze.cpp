@@ -16,6 +16,7 @@
 #include "analysis/structure/orientation_tensor.h"
 #include "core/error.h"
 #include "core/io/json.h"
+#include "core/whole_number.h"
 #include "workflow/analyze/glass_report.h"
 #include "workflow/analyze/glass_tables.h"
 #include "workflow/analyze/relaxation_tables.h"
@@ -413,8 +414,9 @@ Json analysis_summary(const AnalysedRun& run) {
   Json summary = {{"file", run.file.string()}};
   for (const Column& column : run.results.find("summary")->columns) {
     const double value = column.value.front();
-    const bool is_count = column.error.empty() && column.unit == "1" && value == std::floor(value);
-    summary[column.name] = is_count ? Json(static_cast<std::uint64_t>(value)) : Json(value);
+    const bool may_count = column.error.empty() && column.unit == "1";
+    const auto count = may_count ? whole_number<std::uint64_t>(value) : std::nullopt;
+    summary[column.name] = count ? Json(*count) : Json(value);
     if (!column.error.empty()) summary[column.name + "_error"] = column.error.front();
   }
   if (run.glass) summary.update(glass_summary(*run.glass));

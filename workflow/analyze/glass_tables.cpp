@@ -7,6 +7,7 @@
 #include "analysis/glass/glass_names.h"
 #include "analysis/structure/order.h"
 #include "core/error.h"
+#include "core/whole_number.h"
 
 namespace vitrel {
 namespace {
@@ -196,14 +197,23 @@ std::optional<GlassRun> stored_glass_run(const std::string& name, const Results&
   const auto value = [&](const Table& table, const char* name_of_column) {
     return column(table, name_of_column).value.front();
   };
+  const auto count = [&](const Table& table, const char* name_of_column) {
+    const double stored = value(table, name_of_column);
+    const auto whole = whole_number<std::uint64_t>(stored);
+    if (!whole)
+      throw FileError(
+          fmt::format("{}: the column '{}' of the table '{}' has {}, but should have a "
+                      "whole number",
+                      name, name_of_column, table.name, stored));
+    return *whole;
+  };
   const auto error = [&](const Table& table, const char* name_of_column) {
     const Column& found = column(table, name_of_column);
     return found.error.empty() ? unknown : found.error.front();
   };
   const auto verdict = [&](const char* code, const char* tests, const char* reason) {
-    return Equilibration{
-        static_cast<EquilibrationVerdict>(static_cast<int>(value(*relaxation, code))),
-        results.text(reason), static_cast<std::size_t>(value(*relaxation, tests))};
+    return Equilibration{static_cast<EquilibrationVerdict>(count(*relaxation, code)),
+                         results.text(reason), count(*relaxation, tests)};
   };
   const auto time = [&](const char* of) {
     return RelaxationTime{value(*relaxation, of), error(*relaxation, of), unknown, unknown, ""};
@@ -216,14 +226,13 @@ std::optional<GlassRun> stored_glass_run(const std::string& name, const Results&
   GlassRun run{};
   run.name = name;
   run.packing_fraction = value(*relaxation, "packing_fraction");
-  run.seed = static_cast<std::uint64_t>(value(*relaxation, "seed"));
-  run.rotors = static_cast<std::size_t>(value(*summary, "rotors"));
+  run.seed = count(*relaxation, "seed");
+  run.rotors = count(*summary, "rotors");
   run.duration = value(*relaxation, "duration");
   run.wave_number = value(*relaxation, "wave_number");
   run.nematic_order = {value(*relaxation, "nematic_order"), error(*relaxation, "nematic_order"), 0};
   run.plateau = value(*relaxation, "plateau");
-  run.orientation =
-      static_cast<OrientationKind>(static_cast<int>(value(*relaxation, "orientation")));
+  run.orientation = static_cast<OrientationKind>(count(*relaxation, "orientation"));
   run.translation = time("tau_translation");
   run.rotation = time("tau_rotation");
   run.diffusion = diffusion("diffusion");

@@ -1,6 +1,7 @@
 #include "workflow/analyze/observables_page.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <vector>

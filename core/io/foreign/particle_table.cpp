@@ -1,6 +1,7 @@
 #include "core/io/foreign/particle_table.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -11,6 +12,7 @@
 #include "core/error.h"
 #include "core/io/box_crossings.h"
 #include "core/io/foreign/text_lines.h"
+#include "core/whole_number.h"
 
 namespace vitrel {
 namespace {
@@ -156,7 +158,11 @@ ForeignFrame ParticleTable::frame(const std::string& place) const {
   ForeignFrame frame;
   frame.dimension = has("z") ? 3 : 2;
   frame.time = single("time");
-  if (const auto step = single("step")) frame.step = std::llround(*step);
+  if (const auto step = single("step")) {
+    frame.step = whole_number<std::int64_t>(std::round(*step));
+    if (!frame.step)
+      throw FileError(fmt::format("{}: step is {}, but should be a whole number", place, *step));
+  }
   if (has("box_x")) frame.box = vectors("box_", directions, {0}).front();
   frame.position = vectors("", directions, order);
   frame.unwrapped = vectors("unwrapped_", directions, order);
