@@ -36,6 +36,10 @@ if(VITREL_PROCESSOR)
     # one twice (found by the test Verdict.DegenerateContactCountsByItsGap).
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
       list(APPEND VITREL_PROCESSOR_FLAGS -mno-avx512f)
+      # GCC 14 keeps AVX-512 where the processor has AVX10, and warns, unless AVX10 is named, too.
+      if(CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 14 AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 15)
+        list(APPEND VITREL_PROCESSOR_FLAGS -mno-avx10.1-512)
+      endif()
     endif()
   endif()
   target_compile_options(vitrel_options INTERFACE ${VITREL_PROCESSOR_FLAGS})

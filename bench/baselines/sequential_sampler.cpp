@@ -34,8 +34,8 @@ void SequentialSampler::sweep() {
 }
 
 void SequentialSampler::translate(std::size_t i, Stream& draw) {
-  Vec2 position =
-      configuration_.position[i] + translation_ * Vec2(draw.uniform(-1, 1), draw.uniform(-1, 1));
+  const double y = draw.uniform(-1, 1), x = draw.uniform(-1, 1);
+  Vec2 position = configuration_.position[i] + translation_ * Vec2(x, y);
   Shift<2> crossed = Shift<2>::Zero();
   configuration_.box.wrap(position, crossed);
   ++counts_.translations_tried;

@@ -125,8 +125,9 @@ RestitutionDomain domain_of_the_source() {
 template <class Force>
 ScaledImpact random_impact_of_the_source(Stream& draw) {
   const Force force = random_material<Force>(draw);
-  const ContactPair pair =
-      pair_of(log_uniform(radius, draw), log_uniform(radius, draw), log_uniform(density, draw));
+  const double rho = log_uniform(density, draw);
+  const double r2 = log_uniform(radius, draw), r1 = log_uniform(radius, draw);
+  const ContactPair pair = pair_of(r1, r2, rho);
   const double v = log_uniform(speed, draw), e = draw.uniform(eccentricity.low, eccentricity.high);
   return scaled_impact(force, pair, v * std::sqrt(1 - e * e), v * e);
 }
@@ -151,8 +152,10 @@ template <class Force>
 std::vector<ScaledImpact> random_impacts(const RestitutionDomain& domain, int count) {
   Stream draw(1, Purpose::benchmark_cases);
   std::vector<ScaledImpact> all;
-  for (int k = 0; k < count; ++k)
-    all.push_back(impact_at<Force>(domain, draw.uniform(), draw.uniform(), draw.uniform()));
+  for (int k = 0; k < count; ++k) {
+    const double d = draw.uniform(), m = draw.uniform(), g = draw.uniform();
+    all.push_back(impact_at<Force>(domain, g, m, d));
+  }
   return all;
 }
 

@@ -207,7 +207,10 @@ std::vector<Question> questions(const Configuration2& c, const Steps& steps, int
     const std::size_t i = draw.below(c.size());
     const bool turns = !c.shape[i].is_round() && draw.below(2) == 1;
     Vec2 position = c.position[i];
-    if (!turns) position += Vec2(plus_minus(steps.translation), plus_minus(steps.translation));
+    if (!turns) {
+      const double y = plus_minus(steps.translation), x = plus_minus(steps.translation);
+      position += Vec2(x, y);
+    }
     Question question{
         c.shape[i], direction(c.angle[i] + (turns ? plus_minus(steps.rotation) : 0)), {}};
     const double reach = 2 * c.shape[i].circumradius();

@@ -19,6 +19,11 @@ inline double sign(Stream& draw) {
 inline double log_uniform(Stream& draw, double low, double high) {
   return low * std::pow(high / low, draw.uniform());
 }
+/// Of either sign.
+inline double signed_log_uniform(Stream& draw, double low, double high) {
+  const double of_sign = sign(draw);
+  return of_sign * log_uniform(draw, low, high);
+}
 
 /// FNV-1a, so that a class keeps its cases whatever classes stand beside it.
 template <int Dim>

@@ -115,7 +115,7 @@ template <bool tumble>
 EllipsoidCase grazing(Stream& draw, double kappa) {
   constexpr double widest = 1e-3;
   constexpr int samples = 64;
-  const double wanted = sign(draw) * log_uniform(draw, 1e-12, widest);
+  const double wanted = signed_log_uniform(draw, 1e-12, widest);
   while (true) {
     EllipsoidCase pair = thermal_pair(draw, kappa);
     const Vec3 n = any_direction(draw);
@@ -138,8 +138,10 @@ EllipsoidCase grazing(Stream& draw, double kappa) {
 
 EllipsoidCase fast_rotation(Stream& draw, double kappa) {
   EllipsoidCase pair = thermal_pair(draw, kappa);
-  for (Solid* flight : {&pair.one, &pair.two})
-    flight->motion.angular_velocity = draw.uniform(10, 60) * any_direction(draw);
+  for (Solid* flight : {&pair.one, &pair.two}) {
+    const Vec3 axis = any_direction(draw);
+    flight->motion.angular_velocity = draw.uniform(10, 60) * axis;
+  }
   return placed_apart(draw, pair, 0.5, 1.4);
 }
 
@@ -207,14 +209,15 @@ EllipsoidCase scalene_pair(Stream& draw, double kappa, const Spin& spin) {
 
 /// How far from the uniform rotation or the separatrix, relative to the angular velocity.
 double small_deviation(Stream& draw) {
-  return sign(draw) * log_uniform(draw, 1e-12, 1e-1);
+  return signed_log_uniform(draw, 1e-12, 1e-1);
 }
 
 EllipsoidCase nearly_uniform(Stream& draw, double kappa) {
   return scalene_pair(draw, kappa, [&](const Ellipsoid& shape) -> Vec3 {
     const auto axis = static_cast<int>(draw.below(3));
     const double speed = draw.normal() / std::sqrt(shape.inertia_per_mass()[axis]);
-    Vec3 omega = speed * small_deviation(draw) * any_direction(draw);
+    Vec3 omega = any_direction(draw);
+    omega *= speed * small_deviation(draw);
     omega[axis] = speed;
     return omega;
   });
@@ -228,7 +231,8 @@ EllipsoidCase near_separatrix(Stream& draw, double kappa) {
     Vec3 omega = thermal_vector(draw).cwiseQuotient(moments.cwiseSqrt());
     const double ratio = moments[one] * (moments[two] - moments[one]) /
                          (moments[three] * (moments[three] - moments[two]));
-    omega[three] = sign(draw) * std::sqrt(ratio) * omega[one] * (1 + small_deviation(draw));
+    omega[three] = sign(draw) * std::sqrt(ratio) * omega[one];
+    omega[three] *= 1 + small_deviation(draw);
     return omega;
   });
 }

@@ -135,7 +135,7 @@ CollisionCase generic(Stream& draw, double kappa) {
 }
 
 CollisionCase grazing(Stream& draw, double kappa) {
-  const double wanted = sign(draw) * log_uniform(draw, 1e-12, 1e-3);
+  const double wanted = signed_log_uniform(draw, 1e-12, 1e-3);
   while (true) {
     CollisionCase pair = thermal_pair(draw, of_unit_area(kappa), of_unit_area(kappa));
     const double unit_gap = pair.gap_unit(), normal_angle = any_angle(draw);
@@ -156,8 +156,10 @@ CollisionCase grazing(Stream& draw, double kappa) {
 
 CollisionCase fast_rotation(Stream& draw, double kappa) {
   CollisionCase pair = thermal_pair(draw, of_unit_area(kappa), of_unit_area(kappa));
-  for (Flight<GrowingEllipse>* flight : {&pair.one, &pair.two})
-    flight->motion.angular_velocity = sign(draw) * draw.uniform(10, 60);
+  for (Flight<GrowingEllipse>* flight : {&pair.one, &pair.two}) {
+    const double sense = sign(draw);
+    flight->motion.angular_velocity = sense * draw.uniform(10, 60);
+  }
   return placed_apart(draw, pair, 0.5, 1.4);
 }
 
@@ -180,7 +182,8 @@ CollisionCase crossed_at_start(Stream& draw, double kappa) {
   while (true) {
     CollisionCase pair = thermal_pair(draw, of_unit_area(kappa), of_unit_area(kappa));
     const double reach = 2 * pair.one.body.shape.a;
-    pair.two.pose.position = draw.uniform(0, 0.5) * reach * unit(any_angle(draw));
+    const Vec2 n = unit(any_angle(draw));
+    pair.two.pose.position = draw.uniform(0, 0.5) * reach * n;
     const VieillardBaron<double> at = contact_function(pair, 0);
     // Ψ of exactly four intersections: ellipses of one area do not contain each other.
     if (at.psi > 1e-3 && !at.disjoint()) return pair;
@@ -252,7 +255,7 @@ CollisionCase parallel_sides(Stream& draw, double kappa) {
   do {
     pair = thermal_pair(draw, of_unit_area(kappa), of_unit_area(kappa));
     const auto off = [&] {
-      return draw.uniform() < 0.125 ? 0 : sign(draw) * log_uniform(draw, 1e-12, 1e-6);
+      return draw.uniform() < 0.125 ? 0 : signed_log_uniform(draw, 1e-12, 1e-6);
     };
     pair.two.pose.angle = pair.one.pose.angle + off();
     pair.two.motion.angular_velocity = pair.one.motion.angular_velocity + off();

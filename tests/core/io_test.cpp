@@ -490,6 +490,25 @@ TEST_F(TrajectoryFile, ReadsWhatOtherProgramsWrite) {
   EXPECT_FALSE(reader.has("image"));
 }
 
+TEST_F(TrajectoryFile, StepsAndBoxCrossingsMustBeWholeNumbersOfAFewDigits) {
+  const auto message_about = [&](double step, double image) {
+    fs::remove(file("foreign.h5"));
+    write_foreign_file(file("foreign.h5"), true);
+    h5::File written = h5::File::open(file("foreign.h5"), h5::Access::write);
+    h5::Group particles = written.root().group("particles/water");
+    particles.create_group("image").create_array<double>(
+        "value", {2, 2, 2}, std::array{0., 0., 0., image, 0., 0., 0., 0.});
+    particles.dataset("position/step").set_attribute("offset", step);
+    written.close();
+    return file_error([&] { TrajectoryReader(file("foreign.h5")).read(0); });
+  };
+  EXPECT_EQ(message_about(3, -1), "(no FileError)");
+  for (const double wrong : {double{NAN}, double{INFINITY}, 1e300}) {
+    EXPECT_THAT(message_about(wrong, 0), HasSubstr("but should be a whole number"));
+    EXPECT_THAT(message_about(0, wrong), HasSubstr("has impossible numbers in frame 0"));
+  }
+}
+
 TEST_F(TrajectoryFile, MassesAndSpeciesMustMakeSense) {
   const auto message_about = [&](const std::array<double, 2>& masses,
                                  const std::array<std::int32_t, 2>& species) {

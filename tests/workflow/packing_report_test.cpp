@@ -5,11 +5,14 @@
 
 #include <cmath>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "analysis/structure/orientation_tensor.h"
 #include "core/error.h"
 #include "core/io/h5md.h"
+#include "core/io/json.h"
 #include "tests/support/scenes.h"
+#include "workflow/analyze/analyze.h"
 #include "workflow/prepare/packing_quality.h"
 #include "workflow/prepare/quality_file.h"
 #include "workflow/report/run_report.h"
@@ -52,8 +55,11 @@ double summary(const Results& results, const char* column) {
 
 // T = diag(2/3, 0, 1/3).
 TEST_F(PackingFile, IsAnalysed) {
-  const Results results = analyze_run(file(), {}).results;
+  const AnalysedRun run = analyze_run(file(), {});
+  const Results& results = run.results;
   EXPECT_EQ(summary(results, "particles"), 216);
+  EXPECT_TRUE(analysis_summary(run).at("particles").is_number_integer());
+  EXPECT_TRUE(std::isinf(analysis_summary(run).at("orientation_ratio").get<double>()));
   EXPECT_EQ(summary(results, "rotors"), 216);
   EXPECT_NEAR(summary(results, "packing_fraction"), 0.1, 1e-12);
   EXPECT_TRUE(std::isinf(summary(results, "orientation_ratio")));
