@@ -41,7 +41,7 @@ std::vector<AgedMotion> ageing(Trajectory<Dim>& trajectory, DisplacementOptions 
                                const ProgressReport& report) {
   options.axis.only_first_origin = true;
   options.axis.longest_lag = 1;
-  if (!options.wave_numbers.empty()) options.wave_numbers.resize(1);
+  if (!options.wave_numbers.empty()) options.wave_numbers = {options.wave_numbers.front()};
   options.orders = {2};
   const std::vector<double>& times = trajectory.times();
   std::vector<AgedMotion> aged;
