@@ -3,6 +3,8 @@
 #include <functional>
 #include <new>
 
+#include "core/error.h"
+
 namespace vitrel::h5 {
 namespace {
 
@@ -84,6 +86,10 @@ herr_t unlock(H5FD_t*) {
 
 H5FD_class_t describe_driver() {
   H5FD_class_t driver{};
+#ifdef H5FD_CLASS_VERSION  // since HDF5 1.14, which demands a number, too; these are free for drivers nobody shares
+  driver.version = H5FD_CLASS_VERSION;
+  driver.value = static_cast<H5FD_class_value_t>(H5_VFD_RESERVED + 118);
+#endif
   driver.name = "vitrel";
   driver.maxaddr = HADDR_MAX;
   driver.fc_degree = H5F_CLOSE_STRONG;
@@ -112,7 +118,9 @@ hid_t access_through(TransactionalFile& file) {
   static const hid_t registered = H5FDregister(&driver);
   TransactionalFile* info = &file;
   const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
-  H5Pset_driver(access, registered, &info);
+  if (access < 0 || H5Pset_driver(access, registered, &info) < 0)
+    throw FileError(file.path().string() + ": HDF5 refuses vitrel's file driver (" H5_VERS_INFO
+                                           ")");
   return access;
 }
 
