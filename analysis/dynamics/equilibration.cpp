@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "analysis/statistics/blocking.h"
+#include "analysis/statistics/gsl_errors.h"
 
 namespace vitrel {
 

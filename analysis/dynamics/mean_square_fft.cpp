@@ -1,32 +1,19 @@
 #include "analysis/dynamics/mean_square_fft.h"
 
-#include <fftw3.h>
-
+#include <algorithm>
 #include <bit>
 #include <cstddef>
-#include <memory>
-#include <mutex>
 #include <numeric>
+
+#include "analysis/structure/fourier_arrays.h"
 
 namespace vitrel {
 
 namespace {
 
-struct Release {
-  void operator()(double* numbers) const { fftw_free(numbers); }
-};
-
-/// Of FFTW only the execution of plans may run on several threads at a time.
-std::mutex planning;
-
-/// Executes a plan once.
+/// Makes a plan and executes it once.
 void transform(fftw_plan (*plan)(double*, std::size_t), double* numbers, std::size_t length) {
-  std::unique_lock lock(planning);
-  fftw_plan ready = plan(numbers, length);
-  lock.unlock();
-  fftw_execute(ready);
-  lock.lock();
-  fftw_destroy_plan(ready);
+  fftw_execute(FourierPlan(length / 2 + 1, [&] { return plan(numbers, length); }).get());
 }
 
 fftw_plan forwards(double* numbers, std::size_t length) {
@@ -42,7 +29,7 @@ fftw_plan backwards(double* numbers, std::size_t length) {
 /// Σ_k x_k x_{k+n} for n = 0 … T − 1: twice as much room keeps the ends from meeting.
 std::vector<double> autocorrelation(const std::vector<double>& x) {
   const std::size_t length = std::bit_ceil(2 * x.size());
-  const std::unique_ptr<double, Release> room(fftw_alloc_real(length + 2));
+  const FourierArray<double> room = real_array(length + 2);
   double* const numbers = room.get();
   std::fill_n(std::copy(x.begin(), x.end(), numbers), length + 2 - x.size(), 0.0);
   transform(forwards, numbers, length);

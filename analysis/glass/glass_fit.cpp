@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/statistics/gsl_errors.h"
 #include "analysis/statistics/least_squares.h"
 #include "core/error.h"
 

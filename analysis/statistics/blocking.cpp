@@ -8,6 +8,8 @@
 #include <limits>
 #include <numbers>
 
+#include "analysis/statistics/gsl_errors.h"
+
 namespace vitrel {
 
 namespace {

@@ -4,6 +4,9 @@
 
 #include <memory>
 
+#include "analysis/statistics/gsl_errors.h"
+#include "core/io/checked.h"
+
 namespace vitrel {
 
 namespace {
@@ -63,17 +66,19 @@ LeastSquares least_squares(std::size_t points, const Vector& start,
 
   const gsl_multifit_nlinear_parameters options = gsl_multifit_nlinear_default_parameters();
   const std::unique_ptr<gsl_multifit_nlinear_workspace, decltype(&gsl_multifit_nlinear_free)>
-      workspace(gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &options, points, n),
-                gsl_multifit_nlinear_free);
+      workspace(
+          obtained(gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &options, points, n)),
+          gsl_multifit_nlinear_free);
   const gsl_vector_const_view at = gsl_vector_const_view_array(start.data(), n);
-  gsl_multifit_nlinear_init(&at.vector, &function, workspace.get());
+  check_gsl(gsl_multifit_nlinear_init(&at.vector, &function, workspace.get()));
   int stopped_by = 0;
   const int status = gsl_multifit_nlinear_driver(max_iterations, smallest_step, smallest_step, 0,
                                                  nullptr, nullptr, &stopped_by, workspace.get());
 
   RowMajor covariance(start.size(), start.size());
   gsl_matrix_view target = gsl_matrix_view_array(covariance.data(), n, n);
-  gsl_multifit_nlinear_covar(gsl_multifit_nlinear_jac(workspace.get()), 0, &target.matrix);
+  check_gsl(
+      gsl_multifit_nlinear_covar(gsl_multifit_nlinear_jac(workspace.get()), 0, &target.matrix));
   const Vector r = to_eigen(gsl_multifit_nlinear_residual(workspace.get()));
   return {to_eigen(gsl_multifit_nlinear_position(workspace.get())), covariance, r.squaredNorm(),
           status == GSL_SUCCESS};

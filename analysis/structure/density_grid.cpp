@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "analysis/structure/fourier_arrays.h"
 
@@ -107,15 +108,14 @@ struct DensityGrid<Dim>::Transform {
     }
     const FourierArray<double> in = real_array(reals);
     const FourierArray<fftw_complex> out = complex_array(complexes);
-    plan = fftw_plan_many_dft_r2c(Dim, count.data(), 1, in.get(), in_size.data(), 1, 0, out.get(),
-                                  nullptr, 1, 0, FFTW_ESTIMATE);
+    plan.emplace(complexes, [&] {
+      return fftw_plan_many_dft_r2c(Dim, count.data(), 1, in.get(), in_size.data(), 1, 0, out.get(),
+                                    nullptr, 1, 0, FFTW_ESTIMATE);
+    });
   }
-  ~Transform() { fftw_destroy_plan(plan); }
-  Transform(const Transform&) = delete;
-  Transform& operator=(const Transform&) = delete;
 
   std::size_t reals = 1, complexes = 1;
-  fftw_plan plan;
+  std::optional<FourierPlan> plan;
 };
 
 template <int Dim>
@@ -267,7 +267,7 @@ std::vector<Modes> DensityGrid<Dim>::modes(std::span<const Vec<Dim>> positions,
   std::vector<Modes> result;
   for (double* grid : grids) {
     close_period(grid);
-    fftw_execute_dft_r2c(transform_->plan, grid, out.get());
+    fftw_execute_dft_r2c(transform_->plan->get(), grid, out.get());
     Modes& modes = result.emplace_back(wave_vectors_.size());
     for (std::size_t k = 0; k < modes.size(); ++k) {
       const fftw_complex& mode = out[index_[k]];

@@ -52,7 +52,6 @@ double alias_bound(const Vec<Dim>& x);
 /// √N/N of that. Cost p^D per point and field, and that of a transform of
 /// Π_k L_k to/(2π · 0.24) nodes per field.
 ///
-/// To be made and destroyed by one thread at a time (FFTW's planner); `modes` may be called by many.
 /// The plan is one that does not depend on measured times, so equal points give equal modes.
 template <int Dim>
 class DensityGrid {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
 #include "analysis/structure/fourier_arrays.h"
 
@@ -44,30 +45,28 @@ struct TwoPointGrid::Transforms {
         modes(static_cast<std::size_t>(n[0]) * n[1] * (n[2] / 2 + 1)) {
     const auto in = real_array(points);
     const auto out = complex_array(modes);
-    forward = fftw_plan_dft_r2c_3d(n[0], n[1], n[2], in.get(), out.get(), FFTW_ESTIMATE);
-    backward = fftw_plan_dft_c2r_3d(n[0], n[1], n[2], out.get(), in.get(), FFTW_ESTIMATE);
+    forward.emplace(modes, [&] {
+      return fftw_plan_dft_r2c_3d(n[0], n[1], n[2], in.get(), out.get(), FFTW_ESTIMATE);
+    });
+    backward.emplace(modes, [&] {
+      return fftw_plan_dft_c2r_3d(n[0], n[1], n[2], out.get(), in.get(), FFTW_ESTIMATE);
+    });
   }
-  ~Transforms() {
-    fftw_destroy_plan(forward);
-    fftw_destroy_plan(backward);
-  }
-  Transforms(const Transforms&) = delete;
-  Transforms& operator=(const Transforms&) = delete;
 
   /// Of every shift of the grid, the number of its points that coincide with points of itself times their number.
   void correlate(double* grid) const {
     const auto out = complex_array(modes);
-    fftw_execute_dft_r2c(forward, grid, out.get());
+    fftw_execute_dft_r2c(forward->get(), grid, out.get());
     for (std::size_t k = 0; k < modes; ++k) {
       fftw_complex& mode = out[k];
       mode[0] = mode[0] * mode[0] + mode[1] * mode[1];
       mode[1] = 0;
     }
-    fftw_execute_dft_c2r(backward, out.get(), grid);
+    fftw_execute_dft_c2r(backward->get(), out.get(), grid);
   }
 
   std::size_t points, modes;
-  fftw_plan forward, backward;
+  std::optional<FourierPlan> forward, backward;
 };
 
 /// The shell of every shift of the grid, and the mean distance and number of the shifts of a shell.

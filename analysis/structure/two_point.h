@@ -34,8 +34,7 @@ struct TwoPointStatistics {
   std::array<std::vector<double>, 3> lineal_path;  ///< along x, y, z
 };
 
-/// For configurations in a box of these sides, without overlaps. To be made and destroyed by one thread at a time
-/// (FFTW's planner); `measure` may be called by many.
+/// For configurations in a box of these sides, without overlaps.
 class TwoPointGrid {
  public:
   /// The spacing is an eighth of the smallest inradius, but so that there are about 2¹⁸ points at most.

@@ -1,6 +1,5 @@
 #include "app/commands/analyze.h"
 
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "app/commands/common.h"
@@ -60,14 +59,13 @@ int analyze_sweep(const AnalyzeOptions& options, const fs::path& folder) {
   if (options.print.json)
     summary.update({{"runs", std::move(runs)}, {"glass", glass_summary(study)}});
   else if (!options.print.quiet)
-    std::fputs(glass_text(study).c_str(), stdout);
+    print_text(glass_text(study));
   print_summary(options.print, summary);
   return success;
 }
 
 int list_observables() {
-  std::fputs(observables_page().c_str(), stdout);
-  flush_output();
+  print_text(observables_page());
   return success;
 }
 

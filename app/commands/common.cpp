@@ -134,15 +134,14 @@ void require_new(const fs::path& output) {
 
 void print_summary(const PrintOptions& options, const Json& summary) {
   if (options.json) {
-    fmt::print("{}\n", json_text(with_former_keys(summary), 2));
+    print_text(json_text(with_former_keys(summary), 2) + '\n');
   } else if (!options.quiet) {
     for (const auto& [key, value] : summary.items()) {
       const std::string text = value_text(summary, key);
       if (!is_error(summary, key) && !text.empty())
-        fmt::print("{:<26} {}\n", key, emphasized(key, value, text));
+        print_text(fmt::format("{:<26} {}\n", key, emphasized(key, value, text)));
     }
   }
-  flush_output();
 }
 
 void remark(const PrintOptions& options, const std::string& line) {

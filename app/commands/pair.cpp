@@ -127,7 +127,7 @@ Json impact_summary(const Impact& impact, const Coefficients& found) {
 }
 
 void print_line(const std::string& name, const std::string& text) {
-  fmt::print("{:<26} {}\n", name, text);
+  print_text(fmt::format("{:<26} {}\n", name, text));
 }
 
 void print_coefficient(const std::string& name, double Restitution::*of,
@@ -150,7 +150,6 @@ void print_impact(const Impact& impact, const Coefficients& found) {
   print_coefficient("ε_φ (angle)", &Restitution::angle, found);
   print_coefficient("ε_t (duration/T)", &Restitution::duration, found);
   print_coefficient("ε_ṙ (rate)", &Restitution::rate, found);
-  flush_output();
 }
 
 /// The ending decides what is written.

@@ -1,7 +1,5 @@
 #include "app/commands/params.h"
 
-#include <fmt/format.h>
-
 #include "app/terminal/exit_codes.h"
 #include "app/terminal/session.h"
 #include "core/error.h"
@@ -19,10 +17,9 @@ std::vector<std::string> commands_with_templates() {
 int params_command(const ParamsOptions& options) {
   if (!options.reference && options.command.empty())
     throw UserError("name a command, for example: vitrel params run > params.toml");
-  fmt::print("{}", options.reference           ? parameter_page()
-                   : options.command == "pair" ? pair_template()
-                                               : command_template(options.command));
-  flush_output();
+  print_text(options.reference           ? parameter_page()
+             : options.command == "pair" ? pair_template()
+                                         : command_template(options.command));
   return success;
 }
 

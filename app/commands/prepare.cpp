@@ -101,8 +101,7 @@ std::string row_text(const QualityRow& row) {
 }
 
 void print_rows(const std::vector<QualityRow>& rows) {
-  for (const QualityRow& row : rows) fmt::print("{}\n", row_text(row));
-  flush_output();
+  for (const QualityRow& row : rows) print_text(row_text(row) + '\n');
 }
 
 /// The same as text; counts that are 0 are left out.

@@ -1,7 +1,5 @@
 #include "app/commands/run.h"
 
-#include <fmt/format.h>
-
 #include <nlohmann/json.hpp>
 
 #include "app/commands/common.h"
@@ -35,8 +33,7 @@ int run_command(const RunOptions& options) {
     inputs.emplace_back(*start->file);
   require_output_file(options.output, inputs);
   if (options.dry_run) {
-    fmt::print("{}", run_plan(request));
-    flush_output();
+    print_text(run_plan(request));
     return success;
   }
   Session session(options.print.quiet, options.wall_time);

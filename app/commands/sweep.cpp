@@ -25,10 +25,9 @@ std::vector<SweepJob> jobs_of(const SweepOptions& options) {
 
 void print_table(const SweepOptions& options, const std::vector<SweepJob>& jobs) {
   if (options.print.json)
-    fmt::print("{}\n", json_text(sweep_summary(jobs, options.output), 2));
+    print_text(json_text(sweep_summary(jobs, options.output), 2) + '\n');
   else if (!options.print.quiet)
-    fmt::print("{}", sweep_table(jobs, options.output));
-  flush_output();
+    print_text(sweep_table(jobs, options.output));
 }
 
 int print_status(const SweepOptions& options) {

@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <regex>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -41,7 +42,9 @@ class ProgramCommandLine {
     try {
       app_.parse(count, words);
     } catch (const CLI::Success& asked) {  // for help or the version
-      return app_.exit(asked);
+      std::ostringstream text;
+      const int code = app_.exit(asked, text, text);
+      return exit_code_of(app_.get_name(), [&] { return print(text.str(), code); });
     } catch (const CLI::ParseError& error) {
       return complain_about(error);
     }
@@ -95,10 +98,9 @@ class ProgramCommandLine {
   ProgramDescription description() const { return {described(app_), program_version()}; }
 
   /// To standard output; returns the exit code.
-  static int print(const std::string& text) {
-    fmt::print("{}", text);
-    flush_output();
-    return success;
+  static int print(const std::string& text, int code = success) {
+    print_text(text);
+    return code;
   }
 
   CLI::App app_;

@@ -51,7 +51,7 @@ void ProgressDisplay::show(const Progress& progress) {
   if (mode_ == Mode::terminal) {
     // Return to the start of the line, write, erase what is left of the line before.
     fmt::print(stderr, "\r{}\033[K", line);
-    std::fflush(stderr);
+    static_cast<void>(std::fflush(stderr));
     line_is_open_ = true;
   } else {
     fmt::print(stderr, "{}\n", line);

@@ -35,8 +35,8 @@ void require_output_folder(const fs::path& output) {
                                 there.string()));
 }
 
-void flush_output() {
-  if (std::fflush(stdout) != 0)
+void print_text(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
     throw FileError(fmt::format("standard output: cannot be written: {}", std::strerror(errno)));
 }
 

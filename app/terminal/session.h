@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <string_view>
 
 #include "app/terminal/progress.h"
 #include "app/terminal/stop_signals.h"
@@ -39,7 +40,7 @@ class Session {
 /// FileError if the folder is not there and cannot be made, as something on its path is a file.
 void require_output_folder(const std::filesystem::path& output);
 
-/// Ends what was printed to standard output; throws FileError if it could not be written.
-void flush_output();
+/// To standard output, at once; throws FileError if it cannot be written. Nothing else writes there.
+void print_text(std::string_view text);
 
 }  // namespace vitrel

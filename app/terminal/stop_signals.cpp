@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "app/terminal/exit_codes.h"
+#include "core/io/checked.h"
 #include "workflow/sweep/process.h"
 
 namespace vitrel {
@@ -22,13 +23,13 @@ volatile std::sig_atomic_t has_deadline = 0;
 // In handlers only calls that are safe there.
 
 void print(const char* text) {
-  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text, std::strlen(text));
+  static_cast<void>(write(STDERR_FILENO, text, std::strlen(text)));
 }
 
 extern "C" void ask_to_stop(int number) {
   if (!stop_asked && has_deadline) alarm(grace_seconds);
   stop_asked = 1;
-  if (number == SIGINT) std::signal(SIGINT, SIG_DFL);
+  if (number == SIGINT) static_cast<void>(std::signal(SIGINT, SIG_DFL));
 }
 
 // The first alarm is the wall time, the second the deadline.
@@ -42,16 +43,16 @@ extern "C" void note_alarm(int number) {
 
 bool is_ignored(int number) {
   struct sigaction action {};
-  sigaction(number, nullptr, &action);
+  checked(sigaction(number, nullptr, &action), "sigaction");
   return action.sa_handler == SIG_IGN;
 }
 
 void handle(int number, void (*handler)(int)) {
   struct sigaction action {};
   action.sa_handler = handler;
-  sigemptyset(&action.sa_mask);
+  checked(sigemptyset(&action.sa_mask), "sigemptyset");
   action.sa_flags = SA_RESTART;
-  sigaction(number, &action, nullptr);
+  checked(sigaction(number, &action, nullptr), "sigaction");
 }
 
 void set_alarm(double seconds) {
@@ -61,7 +62,7 @@ void set_alarm(double seconds) {
   timer.it_value.tv_sec = static_cast<time_t>(bounded);
   timer.it_value.tv_usec =
       static_cast<suseconds_t>(std::ceil(1e6 * (bounded - std::floor(bounded))));
-  setitimer(ITIMER_REAL, &timer, nullptr);
+  checked(setitimer(ITIMER_REAL, &timer, nullptr), "setitimer");
 }
 
 }  // namespace

@@ -15,14 +15,15 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <ctime>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
+#include <string>
 #include <tuple>
 #include <vector>
 
+#include "app/terminal/session.h"
 #include "bench/baselines/heap_calendar.h"
 #include "bench/baselines/sorted_calendar.h"
 #include "bench/baselines/tournament_calendar.h"
@@ -173,24 +174,24 @@ void measure(std::size_t n, bool shuffled, int repeats) {
   });
   const double rest = nothing.ns_per_event();
   const double ours = fast.ns_per_event() - rest;
-  fmt::print("| {:>8} | {:>8} | {:>5.0f} | {:>5.0f} |", n, shuffled ? "anywhere" : "near", rest,
-             ours);
+  std::string row = fmt::format("| {:>8} | {:>8} | {:>5.0f} | {:>5.0f} |", n,
+                                shuffled ? "anywhere" : "near", rest, ours);
   each([&](const auto& loop) {
     if (&loop == static_cast<const void*>(&fast)) return;
     const double theirs = loop.ns_per_event() - rest;
-    fmt::print(" {:>5.0f} ({:>4.1f}) |", theirs, theirs / ours);
+    row += fmt::format(" {:>5.0f} ({:>4.1f}) |", theirs, theirs / ours);
   });
   // What was read counts as used, or the reading would be left out.
-  fmt::print("{}\n", std::isnan(fast.seen() + nothing.seen()) ? " nan" : "");
-  std::fflush(stdout);
+  print_text(row + (std::isnan(fast.seen() + nothing.seen()) ? " nan\n" : "\n"));
 }
 
 }  // namespace
 
 int calendar(const CalendarOptions& options) {
-  fmt::print("ns per event; in brackets: relative to the calendar of the engine\n\n");
-  fmt::print("| N | neighbours | loop alone | calendar | heap | tournament | sorted set |\n");
-  fmt::print("| --- | --- | --- | --- | --- | --- | --- |\n");
+  print_text(
+      "ns per event; in brackets: relative to the calendar of the engine\n\n"
+      "| N | neighbours | loop alone | calendar | heap | tournament | sorted set |\n"
+      "| --- | --- | --- | --- | --- | --- | --- |\n");
   for (std::size_t n = 100; n <= options.largest; n *= 10)
     for (const bool shuffled : {false, true}) measure(n, shuffled, options.repeats);
   return 0;

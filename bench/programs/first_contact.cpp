@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "app/terminal/session.h"
 #include "bench/programs/programs.h"
 #include "bench/surveys/best_seconds.h"
 #include "bench/surveys/recorded_class.h"
@@ -71,8 +72,9 @@ void measure(const FirstContactOptions& options, const std::vector<CollisionCase
     contacts += answer.outcome == Outcome::contact;
   }
   const auto count = static_cast<double>(answers.size());
-  fmt::print("{} {}: {:.1f} ns per prediction, {:.2f} steps, {:.1f} % contacts\n", options.name,
-             options.aspect_ratio, 1e9 * best / count, steps / count, 100 * contacts / count);
+  print_text(fmt::format("{} {}: {:.1f} ns per prediction, {:.2f} steps, {:.1f} % contacts\n",
+                         options.name, options.aspect_ratio, 1e9 * best / count, steps / count,
+                         100 * contacts / count));
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "app/terminal/session.h"
 #include "bench/programs/programs.h"
 #include "bench/surveys/best_seconds.h"
 #include "core/contact/first_contact.h"
@@ -69,7 +70,7 @@ int pair_arrays(const PairArraysOptions& options) {
                       {"overlaps", std::ranges::count(overlapping, 1)},
                       {"contact_seconds", contact_seconds},
                       {"contacts", std::ranges::count_if(contacts, touches)}};
-  fmt::print("{}\n", json_text(found, 2));
+  print_text(json_text(found, 2) + '\n');
   return 0;
 }
 

@@ -14,8 +14,7 @@ void say(const std::string& what) {
 }
 
 void print(const Json& result) {
-  fmt::print("{}\n", json_text(result, 2));
-  flush_output();
+  print_text(json_text(result, 2) + '\n');
 }
 
 }  // namespace vitrel::bench

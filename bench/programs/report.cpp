@@ -20,10 +20,9 @@ Report::Report(const OutputOptions& options)
 void Report::print(const Json& rows, const std::string& table) {
   session_.clear();
   if (options_.json)
-    fmt::print("{}\n", json_text({{"rows", rows}}, 2));
+    print_text(json_text({{"rows", rows}}, 2) + '\n');
   else if (!options_.quiet)
-    fmt::print("{}", table);
-  flush_output();
+    print_text(table);
 }
 
 int Report::stopped_early() const {

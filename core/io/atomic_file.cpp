@@ -16,7 +16,7 @@ void synchronize(const fs::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   const bool done = descriptor >= 0 && (::fsync(descriptor) == 0 || errno == EINVAL);
   const int reason = errno;
-  if (descriptor >= 0) ::close(descriptor);
+  if (descriptor >= 0) static_cast<void>(::close(descriptor));
   if (!done)
     throw FileError(path.string() +
                     ": cannot save to the disk: " + std::generic_category().message(reason));

@@ -24,6 +24,20 @@ using Id = std::int64_t;
 using Shape = std::vector<std::uint64_t>;
 
 class OpenFile;
+class Check;
+
+/// An HDF5 identifier that closes itself.
+class Handle {
+ public:
+  explicit Handle(Id id = -1) : id_(id) {}
+  ~Handle();
+  Handle(Handle&& other) noexcept : id_(other.id_) { other.id_ = -1; }
+  Handle& operator=(Handle&& other) noexcept;
+  Id id() const { return id_; }
+
+ private:
+  Id id_;
+};
 
 /// An HDF5 object that belongs to an open file; the file stays open as long as one of them lives.
 class Object {
@@ -47,18 +61,6 @@ class Object {
   T number_attribute(const std::string& name) const;
 
  protected:
-  class Handle {
-   public:
-    explicit Handle(Id id = -1) : id_(id) {}
-    ~Handle();
-    Handle(Handle&& other) noexcept : id_(other.id_) { other.id_ = -1; }
-    Handle& operator=(Handle&& other) noexcept;
-    Id id() const { return id_; }
-
-   private:
-    Id id_;
-  };
-
   Object(std::shared_ptr<OpenFile> file, Handle handle, std::string name);
 
   std::shared_ptr<OpenFile> file_;  // before handle_: the object closes first
@@ -66,7 +68,8 @@ class Object {
   std::string name_;
 
  private:
-  void write_attribute(const std::string& name, Id stored, Id memory, Id space, const void* data);
+  void write_attribute(const std::string& name, Id stored, Id memory, std::size_t count,
+                       const void* data);
 };
 
 /// An array of numbers or strings. A series is an array that grows along its first direction, one
@@ -149,7 +152,8 @@ class Group : public Object {
       : Object(std::move(file), std::move(handle), std::move(name)) {}
   std::string path_of(const std::string& name) const;
   bool has_object(const std::string& path, int type) const;
-  Dataset create(const std::string& name, Id type, Id space, Id properties);
+  Dataset create(const Check& check, const std::string& name, Id type, const Handle& space,
+                 const Handle& properties);
 };
 
 enum class Access { read, write };

@@ -67,7 +67,12 @@ herr_t read(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t offset, std::size_t size, v
 }
 
 herr_t write(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t offset, std::size_t size, const void* data) {
-  self(file).file->write(offset, {static_cast<const std::byte*>(data), size});
+  TransactionalFile& written = *self(file).file;
+  try {
+    written.write(offset, {static_cast<const std::byte*>(data), size});
+  } catch (const std::bad_alloc&) {
+    written.give_up("not enough memory");
+  }
   return 0;
 }
 

@@ -10,24 +10,20 @@
 namespace vitrel::h5 {
 namespace {
 
-/// What HDF5 noted where the error arose, the innermost entry of its error stack.
-std::string innermost_note() {
-  std::string note;
-  const auto keep_first = [](unsigned depth, const H5E_error2_t* error, void* out) -> herr_t {
-    if (depth == 0 && error->desc) *static_cast<std::string*>(out) = error->desc;
+/// Why HDF5 failed, for a person: known causes, which it numbers, with what to do about them, or else what it noted
+/// where the error arose.
+std::string explained_failure() {
+  std::string reason;
+  const auto explain = [](unsigned depth, const H5E_error2_t* error, void* out) -> herr_t {
+    auto& text = *static_cast<std::string*>(out);
+    if (depth == 0 && error->desc) text = error->desc;
+    if (error->min_num == H5E_TRUNCATED)
+      text = "the file is truncated: its end is missing, restore it from a copy";
+    if (error->min_num == H5E_NOTHDF5) text = "it is not an HDF5 file, or its beginning is damaged";
     return 0;
   };
-  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_first, &note);
-  return note;
-}
-
-/// Turns HDF5's note into words for a person, with what to do about it.
-std::string explained(const std::string& note) {
-  if (note.find("truncated file") != std::string::npos)
-    return "the file is truncated: its end is missing, restore it from a copy";
-  if (note.find("file signature not found") != std::string::npos)
-    return "it is not an HDF5 file, or its beginning is damaged";
-  return note.empty() ? "unknown reason" : note;
+  const bool is_known = H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, explain, &reason) >= 0;
+  return is_known && !reason.empty() ? reason : "unknown reason";
 }
 
 }  // namespace
@@ -47,17 +43,14 @@ void throw_file_error(const std::string& path, std::string_view action, std::str
 OpenFile::OpenFile(const std::filesystem::path& path, TransactionalFile::Mode mode)
     : path_(path.string()), content_(std::in_place, path, mode) {
   const bool create = mode == TransactionalFile::Mode::create;
-  silence_hdf5();
-  const Id access = access_through(*content_);
+  const Check check(*this, create ? "create the file" : "open the file", "");
+  const Handle access(access_through(*content_));
   // Format version 1.8: every reader in use understands it.
-  H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);
-  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+  check(H5Pset_libver_bounds(access.id(), H5F_LIBVER_V18, H5F_LIBVER_V18));
+  check(H5Pset_fclose_degree(access.id(), H5F_CLOSE_STRONG));
   const unsigned flags = content_->writable() ? H5F_ACC_RDWR : H5F_ACC_RDONLY;
-  id_ = create ? H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access)
-               : H5Fopen(path.c_str(), flags, access);
-  const std::string reason = id_ < 0 ? explained(innermost_note()) : "";
-  H5Pclose(access);
-  if (id_ < 0) throw_file_error(path_, create ? "create the file" : "open the file", "", reason);
+  id_ = check(create ? H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id())
+                     : H5Fopen(path.c_str(), flags, access.id()));
 }
 
 OpenFile::~OpenFile() {
@@ -66,7 +59,7 @@ OpenFile::~OpenFile() {
     if (id_ >= 0 && content_->writable()) flush();
   } catch (const FileError&) {  // what was flushed before is safe
   }
-  if (id_ >= 0) H5Fclose(id_);
+  if (id_ >= 0) static_cast<void>(H5Fclose(id_));  // nobody is left to be told
 }
 
 void OpenFile::prepare(std::string_view action, std::string_view object) const {
@@ -76,7 +69,7 @@ void OpenFile::prepare(std::string_view action, std::string_view object) const {
 }
 
 void OpenFile::fail(std::string_view action, std::string_view object) {
-  fail(action, object, explained(innermost_note()));
+  fail(action, object, explained_failure());
 }
 
 void OpenFile::fail(std::string_view action, std::string_view object, const std::string& reason) {
@@ -86,7 +79,8 @@ void OpenFile::fail(std::string_view action, std::string_view object, const std:
 }
 
 void OpenFile::flush() {
-  run("write", "", [&] { return H5Fflush(id_, H5F_SCOPE_GLOBAL); });
+  const Check check(*this, "write", "");
+  check(H5Fflush(id_, H5F_SCOPE_GLOBAL));
   content_->commit();
 }
 
@@ -97,7 +91,8 @@ void OpenFile::synchronize() {
 
 void OpenFile::close() {
   flush();
-  run("close", "", [&] { return H5Fclose(std::exchange(id_, -1)); });
+  const Check check(*this, "close", "");
+  check(H5Fclose(std::exchange(id_, -1)));
   content_->commit();
   content_->synchronize();
   content_.reset();

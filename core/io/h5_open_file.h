@@ -4,6 +4,8 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 
 #include "core/io/h5.h"
 #include "core/io/transactional_file.h"
@@ -19,6 +21,15 @@ void silence_hdf5();
 [[noreturn]] void throw_file_error(const std::string& path, std::string_view action,
                                    std::string_view object, const std::string& reason);
 
+/// Whether HDF5 says by this result that it failed: a number below 0, no size or no memory.
+template <class Result>
+bool is_failure(Result result) {
+  if constexpr (std::is_pointer_v<Result> || std::is_unsigned_v<Result>)
+    return !result;
+  else
+    return result < 0;
+}
+
 /// The file identifier, shared by all objects of the file.
 class OpenFile {
  public:
@@ -30,14 +41,6 @@ class OpenFile {
   Id id() const { return id_; }
   const std::string& path() const { return path_; }
 
-  /// Runs an HDF5 call; a negative result becomes a FileError.
-  template <class Call>
-  auto run(std::string_view action, std::string_view object, Call&& call) {
-    prepare(action, object);
-    const auto result = call();
-    if (result < 0) fail(action, object);
-    return result;
-  }
   /// Throws FileError with `reason`, or the earlier one after which nothing was written any more.
   [[noreturn]] void fail(std::string_view action, std::string_view object,
                          const std::string& reason);
@@ -47,6 +50,7 @@ class OpenFile {
   void close();
 
  private:
+  friend class Check;
   void prepare(std::string_view action, std::string_view object) const;
   /// With the reason that HDF5 gives.
   [[noreturn]] void fail(std::string_view action, std::string_view object);
@@ -54,6 +58,27 @@ class OpenFile {
   std::string path_;
   std::optional<TransactionalFile> content_;  ///< none once closed
   Id id_ = -1;
+};
+
+/// An operation on the file. Every result of HDF5 in it goes through this: what failed becomes a FileError.
+class Check {
+ public:
+  /// Throws FileError if the file is closed, or something failed before. `action` outlives the operation.
+  Check(OpenFile& file, std::string_view action, std::string object)
+      : file_(file), action_(action), object_(std::move(object)) {
+    file.prepare(action_, object_);
+  }
+
+  template <class Result>
+  Result operator()(Result result) const {
+    if (is_failure(result)) file_.fail(action_, object_);
+    return result;
+  }
+
+ private:
+  OpenFile& file_;
+  std::string_view action_;
+  std::string object_;
 };
 
 }  // namespace vitrel::h5

@@ -6,8 +6,10 @@
 #include <charconv>
 #include <cmath>
 #include <memory>
+#include <new>
 
 #include "core/error.h"
+#include "core/io/checked.h"
 
 namespace vitrel {
 namespace {
@@ -23,7 +25,9 @@ class Units {
       throw UserError("the list of units of UDUNITS-2 cannot be read; install libudunits2-data");
   }
   Unit parse(const std::string& text) const {
-    return {ut_parse(system_.get(), text.c_str(), UT_UTF8), ut_free};
+    Unit unit(ut_parse(system_.get(), text.c_str(), UT_UTF8), ut_free);
+    if (!unit && ut_get_status() == UT_OS) throw std::bad_alloc();
+    return unit;
   }
 
  private:
@@ -46,7 +50,7 @@ std::optional<double> quantity(const std::string& text, const std::string& unit)
   const Unit given = units.parse(trimmed({end, text.data() + text.size()}));
   const Unit wanted = units.parse(unit);
   if (!given || !ut_are_convertible(given.get(), wanted.get())) return std::nullopt;
-  const Converter converter(ut_get_converter(given.get(), wanted.get()), cv_free);
+  const Converter converter(obtained(ut_get_converter(given.get(), wanted.get())), cv_free);
   const auto convert = [&](double x) { return cv_convert_double(converter.get(), x); };
   // A scale with an origin of its own, or a logarithmic one, is no quantity.
   const bool is_proportional = convert(0) == 0 && std::abs(convert(2) / convert(1) - 2) < 1e-12;

@@ -70,7 +70,7 @@ TransactionalFile::TransactionalFile(std::filesystem::path path, Mode mode)
     if (mode == Mode::create && !set_file_size(0)) fail(path_, action, failure_);
     if (mode != Mode::create) recover();
   } catch (...) {
-    ::close(descriptor_);
+    static_cast<void>(::close(descriptor_));
     throw;
   }
 }
@@ -78,7 +78,7 @@ TransactionalFile::TransactionalFile(std::filesystem::path path, Mode mode)
 TransactionalFile::~TransactionalFile() {
   // Gives the space of what was not committed back.
   if (writable() && !journal_is_whole_) static_cast<void>(::ftruncate(descriptor_, committed_));
-  ::close(descriptor_);
+  static_cast<void>(::close(descriptor_));  // what has to be on the disk was synchronized
 }
 
 void TransactionalFile::lock() {

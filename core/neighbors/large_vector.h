@@ -28,7 +28,8 @@ class HugePageAllocator {
     const std::size_t whole_pages = (bytes + page - 1) / page * page;
     void* const memory = std::aligned_alloc(page, whole_pages);
     if (!memory) throw std::bad_alloc();
-    ::madvise(memory, whole_pages, MADV_HUGEPAGE);  // a wish, which may be refused
+    static_cast<void>(
+        ::madvise(memory, whole_pages, MADV_HUGEPAGE));  // a wish, which may be refused
     return static_cast<T*>(memory);
   }
   void deallocate(T* memory, std::size_t count) {

@@ -127,6 +127,24 @@ TEST_F(HabitsTest, HelpAndVersionAreCommandsAndOptions) {
   }
 }
 
+TEST_F(HabitsTest, TextThatCannotBePrintedIsAnError) {
+  for (const Words& words : std::vector<Words>{{"--help"},
+                                               {"--version"},
+                                               {"run", "--help"},
+                                               {"help"},
+                                               {"help", "run"},
+                                               {"version"},
+                                               {"man"},
+                                               {"completion", "bash"},
+                                               {"analyze", "--list"},
+                                               {"params", "run"},
+                                               {"params", "--reference"}}) {
+    SCOPED_TRACE(testing::PrintToString(words));
+    testing_program::expect_refusal(testing_program::run_on_full_disk(folder.path(), words), 3,
+                                    "standard output: cannot be written: No space left on device");
+  }
+}
+
 TEST_F(HabitsTest, AMisspeltWordComesWithTheNearest) {
   expect_refusal({"anaylze", "run.h5", "-o", "a.h5"},
                  "vitrel: 'anaylze' is no command; did you mean 'analyze'?");

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <functional>
 
+#include "core/io/checked.h"
 #include "core/io/h5.h"
 #include "core/io/h5md.h"
 #include "core/io/text_file.h"
@@ -251,7 +252,7 @@ TEST(Hardening, AnIgnoredHangupStaysIgnored) {
   const auto outcome = testing_program::run_and_signal(
       folder.path(), {"run", "p.toml", "-o", "run.h5"},
       [&] { return folder.read("standard_error").find("run of") != std::string::npos; }, SIGHUP);
-  std::signal(SIGHUP, before);
+  ASSERT_NE(std::signal(SIGHUP, before), SIG_ERR);
   EXPECT_EQ(outcome.code, 0) << outcome.errors;
 }
 
@@ -259,11 +260,11 @@ TEST(Hardening, AnIgnoredHangupStaysIgnored) {
 testing_program::Outcome run_with_file_limit(rlim_t bytes, const Folder& folder,
                                              const std::vector<std::string>& words) {
   rlimit before{};
-  getrlimit(RLIMIT_FSIZE, &before);
+  checked(getrlimit(RLIMIT_FSIZE, &before), "getrlimit");
   const rlimit limit{bytes, before.rlim_max};
-  setrlimit(RLIMIT_FSIZE, &limit);
+  checked(setrlimit(RLIMIT_FSIZE, &limit), "setrlimit");
   const auto outcome = run(folder.path(), words);
-  setrlimit(RLIMIT_FSIZE, &before);
+  checked(setrlimit(RLIMIT_FSIZE, &before), "setrlimit");
   return outcome;
 }
 

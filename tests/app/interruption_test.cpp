@@ -8,6 +8,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
+#include "core/io/checked.h"
 #include "core/random/stream.h"
 #include "tests/app/program.h"
 
@@ -58,7 +59,7 @@ class Interruption : public testing::TestWithParam<Kind> {};
 /// machine does, so one that ends before its signal counts as a run of its own, and the next begins.
 void expect_same_datasets_despite(const std::vector<int>& signals, const Kind& kind,
                                   const Folder& folder, double earliest, double latest) {
-  setenv("XDG_CACHE_HOME", folder.path().c_str(), 1);  // of tables of contacts
+  checked(setenv("XDG_CACHE_HOME", folder.path().c_str(), 1), "setenv");  // of tables of contacts
   folder.write("p.toml", system_text + "correlations = { interval = 0.05 }\n" + kind.more);
   run_uninterrupted(folder, "first.h5", kind);  // which computes the tables of contacts
   const milliseconds whole = run_uninterrupted(folder, "whole.h5", kind);

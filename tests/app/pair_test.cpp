@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "analysis/results.h"
+#include "core/io/checked.h"
 #include "edmd/soft/linear_dashpot.h"
 #include "edmd/soft/restitution.h"
 #include "edmd/soft/viscoelastic.h"
@@ -335,7 +336,9 @@ void expect_coefficients(const Json& found, const Restitution& expected, double 
 /// Tables go to a folder of the test's own.
 class PairRestitutionWithTable : public Pair {
  protected:
-  PairRestitutionWithTable() { setenv("XDG_CACHE_HOME", folder_.path().c_str(), 1); }
+  PairRestitutionWithTable() {
+    checked(setenv("XDG_CACHE_HOME", folder_.path().c_str(), 1), "setenv");
+  }
 };
 
 // Figure 6 of mueller2013: 0.1 m, 1140 kg/m³, 2 kN/m, elastic.

@@ -15,6 +15,7 @@
 #include <sstream>
 #include <thread>
 
+#include "core/io/checked.h"
 #include "core/io/h5.h"
 
 namespace vitrel::testing_program {
@@ -29,8 +30,8 @@ std::string content(const fs::path& file) {
 }
 
 void redirect(const fs::path& file, int descriptor) {
-  const int opened = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
-  dup2(opened, descriptor);
+  const int opened = checked(open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666), "open");
+  checked(dup2(opened, descriptor), "dup2");
 }
 
 /// The command line of the program; valid as long as the arguments.
@@ -89,8 +90,8 @@ Outcome run_and_signal(const fs::path& folder, const std::vector<std::string>& a
   while (!(ended = waitpid(pid, &status, WNOHANG) == pid) && !time())
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   if (!ended) {
-    kill(pid, signal);
-    waitpid(pid, &status, 0);
+    checked(kill(pid, signal), "kill");
+    checked(waitpid(pid, &status, 0), "waitpid");
   }
   return {exit_code(status), content(output), content(errors)};
 }
@@ -106,8 +107,15 @@ Outcome run(const fs::path& folder, const std::vector<std::string>& arguments) {
   const fs::path output = folder / "standard_output", errors = folder / "standard_error";
   int status = 0;
   rusage used{};
-  wait4(start(folder, arguments, output, errors), &status, 0, &used);
+  checked(wait4(start(folder, arguments, output, errors), &status, 0, &used), "wait4");
   return {exit_code(status), content(output), content(errors), 1024. * used.ru_maxrss};
+}
+
+Outcome run_on_full_disk(const fs::path& folder, const std::vector<std::string>& arguments) {
+  const fs::path errors = folder / "standard_error";
+  int status = 0;
+  checked(waitpid(start(folder, arguments, "/dev/full", errors), &status, 0), "waitpid");
+  return {exit_code(status), "", content(errors)};
 }
 
 Outcome run_on_terminal(const fs::path& folder, const std::vector<std::string>& arguments,
@@ -116,9 +124,10 @@ Outcome run_on_terminal(const fs::path& folder, const std::vector<std::string>& 
   int terminal = -1;
   const pid_t pid = forkpty(&terminal, nullptr, nullptr, nullptr);
   if (pid == 0) {
-    unsetenv("NO_COLOR");
-    setenv("TERM", "xterm", 1);
-    for (const auto& [name, value] : environment) setenv(name.c_str(), value.c_str(), 1);
+    checked(unsetenv("NO_COLOR"), "unsetenv");
+    checked(setenv("TERM", "xterm", 1), "setenv");
+    for (const auto& [name, value] : environment)
+      checked(setenv(name.c_str(), value.c_str(), 1), "setenv");
     execute(folder, words.data());
   }
   // Reading fails when the program has ended and all it printed has been read.
@@ -126,9 +135,9 @@ Outcome run_on_terminal(const fs::path& folder, const std::vector<std::string>& 
   char part[4096];
   for (ssize_t count = 0; (count = read(terminal, part, sizeof part)) > 0;)
     shown.append(part, static_cast<std::size_t>(count));
-  close(terminal);
+  checked(close(terminal), "close");
   int status = 0;
-  waitpid(pid, &status, 0);
+  checked(waitpid(pid, &status, 0), "waitpid");
   return {exit_code(status), shown, ""};
 }
 

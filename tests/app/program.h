@@ -21,6 +21,10 @@ struct Outcome {
 /// Runs the program in `folder` to its end.
 Outcome run(const std::filesystem::path& folder, const std::vector<std::string>& arguments);
 
+/// The same with a full disk for standard output.
+Outcome run_on_full_disk(const std::filesystem::path& folder,
+                         const std::vector<std::string>& arguments);
+
 /// The same with a terminal for standard output and standard error, both in `output` as they appear; TERM is xterm and
 /// NO_COLOR unset but for `environment`.
 Outcome run_on_terminal(const std::filesystem::path& folder,

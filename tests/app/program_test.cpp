@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "analysis/results.h"
+#include "core/io/checked.h"
 #include "core/io/h5md.h"
 #include "tests/app/program.h"
 
@@ -527,7 +528,7 @@ constexpr const char* soft_system =
 // Damped disks, close to one another after contact: the file says which, and the check knows.
 TEST(Program, RunsSoftParticles) {
   const Folder folder("soft");
-  setenv("XDG_CACHE_HOME", folder.path().c_str(), 1);
+  checked(setenv("XDG_CACHE_HOME", folder.path().c_str(), 1), "setenv");
   folder.write("p.toml", soft_system);
   const Outcome outcome = run(folder.path(), {"run", "p.toml", "-o", "run.h5", "-q", "--json"});
   ASSERT_EQ(outcome.code, 0) << outcome.errors;
@@ -611,7 +612,7 @@ TEST(Program, ASweepOfThreeDimensions) {
 // What only the runs know stands beside the averages of the analysis.
 TEST(Program, ASweepAveragesTheExceptionsOfSoftParticles) {
   const Folder folder("soft_sweep");
-  setenv("XDG_CACHE_HOME", folder.path().c_str(), 1);
+  checked(setenv("XDG_CACHE_HOME", folder.path().c_str(), 1), "setenv");
   folder.write("p.toml", soft_system + std::string("[sweep.grid]\n\"system.seed\" = [1, 2]\n"));
   const Outcome sweep = run(folder.path(), {"sweep", "p.toml", "-o", "sweep", "--json", "-q"});
   ASSERT_EQ(sweep.code, 0) << sweep.errors;

@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "core/error.h"
+#include "core/io/checked.h"
 #include "core/io/checkpoint.h"
 #include "core/io/h5md.h"
 #include "core/io/transactional_file.h"
@@ -61,7 +62,7 @@ class Interrupted : public testing::Test {
     completed_ = static_cast<long*>(shared);
   }
   ~Interrupted() override {
-    munmap(completed_, sizeof(long));
+    static_cast<void>(munmap(completed_, sizeof(long)));
     fs::remove_all(folder_);
   }
   fs::path file(const std::string& name) const { return folder_ / name; }
@@ -85,7 +86,7 @@ class Interrupted : public testing::Test {
       std::exit(0);  // with the exit handlers of HDF5
     }
     int status = 0;
-    waitpid(child, &status, 0);
+    checked(waitpid(child, &status, 0), "waitpid");
     EXPECT_TRUE(WIFEXITED(status)) << "crashed, call " << call;
     EXPECT_TRUE(WEXITSTATUS(status) == 0 || WEXITSTATUS(status) == 9) << "call " << call;
     EXPECT_EQ(fs::file_size(file("messages")), 0u) << "call " << call;

@@ -11,6 +11,7 @@
 #include <iostream>
 
 #include "app/program.h"
+#include "core/io/checked.h"
 
 namespace vitrel::fuzz {
 namespace {
@@ -20,19 +21,19 @@ class Redirection {
  public:
   Redirection(int descriptor, int target) : descriptor_(descriptor), before_(dup(descriptor)) {
     flush();
-    dup2(target, descriptor_);
+    checked(dup2(target, descriptor_), "dup2");
   }
   ~Redirection() {
     flush();
-    dup2(before_, descriptor_);
-    close(before_);
+    static_cast<void>(dup2(before_, descriptor_));
+    static_cast<void>(close(before_));
   }
   Redirection(const Redirection&) = delete;
   Redirection& operator=(const Redirection&) = delete;
 
  private:
   static void flush() {
-    std::fflush(nullptr);
+    static_cast<void>(std::fflush(nullptr));
     std::cout.flush();
     std::cerr.flush();
   }
@@ -59,15 +60,16 @@ Outcome execute(const std::vector<std::string>& words) {
   std::vector<char*> pointers;
   for (std::string& word : all) pointers.push_back(word.data());
   pointers.push_back(nullptr);
-  const int errors = memfd_create("errors", 0), nowhere = open("/dev/null", O_WRONLY);
+  const int errors = checked(memfd_create("errors", 0), "memfd_create");
+  const int nowhere = checked(open("/dev/null", O_WRONLY), "open");
   Outcome outcome{};
   {
     const Redirection to_nowhere(STDOUT_FILENO, nowhere), to_file(STDERR_FILENO, errors);
     outcome.code = vitrel_main(static_cast<int>(all.size()), pointers.data());
   }
   outcome.errors = content(errors);
-  close(errors);
-  close(nowhere);
+  checked(close(errors), "close");
+  checked(close(nowhere), "close");
   return outcome;
 }
 

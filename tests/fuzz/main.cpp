@@ -14,6 +14,7 @@
 #include <optional>
 #include <thread>
 
+#include "core/io/checked.h"
 #include "core/random/stream.h"
 #include "tests/fuzz/execution.h"
 #include "tests/fuzz/targets.h"
@@ -92,7 +93,7 @@ std::optional<std::string> watch(pid_t process, const Shared& shared) {
   bool hangs = false;
   while (waitpid(process, &status, WNOHANG) == 0) {
     hangs = hangs || processor_seconds(clock) - shared.begun > max_seconds;
-    if (hangs) kill(process, SIGKILL);
+    if (hangs) checked(kill(process, SIGKILL), "kill");
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   if (hangs) return fmt::format("{}: takes longer than {} s", shared.finding, max_seconds);
@@ -118,7 +119,7 @@ std::uint64_t fuzz(const Target& target, const Options& options) {
   const std::uint64_t end = options.first + options.inputs;
   for (std::uint64_t next = options.first; next < end;) {
     const std::uint64_t last = std::min(end, next + inputs_per_process);
-    std::fflush(nullptr);
+    static_cast<void>(std::fflush(nullptr));
     const pid_t process = fork();
     if (process == 0) read_inputs(target, options, next, last, shared);
     const std::optional<std::string> finding = watch(process, shared);
@@ -159,14 +160,14 @@ void limit_memory() {
 #if !defined(__SANITIZE_ADDRESS__)  // whose shadow exceeds every limit
   constexpr rlim_t bytes = rlim_t{4} << 30;
   const rlimit limit{bytes, bytes};
-  setrlimit(RLIMIT_AS, &limit);
+  checked(setrlimit(RLIMIT_AS, &limit), "setrlimit");
 #endif
 }
 
 int run(const Options& options) {
   limit_memory();
   const Folder folder;
-  setenv("XDG_CACHE_HOME", folder.path().c_str(), 1);
+  checked(setenv("XDG_CACHE_HOME", folder.path().c_str(), 1), "setenv");
   std::uint64_t findings = 0;
   bool found = false;
   for (const Target& target : make_targets(folder.path())) {

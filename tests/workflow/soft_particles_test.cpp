@@ -9,6 +9,7 @@
 #include <memory>
 #include <numbers>
 
+#include "core/io/checked.h"
 #include "edmd/soft/restitution.h"
 #include "workflow/configuration/soft_particles.h"
 
@@ -22,7 +23,7 @@ class SoftParticles : public testing::Test {
       : folder_(std::filesystem::path(testing::TempDir()) /
                 testing::UnitTest::GetInstance()->current_test_info()->name()) {
     std::filesystem::remove_all(folder_);
-    setenv("XDG_CACHE_HOME", folder_.c_str(), 1);
+    checked(setenv("XDG_CACHE_HOME", folder_.c_str(), 1), "setenv");
   }
   ~SoftParticles() override { std::filesystem::remove_all(folder_); }
 
@@ -203,7 +204,7 @@ TEST_F(SoftParticles, ASpeciesWithoutParticlesDoesNoHarm) {
 }
 
 TEST_F(SoftParticles, WithoutAFolderTheTableIsNotKept) {
-  setenv("XDG_CACHE_HOME", "/dev/null", 1);
+  checked(setenv("XDG_CACHE_HOME", "/dev/null", 1), "setenv");
   const auto contact = one_contact(figure_6(), {1, 1});
   ASSERT_EQ(said_.size(), 2u);
   EXPECT_THAT(said_[1], testing::HasSubstr("the table is not kept"));

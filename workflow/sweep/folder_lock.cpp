@@ -23,7 +23,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder)
 }
 
 FolderLock::~FolderLock() {
-  close(descriptor_);
+  static_cast<void>(close(descriptor_));
 }
 
 bool FolderLock::acquire(Share share, const std::function<bool()>& gives_up) {

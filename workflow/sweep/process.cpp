@@ -9,8 +9,10 @@
 
 #include <cerrno>
 #include <cstring>
+#include <string_view>
 
 #include "core/error.h"
+#include "core/io/checked.h"
 
 namespace vitrel {
 namespace {
@@ -27,37 +29,41 @@ class HeldSignals {
  public:
   HeldSignals() {
     sigset_t stops;
-    sigemptyset(&stops);
-    for (const int number : stop_signals) sigaddset(&stops, number);
-    sigprocmask(SIG_BLOCK, &stops, &before_);
+    checked(sigemptyset(&stops), "sigemptyset");
+    for (const int number : stop_signals) checked(sigaddset(&stops, number), "sigaddset");
+    checked(sigprocmask(SIG_BLOCK, &stops, &before_), "sigprocmask");
   }
-  ~HeldSignals() { sigprocmask(SIG_SETMASK, &before_, nullptr); }
+  ~HeldSignals() { static_cast<void>(restore()); }
   HeldSignals(const HeldSignals&) = delete;
   HeldSignals& operator=(const HeldSignals&) = delete;
 
   // In the child: a stop ends it, instead of being noted by a handler that exec forgets. Ignored hangups (nohup) stay so.
-  void release_to_default() const {
-    for (const int number : stop_signals)
-      if (signal(number, SIG_DFL) == SIG_IGN && number == SIGHUP) signal(number, SIG_IGN);
-    sigprocmask(SIG_SETMASK, &before_, nullptr);
+  bool release_to_default() const {
+    for (const int number : stop_signals) {
+      const auto before = signal(number, SIG_DFL);
+      const bool stays = before == SIG_IGN && number == SIGHUP;
+      if (before == SIG_ERR || (stays && signal(number, SIG_IGN) == SIG_ERR)) return false;
+    }
+    return restore();
   }
 
  private:
+  bool restore() const { return sigprocmask(SIG_SETMASK, &before_, nullptr) == 0; }
+
   sigset_t before_;
 };
 
 // Between fork and exec only calls that are safe there.
 [[noreturn]] void become(char* const* arguments, int output, int log, pid_t parent,
                          const HeldSignals& held) {
-  held.release_to_default();
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  // The parent may have died before the line above.
-  if (getppid() != parent) _exit(1);
-  // Ctrl-C on a terminal reaches the whole group; the parent passes its wish on by itself.
-  setpgid(0, 0);
-  dup2(output, STDOUT_FILENO);
-  dup2(log, STDERR_FILENO);
-  execv(arguments[0], arguments);
+  // The parent may have died before it was asked for its death. Ctrl-C on a terminal reaches the whole group; the parent
+  // passes its wish on by itself.
+  const bool is_ready = held.release_to_default() && prctl(PR_SET_PDEATHSIG, SIGKILL) == 0 &&
+                        getppid() == parent && setpgid(0, 0) == 0 &&
+                        dup2(log, STDERR_FILENO) >= 0 && dup2(output, STDOUT_FILENO) >= 0;
+  if (is_ready) static_cast<void>(execv(arguments[0], arguments));  // returns only if it failed
+  constexpr std::string_view complaint = "the program cannot be started\n";
+  static_cast<void>(write(log, complaint.data(), complaint.size()));
   _exit(127);
 }
 
@@ -75,8 +81,8 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command,
   pid_ = fork();
   if (pid_ == 0) become(arguments.data(), output_file, log_file, parent, held);
   const int error = errno;
-  close(output_file);
-  close(log_file);
+  static_cast<void>(close(output_file));
+  static_cast<void>(close(log_file));
   if (pid_ < 0)
     throw FileError(fmt::format("{}: cannot be started: {}", command[0], std::strerror(error)));
 }
@@ -84,13 +90,13 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command,
 std::optional<int> ChildProcess::poll() {
   if (exit_code_) return exit_code_;
   int status = 0;
-  if (waitpid(pid_, &status, WNOHANG) == pid_)
+  if (checked(waitpid(pid_, &status, WNOHANG), "waitpid") == pid_)
     exit_code_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return exit_code_;
 }
 
 void ChildProcess::ask_to_stop() {
-  if (!exit_code_) kill(pid_, SIGTERM);
+  if (!exit_code_) checked(kill(pid_, SIGTERM), "kill");
 }
 
 }  // namespace vitrel

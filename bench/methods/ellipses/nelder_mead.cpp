@@ -1,12 +1,13 @@
 #include "bench/methods/ellipses/nelder_mead.h"
 
-#include <gsl/gsl_errno.h>
 #include <gsl/gsl_multimin.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/statistics/gsl_errors.h"
 #include "bench/methods/ellipses/penalised.h"
+#include "core/io/checked.h"
 
 namespace vitrel::bench {
 namespace {
@@ -23,9 +24,9 @@ double objective(const gsl_vector* y, void* data) {
 class Simplex {
  public:
   Simplex()
-      : minimiser_(gsl_multimin_fminimizer_alloc(gsl_multimin_fminimizer_nmsimplex2, 3)),
-        start_(gsl_vector_alloc(3)),
-        edges_(gsl_vector_alloc(3)) {}
+      : minimiser_(obtained(gsl_multimin_fminimizer_alloc(gsl_multimin_fminimizer_nmsimplex2, 3))),
+        start_(obtained(gsl_vector_alloc(3))),
+        edges_(obtained(gsl_vector_alloc(3))) {}
   ~Simplex() {
     gsl_vector_free(edges_);
     gsl_vector_free(start_);
@@ -39,7 +40,7 @@ class Simplex {
     gsl_multimin_function function{objective, 3, &f};
     for (int k = 0; k < 3; ++k) gsl_vector_set(start_, k, y[k]);
     gsl_vector_set_all(edges_, edge);
-    gsl_multimin_fminimizer_set(minimiser_, &function, start_, edges_);
+    check_gsl(gsl_multimin_fminimizer_set(minimiser_, &function, start_, edges_));
     bool small = false;
     for (int step = 0; step < max_iterations && !small; ++step, ++iterations) {
       if (gsl_multimin_fminimizer_iterate(minimiser_) != GSL_SUCCESS) break;

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <memory>
 
+#include "analysis/statistics/gsl_errors.h"
 #include "bench/methods/ellipses/penalised.h"
+#include "core/io/checked.h"
 
 namespace vitrel::bench {
 namespace {
@@ -53,7 +55,8 @@ Prediction2 simulated_annealing(const CollisionCase& asked, double tolerance) {
   const ScaledProblem problem(asked, opening.bracket);
   const PenalisedTime f(problem, penalty_weight);
 
-  thread_local const std::unique_ptr<gsl_rng, FreeRandom> random(gsl_rng_alloc(gsl_rng_taus2));
+  thread_local const std::unique_ptr<gsl_rng, FreeRandom> random(
+      obtained(gsl_rng_alloc(gsl_rng_taus2)));
   gsl_rng_set(random.get(), seed);
   State state{{0, 0, 0}, std::log(tolerance), &f};
   gsl_siman_params_t cooling = schedule;

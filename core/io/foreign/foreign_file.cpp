@@ -56,7 +56,7 @@ class TemporaryFile {
     const int descriptor = mkstemp(name_.data());
     if (descriptor < 0)
       throw FileError(fmt::format("{}: cannot make the file: {}", name_, std::strerror(errno)));
-    close(descriptor);
+    static_cast<void>(close(descriptor));
   }
   ~TemporaryFile() {
     std::error_code ignored;
