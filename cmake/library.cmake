@@ -1,6 +1,9 @@
 # Sources that read or write text and never take long are cold: with -Og, where others get -O3, they compile faster and
 # compute the same (options.cmake).
 set(VITREL_COLD "$<$<CONFIG:Release,RelWithDebInfo>:-Og>")
+# The optimiser needs longer than all else for CLI11 (11 s instead of 5), and there is nothing to gain; but code that is
+# not optimised cannot be hardened.
+set(VITREL_COMMAND_LINE "$<$<CONFIG:Release,RelWithDebInfo>:$<IF:$<BOOL:${VITREL_HARDENED}>,-Og,-O0>>")
 
 # vitrel_precompiled(<name> [COLD] HEADERS … LINK …): a target that only precompiles headers, for others to reuse.
 # These agree in options with it (GCC would take the level of optimisation from it), and may have definitions of their

@@ -9,13 +9,16 @@ if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release)
 endif()
 
-# Who builds the project mostly runs it on the same machine. Presets "portable" and "x86-64-v3" are for packages.
-set(processor_by_default "")
-if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CROSSCOMPILING)
-  set(processor_by_default native)
+# Programs name the folders of their libraries as after the installation. CMake would otherwise keep room for other names
+# by empty ones, which the dynamic linker takes for the current folder.
+set(CMAKE_BUILD_WITH_INSTALL_RPATH ON)
+if(NOT DEFINED CMAKE_INSTALL_RPATH_USE_LINK_PATH)
+  set(CMAKE_INSTALL_RPATH_USE_LINK_PATH ON)
 endif()
-set(VITREL_PROCESSOR "${processor_by_default}" CACHE STRING
+
+set(VITREL_PROCESSOR "" CACHE STRING
     "Whose instructions to use, as in -march: native, x86-64-v3 ...; empty: those of all processors of the family")
+option(VITREL_HARDENED "Debian's protections against attacks through damaged files, for packages" OFF)
 set(VITREL_SANITIZE "" CACHE STRING "Sanitizers, for example address,undefined,float-cast-overflow")
 
 # These reach the users of an installed library too: functions defined in headers are compiled there
@@ -49,8 +52,25 @@ if(VITREL_SANITIZE)
   target_link_options(vitrel_options INTERFACE -fsanitize=${VITREL_SANITIZE})
 endif()
 
+# What dpkg-buildflags of Debian 13 asks for with hardening=+all; results do not depend on it.
+if(VITREL_HARDENED)
+  include(CheckPIESupported)
+  check_pie_supported(LANGUAGES CXX)
+  set(hardening -fstack-protector-strong -fstack-clash-protection)
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    list(APPEND hardening -fcf-protection)
+  elseif(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
+    list(APPEND hardening -mbranch-protection=standard)
+  endif()
+  # The C library checks sizes only in optimised code. Some compilers define a level of their own.
+  set(optimised $<CONFIG:Release,RelWithDebInfo,MinSizeRel>)
+  set(VITREL_HARDENING ${hardening} "$<${optimised}:-U_FORTIFY_SOURCE;-D_FORTIFY_SOURCE=3>")
+  set(VITREL_LINK_HARDENING LINKER:-z,relro LINKER:-z,now)
+endif()
+
 function(vitrel_private_options target)
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow ${VITREL_HARDENING})
+  target_link_options(${target} PRIVATE ${VITREL_LINK_HARDENING})
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # No garbage collection in the compiler below 500 MB, which few sources need: 6 % faster.
     target_compile_options(${target} PRIVATE "SHELL:--param ggc-min-heapsize=500000")

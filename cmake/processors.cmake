@@ -8,18 +8,19 @@ if(VITREL_PROCESSOR AND NOT VITREL_PROCESSOR STREQUAL "native")
   set(VITREL_BESIDE_PORTABLE ON)
 endif()
 
-# Installs a shared library where the dynamic linker finds it for the processors of this build.
-function(vitrel_install_for_processor target component)
-  set(folder ${VITREL_PRIVATE_FOLDER})
+# Installs a shared library where the dynamic linker, which looks in this folder, finds it for the processors of this build.
+function(vitrel_install_for_processor target component folder)
   if(VITREL_BESIDE_PORTABLE)
     string(APPEND folder /glibc-hwcaps/${VITREL_PROCESSOR})
   endif()
   install(TARGETS ${target} LIBRARY DESTINATION ${folder} COMPONENT ${component})
 endfunction()
 
-# Lets what is installed in this folder find the private libraries, wherever the prefix is.
-function(vitrel_find_private_libraries target folder)
+# Lets a program that is installed in this folder find its private library, wherever the prefix is. As the path is
+# relative, the library lies at the same place in the build folder.
+function(vitrel_find_private_library target folder library)
   file(RELATIVE_PATH path /${folder} /${VITREL_PRIVATE_FOLDER})
-  # Relative in the build folder, too: files of a release do not depend on its name, nor on its length.
-  set_target_properties(${target} PROPERTIES INSTALL_RPATH "$ORIGIN/${path}" BUILD_RPATH_USE_ORIGIN ON)
+  set_target_properties(${target} PROPERTIES INSTALL_RPATH "$ORIGIN/${path}")
+  cmake_path(ABSOLUTE_PATH path BASE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR} NORMALIZE)
+  set_target_properties(${library} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${path})
 endfunction()
