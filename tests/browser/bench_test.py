@@ -1,4 +1,4 @@
-"""page_test.py <chromium> <vitrel-bench>: the pages of the comparisons in a browser."""
+"""bench_test.py <chromium> <vitrel-bench>: the pages of the comparisons in a browser."""
 
 import pathlib
 import subprocess
@@ -6,10 +6,7 @@ import sys
 import tempfile
 import unittest
 
-sys.dont_write_bytecode = True
-sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "browser"))
-
-from browser import Browser  # noqa: E402 (needs the path)
+from browser import Browser
 
 PROGRAM, CHROMIUM = sys.argv.pop(), sys.argv.pop()
 SHORT = ["--class", "generic", "--pairs", "30", "--seconds", "0.2", "-q"]

@@ -1,0 +1,74 @@
+#!/usr/bin/python3
+"""Every test has one label; tests whose needs are missing are left out and named, or refused: needs_test.py <build>."""
+
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+BUILD = sys.argv.pop(1)
+NEEDS = pathlib.Path(__file__).parents[1] / "needs.cmake"
+LABELS = {"unit", "physics", "clients", "browser", "manual"}
+PROJECT = f"""cmake_minimum_required(VERSION 3.25)
+project(sample LANGUAGES NONE)
+enable_testing()
+set(VITREL_TEST_TIMEOUT 60)
+include({NEEDS})
+vitrel_python_test(no_needs COMMAND -c "import sys; print(sys.prefix)")
+vitrel_python_test(with_needs COMMAND -c "import h5py" NEEDS h5py)
+"""
+
+
+def tests_of(build):
+    done = subprocess.run(["ctest", "--test-dir", build, "--show-only=json-v1"], check=True, capture_output=True)
+    return json.loads(done.stdout)["tests"]
+
+
+def labels(test):
+    return next((p["value"] for p in test["properties"] if p["name"] == "LABELS"), [])
+
+
+class Needs(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        (self.folder / "CMakeLists.txt").write_text(PROJECT, encoding="utf-8")
+        # An interpreter without any modules.
+        subprocess.run([sys.executable, "-m", "venv", "--without-pip", self.folder / "empty"], check=True)
+
+    def configure(self, *options, **environment):
+        return subprocess.run(["cmake", "-G", "Ninja", "-S", self.folder, "-B", self.folder / "build", *options],
+                              env={**os.environ, **environment}, capture_output=True, text=True, check=False)
+
+    def names(self):
+        return {test["name"] for test in tests_of(self.folder / "build")}
+
+    def test_labels(self):
+        unlabelled = {t["name"]: labels(t) for t in tests_of(BUILD) if len(LABELS.intersection(labels(t))) != 1}
+        self.assertEqual(unlabelled, {})
+
+    def test_left_out_and_named(self):
+        interpreter = self.folder / "empty/bin/python3"
+        done = self.configure(f"-DPython3_EXECUTABLE={interpreter}")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        line = next(line for line in done.stdout.splitlines() if line.startswith("-- Left out"))
+        self.assertIn("h5py", line)
+        self.assertIn(str(interpreter), line)
+        self.assertEqual(self.names(), {"no_needs"})
+
+    def test_refused_if_all_are_required(self):
+        done = self.configure(f"-DPython3_EXECUTABLE={self.folder}/empty/bin/python3", "-DVITREL_REQUIRE_ALL_TESTS=ON")
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("h5py", done.stderr)
+
+    def test_the_environment_chooses_the_interpreter(self):
+        done = self.configure(VIRTUAL_ENV=str(self.folder / "empty"))
+        self.assertIn(f"{self.folder}/empty/bin/python3", done.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
