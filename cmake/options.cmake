@@ -9,8 +9,8 @@ if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release)
 endif()
 
-# Programs name the folders of their libraries as after the installation. CMake would otherwise keep room for other names
-# by empty ones, which the dynamic linker takes for the current folder.
+# Programs name the folders of their libraries as after the installation. CMake would otherwise keep room for other
+# names by empty ones, which the dynamic linker takes for the current folder.
 set(CMAKE_BUILD_WITH_INSTALL_RPATH ON)
 if(NOT DEFINED CMAKE_INSTALL_RPATH_USE_LINK_PATH)
   set(CMAKE_INSTALL_RPATH_USE_LINK_PATH ON)

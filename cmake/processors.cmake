@@ -8,7 +8,8 @@ if(VITREL_PROCESSOR AND NOT VITREL_PROCESSOR STREQUAL "native")
   set(VITREL_BESIDE_PORTABLE ON)
 endif()
 
-# Installs a shared library where the dynamic linker, which looks in this folder, finds it for the processors of this build.
+# Installs a shared library for the processors of this build where the dynamic linker, which looks in this folder, finds
+# it.
 function(vitrel_install_for_processor target component folder)
   if(VITREL_BESIDE_PORTABLE)
     string(APPEND folder /glibc-hwcaps/${VITREL_PROCESSOR})

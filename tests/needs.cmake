@@ -1,5 +1,5 @@
-# What tests need besides the libraries. Tests whose needs are missing are left out, and the configuration says so in the
-# end; CI refuses to leave out any.
+# What tests need besides the libraries. Tests whose needs are missing are left out, and the configuration names these
+# needs; CI refuses to leave out any.
 option(VITREL_REQUIRE_ALL_TESTS "Refuse to leave out tests because a program or a Python module is missing" OFF)
 set(VITREL_MISSING "")
 
@@ -18,7 +18,8 @@ if(NOT EXISTS /usr/share/javascript/mathjax)
 endif()
 
 find_package(Python3 3.11 QUIET COMPONENTS Interpreter)
-set(modules ase furo gsd h5py matplotlib MDAnalysis myst_parser numpy numpydoc pandas pytest sphinx sphinx_copybutton vtk)
+set(modules ase furo gsd h5py matplotlib MDAnalysis myst_parser numpy numpydoc pandas pytest sphinx sphinx_copybutton
+    vtk)
 if(Python3_Interpreter_FOUND)
   # -P: folders of the build are no modules.
   execute_process(

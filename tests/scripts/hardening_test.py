@@ -62,16 +62,16 @@ class Hardening(unittest.TestCase):
         return source / "build"
 
     def test_builds_for_packages_are_protected(self):
-        build = self.build("-DVITREL_HARDENED=ON", "-DCMAKE_INSTALL_RPATH=$ORIGIN")
-        self.assertEqual(complaints("--hardened", build / "libsample.so"), "")
-        self.assertEqual(complaints("--hardened", build / "program"), "")
+        build = self.build("-DVITREL_HARDENED=ON")
+        self.assertEqual(complaints("--hardened", build / "libsample.so", build / "program"), "")
         if platform.machine() == "x86_64":
             code = output_of("objdump", "--disassemble", "--no-show-raw-insn", build / "libsample.so")
             self.assertRegex(code.split("<_Z3sumPKcPKd>:\n")[1], r"^.*endbr64", "the target of a call is not marked")
-            self.assertRegex(code, r"(or|mov)[ql]? +\$0x0,(0x\w+)?\(%rsp", "the pages of a large stack are not touched one by one")
+            touched = r"(or|mov)[ql]? +\$0x0,(0x\w+)?\(%rsp"
+            self.assertRegex(code, touched, "the pages of a large stack are not touched one by one")
 
     def test_other_builds_are_told(self):
-        build = self.build("-DCMAKE_EXE_LINKER_FLAGS=-no-pie", "-DCMAKE_BUILD_TYPE=RelWithDebInfo", "-DCMAKE_CXX_FLAGS=-O0")
+        build = self.build("-DCMAKE_EXE_LINKER_FLAGS=-no-pie", "-DCMAKE_CXX_FLAGS_RELEASE=-fno-stack-protector")
         found = complaints("--hardened", build / "libsample.so", build / "program")
         for lack in ("libsample.so: names are bound while it runs", "libsample.so: the stack is not guarded",
                      "libsample.so: the C library checks no sizes", "program: its address is fixed"):
