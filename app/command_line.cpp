@@ -1,5 +1,7 @@
 #include "app/command_line.h"
 
+#include <fmt/format.h>
+
 #include <string_view>
 
 #include "app/commands/analyze.h"
@@ -16,6 +18,7 @@
 #include "app/terminal/program_command_line.h"
 #include "workflow/configuration/sections.h"
 #include "workflow/export/trajectory_export.h"
+#include "workflow/sweep/sweep_export.h"
 
 namespace vitrel {
 namespace {
@@ -205,12 +208,17 @@ class CommandLine : public ProgramCommandLine {
                      "Only print how far every job is, and what has changed in the file since");
     CLI::Option* job = sub.add_option(
         "--job", sweep_.job, "Run this job only; other processes may run other jobs meanwhile");
+    std::vector<std::string> programs;
+    std::string sentence =
+        "Run nothing; write the sweep into its folder, where another program runs it";
+    for (const SweepExport& to : sweep_exports()) {
+      programs.emplace_back(to.name);
+      sentence += fmt::format("; {}: {}", to.name, to.use);
+    }
     CLI::Option* exported =
-        add_choice(sub, "--export", sweep_.export_as, {"snakemake"}, "WORKFLOW",
-                   "Run nothing; write the sweep into its folder as a workflow for snakemake, "
-                   "which runs it here or on Slurm");
+        add_choice(sub, "--export", sweep_.export_as, programs, "PROGRAM", sentence);
     job->excludes(parallel)->excludes(status)->excludes(exported);
-    exported->excludes(parallel)->excludes(status);
+    exported->excludes(status);
     add_wall_time(sub, sweep_.wall_time);
     add_print(sub, sweep_.print);
   }

@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "app/commands/common.h"
 #include "app/terminal/exit_codes.h"
 #include "app/terminal/session.h"
-#include "workflow/sweep/sweep.h"
+#include "workflow/sweep/sweep_export.h"
 #include "workflow/sweep/sweep_status.h"
 
 namespace vitrel {
@@ -38,13 +39,14 @@ int print_status(const SweepOptions& options) {
   return success;
 }
 
+SweepRequest request_of(const SweepOptions& options) {
+  return {parameter_source(options.source), options.output, this_program(), options.parallel};
+}
+
 int export_workflow(const SweepOptions& options) {
-  export_sweep(parameter_source(options.source), options.output, this_program());
-  remark(options.print,
-         fmt::format(
-             "{}: in this folder, snakemake -j 2 runs the sweep, and snakemake --profile slurm "
-             "submits its jobs to Slurm",
-             options.output.string()));
+  const auto to = std::ranges::find(sweep_exports(), options.export_as, &SweepExport::name);
+  export_sweep(request_of(options), *to);
+  remark(options.print, fmt::format("{}: in this folder, {}", options.output.string(), to->use));
   return success;
 }
 
@@ -52,8 +54,7 @@ SweepOutcome run_jobs(const SweepOptions& options) {
   Session session(options.print.quiet, options.wall_time, StopDeadline::none);
   session.begin("sweep");
   const auto say = [&session](const std::string& line) { session.note(line); };
-  const SweepRequest request{parameter_source(options.source), options.output, this_program(),
-                             options.parallel};
+  const SweepRequest request = request_of(options);
   return options.job.empty() ? run_sweep(request, session.control(), say)
                              : run_job(request, options.job, session.control(), say);
 }

@@ -234,7 +234,8 @@ TEST_F(HabitsTest, BashCompletesCommandsOptionsChoicesAndFiles) {
               UnorderedElementsAre("prepare", "run", "analyze", "sweep", "pair"));
   EXPECT_THAT(offered(folder, {"help", "pre"}), ElementsAre("prepare"));
   EXPECT_THAT(offered(folder, {"completion", ""}), UnorderedElementsAre("bash", "zsh"));
-  EXPECT_THAT(offered(folder, {"sweep", "p.toml", "--export", ""}), ElementsAre("snakemake"));
+  EXPECT_THAT(offered(folder, {"sweep", "p.toml", "--export", ""}),
+              UnorderedElementsAre("snakemake", "slurm"));
   EXPECT_THAT(offered(folder, {"check", "ru"}), UnorderedElementsAre("run.h5", "ru n.h5", "runs"));
   EXPECT_THAT(offered(folder, {"run", "p.toml", "--from", "run."}), ElementsAre("run.h5"));
   EXPECT_THAT(offered(folder, {"sweep", "p.toml", "-o", "r"}), ElementsAre("runs"));

@@ -389,7 +389,7 @@ TEST(OwnStates, ADensityLadderStartsFromTheDensityBefore) {
       2, "starts from the end of the job packing_fraction-0.3_seed-1, which is not done");
   succeed(folder, {"sweep", "p.toml", "-o", "exported", "--export", "snakemake", "-q"});
   EXPECT_THAT(folder.read("exported/Snakefile"),
-              HasSubstr("\"packing_fraction-0.4_seed-1\": \"packing_fraction-0.3_seed-1\","));
+              HasSubstr("\"packing_fraction-0.4_seed-1\": \"packing_fraction-0.3_seed-1\""));
   expect_refusal(run(folder.path(), {"sweep", "p.toml", "-o", "x", "--set", "sweep.ladder=seed"}),
                  2, "key 'sweep.ladder' is \"seed\", but must be a key of [sweep.grid]");
 }

@@ -37,4 +37,13 @@ bool FolderLock::acquire(Share share, const std::function<bool()>& gives_up) {
   return true;
 }
 
+void FolderLock::hold_alone() {
+  // As long as children of a killed sweep may take to die.
+  int asked = 0;
+  if (!acquire(Share::alone, [&asked] { return ++asked > 10; }))
+    throw UserError(path_.parent_path().string() +
+                    ": another process works on this sweep; wait for it or stop it "
+                    "(vitrel sweep --status shows how far it is)");
+}
+
 }  // namespace vitrel

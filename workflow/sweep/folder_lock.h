@@ -21,6 +21,9 @@ class FolderLock {
   /// says so. Throws FileError where the file system has no locks.
   bool acquire(Share share, const std::function<bool()>& gives_up);
 
+  /// Holds it alone. Throws UserError if after a second others still hold it.
+  void hold_alone();
+
  private:
   std::filesystem::path path_;
   int descriptor_;

@@ -16,22 +16,11 @@
 #include "workflow/sweep/folder_lock.h"
 #include "workflow/sweep/job_folder.h"
 #include "workflow/sweep/job_worker.h"
-#include "workflow/sweep/snakemake.h"
 
 namespace vitrel {
 namespace {
 
 namespace fs = std::filesystem;
-
-void hold_alone(FolderLock& lock, const fs::path& folder) {
-  // As long as children of a killed sweep may take to die.
-  int asked = 0;
-  const auto gives_up = [&asked] { return ++asked > 10; };
-  if (!lock.acquire(FolderLock::Share::alone, gives_up))
-    throw UserError(folder.string() +
-                    ": another process works on this sweep; wait for it or stop it "
-                    "(vitrel sweep --status shows how far it is)");
-}
 
 // What a job costs, in units that jobs of one sweep share.
 double work_of(const SweepJob& job) {
@@ -58,7 +47,7 @@ class Sweep {
   SweepOutcome run() {
     make_folder(request_.folder);
     FolderLock lock(request_.folder);
-    hold_alone(lock, request_.folder);
+    lock.hold_alone();
     for (const SweepJob& job : jobs_) write_job_folder(job, request_.folder / job.id);
     return run_jobs();
   }
@@ -153,7 +142,7 @@ class Sweep {
   }
 
   void fill() {
-    while (!stopping_ && active_.size() < static_cast<std::size_t>(request_.parallel)) {
+    while (!stopping_ && active_.size() < std::max<std::size_t>(request_.parallel, 1)) {
       const auto next = next_ready();
       if (next == waiting_.end()) return;
       const SweepJob& job = **next;
@@ -227,15 +216,6 @@ SweepOutcome run_job(const SweepRequest& request, const std::string& id, const R
                      const std::function<void(const std::string&)>& say) {
   const std::vector<SweepJob> jobs = {job_named(sweep_jobs(request.source), id)};
   return Sweep(request, jobs, control, say).run_beside_others();
-}
-
-void export_sweep(const ParameterSource& source, const fs::path& folder, const fs::path& program) {
-  const std::vector<SweepJob> jobs = sweep_jobs(source);
-  make_folder(folder);
-  FolderLock lock(folder);
-  hold_alone(lock, folder);
-  for (const SweepJob& job : jobs) write_job_folder(job, folder / job.id);
-  export_snakemake(source, jobs, folder, program);
 }
 
 std::vector<fs::path> SweepProgress::files() const {

@@ -23,7 +23,7 @@ struct SweepRequest {
   ParameterSource source;
   std::filesystem::path folder;
   std::filesystem::path program;  ///< this program, run for every step
-  int parallel = 1;               ///< jobs at a time
+  int parallel = 0;               ///< jobs at a time; 0: one here, on a cluster what it admits
 };
 
 struct SweepOutcome {
@@ -46,11 +46,6 @@ SweepOutcome run_sweep(const SweepRequest& request, const RunControl& control,
 /// while another process works on this job or on the whole sweep, and then finds what that has done.
 SweepOutcome run_job(const SweepRequest& request, const std::string& id, const RunControl& control,
                      const std::function<void(const std::string&)>& say);
-
-/// Makes the folders and writes the sweep as a workflow of Snakemake; `program` is what it runs. Throws
-/// like run_sweep.
-void export_sweep(const ParameterSource& source, const std::filesystem::path& folder,
-                  const std::filesystem::path& program);
 
 /// How far a sweep is, by its folder alone; all in alphabetical order.
 struct SweepProgress {

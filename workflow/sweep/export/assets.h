@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string_view>
+
+namespace vitrel::sweep_templates {
+
+/// The content of a file of this folder that was compiled in ("sweep/export/Snakefile"). Throws std::logic_error for any
+/// other.
+std::string_view asset(std::string_view path);
+
+}  // namespace vitrel::sweep_templates
