@@ -10,8 +10,6 @@ import sys
 import tempfile
 import unittest
 
-import yaml
-
 PROGRAM = sys.argv.pop(1)
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts"))
@@ -123,6 +121,8 @@ class Snakemake(Exported):
 
     def test_all_versions_submit_alike(self):
         """Options of Snakemake 8 are those of its documentation and of the plugin cluster-sync."""
+        import yaml  # which Snakemake brings
+
         self.sweep(SWEEP, "exported", "--export", "snakemake")
         profile = self.folder / "exported/slurm"
         former, later = (yaml.safe_load((profile / name).read_text()) for name in ("config.yaml", "config.v8+.yaml"))
