@@ -19,6 +19,7 @@ endif()
 set(VITREL_PROCESSOR "" CACHE STRING
     "Whose instructions to use, as in -march: native, x86-64-v3 ...; empty: those of all processors of the family")
 option(VITREL_HARDENED "Debian's protections against attacks through damaged files, for packages" OFF)
+option(VITREL_PORTABLE_EXTENDED "Use the sum of two doubles in the exact check where long double has 64 bits, too" OFF)
 set(VITREL_SANITIZE "" CACHE STRING "Sanitizers, for example address,undefined,float-cast-overflow")
 
 # These reach the users of an installed library too: functions defined in headers are compiled there
@@ -30,7 +31,8 @@ add_library(vitrel::options ALIAS vitrel_options)
 set_target_properties(vitrel_options PROPERTIES EXPORT_NAME options)
 target_compile_features(vitrel_options INTERFACE cxx_std_20)
 target_compile_options(vitrel_options INTERFACE -ffp-contract=off)
-target_compile_definitions(vitrel_options INTERFACE EIGEN_DONT_VECTORIZE EIGEN_MAX_STATIC_ALIGN_BYTES=16)
+target_compile_definitions(vitrel_options INTERFACE EIGEN_DONT_VECTORIZE EIGEN_MAX_STATIC_ALIGN_BYTES=16
+                           $<$<BOOL:${VITREL_PORTABLE_EXTENDED}>:VITREL_PORTABLE_EXTENDED>)
 if(VITREL_PROCESSOR)
   set(VITREL_PROCESSOR_FLAGS -march=${VITREL_PROCESSOR})
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")

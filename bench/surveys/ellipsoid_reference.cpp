@@ -13,7 +13,7 @@ namespace vitrel::bench {
 namespace {
 
 using Real = long double;
-using Vector = exact::Point<3>;
+using Vector = exact::Point<3, Real>;
 using Matrix = Eigen::Matrix<Real, 3, 3>;
 using Outcome = TrueEllipsoidContact::Outcome;
 
@@ -238,7 +238,7 @@ TrueEllipsoidContact described_contact(const Pair& pair, double horizon) {
 }
 
 long double gap(const Pair& pair, Real time) {
-  const auto particle = [&](const Body& body, const Vector& centre) -> exact::Particle<3> {
+  const auto particle = [&](const Body& body, const Vector& centre) -> exact::Particle<3, Real> {
     return {centre, body.axes_at(time), body.radius_at(time)};
   };
   return exact::examine(particle(pair.one, Vector::Zero()), particle(pair.two, pair.d(time)),

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/extended.h"
+
 namespace vitrel {
 namespace {
 
@@ -43,6 +45,9 @@ template VieillardBaron<double> vieillard_baron(const EllipseAxes<double>&,
 template VieillardBaron<long double> vieillard_baron(const EllipseAxes<long double>&,
                                                      const EllipseAxes<long double>&, long double,
                                                      long double);
+template VieillardBaron<DoubleDouble> vieillard_baron(const EllipseAxes<DoubleDouble>&,
+                                                      const EllipseAxes<DoubleDouble>&,
+                                                      DoubleDouble, DoubleDouble);
 
 VieillardBaron<double> vieillard_baron(const Ellipse& one, double angle1, const Ellipse& two,
                                        double angle2, const Vec2& d) {

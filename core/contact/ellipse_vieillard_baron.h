@@ -49,7 +49,7 @@ struct VieillardBaron {
   bool has_separating_sign() const { return g1 < 0 || g2 < 0; }
 };
 
-/// Instantiated for double and long double.
+/// Instantiated for double, long double and DoubleDouble.
 template <class Real>
 VieillardBaron<Real> vieillard_baron(const EllipseAxes<Real>& one, const EllipseAxes<Real>& two,
                                      Real dx, Real dy);

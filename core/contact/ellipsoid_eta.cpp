@@ -4,8 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.h"
+#include "core/extended.h"
+
 namespace vitrel {
 namespace {
+
+using std::abs, std::sqrt;  // beside those of DoubleDouble
 
 template <class Real>
 using Vector = Eigen::Matrix<Real, 3, 1>;
@@ -53,8 +58,8 @@ template <class Real>
 Real error_of_eta1(const Coefficients<Real>& p, const Coefficients<Real>& sums, Real accuracy) {
   const Real blur1 = 2 * accuracy * sums.sum1();
   const Real blur2 = 3 * accuracy * sums.sum2();
-  const Real beta1 = std::abs(p.beta1()) + blur1;
-  const Real beta2 = std::abs(p.beta2()) + blur2;
+  const Real beta1 = abs(p.beta1()) + blur1;
+  const Real beta2 = abs(p.beta2()) + blur2;
   return 3 * beta1 * beta1 * blur1 + 54 * beta2 * blur2;
 }
 
@@ -70,19 +75,21 @@ Real CharacteristicPolynomial<Real>::operator()(Real tau) const {
 template <class Real>
 Real CharacteristicPolynomial<Real>::maximizer() const {
   // F is flat there: half the digits of τ give all of F.
-  const Real tolerance = std::sqrt(std::numeric_limits<Real>::epsilon()) / 64;
+  const Real tolerance = sqrt(std::numeric_limits<Real>::epsilon()) / 64;
   constexpr int max_steps = 80;
   Real low = min_ratio, high = max_ratio;
-  Real tau = std::sqrt(low * high);
+  Real tau = sqrt(low * high);
   for (int step = 0; step < max_steps; ++step) {
     const LogDerivatives<Real> up(negative, tau), down(positive, tau);
     const Real slope = up.mean - down.mean;
     if (slope == 0) break;
     (slope > 0 ? low : high) = tau;
     const Real curvature = up.variance - down.variance;
-    Real next = curvature < 0 ? tau * std::exp(-slope / curvature) : low;
-    if (!(next > low && next < high)) next = std::sqrt(low * high);
-    const bool converged = std::abs(next - tau) <= tolerance * tau;
+    Real next = low;
+    if (curvature < 0)
+      next = tau + tau * exponential_minus_one(static_cast<double>(-slope / curvature));
+    if (!(next > low && next < high)) next = sqrt(low * high);
+    const bool converged = abs(next - tau) <= tolerance * tau;
     tau = next;
     if (converged) break;
   }
@@ -99,21 +106,21 @@ CharacteristicPolynomial<Real> characteristic_polynomial(const EllipsoidAxes<Rea
   const Matrix<Real> squares = cosines.cwiseAbs2();
   const Real trace1 = squares.cwiseProduct(ratio.cwiseAbs2()).sum();
   const Real trace2 = squares.cwiseQuotient(ratio.cwiseAbs2()).sum();
-  const Real sigma2 = one.lengths.prod() / two.lengths.prod();
-  const Real sigma = std::sqrt(sigma2);
+  const Real volume = one.lengths.prod();
+  const Real sigma2 = volume / two.lengths.prod();
+  const Real sigma = sqrt(sigma2);
 
   const Real quadric1 = r.cwiseQuotient(one.lengths).squaredNorm();
   const Real quadric2 = (two.directions.transpose() * d).cwiseQuotient(two.lengths).squaredNorm();
   Real mixed = 0;
   for (int l = 0; l < 3; ++l) {
     const Vector<Real> axis = cosines.col(l);
-    mixed += (two.lengths[l] * axis.cross(r).cwiseProduct(one.lengths)).squaredNorm();
+    mixed += (two.lengths[l] / volume * axis.cross(r).cwiseProduct(one.lengths)).squaredNorm();
   }
-  const Real volumes = one.lengths.prod() * two.lengths.prod();
 
   return {sigma,
           {1, sigma * (1 + trace2), trace1 / sigma2 + sigma2 * trace2, (1 + trace1) / sigma, 1},
-          {0, sigma * quadric1, mixed / volumes, quadric2 / sigma, 0},
+          {0, sigma * quadric1, sigma2 * mixed, quadric2 / sigma, 0},
           one.lengths.minCoeff() / two.lengths.maxCoeff() / sigma,
           one.lengths.maxCoeff() / two.lengths.minCoeff() / sigma};
 }
@@ -168,24 +175,16 @@ EllipsoidEta<double> ellipsoid_eta(const Ellipsoid& one, const Quaternion& orien
   return ellipsoid_eta<double>({one, orientation1}, {two, orientation2}, d);
 }
 
-template struct CharacteristicPolynomial<double>;
-template struct CharacteristicPolynomial<long double>;
-template EllipsoidEta<double> ellipsoid_eta(const EllipsoidAxes<double>&,
-                                            const EllipsoidAxes<double>&, const Vector<double>&);
-template EllipsoidEta<long double> ellipsoid_eta(const EllipsoidAxes<long double>&,
-                                                 const EllipsoidAxes<long double>&,
-                                                 const Vector<long double>&);
-template CharacteristicPolynomial<double> characteristic_polynomial(const EllipsoidAxes<double>&,
-                                                                    const EllipsoidAxes<double>&,
-                                                                    const Vector<double>&);
-template CharacteristicPolynomial<long double> characteristic_polynomial(
-    const EllipsoidAxes<long double>&, const EllipsoidAxes<long double>&,
-    const Vector<long double>&);
-template EllipsoidTouch<double> ellipsoid_touch(const EllipsoidAxes<double>&,
-                                                const EllipsoidAxes<double>&,
-                                                const Vector<double>&);
-template EllipsoidTouch<long double> ellipsoid_touch(const EllipsoidAxes<long double>&,
-                                                     const EllipsoidAxes<long double>&,
-                                                     const Vector<long double>&);
+#define VITREL_INSTANTIATE(Real)                                                              \
+  template struct CharacteristicPolynomial<Real>;                                             \
+  template EllipsoidEta<Real> ellipsoid_eta(const EllipsoidAxes<Real>&,                       \
+                                            const EllipsoidAxes<Real>&, const Vector<Real>&); \
+  template CharacteristicPolynomial<Real> characteristic_polynomial(                          \
+      const EllipsoidAxes<Real>&, const EllipsoidAxes<Real>&, const Vector<Real>&);           \
+  template EllipsoidTouch<Real> ellipsoid_touch(const EllipsoidAxes<Real>&,                   \
+                                                const EllipsoidAxes<Real>&, const Vector<Real>&);
+VITREL_INSTANTIATE(double)
+VITREL_INSTANTIATE(long double)
+VITREL_INSTANTIATE(DoubleDouble)
 
 }  // namespace vitrel

@@ -90,7 +90,7 @@ struct EllipsoidEta {
   Real rounding;    ///< of η₁: where |η₁| is not larger its sign is not used
   Real min_value;   ///< q where F is largest, if that decides
 
-  bool decides() const { return std::abs(eta1) > rounding; }
+  bool decides() const { return eta1 > rounding || eta1 < -rounding; }
   bool disjoint() const { return decides() ? has_separating_signs() : min_value < 0; }
   /// Touching from outside included.
   bool disjoint_or_touching() const { return decides() ? has_separating_signs() : min_value <= 0; }
@@ -101,7 +101,7 @@ struct EllipsoidEta {
   }
 };
 
-/// All instantiated for double and long double.
+/// All instantiated for double, long double and DoubleDouble.
 template <class Real>
 EllipsoidEta<Real> ellipsoid_eta(const EllipsoidAxes<Real>& one, const EllipsoidAxes<Real>& two,
                                  const Eigen::Matrix<Real, 3, 1>& d);

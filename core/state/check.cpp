@@ -19,7 +19,7 @@ namespace {
 
 using exact::Particle;
 using exact::Point;
-using exact::Real;
+using Real = Extended;
 
 std::string within_boxes() {
   return std::to_string(static_cast<int>(tolerance::max_box_lengths)) + " box lengths";
@@ -48,8 +48,9 @@ void validate_body(const Configuration3& configuration, std::size_t i, const std
 template <int Dim>
 void validate(const Configuration<Dim>& configuration) {
   const Vec<Dim>& lengths = configuration.box.lengths();
-  if (!(lengths.allFinite() && lengths.minCoeff() > 0))
-    throw InvariantError("exact check: the box lengths must be finite and positive");
+  constexpr double shortest = 1e-70, longest = 1e70;
+  if (!(lengths.allFinite() && lengths.minCoeff() >= shortest && lengths.maxCoeff() <= longest))
+    throw InvariantError("exact check: the box lengths must be between 1e-70 and 1e70");
   for (std::size_t i = 0; i < configuration.size(); ++i) {
     const Vec<Dim>& position = configuration.position[i];
     const std::string who = "exact check: particle " + std::to_string(i);
@@ -200,7 +201,7 @@ class Examination {
     if (circles >= relevant_gap()) return;
     if (circles < 0) ++pairs_examined_;
     if (circles < 0 && may_overlap({i, j, shift}, d)) return;
-    const exact::Finding finding = exact::examine(one, two, d, smallest_gap_);
+    const auto finding = exact::examine(one, two, d, smallest_gap_);
     if (finding.overlap) overlaps_.push_back({i, j, Shift<Dim>(shift.data())});
     if (finding.gap < smallest_gap_) set_smallest_gap(finding.gap);
   }

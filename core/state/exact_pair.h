@@ -1,35 +1,38 @@
 #pragma once
 
-#include <limits>
 #include <type_traits>
 
 #include "core/contact/ellipse_vieillard_baron.h"
 #include "core/contact/ellipsoid_eta.h"
+#include "core/extended.h"
 #include "core/state/configuration.h"
 
 /// @file
-/// Two particles in 80-bit arithmetic, as the exact check (check.h) judges and measures them.
+/// Two particles in extended arithmetic, as the exact check (check.h) judges and measures them. Instantiated for long
+/// double and DoubleDouble.
 namespace vitrel::exact {
 
-using Real = long double;
-static_assert(std::numeric_limits<Real>::digits >= 64, "the exact check needs 80-bit arithmetic");
-
-template <int Dim>
+template <int Dim, class Real = Extended>
 using Point = Eigen::Matrix<Real, Dim, 1>;
 
-template <int Dim>
+template <int Dim, class Real = Extended>
 struct Particle {
-  Point<Dim> centre;
+  Point<Dim, Real> centre;
   std::conditional_t<Dim == 2, EllipseAxes<Real>, EllipsoidAxes<Real>> axes;
   Real circumradius;
 };
 
 /// The body at its pose, unchanged; particle i of a configuration.
-Particle<2> particle(const Ellipse& shape, const Pose2& pose);
-Particle<3> particle(const Ellipsoid& shape, const Pose3& pose);
-Particle<2> particle(const Configuration2& configuration, std::size_t i);
-Particle<3> particle(const Configuration3& configuration, std::size_t i);
+template <class Real = Extended>
+Particle<2, Real> particle(const Ellipse& shape, const Pose2& pose);
+template <class Real = Extended>
+Particle<3, Real> particle(const Ellipsoid& shape, const Pose3& pose);
+template <int Dim>
+Particle<Dim> particle(const Configuration<Dim>& configuration, std::size_t i) {
+  return particle(configuration.shape[i], configuration.pose(i));
+}
 
+template <class Real>
 struct Finding {
   bool overlap;
   /// The distance of the surfaces, or minus the depth (check.h). If that is not below `enough`, any number
@@ -39,7 +42,9 @@ struct Finding {
 
 /// d from centre 1 to centre 2. Fast for round bodies, and for bodies that a separating axis in double
 /// precision proves to be more than `enough` apart.
-Finding examine(const Particle<2>& one, const Particle<2>& two, const Point<2>& d, Real enough);
-Finding examine(const Particle<3>& one, const Particle<3>& two, const Point<3>& d, Real enough);
+template <int Dim, class Real>
+Finding<Real> examine(const Particle<Dim, Real>& one, const Particle<Dim, Real>& two,
+                      const std::type_identity_t<Point<Dim, Real>>& d,
+                      std::type_identity_t<Real> enough);
 
 }  // namespace vitrel::exact

@@ -18,7 +18,8 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-using exact::Real;
+using Real = Extended;
+using std::abs;  // beside that of DoubleDouble
 
 bool apart_by_criterion(const exact::Particle<2>& one, const exact::Particle<2>& two,
                         const exact::Point<2>& d) {
@@ -158,7 +159,7 @@ template <int Dim>
 void almost_touch(Stream& draw, Configuration<Dim>& state) {
   const Vec<Dim> direction = (state.position[1] - state.position[0]).normalized();
   double distance = state.shape[0].circumradius() + state.shape[1].circumradius();
-  for (Real gap = 1; gap > 4e-15L;) {
+  for (Real gap = 1; gap > 4e-15;) {
     state.position[1] = state.position[0] + distance * direction;
     gap = gap_of_two(state);
     distance -= static_cast<double>(gap);
@@ -176,8 +177,8 @@ int expect_equal_near_touching(double round_share, std::uint64_t seed) {
     Configuration<Dim> state = random_state<Dim>(draw, 2, Vec<Dim>::Constant(60), round_share);
     almost_touch(draw, state);
     const Real gap = gap_of_two(state);
-    EXPECT_LT(std::abs(gap), 1e-13L);
-    if (std::abs(gap) < 1e-16L) continue;
+    EXPECT_LT(abs(gap), 1e-13);
+    if (abs(gap) < 1e-16) continue;
     expect_equal_to_scan(state, 1);
     if (gap < 0) ++overlaps;
   }

@@ -90,8 +90,8 @@ exact::Point<Dim> exact_separation(const Pair<Dim>& pair, const exact::Particle<
                                    const exact::Particle<Dim>& two, const Shift<Dim>& shift) {
   exact::Point<Dim> d = two.centre - one.centre;
   if (pair.box)
-    d += shift.template cast<exact::Real>().cwiseProduct(
-        pair.box->lengths().template cast<exact::Real>());
+    d +=
+        shift.template cast<Extended>().cwiseProduct(pair.box->lengths().template cast<Extended>());
   return d;
 }
 
@@ -207,8 +207,7 @@ PairGap<Dim> gap_at(const Pair<Dim>& pair, double time) {
   PairGap<Dim> closest;
   closest.gap = infinity;
   for_each_image(pair, d, reach_of_smallest_gap(pair, d), [&](const Shift<Dim>& shift) {
-    const exact::Finding found =
-        exact::examine(one, two, exact_separation(pair, one, two, shift), infinity);
+    const auto found = exact::examine(one, two, exact_separation(pair, one, two, shift), infinity);
     if (!(found.gap < closest.gap)) return;
     closest.overlap = found.overlap;
     closest.gap = static_cast<double>(found.gap);

@@ -1,0 +1,127 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <compare>
+#include <limits>
+#include <type_traits>
+
+/// @file
+/// `Extended`, the numbers of the exact check (core/state/check.h): long double where that has at least 64 bits (x86: 64;
+/// Linux on ARM: 113, emulated), else the sum of two doubles. The build option VITREL_PORTABLE_EXTENDED chooses the sum of
+/// two doubles everywhere.
+namespace vitrel {
+
+/// The unevaluated sum high + low of two doubles with |low| ≤ ½ ulp(high): 106 bits.
+///
+/// Sums and products of two doubles have rounding errors that are doubles again (Dekker 1971; products are split into
+/// halves of 26 bits, without fused multiply-add). The operations are algorithms 6, 10 and 17 of Joldes, Muller & Popescu
+/// (2017), and the square root of Lefèvre et al. (2023). Their relative errors, in units of u² = 2⁻¹⁰⁶:
+///
+///     sum, difference 3     product 5     quotient 15     square root 25/8
+///
+/// also if the operands of a sum cancel; the bound of the product is that of Muller & Rideau (2022). `epsilon` is 16 u².
+///
+/// Sources: dekker1971, joldes2017, muller2022, lefevre2023.
+///
+/// Valid where no product of the doubles exceeds 2⁹⁹⁶ or is below 2⁻⁹⁶⁹ (0 excepted). Infinities can be compared and
+/// negated, but give no number in products.
+class DoubleDouble {
+ public:
+  constexpr DoubleDouble() = default;
+  // NOLINTNEXTLINE(google-explicit-constructor): mixed expressions read like those of long double
+  constexpr DoubleDouble(double x) : high_(x) {}
+
+  constexpr explicit operator double() const { return high_; }
+  constexpr explicit operator long double() const { return static_cast<long double>(high_) + low_; }
+
+  constexpr DoubleDouble operator-() const { return {-high_, -low_}; }
+  friend constexpr DoubleDouble operator+(const DoubleDouble& x, const DoubleDouble& y) {
+    const DoubleDouble high = sum(x.high_, y.high_), low = sum(x.low_, y.low_);
+    const DoubleDouble part = ordered_sum(high.high_, high.low_ + low.high_);
+    return ordered_sum(part.high_, low.low_ + part.low_);
+  }
+  friend constexpr DoubleDouble operator-(const DoubleDouble& x, const DoubleDouble& y) {
+    return x + -y;
+  }
+  friend constexpr DoubleDouble operator*(const DoubleDouble& x, const DoubleDouble& y) {
+    const DoubleDouble high = product(x.high_, y.high_);
+    return ordered_sum(high.high_, high.low_ + (x.high_ * y.low_ + x.low_ * y.high_));
+  }
+  friend constexpr DoubleDouble operator/(const DoubleDouble& x, const DoubleDouble& y) {
+    const double quotient = x.high_ / y.high_;
+    const DoubleDouble high = product(y.high_, quotient);
+    const DoubleDouble part = ordered_sum(high.high_, y.low_ * quotient);
+    const DoubleDouble near = ordered_sum(part.high_, part.low_ + high.low_);
+    return ordered_sum(quotient, ((x.high_ - near.high_) + (x.low_ - near.low_)) / y.high_);
+  }
+  constexpr DoubleDouble& operator+=(const DoubleDouble& x) { return *this = *this + x; }
+  constexpr DoubleDouble& operator-=(const DoubleDouble& x) { return *this = *this - x; }
+  constexpr DoubleDouble& operator*=(const DoubleDouble& x) { return *this = *this * x; }
+  constexpr DoubleDouble& operator/=(const DoubleDouble& x) { return *this = *this / x; }
+
+  friend constexpr auto operator<=>(const DoubleDouble&, const DoubleDouble&) = default;
+  friend constexpr DoubleDouble abs(const DoubleDouble& x) { return x < 0 ? -x : x; }
+  friend DoubleDouble sqrt(const DoubleDouble& x) {
+    const double root = std::sqrt(x.high_);
+    if (root == 0) return root;
+    const DoubleDouble square = product(root, root);
+    return ordered_sum(root, ((x.high_ - square.high_) - square.low_ + x.low_) / (2 * root));
+  }
+
+  /// The exact product of two doubles.
+  static constexpr DoubleDouble product(double x, double y) {
+    const double high = x * y, x1 = upper_half(x), x2 = x - x1, y1 = upper_half(y), y2 = y - y1;
+    return {high, ((x1 * y1 - high) + x1 * y2 + x2 * y1) + x2 * y2};
+  }
+
+ private:
+  constexpr DoubleDouble(double high, double low) : high_(high), low_(low) {}
+
+  static constexpr double upper_half(double x) {
+    const double shifted = (0x1p27 + 1) * x;
+    return shifted - (shifted - x);
+  }
+  /// The exact sum of two doubles, and if the first is not the smaller one.
+  static constexpr DoubleDouble sum(double x, double y) {
+    const double high = x + y, part = high - x;
+    return {high, (x - (high - part)) + (y - part)};
+  }
+  static constexpr DoubleDouble ordered_sum(double x, double y) {
+    const double high = x + y;
+    return {high, y - (high - x)};
+  }
+
+  double high_ = 0, low_ = 0;
+};
+
+#ifdef VITREL_PORTABLE_EXTENDED
+inline constexpr bool long_double_is_extended = false;
+#else
+inline constexpr bool long_double_is_extended = std::numeric_limits<long double>::digits >= 64;
+#endif
+using Extended = std::conditional_t<long_double_is_extended, long double, DoubleDouble>;
+
+/// Cosine and sine to 2⁻¹⁰⁰, the same on every platform; beyond |angle| = 2⁵³, where neighbouring doubles are radians
+/// apart, those in double precision.
+struct ExtendedCosineAndSine {
+  DoubleDouble cosine, sine;
+};
+ExtendedCosineAndSine extended_cosine_and_sine(double angle);
+
+}  // namespace vitrel
+
+template <>
+struct std::numeric_limits<vitrel::DoubleDouble> : std::numeric_limits<double> {
+  static constexpr int digits = 103;
+  static constexpr vitrel::DoubleDouble epsilon() { return 0x1p-102; }
+};
+
+template <>
+struct Eigen::NumTraits<vitrel::DoubleDouble> : Eigen::NumTraits<double> {
+  using Real = vitrel::DoubleDouble;
+  using NonInteger = Real;
+  using Nested = Real;
+};
+
+static_assert(std::numeric_limits<vitrel::Extended>::digits >= 64);
