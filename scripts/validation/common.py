@@ -36,6 +36,12 @@ def output_of(command, **options):
     return done.stdout
 
 
+def expect_chart(page):
+    """A page of the program that shows results."""
+    text = page.read_text(encoding="utf-8")
+    expect("<svg" in text or "<canvas" in text or "uPlot" in text, f"{page.name} has no chart")
+
+
 def carnahan_starling(phi):
     """Z of the fluid of hard spheres (1969)."""
     return (1 + phi + phi**2 - phi**3) / (1 - phi)**3

@@ -1,24 +1,17 @@
-"""The packages in a bare Debian: from `apt install` to the picture of the demo, Python, and a client of the libraries.
+"""The packages in a bare Debian: from `apt install` to the picture of the demo, Python, and a client of the libraries."""
 
-Needs root, but no mount and no process outlives a command: every command for the new system has namespaces of its own.
-"""
-
-import contextlib
 import os
 import pathlib
 import shutil
-import signal
 import subprocess
-import tempfile
-import time
 
-from validation.common import OLD_PROCESSOR, ROOT, expect, output_of, table
+from validation.bare_system import bare_system, inside, install, require_root, timed
+from validation.common import OLD_PROCESSOR, ROOT, expect, expect_chart, table
 
 TITLE = "The packages in a bare Debian"
 PACKAGES = ROOT / "build/packages"
 LIMIT = 120  # seconds from `apt install` to the page
 SUITE = "bookworm"
-APART = ["unshare", "--mount", "--pid", "--fork", "--kill-child", "--mount-proc"]
 
 STATE = """
 import vitrel
@@ -27,65 +20,6 @@ assert len(state) == 100
 assert abs(state.packing_fraction - 0.6) < 1e-9
 print(vitrel.version)
 """
-
-
-def lines_of(command):
-    return output_of(command).splitlines()
-
-
-def archives():
-    """What this machine has for archives of Debian, as lines of sources.list by release."""
-    form = "$(RELEASE) deb $(REPO_URI) $(RELEASE) $(COMPONENT)"
-    found = lines_of(["apt-get", "indextargets", "Created-By: Packages", "Origin: Debian", "--format", form])
-    return dict(line.split(maxsplit=1) for line in found)
-
-
-def install_bare_system(root):
-    """A Debian without anything more than apt needs, with the archives of this machine and how apt gets there."""
-    sources = archives()
-    expect(SUITE in sources, f"apt has no archive of {SUITE}; run apt-get update")
-    mirror = sources[SUITE].split()[1]
-    output_of([*APART, "debootstrap", "--variant=minbase", SUITE, root, mirror])
-    (root / "etc/apt/sources.list").write_text("\n".join(sources.values()) + "\n", encoding="utf-8")
-    settings = [line for line in lines_of(["apt-config", "dump"]) if line.startswith("Acquire::")]
-    (root / "etc/apt/apt.conf.d/99host").write_text("\n".join(settings) + "\n", encoding="utf-8")
-    shutil.copy("/etc/resolv.conf", root / "etc/resolv.conf")
-
-
-@contextlib.contextmanager
-def bare_system():
-    """The folder of such a system, which is removed in the end, also when the validation is stopped."""
-    def stop(number, _):
-        raise SystemExit(128 + number)
-
-    before = signal.signal(signal.SIGTERM, stop)
-    folder = pathlib.Path(tempfile.mkdtemp(prefix="vitrel-packages-"))
-    try:
-        root = folder / "root"
-        install_bare_system(root)
-        yield root
-    finally:
-        subprocess.run(["rm", "-rf", "--one-file-system", folder], check=True)
-        signal.signal(signal.SIGTERM, before)
-
-
-def inside(root, command, **variables):
-    """The standard output of a shell command in the system."""
-    environment = {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "HOME": "/root", "LC_ALL": "C.UTF-8",
-                   "DEBIAN_FRONTEND": "noninteractive", **variables}
-    return output_of([*APART, f"--root={root}", "--wd=/root", "sh", "-euc", command], env=environment,
-                     stdin=subprocess.DEVNULL)
-
-
-def install(root, *names):
-    """Packages of the release that are in /root, and others of the distribution."""
-    inside(root, f"apt-get install -qq --no-install-recommends -o Dpkg::Use-Pty=0 {' '.join(names)}")
-
-
-def timed(work, *arguments):
-    start = time.monotonic()
-    work(*arguments)
-    return time.monotonic() - start
 
 
 def library(root, file, name, **variables):
@@ -102,8 +36,7 @@ def picture(root):
              "`vitrel sweep demo.toml -o demo -j 2`":
                  timed(inside, root, f"vitrel sweep {examples}/demo.toml -o demo -j 2"),
              "`vitrel report demo`": timed(inside, root, "vitrel report demo")}
-    page = (root / "root/demo/report.html").read_text(encoding="utf-8")
-    expect("<svg" in page or "<canvas" in page or "uPlot" in page, "the page has no chart")
+    expect_chart(root / "root/demo/report.html")
     return steps
 
 
@@ -126,17 +59,16 @@ def check_removal(root):
 
 
 def measure(_):
-    expect(os.geteuid() == 0, "needs root, to install packages in a system of their own")
+    require_root()
     subprocess.run([ROOT / "scripts/release", "--try"], check=True)
     return check(PACKAGES)
 
 
 def check(packages):
     """The section of the page for packages in this folder."""
-    with bare_system() as root:
+    with bare_system(SUITE) as root:
         for package in packages.glob("*.deb"):
             shutil.copy(package, root / "root")
-        inside(root, "apt-get update -qq")
         load = os.getloadavg()[0]
         steps = picture(root)
         total = sum(steps.values())
