@@ -1,6 +1,14 @@
 # Writes OUTPUT, a header with the commit of SOURCE, and leaves it alone if nothing changed:
 # cmake -DSOURCE=… -DOUTPUT=… -P commit.cmake
 cmake_minimum_required(VERSION 3.25)
+
+# The header of a source distribution. Without PKG-INFO these are sources that one was made from.
+set(recorded ${SOURCE}/cmake/vitrel_commit.h)
+if(EXISTS ${SOURCE}/PKG-INFO AND EXISTS ${recorded})
+  configure_file(${recorded} ${OUTPUT} COPYONLY)
+  return()
+endif()
+
 find_package(Git QUIET)
 set(commit "unknown")
 

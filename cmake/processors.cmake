@@ -1,10 +1,14 @@
 # Builds for packages: programs and the Python module are thin, and what they run is a shared library in a private
 # folder, of which builds for several processors may be installed together. The dynamic linker takes the best one that
-# the processor can run.
+# the processor can run. A wheel has one build only, whose program and module need no library of vitrel.
+set(VITREL_PRIVATE_LIBRARIES ON)
+if(VITREL_PROCESSOR STREQUAL "native" OR SKBUILD)
+  set(VITREL_PRIVATE_LIBRARIES OFF)
+endif()
 set(VITREL_PRIVATE_FOLDER ${CMAKE_INSTALL_LIBDIR}/vitrel)
 # A build for certain processors adds its libraries to a portable one, which every machine can run.
 set(VITREL_BESIDE_PORTABLE OFF)
-if(VITREL_PROCESSOR AND NOT VITREL_PROCESSOR STREQUAL "native")
+if(VITREL_PRIVATE_LIBRARIES AND VITREL_PROCESSOR)
   set(VITREL_BESIDE_PORTABLE ON)
 endif()
 
