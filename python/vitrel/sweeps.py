@@ -6,6 +6,7 @@ import json
 import os
 import pathlib
 import shutil
+import sysconfig
 from typing import List, Mapping, Optional, Sequence
 
 from . import _vitrel
@@ -78,11 +79,13 @@ def sweep(file=None, *, output, grid: Optional[Mapping[str, Sequence]] = None, p
     parallel : int, optional
         Jobs at a time; by default as many as there are processors.
     program : path, optional
-        The program `vitrel`, which works on the jobs; by default the one that the shell would find.
+        The program `vitrel`, which works on the jobs; by default the one that was installed with the package, or
+        that the shell would find.
     **settings
         As of `vitrel.run`.
     """
-    program = program or shutil.which("vitrel")
+    # A virtual environment need not be in the path.
+    program = program or shutil.which("vitrel", path=sysconfig.get_path("scripts")) or shutil.which("vitrel")
     if program is None:
         raise _vitrel.FileError("the program vitrel, which works on the jobs of a sweep, is not in the path; give its place as "
                                 "program=")

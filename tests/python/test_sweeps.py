@@ -46,3 +46,15 @@ def test_jobs_that_fail_are_counted(tmp_path, vitrel_program):
     with pytest.raises(RuntimeError, match="1 of 1 jobs failed"):
         vitrel.sweep(output=tmp_path / "runs", program=vitrel_program, particles=50, packing_fraction=0.8, aspect_ratio=2,
                      prepare__stage=[{"method": "insert", "packing_fraction": 0.8}])
+
+
+def test_the_program_of_the_environment_is_found(tmp_path, vitrel_program, monkeypatch):
+    scripts = tmp_path / "scripts"
+    scripts.mkdir()
+    monkeypatch.setattr("sysconfig.get_path", lambda name: {"scripts": str(scripts)}[name])
+    monkeypatch.setenv("PATH", "")
+    with pytest.raises(vitrel.FileError, match="is not in the path"):
+        vitrel.sweep(output=tmp_path / "runs", packing_fraction=0.3, **SMALL)
+    (scripts / "vitrel").symlink_to(vitrel_program)
+    sweep = vitrel.sweep(output=tmp_path / "runs", packing_fraction=0.3, prepare__quality_sweeps=0, **SMALL)
+    assert len(sweep.runs) == 1 and sweep.unfinished == []
