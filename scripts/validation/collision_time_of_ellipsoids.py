@@ -1,6 +1,6 @@
 """Collision times of ellipsoids: the default method, that of the article, and the root of Perram and Wertheim."""
 
-from validation.collision_time_page import FAILURES, SPACE, Rows, class_name, count_text, error_text, time_text
+from validation.collision_time_page import Rows, class_name, classes, stability, time_text, write_counts
 from validation.common import compared, expect, save_figure, table
 from validation.figures import passing_pair_figure, speed_figure
 
@@ -22,17 +22,6 @@ def check(rows):
         expect(row["correct"] == PAIRS, f"{name}: {PAIRS - row['correct']} wrong answers of the default method")
         error = row["largest_error"]
         expect(error is None or error <= TOLERANCE, f"{name}: an error of {error} of the horizon")
-
-
-def counts(rows):
-    head = ["class", "method", "pairs", "correct", *FAILURES.values(), "per call", "largest error"]
-    lines = []
-    for of in rows.classes:
-        for row in filter(None, (rows.of(method, of) for method in rows.methods)):
-            lines.append([class_name(of), NAMES[row["method"]], row["pairs"], row["correct"],
-                          *(count_text(row[failure]) for failure in FAILURES), time_text(row["ns_per_call"]),
-                          error_text(row["largest_error"])])
-    return table(head, lines)
 
 
 def speed(rows):
@@ -75,6 +64,7 @@ def measure(build):
     pair, answers = passing(data)
     for name, figure in figures(data).items():
         save_figure(figure, FIGURES, name)
+    write_counts(rows, "ellipsoids.csv")
     grazing = [rows.of("eta_root", of) for of in rows.classes if of[0].endswith("grazing")]
     missed, contacts = (sum(row[key] for row in grazing) for key in ("missed", "contacts"))
     return f"""`vitrel-bench collision-time-of-ellipsoids` compares three methods on the same pairs of ellipsoids, growing or of
@@ -102,9 +92,11 @@ Time per call for random pairs, also as a multiple of the default:
 
 ![Time per call against the median error]({FIGURES}/median.svg)
 
-{counts(rows)}
+Wrong answers by class; [all counts, errors and times](data/collision-time/ellipsoids.csv):
 
-{table(["class", "largest κ", "meaning"], [[of["class"], f"{of['aspect_ratio']:g}", of["meaning"]] for of in data["classes"]])}
+{stability(rows, NAMES)}
+
+{classes(data)}
 
 Grazing pairs have two close roots, or none. The root of η₁ misses {missed} of {contacts} contacts, all of them overlaps that last
 less than a step. For parallel bodies of the same shape η₁ vanishes at all times. Its sign is then that of the rounding

@@ -1,5 +1,6 @@
-"""Collision-time methods: rewrites the measured parts and the figures of docs/collision-time.md."""
+"""Collision-time methods: rewrites the measured parts, the figures and the data of docs/collision-time.md."""
 
+import csv
 import re
 
 from validation.common import ROOT, compared, expect, processor, save_figure, table
@@ -11,6 +12,7 @@ SECONDS = 20  # for every other method
 DURATION = 100  # of the whole runs, as in the thesis
 PAGE = ROOT / "docs/collision-time.md"
 FIGURES = "figures/collision-time"
+DATA = ROOT / "docs/data/collision-time"
 
 DEFAULT, RIVAL = "separating_axis", "slsqp"
 # Goals for the speed-up of the default method over SLSQP.
@@ -32,6 +34,8 @@ NAMES = {
     "reference": "reference",
 }
 FAILURES = {"late": "late", "missed": "missed", "early": "early", "false": "false", "not_converged": "no answer"}
+COUNTS = ["method", "tolerance", "class", "aspect_ratio", "pairs", "correct", *FAILURES, "degenerate", "ns_per_call",
+          "largest_error", "median_error", "largest_gap_error"]
 SPACE = "\N{NO-BREAK SPACE}"
 
 
@@ -131,35 +135,28 @@ def glance(rows):
     return table(head, lines)
 
 
-def stability(rows):
+def stability(rows, names):
     def cell(row):
         return share_text(wrong(row), row["pairs"]) if row else "–"
 
     lines = [[class_name(of), *(cell(rows.of(method, of)) for method in rows.methods)] for of in rows.classes]
-    return table(["class", *(NAMES[method] for method in rows.methods)], lines)
+    return table(["class", *(names[method] for method in rows.methods)], lines)
 
 
-def details(summary, text):
-    return f"<details><summary>{summary}</summary>\n\n{text}\n\n</details>"
-
-
-def counts(rows):
-    head = ["class", "pairs", "correct", *FAILURES.values(), "degenerate", "per call", "largest error",
-            "median error", "largest gap error"]
-    parts = []
-    for method in rows.methods:
-        lines = [[class_name((row["class"], row["aspect_ratio"])), row["pairs"], row["correct"],
-                  *(count_text(row[f]) for f in FAILURES), count_text(row["degenerate"]),
-                  time_text(row["ns_per_call"]),
-                  *(error_text(row[e]) for e in ("largest_error", "median_error", "largest_gap_error"))]
-                 for row in rows.of(method)]
-        parts.append(details(f"{NAMES[method]}, tolerance {rows.of(method)[0]['tolerance']:.2g}", table(head, lines)))
-    return "\n".join(parts)
+def write_counts(rows, file):
+    """Writes all rows, with three digits, as CSV."""
+    with open(DATA / file, "w", encoding="utf-8", newline="") as output:
+        lines = csv.writer(output, lineterminator="\n")
+        lines.writerow(COUNTS)
+        for row in (row for method in rows.methods for row in rows.of(method)):
+            lines.writerow([plain(row[key]) if isinstance(row[key], float) else row[key] for key in COUNTS])
 
 
 def classes(data):
-    return table(["class", "largest κ", "meaning"],
-                 [[of["class"], f"{of['aspect_ratio']:g}", of["meaning"]] for of in data["classes"]])
+    """Every class with its largest aspect ratios and what it is."""
+    kinds = distinct((of["class"], of["meaning"]) for of in data["classes"])
+    ratios = {kind: [f"{of['aspect_ratio']:g}" for of in data["classes"] if of["class"] == kind] for kind, _ in kinds}
+    return table(["class", "largest κ", "meaning"], [[kind, ", ".join(ratios[kind]), meaning] for kind, meaning in kinds])
 
 
 def failing(rows, method):
@@ -244,9 +241,9 @@ def figures(data):
 
 
 def write_page(data, rows):
-    parts = {"measured": measured(data), "speed": speed(rows), "glance": glance(rows), "stability": stability(rows),
-             "classes": classes(data), "counts": counts(rows), "failures": failures(data, rows), "scene": scene(data),
-             "runs": runs(data), "overlap": overlap(data)}
+    parts = {"measured": measured(data), "speed": speed(rows), "glance": glance(rows), "stability": stability(rows, NAMES),
+             "classes": classes(data), "failures": failures(data, rows), "scene": scene(data), "runs": runs(data),
+             "overlap": overlap(data)}
     page = PAGE.read_text(encoding="utf-8")
     marked = re.findall(r"<!-- begin (\w+) -->", page)
     expect(sorted(marked) == sorted(parts), f"{PAGE.name} has the parts {marked}, expected {list(parts)}")
@@ -256,6 +253,7 @@ def write_page(data, rows):
         old.unlink()
     for name, figure in figures(data).items():
         save_figure(figure, FIGURES, name)
+    write_counts(rows, "ellipses.csv")
     PAGE.write_text(page, encoding="utf-8")
 
 

@@ -200,6 +200,4 @@ Required of disks and spheres: at the highest density that motion forgets within
 exchanges are more than twice as fast. Ellipses, which turn, relax by motion up to higher densities.
 
 ![Processor time until the sizes are forgotten against the packing fraction, of all methods](../bench/exchanges.svg)
-
-{states(data["disks"])}
 """
