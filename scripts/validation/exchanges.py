@@ -1,5 +1,6 @@
-"""Time to forget a dense polydisperse liquid, with and without exchanges of places: rewrites bench/exchanges.md and .svg."""
+"""Time to forget a dense polydisperse liquid, with and without exchanges of places: bench/exchanges.{md,svg,csv}."""
 
+import csv
 import datetime
 import math
 
@@ -9,6 +10,7 @@ from validation.figures import COLOURS, MARKERS, legend
 TITLE = "Exchanges of places"
 PAGE = ROOT / "bench" / "exchanges.md"
 FIGURE = ROOT / "bench" / "exchanges.svg"
+DATA = ROOT / "bench" / "exchanges.csv"
 
 LIQUIDS = {"disks": "disks", "ellipses": "ellipses, κ = 2", "spheres": "spheres"}
 QUANTITIES = ("places", "orientations", "sizes")
@@ -19,16 +21,44 @@ def time_text(time):
     return "–" if not time else f"{time['seconds']:.3g} ± {time['error']:.1g}" if time["times"] > 1 else f"{time['seconds']:.2g}"
 
 
-def states(rows):
-    """A line per state and method."""
-    known = [q for q in QUANTITIES if any(method.get(q) for row in rows for method in row["methods"])]
+def accepted(method):
+    """The share of its exchanges, or of the steps of collective ones, that are accepted."""
+    return method.get("exchanges_accepted", method.get("steps_accepted"))
+
+
+def sweep_time(method):
+    """Microseconds per sweep."""
+    return f"{1e6 * method['seconds'] / method['sweeps']:.0f}"
+
+
+def times(rows, quantity):
+    """A line per state, a column per method."""
+    methods = list(dict.fromkeys(method["method"] for row in rows for method in row["methods"]))
     lines = []
     for row in rows:
-        for method in row["methods"]:
-            accepted = method.get("exchanges_accepted", method.get("steps_accepted"))
-            lines.append([row["packing_fraction"], method["method"], *(time_text(method.get(q)) for q in known),
-                          "–" if accepted is None else f"{accepted:.3f}", f"{1e6 * method['seconds'] / method['sweeps']:.0f}"])
-    return table(["φ", "method", *(f"{q}, s" for q in known), "accepted", "µs per sweep"], lines)
+        texts = {method["method"]: time_text(method.get(quantity)) for method in row["methods"]}
+        lines.append([row["packing_fraction"], *(texts.get(method, "") for method in methods)])
+    return table(["φ", *methods], lines)
+
+
+def states(rows):
+    """A table for each quantity."""
+    known = [q for q in QUANTITIES if any(method.get(q) for row in rows for method in row["methods"])]
+    return "\n\n".join(f"Seconds until the {q} are forgotten:\n\n{times(rows, q)}" for q in known)
+
+
+def write_data(data):
+    """Writes a line per state and method as CSV."""
+    with open(DATA, "w", encoding="utf-8", newline="") as file:
+        lines = csv.writer(file, lineterminator="\n")
+        columns = [f"{quantity}{end}" for quantity in QUANTITIES for end in ("", "_error")]
+        lines.writerow(["liquid", "packing_fraction", "method", *columns, "accepted", "microseconds_per_sweep"])
+        for liquid, row in ((liquid, row) for liquid in LIQUIDS for row in data[liquid]):
+            for method in row["methods"]:
+                found = [method.get(q) or {"seconds": None, "error": None} for q in QUANTITIES]
+                lines.writerow([liquid, row["packing_fraction"], method["method"],
+                                *(time[key] for time in found for key in ("seconds", "error")),
+                                accepted(method), sweep_time(method)])
 
 
 def curves(rows, quantity):
@@ -58,8 +88,7 @@ def draw(data, file):
 
 def choices(rows):
     lines = [[method["method"], *(time_text(method.get(q)) for q in ("places", "sizes")),
-              f"{method.get('exchanges_accepted', method.get('steps_accepted')):.3f}",
-              f"{1e6 * method['seconds'] / method['sweeps']:.0f}"] for row in rows for method in row["methods"]]
+              f"{accepted(method):.3f}", sweep_time(method)] for row in rows for method in row["methods"]]
     return table(["beside, trials per particle, partners, steps per particle", "places, s", "sizes, s", "accepted",
                   "µs per sweep"], lines)
 
@@ -84,7 +113,8 @@ times. A method that has not forgotten a state is left out of the denser ones. C
 particles: sums over pairs of particles of both whose centres are closer than 0.3 (V/N)^(1/D), relative to the motion of
 all. *Places* counts such pairs, *orientations* adds cos 2Δθ of the axes, *sizes* the product of the deviations of the sizes
 from their mean. Forgotten is what has fallen to 1/e of what is more than chance. Times are processor time, their errors
-standard errors; a dash says that the method did not forget within its time.
+standard errors; a dash says that the method did not forget within its time. [These times](exchanges.csv), the shares of
+accepted exchanges and the times per sweep are kept as CSV.
 
 *Exchanges* are those of `mc/exchanges.h`: of any two particles, of two close in size (a tenth of the ranks), and collective
 ones.
@@ -193,6 +223,7 @@ def measure(_build):
     data = measured("exchanges", "release")
     PAGE.write_text(page(data), encoding="utf-8")
     draw(data, FIGURE)
+    write_data(data)
     for key in ("disks", "spheres"):
         check(data[key])
     return f"""This command writes [How long does each method take to forget a dense polydisperse liquid?](../bench/exchanges.md).
