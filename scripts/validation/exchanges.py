@@ -87,10 +87,15 @@ def draw(data, file):
 
 
 def choices(rows):
-    lines = [[method["method"], *(time_text(method.get(q)) for q in ("places", "sizes")),
-              f"{accepted(method):.3f}", sweep_time(method)] for row in rows for method in row["methods"]]
-    return table(["beside, trials per particle, partners, steps per particle", "places, s", "sizes, s", "accepted",
-                  "µs per sweep"], lines)
+    """A line per choice, beside local moves and beside chains."""
+    lines = {}
+    for method in (method for row in rows for method in row["methods"]):
+        beside, choice = method["method"].split(" ", 1)
+        lines.setdefault(choice, {})[beside] = [*(time_text(method.get(q)) for q in ("places", "sizes")),
+                                                f"{accepted(method):.3f}", sweep_time(method)]
+    head = [f"{beside}: {what}" for beside in ("local", "chains") for what in ("places, s", "sizes, s", "accepted", "µs")]
+    return table(["trials", "partners", "steps", *head],
+                 [[*choice.split(), *line["local"], *line["chains"]] for choice, line in lines.items()])
 
 
 def page(data):
@@ -134,8 +139,9 @@ is given, by the law or because motion does not become faster.
 
 ## Choices
 
-Disks at φ = {data["choices"][0]["packing_fraction"]}. A share of the local moves are exchanges of two; beside event chains there are as many per
-particle and sweep.
+Disks at φ = {data["choices"][0]["packing_fraction"]}. A share of the local moves are exchanges of two (*trials*), among this share of the ranks
+(*partners*); beside event chains there are as many per particle and sweep. *Steps* are those of collective exchanges per
+particle and sweep, *µs* the time per sweep.
 
 {choices(data["choices"])}
 """
