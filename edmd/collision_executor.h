@@ -214,9 +214,10 @@ class CollisionExecutor {
   }
 
   [[noreturn]] void report_self_overlap(Index i) const {
-    throw InvariantError(
-        "particle " + std::to_string(state_.external_id[i]) + " grew into its own image at time " +
-        std::to_string(state_.base + state_.now) + ": the box is too short for it");
+    throw InvariantError(std::string("particle ") + std::to_string(state_.external_id[i]) +
+                         " grew into its own image at time " +
+                         std::to_string(state_.base + state_.now) +
+                         ": the box is too short for it");
   }
 
   State& state_;

@@ -40,8 +40,9 @@ class InelasticCollapse {
 
   [[noreturn]] void report(Index i, Index j) const {
     throw InvariantError(
-        "inelastic collapse at time " + std::to_string(state_.base + state_.now) + ": particles " +
-        std::to_string(state_.external_id[i]) + " and " + std::to_string(state_.external_id[j]) +
+        std::string("inelastic collapse at time ") + std::to_string(state_.base + state_.now) +
+        ": particles " + std::to_string(state_.external_id[i]) + " and " +
+        std::to_string(state_.external_id[j]) +
         " collide repeatedly without moving; dynamics.contact_duration, the t_c of the "
         "contact-time model, "
         "goes on from here; or use a coefficient of restitution closer to 1, or a shorter run");

@@ -275,7 +275,7 @@ void Simulation<B>::execute_contact(Index i, const Event<B>& event, RunCounters&
 
 template <Body B>
 void Simulation<B>::report_overlap(Index i, Index j) const {
-  throw InvariantError("particles " + std::to_string(state_.external_id[i]) + " and " +
+  throw InvariantError(std::string("particles ") + std::to_string(state_.external_id[i]) + " and " +
                        std::to_string(state_.external_id[j]) + " overlap at time " +
                        std::to_string(state_.base + state_.now) +
                        ": a run must start from a state without overlaps, and keeps it");
