@@ -4,7 +4,6 @@
 
 #include <functional>
 #include <new>
-#include <utility>
 
 #include "analysis/dynamics/mean_square_fft.h"
 #include "analysis/statistics/gsl_errors.h"
@@ -62,25 +61,25 @@ extern "C" fftw_plan fftw_plan_dft_c2r_3d(int x, int y, int z, fftw_complex* in,
 namespace vitrel {
 namespace {
 
-/// Of `expected` allocations and plans of the work every one that fails is reported, and the work succeeds after it.
-void expect_reported(int expected, const std::function<void()>& work) {
+/// Of all allocations and plans of the work every one that fails is reported, and the work succeeds after it.
+void expect_reported(const std::function<void()>& work) {
   const auto count_calls = [&] {
     calls = failing_call = 0;
     work();
-    return std::exchange(calls, 0);
+    return calls;
   };
-  EXPECT_EQ(count_calls(), expected);
-  for (int k = 1; k <= expected; ++k) {
+  const int count = count_calls();
+  ASSERT_GE(count, 5);
+  for (int k = 1; k <= count; ++k) {
     calls = 0;
     failing_call = k;
     EXPECT_THROW(work(), std::bad_alloc) << k;
   }
-  EXPECT_EQ(count_calls(), expected);
+  EXPECT_EQ(count_calls(), count);
 }
 
-// Two arrays, room for the planner and the plan; then the grids and the modes of a measurement.
 TEST(ShortMemory, OfDensityGrids) {
-  expect_reported(6, [] {
+  expect_reported([] {
     const DensityGrid<2> grid({10, 10}, 0, 3);
     const std::vector<Vec2> origin{Vec2::Zero()};
     EXPECT_EQ(grid.modes(origin, {{1.0}}).size(), 1);
@@ -92,12 +91,12 @@ TEST(ShortMemory, OfTwoPointGrids) {
   sphere.resize(1);
   sphere.shape[0] = {Vec3(1, 1, 1)};
   sphere.box = PeriodicBox<3>(Vec3(4, 4, 4));
-  expect_reported(8, [&] { TwoPointGrid(sphere).measure(sphere); });
+  expect_reported([&] { TwoPointGrid(sphere).measure(sphere); });
 }
 
 TEST(ShortMemory, OfMeanSquareChanges) {
   const std::vector<double> series{1, 2, 4, 8};
-  expect_reported(5, [&] { EXPECT_EQ(mean_square_changes(series).size(), series.size()); });
+  expect_reported([&] { EXPECT_EQ(mean_square_changes(series).size(), series.size()); });
 }
 
 // GSL's own handler would end the process.

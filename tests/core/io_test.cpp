@@ -367,8 +367,11 @@ TEST_F(TrajectoryFile, TruncatedFilesGiveOneMessageAndNoCrash) {
         .write(whole.data(), static_cast<std::streamsize>(part * whole.size()));
     const std::string message = file_error([&] { TrajectoryReader(file("cut.h5")).read(3); });
     EXPECT_THAT(message, HasSubstr(file("cut.h5").string() + ": cannot open the file"));
-    EXPECT_THAT(message,
-                HasSubstr(part < 0.01 ? "it is not an HDF5 file" : "the file is truncated"));
+    const auto is_empty = HasSubstr("it is not an HDF5 file"),
+               is_cut = HasSubstr("the file is truncated");
+    EXPECT_THAT(message, testing::AnyOf(is_empty, is_cut));
+    if (part == 0) EXPECT_THAT(message, is_empty);
+    if (part >= 0.1) EXPECT_THAT(message, is_cut);
     EXPECT_THAT(file_error([&] { TrajectoryWriter::append_to(file("cut.h5"), 1); }),
                 HasSubstr(file("cut.h5").string()));
   }
