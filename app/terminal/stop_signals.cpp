@@ -23,7 +23,7 @@ volatile std::sig_atomic_t has_deadline = 0;
 // In handlers only calls that are safe there.
 
 void print(const char* text) {
-  static_cast<void>(write(STDERR_FILENO, text, std::strlen(text)));
+  [[maybe_unused]] const auto written = write(STDERR_FILENO, text, std::strlen(text));
 }
 
 extern "C" void ask_to_stop(int number) {

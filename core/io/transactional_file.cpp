@@ -77,7 +77,7 @@ TransactionalFile::TransactionalFile(std::filesystem::path path, Mode mode)
 
 TransactionalFile::~TransactionalFile() {
   // Gives the space of what was not committed back.
-  if (writable() && !journal_is_whole_) static_cast<void>(::ftruncate(descriptor_, committed_));
+  if (writable() && !journal_is_whole_) set_file_size(committed_);
   static_cast<void>(::close(descriptor_));  // what has to be on the disk was synchronized
 }
 

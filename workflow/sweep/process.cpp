@@ -63,7 +63,7 @@ class HeldSignals {
                         dup2(log, STDERR_FILENO) >= 0 && dup2(output, STDOUT_FILENO) >= 0;
   if (is_ready) static_cast<void>(execv(arguments[0], arguments));  // returns only if it failed
   constexpr std::string_view complaint = "the program cannot be started\n";
-  static_cast<void>(write(log, complaint.data(), complaint.size()));
+  [[maybe_unused]] const auto written = write(log, complaint.data(), complaint.size());
   _exit(127);
 }
 
