@@ -227,7 +227,8 @@ def differing_files(first, second, jobs):
     """The differences between the states, runs and results of two sweeps, and the number of files compared."""
     different, count = [], 0
     for job in jobs:
-        names = {file.name for sweep in (first, second) for kind in ("h5", "csv") for file in (sweep / job).glob(f"*.{kind}")}
+        names = {str(file.relative_to(sweep / job)) for sweep in (first, second) for kind in ("h5", "csv")
+                 for file in (sweep / job).rglob(f"*.{kind}")}
         expect({"state.h5", "run.h5", "results.h5"} <= names, f"{job}: files are missing; found only {', '.join(sorted(names))}")
         for name in sorted(names):
             pair = first / job / name, second / job / name

@@ -1,5 +1,5 @@
-"""Snakemake, and the batch script for Slurm, run an exported sweep and end with the datasets of `vitrel sweep`; a job that
-is stopped is tried again and continues, one that failed for good is not tried again.
+"""Snakemake, and the batch script for Slurm, run an exported sweep and end with the datasets of `vitrel sweep`; a job
+that is stopped is tried again and continues, one that failed for good is not tried again.
 """
 import os
 import pathlib
@@ -133,8 +133,8 @@ class Snakemake(Exported):
             file.write_text("mine")
         self.sweep(SWEEP, "exported", "--export", "snakemake")
         self.assertEqual({file.read_text() for file in profile.iterdir()}, {"mine"})
-        refused = subprocess.run([PROGRAM, "sweep", self.folder / "p.toml", "-o", profile.parent, "--export", "snakemake",
-                                  "-j", "2"], capture_output=True, text=True)
+        words = ["sweep", self.folder / "p.toml", "-o", profile.parent, "--export", "snakemake", "-j", "2"]
+        refused = subprocess.run([PROGRAM, *words], capture_output=True, text=True)
         self.assertEqual(refused.returncode, 2)
         self.assertIn("snakemake -j", refused.stderr)
 
@@ -163,7 +163,8 @@ class JobArray(Exported):
         return task.communicate()[0], task.returncode
 
     def expect_array(self, sweep, numbers):
-        self.assertEqual(re.findall("^#SBATCH --array=(.*)", (sweep / "job_array.sh").read_text(), re.MULTILINE), [numbers])
+        script = (sweep / "job_array.sh").read_text()
+        self.assertEqual(re.findall("^#SBATCH --array=(.*)", script, re.MULTILINE), [numbers])
 
     def test_equals_the_local_sweep(self):
         self.sweep(SWEEP, "local", "-j", "2", *SETTING)
