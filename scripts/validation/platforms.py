@@ -94,7 +94,11 @@ class Trial:
     """Has sources of its own and records what was measured."""
 
     APART = ()  # more options of unshare
-    FIRST = ""  # commands before those of a step
+    # Before the commands of a step: terminals and shared memory, which end with them.
+    FIRST = """mount -t devpts -o newinstance,ptmxmode=0666 devpts /dev/pts
+mount --bind /dev/pts/ptmx /dev/ptmx
+mount -t tmpfs tmpfs /dev/shm
+"""
 
     def __init__(self, root, name, system, compiler):
         self.root, self.name, self.compiler = root, name, compiler
