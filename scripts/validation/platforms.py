@@ -136,11 +136,11 @@ mount -t tmpfs tmpfs /dev/shm
         self.record["seconds"]["packages"] = round(timed(self.install_packages), 1)
 
     def install_packages(self):
-        inside(self.root, f"{self.name}/scripts/install_dependencies build")
+        inside(self.root, f"{self.name}/scripts/install_dependencies build python")
         install(self.root, self.compiler.package)
 
     def build(self):
-        """The demo, from the sources to its page."""
+        """The demo, from the sources to its page and to the Python package."""
         self.count_warnings(self.must("demo", "scripts/demo"))
         expect_chart(self.sources / "out/demo/report.html")
 
@@ -169,7 +169,7 @@ mount -t tmpfs tmpfs /dev/shm
 
     def test(self):
         if self.compiler.tests == "all":
-            inside(self.root, f"{self.name}/scripts/install_dependencies python test bench manual")
+            inside(self.root, f"{self.name}/scripts/install_dependencies test bench manual")
             self.run_tests("scripts/test")
         elif self.compiler.tests == "unit":
             install(self.root, "libgmock-dev", "libgtest-dev")
