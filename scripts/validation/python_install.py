@@ -90,7 +90,7 @@ def check_program(root, file):
 
 def check_removal(root, name):
     inside(root, f"{name}/bin/pip uninstall --quiet --yes vitrel")
-    left = inside(root, f"find {name} -name '*vitrel*'").split()
+    left = inside(root, f"find {name} -type f -path '*vitrel*'").split()
     expect(not left, f"left behind: {', '.join(left)}")
 
 
