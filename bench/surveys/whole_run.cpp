@@ -43,8 +43,9 @@ WholeRun thesis_scene_with(const Method& method, double duration, std::uint64_t 
   Configuration2 now = on_lattice({});
   set_initial_velocities(now, seed, InitialVelocities::maxwell, Temperature::total);
   const double first_energy = energy(now);
-  const auto engine =
-      make_method_engine(method, {.on_overlap = OnOverlap::correct, .soft_contact = {}});
+  EngineOptions options;
+  options.on_overlap = OnOverlap::correct;
+  const auto engine = make_method_engine(method, options);
   RunCounters counters;
   WholeRun result{method.name, method.tolerance};
   Clock::duration running{};

@@ -7,7 +7,7 @@ template class Simulation<Sphere>;
 
 std::unique_ptr<Engine3> make_sphere_engine(const EngineOptions& options) {
   return std::make_unique<Simulation<Sphere>>(
-      options, "spheres" + rotation_of_round(options) + neighbor_text(options));
+      options, std::string("spheres") + rotation_of_round(options) + neighbor_text(options));
 }
 
 }  // namespace vitrel

@@ -370,8 +370,12 @@ TEST_F(TrajectoryFile, TruncatedFilesGiveOneMessageAndNoCrash) {
     const auto is_empty = HasSubstr("it is not an HDF5 file"),
                is_cut = HasSubstr("the file is truncated");
     EXPECT_THAT(message, testing::AnyOf(is_empty, is_cut));
-    if (part == 0) EXPECT_THAT(message, is_empty);
-    if (part >= 0.1) EXPECT_THAT(message, is_cut);
+    if (part == 0) {
+      EXPECT_THAT(message, is_empty);
+    }
+    if (part >= 0.1) {
+      EXPECT_THAT(message, is_cut);
+    }
     EXPECT_THAT(file_error([&] { TrajectoryWriter::append_to(file("cut.h5"), 1); }),
                 HasSubstr(file("cut.h5").string()));
   }

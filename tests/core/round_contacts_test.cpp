@@ -72,15 +72,15 @@ Truth truth(const Vector& d, const Vector& v, double reach, double growth) {
 // present are rounded to ε (|r| + |v| t).
 TYPED_TEST(RoundContacts, TellTheEarliestAndItsTime) {
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
-  constexpr int groups = 3, count = groups * simd_width, dim = TypeParam::dimension;
-  using Vector = Vec<dim>;
+  constexpr int groups = 3, count = groups * simd_width;
+  using Position = typename TestFixture::Vector;
   Stream draw(31, Purpose::tests);
   const double contact_gap = tolerance::contact_gap(20), now = 1.7;
   const CommonSize common = grows<TypeParam> ? CommonSize{1.2, 0.3} : CommonSize{};
   int met = 0, none = 0, limited = 0;
   for (int trial = 0; trial < 20'000; ++trial) {
     const double radius = draw.uniform(0.5, 1.5);
-    const Vector mine = 3 * this->random_direction(draw), velocity = this->random_direction(draw);
+    const Position mine = 3 * this->random_direction(draw), velocity = this->random_direction(draw);
     EarliestRoundContact<TypeParam> earliest(radius, mine, velocity, now, common, contact_gap);
     typename RoundContacts<TypeParam>::Partner partners[count];
     Truth first;
@@ -89,15 +89,15 @@ TYPED_TEST(RoundContacts, TellTheEarliestAndItsTime) {
     for (auto& partner : partners) {
       const double other = draw.uniform(0.1, 3);
       const double reach = common.size * (radius + other) + contact_gap;
-      const Vector v = draw.normal() * this->random_direction(draw);
+      const Position v = draw.normal() * this->random_direction(draw);
       const double time = now - draw.uniform();
-      const Vector d =
+      const Position d =
           reach * (1 + std::pow(10, draw.uniform(-5, 1))) * this->random_direction(draw);
       const double known_until = draw.uniform() < 0.5 ? infinity : now + draw.uniform(0, 5);
       partner = this->at(other, mine + d - (now - time) * v, v, time, known_until);
-      const Vector there = partner.position_at(now) - mine;
+      const Position there = partner.position_at(now) - mine;
       const Truth contact =
-          truth<Vector>(there, v - velocity, reach, common.growth_rate * (radius + other));
+          truth<Position>(there, v - velocity, reach, common.growth_rate * (radius + other));
       grazes = grazes || contact.height < 1e-7;
       if (contact.time < known_until - now && contact.time < first.time) {
         first = contact;
@@ -129,24 +129,27 @@ TYPED_TEST(RoundContacts, TellTheEarliestAndItsTime) {
     EXPECT_NEAR(wait, static_cast<double>(first.time),
                 relative * static_cast<double>(first.time) + 1e-15);
     const auto& partner = partners[number];
-    const Vector d = partner.position_at(now + wait) - (mine + wait * velocity);
+    const Position d = partner.position_at(now + wait) - (mine + wait * velocity);
     EXPECT_NEAR(d.norm(), (common.size + common.growth_rate * wait) * (radius + partner.radius),
                 1e-6);
   }
   EXPECT_GT(met, 5'000);
-  if (!grows<TypeParam>) EXPECT_GT(none, 100);
+  if (!grows<TypeParam>) {
+    EXPECT_GT(none, 100);
+  }
   EXPECT_GT(limited, 1'000);
 }
 
 TYPED_TEST(RoundContacts, APairThatTouchesMeetsAtOnceIfItApproachesAndNeverIfItRecedes) {
-  using Vector = Vec<TypeParam::dimension>;
+  using Position = typename TestFixture::Vector;
   const double contact_gap = tolerance::contact_gap(10);
   const auto wait_of = [&](double gap, double along) {
-    Vector d = Vector::Zero(), v = Vector::Zero();
+    Position d = Position::Zero(), v = Position::Zero();
     d[0] = 2 + gap;
     v[0] = along;
     v[1] = along == 0 ? 0 : 0.2;
-    EarliestRoundContact<TypeParam> earliest(1, Vector::Zero(), Vector::Zero(), 0, {}, contact_gap);
+    EarliestRoundContact<TypeParam> earliest(1, Position::Zero(), Position::Zero(), 0, {},
+                                             contact_gap);
     const auto partner = this->at(1, d, v, 0, infinity);
     earliest.test({&partner.record, &partner.record, &partner.record, &partner.record},
                   SimdBatch(1), 0);

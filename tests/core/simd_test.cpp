@@ -29,18 +29,19 @@ struct SimdTest : testing::Test {
     while (values.size() % lanes != 0 || values.size() < 24) values.push_back(draw.uniform(-3, 3));
     for (const double one : values)
       for (const double two : values) {
-        x.push_back(one);
-        y.push_back(two);
+        left_.push_back(one);
+        right_.push_back(two);
       }
   }
 
   // op(batch, batch) must give in each lane what scalar(number, number) gives, signs of zeros included.
   template <class Op, class Scalar>
   void expect_same(Op op, Scalar scalar) const {
-    for (std::size_t i = 0; i < x.size(); i += lanes) {
-      const auto result = op(Batch::load(&x[i]), Batch::load(&y[i]));
+    for (std::size_t i = 0; i < left_.size(); i += lanes) {
+      const auto result = op(Batch::load(&left_[i]), Batch::load(&right_[i]));
       for (int k = 0; k < lanes; ++k) {
-        const double a = x[i + static_cast<std::size_t>(k)], b = y[i + static_cast<std::size_t>(k)];
+        const double a = left_[i + static_cast<std::size_t>(k)];
+        const double b = right_[i + static_cast<std::size_t>(k)];
         const double expected = scalar(a, b), found = result[k];
         if (std::isnan(expected)) {
           ASSERT_TRUE(std::isnan(found)) << a << ' ' << b;
@@ -52,7 +53,8 @@ struct SimdTest : testing::Test {
     }
   }
 
-  std::vector<double> x, y;
+ private:
+  std::vector<double> left_, right_;
 };
 
 using Batches = testing::Types<SimdPair, Simd<4>, Simd<8>>;

@@ -71,7 +71,9 @@ void expect_conserving(const Configuration<Dim>& start, const ContactLaw& law) {
   EXPECT_LT(end.energy_drift, 1e-12);
   EXPECT_LT(end.largest_momentum, 1e-11);
   EXPECT_TRUE(exact_check(end.configuration).clean());
-  if (rotor_count(start) < start.size()) EXPECT_GT(spin_of_round_particles(end.configuration), 1);
+  if (rotor_count(start) < start.size()) {
+    EXPECT_GT(spin_of_round_particles(end.configuration), 1);
+  }
 }
 
 TEST(RoughDynamics, ConservesWhatItShould) {
@@ -165,8 +167,9 @@ TEST(RoughDynamics, PairsOfSpeciesHaveTheirOwnLaws) {
   EXPECT_GT(end.counters.dissipated, 0);
   EXPECT_LT(end.energy_drift, 1e-12);
   for (std::size_t i = 0; i < c.size(); ++i)
-    if (i != 7 && end.configuration.angular_velocity[i] != 0)
+    if (i != 7 && end.configuration.angular_velocity[i] != 0) {
       EXPECT_NE(end.configuration.angular_velocity[7], 0);
+    }
 }
 
 // Two disks meet head-on, and again off the centre.
