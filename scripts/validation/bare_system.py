@@ -35,8 +35,8 @@ def archives():
 
 
 def sources(suite):
-    """The mirror and the lines of sources.list for a release: those of this machine if it has the same, else one from the
-    same mirror. A mirror may keep a state of unstable longer than that says it is valid.
+    """The mirror and the lines of sources.list for a release: those of this machine if it has the same, else one from
+    the same mirror, which may keep a state longer than that says it is valid.
     """
     own = archives()
     mirror = next((line.split()[1] for release, line in own.items() if "-" not in release), None)

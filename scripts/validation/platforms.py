@@ -1,8 +1,8 @@
 """vitrel built and tried in bare systems with other compilers and libraries: rewrites docs/platforms.md.
 
-Each part is one system. What is measured there is kept in docs/data/platforms, a file for each compiler, and the page is
-written from these files; the part "page" only writes it. Results are compared with those of Debian 12 and its GCC, which
-stay in build/platforms, as do the logs. Sources are those of the last commit.
+Each part is one system. What is measured there is kept in docs/data/platforms, a file for each compiler, and the page
+is written from these files; the part "page" only writes it. Results are compared with those of Debian 12 and its GCC,
+which stay in build/platforms, as do the logs. Sources are those of the last commit.
 """
 
 import dataclasses
@@ -85,7 +85,7 @@ def outcome_of_tests(log):
 
 def differing(comparison):
     """The names of results in the output of scripts/checksums --against."""
-    return sorted({line.split(maxsplit=1)[1].rsplit(maxsplit=1)[0] for line in comparison.splitlines() if line[:2] in ("- ", "+ ")})
+    return sorted(set(re.findall(r"^[-+] (.+) [0-9a-f]{16}$", comparison, re.MULTILINE)))
 
 
 # ---- one compiler in one system ---------------------------------------------------------------------------
@@ -149,8 +149,8 @@ mount -t tmpfs tmpfs /dev/shm
         lines = inside(self.root, f"dpkg-query -W -f '{form}' {' '.join(VERSIONS.values())}").splitlines()
         found = dict(line.split() for line in lines)
         compiler = inside(self.root, f"{self.compiler.cxx} --version")
-        self.record["versions"] = {"compiler": re.search(r"\d+\.\d+\.\d+", compiler)[0],
-                                   **{name: re.match(r"[\d.]*\d", found[package])[0] for name, package in VERSIONS.items()}}
+        self.record["versions"] = {name: re.match(r"[\d.]*\d", found[package])[0] for name, package in VERSIONS.items()}
+        self.record["versions"]["compiler"] = re.search(r"\d+\.\d+\.\d+", compiler)[0]
 
     def compare(self):
         """All results of scripts/checksums with those of the reference, which are kept."""
@@ -164,8 +164,10 @@ mount -t tmpfs tmpfs /dev/shm
         within, code = self.step("comparison", f"{command} --tables-within {TABLES_WITHIN}")
         expect(code in (0, 1), f"comparison: exit code {code}\n{last_lines(within)}")
         different = differing(within)
-        self.record["results"] = {"number": len(zipfile.ZipFile(self.saved).namelist()), "other bits": len(differing(exact)),
-                                  "different": len(different), "such as": different[:SHOWN]}
+        with zipfile.ZipFile(self.saved) as saved:
+            number = len(saved.namelist())
+        self.record["results"] = {"number": number, "other bits": len(differing(exact)), "different": len(different),
+                                  "such as": different[:SHOWN]}
 
     def test(self):
         if self.compiler.tests == "all":
@@ -253,7 +255,8 @@ def measure_system(part):
         for compiler in system.compilers:
             name = f"{part}-{compiler.name.lower()}"
             record = tried((ArmTrial if part == "arm64" else Trial)(root, name, system, compiler))
-            (DATA / f"{name}.json").write_text(json.dumps(record, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+            text = json.dumps(record, indent=1, ensure_ascii=False)
+            (DATA / f"{name}.json").write_text(text + "\n", encoding="utf-8")
 
 
 def records():

@@ -11,11 +11,12 @@ compilers and libraries of their distribution. Debian 13 for 64-bit ARM is compi
 `scripts/validate platforms` measures all of it and writes this page.
 """
 
-EXPLANATION = """*Warnings* are those of CMake and of the compiler in all builds. The *demo* is `scripts/demo`: from the sources to the page of a
-small sweep, after the installation of the packages. *Tests* are those of `scripts/test` (all), the unit tests, or those of
-the folders named. *Results* are all datasets, attributes and tables of the scenes of `scripts/checksums`, compared with
-those of GCC on Debian 12: trajectories and states must have the same bits, and tables must agree within 10⁻¹² of their
-largest number. Times are in seconds.
+EXPLANATION = """
+*Warnings* are those of CMake and of the compiler in all builds. The *demo* is `scripts/demo`: from the sources to the
+page of a small sweep, after the installation of the packages. *Tests* are those of `scripts/test` (all), the unit
+tests, or those of the folders named. *Results* are all datasets, attributes and tables of the scenes of
+`scripts/checksums`, compared with those of GCC on Debian 12: trajectories and states must have the same bits, and
+tables must agree within 10⁻¹² of their largest number. Times are in seconds.
 """
 
 
@@ -72,15 +73,16 @@ def outcome_row(record):
 def details(record):
     """Names of what fails, differs or was left out."""
     tests, results = record.get("tests", {}), record.get("results", {})
-    for title, names in (("tests that fail", tests.get("failed")), ("results that differ, such as", results.get("such as"))):
+    lists = {"tests that fail": tests.get("failed"), "results that differ, such as": results.get("such as")}
+    for title, names in lists.items():
         if names:
             yield f"{title}: {', '.join(f'`{name}`' for name in names)}"
     yield from tests.get("left out", ())
 
 
 def measured_text(record):
-    return (f"{record['system']}, {record['compiler']}: {record['date']}, commit {record['commit']}, {record['processor']}, "
-            f"load {record['load']} before")
+    return (f"{record['system']}, {record['compiler']}: {record['date']}, commit {record['commit']}, "
+            f"{record['processor']}, load {record['load']} before")
 
 
 def page(records):

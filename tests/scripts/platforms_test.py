@@ -32,8 +32,9 @@ COMPARISON = """- packing state.h5 particles/all/position/value 0123456789abcdef
 + packing state.h5 particles/all/position/value fedcba9876543210
 + sweep 0_sweep.json jobs.0.name with words 0123456789abcdef
 """
-RECORD = {"system": "Debian 13", "compiler": "GCC", "date": "2026-11-27", "commit": "abcdef0", "processor": "P", "load": 0.5,
-          "seconds": {"packages": 40.2, "demo": 180.4, "tests": 900}, "warnings": {"CMake": 0, "compiler": 0},
+RECORD = {"system": "Debian 13", "compiler": "GCC", "date": "2026-11-27", "commit": "abcdef0", "processor": "P",
+          "load": 0.5, "seconds": {"packages": 40.2, "demo": 180.4, "tests": 900},
+          "warnings": {"CMake": 0, "compiler": 0},
           "versions": {"compiler": "14.2.0", "CMake": "3.31.6", "HDF5": "1.14.5", "Eigen": "3.4.0", "fmt": "10.1.1",
                        "CLI11": "2.4.1", "Python": "3.13.5"},
           "results": {"number": 6190, "other bits": 3, "different": 0, "such as": []},
@@ -41,7 +42,8 @@ RECORD = {"system": "Debian 13", "compiler": "GCC", "date": "2026-11-27", "commi
 
 
 def row(record):
-    return next(line for line in platforms_page.page([record]).splitlines() if line.endswith(f"{platforms_page.verdict(record)} |"))
+    lines = platforms_page.page([record]).splitlines()
+    return next(line for line in lines if line.endswith(f"{platforms_page.verdict(record)} |"))
 
 
 class Logs(unittest.TestCase):
@@ -50,8 +52,8 @@ class Logs(unittest.TestCase):
         self.assertEqual(platforms.warnings("-- Configuring done\n"), {"CMake": 0, "compiler": 0})
 
     def test_failed_tests_are_named(self):
-        self.assertEqual(platforms.outcome_of_tests(BUILD + TESTS),
-                         {"number": 4, "failed": ["mc.Chains", "core.Check/0"], "left out": ["Left out: tests that need gmsh"]})
+        outcome = {"number": 4, "failed": ["mc.Chains", "core.Check/0"], "left out": ["Left out: tests that need gmsh"]}
+        self.assertEqual(platforms.outcome_of_tests(BUILD + TESTS), outcome)
         self.assertEqual(platforms.outcome_of_tests("100% tests passed, 0 tests failed out of 7\n"),
                          {"number": 7, "failed": [], "left out": []})
         self.assertIsNone(platforms.outcome_of_tests(BUILD))
@@ -64,8 +66,10 @@ class Logs(unittest.TestCase):
 
 class Page(unittest.TestCase):
     def test_a_build_that_works(self):
-        self.assertIn("| 0 | 40 | 180 | 1650 of 1650 (all) | 900 | 6190 of 6190; 3 not in all bits | works |", row(RECORD))
-        self.assertIn("| Debian 13 | GCC 14.2.0 | 3.31.6 | 1.14.5 | 3.4.0 | 10.1.1 | 2.4.1 | 3.13.5 |", platforms_page.page([RECORD]))
+        self.assertIn("| 0 | 40 | 180 | 1650 of 1650 (all) | 900 | 6190 of 6190; 3 not in all bits | works |",
+                      row(RECORD))
+        self.assertIn("| Debian 13 | GCC 14.2.0 | 3.31.6 | 1.14.5 | 3.4.0 | 10.1.1 | 2.4.1 | 3.13.5 |",
+                      platforms_page.page([RECORD]))
 
     def test_every_problem_is_told(self):
         for change, problem in (({"failure": "demo: exit code 1\nx"}, "demo: exit code 1"),
