@@ -34,23 +34,17 @@ std::vector<std::size_t> largest_first(const Configuration<Dim>& configuration) 
   return order;
 }
 
-/// One component after the other: the order of draws in one expression would be the compiler's.
-template <int Dim>
-Vec<Dim> random_position(const PeriodicBox<Dim>& box, Stream& draw) {
-  Vec<Dim> position;
-  for (int k = 0; k < Dim; ++k) position[k] = draw.uniform(-0.5, 0.5) * box.lengths()[k];
-  return position;
-}
-
 Pose2 random_pose(const PeriodicBox<2>& box, bool aligned, Stream& draw) {
-  const Vec2 position = random_position(box, draw);
-  return {position, aligned ? 0 : draw.uniform(0, std::numbers::pi)};
+  // One number in each expression, since the language leaves open which of two is drawn first; y first, as always.
+  const double y = draw.uniform(-0.5, 0.5) * box.lengths().y();
+  const double x = draw.uniform(-0.5, 0.5) * box.lengths().x();
+  return {{x, y}, aligned ? 0 : draw.uniform(0, std::numbers::pi)};
 }
 
 /// The orientation is uniform over all rotations: a direction in four dimensions.
 Pose3 random_pose(const PeriodicBox<3>& box, bool aligned, Stream& draw) {
   Pose3 pose;
-  pose.position = random_position(box, draw);
+  for (int k = 0; k < 3; ++k) pose.position[k] = draw.uniform(-0.5, 0.5) * box.lengths()[k];
   if (aligned) return pose;
   for (int k = 0; k < 4; ++k) pose.orientation.coeffs()[k] = draw.normal();
   pose.orientation = normalized(pose.orientation);

@@ -331,7 +331,7 @@ void TrajectoryReader::read_positions(std::uint64_t frame,
   const std::vector<double> positions = frame_values("position", meaning, frame, d);
   std::vector<double> images(particles() * Dim);
   if (has("image")) images = frame_values("image", "the box crossings", frame, Dim);
-  if (std::ranges::any_of(images, [](double n) { return !(std::abs(n) <= max_box_crossings); }))
+  if (std::ranges::any_of(images, [](double n) { return std::abs(n) > max_box_crossings; }))
     fail("the dataset " + group_ + "/image/value has impossible numbers in frame " +
          std::to_string(frame));
   for (std::size_t i = 0; i < particles(); ++i) {
