@@ -176,7 +176,7 @@ TEST(OwnStates, AFileIsRefusedInItsOwnTerms) {
   refused("a.csv", header + "0,0,0,1,0.5,6,6\n1,up,0,1,0.5,6,6\n",
           "a.csv:3: y is \"up\", but should be a finite number");
   refused("a.csv", "step," + header + "1e300,0,0,0,1,0.5,6,6\n",
-          "a.csv: frame 0: step is 1e+300, but should be a whole number");
+          "a.csv:2: step is 1e+300, but should be a whole number");
   refused("a.csv", header + "0,0,0,1,0.5,6\n", "a.csv:2: has 6 cells, but there are 7 columns");
   refused("a.csv", "x,y,angle,b,box_x,box_y\n0,0,0,1,6,6\n",
           "a.csv:1: there is a column b, but none named a");
