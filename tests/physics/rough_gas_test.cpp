@@ -155,7 +155,9 @@ TEST_P(CoolingRoughSpheres, HaveTheRatioOfTemperaturesOfTheBoltzmannEquation) {
   RecordProperty("measured", std::to_string(found.ratio()));
   RecordProperty("boltzmann", std::to_string(expected));
   RecordProperty("closed_form", std::to_string(closed_form));
-  EXPECT_NEAR(found.ratio() / expected, 1, 0.03);
+  // Over eight seeds of both, at β = −0.5, the quotient is 1.0125 on average (the gas has a density, the equation none),
+  // with a standard deviation of 0.0094: 3.5 of these, which one run in 4000 exceeds.
+  EXPECT_NEAR(found.ratio() / expected, 1, 0.0125 + 3.5 * 0.0094);
   // The closed form neglects that they are not Gaussian, which lowers the ratio.
   EXPECT_GT(expected / closed_form, 0.94);
   EXPECT_LT(expected / closed_form, 0.99);
