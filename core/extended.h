@@ -5,6 +5,7 @@
 #include <compare>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 /// @file
 /// `Extended`, the numbers of the exact check (core/state/check.h): long double where that has at least 64 bits (x86: 64;
@@ -36,33 +37,31 @@ class DoubleDouble {
   constexpr explicit operator long double() const { return static_cast<long double>(high_) + low_; }
 
   constexpr DoubleDouble operator-() const { return {-high_, -low_}; }
-  friend constexpr DoubleDouble operator+(const DoubleDouble& x, const DoubleDouble& y) {
+  friend constexpr DoubleDouble operator+(DoubleDouble x, DoubleDouble y) {
     const DoubleDouble high = sum(x.high_, y.high_), low = sum(x.low_, y.low_);
     const DoubleDouble part = ordered_sum(high.high_, high.low_ + low.high_);
     return ordered_sum(part.high_, low.low_ + part.low_);
   }
-  friend constexpr DoubleDouble operator-(const DoubleDouble& x, const DoubleDouble& y) {
-    return x + -y;
-  }
-  friend constexpr DoubleDouble operator*(const DoubleDouble& x, const DoubleDouble& y) {
+  friend constexpr DoubleDouble operator-(DoubleDouble x, DoubleDouble y) { return x + -y; }
+  friend constexpr DoubleDouble operator*(DoubleDouble x, DoubleDouble y) {
     const DoubleDouble high = product(x.high_, y.high_);
     return ordered_sum(high.high_, high.low_ + (x.high_ * y.low_ + x.low_ * y.high_));
   }
-  friend constexpr DoubleDouble operator/(const DoubleDouble& x, const DoubleDouble& y) {
+  friend constexpr DoubleDouble operator/(DoubleDouble x, DoubleDouble y) {
     const double quotient = x.high_ / y.high_;
     const DoubleDouble high = product(y.high_, quotient);
     const DoubleDouble part = ordered_sum(high.high_, y.low_ * quotient);
     const DoubleDouble near = ordered_sum(part.high_, part.low_ + high.low_);
     return ordered_sum(quotient, ((x.high_ - near.high_) + (x.low_ - near.low_)) / y.high_);
   }
-  constexpr DoubleDouble& operator+=(const DoubleDouble& x) { return *this = *this + x; }
-  constexpr DoubleDouble& operator-=(const DoubleDouble& x) { return *this = *this - x; }
-  constexpr DoubleDouble& operator*=(const DoubleDouble& x) { return *this = *this * x; }
-  constexpr DoubleDouble& operator/=(const DoubleDouble& x) { return *this = *this / x; }
+  constexpr DoubleDouble& operator+=(DoubleDouble x) { return *this = *this + x; }
+  constexpr DoubleDouble& operator-=(DoubleDouble x) { return *this = *this - x; }
+  constexpr DoubleDouble& operator*=(DoubleDouble x) { return *this = *this * x; }
+  constexpr DoubleDouble& operator/=(DoubleDouble x) { return *this = *this / x; }
 
   friend constexpr auto operator<=>(const DoubleDouble&, const DoubleDouble&) = default;
-  friend constexpr DoubleDouble abs(const DoubleDouble& x) { return x < 0 ? -x : x; }
-  friend DoubleDouble sqrt(const DoubleDouble& x) {
+  friend constexpr DoubleDouble abs(DoubleDouble x) { return x < 0 ? -x : x; }
+  friend DoubleDouble sqrt(DoubleDouble x) {
     const double root = std::sqrt(x.high_);
     if (root == 0) return root;
     const DoubleDouble square = product(root, root);
@@ -96,18 +95,15 @@ class DoubleDouble {
 };
 
 #ifdef VITREL_PORTABLE_EXTENDED
-inline constexpr bool long_double_is_extended = false;
+using Extended = DoubleDouble;
 #else
-inline constexpr bool long_double_is_extended = std::numeric_limits<long double>::digits >= 64;
+using Extended =
+    std::conditional_t<(std::numeric_limits<long double>::digits >= 64), long double, DoubleDouble>;
 #endif
-using Extended = std::conditional_t<long_double_is_extended, long double, DoubleDouble>;
 
 /// Cosine and sine to 2⁻¹⁰⁰, the same on every platform; beyond |angle| = 2⁵³, where neighbouring doubles are radians
 /// apart, those in double precision.
-struct ExtendedCosineAndSine {
-  DoubleDouble cosine, sine;
-};
-ExtendedCosineAndSine extended_cosine_and_sine(double angle);
+std::pair<DoubleDouble, DoubleDouble> extended_cosine_and_sine(double angle);
 
 }  // namespace vitrel
 

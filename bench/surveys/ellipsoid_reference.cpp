@@ -55,6 +55,7 @@ class Body {
   }
 
   Real size_at(Real time) const { return size_ + growth_ * time; }
+  bool is_round() const { return shape_.is_round(); }
   Real radius_at(Real time) const { return shape_.circumradius() * size_at(time); }
 
   /// A small body for a point.
@@ -239,7 +240,7 @@ TrueEllipsoidContact described_contact(const Pair& pair, double horizon) {
 
 long double gap(const Pair& pair, Real time) {
   const auto particle = [&](const Body& body, const Vector& centre) -> exact::Particle<3, Real> {
-    return {centre, body.axes_at(time), body.radius_at(time)};
+    return {centre, body.axes_at(time), body.radius_at(time), body.is_round()};
   };
   return exact::examine(particle(pair.one, Vector::Zero()), particle(pair.two, pair.d(time)),
                         pair.d(time), std::numeric_limits<Real>::infinity())

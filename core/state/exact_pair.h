@@ -20,6 +20,7 @@ struct Particle {
   Point<Dim, Real> centre;
   std::conditional_t<Dim == 2, EllipseAxes<Real>, EllipsoidAxes<Real>> axes;
   Real circumradius;
+  bool is_round;
 };
 
 /// The body at its pose, unchanged; particle i of a configuration.

@@ -34,16 +34,18 @@ double error(const Exact& x, const Exact& truth, const Exact& scale) {
 
 /// A lower part of any size that the type allows.
 DoubleDouble random_number(Stream& draw) {
-  const double high = std::ldexp(draw.uniform(-1, 1), static_cast<int>(draw.below(60)) - 30);
+  const int exponent = static_cast<int>(draw.below(60)), lower = static_cast<int>(draw.below(60));
+  const double high = std::ldexp(draw.uniform(-1, 1), exponent - 30);
   const double ulp = std::nextafter(std::abs(high), infinity) - std::abs(high);
-  const double low = std::ldexp(ulp * draw.uniform(-0.49, 0.49), -static_cast<int>(draw.below(60)));
+  const double low = std::ldexp(ulp * draw.uniform(-0.49, 0.49), -lower);
   return draw.uniform() < 0.1 ? DoubleDouble(high) : high + DoubleDouble(low);
 }
 
 /// Every third pair cancels but for a part between 1 and 2⁻¹¹⁰.
 DoubleDouble partner_of(const DoubleDouble& x, Stream& draw) {
   if (draw.below(3) != 0) return random_number(draw);
-  const double part = std::ldexp(draw.uniform(-1, 1), -static_cast<int>(draw.below(110)));
+  const int exponent = static_cast<int>(draw.below(110));
+  const double part = std::ldexp(draw.uniform(-1, 1), -exponent);
   return -x * (1 + DoubleDouble(part));
 }
 
