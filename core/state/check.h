@@ -10,13 +10,12 @@
 /// The exact check of a whole state: which hard particles overlap, judged from the stored doubles
 /// in extended arithmetic, over all images, with tolerance zero and without any code of the engine.
 ///
-/// Positions, orientations, semi-axes and box lengths are taken into `Extended` unchanged (core/extended.h: long double, or
-/// the sum of two doubles where that is short); a pair is
-/// (i, j, shift), with i = j for a particle and its own image. Round particles are compared by the distance
-/// of their centres. Other pairs whose circumcircles (spheres) meet are judged by the complete
-/// Vieillard-Baron criterion (core/contact/ellipse_vieillard_baron.h), in three dimensions by the completed
-/// criterion of the characteristic polynomial (core/contact/ellipsoid_eta.h). Crossed and contained
-/// overlaps are found like any other.
+/// Positions, orientations, semi-axes and box lengths are taken into `Extended` unchanged (core/extended.h: long double,
+/// or the sum of two doubles where that is short); a pair is (i, j, shift), with i = j for a particle and its own image.
+/// Round particles are compared by the distance of their centres. Other pairs whose circumcircles (spheres) meet are
+/// judged by the complete Vieillard-Baron criterion (core/contact/ellipse_vieillard_baron.h), in three dimensions by the
+/// completed criterion of the characteristic polynomial (core/contact/ellipsoid_eta.h). Crossed and contained overlaps
+/// are found like any other.
 ///
 /// Most pairs never get there: double precision proves them to be apart, by their circumcircles or by a
 /// separating axis, with a margin of more than a hundred times its rounding errors. What it cannot prove,
@@ -27,14 +26,15 @@
 /// pair that touches exactly, or misses touching by less than about 1e-17 of the largest length
 /// involved, may be judged either way. That is far below the spacing of the stored doubles, so
 /// whatever doubles can express about two particles is judged right, except that a state meant to
-/// touch exactly usually cannot be stored. So both arithmetics find the same overlaps, and their smallest gaps agree in
-/// all but the last digits (scripts/validate extended: 2 · 10⁷ pairs, no verdict differs). SPEED
+/// touch exactly usually cannot be stored. So both arithmetics find the same overlaps (scripts/validate extended: 2 · 10⁷
+/// pairs, no verdict differs), and their smallest gaps agree in all but the last digits.
 ///
 /// The close pairs that the configuration names, soft particles just after a damped collision, may overlap: as
 /// long as their centres are no closer than stated there. They do not count for the smallest gap.
 ///
 /// Cost: proportional to N by cells as wide as three of the longest semi-axes. Up to `brute_force_limit`
-/// particles there is a single cell, which means all pairs.
+/// particles there is a single cell, which means all pairs. With the sum of two doubles a dense state takes 1.4 to 2.1
+/// times as long as with the long double of x86 (4000 ellipses of aspect ratio 2 and 6, 2000 ellipsoids).
 namespace vitrel {
 
 template <int Dim>
