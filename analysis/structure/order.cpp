@@ -27,7 +27,7 @@ std::vector<Rotor> rotors_of(const Configuration2& configuration) {
   for (std::size_t i = 0; i < configuration.size(); ++i) {
     const double twice = 2 * configuration.angle[i];
     if (!configuration.shape[i].is_round())
-      rotors.push_back({configuration.position[i], {std::cos(twice), std::sin(twice)}});
+      rotors.push_back({configuration.position[i], direction(twice)});
   }
   return rotors;
 }
@@ -42,7 +42,7 @@ std::complex<double> hexatic_order(const VoronoiCell& cell) {
   std::complex<double> sum = 0;
   double perimeter = 0;
   for (const VoronoiEdge& edge : cell.edges) {
-    sum += std::polar(edge.length, 6 * std::atan2(edge.to.y(), edge.to.x()));
+    sum += std::polar(edge.length, 6 * polar_angle(edge.to.y(), edge.to.x()));
     perimeter += edge.length;
   }
   return sum / perimeter;
@@ -59,7 +59,7 @@ double OrderTensor::order() const {
 }
 
 double OrderTensor::director() const {
-  return 0.5 * std::atan2(sine, cosine);
+  return 0.5 * polar_angle(sine, cosine);
 }
 
 OrderTensor order_tensor(const Configuration2& configuration) {

@@ -21,7 +21,7 @@ struct Point<2> {
   Point(const Configuration2& configuration, std::size_t i) : position(configuration.position[i]) {
     if (configuration.shape[i].is_round()) return;
     const double twice = 2 * configuration.angle[i];
-    director = {std::cos(twice), std::sin(twice)};
+    director = direction(twice);
     rotor = 1;
   }
 
