@@ -44,7 +44,7 @@ std::vector<char*> command_line(const std::vector<std::string>& arguments) {
 }
 
 [[noreturn]] void execute(const fs::path& folder, char* const* words) {
-  if (chdir(folder.c_str()) == 0) execv(words[0], words);
+  if (chdir(folder.c_str()) == 0) static_cast<void>(execv(words[0], words));
   _exit(127);
 }
 

@@ -32,7 +32,7 @@ bool fault_strikes() {
 extern "C" ssize_t pwrite(int descriptor, const void* data, size_t size, off_t offset) {
   if (fault_strikes()) {
     if (fault == Fault::kill) {
-      syscall(SYS_pwrite64, descriptor, data, size / 2, offset);  // a torn write
+      static_cast<void>(syscall(SYS_pwrite64, descriptor, data, size / 2, offset));  // a torn write
       _exit(9);
     }
     errno = ENOSPC;
