@@ -71,6 +71,8 @@ struct CompressionState {
   SweepState moves;
   BoxState box;
   std::vector<double> packing_fraction;  ///< after every sweep
+
+  void number_sweeps(std::uint64_t next) { moves.next_sweep = next; }
 };
 
 /// `reached` at the target packing fraction or, without one, after all sweeps; `stalled` if the sweeps did not suffice or

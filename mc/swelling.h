@@ -16,6 +16,8 @@ struct SwellingState {
   // The last check for jamming.
   std::uint64_t checked_sweeps = 0;
   double checked_packing_fraction = 0;
+
+  void number_sweeps(std::uint64_t next) { moves.next_sweep = next; }
 };
 
 /// Compression by swelling: Monte Carlo to a target packing fraction.

@@ -150,10 +150,10 @@ class PrepareJob {
 
   /// False if the run control asked to stop. A stage that is stopped keeps its velocities, to go on with.
   bool run_stage() {
-    const StageReport report = advance_stage(
-        stage(), stored_.state, done().configuration,
-        {end_of_stage(stage(), parameters().system, reached()), seed(), request_.threads},
-        control_);
+    const StageReport report =
+        advance_stage(stage(), stored_.state,
+                      {&done().configuration, end_of_stage(stage(), parameters().system, reached()),
+                       seed(), request_.threads, control_});
     note_time();
     if (report.end == StageEnd::stopped) return false;
     if (!std::holds_alternative<StateStage>(stage())) bring_to_rest(done().configuration);

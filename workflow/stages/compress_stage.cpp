@@ -46,40 +46,24 @@ void CompressStage::validate(const Rules& rules, int /*dimension*/) const {
   rules.positive(pressure, "pressure");
 }
 
-StageEnding CompressStage::ending() const {
-  return packing_fraction ? StageEnding::packing_fraction : StageEnding::unknown;
+std::string CompressStage::description() const {
+  if (packing_fraction) return {};
+  return fmt::format("compress at pressure {:.4g} for {} sweeps", pressure, sweeps);
 }
 
-double CompressStage::end(const SystemParameters&, double before) const {
-  return packing_fraction.value_or(before);
-}
-
-std::string CompressStage::description(double) const {
-  return packing_fraction
-             ? fmt::format("compress to packing fraction {:.4g}", *packing_fraction)
-             : fmt::format("compress at pressure {:.4g} for {} sweeps", pressure, sweeps);
-}
-
-template <int Dim>
-StageReport CompressStage::advance(Configuration<Dim>& configuration, CompressionState& state,
-                                   const StageContext& context, const RunControl& control) const {
+StageReport CompressStage::advance(CompressionState& state, const StageContext& context) const {
   const CompressionOptions options{pressure, box, packing_fraction,
                                    packing_fraction ? max_sweeps : sweeps, context.threads};
-  return compress(configuration, options, context.seed, state, control);
+  return std::visit(
+      [&](auto* configuration) {
+        return compress(*configuration, options, context.seed, state, context.control);
+      },
+      context.configuration);
 }
-
-template StageReport CompressStage::advance(Configuration2&, CompressionState&, const StageContext&,
-                                            const RunControl&) const;
-template StageReport CompressStage::advance(Configuration3&, CompressionState&, const StageContext&,
-                                            const RunControl&) const;
 
 void CompressStage::record(const CompressionState& state, StageRecord& record) const {
   record.add(state.moves);
   if (!packing_fraction) record.mean_packing_fraction = mean_of_second_half(state.packing_fraction);
-}
-
-void CompressStage::number_sweeps(CompressionState& state, std::uint64_t next_sweep) {
-  state.moves.next_sweep = next_sweep;
 }
 
 }  // namespace vitrel

@@ -26,14 +26,10 @@ struct CompressStage : StageDefaults {
 
   static std::vector<StageField<CompressStage>> fields();
   void validate(const Rules& rules, int dimension) const;
-  StageEnding ending() const;
-  double end(const SystemParameters& system, double before) const;
-  std::string description(double goal) const;
-  template <int Dim>
-  StageReport advance(Configuration<Dim>& configuration, CompressionState& state,
-                      const StageContext& context, const RunControl& control) const;
+  StageEnding ending() const { return ending_known_if(packing_fraction.has_value()); }
+  std::string description() const;
+  StageReport advance(CompressionState& state, const StageContext& context) const;
   void record(const CompressionState& state, StageRecord& record) const;
-  static void number_sweeps(CompressionState& state, std::uint64_t next_sweep);
 
   template <class AnyState, class Visit>
   static void each_item(AnyState& state, Visit&& visit) {

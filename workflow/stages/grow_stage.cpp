@@ -32,30 +32,13 @@ void GrowStage::validate(const Rules& rules, int /*dimension*/) const {
                 fmt::format("is {}, but must lie between 0 and 30", retries));
 }
 
-StageEnding GrowStage::ending() const {
-  return growth_ending(*this);
-}
-
-double GrowStage::end(const SystemParameters& system, double before) const {
-  return end_of_growth(*this, system, before);
-}
-
-std::string GrowStage::description(double goal) const {
-  return growth_description(*this, goal);
-}
-
-template <int Dim>
-StageReport GrowStage::advance(Configuration<Dim>& configuration, GrowthState& state,
-                               const StageContext& context, const RunControl& control) const {
-  const GrowthOptions options{growth_rate, packing_fraction_goal(*this, context.packing_fraction),
+StageReport GrowStage::advance(GrowthState& state, const StageContext& context) const {
+  const GrowthOptions options{growth_rate, packing_fraction_goal(context.packing_fraction),
                               reduced_pressure, context.seed, retries};
-  return grow(configuration, options, state, control);
+  return std::visit(
+      [&](auto* configuration) { return grow(*configuration, options, state, context.control); },
+      context.configuration);
 }
-
-template StageReport GrowStage::advance(Configuration2&, GrowthState&, const StageContext&,
-                                        const RunControl&) const;
-template StageReport GrowStage::advance(Configuration3&, GrowthState&, const StageContext&,
-                                        const RunControl&) const;
 
 void GrowStage::record(const GrowthState& state, StageRecord& record) const {
   record.growth = state;

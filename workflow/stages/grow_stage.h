@@ -1,9 +1,6 @@
 #pragma once
 
-#include <optional>
-
-#include "edmd/options.h"
-#include "workflow/stages/stage_interface.h"
+#include "workflow/stages/growth_goal.h"
 #include "workflow/storage/state_items.h"
 
 namespace vitrel {
@@ -11,25 +8,17 @@ namespace vitrel {
 struct GrowthState;
 
 /// Event-driven dynamics of growing particles (edmd/growth.h).
-struct GrowStage : StageDefaults {
+struct GrowStage : GrowthGoal<GrowStage> {
   using State = GrowthState;
   static constexpr const char* method = "grow";
   static constexpr const char* summary =
       "event-driven dynamics while the particles grow to a packing fraction or until they jam";
 
-  std::optional<double> packing_fraction;
-  std::optional<double> reduced_pressure;
-  double growth_rate = GrowthOptions().growth_rate;
   int retries = 5;
 
   static std::vector<StageField<GrowStage>> fields();
   void validate(const Rules& rules, int dimension) const;
-  StageEnding ending() const;
-  double end(const SystemParameters& system, double before) const;
-  std::string description(double goal) const;
-  template <int Dim>
-  StageReport advance(Configuration<Dim>& configuration, GrowthState& state,
-                      const StageContext& context, const RunControl& control) const;
+  StageReport advance(GrowthState& state, const StageContext& context) const;
   void record(const GrowthState& state, StageRecord& record) const;
 
   template <class AnyState, class Visit>

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <fmt/format.h>
-
 #include <optional>
 #include <string>
 
+#include "edmd/options.h"
 #include "workflow/stages/stage_interface.h"
 
 /// @file
@@ -12,27 +11,20 @@
 /// pressure, or whichever of the two comes first.
 namespace vitrel {
 
-template <class S>
-StageEnding growth_ending(const S& stage) {
-  return stage.reduced_pressure ? StageEnding::unknown : StageEnding::packing_fraction;
-}
+std::string growth_description(const char* method, const std::optional<double>& reduced_pressure);
 
 template <class S>
-double end_of_growth(const S& stage, const SystemParameters& system, double before) {
-  return stage.reduced_pressure ? before : stage.packing_fraction.value_or(system.packing_fraction);
-}
+struct GrowthGoal : StageDefaults {
+  std::optional<double> packing_fraction;
+  std::optional<double> reduced_pressure;
+  double growth_rate = GrowthOptions().growth_rate;
 
-/// `end`: of the stage, end_of_growth.
-template <class S>
-std::optional<double> packing_fraction_goal(const S& stage, double end) {
-  return stage.reduced_pressure ? stage.packing_fraction : end;
-}
-
-template <class S>
-std::string growth_description(const S& stage, double end) {
-  return stage.reduced_pressure
-             ? fmt::format("{} to reduced pressure {:.4g}", S::method, *stage.reduced_pressure)
-             : fmt::format("{} to packing fraction {:.4g}", S::method, end);
-}
+  StageEnding ending() const { return ending_known_if(!reduced_pressure); }
+  std::string description() const { return growth_description(S::method, reduced_pressure); }
+  /// `end`: of the stage (end_of_stage).
+  std::optional<double> packing_fraction_goal(double end) const {
+    return reduced_pressure ? packing_fraction : end;
+  }
+};
 
 }  // namespace vitrel

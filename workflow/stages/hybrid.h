@@ -15,6 +15,8 @@ struct HybridState {
   SamplingState sampling;
   std::uint64_t stretches = 0;  ///< completed intervals of both kinds
   double stretch_end = 0;       ///< packing fraction at which the current interval of growth ends
+
+  void number_sweeps(std::uint64_t next) { sampling.number_sweeps(next); }
 };
 
 /// Compression by alternating intervals of event-driven growth (edmd/growth.h) and of Monte Carlo, which relaxes the

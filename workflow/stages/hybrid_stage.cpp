@@ -34,39 +34,18 @@ void HybridStage::validate(const Rules& rules, int /*dimension*/) const {
   validate_reduced_pressure(reduced_pressure, rules);
 }
 
-StageEnding HybridStage::ending() const {
-  return growth_ending(*this);
-}
-
-double HybridStage::end(const SystemParameters& system, double before) const {
-  return end_of_growth(*this, system, before);
-}
-
-std::string HybridStage::description(double goal) const {
-  return growth_description(*this, goal);
-}
-
-template <int Dim>
-StageReport HybridStage::advance(Configuration<Dim>& configuration, HybridState& state,
-                                 const StageContext& context, const RunControl& control) const {
+StageReport HybridStage::advance(HybridState& state, const StageContext& context) const {
   const HybridOptions options{
-      growth_rate, packing_fraction_goal(*this, context.packing_fraction), reduced_pressure,
+      growth_rate, packing_fraction_goal(context.packing_fraction), reduced_pressure,
       SamplingOptions{stretch_sweeps, moves, exchanges, context.threads}, context.seed};
-  return hybrid(configuration, options, state, control);
+  return std::visit(
+      [&](auto* configuration) { return hybrid(*configuration, options, state, context.control); },
+      context.configuration);
 }
-
-template StageReport HybridStage::advance(Configuration2&, HybridState&, const StageContext&,
-                                          const RunControl&) const;
-template StageReport HybridStage::advance(Configuration3&, HybridState&, const StageContext&,
-                                          const RunControl&) const;
 
 void HybridStage::record(const HybridState& state, StageRecord& record) const {
   record.add(state.sampling);
   record.growth = state.growth;
-}
-
-void HybridStage::number_sweeps(HybridState& state, std::uint64_t next_sweep) {
-  state.sampling.number_sweeps(next_sweep);
 }
 
 }  // namespace vitrel

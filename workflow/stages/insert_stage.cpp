@@ -94,27 +94,21 @@ void InsertStage::validate(const Rules& rules, int dimension) const {
                             dimension * dimension));
 }
 
-double InsertStage::end(const SystemParameters& system, double) const {
+double InsertStage::default_packing_fraction(const SystemParameters& system) const {
   const double easy = system.dimension == 2 ? easy_insertion : easy_insertion_of_solids;
-  return packing_fraction.value_or(std::min(easy, system.packing_fraction));
+  return std::min(easy, system.packing_fraction);
 }
 
-std::string InsertStage::description(double goal) const {
-  return fmt::format("insert at packing fraction {:.4g}", goal);
-}
-
-template <int Dim>
-StageReport InsertStage::advance(Configuration<Dim>& configuration, NoState&,
-                                 const StageContext& context, const RunControl& control) const {
+StageReport InsertStage::advance(NoState&, const StageContext& context) const {
   const bool aligned = orientations == Orientations::aligned;
-  return insert_particles(configuration,
-                          {context.packing_fraction, attempts, aligned, tensor_numbers(*this, Dim)},
-                          context.seed, control);
+  return std::visit(
+      [&]<int Dim>(Configuration<Dim>* configuration) {
+        return insert_particles(
+            *configuration,
+            {context.packing_fraction, attempts, aligned, tensor_numbers(*this, Dim)}, context.seed,
+            context.control);
+      },
+      context.configuration);
 }
-
-template StageReport InsertStage::advance(Configuration2&, NoState&, const StageContext&,
-                                          const RunControl&) const;
-template StageReport InsertStage::advance(Configuration3&, NoState&, const StageContext&,
-                                          const RunControl&) const;
 
 }  // namespace vitrel

@@ -25,11 +25,8 @@ struct InsertStage : StageDefaults {
 
   static std::vector<StageField<InsertStage>> fields();
   void validate(const Rules& rules, int dimension) const;
-  double end(const SystemParameters& system, double before) const;
-  std::string description(double goal) const;
-  template <int Dim>
-  StageReport advance(Configuration<Dim>& configuration, NoState& state,
-                      const StageContext& context, const RunControl& control) const;
+  double default_packing_fraction(const SystemParameters& system) const;
+  StageReport advance(NoState& state, const StageContext& context) const;
 };
 
 }  // namespace vitrel

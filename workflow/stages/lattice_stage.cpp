@@ -49,24 +49,13 @@ void LatticeStage::validate(const Rules& rules, int dimension) const {
                                              "\"body_centred_cubic\" in three dimensions"));
 }
 
-double LatticeStage::end(const SystemParameters& system, double) const {
-  return packing_fraction.value_or(system.packing_fraction);
+StageReport LatticeStage::advance(NoState&, const StageContext& context) const {
+  return std::visit(
+      [&](auto* configuration) {
+        if (packing_fraction) scale_to_packing_fraction(*configuration, context.packing_fraction);
+        return place_on_lattice(*configuration, {arrangement, angle}, context.seed);
+      },
+      context.configuration);
 }
-
-std::string LatticeStage::description(double goal) const {
-  return fmt::format("lattice at packing fraction {:.4g}", goal);
-}
-
-template <int Dim>
-StageReport LatticeStage::advance(Configuration<Dim>& configuration, NoState&,
-                                  const StageContext& context, const RunControl&) const {
-  if (packing_fraction) scale_to_packing_fraction(configuration, context.packing_fraction);
-  return place_on_lattice(configuration, {arrangement, angle}, context.seed);
-}
-
-template StageReport LatticeStage::advance(Configuration<2>&, NoState&, const StageContext&,
-                                           const RunControl&) const;
-template StageReport LatticeStage::advance(Configuration<3>&, NoState&, const StageContext&,
-                                           const RunControl&) const;
 
 }  // namespace vitrel

@@ -19,11 +19,7 @@ struct LatticeStage : StageDefaults {
 
   static std::vector<StageField<LatticeStage>> fields();
   void validate(const Rules& rules, int dimension) const;
-  double end(const SystemParameters& system, double before) const;
-  std::string description(double goal) const;
-  template <int Dim>
-  StageReport advance(Configuration<Dim>& configuration, NoState& state,
-                      const StageContext& context, const RunControl& control) const;
+  StageReport advance(NoState& state, const StageContext& context) const;
 };
 
 }  // namespace vitrel

@@ -40,34 +40,23 @@ void SampleStage::validate(const Rules& rules, int /*dimension*/) const {
   validate_exchanges(*this, rules);
 }
 
-double SampleStage::end(const SystemParameters&, double before) const {
-  return before;
-}
-
-std::string SampleStage::description(double) const {
+std::string SampleStage::description() const {
   return decorrelations > 0 ? fmt::format("sample until decorrelated {} times", decorrelations)
                             : fmt::format("sample for {} sweeps", sweeps);
 }
 
-template <int Dim>
-StageReport SampleStage::advance(Configuration<Dim>& configuration, SamplingState& state,
-                                 const StageContext& context, const RunControl& control) const {
+StageReport SampleStage::advance(SamplingState& state, const StageContext& context) const {
   const SamplingOptions options{decorrelations > 0 ? max_sweeps : sweeps, moves, exchanges,
                                 context.threads, decorrelations};
-  return sample(configuration, options, context.seed, state, control);
+  return std::visit(
+      [&](auto* configuration) {
+        return sample(*configuration, options, context.seed, state, context.control);
+      },
+      context.configuration);
 }
-
-template StageReport SampleStage::advance(Configuration2&, SamplingState&, const StageContext&,
-                                          const RunControl&) const;
-template StageReport SampleStage::advance(Configuration3&, SamplingState&, const StageContext&,
-                                          const RunControl&) const;
 
 void SampleStage::record(const SamplingState& state, StageRecord& record) const {
   record.add(state);
-}
-
-void SampleStage::number_sweeps(SamplingState& state, std::uint64_t next_sweep) {
-  state.number_sweeps(next_sweep);
 }
 
 }  // namespace vitrel

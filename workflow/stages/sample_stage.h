@@ -23,13 +23,9 @@ struct SampleStage : StageDefaults {
   static std::vector<StageField<SampleStage>> fields();
   void validate(const Rules& rules, int dimension) const;
   StageEnding ending() const { return StageEnding::unchanged; }
-  double end(const SystemParameters& system, double before) const;
-  std::string description(double goal) const;
-  template <int Dim>
-  StageReport advance(Configuration<Dim>& configuration, SamplingState& state,
-                      const StageContext& context, const RunControl& control) const;
+  std::string description() const;
+  StageReport advance(SamplingState& state, const StageContext& context) const;
   void record(const SamplingState& state, StageRecord& record) const;
-  static void number_sweeps(SamplingState& state, std::uint64_t next_sweep);
 
   template <class AnyState, class Visit>
   static void each_item(AnyState& state, Visit&& visit) {

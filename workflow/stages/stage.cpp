@@ -214,7 +214,11 @@ void validate_stages(const std::vector<Stage>& stages, const SystemParameters& s
 }
 
 double end_of_stage(const Stage& stage, const SystemParameters& system, double before) {
-  return std::visit([&](const auto& options) { return options.end(system, before); }, stage);
+  if (ending(stage) != StageEnding::packing_fraction) return before;
+  const auto by_default = [&](const auto& options) {
+    return options.default_packing_fraction(system);
+  };
+  return own_packing_fraction(stage).value_or(std::visit(by_default, stage));
 }
 
 bool has_unknown_end(const std::vector<Stage>& stages) {
@@ -225,8 +229,12 @@ bool has_unknown_end(const std::vector<Stage>& stages) {
 }
 
 std::string stage_description(const Stage& stage, double packing_fraction) {
-  return std::visit([&](const auto& options) { return options.description(packing_fraction); },
-                    stage);
+  const std::string own =
+      std::visit([](const auto& options) { return options.description(); }, stage);
+  if (!own.empty()) return own;
+  const char* name = method_name(stage);
+  return fmt::format("{} {} packing fraction {:.4g}", name, places_particles(name) ? "at" : "to",
+                     packing_fraction);
 }
 
 }  // namespace vitrel

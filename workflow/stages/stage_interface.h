@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "core/state/stage.h"
@@ -16,8 +17,7 @@
 ///     State                 its progress; together with the configuration, all it needs to continue
 ///     fields()              its keys in the parameter file (stage_fields.h)
 ///     validate              throws BadValue for an invalid option, or one that does not suit the system
-///     ending, end           the kind of its end, and the packing fraction there
-///     description           a short description with these options
+///     ending                the kind of its end
 ///     advance               runs it, in both dimensions
 ///     each_item             names the items of its state in a checkpoint
 ///     record                adds its results to the record of the stage
@@ -40,11 +40,17 @@ enum class StageEnding {
   unchanged,         ///< ends at the packing fraction at which it begins
 };
 
+constexpr StageEnding ending_known_if(bool known) {
+  return known ? StageEnding::packing_fraction : StageEnding::unknown;
+}
+
 /// The input of a stage.
 struct StageContext {
-  double packing_fraction;  ///< `end` of the stage
+  std::variant<Configuration<2>*, Configuration<3>*> configuration;  ///< changed in place
+  double packing_fraction;                                           ///< end_of_stage
   std::uint64_t seed;
   int threads;  ///< of Monte Carlo; the result does not depend on their number
+  const RunControl& control;
 };
 
 /// A key of a stage in the parameter file, with the keys that depend on its value.
@@ -60,10 +66,12 @@ struct StageDefaults {
   static constexpr bool places_particles = false;
 
   StageEnding ending() const { return StageEnding::packing_fraction; }
-  void validate(const Rules&, int /*dimension*/) const {}
-  /// Monte Carlo sweeps draw random numbers by their number, counted over all stages.
-  template <class State>
-  static void number_sweeps(State&, std::uint64_t /*next_sweep*/) {}
+  /// Where a stage ends that has no packing fraction of its own but whose end is known.
+  double default_packing_fraction(const SystemParameters& system) const {
+    return system.packing_fraction;
+  }
+  /// A short description with these options; empty if the method and the packing fraction say all.
+  std::string description() const { return {}; }
   template <class State, class Visit>
   static void each_item(State&, Visit&&) {}
   void record(const NoState&, StageRecord&) const {}

@@ -35,9 +35,7 @@ StageState first_state(const Stage& stage, std::uint64_t next_sweep);
 
 /// Runs the stage, or continues it from `state`. Returns `reached` at its end, `stuck` if it cannot get there,
 /// `stopped` if the run control requests it.
-template <int Dim>
-StageReport advance_stage(const Stage& stage, StageState& state, Configuration<Dim>& configuration,
-                          const StageContext& context, const RunControl& control);
+StageReport advance_stage(const Stage& stage, StageState& state, const StageContext& context);
 
 /// The results of the stage, as far as its state contains them.
 StageRecord record_of(const Stage& stage, const StageState& state);

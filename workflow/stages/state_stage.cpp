@@ -147,10 +147,6 @@ std::vector<StageField<StateStage>> StateStage::fields() {
           {"masses", describe_masses}};
 }
 
-StageEnding StateStage::ending() const {
-  return packing_fraction ? StageEnding::packing_fraction : StageEnding::unknown;
-}
-
 void StateStage::validate(const Rules& rules, int dimension) const {
   rules.require(
       file.has_value() != positions.has_value(), "file",
@@ -174,17 +170,11 @@ void StateStage::validate(const Rules& rules, int dimension) const {
   validate_number(species, "species", n, rules);
 }
 
-double StateStage::end(const SystemParameters&, double before) const {
-  return packing_fraction.value_or(before);
-}
-
-std::string StateStage::description(double) const {
+std::string StateStage::description() const {
   return file ? "the state in " + *file : "the state in the parameter file";
 }
 
-template <int Dim>
-StageReport StateStage::advance(Configuration<Dim>&, NoState&, const StageContext&,
-                                const RunControl&) const {
+StageReport StateStage::advance(NoState&, const StageContext&) const {
   return {StageEnd::reached, "as given"};
 }
 
@@ -207,10 +197,5 @@ ForeignFrame StateStage::frame(int dimension) const {
     frame.orientation.assign(frame.position.size(), Quaternion::Identity());
   return frame;
 }
-
-template StageReport StateStage::advance(Configuration2&, NoState&, const StageContext&,
-                                         const RunControl&) const;
-template StageReport StateStage::advance(Configuration3&, NoState&, const StageContext&,
-                                         const RunControl&) const;
 
 }  // namespace vitrel

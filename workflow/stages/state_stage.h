@@ -32,13 +32,10 @@ struct StateStage : StageDefaults {
   std::optional<double> packing_fraction;
 
   static std::vector<StageField<StateStage>> fields();
-  StageEnding ending() const;
+  StageEnding ending() const { return ending_known_if(packing_fraction.has_value()); }
   void validate(const Rules& rules, int dimension) const;
-  double end(const SystemParameters& system, double before) const;
-  std::string description(double goal) const;
-  template <int Dim>
-  StageReport advance(Configuration<Dim>& configuration, NoState& state,
-                      const StageContext& context, const RunControl& control) const;
+  std::string description() const;
+  StageReport advance(NoState& state, const StageContext& context) const;
 
   /// The particles of the arrays.
   ForeignFrame frame(int dimension) const;

@@ -22,13 +22,8 @@ struct SwellStage : StageDefaults {
 
   static std::vector<StageField<SwellStage>> fields();
   void validate(const Rules& rules, int dimension) const;
-  double end(const SystemParameters& system, double before) const;
-  std::string description(double goal) const;
-  template <int Dim>
-  StageReport advance(Configuration<Dim>& configuration, SwellingState& state,
-                      const StageContext& context, const RunControl& control) const;
+  StageReport advance(SwellingState& state, const StageContext& context) const;
   void record(const SwellingState& state, StageRecord& record) const;
-  static void number_sweeps(SwellingState& state, std::uint64_t next_sweep);
 
   template <class AnyState, class Visit>
   static void each_item(AnyState& state, Visit&& visit) {
