@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <limits>
+#include <optional>
 
 #include "analysis/glass/glass_names.h"
 #include "analysis/structure/order.h"
@@ -22,32 +23,22 @@ double number(Code code) {
   return static_cast<double>(static_cast<int>(code));
 }
 
-/// A value and its error; NaN where there is none.
+/// A value, and its error if the column has errors.
 struct Entry {
-  double value, error;
-};
-
-/// A table that grows by rows.
-class Rows {
- public:
-  Rows(const char* name, std::string description, std::vector<Column> columns)
-      : table_{name, std::move(description), std::move(columns)} {}
-
-  /// A pair (value, error) for every column; errors of columns that have none are ignored.
-  void add(const std::vector<Entry>& row, const std::vector<bool>& has_error) {
-    for (std::size_t k = 0; k < row.size(); ++k) {
-      table_.columns[k].value.push_back(row[k].value);
-      if (has_error[k]) table_.columns[k].error.push_back(row[k].error);
-    }
-  }
-  Table table() && { return std::move(table_); }
-
- private:
-  Table table_;
+  double value;
+  std::optional<double> error = {};
 };
 
 Entry plain(double value) {
-  return {value, unknown};
+  return {value};
+}
+
+/// An entry for every column.
+void add_row(Table& table, const std::vector<Entry>& row) {
+  for (std::size_t k = 0; k < row.size(); ++k) {
+    table.columns[k].value.push_back(row[k].value);
+    if (row[k].error) table.columns[k].error.push_back(*row[k].error);
+  }
 }
 
 constexpr const char* kinds_text =
@@ -60,7 +51,7 @@ Column codes(const char* name, const std::array<std::string_view, Count>& labels
 }
 
 Table relaxation_table(const GlassStudy& study) {
-  Rows rows(
+  Table table{
       "relaxation",
       "Relaxation times, one row per run. tau_translation: F_s = 1/e at wave_number; tau_rotation: "
       "L_2 = 1/e (P_2 in three dimensions), in a nematic its connected part, seen from the "
@@ -81,96 +72,90 @@ Table relaxation_table(const GlassStudy& study) {
        {"nematic_order", "1", {}, {}},
        {"nematic_by_chance", "1", {}, {}},
        {"plateau", "1", {}, {}},
-       codes("orientation", orientation_names)});
-  std::vector<bool> has_error(14, false);
-  has_error[8] = has_error[9] = has_error[10] = true;
+       codes("orientation", orientation_names)}};
   for (const GlassRun& run : study.runs)
-    rows.add({plain(run.packing_fraction), plain(static_cast<double>(run.seed)),
-              plain(run.duration), plain(number(run.equilibration.verdict)),
-              plain(static_cast<double>(run.equilibration.tests)),
-              plain(number(run.translation_equilibration.verdict)),
-              plain(static_cast<double>(run.translation_equilibration.tests)),
-              plain(run.wave_number), Entry{run.translation.value, run.translation.error},
-              Entry{run.rotation.value, run.rotation.error},
-              Entry{run.nematic_order.mean, run.nematic_order.error},
-              plain(run.rotors > 0 ? nematic_order_by_chance(run.rotors) : unknown),
-              plain(run.plateau), plain(number(run.orientation))},
-             has_error);
-  return std::move(rows).table();
+    add_row(table, {plain(run.packing_fraction), plain(static_cast<double>(run.seed)),
+                    plain(run.duration), plain(number(run.equilibration.verdict)),
+                    plain(static_cast<double>(run.equilibration.tests)),
+                    plain(number(run.translation_equilibration.verdict)),
+                    plain(static_cast<double>(run.translation_equilibration.tests)),
+                    plain(run.wave_number), Entry{run.translation.value, run.translation.error},
+                    Entry{run.rotation.value, run.rotation.error},
+                    Entry{run.nematic_order.mean, run.nematic_order.error},
+                    plain(run.rotors > 0 ? nematic_order_by_chance(run.rotors) : unknown),
+                    plain(run.plateau), plain(number(run.orientation))});
+  return table;
 }
 
 Table fit_table(const GlassStudy& study) {
-  Rows rows("glass_fit",
-            fmt::format("Laws of the glass transition. {}. law: power law tau = A (phi_c - "
-                        "phi)^-s, Vogel-Fulcher tau = "
-                        "A exp(s phi/(phi_c - phi)). phi_c is above phi_c_least with a probability "
-                        "of 95 %; window: "
-                        "that of the greatest weight, and its fit.",
-                        kinds_text),
-            {codes("kind", kind_names),
-             codes("law", law_names),
-             codes("verdict", fit_verdict_names),
-             {"phi_c", "1", {}, {}},
-             {"phi_c_statistical", "1", {}, {}},
-             {"phi_c_spread", "1", {}, {}},
-             {"phi_c_least", "1", {}, {}},
-             {"exponent", "1", {}, {}},
-             {"window_low", "1", {}, {}},
-             {"window_high", "1", {}, {}},
-             {"densities", "1", {}, {}},
-             {"window_phi_c", "1", {}, {}},
-             {"window_exponent", "1", {}, {}},
-             {"window_log_prefactor", "ln(time)", {}, {}},
-             {"chi2", "1", {}, {}},
-             {"dof", "1", {}, {}},
-             {"scatter", "1", {}, {}}});
-  std::vector<bool> has_error(17, false);
-  has_error[3] = has_error[7] = true;
+  Table table{
+      "glass_fit",
+      fmt::format("Laws of the glass transition. {}. law: power law tau = A (phi_c - "
+                  "phi)^-s, Vogel-Fulcher tau = "
+                  "A exp(s phi/(phi_c - phi)). phi_c is above phi_c_least with a probability "
+                  "of 95 %; window: "
+                  "that of the greatest weight, and its fit.",
+                  kinds_text),
+      {codes("kind", kind_names),
+       codes("law", law_names),
+       codes("verdict", fit_verdict_names),
+       {"phi_c", "1", {}, {}},
+       {"phi_c_statistical", "1", {}, {}},
+       {"phi_c_spread", "1", {}, {}},
+       {"phi_c_least", "1", {}, {}},
+       {"exponent", "1", {}, {}},
+       {"window_low", "1", {}, {}},
+       {"window_high", "1", {}, {}},
+       {"densities", "1", {}, {}},
+       {"window_phi_c", "1", {}, {}},
+       {"window_exponent", "1", {}, {}},
+       {"window_log_prefactor", "ln(time)", {}, {}},
+       {"chi2", "1", {}, {}},
+       {"dof", "1", {}, {}},
+       {"scatter", "1", {}, {}}}};
   for (const StudiedLaw& studied : study.laws) {
     const GlassFit& fit = studied.fit;
     const GlassWindow& w = fit.window;
     const bool found = fit.verdict == GlassVerdict::found;
     const bool any = !fit.windows.empty();
     const auto if_any = [&](double value) { return plain(any ? value : unknown); };
-    rows.add({plain(number(studied.kind)), plain(number(studied.law)), plain(number(fit.verdict)),
-              found ? Entry{fit.density, fit.error} : plain(unknown),
-              plain(found ? fit.statistical : unknown), plain(found ? fit.spread : unknown),
-              plain(fit.verdict == GlassVerdict::refused ? unknown : fit.least),
-              found ? Entry{fit.strength, fit.strength_error} : plain(unknown), if_any(w.lowest),
-              if_any(w.highest), if_any(static_cast<double>(w.densities)), if_any(w.density),
-              if_any(w.strength), if_any(w.log_prefactor), if_any(w.chi_square),
-              if_any(static_cast<double>(w.degrees)), plain(fit.scatter)},
-             has_error);
+    add_row(table,
+            {plain(number(studied.kind)), plain(number(studied.law)), plain(number(fit.verdict)),
+             found ? Entry{fit.density, fit.error} : Entry{unknown, unknown},
+             plain(found ? fit.statistical : unknown), plain(found ? fit.spread : unknown),
+             plain(fit.verdict == GlassVerdict::refused ? unknown : fit.least),
+             found ? Entry{fit.strength, fit.strength_error} : Entry{unknown, unknown},
+             if_any(w.lowest), if_any(w.highest), if_any(static_cast<double>(w.densities)),
+             if_any(w.density), if_any(w.strength), if_any(w.log_prefactor), if_any(w.chi_square),
+             if_any(static_cast<double>(w.degrees)), plain(fit.scatter)});
   }
-  return std::move(rows).table();
+  return table;
 }
 
 Table window_table(const GlassStudy& study) {
-  Rows rows("glass_fit_windows",
-            fmt::format("The laws fitted to every window of densities. {}. law as in glass_fit; "
-                        "phi_c_low and phi_c_high: where chi^2 is 1 above its minimum.",
-                        kinds_text),
-            {codes("kind", kind_names),
-             codes("law", law_names),
-             {"window_low", "1", {}, {}},
-             {"window_high", "1", {}, {}},
-             {"phi_c", "1", {}, {}},
-             {"phi_c_low", "1", {}, {}},
-             {"phi_c_high", "1", {}, {}},
-             {"exponent", "1", {}, {}},
-             {"chi2", "1", {}, {}},
-             {"dof", "1", {}, {}},
-             {"goodness", "1", {}, {}},
-             {"weight", "1", {}, {}}});
-  const std::vector<bool> has_error(12, false);
+  Table table{"glass_fit_windows",
+              fmt::format("The laws fitted to every window of densities. {}. law as in glass_fit; "
+                          "phi_c_low and phi_c_high: where chi^2 is 1 above its minimum.",
+                          kinds_text),
+              {codes("kind", kind_names),
+               codes("law", law_names),
+               {"window_low", "1", {}, {}},
+               {"window_high", "1", {}, {}},
+               {"phi_c", "1", {}, {}},
+               {"phi_c_low", "1", {}, {}},
+               {"phi_c_high", "1", {}, {}},
+               {"exponent", "1", {}, {}},
+               {"chi2", "1", {}, {}},
+               {"dof", "1", {}, {}},
+               {"goodness", "1", {}, {}},
+               {"weight", "1", {}, {}}}};
   for (const StudiedLaw& studied : study.laws)
     for (const GlassWindow& w : studied.fit.windows)
-      rows.add({plain(number(studied.kind)), plain(number(studied.law)), plain(w.lowest),
-                plain(w.highest), plain(w.density), plain(w.low), plain(w.high), plain(w.strength),
-                plain(w.chi_square), plain(static_cast<double>(w.degrees)), plain(w.goodness),
-                plain(w.weight)},
-               has_error);
-  return std::move(rows).table();
+      add_row(table, {plain(number(studied.kind)), plain(number(studied.law)), plain(w.lowest),
+                      plain(w.highest), plain(w.density), plain(w.low), plain(w.high),
+                      plain(w.strength), plain(w.chi_square), plain(static_cast<double>(w.degrees)),
+                      plain(w.goodness), plain(w.weight)});
+  return table;
 }
 
 }  // namespace
