@@ -4,16 +4,9 @@
 
 #include <string_view>
 
-#include "app/commands/analyze.h"
 #include "app/commands/bench.h"
-#include "app/commands/check.h"
-#include "app/commands/export.h"
+#include "app/commands/commands.h"
 #include "app/commands/pair.h"
-#include "app/commands/params.h"
-#include "app/commands/prepare.h"
-#include "app/commands/report.h"
-#include "app/commands/run.h"
-#include "app/commands/sweep.h"
 #include "app/terminal/completion.h"
 #include "app/terminal/program_command_line.h"
 #include "workflow/configuration/sections.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 /// @file
-/// Options that several commands share.
+/// The options of the commands, those that several share first.
 namespace vitrel {
 
 /// How much is printed.
@@ -33,6 +33,69 @@ struct StartOptions {
 struct AnalysisOptions {
   std::filesystem::path file;
   std::vector<std::string> overrides;  ///< key=value
+};
+
+struct AnalyzeOptions {
+  PrintOptions print;
+  AnalysisOptions analysis;
+  bool list = false;             ///< what it computes, and nothing else
+  std::filesystem::path input;   ///< run, or folder of a job or a sweep
+  std::filesystem::path output;  ///< empty: beside the input
+};
+
+struct CheckOptions {
+  PrintOptions print;
+  std::filesystem::path input;       ///< state or run
+  std::filesystem::path parameters;  ///< of what the file does not say; may be empty
+  bool last_only = false;            ///< the last frame only
+};
+
+struct ExportOptions {
+  PrintOptions print;
+  std::filesystem::path input;   ///< state, run or results
+  std::filesystem::path output;  ///< empty: beside the input
+  std::string format;
+  std::optional<std::string> frames;  ///< a slice as in Python
+  std::optional<double> shrink;       ///< factor of all semi-axes
+  std::optional<std::size_t> voxels;  ///< along the longest edge
+  bool images = false;                ///< of a packing, to csv
+};
+
+struct ParamsOptions {
+  std::string command;     ///< whose template is printed
+  bool reference = false;  ///< print docs/parameters.md
+};
+
+struct PrepareOptions {
+  PrintOptions print;
+  ParameterOptions source;
+  std::filesystem::path output;
+  StartOptions start;
+  int threads = 1;
+  double wall_time = 0;      ///< seconds; 0: no limit
+  std::string command_line;  ///< for the provenance
+};
+
+struct ReportOptions {
+  PrintOptions print;
+  AnalysisOptions analysis;
+  std::filesystem::path input;   ///< state, run, or folder of a job or a sweep
+  std::filesystem::path output;  ///< empty: beside the input
+};
+
+struct RunOptions : PrepareOptions {
+  bool dry_run = false;  ///< print what would be done
+};
+
+struct SweepOptions {
+  PrintOptions print;
+  ParameterOptions source;
+  std::filesystem::path output;  ///< folder of the sweep
+  int parallel = 0;              ///< jobs at a time; 0: not given
+  double wall_time = 0;          ///< seconds; 0: no limit
+  bool status = false;           ///< only print how far every job is
+  std::string job;               ///< the only job to run; empty: all
+  std::string export_as;  ///< program to write the sweep for instead of running it; empty: run
 };
 
 }  // namespace vitrel

@@ -1,4 +1,4 @@
-#include "app/commands/params.h"
+#include "app/commands/commands.h"
 
 #include "app/terminal/exit_codes.h"
 #include "app/terminal/session.h"

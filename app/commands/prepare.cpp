@@ -1,4 +1,4 @@
-#include "app/commands/prepare.h"
+#include "app/commands/commands.h"
 
 #include <fmt/format.h>
 

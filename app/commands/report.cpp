@@ -1,4 +1,4 @@
-#include "app/commands/report.h"
+#include "app/commands/commands.h"
 
 #include <nlohmann/json.hpp>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "app/commands/run.h"
+#include "app/commands/commands.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,4 +1,4 @@
-#include "app/commands/sweep.h"
+#include "app/commands/commands.h"
 
 #include <fmt/format.h>
 
