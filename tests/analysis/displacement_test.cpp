@@ -228,6 +228,37 @@ TEST(Displacement, ErrorBarsOfUnevenOriginsCoverTheClosedForms) {
   }
 }
 
+double mean_square_change(const std::vector<double>& x, std::size_t lag) {
+  double sum = 0;
+  for (std::size_t k = 0; k + lag < x.size(); ++k) sum += (x[k + lag] - x[k]) * (x[k + lag] - x[k]);
+  return sum / static_cast<double>(x.size() - lag);
+}
+
+// x and y of all particles together, each summed directly over all origins, give what the pass over the frames does.
+TEST(Displacement, EqualsTheDirectSumsAtEveryLag) {
+  constexpr std::size_t frames = 400, particles = 5;
+  MemoryTrajectory2 trajectory = free_brownian(ellipses(particles), frames, 1);
+  const Displacements found = displacements(trajectory, {.axis = {.every_lag_up_to = frames}});
+  std::vector<double> msd(frames), msr(frames);
+  for (std::size_t i = 0; i < particles; ++i) {
+    std::vector<double> x, y, angle;
+    for (std::size_t k = 0; k < frames; ++k) {
+      const Configuration2& frame = trajectory.read(k);
+      x.push_back(frame.unwrapped(i).x());
+      y.push_back(frame.unwrapped(i).y());
+      angle.push_back(frame.angle[i]);
+    }
+    for (std::size_t n = 0; n < frames; ++n) {
+      msd[n] += (mean_square_change(x, n) + mean_square_change(y, n)) / particles;
+      msr[n] += mean_square_change(angle, n) / particles;
+    }
+  }
+  for (std::size_t l = 0; l < found.lag.size(); ++l) {
+    EXPECT_NEAR(found.groups[0].translation.value[l], msd[l + 1], 1e-12 * msd.back());
+    EXPECT_NEAR(found.groups[0].rotation.value[l], msr[l + 1], 1e-12 * msr.back());
+  }
+}
+
 // r = v t and θ = ω t: every origin gives the same square, through any number of box crossings.
 TEST(Displacement, BallisticMotionIsExactAndWrappingImmaterial) {
   Configuration2 configuration = ellipses(3);

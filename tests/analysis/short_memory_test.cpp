@@ -5,7 +5,6 @@
 #include <functional>
 #include <new>
 
-#include "analysis/dynamics/mean_square_fft.h"
 #include "analysis/statistics/gsl_errors.h"
 #include "analysis/structure/density_grid.h"
 #include "analysis/structure/two_point.h"
@@ -39,12 +38,6 @@ extern "C" fftw_plan fftw_plan_many_dft_r2c(int rank, const int* n, int many, do
   return unless_it_fails(own(&fftw_plan_many_dft_r2c, "fftw_plan_many_dft_r2c")(
       rank, n, many, in, in_size, in_stride, in_distance, out, out_size, out_stride, out_distance,
       flags));
-}
-extern "C" fftw_plan fftw_plan_dft_r2c_1d(int n, double* in, fftw_complex* out, unsigned flags) {
-  return unless_it_fails(own(&fftw_plan_dft_r2c_1d, "fftw_plan_dft_r2c_1d")(n, in, out, flags));
-}
-extern "C" fftw_plan fftw_plan_dft_c2r_1d(int n, fftw_complex* in, double* out, unsigned flags) {
-  return unless_it_fails(own(&fftw_plan_dft_c2r_1d, "fftw_plan_dft_c2r_1d")(n, in, out, flags));
 }
 extern "C" fftw_plan fftw_plan_dft_r2c_3d(int x, int y, int z, double* in, fftw_complex* out,
                                           unsigned flags) {
@@ -92,11 +85,6 @@ TEST(ShortMemory, OfTwoPointGrids) {
   sphere.shape[0] = {Vec3(1, 1, 1)};
   sphere.box = PeriodicBox<3>(Vec3(4, 4, 4));
   expect_reported([&] { TwoPointGrid(sphere).measure(sphere); });
-}
-
-TEST(ShortMemory, OfMeanSquareChanges) {
-  const std::vector<double> series{1, 2, 4, 8};
-  expect_reported([&] { EXPECT_EQ(mean_square_changes(series).size(), series.size()); });
 }
 
 // GSL's own handler would end the process.
