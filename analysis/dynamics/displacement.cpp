@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -14,8 +13,6 @@
 namespace vitrel {
 
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// Tracks taken apart into phases at a time.
 constexpr std::size_t paths_at_once = 16;
