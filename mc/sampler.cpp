@@ -24,8 +24,10 @@ void Sampler<Dim>::set_steps(double translation, double rotation) {
 
 template <int Dim>
 void Sampler<Dim>::set_exchanges(const ExchangeOptions& options) {
-  exchanges_.reset();
-  if (options.any()) exchanges_.emplace(particles_, options);
+  if (options.any())
+    exchanges_.emplace(particles_, options);
+  else
+    exchanges_.reset();
 }
 
 template <int Dim>
