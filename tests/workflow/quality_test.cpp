@@ -262,7 +262,10 @@ TEST(QualityFile, SaysWhatIsWrongWithIt) {
   EXPECT_THAT(complaint(), HasSubstr("a.quality.json: is not a quality report"));
   folder.write("a.quality.json", "{\"parti");
   EXPECT_THAT(complaint(), HasSubstr("is not JSON"));
-  quality.nematic_order *= 1 + 1e-15;
+  quality.nematic_order *= 1 + 1e-15;  // of a version that rounded otherwise
+  write_quality(folder / "a.quality.json", quality);
+  EXPECT_EQ(complaint(), "");
+  quality.nematic_order += 2e-12;
   write_quality(folder / "a.quality.json", quality);
   EXPECT_THAT(complaint(), HasSubstr("is the quality report of another state"));
 }
