@@ -253,8 +253,8 @@ std::string text_of(const Measured& measured) {
 
 }  // namespace
 
-double growth_exponent(const std::vector<ThesisRow>& rows, Program program, double aspect_ratio) {
-  const auto points = durations(rows, program, aspect_ratio);
+double growth_exponent(const std::vector<ThesisRow>& rows, Program program, double kappa) {
+  const auto points = durations(rows, program, kappa);
   if (points.size() < 2) return std::numeric_limits<double>::quiet_NaN();
   double n = 0, x = 0, y = 0, xx = 0, xy = 0;
   for (const auto& [particles, seconds] : points) {
