@@ -31,6 +31,6 @@ struct ThesisRow {
 
 /// How the time per unit of simulated time grows with N: the slope of a straight line through the
 /// logarithms, Newtonian and Brownian runs together; NaN for fewer than two sizes.
-double growth_exponent(const std::vector<ThesisRow>& rows, Program program, double aspect_ratio);
+double growth_exponent(const std::vector<ThesisRow>& rows, Program program, double kappa);
 
 }  // namespace vitrel::bench
