@@ -116,11 +116,13 @@ struct std::numeric_limits<vitrel::DoubleDouble> : std::numeric_limits<double> {
   static constexpr vitrel::DoubleDouble epsilon() { return 0x1p-102; }
 };
 
+/// @cond EIGEN
 template <>
 struct Eigen::NumTraits<vitrel::DoubleDouble> : Eigen::NumTraits<double> {
   using Real = vitrel::DoubleDouble;
   using NonInteger = Real;
   using Nested = Real;
 };
+/// @endcond
 
 static_assert(std::numeric_limits<vitrel::Extended>::digits >= 64);
