@@ -46,8 +46,8 @@ auto operator*(const A& one, const B& two) {
   constexpr int rows = A::RowsAtCompileTime, columns = B::ColsAtCompileTime,
                 terms = A::ColsAtCompileTime;
   static_assert(terms == B::RowsAtCompileTime);
-  const typename A::PlainObject a = one;
-  const typename B::PlainObject b = two;
+  const typename A::PlainObject& a = one;
+  const typename B::PlainObject& b = two;
   Eigen::Matrix<typename A::Scalar, rows, columns> result;
   for (int i = 0; i < rows; ++i)
     for (int j = 0; j < columns; ++j) {
@@ -99,7 +99,7 @@ typename V::Scalar norm(const V& v) {
 /// v/|v|; the zero vector stays.
 template <FixedSize V>
 typename V::PlainObject normalized(const V& v) {
-  const typename V::PlainObject plain = v;
+  const typename V::PlainObject& plain = v;
   const typename V::Scalar length = norm(plain);
   return length > 0 ? typename V::PlainObject(plain / length) : plain;
 }
