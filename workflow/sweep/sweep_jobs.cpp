@@ -85,7 +85,7 @@ void refuse_overridden_keys(const std::vector<Axis>& axes, const ParameterSource
       const bool is_seed = key == "system.seed" && source.seed;
       const auto set = std::find_if(
           source.overrides.begin(), source.overrides.end(),
-          [&key = key](const std::string& text) { return text.starts_with(key + "="); });
+          [start = key + "="](const std::string& text) { return text.starts_with(start); });
       if (is_seed || set != source.overrides.end())
         throw UserError(
             fmt::format("{}: '{}' runs through the values of the sweep, so that {} has no effect; "
