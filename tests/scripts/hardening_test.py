@@ -67,7 +67,7 @@ class Hardening(unittest.TestCase):
         if platform.machine() == "x86_64":
             code = output_of("objdump", "--disassemble", "--no-show-raw-insn", build / "libsample.so")
             self.assertRegex(code.split("<_Z3sumPKcPKd>:\n")[1], r"^.*endbr64", "the target of a call is not marked")
-            touched = r"(or|mov)[ql]? +\$0x0,(0x\w+)?\(%rsp"
+            touched = r"(or|mov)[bql]? +\$0x0,(0x\w+)?\(%rsp"
             self.assertRegex(code, touched, "the pages of a large stack are not touched one by one")
 
     def test_other_builds_are_told(self):
