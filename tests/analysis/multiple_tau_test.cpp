@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <string_view>
 #include <vector>
 
 #include "analysis/dynamics/displacement.h"
@@ -74,10 +75,10 @@ MultipleTau<2> correlator_of(const std::vector<Configuration2>& frames) {
   return correlator;
 }
 
-const Column& column(const CorrelatedGroup& group, const std::string& name) {
+const Column& column(const CorrelatedGroup& group, std::string_view name) {
   for (const Column& candidate : group.columns)
     if (candidate.name == name) return candidate;
-  throw std::out_of_range(name);
+  throw std::out_of_range(std::string(name));
 }
 
 using Pair = std::function<double(const Configuration2&, const Configuration2&, std::size_t)>;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <string_view>
 
 #include "analysis/observables/frame_observable.h"
 #include "core/random/stream.h"
@@ -30,7 +31,7 @@ MemoryTrajectory<Dim> moving_gas(std::size_t n, std::size_t frames, Component&& 
   return MemoryTrajectory<Dim>(std::move(all));
 }
 
-const Table& table_of(const std::vector<Table>& tables, const std::string& name) {
+const Table& table_of(const std::vector<Table>& tables, std::string_view name) {
   return *std::ranges::find(tables, name, &Table::name);
 }
 

@@ -176,8 +176,6 @@ TEST(SavedRuns, TheOutputIsLookedAtFirst) {
         run(folder.path(), command), 3,
         "absent/output: cannot be written: there is no folder " + (folder / "absent").string());
   }
-  expect_refusal(run(folder.path(), {"bench", "thesis", "-o", "p.toml/output"}), 3,
-                 "p.toml/output: the folder cannot be made");
   expect_refusal(run(folder.path(), {"analyze", "no_run.h5", "-o", "p.toml"}), 2,
                  "p.toml: exists and holds no");
   expect_refusal(run(folder.path(), {"analyze", "absent.h5"}), 3,

@@ -41,6 +41,14 @@ Json data_of(const std::string& page) {
   return Json::parse(page.substr(begin, page.find("</script>", begin) - begin));
 }
 
+TEST(BenchThesis, TheOutputIsLookedAtFirst) {
+  const Folder folder("bench_output");
+  folder.write("file", "");
+  const Outcome outcome = run(folder.path(), {"thesis", "-o", "file/output"});
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_THAT(outcome.errors, HasSubstr("file/output: the folder cannot be made"));
+}
+
 TEST(BenchCollisionTime, PrintsRowsWithTheKeysOfTheManual) {
   const Folder folder("bench_rows");
   const Outcome outcome =
