@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "python/bindings/arrays.h"
 #include "python/bindings/bindings.h"
@@ -14,8 +15,12 @@ namespace {
 /// Numbers in rows with any strides, such as those of one number for all rows.
 using Rows = py::array_t<double, py::array::forcecast>;
 
+/// Unchecked access to an array of so many dimensions.
+template <int Dimensions>
+using Numbers = decltype(std::declval<const Rows&>().unchecked<Dimensions>());
+
 template <int Dim>
-Vec<Dim> row_of(const py::detail::unchecked_reference<double, 2>& rows, std::size_t i) {
+Vec<Dim> row_of(const Numbers<2>& rows, std::size_t i) {
   Vec<Dim> row;
   for (int k = 0; k < Dim; ++k) row[k] = rows(static_cast<py::ssize_t>(i), k);
   return row;
@@ -71,7 +76,7 @@ class Bodies {
 
  private:
   static constexpr bool is_plane = Dim == 2;
-  using Turns = py::detail::unchecked_reference<double, is_plane ? 1 : 2>;
+  using Turns = Numbers<is_plane ? 1 : 2>;
 
   static void require(std::size_t i, bool holds, const char* what) {
     if (!holds) throw UserError(fmt::format("body {}: {}", i, what));
@@ -84,7 +89,7 @@ class Bodies {
 
   std::array<Rows, 5> arrays_;  ///< keeps them alive
   std::size_t size_;
-  py::detail::unchecked_reference<double, 2> semi_axes_, position_, velocity_;
+  Numbers<2> semi_axes_, position_, velocity_;
   Turns orientation_, angular_velocity_;
 };
 

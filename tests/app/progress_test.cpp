@@ -2,8 +2,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <chrono>
+#include <cstdio>
+#include <memory>
+#include <string>
 #include <thread>
 
 #include "workflow/sweep/job_worker.h"
@@ -13,14 +17,29 @@ namespace {
 
 using testing::HasSubstr;
 
+/// What is printed to standard error meanwhile.
+template <class Work>
+std::string errors_of(Work work) {
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::tmpfile(), std::fclose);
+  const int terminal = dup(STDERR_FILENO);
+  EXPECT_EQ(dup2(fileno(file.get()), STDERR_FILENO), STDERR_FILENO);
+  work();
+  EXPECT_EQ(dup2(terminal, STDERR_FILENO), STDERR_FILENO);
+  EXPECT_EQ(close(terminal), 0);
+  std::rewind(file.get());
+  std::string text(4096, '\0');
+  text.resize(std::fread(text.data(), 1, text.size(), file.get()));
+  return text;
+}
+
 /// What is shown of half the work, once the display has waited long enough.
 std::string shown(ProgressDisplay display, const std::string& label = "structure") {
-  testing::internal::CaptureStderr();
-  display.begin(label);
-  display.show({0, 0, "frames"});
-  std::this_thread::sleep_for(std::chrono::milliseconds(250));
-  display.show({0.5, 40, "frames"});
-  return testing::internal::GetCapturedStderr();
+  return errors_of([&] {
+    display.begin(label);
+    display.show({0, 0, "frames"});
+    std::this_thread::sleep_for(std::chrono::milliseconds(250));
+    display.show({0.5, 40, "frames"});
+  });
 }
 
 TEST(ProgressDisplay, NamesThePhase) {
