@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/parallel.h"
+#include "core/special_values.h"
 #include "mc/hard_core.h"
 
 namespace vitrel {
@@ -134,7 +135,6 @@ bool HardParticles<Dim>::is_clear_as(std::size_t i, const Body& body, double mar
 template <int Dim>
 double HardParticles<Dim>::free_radius(std::size_t i) const {
   constexpr double rounded_down = 1 - 4 * std::numeric_limits<double>::epsilon();
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   constexpr unsigned all = (1u << simd_width) - 1;
   const auto others = detail::all_lanes_but(cells_.lane_of(i));
   const Vec<Dim>& position = configuration_.position[i];

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+
+#include "core/special_values.h"
 
 namespace vitrel {
 
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// In eight partial sums, which processors add at once.
 double sum_of(std::span<const double> values) {
@@ -115,7 +114,7 @@ PointEstimate MomentSum::non_gaussian(double c, const Lag& lag, std::size_t part
   std::vector<double> line = means(quartic, particles);
   const double origins = static_cast<double>(line.size());
   const double m2 = sum_of(squares) / origins, m4 = sum_of(line) / origins;
-  if (!(m2 > 0)) return {{none, none, 0}, none};
+  if (!(m2 > 0)) return {{unknown, unknown, 0}, unknown};
   const double by_m4 = c / (m2 * m2), by_m2 = -2 * c * m4 / (m2 * m2 * m2);
   for (std::size_t k = 0; k < line.size(); ++k) line[k] = by_m4 * line[k] + by_m2 * squares[k];
   Estimate estimate = over_origins(line, lag);
@@ -133,7 +132,7 @@ Estimate susceptibility(const CorrelationSum& sum, const Lag& lag, std::size_t p
   const double n = static_cast<double>(particles);
   for (double& q : series) q = n * (q - overlap.mean) * (q - overlap.mean);
   const Estimate variance = over_origins(series, lag);
-  if (overlap.blocks == 0 || variance.blocks == 0) return {none, none, 0};
+  if (overlap.blocks == 0 || variance.blocks == 0) return {unknown, unknown, 0};
   const double uncertainty = overlap.error / student_factor(overlap.blocks - 1);
   return {variance.mean + n * uncertainty * uncertainty, variance.error, variance.blocks};
 }

@@ -6,16 +6,15 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <utility>
 
 #include "core/error.h"
+#include "core/special_values.h"
 
 namespace vitrel {
 
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double shortest_window = 9;  // longest time over shortest, of what must be straight
 constexpr double margin = 3;           // the fit begins that much later than the straight part
 constexpr double chance = 3;           // standard errors within which two slopes agree
@@ -142,7 +141,7 @@ bool straight(const Halves& h) {
 }
 
 DiffusionCoefficient without(const std::string& reason) {
-  return {none, none, none, none, reason};
+  return {unknown, unknown, unknown, unknown, reason};
 }
 
 /// Both halves of the shortest window have two points, which a slope needs.

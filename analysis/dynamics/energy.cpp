@@ -4,6 +4,8 @@
 #include <limits>
 #include <numeric>
 
+#include "core/special_values.h"
+
 namespace vitrel {
 
 template <int Dim>
@@ -33,9 +35,8 @@ Estimate time_average(const std::vector<double>& time, const std::vector<double>
 CompressibilitySeries compressibility(const EnergySeries& energy, const std::vector<double>& virial,
                                       std::size_t particles, std::size_t rotations, int dimension) {
   assert(virial.size() == energy.time.size());
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const std::size_t frames = virial.size();
-  if (frames < 2 || particles < 2) return {{}, {}, {none, none, 0}};
+  if (frames < 2 || particles < 2) return {{}, {}, {unknown, unknown, 0}};
 
   const double n = static_cast<double>(particles);
   const double mean_energy = n * std::accumulate(energy.total.begin(), energy.total.end(), 0.0) /

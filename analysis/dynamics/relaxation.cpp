@@ -4,16 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "core/error.h"
+#include "core/special_values.h"
 
 namespace vitrel {
 
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double level = 1 / std::numbers::e;
 constexpr double reach = 1.25;  // of the straight line, as a factor of time
 
@@ -27,8 +26,8 @@ void check(const Decay& c) {
     throw UserError("relaxation time: the times of a correlation must be above 0 and ascend");
 }
 
-RelaxationTime without(const std::string& reason, double least = none, double most = none) {
-  return {none, none, least, most, reason};
+RelaxationTime without(const std::string& reason, double least = unknown, double most = unknown) {
+  return {unknown, unknown, least, most, reason};
 }
 
 /// Whether some value from `begin` on is above 1/e by more than three errors.
@@ -77,7 +76,7 @@ RelaxationTime relaxation_time(const Decay& c) {
   if (k == 0)
     return without(fmt::format("already {:.2g} at the shortest time {:.4g}: sample more often",
                                c.value.front(), c.time.front()),
-                   none, c.time.front());
+                   unknown, c.time.front());
   if (returns(c, k)) return without("returns above 1/e after having fallen below", c.time[k]);
 
   std::size_t begin = k - 1, end = k + 1;
@@ -89,7 +88,7 @@ RelaxationTime relaxation_time(const Decay& c) {
   const double time = line.time * std::exp(shift);
   if (!(time > c.time[begin] / reach && time < c.time[end - 1] * reach))
     return without("too noisy where it crosses 1/e");
-  return {time, time * line.error / -line.slope, none, none, ""};
+  return {time, time * line.error / -line.slope, unknown, unknown, ""};
 }
 
 Decay connected_part(const Decay& correlation, const Estimate& plateau) {

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t max_pairs = std::size_t{1} << 22;
 /// Of single precision, relative.
-constexpr double rounding = 0x1p-24;
+constexpr double single_precision = 0x1p-24;
 /// The most that time differences taken as equal may differ by, relative.
 constexpr double widest = 1e-3;
 
@@ -50,7 +50,7 @@ std::vector<Lag> even_lags(std::span<const double> times, const TimeAxisOptions&
 struct Difference {
   Difference(std::span<const double> times, std::size_t from, std::size_t to)
       : time(times[to] - times[from]),
-        uncertainty(rounding * (std::abs(times[from]) + std::abs(times[to]))),
+        uncertainty(single_precision * (std::abs(times[from]) + std::abs(times[to]))),
         is_from_first(from == 0) {}
 
   double time, uncertainty;

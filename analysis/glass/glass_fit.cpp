@@ -10,12 +10,12 @@
 #include "analysis/statistics/gsl_errors.h"
 #include "analysis/statistics/least_squares.h"
 #include "core/error.h"
+#include "core/special_values.h"
 
 namespace vitrel {
 
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double equal_densities = 1e-4;
 constexpr double smallest_gap = 1e-5;  // of φ_c from the highest density
 constexpr double densest = 1;
@@ -107,11 +107,11 @@ class WindowFit {
     w.lowest = points_.front().packing_fraction;
     w.highest = highest_;
     w.densities = points_.size();
-    w.density = best < scan_points - 1 && fit.strength > 0 ? density(u) : none;
+    w.density = best < scan_points - 1 && fit.strength > 0 ? density(u) : unknown;
     w.strength = fit.strength;
     w.log_prefactor = fit.log_prefactor;
     w.chi_square = least;
-    w.covariance.setConstant(none);
+    w.covariance.setConstant(unknown);
     w.low = crossing(u, first(), least + one_error);
     w.high = crossing(u, last(), least + one_error);
     return w;
@@ -119,7 +119,7 @@ class WindowFit {
 
   /// φ_c between u and `end` at which χ² has risen to `target`; NaN if it does not.
   double crossing(double u, double end, double target) const {
-    if (line(end).chi_square < target) return none;
+    if (line(end).chi_square < target) return unknown;
     for (int k = 0; k < 60; ++k) {
       const double middle = (u + end) / 2;
       (line(middle).chi_square < target ? u : end) = middle;
@@ -256,7 +256,7 @@ double quantile(const std::vector<Belief>& beliefs, double probability, double f
     for (const Belief& b : beliefs) sum += b.weight * b.probability_up_to(x);
     return sum;
   };
-  if (sum_up_to(from) > probability || sum_up_to(to) < probability) return none;
+  if (sum_up_to(from) > probability || sum_up_to(to) < probability) return unknown;
   for (int k = 0; k < 60; ++k) {
     const double middle = (from + to) / 2;
     (sum_up_to(middle) < probability ? from : to) = middle;
@@ -283,7 +283,7 @@ void combine_strengths(GlassFit& fit) {
   double largest = 0;
   for (const GlassWindow& w : fit.windows) {
     const double error = std::sqrt(w.covariance(1, 1));
-    beliefs.push_back({w.weight, std::isnan(error) ? none : w.strength, error, error});
+    beliefs.push_back({w.weight, std::isnan(error) ? unknown : w.strength, error, error});
     if (!std::isnan(error)) largest = std::max(largest, w.strength + 5 * error);
   }
   fit.strength = quantile(beliefs, 0.5, 0, largest);
@@ -338,8 +338,8 @@ std::string contradiction(const GlassFit& fit, const std::vector<Point>& points,
 GlassFit fit_windows(const Densities& densities, GlassLaw law) {
   GlassFit fit{};
   fit.scatter = densities.scatter;
-  fit.density = fit.low = fit.high = fit.error = fit.statistical = fit.spread = fit.least = none;
-  fit.strength = fit.strength_error = none;
+  fit.density = fit.low = fit.high = fit.error = fit.statistical = fit.spread = fit.least = unknown;
+  fit.strength = fit.strength_error = unknown;
   if (densities.points.size() < min_densities) return fit;
   fit.windows = all_windows(densities.points, law);
   weigh(fit.windows);

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "analysis/structure/order.h"
+#include "core/special_values.h"
 
 namespace vitrel {
 namespace {
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double negligible = 0.05;  // rest of a correlation that has decayed
 
 /// Whether nothing is left of a correlation at the longest time, but for what its error explains.

@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "core/special_values.h"
 
 namespace vitrel {
 namespace {
-
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// A time of one kind and its error; NaN if the run has none.
 struct Time {

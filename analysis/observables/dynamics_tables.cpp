@@ -165,7 +165,7 @@ Table orientation_table(const Displacements& found, const DisplacementGroup& gro
   return table;
 }
 
-Observable orientation_observable(int dimension) {
+Observable rotation_observable(int dimension) {
   Observable observable{
       .table = "orientation",
       .what = "Orientational correlations L_n(t) = <cos n(angle(t) - angle(0))>.",
@@ -397,8 +397,7 @@ std::vector<Table> dynamics_tables(const RunDynamics& dynamics) {
 
 std::vector<Observable> dynamics_observables(int dimension) {
   std::vector<Observable> observables = {displacement_observable(dimension),
-                                         scattering_observable(),
-                                         orientation_observable(dimension)};
+                                         scattering_observable(), rotation_observable(dimension)};
   if (dimension == 2) observables.push_back(cage_relative_observable());
   observables.push_back({.table = "wave_numbers",
                          .what = "Wave numbers of the scattering functions.",

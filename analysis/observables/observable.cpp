@@ -19,14 +19,14 @@ Chart over_density(const char* heading, const char* symbol, const char* column,
 }
 
 Observable summary_observable() {
-  constexpr auto logarithmic = Chart::Scale::logarithmic;
+  constexpr auto over_decades = Chart::Scale::logarithmic;
   return {
       .table = "summary",
       .what =
           "One row: packing fraction, and averages over the run, of the compressibility factor, "
           "energies and diffusion coefficients.",
-      .charts = {over_density("Diffusion", "D", "diffusion", logarithmic),
-                 over_density("Rotational diffusion", "Dᵣ", "rotational_diffusion", logarithmic),
+      .charts = {over_density("Diffusion", "D", "diffusion", over_decades),
+                 over_density("Rotational diffusion", "Dᵣ", "rotational_diffusion", over_decades),
                  over_density("Compressibility factor", "Z = βP/ρ", "compressibility_factor")}};
 }
 

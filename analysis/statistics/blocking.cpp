@@ -5,16 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numbers>
 
 #include "analysis/statistics/gsl_errors.h"
+#include "core/special_values.h"
 
 namespace vitrel {
 
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double rounding = 1e-9;  // of a mean: below it nothing fluctuates
 
 /// Variance of the mean of values taken as independent.
@@ -45,7 +44,7 @@ Estimate known_block_average(std::span<const double> series, std::size_t block,
     sum += mean;
     squares += mean * mean;
   }
-  if (blocks < min_blocks) return {mean_of(series), none, 0};
+  if (blocks < min_blocks) return {mean_of(series), unknown, 0};
   const double ratio = static_cast<double>(block) / correlation;
   const double seen = correlation > 0 ? 1 + std::expm1(-ratio) / ratio : 1;
   return {mean_of(series), independent_average(blocks, sum, squares).error / std::sqrt(seen),
@@ -101,10 +100,10 @@ std::size_t BlockSums::count() const {
 }
 
 Estimate BlockSums::estimate(double shortest_block) const {
-  if (levels_.empty()) return {none, none, 0};
+  if (levels_.empty()) return {unknown, unknown, 0};
   const double n = levels_.front().count;
   const double mean = levels_.front().mean;
-  if (n < min_blocks) return {mean, none, 0};
+  if (n < min_blocks) return {mean, unknown, 0};
   const double naive = squared_error(n, levels_.front().squares);
   if (naive == 0) return {mean, 0, count()};
 
@@ -119,7 +118,7 @@ Estimate BlockSums::estimate(double shortest_block) const {
     }
     length *= 2;
   }
-  return {mean, none, 0};
+  return {mean, unknown, 0};
 }
 
 void BlockSums::store(std::vector<double>& numbers) const {
@@ -139,10 +138,10 @@ std::span<const double> BlockSums::restore(std::span<const double> numbers) {
 }
 
 Estimate independent_average(std::size_t count, double sum, double sum_of_squares) {
-  if (count == 0) return {none, none, 0};
+  if (count == 0) return {unknown, unknown, 0};
   const double n = static_cast<double>(count);
   const double mean = sum / n;
-  if (count == 1) return {mean, none, 0};
+  if (count == 1) return {mean, unknown, 0};
   // Rounding can make the variance of equal values a little negative.
   const double variance = std::max(0.0, (sum_of_squares - n * mean * mean) / (n - 1));
   return {mean, std::sqrt(variance / n) * student_factor(count - 1), count};
@@ -150,7 +149,7 @@ Estimate independent_average(std::size_t count, double sum, double sum_of_square
 
 ConfidenceInterval confidence_interval(std::span<const double> values, double level) {
   const double mean = mean_of(values), n = static_cast<double>(values.size());
-  if (values.size() < 2) return {mean, none};
+  if (values.size() < 2) return {mean, unknown};
   double squares = 0;
   for (const double value : values) squares += (value - mean) * (value - mean);
   const double quantile = gsl_cdf_tdist_Pinv(0.5 * (1 + level), n - 1);

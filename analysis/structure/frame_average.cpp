@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 
 #include "analysis/statistics/blocking.h"
+#include "core/special_values.h"
 
 namespace vitrel {
 
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// The weighted mean of one number; `value` is 0 where there is no weight.
 Estimate weighted_average(const std::vector<double>& value, const std::vector<double>& weight) {
@@ -21,7 +19,7 @@ Estimate weighted_average(const std::vector<double>& value, const std::vector<do
     sum += weight[k] * value[k];
     weights += weight[k];
   }
-  if (weights == 0) return {none, none, 0};
+  if (weights == 0) return {unknown, unknown, 0};
   const double mean = sum / weights;
   std::vector<double> deviation;
   for (std::size_t k = 0; k < value.size(); ++k)
@@ -58,7 +56,7 @@ Averages FrameAverage::averages(bool even) const {
     }
     const Estimate estimate = weighted_average(value, weight);
     result.mean.push_back(estimate.mean);
-    result.error.push_back(even ? estimate.error : none);
+    result.error.push_back(even ? estimate.error : unknown);
   }
   return result;
 }

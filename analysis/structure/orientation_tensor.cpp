@@ -6,12 +6,12 @@
 #include <numbers>
 
 #include "core/random/stream.h"
+#include "core/special_values.h"
 
 namespace vitrel {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t max_drawn = 1000, packings_drawn = 2000;
 // The smallest numbers of axes for which ⟨ρ⟩ and ⟨ρ²⟩ are finite.
 constexpr std::size_t min_for_mean = 5, min_for_deviation = 7;

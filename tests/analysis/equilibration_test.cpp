@@ -3,16 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "analysis/statistics/blocking.h"
 #include "core/random/stream.h"
+#include "core/special_values.h"
 #include "tests/support/series.h"
 
 namespace vitrel {
 namespace {
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t frames = 4096;
 
 /// Standard error of the mean of n ≫ 1/(1 − c) such values.

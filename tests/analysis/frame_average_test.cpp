@@ -3,15 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "analysis/statistics/blocking.h"
 #include "core/random/stream.h"
+#include "core/special_values.h"
 
 namespace vitrel {
 namespace {
-
-const double none = std::numeric_limits<double>::quiet_NaN();
 
 TEST(FrameAverage, WithoutWeightsIsBlocking) {
   Stream draw(1, Purpose::tests);
@@ -33,9 +31,9 @@ TEST(FrameAverage, WithoutWeightsIsBlocking) {
 
 TEST(FrameAverage, GivesNoWeightToWhatIsMissing) {
   FrameAverage average;
-  average.add(std::vector{1.0, none}, std::vector{2.0, 5.0});
+  average.add(std::vector{1.0, unknown}, std::vector{2.0, 5.0});
   average.add(std::vector{4.0}, std::vector{1.0});
-  average.add(std::vector{none, 6.0, none}, std::vector{0.0, 1.0, 0.0});
+  average.add(std::vector{unknown, 6.0, unknown}, std::vector{0.0, 1.0, 0.0});
   const Averages result = average.averages(true);
   ASSERT_EQ(result.mean.size(), 3u);
   EXPECT_EQ(result.mean[0], 2);  // (2·1 + 1·4)/3

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <string_view>
 
 #include "analysis/statistics/blocking.h"
 #include "analysis/structure/order.h"
@@ -42,10 +43,10 @@ std::vector<Configuration2> gases(std::size_t frames, bool breathing) {
   return all;
 }
 
-const Table& named(const std::vector<Table>& tables, const std::string& name) {
+const Table& named(const std::vector<Table>& tables, std::string_view name) {
   for (const Table& table : tables)
     if (table.name == name) return table;
-  throw std::out_of_range(name);
+  throw std::out_of_range(std::string(name));
 }
 
 std::vector<std::string> column_names(const Table& table) {

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/random/stream.h"
+#include "core/special_values.h"
 #include "tests/support/scenes.h"
 
 namespace vitrel {
@@ -231,12 +232,11 @@ TEST(NematicCorrelation, NeedsTwoParticlesThatAreNotRound) {
 }
 
 TEST(CorrelationLength, IsTheFarEndOfTheLastBinAboveOneOverE) {
-  const double none = std::numeric_limits<double>::quiet_NaN();
-  NematicCorrelation g{{0.5, 1.5, 2.5, 3.5}, {none, 0.9, 0.2, 0.1}, {0, 5, 5, 5}};
+  NematicCorrelation g{{0.5, 1.5, 2.5, 3.5}, {unknown, 0.9, 0.2, 0.1}, {0, 5, 5, 5}};
   EXPECT_EQ(correlation_length(g), 2);
   g.value[2] = 0.4;
   EXPECT_EQ(correlation_length(g), 3);
-  g.value = {none, 0.3, 0.2, none};
+  g.value = {unknown, 0.3, 0.2, unknown};
   g.pairs[3] = 0;
   EXPECT_EQ(correlation_length(g), 0);
   g.value[2] = 0.4;

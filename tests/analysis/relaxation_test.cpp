@@ -8,6 +8,7 @@
 #include "analysis/statistics/blocking.h"
 #include "core/error.h"
 #include "core/random/stream.h"
+#include "core/special_values.h"
 
 namespace vitrel {
 namespace {
@@ -104,7 +105,6 @@ TEST(RelaxationTime, WithoutOneTheReasonIsGiven) {
 }
 
 TEST(RelaxationTime, UnknownErrorsOfTheCurveGiveNoError) {
-  const double unknown = std::nan("");
   const RelaxationTime tau = relaxation_time({{1, 4}, {0.5, 0.25}, {unknown, unknown}});
   EXPECT_GT(tau.value, 1);
   EXPECT_TRUE(std::isnan(tau.error));

@@ -4,15 +4,13 @@
 
 #include <cmath>
 #include <fstream>
-#include <limits>
 #include <sstream>
 
 #include "core/error.h"
+#include "core/special_values.h"
 
 namespace vitrel {
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 class ResultsTest : public testing::Test {
  protected:
@@ -29,7 +27,7 @@ Table displacement_table() {
   return {"msd",
           "Mean squared displacement; rows are time differences.",
           {{"time", "sqrt(m ab/kT)", {0.1, 1.0 / 3}, {}},
-           {"all", "ab", {2, 1e-300}, {0.25, -none}},
+           {"all", "ab", {2, 1e-300}, {0.25, -unknown}},
            {"A", "ab", {4, 8}, {}}}};
 }
 
@@ -48,8 +46,9 @@ TEST_F(ResultsTest, CsvHasPlainNamesAndAllDigits) {
 }
 
 Table coded_table() {
-  return {
-      "verdicts", "Of runs.", {{"verdict", "1", {1, 0, none}, {}, {"found", "refused, \"why\""}}}};
+  return {"verdicts",
+          "Of runs.",
+          {{"verdict", "1", {1, 0, unknown}, {}, {"found", "refused, \"why\""}}}};
 }
 
 TEST_F(ResultsTest, CodesAreWordsInCsv) {

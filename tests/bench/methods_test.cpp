@@ -20,6 +20,7 @@
 #include "bench/methods/ellipses/unit_circle.h"
 #include "bench/methods/opening.h"
 #include "core/random/stream.h"
+#include "core/special_values.h"
 
 namespace vitrel::bench {
 
@@ -163,7 +164,6 @@ TEST_P(EveryMethod, SeesOverlapAtTheStart) {
 // Whatever is asked, an answer comes, and a contact is a finite one within the horizon.
 TEST_P(EveryMethod, SurvivesAnything) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const double infinity = std::numeric_limits<double>::infinity();
   std::vector<CollisionCase> odd(13, scene_of_appendix_b1());
   odd[0].one.pose.position.x() = nan;
   odd[1].two.motion.velocity.x() = infinity;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/io/text_file.h"
+#include "core/special_values.h"
 #include "mc/insertion.h"
 #include "tests/support/report_example.h"
 #include "workflow/report/packing_page.h"
@@ -13,8 +14,6 @@
 // write_pages <folder>: the pages that the browser opens, from made-up results.
 namespace vitrel {
 namespace {
-
-using report_example::none;
 
 StatePage state() {
   MemoryTrajectory2 trajectory = report_example::lattice(5, 1);
@@ -105,9 +104,9 @@ ReportData one_run() {
                     {report_example::plain("group", "1", {0, 0, 1}),
                      report_example::plain("kind", "1", {0, 1, 0}),
                      report_example::plain("parameter", "1/length or 1", {2.4, 2, 2.4}),
-                     {"tau", "time", {10, none, 11}, {0.5, none, 0.5}},
-                     report_example::plain("least", "time", {none, 250, none}),
-                     report_example::plain("most", "time", {none, none, none})}});
+                     {"tau", "time", {10, unknown, 11}, {0.5, unknown, 0.5}},
+                     report_example::plain("least", "time", {unknown, 250, unknown}),
+                     report_example::plain("most", "time", {unknown, unknown, unknown})}});
   tables.push_back({"on_the_fly_all",
                     "",
                     {report_example::plain("time", "time", {1, 2, 4}),
@@ -142,10 +141,11 @@ std::vector<Table> monotonous_series() {
 Table susceptibility_with_gaps() {
   const std::vector<double> t = report_example::evenly(0.5, 0.5, 500);
   Column overlap = report_example::plain("overlap", "1", report_example::constant(500, 0.5));
-  Column chi{"chi_4", "1", report_example::constant(500, 1), report_example::constant(500, none)};
+  Column chi{"chi_4", "1", report_example::constant(500, 1),
+             report_example::constant(500, unknown)};
   for (std::size_t k = 0; k < t.size(); ++k) {
     if (t[k] == 6 || t[k] > 20) chi.error[k] = 0.3;
-    if (t[k] > 100) chi.value[k] = chi.error[k] = none;
+    if (t[k] > 100) chi.value[k] = chi.error[k] = unknown;
   }
   return {"susceptibility", "", {report_example::plain("time", "time", t), overlap, chi}};
 }

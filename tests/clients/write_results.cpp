@@ -1,7 +1,7 @@
 #include <cmath>
-#include <limits>
 
 #include "analysis/results.h"
+#include "core/special_values.h"
 
 /// Writes results with every table that an analysis makes, and the odd ones among them: unknown numbers
 /// and errors, errors larger than the value, equal values, nothing known, nothing that a logarithmic axis
@@ -9,8 +9,6 @@
 namespace {
 
 using namespace vitrel;
-
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<double> logarithmic_times() {
   std::vector<double> times;

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "core/contact/ellipse_vieillard_baron.h"
 #include "core/contact/ellipsoid_eta.h"
+#include "core/special_values.h"
 #include "core/state/exact_pair.h"
 #include "tests/support/exact_checks.h"
 #include "tests/support/solids.h"
@@ -13,8 +13,6 @@
 /// rejections in double precision. The scan judges round bodies by the general criteria, too.
 namespace vitrel {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 using Real = Extended;
 using std::abs;  // beside that of DoubleDouble

@@ -1,11 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "core/contact/ellipsoid_gap.h"
 #include "core/error.h"
+#include "core/special_values.h"
 #include "tests/support/exact_checks.h"
 #include "tests/support/solids.h"
 
@@ -13,7 +13,6 @@ namespace vitrel {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 const Quaternion upright = Quaternion::Identity();
 
 Quaternion turned(double angle, const Vec3& axis) {

@@ -1,19 +1,18 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "core/contact/ellipse_gap.h"
 #include "core/error.h"
 #include "core/random/stream.h"
+#include "core/special_values.h"
 #include "tests/support/exact_checks.h"
 
 namespace vitrel {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 void add(Configuration2& configuration, const Ellipse& shape, const Vec2& position, double angle) {
   const std::size_t i = configuration.size();

@@ -16,6 +16,7 @@
 #include "core/contact/ellipse_gap.h"
 #include "core/contact/ellipsoid_contact_screen.h"
 #include "core/random/stream.h"
+#include "core/special_values.h"
 #include "core/tolerances.h"
 #include "tests/support/screen_partners.h"
 
@@ -23,7 +24,6 @@ namespace vitrel {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Vec2 random_direction(Stream& draw) {
   return direction(draw.uniform(0, 2 * pi));

@@ -9,11 +9,10 @@
 #include <limits>
 
 #include "core/random/stream.h"
+#include "core/special_values.h"
 
 namespace vitrel {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The error in units in the last place of the exact value.
 double units(double value, long double exact) {

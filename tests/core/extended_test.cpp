@@ -9,6 +9,7 @@
 
 #include "core/elementary.h"
 #include "core/random/stream.h"
+#include "core/special_values.h"
 
 /// The sum of two doubles against binary numbers of 500 bits, in which sums and products of its values are exact.
 namespace vitrel {
@@ -17,8 +18,6 @@ namespace {
 using Exact = boost::multiprecision::number<
     boost::multiprecision::cpp_bin_float<500, boost::multiprecision::digit_base_2>,
     boost::multiprecision::et_off>;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Exact exact(const DoubleDouble& x) {
   const auto high = static_cast<double>(x);

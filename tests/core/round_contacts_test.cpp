@@ -9,12 +9,11 @@
 #include <limits>
 
 #include "core/random/stream.h"
+#include "core/special_values.h"
 #include "core/tolerances.h"
 
 namespace vitrel {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 template <class B>
 class RoundContacts : public testing::Test {

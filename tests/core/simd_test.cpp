@@ -12,11 +12,10 @@
 #include <vector>
 
 #include "core/random/stream.h"
+#include "core/special_values.h"
 
 namespace vitrel {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 template <class Batch>
 struct SimdTest : testing::Test {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -9,11 +8,10 @@
 
 #include "analysis/glass/glass_study.h"
 #include "core/random/stream.h"
+#include "core/special_values.h"
 
 /// Runs with known relaxation times, as the analysis hands them over.
 namespace vitrel {
-
-inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// P + (1 − P) exp(−t/τ) at 20 times a decade, up to half of the duration, with the error that makes
 /// one of 1 % for τ: 0.01 (1 − P)/e.

@@ -1,20 +1,19 @@
 #pragma once
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
 
 #include "analysis/structure/order.h"
 #include "analysis/trajectory.h"
+#include "core/special_values.h"
 #include "workflow/report/report_page.h"
 
 /// Made-up runs for the report page: every table that it knows, and particles whose motion and overlaps
 /// are known.
 namespace vitrel::report_example {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t overlapping_frame = 2;
 
 /// n² ellipses (κ = 2) on a square lattice of spacing 4, in two species by turns. In frame k all have
@@ -86,7 +85,7 @@ inline Table summary(double phi) {
            plain("collisions", "1", {123'456}), plain("duration", "time", {250}),
            single("compressibility_factor", 4.4921, 0.0312), single("translational_energy", 1, 0),
            single("rotational_energy", 0.5, 0.001), single("diffusion", 0.02 * (0.8 - phi), 0.0002),
-           single("rotational_diffusion", none, none)}};
+           single("rotational_diffusion", unknown, unknown)}};
 }
 
 /// Brownian particles of relaxation time τ, as far as anything can be made of that.
@@ -219,7 +218,7 @@ inline Table relaxation_table() {
       plateau.push_back(density < 0.67 ? 0 : 0.4);
     }
   const auto rotation = [](double x) {
-    return x > 0.75 ? none : (x < 0.67 ? 4 : 0.8) * std::pow(0.81 - x, -2.5);
+    return x > 0.75 ? unknown : (x < 0.67 ? 4 : 0.8) * std::pow(0.81 - x, -2.5);
   };
   return {
       "relaxation",
@@ -243,18 +242,24 @@ inline Table fit_table() {
           {plain("kind", "1", {0, 0, 1, 1, 2}),
            plain("law", "1", {0, 1, 0, 1, 0}),
            plain("verdict", "1", {0, 0, 1, 2, 1}),
-           {"phi_c", "1", {0.8, 0.85, none, none, none}, {0.005, 0.02, none, none, none}},
-           plain("phi_c_statistical", "1", {0.003, 0.012, none, none, none}),
-           plain("phi_c_spread", "1", {0.004, 0.016, none, none, none}),
-           plain("phi_c_least", "1", {0.792, 0.82, 0.795, none, 0.785}),
-           {"exponent", "1", {2, 0.6, none, none, none}, {0.1, 0.3, none, none, none}},
+           {"phi_c",
+            "1",
+            {0.8, 0.85, unknown, unknown, unknown},
+            {0.005, 0.02, unknown, unknown, unknown}},
+           plain("phi_c_statistical", "1", {0.003, 0.012, unknown, unknown, unknown}),
+           plain("phi_c_spread", "1", {0.004, 0.016, unknown, unknown, unknown}),
+           plain("phi_c_least", "1", {0.792, 0.82, 0.795, unknown, 0.785}),
+           {"exponent",
+            "1",
+            {2, 0.6, unknown, unknown, unknown},
+            {0.1, 0.3, unknown, unknown, unknown}},
            plain("window_low", "1", {0.62, 0.62, 0.6, 0.6, 0.68}),
            plain("window_high", "1", {0.72, 0.72, 0.66, 0.66, 0.72}),
            plain("densities", "1", {6, 6, 4, 4, 3}),
-           plain("window_phi_c", "1", {0.8, 0.85, 0.81, none, 0.81}),
-           plain("window_exponent", "1", {2, 0.6, 2.5, none, 2.5}),
+           plain("window_phi_c", "1", {0.8, 0.85, 0.81, unknown, 0.81}),
+           plain("window_exponent", "1", {2, 0.6, 2.5, unknown, 2.5}),
            plain("window_log_prefactor", "ln(time)",
-                 {std::log(0.1), vogel_fulcher, std::log(4), none, std::log(0.8)}),
+                 {std::log(0.1), vogel_fulcher, std::log(4), unknown, std::log(0.8)}),
            plain("chi2", "1", {3.6, 4.5, 1, 20, 1}),
            plain("dof", "1", {3, 3, 1, 1, 1}),
            plain("scatter", "1", {1, 1, 1.5, 1.5, 1})}};

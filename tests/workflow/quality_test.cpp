@@ -5,12 +5,12 @@
 
 #include <cmath>
 #include <filesystem>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
 #include "core/io/h5md.h"
 #include "core/io/text_file.h"
+#include "core/special_values.h"
 #include "tests/app/program.h"
 #include "workflow/prepare/packing_quality.h"
 
@@ -21,8 +21,6 @@ using testing::HasSubstr;
 using testing_program::Folder;
 
 const auto say_nothing = [](const std::string&) {};
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Parameters small() {
   Parameters parameters;
@@ -53,9 +51,9 @@ Quality example() {
   quality.rotors = 400;
   quality.packing_fraction = 0.1 + 0.2;
   quality.pressure_from = Quality::PressureFrom::growth;
-  quality.reduced_pressure = {1e6, none, 0};
+  quality.reduced_pressure = {1e6, unknown, 0};
   quality.nematic_order = 0.25;
-  quality.nematic_correlation = {{0.5, 1.5, 2.5}, {none, 0.9, 0.1}, {0, 3, 7}};
+  quality.nematic_correlation = {{0.5, 1.5, 2.5}, {unknown, 0.9, 0.1}, {0, 3, 7}};
   quality.hexatic_order = {0.3, 0.7};
   quality.smallest_gap = 1e-12;
   quality.backbone = JammedBackbone{{20, 1400, 5.83, 5.6}, 2e-3};

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/special_values.h"
 #include "tests/app/program.h"
 #include "tests/support/report_example.h"
 #include "workflow/report/page_parts.h"
@@ -13,7 +14,6 @@
 namespace vitrel {
 namespace {
 
-using report_example::none;
 using report_example::sweep;
 
 std::size_t count(const std::string& text, const std::string& part) {
@@ -113,8 +113,8 @@ TEST(ReportPage, LawsThatNoDataCouldBeFittedToHaveNoWindow) {
   Table& fits = data.study.tables[1];
   for (Column& column : fits.columns) {
     const bool told = column.name == "kind" || column.name == "law" || column.name == "scatter";
-    column.value = {told ? 1 : column.name == "verdict" ? 2 : none};
-    if (!column.error.empty()) column.error = {none};
+    column.value = {told ? 1 : column.name == "verdict" ? 2 : unknown};
+    if (!column.error.empty()) column.error = {unknown};
   }
   EXPECT_EQ(
       count(report_page(data),
@@ -247,7 +247,7 @@ TEST(ReportPage, RunsOfEqualDensityAreToldApartByWhatDiffersInTheirNames) {
 TEST(ReportPage, BoundsThatAreNotKnownAreDashes) {
   ReportData data = sweep(2, 1);
   for (Column& column : data.study.tables[1].columns)
-    if (column.name == "phi_c_least") column.value[2] = none;
+    if (column.name == "phi_c_least") column.value[2] = unknown;
   const std::string page = report_page(data);
   EXPECT_EQ(count(page, "&gt; –"), 0u);
   EXPECT_EQ(
@@ -272,9 +272,9 @@ TEST(ReportPage, RunsThatCannotBeJudgedSayWhy) {
       "",
       {report_example::plain("group", "1", {0, 1}), report_example::plain("kind", "1", {0, 0}),
        report_example::plain("parameter", "1/length or 1", {2.4, 2.4}),
-       report_example::plain("tau", "time", {none, 5}),
-       report_example::plain("least", "time", {none, none}),
-       report_example::plain("most", "time", {0.25, none})}};
+       report_example::plain("tau", "time", {unknown, 5}),
+       report_example::plain("least", "time", {unknown, unknown}),
+       report_example::plain("most", "time", {0.25, unknown})}};
   const std::string result = result_of({{times}, {{"not_judged", "uneven <samples>"}}});
   EXPECT_EQ(count(result, "<td>not judged: uneven &lt;samples&gt;</td>"), 1u);
   EXPECT_EQ(count(result, "<td>&lt; 0.25 √(m ab/kT)</td>"), 1u);
@@ -319,7 +319,7 @@ TEST(ReportPage, OrientationsOfANematicAreSeenFromTheDirector) {
                       {}});
   };
   EXPECT_EQ(count(result(12), "seen from the director</th><td>12.00 ± 0.50 √(m ab/kT)</td>"), 1u);
-  EXPECT_EQ(count(result(none), "seen from the director</th><td>not within this run</td>"), 1u);
+  EXPECT_EQ(count(result(unknown), "seen from the director</th><td>not within this run</td>"), 1u);
 }
 
 /// A short run at the sample times that this says.
@@ -387,8 +387,8 @@ TEST(WithError, TwoDigitsOfTheError) {
   EXPECT_EQ(with_error(1.5 + 2e-15, 9e-16), "1.5");
   EXPECT_EQ(with_error(-1.5, 1.4e-12), "-1.5");
   EXPECT_EQ(with_error(1.5, 1.6e-12), "1.5000000000000 ± 0.0000000000016");
-  EXPECT_EQ(with_error(2.71828, none), "2.718");
-  EXPECT_EQ(with_error(none, 1), "–");
+  EXPECT_EQ(with_error(2.71828, unknown), "2.718");
+  EXPECT_EQ(with_error(unknown, 1), "–");
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -16,6 +15,7 @@
 #include "analysis/structure/orientation_tensor.h"
 #include "core/error.h"
 #include "core/io/json.h"
+#include "core/special_values.h"
 #include "core/whole_number.h"
 #include "workflow/analyze/glass_report.h"
 #include "workflow/analyze/glass_tables.h"
@@ -29,8 +29,6 @@
 
 namespace vitrel {
 namespace {
-
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 // By whom and how results were computed, in their provenance.
 constexpr const char* analysis_key = "analysis_parameters";

@@ -3,17 +3,15 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "analysis/glass/glass_names.h"
 #include "core/io/json.h"
 #include "core/io/number_text.h"
+#include "core/special_values.h"
 
 namespace vitrel {
 namespace {
-
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 std::string run_line(const GlassRun& run) {
   return fmt::format("{:8.4g} {:5} {:>7} {:>18} {:>18}  {:<14}  {:<15}  {}\n", run.packing_fraction,

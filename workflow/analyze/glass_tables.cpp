@@ -2,18 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <limits>
 #include <optional>
 
 #include "analysis/glass/glass_names.h"
 #include "analysis/structure/order.h"
 #include "core/error.h"
+#include "core/special_values.h"
 #include "core/whole_number.h"
 
 namespace vitrel {
 namespace {
-
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 constexpr const char* reason_key = "verdict_reason";
 constexpr const char* translation_reason_key = "verdict_translation_reason";

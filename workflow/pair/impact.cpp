@@ -4,11 +4,11 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "core/elementary.h"
 #include "core/io/provenance.h"
 #include "core/parallel.h"
+#include "core/special_values.h"
 #include "edmd/soft/restitution_table.h"
 #include "workflow/analyze/analyze.h"
 #include "workflow/configuration/rules.h"
@@ -63,7 +63,6 @@ void add_row(Table& table, const std::array<double, 7>& row) {
   for (std::size_t k = 0; k < row.size(); ++k) table.columns[k].value.push_back(row[k]);
 }
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr Restitution no_value{unknown, unknown, unknown, unknown};
 
 /// At the middle of cell k of a lattice of `side` equal cells.

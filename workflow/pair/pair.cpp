@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "core/geometry/free_flight.h"
 #include "core/geometry/tumbling_ellipsoid.h"
+#include "core/special_values.h"
 #include "core/state/exact_pair.h"
 #include "core/tolerances.h"
 
@@ -203,7 +204,6 @@ PairGap<Dim> gap_at(const Pair<Dim>& pair, double time) {
   const Pose<Dim> pose1 = pose_at(pair, pair.one, time), pose2 = pose_at(pair, pair.two, time);
   const auto one = exact::particle(body1, pose1), two = exact::particle(body2, pose2);
   const Vec<Dim> d = pose2.position - pose1.position;
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   PairGap<Dim> closest;
   closest.gap = infinity;
   for_each_image(pair, d, reach_of_smallest_gap(pair, d), [&](const Shift<Dim>& shift) {

@@ -3,17 +3,15 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
 #include "core/io/json.h"
 #include "core/io/text_file.h"
+#include "core/special_values.h"
 
 namespace vitrel {
 namespace {
-
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 std::string components(const Mat3& tensor) {
   // Zero without the sign of a rounding error.

@@ -3,18 +3,15 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
 #include "core/io/json.h"
 #include "core/io/text_file.h"
+#include "core/special_values.h"
 
 namespace vitrel {
 namespace {
-
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Json correlation_json(const NematicCorrelation& g) {
   if (g.distance.empty()) return nullptr;

@@ -3,17 +3,15 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/io/number_text.h"
+#include "core/special_values.h"
 
 namespace vitrel {
 namespace {
 
 using From = StateQuality::PressureFrom;
-
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 constexpr const char* source_names[] = {"nothing", "sampling", "growth"};
 

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/special_values.h"
 #include "workflow/report/page_parts.h"
 
 namespace vitrel {
@@ -140,10 +141,9 @@ std::string density_text(double phi) {
 
 std::string table_text(const Results& results, const std::string& table, const std::string& column,
                        std::size_t row) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const Column* found = column_of(results, table, column, row);
   if (!found) return "–";
-  return with_error(found->value[row], found->error.empty() ? none : found->error[row]);
+  return with_error(found->value[row], found->error.empty() ? unknown : found->error[row]);
 }
 
 double table_value(const Results& results, const std::string& table, const std::string& column,

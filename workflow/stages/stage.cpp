@@ -225,7 +225,7 @@ bool has_unknown_end(const std::vector<Stage>& stages) {
   const auto last = std::find_if(stages.rbegin(), stages.rend(), [](const Stage& stage) {
     return ending(stage) != StageEnding::unchanged;
   });
-  return last != stages.rend() && ending(*last) == StageEnding::unknown;
+  return last != stages.rend() && ending(*last) == StageEnding::unforeseen;
 }
 
 std::string stage_description(const Stage& stage, double packing_fraction) {

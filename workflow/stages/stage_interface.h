@@ -36,12 +36,12 @@ struct NoState {};
 
 enum class StageEnding {
   packing_fraction,  ///< ends at a packing fraction known in advance
-  unknown,           ///< a pressure, or a state that is not read yet, determines the end
+  unforeseen,        ///< a pressure, or a state that is not read yet, determines the end
   unchanged,         ///< ends at the packing fraction at which it begins
 };
 
 constexpr StageEnding ending_known_if(bool known) {
-  return known ? StageEnding::packing_fraction : StageEnding::unknown;
+  return known ? StageEnding::packing_fraction : StageEnding::unforeseen;
 }
 
 /// The input of a stage.

@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <limits>
-
 #include "core/error.h"
+#include "core/special_values.h"
 
 namespace vitrel {
 namespace {
@@ -57,7 +56,6 @@ EnergySeries observed_energies(const TrajectoryReader& reader) {
 
 CompressibilitySeries stored_compressibility(const TrajectoryReader& reader,
                                              const EnergySeries& energy, std::size_t rotations) {
-  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   if (energy.time.empty() || !reader.has_observable("virial"))
     return {{}, {}, {unknown, unknown, 0}};
   return compressibility(energy, reader.observable("virial"), reader.particles(), rotations,

@@ -3,18 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
 #include "core/io/text_file.h"
+#include "core/special_values.h"
 
 namespace vitrel {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// Another run than the one that was begun is refused, another preparation likewise.
 Work work_in(const fs::path& folder) {

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "analysis/statistics/blocking.h"
 #include "core/io/number_text.h"
+#include "core/special_values.h"
 
 namespace vitrel {
 namespace {
@@ -65,7 +65,6 @@ std::string SeedAverage::name() const {
 }
 
 AveragedFigure SeedAverage::find(const std::string& name) const {
-  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   const auto found =
       std::find_if(figures.begin(), figures.end(),
                    [&](const AveragedFigure& figure) { return figure.name == name; });

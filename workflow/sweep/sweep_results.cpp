@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -16,6 +15,7 @@
 #include "core/io/h5md.h"
 #include "core/io/json.h"
 #include "core/io/text_file.h"
+#include "core/special_values.h"
 #include "workflow/analyze/glass_report.h"
 #include "workflow/analyze/glass_tables.h"
 #include "workflow/sweep/job_folder.h"
@@ -25,8 +25,6 @@ namespace vitrel {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 fs::path folder_of(const AnalysedRun& run) {
   return run.file.parent_path();
