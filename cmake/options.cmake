@@ -20,6 +20,7 @@ set(VITREL_PROCESSOR "" CACHE STRING
     "Whose instructions to use, as in -march: native, x86-64-v3 ...; empty: those of all processors of the family")
 option(VITREL_HARDENED "Debian's protections against attacks through damaged files, for packages" OFF)
 option(VITREL_PORTABLE_EXTENDED "Use the sum of two doubles in the exact check where long double has 64 bits, too" OFF)
+option(VITREL_UNITY_BUILD "Compile sources that never take long four at a time, which takes less time" OFF)
 set(VITREL_SANITIZE "" CACHE STRING "Sanitizers, for example address,undefined,float-cast-overflow")
 
 # These reach the users of an installed library too: functions defined in headers are compiled there
