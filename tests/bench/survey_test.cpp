@@ -39,7 +39,7 @@ Method that_always_says(const std::string& name, Outcome outcome) {
           }};
 }
 
-const SurveyRow& row_of(const Survey& result, const std::string& method) {
+const SurveyRow& row_of(const Survey& result, std::string_view method) {
   return *std::ranges::find(result.rows, method, &SurveyRow::method);
 }
 

@@ -12,6 +12,9 @@ import ase.io
 import gsd.hoomd
 import numpy as np
 
+# Of version 3 of gsd, and before.
+Frame, write = (gsd.hoomd.Frame, "w") if hasattr(gsd.hoomd, "Frame") else (gsd.hoomd.Snapshot, "wb")
+
 PROGRAM = pathlib.Path(sys.argv[1]).resolve()
 PAGE = pathlib.Path(__file__).resolve().parents[2] / "docs/imports.md"
 
@@ -60,7 +63,7 @@ def read_solids_of_h5py():
 
 
 def read_gsd():
-    frame = gsd.hoomd.Snapshot()
+    frame = Frame()
     frame.configuration.step = 100
     frame.configuration.box = [10, 10, 10, 0, 0, 0]
     frame.particles.N = 3
@@ -70,7 +73,7 @@ def read_gsd():
                                    {"type": "Sphere", "diameter": 2.0}]
     frame.particles.position = [[0, 0, 0], [4, 0, 0], [0, 4, 1]]
     frame.particles.orientation = [[1, 0, 0, 0], [1, 0, 0, 0], [0.6, 0.8, 0, 0]]
-    with gsd.hoomd.open("rods.gsd", "wb") as file:
+    with gsd.hoomd.open("rods.gsd", write) as file:
         file.append(frame)
         frame.configuration.step = 200
         frame.particles.position = [[0, 0, 1], [4, 0, 0], [0, 4, 1]]

@@ -12,7 +12,7 @@
 namespace vitrel {
 namespace {
 
-using Law = Distribution::Kind;
+using KindOfLaw = Distribution::Kind;
 
 constexpr const char* distribution_names[] = {"gaussian", "lognormal", "uniform", "power_law"};
 
@@ -28,11 +28,11 @@ Distribution constant(double value) {
 }
 
 Distribution example_of(double value, double minimum) {
-  return {Law::constant, value, 0.1, minimum, value, minimum};
+  return {KindOfLaw::constant, value, 0.1, minimum, value, minimum};
 }
 
 void describe_distribution(const Field& field, Distribution& d, FieldVisitor& visit) {
-  bool is_table = d.kind != Law::constant;
+  bool is_table = d.kind != KindOfLaw::constant;
   std::size_t kind = is_table ? static_cast<std::size_t>(d.kind) - 1 : 0;
   const auto number = [&](FieldVisitor& in) { in.field(field, d.mean); };
   visit.value_or_table(field, is_table, number, [&](FieldVisitor& in) {
@@ -55,13 +55,13 @@ void describe_distribution(const Field& field, Distribution& d, FieldVisitor& vi
     });
     in.field({"minimum", "", "Smaller values are drawn again."}, d.minimum);
   });
-  d.kind = static_cast<Law>(is_table ? kind + 1 : 0);
+  d.kind = static_cast<KindOfLaw>(is_table ? kind + 1 : 0);
 }
 
 void validate_distribution(const Distribution& d, double least, const std::string& key) {
   const std::string bound =
       fmt::format("must be at least {} and at most {}", show(least), show(max_draw));
-  if (d.kind == Law::constant) {
+  if (d.kind == KindOfLaw::constant) {
     if (!(d.mean >= least && d.mean <= max_draw))
       throw BadValue(key, fmt::format("is {}, but {}", show(d.mean), bound));
     return;
@@ -75,7 +75,7 @@ void validate_distribution(const Distribution& d, double least, const std::strin
                 fmt::format("is {}, but {}", show(d.minimum), bound));
   if (d.is_bounded()) {
     constexpr double steepest = 100;
-    const bool is_law = d.kind == Law::power_law;
+    const bool is_law = d.kind == KindOfLaw::power_law;
     rules.require(!is_law || d.low > 0, "low",
                   fmt::format("is {}, but must be above 0 for a power law", show(d.low)));
     rules.require(!is_law || std::abs(d.exponent) <= steepest, "exponent",
@@ -98,37 +98,37 @@ void validate_distribution(const Distribution& d, double least, const std::strin
 }
 
 std::string text(const Distribution& d) {
-  if (d.kind == Law::constant) return fmt::format("{}", d.mean);
-  if (d.kind == Law::uniform)
+  if (d.kind == KindOfLaw::constant) return fmt::format("{}", d.mean);
+  if (d.kind == KindOfLaw::uniform)
     return fmt::format("uniform from {} to {}, at least {}", d.low, d.high, d.minimum);
-  if (d.kind == Law::power_law)
+  if (d.kind == KindOfLaw::power_law)
     return fmt::format("∝ x^{} from {} to {}, at least {}", d.exponent, d.low, d.high, d.minimum);
   return fmt::format("{} with mean {} and standard deviation {}, at least {}",
-                     d.kind == Law::gaussian ? "gaussian" : "lognormal", d.mean,
+                     d.kind == KindOfLaw::gaussian ? "gaussian" : "lognormal", d.mean,
                      d.standard_deviation, d.minimum);
 }
 
 std::string text(const std::vector<Distribution>& entries) {
   std::vector<std::string> texts;
   for (const Distribution& d : entries)
-    texts.push_back(d.kind == Law::constant ? show(d.mean) : text(d));
+    texts.push_back(d.kind == KindOfLaw::constant ? show(d.mean) : text(d));
   return fmt::format("[{}]", fmt::join(texts, ", "));
 }
 
 bool same(const Distribution& one, const Distribution& two) {
   if (one.kind != two.kind) return false;
-  if (one.kind == Law::constant) return one.mean == two.mean;
+  if (one.kind == KindOfLaw::constant) return one.mean == two.mean;
   if (one.minimum != two.minimum) return false;
   if (one.is_bounded())
     return one.low == two.low && one.high == two.high &&
-           (one.kind == Law::uniform || one.exponent == two.exponent);
+           (one.kind == KindOfLaw::uniform || one.exponent == two.exponent);
   return one.mean == two.mean && one.standard_deviation == two.standard_deviation;
 }
 
 std::optional<double> constant_product(const std::vector<Distribution>& factors) {
   double result = 1;
   for (const Distribution& factor : factors) {
-    if (factor.kind != Law::constant) return std::nullopt;
+    if (factor.kind != KindOfLaw::constant) return std::nullopt;
     result *= factor.mean;
   }
   return result;
@@ -141,7 +141,7 @@ bool agree(double given, double found, Agreement agreement) {
 }
 
 bool allows(const Distribution& d, double value, Agreement agreement) {
-  if (d.kind == Law::constant) return agree(d.mean, value, agreement);
+  if (d.kind == KindOfLaw::constant) return agree(d.mean, value, agreement);
   const bool above = value >= d.minimum * (1 - slack);
   if (!d.is_bounded()) return above;
   return above && value >= d.low - slack * std::abs(d.low) && value <= d.high * (1 + slack);

@@ -23,7 +23,8 @@ bool contains(const std::array<std::string_view, n>& names, std::string_view nam
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-constexpr std::array<std::string_view, 5> axes = {"time", "q", "r", "angle", "packing_fraction"};
+constexpr std::array<std::string_view, 5> axis_columns = {"time", "q", "r", "angle",
+                                                          "packing_fraction"};
 /// Counts and codes.
 constexpr std::array<std::string_view, 14> not_drawn = {"origins",
                                                         "modes",
@@ -88,7 +89,7 @@ class Script {
     style_ = !increases            ? "points pt 7 ps 0.5"
              : table.rows() <= 100 ? "linespoints pt 7 ps 0.4"
                                    : "lines";
-    if (contains(axes, x_.name)) collect_panels();
+    if (contains(axis_columns, x_.name)) collect_panels();
   }
 
   bool is_empty() const { return panels_.empty(); }

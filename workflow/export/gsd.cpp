@@ -17,7 +17,7 @@
 namespace vitrel {
 namespace {
 
-constexpr std::uint32_t schema_version = (1u << 16) + 4;
+constexpr std::uint32_t hoomd_schema = (1u << 16) + 4;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
 /// The particles of one species and shape: its semi-axes.
@@ -104,7 +104,7 @@ std::vector<std::string> names_of(const std::vector<Type>& types,
 
 template <int Dim>
 GsdSink<Dim>::GsdSink(const std::filesystem::path& path, StoredMotion motion)
-    : file_(path, "vitrel " + program_version(), "hoomd", schema_version), motion_(motion) {}
+    : file_(path, "vitrel " + program_version(), "hoomd", hoomd_schema), motion_(motion) {}
 
 template <int Dim>
 void GsdSink<Dim>::write(const StoredFrame<Dim>& frame) {

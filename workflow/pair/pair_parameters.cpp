@@ -50,11 +50,12 @@ void describe_pair(PairParameters& p, FieldVisitor& visit) {
 }
 
 /// Fourth powers of lengths and velocities must not overflow, nor those of semi-axes vanish.
-constexpr double largest = 1e50, smallest = 1e-50;
+constexpr double largest_value = 1e50, smallest_value = 1e-50;
 
 void require_finite(std::span<const double> values, const std::string& key, const Rules& rules) {
-  rules.require(std::ranges::all_of(values, [](double x) { return std::abs(x) <= largest; }), key,
-                fmt::format("is {}, but must be finite, at most {:g}", to_toml(values), largest));
+  rules.require(
+      std::ranges::all_of(values, [](double x) { return std::abs(x) <= largest_value; }), key,
+      fmt::format("is {}, but must be finite, at most {:g}", to_toml(values), largest_value));
 }
 
 /// A vector; empty: zero.
@@ -79,9 +80,9 @@ void validate_semi_axes(const std::vector<double>& axes, const Rules& rules) {
   rules.require(aspect <= max_aspect, "semi_axes",
                 fmt::format("is {}, but the longest may be at most {} times the shortest",
                             to_toml(axes), max_aspect));
-  rules.require(std::ranges::min(axes) >= smallest, "semi_axes",
+  rules.require(std::ranges::min(axes) >= smallest_value, "semi_axes",
                 fmt::format("is {}, but must not be below {:g}; choose a smaller unit of length",
-                            to_toml(axes), smallest));
+                            to_toml(axes), smallest_value));
 }
 
 void validate_orientation(const std::array<double, 4>& quaternion, const Rules& rules) {
