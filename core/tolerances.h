@@ -15,6 +15,9 @@ inline constexpr double contact_gap(double extent) {
   return 32 * std::numeric_limits<double>::epsilon() * extent;
 }
 
+/// Heights of the particles of a plane differ by no more than this, in box lengths: rounding to single precision.
+inline constexpr double flat = 1e-6;
+
 /// Packing fractions and species fractions given by a user are met to this relative accuracy.
 inline constexpr double given_fraction = 1e-12;
 

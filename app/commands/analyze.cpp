@@ -34,6 +34,10 @@ int analyze_file(const AnalyzeOptions& options, const fs::path& run) {
   const AnalysedRun analysis = analyze_run(run, choice, shown_on(display));
   display.clear();
   write_all(output, analysis.results);
+  if (const std::string text = analysis.results.text("import"); !text.empty())
+    remark(options.print, run.string() + ": " + text);
+  if (const std::string why = analysis.results.text("left_out_motion"); !why.empty())
+    remark(options.print, run.string() + ": motion is left out: " + why);
   Json summary = analysis_summary(analysis);
   summary["output"] = output.string();
   print_summary(options.print, summary);

@@ -45,6 +45,8 @@ int check_and_print(const CheckOptions& options, const TrajectoryReader& reader)
   session.say()("check of " + options.input.string());
   const FileCheck<Dim> check = check_file<Dim>(reader, options.last_only, session.control());
   session.clear();
+  if (!reader.import_remark().empty())
+    remark(options.print, options.input.string() + ": " + reader.import_remark());
   if (check.frames == 0) return stopped;
   print_summary(options.print, summary(check, options.input));
   if (check.overlaps > 0) {

@@ -24,13 +24,13 @@ namespace {
 namespace fs = std::filesystem;
 
 void refuse_other_key(const std::string& assignment) {
-  const bool is_analysis = assignment.starts_with("analysis.") ||
-                           assignment.starts_with("analysis=") ||
-                           assignment.find('=') == std::string::npos;
+  const bool is_analysis =
+      assignment.starts_with("analysis.") || assignment.starts_with("analysis=") ||
+      assignment.starts_with("import.") || assignment.find('=') == std::string::npos;
   if (!is_analysis)
     throw UserError(
         fmt::format("--set {}: has no effect on an existing run; only parameters of its analysis, "
-                    "analysis.…, can be set, and `vitrel params analyze` prints them",
+                    "analysis.… and import.…, can be set, and `vitrel params analyze` prints them",
                     assignment));
 }
 

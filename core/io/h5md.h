@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/io/foreign/foreign_frame.h"
+#include "core/io/foreign/foreign_file.h"
 #include "core/io/h5.h"
 #include "core/io/provenance.h"
 #include "core/state/configuration.h"
@@ -190,6 +190,11 @@ class TrajectoryReader {
   /// One value per frame.
   std::vector<double> observable(const std::string& name) const;
 
+  /// What became of a file of another program on its way, a sentence for the user, or nothing.
+  const std::string& import_remark() const { return import_.remark; }
+  /// Why nothing can be said about motion; empty if it can.
+  std::string obstacle_to_motion() const;
+
   /// Empty fields where the file has none.
   Provenance provenance() const;
   const std::filesystem::path& path() const { return path_; }
@@ -230,8 +235,10 @@ class TrajectoryReader {
   template <int Dim>
   void read_close_pairs(std::uint64_t frame, Configuration<Dim>& configuration) const;
 
+  std::uint64_t first_other_box() const;
+
   std::filesystem::path path_;
-  h5::File file_;
+  ImportedFile import_;
   h5::Group root_;
   std::string group_;  ///< of the particles: "particles/all" in vitrel's files
   std::vector<double> times_;

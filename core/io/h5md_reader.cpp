@@ -19,7 +19,7 @@ namespace vitrel {
 namespace fs = std::filesystem;
 
 TrajectoryReader::TrajectoryReader(const fs::path& path, const KnownSystem& known)
-    : path_(path), file_(open_as_h5md(path, known)), root_(file_.root()) {
+    : path_(path), import_(open_as_h5md(path, known)), root_(import_.file.root()) {
   if (!root_.has_group("particles")) fail("there is no group particles: it is not an H5MD file");
   const std::vector<std::string> groups = root_.group("particles").members();
   if (groups.empty()) fail("the group particles is empty: it should hold one group of particles");
@@ -444,6 +444,35 @@ bool TrajectoryReader::has(const std::string& name) const {
 void TrajectoryReader::require(const std::string& name, const std::string& purpose) const {
   if (!has(name))
     fail("the dataset " + group_ + '/' + name + "/value is missing: it is needed for " + purpose);
+}
+
+/// The first frame whose box is not that of frame 0, or the number of frames.
+std::uint64_t TrajectoryReader::first_other_box() const {
+  if (is_fixed("box/edges")) return frames();
+  const std::string name = group_ + "/box/edges/value";
+  const h5::Dataset& edges = dataset(name, "the box lengths");
+  const h5::Shape shape = edges.shape();
+  std::size_t numbers = 1;
+  for (std::size_t k = 1; k < shape.size(); ++k) numbers *= shape[k];
+  std::vector<double> first(numbers), other(numbers);
+  edges.read_frame<double>(0, first);
+  for (std::uint64_t frame = 1; frame < frames(); ++frame) {
+    edges.read_frame<double>(frame, other);
+    if (other != first) return frame;
+  }
+  return frames();
+}
+
+std::string TrajectoryReader::obstacle_to_motion() const {
+  if (frames() < 2) return "a single frame";
+  if (!has("image"))
+    return fmt::format(
+        "box crossings are unknown: it has no {}; if no particle moves by more than half a box "
+        "length between frames, import.unwrap = \"nearest\" counts them",
+        import_.box_crossings);
+  if (const std::uint64_t frame = first_other_box(); frame < frames())
+    return fmt::format("the box of frame {} differs from that of the first", frame);
+  return "";
 }
 
 std::vector<std::string> TrajectoryReader::observable_names() const {

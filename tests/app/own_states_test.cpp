@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -183,8 +186,20 @@ TEST(OwnStates, AFileIsRefusedInItsOwnTerms) {
   refused("a.csv", "x,y,a,b,box_x,box_y\n0,0,1,0.5,6,6\n",
           "a.csv: frame 0: has no angles, but particle 0 is not round");
   refused("a.csv", "x,y,angle,a,b\n0,0,0,1,0.5\n", "a.csv: frame 0: has no box");
-  refused("a.csv", header + "0,0,0,0.5,1,6,6\n",
-          "a.csv: frame 0: particle 0 has the semi-axes 0.5 and 1, but should have a ≥ b > 0");
+  refused("a.csv", header + "0,0,0,1,0,6,6\n",
+          "a.csv: frame 0: particle 0 has the semi-axes 1 and 0, but should have a ≥ b > 0");
+  for (const auto& [pbc, direction] : {std::pair("F F F", "x"), {"f t t", "x"}, {"1 0 1", "y"}})
+    refused(
+        "a.xyz",
+        fmt::format("1\nLattice=\"6 0 0 0 6 0 0 0 6\" pbc=\"{}\" Properties=pos:R:3:radius:R:1\n"
+                    "1 1 1 1\n",
+                    pbc),
+        fmt::format("a.xyz:2: pbc=\"{}\" says that the box is not periodic along {}", pbc,
+                    direction));
+  refused("a.xyz",
+          "2\nLattice=\"6 0 0 0 6 0 0 0 6\" pbc=\"T T F\" Properties=pos:R:3:radius:R:1\n"
+          "1 1 1 1\n4 4 4 1\n",
+          "a.xyz:2: the box is not periodic along z, but the heights of particles differ by 3");
   refused("a.csv", "name,value\nx,1\n",
           "a.csv: is neither H5MD, GSD nor extended XYZ, nor CSV, whose first line has columns x "
           "and y");
@@ -194,7 +209,7 @@ TEST(OwnStates, AFileIsRefusedInItsOwnTerms) {
   refused("a.xyz", "1\nProperties=species:S:1\nA\n", "a.xyz:2: there are no positions");
   refused("a.xyz", "1\nProperties=pos:R\nA 0 0 0 1\n", "a.xyz:2: should have Properties=name:type");
   refused("a.xyz", "1\n" + keys + "A 0 0 0 1\n2\n" + keys + "A 0 0 0 1\nA 3 3 3 1\n",
-          "a.xyz: frame 1 has other particles than frame 0");
+          "a.xyz: frame 1: has other particles than frame 0");
   refused("bad.h5", std::string("\0\1\2", 3),
           "bad.h5: cannot open the file: it is not an HDF5 file");
   expect_refusal(run(folder.path(), {"check", "none.csv", "-q"}), 3, "none.csv: cannot open");
@@ -245,8 +260,13 @@ TEST(OwnStates, ShapesMayComeFromTheParameters) {
   const Json check = summary_of(folder, {"check", "mine.xyz", "--params", "p.toml"});
   const double volume = 4 * M_PI / 3 * (1.5 * 1.5 * 1.5 + 2 * 2 * 0.25);
   EXPECT_NEAR(check["packing_fraction"], volume / 729, 1e-15);
-  expect_refusal(run(folder.path(), {"analyze", "mine.xyz", "--params", "p.toml", "-o", "r.h5"}), 3,
-                 "the dataset particles/all/image/value is missing");
+  const Outcome analysed =
+      run(folder.path(), {"analyze", "mine.xyz", "--params", "p.toml", "-o", "r.h5"});
+  EXPECT_EQ(analysed.code, 0);
+  EXPECT_THAT(analysed.errors,
+              HasSubstr("mine.xyz: motion is left out: box crossings are unknown: it has no "
+                        "property map_shift; if no particle moves by more than half a box length "
+                        "between frames, import.unwrap = \"nearest\" counts them"));
   succeed(folder, {"run", "p.toml", "--from", "mine.xyz", "-o", "run.h5", "-q"});
   const Configuration3 first = TrajectoryReader(folder / "run.h5").read<3>(0);
   EXPECT_THAT(first.species_names, testing::ElementsAre("ball", "rod"));
@@ -254,6 +274,57 @@ TEST(OwnStates, ShapesMayComeFromTheParameters) {
   EXPECT_EQ(first.mass[0], 7);
   // In the last frame, with the box centred at the origin.
   EXPECT_EQ(first.position[0], Vec3(-3.5, -3.5, -2.5));
+}
+
+TEST(OwnStates, HarmlessDifferencesOfATextAreRead) {
+  const Folder folder("harmless");
+  folder.write("right.csv", "x,y,angle,a,b,box_x,box_y\n-2,-2,1.5707963267948966,1,0.5,6,6\n");
+  const Json right = summary_of(folder, {"check", "right.csv"});
+  const std::string properties =
+      "Properties = species:S:1:pos:R:3:orientation:R:4:aspherical_shape:R:3\n"
+      "A 1.0D0 1 1e-7 0 0 0 1 0.5D0 1.0d+00 1\n";
+  for (const char* lattice : {"\"6 0 0 0 6 0 0 0 6\"", "\"6.,0.,0., 0.,6.,0., 0.,0.,6.\"",
+                              "[[6, 0, 0], [0, 6, 0], [0, 0, 6]]"}) {
+    SCOPED_TRACE(lattice);
+    folder.write("a.xyz", fmt::format("1\nLattice = {} pbc = \"T T F\" {}", lattice, properties));
+    const Outcome found = run(folder.path(), {"check", "a.xyz", "--json"});
+    ASSERT_EQ(found.code, 0) << found.errors;
+    EXPECT_EQ(Json::parse(found.output)["smallest_gap"], right["smallest_gap"]);
+    EXPECT_THAT(
+        found.errors,
+        HasSubstr("a.xyz: semi-axes a < b are exchanged, and their particles turned by π/2"));
+  }
+}
+
+/// `frames` of one disk in straight flight through a box of 10, inside it, without images.
+std::string flight(double step, int frames) {
+  std::string text = "time,x,y,radius,vx,vy,box_x,box_y\n";
+  for (int k = 0; k < frames; ++k) {
+    const double x = k * step - 10 * std::round(k * step / 10);
+    for (const double y : {0., 3.}) text += fmt::format("{},{},{},1,{},0,10,10\n", k, x, y, step);
+  }
+  return text;
+}
+
+TEST(OwnStates, UnknownBoxCrossingsAreCountedByNearestImagesOnRequest) {
+  const Folder folder("nearest");
+  const std::vector<std::string> analyze = {"analyze", "flight.csv", "-o",
+                                            "r.h5",    "--set",      "import.unwrap=\"nearest\""};
+  folder.write("flight.csv", flight(4, 8));
+  const Outcome counted = run(folder.path(), analyze);
+  ASSERT_EQ(counted.code, 0) << counted.errors;
+  EXPECT_THAT(counted.errors,
+              AllOf(HasSubstr("the longest step is 0.4 box lengths along x, of particle 0"),
+                    HasSubstr("above 0.25, longer steps that were taken for shorter ones cannot be "
+                              "excluded")));
+  const testing_program::Datasets found = testing_program::all_datasets(folder / "r.h5");
+  const std::vector<double>& msd = found.at("/displacements_all/msd");
+  for (std::size_t k = 0; k < msd.size(); ++k) EXPECT_NEAR(msd[k], 16. * (k + 1) * (k + 1), 1e-9);
+  // Steps of 6 look like steps of −4; the velocities tell.
+  folder.write("flight.csv", flight(6, 8));
+  expect_refusal(run(folder.path(), analyze), 3,
+                 "frame 1: particle 0 has the same velocity as in the frame before and flew by (6, "
+                 "0), but its nearest image moved by (-4, 0)");
 }
 
 // Up to the precision of the format: GSD has floats, and no angles that count turns.

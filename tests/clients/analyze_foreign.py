@@ -65,7 +65,14 @@ with tempfile.TemporaryDirectory() as folder:
     done = analyze(alike)
     assert done.returncode == 3, (done.returncode, done.stderr)
     assert f'{alike}: the name of species 1 is "a 1", which tables of results call a_1' in done.stderr, done.stderr
-    for missing in ("image", "angle", "position"):
+    no_images = pathlib.Path(folder, "without_image.h5")
+    write(no_images, "image")
+    done = analyze(no_images)
+    assert done.returncode == 0, done.stderr
+    assert "motion is left out: box crossings are unknown: it has no dataset image/value" in done.stderr, done.stderr
+    with h5py.File(no_images.with_suffix(".results.h5")) as results:
+        assert "structure_factor" in results and "displacements_all" not in results
+    for missing in ("angle", "position"):
         incomplete = pathlib.Path(folder, f"without_{missing}.h5")
         write(incomplete, missing)
         done = analyze(incomplete)

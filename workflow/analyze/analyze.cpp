@@ -43,7 +43,8 @@ struct RunAnalysis {
   std::size_t particles, rotors, rotations, frames;
   double packing_fraction, duration, collisions;
   std::vector<Column> state;            ///< of the last frame, for the summary
-  std::optional<RunDynamics> dynamics;  ///< of more than one frame
+  std::string obstacle;                 ///< to saying anything about motion, if there is one
+  std::optional<RunDynamics> dynamics;  ///< otherwise
   EnergySeries energy;
   CompressibilitySeries compressibility;
   DiffusionCoefficient diffusion, rotational_diffusion;  ///< of all particles
@@ -64,7 +65,10 @@ OpenRun open_run(const std::filesystem::path& file, const AnalysisChoice& choice
   }
   TrajectoryReader reader(file);
   const std::string recorded = reader.provenance().parameters;
-  return {std::move(reader), parse_parameters(recorded, file.string(), choice.overrides)};
+  Parameters parameters = parse_parameters(recorded, file.string(), choice.overrides);
+  if (place_of(parameters, "import"))
+    return {TrajectoryReader(file, known_system(parameters)), std::move(parameters)};
+  return {std::move(reader), std::move(parameters)};
 }
 
 /// Tables of files with one species are not called after it.
@@ -204,18 +208,15 @@ RunAnalysis measure(TrajectoryFile<Dim>& trajectory, const std::string& name,
   const std::vector<double>& times = trajectory.times();
   RunAnalysis run{};
   describe_run(run, trajectory);
-  const bool has_motion = run.frames > 1;
-  if (has_motion) {
-    reader.require("image",
-                   "displacements: positions in the box do not tell how often it was crossed");
+  run.obstacle = reader.obstacle_to_motion();
+  if (run.obstacle.empty())
     run.dynamics = measure_dynamics(trajectory, parameters.analysis, progress);
-  }
   begin(progress, "structure");
   run.structure = measure_frames(trajectory, parameters.structure, all_cores, progress.report);
   run.energy = stored_energies(trajectory);
   run.compressibility = stored_compressibility(reader, run.energy, run.rotations);
-  run.diffusion = run.rotational_diffusion = no_diffusion("a single frame");
-  if (!has_motion) return run;
+  run.diffusion = run.rotational_diffusion = no_diffusion(run.obstacle.c_str());
+  if (!run.dynamics) return run;
   const Displacements& found = run.dynamics->displacements;
   run.diffusion = long_time_diffusion(found, found.groups.front().translation, Dim, times);
   run.rotational_diffusion = rotational_diffusion(found, run.rotors, Dim, times);
@@ -319,7 +320,12 @@ AnalysedRun analyze(OpenRun opened, const AnalysisProgress& progress) {
   results.provenance.emplace_back("source", file.string());
   results.provenance.emplace_back(analysis_key, effective_parameters(parameters));
   results.provenance.emplace_back(analyzer_key, analyzer());
-  if (run.dynamics) add_motion(run, trajectory.times(), results);
+  if (!reader.import_remark().empty())
+    results.provenance.emplace_back("import", reader.import_remark());
+  if (run.dynamics)
+    add_motion(run, trajectory.times(), results);
+  else if (run.frames > 1)
+    leave_out(results, "motion", run.obstacle);
   if (run.energy.time.empty()) leave_out(results, "energies", no_energies);
   analysed.glass = run.glass;
   return analysed;

@@ -130,7 +130,9 @@ FieldVisitor::Inside fields(Parameters& p, const Sections& sections) {
       visit.table({"output", "", "Output of a run."}, Style::section,
                   section_of(p.output, describe_output));
     }
-    if (sections.analysis)
+    if (sections.analysis) {
+      visit.table({"import", "", "What runs of other programs leave open."}, Style::section,
+                  section_of(p.import, describe_import));
       visit.table(
           {"analysis", "", "Analysis of saved runs."}, Style::section, [&](FieldVisitor& in) {
             describe_analysis(p.analysis, in);
@@ -139,6 +141,7 @@ FieldVisitor::Inside fields(Parameters& p, const Sections& sections) {
                  "Structure factors, pair correlations and order parameters of single frames."},
                 Style::inline_table, section_of(p.structure, describe_structure));
           });
+    }
     if (sections.sweep)
       visit.table(
           {"sweep", "", "Several runs from one file; or states, if no key of [dynamics] is given."},

@@ -111,6 +111,13 @@ struct SweepParameters {
   ParameterGrid together;  ///< the k-th values of all keys together
 };
 
+/// What files of other programs leave open.
+struct ImportParameters {
+  enum class Unwrap { stated, nearest };
+
+  Unwrap unwrap = Unwrap::stated;
+};
+
 struct Parameters {
   SystemParameters system;
   std::vector<Species> species;
@@ -121,6 +128,7 @@ struct Parameters {
   DisplacementOptions analysis;
   StructureOptions structure;
   SweepParameters sweep;
+  ImportParameters import;
   /// The dotted keys that the file or the command line gives, and their places; others are at their defaults.
   std::map<std::string, std::string> given;
 

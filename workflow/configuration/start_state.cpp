@@ -96,6 +96,7 @@ void refuse_overlaps(const Configuration<Dim>& state, const std::string& file) {
 
 KnownSystem known_system(const Parameters& parameters) {
   KnownSystem known;
+  known.unwrap_nearest = parameters.import.unwrap == ImportParameters::Unwrap::nearest;
   const int dimension = parameters.system.dimension;
   if (place_of(parameters, "system.dimension")) known.dimension = dimension;
   const StateStage* stage = start_state(parameters.stages);
@@ -159,6 +160,7 @@ Configuration<Dim> read_start(Parameters& parameters, bool overlaps_allowed, con
     const TrajectoryReader reader(*stage.file, known_system(parameters));
     state = read_state<Dim>(reader);
     recorded = reader.provenance().parameters;
+    if (!reader.import_remark().empty()) log_line(log, name + ": " + reader.import_remark());
   } else {
     state = inline_state<Dim>(parameters);
   }

@@ -54,6 +54,10 @@ class CsvFrames final : public ForeignFrames {
     advance();
   }
 
+  const char* box_crossings() const override {
+    return "columns image_x, image_y or unwrapped_x, unwrapped_y";
+  }
+
   bool next(ForeignFrame& frame) override {
     if (cells_.empty()) return false;
     const std::string key = frame_key(), place = lines_.place();

@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/io/foreign/csv_frames.h"
 #include "core/io/foreign/gsd_frames.h"
+#include "core/io/foreign/nearest_images.h"
 #include "core/io/foreign/xyz_frames.h"
 #include "core/io/h5md.h"
 
@@ -70,62 +71,118 @@ class TemporaryFile {
   std::string name_;
 };
 
-/// Copies all frames of a file; frames are counted for the messages.
-class Conversion {
+/// Writes frames of the same particles one after the other, with images of its own if these are asked for.
+template <int Dim>
+class Copy {
  public:
-  Conversion(const fs::path& path, Format format, const KnownSystem& known)
-      : path_(path.string()), known_(known), frames_(open_frames(path, format)) {}
+  Copy(const fs::path& path, const Configuration<Dim>& first, TrajectoryOptions options,
+       bool unwrap, const Provenance& provenance)
+      : first_(first), knows_velocities_(options.velocities) {
+    options.overwrite = true;
+    if (unwrap && !options.images) images_.emplace();
+    options.images = options.images || unwrap;
+    writer_ = TrajectoryWriter::create(path, first, provenance, options);
+  }
 
-  void write_to(const fs::path& copy) {
-    ForeignFrame frame = first_frame(*frames_, path_);
-    dimension_of(frame, known_) == 2 ? write<2>(copy, frame) : write<3>(copy, frame);
+  /// UserError.
+  void add(Configuration<Dim> frame, std::int64_t step, bool knows_time) {
+    if (!same_particles(first_, frame))
+      throw UserError(
+          "has other particles than frame 0; their number, species, masses and semi-axes should be "
+          "the same");
+    if (images_) images_->set(frame, knows_velocities_ && knows_time);
+    writer_->write(frame, step);
+  }
+
+  /// What is to be said about it.
+  std::string close() {
+    writer_->close();
+    return images_ ? images_->remark() : "";
   }
 
  private:
-  template <int Dim>
-  Configuration<Dim> configuration(const ForeignFrame& frame) const {
-    try {
-      return configuration_of<Dim>(frame, known_);
-    } catch (const UserError& error) {
-      throw FileError(fmt::format("{}: frame {}: {}", path_, number_, error.what()));
-    }
-  }
-
-  template <int Dim>
-  void write(const fs::path& copy, ForeignFrame& frame) {
-    const Configuration<Dim> first = configuration<Dim>(frame);
-    TrajectoryOptions options{.velocities = !frame.velocity.empty(), .overwrite = true};
-    options.images = !frame.image.empty() || !frame.unwrapped.empty();
-    options.angles = !frame.angle.empty();
-    TrajectoryWriter writer = TrajectoryWriter::create(copy, first, Provenance{}, options);
-    writer.write(first, frame.step.value_or(0));
-    for (number_ = 1; frames_->next(frame); ++number_) {
-      Configuration<Dim> next = configuration<Dim>(frame);
-      if (!same_particles(first, next))
-        throw FileError(
-            fmt::format("{}: frame {} has other particles than frame 0; their number, "
-                        "species, masses and semi-axes should be the same",
-                        path_, number_));
-      if (!frame.time && !frame.step) next.time = static_cast<double>(number_);
-      writer.write(next, frame.step.value_or(static_cast<std::int64_t>(number_)));
-    }
-    writer.close();
-  }
-
-  std::string path_;
-  const KnownSystem& known_;
-  std::unique_ptr<ForeignFrames> frames_;
-  std::uint64_t number_ = 0;
+  const Configuration<Dim> first_;
+  bool knows_velocities_;
+  std::optional<NearestImages<Dim>> images_;
+  std::optional<TrajectoryWriter> writer_;
 };
+
+/// Frames are counted for the messages.
+template <class Work>
+auto naming_frame(const fs::path& path, std::uint64_t number, Work&& work) {
+  try {
+    return work();
+  } catch (const UserError& error) {
+    throw FileError(fmt::format("{}: frame {}: {}", path.string(), number, error.what()));
+  }
+}
+
+/// Copies all frames; returns a remark.
+template <int Dim>
+std::string copy_frames(const fs::path& path, ForeignFrames& frames, ForeignFrame& frame,
+                        const KnownSystem& known, const fs::path& copy) {
+  std::optional<Copy<Dim>> output;
+  std::uint64_t number = 0;
+  bool is_turned = false;
+  do {
+    if (Dim == 2 && put_longer_axis_first(frame)) is_turned = true;
+    naming_frame(path, number, [&] {
+      Configuration<Dim> next = configuration_of<Dim>(frame, known);
+      const bool knows_time = frame.time.has_value();
+      if (!knows_time && !frame.step) next.time = static_cast<double>(number);
+      if (!output) {
+        TrajectoryOptions options{.velocities = !frame.velocity.empty()};
+        options.images = !frame.image.empty() || !frame.unwrapped.empty();
+        options.angles = !frame.angle.empty();
+        output.emplace(copy, next, options, known.unwrap_nearest, Provenance{});
+      }
+      output->add(std::move(next), frame.step.value_or(static_cast<std::int64_t>(number)),
+                  knows_time);
+    });
+    ++number;
+  } while (frames.next(frame));
+  const std::string remark = output->close();
+  if (!is_turned) return remark;
+  return "semi-axes a < b are exchanged, and their particles turned by π/2" +
+         (remark.empty() ? "" : "; " + remark);
+}
+
+template <int Dim>
+std::string copy_frames(const TrajectoryReader& original, const fs::path& copy) {
+  TrajectoryOptions options{.velocities = original.has("velocity"), .images = false};
+  options.angles = original.has("angle");
+  Copy<Dim> output(copy, original.read<Dim>(0), options, true, original.provenance());
+  for (std::uint64_t k = 0; k < original.frames(); ++k)
+    naming_frame(original.path(), k,
+                 [&] { output.add(original.read<Dim>(k), original.steps()[k], true); });
+  return output.close();
+}
+
+ImportedFile open_hdf5(const fs::path& path, const KnownSystem& known) {
+  const auto as_it_is = [&] {
+    return ImportedFile{h5::File::open(path, h5::Access::read), "", "dataset image/value"};
+  };
+  if (!known.unwrap_nearest) return as_it_is();
+  const TrajectoryReader original(path);
+  if (original.frames() < 2 || original.has("image")) return as_it_is();
+  const TemporaryFile copy;
+  const std::string remark = original.dimension() == 2 ? copy_frames<2>(original, copy.name())
+                                                       : copy_frames<3>(original, copy.name());
+  return {h5::File::open(copy.name(), h5::Access::read), remark, ""};
+}
 
 }  // namespace
 
-h5::File open_as_h5md(const fs::path& path, const KnownSystem& known) {
+ImportedFile open_as_h5md(const fs::path& path, const KnownSystem& known) {
   const Format format = format_of(path);
-  if (format == Format::hdf5) return h5::File::open(path, h5::Access::read);
+  if (format == Format::hdf5) return open_hdf5(path, known);
   const TemporaryFile copy;
-  Conversion(path, format, known).write_to(copy.name());
-  return h5::File::open(copy.name(), h5::Access::read);
+  const std::unique_ptr<ForeignFrames> frames = open_frames(path, format);
+  ForeignFrame first = first_frame(*frames, path.string());
+  const std::string remark = dimension_of(first, known) == 2
+                                 ? copy_frames<2>(path, *frames, first, known, copy.name())
+                                 : copy_frames<3>(path, *frames, first, known, copy.name());
+  return {h5::File::open(copy.name(), h5::Access::read), remark, frames->box_crossings()};
 }
 
 int dimension_of_file(const fs::path& path, const KnownSystem& known) {

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <numbers>
 #include <set>
+#include <utility>
 
 #include "core/elementary.h"
 #include "core/error.h"
@@ -153,7 +155,7 @@ void set_positions(Configuration<Dim>& configuration, const ForeignFrame& frame)
          max_box_crossings))
       throw UserError(fmt::format("particle {} is at {}, but should be near the box", i,
                                   fmt::join(position, ", ")));
-    if (Dim == 2 && positions[i][2] != 0)
+    if (Dim == 2 && std::abs(positions[i][2]) > tolerance::flat * configuration.box.lengths()[0])
       throw UserError(fmt::format("particle {} has z = {}, but the system is two-dimensional", i,
                                   positions[i][2]));
     if (!frame.image.empty())
@@ -218,6 +220,20 @@ void set_velocities(Configuration<Dim>& configuration, const ForeignFrame& frame
 }
 
 }  // namespace
+
+bool put_longer_axis_first(ForeignFrame& frame) {
+  static const Quaternion quarter_turn(std::sqrt(0.5), 0, 0, std::sqrt(0.5));
+  bool any = false;
+  for (std::size_t i = 0; i < frame.semi_axes.size(); ++i) {
+    Vec3& axes = frame.semi_axes[i];
+    if (axes[0] >= axes[1]) continue;
+    any = true;
+    std::swap(axes[0], axes[1]);
+    if (i < frame.angle.size()) frame.angle[i] += 0.5 * std::numbers::pi;
+    if (i < frame.orientation.size()) frame.orientation[i] = frame.orientation[i] * quarter_turn;
+  }
+  return any;
+}
 
 Quaternion unit_quaternion(const Quaternion& q, std::size_t particle) {
   const double excess = std::abs(norm(q) - 1);

@@ -13,7 +13,7 @@
 namespace vitrel {
 
 /// One configuration in the box centred at the origin. What is not stated is empty; every other vector has an entry per
-/// particle. In the plane third components mean nothing, and those of positions must be 0.
+/// particle. In the plane third components mean nothing, and those of positions must be 0 to single precision.
 struct ForeignFrame {
   std::optional<int> dimension;
   std::optional<double> time;
@@ -31,6 +31,10 @@ struct ForeignFrame {
   std::vector<std::string> species;
 };
 
+/// In the plane the first semi-axis is the longer one: exchanges those for which it is not, and turns the particles by π/2.
+/// Whether there were any.
+bool put_longer_axis_first(ForeignFrame& frame);
+
 /// A species by its name; with semi-axes and mass where all its particles have the same.
 struct KnownSpecies {
   std::string name;
@@ -43,6 +47,8 @@ struct KnownSystem {
   std::optional<int> dimension;
   std::optional<Vec3> box;
   std::vector<KnownSpecies> species;
+  bool unwrap_nearest =
+      false;  ///< box crossings that no frame states are those of the nearest images
 };
 
 /// A quaternion as it is, or normalised if it is a unit quaternion in single precision only. UserError, which names the
@@ -64,6 +70,8 @@ class ForeignFrames {
   virtual ~ForeignFrames() = default;
   /// False after the last. FileError, which names the place, if the file is damaged.
   virtual bool next(ForeignFrame& frame) = 0;
+  /// What the file would have to state box crossings, in the words of the format, after "it has no".
+  virtual const char* box_crossings() const = 0;
 };
 
 }  // namespace vitrel

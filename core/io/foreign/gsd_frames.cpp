@@ -31,6 +31,8 @@ class GsdFrames final : public ForeignFrames {
                              file_.schema()));
   }
 
+  const char* box_crossings() const override { return "particles/image after the first frame"; }
+
   bool next(ForeignFrame& frame) override {
     if (number_ == file_.frames()) return false;
     frame = {};
@@ -107,6 +109,13 @@ class GsdFrames final : public ForeignFrames {
       fail("particles/position should have a row for each of the particles/N particles");
     frame.orientation = quaternions("particles/orientation");
     if (frame.orientation.empty()) frame.orientation.assign(particles_, Quaternion::Identity());
+    set_images(frame);
+  }
+
+  /// Many programs write images into the first frame only, or not at all: those of later frames are then not the same, but
+  /// unknown.
+  void set_images(ForeignFrame& frame) {
+    if (file_.frames() > 1 && !file_.is_in_later_frames("particles/image")) return;
     for (const Vec3& image : vectors("particles/image")) {
       if (!(image.cwiseAbs().maxCoeff() <= max_box_crossings))
         fail("particles/image has impossible numbers");

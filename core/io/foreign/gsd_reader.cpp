@@ -111,6 +111,11 @@ const gsd::Entry* GsdReader::find(const std::string& name, std::uint64_t frame) 
   return nullptr;
 }
 
+bool GsdReader::is_in_later_frames(const std::string& name) const {
+  const auto after_first = index_.upper_bound({name, 0});
+  return after_first != index_.end() && after_first->first.first == name;
+}
+
 std::vector<std::byte> GsdReader::bytes_of(const gsd::Entry& entry) {
   const std::uint64_t width = width_of(entry.type);
   const bool is_impossible = width == 0 || entry.columns == 0 || entry.location < 0 ||

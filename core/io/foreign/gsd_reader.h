@@ -28,6 +28,8 @@ class GsdReader {
   };
   /// The chunk of the frame, or else of the first; without rows if neither has it.
   Chunk read(const std::string& name, std::uint64_t frame);
+  /// Whether a frame after the first has the chunk.
+  bool is_in_later_frames(const std::string& name) const;
   /// The rows of a chunk of texts.
   std::vector<std::string> read_texts(const std::string& name, std::uint64_t frame);
 

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <numeric>
 #include <set>
@@ -49,15 +48,11 @@ bool counts(const std::string& column) {
 }
 
 double number(std::string_view cell, const std::string& column, const std::string& place) {
-  double value = 0;
-  const char* const end = cell.data() + cell.size();
-  // from_chars takes no sign in front of a positive number.
-  const char* const begin = cell.data() + (cell.starts_with('+') ? 1 : 0);
-  const auto [stop, error] = std::from_chars(begin, end, value);
-  if (error != std::errc() || stop != end || !std::isfinite(value))
+  const std::optional<double> value = number_in(cell);
+  if (!value || !std::isfinite(*value))
     throw FileError(
         fmt::format("{}: {} is \"{}\", but should be a finite number", place, column, cell));
-  return value;
+  return *value;
 }
 
 }  // namespace

@@ -1,5 +1,8 @@
 #include "core/io/foreign/text_lines.h"
 
+#include <algorithm>
+#include <charconv>
+
 #include <fmt/format.h>
 
 #include <cerrno>
@@ -14,6 +17,19 @@ std::string_view trimmed(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(blank);
   if (begin == std::string_view::npos) return {};
   return text.substr(begin, text.find_last_not_of(blank) - begin + 1);
+}
+
+std::optional<double> number_in(std::string_view text) {
+  if (text.starts_with('+'))
+    text.remove_prefix(1);  // from_chars takes no sign in front of a positive number
+  std::string number(text);
+  std::ranges::replace(number, 'D', 'e');
+  std::ranges::replace(number, 'd', 'e');
+  double value = 0;
+  const char* const end = number.data() + number.size();
+  const auto [stop, error] = std::from_chars(number.data(), end, value);
+  if (error != std::errc() || stop != end) return std::nullopt;
+  return value;
 }
 
 TextLines::TextLines(const std::filesystem::path& path) : path_(path), stream_(path) {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -9,6 +10,9 @@ namespace vitrel {
 
 /// Without the blanks around it.
 std::string_view trimmed(std::string_view text);
+
+/// A number in C or Fortran notation (1e3, +1, 1.0D+03), or nothing if the text is something else.
+std::optional<double> number_in(std::string_view text);
 
 /// The lines of a text file, without their ends (of Unix or Windows) and a mark of UTF-8 at the start. FileError.
 class TextLines {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <map>
@@ -10,6 +11,7 @@
 #include "core/error.h"
 #include "core/io/foreign/particle_table.h"
 #include "core/io/foreign/text_lines.h"
+#include "core/tolerances.h"
 
 namespace vitrel {
 namespace {
@@ -52,38 +54,64 @@ std::vector<std::string_view> words_of(std::string_view line, const char* separa
   return words;
 }
 
-/// key=value and key="several words"; words without "=" are skipped.
+/// Where the value that begins at `begin` ends: behind its quotes or brackets, or at the next blank.
+std::size_t end_of_value(const std::string& line, std::size_t begin) {
+  if (begin < line.size() && line[begin] == '"')
+    return std::min(line.find('"', begin + 1), line.size() - 1) + 1;
+  int open = 0;
+  for (std::size_t k = begin; k < line.size(); ++k) {
+    open += (line[k] == '[' || line[k] == '{') - (line[k] == ']' || line[k] == '}');
+    if (open <= 0 && (line[k] == ' ' || line[k] == '\t')) return k;
+  }
+  return line.size();
+}
+
+/// key=value, key="several words" and key=[[lists], [of, lists]], with blanks around = or none; words without = are
+/// skipped.
 Keys keys_of(const std::string& line) {
   Keys keys;
-  std::size_t k = 0;
-  while ((k = line.find_first_not_of(" \t", k)) != std::string::npos) {
+  const auto skip_blanks = [&](std::size_t k) {
+    return std::min(line.find_first_not_of(" \t", k), line.size());
+  };
+  for (std::size_t k = skip_blanks(0); k < line.size(); k = skip_blanks(k)) {
     const std::size_t end = std::min(line.find_first_of(" \t=", k), line.size());
     const std::string key = lower_case(line.substr(k, end - k));
-    k = end;
-    if (k == line.size() || line[k] != '=') continue;
-    const bool is_quoted = line.substr(k + 1).starts_with('"');
-    const std::size_t begin = k + (is_quoted ? 2 : 1);
-    k = std::min(line.find_first_of(is_quoted ? "\"" : " \t", begin), line.size());
-    keys[key] = line.substr(begin, k - begin);
-    if (is_quoted && k < line.size()) ++k;
+    const std::size_t sign = skip_blanks(end);
+    k = std::max(end, k + 1);
+    if (sign == line.size() || line[sign] != '=') continue;
+    const std::size_t begin = skip_blanks(sign + 1);
+    k = end_of_value(line, begin);
+    std::string value = line.substr(begin, k - begin);
+    std::erase(value, '"');
+    keys[key] = value;
   }
   return keys;
+}
+
+[[noreturn]] void throw_no_number(std::string_view text, const std::string& what,
+                                  const std::string& place) {
+  throw FileError(fmt::format("{}: {} is \"{}\", but should be a number", place, what, text));
+}
+
+double real_number(std::string_view text, const std::string& what, const std::string& place) {
+  const std::optional<double> value = number_in(text);
+  if (!value) throw_no_number(text, what, place);
+  return *value;
 }
 
 template <class Number>
 Number parsed(std::string_view text, const std::string& what, const std::string& place) {
   Number value{};
   const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || stop != text.data() + text.size())
-    throw FileError(fmt::format("{}: {} is \"{}\", but should be a number", place, what, text));
+  if (error != std::errc() || stop != text.data() + text.size()) throw_no_number(text, what, place);
   return value;
 }
 
 std::vector<double> numbers(const std::string& text, std::size_t count, const std::string& what,
                             const std::string& place) {
   std::vector<double> values;
-  for (const std::string_view word : words_of(text))
-    values.push_back(parsed<double>(word, what, place));
+  for (const std::string_view word : words_of(text, " \t,[]{}"))
+    values.push_back(real_number(word, what, place));
   if (values.size() != count)
     throw FileError(fmt::format("{}: {} has {} numbers, but should have {}", place, what,
                                 values.size(), count));
@@ -115,6 +143,8 @@ std::vector<std::string> columns(const std::string& properties, const std::strin
 class XyzFrames final : public ForeignFrames {
  public:
   explicit XyzFrames(const fs::path& path) : lines_(path) {}
+
+  const char* box_crossings() const override { return "property map_shift"; }
 
   bool next(ForeignFrame& frame) override {
     std::string line;
@@ -156,8 +186,29 @@ class XyzFrames final : public ForeignFrames {
   TextLines lines_;
 };
 
-bool is_false(std::string_view word) {
-  return word == "F" || word == "0" || word == "False";
+/// Whether the box is periodic along x, y and z.
+std::array<bool, 3> periodic_directions(const Keys& keys, const std::string& place) {
+  std::array<bool, 3> periodic = {true, true, true};
+  const auto pbc = keys.find("pbc");
+  if (pbc == keys.end()) return periodic;
+  const std::string text = lower_case(pbc->second);
+  const std::vector<std::string_view> words = words_of(text, " \t,[]{}");
+  for (std::size_t k = 0; k < words.size() && k < 3; ++k)
+    periodic[k] = words[k] == "t" || words[k] == "true" || words[k] == "1";
+  const bool are_clear = std::ranges::all_of(words, [](std::string_view word) {
+    return word == "t" || word == "true" || word == "1" || word == "f" || word == "false" ||
+           word == "0";
+  });
+  if (words.size() != 3 || !are_clear)
+    throw FileError(fmt::format("{}: pbc is \"{}\", but should be T or F for each of x, y and z",
+                                place, pbc->second));
+  for (std::size_t k = 0; k < 2; ++k)
+    if (!periodic[k])
+      throw FileError(
+          fmt::format("{}: pbc=\"{}\" says that the box is not periodic along {}, but vitrel's "
+                      "boxes are; only a plane needs no period along z",
+                      place, pbc->second, "xyz"[k]));
+  return periodic;
 }
 
 void set_box(ForeignFrame& frame, const Keys& keys, const std::string& place) {
@@ -175,25 +226,29 @@ void set_box(ForeignFrame& frame, const Keys& keys, const std::string& place) {
 }
 
 /// The height of a plane does not matter.
-void move_to_zero_height(ForeignFrame& frame) {
+void move_to_zero_height(ForeignFrame& frame, const std::string& place) {
+  if (frame.position.empty()) return;
   const auto height = [](const Vec3& position) { return position[2]; };
-  if (std::ranges::adjacent_find(frame.position, std::ranges::not_equal_to(), height) !=
-      frame.position.end())
-    return;
+  const auto [lowest, highest] = std::ranges::minmax(frame.position, {}, height);
+  const double wide = frame.box ? frame.box->x() : 1;
+  if (highest[2] - lowest[2] > tolerance::flat * wide)
+    throw FileError(
+        fmt::format("{}: the box is not periodic along z, but the heights of particles differ by "
+                    "{}; in a plane "
+                    "all are the same",
+                    place, highest[2] - lowest[2]));
   for (Vec3& position : frame.position) position[2] = 0;
 }
 
 void XyzFrames::complete(ForeignFrame& frame, const Keys& keys, bool has_angle,
                          const std::string& place) {
   set_box(frame, keys, place);
-  const std::string pbc = value(keys, "pbc");
-  const std::vector<std::string_view> periodic = words_of(pbc);
-  const bool is_plane = has_angle || (periodic.size() == 3 && is_false(periodic[2]));
+  const bool is_plane = !periodic_directions(keys, place)[2] || has_angle;
   // All programs write three coordinates.
   frame.dimension = is_plane ? std::optional(2) : std::nullopt;
-  if (is_plane) move_to_zero_height(frame);
+  if (is_plane) move_to_zero_height(frame, place);
   if (const auto time = keys.find("time"); time != keys.end())
-    frame.time = parsed<double>(time->second, "Time", place);
+    frame.time = real_number(time->second, "Time", place);
   for (const char* key : {"step", "timestep"})
     if (const auto step = keys.find(key); step != keys.end())
       frame.step = parsed<std::int64_t>(step->second, "Step", place);
