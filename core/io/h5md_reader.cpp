@@ -449,17 +449,14 @@ void TrajectoryReader::require(const std::string& name, const std::string& purpo
 /// The first frame whose box is not that of frame 0, or the number of frames.
 std::uint64_t TrajectoryReader::first_other_box() const {
   if (is_fixed("box/edges")) return frames();
-  const std::string name = group_ + "/box/edges/value";
-  const h5::Dataset& edges = dataset(name, "the box lengths");
+  const h5::Dataset& edges = dataset(group_ + "/box/edges/value", "the box lengths");
   const h5::Shape shape = edges.shape();
-  std::size_t numbers = 1;
-  for (std::size_t k = 1; k < shape.size(); ++k) numbers *= shape[k];
-  std::vector<double> first(numbers), other(numbers);
-  edges.read_frame<double>(0, first);
-  for (std::uint64_t frame = 1; frame < frames(); ++frame) {
-    edges.read_frame<double>(frame, other);
-    if (other != first) return frame;
-  }
+  if (shape.empty() || shape[0] < frames())
+    fail("the dataset " + edges.name() + " has fewer frames than step");
+  const std::vector<double> values = edges.read<double>();
+  const std::size_t numbers = values.size() / shape[0];
+  for (std::size_t k = numbers; k < frames() * numbers; ++k)
+    if (values[k] != values[k % numbers]) return k / numbers;
   return frames();
 }
 

@@ -12,7 +12,7 @@ import ase.io
 import gsd.hoomd
 import numpy as np
 
-# Of version 3 of gsd, and before.
+# Version 3 of gsd calls a frame and the modes otherwise than the versions before.
 Frame, write = (gsd.hoomd.Frame, "w") if hasattr(gsd.hoomd, "Frame") else (gsd.hoomd.Snapshot, "wb")
 
 PROGRAM = pathlib.Path(sys.argv[1]).resolve()

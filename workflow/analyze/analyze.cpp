@@ -63,12 +63,10 @@ OpenRun open_run(const std::filesystem::path& file, const AnalysisChoice& choice
     Parameters parameters = load_parameters({*choice.parameters, choice.overrides});
     return {TrajectoryReader(file, known_system(parameters)), std::move(parameters)};
   }
-  TrajectoryReader reader(file);
+  const Parameters set = parse_parameters("", file.string(), choice.overrides);
+  TrajectoryReader reader(file, known_system(set));
   const std::string recorded = reader.provenance().parameters;
-  Parameters parameters = parse_parameters(recorded, file.string(), choice.overrides);
-  if (place_of(parameters, "import"))
-    return {TrajectoryReader(file, known_system(parameters)), std::move(parameters)};
-  return {std::move(reader), std::move(parameters)};
+  return {std::move(reader), parse_parameters(recorded, file.string(), choice.overrides)};
 }
 
 /// Tables of files with one species are not called after it.

@@ -31,8 +31,8 @@ struct ForeignFrame {
   std::vector<std::string> species;
 };
 
-/// In the plane the first semi-axis is the longer one: exchanges those for which it is not, and turns the particles by π/2.
-/// Whether there were any.
+/// In the plane the first semi-axis is the longer one: exchanges those for which it is not, and turns their particles
+/// by π/2. Whether there were any.
 bool put_longer_axis_first(ForeignFrame& frame);
 
 /// A species by its name; with semi-axes and mass where all its particles have the same.

@@ -7,13 +7,13 @@
 
 namespace vitrel {
 
-/// Box crossings of a trajectory that does not state them: every particle is taken to have moved by the shortest way from
-/// frame to frame, which is right if no step is longer than half a box length.
+/// Box crossings of a trajectory that does not state them: every particle is taken to have moved by the shortest way
+/// from frame to frame, which is right if no step is longer than half a box length.
 template <int Dim>
 class NearestImages {
  public:
-  /// Sets the images of the next frame, those of the first to 0. Where velocities are stored and times known, a particle
-  /// that kept its velocity flew straight: UserError if it went to another image than the nearest.
+  /// Sets the images of the next frame, those of the first to 0. Where velocities are stored and times known, a
+  /// particle that kept its velocity flew straight: UserError if it went to another image than the nearest.
   void set(Configuration<Dim>& next, bool knows_flight);
 
   /// A sentence on the longest step.

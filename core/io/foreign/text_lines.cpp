@@ -1,11 +1,10 @@
 #include "core/io/foreign/text_lines.h"
 
-#include <algorithm>
-#include <charconv>
-
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 
 #include "core/error.h"
@@ -20,16 +19,17 @@ std::string_view trimmed(std::string_view text) {
 }
 
 std::optional<double> number_in(std::string_view text) {
-  if (text.starts_with('+'))
-    text.remove_prefix(1);  // from_chars takes no sign in front of a positive number
-  std::string number(text);
-  std::ranges::replace(number, 'D', 'e');
-  std::ranges::replace(number, 'd', 'e');
+  // from_chars takes no sign in front of a positive number.
+  if (text.starts_with('+')) text.remove_prefix(1);
   double value = 0;
-  const char* const end = number.data() + number.size();
-  const auto [stop, error] = std::from_chars(number.data(), end, value);
-  if (error != std::errc() || stop != end) return std::nullopt;
-  return value;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (stop != end && (*stop == 'D' || *stop == 'd')) {
+    std::string in_c(text);
+    in_c[static_cast<std::size_t>(stop - text.data())] = 'e';
+    return number_in(in_c);
+  }
+  return error == std::errc() && stop == end ? std::optional(value) : std::nullopt;
 }
 
 TextLines::TextLines(const std::filesystem::path& path) : path_(path), stream_(path) {

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <charconv>
 #include <map>
+#include <optional>
 
 #include "core/error.h"
 #include "core/io/foreign/particle_table.h"
@@ -186,29 +186,31 @@ class XyzFrames final : public ForeignFrames {
   TextLines lines_;
 };
 
-/// Whether the box is periodic along x, y and z.
-std::array<bool, 3> periodic_directions(const Keys& keys, const std::string& place) {
-  std::array<bool, 3> periodic = {true, true, true};
+/// Whether a word of `pbc` says that the box is periodic; nothing if it says neither.
+std::optional<bool> periodicity(std::string_view word) {
+  if (word == "t" || word == "true" || word == "1") return true;
+  if (word == "f" || word == "false" || word == "0") return false;
+  return std::nullopt;
+}
+
+/// Whether the box is periodic along z, as it must be along x and y.
+bool is_periodic_along_z(const Keys& keys, const std::string& place) {
   const auto pbc = keys.find("pbc");
-  if (pbc == keys.end()) return periodic;
+  if (pbc == keys.end()) return true;
   const std::string text = lower_case(pbc->second);
   const std::vector<std::string_view> words = words_of(text, " \t,[]{}");
-  for (std::size_t k = 0; k < words.size() && k < 3; ++k)
-    periodic[k] = words[k] == "t" || words[k] == "true" || words[k] == "1";
-  const bool are_clear = std::ranges::all_of(words, [](std::string_view word) {
-    return word == "t" || word == "true" || word == "1" || word == "f" || word == "false" ||
-           word == "0";
-  });
-  if (words.size() != 3 || !are_clear)
+  if (words.size() != 3 || !std::ranges::all_of(words, [](std::string_view word) {
+        return periodicity(word).has_value();
+      }))
     throw FileError(fmt::format("{}: pbc is \"{}\", but should be T or F for each of x, y and z",
                                 place, pbc->second));
   for (std::size_t k = 0; k < 2; ++k)
-    if (!periodic[k])
+    if (!*periodicity(words[k]))
       throw FileError(
           fmt::format("{}: pbc=\"{}\" says that the box is not periodic along {}, but vitrel's "
                       "boxes are; only a plane needs no period along z",
                       place, pbc->second, "xyz"[k]));
-  return periodic;
+  return *periodicity(words[2]);
 }
 
 void set_box(ForeignFrame& frame, const Keys& keys, const std::string& place) {
@@ -226,27 +228,27 @@ void set_box(ForeignFrame& frame, const Keys& keys, const std::string& place) {
 }
 
 /// The height of a plane does not matter.
-void move_to_zero_height(ForeignFrame& frame, const std::string& place) {
+void move_to_zero_height(ForeignFrame& frame, const char* because, const std::string& place) {
   if (frame.position.empty()) return;
   const auto height = [](const Vec3& position) { return position[2]; };
   const auto [lowest, highest] = std::ranges::minmax(frame.position, {}, height);
   const double wide = frame.box ? frame.box->x() : 1;
   if (highest[2] - lowest[2] > tolerance::flat * wide)
-    throw FileError(
-        fmt::format("{}: the box is not periodic along z, but the heights of particles differ by "
-                    "{}; in a plane "
-                    "all are the same",
-                    place, highest[2] - lowest[2]));
+    throw FileError(fmt::format(
+        "{}: {}, but the heights of particles differ by {}; in a plane all are the same", place,
+        because, highest[2] - lowest[2]));
   for (Vec3& position : frame.position) position[2] = 0;
 }
 
 void XyzFrames::complete(ForeignFrame& frame, const Keys& keys, bool has_angle,
                          const std::string& place) {
   set_box(frame, keys, place);
-  const bool is_plane = !periodic_directions(keys, place)[2] || has_angle;
+  const bool is_flat = !is_periodic_along_z(keys, place), is_plane = is_flat || has_angle;
   // All programs write three coordinates.
   frame.dimension = is_plane ? std::optional(2) : std::nullopt;
-  if (is_plane) move_to_zero_height(frame, place);
+  if (is_plane)
+    move_to_zero_height(
+        frame, is_flat ? "the box is not periodic along z" : "particles have an angle", place);
   if (const auto time = keys.find("time"); time != keys.end())
     frame.time = real_number(time->second, "Time", place);
   for (const char* key : {"step", "timestep"})

@@ -17,7 +17,8 @@ namespace vitrel {
 ///     Properties=…          type or species; pos; id; map_shift (boxes crossed); angle; orientation (x, y, z, w);
 ///                           aspherical_shape (semi-axes) or radius; mass or masses; velo, vel or velocities; omega
 ///
-/// Keys may be written in any case, with blanks around =, numbers with D exponents, and values as lists in brackets. Other keys and properties are skipped. FileError.
+/// Keys may be written in any case, with blanks around =, numbers with D exponents, and values as lists in brackets.
+/// Other keys and properties are skipped. FileError.
 std::unique_ptr<ForeignFrames> open_xyz(const std::filesystem::path& path);
 
 }  // namespace vitrel
