@@ -214,7 +214,7 @@ cat /usr/share/qemu/binfmt.d/qemu-aarch64.conf >/proc/sys/fs/binfmt_misc/registe
         """The program and the tests that are run."""
         targets = " ".join(["vitrel", *(f"test_{name}" for name in EMULATED_TESTS)])
         self.count_warnings(self.must("build", f"""cmake -S . -B build/release -G Ninja -DCMAKE_SYSTEM_NAME=Linux \
--DCMAKE_SYSTEM_PROCESSOR=aarch64 -DVITREL_BUILD_PYTHON=OFF
+-DCMAKE_SYSTEM_PROCESSOR=aarch64 -DVITREL_BUILD_BENCH=OFF -DVITREL_BUILD_PYTHON=OFF
 cmake --build build/release --target {targets}"""))
 
     def test(self):
