@@ -25,8 +25,8 @@ class Trajectory {
   virtual const std::vector<double>& times() const = 0;
   /// Frame k; the reference is valid until the next call.
   virtual const Configuration<Dim>& read(std::size_t k) = 0;
-  /// Whether the angles in the plane count whole turns; if not, they are known up to these.
-  virtual bool counts_turns() const { return true; }
+  /// Angles in the plane are known up to multiples of this, 2π, or π for directors; 0: whole turns are counted.
+  virtual double turn_period() const { return 0; }
   std::size_t frames() const { return times().size(); }
 };
 
@@ -57,7 +57,7 @@ class TrajectoryPart : public Trajectory<Dim> {
                whole.times().begin() + static_cast<std::ptrdiff_t>(end)) {}
   const std::vector<double>& times() const override { return times_; }
   const Configuration<Dim>& read(std::size_t k) override { return whole_.read(begin_ + k); }
-  bool counts_turns() const override { return whole_.counts_turns(); }
+  double turn_period() const override { return whole_.turn_period(); }
 
  private:
   Trajectory<Dim>& whole_;

@@ -9,6 +9,7 @@
 #include "app/commands/pair.h"
 #include "app/terminal/completion.h"
 #include "app/terminal/program_command_line.h"
+#include "core/io/foreign/foreign_formats.h"
 #include "workflow/configuration/sections.h"
 #include "workflow/export/trajectory_export.h"
 #include "workflow/sweep/sweep_export.h"
@@ -61,10 +62,10 @@ void add_parameter_file(CLI::App& sub, ParameterOptions& source) {
 }
 
 void add_start(CLI::App& sub, StartOptions& start) {
-  CLI::Option* from = add_file(
-      sub, "--from", start.from,
-      "State or run whose last frame to start from: H5MD, GSD, extended XYZ or CSV. Stages of the "
-      "parameter file follow if the first of them moves particles");
+  CLI::Option* from =
+      add_file(sub, "--from", start.from,
+               "State or run whose last frame to start from: " + foreign_format_names() +
+                   ". Stages of the parameter file follow if the first of them moves particles");
   sub.add_flag("--shrink", start.shrink,
                "With --from: scale all particles until none overlap, as after single precision")
       ->needs(from);
@@ -76,8 +77,15 @@ void add_threads(CLI::App& sub, int& threads, const std::string& what) {
 
 void add_analysis(CLI::App& sub, AnalysisOptions& analysis) {
   add_file(sub, "--params", analysis.file,
-           "Parameter file with [analysis], instead of that in the run");
+           "Parameter file with [analysis], instead of that in the run, and with [import]");
   add_overrides(sub, analysis.overrides, "analysis.longest_lag=0.1");
+}
+
+void add_import(CLI::App& sub, AnalysisOptions& import) {
+  add_file(sub, "--params", import.file,
+           "Parameter file with [import] and [[species]]: what a file of another program does not "
+           "say");
+  add_overrides(sub, import.overrides, "import.unwrap=nearest");
 }
 
 std::vector<std::string> all_formats() {
@@ -160,8 +168,7 @@ class CommandLine : public ProgramCommandLine {
                         check_command, check_);
     sub.footer(exit_codes + overlap_code + ", 5 stopped (no overlap so far).");
     add_file(sub, "file", check_.input, "State or run")->required();
-    add_file(sub, "--params", check_.parameters,
-             "Parameter file with what the file does not say, such as the semi-axes of species");
+    add_import(sub, check_.import);
     sub.add_flag("--last", check_.last_only, "The last frame only");
     add_print(sub, check_.print);
   }
@@ -240,6 +247,7 @@ class CommandLine : public ProgramCommandLine {
         "frames a folder with a .pvd file for ParaView); of results: gnuplot (a folder of data and "
         "scripts)")
         ->required();
+    add_import(sub, export_.import);
     add_output(sub, export_.output,
                "File or folder to write, which must not exist; default <file> with the new suffix "
                "(.dat for thesis), <file>_vtp for several frames, or <results>_gnuplot");

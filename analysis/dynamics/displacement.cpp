@@ -211,8 +211,8 @@ Displacements displacements(Trajectory<Dim>& trajectory, const DisplacementOptio
       result.groups.push_back(evaluate(members, lags, quantities));
   if (!turns_are_known(pass.largest_turn())) {
     result.unknown_turns =
-        "some particles turn by about half a turn between two frames, which cannot be told from a "
-        "turn the other way; sample more often ([output] samples)";
+        "some particles turn by about half a turn (directors: a quarter) between two frames, which "
+        "cannot be told from a turn the other way; sample more often";
     for (DisplacementGroup& group : result.groups) forget_rotation(group);
   }
   return result;

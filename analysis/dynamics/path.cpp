@@ -27,11 +27,11 @@ std::vector<Vec3> body_axes(const Ellipsoid& shape, std::size_t count) {
   return axes;
 }
 
-/// Angles by the shortest turns from frame to frame, of which the largest is noted.
-FrameSeries unwrapped(FrameSeries angle, double& largest_turn) {
+/// Angles by the shortest turns from frame to frame, of which the largest is noted, as if the period were 2π.
+FrameSeries unwrapped(FrameSeries angle, double period, double& largest_turn) {
   for (std::size_t k = 1; k < angle.size(); ++k) {
-    const double turn = std::remainder(angle[k] - angle[k - 1], 2 * std::numbers::pi);
-    largest_turn = std::max(largest_turn, std::abs(turn));
+    const double turn = std::remainder(angle[k] - angle[k - 1], period);
+    largest_turn = std::max(largest_turn, std::abs(turn) * (2 * std::numbers::pi / period));
     angle[k] = angle[k - 1] + turn;
   }
   return angle;
@@ -39,7 +39,8 @@ FrameSeries unwrapped(FrameSeries angle, double& largest_turn) {
 
 void follow(Path<2>& path, const Ellipse&, std::size_t) {
   const FrameSeries& angle = path.track->orientation[0];
-  path.turn[0] = path.track->counts_turns ? angle : unwrapped(angle, path.largest_turn);
+  const double period = path.track->turn_period;
+  path.turn[0] = period == 0 ? angle : unwrapped(angle, period, path.largest_turn);
   DirectionSeries<2>& axis = path.directions.emplace_back();
   for (const double theta : angle) {
     axis[0].push_back(std::cos(theta));

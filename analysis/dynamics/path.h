@@ -29,7 +29,8 @@ Vec3 rotation_vector(Quaternion turn);
 ///     φ(t_k) = Σ_{l ≤ k} α_l e_l,   q_l q_{l−1}⁻¹ = (cos α_l/2, e_l sin α_l/2),   0 ≤ α_l ≤ π:
 ///
 /// unbounded, as the angle is in the plane, and exact for a body that turns about a fixed axis by less
-/// than half a turn between two frames. In the plane the same holds for files that do not count turns.
+/// than half a turn between two frames. In the plane the same holds for files that do not count turns,
+/// and for directors with a quarter turn in the place of half a turn.
 template <int Dim>
 struct Path {
   static constexpr std::size_t rotations = Dim == 2 ? 1 : 3;
@@ -42,7 +43,8 @@ struct Path {
   const Track<Dim>* track;
   std::array<FrameSeries, rotations> turn;       ///< the angle, or the rotation vector
   std::vector<DirectionSeries<Dim>> directions;  ///< of the axes
-  double largest_turn = 0;  ///< between two frames, where turns are not counted
+  double largest_turn =
+      0;  ///< between two frames, where turns are not counted; of directors twice that
 };
 
 /// Whether turns between frames can be told from longer ones the other way: the largest one seen is

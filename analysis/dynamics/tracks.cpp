@@ -26,7 +26,7 @@ std::vector<Track<Dim>> read_tracks(Trajectory<Dim>& trajectory, std::size_t beg
   for (Track<Dim>& track : tracks) {
     for (FrameSeries& series : track.position) series.resize(frames);
     for (FrameSeries& series : track.orientation) series.resize(frames);
-    track.counts_turns = trajectory.counts_turns();
+    track.turn_period = trajectory.turn_period();
   }
   for (std::size_t k = 0; k < frames; ++k) {
     const Configuration<Dim>& frame = trajectory.read(k);

@@ -20,7 +20,7 @@ struct Track {
   std::array<FrameSeries, Dim> position;  ///< unwrapped
   /// In the plane the angle; in space the quaternion w, x, y, z.
   std::array<FrameSeries, orientation_numbers> orientation;
-  bool counts_turns = true;  ///< whether the angle is unwrapped
+  double turn_period = 0;  ///< of the angle; 0: it is unwrapped
 };
 
 /// Bytes that the track of one particle takes.

@@ -34,8 +34,7 @@ int analyze_file(const AnalyzeOptions& options, const fs::path& run) {
   const AnalysedRun analysis = analyze_run(run, choice, shown_on(display));
   display.clear();
   write_all(output, analysis.results);
-  if (const std::string text = analysis.results.text("import"); !text.empty())
-    remark(options.print, run.string() + ": " + text);
+  remark_import(options.print, run, import_report(analysis.results));
   if (const std::string why = analysis.results.text("left_out_motion"); !why.empty())
     remark(options.print, run.string() + ": motion is left out: " + why);
   Json summary = analysis_summary(analysis);

@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "core/io/h5md.h"
 #include "core/io/json.h"
-#include "workflow/configuration/start_state.h"
+#include "workflow/analyze/analyze.h"
 #include "workflow/storage/check.h"
 
 namespace vitrel {
@@ -22,19 +22,22 @@ std::vector<double> components(const Vec<Dim>& vector) {
 }
 
 template <int Dim>
-Json summary(const FileCheck<Dim>& check, const std::filesystem::path& file) {
-  const Mechanics<Dim> sums = mechanics(check.last);
-  Json result = {{"file", file.string()},
+Json summary(const FileCheck<Dim>& check, const TrajectoryReader& reader) {
+  Json result = {{"file", reader.path().string()},
                  {"frames", check.frames},
                  {"particles", check.last.size()},
                  {"box", components<Dim>(check.last.box.lengths())},
                  {"packing_fraction", packing_fraction(check.last)},
                  {"overlaps", check.overlaps},
                  {"smallest_gap", check.smallest_gap},
-                 {"smallest_gap_frame", check.smallest_gap_frame},
-                 {"momentum", components<Dim>(sums.momentum)},
-                 {"translational_energy", sums.translational_energy},
-                 {"rotational_energy", sums.rotational_energy}};
+                 {"smallest_gap_frame", check.smallest_gap_frame}};
+  if (reader.has("velocity")) {
+    const Mechanics<Dim> sums = mechanics(check.last);
+    result["momentum"] = components<Dim>(sums.momentum);
+    result["translational_energy"] = sums.translational_energy;
+    result["rotational_energy"] = sums.rotational_energy;
+  }
+  if (!reader.import_report().empty()) result["import"] = import_json(reader.import_report());
   if (check.close_pairs > 0) result["close_pairs"] = check.close_pairs;
   return result;
 }
@@ -45,10 +48,9 @@ int check_and_print(const CheckOptions& options, const TrajectoryReader& reader)
   session.say()("check of " + options.input.string());
   const FileCheck<Dim> check = check_file<Dim>(reader, options.last_only, session.control());
   session.clear();
-  if (!reader.import_remark().empty())
-    remark(options.print, options.input.string() + ": " + reader.import_remark());
+  remark_import(options.print, options.input, reader.import_report());
   if (check.frames == 0) return stopped;
-  print_summary(options.print, summary(check, options.input));
+  print_summary(options.print, summary(check, reader));
   if (check.overlaps > 0) {
     std::string message =
         fmt::format("{}: {} overlapping pair(s); no pair of hard particles may overlap",
@@ -62,9 +64,7 @@ int check_and_print(const CheckOptions& options, const TrajectoryReader& reader)
 }  // namespace
 
 int check_command(const CheckOptions& options) {
-  KnownSystem known;
-  if (!options.parameters.empty()) known = known_system(load_parameters({options.parameters}));
-  const TrajectoryReader reader(options.input, known);
+  const TrajectoryReader reader(options.input, import_choice(options.import));
   return reader.dimension() == 2 ? check_and_print<2>(options, reader)
                                  : check_and_print<3>(options, reader);
 }

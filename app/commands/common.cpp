@@ -1,10 +1,14 @@
 #include "app/commands/common.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string_view>
 
 #include "app/terminal/progress.h"
@@ -23,15 +27,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void refuse_other_key(const std::string& assignment) {
-  const bool is_analysis =
-      assignment.starts_with("analysis.") || assignment.starts_with("analysis=") ||
-      assignment.starts_with("import.") || assignment.find('=') == std::string::npos;
-  if (!is_analysis)
+/// `sections` are those that have an effect.
+void require_key_of(std::span<const std::string_view> sections, const std::string& assignment) {
+  const auto is_below = [&](std::string_view section) {
+    return assignment.starts_with(fmt::format("{}.", section)) ||
+           assignment.starts_with(fmt::format("{}=", section));
+  };
+  if (assignment.find('=') != std::string::npos && !std::ranges::any_of(sections, is_below))
     throw UserError(
-        fmt::format("--set {}: has no effect on an existing run; only parameters of its analysis, "
-                    "analysis.… and import.…, can be set, and `vitrel params analyze` prints them",
-                    assignment));
+        fmt::format("--set {}: has no effect on an existing run; only {}.… can be set here, and "
+                    "`vitrel params analyze` prints them",
+                    assignment, fmt::join(sections, ".… and ")));
 }
 
 void require_folder_of(const fs::path& output) {
@@ -96,11 +102,18 @@ ParameterSource parameter_source(const ParameterOptions& options, const StartOpt
 }
 
 AnalysisChoice analysis_choice(const AnalysisOptions& options) {
-  for (const std::string& assignment : options.overrides) refuse_other_key(assignment);
+  static constexpr std::array<std::string_view, 2> sections = {"analysis", "import"};
+  for (const std::string& assignment : options.overrides) require_key_of(sections, assignment);
   AnalysisChoice choice;
   if (!options.file.empty()) choice.parameters = options.file;
   choice.overrides = options.overrides;
   return choice;
+}
+
+KnownSystem import_choice(const AnalysisOptions& options) {
+  static constexpr std::array<std::string_view, 1> sections = {"import"};
+  for (const std::string& assignment : options.overrides) require_key_of(sections, assignment);
+  return known_system(analysis_choice(options));
 }
 
 AnalysisProgress shown_on(ProgressDisplay& display) {
@@ -137,6 +150,7 @@ void print_summary(const PrintOptions& options, const Json& summary) {
     print_text(json_text(with_former_keys(summary), 2) + '\n');
   } else if (!options.quiet) {
     for (const auto& [key, value] : summary.items()) {
+      if (value.is_object()) continue;  // for programs
       const std::string text = value_text(summary, key);
       if (!is_error(summary, key) && !text.empty())
         print_text(fmt::format("{:<26} {}\n", key, emphasized(key, value, text)));
@@ -146,6 +160,13 @@ void print_summary(const PrintOptions& options, const Json& summary) {
 
 void remark(const PrintOptions& options, const std::string& line) {
   if (!options.quiet) fmt::print(stderr, "{}\n", line);
+}
+
+void remark_import(const PrintOptions& options, const fs::path& file, const ImportReport& report) {
+  if (report.empty()) return;
+  remark(options, file.string() + ": read as a file of another program");
+  for (const auto& [heading, text] : report)
+    remark(options, fmt::format("  {:<14} {}", heading, text));
 }
 
 void remark_left_out(const PrintOptions& options, const fs::path& folder,

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/commands/options.h"
+#include "core/io/foreign/foreign_file.h"
 #include "core/io/json.h"
 
 /// @file
@@ -18,8 +19,10 @@ struct SweepProgress;
 class ProgressDisplay;
 
 ParameterSource parameter_source(const ParameterOptions& options, const StartOptions& start = {});
-/// UserError if --set names anything but a parameter of the analysis.
+/// UserError if --set names anything but a parameter of the analysis or the import.
 AnalysisChoice analysis_choice(const AnalysisOptions& options);
+/// UserError if --set names anything but a parameter of the import.
+KnownSystem import_choice(const AnalysisOptions& options);
 /// Shows an analysis on the display.
 AnalysisProgress shown_on(ProgressDisplay& display);
 
@@ -42,6 +45,9 @@ void print_summary(const PrintOptions& options, const Json& summary);
 
 /// One line on standard error, unless quiet.
 void remark(const PrintOptions& options, const std::string& line);
+/// How the file of another program was read, a line for each heading; nothing if vitrel wrote it.
+void remark_import(const PrintOptions& options, const std::filesystem::path& file,
+                   const ImportReport& report);
 /// Names the jobs of a sweep that are left out, if any.
 void remark_left_out(const PrintOptions& options, const std::filesystem::path& folder,
                      const SweepProgress& sweep);

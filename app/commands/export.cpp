@@ -7,6 +7,7 @@
 #include "app/terminal/session.h"
 #include "core/error.h"
 #include "core/io/json.h"
+#include "workflow/analyze/analyze.h"
 #include "workflow/export/gnuplot.h"
 #include "workflow/export/trajectory_export.h"
 
@@ -26,9 +27,11 @@ fs::path new_output(const ExportOptions& options, const fs::path& default_output
 int export_results(const ExportOptions& options) {
   const fs::path output = new_output(
       options, options.input.parent_path() / (options.input.stem().string() + "_gnuplot"));
-  if (options.frames || options.shrink || options.voxels || options.images)
+  if (options.frames || options.shrink || options.voxels || options.images ||
+      !options.import.file.empty() || !options.import.overrides.empty())
     throw UserError(
-        "--frames, --shrink, --voxels, --images: are for trajectories and packings, but --to "
+        "--frames, --shrink, --voxels, --images, --params, --set: are for trajectories and "
+        "packings, but --to "
         "gnuplot writes tables of results");
   const std::vector<TextFile> files = gnuplot_files(read_results(options.input));
   write_folder(output, files);
@@ -38,8 +41,14 @@ int export_results(const ExportOptions& options) {
 }
 
 int export_frames(const ExportOptions& options) {
-  ExportRequest request = {options.input,  options.format, {}, options.frames, options.shrink,
-                           options.voxels, options.images};
+  ExportRequest request = {options.input,
+                           options.format,
+                           {},
+                           options.frames,
+                           options.shrink,
+                           options.voxels,
+                           options.images,
+                           import_choice(options.import)};
   request.output = new_output(options, default_output(request));
   Session session(options.print.quiet);
   session.say()("export of " + options.input.string());
@@ -51,7 +60,9 @@ int export_frames(const ExportOptions& options) {
                   {"frames", done->frames},
                   {"particles", done->particles},
                   {"bytes", done->bytes}};
+  if (!done->import.empty()) summary["import"] = import_json(done->import);
   if (done->bodies > 0) summary["bodies"] = done->bodies;
+  remark_import(options.print, options.input, done->import);
   print_summary(options.print, summary);
   if (done->omits_images)
     remark(options.print, request.output.string() +

@@ -29,7 +29,7 @@ struct StartOptions {
   bool shrink = false;
 };
 
-/// Parameters of an analysis; without a file, those in the run.
+/// Parameters of an analysis, or of the import of a file; without a file, those in the run.
 struct AnalysisOptions {
   std::filesystem::path file;
   std::vector<std::string> overrides;  ///< key=value
@@ -45,13 +45,14 @@ struct AnalyzeOptions {
 
 struct CheckOptions {
   PrintOptions print;
-  std::filesystem::path input;       ///< state or run
-  std::filesystem::path parameters;  ///< of what the file does not say; may be empty
-  bool last_only = false;            ///< the last frame only
+  AnalysisOptions import;
+  std::filesystem::path input;  ///< state or run
+  bool last_only = false;       ///< the last frame only
 };
 
 struct ExportOptions {
   PrintOptions print;
+  AnalysisOptions import;
   std::filesystem::path input;   ///< state, run or results
   std::filesystem::path output;  ///< empty: beside the input
   std::string format;

@@ -1,5 +1,7 @@
 #include "app/commands/commands.h"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include "app/commands/common.h"
@@ -18,6 +20,12 @@ int run_and_print(const RunOptions& options, const RunRequest& request, Session&
   session.clear();
   const bool has_begun = outcome.state.configuration.size() > 0;
   if (has_begun) print_summary(options.print, run_summary(request, outcome));
+  if (has_begun && outcome.state.counters.collisions == 0)
+    remark(options.print,
+           fmt::format("no particle collided in {:g} units of time, in which a particle moves by "
+                       "about as many units of length; if those of the state are others, "
+                       "import.length_unit converts them",
+                       outcome.state.configuration.time - outcome.state.start_time));
   if (outcome.complete) return success;
   remark(options.print, "stopped; the same command continues");
   return stopped;

@@ -147,33 +147,45 @@ void Object::set_attribute(const std::string& name, std::span<const T> values) {
 
 namespace {
 
-/// Reads one string of either kind HDF5 has; `read` fills memory of the type it is given.
+/// Reads strings of either kind HDF5 has; `read` fills memory of the type it is given.
 template <class Read>
-std::string read_string(const Check& check, const Handle& stored, Read&& read) {
-  if (check(H5Tget_class(stored.id())) != H5T_STRING) return {};
+std::vector<std::string> read_strings(const Check& check, const Handle& stored, std::size_t count,
+                                      Read&& read) {
+  std::vector<std::string> texts(count);
+  if (check(H5Tget_class(stored.id())) != H5T_STRING) return texts;
   if (check(H5Tis_variable_str(stored.id())) > 0) {
-    char* text = nullptr;
-    check(read(stored.id(), &text));
-    std::string copy = text ? text : "";
-    check(H5free_memory(text));
-    return copy;
+    std::vector<char*> pointers(count, nullptr);
+    check(read(stored.id(), pointers.data()));
+    for (std::size_t k = 0; k < count; ++k) {
+      texts[k] = pointers[k] ? pointers[k] : "";
+      check(H5free_memory(pointers[k]));
+    }
+    return texts;
   }
-  std::string text(check(H5Tget_size(stored.id())), '\0');
-  check(read(stored.id(), text.data()));
-  return text.substr(0, text.find('\0'));
+  const std::size_t width = check(H5Tget_size(stored.id()));
+  std::string block(count * width, '\0');
+  check(read(stored.id(), block.data()));
+  for (std::size_t k = 0; k < count; ++k) texts[k] = block.substr(k * width, width).c_str();
+  return texts;
 }
 
 }  // namespace
 
-std::string Object::text_attribute(const std::string& name) const {
+std::vector<std::string> Object::texts_attribute(const std::string& name) const {
   const Check check(*file_, "read attribute", name);
   const Handle attribute(check(H5Aopen(handle_.id(), name.c_str(), H5P_DEFAULT)));
   const Handle type(check(H5Aget_type(attribute.id())));
   const Handle space(check(H5Aget_space(attribute.id())));
-  if (check(H5Sget_simple_extent_npoints(space.id())) != 1)
+  const hssize_t count = check(H5Sget_simple_extent_npoints(space.id()));
+  return read_strings(check, type, static_cast<std::size_t>(std::max<hssize_t>(0, count)),
+                      [&](Id memory, void* out) { return H5Aread(attribute.id(), memory, out); });
+}
+
+std::string Object::text_attribute(const std::string& name) const {
+  const std::vector<std::string> texts = texts_attribute(name);
+  if (texts.size() != 1)
     throw_file_error(file_->path(), "read attribute", name, "it is not one string");
-  return read_string(check, type,
-                     [&](Id memory, void* out) { return H5Aread(attribute.id(), memory, out); });
+  return texts.front();
 }
 
 template <class T>
@@ -257,9 +269,11 @@ std::string Dataset::read_text() const {
   if (elements(shape()) != 1)
     throw_file_error(file_->path(), "read", name_, "it is not one string");
   const Check check(*file_, "read", name_);
-  return read_string(check, Handle(check(H5Dget_type(handle_.id()))), [&](Id memory, void* out) {
-    return H5Dread(handle_.id(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, out);
-  });
+  const auto texts =
+      read_strings(check, Handle(check(H5Dget_type(handle_.id()))), 1, [&](Id memory, void* out) {
+        return H5Dread(handle_.id(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, out);
+      });
+  return texts.front();
 }
 
 void Dataset::resize(std::uint64_t frames) {

@@ -57,6 +57,8 @@ class Object {
     set_attribute(name, std::span<const T>(&value, 1));
   }
   std::string text_attribute(const std::string& name) const;
+  /// One string, or an array of several.
+  std::vector<std::string> texts_attribute(const std::string& name) const;
   template <class T>
   T number_attribute(const std::string& name) const;
 

@@ -146,22 +146,18 @@ class TrajectoryObserver : public Observer<Dim> {
   Measure measure_;
 };
 
-/// Reads trajectories one frame at a time: vitrel's own, and those of other programs as far as they
-/// have what is asked for, in H5MD, GSD, extended XYZ or CSV (core/io/foreign). Of H5MD, two-dimensional files, fixed
-/// boxes and elements that do not depend on time (`position` a dataset, then the only frame) are understood; positions
-/// are wrapped into a box centred at the origin. What a file of another program may lack, and what then
-/// is read: image: 0; velocity, angular_velocity: 0; mass: a b (a b c); species: one, "A"; angle: taken from
-/// the orientation, then not unwrapped; orientation: that of the axes, if all particles are round. `require` turns such
-/// a lack into an error where it matters.
+/// Reads trajectories one frame at a time: vitrel's own, and those of other programs, which are first brought into the same
+/// form (core/io/foreign/foreign_file.h). What a file may lack, and what then is read: image: 0; velocity, angular_velocity: 0;
+/// angle: taken from the orientation, then not unwrapped; orientation: that of the axes, if all particles are round.
 ///
-/// The dimension is the one the file states; H5MD that states none is three-dimensional if it has third
-/// semi-axes that are not 0. A frame is read into a configuration of the same dimension; `require_dimension`
-/// says so before any frame is asked for. Orientations in three dimensions must have the norm 1.
+/// A frame is read into a configuration of the dimension of the file; `require_dimension` says so before any frame is asked
+/// for. Orientations in three dimensions must have the norm 1.
 ///
-/// Times must be finite and ascend, and the particles must fit into the box, soft ones with some overlap. FileError names the file, the dataset, and what would be right.
+/// Times must be finite, and the particles must fit into the box, soft ones with some overlap. FileError names the file, the
+/// dataset, and what would be right.
 class TrajectoryReader {
  public:
-  /// `known` says what a file other than H5MD may lack: box, dimension, and the semi-axes of species.
+  /// `known`: what a file of another program may lack, and how to read it.
   explicit TrajectoryReader(const std::filesystem::path& path, const KnownSystem& known = {});
 
   std::uint64_t frames() const { return times_.size(); }
@@ -182,16 +178,18 @@ class TrajectoryReader {
 
   /// Whether the file has the element "velocity", "image", … of the particles.
   bool has(const std::string& name) const;
-  /// Throws FileError if it has not; `purpose` completes "needed for …".
-  void require(const std::string& name, const std::string& purpose) const;
 
   std::vector<std::string> observable_names() const;
   bool has_observable(const std::string& name) const;
   /// One value per frame.
   std::vector<double> observable(const std::string& name) const;
 
-  /// What became of a file of another program on its way, a sentence for the user, or nothing.
-  const std::string& import_remark() const { return import_.remark; }
+  /// What became of a file of another program; empty if vitrel wrote it.
+  const ImportReport& import_report() const { return import_.report; }
+  /// False if times are steps, or frames, since the file states none.
+  bool knows_time() const { return import_.knows_time; }
+  /// Whether angles are known up to half turns only.
+  bool angles_are_directors() const { return import_.angles_are_directors; }
   /// Why nothing can be said about motion; empty if it can.
   std::string obstacle_to_motion() const;
 
@@ -212,9 +210,7 @@ class TrajectoryReader {
                   const h5::Shape& shape) const;
   template <int Dim>
   void read_masses_and_species(Configuration<Dim>& fixed) const;
-  bool is_fixed(const std::string& name) const;
   const h5::Dataset& element(const std::string& name, const std::string& meaning) const;
-  std::size_t columns(const std::string& name, const std::string& meaning) const;
   template <int Dim>
   bool has_no_orientations(const Configuration<Dim>& configuration) const;
   std::vector<double> frame_values(const std::string& name, const std::string& meaning,
@@ -240,7 +236,7 @@ class TrajectoryReader {
   std::filesystem::path path_;
   ImportedFile import_;
   h5::Group root_;
-  std::string group_;  ///< of the particles: "particles/all" in vitrel's files
+  static inline const std::string group_ = "particles/all";
   std::vector<double> times_;
   std::vector<std::int64_t> steps_;
   std::variant<Configuration2, Configuration3> fixed_;   ///< what all frames share

@@ -20,11 +20,6 @@ namespace fs = std::filesystem;
 
 TrajectoryReader::TrajectoryReader(const fs::path& path, const KnownSystem& known)
     : path_(path), import_(open_as_h5md(path, known)), root_(import_.file.root()) {
-  if (!root_.has_group("particles")) fail("there is no group particles: it is not an H5MD file");
-  const std::vector<std::string> groups = root_.group("particles").members();
-  if (groups.empty()) fail("the group particles is empty: it should hold one group of particles");
-  const bool has_all = std::find(groups.begin(), groups.end(), "all") != groups.end();
-  group_ = "particles/" + (has_all ? "all" : groups.front());
   read_shapes();
   std::visit([this](auto& fixed) { read_masses_and_species(fixed); }, fixed_);
   read_axes();
@@ -57,49 +52,20 @@ const h5::Dataset& TrajectoryReader::dataset(const std::string& name,
   return datasets_.emplace(name, root_.dataset(name)).first->second;
 }
 
-/// Frames are counted by `step`, the last thing written of a frame; a single number is the
-/// increment.
+/// Frames are counted by `step`, the last thing written of a frame.
 void TrajectoryReader::read_axes() {
-  const h5::Dataset& position = element("position", "the positions, one frame after another");
-  if (is_fixed("position")) {
-    steps_ = {0};
-    times_ = {0};
-    return;
-  }
-  const h5::Dataset& step = dataset(group_ + "/position/step", "the step of every frame");
-  const h5::Dataset& time = dataset(group_ + "/position/time", "the time of every frame");
-  const h5::Shape shape = position.shape();
-  const auto axis = [&](const h5::Dataset& values) {
-    std::vector<double> numbers = values.read<double>();
-    if (!values.shape().empty()) return numbers;
-    const double increment = numbers.at(0);
-    const double offset =
-        values.has_attribute("offset") ? values.number_attribute<double>("offset") : 0;
-    numbers.resize(shape[0]);
-    for (std::size_t k = 0; k < numbers.size(); ++k) numbers[k] = offset + increment * k;
-    return numbers;
-  };
-  for (const double number : axis(step)) {
-    const auto whole = whole_number<std::int64_t>(std::round(number));
-    if (!whole)
-      fail(fmt::format("the step of frame {} (dataset {}) is {}, but should be a whole number",
-                       steps_.size(), step.name(), number));
-    steps_.push_back(*whole);
-  }
-  times_ = axis(time);
+  const h5::Shape shape = element("position", "the positions, one frame after another").shape();
+  steps_ = dataset(group_ + "/position/step", "the step of every frame").read<std::int64_t>();
+  times_ = dataset(group_ + "/position/time", "the time of every frame").read<double>();
   if (times_.size() < steps_.size() || shape[0] < steps_.size())
     fail("the datasets time and value of " + group_ + "/position have fewer frames than step");
   times_.resize(steps_.size());
-  for (std::size_t k = 0; k < times_.size(); ++k) {
-    const bool ascends = k == 0 || times_[k] > times_[k - 1];
-    const bool is_finite = std::isfinite(times_[k]);
-    if (is_finite && ascends) continue;
-    const std::string right = is_finite
-                                  ? fmt::format("above that of the frame before, {}", times_[k - 1])
-                                  : "a finite number";
-    fail(fmt::format("the time of frame {} (dataset {}/position/time) is {}, but should be {}", k,
-                     group_, times_[k], right));
-  }
+  for (std::size_t k = 0; k < times_.size(); ++k)
+    if (!std::isfinite(times_[k]))
+      fail(
+          fmt::format("the time of frame {} (dataset {}/position/time) is {}, but should be a "
+                      "finite number",
+                      k, group_, times_[k]));
 }
 
 void TrajectoryReader::read_shapes() {
@@ -207,28 +173,14 @@ bool TrajectoryReader::has_dataset(const std::string& name) const {
   return present_.emplace(name, root_.has_dataset(name)).first->second;
 }
 
-/// Whether the element is the same in all frames: a dataset instead of a group.
-bool TrajectoryReader::is_fixed(const std::string& name) const {
-  return has_dataset(group_ + '/' + name);
-}
-
 const h5::Dataset& TrajectoryReader::element(const std::string& name,
                                              const std::string& meaning) const {
-  const bool fixed = is_fixed(name);
-  const h5::Dataset& values = dataset(group_ + '/' + name + (fixed ? "" : "/value"), meaning);
+  const h5::Dataset& values = dataset(group_ + '/' + name + "/value", meaning);
   const h5::Shape shape = values.shape();
-  const std::size_t of_particles = fixed ? 0 : 1;
-  if (shape.size() <= of_particles || shape.size() > of_particles + 2 ||
-      shape[of_particles] != particles())
-    fail(fmt::format("the dataset {} should have the shape {}{} particles × numbers", values.name(),
-                     fixed ? "" : "frames × ", particles()));
+  if (shape.size() < 2 || shape.size() > 3 || shape[1] != particles())
+    fail(fmt::format("the dataset {} should have the shape frames × {} particles × numbers",
+                     values.name(), particles()));
   return values;
-}
-
-/// Numbers per particle of an element.
-std::size_t TrajectoryReader::columns(const std::string& name, const std::string& meaning) const {
-  const h5::Shape shape = element(name, meaning).shape();
-  return shape.size() == (is_fixed(name) ? 2 : 3) ? shape.back() : 1;
 }
 
 /// A frame of an element with at least `per_particle` numbers per particle; others are cut off.
@@ -236,12 +188,10 @@ std::vector<double> TrajectoryReader::frame_values(const std::string& name,
                                                    const std::string& meaning, std::uint64_t frame,
                                                    std::size_t per_particle) const {
   const h5::Dataset& values = element(name, meaning);
-  const std::size_t stored = columns(name, meaning);
+  const h5::Shape shape = values.shape();
+  const std::size_t stored = shape.size() == 3 ? shape.back() : 1;
   std::vector<double> numbers(particles() * stored);
-  if (is_fixed(name))
-    numbers = values.read<double>();
-  else
-    values.read_frame<double>(frame, numbers);
+  values.read_frame<double>(frame, numbers);
   if (stored < per_particle)
     fail("the dataset " + values.name() + " should have " + std::to_string(per_particle) +
          " numbers per particle");
@@ -257,32 +207,17 @@ std::vector<double> TrajectoryReader::frame_values(const std::string& name,
 
 template <int Dim>
 void TrajectoryReader::read_box(std::uint64_t frame, Configuration<Dim>& configuration) const {
-  const std::string path = group_ + "/box/edges";
-  const bool fixed = has_dataset(path);
-  const h5::Dataset& edges = dataset(fixed ? path : path + "/value", "the box lengths");
-  h5::Shape shape = edges.shape();
-  if (!fixed && !shape.empty()) shape.erase(shape.begin());
-  const std::size_t d = shape.empty() ? 0 : shape[0];
-  if (d < Dim || d > 3 || shape.size() > 2)
-    fail("the dataset " + edges.name() + " should hold " + (Dim == 2 ? "2 or 3" : "3") +
-         " lengths, or as many cell vectors");
-  std::vector<double> values(shape.size() == 2 ? d * d : d);
-  if (fixed)
-    values = edges.read<double>();
-  else
-    edges.read_frame<double>(frame, values);
-
+  const h5::Dataset& edges = dataset(group_ + "/box/edges/value", "the box lengths");
+  const h5::Shape shape = edges.shape();
+  if (shape.size() != 3 || shape[1] != 3 || shape[2] != 3)
+    fail("the dataset " + edges.name() + " should hold three cell vectors per frame");
+  std::array<double, 9> values;
+  edges.read_frame<double>(frame, values);
   Vec<Dim> lengths;
-  bool slanted = false;
-  for (std::size_t k = 0; k < Dim; ++k) {
-    lengths[k] = values[shape.size() == 2 ? k * d + k : k];
-    for (std::size_t l = 0; shape.size() == 2 && l < Dim; ++l)
-      slanted = slanted || (l != k && values[k * d + l] != 0);
-  }
-  if (slanted || !lengths.allFinite() || lengths.minCoeff() <= 0)
-    fail("the box of frame " + std::to_string(frame) +
-         (Dim == 2 ? " should be a rectangle with sides along x and y"
-                   : " should be a cuboid with edges along x, y and z"));
+  for (std::size_t k = 0; k < Dim; ++k) lengths[k] = values[4 * k];
+  if (!lengths.allFinite() || lengths.minCoeff() <= 0)
+    fail(fmt::format("the box of frame {} is {}, but its edges should be finite and above 0", frame,
+                     fmt::join(lengths, " × ")));
   configuration.box = PeriodicBox<Dim>(lengths);
   require_room(frame, configuration);
 }
@@ -325,19 +260,16 @@ void TrajectoryReader::require_near_box(std::uint64_t frame, std::size_t i,
 template <int Dim>
 void TrajectoryReader::read_positions(std::uint64_t frame,
                                       Configuration<Dim>& configuration) const {
-  const std::string meaning = "the coordinates";
-  const std::size_t stored = columns("position", meaning);
-  const std::size_t d = Dim == 2 && stored <= 2 ? 2 : 3;
-  const std::vector<double> positions = frame_values("position", meaning, frame, d);
+  const std::vector<double> positions = frame_values("position", "the coordinates", frame, 3);
   std::vector<double> images(particles() * Dim);
   if (has("image")) images = frame_values("image", "the box crossings", frame, Dim);
   if (std::ranges::any_of(images, [](double n) { return std::abs(n) > max_box_crossings; }))
     fail("the dataset " + group_ + "/image/value has impossible numbers in frame " +
          std::to_string(frame));
   for (std::size_t i = 0; i < particles(); ++i) {
-    if (Dim == 2 && d == 3 && positions[3 * i + 2] != 0)
+    if (Dim == 2 && positions[3 * i + 2] != 0)
       fail("particle " + std::to_string(i) + " has z ≠ 0, but the system is two-dimensional");
-    configuration.position[i] = Vec<Dim>(&positions[d * i]);
+    configuration.position[i] = Vec<Dim>(&positions[3 * i]);
     require_near_box(frame, i, configuration);
     configuration.image[i] = Vec<Dim>(&images[Dim * i]).template cast<std::int32_t>();
     configuration.box.wrap_if_outside(configuration.position[i], configuration.image[i]);
@@ -438,17 +370,11 @@ void TrajectoryReader::read_close_pairs(std::uint64_t frame,
 }
 
 bool TrajectoryReader::has(const std::string& name) const {
-  return is_fixed(name) || has_dataset(group_ + '/' + name + "/value");
-}
-
-void TrajectoryReader::require(const std::string& name, const std::string& purpose) const {
-  if (!has(name))
-    fail("the dataset " + group_ + '/' + name + "/value is missing: it is needed for " + purpose);
+  return has_dataset(group_ + '/' + name + "/value");
 }
 
 /// The first frame whose box is not that of frame 0, or the number of frames.
 std::uint64_t TrajectoryReader::first_other_box() const {
-  if (is_fixed("box/edges")) return frames();
   const h5::Dataset& edges = dataset(group_ + "/box/edges/value", "the box lengths");
   const h5::Shape shape = edges.shape();
   if (shape.empty() || shape[0] < frames())
@@ -467,6 +393,11 @@ std::string TrajectoryReader::obstacle_to_motion() const {
         "box crossings are unknown: it has no {}; if no particle moves by more than half a box "
         "length between frames, import.unwrap = \"nearest\" counts them",
         import_.box_crossings);
+  for (std::size_t k = 1; k < times_.size(); ++k)
+    if (!(times_[k] > times_[k - 1]))
+      return fmt::format(
+          "frame {} has the time {}, which is not above that of the frame before, {}", k, times_[k],
+          times_[k - 1]);
   if (const std::uint64_t frame = first_other_box(); frame < frames())
     return fmt::format("the box of frame {} differs from that of the first", frame);
   return "";

@@ -73,15 +73,15 @@ py::tuple analyze_sweep(const std::filesystem::path& folder,
 }
 
 /// As HTML.
-std::string page(const std::filesystem::path& input) {
+std::string page(const std::filesystem::path& input, const std::vector<std::string>& overrides) {
   const py::gil_scoped_release release;
-  return page_of(input, {}).html;
+  return page_of(input, choice_of(overrides)).html;
 }
 
-void write_page(const std::filesystem::path& input, const std::filesystem::path& output) {
+void write_page(const std::filesystem::path& input, const std::filesystem::path& output,
+                const std::vector<std::string>& overrides) {
   require_place_of_page(output);
-  const py::gil_scoped_release release;
-  write_text(output, page_of(input, {}).html);
+  write_text(output, page(input, overrides));
 }
 
 /// Mean and standard error of a series; without an error if it is not evenly spaced in time.
@@ -99,8 +99,8 @@ py::tuple average(const Doubles& time, const Doubles& value) {
 void bind_results(py::module_& module) {
   module.def("analyze", &analyze_file, py::arg("file"), py::arg("overrides"));
   module.def("analyze_sweep", &analyze_sweep, py::arg("folder"), py::arg("overrides"));
-  module.def("page", &page, py::arg("input"));
-  module.def("write_page", &write_page, py::arg("input"), py::arg("output"));
+  module.def("page", &page, py::arg("input"), py::arg("overrides"));
+  module.def("write_page", &write_page, py::arg("input"), py::arg("output"), py::arg("overrides"));
   module.def("average", &average, py::arg("time"), py::arg("value"));
   module.def(
       "charts", [](int dimension) { return charts_data(observables(dimension)).dump(); },

@@ -3,6 +3,7 @@
 #include "core/state/check.h"
 #include "python/bindings/arrays.h"
 #include "python/bindings/bindings.h"
+#include "workflow/analyze/analyze.h"
 
 namespace vitrel::python {
 namespace {
@@ -173,16 +174,20 @@ void bind_states(py::module_& module) {
         return dimension == 2 ? py::cast(state_of<2>(given)) : py::cast(state_of<3>(given));
       });
   py::class_<TrajectoryReader>(module, "Frames")
-      .def(py::init([](const std::filesystem::path& path) { return TrajectoryReader(path); }))
+      .def(py::init([](const std::filesystem::path& path, std::vector<std::string> overrides) {
+             return TrajectoryReader(path, known_system(AnalysisChoice{{}, std::move(overrides)}));
+           }),
+           py::arg("path"), py::arg("overrides"))
       .def("__len__", &TrajectoryReader::frames)
       .def("__getitem__", &read_frame)
       .def_property_readonly("dimension", &TrajectoryReader::dimension)
       .def_property_readonly(
           "times",
           [](const TrajectoryReader& reader) { return owned(std::vector<double>(reader.times())); })
-      .def_property_readonly("parameters", [](const TrajectoryReader& reader) {
-        return reader.provenance().parameters;
-      });
+      .def_property_readonly(
+          "parameters",
+          [](const TrajectoryReader& reader) { return reader.provenance().parameters; })
+      .def_property_readonly("import_report", &TrajectoryReader::import_report);
 }
 
 }  // namespace vitrel::python

@@ -6,7 +6,7 @@ import html
 import json
 import os
 import pathlib
-from typing import Callable, Iterator, Mapping, Optional
+from typing import Callable, Iterator, Mapping, Optional, Sequence
 
 import numpy
 
@@ -21,6 +21,7 @@ class Page:
     """What has a report page: one HTML file that needs nothing beside it."""
 
     path: pathlib.Path
+    _imports: Sequence[str] = ()  # assignments of [import], for files of other programs
 
     def report(self, path=None) -> pathlib.Path:
         """Writes the page, by default beside the run or into the folder of the sweep; returns its path.
@@ -29,11 +30,11 @@ class Page:
         """
         default = self.path / "report.html" if self.path.is_dir() else self.path.with_suffix(".html")
         path = default if path is None else pathlib.Path(path)
-        _vitrel.write_page(self.path, path)
+        _vitrel.write_page(self.path, path, self._imports)
         return path
 
     def _repr_html_(self) -> str:
-        page = html.escape(_vitrel.page(self.path))
+        page = html.escape(_vitrel.page(self.path, self._imports))
         return f'<iframe srcdoc="{page}" style="width: 100%; height: 42em; border: 0"></iframe>'
 
 
@@ -50,11 +51,15 @@ class Run(Page):
         What `vitrel run --json` prints; empty if the run was only loaded.
     observed : Results or None
         The observables that were given to `vitrel.run`.
+    imported : dict
+        How a file of another program was read; empty for one of vitrel.
     """
 
-    def __init__(self, path, summary: Optional[dict] = None, observed: Optional[Results] = None):
+    def __init__(self, path, summary: Optional[dict] = None, observed: Optional[Results] = None, imports: Sequence[str] = ()):
         self.path, self.summary, self.observed = pathlib.Path(path), summary or {}, observed
-        self._frames = _vitrel.Frames(self.path)
+        self._imports = imports
+        self._frames = _vitrel.Frames(self.path, imports)
+        self.imported = dict(self._frames.import_report)
 
     def __len__(self) -> int:
         return len(self._frames)
@@ -106,7 +111,7 @@ class Run(Page):
         **settings
             Keys of `[analysis]`.
         """
-        text, columns, provenance = _vitrel.analyze(self.path, overrides("analysis", settings))
+        text, columns, provenance = _vitrel.analyze(self.path, [*self._imports, *overrides("analysis", settings)])
         summary, tables = json.loads(text), tables_of(columns, self.dimension)
         if observe:
             own = Observations(observe).results(self)
@@ -161,6 +166,12 @@ def run(start=None, file=None, *, output, observe: Optional[Mapping[str, Callabl
     return found
 
 
-def load(path) -> Run:
-    """A run that was saved, by vitrel or in any format that `vitrel analyze` reads."""
-    return Run(path)
+def load(path, **settings) -> Run:
+    """A run that was saved, by vitrel or in any format that `vitrel analyze` reads.
+
+    Parameters
+    ----------
+    **settings
+        Keys of `[import]`, for files of other programs: ``load("run.gsd", unwrap="nearest")``.
+    """
+    return Run(path, imports=overrides("import", settings))

@@ -2,7 +2,7 @@
 
 import sys
 
-SECTIONS = {"system", "species", "prepare", "dynamics", "output", "analysis", "sweep"}
+SECTIONS = {"system", "species", "prepare", "dynamics", "output", "analysis", "import", "sweep"}
 
 # Short names of keys that every study sets.
 SHORT = {

@@ -163,7 +163,10 @@ def prepare(file=None, *, start=None, shrink=False, threads=1, quiet=False, **se
     return State(state, parameters)
 
 
-def read(path, frame=-1):
-    """A state from a file of any format that `vitrel prepare --from` reads; of a trajectory this frame."""
-    frames = _vitrel.Frames(os.fspath(path))
+def read(path, frame=-1, **settings):
+    """A state from a file of any format that `vitrel prepare --from` reads; of a trajectory this frame.
+
+    `settings` are keys of `[import]`, for files of other programs: ``read("state.csv", length_unit=1e-6)``.
+    """
+    frames = _vitrel.Frames(os.fspath(path), overrides("import", settings))
     return State(frames[frame if frame >= 0 else len(frames) + frame], frames.parameters)

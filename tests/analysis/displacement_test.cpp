@@ -91,7 +91,7 @@ class UncountedTurns : public Trajectory2 {
     for (double& angle : frame_.angle) angle = std::remainder(angle, 2 * std::numbers::pi);
     return frame_;
   }
-  bool counts_turns() const override { return false; }
+  double turn_period() const override { return 2 * std::numbers::pi; }
 
  private:
   MemoryTrajectory2& counted_;

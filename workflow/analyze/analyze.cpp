@@ -33,6 +33,7 @@ namespace {
 // By whom and how results were computed, in their provenance.
 constexpr const char* analysis_key = "analysis_parameters";
 constexpr const char* analyzer_key = "analysed_by";
+const std::string import_prefix = "import: ";
 
 std::string analyzer() {
   return program_version() + " " + program_commit();
@@ -59,12 +60,9 @@ struct OpenRun {
 };
 
 OpenRun open_run(const std::filesystem::path& file, const AnalysisChoice& choice) {
-  if (choice.parameters) {
-    Parameters parameters = load_parameters({*choice.parameters, choice.overrides});
-    return {TrajectoryReader(file, known_system(parameters)), std::move(parameters)};
-  }
-  const Parameters set = parse_parameters("", file.string(), choice.overrides);
-  TrajectoryReader reader(file, known_system(set));
+  TrajectoryReader reader(file, known_system(choice));
+  if (choice.parameters)
+    return {std::move(reader), load_parameters({*choice.parameters, choice.overrides})};
   const std::string recorded = reader.provenance().parameters;
   return {std::move(reader), parse_parameters(recorded, file.string(), choice.overrides)};
 }
@@ -299,6 +297,15 @@ std::filesystem::path csv_file(const std::filesystem::path& results, const std::
   return csv_folder(results) / (table + ".csv");
 }
 
+/// The unit of time is a step, for files that state no times.
+void count_steps(Results& results) {
+  const std::string time = "time";
+  for (Table& table : results.tables)
+    for (Column& column : table.columns)
+      if (const std::size_t place = column.unit.find(time); place != std::string::npos)
+        column.unit.replace(place, time.size(), "steps");
+}
+
 /// Of a run of this dimension.
 template <int Dim>
 AnalysedRun analyze(OpenRun opened, const AnalysisProgress& progress) {
@@ -318,13 +325,14 @@ AnalysedRun analyze(OpenRun opened, const AnalysisProgress& progress) {
   results.provenance.emplace_back("source", file.string());
   results.provenance.emplace_back(analysis_key, effective_parameters(parameters));
   results.provenance.emplace_back(analyzer_key, analyzer());
-  if (!reader.import_remark().empty())
-    results.provenance.emplace_back("import", reader.import_remark());
+  for (const auto& [heading, text] : reader.import_report())
+    results.provenance.emplace_back(import_prefix + heading, text);
   if (run.dynamics)
     add_motion(run, trajectory.times(), results);
   else if (run.frames > 1)
     leave_out(results, "motion", run.obstacle);
   if (run.energy.time.empty()) leave_out(results, "energies", no_energies);
+  if (!reader.knows_time()) count_steps(results);
   analysed.glass = run.glass;
   return analysed;
 }
@@ -335,6 +343,24 @@ AnalysedRun analyze(OpenRun opened, const AnalysisProgress& progress) {
 }
 
 }  // namespace
+
+KnownSystem known_system(const AnalysisChoice& choice) {
+  return known_system(choice.parameters ? load_parameters({*choice.parameters, choice.overrides})
+                                        : parse_parameters("", "command line", choice.overrides));
+}
+
+Json import_json(const ImportReport& report) {
+  Json json = Json::object();
+  for (const auto& [heading, text] : report) json[heading] = text;
+  return json;
+}
+
+ImportReport import_report(const Results& results) {
+  ImportReport report;
+  for (const auto& [key, text] : results.provenance)
+    if (key.starts_with(import_prefix)) report.emplace_back(key.substr(import_prefix.size()), text);
+  return report;
+}
 
 std::string AnalysedRun::name() const {
   const bool in_job_folder = file.filename() == "run.h5" && file.has_parent_path();
@@ -414,6 +440,8 @@ void write_all(const std::filesystem::path& file, const Results& results) {
 
 Json analysis_summary(const AnalysedRun& run) {
   Json summary = {{"file", run.file.string()}};
+  if (const ImportReport report = import_report(run.results); !report.empty())
+    summary["import"] = import_json(report);
   for (const Column& column : run.results.find("summary")->columns) {
     const double value = column.value.front();
     const bool may_count = column.error.empty() && column.unit == "1";

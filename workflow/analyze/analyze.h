@@ -11,6 +11,7 @@
 #include "analysis/glass/glass_study.h"
 #include "analysis/results.h"
 #include "analysis/trajectory.h"
+#include "core/io/foreign/foreign_file.h"
 #include "core/io/json.h"
 #include "core/io/provenance.h"
 
@@ -26,6 +27,9 @@ struct AnalysisChoice {
   /// Whether it says anything about the analysis.
   bool given() const { return parameters || !overrides.empty(); }
 };
+
+/// What it says about files of other programs.
+KnownSystem known_system(const AnalysisChoice& choice);
 
 /// Callbacks of an analysis; empty functions are not called.
 struct AnalysisProgress {
@@ -48,6 +52,12 @@ struct AnalysedRun {
 /// All tables (observable.h) of which the run has what they need. Throws FileError or UserError, naming the file.
 AnalysedRun analyze_run(const std::filesystem::path& file, const AnalysisChoice& choice,
                         const AnalysisProgress& progress = {});
+
+/// How the file of another program was read; empty for those of vitrel.
+ImportReport import_report(const Results& results);
+
+/// An object of texts.
+Json import_json(const ImportReport& report);
 
 /// The same as an earlier analysis wrote it into this file. Throws FileError.
 AnalysedRun stored_analysis(const std::filesystem::path& run, const std::filesystem::path& results);

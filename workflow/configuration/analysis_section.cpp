@@ -7,20 +7,6 @@
 #include <utility>
 
 namespace vitrel {
-namespace {
-
-constexpr const char* unwrap_names[] = {"stated", "nearest"};
-
-}  // namespace
-
-void describe_import(ImportParameters& p, FieldVisitor& visit) {
-  visit.field({"unwrap", "",
-               "How often particles crossed the box, which displacements need: as the file states, "
-               "or by the nearest image from frame to frame where it does not. That is right if no "
-               "particle moves by more than half a box length between frames."},
-              p.unwrap, unwrap_names);
-}
-
 void describe_analysis(DisplacementOptions& p, FieldVisitor& visit) {
   visit.field({"longest_lag", "",
                "Longest time difference, as a fraction of an evenly sampled run. For other runs "

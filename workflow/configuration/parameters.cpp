@@ -176,6 +176,7 @@ void validate(const Parameters& parameters) {
   validate_collisions(parameters);
   if (parameters.dynamics.contact) validate_contact(parameters);
   validate_output(parameters);
+  validate_import(parameters.import);
   validate_analysis(parameters.analysis);
   validate_structure(parameters.structure);
   validate_sweep(parameters.sweep);

@@ -9,6 +9,7 @@
 
 #include "analysis/dynamics/displacement_options.h"
 #include "analysis/structure/structure_options.h"
+#include "core/io/foreign/foreign_frame.h"
 #include "core/io/parameters.h"
 #include "core/state/species.h"
 #include "edmd/options.h"
@@ -111,13 +112,6 @@ struct SweepParameters {
   ParameterGrid together;  ///< the k-th values of all keys together
 };
 
-/// What files of other programs leave open.
-struct ImportParameters {
-  enum class Unwrap { stated, nearest };
-
-  Unwrap unwrap = Unwrap::stated;
-};
-
 struct Parameters {
   SystemParameters system;
   std::vector<Species> species;
@@ -128,7 +122,7 @@ struct Parameters {
   DisplacementOptions analysis;
   StructureOptions structure;
   SweepParameters sweep;
-  ImportParameters import;
+  ImportOptions import;
   /// The dotted keys that the file or the command line gives, and their places; others are at their defaults.
   std::map<std::string, std::string> given;
 

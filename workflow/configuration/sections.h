@@ -39,7 +39,8 @@ void validate_contact(const Parameters& parameters);
 void describe_output(OutputParameters& p, FieldVisitor& visit);
 void validate_output(const Parameters& parameters);
 
-void describe_import(ImportParameters& p, FieldVisitor& visit);
+void describe_import(ImportOptions& p, FieldVisitor& visit);
+void validate_import(const ImportOptions& p);
 
 void describe_analysis(DisplacementOptions& p, FieldVisitor& visit);
 void validate_analysis(const DisplacementOptions& p);

@@ -94,23 +94,51 @@ void refuse_overlaps(const Configuration<Dim>& state, const std::string& file) {
 
 }  // namespace
 
+namespace {
+
+/// Those of the [[species]], which are in the unit of the results.
+std::vector<KnownSpecies> known_species(const Parameters& parameters) {
+  std::vector<KnownSpecies> known;
+  if (!place_of(parameters, "species")) return known;
+  const bool is_plane = parameters.system.dimension == 2;
+  for (const Species& species : parameters.species) {
+    KnownSpecies& one = known.emplace_back(KnownSpecies{species.name});
+    one.mass = species.mass;
+    if (has_one_shape(species))
+      one.semi_axes = is_plane ? semi_axes_of<2>(species) : semi_axes_of<3>(species);
+  }
+  return known;
+}
+
+/// Those of [[import.species]], which are in the unit of the file.
+void add_imported(std::vector<KnownSpecies>& known, const ImportOptions& import) {
+  for (const ImportOptions::Kind& kind : import.species) {
+    auto one = std::ranges::find(known, kind.name, &KnownSpecies::name);
+    if (one == known.end()) one = known.insert(known.end(), KnownSpecies{kind.name});
+    if (kind.diameter) one->semi_axes = Vec3::Constant(0.5 * *kind.diameter / import.length_unit);
+    if (kind.semi_axes) {
+      one->semi_axes = Vec3(Vec3::Zero());
+      for (std::size_t k = 0; k < kind.semi_axes->size(); ++k)
+        (*one->semi_axes)[static_cast<int>(k)] = (*kind.semi_axes)[k] / import.length_unit;
+    }
+    if (kind.mass) one->mass = kind.mass;
+  }
+}
+
+}  // namespace
+
 KnownSystem known_system(const Parameters& parameters) {
   KnownSystem known;
-  known.unwrap_nearest = parameters.import.unwrap == ImportParameters::Unwrap::nearest;
-  const int dimension = parameters.system.dimension;
-  if (place_of(parameters, "system.dimension")) known.dimension = dimension;
+  known.import = parameters.import;
+  known.dimension = parameters.import.dimension;
+  if (place_of(parameters, "system.dimension")) known.dimension = parameters.system.dimension;
   const StateStage* stage = start_state(parameters.stages);
   if (stage && stage->box) {
     known.box = Vec3(Vec3::Ones());
     std::ranges::copy(*stage->box, known.box->data());
   }
-  if (!place_of(parameters, "species")) return known;
-  for (const Species& species : parameters.species) {
-    KnownSpecies& one = known.species.emplace_back(KnownSpecies{species.name});
-    one.mass = species.mass;
-    if (has_one_shape(species))
-      one.semi_axes = dimension == 2 ? semi_axes_of<2>(species) : semi_axes_of<3>(species);
-  }
+  known.species = known_species(parameters);
+  add_imported(known.species, parameters.import);
   return known;
 }
 
@@ -160,7 +188,8 @@ Configuration<Dim> read_start(Parameters& parameters, bool overlaps_allowed, con
     const TrajectoryReader reader(*stage.file, known_system(parameters));
     state = read_state<Dim>(reader);
     recorded = reader.provenance().parameters;
-    if (!reader.import_remark().empty()) log_line(log, name + ": " + reader.import_remark());
+    for (const auto& [heading, text] : reader.import_report())
+      log_line(log, fmt::format("{}: {}: {}", name, heading, text));
   } else {
     state = inline_state<Dim>(parameters);
   }

@@ -158,14 +158,17 @@ const std::vector<ExportFormat>& export_formats() {
 
 fs::path default_output(const ExportRequest& request) {
   fs::path output = request.input;
-  if (request.format == "vtp" && chosen_frames(TrajectoryReader(request.input), request).size() > 1)
+  if (request.format == "vtp" &&
+      chosen_frames(TrajectoryReader(request.input, request.known), request).size() > 1)
     return output.replace_extension() += "_vtp";
   return output.replace_extension(request.format == "thesis" ? "dat" : request.format);
 }
 
-std::optional<ExportedTrajectory> export_trajectory(const ExportRequest& request,
-                                                    const RunControl& control) {
-  const TrajectoryReader reader(request.input);
+namespace {
+
+std::optional<ExportedTrajectory> export_frames(const TrajectoryReader& reader,
+                                                const ExportRequest& request,
+                                                const RunControl& control) {
   check_format(request, reader.dimension());
   check_options(request, reader.dimension());
   const Frames chosen = chosen_frames(reader, request);
@@ -174,6 +177,16 @@ std::optional<ExportedTrajectory> export_trajectory(const ExportRequest& request
   if (is_of_packing(request)) return export_packing(reader, chosen.front(), request);
   return reader.dimension() == 2 ? export_file<2>(reader, chosen, request, control)
                                  : export_file<3>(reader, chosen, request, control);
+}
+
+}  // namespace
+
+std::optional<ExportedTrajectory> export_trajectory(const ExportRequest& request,
+                                                    const RunControl& control) {
+  const TrajectoryReader reader(request.input, request.known);
+  std::optional<ExportedTrajectory> done = export_frames(reader, request, control);
+  if (done) done->import = reader.import_report();
+  return done;
 }
 
 }  // namespace vitrel

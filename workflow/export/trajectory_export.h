@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/io/foreign/foreign_file.h"
 #include "core/state/stage.h"
 
 namespace vitrel {
@@ -33,6 +34,7 @@ struct ExportRequest {
   std::optional<double> shrink = {};       ///< of packings: all semi-axes times this, up to 1; 1
   std::optional<std::size_t> voxels = {};  ///< of vti: along the longest edge; 100
   bool images = false;                     ///< of csv in space
+  KnownSystem known = {};                  ///< of files of other programs
 };
 
 struct ExportedTrajectory {
@@ -42,6 +44,7 @@ struct ExportedTrajectory {
   std::uintmax_t bytes = 0;
   bool omits_images =
       false;  ///< csv of a file of one frame in space, a packing, without its images
+  ImportReport import = {};
 };
 
 /// Beside the input: with the format as its suffix (.dat for thesis), or, of a series, the folder

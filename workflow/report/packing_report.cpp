@@ -17,8 +17,8 @@ constexpr std::size_t max_particles = 10'000;
 
 PackingPage packing_page_data(const std::filesystem::path& file, const AnalysisChoice& choice,
                               const AnalysisProgress& progress) {
-  const TrajectoryReader reader(file);
-  const Configuration3 packing = read_state<3>(file);
+  const TrajectoryReader reader(file, known_system(choice));
+  const Configuration3 packing = read_state<3>(reader);
   const ExactCheck<3> check = exact_check(packing);
   PackingQuality quality = measure_quality(packing, check);
   const std::filesystem::path report = quality_file(file);

@@ -28,11 +28,12 @@ Page page_of_sweep(const std::filesystem::path& folder, const AnalysisChoice& ch
 }
 
 Page page_of_state(const std::filesystem::path& file, const AnalysisChoice& choice) {
-  if (choice.given())
+  const KnownSystem known = known_system(choice);
+  if (choice.given() && TrajectoryReader(file, known).import_report().empty())
     throw UserError(file.string() +
                     ": is a single state, whose page holds no analysis; leave out --params and "
                     "--set");
-  return {PageSubject::state, 1, state_page(state_page_data(file))};
+  return {PageSubject::state, 1, state_page(state_page_data(file, known))};
 }
 
 bool is_page(const std::filesystem::path& file) {
@@ -44,16 +45,16 @@ bool is_page(const std::filesystem::path& file) {
 
 }  // namespace
 
-PageSubject page_subject(const std::filesystem::path& input) {
+PageSubject page_subject(const std::filesystem::path& input, const AnalysisChoice& choice) {
   if (std::filesystem::is_directory(input)) return PageSubject::sweep;
-  const TrajectoryReader reader(input);
+  const TrajectoryReader reader(input, known_system(choice));
   if (reader.frames() != 1) return PageSubject::run;
   return reader.dimension() == 3 ? PageSubject::packing : PageSubject::state;
 }
 
 Page page_of(const std::filesystem::path& input, const AnalysisChoice& choice,
              const AnalysisProgress& progress) {
-  const PageSubject subject = page_subject(input);
+  const PageSubject subject = page_subject(input, choice);
   switch (subject) {
     case PageSubject::sweep:
       return page_of_sweep(input, choice, progress);
@@ -62,7 +63,9 @@ Page page_of(const std::filesystem::path& input, const AnalysisChoice& choice,
     case PageSubject::packing:
       return {subject, 1, packing_page(packing_page_data(input, choice, progress))};
     case PageSubject::run:
-      return {subject, 1, report_page(report_data({stored_or_analyzed(input, choice, progress)}))};
+      return {subject, 1,
+              report_page(report_data({stored_or_analyzed(input, choice, progress)},
+                                      known_system(choice)))};
   }
   return {};
 }

@@ -13,7 +13,7 @@ namespace vitrel {
 enum class PageSubject { state, packing, run, sweep };
 
 /// A folder is a sweep; a file of one frame is a state of the plane or a packing in space, one of more a run. Throws FileError.
-PageSubject page_subject(const std::filesystem::path& input);
+PageSubject page_subject(const std::filesystem::path& input, const AnalysisChoice& choice = {});
 
 struct Page {
   PageSubject subject;

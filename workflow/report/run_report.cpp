@@ -113,10 +113,10 @@ void add_titles(const std::vector<AnalysedRun>& runs, const Configuration<Dim>& 
 }
 
 template <int Dim>
-void add_runs(const std::vector<AnalysedRun>& runs, ReportData& data) {
+void add_runs(const std::vector<AnalysedRun>& runs, const KnownSystem& known, ReportData& data) {
   const std::vector<std::size_t> room = movie_room(runs.size());
   for (std::size_t k = 0; k < runs.size(); ++k) {
-    TrajectoryFile<Dim> trajectory{TrajectoryReader(runs[k].file)};
+    TrajectoryFile<Dim> trajectory{TrajectoryReader(runs[k].file, known)};
     data.runs.push_back(report_run(runs[k], trajectory, room[k]));
     if (k > 0) continue;
     add_titles(runs, trajectory.read(0), data);
@@ -155,10 +155,10 @@ std::string particles_text(const Configuration<Dim>& state) {
 template std::string particles_text(const Configuration2&);
 template std::string particles_text(const Configuration3&);
 
-ReportData report_data(const std::vector<AnalysedRun>& runs) {
+ReportData report_data(const std::vector<AnalysedRun>& runs, const KnownSystem& known) {
   ReportData data;
-  const bool in_plane = TrajectoryReader(runs.front().file).dimension() == 2;
-  (in_plane ? add_runs<2> : add_runs<3>)(runs, data);
+  const bool in_plane = TrajectoryReader(runs.front().file, known).dimension() == 2;
+  (in_plane ? add_runs<2> : add_runs<3>)(runs, known, data);
   if (runs.size() > 1) data.study = results_of_sweep(runs, glass_study(runs));
   return data;
 }

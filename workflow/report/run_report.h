@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/io/foreign/foreign_frame.h"
 #include "core/state/configuration.h"
 #include "workflow/analyze/analyze.h"
 #include "workflow/report/report_page.h"
@@ -17,6 +18,7 @@ std::string particles_text(const Configuration<Dim>& state);
 /// The report's view of these runs, in their order: one run, or jobs of one sweep. Reads the files again, for
 /// the movies: one run has all the room for movies (MovieLimits); of several, six spread evenly over them share half of it, and the
 /// others show their final state.
-ReportData report_data(const std::vector<AnalysedRun>& runs);
+/// `known`: of files of other programs.
+ReportData report_data(const std::vector<AnalysedRun>& runs, const KnownSystem& known = {});
 
 }  // namespace vitrel

@@ -31,8 +31,8 @@ std::vector<Table> structure(const Configuration2& state, const StructureOptions
 
 }  // namespace
 
-StatePage state_page_data(const std::filesystem::path& file) {
-  const TrajectoryReader reader(file);
+StatePage state_page_data(const std::filesystem::path& file, const KnownSystem& known) {
+  const TrajectoryReader reader(file, known);
   StatePage page;
   page.state = reader.read(0);
   const Provenance provenance = reader.provenance();

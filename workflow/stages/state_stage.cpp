@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/io/foreign/foreign_formats.h"
 #include "workflow/stages/stage_fields.h"
 
 namespace vitrel {
@@ -25,8 +26,9 @@ void describe_rows(const Field& field, std::optional<Rows>& rows, Rows example,
 
 void describe_file(StateStage& stage, FieldVisitor& visit) {
   visit.optional({"file", "",
-                  "A state or run, whose last frame is taken, of vitrel or another program: H5MD, "
-                  "GSD, extended XYZ or CSV (docs/imports.md). Relative to the parameter file."},
+                  fmt::format("A state or run, whose last frame is taken, of vitrel or another "
+                              "program: {} (docs/imports.md). Relative to the parameter file.",
+                              foreign_format_names())},
                  stage.file, std::string("state.h5"));
 }
 

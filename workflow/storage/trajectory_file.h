@@ -1,5 +1,6 @@
 #pragma once
 
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,7 +32,10 @@ class TrajectoryFile final : public Trajectory<Dim> {
     reader_.read(k, frame_);
     return frame_;
   }
-  bool counts_turns() const override { return reader_.has("angle"); }
+  double turn_period() const override {
+    if (reader_.angles_are_directors()) return std::numbers::pi;
+    return reader_.has("angle") ? 0 : 2 * std::numbers::pi;
+  }
   const TrajectoryReader& reader() const { return reader_; }
 
  private:

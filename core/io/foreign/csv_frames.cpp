@@ -1,10 +1,9 @@
-#include "core/io/foreign/csv_frames.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/io/foreign/foreign_formats.h"
 #include "core/io/foreign/particle_table.h"
 #include "core/io/foreign/text_lines.h"
 
@@ -14,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The cells of a line. One in quotes may hold commas, and quotes that are doubled.
-std::vector<std::string> cells_of(const std::string& line) {
+std::vector<std::string> cells_of(const std::string& line, char separator) {
   std::vector<std::string> cells(1);
   bool quoted = false;
   for (std::size_t k = 0; k < line.size(); ++k) {
@@ -23,7 +22,7 @@ std::vector<std::string> cells_of(const std::string& line) {
       cells.back() += line[k++];
     else if (line[k] == '"')
       quoted = !quoted;
-    else if (line[k] == ',' && !quoted)
+    else if (line[k] == separator && !quoted)
       cells.emplace_back();
     else
       cells.back() += line[k];
@@ -46,16 +45,12 @@ std::optional<std::size_t> frame_column(const std::vector<std::string>& columns)
 
 class CsvFrames final : public ForeignFrames {
  public:
-  explicit CsvFrames(const fs::path& path)
+  CsvFrames(const fs::path& path, const ImportOptions& options)
       : lines_(path),
         columns_(header()),
         frame_column_(frame_column(columns_)),
-        table_(columns_, lines_.place()) {
+        table_(columns_, lines_.place(), options.columns) {
     advance();
-  }
-
-  const char* box_crossings() const override {
-    return "columns image_x, image_y or unwrapped_x, unwrapped_y";
   }
 
   bool next(ForeignFrame& frame) override {
@@ -75,13 +70,11 @@ class CsvFrames final : public ForeignFrames {
     advance();
     if (cells_.empty())
       throw FileError(lines_.path().string() + ": has no line with the names of columns");
+    if (cells_.size() == 1 && cells_.front().find('\t') != std::string::npos) {
+      separator_ = '\t';
+      cells_ = cells_of(cells_.front(), separator_);
+    }
     for (std::string& cell : cells_) cell = column_name(cell);
-    const auto has = [&](const char* name) { return std::ranges::count(cells_, name) > 0; };
-    if (!has("x") && !has("unwrapped_x"))
-      throw FileError(
-          fmt::format("{}: is neither H5MD, GSD nor extended XYZ, nor CSV, whose first "
-                      "line has columns x and y",
-                      lines_.path().string()));
     return cells_;
   }
 
@@ -90,7 +83,7 @@ class CsvFrames final : public ForeignFrames {
     std::string line;
     cells_.clear();
     while (cells_.empty() && lines_.next(line))
-      if (!line.empty() && line[0] != '#') cells_ = cells_of(line);
+      if (!line.empty() && line[0] != '#') cells_ = cells_of(line, separator_);
   }
 
   std::string frame_key() const {
@@ -98,16 +91,30 @@ class CsvFrames final : public ForeignFrames {
   }
 
   TextLines lines_;
+  char separator_ = ',';
   std::vector<std::string> cells_;  ///< of the next line
   std::vector<std::string> columns_;
   std::optional<std::size_t> frame_column_;
   ParticleTable table_;
 };
 
+/// The first line that counts has several names.
+bool is_csv(std::string_view start) {
+  if (start.find('\0') != std::string_view::npos) return false;
+  while (start.starts_with('#') || start.starts_with('\n') || start.starts_with('\r'))
+    start.remove_prefix(std::min(start.find('\n'), start.size() - 1) + 1);
+  return start.substr(0, start.find('\n')).find_first_of(",\t") != std::string_view::npos;
+}
+
 }  // namespace
 
-std::unique_ptr<ForeignFrames> open_csv(const fs::path& path) {
-  return std::make_unique<CsvFrames>(path);
-}
+constexpr ForeignFormat csv_format = {
+    "CSV",
+    {"columns box_x and box_y", "leaving out the column z", "columns a and b, or radius",
+     "columns image_x, image_y or unwrapped_x, unwrapped_y"},
+    is_csv,
+    [](const fs::path& path, const ImportOptions& options) -> std::unique_ptr<ForeignFrames> {
+      return std::make_unique<CsvFrames>(path, options);
+    }};
 
 }  // namespace vitrel

@@ -1,54 +1,25 @@
 #include "core/io/foreign/foreign_file.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
-#include <fstream>
+#include <optional>
 
 #include "core/error.h"
-#include "core/io/foreign/csv_frames.h"
-#include "core/io/foreign/gsd_frames.h"
+#include "core/io/foreign/foreign_formats.h"
 #include "core/io/foreign/nearest_images.h"
-#include "core/io/foreign/xyz_frames.h"
 #include "core/io/h5md.h"
 
 namespace vitrel {
 namespace {
 
 namespace fs = std::filesystem;
-
-enum class Format { hdf5, gsd, xyz, csv };
-
-/// By the first bytes.
-Format format_of(const fs::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::array<char, 8> start{};
-  stream.read(start.data(), start.size());
-  const std::string_view bytes(start.data(), static_cast<std::size_t>(stream.gcount()));
-  // What cannot be opened or is empty is no HDF5 file either, as which it is refused.
-  if (bytes.empty() || bytes.starts_with("\x89HDF")) return Format::hdf5;
-  if (bytes.starts_with("\xDF\x65\xDF\x65")) return Format::gsd;
-  const bool is_binary = bytes.find('\0') != std::string_view::npos;
-  if (is_binary) return Format::hdf5;
-  const std::size_t first = bytes.find_first_not_of(" \t");
-  const bool is_number =
-      first != std::string_view::npos && bytes[first] >= '0' && bytes[first] <= '9';
-  return is_number ? Format::xyz : Format::csv;
-}
-
-std::unique_ptr<ForeignFrames> open_frames(const fs::path& path, Format format) {
-  if (format == Format::gsd) return open_gsd(path);
-  return format == Format::xyz ? open_xyz(path) : open_csv(path);
-}
-
-ForeignFrame first_frame(ForeignFrames& frames, const std::string& path) {
-  ForeignFrame frame;
-  if (!frames.next(frame)) throw FileError(path + ": has no frames");
-  return frame;
-}
 
 /// A file that nobody else uses, and that is removed at the end of the scope.
 class TemporaryFile {
@@ -71,124 +42,283 @@ class TemporaryFile {
   std::string name_;
 };
 
-/// Writes frames of the same particles one after the other, with images of its own if these are asked for.
-template <int Dim>
-class Copy {
- public:
-  Copy(const fs::path& path, const Configuration<Dim>& first, TrajectoryOptions options,
-       bool unwrap, const Provenance& provenance)
-      : first_(first), knows_velocities_(options.velocities) {
-    options.overwrite = true;
-    if (unwrap && !options.images) images_.emplace();
-    options.images = options.images || unwrap;
-    writer_ = TrajectoryWriter::create(path, first, provenance, options);
+/// A file that vitrel wrote.
+bool is_own(const h5::Group& root) {
+  constexpr const char* creator = "h5md/creator";
+  return root.has_group(creator) && root.group(creator).has_attribute("name") &&
+         root.group(creator).text_attribute("name") == "vitrel";
+}
+
+/// The unit of length of the results in the place of that of the file.
+void rescale(ForeignFrame& frame, double unit) {
+  if (frame.box) *frame.box /= unit;
+  for (auto* vectors : {&frame.position, &frame.unwrapped, &frame.semi_axes, &frame.velocity})
+    for (Vec3& vector : *vectors) vector /= unit;
+}
+
+/// What the user says in the units of the file, where the frame does not.
+void supplement(ForeignFrame& frame, const ImportOptions& options) {
+  if (!frame.box && options.box) {
+    frame.box = Vec3(Vec3::Ones());
+    std::ranges::copy(*options.box, frame.box->data());
   }
+}
+
+/// All frames in vitrel's own form.
+template <int Dim>
+class Conversion {
+ public:
+  Conversion(const ForeignFormat& format, const KnownSystem& known, const fs::path& copy)
+      : format_(format), known_(known), copy_(copy) {}
 
   /// UserError.
-  void add(Configuration<Dim> frame, std::int64_t step, bool knows_time) {
-    if (!same_particles(first_, frame))
+  void add(ForeignFrame frame) {
+    supplement(frame, known_.import);
+    if (number_ == 0) require_sizes(frame);
+    if (known_.import.length_unit != 1) rescale(frame, known_.import.length_unit);
+    if (Dim == 2 && put_longer_axis_first(frame)) is_turned_ = true;
+    drop_half_of_velocities(frame);
+    Configuration<Dim> next = configuration_of<Dim>(frame, known_);
+    next.time = time_of(frame);
+    if (number_ == 0) begin(frame, next);
+    if (!same_particles(*first_, next) || frame.id != first_frame_.id)
       throw UserError(
-          "has other particles than frame 0; their number, species, masses and semi-axes should be "
-          "the same");
-    if (images_) images_->set(frame, knows_velocities_ && knows_time);
-    writer_->write(frame, step);
+          "has other particles than frame 0; their number, ids, species, masses and semi-axes "
+          "should be the same");
+    if (images_) images_->set(next, !frame.velocity.empty() && frame.time);
+    writer_->write(next, frame.step.value_or(static_cast<std::int64_t>(number_)));
+    ++number_;
   }
 
-  /// What is to be said about it.
-  std::string close() {
-    writer_->close();
-    return images_ ? images_->remark() : "";
+  void close() { writer_->close(); }
+  bool knows_time() const {
+    return first_frame_.time.has_value() || known_.import.time_per_step.has_value();
   }
+  ImportReport report() const;
 
  private:
-  const Configuration<Dim> first_;
-  bool knows_velocities_;
+  using Texts = std::vector<std::string>;
+
+  void require_sizes(const ForeignFrame& frame) const {
+    if (!frame.box && !known_.box)
+      throw UserError(
+          fmt::format("has no box: it has no {}, and import.box gives none", format_.words.box));
+    if (!frame.semi_axes.empty()) return;
+    const auto has_axes = [](const KnownSpecies& species) { return species.semi_axes.has_value(); };
+    const auto is_known = [&](const std::string& name) {
+      return std::ranges::any_of(known_.species, [&](const KnownSpecies& species) {
+        return species.name == name && has_axes(species);
+      });
+    };
+    const std::set<std::string> names(frame.species.begin(), frame.species.end());
+    Texts missing;
+    std::ranges::copy_if(names, std::back_inserter(missing),
+                         [&](const std::string& name) { return !is_known(name); });
+    if (names.empty() && !std::ranges::any_of(known_.species, has_axes)) missing = {"A"};
+    if (!missing.empty())
+      throw UserError(fmt::format(
+          "has no sizes: it has no {}, and neither [[import.species]] nor [[species]] gives "
+          "diameter or semi-axes of {}",
+          format_.words.sizes, fmt::join(missing, ", ")));
+  }
+
+  /// Velocities without angular velocities would give bodies that do not rotate, and energies without that of rotation.
+  void drop_half_of_velocities(ForeignFrame& frame) {
+    const auto is_round = [](const Vec3& axes) {
+      return Dim == 2 ? axes[0] == axes[1] : axes == Vec3::Constant(axes[0]);
+    };
+    const bool all_round =
+        frame.semi_axes.empty()
+            ? std::ranges::all_of(known_.species,
+                                  [&](const KnownSpecies& species) {
+                                    return !species.semi_axes || is_round(*species.semi_axes);
+                                  })
+            : std::ranges::all_of(frame.semi_axes, is_round);
+    if (frame.velocity.empty() == frame.angular_velocity.empty() || all_round) return;
+    has_half_of_velocities_ = true;
+    frame.velocity.clear();
+    frame.angular_velocity.clear();
+  }
+
+  double time_of(const ForeignFrame& frame) const {
+    const std::optional<double>& per_step = known_.import.time_per_step;
+    if (per_step && !frame.step)
+      throw UserError("import.time_per_step needs steps, but it has none");
+    const double counted =
+        static_cast<double>(frame.step.value_or(static_cast<std::int64_t>(number_)));
+    const double time = per_step ? *per_step * counted : frame.time.value_or(counted);
+    constexpr double rounding = 1e-6;
+    if (per_step && frame.time && std::abs(time - *frame.time) > rounding * std::abs(time))
+      throw UserError(
+          fmt::format("its time is {}, but its step {} times import.time_per_step is {}",
+                      *frame.time, *frame.step, time));
+    return time;
+  }
+
+  void begin(const ForeignFrame& frame, const Configuration<Dim>& first) {
+    first_ = first;
+    first_frame_ = frame;
+    TrajectoryOptions options{.velocities = !frame.velocity.empty()};
+    options.images = !frame.image.empty() || !frame.unwrapped.empty();
+    options.angles = !frame.angle.empty();
+    if (known_.import.unwrap == ImportOptions::Unwrap::nearest && !options.images)
+      images_.emplace();
+    options.images = options.images || images_;
+    options.overwrite = true;
+    writer_ = TrajectoryWriter::create(copy_, first, Provenance{}, options);
+  }
+
+  Texts read() const;
+  Texts absent() const;
+
+  const ForeignFormat& format_;
+  const KnownSystem& known_;
+  fs::path copy_;
+  std::optional<Configuration<Dim>> first_;
+  ForeignFrame first_frame_;
   std::optional<NearestImages<Dim>> images_;
   std::optional<TrajectoryWriter> writer_;
+  std::uint64_t number_ = 0;
+  bool is_turned_ = false, has_half_of_velocities_ = false;
 };
 
-/// Frames are counted for the messages.
-template <class Work>
-auto naming_frame(const fs::path& path, std::uint64_t number, Work&& work) {
-  try {
-    return work();
-  } catch (const UserError& error) {
-    throw FileError(fmt::format("{}: frame {}: {}", path.string(), number, error.what()));
-  }
+template <int Dim>
+std::vector<std::string> Conversion<Dim>::read() const {
+  const ForeignFrame& frame = first_frame_;
+  const std::pair<bool, const char*> parts[] = {
+      {!frame.position.empty(), "positions"},
+      {!frame.unwrapped.empty(), "unwrapped positions"},
+      {!frame.image.empty(), "box crossings"},
+      {!frame.angle.empty(), "angles"},
+      {!frame.orientation.empty(), "orientations"},
+      {!frame.semi_axes.empty(), "semi-axes"},
+      {!frame.species.empty(), "species"},
+      {!frame.mass.empty(), "masses"},
+      {!frame.velocity.empty(), "velocities"},
+      {!frame.angular_velocity.empty(), "angular velocities"},
+      {!frame.id.empty(), "ids"},
+      {frame.time.has_value(), "times"},
+      {frame.step.has_value(), "steps"}};
+  Texts texts;
+  for (const auto& [is_there, name] : parts)
+    if (is_there && !frame.assumed.contains(name)) texts.emplace_back(name);
+  return texts;
 }
 
-/// Copies all frames; returns a remark.
 template <int Dim>
-std::string copy_frames(const fs::path& path, ForeignFrames& frames, ForeignFrame& frame,
-                        const KnownSystem& known, const fs::path& copy) {
-  std::optional<Copy<Dim>> output;
+std::vector<std::string> Conversion<Dim>::absent() const {
+  const ForeignFrame& frame = first_frame_;
+  Texts texts;
+  for (const auto& [name, otherwise] : frame.assumed)
+    texts.push_back(fmt::format("{} ({})", name, otherwise));
+  const auto note = [&](bool is_absent, const std::string& text) {
+    if (is_absent) texts.push_back(text);
+  };
+  const bool has_images = !frame.image.empty() || !frame.unwrapped.empty();
+  note(frame.species.empty(),
+       fmt::format("species (all are \"{}\")", first_->species_names.front()));
+  const bool has_masses =
+      std::ranges::all_of(known_.species, [](const KnownSpecies& s) { return s.mass.has_value(); });
+  note(frame.mass.empty(),
+       known_.species.empty() || !has_masses
+           ? fmt::format("masses (in proportion to the {}, 1 where {} = 1)",
+                         Dim == 2 ? "area" : "volume", Dim == 2 ? "a b" : "a b c")
+           : "masses (those of the species)");
+  note(frame.semi_axes.empty(), "semi-axes (those of the species)");
+  note(frame.velocity.empty(), has_half_of_velocities_
+                                   ? "angular velocities (so velocities are left out, too)"
+                                   : "velocities (energies are left out)");
+  note(!has_images && !images_ && number_ > 1, "box crossings (motion is left out)");
+  note(!knows_time() && number_ > 1,
+       frame.step ? "times (they are counted in steps)" : "times (they are counted in frames)");
+  return texts;
+}
+
+template <int Dim>
+ImportReport Conversion<Dim>::report() const {
+  ImportReport report = {{"format", format_.name},
+                         {"frames", fmt::format("{} of {} particles in {}", number_, first_->size(),
+                                                Dim == 2 ? "the plane" : "space")}};
+  const auto add = [&](const char* heading, const Texts& texts) {
+    if (!texts.empty()) report.emplace_back(heading, fmt::format("{}", fmt::join(texts, ", ")));
+  };
+  add("read", read());
+  add("absent", absent());
+  Texts converted;
+  if (is_turned_)
+    converted.emplace_back("semi-axes a < b are exchanged, and their particles turned by π/2");
+  if (known_.import.length_unit != 1)
+    converted.push_back(fmt::format("lengths are divided by {:g}", known_.import.length_unit));
+  if (known_.import.time_per_step)
+    converted.push_back(fmt::format("times are steps times {:g}", *known_.import.time_per_step));
+  add("converted", converted);
+  if (images_) add("box crossings", {images_->remark()});
+  add("skipped", {first_frame_.skipped.begin(), first_frame_.skipped.end()});
+  return report;
+}
+
+template <int Dim>
+ImportedFile convert(const fs::path& path, const ForeignFormat& format, ForeignFrames& frames,
+                     ForeignFrame& frame, const KnownSystem& known) {
+  const TemporaryFile copy;
+  Conversion<Dim> conversion(format, known, copy.name());
   std::uint64_t number = 0;
-  bool is_turned = false;
   do {
-    if (Dim == 2 && put_longer_axis_first(frame)) is_turned = true;
-    naming_frame(path, number, [&] {
-      Configuration<Dim> next = configuration_of<Dim>(frame, known);
-      const bool knows_time = frame.time.has_value();
-      if (!knows_time && !frame.step) next.time = static_cast<double>(number);
-      if (!output) {
-        TrajectoryOptions options{.velocities = !frame.velocity.empty()};
-        options.images = !frame.image.empty() || !frame.unwrapped.empty();
-        options.angles = !frame.angle.empty();
-        output.emplace(copy, next, options, known.unwrap_nearest, Provenance{});
-      }
-      output->add(std::move(next), frame.step.value_or(static_cast<std::int64_t>(number)),
-                  knows_time);
-    });
+    try {
+      conversion.add(std::move(frame));
+    } catch (const UserError& error) {
+      throw FileError(fmt::format("{}: frame {}: {}", path.string(), number, error.what()));
+    }
     ++number;
   } while (frames.next(frame));
-  const std::string remark = output->close();
-  if (!is_turned) return remark;
-  return "semi-axes a < b are exchanged, and their particles turned by π/2" +
-         (remark.empty() ? "" : "; " + remark);
+  conversion.close();
+  return {h5::File::open(copy.name(), h5::Access::read), conversion.report(),
+          format.words.box_crossings, conversion.knows_time(),
+          known.import.angles == ImportOptions::Angles::directors};
 }
 
-template <int Dim>
-std::string copy_frames(const TrajectoryReader& original, const fs::path& copy) {
-  TrajectoryOptions options{.velocities = original.has("velocity"), .images = false};
-  options.angles = original.has("angle");
-  Copy<Dim> output(copy, original.read<Dim>(0), options, true, original.provenance());
-  for (std::uint64_t k = 0; k < original.frames(); ++k)
-    naming_frame(original.path(), k,
-                 [&] { output.add(original.read<Dim>(k), original.steps()[k], true); });
-  return output.close();
+/// Frame 0, and those that follow.
+struct OpenFrames {
+  const ForeignFormat& format;
+  std::unique_ptr<ForeignFrames> frames;
+  ForeignFrame first;
+  int dimension;
+};
+
+OpenFrames open_frames(const fs::path& path, const KnownSystem& known) {
+  const ForeignFormat& format = format_of(path, known.import);
+  OpenFrames open{format, format.open(path, known.import), {}, 0};
+  if (!open.frames->next(open.first)) throw FileError(path.string() + ": has no frames");
+  try {
+    ForeignFrame frame = open.first;
+    supplement(frame, known.import);
+    if (known.import.box && known.import.box->size() == 2 && !frame.dimension) frame.dimension = 2;
+    open.dimension = dimension_of(frame, known, format.words.plane);
+  } catch (const UserError& error) {
+    throw FileError(fmt::format("{}: {}", path.string(), error.what()));
+  }
+  return open;
 }
 
-ImportedFile open_hdf5(const fs::path& path, const KnownSystem& known) {
-  const auto as_it_is = [&] {
-    return ImportedFile{h5::File::open(path, h5::Access::read), "", "dataset image/value"};
-  };
-  if (!known.unwrap_nearest) return as_it_is();
-  const TrajectoryReader original(path);
-  if (original.frames() < 2 || original.has("image")) return as_it_is();
-  const TemporaryFile copy;
-  const std::string remark = original.dimension() == 2 ? copy_frames<2>(original, copy.name())
-                                                       : copy_frames<3>(original, copy.name());
-  return {h5::File::open(copy.name(), h5::Access::read), remark, ""};
+/// HDF5 that vitrel wrote.
+std::optional<h5::File> own_file(const fs::path& path, const ImportOptions& options) {
+  if (&format_of(path, options) != &h5md_format) return std::nullopt;
+  h5::File file = h5::File::open(path, h5::Access::read);
+  return is_own(file.root()) ? std::optional(std::move(file)) : std::nullopt;
 }
 
 }  // namespace
 
 ImportedFile open_as_h5md(const fs::path& path, const KnownSystem& known) {
-  const Format format = format_of(path);
-  if (format == Format::hdf5) return open_hdf5(path, known);
-  const TemporaryFile copy;
-  const std::unique_ptr<ForeignFrames> frames = open_frames(path, format);
-  ForeignFrame first = first_frame(*frames, path.string());
-  const std::string remark = dimension_of(first, known) == 2
-                                 ? copy_frames<2>(path, *frames, first, known, copy.name())
-                                 : copy_frames<3>(path, *frames, first, known, copy.name());
-  return {h5::File::open(copy.name(), h5::Access::read), remark, frames->box_crossings()};
+  if (auto own = own_file(path, known.import)) return {std::move(*own), {}, "dataset image/value"};
+  OpenFrames open = open_frames(path, known);
+  const auto& work = open.dimension == 2 ? convert<2> : convert<3>;
+  return work(path, open.format, *open.frames, open.first, known);
 }
 
 int dimension_of_file(const fs::path& path, const KnownSystem& known) {
-  const Format format = format_of(path);
-  if (format == Format::hdf5) return TrajectoryReader(path).dimension();
-  return dimension_of(first_frame(*open_frames(path, format), path.string()), known);
+  if (own_file(path, known.import)) return TrajectoryReader(path).dimension();
+  return open_frames(path, known).dimension;
 }
 
 }  // namespace vitrel

@@ -2,25 +2,32 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/io/foreign/foreign_frame.h"
 #include "core/io/h5.h"
 
 namespace vitrel {
 
-/// A file as H5MD, and what became of its content on the way.
+/// What an import read, and what became of it, in the order in which it is printed: a heading ("format", "read", "absent",
+/// "converted", "box crossings", "skipped") and a text for each.
+using ImportReport = std::vector<std::pair<std::string, std::string>>;
+
+/// A file in vitrel's own form of H5MD.
 struct ImportedFile {
   h5::File file;
-  std::string remark;         ///< a sentence for the user, or nothing
-  std::string box_crossings;  ///< what the file would have to state them
+  ImportReport report;                ///< empty if the file is vitrel's own
+  std::string box_crossings;          ///< what the file would have to have to state them
+  bool knows_time = true;             ///< otherwise times are steps
+  bool angles_are_directors = false;  ///< known up to half turns
 };
 
-/// The file as H5MD: opened if it is HDF5; otherwise a copy of all its frames, from GSD, extended XYZ or CSV, which its
-/// content tells apart. The copy lies in the folder for temporary files and disappears with the process. What a file
-/// does not have (images, angles, velocities) the copy does not have either, but for images that `known` asks for
-/// (NearestImages); then HDF5 is copied, too.
+/// The file as vitrel itself would have written it: opened if vitrel did, and otherwise a copy of all its frames. The copy
+/// lies in the folder for temporary files and disappears with the process. What a file does not have (images, angles,
+/// velocities) the copy does not have either, but for images that `known` asks for (NearestImages).
 ///
-/// All frames must have the same particles. FileError, which names the place in the file.
+/// All frames must have the same particles. FileError, which names the place in the file; UserError for `known.import`.
 ImportedFile open_as_h5md(const std::filesystem::path& path, const KnownSystem& known);
 
 /// The dimension of the file, of which this reads no more than the first frame. FileError.

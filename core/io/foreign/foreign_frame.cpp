@@ -51,6 +51,32 @@ PeriodicBox<Dim> box_of(const ForeignFrame& frame, const KnownSystem& known) {
   return PeriodicBox<Dim>(lengths);
 }
 
+const std::vector<Vec3>& places_of(const ForeignFrame& frame) {
+  return frame.position.empty() ? frame.unwrapped : frame.position;
+}
+
+/// How far the heights of particles are apart.
+double height_range(const std::vector<Vec3>& positions) {
+  const auto height = [](const Vec3& position) { return position[2]; };
+  const auto [lowest, highest] = std::ranges::minmax(positions, {}, height);
+  return highest[2] - lowest[2];
+}
+
+/// How far they may be in the plane.
+double flat_range(const ForeignFrame& frame, const KnownSystem& known) {
+  const std::optional<Vec3>& box = frame.box ? frame.box : known.box;
+  return tolerance::flat * (box ? box->x() : 1);
+}
+
+double longest_semi_axis(const ForeignFrame& frame, const KnownSystem& known) {
+  double longest = 0;
+  for (const Vec3& axes : frame.semi_axes) longest = std::max(longest, axes.maxCoeff());
+  for (const KnownSpecies& species : known.species)
+    if (frame.semi_axes.empty() && species.semi_axes)
+      longest = std::max(longest, species.semi_axes->maxCoeff());
+  return longest;
+}
+
 /// The names of the frame's species in the order of their numbers: that in which they are known, then the alphabet's.
 std::vector<std::string> species_names(const ForeignFrame& frame, const KnownSystem& known) {
   std::vector<std::string> known_names, names;
@@ -146,8 +172,9 @@ Shift<Dim> boxes_between(const PeriodicBox<Dim>& box, const Vec<Dim>& wrapped,
 }
 
 template <int Dim>
-void set_positions(Configuration<Dim>& configuration, const ForeignFrame& frame) {
-  const std::vector<Vec3>& positions = frame.position.empty() ? frame.unwrapped : frame.position;
+void set_positions(Configuration<Dim>& configuration, const ForeignFrame& frame,
+                   const KnownSystem& known) {
+  const std::vector<Vec3>& positions = places_of(frame);
   for (std::size_t i = 0; i < configuration.size(); ++i) {
     Vec<Dim>& position = configuration.position[i] = positions[i].template head<Dim>();
     if (!position.allFinite() ||
@@ -155,9 +182,6 @@ void set_positions(Configuration<Dim>& configuration, const ForeignFrame& frame)
          max_box_crossings))
       throw UserError(fmt::format("particle {} is at {}, but should be near the box", i,
                                   fmt::join(position, ", ")));
-    if (Dim == 2 && std::abs(positions[i][2]) > tolerance::flat * configuration.box.lengths()[0])
-      throw UserError(fmt::format("particle {} has z = {}, but the system is two-dimensional", i,
-                                  positions[i][2]));
     if (!frame.image.empty())
       configuration.image[i] = frame.image[i].template head<Dim>();
     else if (!frame.unwrapped.empty() && !frame.position.empty())
@@ -165,6 +189,12 @@ void set_positions(Configuration<Dim>& configuration, const ForeignFrame& frame)
                                                   frame.unwrapped[i].template head<Dim>(), i);
     configuration.box.wrap_if_outside(position, configuration.image[i]);
   }
+  if (Dim == 2 && !(height_range(positions) <= flat_range(frame, known)))
+    throw UserError(
+        fmt::format("the system is two-dimensional, but the z of its particles differ by {:.3g}; "
+                    "in a plane all "
+                    "are the same",
+                    height_range(positions)));
 }
 
 [[noreturn]] void throw_no_orientation(std::size_t i, const char* what) {
@@ -243,13 +273,35 @@ Quaternion unit_quaternion(const Quaternion& q, std::size_t particle) {
   return excess > tolerance::norm_in_double_precision ? normalized(q) : q;
 }
 
-int dimension_of(const ForeignFrame& frame, const KnownSystem& known) {
-  return frame.dimension.value_or(known.dimension.value_or(3));
+std::optional<int> dimension_of_boundaries(const std::array<bool, 3>& periodic,
+                                           const std::string& statement) {
+  for (std::size_t k = 0; k < 2; ++k)
+    if (!periodic[k])
+      throw UserError(
+          fmt::format("{}: the box is not periodic along {}, but vitrel's boxes are; only a plane "
+                      "needs no period along z",
+                      statement, "xyz"[k]));
+  return periodic[2] ? std::nullopt : std::optional(2);
+}
+
+int dimension_of(const ForeignFrame& frame, const KnownSystem& known, const std::string& plane) {
+  if (frame.dimension) return *frame.dimension;
+  if (known.dimension) return *known.dimension;
+  if (!frame.angle.empty()) return 2;
+  const std::optional<Vec3>& box = frame.box ? frame.box : known.box;
+  const std::vector<Vec3>& positions = places_of(frame);
+  const bool is_flat = positions.size() > 1 && height_range(positions) <= flat_range(frame, known);
+  if (box && is_flat && box->z() < 4 * longest_semi_axis(frame, known))
+    throw UserError(fmt::format(
+        "all particles have the same z, in a box of height {}: they may be particles in the plane, "
+        "which {} says, or in space (import.dimension = 3)",
+        box->z(), plane));
+  return 3;
 }
 
 template <int Dim>
 Configuration<Dim> configuration_of(const ForeignFrame& frame, const KnownSystem& known) {
-  if (known.dimension && dimension_of(frame, known) != *known.dimension)
+  if (known.dimension && *known.dimension != Dim)
     throw UserError(fmt::format("is {}-dimensional, but should be {}-dimensional",
                                 Dim == 2 ? "two" : "three", Dim == 2 ? "three" : "two"));
   const std::size_t n = std::max(frame.position.size(), frame.unwrapped.size());
@@ -259,7 +311,7 @@ Configuration<Dim> configuration_of(const ForeignFrame& frame, const KnownSystem
   configuration.time = frame.time.value_or(static_cast<double>(frame.step.value_or(0)));
   configuration.box = box_of<Dim>(frame, known);
   set_particles(configuration, frame, known);
-  set_positions(configuration, frame);
+  set_positions(configuration, frame, known);
   set_orientations(configuration, frame);
   set_velocities(configuration, frame);
   return configuration;

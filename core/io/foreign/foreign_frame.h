@@ -1,9 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <memory>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/state/configuration.h"
@@ -13,13 +16,14 @@
 namespace vitrel {
 
 /// One configuration in the box centred at the origin. What is not stated is empty; every other vector has an entry per
-/// particle. In the plane third components mean nothing, and those of positions must be 0 to single precision.
+/// particle. In the plane third components mean nothing, and those of positions must be the same to single precision.
 struct ForeignFrame {
   std::optional<int> dimension;
   std::optional<double> time;
   std::optional<std::int64_t> step;
   std::optional<Vec3> box;  ///< edge lengths
 
+  std::vector<double> id;      ///< ascending, as all else
   std::vector<Vec3> position;  ///< anywhere
   std::vector<Vec3> unwrapped;
   std::vector<Shift<3>> image;
@@ -29,7 +33,18 @@ struct ForeignFrame {
   std::vector<double> mass;
   std::vector<Vec3> velocity, angular_velocity;  ///< both in the axes of space
   std::vector<std::string> species;
+
+  std::map<std::string, std::string>
+      assumed;  ///< what is absent, and what the format puts in its place
+  std::set<std::string>
+      skipped;  ///< what is there and means nothing to vitrel, as the format calls it
 };
+
+/// Whether a box that is periodic along these directions only can be one of vitrel's: in the plane, the third does not matter.
+/// UserError, which begins with `statement`, what the file says, if it is not periodic along x or y. Returns the dimension
+/// that follows, if one does.
+std::optional<int> dimension_of_boundaries(const std::array<bool, 3>& periodic,
+                                           const std::string& statement);
 
 /// In the plane the first semi-axis is the longer one: exchanges those for which it is not, and turns their particles
 /// by π/2. Whether there were any.
@@ -42,36 +57,54 @@ struct KnownSpecies {
   std::optional<double> mass = {};
 };
 
+/// What the user says about a file of another program (`[import]`).
+struct ImportOptions {
+  enum class Unwrap { stated, nearest };
+  enum class Angles { turns, directors };
+  struct Kind {
+    std::string name = "A";
+    std::optional<double> diameter;
+    std::optional<std::vector<double>> semi_axes;
+    std::optional<double> mass;
+  };
+  struct Column {
+    std::string file, meaning;
+  };
+
+  std::optional<std::string>
+      format;                        ///< the name of one of foreign_formats.h; otherwise by content
+  std::optional<std::string> group;  ///< of the particles in H5MD
+  std::optional<int> dimension;
+  std::optional<std::vector<double>> box;
+  std::vector<Kind> species;            ///< in the units of the file
+  std::optional<double> time_per_step;  ///< in the unit of time of the results
+  double length_unit = 1;               ///< of the results, in that of the file
+  Unwrap unwrap = Unwrap::stated;       ///< box crossings that no frame states
+  Angles angles = Angles::turns;        ///< directors are known up to half turns
+  std::vector<Column> columns;          ///< of tables, and what they mean
+};
+
 /// What is known beforehand, and used where a frame does not state it.
 struct KnownSystem {
   std::optional<int> dimension;
   std::optional<Vec3> box;
   std::vector<KnownSpecies> species;
-  bool unwrap_nearest =
-      false;  ///< box crossings that no frame states are those of the nearest images
+  ImportOptions import = {};
 };
 
 /// A quaternion as it is, or normalised if it is a unit quaternion in single precision only. UserError, which names the
 /// particle, if it is neither.
 Quaternion unit_quaternion(const Quaternion& q, std::size_t particle);
 
-/// The dimension of the frame, or the one known, or, with neither, three.
-int dimension_of(const ForeignFrame& frame, const KnownSystem& known);
+/// The dimension of the frame, or the one known, or two if particles have an angle, and otherwise three. UserError if all
+/// particles have the same z and the box is lower than two of them: then it may be either. `plane` is how the format
+/// says that it is two.
+int dimension_of(const ForeignFrame& frame, const KnownSystem& known, const std::string& plane);
 
 /// The configuration that the frame describes. Where nothing says otherwise, particles are of one species "A", at rest,
 /// and have the natural mass (core/state/species.h). Species are numbered as they are known, others follow in alphabetical order.
 /// UserError, which says what is missing or wrong and of which particle.
 template <int Dim>
 Configuration<Dim> configuration_of(const ForeignFrame& frame, const KnownSystem& known);
-
-/// The frames of a file, one after the other.
-class ForeignFrames {
- public:
-  virtual ~ForeignFrames() = default;
-  /// False after the last. FileError, which names the place, if the file is damaged.
-  virtual bool next(ForeignFrame& frame) = 0;
-  /// What the file would have to state box crossings, in the words of the format, after "it has no".
-  virtual const char* box_crossings() const = 0;
-};
 
 }  // namespace vitrel

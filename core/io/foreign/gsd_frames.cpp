@@ -1,13 +1,14 @@
-#include "core/io/foreign/gsd_frames.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "core/error.h"
 #include "core/io/box_crossings.h"
+#include "core/io/foreign/foreign_formats.h"
 #include "core/io/foreign/gsd_reader.h"
 #include "core/io/json.h"
 
@@ -23,6 +24,16 @@ std::string species_of(const std::string& type) {
   return is_part ? type.substr(0, mark) : type;
 }
 
+/// The chunks that are read.
+const std::set<std::string> known_chunks = {"configuration/step",    "configuration/dimensions",
+                                            "configuration/box",     "log/time",
+                                            "particles/N",           "particles/types",
+                                            "particles/typeid",      "particles/type_shapes",
+                                            "particles/diameter",    "particles/position",
+                                            "particles/orientation", "particles/image",
+                                            "particles/mass",        "particles/moment_inertia",
+                                            "particles/velocity",    "particles/angmom"};
+
 class GsdFrames final : public ForeignFrames {
  public:
   explicit GsdFrames(const std::filesystem::path& path) : file_(path) {
@@ -31,22 +42,24 @@ class GsdFrames final : public ForeignFrames {
                              file_.schema()));
   }
 
-  const char* box_crossings() const override { return "particles/image after the first frame"; }
-
   bool next(ForeignFrame& frame) override {
     if (number_ == file_.frames()) return false;
     frame = {};
     particles_ = static_cast<std::size_t>(number("particles/N", 0));
     frame.dimension = static_cast<int>(number("configuration/dimensions", 3));
-    frame.step = static_cast<std::int64_t>(number("configuration/step", 0));
+    if (const char* steps = "configuration/step"; file_.frames() == 1 || file_.has(steps))
+      frame.step = static_cast<std::int64_t>(number(steps, 0));
     if (const auto time = file_.read("log/time", number_); time.rows > 0)
       frame.time = time.values[0];
     set_box(frame);
     set_places(frame);
     set_types(frame);
     frame.mass = column("particles/mass", 1);
+    if (is_absent("particles/mass")) frame.assumed["masses"] = "1, the default of particles/mass";
     frame.velocity = vectors("particles/velocity");
     set_angular_velocities(frame);
+    std::ranges::copy_if(file_.names(), std::inserter(frame.skipped, frame.skipped.end()),
+                         [](const std::string& name) { return !known_chunks.contains(name); });
     ++number_;
     return true;
   }
@@ -79,6 +92,8 @@ class GsdFrames final : public ForeignFrames {
     return values;
   }
 
+  bool is_absent(const std::string& name) { return file_.read(name, number_).rows == 0; }
+
   std::vector<Vec3> vectors(const std::string& name) {
     const std::vector<double> values = rows(name, 3);
     std::vector<Vec3> result;
@@ -108,7 +123,10 @@ class GsdFrames final : public ForeignFrames {
     if (frame.position.size() != particles_)
       fail("particles/position should have a row for each of the particles/N particles");
     frame.orientation = quaternions("particles/orientation");
-    if (frame.orientation.empty()) frame.orientation.assign(particles_, Quaternion::Identity());
+    if (frame.orientation.empty()) {
+      frame.orientation.assign(particles_, Quaternion::Identity());
+      frame.assumed["orientations"] = "not turned, the default of particles/orientation";
+    }
     set_images(frame);
   }
 
@@ -121,13 +139,17 @@ class GsdFrames final : public ForeignFrames {
         fail("particles/image has impossible numbers");
       frame.image.push_back(image.cast<std::int32_t>());
     }
-    if (frame.image.empty()) frame.image.assign(particles_, Shift<3>::Zero());
+    if (!frame.image.empty()) return;
+    frame.image.assign(particles_, Shift<3>::Zero());
+    frame.assumed["box crossings"] = "0, the default of particles/image";
   }
 
   void set_types(ForeignFrame& frame) {
     std::vector<std::string> types = file_.read_texts("particles/types", number_);
     if (types.empty()) types = {"A"};
     const std::vector<Vec3> shapes = shapes_of(types.size());
+    if (types.size() > 1 && is_absent("particles/typeid"))
+      frame.assumed["species"] = types.front() + ", the default of particles/typeid";
     for (const double type : column("particles/typeid", 0)) {
       if (!(type >= 0 && type < static_cast<double>(types.size())))
         fail(fmt::format("particles/typeid has the type {}, but there are {}", type, types.size()));
@@ -135,6 +157,12 @@ class GsdFrames final : public ForeignFrames {
       frame.species.push_back(species_of(types[k]));
       if (!shapes.empty()) frame.semi_axes.push_back(shapes[k]);
     }
+    const std::vector<double> diameters = rows("particles/diameter", 1);
+    if (!diameters.empty() && !shapes.empty())
+      frame.skipped.insert("particles/diameter, as type_shapes says more");
+    else
+      for (const double diameter : diameters)
+        frame.semi_axes.push_back(Vec3::Constant(0.5 * diameter));
   }
 
   /// The semi-axes of every type; empty if the file does not have them.
@@ -188,8 +216,13 @@ class GsdFrames final : public ForeignFrames {
 
 }  // namespace
 
-std::unique_ptr<ForeignFrames> open_gsd(const std::filesystem::path& path) {
-  return std::make_unique<GsdFrames>(path);
-}
+constexpr ForeignFormat gsd_format = {
+    "GSD",
+    {"configuration/box", "configuration/dimensions = 2",
+     "particles/type_shapes or particles/diameter", "particles/image after the first frame"},
+    [](std::string_view start) { return start.starts_with("\xDF\x65\xDF\x65"); },
+    [](const std::filesystem::path& path, const ImportOptions&) -> std::unique_ptr<ForeignFrames> {
+      return std::make_unique<GsdFrames>(path);
+    }};
 
 }  // namespace vitrel

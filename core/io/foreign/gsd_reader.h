@@ -30,6 +30,10 @@ class GsdReader {
   Chunk read(const std::string& name, std::uint64_t frame);
   /// Whether a frame after the first has the chunk.
   bool is_in_later_frames(const std::string& name) const;
+  /// Whether any has.
+  bool has(const std::string& name) const { return find(name, 0) || is_in_later_frames(name); }
+  /// Of all chunks.
+  const std::vector<std::string>& names() const { return names_; }
   /// The rows of a chunk of texts.
   std::vector<std::string> read_texts(const std::string& name, std::uint64_t frame);
 

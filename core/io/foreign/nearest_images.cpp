@@ -48,7 +48,7 @@ void NearestImages<Dim>::compare_with_flight(const Configuration<Dim>& next, std
 template <int Dim>
 std::string NearestImages<Dim>::remark() const {
   std::string text = fmt::format(
-      "box crossings are those of the nearest images (unwrap = \"nearest\"); the longest step is "
+      "those of the nearest images (unwrap = \"nearest\"); the longest step is "
       "{:.3g} box lengths along {}, of particle {} to frame {}",
       longest_.box_lengths, "xyz"[longest_.direction], longest_.particle, longest_.frame);
   constexpr double doubtful = 0.25;

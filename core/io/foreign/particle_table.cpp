@@ -26,6 +26,8 @@ const std::vector<std::vector<std::string>> groups = {{"frame"},
                                                       {"id"},
                                                       {"angle"},
                                                       {"radius"},
+                                                      {"diameter"},
+                                                      {"diameter_x", "diameter_y"},
                                                       {"mass"},
                                                       {"omega"},
                                                       {"box_x", "box_y"},
@@ -38,8 +40,8 @@ const std::vector<std::vector<std::string>> groups = {{"frame"},
                                                       {"omega_x", "omega_y", "omega_z"}};
 /// Third components, with the columns that they belong to.
 const std::map<std::string, std::string> third_of = {
-    {"box_z", "box_x"},     {"z", "x"},   {"unwrapped_z", "unwrapped_x"},
-    {"image_z", "image_x"}, {"vz", "vx"}, {"c", "a"}};
+    {"box_z", "box_x"}, {"z", "x"}, {"unwrapped_z", "unwrapped_x"}, {"image_z", "image_x"},
+    {"vz", "vx"},       {"c", "a"}, {"diameter_z", "diameter_x"}};
 
 bool counts(const std::string& column) {
   return third_of.contains(column) || std::ranges::any_of(groups, [&](const auto& group) {
@@ -55,9 +57,27 @@ double number(std::string_view cell, const std::string& column, const std::strin
   return *value;
 }
 
+/// Columns that the user gives another name.
+void rename(std::vector<std::string>& columns, const std::vector<ImportOptions::Column>& renamed,
+            const std::string& place) {
+  for (const auto& [file, meaning] : renamed) {
+    if (!counts(meaning) && meaning != species_column)
+      throw UserError(fmt::format(
+          "import.columns: \"{}\" is no column that vitrel knows; docs/imports.md lists them",
+          meaning));
+    const auto found = std::ranges::find(columns, file);
+    if (found == columns.end())
+      throw FileError(fmt::format("{}: import.columns names \"{}\", but there are \"{}\"", place,
+                                  file, fmt::join(columns, "\", \"")));
+    *found = meaning;
+  }
+}
+
 }  // namespace
 
-ParticleTable::ParticleTable(const std::vector<std::string>& columns, const std::string& place) {
+ParticleTable::ParticleTable(std::vector<std::string> columns, const std::string& place,
+                             const std::vector<ImportOptions::Column>& renamed) {
+  rename(columns, renamed, place);
   const std::set<std::string> names(columns.begin(), columns.end());
   for (const std::string& name : columns) {
     const bool is_number = counts(name);
@@ -65,6 +85,7 @@ ParticleTable::ParticleTable(const std::vector<std::string>& columns, const std:
       throw FileError(fmt::format("{}: the column {} comes twice", place, name));
     columns_.push_back(is_number || name == species_column ? name : "");
     if (is_number) numbers_[name];
+    if (columns_.back().empty() && !name.empty()) skipped_.insert(name);
   }
   const auto require = [&](const std::string& wanted, const std::string& because) {
     if (!names.contains(wanted))
@@ -78,7 +99,11 @@ ParticleTable::ParticleTable(const std::vector<std::string>& columns, const std:
   for (const auto& [third, first] : third_of)
     if (names.contains(third)) require(first, third);
   if (!names.contains("x") && !names.contains("unwrapped_x"))
-    throw FileError(place + ": there are no positions");
+    throw FileError(
+        fmt::format("{}: none of the columns \"{}\" is named x; [[import.columns]] can say which "
+                    "means what, for "
+                    "example file = \"{}\", meaning = \"x\"",
+                    place, fmt::join(columns, "\", \""), columns.empty() ? "X" : columns.front()));
 }
 
 void ParticleTable::add(const std::vector<std::string_view>& cells, const std::string& place) {
@@ -138,8 +163,12 @@ std::vector<Vec3> ParticleTable::vectors(const std::string& prefix,
 
 std::vector<Vec3> ParticleTable::semi_axes(const Order& order) const {
   std::vector<Vec3> axes = vectors("", {"a", "b", "c"}, order);
+  for (const Vec3& whole : vectors("diameter_", directions, axes.empty() ? order : Order()))
+    axes.push_back(0.5 * whole);
   for (const double radius : numbers("radius", axes.empty() ? order : Order()))
     axes.push_back(Vec3::Constant(radius));
+  for (const double diameter : numbers("diameter", axes.empty() ? order : Order()))
+    axes.push_back(Vec3::Constant(0.5 * diameter));
   return axes;
 }
 
@@ -151,7 +180,7 @@ std::optional<double> ParticleTable::single(const std::string& column) const {
 ForeignFrame ParticleTable::frame(const std::string& place) const {
   const Order order = by_id(place);
   ForeignFrame frame;
-  frame.dimension = has("z") ? 3 : 2;
+  if (has("angle") || !(has("z") || has("unwrapped_z"))) frame.dimension = 2;
   frame.time = single("time");
   if (const auto step = single("step")) {
     frame.step = whole_number<std::int64_t>(std::round(*step));
@@ -159,6 +188,7 @@ ForeignFrame ParticleTable::frame(const std::string& place) const {
       throw FileError(fmt::format("{}: step is {}, but should be a whole number", place, *step));
   }
   if (has("box_x")) frame.box = vectors("box_", directions, {0}).front();
+  frame.id = numbers("id", order);
   frame.position = vectors("", directions, order);
   frame.unwrapped = vectors("unwrapped_", directions, order);
   for (const Vec3& image : vectors("image_", directions, order)) {
@@ -180,6 +210,7 @@ ForeignFrame ParticleTable::frame(const std::string& place) const {
     frame.angular_velocity.emplace_back(0, 0, omega);
   if (!species_.empty())
     for (const std::size_t i : order) frame.species.push_back(species_[i]);
+  frame.skipped = skipped_;
   return frame;
 }
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,13 +21,16 @@ namespace vitrel {
 ///     x, y, z; unwrapped_x, …; image_x, …        one of the first two
 ///     angle; qw, qx, qy, qz                      radians; a quaternion
 ///     a, b, c, or radius                         semi-axes
+///     diameter, or diameter_x, …                 whole axes
 ///     mass; vx, vy, vz; omega, or omega_x, …
 ///
-/// Others are skipped. A table with the column z is three-dimensional.
+/// Others are skipped. A table without the column z, or with angles, is two-dimensional.
 class ParticleTable {
  public:
-  /// FileError, for `place`, if a column comes twice, or one of several that belong together is missing.
-  ParticleTable(const std::vector<std::string>& columns, const std::string& place);
+  /// `renamed`: columns that mean one of those above. FileError, for `place`, if a column comes twice, or one of several
+  /// that belong together, or that is renamed, is missing.
+  ParticleTable(std::vector<std::string> columns, const std::string& place,
+                const std::vector<ImportOptions::Column>& renamed = {});
 
   bool has(const std::string& column) const { return numbers_.contains(column); }
   /// One cell per column. FileError, for `place` ("file:line"), if their number is another one or one is no number.
@@ -51,6 +55,7 @@ class ParticleTable {
   Order by_id(const std::string& place) const;
 
   std::vector<std::string> columns_;  ///< "" for those that are skipped
+  std::set<std::string> skipped_;
   std::map<std::string, std::vector<double>> numbers_;
   std::vector<std::string> species_;
   std::size_t rows_ = 0;

@@ -18,6 +18,16 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(blank) - begin + 1);
 }
 
+std::vector<std::string_view> words_of(std::string_view line, const char* separators) {
+  std::vector<std::string_view> words;
+  for (std::size_t begin = line.find_first_not_of(separators); begin != std::string_view::npos;) {
+    const std::size_t end = std::min(line.find_first_of(separators, begin), line.size());
+    words.push_back(line.substr(begin, end - begin));
+    begin = line.find_first_not_of(separators, end);
+  }
+  return words;
+}
+
 std::optional<double> number_in(std::string_view text) {
   // from_chars takes no sign in front of a positive number.
   if (text.starts_with('+')) text.remove_prefix(1);

@@ -5,11 +5,15 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace vitrel {
 
 /// Without the blanks around it.
 std::string_view trimmed(std::string_view text);
+
+/// Words between `separators`.
+std::vector<std::string_view> words_of(std::string_view line, const char* separators = " \t");
 
 /// A number in C or Fortran notation (1e3, +1, 1.0D+03), or nothing if the text is something else.
 std::optional<double> number_in(std::string_view text);

@@ -1,5 +1,3 @@
-#include "core/io/foreign/xyz_frames.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,9 +7,9 @@
 #include <optional>
 
 #include "core/error.h"
+#include "core/io/foreign/foreign_formats.h"
 #include "core/io/foreign/particle_table.h"
 #include "core/io/foreign/text_lines.h"
-#include "core/tolerances.h"
 
 namespace vitrel {
 namespace {
@@ -41,17 +39,6 @@ const std::map<std::string, std::vector<std::string>> columns_of = {
 std::string lower_case(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return text;
-}
-
-/// Words between `separators`.
-std::vector<std::string_view> words_of(std::string_view line, const char* separators = " \t") {
-  std::vector<std::string_view> words;
-  for (std::size_t begin = line.find_first_not_of(separators); begin != std::string_view::npos;) {
-    const std::size_t end = std::min(line.find_first_of(separators, begin), line.size());
-    words.push_back(line.substr(begin, end - begin));
-    begin = line.find_first_not_of(separators, end);
-  }
-  return words;
 }
 
 /// Where the value that begins at `begin` ends: behind its quotes or brackets, or at the next blank.
@@ -118,10 +105,10 @@ std::vector<double> numbers(const std::string& text, std::size_t count, const st
   return values;
 }
 
-/// The names of all columns; a property with another number of them than known is skipped.
+/// The names of all columns. A property that is not known, or has another number of them, keeps its name.
 std::vector<std::string> columns(const std::string& properties, const std::string& place) {
   const std::vector<std::string_view> parts = words_of(properties, ":");
-  if (parts.empty() || parts.size() % 3 != 0)
+  if (parts.size() % 3 != 0)
     throw FileError(
         fmt::format("{}: should have Properties=name:type:columns:…, as extended XYZ does", place));
   constexpr std::size_t most = 100;
@@ -135,16 +122,23 @@ std::vector<std::string> columns(const std::string& properties, const std::strin
     if (known != columns_of.end() && known->second.size() == count)
       names.insert(names.end(), known->second.begin(), known->second.end());
     else
-      names.insert(names.end(), count, "");
+      for (std::size_t column = 1; column <= count; ++column)
+        names.push_back(count == 1 ? property : fmt::format("{}[{}]", property, column));
   }
+  return names;
+}
+
+/// Of plain XYZ, which names none: the first four are the same everywhere.
+std::vector<std::string> plain_columns(std::size_t count) {
+  std::vector<std::string> names = {"species", "x", "y", "z"};
+  while (names.size() < count) names.push_back(fmt::format("column {}", names.size() + 1));
   return names;
 }
 
 class XyzFrames final : public ForeignFrames {
  public:
-  explicit XyzFrames(const fs::path& path) : lines_(path) {}
-
-  const char* box_crossings() const override { return "property map_shift"; }
+  XyzFrames(const fs::path& path, const ImportOptions& options)
+      : lines_(path), renamed_(options.columns) {}
 
   bool next(ForeignFrame& frame) override {
     std::string line;
@@ -156,14 +150,16 @@ class XyzFrames final : public ForeignFrames {
     const auto n = parsed<std::size_t>(words.size() == 1 ? words[0] : std::string_view(line),
                                        "the number of particles", place);
     const Keys keys = keys_of(next_line("the keys"));
-    ParticleTable table(columns(value(keys, "properties"), lines_.place()), lines_.place());
     const std::string place_of_keys = lines_.place();
+    std::optional<ParticleTable> table;
     for (std::size_t i = 0; i < n; ++i) {
       const std::string particle = next_line(fmt::format("particle {} of {}", i, n));
-      table.add(words_of(particle), lines_.place());
+      const std::vector<std::string_view> cells = words_of(particle);
+      if (!table) table.emplace(table_columns(keys, cells, place_of_keys), place_of_keys, renamed_);
+      table->add(cells, lines_.place());
     }
-    frame = table.frame(place);
-    complete(frame, keys, table.has("angle"), place_of_keys);
+    frame = table ? table->frame(place) : ForeignFrame();
+    complete(frame, keys, place_of_keys);
     return true;
   }
 
@@ -175,15 +171,18 @@ class XyzFrames final : public ForeignFrames {
     return line;
   }
 
-  static std::string value(const Keys& keys, const std::string& key) {
-    const auto found = keys.find(key);
-    return found == keys.end() ? "" : found->second;
+  static std::vector<std::string> table_columns(const Keys& keys,
+                                                const std::vector<std::string_view>& cells,
+                                                const std::string& place) {
+    const auto properties = keys.find("properties");
+    return properties == keys.end() ? plain_columns(cells.size())
+                                    : columns(properties->second, place);
   }
 
-  static void complete(ForeignFrame& frame, const Keys& keys, bool has_angle,
-                       const std::string& place);
+  static void complete(ForeignFrame& frame, const Keys& keys, const std::string& place);
 
   TextLines lines_;
+  std::vector<ImportOptions::Column> renamed_;
 };
 
 /// Whether a word of `pbc` says that the box is periodic; nothing if it says neither.
@@ -193,24 +192,23 @@ std::optional<bool> periodicity(std::string_view word) {
   return std::nullopt;
 }
 
-/// Whether the box is periodic along z, as it must be along x and y.
-bool is_periodic_along_z(const Keys& keys, const std::string& place) {
+/// The dimension that follows from pbc, if one does.
+std::optional<int> dimension_of_pbc(const Keys& keys, const std::string& place) {
   const auto pbc = keys.find("pbc");
-  if (pbc == keys.end()) return true;
+  if (pbc == keys.end()) return std::nullopt;
   const std::string text = lower_case(pbc->second);
-  const std::vector<std::string_view> words = words_of(text, " \t,[]{}");
-  if (words.size() != 3 || !std::ranges::all_of(words, [](std::string_view word) {
-        return periodicity(word).has_value();
-      }))
+  std::vector<bool> periodic;
+  for (const std::string_view word : words_of(text, " \t,[]{}"))
+    if (const auto is_periodic = periodicity(word)) periodic.push_back(*is_periodic);
+  if (periodic.size() != 3)
     throw FileError(fmt::format("{}: pbc is \"{}\", but should be T or F for each of x, y and z",
                                 place, pbc->second));
-  for (std::size_t k = 0; k < 2; ++k)
-    if (!*periodicity(words[k]))
-      throw FileError(
-          fmt::format("{}: pbc=\"{}\" says that the box is not periodic along {}, but vitrel's "
-                      "boxes are; only a plane needs no period along z",
-                      place, pbc->second, "xyz"[k]));
-  return *periodicity(words[2]);
+  try {
+    return dimension_of_boundaries({periodic[0], periodic[1], periodic[2]},
+                                   fmt::format("pbc=\"{}\"", pbc->second));
+  } catch (const UserError& error) {
+    throw FileError(fmt::format("{}: {}", place, error.what()));
+  }
 }
 
 void set_box(ForeignFrame& frame, const Keys& keys, const std::string& place) {
@@ -227,28 +225,10 @@ void set_box(ForeignFrame& frame, const Keys& keys, const std::string& place) {
   for (Vec3& position : frame.position) position -= centre;
 }
 
-/// The height of a plane does not matter.
-void move_to_zero_height(ForeignFrame& frame, const char* because, const std::string& place) {
-  if (frame.position.empty()) return;
-  const auto height = [](const Vec3& position) { return position[2]; };
-  const auto [lowest, highest] = std::ranges::minmax(frame.position, {}, height);
-  const double wide = frame.box ? frame.box->x() : 1;
-  if (highest[2] - lowest[2] > tolerance::flat * wide)
-    throw FileError(fmt::format(
-        "{}: {}, but the heights of particles differ by {}; in a plane all are the same", place,
-        because, highest[2] - lowest[2]));
-  for (Vec3& position : frame.position) position[2] = 0;
-}
-
-void XyzFrames::complete(ForeignFrame& frame, const Keys& keys, bool has_angle,
-                         const std::string& place) {
+void XyzFrames::complete(ForeignFrame& frame, const Keys& keys, const std::string& place) {
   set_box(frame, keys, place);
-  const bool is_flat = !is_periodic_along_z(keys, place), is_plane = is_flat || has_angle;
   // All programs write three coordinates.
-  frame.dimension = is_plane ? std::optional(2) : std::nullopt;
-  if (is_plane)
-    move_to_zero_height(
-        frame, is_flat ? "the box is not periodic along z" : "particles have an angle", place);
+  if (const auto dimension = dimension_of_pbc(keys, place)) frame.dimension = dimension;
   if (const auto time = keys.find("time"); time != keys.end())
     frame.time = real_number(time->second, "Time", place);
   for (const char* key : {"step", "timestep"})
@@ -256,10 +236,21 @@ void XyzFrames::complete(ForeignFrame& frame, const Keys& keys, bool has_angle,
       frame.step = parsed<std::int64_t>(step->second, "Step", place);
 }
 
+/// The first line is a number.
+bool is_xyz(std::string_view start) {
+  const std::vector<std::string_view> words = words_of(start.substr(0, start.find('\n')), " \t\r");
+  return words.size() == 1 &&
+         std::ranges::all_of(words.front(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
 }  // namespace
 
-std::unique_ptr<ForeignFrames> open_xyz(const fs::path& path) {
-  return std::make_unique<XyzFrames>(path);
-}
+constexpr ForeignFormat xyz_format = {
+    "extended XYZ",
+    {"Lattice=\"…\"", "pbc=\"T T F\"", "property aspherical_shape or radius", "property map_shift"},
+    is_xyz,
+    [](const fs::path& path, const ImportOptions& options) -> std::unique_ptr<ForeignFrames> {
+      return std::make_unique<XyzFrames>(path, options);
+    }};
 
 }  // namespace vitrel
