@@ -19,6 +19,8 @@ TARGETS = {
     "gsd": "GSD",
     "xyz": "extended XYZ",
     "csv": "CSV",
+    "h5md": "H5MD of other programs",
+    "lammps": "dumps and data files of LAMMPS",
 }
 
 

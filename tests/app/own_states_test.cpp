@@ -194,24 +194,23 @@ TEST(OwnStates, AFileIsRefusedInItsOwnTerms) {
         fmt::format("1\nLattice=\"6 0 0 0 6 0 0 0 6\" pbc=\"{}\" Properties=pos:R:3:radius:R:1\n"
                     "1 1 1 1\n",
                     pbc),
-        fmt::format("a.xyz:2: pbc=\"{}\" says that the box is not periodic along {}", pbc,
-                    direction));
+        fmt::format("a.xyz:2: pbc=\"{}\": the box is not periodic along {}", pbc, direction));
   refused("a.xyz",
           "2\nLattice=\"6 0 0 0 6 0 0 0 6\" pbc=\"T T F\" Properties=pos:R:3:radius:R:1\n"
           "1 1 1 1\n4 4 4 1\n",
-          "a.xyz:2: the box is not periodic along z, but the heights of particles differ by 3");
+          "a.xyz: frame 0: the system is two-dimensional, but the z of its particles differ by 3");
   refused("a.csv", "name,value\nx,1\n",
-          "a.csv: is neither H5MD, GSD nor extended XYZ, nor CSV, whose first line has columns x "
-          "and y");
+          "a.csv:1: none of the columns \"name\", \"value\" is named x; [[import.columns]]");
+  refused("a.csv", "a word\n", "a.csv: is not recognised as H5MD, GSD, extended XYZ,");
   const std::string keys =
       "Lattice=\"6 0 0 0 6 0 0 0 6\" Properties=species:S:1:pos:R:3:radius:R:1\n";
   refused("a.xyz", "2\n" + keys + "A 0 0 0 1\n", "a.xyz:3: the file ends before particle 1 of 2");
-  refused("a.xyz", "1\nProperties=species:S:1\nA\n", "a.xyz:2: there are no positions");
+  refused("a.xyz", "1\nProperties=species:S:1\nA\n",
+          "a.xyz:2: none of the columns \"species\" is named x");
   refused("a.xyz", "1\nProperties=pos:R\nA 0 0 0 1\n", "a.xyz:2: should have Properties=name:type");
   refused("a.xyz", "1\n" + keys + "A 0 0 0 1\n2\n" + keys + "A 0 0 0 1\nA 3 3 3 1\n",
           "a.xyz: frame 1: has other particles than frame 0");
-  refused("bad.h5", std::string("\0\1\2", 3),
-          "bad.h5: cannot open the file: it is not an HDF5 file");
+  refused("bad.h5", std::string("\0\1\2", 3), "it is binary, and none of these begins so");
   expect_refusal(run(folder.path(), {"check", "none.csv", "-q"}), 3, "none.csv: cannot open");
   // A GSD file with its end cut off.
   write_run(folder, 2);
@@ -255,8 +254,11 @@ TEST(OwnStates, ShapesMayComeFromTheParameters) {
                "1.5\nfraction = 0.333333333333333\n[[species]]\nname = \"rod\"\nsemi_axes = [2, "
                "0.5, 0.5]\nfraction = 0.666666666666667\nmass = 7\n" +
                    run_in_plane);
-  expect_refusal(run(folder.path(), {"check", "mine.xyz", "-q"}), 3,
-                 "mine.xyz: frame 0: has no semi-axes for species rod");
+  expect_refusal(
+      run(folder.path(), {"check", "mine.xyz", "-q"}), 3,
+      "mine.xyz: frame 0: has no sizes: it has no property aspherical_shape or radius, and "
+      "neither [[import.species]] nor [[species]] gives diameter or semi-axes of ball, "
+      "rod");
   const Json check = summary_of(folder, {"check", "mine.xyz", "--params", "p.toml"});
   const double volume = 4 * M_PI / 3 * (1.5 * 1.5 * 1.5 + 2 * 2 * 0.25);
   EXPECT_NEAR(check["packing_fraction"], volume / 729, 1e-15);
@@ -290,9 +292,8 @@ TEST(OwnStates, HarmlessDifferencesOfATextAreRead) {
     const Outcome found = run(folder.path(), {"check", "a.xyz", "--json"});
     ASSERT_EQ(found.code, 0) << found.errors;
     EXPECT_EQ(Json::parse(found.output)["smallest_gap"], right["smallest_gap"]);
-    EXPECT_THAT(
-        found.errors,
-        HasSubstr("a.xyz: semi-axes a < b are exchanged, and their particles turned by π/2"));
+    EXPECT_THAT(found.errors,
+                HasSubstr("semi-axes a < b are exchanged, and their particles turned by π/2"));
   }
 }
 

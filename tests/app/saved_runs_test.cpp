@@ -188,7 +188,7 @@ TEST(SavedRuns, SettingsWithoutEffectAreRefused) {
   for (const char* command : {"analyze", "report"}) {
     expect_refusal(run(folder.path(), {command, "run.h5", "--set", "dynamics.duration=5"}), 2,
                    "--set dynamics.duration=5: has no effect on an existing run; only "
-                   "parameters of its analysis, analysis.… and import.…, can be set");
+                   "analysis.… and import.… can be set");
     expect_refusal(run(folder.path(), {command, "run.h5", "--set", "analysis.longest_leg=1"}), 2,
                    "key 'analysis.longest_leg' is unknown");
   }

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "core/io/h5.h"
 #include "core/io/text_file.h"
 #include "core/random/stream.h"
 #include "tests/fuzz/execution.h"
@@ -48,6 +49,22 @@ const char* const pair =
     "velocity = [1, 0]\nangular_velocity = 0.2\n"
     "[[body]]\nsemi_axes = [1, 1]\nposition = [4, 0.5]\n";
 
+// LAMMPS' own forms of two ellipsoids.
+const char* const dump =
+    "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS pp pp pp\n-5 5\n0 10\n-5 5\n"
+    "ITEM: ATOMS id type xs ys zs ix iy iz quatw quati quatj quatk shapex shapey shapez vx vy vz "
+    "mass\n2 1 0.5 0.5 0.5 0 0 0 1 0 0 0 2 1 1 1 0 0 1\n1 1 0.1 0.1 0.5 0 0 0 0 1 0 0 2 1 1 0 1 0 "
+    "1\nITEM: TIMESTEP\n10\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS pp pp pp\n-5 5\n0 10\n-5 "
+    "5\nITEM: ATOMS id type xs ys zs ix iy iz quatw quati quatj quatk shapex shapey shapez vx vy "
+    "vz "
+    "mass\n1 1 0.2 0.1 0.5 0 0 0 0 1 0 0 2 1 1 0 1 0 1\n2 1 0.6 0.5 0.5 0 0 0 1 0 0 0 2 1 1 1 0 0 "
+    "1\n";
+const char* const data =
+    "two ellipsoids\n\n2 atoms\n1 atom types\n2 ellipsoids\n-5 5 xlo xhi\n-5 5 ylo yhi\n-5 5 zlo "
+    "zhi\n0 0 0 xy xz yz\n\nAtoms # ellipsoid\n\n1 1 1 1.0 0 0 0 0 0 0\n2 1 1 1.0 3 0 0 1 0 0\n\n"
+    "Ellipsoids\n\n1 2 1 1 1 0 0 0\n2 2 1 1 0.7071067811865476 0 0 0.7071067811865476\n\n"
+    "Velocities\n\n1 0.1 0 0 0 0 0\n2 -0.1 0 0 0 0 0.5\n";
+
 void succeed(const std::vector<std::string>& command) {
   const Outcome outcome = execute(command);
   if (outcome.code == 0) return;
@@ -85,6 +102,19 @@ Target foreign(const std::string& format, Kind kind) {
   commands.push_back({"check", file, "--params", "p.toml", "-q"});
   return {format, file, kind, contents({"plane." + format, "space." + format, "soft." + format}),
           commands};
+}
+
+/// Of vitrel's own files all but who wrote them.
+Target foreign_h5md() {
+  std::vector<fs::path> files;
+  for (const char* name : {"plane", "space", "soft"}) {
+    const fs::path& file = files.emplace_back(std::string("other_") + name + ".h5");
+    fs::copy_file(std::string(name) + ".h5", file);
+    h5::File written = h5::File::open(file, h5::Access::write);
+    written.root().group("h5md/creator").set_attribute("name", std::string("another program"));
+    written.close();
+  }
+  return {"h5md", "foreign.h5", Kind::hdf5, contents(files), commands_for("foreign.h5")};
 }
 
 Target trajectory() {
@@ -135,7 +165,9 @@ std::vector<Target> make_targets(const fs::path& folder) {
        {{"analyze", "plane.h5", "-o", "results.h5", "-q", "--set", "analysis.structure.frames=0"}}},
       foreign("gsd", Kind::bytes),
       foreign("xyz", Kind::text),
-      foreign("csv", Kind::text)};
+      foreign("csv", Kind::text),
+      foreign_h5md(),
+      {"lammps", "foreign.lammps", Kind::text, {dump, data}, commands_for("foreign.lammps")}};
 }
 
 const std::vector<std::string>& write_input(const Target& target, Stream& stream) {

@@ -114,14 +114,14 @@ TEST(Export, RefusesWithOneMessageAndLeavesNothing) {
          "'pdf' is none of gsd, xyz, csv, thesis, geo, vti, vtp, gnuplot");
   expect({"run.h5", "--to", "xyz", "-o", "there.xyz"}, 2, "exists already");
   expect({"run.h5", "--to", "xyz", "--frames", "4"}, 2, "has 4 frame(s)");
-  expect({"there.xyz", "--to", "gsd"}, 3, "is neither H5MD, GSD nor extended XYZ, nor CSV");
+  expect({"there.xyz", "--to", "gsd"}, 3, "is not recognised as H5MD, GSD, extended XYZ,");
   expect({"nowhere.h5", "--to", "gsd"}, 3, "nowhere.h5");
   expect({"run.h5", "--to", "gsd", "-o", "nowhere/run.gsd"}, 3, "nowhere/run.gsd");
   expect({"run.h5", "--to", "gnuplot"}, 3, "holds no results");
   expect({"results.h5", "--to", "gnuplot", "-o", "there.xyz"}, 2, "exists already");
   expect({"results.h5", "--to", "gnuplot", "-o", "nowhere/plots"}, 3, "nowhere/plots");
   expect({"results.h5", "--to", "gnuplot", "--frames", "1"}, 2, "--frames");
-  expect({"results.h5", "--to", "csv"}, 3, "not an H5MD file");
+  expect({"results.h5", "--to", "csv"}, 3, "has no group particles");
   std::vector<std::string> left;
   for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
     left.push_back(entry.path().filename().string());

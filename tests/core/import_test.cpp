@@ -1,0 +1,359 @@
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <numbers>
+
+#include "core/error.h"
+#include "core/io/foreign/foreign_formats.h"
+#include "core/io/h5md.h"
+#include "tests/support/files.h"
+
+namespace vitrel {
+namespace {
+
+using testing::HasSubstr;
+
+/// Files of other programs.
+class Import : public Files {
+ protected:
+  std::filesystem::path text(const std::string& name, const std::string& content) const {
+    const std::filesystem::path path = file(name);
+    std::ofstream(path) << content;
+    return path;
+  }
+
+  /// H5MD with these particles at one time; `more` adds to the group of particles.
+  std::filesystem::path h5md(const std::string& name,
+                             const std::function<void(h5::Group&)>& more) const {
+    h5::File output = h5::File::create(file(name));
+    h5::Group root = output.root();
+    h5::Group particles = root.create_group("particles").create_group("any");
+    more(particles);
+    output.close();
+    return file(name);
+  }
+
+  static std::map<std::string, std::string> report(const std::filesystem::path& path,
+                                                   const KnownSystem& known = {}) {
+    const TrajectoryReader reader(path, known);
+    return {reader.import_report().begin(), reader.import_report().end()};
+  }
+
+  static std::string refusal(const std::filesystem::path& path, const KnownSystem& known = {}) {
+    try {
+      TrajectoryReader(path, known).frames();
+    } catch (const FileError& error) {
+      return error.what();
+    }
+    return "read";
+  }
+};
+
+void add_series(h5::Group& particles, const std::string& name, const h5::Shape& frame,
+                std::size_t frames, const std::vector<double>& values) {
+  h5::Group group = particles.create_group(name);
+  h5::Shape shape = frame;
+  shape.insert(shape.begin(), frames);
+  group.create_array<double>("value", shape, values);
+  std::vector<double> steps(frames);
+  for (std::size_t k = 0; k < frames; ++k) steps[k] = static_cast<double>(k);
+  group.create_array<double>("step", {frames}, steps);
+  group.create_array<double>("time", {frames}, steps);
+}
+
+void add(h5::Group& particles, const std::string& name, const h5::Shape& shape,
+         const std::vector<double>& values) {
+  particles.create_array<double>(name, shape, values);
+}
+
+/// Two frames of two disks; the least that H5MD can say.
+void two_disks(h5::Group& particles) {
+  h5::Group box = particles.create_group("box");
+  add(box, "edges", {2}, {10, 10});
+  add(particles, "semiaxes", {2, 2}, {1, 1, 1, 1});
+  add_series(particles, "position", {2, 2}, 2, {-3, 0, 3, 0, -3, 1, 3, 1});
+}
+
+constexpr const char* small_xyz =
+    "2\nLattice=\"10 0 0 0 10 0 0 0 10\" Properties=pos:R:3:radius:R:1\n1 1 1 1\n5 5 5 1\n"
+    "2\nLattice=\"10 0 0 0 10 0 0 0 10\" Properties=pos:R:3:radius:R:1\n1 1 2 1\n5 5 5 1\n";
+constexpr const char* small_csv =
+    "frame,x,y,radius,box_x,box_y\n0,0,0,1,9,9\n0,3,0,1,9,9\n1,0,1,1,9,9\n1,3,0,1,9,9\n";
+
+std::string dump_frame(int step, const std::string& columns, const std::string& atoms) {
+  return fmt::format(
+      "ITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS pp pp pp\n-5 5\n0 10\n2 12\n"
+      "ITEM: ATOMS {}\n{}",
+      step, columns, atoms);
+}
+
+// What a file does not have is replaced by nothing that its import does not say.
+TEST_F(Import, EveryDefaultIsSaid) {
+  const std::string bare = "velocities (energies are left out), box crossings (motion is left out)";
+  const std::string natural = "masses (in proportion to the area, 1 where a b = 1)";
+  const std::string in_space = "masses (in proportion to the volume, 1 where a b c = 1)";
+  const std::string one_species = "species (all are \"A\")";
+  const std::string frames = "times (they are counted in frames)";
+  const std::string steps = "times (they are counted in steps)";
+  EXPECT_EQ(report(h5md("a.h5", two_disks)).at("absent"),
+            fmt::format("{}, {}, {}", one_species, natural, bare));
+  EXPECT_EQ(report(text("a.xyz", small_xyz)).at("absent"),
+            fmt::format("{}, {}, {}, {}", one_species, in_space, bare, frames));
+  EXPECT_EQ(report(text("a.csv", small_csv)).at("absent"),
+            fmt::format("{}, {}, {}, {}", one_species, natural, bare, frames));
+  const std::string dump = dump_frame(0, "x y z radius", "0 1 3 1\n3 3 9 1\n") +
+                           dump_frame(9, "x y z radius", "0 1 4 1\n3 3 9 1\n");
+  EXPECT_EQ(report(text("a.dump", dump)).at("absent"),
+            fmt::format("{}, {}, {}, {}", one_species, in_space, bare, steps));
+  const std::string data =
+      "title\n2 atoms\n0 9 xlo xhi\n0 9 ylo yhi\n0 9 zlo zhi\nAtoms # sphere\n\n"
+      "2 1 1.0 1.0 1 2 3\n1 1 1.0 1.0 4 5 6\n";
+  EXPECT_EQ(report(text("a.data", data)).at("absent"),
+            "boundaries (periodic, which this format cannot state), velocities (energies are left "
+            "out)");
+  for (const char* name : {"a.h5", "a.xyz", "a.csv", "a.dump", "a.data"})
+    EXPECT_FALSE(report(file(name)).contains("converted")) << name;
+}
+
+TEST_F(Import, ContentTellsTheFormat) {
+  const std::map<std::string, std::filesystem::path> files = {
+      {"H5MD", h5md("1", two_disks)},
+      {"extended XYZ", text("2", small_xyz)},
+      {"CSV", text("3", small_csv)},
+      {"LAMMPS dump", text("4", dump_frame(0, "x y z radius", "0 1 3 1\n3 3 9 1\n"))},
+      {"LAMMPS data", text("5", "a\n\n 2 atoms\n")}};
+  for (const auto& [name, path] : files) EXPECT_EQ(format_of(path, {}).name, name);
+  for (const ForeignFormat* format : foreign_formats())
+    EXPECT_THAT(foreign_format_names(), HasSubstr(format->name));
+  EXPECT_THAT(refusal(text("6", "some words\n")), HasSubstr("it begins with \"some words\""));
+  EXPECT_THAT(refusal(text("7", "")), HasSubstr("is empty"));
+  KnownSystem known;
+  known.import.format = "XML";
+  EXPECT_THROW(format_of(files.at("CSV"), known.import), UserError);
+  known.import.format = "CSV";
+  EXPECT_EQ(report(text("8", "# a remark\n" + std::string(small_csv)), known).at("format"), "CSV");
+}
+
+// The same two particles, exchanged in the second frame.
+TEST_F(Import, EveryFormatFollowsIds) {
+  const auto shuffled_h5md = [](h5::Group& particles) {
+    h5::Group box = particles.create_group("box");
+    add(box, "edges", {2}, {10, 10});
+    add(particles, "semiaxes", {2, 2}, {1, 1, 1, 1});
+    add_series(particles, "id", {2}, 2, {4, 7, 7, 4});
+    add_series(particles, "position", {2, 2}, 2, {-3, 0, 3, 0, 3, 0, -3, 0});
+  };
+  const std::string xyz =
+      "Lattice=\"10 0 0 0 10 0 0 0 1\" pbc=\"T T F\" Properties=id:I:1:pos:R:3:radius:R:1\n";
+  const std::string columns = "id xs ys zs radius";
+  KnownSystem plane;
+  plane.dimension = 2;
+  const std::filesystem::path files[] = {
+      h5md("a.h5", shuffled_h5md),
+      text("a.csv",
+           "frame,id,x,y,radius,box_x,box_y\n0,4,-3,0,1,10,10\n0,7,3,0,1,10,10\n"
+           "1,7,3,0,1,10,10\n1,4,-3,0,1,10,10\n"),
+      text("a.xyz", fmt::format("2\n{0}4 2 5 0 1\n7 8 5 0 1\n2\n{0}7 8 5 0 1\n4 2 5 0 1\n", xyz)),
+      text("a.dump", dump_frame(0, columns, "4 0.2 0.5 0 1\n7 0.8 0.5 0 1\n") +
+                         dump_frame(1, columns, "7 0.8 0.5 0 1\n4 0.2 0.5 0 1\n"))};
+  for (const auto& path : files) {
+    const TrajectoryReader reader(path, plane);
+    ASSERT_EQ(reader.frames(), 2u) << path;
+    for (std::uint64_t k = 0; k < 2; ++k) {
+      EXPECT_NEAR(reader.read(k).position[0].x(), -3, 1e-14) << path << k;
+      EXPECT_NEAR(reader.read(k).position[1].x(), 3, 1e-14) << path << k;
+    }
+  }
+  const std::filesystem::path other =
+      text("b.csv", "frame,id,x,y,radius,box_x,box_y\n0,1,0,0,1,9,9\n1,2,0,0,1,9,9\n");
+  EXPECT_THAT(refusal(other), HasSubstr("frame 1: has other particles than frame 0"));
+}
+
+TEST_F(Import, EveryFormatRefusesABoxThatIsNotPeriodic) {
+  const auto open = [](h5::Group& particles) {
+    two_disks(particles);
+    const std::array<std::string, 2> words = {"periodic", "none"};
+    h5::Group box = particles.group("box");
+    box.set_attribute("boundary", words, 8);
+  };
+  EXPECT_THAT(refusal(h5md("a.h5", open)),
+              HasSubstr("boundary of particles/any/box is periodic, none: the box is not periodic "
+                        "along y"));
+  for (const char* pbc : {"F T T", "f t t", "false true true", "0 1 1", "[F, T, T]"})
+    EXPECT_THAT(refusal(text("a.xyz", fmt::format("1\nLattice=\"9 0 0 0 9 0 0 0 9\" pbc=\"{}\" "
+                                                  "Properties=pos:R:3:radius:R:1\n1 1 1 1\n",
+                                                  pbc))),
+                HasSubstr("not periodic along x"))
+        << pbc;
+  for (const char* letters : {"ff pp pp", "ss pp pp", "fm pp pp", "ms pp pp"}) {
+    std::string dump = dump_frame(0, "x y z radius", "0 1 3 1\n3 3 9 1\n");
+    dump.replace(dump.find("pp pp pp"), 8, letters);
+    EXPECT_THAT(refusal(text("a.dump", dump)),
+                HasSubstr(fmt::format("BOX BOUNDS {}: the box is not periodic along x", letters)));
+  }
+}
+
+TEST_F(Import, AFlatBoxIsNotTakenForSpace) {
+  const std::string flat =
+      "2\nLattice=\"10 0 0 0 10 0 0 0 1\" Properties=pos:R:3:radius:R:1\n"
+      "1 1 0.5 1\n5 5 0.5 1\n";
+  EXPECT_THAT(refusal(text("a.xyz", flat)), HasSubstr("pbc=\"T T F\""));
+  KnownSystem plane, space;
+  plane.dimension = 2;
+  space.dimension = 3;
+  EXPECT_EQ(TrajectoryReader(file("a.xyz"), plane).dimension(), 2);
+  std::string lower = flat;
+  lower.replace(lower.find("0 0 0 1\""), 7, "0 0 0 8");
+  EXPECT_EQ(TrajectoryReader(text("b.xyz", lower)).dimension(), 3);
+  std::string steep = flat;
+  steep.replace(steep.find("5 5 0.5"), 7, "5 5 0.6");
+  EXPECT_THAT(refusal(text("c.xyz", steep), plane), HasSubstr("z of its particles differ by 0.1"));
+}
+
+TEST_F(Import, OfSeveralGroupsOneIsNamed) {
+  const std::filesystem::path path = h5md("a.h5", two_disks);
+  {
+    h5::File more = h5::File::open(path, h5::Access::write);
+    h5::Group other = more.root().group("particles").create_group("walls");
+    two_disks(other);
+    more.close();
+  }
+  EXPECT_THAT(refusal(path), HasSubstr("2 groups of particles, any, walls; import.group"));
+  KnownSystem known;
+  known.import.group = "walls";
+  EXPECT_EQ(TrajectoryReader(path, known).frames(), 2u);
+  known.import.group = "floor";
+  EXPECT_THAT(refusal(path, known), HasSubstr("no group of particles floor"));
+}
+
+TEST_F(Import, UnitsOfH5mdMustAgree) {
+  const auto with_units = [](const char* edges, const char* positions, const char* velocities) {
+    return [=](h5::Group& particles) {
+      two_disks(particles);
+      h5::Group box = particles.group("box"), position = particles.group("position");
+      h5::Dataset of_box = box.dataset("edges"), values = position.dataset("value"),
+                  times = position.dataset("time");
+      of_box.set_attribute("unit", std::string(edges));
+      values.set_attribute("unit", std::string(positions));
+      times.set_attribute("unit", std::string("ps"));
+      add_series(particles, "velocity", {2, 2}, 2, std::vector<double>(8, 1.0));
+      h5::Dataset velocity = particles.group("velocity").dataset("value");
+      velocity.set_attribute("unit", std::string(velocities));
+    };
+  };
+  EXPECT_EQ(refusal(h5md("a.h5", with_units("nm", "nm", "nm ps-1"))), "read");
+  EXPECT_EQ(refusal(h5md("b.h5", with_units("nm", "nm", "km/s"))), "read");
+  EXPECT_THAT(refusal(h5md("c.h5", with_units("nm", "Angstrom", "nm ps-1"))),
+              HasSubstr("lengths should have one unit"));
+  EXPECT_THAT(refusal(h5md("d.h5", with_units("nm", "nm", "angstrom/ps"))),
+              HasSubstr("should be in nm/ps"));
+}
+
+TEST_F(Import, AllPlacesOfLammpsAreTheSame) {
+  KnownSystem known;
+  const auto last = [&](const std::string& columns, const std::string& atoms) {
+    return TrajectoryReader(text("a.dump", dump_frame(0, columns, atoms)), known).read<3>(0);
+  };
+  const Configuration3 plain = last("x y z ix iy iz radius", "4 1 3 1 0 0 1\n0 3 9 0 0 -1 1\n");
+  const Configuration3 fractions =
+      last("xs ys zs ix iy iz diameter", "0.9 0.1 0.1 1 0 0 2\n0.5 0.3 0.7 0 0 -1 2\n");
+  const Configuration3 unwrapped = last("xu yu zu radius", "14 1 3 1\n0 3 -1 1\n");
+  const Configuration3 both =
+      last("xsu ysu zsu shapex shapey shapez", "1.9 0.1 0.1 2 2 2\n0.5 0.3 -0.3 2 2 2\n");
+  for (std::size_t i = 0; i < 2; ++i)
+    for (const Configuration3* other : {&fractions, &unwrapped, &both}) {
+      EXPECT_LT((other->unwrapped(i) - plain.unwrapped(i)).norm(), 1e-12);
+      EXPECT_EQ(other->shape[i].semi_axes, plain.shape[i].semi_axes);
+    }
+}
+
+TEST_F(Import, LammpsDataHaveMassesAndRotations) {
+  const std::string data =
+      "title\n\n2 atoms\n1 atom types\n2 ellipsoids\n-5 5 xlo xhi\n-5 5 ylo yhi\n-5 5 zlo zhi\n"
+      "0 0 0 xy xz yz\n\nAtoms # ellipsoid\n\n2 1 1 3.0 3 0 0 1 0 0\n1 1 1 1.0 0 0 0 0 0 0\n\n"
+      "Ellipsoids\n\n1 2 2 1 1 0 0 0\n2 2 1 1 0.7071067811865476 0 0 0.7071067811865476\n\n"
+      "Velocities\n\n1 0.1 0 0 0 0 0\n2 -0.1 0 0 0 0 0.5\n";
+  const Configuration3 state = TrajectoryReader(text("a.data", data)).read<3>(0);
+  using std::numbers::pi;
+  EXPECT_NEAR(state.mass[0], 2 * pi / 3, 1e-14);
+  EXPECT_NEAR(state.mass[1], 3 * pi / 3, 1e-14);
+  EXPECT_EQ(state.image[1].x(), 1);
+  // About the z axis, which is across the long one: I = m (a² + b²)/5.
+  EXPECT_NEAR(state.angular_velocity[1].z(), 0.5 / (state.mass[1] * (1 + 0.25) / 5), 1e-12);
+  const std::string unnamed = std::string(data).replace(data.find(" # ellipsoid"), 12, "");
+  EXPECT_THAT(refusal(text("b.data", unnamed)), HasSubstr("should name its style"));
+}
+
+TEST_F(Import, TimesAndLengthsOfTheUser) {
+  KnownSystem known;
+  known.import.time_per_step = 0.5;
+  known.import.length_unit = 2;
+  const std::string dump =
+      dump_frame(10, "x y z radius vx vy vz", "0 1 3 1 4 0 0\n3 3 9 1 0 0 0\n");
+  const TrajectoryReader reader(text("a.dump", dump), known);
+  const Configuration3 state = reader.read<3>(0);
+  EXPECT_TRUE(reader.knows_time());
+  EXPECT_EQ(state.time, 5);
+  EXPECT_EQ(state.box.lengths(), Vec3(5, 5, 5));
+  EXPECT_EQ(state.shape[0].semi_axes, Vec3(0.5, 0.5, 0.5));
+  EXPECT_EQ(state.velocity[0], Vec3(2, 0, 0));
+  EXPECT_THAT(report(file("a.dump"), known).at("converted"),
+              HasSubstr("lengths are divided by 2, times are steps times 0.5"));
+  EXPECT_THAT(refusal(h5md("a.h5", two_disks), known),
+              HasSubstr("its time is 1, but its step 1 times import.time_per_step is 0.5"));
+  EXPECT_THAT(refusal(text("a.csv", small_csv), known), HasSubstr("needs steps"));
+}
+
+TEST_F(Import, SizesOfTheUser) {
+  const std::string atoms = "1 0 1 3\n2 3 3 9\n";
+  const std::filesystem::path path = text("a.dump", dump_frame(0, "type x y z", atoms));
+  EXPECT_THAT(refusal(path), HasSubstr("gives diameter or semi-axes of 1, 2"));
+  KnownSystem known;
+  known.species = {{"1", Vec3(1, 1, 1)}};
+  EXPECT_THAT(refusal(path, known), HasSubstr("gives diameter or semi-axes of 2"));
+  known.species.push_back({"2", Vec3(2, 2, 2), 3.0});
+  const Configuration3 state = TrajectoryReader(path, known).read<3>(0);
+  EXPECT_EQ(state.mass, (std::vector<double>{1, 3}));
+  EXPECT_EQ(state.shape[1].semi_axes, Vec3(2, 2, 2));
+}
+
+TEST_F(Import, ColumnsWithOtherNames) {
+  KnownSystem known;
+  known.import.columns = {{"c_q[1]", "qw"}, {"c_q[2]", "qx"}, {"c_q[3]", "qy"}, {"c_q[4]", "qz"}};
+  const std::string columns = "x y z c_q[1] c_q[2] c_q[3] c_q[4] shapex shapey shapez";
+  const std::string atoms = "0 1 3 0 1 0 0 2 1 1\n3 3 9 1 0 0 0 2 1 1\n";
+  const std::filesystem::path path = text("a.dump", dump_frame(0, columns, atoms));
+  EXPECT_THAT(refusal(path), HasSubstr("has no orientations, but particle 0 is not round"));
+  EXPECT_EQ(TrajectoryReader(path, known).read<3>(0).orientation[0].x(), 1);
+  known.import.columns = {{"X", "x"}, {"Y", "y"}};
+  EXPECT_EQ(refusal(text("a.csv", "X,Y,radius,box_x,box_y\n0,0,1,9,9\n"), known), "read");
+  EXPECT_THAT(refusal(file("a.csv")), HasSubstr("[[import.columns]]"));
+  known.import.columns = {{"Z", "z"}};
+  EXPECT_THAT(refusal(file("a.csv"), known), HasSubstr("import.columns names \"Z\""));
+}
+
+// Of bodies that rotate, half of the motion is none.
+TEST_F(Import, VelocitiesWithoutAngularVelocitiesAreLeftOut) {
+  const std::string header = "x,y,angle,a,b,vx,vy,box_x,box_y\n";
+  const TrajectoryReader ellipse(text("a.csv", header + "0,0,0,1,0.5,1,1,9,9\n"));
+  EXPECT_FALSE(ellipse.has("velocity"));
+  EXPECT_THAT(report(file("a.csv")).at("absent"), HasSubstr("so velocities are left out"));
+  const TrajectoryReader disk(text("b.csv", header + "0,0,0,1,1,1,1,9,9\n"));
+  EXPECT_TRUE(disk.has("velocity"));
+}
+
+TEST_F(Import, RepeatedFramesLeaveOutMotionOnly) {
+  const std::string dump = dump_frame(3, "x y z ix iy iz radius", "0 1 3 0 0 0 1\n3 3 9 0 0 0 1\n");
+  const TrajectoryReader reader(text("a.dump", dump + dump));
+  EXPECT_EQ(reader.frames(), 2u);
+  EXPECT_FALSE(reader.knows_time());
+  EXPECT_THAT(reader.obstacle_to_motion(), HasSubstr("frame 1 has the time 3"));
+}
+
+}  // namespace
+}  // namespace vitrel
