@@ -351,6 +351,29 @@ TEST(OwnStates, RunsInOtherFormatsAreAnalysedLikeTheirOwn) {
   }
 }
 
+// OVITO and others colour by type.
+TEST(OwnStates, DisksOfManySizesStayOneSpeciesInGsd) {
+  const Folder folder("sizes_in_gsd");
+  folder.write(
+      "p.toml",
+      "[system]\nparticles = 12\npacking_fraction = 0.3\n"
+      "[[species]]\nname = \"L\"\nfraction = 0.5\naspect_ratio = 1\nsize = { distribution = "
+      "\"gaussian\", mean = 1.0, standard_deviation = 0.1 }\n"
+      "[[species]]\nname = \"E\"\nfraction = 0.5\naspect_ratio = 2\n" +
+          run_in_plane);
+  succeed(folder, {"run", "p.toml", "-o", "run.h5", "-q"});
+  succeed(folder, {"export", "run.h5", "--to", "gsd", "-q"});
+  const Configuration2 right = TrajectoryReader(folder / "run.h5").read(0),
+                       found = TrajectoryReader(folder / "run.gsd").read(0);
+  EXPECT_THAT(found.species_names, testing::UnorderedElementsAre("L", "E"));
+  for (std::size_t i = 0; i < right.size(); ++i) {
+    EXPECT_EQ(found.species_names[static_cast<std::size_t>(found.species[i])],
+              right.species_names[static_cast<std::size_t>(right.species[i])]);
+    EXPECT_NEAR(found.shape[i].a, right.shape[i].a, 1e-6);
+    EXPECT_NEAR(found.shape[i].b, right.shape[i].b, 1e-6);
+  }
+}
+
 TEST(OwnStates, DifferentParticlesNeedNoSpecies) {
   const Folder folder("polydisperse");
   folder.write("mine.csv", "x,y,radius,box_x,box_y\n-2,0,1,8,8\n0.5,0,0.8,8,8\n0,3,0.9,8,8\n");

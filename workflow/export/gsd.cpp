@@ -20,7 +20,7 @@ namespace {
 constexpr std::uint32_t hoomd_schema = (1u << 16) + 4;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// The particles of one species and shape: its semi-axes.
+/// The particles of one species and shape: its semi-axes; 0 if they are round and their diameters differ.
 using Type = std::tuple<std::int32_t, double, double, double>;
 
 float rounded_up(double x) {
@@ -75,9 +75,24 @@ Quaternion momentum_quaternion(const Configuration3& configuration, std::size_t 
 template <int Dim>
 std::string shape_text(const Type& type) {
   const auto& [species, a, b, c] = type;
+  if (a == 0) return "{}";
   return Dim == 3 && a == b && b == c
              ? fmt::format(R"({{"type":"Sphere","diameter":{}}})", 2 * a)
              : fmt::format(R"({{"type":"Ellipsoid","a":{},"b":{},"c":{}}})", a, b, c);
+}
+
+/// Whether the particles of a species are round and of several sizes.
+template <int Dim>
+std::vector<bool> have_diameters(const Configuration<Dim>& configuration) {
+  std::vector<std::set<double>> sizes(configuration.species_names.size());
+  std::vector<bool> result(sizes.size(), true);
+  for (std::size_t i = 0; i < configuration.size(); ++i) {
+    const auto k = static_cast<std::size_t>(configuration.species[i]);
+    sizes[k].insert(semi_axes_in_space(configuration.shape[i])[0]);
+    result[k] = result[k] && configuration.shape[i].is_round();
+  }
+  for (std::size_t k = 0; k < sizes.size(); ++k) result[k] = result[k] && sizes[k].size() > 1;
+  return result;
 }
 
 /// The name of the species, with a number if it has several types; no name comes twice.
@@ -155,9 +170,14 @@ void GsdSink<Dim>::write_types(const Configuration<Dim>& configuration) {
   std::map<Type, std::uint32_t> number;
   std::vector<Type> types;
   std::vector<std::uint32_t> type_ids;
+  std::vector<float> diameters;
+  const std::vector<bool> has_diameters = have_diameters(configuration);
   for (std::size_t i = 0; i < configuration.size(); ++i) {
     const Vec3 axes = semi_axes_in_space(configuration.shape[i]);
-    const Type type{configuration.species[i], axes[0], axes[1], axes[2]};
+    diameters.push_back(static_cast<float>(2 * axes[0]));
+    Type type{configuration.species[i], axes[0], axes[1], axes[2]};
+    if (has_diameters[static_cast<std::size_t>(configuration.species[i])])
+      type = {configuration.species[i], 0, 0, 0};
     const auto [place, is_new] = number.emplace(type, static_cast<std::uint32_t>(types.size()));
     if (is_new) types.push_back(type);
     type_ids.push_back(place->second);
@@ -173,6 +193,8 @@ void GsdSink<Dim>::write_types(const Configuration<Dim>& configuration) {
   write_texts("particles/types", names_of(types, configuration.species_names));
   file_.write<std::uint32_t>("particles/typeid", type_ids);
   write_texts("particles/type_shapes", shapes);
+  if (std::ranges::count(has_diameters, true) > 0)
+    file_.write<float>("particles/diameter", diameters);
 }
 
 /// One row per text, filled up with zero bytes.

@@ -17,6 +17,8 @@ namespace vitrel {
 ///                                                  (cos θ/2, 0, 0, sin θ/2)
 ///     particles/types, typeid, type_shapes         a type per species and shape, named by the
 ///         species, or `<species>#1`, `#2` … if its shapes differ; {"type":"Ellipsoid","a":a,"b":b,"c":c}.
+///         Round particles of several sizes are one type, without a shape, {}, and have
+///         particles/diameter
 ///         In space a round one is {"type":"Sphere","diameter":2a}. In the plane c = b: HOOMD-blue and
 ///         OVITO do not take a flat one
 ///     particles/mass, moment_inertia               about the own axes; 0 where rotation is not

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 
 #include "core/error.h"
@@ -147,7 +148,9 @@ class GsdFrames final : public ForeignFrames {
   void set_types(ForeignFrame& frame) {
     std::vector<std::string> types = file_.read_texts("particles/types", number_);
     if (types.empty()) types = {"A"};
-    const std::vector<Vec3> shapes = shapes_of(types.size());
+    const std::vector<std::optional<Vec3>> shapes = shapes_of(types.size());
+    const std::vector<double> diameters = rows("particles/diameter", 1);
+    std::size_t without_shape = 0;
     if (types.size() > 1 && is_absent("particles/typeid"))
       frame.assumed["species"] = types.front() + ", the default of particles/typeid";
     for (const double type : column("particles/typeid", 0)) {
@@ -155,23 +158,27 @@ class GsdFrames final : public ForeignFrames {
         fail(fmt::format("particles/typeid has the type {}, but there are {}", type, types.size()));
       const auto k = static_cast<std::size_t>(type);
       frame.species.push_back(species_of(types[k]));
-      if (!shapes.empty()) frame.semi_axes.push_back(shapes[k]);
+      const std::size_t i = frame.semi_axes.size();
+      if (!shapes.empty() && shapes[k]) {
+        frame.semi_axes.push_back(*shapes[k]);
+      } else {
+        frame.semi_axes.push_back(Vec3::Constant(i < diameters.size() ? 0.5 * diameters[i] : 0));
+        ++without_shape;
+      }
     }
-    const std::vector<double> diameters = rows("particles/diameter", 1);
-    if (!diameters.empty() && !shapes.empty())
+    if (without_shape > 0 && diameters.empty()) frame.semi_axes.clear();
+    if (without_shape == 0 && !diameters.empty())
       frame.skipped.insert("particles/diameter, as type_shapes says more");
-    else
-      for (const double diameter : diameters)
-        frame.semi_axes.push_back(Vec3::Constant(0.5 * diameter));
   }
 
-  /// The semi-axes of every type; empty if the file does not have them.
-  std::vector<Vec3> shapes_of(std::size_t types) {
+  /// The semi-axes of every type that has a shape; empty if the file does not have any.
+  std::vector<std::optional<Vec3>> shapes_of(std::size_t types) {
     const std::vector<std::string> texts = file_.read_texts("particles/type_shapes", number_);
-    if (texts.empty() || texts.front() == "{}") return {};
+    if (texts.empty() || texts.front().empty()) return {};
     if (texts.size() != types) fail("particles/type_shapes should have a shape per type");
-    std::vector<Vec3> shapes;
-    for (const std::string& text : texts) shapes.push_back(shape_of(text));
+    std::vector<std::optional<Vec3>> shapes;
+    for (const std::string& text : texts)
+      shapes.push_back(text == "{}" ? std::nullopt : std::optional(shape_of(text)));
     return shapes;
   }
 
