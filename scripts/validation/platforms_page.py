@@ -16,7 +16,7 @@ EXPLANATION = """
 page of a small sweep, after the installation of the packages. *Tests* are those of `scripts/test` (all), the unit
 tests, or those of the folders named. *Results* are all datasets, attributes and tables of the scenes of
 `scripts/checksums`, compared with those of GCC on Debian 12: trajectories and states must have the same bits, and
-tables must agree within 10⁻¹² of their largest number. Times are in seconds.
+tables must agree within 10⁻¹² of their largest number (the smallest gap: of the unit of length). Times are in seconds.
 """
 
 
