@@ -97,15 +97,17 @@ TEST_F(Import, EveryDefaultIsSaid) {
   const std::string bare = "velocities (energies are left out), box crossings (motion is left out)";
   const std::string natural = "masses (in proportion to the area, 1 where a b = 1)";
   const std::string in_space = "masses (in proportion to the volume, 1 where a b c = 1)";
+  const std::string unstated = "boundaries (periodic, which this format cannot state)";
   const std::string one_species = "species (all are \"A\")";
   const std::string frames = "times (they are counted in frames)";
   const std::string steps = "times (they are counted in steps)";
   EXPECT_EQ(report(h5md("a.h5", two_disks)).at("absent"),
-            fmt::format("{}, {}, {}", one_species, natural, bare));
-  EXPECT_EQ(report(text("a.xyz", small_xyz)).at("absent"),
-            fmt::format("{}, {}, {}, {}", one_species, in_space, bare, frames));
+            fmt::format("boundaries (periodic), {}, {}, {}", one_species, natural, bare));
+  EXPECT_EQ(
+      report(text("a.xyz", small_xyz)).at("absent"),
+      fmt::format("boundaries (periodic), {}, {}, {}, {}", one_species, in_space, bare, frames));
   EXPECT_EQ(report(text("a.csv", small_csv)).at("absent"),
-            fmt::format("{}, {}, {}, {}", one_species, natural, bare, frames));
+            fmt::format("{}, {}, {}, {}, {}", unstated, one_species, natural, bare, frames));
   const std::string dump = dump_frame(0, "x y z radius", "0 1 3 1\n3 3 9 1\n") +
                            dump_frame(9, "x y z radius", "0 1 4 1\n3 3 9 1\n");
   EXPECT_EQ(report(text("a.dump", dump)).at("absent"),
@@ -114,8 +116,7 @@ TEST_F(Import, EveryDefaultIsSaid) {
       "title\n2 atoms\n0 9 xlo xhi\n0 9 ylo yhi\n0 9 zlo zhi\nAtoms # sphere\n\n"
       "2 1 1.0 1.0 1 2 3\n1 1 1.0 1.0 4 5 6\n";
   EXPECT_EQ(report(text("a.data", data)).at("absent"),
-            "boundaries (periodic, which this format cannot state), velocities (energies are left "
-            "out)");
+            unstated + ", velocities (energies are left out)");
   for (const char* name : {"a.h5", "a.xyz", "a.csv", "a.dump", "a.data"})
     EXPECT_FALSE(report(file(name)).contains("converted")) << name;
 }
@@ -231,7 +232,7 @@ TEST_F(Import, OfSeveralGroupsOneIsNamed) {
   EXPECT_THAT(refusal(path, known), HasSubstr("no group of particles floor"));
 }
 
-TEST_F(Import, UnitsOfH5mdMustAgree) {
+TEST_F(Import, UnitsMustAgree) {
   const auto with_units = [](const char* edges, const char* positions, const char* velocities) {
     return [=](h5::Group& particles) {
       two_disks(particles);
@@ -252,6 +253,22 @@ TEST_F(Import, UnitsOfH5mdMustAgree) {
               HasSubstr("lengths should have one unit"));
   EXPECT_THAT(refusal(h5md("d.h5", with_units("nm", "nm", "angstrom/ps"))),
               HasSubstr("should be in nm/ps"));
+  const auto table = [&](const char* header) {
+    return refusal(text("a.csv", fmt::format("{}\n0,0,0,0,1,0.5,1,9,9\n", header)));
+  };
+  EXPECT_EQ(table("time [s],x [um],y [um],angle [rad],a,b [um],id,box_x [um],box_y [um]"), "read");
+  EXPECT_THAT(table("time [s],x [um],y [um],angle [rad],a,b [um],id,box_x [nm],box_y [nm]"),
+              HasSubstr("column b is in um, but column box_x in nm"));
+  EXPECT_THAT(table("time [s],x [um],y [um],angle [deg],a,b [um],id,box_x,box_y"),
+              HasSubstr("column angle is in deg, but should be in radians"));
+  EXPECT_THAT(refusal(h5md("e.h5",
+                           [](h5::Group& particles) {
+                             two_disks(particles);
+                             const std::array<std::string, 2> words = {"periodic", "open"};
+                             h5::Group box = particles.group("box");
+                             box.set_attribute("boundary", words, 8);
+                           })),
+              HasSubstr("periodic, open, but should be \"periodic\" or \"none\""));
 }
 
 TEST_F(Import, AllPlacesOfLammpsAreTheSame) {

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "core/error.h"
 #include "core/io/foreign/foreign_formats.h"
@@ -35,6 +36,18 @@ std::string column_name(const std::string& cell) {
   return std::string(trimmed(std::string_view(cell).substr(0, cell.find('['))));
 }
 
+/// "length" of "x [length]".
+std::string column_unit(const std::string& cell) {
+  const std::size_t begin = cell.find('['), end = cell.find(']', begin);
+  if (begin == std::string::npos || end == std::string::npos) return "";
+  return std::string(trimmed(std::string_view(cell).substr(begin + 1, end - begin - 1)));
+}
+
+constexpr std::array<std::string_view, 17> length_columns = {
+    "x",      "y",        "z",          "unwrapped_x", "unwrapped_y", "unwrapped_z",
+    "a",      "b",        "c",          "box_x",       "box_y",       "box_z",
+    "radius", "diameter", "diameter_x", "diameter_y",  "diameter_z"};
+
 /// The column whose values tell the frames apart, if there is one.
 std::optional<std::size_t> frame_column(const std::vector<std::string>& columns) {
   for (const char* name : {"frame", "time"})
@@ -62,6 +75,7 @@ class CsvFrames final : public ForeignFrames {
       advance();
     } while (!cells_.empty() && frame_key() == key);
     frame = table_.frame(place);
+    frame.assumed["boundaries"] = "periodic, which this format cannot state";
     return true;
   }
 
@@ -74,8 +88,27 @@ class CsvFrames final : public ForeignFrames {
       separator_ = '\t';
       cells_ = cells_of(cells_.front(), separator_);
     }
+    require_units(cells_);
     for (std::string& cell : cells_) cell = column_name(cell);
     return cells_;
+  }
+
+  void require_units(const std::vector<std::string>& cells) const {
+    StatedUnits units;
+    for (const std::string& cell : cells) {
+      const std::string name = column_name(cell), unit = column_unit(cell);
+      if (name == "time") units.time = unit;
+      if (std::ranges::find(length_columns, name) != length_columns.end())
+        units.lengths.emplace_back("column " + name, unit);
+      if (name == "angle") units.angles.emplace_back("column " + name, unit);
+      if (name == "vx" || name == "vy" || name == "vz")
+        units.velocities.emplace_back("column " + name, unit);
+    }
+    try {
+      require_agreement(units);
+    } catch (const UserError& error) {
+      throw FileError(fmt::format("{}: {}", lines_.place(), error.what()));
+    }
   }
 
   /// To the next line that counts; at the end there are no cells.

@@ -14,6 +14,7 @@
 #include "core/elementary.h"
 #include "core/error.h"
 #include "core/io/box_crossings.h"
+#include "core/io/quantity.h"
 #include "core/state/species.h"
 #include "core/tolerances.h"
 
@@ -282,6 +283,36 @@ std::optional<int> dimension_of_boundaries(const std::array<bool, 3>& periodic,
                       "needs no period along z",
                       statement, "xyz"[k]));
   return periodic[2] ? std::nullopt : std::optional(2);
+}
+
+namespace {
+
+bool is_same_unit(const std::string& one, const std::string& other) {
+  if (one == other) return true;
+  const std::optional<double> ratio = quantity("1 " + one, other);
+  return ratio && std::abs(*ratio - 1) < 1e-9;
+}
+
+}  // namespace
+
+void require_agreement(const StatedUnits& units) {
+  const StatedUnits::Named* length = nullptr;
+  for (const StatedUnits::Named& one : units.lengths) {
+    if (one.second.empty()) continue;
+    if (length && one.second != length->second)
+      throw UserError(fmt::format("{} is in {}, but {} in {}; lengths should have one unit",
+                                  length->first, length->second, one.first, one.second));
+    length = &one;
+  }
+  for (const auto& [name, unit] : units.angles)
+    if (!unit.empty() && !is_same_unit(unit, "rad"))
+      throw UserError(fmt::format("{} is in {}, but should be in radians", name, unit));
+  if (!length || units.time.empty()) return;
+  const std::string speed = length->second + "/" + units.time;
+  for (const auto& [name, unit] : units.velocities)
+    if (!unit.empty() && !is_same_unit(unit, speed))
+      throw UserError(fmt::format("{} is in {}, but should be in {}, as positions and times are",
+                                  name, unit, speed));
 }
 
 int dimension_of(const ForeignFrame& frame, const KnownSystem& known, const std::string& plane) {

@@ -46,6 +46,17 @@ struct ForeignFrame {
 std::optional<int> dimension_of_boundaries(const std::array<bool, 3>& periodic,
                                            const std::string& statement);
 
+/// The units that a file states, with what has them; "" where it states none.
+struct StatedUnits {
+  using Named = std::pair<std::string, std::string>;  ///< name, unit
+  std::vector<Named> lengths, angles, velocities;
+  std::string time;
+};
+
+/// UserError if lengths have different units, velocities another than that of lengths and times, or angles another than
+/// radians. Units as UDUNITS-2 knows them, or texts that are the same.
+void require_agreement(const StatedUnits& units);
+
 /// In the plane the first semi-axis is the longer one: exchanges those for which it is not, and turns their particles
 /// by π/2. Whether there were any.
 bool put_longer_axis_first(ForeignFrame& frame);

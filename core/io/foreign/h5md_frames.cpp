@@ -10,7 +10,6 @@
 #include "core/io/box_crossings.h"
 #include "core/io/foreign/foreign_formats.h"
 #include "core/io/h5.h"
-#include "core/io/quantity.h"
 #include "core/whole_number.h"
 
 namespace vitrel {
@@ -118,9 +117,13 @@ class H5mdFrames final : public ForeignFrames {
     if (!position_.is_fixed() &&
         (position_.steps().empty() || position_.steps().size() > position_.times().size()))
       if (!position_.times().empty()) fail("position/time has fewer frames than position/step");
-    for (auto& [name, element] : elements_) take_steps(element);
-    require_units();
-    set_dimension();
+    try {
+      for (auto& [name, element] : elements_) element.take_steps(position_);
+      require_units();
+      set_dimension();
+    } catch (const UserError& error) {
+      fail(error.what());
+    }
   }
 
   bool next(ForeignFrame& frame) override {
@@ -167,34 +170,18 @@ class H5mdFrames final : public ForeignFrames {
     return found == elements_.end() ? nullptr : &found->second;
   }
 
-  void take_steps(Element& element) const {
-    try {
-      element.take_steps(position_);
-    } catch (const UserError& error) {
-      fail(error.what());
-    }
-  }
-
-  /// Lengths must have the same unit, wherever it is given, and velocities must have that and the one of time.
   void require_units() const {
-    std::string length, named;
-    for (const char* name : {"position", "box/edges", "semiaxes", "radius"}) {
-      const Element* const element = find(name);
-      const std::string unit = element ? element->unit() : "";
-      if (unit.empty()) continue;
-      if (!length.empty() && unit != length)
-        fail(fmt::format("{} is in {}, but {} in {}; lengths should have one unit", named, length,
-                         element->name(), unit));
-      length = unit;
-      named = element->name();
-    }
-    const Element* const velocity = find("velocity");
-    const std::string time = position_.time_unit(), unit = velocity ? velocity->unit() : "";
-    if (length.empty() || time.empty() || unit.empty()) return;
-    const double ratio = quantity("1 " + unit, length + "/" + time).value_or(0);
-    if (!(std::abs(ratio - 1) < 1e-9))
-      fail(fmt::format("{} is in {}, but should be in {}/{}, as positions and times are",
-                       velocity->name(), unit, length, time));
+    StatedUnits units;
+    const auto add = [&](std::vector<StatedUnits::Named>& named, const char* name) {
+      if (const Element* const element = find(name))
+        named.emplace_back(element->name(), element->unit());
+    };
+    for (const char* name : {"position", "box/edges", "semiaxes", "radius"})
+      add(units.lengths, name);
+    add(units.angles, "angle");
+    add(units.velocities, "velocity");
+    units.time = position_.time_unit();
+    require_agreement(units);
   }
 
   /// From the attributes of the box, or from a flat shape.
@@ -204,13 +191,16 @@ class H5mdFrames final : public ForeignFrames {
       if (box.has_attribute("boundary")) {
         const std::vector<std::string> words = box.texts_attribute("boundary");
         std::array<bool, 3> periodic = {true, true, true};
-        for (std::size_t k = 0; k < words.size() && k < 3; ++k) periodic[k] = words[k] != "none";
-        try {
-          dimension_ = dimension_of_boundaries(
-              periodic, fmt::format("boundary of {} is {}", box.name(), fmt::join(words, ", ")));
-        } catch (const UserError& error) {
-          fail(error.what());
+        const std::string statement =
+            fmt::format("boundary of {} is {}", box.name(), fmt::join(words, ", "));
+        for (std::size_t k = 0; k < words.size() && k < 3; ++k) {
+          if (words[k] != "none" && words[k] != "periodic")
+            throw UserError(statement +
+                            ", but should be \"periodic\" or \"none\" for each direction");
+          periodic[k] = words[k] == "periodic";
         }
+        dimension_ = dimension_of_boundaries(periodic, statement);
+        states_boundaries_ = true;
       }
       if (box.has_attribute("dimension") && box.number_attribute<std::int64_t>("dimension") == 2)
         dimension_ = 2;
@@ -295,6 +285,7 @@ class H5mdFrames final : public ForeignFrames {
       frame.semi_axes.push_back(Vec3::Constant(radius));
     frame.mass = numbers("mass");
     set_species(frame);
+    if (!states_boundaries_) frame.assumed["boundaries"] = "periodic";
     note_skipped(frame);
   }
 
@@ -355,6 +346,7 @@ class H5mdFrames final : public ForeignFrames {
   Element position_;
   std::map<std::string, Element> elements_;
   std::optional<int> dimension_;
+  bool states_boundaries_ = false;
   std::size_t frame_ = 0;
   double step_ = 0;
   std::vector<std::size_t> order_;  ///< of the particles in the file

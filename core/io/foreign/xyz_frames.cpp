@@ -229,6 +229,7 @@ void XyzFrames::complete(ForeignFrame& frame, const Keys& keys, const std::strin
   set_box(frame, keys, place);
   // All programs write three coordinates.
   if (const auto dimension = dimension_of_pbc(keys, place)) frame.dimension = dimension;
+  if (!keys.contains("pbc")) frame.assumed["boundaries"] = "periodic";
   if (const auto time = keys.find("time"); time != keys.end())
     frame.time = real_number(time->second, "Time", place);
   for (const char* key : {"step", "timestep"})
