@@ -218,7 +218,7 @@ cat /usr/share/qemu/binfmt.d/qemu-aarch64.conf >/proc/sys/fs/binfmt_misc/registe
 cmake --build build/release --target {targets}"""))
 
     def test(self):
-        self.run_tests(f"ctest --test-dir build/release -j 2 -R '^({'|'.join(EMULATED_TESTS)})\\.'")
+        self.run_tests(f"ctest --test-dir build/release -j 2 --output-on-failure -R '^({'|'.join(EMULATED_TESTS)})\\.'")
 
 
 # ---- all of them ------------------------------------------------------------------------------------------
