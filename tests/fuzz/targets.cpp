@@ -104,7 +104,7 @@ Target foreign(const std::string& format, Kind kind) {
           commands};
 }
 
-/// Of vitrel's own files all but who wrote them.
+/// Files of vitrel that name another program as their creator.
 Target foreign_h5md() {
   std::vector<fs::path> files;
   for (const char* name : {"plane", "space", "soft"}) {

@@ -104,11 +104,7 @@ class CsvFrames final : public ForeignFrames {
       if (name == "vx" || name == "vy" || name == "vz")
         units.velocities.emplace_back("column " + name, unit);
     }
-    try {
-      require_agreement(units);
-    } catch (const UserError& error) {
-      throw FileError(fmt::format("{}: {}", lines_.place(), error.what()));
-    }
+    with_place(lines_.place(), [&] { require_agreement(units); });
   }
 
   /// To the next line that counts; at the end there are no cells.

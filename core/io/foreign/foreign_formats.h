@@ -9,7 +9,8 @@
 #include "core/io/foreign/foreign_frame.h"
 
 /// @file
-/// The formats of other programs that vitrel reads. A format is a source file of its own, and a line in `foreign_formats`.
+/// The formats of other programs that vitrel reads. A format is a source file of its own, and a line in
+/// `foreign_formats`.
 namespace vitrel {
 
 /// The frames of a file, one after the other.
@@ -37,10 +38,10 @@ struct ForeignFormat {
   std::unique_ptr<ForeignFrames> (*open)(const std::filesystem::path& path, const ImportOptions&);
 };
 
-/// H5MD 1.0 and 1.1 of other programs, in two or three dimensions. Of the group of particles: position, image, orientation
-/// (quaternions w, x, y, z), angle (radians), velocity, angular_velocity, semiaxes, radius, mass, species, id, and
-/// box/edges, the attributes `boundary` and `dimension` of box and `unit` of all; each is the same in all frames, as
-/// a dataset, or has the steps of `position`. Units of length must agree.
+/// H5MD 1.0 and 1.1 of other programs, in two or three dimensions. Of the group of particles: position, image,
+/// orientation (quaternions w, x, y, z), angle (radians), velocity, angular_velocity, semiaxes, radius, mass, species,
+/// id, and box/edges, the attributes `boundary` and `dimension` of box and `unit` of all; each is the same in all
+/// frames, as a dataset, or has the steps of `position`. Units of length must agree.
 extern const ForeignFormat h5md_format;
 
 /// GSD in the schema of HOOMD-blue (https://gsd.readthedocs.io), file layers 1 and 2. Of particles: N, types, typeid,

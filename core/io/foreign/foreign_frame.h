@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cstdint>
 #include <map>
@@ -9,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/error.h"
 #include "core/state/configuration.h"
 
 /// @file
@@ -39,6 +42,16 @@ struct ForeignFrame {
   std::set<std::string>
       skipped;  ///< what is there and means nothing to vitrel, as the format calls it
 };
+
+/// The work, whose UserError becomes a FileError that says where in the file it arose.
+template <class Work>
+auto with_place(const std::string& place, Work&& work) {
+  try {
+    return work();
+  } catch (const UserError& error) {
+    throw FileError(fmt::format("{}: {}", place, error.what()));
+  }
+}
 
 /// Whether a box that is periodic along these directions only can be one of vitrel's: in the plane, the third does not matter.
 /// UserError, which begins with `statement`, what the file says, if it is not periodic along x or y. Returns the dimension

@@ -32,7 +32,7 @@ class GsdReader {
   bool is_in_later_frames(const std::string& name) const;
   /// Whether any has.
   bool has(const std::string& name) const { return find(name, 0) || is_in_later_frames(name); }
-  /// Of all chunks.
+  /// The names of all chunks.
   const std::vector<std::string>& names() const { return names_; }
   /// The rows of a chunk of texts.
   std::vector<std::string> read_texts(const std::string& name, std::uint64_t frame);

@@ -99,7 +99,7 @@ class Element {
 
 constexpr std::array known_elements = {"position", "image",  "orientation", "angle",
                                        "velocity", "radius", "semiaxes",    "angular_velocity",
-                                       "mass",     "id",     "species",     "box"};
+                                       "mass",     "id",     "species",     "box/edges"};
 
 class H5mdFrames final : public ForeignFrames {
  public:
@@ -108,33 +108,23 @@ class H5mdFrames final : public ForeignFrames {
         root_(h5::File::open(path, h5::Access::read).root()),
         group_(group_of(options)),
         particles_(root_.group(group_)),
-        position_(particles_, require("position")) {
-    for (const char* name : known_elements)
-      if (particles_.has_dataset(name) || particles_.has_dataset(name + std::string("/value")))
-        elements_.emplace(name, Element(particles_, name));
-    if (const std::string edges = "box/edges"; particles_.has(edges))
-      elements_.emplace(edges, Element(particles_, edges));
-    if (!position_.is_fixed() &&
-        (position_.steps().empty() || position_.steps().size() > position_.times().size()))
-      if (!position_.times().empty()) fail("position/time has fewer frames than position/step");
-    try {
+        elements_(elements_of(particles_)),
+        position_(positions()) {
+    const std::size_t times = position_.times().size();
+    if (times > 0 && times < position_.steps().size())
+      fail("position/time has fewer frames than position/step");
+    with_place(path_.string(), [&] {
       for (auto& [name, element] : elements_) element.take_steps(position_);
       require_units();
       set_dimension();
-    } catch (const UserError& error) {
-      fail(error.what());
-    }
+    });
   }
 
   bool next(ForeignFrame& frame) override {
     if (frame_ >= (position_.is_fixed() ? 1 : position_.steps().size())) return false;
     frame = {};
     frame.dimension = dimension_;
-    try {
-      read(frame);
-    } catch (const UserError& error) {
-      fail(fmt::format("frame {}: {}", frame_, error.what()));
-    }
+    with_place(fmt::format("{}: frame {}", path_.string(), frame_), [&] { read(frame); });
     ++frame_;
     return true;
   }
@@ -159,10 +149,18 @@ class H5mdFrames final : public ForeignFrames {
     return "particles/" + group;
   }
 
-  std::string require(const std::string& name) const {
-    if (!particles_.has_dataset(name) && !particles_.has_dataset(name + "/value"))
-      fail(fmt::format("{} has no {}", group_, name));
-    return name;
+  static std::map<std::string, Element> elements_of(const h5::Group& particles) {
+    std::map<std::string, Element> elements;
+    for (const std::string name : known_elements)
+      if (particles.has_dataset(name) || particles.has_dataset(name + "/value"))
+        elements.emplace(name, Element(particles, name));
+    return elements;
+  }
+
+  const Element& positions() const {
+    const Element* const found = find("position");
+    if (!found) fail(group_ + " has no position");
+    return *found;
   }
 
   const Element* find(const std::string& name) const {
@@ -333,7 +331,7 @@ class H5mdFrames final : public ForeignFrames {
 
   void note_skipped(ForeignFrame& frame) const {
     for (const std::string& name : particles_.members())
-      if (std::ranges::find(known_elements, name) == known_elements.end())
+      if (name != "box" && std::ranges::find(known_elements, name) == known_elements.end())
         frame.skipped.insert(name);
     if (root_.has_group("observables")) frame.skipped.insert("observables");
     if (find("semiaxes") && find("radius")) frame.skipped.insert("radius, as semiaxes says more");
@@ -343,8 +341,8 @@ class H5mdFrames final : public ForeignFrames {
   h5::Group root_;
   std::string group_;
   h5::Group particles_;
-  Element position_;
   std::map<std::string, Element> elements_;
+  const Element& position_;
   std::optional<int> dimension_;
   bool states_boundaries_ = false;
   std::size_t frame_ = 0;

@@ -132,12 +132,10 @@ class DumpFrames final : public ForeignFrames, LammpsFile {
     if (words.size() == 5) {
       std::array<bool, 3> periodic;
       for (std::size_t k = 0; k < 3; ++k) periodic[k] = words[k + 2] == "pp";
-      try {
-        frame.dimension = dimension_of_boundaries(
+      frame.dimension = with_place(lines_.place(), [&] {
+        return dimension_of_boundaries(
             periodic, fmt::format("BOX BOUNDS {} {} {}", words[2], words[3], words[4]));
-      } catch (const UserError& error) {
-        fail(error.what());
-      }
+      });
     } else {
       frame.assumed["boundaries"] = "periodic";
     }
@@ -252,22 +250,27 @@ class DataFrames final : public ForeignFrames, LammpsFile {
  private:
   using Rows = std::map<double, std::vector<double>>;  ///< by id, or by type
 
-  static std::string without_comment(const std::string& line) {
-    return std::string(trimmed(std::string_view(line).substr(0, line.find('#'))));
+  /// The next line of a section, or of the header, without its comment; false at the name of a section, which is kept, and
+  /// at the end of the file.
+  bool next_row(std::string& row) {
+    std::string line;
+    section_.clear();
+    while (lines_.next(line)) {
+      row = trimmed(std::string_view(line).substr(0, line.find('#')));
+      if (row.empty()) continue;
+      if (number_in(words_of(row)[0])) return true;
+      section_ = trimmed(line);
+      return false;
+    }
+    return false;
   }
 
   /// Up to the name of the first section.
   void read_header() {
-    std::string line;
-    lines_.next(line);  // a title
-    while (lines_.next(line)) {
-      const std::string text = without_comment(line);
-      const std::vector<std::string_view> words = words_of(text);
-      if (words.empty()) continue;
-      if (!number_in(words[0])) {
-        section_ = trimmed(line);
-        return;
-      }
+    std::string row;
+    lines_.next(row);  // a title
+    while (next_row(row)) {
+      const std::vector<std::string_view> words = words_of(row);
       const std::string_view key = words.back();
       if (key == "atoms") particles_ = whole<std::size_t>(words[0], "the number of atoms");
       if (key == "yz") {
@@ -281,24 +284,16 @@ class DataFrames final : public ForeignFrames, LammpsFile {
           bounds_.high[k] = number(words[1], "an end of the box");
         }
     }
-    fail("the file ends before the section Atoms");
+    if (section_.empty()) fail("the file ends before the section Atoms");
   }
 
   /// Rows of numbers up to the next section.
   void read_section(const std::string& name) {
     Rows& rows = sections_[std::string(trimmed(name))];
-    section_.clear();
-    std::string line;
-    while (lines_.next(line)) {
-      const std::string text = without_comment(line);
-      const std::vector<std::string_view> words = words_of(text);
-      if (words.empty()) continue;
-      if (!number_in(words[0])) {
-        section_ = trimmed(line);
-        return;
-      }
+    std::string row;
+    while (next_row(row)) {
       std::vector<double> numbers;
-      for (const std::string_view word : words)
+      for (const std::string_view word : words_of(row))
         numbers.push_back(number_in(word).value_or(std::nan("")));
       if (!rows.emplace(numbers[0], numbers).second)
         fail(fmt::format("{} comes twice in the section {}", numbers[0], name));
@@ -383,7 +378,7 @@ class DataFrames final : public ForeignFrames, LammpsFile {
     frame.mass.push_back(density * volume(axes));
   }
 
-  /// Of spheres with ω, of ellipsoids with the angular momentum, both in the axes of space.
+  /// A line of Velocities ends with ω for spheres and with the angular momentum for ellipsoids, both in the axes of space.
   void add_velocity(ForeignFrame& frame, double id, const std::string& style) const {
     const bool rotates = style == "sphere" || style == "ellipsoid";
     const std::vector<double>* const numbers = row("Velocities", id, rotates ? 7 : 4);

@@ -128,7 +128,7 @@ std::vector<std::string> columns(const std::string& properties, const std::strin
   return names;
 }
 
-/// Of plain XYZ, which names none: the first four are the same everywhere.
+/// The columns of plain XYZ, which does not name them: all programs agree on the first four.
 std::vector<std::string> plain_columns(std::size_t count) {
   std::vector<std::string> names = {"species", "x", "y", "z"};
   while (names.size() < count) names.push_back(fmt::format("column {}", names.size() + 1));
@@ -203,12 +203,10 @@ std::optional<int> dimension_of_pbc(const Keys& keys, const std::string& place) 
   if (periodic.size() != 3)
     throw FileError(fmt::format("{}: pbc is \"{}\", but should be T or F for each of x, y and z",
                                 place, pbc->second));
-  try {
+  return with_place(place, [&] {
     return dimension_of_boundaries({periodic[0], periodic[1], periodic[2]},
                                    fmt::format("pbc=\"{}\"", pbc->second));
-  } catch (const UserError& error) {
-    throw FileError(fmt::format("{}: {}", place, error.what()));
-  }
+  });
 }
 
 void set_box(ForeignFrame& frame, const Keys& keys, const std::string& place) {
