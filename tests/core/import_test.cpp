@@ -211,6 +211,16 @@ TEST_F(Import, AFlatBoxIsNotTakenForSpace) {
   std::string lower = flat;
   lower.replace(lower.find("0 0 0 1\""), 7, "0 0 0 8");
   EXPECT_EQ(TrajectoryReader(text("b.xyz", lower)).dimension(), 3);
+  // The box is in the unit of the file, sizes known beforehand are in that of the results.
+  KnownSystem micro;
+  micro.import.length_unit = 1e-6;
+  micro.species = {{"A", Vec3(1, 1, 1)}};
+  EXPECT_EQ(TrajectoryReader(text("d.xyz",
+                                  "2\nLattice=\"9e-6 0 0 0 9e-6 0 0 0 8e-6\" "
+                                  "Properties=pos:R:3\n1e-6 1e-6 0 \n5e-6 5e-6 0\n"),
+                             micro)
+                .dimension(),
+            3);
   std::string steep = flat;
   steep.replace(steep.find("5 5 0.5"), 7, "5 5 0.6");
   EXPECT_THAT(refusal(text("c.xyz", steep), plane), HasSubstr("z of its particles differ by 0.1"));
@@ -354,7 +364,7 @@ TEST_F(Import, ColumnsWithOtherNames) {
   EXPECT_THAT(refusal(file("a.csv"), known), HasSubstr("import.columns names \"Z\""));
 }
 
-// Of bodies that rotate, half of the motion is none.
+// A body that rotates moves as its velocity and its angular velocity say; one of them alone does not tell.
 TEST_F(Import, VelocitiesWithoutAngularVelocitiesAreLeftOut) {
   const std::string header = "x,y,angle,a,b,vx,vy,box_x,box_y\n";
   const TrajectoryReader ellipse(text("a.csv", header + "0,0,0,1,0.5,1,1,9,9\n"));
@@ -362,6 +372,19 @@ TEST_F(Import, VelocitiesWithoutAngularVelocitiesAreLeftOut) {
   EXPECT_THAT(report(file("a.csv")).at("absent"), HasSubstr("so velocities are left out"));
   const TrajectoryReader disk(text("b.csv", header + "0,0,0,1,1,1,1,9,9\n"));
   EXPECT_TRUE(disk.has("velocity"));
+}
+
+// No frame stands in for another, or for nothing.
+TEST_F(Import, AllFramesStateTheSame) {
+  const std::string first =
+      dump_frame(0, "x y z ix iy iz radius vx vy vz", "0 1 3 1 0 0 1 1 0 0\n3 3 9 0 0 0 1 0 0 0\n");
+  EXPECT_THAT(refusal(text("a.dump", first + dump_frame(1, "x y z radius vx vy vz",
+                                                        "0 1 3 1 1 0 0\n3 3 9 1 0 0 0\n"))),
+              HasSubstr("frame 1: states positions, semi-axes, velocities, steps, but frame 0 "
+                        "states positions, box crossings, semi-axes, velocities, steps"));
+  EXPECT_THAT(refusal(text("b.dump", first + dump_frame(1, "x y z ix iy iz radius",
+                                                        "0 1 3 1 0 0 1\n3 3 9 0 0 0 1\n"))),
+              HasSubstr("frame 1: states positions, box crossings, semi-axes, steps"));
 }
 
 TEST_F(Import, RepeatedFramesLeaveOutMotionOnly) {

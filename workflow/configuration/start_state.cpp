@@ -131,11 +131,18 @@ KnownSystem known_system(const Parameters& parameters) {
   KnownSystem known;
   known.import = parameters.import;
   known.dimension = parameters.import.dimension;
+  const std::optional<std::vector<double>>& box = parameters.import.box;
+  if (!known.dimension && box && box->size() == 2) known.dimension = 2;
   if (place_of(parameters, "system.dimension")) known.dimension = parameters.system.dimension;
   const StateStage* stage = start_state(parameters.stages);
   if (stage && stage->box) {
     known.box = Vec3(Vec3::Ones());
     std::ranges::copy(*stage->box, known.box->data());
+  }
+  if (box) {
+    known.box = Vec3(Vec3::Ones());
+    std::ranges::copy(*box, known.box->data());
+    *known.box /= parameters.import.length_unit;
   }
   known.species = known_species(parameters);
   add_imported(known.species, parameters.import);

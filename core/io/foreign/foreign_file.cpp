@@ -56,12 +56,26 @@ void rescale(ForeignFrame& frame, double unit) {
     for (Vec3& vector : *vectors) vector /= unit;
 }
 
-/// What the user says in the units of the file, where the frame does not.
-void supplement(ForeignFrame& frame, const ImportOptions& options) {
-  if (!frame.box && options.box) {
-    frame.box = Vec3(Vec3::Ones());
-    std::ranges::copy(*options.box, frame.box->data());
-  }
+/// What a frame states, in words.
+std::vector<std::string> parts_of(const ForeignFrame& frame) {
+  const std::pair<bool, const char*> parts[] = {
+      {!frame.position.empty(), "positions"},
+      {!frame.unwrapped.empty(), "unwrapped positions"},
+      {!frame.image.empty(), "box crossings"},
+      {!frame.angle.empty(), "angles"},
+      {!frame.orientation.empty(), "orientations"},
+      {!frame.semi_axes.empty(), "semi-axes"},
+      {!frame.species.empty(), "species"},
+      {!frame.mass.empty(), "masses"},
+      {!frame.velocity.empty(), "velocities"},
+      {!frame.angular_velocity.empty(), "angular velocities"},
+      {!frame.id.empty(), "ids"},
+      {frame.time.has_value(), "times"},
+      {frame.step.has_value(), "steps"}};
+  std::vector<std::string> texts;
+  for (const auto& [is_there, name] : parts)
+    if (is_there) texts.emplace_back(name);
+  return texts;
 }
 
 /// All frames in vitrel's own form.
@@ -73,19 +87,17 @@ class Conversion {
 
   /// UserError.
   void add(ForeignFrame frame) {
-    supplement(frame, known_.import);
     if (number_ == 0) require_sizes(frame);
-    if (known_.import.length_unit != 1) rescale(frame, known_.import.length_unit);
     if (Dim == 2 && put_longer_axis_first(frame)) is_turned_ = true;
-    drop_half_of_velocities(frame);
     Configuration<Dim> next = configuration_of<Dim>(frame, known_);
     next.time = time_of(frame);
     if (number_ == 0) begin(frame, next);
+    require_parts_of_first(frame);
     if (!same_particles(*first_, next) || frame.id != first_frame_.id)
       throw UserError(
           "has other particles than frame 0; their number, ids, species, masses and semi-axes "
           "should be the same");
-    if (images_) images_->set(next, !frame.velocity.empty() && frame.time);
+    if (images_) images_->set(next, stores_velocities_ && frame.time);
     writer_->write(next, frame.step.value_or(static_cast<std::int64_t>(number_)));
     ++number_;
   }
@@ -122,22 +134,12 @@ class Conversion {
           format_.words.sizes, fmt::join(missing, ", ")));
   }
 
-  /// Velocities without angular velocities would give bodies that do not rotate, and energies without that of rotation.
-  void drop_half_of_velocities(ForeignFrame& frame) {
-    const auto is_round = [](const Vec3& axes) {
-      return Dim == 2 ? axes[0] == axes[1] : axes == Vec3::Constant(axes[0]);
-    };
-    const bool all_round =
-        frame.semi_axes.empty()
-            ? std::ranges::all_of(known_.species,
-                                  [&](const KnownSpecies& species) {
-                                    return !species.semi_axes || is_round(*species.semi_axes);
-                                  })
-            : std::ranges::all_of(frame.semi_axes, is_round);
-    if (frame.velocity.empty() == frame.angular_velocity.empty() || all_round) return;
-    has_half_of_velocities_ = true;
-    frame.velocity.clear();
-    frame.angular_velocity.clear();
+  /// What another frame does not state, nothing stands in for.
+  void require_parts_of_first(const ForeignFrame& frame) const {
+    const Texts parts = parts_of(frame), first = parts_of(first_frame_);
+    if (parts != first)
+      throw UserError(fmt::format("states {}, but frame 0 states {}", fmt::join(parts, ", "),
+                                  fmt::join(first, ", ")));
   }
 
   double time_of(const ForeignFrame& frame) const {
@@ -158,7 +160,11 @@ class Conversion {
   void begin(const ForeignFrame& frame, const Configuration<Dim>& first) {
     first_ = first;
     first_frame_ = frame;
-    TrajectoryOptions options{.velocities = !frame.velocity.empty()};
+    // Velocities without angular velocities would give bodies that do not rotate, and energies without that of rotation.
+    has_half_of_velocities_ =
+        frame.velocity.empty() != frame.angular_velocity.empty() && rotor_count(first) > 0;
+    stores_velocities_ = !frame.velocity.empty() && !has_half_of_velocities_;
+    TrajectoryOptions options{.velocities = stores_velocities_};
     options.images = !frame.image.empty() || !frame.unwrapped.empty();
     options.angles = !frame.angle.empty();
     if (known_.import.unwrap == ImportOptions::Unwrap::nearest && !options.images)
@@ -179,29 +185,16 @@ class Conversion {
   std::optional<NearestImages<Dim>> images_;
   std::optional<TrajectoryWriter> writer_;
   std::uint64_t number_ = 0;
-  bool is_turned_ = false, has_half_of_velocities_ = false;
+  bool is_turned_ = false, has_half_of_velocities_ = false, stores_velocities_ = false;
 };
 
 template <int Dim>
 std::vector<std::string> Conversion<Dim>::read() const {
-  const ForeignFrame& frame = first_frame_;
-  const std::pair<bool, const char*> parts[] = {
-      {!frame.position.empty(), "positions"},
-      {!frame.unwrapped.empty(), "unwrapped positions"},
-      {!frame.image.empty(), "box crossings"},
-      {!frame.angle.empty(), "angles"},
-      {!frame.orientation.empty(), "orientations"},
-      {!frame.semi_axes.empty(), "semi-axes"},
-      {!frame.species.empty(), "species"},
-      {!frame.mass.empty(), "masses"},
-      {!frame.velocity.empty(), "velocities"},
-      {!frame.angular_velocity.empty(), "angular velocities"},
-      {!frame.id.empty(), "ids"},
-      {frame.time.has_value(), "times"},
-      {frame.step.has_value(), "steps"}};
-  Texts texts;
-  for (const auto& [is_there, name] : parts)
-    if (is_there && !frame.assumed.contains(name)) texts.emplace_back(name);
+  Texts texts = parts_of(first_frame_);
+  std::erase_if(texts, [&](const std::string& part) {
+    return first_frame_.assumed.contains(part) ||
+           (has_half_of_velocities_ && part.ends_with("velocities"));
+  });
   return texts;
 }
 
@@ -225,9 +218,9 @@ std::vector<std::string> Conversion<Dim>::absent() const {
                          Dim == 2 ? "area" : "volume", Dim == 2 ? "a b" : "a b c")
            : "masses (those of the species)");
   note(frame.semi_axes.empty(), "semi-axes (those of the species)");
-  note(frame.velocity.empty(), has_half_of_velocities_
-                                   ? "angular velocities (so velocities are left out, too)"
-                                   : "velocities (energies are left out)");
+  note(!stores_velocities_, has_half_of_velocities_
+                                ? "angular velocities (so velocities are left out, too)"
+                                : "velocities (energies are left out)");
   note(!has_images && !images_ && number_ > 1, "box crossings (motion is left out)");
   note(!knows_time() && number_ > 1,
        frame.step ? "times (they are counted in steps)" : "times (they are counted in frames)");
@@ -257,47 +250,54 @@ ImportReport Conversion<Dim>::report() const {
   return report;
 }
 
-template <int Dim>
-ImportedFile convert(const fs::path& path, const ForeignFormat& format, ForeignFrames& frames,
-                     ForeignFrame& frame, const KnownSystem& known) {
-  const TemporaryFile copy;
-  Conversion<Dim> conversion(format, known, copy.name());
-  std::uint64_t number = 0;
-  do {
-    try {
-      conversion.add(std::move(frame));
-    } catch (const UserError& error) {
-      throw FileError(fmt::format("{}: frame {}: {}", path.string(), number, error.what()));
-    }
-    ++number;
-  } while (frames.next(frame));
-  conversion.close();
-  return {h5::File::open(copy.name(), h5::Access::read), conversion.report(),
-          format.words.box_crossings, conversion.knows_time(),
-          known.import.angles == ImportOptions::Angles::directors};
-}
+/// The frames of a file in the unit of length of the results.
+class RescaledFrames {
+ public:
+  RescaledFrames(std::unique_ptr<ForeignFrames> frames, double length_unit)
+      : frames_(std::move(frames)), length_unit_(length_unit) {}
+  bool next(ForeignFrame& frame) {
+    if (!frames_->next(frame)) return false;
+    if (length_unit_ != 1) rescale(frame, length_unit_);
+    return true;
+  }
+
+ private:
+  std::unique_ptr<ForeignFrames> frames_;
+  double length_unit_;
+};
 
 /// Frame 0, and those that follow.
 struct OpenFrames {
   const ForeignFormat& format;
-  std::unique_ptr<ForeignFrames> frames;
+  RescaledFrames frames;
   ForeignFrame first;
   int dimension;
 };
 
 OpenFrames open_frames(const fs::path& path, const KnownSystem& known) {
   const ForeignFormat& format = format_of(path, known.import);
-  OpenFrames open{format, format.open(path, known.import), {}, 0};
-  if (!open.frames->next(open.first)) throw FileError(path.string() + ": has no frames");
-  try {
-    ForeignFrame frame = open.first;
-    supplement(frame, known.import);
-    if (known.import.box && known.import.box->size() == 2 && !frame.dimension) frame.dimension = 2;
-    open.dimension = dimension_of(frame, known, format.words.plane);
-  } catch (const UserError& error) {
-    throw FileError(fmt::format("{}: {}", path.string(), error.what()));
-  }
+  OpenFrames open{format, {format.open(path, known.import), known.import.length_unit}, {}, 0};
+  if (!open.frames.next(open.first)) throw FileError(path.string() + ": has no frames");
+  open.dimension = with_place(path.string(),
+                              [&] { return dimension_of(open.first, known, format.words.plane); });
   return open;
+}
+
+template <int Dim>
+ImportedFile convert(const fs::path& path, OpenFrames& open, const KnownSystem& known) {
+  const TemporaryFile copy;
+  Conversion<Dim> conversion(open.format, known, copy.name());
+  ForeignFrame& frame = open.first;
+  std::uint64_t number = 0;
+  do {
+    with_place(fmt::format("{}: frame {}", path.string(), number),
+               [&] { conversion.add(std::move(frame)); });
+    ++number;
+  } while (open.frames.next(frame));
+  conversion.close();
+  return {h5::File::open(copy.name(), h5::Access::read), conversion.report(),
+          open.format.words.box_crossings, conversion.knows_time(),
+          known.import.angles == ImportOptions::Angles::directors};
 }
 
 /// HDF5 that vitrel wrote.
@@ -312,8 +312,7 @@ std::optional<h5::File> own_file(const fs::path& path, const ImportOptions& opti
 ImportedFile open_as_h5md(const fs::path& path, const KnownSystem& known) {
   if (auto own = own_file(path, known.import)) return {std::move(*own), {}, "dataset image/value"};
   OpenFrames open = open_frames(path, known);
-  const auto& work = open.dimension == 2 ? convert<2> : convert<3>;
-  return work(path, open.format, *open.frames, open.first, known);
+  return (open.dimension == 2 ? convert<2> : convert<3>)(path, open, known);
 }
 
 int dimension_of_file(const fs::path& path, const KnownSystem& known) {

@@ -10,8 +10,8 @@
 
 namespace vitrel {
 
-/// What an import read, and what became of it, in the order in which it is printed: a heading ("format", "read", "absent",
-/// "converted", "box crossings", "skipped") and a text for each.
+/// What an import read, and what became of it, in the order in which it is printed: a heading ("format", "read",
+/// "absent", "converted", "box crossings", "skipped") and a text for each.
 using ImportReport = std::vector<std::pair<std::string, std::string>>;
 
 /// A file in vitrel's own form of H5MD.
@@ -23,11 +23,11 @@ struct ImportedFile {
   bool angles_are_directors = false;  ///< known up to half turns
 };
 
-/// The file as vitrel itself would have written it: opened if vitrel did, and otherwise a copy of all its frames. The copy
-/// lies in the folder for temporary files and disappears with the process. What a file does not have (images, angles,
-/// velocities) the copy does not have either, but for images that `known` asks for (NearestImages).
+/// The file as vitrel itself would have written it: opened if vitrel did, and otherwise a copy of all its frames. The
+/// copy lies in the folder for temporary files and disappears with the process. What a file does not have (images,
+/// angles, velocities) the copy does not have either, but for images that `known` asks for (NearestImages).
 ///
-/// All frames must have the same particles. FileError, which names the place in the file; UserError for `known.import`.
+/// All frames must have the same particles, and state the same of them. FileError, which names the place in the file; UserError for `known.import`.
 ImportedFile open_as_h5md(const std::filesystem::path& path, const KnownSystem& known);
 
 /// The dimension of the file, of which this reads no more than the first frame. FileError.

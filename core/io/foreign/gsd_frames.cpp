@@ -58,6 +58,8 @@ class GsdFrames final : public ForeignFrames {
     frame.mass = column("particles/mass", 1);
     if (is_absent("particles/mass")) frame.assumed["masses"] = "1, the default of particles/mass";
     frame.velocity = vectors("particles/velocity");
+    if (frame.velocity.empty() && file_.has("particles/velocity"))
+      frame.velocity.assign(particles_, Vec3::Zero());
     set_angular_velocities(frame);
     std::ranges::copy_if(file_.names(), std::inserter(frame.skipped, frame.skipped.end()),
                          [](const std::string& name) { return !known_chunks.contains(name); });
@@ -200,7 +202,9 @@ class GsdFrames final : public ForeignFrames {
   /// The angular momentum L is stored as 2 q (0, L), L and the moments about the own axes. Where a moment is 0 the
   /// rotation is not modelled; of spheroids written by vitrel it is then about the axis, ω = L/I⊥.
   void set_angular_velocities(ForeignFrame& frame) {
-    const std::vector<Quaternion> momenta = quaternions("particles/angmom");
+    std::vector<Quaternion> momenta = quaternions("particles/angmom");
+    if (momenta.empty() && file_.has("particles/angmom"))
+      momenta.assign(particles_, Quaternion(0, 0, 0, 0));
     const std::vector<Vec3> inertias = vectors("particles/moment_inertia");
     if (momenta.empty() || inertias.empty()) return;
     for (std::size_t i = 0; i < particles_; ++i) {
