@@ -164,6 +164,8 @@ void remark(const PrintOptions& options, const std::string& line) {
 
 void remark_import(const PrintOptions& options, const fs::path& file, const ImportReport& report) {
   if (report.empty()) return;
+  if (report.front().first == in_progress)
+    return remark(options, file.string() + ": " + report.front().second);
   remark(options, file.string() + ": read as a file of another program");
   for (const auto& [heading, text] : report)
     remark(options, fmt::format("  {:<14} {}", heading, text));

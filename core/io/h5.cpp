@@ -222,6 +222,15 @@ bool has_checksums(const Check& check, const Handle& creation) {
 
 }  // namespace
 
+/// HDF5 1.10 walks through the whole index for this, so only chunks that seem to be empty may ask.
+bool Dataset::has_chunk(const Check& check, const Shape& at) const {
+  unsigned skipped = 0;
+  haddr_t address = HADDR_UNDEF;
+  hsize_t bytes = 0;
+  check(H5Dget_chunk_info_by_coord(handle_.id(), sizes(at), &skipped, &address, &bytes));
+  return address != HADDR_UNDEF;
+}
+
 // HDF5 itself reads beyond the memory of such a chunk.
 void Dataset::require_checksums(std::uint64_t first, std::uint64_t last) const {
   constexpr hsize_t checksum = 4;
@@ -234,11 +243,9 @@ void Dataset::require_checksums(std::uint64_t first, std::uint64_t last) const {
   Shape at(extent.size(), 0);
   at[0] = first / chunk[0] * chunk[0];
   while (at[0] <= last) {
-    unsigned skipped = 0;
-    haddr_t address = HADDR_UNDEF;
     hsize_t bytes = 0;
-    check(H5Dget_chunk_info_by_coord(handle_.id(), sizes(at), &skipped, &address, &bytes));
-    if (address != HADDR_UNDEF && bytes < checksum)
+    check(H5Dget_chunk_storage_size(handle_.id(), sizes(at), &bytes));
+    if (bytes < checksum && has_chunk(check, at))
       throw_file_error(file_->path(), "read", name_, "the file is damaged");
     std::size_t axis = at.size() - 1;
     for (at[axis] += chunk[axis]; axis > 0 && at[axis] >= extent[axis]; at[axis] += chunk[axis]) {
@@ -519,6 +526,14 @@ void File::synchronize() {
 
 void File::close() {
   file_->close();
+}
+
+bool File::is_being_written() const {
+  return file_->is_being_written();
+}
+
+void File::reopen() {
+  file_->reopen();
 }
 
 #define VITREL_H5_INSTANTIATE(T)                                                                 \

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/error.h"
+
 /// @file
 /// A thin, owning layer over the HDF5 C library: files, groups, datasets and attributes that close
 /// themselves. HDF5's own messages are silenced; every failure becomes one FileError that names the
@@ -15,7 +17,8 @@
 ///
 /// What is written reaches the file by `flush`, whole or not at all (see TransactionalFile): a
 /// killed process or a full disk leaves the file as it was at the last flush. After a failure
-/// nothing more is written, and later operations on that file throw again.
+/// nothing more is written, and later operations on that file throw again. A file may be read while another process
+/// writes it; each operation is of one state of it, or throws ChangedFile.
 ///
 /// T is one of double, int32_t, int64_t, uint64_t, uint8_t; numbers are stored little-endian.
 namespace vitrel::h5 {
@@ -25,6 +28,12 @@ using Shape = std::vector<std::uint64_t>;
 
 class OpenFile;
 class Check;
+
+/// What was asked for belongs to a state of the file that another process has changed meanwhile (see File::reopen).
+class ChangedFile : public FileError {
+ public:
+  using FileError::FileError;
+};
 
 /// An HDF5 identifier that closes itself.
 class Handle {
@@ -111,6 +120,7 @@ class Dataset : public Object {
   FrameSpaces frame_spaces(std::uint64_t frame, std::uint64_t count) const;
   /// Throws FileError if a chunk of frames first … last is too short for the checksum that it should have.
   void require_checksums(std::uint64_t first, std::uint64_t last) const;
+  bool has_chunk(const Check& check, const Shape& at) const;
 };
 
 /// How the frames of a series are stored; all have a checksum. Chunks are written once or keep their size and
@@ -176,6 +186,12 @@ class File {
   void synchronize();
   /// The same, and closes. Without it the destructor saves and closes, but cannot report a failure.
   void close();
+
+  /// Whether another process had the file open for writing when it was opened here.
+  bool is_being_written() const;
+  /// Goes on to the present state of a file that is only read, by another process. Objects of it that were opened before
+  /// are of no use any more.
+  void reopen();
 
  private:
   explicit File(std::shared_ptr<OpenFile> file) : file_(std::move(file)) {}

@@ -1,5 +1,6 @@
 #include "core/io/h5_driver.h"
 
+#include <algorithm>
 #include <functional>
 #include <new>
 
@@ -49,8 +50,9 @@ herr_t query(const H5FD_t*, unsigned long* features) {
   return 0;
 }
 
+/// HDF5 allocates from here on.
 haddr_t get_end_of_allocation(const H5FD_t* file, H5FD_mem_t) {
-  return self(file).end_of_allocation;
+  return std::max<haddr_t>(self(file).end_of_allocation, self(file).file->free_from());
 }
 
 herr_t set_end_of_allocation(H5FD_t* file, H5FD_mem_t, haddr_t end) {

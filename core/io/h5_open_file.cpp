@@ -33,24 +33,58 @@ void silence_hdf5() {
   static_cast<void>(silenced);
 }
 
-void throw_file_error(const std::string& path, std::string_view action, std::string_view object,
-                      const std::string& reason) {
+std::string file_error_text(const std::string& path, std::string_view action,
+                            std::string_view object, const std::string& reason) {
   std::string message = path + ": cannot " + std::string(action);
   if (!object.empty()) message += ' ' + std::string(object);
-  throw FileError(message + ": " + reason);
+  return message + ": " + reason;
+}
+
+void throw_file_error(const std::string& path, std::string_view action, std::string_view object,
+                      const std::string& reason) {
+  throw FileError(file_error_text(path, action, object, reason));
 }
 
 OpenFile::OpenFile(const std::filesystem::path& path, TransactionalFile::Mode mode)
     : path_(path.string()), content_(std::in_place, path, mode) {
-  const bool create = mode == TransactionalFile::Mode::create;
-  const Check check(*this, create ? "create the file" : "open the file", "");
-  const Handle access(access_through(*content_));
+  if (mode == TransactionalFile::Mode::create)
+    create();
+  else
+    open();
+}
+
+Handle OpenFile::access() {
+  const Check check(*this, "open the file", "");
+  Handle access(access_through(*content_));
   // Format version 1.8: every reader in use understands it.
   check(H5Pset_libver_bounds(access.id(), H5F_LIBVER_V18, H5F_LIBVER_V18));
   check(H5Pset_fclose_degree(access.id(), H5F_CLOSE_STRONG));
+  return access;
+}
+
+void OpenFile::create() {
+  const Check check(*this, "create the file", "");
+  const Handle creation(check(H5Pcreate(H5P_FILE_CREATE)));
+  check(H5Pset_userblock(creation.id(), commit_record_block));
+  id_ = check(H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, creation.id(), access().id()));
+}
+
+/// HDF5 may come too late for the state of the file that its first bytes were of.
+void OpenFile::open() {
   const unsigned flags = content_->writable() ? H5F_ACC_RDWR : H5F_ACC_RDONLY;
-  id_ = check(create ? H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id())
-                     : H5Fopen(path.c_str(), flags, access.id()));
+  for (;;) {
+    const Handle opening = access();
+    id_ = H5Fopen(path_.c_str(), flags, opening.id());
+    if (id_ >= 0) return;
+    if (!content_->has_changed()) fail("open the file", "");
+    content_->refresh();
+  }
+}
+
+void OpenFile::reopen() {
+  if (id_ >= 0) static_cast<void>(H5Fclose(std::exchange(id_, -1)));  // it was only read
+  content_->refresh();
+  open();
 }
 
 OpenFile::~OpenFile() {
@@ -65,6 +99,10 @@ OpenFile::~OpenFile() {
 void OpenFile::prepare(std::string_view action, std::string_view object) const {
   silence_hdf5();
   if (!content_) throw_file_error(path_, action, object, "it is closed");
+  if (content_->has_changed())
+    throw ChangedFile(file_error_text(path_, action, object, content_->failure()));
+  if (!content_->failure().empty() && content_->writable())  // whatever was asked for since
+    throw_file_error(path_, "write", "", content_->failure());
   if (!content_->failure().empty()) throw_file_error(path_, action, object, content_->failure());
 }
 
@@ -74,8 +112,8 @@ void OpenFile::fail(std::string_view action, std::string_view object) {
 
 void OpenFile::fail(std::string_view action, std::string_view object, const std::string& reason) {
   if (content_ && content_->writable()) content_->give_up(reason);
-  const bool known = content_ && !content_->failure().empty();
-  throw_file_error(path_, action, object, known ? content_->failure() : reason);
+  prepare(action, object);  // what failed first
+  throw_file_error(path_, action, object, reason);
 }
 
 void OpenFile::flush() {

@@ -45,12 +45,18 @@ class OpenFile {
   [[noreturn]] void fail(std::string_view action, std::string_view object,
                          const std::string& reason);
 
+  bool is_being_written() const { return content_ && content_->is_being_written(); }
+  /// Closes what is open of a file that is only read, and goes on to its present state.
+  void reopen();
   void flush();
   void synchronize();
   void close();
 
  private:
   friend class Check;
+  Handle access();
+  void create();
+  void open();
   void prepare(std::string_view action, std::string_view object) const;
   /// With the reason that HDF5 gives.
   [[noreturn]] void fail(std::string_view action, std::string_view object);

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -58,9 +60,9 @@ template <int Dim>
 void write_state(const std::filesystem::path& path, const Configuration<Dim>& configuration,
                  const Provenance& provenance, bool overwrite = false);
 
-/// Writes a trajectory frame by frame. A frame is in the file whole or not at all: a process killed
-/// at any moment, or a full disk, leaves the frames before it. Throws FileError if the file cannot
-/// be written.
+/// Writes a trajectory frame by frame. Frames reach the file whole or not at all, those of half a second of work together: a
+/// process killed at any moment, or a full disk, leaves the frames before the last commit. Other processes may read the file
+/// meanwhile. Throws FileError if the file cannot be written.
 class TrajectoryWriter {
  public:
   /// A new file without frames; it appears under its name only when it is readable. `configuration`
@@ -85,6 +87,8 @@ class TrajectoryWriter {
   void record_wall_seconds(double seconds);
   /// The parameters of a run that goes on with others.
   void record_parameters(const std::string& toml);
+  /// Saves all frames against a kill of the process.
+  void commit();
   /// Waits until the disk has all frames: a checkpoint that counts them may then be saved.
   void synchronize() { file_.synchronize(); }
   /// The same, and closes; the destructor closes too, but cannot report a failure.
@@ -119,6 +123,7 @@ class TrajectoryWriter {
   };
 
   h5::File file_;
+  std::chrono::steady_clock::time_point last_commit_;
   std::size_t particles_ = 0;
   std::uint64_t frames_ = 0;
   int dimension_ = 0;
@@ -153,6 +158,9 @@ class TrajectoryObserver : public Observer<Dim> {
 /// A frame is read into a configuration of the dimension of the file; `require_dimension` says so before any frame is asked
 /// for. Orientations in three dimensions must have the norm 1.
 ///
+/// A file may be read while another process adds frames to it: then the reader has the frames that were whole when it opened
+/// the file, and goes on to have them.
+///
 /// Times must be finite, and the particles must fit into the box, soft ones with some overlap. FileError names the file, the
 /// dataset, and what would be right.
 class TrajectoryReader {
@@ -184,7 +192,7 @@ class TrajectoryReader {
   /// One value per frame.
   std::vector<double> observable(const std::string& name) const;
 
-  /// What became of a file of another program; empty if vitrel wrote it.
+  /// What became of a file of another program, or up to where one that is being written was read; otherwise empty.
   const ImportReport& import_report() const { return import_.report; }
   /// False if times are steps, or frames, since the file states none.
   bool knows_time() const { return import_.knows_time; }
@@ -198,6 +206,14 @@ class TrajectoryReader {
   const std::filesystem::path& path() const { return path_; }
 
  private:
+  template <class Read>
+  std::invoke_result_t<Read> of_one_state(Read&& read) const;
+  void read_what_frames_share();
+  void report_progress();
+  template <int Dim>
+  void read_frame(std::uint64_t frame, Configuration<Dim>& configuration) const;
+  std::string obstacle() const;
+  bool has_series(const std::string& name) const;
   bool has_dataset(const std::string& name) const;
   const h5::Dataset& dataset(const std::string& name, const std::string& meaning) const;
   [[noreturn]] void fail(const std::string& what) const;
@@ -234,8 +250,8 @@ class TrajectoryReader {
   std::uint64_t first_other_box() const;
 
   std::filesystem::path path_;
-  ImportedFile import_;
-  h5::Group root_;
+  mutable ImportedFile import_;
+  mutable std::optional<h5::Group> root_;
   static inline const std::string group_ = "particles/all";
   std::vector<double> times_;
   std::vector<std::int64_t> steps_;

@@ -19,10 +19,38 @@ namespace vitrel {
 namespace fs = std::filesystem;
 
 TrajectoryReader::TrajectoryReader(const fs::path& path, const KnownSystem& known)
-    : path_(path), import_(open_as_h5md(path, known)), root_(import_.file.root()) {
+    : path_(path), import_(open_as_h5md(path, known)) {
+  of_one_state([this] { read_what_frames_share(); });
+  if (import_.file.is_being_written()) report_progress();
+}
+
+/// The result of `read`, again if another process changed the file meanwhile. Writers commit much less often than reading takes.
+template <class Read>
+std::invoke_result_t<Read> TrajectoryReader::of_one_state(Read&& read) const {
+  constexpr int attempts = 50;
+  for (int attempt = 1;; ++attempt) try {
+      if (!root_) root_ = import_.file.root();
+      return read();
+    } catch (const h5::ChangedFile&) {
+      if (attempt == attempts) throw;
+      datasets_.clear();
+      root_.reset();
+      import_.file.reopen();
+    }
+}
+
+void TrajectoryReader::read_what_frames_share() {
   read_shapes();
   std::visit([this](auto& fixed) { read_masses_and_species(fixed); }, fixed_);
   read_axes();
+}
+
+void TrajectoryReader::report_progress() {
+  std::string text = "another process is writing it; it has no whole frame yet";
+  if (frames() > 0)
+    text = fmt::format("another process is writing it; read up to the time {:.10g} ({} {})",
+                       times_.back(), frames(), frames() == 1 ? "frame" : "frames");
+  import_.report.emplace_back(in_progress, text);
 }
 
 std::size_t TrajectoryReader::particles() const {
@@ -49,7 +77,7 @@ const h5::Dataset& TrajectoryReader::dataset(const std::string& name,
   const auto open = datasets_.find(name);
   if (open != datasets_.end()) return open->second;
   if (!has_dataset(name)) fail("the dataset " + name + " is missing: it should hold " + meaning);
-  return datasets_.emplace(name, root_.dataset(name)).first->second;
+  return datasets_.emplace(name, root_->dataset(name)).first->second;
 }
 
 /// Frames are counted by `step`, the last thing written of a frame.
@@ -87,7 +115,7 @@ void TrajectoryReader::read_shapes() {
 
 std::optional<int> TrajectoryReader::stated_dimension() const {
   const bool states =
-      root_.has_group("parameters") && root_.group("parameters").has_attribute("dimension");
+      root_->has_group("parameters") && root_->group("parameters").has_attribute("dimension");
   return states ? std::optional<int>(provenance().dimension) : std::nullopt;
 }
 
@@ -117,12 +145,12 @@ template <int Dim>
 void TrajectoryReader::read_masses_and_species(Configuration<Dim>& fixed) const {
   fixed.species_names = {"A"};
   if (has_dataset(group_ + "/mass"))
-    fixed.mass = root_.dataset(group_ + "/mass").read<double>();
+    fixed.mass = root_->dataset(group_ + "/mass").read<double>();
   else
     std::ranges::transform(fixed.shape, fixed.mass.begin(),
                            [](const auto& shape) { return natural_mass(shape); });
   if (has_dataset(group_ + "/species")) {
-    const h5::Dataset species = root_.dataset(group_ + "/species");
+    const h5::Dataset species = root_->dataset(group_ + "/species");
     fixed.species = species.read<std::int32_t>();
     fixed.species_names = species.enumeration();
   }
@@ -155,6 +183,11 @@ Configuration<Dim> TrajectoryReader::read(std::uint64_t frame) const {
 template <int Dim>
 void TrajectoryReader::read(std::uint64_t frame, Configuration<Dim>& configuration) const {
   require_dimension(Dim);
+  of_one_state([&] { read_frame(frame, configuration); });
+}
+
+template <int Dim>
+void TrajectoryReader::read_frame(std::uint64_t frame, Configuration<Dim>& configuration) const {
   if (frame >= frames())
     fail("there is no frame " + std::to_string(frame) + ": it has " + std::to_string(frames()) +
          ", counted from 0");
@@ -170,7 +203,7 @@ void TrajectoryReader::read(std::uint64_t frame, Configuration<Dim>& configurati
 bool TrajectoryReader::has_dataset(const std::string& name) const {
   const auto known = present_.find(name);
   if (known != present_.end()) return known->second;
-  return present_.emplace(name, root_.has_dataset(name)).first->second;
+  return present_.emplace(name, root_->has_dataset(name)).first->second;
 }
 
 const h5::Dataset& TrajectoryReader::element(const std::string& name,
@@ -262,7 +295,7 @@ void TrajectoryReader::read_positions(std::uint64_t frame,
                                       Configuration<Dim>& configuration) const {
   const std::vector<double> positions = frame_values("position", "the coordinates", frame, 3);
   std::vector<double> images(particles() * Dim);
-  if (has("image")) images = frame_values("image", "the box crossings", frame, Dim);
+  if (has_series("image")) images = frame_values("image", "the box crossings", frame, Dim);
   if (std::ranges::any_of(images, [](double n) { return std::abs(n) > max_box_crossings; }))
     fail("the dataset " + group_ + "/image/value has impossible numbers in frame " +
          std::to_string(frame));
@@ -279,12 +312,12 @@ void TrajectoryReader::read_positions(std::uint64_t frame,
 /// Round particles need no orientations.
 template <int Dim>
 bool TrajectoryReader::has_no_orientations(const Configuration<Dim>& configuration) const {
-  return !has("angle") && !has("orientation") && rotor_count(configuration) == 0;
+  return !has_series("angle") && !has_series("orientation") && rotor_count(configuration) == 0;
 }
 
 void TrajectoryReader::read_orientations(std::uint64_t frame, Configuration2& configuration) const {
   if (has_no_orientations(configuration)) return;
-  if (has("angle") || !has("orientation")) {
+  if (has_series("angle") || !has_series("orientation")) {
     configuration.angle = frame_values("angle", "the angle of every particle in radians", frame, 1);
     return;
   }
@@ -314,11 +347,11 @@ void TrajectoryReader::read_orientations(std::uint64_t frame, Configuration3& co
 template <int Dim>
 void TrajectoryReader::read_velocities(std::uint64_t frame,
                                        Configuration<Dim>& configuration) const {
-  if (has("velocity")) {
+  if (has_series("velocity")) {
     const std::vector<double> v = frame_values("velocity", "the velocities", frame, Dim);
     for (std::size_t i = 0; i < particles(); ++i) configuration.velocity[i] = Vec<Dim>(&v[Dim * i]);
   }
-  if (!has("angular_velocity")) return;
+  if (!has_series("angular_velocity")) return;
   const std::vector<double> w =
       frame_values("angular_velocity", "the angular velocities", frame, 3);
   for (std::size_t i = 0; i < particles(); ++i) {
@@ -370,6 +403,10 @@ void TrajectoryReader::read_close_pairs(std::uint64_t frame,
 }
 
 bool TrajectoryReader::has(const std::string& name) const {
+  return of_one_state([&] { return has_series(name); });
+}
+
+bool TrajectoryReader::has_series(const std::string& name) const {
   return has_dataset(group_ + '/' + name + "/value");
 }
 
@@ -387,8 +424,12 @@ std::uint64_t TrajectoryReader::first_other_box() const {
 }
 
 std::string TrajectoryReader::obstacle_to_motion() const {
+  return of_one_state([this] { return obstacle(); });
+}
+
+std::string TrajectoryReader::obstacle() const {
   if (frames() < 2) return "a single frame";
-  if (!has("image"))
+  if (!has_series("image"))
     return fmt::format(
         "box crossings are unknown: it has no {}; if no particle moves by more than half a box "
         "length between frames, import.unwrap = \"nearest\" counts them",
@@ -404,8 +445,10 @@ std::string TrajectoryReader::obstacle_to_motion() const {
 }
 
 std::vector<std::string> TrajectoryReader::observable_names() const {
-  return root_.has_group("observables") ? root_.group("observables").members()
-                                        : std::vector<std::string>();
+  return of_one_state([this] {
+    return root_->has_group("observables") ? root_->group("observables").members()
+                                           : std::vector<std::string>();
+  });
 }
 
 bool TrajectoryReader::has_observable(const std::string& name) const {
@@ -414,17 +457,22 @@ bool TrajectoryReader::has_observable(const std::string& name) const {
 }
 
 std::vector<double> TrajectoryReader::observable(const std::string& name) const {
-  const h5::Dataset& values = dataset("observables/" + name + "/value", "one number per frame");
-  std::vector<double> numbers = values.read<double>();
-  if (values.shape().size() != 1 || numbers.size() < frames())
-    fail("the dataset " + values.name() + " should have one number per frame, " +
-         std::to_string(frames()));
-  numbers.resize(frames());
-  return numbers;
+  return of_one_state([&] {
+    const h5::Dataset& values = dataset("observables/" + name + "/value", "one number per frame");
+    std::vector<double> numbers = values.read<double>();
+    if (values.shape().size() != 1 || numbers.size() < frames())
+      fail("the dataset " + values.name() + " should have one number per frame, " +
+           std::to_string(frames()));
+    numbers.resize(frames());
+    return numbers;
+  });
 }
 
 Provenance TrajectoryReader::provenance() const {
-  return root_.has_group("parameters") ? read_provenance(root_.group("parameters")) : Provenance();
+  return of_one_state([this] {
+    return root_->has_group("parameters") ? read_provenance(root_->group("parameters"))
+                                          : Provenance();
+  });
 }
 
 template <int Dim>

@@ -271,8 +271,15 @@ void TrajectoryWriter::write(const Configuration<Dim>& configuration, std::int64
   edges_.write_frame<double>(frames_, edges);
   for (const auto& [name, value] : observables)
     observables_.at(name).template write_frame<double>(frames_, {&value, 1});
-  file_.flush();
   ++frames_;
+  // Seldom enough to read the file between two commits, and to cost nothing.
+  constexpr std::chrono::milliseconds interval(500);
+  if (std::chrono::steady_clock::now() - last_commit_ >= interval) commit();
+}
+
+void TrajectoryWriter::commit() {
+  file_.flush();
+  last_commit_ = std::chrono::steady_clock::now();
 }
 
 template <int Dim>

@@ -7,9 +7,12 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
+#include <functional>
 #include <system_error>
+#include <thread>
 #include <vector>
 
 #include "core/error.h"
@@ -49,9 +52,29 @@ std::string system_message() {
   throw FileError(path.string() + ": cannot " + action + ": " + reason);
 }
 
+std::string opening(TransactionalFile::Mode mode) {
+  return mode == TransactionalFile::Mode::create ? "create the file" : "open the file";
+}
+
+constexpr const char* in_use =
+    "another program has it open for writing; wait until that one has ended";
+
+constexpr const char* truncated =
+    "the file is truncated: its end is missing, restore it from a copy";
+
 bool locking_is_off() {
   const char* setting = std::getenv("HDF5_USE_FILE_LOCKING");
   return setting && std::string(setting) == "FALSE";
+}
+
+/// Whether `succeeds` becomes true within the few calls of the system that another process is between.
+bool again_and_again(const std::function<bool()>& succeeds) {
+  constexpr int attempts = 10;
+  for (int attempt = 0; attempt < attempts; ++attempt) {
+    if (succeeds()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return false;
 }
 
 }  // namespace
@@ -60,33 +83,60 @@ TransactionalFile::TransactionalFile(std::filesystem::path path, Mode mode)
     : path_(std::move(path)), mode_(mode) {
   const int flags = mode == Mode::read ? O_RDONLY : mode == Mode::write ? O_RDWR : O_RDWR | O_CREAT;
   descriptor_ = ::open(path_.c_str(), flags | O_CLOEXEC, 0666);
-  const std::string action = mode == Mode::create ? "create the file" : "open the file";
-  if (descriptor_ < 0) fail(path_, action, system_message());
-  struct stat status;
+  if (descriptor_ < 0) fail(path_, opening(mode), system_message());
   try {
-    lock();
-    if (::fstat(descriptor_, &status) != 0) fail(path_, action, system_message());
-    if (!S_ISREG(status.st_mode)) fail(path_, action, "it is not a regular file");
-    if (mode == Mode::create && !set_file_size(0)) fail(path_, action, failure_);
-    if (mode != Mode::create) recover();
+    open();
   } catch (...) {
     static_cast<void>(::close(descriptor_));
     throw;
   }
 }
 
+void TransactionalFile::open() {
+  struct stat status;
+  if (::fstat(descriptor_, &status) != 0) fail(path_, opening(mode_), system_message());
+  if (!S_ISREG(status.st_mode)) fail(path_, opening(mode_), "it is not a regular file");
+  if (mode_ == Mode::read) {
+    lock_for_reading();
+    return take_state();
+  }
+  lock_for_writing();
+  if (mode_ == Mode::write) return recover();
+  if (!set_file_size(0)) fail(path_, opening(mode_), failure_);
+  record_ = CommitRecord{.is_written = 1};
+}
+
 TransactionalFile::~TransactionalFile() {
   // Gives the space of what was not committed back.
   if (writable() && !journal_is_whole_) set_file_size(committed_);
+  if (writable() && record_ && committed_ > 0 && failure_.empty()) {
+    record_->is_written = 0;
+    write_record();
+  }
   static_cast<void>(::close(descriptor_));  // what has to be on the disk was synchronized
 }
 
-void TransactionalFile::lock() {
-  if (locking_is_off()) return;
-  const int kind = writable() ? LOCK_EX : LOCK_SH;
-  if (::flock(descriptor_, kind | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-    fail(path_, "open the file",
-         "another program has it open for writing; wait until that one has ended");
+/// True where there are no locks.
+bool TransactionalFile::try_lock(int kind) {
+  return locking_is_off() || ::flock(descriptor_, kind | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+}
+
+/// Readers have a lock for a moment, to see whether anybody writes.
+void TransactionalFile::lock_for_writing() {
+  if (!again_and_again([this] { return try_lock(LOCK_EX); })) fail(path_, opening(mode_), in_use);
+}
+
+void TransactionalFile::lock_for_reading() {
+  bool has_commits = false;
+  const auto is_readable = [&] {
+    const CommitRecord record = stored_record();
+    has_commits = has_magic(record);
+    is_being_written_ = !try_lock(LOCK_SH);
+    return !is_being_written_ || (has_commits && record.is_written);
+  };
+  if (!again_and_again(is_readable)) fail(path_, opening(mode_), in_use);
+  if (has_commits)
+    static_cast<void>(::flock(descriptor_, LOCK_UN));  // it ends with the reader anyway
 }
 
 bool TransactionalFile::read_file(std::uint64_t offset, std::span<std::byte> bytes) {
@@ -134,6 +184,11 @@ TransactionalFile::Page& TransactionalFile::page(std::uint64_t index) {
 
 bool TransactionalFile::read(std::uint64_t offset, std::span<std::byte> bytes) {
   if (!read_file(offset, bytes)) return false;
+  if (!writable() && record_ && !is_still_there()) {
+    has_changed_ = true;
+    failure_ = "another process changed the file meanwhile";
+    return false;
+  }
   if (bytes.empty()) return true;
   const std::uint64_t end = offset + bytes.size();
   const auto last = pages_.upper_bound((end - 1) / page_size);
@@ -148,6 +203,7 @@ bool TransactionalFile::read(std::uint64_t offset, std::span<std::byte> bytes) {
 void TransactionalFile::write(std::uint64_t offset, std::span<const std::byte> bytes) {
   const std::uint64_t end = offset + bytes.size();
   size_ = std::max(size_, end);
+  is_dirty_ = true;
   while (offset < end) {
     const std::uint64_t index = offset / page_size;
     const bool beyond = index >= committed_pages() && failure_.empty();
@@ -159,15 +215,41 @@ void TransactionalFile::write(std::uint64_t offset, std::span<const std::byte> b
   }
 }
 
+std::uint64_t TransactionalFile::free_from() const {
+  return writable() && record_ && committed_ > 0 ? mark_behind(committed_).end : 0;
+}
+
+void TransactionalFile::resize(std::uint64_t size) {
+  is_dirty_ = is_dirty_ || size > size_;
+  size_ = size;
+}
+
 void TransactionalFile::commit() {
+  if (failure_.empty() && !is_dirty_) return;
+  if (record_) prepare_record();
   if (!failure_.empty() || !set_file_size(std::max(size_, committed_)) || !append_journal())
     fail(path_, "write", failure_);
   // Should the next step fail, the next opening repeats it.
   journal_is_whole_ = true;
   if (!apply_pages()) fail(path_, "write", failure_);
   journal_is_whole_ = false;
-  committed_ = size_;
-  pages_.clear();
+  is_dirty_ = false;
+}
+
+/// The journal has the record and the mark, too.
+void TransactionalFile::prepare_record() {
+  ++record_->begun;
+  size_ = std::max(size_, free_from());
+  const std::uint64_t mark = mark_of(record_->begun), place = mark_behind(committed_).place;
+  if (committed_ > 0 && place / page_size < committed_pages())
+    std::memcpy(&page(place / page_size)[place % page_size], &mark, sizeof(mark));
+  record_ = with_checksum(*record_);
+  std::memcpy(page(0).data(), &*record_, sizeof(CommitRecord));
+}
+
+bool TransactionalFile::write_record() {
+  record_ = with_checksum(*record_);
+  return write_file(0, std::as_bytes(std::span(&*record_, 1)));
 }
 
 bool TransactionalFile::append_journal() {
@@ -187,9 +269,25 @@ bool TransactionalFile::append_journal() {
 }
 
 bool TransactionalFile::apply_pages() {
+  if (record_ && !begin_changes()) return false;
   for (const auto& [index, content] : pages_)
     if (!write_file(index * page_size, content)) return false;
-  return set_file_size(size_);
+  if (record_) {
+    record_->done = record_->begun;
+    record_->end = size_;
+    if (!write_record()) return false;
+  }
+  if (!set_file_size(size_)) return false;
+  committed_ = size_;
+  pages_.clear();
+  return true;
+}
+
+bool TransactionalFile::begin_changes() {
+  if (!write_record()) return false;
+  if (record_->end == 0) return true;
+  const std::uint64_t mark = mark_of(record_->begun);
+  return write_file(mark_behind(record_->end).place, std::as_bytes(std::span(&mark, 1)));
 }
 
 void TransactionalFile::give_up(const std::string& reason) {
@@ -203,17 +301,87 @@ void TransactionalFile::synchronize() {
 }
 
 void TransactionalFile::recover() {
-  struct stat status;
-  if (::fstat(descriptor_, &status) != 0) fail(path_, "open the file", system_message());
-  size_ = committed_ = static_cast<std::uint64_t>(status.st_size);
-  if (!load_journal(size_)) return;
-  if (!writable()) return;
-  if (!apply_pages()) fail(path_, "repair the file after an interrupted write", failure_);
-  committed_ = size_;
-  pages_.clear();
+  take_state();
+  if (record_) {
+    record_->begun = state_;
+    record_->is_written = 1;
+    if (!is_whole(*record_)) record_->end = 0;
+  }
+  if (!pages_.empty() && !apply_pages())
+    fail(path_, "repair the file after an interrupted write", failure_);
+  if (!record_) return;
+  record_->done = state_;
+  record_->end = committed_;  // other programs may have added something
+  if (!write_record()) fail(path_, "write", failure_);
 }
 
-bool TransactionalFile::load_journal(std::uint64_t file_size) {
+void TransactionalFile::refresh() {
+  failure_.clear();
+  has_changed_ = false;
+  take_state();
+}
+
+/// A commit that is under way ends soon, or leaves a journal.
+void TransactionalFile::take_state() {
+  const bool has_state = again_and_again([this] {
+    state_ = look_for_state();
+    return state_ > 0;
+  });
+  if (!has_state)
+    fail(path_, opening(mode_),
+         is_whole(*record_) ? "it was copied while another process wrote it, and has parts of "
+                              "several states; copy it again, or read the original, which may be "
+                              "read at any time"
+                            : "its first bytes are damaged; restore it from a copy");
+}
+
+/// The number of the commit, or any above 0 in a file that does not count them; 0 if what was found is of several.
+std::uint64_t TransactionalFile::look_for_state() {
+  pages_.clear();
+  FoundCommits found{stored_record(), {}, 0};
+  const std::uint64_t found_size = file_size();
+  size_ = committed_ = found_size;
+  record_.reset();
+  const bool has_journal = load_journal();
+  if (!has_magic(found.record)) return 1;
+  if (found_size < commit_record_block) fail(path_, opening(mode_), truncated);
+  record_ = found.record;
+  if (has_journal) {
+    CommitRecord written;
+    std::memcpy(&written, page(0).data(), sizeof(written));
+    found.journal = is_whole(written) ? written.begun : 0;
+  }
+  const CommitMark mark = mark_behind(found.record.end);
+  if (mark.end <= found_size)
+    read_file(mark.place, std::as_writable_bytes(std::span(&found.mark, 1)));
+  const std::uint64_t state = state_of(found);
+  if (found.journal != state) {  // that of a commit that did not begin
+    pages_.clear();
+    size_ = found_size;
+  }
+  return state;
+}
+
+std::uint64_t TransactionalFile::file_size() {
+  struct stat status;
+  if (::fstat(descriptor_, &status) != 0) fail(path_, opening(mode_), system_message());
+  return static_cast<std::uint64_t>(status.st_size);
+}
+
+CommitRecord TransactionalFile::stored_record() {
+  CommitRecord record;
+  if (!read_file(0, std::as_writable_bytes(std::span(&record, 1))))
+    fail(path_, opening(mode_), failure_);
+  return record;
+}
+
+bool TransactionalFile::is_still_there() {
+  const CommitRecord now = stored_record();
+  return now == *record_ || (is_whole(now) && now.begun == state_);
+}
+
+bool TransactionalFile::load_journal() {
+  const std::uint64_t file_size = size_;
   Trailer trailer;
   if (file_size < sizeof(trailer)) return false;
   const std::uint64_t end = file_size - sizeof(trailer);

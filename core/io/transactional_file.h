@@ -5,8 +5,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
+
+#include "core/io/commit_record.h"
 
 namespace vitrel {
 
@@ -18,12 +21,18 @@ namespace vitrel {
 /// pages before it stay in memory. `commit`
 ///   1. extends the file to its new size,
 ///   2. appends a journal: the changed pages, their places, and last a checksum,
-///   3. writes the pages to their places,
-///   4. cuts the journal off.
+///   3. notes in the CommitRecord, and behind the old end, that it begins,
+///   4. writes the pages to their places,
+///   5. notes in the record that it is done, and cuts the journal off.
 /// A process killed in 1 or 2 leaves the old content (and bytes beyond its end, which nothing
-/// refers to); killed in 3 or 4 it leaves a whole journal, and opening the file does 3 and 4 again
+/// refers to); killed later it leaves a whole journal, and opening the file does 4 and 5 again
 /// (in memory only, if it is opened for reading). The journal is part of the file, so that a copy
 /// has it too.
+///
+/// Files may be read while another process writes them: a reader sees the state of one commit, and after each access
+/// compares the record with that state. Bytes of a later one fail (`has_changed`); `refresh` goes on to that state. A copy
+/// that was made during commits, and so has pages of several states, is refused. Files without a record (of other programs, and
+/// of vitrel up to 0.2) can be read only while nobody writes them.
 ///
 /// Writing never fails towards the caller: the first failure is noted, everything after it is kept
 /// in memory, and `commit` reports it. One process at a time may write, by an advisory lock; where
@@ -31,7 +40,8 @@ namespace vitrel {
 class TransactionalFile {
  public:
   enum class Mode { read, write, create };
-  /// `create` starts an empty file, in place of one of the same name. Throws FileError.
+  /// `create` starts an empty file, in place of one of the same name; its first commit_record_block bytes are not the
+  /// caller's. Throws FileError.
   TransactionalFile(std::filesystem::path path, Mode mode);
   /// Gives up what was not committed.
   ~TransactionalFile();
@@ -43,11 +53,19 @@ class TransactionalFile {
   std::uint64_t size() const { return size_; }
   /// Why reading or writing failed first; empty if it did not.
   const std::string& failure() const { return failure_; }
+  /// The first byte that the caller may use for what is new.
+  std::uint64_t free_from() const;
+  /// Whether another process had the file open for writing when this one opened it.
+  bool is_being_written() const { return is_being_written_; }
+  /// Whether reading failed because another process has changed the file since it was opened, or refreshed.
+  bool has_changed() const { return has_changed_; }
+  /// Goes on to the present state of a file that is read. Throws FileError.
+  void refresh();
 
   /// Bytes beyond the end are 0. False on failure.
   bool read(std::uint64_t offset, std::span<std::byte> bytes);
   void write(std::uint64_t offset, std::span<const std::byte> bytes);
-  void resize(std::uint64_t size) { size_ = size; }
+  void resize(std::uint64_t size);
   /// Throws FileError; the file then has the content of the last commit (or, if step 3 failed, is
   /// completed by the next opening), and every later commit throws.
   void commit();
@@ -60,7 +78,10 @@ class TransactionalFile {
   static constexpr std::uint64_t page_size = 4096;
   using Page = std::array<std::byte, page_size>;
 
-  void lock();
+  void open();
+  void lock_for_writing();
+  void lock_for_reading();
+  bool try_lock(int kind);
   bool read_file(std::uint64_t offset, std::span<std::byte> bytes);
   bool write_file(std::uint64_t offset, std::span<const std::byte> bytes);
   bool set_file_size(std::uint64_t size);
@@ -70,7 +91,15 @@ class TransactionalFile {
   bool append_journal();
   bool apply_pages();
   void recover();
-  bool load_journal(std::uint64_t file_size);
+  void take_state();
+  std::uint64_t look_for_state();
+  std::uint64_t file_size();
+  bool load_journal();
+  CommitRecord stored_record();
+  void prepare_record();
+  bool write_record();
+  bool begin_changes();
+  bool is_still_there();
 
   std::filesystem::path path_;
   Mode mode_;
@@ -80,6 +109,10 @@ class TransactionalFile {
   std::map<std::uint64_t, Page> pages_;  ///< content that differs from the file's, by page number
   std::string failure_;
   bool journal_is_whole_ = false;
+  bool is_dirty_ = false;  ///< something was written since the last commit
+  std::optional<CommitRecord> record_;
+  std::uint64_t state_ = 0;  ///< the commit whose content is read
+  bool is_being_written_ = false, has_changed_ = false;
 };
 
 }  // namespace vitrel

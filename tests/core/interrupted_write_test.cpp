@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <signal.h>
 #include <sys/mman.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
@@ -7,6 +8,8 @@
 #include <cerrno>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <utility>
 
 #include "core/error.h"
 #include "core/io/checked.h"
@@ -15,15 +18,24 @@
 #include "core/io/transactional_file.h"
 
 /// Every system call that changes a file is counted; at a chosen one the process ends at once, as if
-/// killed, or the disk is full from then on.
+/// killed, or the disk is full from then on. At two of them it stops until it is told to go on.
 namespace {
 
-enum class Fault { none, kill, full_disk };
+enum class Fault { none, kill, full_disk, stop };
 Fault fault = Fault::none;
 long calls_before_fault = 0;
+long calls_between_stops = 0;
+
+void stop_at_two_calls() {
+  if (fault != Fault::stop || calls_before_fault-- > 0) return;
+  static_cast<void>(raise(SIGSTOP));
+  if (calls_between_stops == 0) fault = Fault::none;
+  calls_before_fault = std::exchange(calls_between_stops, 0) - 1;
+}
 
 bool fault_strikes() {
-  return fault != Fault::none && calls_before_fault-- <= 0;
+  stop_at_two_calls();
+  return (fault == Fault::kill || fault == Fault::full_disk) && calls_before_fault-- <= 0;
 }
 
 }  // namespace
@@ -43,7 +55,7 @@ extern "C" ssize_t pwrite(int descriptor, const void* data, size_t size, off_t o
 
 // NOLINTNEXTLINE(readability-inconsistent-declaration-parameter-name)
 extern "C" int ftruncate(int descriptor, off_t size) noexcept {
-  if (fault == Fault::kill && fault_strikes()) _exit(9);
+  if (fault != Fault::full_disk && fault_strikes()) _exit(9);
   return static_cast<int>(syscall(SYS_ftruncate, descriptor, size));
 }
 
@@ -140,6 +152,7 @@ class InterruptedTrajectory : public Interrupted {
     auto writer = TrajectoryWriter::append_to(file("run.h5"), first);
     for (std::uint64_t k = first; k < first + frames; ++k) {
       writer.write(frame(k), k);
+      writer.commit();
       ++*completed_;
     }
     writer.close();
@@ -185,6 +198,109 @@ TEST_F(InterruptedTrajectory, DiskFullAtEveryWrite) {
   EXPECT_GT(call, 50);
 }
 
+/// Another process adds frames, and stops at two of the calls that change the file.
+class TrajectoryBeingWritten : public InterruptedTrajectory {
+ protected:
+  ~TrajectoryBeingWritten() override {
+    if (child_ == 0) return;
+    static_cast<void>(kill(child_, SIGKILL));
+    static_cast<void>(waitpid(child_, nullptr, 0));
+  }
+
+  bool start(long first_call, long calls_between) {
+    fs::copy_file(file("start.h5"), file("run.h5"), fs::copy_options::overwrite_existing);
+    child_ = fork();
+    if (child_ != 0) return is_stopped();
+    fault = Fault::stop;
+    calls_before_fault = first_call;
+    calls_between_stops = calls_between;
+    auto writer = TrajectoryWriter::append_to(file("run.h5"), first + 2);
+    for (std::uint64_t k = first + 2; k < first + 2 + frames; ++k) {
+      writer.write(frame(k), k);
+      writer.commit();
+    }
+    writer.close();
+    _exit(0);
+  }
+  /// To the second stop, or to the end.
+  void go_on() {
+    if (child_ == 0) return;
+    checked(kill(child_, SIGCONT), "kill");
+    is_stopped();
+  }
+
+ private:
+  bool is_stopped() {
+    int status = 0;
+    checked(waitpid(child_, &status, WUNTRACED), "waitpid");
+    if (WIFSTOPPED(status)) return true;
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+    child_ = 0;
+    return false;
+  }
+  pid_t child_ = 0;
+};
+
+// Opened at each single write, and read again at later ones.
+TEST_F(TrajectoryBeingWritten, IsReadAsItWasAtOneCommit) {
+  long opened = 0;
+  for (const long later : {1, 4, 11, 1000}) {
+    for (long call = 1; start(call, later); ++call, ++opened) {
+      const TrajectoryReader reader(file("run.h5"));
+      const std::uint64_t found = reader.frames();
+      EXPECT_GE(found, first + 2);
+      EXPECT_EQ(reader.import_report().size(), 1u);
+      expect_frame(reader, found - 1);
+      go_on();
+      for (std::uint64_t k = first; k < found; ++k) expect_frame(reader, k);
+      expect_frame(reader, 0);
+      EXPECT_EQ(reader.frames(), found);
+      go_on();
+      if (HasFailure()) FAIL() << "call " << call << ", then " << later;
+    }
+  }
+  EXPECT_GT(opened, 200);
+}
+
+std::string bytes_from(const fs::path& path, std::size_t begin, std::size_t end) {
+  std::ifstream stream(path, std::ios::binary);
+  const std::string whole(std::istreambuf_iterator<char>(stream), {});
+  return whole.substr(std::min(begin, whole.size()), end - begin);
+}
+
+// The copy has its first bytes of one moment, and the others of a later one.
+TEST_F(TrajectoryBeingWritten, ASlowCopyHasFramesOfOneCommitOrIsRefused) {
+  int whole = 0, refused = 0;
+  for (const double part : {0.01, 0.2, 0.6, 0.95}) {
+    for (const long later : {1, 8, 30}) {
+      for (long call = 0; start(call, later); call += 3) {
+        const auto size = static_cast<double>(fs::file_size(file("run.h5")));
+        const auto begin = static_cast<std::size_t>(part * size);
+        std::string copy = bytes_from(file("run.h5"), 0, begin);
+        go_on();
+        copy += bytes_from(file("run.h5"), begin, std::string::npos);
+        std::ofstream(file("copy.h5"), std::ios::binary | std::ios::trunc) << copy;
+        try {
+          const TrajectoryReader reader(file("copy.h5"));
+          EXPECT_GE(reader.frames(), first + 2);
+          EXPECT_LE(reader.frames(), first + 2 + frames);
+          for (std::uint64_t k = 0; k < reader.frames(); ++k) expect_frame(reader, k);
+          ++whole;
+        } catch (const FileError& error) {
+          EXPECT_NE(std::string(error.what()).find("copied while another process wrote it"),
+                    std::string::npos)
+              << error.what();
+          ++refused;
+        }
+        go_on();
+        if (HasFailure()) FAIL() << "call " << call << ", then " << later << ", part " << part;
+      }
+    }
+  }
+  EXPECT_GT(whole, 100);
+  EXPECT_GT(refused, 100);
+}
+
 TEST_F(Interrupted, ANewFileIsThereWholeOrNotAtAll) {
   for (const Fault kind : {Fault::kill, Fault::full_disk}) {
     long call = 0;
@@ -221,30 +337,30 @@ std::span<const std::byte> bytes(const std::string& text) {
   return std::as_bytes(std::span(text));
 }
 
-std::string content(TransactionalFile& file) {
-  std::string text(file.size(), '?');
-  EXPECT_TRUE(file.read(0, std::as_writable_bytes(std::span(text))));
-  return text;
-}
-
 TEST_F(Interrupted, NothingShowsBeforeTheCommit) {
   using Mode = TransactionalFile::Mode;
+  const auto begin = commit_record_block;
+  const auto content = [](TransactionalFile& file) {
+    std::string text(file.size() - begin, '?');
+    EXPECT_TRUE(file.read(begin, std::as_writable_bytes(std::span(text))));
+    return text;
+  };
   {
     TransactionalFile file(this->file("f"), Mode::create);
-    file.write(0, bytes(std::string(10'000, 'a')));
+    file.write(begin, bytes(std::string(10'000, 'a')));
     file.commit();
-    file.write(5'000, bytes(std::string(20'000, 'b')));
+    EXPECT_EQ(file.free_from(), begin + 10'008);
+    file.write(begin + 5'000, bytes(std::string(20'000, 'b')));
     EXPECT_EQ(content(file), std::string(5'000, 'a') + std::string(20'000, 'b'));
   }
   TransactionalFile file(this->file("f"), Mode::write);
   EXPECT_EQ(content(file), std::string(10'000, 'a'));
-  file.resize(3);
-  file.write(1, bytes("bc"));
+  file.write(begin + 1, bytes("bc"));
   file.commit();
-  EXPECT_EQ(content(file), "abc");
-  file.resize(8'000);
+  EXPECT_EQ(content(file).substr(0, 10'000), "abc" + std::string(9'997, 'a'));
+  file.resize(begin + 20'000);
   file.commit();
-  EXPECT_EQ(content(file), "abc" + std::string(7'997, '\0'));
+  EXPECT_EQ(content(file).substr(10'016), std::string(9'984, '\0'));
 }
 
 }  // namespace

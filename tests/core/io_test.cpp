@@ -1,5 +1,8 @@
+#include <fcntl.h>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 #include <sys/mount.h>
 #include <unistd.h>
 
@@ -333,6 +336,7 @@ TEST_F(TrajectoryFile, ACopyTakenDuringTheRunIsCompleteAndCanBeContinued) {
                                          some_provenance(), with_everything);
   for (std::uint64_t k = 0; k <= 70; ++k) {
     if (k % 10 == 0) {
+      writer.commit();
       fs::copy_file(file("run.h5"), file("copy.h5"), fs::copy_options::overwrite_existing);
       EXPECT_EQ(TrajectoryReader(file("copy.h5")).frames(), k);
       auto continued = TrajectoryWriter::append_to(file("copy.h5"), k);
@@ -437,14 +441,38 @@ TEST_F(TrajectoryFile, UnwritableFolderIsNamed) {
               HasSubstr("No such file or directory"));
 }
 
-TEST_F(TrajectoryFile, AFileBeingWrittenCannotBeOpenedTwice) {
-  const auto writer =
-      TrajectoryWriter::create(file("run.h5"), random_configuration(4, 0), some_provenance());
-  for (const auto& open :
-       std::vector<std::function<void()>>{[&] { TrajectoryWriter::append_to(file("run.h5"), 0); },
-                                          [&] { TrajectoryReader reader(file("run.h5")); }})
-    EXPECT_THAT(file_error(open),
-                HasSubstr("run.h5: cannot open the file: another program has it open"));
+TEST_F(TrajectoryFile, AFileBeingWrittenCanBeReadButHasOneWriter) {
+  auto writer = TrajectoryWriter::create(file("run.h5"), random_configuration(12, 0),
+                                         some_provenance(), with_everything);
+  write_frames(writer, 0, 3);
+  writer.commit();
+  const TrajectoryReader reader(file("run.h5"));
+  EXPECT_EQ(reader.import_report(),
+            (ImportReport{{in_progress, fmt::format("another process is writing it; read up to the "
+                                                    "time {:.10g} (3 frames)",
+                                                    reader.times().back())}}));
+  for (std::uint64_t k = 3; k < 200; ++k) {
+    write_frames(writer, k, k + 1);
+    writer.commit();
+    EXPECT_EQ(reader.frames(), 3u);
+    expect_same_bits(reader.read<2>(k % 3), random_configuration(12, k % 3));
+    EXPECT_EQ(reader.observable("energy").size(), 3u);
+  }
+  EXPECT_THAT(file_error([&] { TrajectoryWriter::append_to(file("run.h5"), 0); }),
+              HasSubstr("run.h5: cannot open the file: another program has it open"));
+  writer.close();
+  EXPECT_TRUE(TrajectoryReader(file("run.h5")).import_report().empty());
+  expect_frames(file("run.h5"), 200);
+}
+
+// As HDF5 itself locks them; nothing in such a file tells its states apart.
+TEST_F(TrajectoryFile, AFileThatAnotherProgramWritesIsRefused) {
+  write_run(file("run.h5"), 2);
+  const int other = open(file("run.h5").c_str(), O_RDWR);
+  ASSERT_EQ(flock(other, LOCK_EX | LOCK_NB), 0);
+  EXPECT_THAT(file_error([&] { TrajectoryReader reader(file("run.h5")); }),
+              HasSubstr("run.h5: cannot open the file: another program has it open"));
+  static_cast<void>(close(other));
 }
 
 /// The least that H5MD and this program ask for, as another program may write it: two-dimensional,
@@ -626,10 +654,12 @@ TEST_F(SmallDisk, WhenFullTheFramesBeforeAreKeptAndTheRunGoesOnLater) {
     auto writer = TrajectoryWriter::create(path, random_configuration(500, 0), some_provenance(),
                                            with_everything);
     const std::string message = file_error([&] {
-      for (; frames < 1000; ++frames) write_frames(writer, frames, frames + 1, 500);
+      for (; frames < 1000; ++frames) {
+        write_frames(writer, frames, frames + 1, 500);
+        writer.commit();
+      }
     });
     EXPECT_THAT(message, HasSubstr(path.string() + ": cannot write: No space left on device"));
-    EXPECT_EQ(writer.frames(), frames);
   }
   EXPECT_GT(frames, 5u);
   EXPECT_EQ(TrajectoryReader(path).frames(), frames);

@@ -70,10 +70,10 @@ std::vector<std::size_t> movie_room(std::size_t runs) {
   return room;
 }
 
-/// Of wall time, over the whole run; NaN if not recorded.
+/// Of wall time, over the whole run; NaN if not recorded, as of a run in progress.
 double collisions_per_second(const TrajectoryReader& reader) {
   const double seconds = reader.provenance().wall_seconds;
-  if (!(seconds > 0) || !reader.has_observable("collisions"))
+  if (!(seconds > 0) || !reader.import_report().empty() || !reader.has_observable("collisions"))
     return std::numeric_limits<double>::quiet_NaN();
   return reader.observable("collisions").back() / seconds;
 }
@@ -121,6 +121,8 @@ void add_runs(const std::vector<AnalysedRun>& runs, const KnownSystem& known, Re
     if (k > 0) continue;
     add_titles(runs, trajectory.read(0), data);
     data.parameters += trajectory.reader().provenance().parameters;
+    if (runs.size() > 1) continue;
+    for (const auto& row : trajectory.reader().import_report()) data.provenance.push_back(row);
   }
 }
 

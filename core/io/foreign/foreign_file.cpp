@@ -304,7 +304,11 @@ ImportedFile convert(const fs::path& path, OpenFrames& open, const KnownSystem& 
 std::optional<h5::File> own_file(const fs::path& path, const ImportOptions& options) {
   if (&format_of(path, options) != &h5md_format) return std::nullopt;
   h5::File file = h5::File::open(path, h5::Access::read);
-  return is_own(file.root()) ? std::optional(std::move(file)) : std::nullopt;
+  for (;;) try {
+      return is_own(file.root()) ? std::optional(std::move(file)) : std::nullopt;
+    } catch (const h5::ChangedFile&) {  // another process writes it
+      file.reopen();
+    }
 }
 
 }  // namespace

@@ -11,8 +11,10 @@
 namespace vitrel {
 
 /// What an import read, and what became of it, in the order in which it is printed: a heading ("format", "read",
-/// "absent", "converted", "box crossings", "skipped") and a text for each.
+/// "absent", "converted", "box crossings", "skipped") and a text for each. Of vitrel's own files nothing, or `in_progress`
+/// alone: up to where a file that is being written was read.
 using ImportReport = std::vector<std::pair<std::string, std::string>>;
+inline constexpr const char* in_progress = "in progress";
 
 /// A file in vitrel's own form of H5MD.
 struct ImportedFile {

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+namespace vitrel {
+
+/// The first bytes of a file that changes by commits (TransactionalFile), in a block that HDF5 leaves to its user. By it a
+/// reader knows which state of the file it sees, and that all it has read belongs to that state. Commits are counted from 1.
+struct CommitRecord {
+  std::array<char, 8> magic{'v', 't', 'r', 'l', 'c', 'm', 't', '1'};
+  std::uint64_t begun = 0;       ///< the last commit that began to change earlier content
+  std::uint64_t done = 0;        ///< the last one that ended
+  std::uint64_t end = 0;         ///< the size of the file by the commit `done`
+  std::uint64_t is_written = 0;  ///< 1 while a writer has the file open, and after one was killed
+  std::uint64_t checksum = 0;    ///< of the numbers above
+  bool operator==(const CommitRecord&) const = default;
+};
+
+/// The bytes that HDF5 leaves free for it, a power of two.
+constexpr std::uint64_t commit_record_block = 512;
+
+bool has_magic(const CommitRecord& record);
+bool is_whole(const CommitRecord& record);
+CommitRecord with_checksum(CommitRecord record);
+
+/// Before a commit changes anything it leaves a mark behind the end of the earlier content, too. Whoever reads a file from its
+/// first byte to its last, as one who copies it does, meets the mark after all that changes, and so learns of it.
+struct CommitMark {
+  std::uint64_t place;  ///< in the file
+  std::uint64_t end;    ///< the first byte after it
+};
+CommitMark mark_behind(std::uint64_t end);
+std::uint64_t mark_of(std::uint64_t commit);
+
+/// What a reader finds in a file, in this order.
+struct FoundCommits {
+  CommitRecord record;
+  std::optional<std::uint64_t> journal;  ///< the commit whose journal the file ends with
+  std::uint64_t mark;                    ///< what stands behind record.end
+};
+/// The commit whose state these are; 0 if the bytes of a reader may be of several.
+std::uint64_t state_of(const FoundCommits& found);
+
+}  // namespace vitrel
