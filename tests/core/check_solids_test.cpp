@@ -202,7 +202,7 @@ TEST(ExactCheckOfSolids, CellsFindWhatAllPairsFind) {
       random_state(1000, {40, 30, 20}, 2, 1),  // many cells
       random_state(200, {60, 12, 7}, 4, 2),    // one or two cells across
       random_state(20, {6, 7, 5}, 20, 3),      // several images of each pair
-      random_state(200, {60, 70, 80}, 20, 4),  // dilute
+      random_state(600, {60, 70, 80}, 20, 4),  // dilute
   };
   for (const Configuration3& state : states) {
     const ExactCheck<3> all_pairs = exact_check(state);

@@ -77,7 +77,7 @@ TYPED_TEST(RoundContacts, TellTheEarliestAndItsTime) {
   const double contact_gap = tolerance::contact_gap(20), now = 1.7;
   const CommonSize common = grows<TypeParam> ? CommonSize{1.2, 0.3} : CommonSize{};
   int met = 0, none = 0, limited = 0;
-  for (int trial = 0; trial < 20'000; ++trial) {
+  for (int trial = 0; trial < 40'000; ++trial) {
     const double radius = draw.uniform(0.5, 1.5);
     const Position mine = 3 * this->random_direction(draw), velocity = this->random_direction(draw);
     EarliestRoundContact<TypeParam> earliest(radius, mine, velocity, now, common, contact_gap);
