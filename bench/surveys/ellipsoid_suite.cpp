@@ -43,9 +43,13 @@ Solid thermal(Stream& draw, const Ellipsoid& shape) {
   return {{shape, 1, 0}, {Vec3::Zero(), q}, {velocity, thermal_turning(draw, shape, q)}};
 }
 
+Solid any_body(Stream& draw, double kappa) {
+  const Ellipsoid shape = any_shape(draw, kappa);
+  return thermal(draw, shape);
+}
+
 EllipsoidCase thermal_pair(Stream& draw, double kappa) {
-  const Solid one = thermal(draw, any_shape(draw, kappa));
-  return {one, thermal(draw, any_shape(draw, kappa)), usual_horizon};
+  return {any_body(draw, kappa), any_body(draw, kappa), usual_horizon};
 }
 
 /// Only the rotation of scalene bodies differs.
@@ -108,7 +112,8 @@ void delay(EllipsoidCase& pair, double time) {
 }
 
 EllipsoidCase generic(Stream& draw, double kappa) {
-  return placed_apart(draw, thermal_pair(draw, kappa), 0.2, 1.2);
+  const EllipsoidCase pair = thermal_pair(draw, kappa);
+  return placed_apart(draw, pair, 0.2, 1.2);
 }
 
 template <bool tumble>
@@ -146,12 +151,16 @@ EllipsoidCase fast_rotation(Stream& draw, double kappa) {
 }
 
 EllipsoidCase drawn_aspect_ratios(Stream& draw, double largest) {
-  const Solid one = thermal(draw, any_shape(draw, log_uniform(draw, 1, largest)));
-  return {one, thermal(draw, any_shape(draw, log_uniform(draw, 1, largest))), usual_horizon};
+  const auto body = [&] {
+    const double kappa = log_uniform(draw, 1, largest);
+    return any_body(draw, kappa);
+  };
+  return {body(), body(), usual_horizon};
 }
 
 EllipsoidCase aspect_ratios(Stream& draw, double largest) {
-  return placed_apart(draw, drawn_aspect_ratios(draw, largest), 0.2, 1.2);
+  const EllipsoidCase pair = drawn_aspect_ratios(draw, largest);
+  return placed_apart(draw, pair, 0.2, 1.2);
 }
 
 EllipsoidCase sizes(Stream& draw, double largest) {

@@ -165,8 +165,10 @@ double ns_per_psi(double seconds) {
   std::vector<Pair> asked;
   Stream draw(1, Purpose::benchmark_cases);
   const auto angle = [&] { return draw.uniform(0, 2 * std::numbers::pi); };
-  for (std::size_t k = 0; k < pairs; ++k)
-    asked.push_back({angle(), angle(), draw.uniform(1.5, 3) * direction(angle())});
+  for (std::size_t k = 0; k < pairs; ++k) {
+    const double distance = draw.uniform(1.5, 3);
+    asked.push_back({angle(), angle(), distance * direction(angle())});
+  }
   double best = std::numeric_limits<double>::infinity(), sum = 0;
   for (const double begin = processor_seconds(); processor_seconds() - begin < seconds;) {
     constexpr int passes = 20;

@@ -79,7 +79,8 @@ CollisionCase placed_apart(Stream& draw, CollisionCase pair, double nearest, dou
 }
 
 CollisionCase close_pair(Stream& draw, const Ellipse& e1, const Ellipse& e2) {
-  return placed_apart(draw, thermal_pair(draw, e1, e2), 0.2, 1.2);
+  const CollisionCase pair = thermal_pair(draw, e1, e2);
+  return placed_apart(draw, pair, 0.2, 1.2);
 }
 
 /// Support function of an ellipse of constant size and its derivatives with the angle of n.
@@ -164,8 +165,8 @@ CollisionCase fast_rotation(Stream& draw, double kappa) {
 }
 
 CollisionCase aspect_ratios(Stream& draw, double largest) {
-  const Ellipse one = of_unit_area(log_uniform(draw, 1, largest));
-  return close_pair(draw, one, of_unit_area(log_uniform(draw, 1, largest)));
+  const double kappa1 = log_uniform(draw, 1, largest), kappa2 = log_uniform(draw, 1, largest);
+  return close_pair(draw, of_unit_area(kappa1), of_unit_area(kappa2));
 }
 
 CollisionCase sizes(Stream& draw, double largest) {
@@ -260,7 +261,8 @@ CollisionCase parallel_sides(Stream& draw, double kappa) {
     pair.two.pose.angle = pair.one.pose.angle + off();
     pair.two.motion.angular_velocity = pair.one.motion.angular_velocity + off();
     pair.two.motion.velocity = pair.one.motion.velocity + 0.1 * thermal_velocity(draw);
-    pair = meeting(draw, pair, pair.one.pose.angle + pi / 2 + 0.1 * draw.normal() / kappa);
+    const double normal_angle = pair.one.pose.angle + pi / 2 + 0.1 * draw.normal() / kappa;
+    pair = meeting(draw, pair, normal_angle);
   } while (pair.horizon == 0);
   return pair;
 }
@@ -279,7 +281,8 @@ CollisionCase tip(Stream& draw, double kappa) {
 CollisionCase large_coordinates(Stream& draw, double kappa) {
   const Ellipse ellipse = of_unit_area(kappa);
   const Vec2 far = 1e6 * ellipse.a * unit(any_angle(draw));
-  return placed_apart(draw, thermal_pair(draw, ellipse, ellipse), 0.2, 1.2, far);
+  const CollisionCase pair = thermal_pair(draw, ellipse, ellipse);
+  return placed_apart(draw, pair, 0.2, 1.2, far);
 }
 
 CollisionCase growth(Stream& draw, double kappa) {

@@ -18,7 +18,7 @@ Configuration2 gas(std::size_t n, std::uint64_t seed) {
   c.box = PeriodicBox<2>(Vec2(12, 10));
   for (std::size_t i = 0; i < n; ++i) {
     c.shape[i] = {1, 1};
-    c.position[i] = Vec2(draw.uniform(-6, 6), draw.uniform(-5, 5));
+    c.position[i] = Vec2{draw.uniform(-6, 6), draw.uniform(-5, 5)};
   }
   return c;
 }

@@ -20,7 +20,7 @@ Configuration2 ideal_gas(std::size_t n, std::uint64_t seed) {
   configuration.box = PeriodicBox<2>(Vec2(14, 9));
   Stream draw(seed, Purpose::tests, 1);
   for (Vec2& position : configuration.position)
-    position = Vec2(draw.uniform(-7, 7), draw.uniform(-4.5, 4.5));
+    position = Vec2{draw.uniform(-7, 7), draw.uniform(-4.5, 4.5)};
   return configuration;
 }
 

@@ -35,7 +35,7 @@ std::vector<Configuration2> gases(std::size_t frames, bool breathing) {
     for (std::size_t i = 0; i < c.size(); ++i) {
       c.species[i] = i % 3 == 0;
       c.shape[i] = of_aspect_ratio(2);
-      c.position[i] = lengths.cwiseProduct(Vec2(draw.uniform(-0.5, 0.5), draw.uniform(-0.5, 0.5)));
+      c.position[i] = lengths.cwiseProduct(Vec2{draw.uniform(-0.5, 0.5), draw.uniform(-0.5, 0.5)});
       c.angle[i] = draw.uniform(-pi, pi);
     }
     all.push_back(c);

@@ -46,7 +46,7 @@ void fly(Configuration2& c, Stream& draw) {
   c.time += step;
   for (std::size_t i = 0; i < c.size(); ++i) {
     const double speed = std::sqrt(1 / c.mass[i]);
-    c.position[i] += step * Vec2(speed * draw.normal(), speed * draw.normal());
+    c.position[i] += step * Vec2{speed * draw.normal(), speed * draw.normal()};
     c.box.wrap(c.position[i], c.image[i]);
     c.angle[i] += step * draw.normal() / std::sqrt(c.inertia(i));
   }

@@ -30,10 +30,10 @@ Configuration3 random_solids(std::size_t n, double longest) {
   packing.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     packing.position[i] = packing.box.lengths().cwiseProduct(
-        Vec3(draw.uniform(-0.5, 0.5), draw.uniform(-0.5, 0.5), draw.uniform(-0.5, 0.5)));
+        Vec3{draw.uniform(-0.5, 0.5), draw.uniform(-0.5, 0.5), draw.uniform(-0.5, 0.5)});
     packing.orientation[i] = random_orientation(draw);
     packing.shape[i] = {
-        Vec3(draw.uniform(0.05, longest), draw.uniform(0.05, 0.5), draw.uniform(0.05, 0.5))};
+        Vec3{draw.uniform(0.05, longest), draw.uniform(0.05, 0.5), draw.uniform(0.05, 0.5)}};
   }
   return packing;
 }
@@ -111,7 +111,7 @@ TEST(MeetsBox, AgreesWithDescentAlongTheCoordinates) {
   int meeting = 0, clear = 0;
   for (int k = 0; k < 3000; ++k) {
     const Ellipsoid body{
-        Vec3(draw.uniform(0.05, 2), draw.uniform(0.05, 1), draw.uniform(0.05, 0.5))};
+        Vec3{draw.uniform(0.05, 2), draw.uniform(0.05, 1), draw.uniform(0.05, 0.5)}};
     const Pose3 pose{1.5 * random_vector(draw), random_orientation(draw)};
     const double least = min_by_descent(body, pose, box);
     EXPECT_GT(std::abs(least - 1), 1e-7) << "undecided";
@@ -145,7 +145,7 @@ TEST(BodiesInBox, AreThoseThatHoldPointsOfTheBox) {
   constexpr int points = 4000;
   for (int k = 0; k < points; ++k) {
     const Vec3 x = lengths.cwiseProduct(
-        Vec3(draw.uniform(-0.5, 0.5), draw.uniform(-0.5, 0.5), draw.uniform(-0.5, 0.5)));
+        Vec3{draw.uniform(-0.5, 0.5), draw.uniform(-0.5, 0.5), draw.uniform(-0.5, 0.5)});
     for (std::size_t i = 0; i < packing.size(); ++i)
       packing.box.for_each_image(x - packing.position[i], 1.7, [&](const Shift<3>& s, const Vec3&) {
         const Pose3 pose{packing.position[i] + packing.box.translation(-s), packing.orientation[i]};

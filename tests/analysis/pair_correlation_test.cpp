@@ -21,7 +21,7 @@ Configuration2 gas(std::size_t n, const Vec2& lengths, std::uint64_t seed) {
   Stream draw(seed, Purpose::tests);
   for (std::size_t i = 0; i < n; ++i) {
     c.shape[i] = i % 4 == 0 ? Ellipse{1, 1} : of_aspect_ratio(2);
-    c.position[i] = lengths.cwiseProduct(Vec2(draw.uniform(-0.5, 0.5), draw.uniform(-0.5, 0.5)));
+    c.position[i] = lengths.cwiseProduct(Vec2{draw.uniform(-0.5, 0.5), draw.uniform(-0.5, 0.5)});
     c.angle[i] = draw.uniform(-pi, pi);
   }
   return c;
@@ -120,7 +120,7 @@ Configuration3 solid_gas(std::size_t n, const Vec3& lengths, std::uint64_t seed)
     if (i % 3 == 0) continue;
     c.shape[i].semi_axes = Vec3(1, 1, 2);
     c.orientation[i] =
-        Quaternion(draw.normal(), draw.normal(), draw.normal(), draw.normal()).normalized();
+        Quaternion{draw.normal(), draw.normal(), draw.normal(), draw.normal()}.normalized();
   }
   return c;
 }

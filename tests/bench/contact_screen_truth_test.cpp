@@ -81,7 +81,8 @@ Scene random_scene(Stream& draw, double largest_aspect_ratio, double growth) {
     Partner partner;
     partner.shape = random_ellipse(draw, largest_aspect_ratio);
     const double reach = scene.common.size * (scene.shape.a + partner.shape.a);
-    partner.pose = {draw.uniform(0.2, 1.3) * reach * random_direction(draw), draw.uniform(-10, 10)};
+    const double distance = draw.uniform(0.2, 1.3) * reach;
+    partner.pose = {distance * random_direction(draw), draw.uniform(-10, 10)};
     partner.motion = random_motion(draw);
     // Sizes must not become negative.
     const double shrinking = std::max(-scene.common.growth_rate, 1e-3);

@@ -26,7 +26,7 @@ Configuration3 gas() {
   Stream draw(3, Purpose::tests);
   for (std::size_t i = 0; i < c.size(); ++i) {
     c.mass[i] = 1140 * 4 * std::numbers::pi / 3 * 1e-3;
-    c.velocity[i] = 1.2 * Vec3(draw.normal(), draw.normal(), draw.normal());
+    c.velocity[i] = 1.2 * Vec3{draw.normal(), draw.normal(), draw.normal()};
   }
   return c;
 }
@@ -40,7 +40,7 @@ Configuration2 gas_of_disks() {
   Stream draw(4, Purpose::tests);
   for (std::size_t i = 0; i < c.size(); ++i) {
     c.mass[i] = 1140 * 4 * std::numbers::pi / 3 * std::pow(c.shape[i].circumradius(), 3);
-    c.velocity[i] = 1.2 * Vec2(draw.normal(), draw.normal());
+    c.velocity[i] = 1.2 * Vec2{draw.normal(), draw.normal()};
   }
   return c;
 }

@@ -58,7 +58,8 @@ CollisionCase random_case(std::uint64_t number) {
   const bool growing = number % 2 == 1;
   const double distance = draw.uniform(0.5, 8);
   const double angle = draw.uniform(0, 2 * pi);
-  const auto one = random_flight(draw, {draw.normal(), draw.normal()}, growing);
+  const Vec2 first{draw.normal(), draw.normal()};
+  const auto one = random_flight(draw, first, growing);
   const Vec2 second = one.pose.position + distance * Vec2(std::cos(angle), std::sin(angle));
   return {one, random_flight(draw, second, growing), 2};
 }
@@ -234,8 +235,8 @@ TEST(Bracket, OverlapOfCirclesIsOneInterval) {
   Stream draw(1, Purpose::tests, 4);
   int overlaps = 0;
   for (int pair = 0; pair < 1000; ++pair) {
-    const Vec2 d(3 * draw.normal(), 3 * draw.normal());
-    const Vec2 v(draw.normal(), draw.normal());
+    const Vec2 d{3 * draw.normal(), 3 * draw.normal()};
+    const Vec2 v{draw.normal(), draw.normal()};
     const double radius = draw.uniform(0, 2);
     const double growth = pair % 3 == 0 ? 0 : draw.uniform(-0.5 * radius, 3);
     const auto overlap = circle_overlap(d, v, radius, growth, 2);
@@ -259,7 +260,7 @@ TEST(EllipseConstraint, DerivativesAreThoseOfItsValue) {
     const EllipseConstraint constraint(asked.one);
     Stream draw(1, Purpose::tests, 5, number);
     const double time = draw.uniform(0, 2);
-    const Vec2 point(2 * draw.normal(), 2 * draw.normal());
+    const Vec2 point{2 * draw.normal(), 2 * draw.normal()};
     const EllipseFunction e = constraint.with_hessian(time, point);
     Vec3 gradient;
     const double scale = 1 + e.hessian.norm() + e.gradient.norm() + std::abs(e.value);
@@ -298,7 +299,7 @@ TEST(ClosestToOrigin, IsClosestOfTheBoundary) {
   for (int ellipse = 0; ellipse < 300; ++ellipse) {
     Mat2 m;
     m << draw.normal(), draw.normal(), draw.normal(), draw.normal();
-    Vec2 c(2 * draw.normal(), 2 * draw.normal());
+    Vec2 c{2 * draw.normal(), 2 * draw.normal()};
     if (ellipse % 10 == 1) m = Vec2(draw.uniform(1, 3), 1).asDiagonal();
     if (ellipse % 10 == 1) c = {0, draw.uniform(0, 3)};  // the origin on an axis: the hard case
     if (ellipse % 10 == 2) c = {0, 0};

@@ -38,21 +38,19 @@ Conserved conserved(const TaylorTop& top, const Ellipsoid& shape, Real time) {
 }
 
 Quaternion any_orientation(Stream& draw) {
-  const double x = draw.normal(), y = draw.normal(), z = draw.normal();
-  return Quaternion(draw.normal(), x, y, z).normalized();
+  return Quaternion{draw.normal(), draw.normal(), draw.normal(), draw.normal()}.normalized();
 }
 Vec3 any_vector(Stream& draw) {
-  const double x = draw.normal(), y = draw.normal();
-  return {x, y, draw.normal()};
+  return {draw.normal(), draw.normal(), draw.normal()};
 }
 
 // Some 40 units in the last place of 80 bits, after hundreds of steps; also where the body turns backwards in time.
 TEST(TaylorTop, ConservesMomentumAndEnergyTo1em17) {
   Stream draw(1, Purpose::tests);
   for (int trial = 0; trial < 20; ++trial) {
-    const Ellipsoid shape{Vec3(draw.uniform(1, 20), draw.uniform(1, 20), 1)};
+    const Ellipsoid shape{Vec3{draw.uniform(1, 20), draw.uniform(1, 20), 1}};
     const double end = trial % 2 == 0 ? 20 : -20;
-    const TaylorTop top(shape, any_orientation(draw), 3 * any_vector(draw), end);
+    const TaylorTop top{shape, any_orientation(draw), 3 * any_vector(draw), end};
     const Conserved start = conserved(top, shape, 0);
     for (int k = 1; k <= 10; ++k) {
       const Conserved now = conserved(top, shape, 0.1L * k * end);
@@ -117,7 +115,7 @@ TEST(TaylorTop, ContinuesItself) {
 TEST(TaylorTop, AgreesWithTheClosedForm) {
   Stream draw(3, Purpose::tests);
   for (int trial = 0; trial < 200; ++trial) {
-    const Ellipsoid shape{Vec3(draw.uniform(1, 10), 1, draw.uniform(1, 10))};
+    const Ellipsoid shape{Vec3{draw.uniform(1, 10), 1, draw.uniform(1, 10)}};
     const Quaternion orientation = any_orientation(draw);
     const Vec3 omega = any_vector(draw);
     const TaylorTop series(shape, orientation, omega, 10);

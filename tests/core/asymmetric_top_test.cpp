@@ -58,8 +58,7 @@ struct Body {
 };
 
 Body random_body(Stream& draw) {
-  return {random_ellipsoid(draw, 10), random_orientation(draw),
-          draw.uniform(0.1, 3) * random_direction(draw)};
+  return {random_ellipsoid(draw, 10), random_orientation(draw), random_vector(draw, 0.1, 3)};
 }
 
 int middle_axis(const Ellipsoid& shape) {
@@ -72,7 +71,8 @@ int middle_axis(const Ellipsoid& shape) {
 // Almost about the middle axis, by down to 1e-12.
 Body near_the_separatrix(Stream& draw) {
   Body body = random_body(draw);
-  Vec3 own = std::pow(10, draw.uniform(-12, -1)) * random_direction(draw);
+  const double deviation = std::pow(10, draw.uniform(-12, -1));
+  Vec3 own = deviation * random_direction(draw);
   own[middle_axis(body.shape)] = 1;
   body.angular_velocity = body.orientation * own;
   return body;

@@ -61,12 +61,12 @@ TEST(Capsules, AreToldApartWhenTheyAre) {
     Capsule one{length1 * random_direction(draw), draw.uniform(0.1, 1)};
     Capsule two{length2 * random_direction(draw), draw.uniform(0.1, 1)};
     if (n % 10 == 0) one.half = Vec3::Zero();
-    if (n % 10 >= 7)  // nearly parallel, to any degree
+    if (n % 10 >= 7) {  // nearly parallel, to any degree
+      const double deviation = std::pow(10, draw.uniform(-17, -1));
       two.half =
-          (one.half.normalized() + std::pow(10, draw.uniform(-17, -1)) * random_direction(draw))
-              .normalized() *
-          length2;
-    const Vec3 d = draw.uniform(0, 1.5 * (length1 + length2)) * random_direction(draw);
+          length2 * (one.half.normalized() + deviation * random_direction(draw)).normalized();
+    }
+    const Vec3 d = random_vector(draw, 0, 1.5 * (length1 + length2));
     const double reach = one.radius + two.radius,
                  truth = distance_of_segments(one.half, two.half, d);
     const double limit =

@@ -32,7 +32,7 @@ TEST(CellGrid, FindsEveryImageOnceInBoxesOfAnySize) {
     CellGrid<2> grid(box, reach, n);
     std::vector<Vec2> points(n);
     const auto place = [&] {
-      return Vec2(draw.uniform(-0.5, 0.5) * side, draw.uniform(-0.5, 0.5) * 1.7 * side);
+      return Vec2{draw.uniform(-0.5, 0.5) * side, draw.uniform(-0.5, 0.5) * 1.7 * side};
     };
     for (std::size_t i = 0; i < n; ++i) grid.insert(i, points[i] = place());
     for (std::size_t i = 0; i < 3 * n; i += 2) grid.move(i % n, points[i % n] = place());

@@ -190,9 +190,10 @@ Configuration3 random_state(int n, const Vec3& lengths, double aspect, std::uint
   Stream draw(seed, Purpose::tests);
   Configuration3 configuration = empty_box<3>(lengths);
   for (int i = 0; i < n; ++i) {
-    const Vec3 place(draw.uniform(-0.5, 0.5), draw.uniform(-0.5, 0.5), draw.uniform(-0.5, 0.5));
-    add(configuration, scaled(random_ellipsoid(draw, aspect), draw.uniform(0.3, 1)),
-        place.cwiseProduct(lengths), random_orientation(draw));
+    const Vec3 place{draw.uniform(-0.5, 0.5), draw.uniform(-0.5, 0.5), draw.uniform(-0.5, 0.5)};
+    const double size = draw.uniform(0.3, 1);
+    const Ellipsoid shape = scaled(random_ellipsoid(draw, aspect), size);
+    add(configuration, shape, place.cwiseProduct(lengths), random_orientation(draw));
   }
   return configuration;
 }
@@ -233,7 +234,7 @@ TEST(ExactCheckOfSolids, SmallestGapIsTheSupportGapOfDisjointPairs) {
     const Ellipsoid two = scaled(random_ellipsoid(draw, 20), 0.1);
     const double reach = one.circumradius() + two.circumradius();
     const Quaternion turn1 = random_orientation(draw), turn2 = random_orientation(draw);
-    const Vec3 d = draw.uniform(0, 1.5) * reach * random_direction(draw);
+    const Vec3 d = random_vector(draw, 0, 1.5 * reach);
     const double gap = support_gap(one, turn1, two, turn2, d).gap;
     if (gap <= 0 || gap >= one.circumradius()) continue;
     ++compared;

@@ -150,8 +150,9 @@ Configuration2 random_state(int n, double x, double y, std::uint64_t seed) {
   Configuration2 configuration = empty_box<2>({x, y});
   for (int i = 0; i < n; ++i) {
     const double b = draw.uniform(0.2, 1);
-    add(configuration, {b * draw.uniform(1, 5), b},
-        {draw.uniform(-0.5, 0.5) * x, draw.uniform(-0.5, 0.5) * y}, draw.uniform(-9, 9));
+    const Ellipse shape{b * draw.uniform(1, 5), b};
+    const Vec2 place{draw.uniform(-0.5, 0.5) * x, draw.uniform(-0.5, 0.5) * y};
+    add(configuration, shape, place, draw.uniform(-9, 9));
   }
   return configuration;
 }
@@ -188,7 +189,7 @@ TEST(ExactCheck, SmallestGapIsTheSupportGapOfDisjointPairs) {
     const Ellipse one{draw.uniform(1, 20), 1}, two{draw.uniform(0.1, 5), 0.1};
     const double reach = one.a + two.a;
     const double angle1 = draw.uniform(-pi, pi), angle2 = draw.uniform(-pi, pi);
-    const Vec2 d = reach * Vec2(draw.uniform(-1, 1), draw.uniform(-1, 1));
+    const Vec2 d = reach * Vec2{draw.uniform(-1, 1), draw.uniform(-1, 1)};
     const double gap = support_gap(one, angle1, two, angle2, d).gap;
     if (gap <= 0 || gap >= one.a) continue;
     ++compared;

@@ -101,15 +101,15 @@ Pose2 random_pose(Stream& draw, double distance, Vec2& n) {
   return {distance * n, draw.uniform(-10, 10)};
 }
 Pose3 random_pose(Stream& draw, double distance, Vec3& n) {
-  n = Vec3(draw.normal(), draw.normal(), draw.normal()).normalized();
+  n = Vec3{draw.normal(), draw.normal(), draw.normal()}.normalized();
   return {distance * n,
-          Quaternion(draw.normal(), draw.normal(), draw.normal(), draw.normal()).normalized()};
+          Quaternion{draw.normal(), draw.normal(), draw.normal(), draw.normal()}.normalized()};
 }
 Motion2 random_motion(Stream& draw, const Vec2& n) {
   return {-n + 0.3 * random_direction(draw), 2 * draw.normal()};
 }
 Motion3 random_motion(Stream& draw, const Vec3& n) {
-  const Vec3 turn(draw.normal(), draw.normal(), draw.normal());
+  const Vec3 turn{draw.normal(), draw.normal(), draw.normal()};
   return {-n + 0.3 * turn.normalized(), draw.uniform() < 0.1 ? Vec3(0, 0, 0) : 2 * turn};
 }
 
@@ -122,7 +122,7 @@ TYPED_TEST(ClocksOfPartners, AreAdvancedToThePresent) {
     if constexpr (dim == 2)
       return Shape{draw.uniform(1, 2), draw.uniform(0.5, 1)};
     else
-      return Shape{Vec3(draw.uniform(1, 2), draw.uniform(0.5, 1), draw.uniform(0.5, 1))};
+      return Shape{Vec3{draw.uniform(1, 2), draw.uniform(0.5, 1), draw.uniform(0.5, 1)}};
   };
   const CommonSize common = grows<TypeParam> ? CommonSize{0.9, 0.1} : CommonSize{};
   const double now = 2.5;
@@ -229,8 +229,9 @@ TEST(ContactScreenOfEllipses, SettlesAPairThatHasJustCollided) {
   int settled = 0;
   for (int trial = 0; trial < 20'000; ++trial) {
     const double contact_gap = tolerance::contact_gap(20);
+    const double gap = draw.uniform(0.75, 1.25) * contact_gap;
     Vec2 n;
-    EllipsePairAt pair = random_pair(draw, 10, draw.uniform(0.75, 1.25) * contact_gap, n);
+    EllipsePairAt pair = random_pair(draw, 10, gap, n);
     const double rate = gap_rate(pair, n);
     if (std::abs(rate) < 1e-3) continue;
     if (rate < 0) {  // time turned round
@@ -279,7 +280,8 @@ TEST(ContactScreenOfEllipses, TurnsAxesToTheBest) {
   Stream draw(34, Purpose::tests);
   for (int trial = 0; trial < 5'000; ++trial) {
     Vec2 n;
-    const EllipsePairAt pair = random_pair(draw, 3, draw.uniform(0.01, 1), n);
+    const double gap = draw.uniform(0.01, 1);
+    const EllipsePairAt pair = random_pair(draw, 3, gap, n);
     const double off = 1e-4;
     const Vec2 axis = detail::turned(n, trial % 2 ? off : -off);
     for (const Vec2& turned :
@@ -334,8 +336,10 @@ TEST(ContactScreenOfEllipses, AnglesMayBeLarge) {
   for (int trial = 0; trial < 3'000; ++trial) {
     Vec2 n;
     EllipsePairAt pair = random_pair(draw, 5, 1, n);
-    pair.pose1.angle = draw.uniform(-1, 1) * std::pow(10, draw.uniform(3, 9));
-    pair.pose2.angle = draw.uniform(-1, 1) * std::pow(10, draw.uniform(3, 9));
+    for (double* angle : {&pair.pose1.angle, &pair.pose2.angle}) {
+      const double largest = std::pow(10, draw.uniform(3, 9));
+      *angle = draw.uniform(-largest, largest);
+    }
     EllipsePairAt same = pair;
     same.pose1.angle = remainder(pair.pose1.angle);
     same.pose2.angle = remainder(pair.pose2.angle);

@@ -24,6 +24,10 @@ double units(double value, long double exact) {
 double of_any_size(Stream& draw, double smallest, double largest) {
   return std::pow(10, draw.uniform(smallest, largest));
 }
+double of_any_sign(Stream& draw, double smallest, double largest) {
+  const double size = of_any_size(draw, smallest, largest);
+  return draw.uniform(-size, size);
+}
 
 TEST(Elementary, CosineAndSine) {
   Stream draw(1, Purpose::tests);
@@ -47,8 +51,7 @@ TEST(Elementary, Logarithm) {
   Stream draw(2, Purpose::tests);
   double largest = 0, largest_plus = 0;
   for (int trial = 0; trial < 200'000; ++trial) {
-    const double x = trial % 2 ? of_any_size(draw, -320, 308)
-                               : 1 + draw.uniform(-1, 1) * of_any_size(draw, -15, 0);
+    const double x = trial % 2 ? of_any_size(draw, -320, 308) : 1 + of_any_sign(draw, -15, 0);
     largest = std::max(largest, units(logarithm(x), std::log(static_cast<long double>(x))));
     const double y = x - 1;
     if (y > -1)
@@ -84,8 +87,7 @@ TEST(Elementary, PolarAngle) {
   Stream draw(4, Purpose::tests);
   double largest = 0;
   for (int trial = 0; trial < 200'000; ++trial) {
-    const double x = draw.uniform(-1, 1) * of_any_size(draw, -8, 8);
-    const double y = draw.uniform(-1, 1) * of_any_size(draw, -8, 8);
+    const double x = of_any_sign(draw, -8, 8), y = of_any_sign(draw, -8, 8);
     largest = std::max(largest, units(polar_angle(y, x), std::atan2(static_cast<long double>(y),
                                                                     static_cast<long double>(x))));
   }

@@ -63,7 +63,8 @@ TEST_P(FreePathsOfEllipses, EndsAtTheFirstContact) {
   FreePathTally tally;
   constexpr int scenes = 10'000;
   for (int k = 0; k < scenes; ++k) {
-    const Scene scene = random_scene(draw, GetParam(), 1 + draw.below(12));
+    const std::size_t count = 1 + draw.below(12);
+    const Scene scene = random_scene(draw, GetParam(), count);
     const double max_length = scene.moving.shape.a * draw.uniform(0.1, 5);
     if (k % 2 == 0)
       check<EllipseFreePathBatch, 0>(scene, max_length, tally);
@@ -86,7 +87,8 @@ TEST(RoundFreePathBatch, EndsAtTheFirstContact) {
   Stream draw(72, Purpose::tests);
   FreePathTally tally;
   for (int k = 0; k < 10'000; ++k) {
-    const Scene scene = random_scene(draw, {1, 10}, 1 + draw.below(12));
+    const std::size_t count = 1 + draw.below(12);
+    const Scene scene = random_scene(draw, {1, 10}, count);
     const double max_length = scene.moving.shape.a * draw.uniform(0.1, 5);
     check<DiskFreePathBatch, 0>(scene, max_length, tally);
     check<DiskFreePathBatch, 1>(scene, max_length, tally);

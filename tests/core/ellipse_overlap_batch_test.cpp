@@ -54,7 +54,8 @@ PosedPair random_pair(Stream& draw, const Class& at) {
   const Vec2 e = direction(draw.uniform(-pi, pi));
   const std::uint64_t kind = draw.below(3);
   const double contact = contact_distance(pair.one, pair.angle1, pair.two, pair.angle2, e);
-  const double offset = (draw.below(2) == 0 ? 1 : -1) * std::pow(10, -draw.uniform(1, 16));
+  const double sign = draw.below(2) == 0 ? 1 : -1;
+  const double offset = sign * std::pow(10, -draw.uniform(1, 16));
   pair.d = kind == 0   ? draw.uniform() * (pair.one.a + pair.two.a) * e
            : kind == 1 ? draw.uniform(0, 2) * contact * e
                        : contact * (1 + offset) * e;

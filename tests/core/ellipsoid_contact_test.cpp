@@ -46,8 +46,7 @@ TEST(EllipsoidGap, IsTheLargestOverAllDirections) {
   for (int k = 0; k < 300; ++k) {
     const Ellipsoid one = random_ellipsoid(draw, 10), two = random_ellipsoid(draw, 10);
     const Quaternion q1 = random_orientation(draw), q2 = random_orientation(draw);
-    const Vec3 d =
-        draw.uniform(0, 1.2) * (one.circumradius() + two.circumradius()) * random_direction(draw);
+    const Vec3 d = (one.circumradius() + two.circumradius()) * random_vector(draw, 0, 1.2);
     const SupportGap3 found = support_gap(one, q1, two, q2, d);
     const double sought = gap_by_trial(one, q1, two, q2, d, draw);
     EXPECT_EQ(found.gap > 0, sought > 0);
@@ -68,11 +67,10 @@ TEST(EllipsoidGap, OfSpheresAndAlongAxesInClosedForm) {
   Stream draw(2, Purpose::tests);
   const Quaternion none = Quaternion::Identity();
   for (int k = 0; k < 100; ++k) {
-    const Vec3 d = draw.uniform(1, 5) * random_direction(draw);
+    const Vec3 d = random_vector(draw, 1, 5);
     const Ellipsoid small{Vec3::Constant(0.3)}, large{Vec3::Constant(0.6)};
-    EXPECT_NEAR(
-        support_gap(small, random_orientation(draw), large, random_orientation(draw), d).gap,
-        d.norm() - 0.9, 4e-15);
+    const Quaternion q1 = random_orientation(draw), q2 = random_orientation(draw);
+    EXPECT_NEAR(support_gap(small, q1, large, q2, d).gap, d.norm() - 0.9, 4e-15);
   }
   const Ellipsoid body{Vec3(3, 2, 0.5)};
   for (int k = 0; k < 3; ++k) {
@@ -111,13 +109,13 @@ TEST(EllipsoidPairInFlight, AccelerationBoundHoldsAndIsTight) {
         turns_across ? prolate(draw.uniform(1, 20)) : random_ellipsoid(draw, 20);
     const auto flight = [&] {
       const Quaternion q = random_orientation(draw);
-      Vec3 omega = draw.uniform(0, 3) * random_direction(draw);
+      Vec3 omega = random_vector(draw, 0, 3);
       if (turns_across) omega -= (q * Vec3::UnitX()).dot(omega) * (q * Vec3::UnitX());
       return Flight<GrowingEllipsoid>{{shape, 1, draw.uniform(-0.1, 0.3)},
-                                      {draw.uniform(0, 5) * random_direction(draw), q},
+                                      {random_vector(draw, 0, 5), q},
                                       {random_direction(draw), omega}};
     };
-    EllipsoidPairInFlight<GrowingEllipsoid> pair(flight(), flight());
+    EllipsoidPairInFlight<GrowingEllipsoid> pair{flight(), flight()};
     const Axis3 n = completed(components(random_direction(draw)));
     pair.go_to(1);
     const auto then = pair.evaluate(n);
@@ -148,7 +146,7 @@ TEST(EllipsoidPairInFlight, AccelerationBoundOfTumblingBodiesHoldsAndIsTight) {
                                        {Vec3::Zero(), random_orientation(draw)},
                                        {Vec3::Zero(), random_direction(draw)}};
     };
-    EllipsoidPairInFlight<TumblingEllipsoid> pair(flight(), flight());
+    EllipsoidPairInFlight<TumblingEllipsoid> pair{flight(), flight()};
     const Axis3 n = completed(components(random_direction(draw)));
     for (int step = 0; step < 100; ++step) {
       pair.go_to(0.1 * step);
@@ -166,12 +164,12 @@ TYPED_TEST(EllipsoidsInFlight, RatesAreDerivatives) {
   constexpr double h = 1e-5;
   for (int k = 0; k < 100; ++k) {
     const auto flight = [&] {
-      return Flight<TypeParam>{
-          body_of<TypeParam>(random_ellipsoid(draw, 5), draw.uniform(-0.1, 0.3)),
-          {draw.uniform(0, 5) * random_direction(draw), random_orientation(draw)},
-          {random_direction(draw), 2 * random_direction(draw)}};
+      const Ellipsoid shape = random_ellipsoid(draw, 5);
+      return Flight<TypeParam>{body_of<TypeParam>(shape, draw.uniform(-0.1, 0.3)),
+                               {random_vector(draw, 0, 5), random_orientation(draw)},
+                               {random_direction(draw), 2 * random_direction(draw)}};
     };
-    EllipsoidPairInFlight<TypeParam> pair(flight(), flight());
+    EllipsoidPairInFlight<TypeParam> pair{flight(), flight()};
     const Axis3 n = completed(components(random_direction(draw)));
     const auto gap = [&](double time, const Tangent& step) {
       pair.go_to(time);
@@ -224,8 +222,7 @@ TEST(GapBatchOfEllipsoids, BoundsTheGapFromBelow) {
         Other& other = others[count];
         other.shape = trial % 2 ? prolate(aspect) : random_ellipsoid(draw, aspect);
         other.q = random_orientation(draw);
-        other.d = draw.uniform(0.1, 1.2) * (one.circumradius() + other.shape.circumradius()) *
-                  random_direction(draw);
+        other.d = (one.circumradius() + other.shape.circumradius()) * random_vector(draw, 0.1, 1.2);
         if (farther_apart(CapsuleOf(one).at(q1, 1), CapsuleOf(other.shape).at(other.q, 1), other.d,
                           limit)) {
           ++far;
@@ -289,10 +286,10 @@ TYPED_TEST(EllipsoidsInFlight, FirstTouchWhereAScanInSmallStepsSaysSo) {
         return Flight<TypeParam>{
             body_of<TypeParam>(shape, k % 2 == 0 ? 0 : draw.uniform(-0.1, 0.3)),
             {position, random_orientation(draw)},
-            {0.3 * reach * random_direction(draw), draw.uniform(0, 4) * random_direction(draw)}};
+            {0.3 * reach * random_direction(draw), random_vector(draw, 0, 4)}};
       };
       const auto one = flight({0, 0, 0});
-      const auto two = flight(draw.uniform(0.3, 1) * reach * random_direction(draw));
+      const auto two = flight(reach * random_vector(draw, 0.3, 1));
       const double contact_gap = tolerance::contact_gap(reach);
       const Prediction3 found = first_contact(one, two, horizon, contact_gap);
       if (!(gap_at(one, two, 0) > 0)) {

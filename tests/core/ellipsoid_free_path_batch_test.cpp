@@ -25,9 +25,8 @@ struct Group : EllipsoidBatch {
 /// One body in eight is aligned with the box.
 Scene random_scene(Stream& draw, const Class& at, std::size_t count) {
   const auto body = [&]() -> Placed {
-    const Ellipsoid shape = scaled(random_ellipsoid(draw, at.largest_aspect_ratio),
-                                   std::pow(at.largest_size_ratio, draw.uniform()));
-    return {shape,
+    const double size = std::pow(at.largest_size_ratio, draw.uniform());
+    return {scaled(random_ellipsoid(draw, at.largest_aspect_ratio), size),
             {Vec3::Zero(), draw.below(8) == 0 ? Quaternion::Identity() : random_orientation(draw)}};
   };
   return random_scene<3>(draw, count, body, [&] { return random_direction(draw); });
@@ -64,7 +63,8 @@ TEST_P(FreePathsOfEllipsoids, EndAtTheFirstContact) {
   FreePathTally tally;
   constexpr int scenes = 3'000;
   for (int k = 0; k < scenes; ++k) {
-    const Scene scene = random_scene(draw, GetParam(), 1 + draw.below(12));
+    const std::size_t count = 1 + draw.below(12);
+    const Scene scene = random_scene(draw, GetParam(), count);
     const double max_length = scene.moving.shape.circumradius() * draw.uniform(0.1, 5);
     if (k % 3 == 0)
       check<0>(scene, max_length, tally);

@@ -39,7 +39,8 @@ PosedSolids random_pair(Stream& draw, const Class& at) {
   if (draw.below(8) == 0) pair.turn2 = pair.turn1;
   const Vec3 e = random_direction(draw);
   const double contact = contact_distance(pair.one, pair.turn1, pair.two, pair.turn2, e);
-  const double offset = (draw.below(2) == 0 ? 1 : -1) * std::pow(10, -draw.uniform(1, 16));
+  const double sign = draw.below(2) == 0 ? 1 : -1;
+  const double offset = sign * std::pow(10, -draw.uniform(1, 16));
   const std::uint64_t kind = draw.below(3);
   pair.d = kind == 0   ? draw.uniform() * pair.extent() * e
            : kind == 1 ? draw.uniform(0, 2) * contact * e

@@ -62,7 +62,8 @@ double log_uniform(Stream& draw, double low, double high) {
 
 /// Three semi-axes in ratios up to `aspect`, sizes in a ratio up to `size` either way round.
 PosedSolids random_bodies(Stream& draw, double aspect, double size) {
-  Ellipsoid large = scaled(random_ellipsoid(draw, aspect), log_uniform(draw, 1, size));
+  const double ratio = log_uniform(draw, 1, size);
+  Ellipsoid large = scaled(random_ellipsoid(draw, aspect), ratio);
   Ellipsoid small = random_ellipsoid(draw, aspect);
   if (draw.uniform() < 0.5) std::swap(large, small);
   return {large, small, random_orientation(draw), random_orientation(draw), Vec3::Zero()};
@@ -72,7 +73,8 @@ PosedSolids random_bodies(Stream& draw, double aspect, double size) {
 /// contact distance times 1 ± 10⁻¹ … 10⁻¹⁵.
 enum class Placement { anywhere, around_contact, near_contact };
 
-PosedSolids placed(const PosedSolids& pair, const Vec3& e, Placement placement, Stream& draw) {
+PosedSolids placed(const PosedSolids& pair, Placement placement, Stream& draw) {
+  const Vec3 e = random_direction(draw);
   if (placement == Placement::anywhere) return pair.with(draw.uniform() * pair.extent() * e);
   const double contact = contact_distance_of(pair.with(e));
   if (placement == Placement::around_contact) return pair.with(draw.uniform(0, 2) * contact * e);
@@ -118,8 +120,8 @@ TEST(EllipsoidCriteria, ThreeCriteriaAgreeOnRandomPairs) {
   double largest_blurred = 0;
   for (std::uint64_t k = 0; k < pairs; ++k) {
     const Placement placement = random_placement(draw);
-    const PosedSolids pair =
-        placed(random_bodies(draw, 100, 1000), random_direction(draw), placement, draw);
+    const PosedSolids bodies = random_bodies(draw, 100, 1000);
+    const PosedSolids pair = placed(bodies, placement, draw);
     const PerramWertheim<3> f = f_of(pair);
     const EllipsoidEta<double> eta = eta_of(pair);
     const bool disjoint = gap_of(pair).gap > 0;
@@ -201,7 +203,10 @@ TEST(EllipsoidEta, FrequencyOfOverlapsThatTheArticleOverlooks) {
     Stream draw(4, Purpose::tests);
     int overlaps = 0, overlooked = 0;
     for (int k = 0; k < 15'000; ++k) {
-      const auto body = [&] { return scaled(shape(draw), log_uniform(draw, 1, 3)); };
+      const auto body = [&] {
+        const double size = log_uniform(draw, 1, 3);
+        return scaled(shape(draw), size);
+      };
       PosedSolids pair{body(), body(), random_orientation(draw), random_orientation(draw),
                        random_direction(draw)};
       pair.d *= draw.uniform(0, 1.2) * contact_distance_of(pair);
@@ -230,8 +235,8 @@ Eigen::Matrix4d quadric(const Ellipsoid& body, const Quaternion& turn, const Vec
 TEST(EllipsoidEta, PolynomialAndEtaByTheirDefinitions) {
   Stream draw(5, Purpose::tests);
   for (int k = 0; k < 2000; ++k) {
-    const PosedSolids pair =
-        placed(random_bodies(draw, 4, 3), random_direction(draw), Placement::around_contact, draw);
+    const PosedSolids bodies = random_bodies(draw, 4, 3);
+    const PosedSolids pair = placed(bodies, Placement::around_contact, draw);
     const EllipsoidAxes<double> one(pair.one, pair.turn1), two(pair.two, pair.turn2);
     const auto q = characteristic_polynomial<double>(one, two, pair.d);
     const Eigen::Matrix4d a1 = quadric(pair.one, pair.turn1, Vec3::Zero());
@@ -269,8 +274,9 @@ TEST(EllipsoidEta, PolynomialAndEtaByTheirDefinitions) {
 TEST(EllipsoidCriteria, ExchangingTheBodiesChangesNothing) {
   Stream draw(6, Purpose::tests);
   for (int k = 0; k < 20'000; ++k) {
-    const PosedSolids pair = placed(random_bodies(draw, 100, 1000), random_direction(draw),
-                                    random_placement(draw), draw);
+    const PosedSolids bodies = random_bodies(draw, 100, 1000);
+    const Placement placement = random_placement(draw);
+    const PosedSolids pair = placed(bodies, placement, draw);
     const EllipsoidEta<double> eta = eta_of(pair), swapped = eta_of(pair.swapped());
     EXPECT_NEAR(eta.p1, swapped.p3, 1e-11 * (1 + std::abs(eta.p1))) << pair;
     EXPECT_NEAR(eta.p3, swapped.p1, 1e-11 * (1 + std::abs(eta.p3))) << pair;
@@ -357,7 +363,7 @@ TEST(EllipsoidCriteria, AgreeWhereEta1FadesAway) {
   for (int k = 0; k < 20'000; ++k) {
     const double small = std::pow(10, -draw.uniform(1, 16));
     const auto nearly = [&](const Vec3& axes) -> Ellipsoid {
-      return {axes.cwiseProduct(Vec3(1 + small * draw.uniform(), 1 + small * draw.uniform(), 1))};
+      return {axes.cwiseProduct(Vec3{1 + small * draw.uniform(), 1 + small * draw.uniform(), 1})};
     };
     const bool round = k % 2 == 0;
     const Ellipsoid body = random_ellipsoid(draw, round ? 1 : 20);
@@ -367,7 +373,8 @@ TEST(EllipsoidCriteria, AgreeWhereEta1FadesAway) {
                                   : (rotation(small * random_direction(draw)) * turn).normalized();
     const PosedSolids bodies{nearly(body.semi_axes), nearly(body.semi_axes), turn, turned,
                              Vec3::Zero()};
-    const PosedSolids pair = placed(bodies, random_direction(draw), random_placement(draw), draw);
+    const Placement placement = random_placement(draw);
+    const PosedSolids pair = placed(bodies, placement, draw);
     const EllipsoidEta<double> eta = eta_of(pair);
     (eta.decides() ? decided : undecided) += 1;
     const PerramWertheim<3> f = f_of(pair);
@@ -448,8 +455,9 @@ TEST(EllipsoidTouch, PointAndNormalOfTouchingBodies) {
 TEST(EllipsoidPerramWertheim, NormalAndPointBelongToBothScaledBodies) {
   Stream draw(11, Purpose::tests);
   for (int k = 0; k < 20'000; ++k) {
-    const PosedSolids pair = placed(random_bodies(draw, 100, 1000), random_direction(draw),
-                                    random_placement(draw), draw);
+    const PosedSolids bodies = random_bodies(draw, 100, 1000);
+    const Placement placement = random_placement(draw);
+    const PosedSolids pair = placed(bodies, placement, draw);
     if (pair.d.norm() < 1e-3) continue;
     const PerramWertheim<3> f = f_of(pair);
     const double mu = std::sqrt(f.value);
@@ -467,8 +475,8 @@ TEST(EllipsoidPerramWertheim, NormalAndPointBelongToBothScaledBodies) {
 TEST(EllipsoidPerramWertheim, ValueIsTheMaximumOfTheDefinition) {
   Stream draw(12, Purpose::tests);
   for (int k = 0; k < 1000; ++k) {
-    const PosedSolids pair =
-        placed(random_bodies(draw, 10, 5), random_direction(draw), Placement::around_contact, draw);
+    const PosedSolids bodies = random_bodies(draw, 10, 5);
+    const PosedSolids pair = placed(bodies, Placement::around_contact, draw);
     const Mat3 sigma1 = shape_matrix(pair.one, pair.turn1);
     const Mat3 sigma2 = shape_matrix(pair.two, pair.turn2);
     const auto f = [&](double x) {
@@ -552,8 +560,8 @@ TEST(EllipsoidContactDistance, SecondVirialCoefficients) {
     constexpr int samples = 40'000;
     double sum = 0, squares = 0;
     for (int k = 0; k < samples; ++k) {
-      const double sigma = contact_distance(body, random_orientation(draw), body,
-                                            random_orientation(draw), random_direction(draw));
+      const Quaternion turn1 = random_orientation(draw), turn2 = random_orientation(draw);
+      const double sigma = contact_distance(body, turn1, body, turn2, random_direction(draw));
       const double reduced = 2 * pi / 3 * sigma * sigma * sigma / body.volume();
       sum += reduced;
       squares += reduced * reduced;

@@ -132,8 +132,8 @@ void place_near_contact(PosedBodies<Dim>& pair, const Vec<Dim>& e, double gap) {
 
 template <int Dim>
 PosedBodies<Dim> random_bodies(Stream& draw) {
-  PosedBodies<Dim> pair{random_body(draw, 1, Solid<Dim>()),
-                        random_body(draw, log_uniform(draw, 0.1, 1), Solid<Dim>()),
+  const double size = log_uniform(draw, 0.1, 1);
+  PosedBodies<Dim> pair{random_body(draw, 1, Solid<Dim>()), random_body(draw, size, Solid<Dim>()),
                         random_pose(draw, Pose<Dim>()), random_pose(draw, Pose<Dim>())};
   if (draw.uniform() < 0.5) std::swap(pair.one, pair.two);
   return pair;

@@ -202,7 +202,8 @@ Flights random_flights(Stream& draw) {
                            {{draw.normal(), draw.normal()}, 2 * draw.normal()}};
   };
   const Ellipse one = shape(), two = shape();
-  const Vec2 d = draw.uniform(0.2, 1.2) * (one.a + two.a) * direction(draw.uniform(0, 2 * pi));
+  const double distance = draw.uniform(0.2, 1.2) * (one.a + two.a);
+  const Vec2 d = distance * direction(draw.uniform(0, 2 * pi));
   return {flight(one, {0, 0}), flight(two, d)};
 }
 

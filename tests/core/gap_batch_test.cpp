@@ -103,8 +103,8 @@ TEST(GapBatchOfDisks, IsTheDistance) {
     double wanted[lanes];
     for (int k = 0; k < lanes; ++k) {
       const Disk other{draw.uniform(0.1, 3)};
-      const double distance = draw.uniform(0, 8);
-      batch.set(k, other, draw.uniform(0, 7), distance * direction(draw.uniform(0, 2 * pi)));
+      const double distance = draw.uniform(0, 8), angle = draw.uniform(0, 7);
+      batch.set(k, other, angle, distance * direction(draw.uniform(0, 2 * pi)));
       wanted[k] = distance - one.radius - other.radius;
     }
     batch.evaluate();

@@ -38,7 +38,7 @@ TEST(EllipseFunction, DerivativesEqualDifferences) {
   Stream draw(7, Purpose::tests);
   for (int trial = 0; trial < 200; ++trial) {
     const Flight<Ellipse> flight = random_flight(draw);
-    const Vec3 at(draw.uniform(-1, 1), draw.uniform(-2, 2), draw.uniform(-2, 2));
+    const Vec3 at{draw.uniform(-1, 1), draw.uniform(-2, 2), draw.uniform(-2, 2)};
     const auto e = [&](const Vec3& y) { return ellipse_function(flight, y[0], y.tail<2>()); };
     const EllipseFunction exact = e(at);
     const double h = 1e-5;
@@ -57,7 +57,7 @@ TEST(PeriodicBox, WrappingKeepsTheUnwrappedPosition) {
   const PeriodicBox<2> box(Vec2(3, 7));
   Stream draw(1, Purpose::tests);
   for (int trial = 0; trial < 1000; ++trial) {
-    const Vec2 far(draw.uniform(-50, 50), draw.uniform(-50, 50));
+    const Vec2 far{draw.uniform(-50, 50), draw.uniform(-50, 50)};
     Vec2 position = far;
     Shift<2> image = Shift<2>::Zero();
     box.wrap(position, image);
@@ -82,8 +82,8 @@ TEST(PeriodicBox, JustBelowTheLowerFaceStaysInside) {
 TEST(PeriodicBox, ImagesWithinReachEqualAScan) {
   Stream draw(2, Purpose::tests);
   for (int trial = 0; trial < 300; ++trial) {
-    const PeriodicBox<2> box(Vec2(draw.uniform(0.5, 3), draw.uniform(0.5, 3)));
-    const Vec2 d(draw.uniform(-4, 4), draw.uniform(-4, 4));
+    const PeriodicBox<2> box(Vec2{draw.uniform(0.5, 3), draw.uniform(0.5, 3)});
+    const Vec2 d{draw.uniform(-4, 4), draw.uniform(-4, 4)};
     const double reach = draw.uniform(0, 4);
     std::vector<Shift<2>> found;
     box.for_each_image(d, reach, [&](const Shift<2>& shift, const Vec2& separation) {
@@ -102,7 +102,7 @@ TEST(PeriodicBox, NearestShiftIsTheNearestOfAllImages) {
   Stream draw(3, Purpose::tests);
   const PeriodicBox<2> box(Vec2(2, 5));
   for (int trial = 0; trial < 300; ++trial) {
-    const Vec2 d(draw.uniform(-9, 9), draw.uniform(-9, 9));
+    const Vec2 d{draw.uniform(-9, 9), draw.uniform(-9, 9)};
     const double nearest = (d + box.translation(box.nearest_shift(d))).norm();
     for (int x = -6; x <= 6; ++x)
       for (int y = -3; y <= 3; ++y)

@@ -40,14 +40,14 @@ Configuration2 random_configuration(std::size_t n, std::uint64_t step) {
   Stream draw(11, Purpose::tests, step);
   Configuration2 configuration;
   const double scale = std::sqrt(static_cast<double>(n));
-  configuration.box = PeriodicBox<2>(scale * Vec2(draw.uniform(3, 9), draw.uniform(3, 9)));
+  configuration.box = PeriodicBox<2>(scale * Vec2{draw.uniform(3, 9), draw.uniform(3, 9)});
   configuration.time = 0.1 * static_cast<double>(step);
   configuration.resize(n);
   configuration.species_names = {"large", "small"};
   for (std::size_t i = 0; i < n; ++i) {
     const Vec2& lengths = configuration.box.lengths();
     configuration.position[i] =
-        lengths.cwiseProduct(Vec2(draw.uniform(-0.5, 0.5), draw.uniform(-0.5, 0.5)));
+        lengths.cwiseProduct(Vec2{draw.uniform(-0.5, 0.5), draw.uniform(-0.5, 0.5)});
     configuration.image[i] = {static_cast<int>(draw.below(9)) - 4,
                               static_cast<int>(draw.below(9)) - 4};
     configuration.angle[i] = draw.uniform(-40, 40);
@@ -67,7 +67,7 @@ Configuration2 random_configuration(std::size_t n, std::uint64_t step) {
 /// The same in three dimensions, scalene and turned.
 Configuration3 random_solids(std::size_t n, std::uint64_t step) {
   Stream draw(12, Purpose::tests, step);
-  const auto normal = [&] { return Vec3(draw.normal(), draw.normal(), draw.normal()); };
+  const auto normal = [&] { return Vec3{draw.normal(), draw.normal(), draw.normal()}; };
   Configuration3 configuration;
   configuration.box = PeriodicBox<3>(Vec3(5, 6, 7) + 0.1 * normal());
   configuration.time = 0.1 * static_cast<double>(step);

@@ -62,8 +62,8 @@ class Crowd {
     Pose3& pose = poses_[i];
     if (draw.uniform() < 0.02) pose = drawn_pose(draw, scene_);
     const double turn = lists_.margin() / scene_.kinds[type_index_[i]].circumradius();
-    pose = advanced(pose, {random_direction(draw), turn / lists_.margin() * random_direction(draw)},
-                    draw.uniform() * lists_.margin());
+    const Motion3 motion{random_direction(draw), turn / lists_.margin() * random_direction(draw)};
+    pose = advanced(pose, motion, draw.uniform() * lists_.margin());
     Shift<3> image = Shift<3>::Zero();
     box_.wrap(pose.position, image);
     sizes_[i] = static_cast<float>(size);

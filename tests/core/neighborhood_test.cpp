@@ -83,7 +83,7 @@ struct Crowd {
     return drawn;
   }
   static Pose2 drawn_pose(Stream& draw, const Vec2& lengths) {
-    const Vec2 place(draw.uniform(-0.5, 0.5), draw.uniform(-0.5, 0.5));
+    const Vec2 place{draw.uniform(-0.5, 0.5), draw.uniform(-0.5, 0.5)};
     return {place.cwiseProduct(lengths), draw.uniform(-9, 9)};
   }
   static std::vector<Pose2> drawn_poses(Stream& draw, const Vec2& lengths, std::size_t particles) {
@@ -204,7 +204,7 @@ TYPED_TEST(NeighborLists, StayRightThroughThousandsOfRenewals) {
         if (n % 4) {
           const double step = crowd.lists.margin();
           pose.position =
-              crowd.poses[i].position + Vec2(draw.uniform(-step, step), draw.uniform(-step, step));
+              crowd.poses[i].position + Vec2{draw.uniform(-step, step), draw.uniform(-step, step)};
           pose.angle = crowd.poses[i].angle + draw.uniform(-0.3, 0.3);
         }
         Shift<2> image = Shift<2>::Zero();

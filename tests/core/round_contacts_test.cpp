@@ -88,10 +88,11 @@ TYPED_TEST(RoundContacts, TellTheEarliestAndItsTime) {
     for (auto& partner : partners) {
       const double other = draw.uniform(0.1, 3);
       const double reach = common.size * (radius + other) + contact_gap;
-      const Position v = draw.normal() * this->random_direction(draw);
+      const double speed = draw.normal();
+      const Position v = speed * this->random_direction(draw);
       const double time = now - draw.uniform();
-      const Position d =
-          reach * (1 + std::pow(10, draw.uniform(-5, 1))) * this->random_direction(draw);
+      const double distance = reach * (1 + std::pow(10, draw.uniform(-5, 1)));
+      const Position d = distance * this->random_direction(draw);
       const double known_until = draw.uniform() < 0.5 ? infinity : now + draw.uniform(0, 5);
       partner = this->at(other, mine + d - (now - time) * v, v, time, known_until);
       const Position there = partner.position_at(now) - mine;

@@ -135,8 +135,10 @@ TYPED_TEST(CalendarTest, EqualsASortedSetThroughARun) {
       const std::uint64_t kind = draw.below(8);
       const double wait = kind == 0 ? 0 : kind == 1 ? 1e-9 : exponential(draw);
       both.set(i, kind == 2 ? never : now + wait);
-      for (std::uint64_t more = draw.below(4); more > 0; --more)
-        both.set(draw.below(n), draw.below(10) == 0 ? never : now + exponential(draw));
+      for (std::uint64_t more = draw.below(4); more > 0; --more) {
+        const std::size_t other = draw.below(n);
+        both.set(other, draw.below(10) == 0 ? never : now + exponential(draw));
+      }
     }
     EXPECT_TRUE(both.all_times_agree());
     ASSERT_FALSE(this->HasFailure());
@@ -154,7 +156,8 @@ TYPED_TEST(CalendarTest, EqualsASortedSetWhenTheScaleOfTimeChanges) {
         const std::size_t i = both.earliest();
         if (both.time(i) < never) now = both.time(i);
         both.set(i, now + scale * exponential(draw));
-        both.set(draw.below(n), now + scale * exponential(draw));
+        const std::size_t other = draw.below(n);
+        both.set(other, now + scale * exponential(draw));
       }
       ASSERT_FALSE(this->HasFailure());
     }
@@ -171,7 +174,8 @@ TYPED_TEST(CalendarTest, EqualsASortedSetOverAMillionEventsOfManyParticles) {
     const std::size_t i = both.earliest();
     const double now = both.time(i);
     both.set(i, now + exponential(draw));
-    both.set((i + draw.below(100)) % n, now + exponential(draw));
+    const std::size_t other = (i + draw.below(100)) % n;
+    both.set(other, now + exponential(draw));
   }
   EXPECT_TRUE(both.all_times_agree());
 }
@@ -182,7 +186,8 @@ TYPED_TEST(CalendarTest, OrderDoesNotDependOnHistory) {
   Stream draw(5, Purpose::tests);
   TypeParam fresh(n), used(n);
   for (int change = 0; change < 10'000; ++change) {
-    used.set(draw.below(n), draw.uniform());
+    const std::size_t i = draw.below(n);
+    used.set(i, draw.uniform());
     if (change % 7 == 0) used.set(used.earliest(), 1 + draw.uniform());
   }
   for (std::size_t i = 0; i < n; ++i) {

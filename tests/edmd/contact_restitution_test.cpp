@@ -134,8 +134,8 @@ TYPED_TEST(EveryForce, ScalesMakeTheForceDimensionless) {
 TYPED_TEST(EveryForce, AgreesWithAnIndependentIntegration) {
   Stream draw(4, Purpose::tests);
   for (int trial = 0; trial < 20; ++trial) {
-    const ScaledImpact of = impact(std::exp(draw.uniform(1, 7)), draw.uniform(0.01, 0.95),
-                                   std::exp(draw.uniform(-4, 2)));
+    const double distance = std::exp(draw.uniform(1, 7)), eccentricity = draw.uniform(0.01, 0.95);
+    const ScaledImpact of = impact(distance, eccentricity, std::exp(draw.uniform(-4, 2)));
     SCOPED_TRACE(testing::Message() << "l = " << of.distance << ", c_φ = " << of.angular_momentum
                                     << ", c_dis = " << of.damping);
     const Restitution found = integrate_contact<TypeParam>(of);
@@ -179,7 +179,8 @@ TEST(LinearDashpotRestitution, DurationUnderStrongDamping) {
 TYPED_TEST(EveryForce, ElasticContactsConserveEnergy) {
   Stream draw(5, Purpose::tests);
   for (int trial = 0; trial < 200; ++trial) {
-    ScaledImpact of = impact(std::exp(draw.uniform(-2, 14)), draw.uniform(0.01, 0.99), 1e-30);
+    const double distance = std::exp(draw.uniform(-2, 14));
+    ScaledImpact of = impact(distance, draw.uniform(0.01, 0.99), 1e-30);
     const Restitution nearly = integrate_contact<TypeParam>(of);
     EXPECT_NEAR(nearly.rate, -1, 1e-13);
     EXPECT_NEAR(nearly.distance, 1, 1e-14);

@@ -40,7 +40,8 @@ ScaledImpact impact_at(double g, double m, double d) {
 template <class Force>
 ScaledImpact random_impact(const RestitutionDomain& domain, Stream& draw) {
   const double d = domain.d.low == domain.d.high ? domain.d.low : uniform(domain.d, draw);
-  return impact_at<Force>(uniform(domain.g, draw), uniform(domain.m, draw), d);
+  const double g = uniform(domain.g, draw);
+  return impact_at<Force>(g, uniform(domain.m, draw), d);
 }
 
 void expect_near(const Restitution& found, const Restitution& expected, const ScaledImpact& of) {
@@ -172,7 +173,8 @@ class StoredTableFile : public testing::Test {
 void expect_equal(const RestitutionTable& one, const RestitutionTable& two) {
   Stream draw(3, Purpose::tests);
   for (int k = 0; k < 100; ++k) {
-    const ScaledImpact of = impact_at<Viscoelastic>(draw.uniform(-1, 1), draw.uniform(2, 3), -0.7);
+    const double g = draw.uniform(-1, 1);
+    const ScaledImpact of = impact_at<Viscoelastic>(g, draw.uniform(2, 3), -0.7);
     const auto first = one(of), second = two(of);
     ASSERT_TRUE(first && second);
     EXPECT_EQ(first->distance, second->distance);

@@ -26,7 +26,7 @@ Vec2 unit_vector(Stream& draw, std::integral_constant<int, 2>) {
   return {std::cos(angle), std::sin(angle)};
 }
 Vec3 unit_vector(Stream& draw, std::integral_constant<int, 3>) {
-  return Vec3(draw.normal(), draw.normal(), draw.normal()).normalized();
+  return Vec3{draw.normal(), draw.normal(), draw.normal()}.normalized();
 }
 
 /// One in four is round, and every other ellipsoid a spheroid.
@@ -37,14 +37,14 @@ void draw_body(BodyInContact<2>& body, Stream& draw) {
   body.motion = {{draw.normal(), draw.normal()}, 2 * draw.normal()};
 }
 void draw_body(BodyInContact<3>& body, Stream& draw) {
-  Vec3 axes(draw.uniform(0.2, 2), draw.uniform(0.2, 2), draw.uniform(0.2, 2));
+  Vec3 axes{draw.uniform(0.2, 2), draw.uniform(0.2, 2), draw.uniform(0.2, 2)};
   if (draw.below(2) == 0) axes[1] = axes[0];
   if (draw.below(4) == 0) axes.setConstant(axes[0]);
   body.shape = {axes};
   body.pose.orientation =
-      Quaternion(draw.normal(), draw.normal(), draw.normal(), draw.normal()).normalized();
+      Quaternion{draw.normal(), draw.normal(), draw.normal(), draw.normal()}.normalized();
   body.motion = {{draw.normal(), draw.normal(), draw.normal()},
-                 2 * Vec3(draw.normal(), draw.normal(), draw.normal())};
+                 2 * Vec3{draw.normal(), draw.normal(), draw.normal()}};
 }
 
 template <int Dim>

@@ -304,7 +304,7 @@ Configuration3 gas(int cells, double packing_fraction) {
   for (std::size_t i = 0; i < c.size(); ++i) {
     if (i % 3 == 0) c.shape[i] = round<3>(0.07);
     c.mass[i] = 1140 * 4 * std::numbers::pi / 3 * std::pow(c.shape[i].circumradius(), 3);
-    c.velocity[i] = 1.2 * Vec3(draw.normal(), draw.normal(), draw.normal());
+    c.velocity[i] = 1.2 * Vec3{draw.normal(), draw.normal(), draw.normal()};
   }
   const Vec3 drift = mechanics(c).momentum / static_cast<double>(c.size());
   for (std::size_t i = 0; i < c.size(); ++i) c.velocity[i] -= drift / c.mass[i];

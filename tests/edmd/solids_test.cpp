@@ -105,7 +105,8 @@ TEST(CollisionOfSolids, TheImpulseDoesTheWorkOfGrowthAndRestitution) {
 TEST(CollisionOfSolids, WithTheOwnImageReversesTheApproach) {
   Stream draw(3, Purpose::tests);
   for (int k = 0; k < 100; ++k) {
-    TwoBodies b = random_contact(draw, draw.uniform(0, 1));
+    const double growth = draw.uniform(0, 1);
+    TwoBodies b = random_contact(draw, growth);
     const Vec3 velocity = b.one.velocity;
     const double speed = approach_speed(b.one, b.one, b.contact);
     collide_with_own_image(b.one, b.inertia1, b.contact, 0.7);

@@ -71,7 +71,8 @@ void cut_off(std::string& text, Stream& stream) {
 
 void splice(std::string& text, std::span<const std::string> others, Stream& stream) {
   const std::string& other = any_of(others, stream);
-  text.insert(stream.below(text.size() + 1), copy_of(other, any_part(other, stream)));
+  const std::size_t at = stream.below(text.size() + 1);
+  text.insert(at, copy_of(other, any_part(other, stream)));
 }
 
 constexpr const char* extreme_numbers[] = {
@@ -110,7 +111,8 @@ void move_line(std::string& text, std::span<const std::string> others, Stream& s
 
 /// Few changes leave more of the file to be read.
 std::size_t number_of_changes(Stream& stream) {
-  return 1 + stream.below(1 + stream.below(6));
+  const std::uint64_t most = 1 + stream.below(6);
+  return 1 + stream.below(most);
 }
 
 void damage_bytes(std::string& text, std::span<const std::string> others, Stream& stream) {
@@ -243,7 +245,8 @@ bool damage_hdf5(const std::filesystem::path& path, Stream& stream) try {
     std::vector<Path> members;
     collect(file.root(), "", members);
     if (members.empty()) break;
-    damage_object(file, any_of(members, stream), stream);
+    const Path& member = any_of(members, stream);
+    damage_object(file, member, stream);
   }
   file.close();
   return true;

@@ -51,7 +51,7 @@ void expect_zero_at_random(Configuration<Dim> c) {
         c.angle[i] = std::numbers::pi * draw.uniform();
       else
         c.orientation[i] =
-            Quaternion(draw.normal(), draw.normal(), draw.normal(), draw.normal()).normalized();
+            Quaternion{draw.normal(), draw.normal(), draw.normal(), draw.normal()}.normalized();
     }
   };
   constexpr int samples = 50;

@@ -90,9 +90,10 @@ TEST(SamplerInSpace, ReshapesOnlyWhereThereIsRoom) {
   int given = 0, refused = 0;
   for (int round = 0; round < 20; ++round) {
     sampler.sweep();
-    for (std::size_t i = 0; i < c.size(); ++i)
-      (sampler.reshape(i, scaled(random_ellipsoid(draw, 6), draw.uniform(0.5, 2))) ? given
-                                                                                   : refused) += 1;
+    for (std::size_t i = 0; i < c.size(); ++i) {
+      const double size = draw.uniform(0.5, 2);
+      (sampler.reshape(i, scaled(random_ellipsoid(draw, 6), size)) ? given : refused) += 1;
+    }
     ASSERT_TRUE(exact_check(c).clean());
   }
   EXPECT_GT(given, 200);

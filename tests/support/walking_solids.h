@@ -25,9 +25,9 @@ inline MemoryTrajectory3 walkers(std::size_t n, std::size_t frames, const Vec3& 
     c.time = 0.5 * static_cast<double>(k);
     all.push_back(c);
     for (std::size_t i = 0; i < n; ++i) {
-      c.position[i] += 0.7 * Vec3(draw.normal(), draw.normal(), draw.normal());
+      c.position[i] += 0.7 * Vec3{draw.normal(), draw.normal(), draw.normal()};
       c.box.wrap(c.position[i], c.image[i]);
-      const Eigen::AngleAxisd step(draw.uniform(0, turn), random_direction(draw));
+      const Eigen::AngleAxisd step{draw.uniform(0, turn), random_direction(draw)};
       c.orientation[i] = (Quaternion(step) * c.orientation[i]).normalized();
     }
   }

@@ -30,7 +30,7 @@ class RandomPairs {
             {Vec2::Zero(), 0}};
   }
   Flight<Ellipsoid> ellipsoid() {
-    const Quaternion turn(number(-1, 1), number(-1, 1), number(-1, 1), number(-1, 1));
+    const Quaternion turn{number(-1, 1), number(-1, 1), number(-1, 1), number(-1, 1)};
     return {{{number(0.3, 2), number(0.3, 2), number(0.3, 2)}},
             {{number(-2, 2), number(-2, 2), number(-2, 2)}, turn.normalized()},
             {Vec3::Zero(), Vec3::Zero()}};
