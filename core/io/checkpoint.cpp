@@ -15,6 +15,7 @@
 #include "core/error.h"
 #include "core/io/atomic_file.h"
 #include "core/io/h5.h"
+#include "core/whole_number.h"
 
 namespace vitrel {
 namespace fs = std::filesystem;
@@ -205,19 +206,32 @@ void write_contacts(h5::Group& group, const Configuration<Dim>& configuration) {
   write_rows<double>(group, "close_pairs", close_pairs);
 }
 
+/// What real numbers hold; anything in a damaged checkpoint of the layout without a checksum.
+template <std::integral Integer>
+Integer stored_number(const fs::path& path, double x, Integer end) {
+  const auto number = whole_number<Integer>(x);
+  if (!number || *number >= end)
+    throw FileError(path.string() +
+                    ": is damaged: it has contacts of particles that are not there");
+  return *number;
+}
+
 template <int Dim>
-void read_contacts(const h5::Group& group, Configuration<Dim>& configuration) {
+void read_contacts(const fs::path& path, const h5::Group& group,
+                   Configuration<Dim>& configuration) {
   std::vector<std::array<double, 3 + Dim>> releases, close_pairs;
   read_rows<double>(group, "releases", releases);
   read_rows<double>(group, "close_pairs", close_pairs);
-  const auto number = [](double x) { return static_cast<std::size_t>(x); };
+  const auto particle = [&](double x) { return stored_number(path, x, configuration.size()); };
+  constexpr auto most_boxes = std::numeric_limits<std::int32_t>::max();
   for (const auto& row : releases)
     configuration.releases.push_back(
-        {number(row[0]), number(row[1]), row[2], Vec<Dim>(row.data() + 3)});
-  for (const auto& row : close_pairs)
-    configuration.close_pairs.push_back(
-        {{number(row[0]), number(row[1]), Vec<Dim>(row.data() + 3).template cast<std::int32_t>()},
-         row[2]});
+        {particle(row[0]), particle(row[1]), row[2], Vec<Dim>(row.data() + 3)});
+  for (const auto& row : close_pairs) {
+    Shift<Dim> shift;
+    for (int k = 0; k < Dim; ++k) shift[k] = stored_number(path, row[3 + k], most_boxes);
+    configuration.close_pairs.push_back({{particle(row[0]), particle(row[1]), shift}, row[2]});
+  }
 }
 
 template <int Dim>
@@ -238,7 +252,8 @@ void write_configuration(h5::Group group, const Configuration<Dim>& configuratio
 }
 
 template <int Dim>
-Configuration<Dim> read_configuration(const h5::Group& group, const std::vector<double>& lengths) {
+Configuration<Dim> read_configuration(const fs::path& path, const h5::Group& group,
+                                      const std::vector<double>& lengths) {
   Configuration<Dim> configuration;
   configuration.box = PeriodicBox<Dim>(Vec<Dim>(lengths.data()));
   configuration.time = group.dataset("time").read<double>().at(0);
@@ -251,14 +266,15 @@ Configuration<Dim> read_configuration(const h5::Group& group, const std::vector<
   read_rows<double>(group, "mass", configuration.mass);
   read_rows<std::int32_t>(group, "species", configuration.species);
   configuration.species_names = split(read_text(group, "species_names"));
-  read_contacts(group, configuration);
+  read_contacts(path, group, configuration);
   return configuration;
 }
 
-std::variant<Configuration2, Configuration3> read_configuration(const h5::Group& group) {
+std::variant<Configuration2, Configuration3> read_configuration(const fs::path& path,
+                                                                const h5::Group& group) {
   const std::vector<double> lengths = group.dataset("box").read<double>();
-  if (lengths.size() == 3) return read_configuration<3>(group, lengths);
-  return read_configuration<2>(group, lengths);
+  if (lengths.size() == 3) return read_configuration<3>(path, group, lengths);
+  return read_configuration<2>(path, group, lengths);
 }
 
 Checkpoint read_checkpoint(const fs::path& path) {
@@ -273,7 +289,7 @@ Checkpoint read_checkpoint(const fs::path& path) {
     throw FileError(path.string() +
                     ": was written by another version of vitrel: finish the run with "
                     "that version, or start it again");
-  return {read_configuration(root.group("configuration")),
+  return {read_configuration(path, root.group("configuration")),
           read_map<double>(file, "reals"),
           read_map<std::uint64_t>(file, "counters"),
           read_series(root),

@@ -808,6 +808,27 @@ TEST_F(CheckpointFile, OfThreeDimensionsComesBackBitByBit) {
                    random_solids(9, 1));
 }
 
+// Of version 0.1, whose checkpoints have no checksum.
+TEST_F(CheckpointFile, ContactsOfParticlesThatAreNotThereAreDamage) {
+  Checkpoint checkpoint;
+  checkpoint.configuration = with_close_pairs(random_configuration(9, 1), 2);
+  const auto message_about = [&](double particle) {
+    fs::remove(file("c"));
+    save_checkpoint(file("c"), checkpoint);
+    h5::File written = h5::File::open(file("c"), h5::Access::write);
+    written.root().set_attribute<std::int32_t>("checkpoint_layout", 3);
+    h5::Dataset pairs = written.root().dataset("configuration/close_pairs");
+    std::vector<double> rows = pairs.read<double>();
+    rows[0] = particle;
+    pairs.write<double>(rows);
+    written.close();
+    return file_error([&] { load_checkpoint(file("c")); });
+  };
+  EXPECT_EQ(message_about(0), "(no FileError)");
+  for (const double wrong : {-1., 0.5, 9., 1e300, double{NAN}, double{INFINITY}})
+    EXPECT_THAT(message_about(wrong), HasSubstr("is damaged: it has contacts of particles"));
+}
+
 TEST_F(CheckpointFile, IsRemovedWithTheOneBefore) {
   const fs::path path = file("run.checkpoint");
   for (std::uint64_t step : {1, 2}) save_checkpoint(path, some_checkpoint(step));
