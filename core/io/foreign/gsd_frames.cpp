@@ -48,6 +48,8 @@ class GsdFrames final : public ForeignFrames {
     frame = {};
     particles_ = static_cast<std::size_t>(number("particles/N", 0));
     frame.dimension = static_cast<int>(number("configuration/dimensions", 3));
+    if (is_absent("configuration/dimensions"))
+      frame.assumed["dimension"] = "3, the default of configuration/dimensions";
     if (const char* steps = "configuration/step"; file_.frames() == 1 || file_.has(steps))
       frame.step = static_cast<std::int64_t>(number(steps, 0));
     if (const auto time = file_.read("log/time", number_); time.rows > 0)
@@ -58,8 +60,10 @@ class GsdFrames final : public ForeignFrames {
     frame.mass = column("particles/mass", 1);
     if (is_absent("particles/mass")) frame.assumed["masses"] = "1, the default of particles/mass";
     frame.velocity = vectors("particles/velocity");
-    if (frame.velocity.empty() && file_.has("particles/velocity"))
+    if (frame.velocity.empty() && file_.has("particles/velocity")) {
       frame.velocity.assign(particles_, Vec3::Zero());
+      frame.assumed["velocities"] = "0, the default of particles/velocity";
+    }
     set_angular_velocities(frame);
     std::ranges::copy_if(file_.names(), std::inserter(frame.skipped, frame.skipped.end()),
                          [](const std::string& name) { return !known_chunks.contains(name); });
@@ -149,7 +153,10 @@ class GsdFrames final : public ForeignFrames {
 
   void set_types(ForeignFrame& frame) {
     std::vector<std::string> types = file_.read_texts("particles/types", number_);
-    if (types.empty()) types = {"A"};
+    if (types.empty()) {
+      types = {"A"};
+      frame.assumed["species"] = "all are \"A\", the default of particles/types";
+    }
     const std::vector<std::optional<Vec3>> shapes = shapes_of(types.size());
     const std::vector<double> diameters = rows("particles/diameter", 1);
     std::size_t without_shape = 0;
@@ -203,10 +210,11 @@ class GsdFrames final : public ForeignFrames {
   /// rotation is not modelled; of spheroids written by vitrel it is then about the axis, ω = L/I⊥.
   void set_angular_velocities(ForeignFrame& frame) {
     std::vector<Quaternion> momenta = quaternions("particles/angmom");
-    if (momenta.empty() && file_.has("particles/angmom"))
-      momenta.assign(particles_, Quaternion(0, 0, 0, 0));
+    const bool is_default = momenta.empty() && file_.has("particles/angmom");
+    if (is_default) momenta.assign(particles_, Quaternion(0, 0, 0, 0));
     const std::vector<Vec3> inertias = vectors("particles/moment_inertia");
     if (momenta.empty() || inertias.empty()) return;
+    if (is_default) frame.assumed["angular velocities"] = "0, the default of particles/angmom";
     for (std::size_t i = 0; i < particles_; ++i) {
       const Quaternion& q = frame.orientation[i];
       const Vec3 momentum = 0.5 * (q.conjugate() * momenta[i]).vec();
