@@ -196,6 +196,8 @@ class TrajectoryReader {
   const ImportReport& import_report() const { return import_.report; }
   /// False if times are steps, or frames, since the file states none.
   bool knows_time() const { return import_.knows_time; }
+  /// Of a file of another program; none if it is in vitrel's own.
+  const std::optional<FileUnits>& units() const { return import_.units; }
   /// Whether angles are known up to half turns only.
   bool angles_are_directors() const { return import_.angles_are_directors; }
   /// Why nothing can be said about motion; empty if it can.

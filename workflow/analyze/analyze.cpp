@@ -297,13 +297,17 @@ std::filesystem::path csv_file(const std::filesystem::path& results, const std::
   return csv_folder(results) / (table + ".csv");
 }
 
-/// The unit of time is a step, for files that state no times.
-void count_steps(Results& results) {
-  const std::string time = "time";
+/// Files of other programs have units of their own.
+void put_into_units(Results& results, const FileUnits& units) {
+  const auto put = [](std::string& unit, const std::string& quantity, const std::string& name) {
+    if (const std::size_t place = unit.find(quantity); place != std::string::npos)
+      unit.replace(place, quantity.size(), name);
+  };
   for (Table& table : results.tables)
-    for (Column& column : table.columns)
-      if (const std::size_t place = column.unit.find(time); place != std::string::npos)
-        column.unit.replace(place, time.size(), "steps");
+    for (Column& column : table.columns) {
+      put(column.unit, "length", units.length);
+      put(column.unit, "time", units.time);
+    }
 }
 
 /// Of a run of this dimension.
@@ -332,7 +336,7 @@ AnalysedRun analyze(OpenRun opened, const AnalysisProgress& progress) {
   else if (run.frames > 1)
     leave_out(results, "motion", run.obstacle);
   if (run.energy.time.empty()) leave_out(results, "energies", no_energies);
-  if (!reader.knows_time()) count_steps(results);
+  if (const auto& units = reader.units()) put_into_units(results, *units);
   analysed.glass = run.glass;
   return analysed;
 }

@@ -23,9 +23,9 @@ std::string cooling_section(const Cooling& cooling, const std::optional<HaffLaw>
                                           cooling.exponent == 2 ? "2" : "5/3");
   const std::string drawn =
       law ? fmt::format(
-                "Dashed: {} with τ = {:.4g} √(m {}/kT), fitted to the first decay, until T has "
+                "Dashed: {} with τ = {:.4g} {}, fitted to the first decay, until T has "
                 "fallen to T(0)/e. It holds as long as the gas is homogeneous.",
-                formula, law->time, page_units(dimension).area)
+                formula, law->time, page_units(dimension).time)
           : formula +
                 " is not drawn: T does not fall to T(0)/e in this run, too little for a fit "
                 "of τ.";

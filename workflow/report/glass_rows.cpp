@@ -27,9 +27,9 @@ struct Notation {
   std::string unit_of_time, unit_of_length;
   std::string_view correlation;  ///< of orientations
 
-  explicit Notation(int dimension)
-      : unit_of_time(fmt::format(" √(m {}/kT)", page_units(dimension).area)),
-        unit_of_length(page_units(dimension).length),
+  Notation(int dimension, const std::optional<FileUnits>& units)
+      : unit_of_time(" " + page_units(dimension, units).time),
+        unit_of_length(page_units(dimension, units).length),
         correlation(dimension == 2 ? "L" : "P") {}
 };
 
@@ -144,8 +144,8 @@ std::string director_row(const Row& row, const Notation& notation) {
 
 }  // namespace
 
-std::string result_rows(const Results& run, int dimension) {
-  const Notation notation(dimension);
+std::string result_rows(const Results& run, int dimension, const std::optional<FileUnits>& units) {
+  const Notation notation(dimension, units);
   const auto with_notation = [&notation](auto* row_text) {
     return [&notation, row_text](const Row& row) { return row_text(row, notation); };
   };

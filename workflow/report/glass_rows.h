@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "analysis/results.h"
+#include "core/io/foreign/foreign_frame.h"
 
 /// @file
 /// Relaxation as HTML: of one run and of the glass study, the rows of tables of the page and the notes
@@ -12,7 +14,8 @@ namespace vitrel {
 /// Of one run: the verdict with its reason, or why there is none; the times in which F_s and L_n of
 /// all particles fall to 1/e, and in a nematic that of L_2 seen from the director. From the tables
 /// `relaxation` and `relaxation_times`; empty without them.
-std::string result_rows(const Results& run, int dimension);
+std::string result_rows(const Results& run, int dimension,
+                        const std::optional<FileUnits>& units = {});
 
 /// One row per run: φ, seed, verdict, what orientations do, q, τ_α at that q, τ_2, nematic order and
 /// that by chance, plateau of L_2, duration. From the table `relaxation`; empty without it.

@@ -22,7 +22,8 @@ std::string packing_page(const PackingPage& page) {
                                       {"tables", tables_data(page.results, tables)}}),
                      page.parameters,
                      page.provenance,
-                     3});
+                     3,
+                     page.units});
 }
 
 }  // namespace vitrel

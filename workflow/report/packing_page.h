@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "analysis/results.h"
+#include "core/io/foreign/foreign_frame.h"
 #include "workflow/report/html.h"
 #include "workflow/report/movie.h"
 
@@ -18,7 +20,8 @@ struct PackingPage {
   Movie3 movie;            ///< of one frame
   Results results;         ///< of which pair_correlation, structure_factor and two_point are shown
   std::string parameters;  ///< TOML text
-  PageProvenance provenance;  ///< shown if not empty
+  std::optional<FileUnits> units;  ///< of a file of another program
+  PageProvenance provenance;       ///< shown if not empty
 };
 
 /// The page as HTML: the bodies, to be turned and cut, table of the rows, g(r), S(q), S₂(r) and lineal path.

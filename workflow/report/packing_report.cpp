@@ -33,6 +33,7 @@ PackingPage packing_page_data(const std::filesystem::path& file, const AnalysisC
   page.results = analyze_run(file, choice, progress).results;
   page.parameters = provenance.parameters;
   page.provenance = provenance_rows(provenance);
+  page.units = reader.units();
   return page;
 }
 

@@ -61,18 +61,55 @@ std::string filled(std::string_view page,
   return result;
 }
 
-const PageUnits& page_units(int dimension) {
-  constexpr static PageUnits plane{"a b", "√(ab)", "ab"}, space{"a b c", "∛(abc)", "(abc)^⅔"};
-  return dimension == 2 ? plane : space;
+namespace {
+
+/// By the units of columns.
+Json unit_names(const PageUnits& units) {
+  return {{"1", ""},
+          {"length", units.length},
+          {"length^2", units.area},
+          {"1/length", "1/" + units.length},
+          {"time", units.time},
+          {"rad^2", "rad²"},
+          {"length^2/time", units.diffusion},
+          {"rad^2/time", units.rotational_diffusion}};
+}
+
+}  // namespace
+
+PageUnits page_units(int dimension, const std::optional<FileUnits>& of_file) {
+  if (of_file) {
+    const auto& [length, time] = *of_file;
+    return {"Units are those of the file.", length,         length + "²", time,
+            length + "²/" + time,           "rad²/" + time, "energy"};
+  }
+  const bool in_plane = dimension == 2;
+  const std::string area = in_plane ? "ab" : "(abc)^⅔";
+  return {
+      fmt::format("Reduced units: kT = 1, mass of the reference species m = 1, semi-axes of the "
+                  "reference species {} = 1.",
+                  in_plane ? "a b" : "a b c"),
+      in_plane ? "√(ab)" : "∛(abc)",
+      area,
+      fmt::format("√(m {}/kT)", area),
+      fmt::format("√({} kT/m)", area),
+      fmt::format("√(kT/(m {}))", area),
+      "kT"};
 }
 
 std::string whole_page(PageParts parts) {
   const auto text = [](std::string_view path) { return std::string(asset(path)); };
   const bool in_plane = parts.dimension == 2;
-  const PageUnits& units = page_units(parts.dimension);
-  const std::string length(units.length), area(units.area);
-  parts.texts.emplace_back("unit_of_length", length);
-  parts.texts.emplace_back("unit_of_area", area);
+  const PageUnits units = page_units(parts.dimension, parts.units);
+  const std::pair<std::string_view, std::string> names[] = {
+      {"units", units.note},
+      {"unit_of_length", escaped(units.length)},
+      {"unit_of_area", escaped(units.area)},
+      {"unit_of_time", escaped(units.time)},
+      {"unit_of_diffusion", escaped(units.diffusion)},
+      {"unit_of_rotational_diffusion", escaped(units.rotational_diffusion)},
+      {"unit_of_energy", units.energy}};
+  parts.texts.insert(parts.texts.end(), std::begin(names), std::end(names));
   parts.texts.emplace_back("movie", filled(asset("page/movie.html"),
                                            {{"slice", in_plane ? "" : text("page/slice.html")},
                                             {"solids", in_plane ? "" : text("page/solids.html")}}));
@@ -83,9 +120,8 @@ std::string whole_page(PageParts parts) {
                  {"style", text("page/report.css")},
                  {"sections", filled(asset(parts.sections), parts.texts)},
                  {"parameters", escaped(parts.parameters)},
-                 {"unit_product", std::string(units.product)},
-                 {"unit_of_length", length},
-                 {"unit_of_area", area},
+                 {"units", units.note},
+                 {"unit_names", script_safe(unit_names(units))},
                  {"dimension", std::to_string(parts.dimension)},
                  {"provenance", provenance_entries(parts.provenance)},
                  {"data", parts.data},

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "core/io/foreign/foreign_frame.h"
 #include "core/io/json.h"
 #include "workflow/report/html.h"
 
@@ -30,15 +32,15 @@ std::string script_safe(const Json& data);
 std::string filled(std::string_view page,
                    const std::vector<std::pair<std::string_view, std::string>>& texts);
 
-/// The units of pages about particles in the plane or in space.
+/// How pages about particles in the plane or in space call their units: the reduced ones of vitrel, or those of a file.
 struct PageUnits {
-  std::string_view product;  ///< of the reference semi-axes, which is 1
-  std::string_view length, area;
+  std::string note;  ///< a sentence
+  std::string length, area, time, diffusion, rotational_diffusion, energy;
 };
-const PageUnits& page_units(int dimension);
+PageUnits page_units(int dimension, const std::optional<FileUnits>& of_file = {});
 
 /// A whole page. `sections` and `script` are names of files of the folder page; the texts fill the
-/// sections, beside those that all pages have: movie, unit_of_length, unit_of_area.
+/// sections, beside those that all pages have: movie and the units.
 struct PageParts {
   std::string title, subtitle;
   std::string_view sections;
@@ -47,7 +49,8 @@ struct PageParts {
   std::string data;        ///< for the script: script_safe JSON
   std::string parameters;  ///< TOML
   PageProvenance provenance;
-  int dimension = 2;  ///< of the picture, and of the units
+  int dimension = 2;                    ///< of the picture, and of the units
+  std::optional<FileUnits> units = {};  ///< of a file of another program
 };
 std::string whole_page(PageParts parts);
 

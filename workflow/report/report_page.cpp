@@ -126,9 +126,9 @@ std::string cooling_section(const std::vector<ReportRun>& runs, int dimension) {
 }
 
 /// The verdict on a single run, and its relaxation times.
-std::string result_section(const std::vector<ReportRun>& runs, int dimension) {
-  if (runs.size() != 1) return "";
-  const std::string rows = result_rows(runs.front().results, dimension);
+std::string result_section(const ReportData& data, int dimension) {
+  if (data.runs.size() != 1) return "";
+  const std::string rows = result_rows(data.runs.front().results, dimension, data.units);
   return rows.empty() ? "" : filled(asset("page/result.html"), {{"rows", rows}});
 }
 
@@ -154,7 +154,7 @@ std::string page_with(const ReportData& data, const Thinning& thinning) {
                      "page/runs_sections.html",
                      "page/report.js",
                      {{"cooling", cooling_section(data.runs, dimension)},
-                      {"result", result_section(data.runs, dimension)},
+                      {"result", result_section(data, dimension)},
                       {"table_rows", rows},
                       {"job_provenance", job_provenance(data.runs)},
                       {"relaxation_rows", relaxation_rows(data.study)},
@@ -165,7 +165,8 @@ std::string page_with(const ReportData& data, const Thinning& thinning) {
                                       {"study", tables_data(data.study, {})}}),
                      data.parameters,
                      shared_provenance(data),
-                     dimension});
+                     dimension,
+                     data.units});
 }
 
 }  // namespace

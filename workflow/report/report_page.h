@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/results.h"
+#include "core/io/foreign/foreign_frame.h"
 #include "workflow/report/cooling.h"
 #include "workflow/report/html.h"
 #include "workflow/report/movie.h"
@@ -28,11 +29,12 @@ struct ReportRun {
 
 struct ReportData {
   std::string title;
-  std::string subtitle;         ///< one line below it: what was simulated
-  std::vector<ReportRun> runs;  ///< shown in this order
-  Results study = {};           ///< tables over all runs: relaxation, glass_fit; notes
-  std::string parameters;       ///< TOML text
-  PageProvenance provenance;    ///< of the page, beside that of its runs
+  std::string subtitle;                 ///< one line below it: what was simulated
+  std::vector<ReportRun> runs;          ///< shown in this order
+  Results study = {};                   ///< tables over all runs: relaxation, glass_fit; notes
+  std::string parameters;               ///< TOML text
+  PageProvenance provenance;            ///< of the page, beside that of its runs
+  std::optional<FileUnits> units = {};  ///< of a file of another program
 };
 
 /// The page as HTML. Of one run: the temperature if it is a gas that cools, verdict and relaxation times, the

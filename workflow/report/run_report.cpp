@@ -121,6 +121,7 @@ void add_runs(const std::vector<AnalysedRun>& runs, const KnownSystem& known, Re
     if (k > 0) continue;
     add_titles(runs, trajectory.read(0), data);
     data.parameters += trajectory.reader().provenance().parameters;
+    data.units = trajectory.reader().units();
     if (runs.size() > 1) continue;
     for (const auto& row : trajectory.reader().import_report()) data.provenance.push_back(row);
   }

@@ -56,7 +56,9 @@ std::string state_page(const StatePage& page) {
                      {{"rows", table_rows(page.rows)}},
                      script_safe(data),
                      page.parameters,
-                     page.provenance});
+                     page.provenance,
+                     2,
+                     page.units});
 }
 
 }  // namespace vitrel

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "analysis/results.h"
 #include "analysis/structure/order.h"
+#include "core/io/foreign/foreign_frame.h"
 #include "core/state/configuration.h"
 #include "workflow/report/html.h"
 
@@ -22,8 +24,9 @@ struct StatePage {
   double nematic_order = 0;                ///< S² is marked in the chart of the correlation
   /// After so many sweeps from the state on; nothing is shown of what is empty.
   std::vector<double> sweeps, orientation, displacement;
-  std::string parameters;     ///< TOML text
-  PageProvenance provenance;  ///< shown if not empty
+  std::string parameters;          ///< TOML text
+  std::optional<FileUnits> units;  ///< of a file of another program
+  PageProvenance provenance;       ///< shown if not empty
 };
 
 /// The page as HTML: table of the rows, the particles (of more than 4000 a part), g(r) and S(q),

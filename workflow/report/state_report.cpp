@@ -51,6 +51,7 @@ StatePage state_page_data(const std::filesystem::path& file, const KnownSystem& 
   }
   page.parameters = provenance.parameters;
   page.provenance = provenance_rows(provenance);
+  page.units = reader.units();
   return page;
 }
 

@@ -66,6 +66,8 @@ class CsvFrames final : public ForeignFrames {
     advance();
   }
 
+  FileUnits units() const override { return units_; }
+
   bool next(ForeignFrame& frame) override {
     if (cells_.empty()) return false;
     const std::string key = frame_key(), place = lines_.place();
@@ -93,7 +95,7 @@ class CsvFrames final : public ForeignFrames {
     return cells_;
   }
 
-  void require_units(const std::vector<std::string>& cells) const {
+  void require_units(const std::vector<std::string>& cells) {
     StatedUnits units;
     for (const std::string& cell : cells) {
       const std::string name = column_name(cell), unit = column_unit(cell);
@@ -104,7 +106,7 @@ class CsvFrames final : public ForeignFrames {
       if (name == "vx" || name == "vy" || name == "vz")
         units.velocities.emplace_back("column " + name, unit);
     }
-    with_place(lines_.place(), [&] { require_agreement(units); });
+    with_place(lines_.place(), [&] { units_ = require_agreement(units); });
   }
 
   /// To the next line that counts; at the end there are no cells.
@@ -121,6 +123,7 @@ class CsvFrames final : public ForeignFrames {
 
   TextLines lines_;
   char separator_ = ',';
+  FileUnits units_;
   std::vector<std::string> cells_;  ///< of the next line
   std::vector<std::string> columns_;
   std::optional<std::size_t> frame_column_;

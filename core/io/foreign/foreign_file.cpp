@@ -103,6 +103,7 @@ class Conversion {
   }
 
   void close() { writer_->close(); }
+  bool counts_steps() const { return first_frame_.step.has_value(); }
   bool knows_time() const {
     return first_frame_.time.has_value() || known_.import.time_per_step.has_value();
   }
@@ -260,6 +261,12 @@ class RescaledFrames {
     if (length_unit_ != 1) rescale(frame, length_unit_);
     return true;
   }
+  /// The user's own unit of length has no name.
+  FileUnits units() const {
+    FileUnits units = frames_->units();
+    if (length_unit_ != 1) units.length.clear();
+    return units;
+  }
 
  private:
   std::unique_ptr<ForeignFrames> frames_;
@@ -295,9 +302,17 @@ ImportedFile convert(const fs::path& path, OpenFrames& open, const KnownSystem& 
     ++number;
   } while (open.frames.next(frame));
   conversion.close();
-  return {h5::File::open(copy.name(), h5::Access::read), conversion.report(),
-          open.format.words.box_crossings, conversion.knows_time(),
-          known.import.angles == ImportOptions::Angles::directors};
+  FileUnits units = open.frames.units();
+  if (known.import.time_per_step) units.time.clear();
+  if (!conversion.knows_time()) units.time = conversion.counts_steps() ? "steps" : "frames";
+  if (units.length.empty()) units.length = "(unit of length)";
+  if (units.time.empty()) units.time = "(unit of time)";
+  return {h5::File::open(copy.name(), h5::Access::read),
+          conversion.report(),
+          open.format.words.box_crossings,
+          conversion.knows_time(),
+          known.import.angles == ImportOptions::Angles::directors,
+          std::move(units)};
 }
 
 /// HDF5 that vitrel wrote.

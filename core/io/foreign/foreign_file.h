@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,10 +20,11 @@ inline constexpr const char* in_progress = "in progress";
 /// A file in vitrel's own form of H5MD.
 struct ImportedFile {
   h5::File file;
-  ImportReport report;                ///< empty if the file is vitrel's own
-  std::string box_crossings;          ///< what the file would have to have to state them
-  bool knows_time = true;             ///< otherwise times are steps
-  bool angles_are_directors = false;  ///< known up to half turns
+  ImportReport report;                  ///< empty if the file is vitrel's own
+  std::string box_crossings;            ///< what the file would have to have to state them
+  bool knows_time = true;               ///< otherwise times are steps
+  bool angles_are_directors = false;    ///< known up to half turns
+  std::optional<FileUnits> units = {};  ///< for labels, none empty; none if they are vitrel's own
 };
 
 /// The file as vitrel itself would have written it: opened if vitrel did, and otherwise a copy of all its frames. The

@@ -19,6 +19,8 @@ class ForeignFrames {
   virtual ~ForeignFrames() = default;
   /// False after the last. FileError, which names the place, if the file is damaged.
   virtual bool next(ForeignFrame& frame) = 0;
+  /// That the file states, known once a frame was read.
+  virtual FileUnits units() const { return {}; }
 };
 
 /// What a file would have to have, as the format calls it.

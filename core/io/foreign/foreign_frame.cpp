@@ -295,7 +295,7 @@ bool is_same_unit(const std::string& one, const std::string& other) {
 
 }  // namespace
 
-void require_agreement(const StatedUnits& units) {
+FileUnits require_agreement(const StatedUnits& units) {
   const StatedUnits::Named* length = nullptr;
   for (const StatedUnits::Named& one : units.lengths) {
     if (one.second.empty()) continue;
@@ -307,12 +307,14 @@ void require_agreement(const StatedUnits& units) {
   for (const auto& [name, unit] : units.angles)
     if (!unit.empty() && !is_same_unit(unit, "rad"))
       throw UserError(fmt::format("{} is in {}, but should be in radians", name, unit));
-  if (!length || units.time.empty()) return;
+  const FileUnits agreed{length ? length->second : "", units.time};
+  if (!length || units.time.empty()) return agreed;
   const std::string speed = length->second + "/" + units.time;
   for (const auto& [name, unit] : units.velocities)
     if (!unit.empty() && !is_same_unit(unit, speed))
       throw UserError(fmt::format("{} is in {}, but should be in {}, as positions and times are",
                                   name, unit, speed));
+  return agreed;
 }
 
 int dimension_of(const ForeignFrame& frame, const KnownSystem& known, const std::string& plane) {

@@ -59,6 +59,11 @@ auto with_place(const std::string& place, Work&& work) {
 std::optional<int> dimension_of_boundaries(const std::array<bool, 3>& periodic,
                                            const std::string& statement);
 
+/// What lengths and times are counted in, as labels call it: "µm", "s", "steps"; "" where a file does not say.
+struct FileUnits {
+  std::string length, time;
+};
+
 /// The units that a file states, with what has them; "" where it states none.
 struct StatedUnits {
   using Named = std::pair<std::string, std::string>;  ///< name, unit
@@ -67,8 +72,8 @@ struct StatedUnits {
 };
 
 /// UserError if lengths have different units, velocities another than that of lengths and times, or angles another than
-/// radians. Units as UDUNITS-2 knows them, or texts that are the same.
-void require_agreement(const StatedUnits& units);
+/// radians. Units as UDUNITS-2 knows them, or texts that are the same. Returns those of lengths and times.
+FileUnits require_agreement(const StatedUnits& units);
 
 /// In the plane the first semi-axis is the longer one: exchanges those for which it is not, and turns their particles
 /// by π/2. Whether there were any.

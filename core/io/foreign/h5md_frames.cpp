@@ -121,6 +121,8 @@ class H5mdFrames final : public ForeignFrames {
     });
   }
 
+  FileUnits units() const override { return units_; }
+
   bool next(ForeignFrame& frame) override {
     if (frame_ >= (position_.is_fixed() ? 1 : position_.steps().size())) return false;
     frame = {};
@@ -169,7 +171,7 @@ class H5mdFrames final : public ForeignFrames {
     return found == elements_.end() ? nullptr : &found->second;
   }
 
-  void require_units() const {
+  void require_units() {
     StatedUnits units;
     const auto add = [&](std::vector<StatedUnits::Named>& named, const char* name) {
       if (const Element* const element = find(name))
@@ -180,7 +182,7 @@ class H5mdFrames final : public ForeignFrames {
     add(units.angles, "angle");
     add(units.velocities, "velocity");
     units.time = position_.time_unit();
-    require_agreement(units);
+    units_ = require_agreement(units);
   }
 
   /// From the attributes of the box, or from a flat shape.
@@ -346,6 +348,7 @@ class H5mdFrames final : public ForeignFrames {
   const Element& position_;
   std::optional<int> dimension_;
   bool states_boundaries_ = false;
+  FileUnits units_;
   std::size_t frame_ = 0;
   double step_ = 0;
   std::vector<std::size_t> order_;  ///< of the particles in the file

@@ -425,10 +425,8 @@ function legendButton(curve, shown, toggle) {
 
 // Charts as the tables of the analysis describe them: observable.h
 
-/** In the words of the page, which has its own units of length and time. */
-const unitNames = () => ({ 1: '', length: lengthUnit, 'length^2': areaUnit, '1/length': '1/' + lengthUnit, time: timeUnit, 'rad^2': 'rad²',
-  'length^2/time': `√(${areaUnit} kT/m)`, 'rad^2/time': `√(kT/(m ${areaUnit}))` });
-const unitOf = (column) => unitNames()[column.unit] ?? column.unit;
+/** In the words of the page. */
+const unitOf = (column) => unitNames[column.unit] ?? column.unit;
 
 const ranges = {
   fromZero: (plot, low, high) => [0, 1.08 * high || 1],
