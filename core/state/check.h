@@ -26,8 +26,8 @@
 /// pair that touches exactly, or misses touching by less than about 1e-17 of the largest length
 /// involved, may be judged either way. That is far below the spacing of the stored doubles, so
 /// whatever doubles can express about two particles is judged right, except that a state meant to
-/// touch exactly usually cannot be stored. So both arithmetics find the same overlaps (scripts/validate extended
-/// compares them on 2 · 10⁷ pairs), and their smallest gaps agree in all but the last digits.
+/// touch exactly usually cannot be stored. So both arithmetics find the same overlaps (scripts/validate extended:
+/// on 2 · 10⁷ pairs no verdict differs), and their smallest gaps agree in all but the last digits.
 ///
 /// The close pairs that the configuration names, soft particles just after a damped collision, may overlap: as
 /// long as their centres are no closer than stated there. They do not count for the smallest gap.

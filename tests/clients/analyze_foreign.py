@@ -34,8 +34,8 @@ def write(path, *left_out):
             group["value"] = values
 
 
-def analyze(path):
-    return subprocess.run([PROGRAM, "analyze", path, "-o", path.with_suffix(".results.h5"), "--json"],
+def analyze(path, *settings):
+    return subprocess.run([PROGRAM, "analyze", path, "-o", path.with_suffix(".results.h5"), "--json", *settings],
                           capture_output=True, text=True, check=False)
 
 
@@ -57,6 +57,10 @@ with tempfile.TemporaryDirectory() as folder:
             l_2 = mean_over_origins(lambda a, b: np.cos(2 * (angle[b] - angle[a])).mean(), lag)
             np.testing.assert_allclose(moved["msd"][row], msd, rtol=1e-12)
             np.testing.assert_allclose(turned["l_2"][row], l_2, rtol=1e-12)
+    directors = ["--set", "import.angles=directors"]
+    assert analyze(file, *directors).returncode == 0
+    done = analyze(file, *directors, "--set", "analysis.orders=[1, 2]")
+    assert done.returncode == 2 and "analysis.orders has 1, but should be even" in done.stderr, done.stderr
     alike = pathlib.Path(folder, "alike.h5")
     write(alike)
     with h5py.File(alike, "a") as rods:

@@ -187,6 +187,27 @@ TEST_F(Import, EveryDefaultOfGsdIsSaid) {
                 defaults + "velocities (0, the default of particles/velocity), " + frames);
 }
 
+TEST_F(Import, UnitsAreThoseOfTheFile) {
+  const auto units = [](const std::filesystem::path& path, const KnownSystem& known = {}) {
+    const TrajectoryReader reader(path, known);
+    return std::pair(reader.units()->length, reader.units()->time);
+  };
+  const std::string unknown = "(unit of length)";
+  EXPECT_EQ(units(text("a.csv", small_csv)), std::pair(unknown, std::string("frames")));
+  const auto path = text("b.csv",
+                         "time [s],x [um],y [um],radius [um],box_x [um],box_y [um]\n0,0,0,1,9,9\n"
+                         "1,0,0,1,9,9\n");
+  EXPECT_EQ(units(path), std::pair(std::string("um"), std::string("s")));
+  KnownSystem known;
+  known.import.length_unit = 0.5;
+  EXPECT_EQ(units(path, known).first, unknown);
+  const std::string dump = dump_frame(0, "x y z radius", "0 1 3 1\n3 3 9 1\n");
+  EXPECT_EQ(units(text("a.dump", dump)), std::pair(unknown, std::string("steps")));
+  known = {};
+  known.import.time_per_step = 0.1;
+  EXPECT_EQ(units(text("a.dump", dump), known).second, "(unit of time)");
+}
+
 // What a file does not have is replaced by nothing that its import does not say.
 TEST_F(Import, EveryDefaultIsSaid) {
   const std::string bare = "velocities (energies are left out), box crossings (motion is left out)";

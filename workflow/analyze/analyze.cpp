@@ -75,6 +75,18 @@ void require_own_names(const TrajectoryReader& reader) {
                                 conflict->species, conflict->complaint));
 }
 
+/// A director has no correlations of odd orders, which change their sign with its own.
+void require_orders_of_directors(const TrajectoryReader& reader,
+                                 const DisplacementOptions& analysis) {
+  if (!reader.angles_are_directors()) return;
+  for (const double n : analysis.orders)
+    if (n != 2 * std::floor(n / 2))
+      throw UserError(
+          fmt::format("{}: analysis.orders has {}, but should be even: its angles are "
+                      "those of directors (import.angles)",
+                      reader.path().string(), n));
+}
+
 /// The file becomes part of the message where it cannot be analysed as it was asked for.
 template <class Work>
 auto naming(const std::filesystem::path& file, Work&& work) {
@@ -321,6 +333,7 @@ AnalysedRun analyze(OpenRun opened, const AnalysisProgress& progress) {
   if (trajectory.frames() == 0)
     throw UserError(file.string() + ": has no frames yet; continue the run");
   require_own_names(reader);
+  require_orders_of_directors(reader, parameters.analysis);
   const RunAnalysis run =
       naming(file, [&] { return measure(trajectory, analysed.name(), parameters, progress); });
   Results& results = analysed.results = results_of(run);
