@@ -52,7 +52,7 @@ class Run(Page):
     observed : Results or None
         The observables that were given to `vitrel.run`.
     imported : dict
-        How a file of another program was read; empty for one of vitrel.
+        How a file of another program was read, or up to where that of a run in progress; else empty.
     """
 
     def __init__(self, path, summary: Optional[dict] = None, observed: Optional[Results] = None, imports: Sequence[str] = ()):

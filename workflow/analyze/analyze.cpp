@@ -471,6 +471,7 @@ Json analysis_summary(const AnalysedRun& run) {
 }
 
 std::vector<std::pair<std::string, std::string>> provenance_rows(const Provenance& provenance) {
+  if (provenance.version.empty()) return {};  // of another program
   return {{"version", provenance.version},
           {"commit", provenance.commit},
           {"command_line", provenance.command_line},

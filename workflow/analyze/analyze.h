@@ -82,7 +82,7 @@ void write_all(const std::filesystem::path& file, const Results& results);
 /// All numbers of the summary, and the verdict.
 Json analysis_summary(const AnalysedRun& run);
 
-/// Where a file comes from, as tables and pages give it.
+/// Where a file comes from, as tables and pages give it; nothing of one of another program.
 std::vector<std::pair<std::string, std::string>> provenance_rows(const Provenance& provenance);
 
 }  // namespace vitrel
