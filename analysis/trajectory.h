@@ -27,6 +27,8 @@ class Trajectory {
   virtual const Configuration<Dim>& read(std::size_t k) = 0;
   /// Angles in the plane are known up to multiples of this, 2π, or π for directors; 0: whole turns are counted.
   virtual double turn_period() const { return 0; }
+  /// To which some particle may have gone another way than its box crossings say; ascending.
+  virtual std::vector<std::size_t> doubtful_frames() const { return {}; }
   std::size_t frames() const { return times().size(); }
 };
 
@@ -58,6 +60,12 @@ class TrajectoryPart : public Trajectory<Dim> {
   const std::vector<double>& times() const override { return times_; }
   const Configuration<Dim>& read(std::size_t k) override { return whole_.read(begin_ + k); }
   double turn_period() const override { return whole_.turn_period(); }
+  std::vector<std::size_t> doubtful_frames() const override {
+    std::vector<std::size_t> own;
+    for (const std::size_t frame : whole_.doubtful_frames())
+      if (frame > begin_ && frame < begin_ + times_.size()) own.push_back(frame - begin_);
+    return own;
+  }
 
  private:
   Trajectory<Dim>& whole_;

@@ -129,7 +129,7 @@ std::optional<CageRelative> cage_relative(Trajectory2& trajectory,
     throw UserError("cage-relative displacements: at least two frames are needed");
   TimeAxisOptions axis = options.axis;
   axis.max_origins = std::min(axis.max_origins, max_origins);
-  const std::vector<Lag> lags = time_axis(trajectory.times(), axis);
+  const std::vector<Lag> lags = time_axis_of_motion(trajectory, axis);
   const Configuration2& first = trajectory.read(0);
   const std::vector<bool> is_origin = origins_of(lags, trajectory.frames());
   if (!fits(is_origin, first.size(), options.memory)) return std::nullopt;

@@ -175,4 +175,25 @@ std::vector<Lag> time_axis(std::span<const double> times, const TimeAxisOptions&
   return evenly_spaced(times) ? even_lags(times, options) : uneven_lags(times, options);
 }
 
+template <int Dim>
+std::vector<Lag> time_axis_of_motion(const Trajectory<Dim>& trajectory,
+                                     const TimeAxisOptions& options) {
+  std::vector<Lag> lags = time_axis(trajectory.times(), options);
+  const std::vector<std::size_t> doubtful = trajectory.doubtful_frames();
+  const auto spans_doubt = [&](const FramePair& pair) {
+    const auto next = std::ranges::upper_bound(doubtful, pair.from);
+    return next != doubtful.end() && *next <= pair.to;
+  };
+  std::erase_if(lags, [&](Lag& lag) {
+    if (lag.pairs.empty()) return false;
+    std::erase_if(lag.pairs, spans_doubt);
+    lag.origins = lag.pairs.size();
+    return lag.origins == 0;
+  });
+  return lags;
+}
+
+template std::vector<Lag> time_axis_of_motion(const Trajectory<2>&, const TimeAxisOptions&);
+template std::vector<Lag> time_axis_of_motion(const Trajectory<3>&, const TimeAxisOptions&);
+
 }  // namespace vitrel

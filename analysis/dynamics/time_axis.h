@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "analysis/trajectory.h"
+
 /// @file
 /// The time differences at which a correlation is evaluated, and the origins it is averaged over.
 namespace vitrel {
@@ -64,5 +66,11 @@ struct Lag {
 /// and 2²²/frames origins of longer runs, which should comprise a cycle. Cost about (lags) × (frames),
 /// and a second for the pairs.
 std::vector<Lag> time_axis(std::span<const double> times, const TimeAxisOptions& options = {});
+
+/// The same for the motion of particles: if the run is not evenly sampled, without the pairs between which one of the
+/// doubtful frames was reached, and so without the lags of which no pair is left. (Of evenly sampled runs all intervals are alike.)
+template <int Dim>
+std::vector<Lag> time_axis_of_motion(const Trajectory<Dim>& trajectory,
+                                     const TimeAxisOptions& options = {});
 
 }  // namespace vitrel

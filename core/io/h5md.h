@@ -200,6 +200,8 @@ class TrajectoryReader {
   const std::optional<FileUnits>& units() const { return import_.units; }
   /// Whether angles are known up to half turns only.
   bool angles_are_directors() const { return import_.angles_are_directors; }
+  /// To which some particle may have gone another way than its box crossings say, as nearest images do not tell; ascending.
+  const std::vector<std::size_t>& doubtful_frames() const { return import_.doubtful_frames; }
   /// Why nothing can be said about motion; empty if it can.
   std::string obstacle_to_motion() const;
 

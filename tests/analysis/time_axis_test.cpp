@@ -181,6 +181,44 @@ TEST(TimeAxis, ManyUnevenFramesGiveLagsAndOriginsWithinTheOptions) {
   EXPECT_EQ(lags.front().time, 0.5);
 }
 
+/// Particles whose box crossings are in doubt at some frames.
+class DoubtfulTrajectory : public Trajectory2 {
+ public:
+  DoubtfulTrajectory(Times times, std::vector<std::size_t> frames)
+      : times_(std::move(times)), frames_(std::move(frames)) {}
+  const std::vector<double>& times() const override { return times_; }
+  const Configuration2& read(std::size_t) override { return frame_; }
+  std::vector<std::size_t> doubtful_frames() const override { return frames_; }
+
+ private:
+  Times times_;
+  std::vector<std::size_t> frames_;
+  Configuration2 frame_;
+};
+
+// Frames 0, 1, 2, 4 and 8 of every cycle of 10: the way from 4 to 8 is in doubt in all of them.
+TEST(TimeAxis, AnIntervalInDoubtTakesOnlyTheLagsThatSpanIt) {
+  std::vector<std::size_t> doubtful;
+  for (std::size_t c = 0; c < 40; ++c) doubtful.push_back(5 * c + 4);
+  DoubtfulTrajectory trajectory(cycles(40, 1), doubtful);
+  const std::vector<Lag> lags = time_axis_of_motion(trajectory);
+  std::vector<double> units;
+  for (const Lag& lag : lags) {
+    units.push_back(lag.time);
+    EXPECT_EQ(lag.origins, lag.pairs.size());
+    for (const FramePair& pair : lag.pairs) EXPECT_EQ((pair.from + 1) / 5, (pair.to + 1) / 5);
+  }
+  // From 8 of a cycle to 4 of the next it is 6.
+  EXPECT_EQ(units, (Times{1, 2, 3, 4, 6}));
+  TrajectoryPart<2> part(trajectory, 4, 9);
+  EXPECT_EQ(part.doubtful_frames(), (std::vector<std::size_t>{}));
+  EXPECT_EQ(TrajectoryPart<2>(trajectory, 3, 9).doubtful_frames(), (std::vector<std::size_t>{1}));
+  DoubtfulTrajectory all({0, 1, 2, 4}, {1, 2, 3});
+  EXPECT_TRUE(time_axis_of_motion(all).empty());
+  DoubtfulTrajectory even(even_times(20, 1), {7});
+  EXPECT_EQ(time_axis_of_motion(even).size(), time_axis(even.times()).size());
+}
+
 TEST(TimeAxis, NeedsTwoFrames) {
   EXPECT_TRUE(time_axis(Times{}).empty());
   EXPECT_TRUE(time_axis(Times{3}).empty());

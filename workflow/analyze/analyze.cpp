@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "analysis/dynamics/time_axis.h"
 #include "analysis/glass/glass_data.h"
 #include "analysis/observables/dynamics_tables.h"
 #include "analysis/observables/energy_tables.h"
@@ -217,6 +218,12 @@ RunAnalysis measure(TrajectoryFile<Dim>& trajectory, const std::string& name,
   RunAnalysis run{};
   describe_run(run, trajectory);
   run.obstacle = reader.obstacle_to_motion();
+  if (run.obstacle.empty() && !reader.doubtful_frames().empty() &&
+      time_axis_of_motion(trajectory).empty())
+    run.obstacle =
+        "between any two frames some particle moved by more than a quarter of a box length, so "
+        "that "
+        "its box crossings are in doubt";
   if (run.obstacle.empty())
     run.dynamics = measure_dynamics(trajectory, parameters.analysis, progress);
   begin(progress, "structure");

@@ -36,6 +36,7 @@ class TrajectoryFile final : public Trajectory<Dim> {
     if (reader_.angles_are_directors()) return std::numbers::pi;
     return reader_.has("angle") ? 0 : 2 * std::numbers::pi;
   }
+  std::vector<std::size_t> doubtful_frames() const override { return reader_.doubtful_frames(); }
   const TrajectoryReader& reader() const { return reader_; }
 
  private:

@@ -103,6 +103,9 @@ class Conversion {
   }
 
   void close() { writer_->close(); }
+  std::vector<std::size_t> doubtful_frames() const {
+    return images_ ? images_->doubtful_frames() : std::vector<std::size_t>();
+  }
   bool counts_steps() const { return first_frame_.step.has_value(); }
   bool knows_time() const {
     return first_frame_.time.has_value() || known_.import.time_per_step.has_value();
@@ -312,6 +315,7 @@ ImportedFile convert(const fs::path& path, OpenFrames& open, const KnownSystem& 
           open.format.words.box_crossings,
           conversion.knows_time(),
           known.import.angles == ImportOptions::Angles::directors,
+          conversion.doubtful_frames(),
           std::move(units)};
 }
 

@@ -20,10 +20,11 @@ inline constexpr const char* in_progress = "in progress";
 /// A file in vitrel's own form of H5MD.
 struct ImportedFile {
   h5::File file;
-  ImportReport report;                  ///< empty if the file is vitrel's own
-  std::string box_crossings;            ///< what the file would have to have to state them
-  bool knows_time = true;               ///< otherwise times are steps
-  bool angles_are_directors = false;    ///< known up to half turns
+  ImportReport report;                ///< empty if the file is vitrel's own
+  std::string box_crossings;          ///< what the file would have to have to state them
+  bool knows_time = true;             ///< otherwise times are steps
+  bool angles_are_directors = false;  ///< known up to half turns
+  std::vector<std::size_t> doubtful_frames = {};  ///< of nearest images (NearestImages)
   std::optional<FileUnits> units = {};  ///< for labels, none empty; none if they are vitrel's own
 };
 

@@ -3,14 +3,22 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
 
 namespace vitrel {
 
+namespace {
+
+constexpr double doubtful_step = 0.25;  // in box lengths
+
+}  // namespace
+
 template <int Dim>
 void NearestImages<Dim>::set(Configuration<Dim>& next, bool knows_flight) {
+  double longest = 0;
   for (std::size_t i = 0; i < next.size(); ++i) {
     Shift<Dim>& image = next.image[i] = Shift<Dim>::Zero();
     if (!last_) continue;
@@ -20,10 +28,12 @@ void NearestImages<Dim>::set(Configuration<Dim>& next, bool knows_flight) {
     for (int k = 0; k < Dim; ++k) {
       const double crossings = std::round(step[k]), length = std::abs(step[k] - crossings);
       image[k] = last_->image[i][k] - static_cast<std::int32_t>(crossings);
+      longest = std::max(longest, length);
       if (length > longest_.box_lengths) longest_ = {length, i, frames_, k};
     }
     if (knows_flight) compare_with_flight(next, i);
   }
+  if (longest > doubtful_step) doubtful_.push_back(frames_);
   last_ = next;
   ++frames_;
 }
@@ -51,10 +61,10 @@ std::string NearestImages<Dim>::remark() const {
       "those of the nearest images (unwrap = \"nearest\"); the longest step is "
       "{:.3g} box lengths along {}, of particle {} to frame {}",
       longest_.box_lengths, "xyz"[longest_.direction], longest_.particle, longest_.frame);
-  constexpr double doubtful = 0.25;
-  if (longest_.box_lengths > doubtful)
-    text += fmt::format(
-        ": above {}, longer steps that were taken for shorter ones cannot be excluded", doubtful);
+  if (!doubtful_.empty())
+    text +=
+        fmt::format(": above {}, longer steps that were taken for shorter ones cannot be excluded",
+                    doubtful_step);
   return text;
 }
 

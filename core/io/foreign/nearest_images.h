@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/state/configuration.h"
 
@@ -18,6 +19,8 @@ class NearestImages {
 
   /// A sentence on the longest step.
   std::string remark() const;
+  /// To which some particle went so far that it may have gone another way; ascending.
+  const std::vector<std::size_t>& doubtful_frames() const { return doubtful_; }
 
  private:
   void compare_with_flight(const Configuration<Dim>& next, std::size_t particle) const;
@@ -31,6 +34,7 @@ class NearestImages {
   std::optional<Configuration<Dim>> last_;
   std::size_t frames_ = 0;
   Step longest_;
+  std::vector<std::size_t> doubtful_;
 };
 
 }  // namespace vitrel
